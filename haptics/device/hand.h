@@ -1,0 +1,51 @@
+// A hand on the knob: an impedance, and whoever leads it.
+//
+// A hand holds the lever through its own mass, damping and stiffness towards a target, and may push on top.
+// The impedance acts along the plant's arcs, so that lever and hand together stay one exactly solvable axis.
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include <glm/vec2.hpp>
+
+namespace gearshift {
+
+struct HandImpedance {
+  double mass = 0.0;       // [kg] moves with the lever
+  double damping = 0.0;    // [N s/m] towards the target's velocity
+  double stiffness = 0.0;  // [N/m] towards the target
+};
+
+inline constexpr HandImpedance kBareHand{0.0, 0.0, 0.0};
+inline constexpr HandImpedance kLightHand{0.1, 5.0, 200.0};
+inline constexpr HandImpedance kGripHand{0.15, 10.0, 500.0};
+inline constexpr HandImpedance kArmHand{0.8, 5.5, 568.0};
+
+// "bare", "light", "grip", "arm", or "M,B,K" in kg, N s/m, N/m (each finite and >= 0); nothing for anything
+// else.
+std::optional<HandImpedance> hand_from_text(std::string_view text);
+
+struct HandTarget {
+  glm::dvec2 position{0.0};   // [m] in the gate plane
+  glm::dvec2 velocity{0.0};   // [m/s]
+  glm::dvec2 push{0.0};       // [N] on top of the impedance
+  bool pressed_down = false;  // pushes the knob down or holds the reverse button
+  bool lifted = false;        // holds the lift ring
+};
+
+// Who leads the hand. Called once per device period, on the haptic thread: real-time safe.
+class HandDriver {
+ public:
+  virtual ~HandDriver() = default;
+  // time [s] since the start; lever: where the tip is now. [m]
+  virtual HandTarget next(double time, glm::dvec2 lever) noexcept = 0;
+};
+
+// Never moves and never pushes.
+class RestingHand final : public HandDriver {
+ public:
+  HandTarget next(double, glm::dvec2) noexcept override { return {}; }
+};
+
+}  // namespace gearshift

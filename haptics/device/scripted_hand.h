@@ -1,0 +1,76 @@
+// A hand that follows minimum-jerk strokes through waypoints.
+//
+// This work is based on:
+// Tamar Flash, Neville Hogan. The Coordination of Arm Movements: An Experimentally Confirmed Mathematical
+// Model. 1985
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "haptics/device/hand.h"
+
+namespace gearshift {
+
+// Position and velocity on the minimum-jerk path from a to b at time t of `duration` [s].
+HandTarget minimum_jerk(glm::dvec2 a, glm::dvec2 b, double t, double duration) noexcept;
+
+struct HandStroke {
+  glm::dvec2 to{0.0};     // [m] aim in the gate plane
+  double duration = 0.3;  // [s] of the movement, > 0
+  double dwell = 0.1;     // [s] at the aim before the next stroke
+  glm::dvec2 push{0.0};   // [N] steady push during stroke and dwell
+  bool pressed_down = false;
+  bool lifted = false;
+};
+
+struct ScriptedHandConfig {
+  glm::dvec2 start{0.0};      // [m]
+  double aim_noise = 0.0;     // [m] standard deviation of each aim, per axis, drawn once per stroke
+  double effort_gain = 0.0;   // [N/(m s)] how fast the hand adds force while the lever lags behind the target
+  double effort_limit = 0.0;  // [N] the most that it adds
+  std::uint64_t seed = 1;
+};
+
+// Effort: a soft hand alone cannot pull through a detent, so a person pushes harder the longer the lever
+// stays behind. On each axis, with lag = target - lever:
+//
+//     effort' = gain lag              while |lag| > 1 mm, the effort at most effort_limit
+//     effort' = ... - effort / 50 ms  once the lever has arrived (within 1 mm), or the effort points against
+//     the lag
+//
+// It lives through stroke and dwell and is carried over into the next stroke, where the second term takes it
+// away while new effort the other way grows: it never steps.
+class ScriptedHand final : public HandDriver {
+ public:
+  // period: of the calls to next() [s], 1e-6 to 1. Throws std::invalid_argument.
+  ScriptedHand(const ScriptedHandConfig& config, std::vector<HandStroke> strokes, double period);
+
+  // After the last dwell the hand stays at the last aim; before the first stroke, and without one, at the
+  // start.
+  HandTarget next(double time, glm::dvec2 lever) noexcept override;
+
+  double duration() const noexcept;  // [s] of the whole script
+
+ private:
+  // A stroke as it is really drawn, aim noise included.
+  struct Segment {
+    double begin = 0.0;  // [s]
+    double end = 0.0;    // [s] after the dwell
+    glm::dvec2 from{0.0};
+    HandStroke stroke;
+  };
+
+  const Segment& segment_at(double time) noexcept;
+  glm::dvec2 effort(glm::dvec2 lag) noexcept;
+
+  ScriptedHandConfig config_;
+  double period_;        // [s]
+  double effort_decay_;  // [1] kept of the effort per period once the lever has arrived
+  std::vector<Segment> segments_;
+  std::size_t current_ = 0;
+  glm::dvec2 effort_{0.0};  // [N]
+};
+
+}  // namespace gearshift

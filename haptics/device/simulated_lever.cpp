@@ -1,0 +1,279 @@
+#include "haptics/device/simulated_lever.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "haptics/device/checked.h"
+
+namespace gearshift {
+namespace {
+
+// What no hand does; keeps the numbers finite whatever a driver returns.
+constexpr double kMostPush = 1e4;   // [N]
+constexpr double kMostSpeed = 1e2;  // [m/s]
+
+bool finite(glm::dvec2 v) noexcept {
+  return std::isfinite(v.x) && std::isfinite(v.y);
+}
+
+void check(const std::string& name, const AxisModel& axis) {
+  require_between(name + ".mass", axis.mass, 1e-3, 1e3, "kg");
+  require_between(name + ".damping", axis.damping, 0.0, 1e4, "N s/m");
+  require_between(name + ".stiffness", axis.stiffness, 0.0, 1e6, "N/m");
+}
+
+void check(const YokeGeometry& yoke) {
+  constexpr double kMostAngle = 80.0 * std::numbers::pi / 180.0;
+  require_between("SimulatedLever: yoke.radius", yoke.radius, 0.01, 10.0, "m");
+  require_between("SimulatedLever: yoke.theta_limit", yoke.theta_limit, 0.01, kMostAngle, "rad");
+  require_between("SimulatedLever: yoke.phi_limit", yoke.phi_limit, 0.01, kMostAngle, "rad");
+}
+
+void check(const ActuatorLimits& actuator) {
+  const double peak = actuator.peak_force;
+  require_between("SimulatedLever: actuator.peak_force", peak, 0.0, 1e4, "N");
+  require_between("SimulatedLever: actuator.continuous_force", actuator.continuous_force, 0.0, peak, "N");
+  require_between("SimulatedLever: actuator.overload_time", actuator.overload_time, 0.0, 1e4, "s");
+}
+
+void check(const ForceSensorModel& sensor) {
+  require_between("SimulatedLever: force_sensor.offset", sensor.offset, -1e9, 1e9, "");
+  require_between("SimulatedLever: force_sensor.gain", sensor.gain, 1e-9, 1e9, "per gw");
+  require_between("SimulatedLever: force_sensor.resolution_gw", sensor.resolution_gw, 0.0, 1e6, "gw");
+  require_between("SimulatedLever: force_sensor.range_gw", sensor.range_gw, 1e-3, 1e9, "gw");
+  require_between("SimulatedLever: force_sensor.noise_gw", sensor.noise_gw, 0.0, 1e6, "gw");
+}
+
+void check(const HandImpedance& hand) {
+  require_between("SimulatedLever: hand.mass", hand.mass, 0.0, 1e3, "kg");
+  require_between("SimulatedLever: hand.damping", hand.damping, 0.0, 1e4, "N s/m");
+  require_between("SimulatedLever: hand.stiffness", hand.stiffness, 0.0, 1e6, "N/m");
+}
+
+void check_counts(double counts) {
+  if (counts == 0.0) return;
+  require_between("SimulatedLever: encoder_counts other than 0", counts, 1.0, 1e6, "counts/deg");
+}
+
+const SimulatedLeverConfig& checked(const SimulatedLeverConfig& config, std::int64_t period_ns) {
+  check(config.yoke);
+  check("SimulatedLever: axis_x", config.axis_x);
+  check("SimulatedLever: axis_y", config.axis_y);
+  require_between("SimulatedLever: coulomb_friction", config.coulomb_friction, 0.0, 1e3, "N");
+  check_counts(config.encoder_counts);
+  check(config.actuator);
+  check(config.force_sensor);
+  require_between("SimulatedLever: delay", config.delay, 0, kMaxDelay, "cycles");
+  check(config.hand);
+  require_between("SimulatedLever: period_ns", static_cast<double>(period_ns), 1.0, 1e9, "ns");
+  return config;
+}
+
+DeviceSpec make_spec(const SimulatedLeverConfig& config) {
+  const YokeGeometry& yoke = config.yoke;
+  DeviceSpec spec;
+  spec.max_force = glm::dvec2(config.actuator.peak_force);
+  spec.continuous_force = glm::dvec2(config.actuator.continuous_force);
+  spec.workspace = yoke.radius * glm::dvec2(std::sin(yoke.theta_limit), std::sin(yoke.phi_limit));
+  const double quantum = std::numbers::pi / 180.0 / config.encoder_counts;  // [rad]
+  spec.position_step = config.encoder_counts > 0.0 ? yoke.radius * quantum : 0.0;
+  spec.delay = config.delay;
+  spec.axis_x = config.axis_x;
+  spec.axis_y = config.axis_y;
+  spec.measures_hand_force = true;
+  spec.simulated = true;
+  return spec;
+}
+
+}  // namespace
+
+SimulatedLever::Axis SimulatedLever::make_axis(const SimulatedLeverConfig& config, const AxisModel& handle,
+                                               double limit, double period) {
+  const HandImpedance& hand = config.hand;
+  const AxisModel model{handle.mass + hand.mass, handle.damping + hand.damping,
+                        handle.stiffness + hand.stiffness};
+  const AxisLimits limits{config.yoke.radius * limit, config.coulomb_friction};
+  return {model, AxisStepper(model, period), limits, Actuator(config.actuator),
+          JointEncoder(config.encoder_counts)};
+}
+
+SimulatedLever::SimulatedLever(const SimulatedLeverConfig& config, std::int64_t period_ns, HandDriver& driver)
+    : config_(checked(config, period_ns)),
+      driver_(driver),
+      spec_(make_spec(config)),
+      period_ns_(static_cast<std::uint64_t>(period_ns)),
+      period_(static_cast<double>(period_ns) * 1e-9),
+      tan_theta_limit_(std::tan(config.yoke.theta_limit)),
+      tan_phi_limit_(std::tan(config.yoke.phi_limit)),
+      reach_(glm::length(plane_position(plane_pose(tan_theta_limit_, tan_phi_limit_), config.yoke.radius))),
+      x_(make_axis(config, config.axis_x, config.yoke.theta_limit, period_)),
+      y_(make_axis(config, config.axis_y, config.yoke.phi_limit, period_)),
+      noise_(config.seed) {
+  find_pose();
+}
+
+LeverReading SimulatedLever::read(std::int64_t now_ns) noexcept {
+  if (!started_) {
+    started_ = true;
+    last_ns_ = now_ns;
+    sample();
+    return reading_;
+  }
+  for (std::uint64_t n = take_periods(now_ns); n > 0; --n) advance_period();
+  return reading_;
+}
+
+// Whole periods from the last sample to now; the clock's grid keeps its place.
+std::uint64_t SimulatedLever::take_periods(std::int64_t now_ns) noexcept {
+  if (now_ns <= last_ns_) return 0;
+  const std::uint64_t behind = static_cast<std::uint64_t>(now_ns) - static_cast<std::uint64_t>(last_ns_);
+  const std::uint64_t periods = (behind + period_ns_ / 2) / period_ns_;
+  last_ns_ = static_cast<std::int64_t>(static_cast<std::uint64_t>(last_ns_) + periods * period_ns_);
+  return std::min<std::uint64_t>(periods, kMaxPeriodsPerRead);
+}
+
+void SimulatedLever::advance_period() noexcept {
+  lead_hand();
+  drive_motors();
+  move(x_);
+  move(y_);
+  ++periods_;
+  find_pose();
+  sample();
+}
+
+// Asks the driver, and turns its target into a constant force along each arc: with the hand's mass, damping
+// and stiffness in the axis, this is all that is left of the hand.
+void SimulatedLever::lead_hand() noexcept {
+  const glm::dvec2 here = plane_position(pose_, config_.yoke.radius);
+  target_ = driver_.next(static_cast<double>(periods_) * period_, here);
+
+  const glm::dvec2 push =
+      finite(target_.push) ? glm::clamp(target_.push, -kMostPush, kMostPush) : glm::dvec2(0.0);
+  glm::dvec2 drive = arc_force(pose_, push);
+  if (config_.hand.stiffness > 0.0 || config_.hand.damping > 0.0) {
+    const ArcTarget wanted = arc_target(target_);
+    drive += config_.hand.stiffness * wanted.position + config_.hand.damping * wanted.velocity;
+  }
+  x_.hand_drive = drive.x;
+  y_.hand_drive = drive.y;
+}
+
+// A target that is not finite is where the lever is; one out of reach is at the stop, and rests there.
+SimulatedLever::ArcTarget SimulatedLever::arc_target(const HandTarget& target) const noexcept {
+  if (!finite(target.position)) return {{x_.state.position, y_.state.position}, {}};
+  const PlanePose pose = reachable_pose(target.position);
+  const JointAngles q{std::atan(pose.a), std::atan(pose.b)};
+  const bool inside = std::abs(pose.a) < tan_theta_limit_ && std::abs(pose.b) < tan_phi_limit_;
+  const bool moves = inside && finite(target.velocity);
+  const glm::dvec2 velocity = moves ? glm::clamp(target.velocity, -kMostSpeed, kMostSpeed) : glm::dvec2(0.0);
+  return {arc_position(config_.yoke, q), arc_velocity(pose, velocity)};
+}
+
+// Exact inverse kinematics in tangents, held inside the joints' stops.
+PlanePose SimulatedLever::reachable_pose(glm::dvec2 plane) const noexcept {
+  plane = glm::clamp(plane, -config_.yoke.radius, config_.yoke.radius);
+  const double distance = glm::length(plane);
+  if (distance > reach_) plane *= reach_ / distance;
+  const double z = std::sqrt(config_.yoke.radius * config_.yoke.radius - glm::dot(plane, plane));
+  return plane_pose(std::clamp(plane.x / z, -tan_theta_limit_, tan_theta_limit_),
+                    std::clamp(-plane.y / z, -tan_phi_limit_, tan_phi_limit_));
+}
+
+// The force written `delay` periods ago reaches the motors now. They saturate each on its own joint.
+void SimulatedLever::drive_motors() noexcept {
+  queue_[periods_ % queue_.size()] = written_;
+  const std::uint64_t due = periods_ + queue_.size() - static_cast<std::uint64_t>(config_.delay);
+  const glm::dvec2 force = queue_[due % queue_.size()];
+  const glm::dvec2 wanted = arc_force(pose_, force);
+  x_.actuator_force = x_.actuator.deliver(wanted.x, period_);
+  y_.actuator_force = y_.actuator.deliver(wanted.y, period_);
+  reading_.actuator_force = plane_force(pose_, {x_.actuator_force, y_.actuator_force});
+}
+
+// Away from the stops and without dry friction, one step of known coefficients is the exact solution.
+void SimulatedLever::move(Axis& axis) const noexcept {
+  const double force = axis.hand_drive + axis.actuator_force;
+  if (axis.limits.coulomb_friction == 0.0) {
+    const AxisState next = axis.stepper.step(axis.state, force);
+    const double speed = std::max(std::abs(axis.state.velocity), std::abs(next.velocity));
+    const double farthest =
+        std::max(std::abs(axis.state.position), std::abs(next.position)) + speed * period_;
+    if (farthest < axis.limits.stop) {
+      axis.state = next;
+      return;
+    }
+  }
+  axis.state = advance_limited(axis.model, axis.limits, axis.state, force, period_);
+}
+
+void SimulatedLever::find_pose() noexcept {
+  x_.encoder.read(x_.state.position / config_.yoke.radius);
+  y_.encoder.read(-y_.state.position / config_.yoke.radius);
+  pose_ = plane_pose(x_.encoder.true_tangent(), y_.encoder.true_tangent());
+}
+
+void SimulatedLever::sample() noexcept {
+  const PlanePose read_pose = plane_pose(x_.encoder.read_tangent(), y_.encoder.read_tangent());
+  const glm::dvec2 felt{sensed(hand_force(x_)), sensed(hand_force(y_))};
+  ++reading_.sequence;
+  reading_.time_ns = last_ns_;
+  reading_.position = plane_position(read_pose, config_.yoke.radius);
+  reading_.hand_force = plane_force(pose_, felt);
+  reading_.pressed_down = target_.pressed_down;
+  reading_.lifted = target_.lifted;
+}
+
+// Force of the hand on the lever, f_h = m a + b v + k x - f with the handle's own m, b, k and the actuator's
+// f. The axis moves by (m + m_h) a = drive + f - (b + b_h) v - (k + k_h) x, so this is drive - k_h x - b_h v
+// - m_h a: in this form it holds at a stop and under dry friction too.
+double SimulatedLever::hand_force(const Axis& axis) const noexcept {
+  const HandImpedance& hand = config_.hand;
+  const double massless =
+      axis.hand_drive - hand.stiffness * axis.state.position - hand.damping * axis.state.velocity;
+  if (hand.mass == 0.0) return massless;
+  const double force = axis.hand_drive + axis.actuator_force;
+  const double inertial = inertial_force(axis.model, axis.limits, axis.state, force);
+  return massless - hand.mass / axis.model.mass * inertial;
+}
+
+double SimulatedLever::sensed(double force) noexcept {
+  const ForceSensorModel& sensor = config_.force_sensor;
+  const double noise = sensor.noise_gw > 0.0 ? sensor.noise_gw * noise_.next() : 0.0;
+  return force_from_reading(sensor, sensor_reading(sensor, force, noise));
+}
+
+void SimulatedLever::write(glm::dvec2 force) noexcept {
+  written_ = force;
+}
+
+void SimulatedLever::release() noexcept {
+  written_ = glm::dvec2(0.0);
+  queue_.fill(glm::dvec2(0.0));
+}
+
+glm::dvec2 SimulatedLever::true_position() const noexcept {
+  return plane_position(pose_, config_.yoke.radius);
+}
+
+glm::dvec2 SimulatedLever::true_velocity() const noexcept {
+  return plane_velocity(pose_, {x_.state.velocity, y_.state.velocity});
+}
+
+void SimulatedLever::place(glm::dvec2 position) noexcept {
+  if (!finite(position)) return;
+  const PlanePose pose = reachable_pose(position);
+  const glm::dvec2 arc = arc_position(config_.yoke, {std::atan(pose.a), std::atan(pose.b)});
+  x_.state = {arc.x, 0.0};
+  y_.state = {arc.y, 0.0};
+  x_.hand_drive = config_.hand.stiffness * arc.x;  // the hand rests there with it
+  y_.hand_drive = config_.hand.stiffness * arc.y;
+  find_pose();
+}
+
+}  // namespace gearshift

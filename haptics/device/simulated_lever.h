@@ -1,0 +1,116 @@
+// The paper's joystick in simulation: exact plant, encoder, force sensor, motors, and a hand on it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "haptics/device/gaussian_noise.h"
+#include "haptics/device/hand.h"
+#include "haptics/device/haptic_device.h"
+#include "haptics/device/joint_encoder.h"
+#include "haptics/joystick/actuator.h"
+#include "haptics/joystick/force_sensor.h"
+#include "haptics/joystick/kinematics.h"
+#include "haptics/joystick/plane_pose.h"
+
+namespace gearshift {
+
+struct SimulatedLeverConfig {
+  YokeGeometry yoke;
+  AxisModel axis_x = kPaperAxisX;
+  AxisModel axis_y = kPaperAxisY;
+  double coulomb_friction = 0.0;  // [N] per axis, 0 = none
+  // [counts/deg] 0 = no quantisation, else 1 to 1e6. Table 2's 2250 counts over 80 deg are 74.5 um at the
+  // tip; the 75.4 um quoted elsewhere are the bare encoder, 2500 lines x 4 = 10000 counts per turn = 27.8
+  // counts/deg.
+  double encoder_counts = 2250.0 / 80.0;
+  ActuatorLimits actuator;
+  ForceSensorModel force_sensor;
+  int delay = 0;  // [cycles] 0 to 8, whole samples from write to effect
+  HandImpedance hand = kBareHand;
+  std::uint64_t seed = 1;  // for sensor noise
+};
+
+inline constexpr int kMaxDelay = 8;
+
+inline constexpr int kMaxPeriodsPerRead = 1000;
+
+// Time moves only in whole periods of the loop: read(now) advances the plant by the periods since the last
+// read, under the force then due. Deterministic for a given sequence of calls.
+//
+//   first read         the clock's origin; a fresh reading, nothing moves
+//   now = last + n T   n periods and n sequence numbers on; n is rounded, at most kMaxPeriodsPerRead, the
+//   rest of a
+//                      longer gap is dropped
+//   n <= 0             the last reading again, stale
+class SimulatedLever final : public HapticDevice {
+ public:
+  // period_ns: the loop's period [ns], 1 to 1e9. The driver must outlive the lever. Throws
+  // std::invalid_argument with one sentence: parameter, value and allowed range.
+  SimulatedLever(const SimulatedLeverConfig& config, std::int64_t period_ns, HandDriver& driver);
+
+  const DeviceSpec& spec() const noexcept override { return spec_; }
+  LeverReading read(std::int64_t now_ns) noexcept override;
+  void write(glm::dvec2 force) noexcept override;
+  void release() noexcept override;
+
+  // The truth behind the encoder, for tests and benches. [m], [m/s] in the gate plane
+  glm::dvec2 true_position() const noexcept;
+  glm::dvec2 true_velocity() const noexcept;
+
+  // Puts the tip at rest somewhere. [m] in the gate plane, moved to the nearest stop if it is out of reach
+  void place(glm::dvec2 position) noexcept;
+
+ private:
+  // One joint along its arc: handle and hand together are one exactly stepped axis.
+  struct Axis {
+    AxisModel model;
+    AxisStepper stepper;
+    AxisLimits limits;
+    Actuator actuator;
+    JointEncoder encoder;
+    AxisState state{};
+    double hand_drive = 0.0;  // [N] of the hand's target: push + stiffness target + damping target velocity
+    double actuator_force = 0.0;  // [N] delivered over the last cycle
+  };
+
+  // Where the hand wants to be, along the arcs.
+  struct ArcTarget {
+    glm::dvec2 position{0.0}, velocity{0.0};
+  };
+
+  static Axis make_axis(const SimulatedLeverConfig& config, const AxisModel& handle, double limit,
+                        double period);
+  std::uint64_t take_periods(std::int64_t now_ns) noexcept;
+  void advance_period() noexcept;
+  void lead_hand() noexcept;
+  void drive_motors() noexcept;
+  void move(Axis& axis) const noexcept;
+  void find_pose() noexcept;
+  void sample() noexcept;
+  ArcTarget arc_target(const HandTarget& target) const noexcept;
+  PlanePose reachable_pose(glm::dvec2 plane) const noexcept;
+  double hand_force(const Axis& axis) const noexcept;
+  double sensed(double force) noexcept;
+
+  SimulatedLeverConfig config_;
+  HandDriver& driver_;
+  DeviceSpec spec_;
+  std::uint64_t period_ns_;
+  double period_;  // [s]
+  double tan_theta_limit_, tan_phi_limit_;
+  double reach_;  // [m] farthest the tip gets from the centre, in the corners
+  Axis x_, y_;
+  PlanePose pose_;  // of the true angles
+  HandTarget target_;
+  GaussianNoise noise_;
+
+  std::array<glm::dvec2, kMaxDelay + 1> queue_{};  // [N] forces written, by period
+  glm::dvec2 written_{0.0};                        // [N]
+  std::uint64_t periods_ = 0;                      // since the first read
+  bool started_ = false;
+  std::int64_t last_ns_ = 0;  // [ns] of the last sample
+  LeverReading reading_;
+};
+
+}  // namespace gearshift

@@ -1,0 +1,63 @@
+// Kinematics and statics of the single-yoke joystick.
+//
+// This work is based on:
+// Wei-Ching Lin, Kuu-Young Young. Design of Force-Reflection Joystick System for VR-Based Simulation.
+// Section 2. Errata used here: the y component of eq (2) is -sin(phi) cos(theta); eq (5) is misprinted, the
+// forms below follow from virtual work.
+#pragma once
+
+#include <numbers>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace gearshift {
+
+struct YokeGeometry {
+  double radius = 0.120;                                 // [m] rho, centre to tip
+  double theta_limit = 40.0 * std::numbers::pi / 180.0;  // [rad] select axis stop, both sides
+  double phi_limit = 35.0 * std::numbers::pi / 180.0;    // [rad] shift axis stop, both sides
+};
+
+struct JointAngles {
+  double theta = 0.0;  // [rad] about Y: moves the tip along +select
+  double phi = 0.0;    // [rad] about X: moves the tip along -shift
+};
+
+struct JointTorques {
+  double theta = 0.0;  // [N m]
+  double phi = 0.0;    // [N m]
+};
+
+// Tip of the yoke, exact: eq (2) with the corrected y component. [m]
+glm::dvec3 tip_position(const YokeGeometry& yoke, JointAngles q) noexcept;
+
+// Tip of the yoke for small angles, eq (3). [m] Kept to show its error: 3.1 mm per component at 20 deg.
+glm::dvec3 tip_position_small_angle(const YokeGeometry& yoke, JointAngles q) noexcept;
+
+// Inverse of tip_position for any point on the upper half sphere. [rad]
+JointAngles joint_angles(glm::dvec3 tip) noexcept;
+
+// The gate lies in the plane (px, py): the tip above a plane point, and the angles that put it there.
+// |plane| < radius. [m], [rad]
+glm::dvec2 plane_position(const YokeGeometry& yoke, JointAngles q) noexcept;
+JointAngles joint_angles_from_plane(const YokeGeometry& yoke, glm::dvec2 plane) noexcept;
+
+// The plant's coordinates: arc lengths (rho theta, -rho phi), one axis each. [m]
+glm::dvec2 arc_position(const YokeGeometry& yoke, JointAngles q) noexcept;
+JointAngles joint_angles_from_arc(const YokeGeometry& yoke, glm::dvec2 arc) noexcept;
+
+// Force at the tip, tangential to the sphere, from the joint torques: eq (5), corrected. [N]
+glm::dvec3 tip_force(const YokeGeometry& yoke, JointAngles q, JointTorques torque) noexcept;
+
+// The way back, tau = J^T f: joint torques that balance a force at the tip. [N m]
+JointTorques joint_torques(const YokeGeometry& yoke, JointAngles q, glm::dvec3 force) noexcept;
+
+// Small-angle force map, eq (6). [N]
+glm::dvec2 tip_force_small_angle(const YokeGeometry& yoke, JointTorques torque) noexcept;
+
+// The same pair for generalised forces in the gate plane (fz = 0), so that work is f . d(px, py). [N], [N m]
+glm::dvec2 plane_force(const YokeGeometry& yoke, JointAngles q, JointTorques torque) noexcept;
+JointTorques joint_torques_from_plane(const YokeGeometry& yoke, JointAngles q, glm::dvec2 force) noexcept;
+
+}  // namespace gearshift

@@ -1,0 +1,60 @@
+// One axis of the joystick as the paper models it, stepped exactly.
+//
+// This work is based on:
+// Wei-Ching Lin, Kuu-Young Young. Design of Force-Reflection Joystick System for VR-Based Simulation.
+// Eqs (8), (11), (12): m x'' + b x' + k x = f. The force is held over a step, so the solution is a matrix
+// exponential in closed form: exact at any rate.
+#pragma once
+
+#include <limits>
+
+namespace gearshift {
+
+struct AxisModel {
+  double mass = 0.0;       // [kg]
+  double damping = 0.0;    // [N s/m]
+  double stiffness = 0.0;  // [N/m]
+};
+
+inline constexpr AxisModel kPaperAxisX{0.095, 3.0, 14.8};  // eq (11)
+inline constexpr AxisModel kPaperAxisY{0.086, 2.9, 15.7};  // eq (12)
+
+struct AxisState {
+  double position = 0.0;  // [m] arc length
+  double velocity = 0.0;  // [m/s]
+};
+
+// State after `time` [s] under a constant force [N]; over-, under- and critically damped. time >= 0.
+AxisState advance(const AxisModel& axis, AxisState state, double force, double time) noexcept;
+
+// The same solution with its coefficients computed once for one step length.
+class AxisStepper {
+ public:
+  AxisStepper(const AxisModel& axis, double period) noexcept;  // mass > 0, period [s] >= 0
+  AxisState step(AxisState state, double force) const noexcept {
+    return {xx_ * state.position + xv_ * state.velocity + xf_ * force,
+            vx_ * state.position + vv_ * state.velocity + vf_ * force};
+  }
+
+ private:
+  double xx_, xv_, vx_, vv_;  // state transition over one period
+  double xf_, vf_;            // response to the held force
+};
+
+struct AxisLimits {
+  double stop = std::numeric_limits<double>::infinity();  // [m] > 0, hard stop at +stop and -stop, inelastic
+  double coulomb_friction = 0.0;                          // [N] dry friction, 0 = none
+};
+
+// advance() with dry friction (sticks where the force cannot overcome it) and inelastic hard stops. The times
+// of reversal and of impact inside the step are located, so the result does not depend on the step length.
+// After kMaxAxisEvents of them in one step the axis is put to rest: that can only take energy out.
+inline constexpr int kMaxAxisEvents = 64;
+AxisState advance_limited(const AxisModel& axis, const AxisLimits& limits, AxisState state, double force,
+                          double time) noexcept;
+
+// Mass times acceleration of that axis now [N]: 0 where friction or a stop holds it at rest.
+double inertial_force(const AxisModel& axis, const AxisLimits& limits, AxisState state,
+                      double force) noexcept;
+
+}  // namespace gearshift

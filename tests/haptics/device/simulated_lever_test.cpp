@@ -1,0 +1,323 @@
+#include "haptics/device/simulated_lever.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include "tests/haptics/device/still_hand.h"
+
+using namespace gearshift;
+
+namespace {
+
+constexpr std::int64_t kMillisecond = 1'000'000;
+constexpr YokeGeometry kYoke;
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// tau . dq = f . d(rho theta, -rho phi)
+JointTorques torques_along(glm::dvec2 arc_force) {
+  return {0.120 * arc_force.x, -0.120 * arc_force.y};
+}
+
+// No encoder, no sensor resolution: the physics alone.
+SimulatedLeverConfig exact(const HandImpedance& hand = kBareHand) {
+  SimulatedLeverConfig config;
+  config.encoder_counts = 0.0;
+  config.force_sensor.resolution_gw = 0.0;
+  config.hand = hand;
+  return config;
+}
+
+// A lever with its clock: run(n) is n periods.
+struct Bench {
+  Bench(const SimulatedLeverConfig& config, const HandTarget& target, std::int64_t period = kMillisecond)
+      : hand(target), lever(config, period, hand), period_ns(period) {
+    reading = lever.read(0);
+  }
+  void run(int periods) {
+    for (int i = 0; i < periods; ++i) reading = lever.read(now += period_ns);
+  }
+  glm::dvec2 arc() const {
+    return arc_position(kYoke, joint_angles_from_plane(kYoke, lever.true_position()));
+  }
+
+  StillHand hand;
+  SimulatedLever lever;
+  std::int64_t period_ns, now = 0;
+  LeverReading reading;
+};
+
+// m x'' + b x' + k x = k_h target from rest at 0, by its two poles.
+double led_to(const AxisModel& axis, const HandImpedance& hand, double target, double time) {
+  using Complex = std::complex<double>;
+  const Complex m = axis.mass + hand.mass, b = axis.damping + hand.damping,
+                k = axis.stiffness + hand.stiffness;
+  const Complex root = std::sqrt(b * b - 4.0 * m * k), p1 = (-b + root) / (2.0 * m),
+                p2 = (-b - root) / (2.0 * m);
+  const Complex share = (p2 * std::exp(p1 * time) - p1 * std::exp(p2 * time)) / (p1 - p2);
+  return (hand.stiffness * target / k * (1.0 + share)).real();
+}
+
+std::string refusal(const SimulatedLeverConfig& config, std::int64_t period = kMillisecond) {
+  StillHand hand;
+  try {
+    SimulatedLever(config, period, hand);
+  } catch (const std::invalid_argument& error) {
+    return error.what();
+  }
+  return "accepted";
+}
+
+}  // namespace
+
+TEST_CASE("handle and hand are one axis: led to a point, each arc is the textbook's two exponentials") {
+  for (const HandImpedance& hand : {kLightHand, kGripHand, kArmHand}) {
+    const glm::dvec2 point{0.030, -0.040};
+    const glm::dvec2 target = arc_position(kYoke, joint_angles_from_plane(kYoke, point));
+    Bench bench(exact(hand), hand_at(point));
+    for (int ms = 1; ms <= 400; ++ms) {
+      bench.run(1);
+      CHECK(std::abs(bench.arc().x - led_to(kPaperAxisX, hand, target.x, ms * 1e-3)) < 1e-13);
+      CHECK(std::abs(bench.arc().y - led_to(kPaperAxisY, hand, target.y, ms * 1e-3)) < 1e-13);
+    }
+  }
+}
+
+TEST_CASE("a written force rests where it is the gradient of the springs' energy over the gate plane") {
+  const glm::dvec2 force{0.8, 0.6};
+  Bench bench(exact(), {});
+  bench.lever.write(force);
+  bench.run(20'000);
+  const auto stored = [](glm::dvec2 plane) {
+    const glm::dvec2 arc = arc_position(kYoke, joint_angles_from_plane(kYoke, plane));
+    return 0.5 * 14.8 * arc.x * arc.x + 0.5 * 15.7 * arc.y * arc.y;
+  };
+  const glm::dvec2 here = bench.lever.true_position(), dx{1e-5, 0.0}, dy{0.0, 1e-5};
+  CHECK(std::min(here.x, here.y) > 0.025);  // far off both axes
+  CHECK((stored(here + dx) - stored(here - dx)) / 2e-5 == doctest::Approx(force.x).epsilon(1e-7));
+  CHECK((stored(here + dy) - stored(here - dy)) / 2e-5 == doctest::Approx(force.y).epsilon(1e-7));
+  CHECK(glm::length(bench.reading.actuator_force - force) < 1e-13);
+  CHECK(glm::length(bench.reading.hand_force) < 1e-9);
+}
+
+TEST_CASE("the hand's force is m a + b v + k x - f of the handle, the hand's own inertia included") {
+  const double step = 1e-4;  // [s]
+  Bench bench(exact(kArmHand), hand_at({0.030, 0.025}), 100'000);
+  bench.lever.write({-2.0, 1.0});
+  bench.run(200);
+  for (int i = 0; i < 500; ++i) {
+    const glm::dvec2 before = bench.arc();
+    bench.run(1);
+    const glm::dvec2 now = bench.arc(), measured = bench.reading.hand_force,
+                     given = bench.reading.actuator_force;
+    const JointAngles q = joint_angles_from_plane(kYoke, bench.lever.true_position());
+    bench.run(1);
+    const glm::dvec2 after = bench.arc();
+
+    const glm::dvec2 a = (after - 2.0 * now + before) / (step * step), v = (after - before) / (2.0 * step);
+    const glm::dvec2 on_handle{0.095 * a.x + 3.0 * v.x + 14.8 * now.x,
+                               0.086 * a.y + 2.9 * v.y + 15.7 * now.y};
+    const glm::dvec2 expected = plane_force(kYoke, q, torques_along(on_handle)) - given;
+    CHECK(glm::length(measured - expected) < 2e-3);
+  }
+}
+
+TEST_CASE("a joint is read at the middle of its encoder cell: 2250 counts over 80 deg are 74.5 um") {
+  SimulatedLeverConfig config;
+  config.hand = kLightHand;
+  Bench bench(config, hand_at({0.05, 0.05}));
+  CHECK(bench.lever.spec().position_step == doctest::Approx(74.5e-6).epsilon(1e-3));
+  const double cell = 80.0 / 2250.0 * std::numbers::pi / 180.0;
+  for (int i = 0; i < 500; ++i) {
+    bench.run(1);
+    const JointAngles read = joint_angles_from_plane(kYoke, bench.reading.position);
+    const JointAngles real = joint_angles_from_plane(kYoke, bench.lever.true_position());
+    CHECK(std::abs(read.theta / cell - (std::floor(real.theta / cell) + 0.5)) < 1e-9);
+    CHECK(std::abs(read.phi / cell - (std::floor(real.phi / cell) + 0.5)) < 1e-9);
+  }
+}
+
+TEST_CASE("the true position behind the encoder is the one without an encoder") {
+  SimulatedLeverConfig quantised = exact(kGripHand);
+  quantised.encoder_counts = 2250.0 / 80.0;
+  Bench with(quantised, hand_at({0.06, -0.05})), without(exact(kGripHand), hand_at({0.06, -0.05}));
+  for (int i = 0; i < 300; ++i) {
+    with.run(1);
+    without.run(1);
+    CHECK(glm::length(with.lever.true_position() - without.lever.true_position()) < 1e-15);
+  }
+}
+
+TEST_CASE("a force takes effect after the delay and not a sample earlier") {
+  for (int delay = 0; delay <= kMaxDelay; ++delay) {
+    SimulatedLeverConfig config = exact();
+    config.delay = delay;
+    Bench bench(config, {});
+    bench.run(3);
+    bench.lever.write({5.0, -5.0});
+    bench.run(delay);
+    CHECK(bench.lever.true_velocity() == glm::dvec2(0.0));
+    bench.run(1);
+    CHECK(bench.lever.true_velocity().x > 0.0);
+    CHECK(bench.lever.true_velocity().y < 0.0);
+    CHECK(bench.reading.actuator_force.x == doctest::Approx(5.0).epsilon(1e-14));
+  }
+}
+
+TEST_CASE("release drops the force, and those still on their way") {
+  SimulatedLeverConfig config = exact();
+  config.delay = 4;
+  Bench bench(config, {});
+  bench.lever.write({5.0, 5.0});
+  bench.run(2);
+  bench.lever.release();
+  bench.run(20);
+  CHECK(bench.lever.true_position() == glm::dvec2(0.0));
+}
+
+TEST_CASE("motors saturate at 31.7 N, and at 10.83 N once they are hot") {
+  Bench bench(exact(), hand_pushing({60.0, 0.0}));
+  bench.lever.write({-60.0, 0.0});
+  bench.run(1);
+  CHECK(bench.reading.actuator_force.x == doctest::Approx(-31.7).epsilon(1e-12));
+  bench.lever.place({0.0, 0.0});
+  bench.run(5010);  // overload_time = 5 s
+  const JointAngles q = joint_angles_from_plane(kYoke, bench.lever.true_position());
+  const glm::dvec2 hot = plane_force(kYoke, q, torques_along({-10.83, 0.0}));
+  CHECK(bench.reading.actuator_force.x == doctest::Approx(hot.x).epsilon(1e-9));
+}
+
+TEST_CASE("60 N run to the stops: 77 mm to the side, 69 mm forward, and lean on them without a bounce") {
+  Bench bench(exact(), hand_pushing({60.0, 0.0}));
+  bench.lever.write({-31.7, 0.0});
+  bench.run(1000);
+  CHECK(bench.lever.true_position().x == doctest::Approx(0.120 * std::sin(40.0 * std::numbers::pi / 180.0)));
+  CHECK(bench.lever.true_velocity() == glm::dvec2(0.0));
+  CHECK(bench.reading.hand_force.x == doctest::Approx(60.0).epsilon(1e-12));
+  CHECK(bench.lever.spec().workspace.x == doctest::Approx(0.0771).epsilon(1e-3));
+
+  Bench forward(exact(), hand_pushing({0.0, 60.0}));
+  forward.run(1000);
+  CHECK(forward.lever.true_position().y ==
+        doctest::Approx(0.120 * std::sin(35.0 * std::numbers::pi / 180.0)));
+  CHECK(forward.lever.spec().workspace.y == doctest::Approx(0.0688).epsilon(1e-3));
+}
+
+TEST_CASE("dry friction holds what is below it") {
+  SimulatedLeverConfig config = exact();
+  config.coulomb_friction = 0.5;
+  Bench bench(config, {});
+  bench.lever.write({0.49, -0.49});
+  bench.run(1000);
+  CHECK(bench.lever.true_position() == glm::dvec2(0.0));
+  bench.lever.write({0.6, 0.0});
+  bench.run(20'000);
+  CHECK(bench.arc().x == doctest::Approx(0.1 / 14.8).epsilon(1e-3));  // k x = f cos(theta) - friction
+}
+
+TEST_CASE("time moves in whole periods: n of them are n sequence numbers, none or backward is stale") {
+  StillHand hand;
+  SimulatedLever lever(SimulatedLeverConfig{}, kMillisecond, hand);
+  const std::int64_t start = 12'345'678'901;
+  const LeverReading first = lever.read(start);
+  CHECK(first.time_ns == start);
+  CHECK(lever.read(start + 400'000).sequence == first.sequence);
+  CHECK(lever.read(start - 5 * kMillisecond).sequence == first.sequence);
+  const LeverReading second = lever.read(start + 1'100'000);  // 10 % late
+  CHECK(second.sequence == first.sequence + 1);
+  CHECK(second.time_ns == start + kMillisecond);
+  CHECK(lever.read(start + 2 * kMillisecond - 100'000).sequence == first.sequence + 2);
+  CHECK(lever.read(start + 7 * kMillisecond).sequence == first.sequence + 7);
+  const LeverReading gap = lever.read(start + 3'600'000 * kMillisecond);
+  CHECK(gap.sequence == first.sequence + 7 + kMaxPeriodsPerRead);
+  CHECK(lever.read(start + 3'600'001 * kMillisecond).sequence == gap.sequence + 1);
+}
+
+TEST_CASE("one read over ten periods is ten reads over one") {
+  Bench once(exact(kGripHand), hand_at({0.02, 0.03})), each(exact(kGripHand), hand_at({0.02, 0.03}));
+  each.run(10);
+  once.reading = once.lever.read(10 * kMillisecond);
+  CHECK(once.reading.position == each.reading.position);
+  CHECK(once.reading.hand_force == each.reading.hand_force);
+}
+
+TEST_CASE("whatever the driver and the loop send, the reading is finite and inside the stops") {
+  const double bad[] = {kNan, kInfinity, -kInfinity, 1e308, -1e308, 0.2, 1e-320};
+  SimulatedLeverConfig config;
+  config.hand = kGripHand;
+  Bench bench(config, {});
+  for (double a : bad) {
+    for (double b : bad) {
+      bench.hand.target = {{a, b}, {b, a}, {a, a}, false, false};
+      bench.lever.write({b, a});
+      bench.lever.place({a, b});
+      for (int i = 0; i < 20; ++i) {
+        bench.run(1);
+        const LeverReading& r = bench.reading;
+        CHECK(glm::length(r.position) < 0.120);
+        CHECK(std::isfinite(glm::length(r.hand_force) + glm::length(r.actuator_force)));
+        CHECK(std::abs(bench.arc().x) <= 0.120 * kYoke.theta_limit * (1.0 + 1e-12));
+        CHECK(std::abs(bench.arc().y) <= 0.120 * kYoke.phi_limit * (1.0 + 1e-12));
+      }
+    }
+  }
+  bench.hand.target = {};
+  bench.lever.release();
+  bench.run(3000);
+  CHECK(glm::length(bench.lever.true_position()) < 1e-6);  // and nothing stuck behind
+}
+
+TEST_CASE("the sensor's noise has the stated deviation, and the seed decides every bit of it") {
+  SimulatedLeverConfig config = exact();
+  config.force_sensor.noise_gw = 20.0;
+  Bench a(config, {}), b(config, {});
+  config.seed = 2;
+  Bench other(config, {});
+  double sum = 0.0, squares = 0.0;
+  const int n = 20'000;
+  bool differs = false;
+  for (int i = 0; i < n; ++i) {
+    a.run(1), b.run(1), other.run(1);
+    CHECK(a.reading.hand_force == b.reading.hand_force);
+    differs = differs || a.reading.hand_force != other.reading.hand_force;
+    sum += a.reading.hand_force.x;
+    squares += a.reading.hand_force.x * a.reading.hand_force.x;
+  }
+  const double deviation = 20.0 * 9.80665e-3;
+  CHECK(differs);
+  CHECK(std::abs(sum / n) < 4.0 * deviation / std::sqrt(n));
+  CHECK(std::sqrt(squares / n) == doctest::Approx(deviation).epsilon(4.0 / std::sqrt(2.0 * n)));
+}
+
+TEST_CASE("a bad value is refused in one sentence with parameter, value and allowed range") {
+  SimulatedLeverConfig config;
+  CHECK(refusal(config) == "accepted");
+  CHECK(refusal(config, 0) == "SimulatedLever: period_ns is 0: allowed is 1 to 1e+09 ns.");
+  config.delay = 9;
+  CHECK(refusal(config) == "SimulatedLever: delay is 9: allowed is 0 to 8 cycles.");
+  config = {};
+  config.axis_x.mass = 0.0;
+  CHECK(refusal(config) == "SimulatedLever: axis_x.mass is 0: allowed is 0.001 to 1000 kg.");
+  config = {};
+  config.axis_y.damping = kNan;
+  CHECK(refusal(config) == "SimulatedLever: axis_y.damping is nan: allowed is 0 to 10000 N s/m.");
+  config = {};
+  config.hand.stiffness = -1.0;
+  CHECK(refusal(config) == "SimulatedLever: hand.stiffness is -1: allowed is 0 to 1000000 N/m.");
+  config = {};
+  config.encoder_counts = kInfinity;
+  CHECK(refusal(config) ==
+        "SimulatedLever: encoder_counts other than 0 is inf: allowed is 1 to 1000000 counts/deg.");
+  config = {};
+  config.actuator.continuous_force = 40.0;
+  CHECK(refusal(config) == "SimulatedLever: actuator.continuous_force is 40: allowed is 0 to 31.7 N.");
+}
