@@ -1,0 +1,30 @@
+#include "haptics/files/text_file.h"
+
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include "haptics/files/file_error.h"
+
+namespace gearshift {
+
+std::string read_text_file(const std::filesystem::path& file) {
+  const std::string name = file.string();
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) throw FileError(name, 0, "there is no such file");
+  if (std::filesystem::is_directory(status)) throw FileError(name, 0, "is a folder, not a file");
+  if (!std::filesystem::is_regular_file(status)) throw FileError(name, 0, "is not a plain file");
+
+  std::ifstream in(file, std::ios::binary);
+  if (!in) throw FileError(name, 0, "cannot be read");
+  // One byte more than allowed tells too much from just enough, even if the file grows meanwhile.
+  std::string text(kMaxTextFile + 1, '\0');
+  in.read(text.data(), static_cast<std::streamsize>(text.size()));
+  if (in.bad()) throw FileError(name, 0, "cannot be read");
+  text.resize(static_cast<std::size_t>(in.gcount()));
+  if (text.size() > kMaxTextFile) throw FileError(name, 0, "is larger than 1 MiB");
+  return text;
+}
+
+}  // namespace gearshift

@@ -1,0 +1,191 @@
+#include "haptics/files/toml_reader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <toml++/toml.h>
+
+#include "haptics/files/number_text.h"
+#include "haptics/files/text_file.h"
+
+namespace gearshift {
+namespace {
+
+constexpr std::size_t kMaxTextLength = 200;  // [bytes] of one value: names and sentences, no essays
+
+int line_of(const toml::node& node) {
+  return static_cast<int>(node.source().begin.line);
+}
+
+std::string join(const std::vector<std::string>& words) {
+  std::string list;
+  for (const auto& word : words) list += (list.empty() ? "" : ", ") + word;
+  return list;
+}
+
+// A value as it should appear in a sentence: long text is cut, tables and lists are named, not printed.
+std::string value_text(const toml::node& node) {
+  constexpr std::size_t kShown = 40;
+  if (const auto* text = node.as_string()) {
+    const std::string& whole = text->get();
+    return '"' + (whole.size() > kShown ? whole.substr(0, kShown) + "..." : whole) + '"';
+  }
+  if (const auto* integer = node.as_integer()) return std::to_string(integer->get());
+  if (const auto* number = node.as_floating_point()) return number_text(number->get());
+  if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
+  if (node.is_table()) return "(a table)";
+  return node.is_array() ? "(a list)" : "(a date or time)";
+}
+
+// toml++ may break its message over lines.
+std::string one_line(std::string_view text) {
+  std::string line(text);
+  std::replace_if(
+      line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
+  return line;
+}
+
+toml::table parse_toml(std::string_view text, const std::string& file) {
+  try {
+    return toml::parse(text);
+  } catch (const toml::parse_error& error) {
+    const int line = static_cast<int>(error.source().begin.line);
+    throw FileError(file, line, "not valid TOML: " + one_line(error.description()));
+  }
+}
+
+std::string between(Range range) {
+  return "between " + number_text(range.min) + " and " + number_text(range.max);
+}
+
+}  // namespace
+
+struct TomlTable::Node {
+  std::shared_ptr<const toml::table> root;  // keeps `table` alive
+  const toml::table* table = nullptr;
+  std::string file;
+  std::vector<std::string> asked;  // keys that somebody has asked for: the known ones
+
+  // A key is known from the moment it is asked for, whether or not the file has it.
+  const toml::node* ask(std::string_view key) {
+    if (std::find(asked.begin(), asked.end(), key) == asked.end()) asked.emplace_back(key);
+    return table->get(key);
+  }
+};
+
+TomlTable::TomlTable(std::shared_ptr<Node> node) : node_(std::move(node)) {}
+
+TomlTable TomlTable::parse(std::string_view text, const std::string& file_name) {
+  if (text.size() > kMaxTextFile) throw FileError(file_name, 0, "is larger than 1 MiB");
+  auto root = std::make_shared<const toml::table>(parse_toml(text, file_name));
+  const toml::table* table = root.get();
+  return TomlTable(std::make_shared<Node>(Node{std::move(root), table, file_name, {}}));
+}
+
+TomlTable TomlTable::read(const std::filesystem::path& file) {
+  return parse(read_text_file(file), file.string());
+}
+
+bool TomlTable::has(std::string_view key) const {
+  return node_->ask(key) != nullptr;
+}
+
+int TomlTable::line(std::string_view key) const {
+  const toml::node* value = key.empty() ? nullptr : node_->table->get(key);
+  return line_of(value != nullptr ? *value : *node_->table);
+}
+
+double TomlTable::number(std::string_view key, Range range) const {
+  const toml::node* value = node_->ask(key);
+  const std::string limits = between(range);
+  if (value == nullptr) fail(key, "is missing: it must be a number " + limits);
+  if (!value->is_number()) fail(key, "must be a number " + limits);
+  const double number = value->value<double>().value_or(NAN);
+  // Written so that NaN, which compares false with everything, is refused too.
+  if (!(number >= range.min && number <= range.max)) fail(key, "must be " + limits);
+  return number;
+}
+
+int TomlTable::integer(std::string_view key, int min, int max) const {
+  const toml::node* value = node_->ask(key);
+  const std::string limits = between({static_cast<double>(min), static_cast<double>(max)});
+  if (value == nullptr) fail(key, "is missing: it must be a whole number " + limits);
+  if (!value->is_integer()) fail(key, "must be a whole number " + limits);
+  const std::int64_t number = value->as_integer()->get();
+  if (number < min || number > max) fail(key, "must be " + limits);
+  return static_cast<int>(number);
+}
+
+std::string TomlTable::text(std::string_view key) const {
+  const toml::node* value = node_->ask(key);
+  if (value == nullptr) fail(key, "is missing: it must be a text in quotes");
+  if (!value->is_string()) fail(key, "must be a text in quotes");
+  const std::string& words = value->as_string()->get();
+  if (words.empty()) fail(key, "must not be empty");
+  if (words.size() > kMaxTextLength)
+    fail(key, "must be at most " + std::to_string(kMaxTextLength) + " bytes long");
+  const auto control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
+  if (std::any_of(words.begin(), words.end(), control))
+    fail(key, "must be one line without control characters");
+  return words;
+}
+
+std::string TomlTable::choice(std::string_view key, const std::vector<std::string>& allowed) const {
+  if (node_->ask(key) == nullptr) fail(key, "is missing: it must be one of " + join(allowed));
+  std::string word = text(key);
+  if (std::find(allowed.begin(), allowed.end(), word) == allowed.end()) {
+    fail(key, "must be one of " + join(allowed));
+  }
+  return word;
+}
+
+bool TomlTable::flag_or(std::string_view key, bool fallback) const {
+  const toml::node* value = node_->ask(key);
+  if (value == nullptr) return fallback;
+  if (!value->is_boolean()) fail(key, "must be true or false");
+  return value->as_boolean()->get();
+}
+
+double TomlTable::number_or(std::string_view key, double fallback, Range range) const {
+  return has(key) ? number(key, range) : fallback;
+}
+
+TomlTable TomlTable::table(std::string_view key) const {
+  const toml::node* value = node_->ask(key);
+  if (value == nullptr) fail(key, "is missing: it must be a table, [" + std::string(key) + "]");
+  if (!value->is_table()) fail(key, "must be a table: write [" + std::string(key) + "]");
+  return TomlTable(std::make_shared<Node>(Node{node_->root, value->as_table(), node_->file, {}}));
+}
+
+std::vector<TomlTable> TomlTable::tables(std::string_view key) const {
+  std::vector<TomlTable> list;
+  const toml::node* value = node_->ask(key);
+  if (value == nullptr) return list;
+  const std::string must = "must be a list of tables: write each as [[" + std::string(key) + "]]";
+  if (!value->is_array()) fail(key, must);
+  for (const toml::node& item : *value->as_array()) {
+    if (!item.is_table()) throw FileError(node_->file, line_of(item), std::string(key) + " " + must);
+    list.push_back(TomlTable(std::make_shared<Node>(Node{node_->root, item.as_table(), node_->file, {}})));
+  }
+  return list;
+}
+
+void TomlTable::refuse_unknown_keys() const {
+  for (const auto& [key, value] : *node_->table) {
+    const auto& asked = node_->asked;
+    if (std::find(asked.begin(), asked.end(), key.str()) != asked.end()) continue;
+    const std::string name = one_line(key.str().substr(0, 40));
+    throw FileError(node_->file, line_of(value), name + " is not a known key: known here are " + join(asked));
+  }
+}
+
+void TomlTable::fail(std::string_view key, const std::string& reason) const {
+  if (key.empty()) throw FileError(node_->file, line(), reason);
+  const toml::node* value = node_->table->get(key);
+  const std::string name(key);
+  if (value == nullptr) throw FileError(node_->file, line(), name + " " + reason);
+  throw FileError(node_->file, line_of(*value), name + " = " + value_text(*value) + ": " + reason);
+}
+
+}  // namespace gearshift
