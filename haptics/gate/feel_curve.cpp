@@ -1,0 +1,86 @@
+#include "haptics/gate/feel_curve.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace gearshift {
+namespace {
+
+// The piece that holds `at`; the curve is short, so a scan from the left beats a search.
+const FeelCurve::Piece& piece_at(const FeelCurve& curve, double at) noexcept {
+  std::size_t i = 0;
+  while (i + 1 < static_cast<std::size_t>(curve.pieces) && curve.piece[i + 1].from <= at) ++i;
+  return curve.piece[i];
+}
+
+// Cubic with the knots' forces and slopes at both ends, in powers of u = at - a.at.
+std::array<double, 4> hermite(const FeelKnot& a, const FeelKnot& b) noexcept {
+  const double h = b.at - a.at;
+  const double rise = (b.force - a.force) / h;
+  return {a.force, a.slope, (3.0 * rise - 2.0 * a.slope - b.slope) / h,
+          (a.slope + b.slope - 2.0 * rise) / (h * h)};
+}
+
+double piece_work(const FeelCurve::Piece& piece, double u) noexcept {
+  const auto& c = piece.c;
+  return u * (c[0] + u * (c[1] / 2.0 + u * (c[2] / 3.0 + u * c[3] / 4.0)));
+}
+
+}  // namespace
+
+FeelCurve make_feel_curve(std::span<const FeelKnot> knots) noexcept {
+  FeelCurve curve;
+  if (knots.empty()) return curve;
+  curve.before = knots.front().force;
+  double work = 0.0;
+  for (std::size_t i = 0; i < knots.size(); ++i) {
+    FeelCurve::Piece& piece = curve.piece[i];
+    piece.from = knots[i].at;
+    piece.work = work;
+    const bool last = i + 1 == knots.size();
+    piece.c = last ? std::array<double, 4>{knots[i].force, 0.0, 0.0, 0.0} : hermite(knots[i], knots[i + 1]);
+    if (!last) work += piece_work(piece, knots[i + 1].at - knots[i].at);
+  }
+  curve.pieces = static_cast<int>(knots.size());
+  return curve;
+}
+
+double feel_force(const FeelCurve& curve, double at) noexcept {
+  if (curve.pieces == 0) return 0.0;
+  if (at < curve.piece[0].from) return curve.before;
+  const FeelCurve::Piece& piece = piece_at(curve, at);
+  const double u = at - piece.from;
+  return piece.c[0] + u * (piece.c[1] + u * (piece.c[2] + u * piece.c[3]));
+}
+
+double feel_slope(const FeelCurve& curve, double at) noexcept {
+  if (curve.pieces == 0 || at < curve.piece[0].from) return 0.0;
+  const FeelCurve::Piece& piece = piece_at(curve, at);
+  const double u = at - piece.from;
+  return piece.c[1] + u * (2.0 * piece.c[2] + 3.0 * u * piece.c[3]);
+}
+
+double feel_work(const FeelCurve& curve, double at) noexcept {
+  if (curve.pieces == 0) return 0.0;
+  if (at < curve.piece[0].from) return curve.before * (at - curve.piece[0].from);
+  const FeelCurve::Piece& piece = piece_at(curve, at);
+  return piece.work + piece_work(piece, at - piece.from);
+}
+
+double stiffest_slope(const FeelCurve& curve) noexcept {
+  double stiffest = 0.0;
+  for (int i = 0; i + 1 < curve.pieces; ++i) {
+    const auto& piece = curve.piece[static_cast<std::size_t>(i)];
+    const double end = curve.piece[static_cast<std::size_t>(i) + 1].from - piece.from;
+    const auto slope = [&](double u) { return piece.c[1] + u * (2.0 * piece.c[2] + 3.0 * u * piece.c[3]); };
+    stiffest = std::max({stiffest, -slope(0.0), -slope(end)});
+    // The slope of a cubic is a parabola: its extreme is where the second derivative vanishes.
+    if (piece.c[3] == 0.0) continue;
+    const double u = -piece.c[2] / (3.0 * piece.c[3]);
+    if (u > 0.0 && u < end) stiffest = std::max(stiffest, -slope(u));
+  }
+  return stiffest;
+}
+
+}  // namespace gearshift

@@ -1,0 +1,119 @@
+// The compiled gate: everything the haptic cycle needs to know of a gearbox, precomputed and trivially
+// copyable.
+//
+// Free space is a comb: one horizontal aisle (the neutral aisle) and one vertical aisle per column, joined by
+// chamfered mouths. Each of these is convex; the lever's proxy always moves straight inside one of them.
+//
+//      R   2   4           column: a vertical aisle and its two slots
+//    --+---+---+--         neutral aisle, |y| <= half_aisle
+//      1   3   5           slot: the branch of a column that ends in a gear
+//
+// Axes: x = select (right +), y = shift (forward +), origin at neutral centre. [m]
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <type_traits>
+
+#include <glm/vec2.hpp>
+
+#include "haptics/gate/feel_curve.h"
+
+namespace gearshift {
+
+inline constexpr int kMaxColumns = 8;
+inline constexpr int kMaxSlots = 2 * kMaxColumns;
+inline constexpr int kMaxLockouts = 16;
+inline constexpr int kReverseGear = -1;
+inline constexpr int kNeutralGear = 0;
+inline constexpr int kNoSlot = -1;
+
+enum class Side : int { back = -1, forward = 1 };
+
+// One branch of a column, with a gear at its end. Depth is |y|, measured from the aisle's centre line. [m]
+struct Slot {
+  int column = 0;
+  Side side = Side::forward;
+  int gear = kNeutralGear;     // kReverseGear or 1, 2, ...
+  double end = 0.0;            // depth of the end stop
+  double rest = 0.0;           // depth at which the engaged lever rests
+  double engage_depth = 0.0;   // the gear counts from here on
+  double release_depth = 0.0;  // and no longer once the lever is back before this; < engage_depth
+  FeelCurve feel;              // [N] along +depth (positive pulls into the gear)
+};
+
+struct Column {
+  double center = 0.0;      // x
+  double half_width = 0.0;  // of its slots
+  double back = 0.0;        // y of its lower end (-half_aisle where there is no slot)
+  double forward = 0.0;     // y of its upper end (+half_aisle where there is no slot)
+  int back_slot = kNoSlot;
+  int forward_slot = kNoSlot;
+};
+
+// The paper's rectangular buffer at the closed side of an end junction: the deeper the lever is in it, the
+// more it is turned towards the open vertical aisles. A potential, so that it gives no energy away:
+//   V = -force g(u) W(y), u = depth into the buffer / width, g = 3u^2 - 2u^3, W' = w the shape across the
+//   aisle.
+struct Buffer {
+  double wall = 0.0;   // x of the closed wall
+  double inner = 0.0;  // x where the buffer begins
+  double force = 0.0;  // [N] turning force at the wall, at its peak across the aisle
+  bool back_open = false;
+  bool forward_open = false;
+};
+
+enum class LockoutKind : int {
+  push_down,  // passes while the knob is pushed down (or the button held)
+  lift,       // passes while the lift ring is held
+  speed,      // closed above one speed, open again below a lower one
+  after_gear  // closed from the moment a gear was engaged until the lever has left that gear's column
+};
+
+// A movable wall. It never closes on a lever that is already beyond it.
+struct Lockout {
+  LockoutKind kind = LockoutKind::push_down;
+  int slot = kNoSlot;    // the slot that it guards
+  bool lateral = false;  // true: stands across the neutral aisle at `barrier`; false: closes the slot's mouth
+  double barrier = 0.0;  // [m] x of the lateral wall
+  int beyond = 0;        // lateral: -1 or +1, the side of the barrier that it guards
+  int after_gear = kNeutralGear;
+  double close_above = 0.0;  // [m/s] road speed
+  double open_below = 0.0;   // [m/s] road speed, < close_above
+};
+
+struct Gate {
+  double half_aisle = 0.0;  // half width of the neutral aisle
+  double select_min = 0.0;  // ends of the neutral aisle
+  double select_max = 0.0;
+  double chamfer = 0.0;  // leg of the 45 degree slot mouths, 0 = sharp
+  int column_count = 0;
+  int neutral_column = 0;
+  int slot_count = 0;
+  int lockout_count = 0;
+  int buffer_count = 0;
+  std::array<Column, kMaxColumns> column{};
+  std::array<Slot, kMaxSlots> slot{};
+  std::array<Lockout, kMaxLockouts> lockout{};
+  std::array<Buffer, 2> buffer{};
+  FeelCurve select_feel;  // [N] along +x in the neutral aisle: centring to the neutral column
+  FeelCurve aisle_feel;   // [N] along +|y| in the neutral aisle, away from any slot
+};
+static_assert(std::is_trivially_copyable_v<Gate>);
+
+// Column whose centre is nearest to x.
+int nearest_column(const Gate& gate, double x) noexcept;
+
+// Slot of `gear`, or kNoSlot.
+int slot_of_gear(const Gate& gate, int gear) noexcept;
+
+// Where the lever rests in a gear (neutral: the neutral column's junction). [m]
+glm::dvec2 rest_position(const Gate& gate, int gear) noexcept;
+
+// "R", "N", "1", ...; gear in [-1, 9].
+const char* gear_name(int gear) noexcept;
+
+// Is the point in free space (all lockouts open)? `slack` [m] widens every wall.
+bool in_free_space(const Gate& gate, glm::dvec2 point, double slack = 0.0) noexcept;
+
+}  // namespace gearshift

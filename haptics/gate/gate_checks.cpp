@@ -1,0 +1,247 @@
+#include "haptics/gate/gate_checks.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "haptics/files/file_error.h"
+#include "haptics/files/number_text.h"
+#include "haptics/gate/gate_curves.h"
+#include "haptics/gate/gate_feel.h"
+
+namespace gearshift {
+namespace {
+
+[[noreturn]] void fail(const GateLayout& layout, int line, const std::string& reason) {
+  throw FileError(layout.file, line, reason);
+}
+
+std::string column_text(const ColumnLayout& column) {
+  return "the column at " + millimetres_text(column.position);
+}
+
+std::vector<SlotLayout> gears_of(const ColumnLayout& column) {
+  std::vector<SlotLayout> slots;
+  for (const SlotLayout& slot : {column.forward, column.back}) {
+    if (slot.gear != kNeutralGear) slots.push_back(slot);
+  }
+  return slots;
+}
+
+// "1 and 2", for sentences.
+std::string gear_list(const GateLayout& layout, std::size_t first, std::size_t last) {
+  std::string list;
+  for (std::size_t i = first; i < last; ++i) {
+    for (const SlotLayout& slot : gears_of(layout.columns[i])) {
+      list += (list.empty() ? "" : " and ") + std::string(gear_name(slot.gear));
+    }
+  }
+  return list;
+}
+
+void check_widths(const GateLayout& layout) {
+  const double narrowest = std::min(layout.aisle_width, layout.slot_width);
+  // Negated, so that NaN is refused as well.
+  if (!(narrowest >= kMinAisleWidth)) {
+    fail(layout, layout.lines.gate,
+         "an aisle of " + millimetres_text(narrowest) + " is too narrow: it needs at least " +
+             millimetres_text(kMinAisleWidth));
+  }
+  if (!(layout.chamfer >= 0.0)) fail(layout, layout.lines.gate, "a chamfer must not be negative");
+}
+
+void check_column_count(const GateLayout& layout) {
+  const std::size_t count = layout.columns.size();
+  if (count < 2 || count > kMaxColumns) {
+    const int line = count > kMaxColumns ? layout.columns[kMaxColumns].line : layout.lines.gate;
+    fail(layout, line,
+         "a gate has between 2 and " + std::to_string(kMaxColumns) + " columns, this one has " +
+             std::to_string(count));
+  }
+  if (layout.neutral_column < 0 || layout.neutral_column >= static_cast<int>(count)) {
+    fail(layout, layout.lines.gate, "the neutral column is none of the columns");
+  }
+}
+
+void check_spacing(const GateLayout& layout) {
+  const double least = layout.slot_width + 2.0 * layout.chamfer + kMinWall;
+  for (std::size_t i = 1; i < layout.columns.size(); ++i) {
+    const ColumnLayout& column = layout.columns[i];
+    const double spacing = column.position - layout.columns[i - 1].position;
+    if (!(spacing > 0.0)) {
+      fail(layout, column.line,
+           column_text(column) +
+               " does not lie to the right of the one before it: write columns from left to right");
+    }
+    if (!(spacing >= least - 1e-9)) {
+      fail(layout, column.line,
+           column_text(column) + " overlaps the one before it: slots of this width and chamfer need " +
+               millimetres_text(least) + " from centre to centre, not " + millimetres_text(spacing));
+    }
+  }
+}
+
+// A closed side turns the lever into the column's own slots, so nothing can lie beyond it.
+void check_junctions(const GateLayout& layout) {
+  const std::size_t count = layout.columns.size();
+  for (std::size_t i = 0; i < count; ++i) {
+    const ColumnLayout& column = layout.columns[i];
+    if (gears_of(column).empty()) fail(layout, column.line, column_text(column) + " has no gear");
+    if (column.junction == JunctionKind::open) continue;
+    const bool inner = i > 0 && i + 1 < count;
+    if (!inner && static_cast<int>(i) == layout.neutral_column) {
+      fail(layout, column.line,
+           "the neutral column's junction cannot be closed: its buffer would push the lever from where it "
+           "rests");
+    }
+    if (!inner) continue;
+    const bool right_of_neutral = static_cast<int>(i) >= layout.neutral_column;
+    const std::string lost = right_of_neutral ? gear_list(layout, i + 1, count) : gear_list(layout, 0, i);
+    fail(layout, column.line,
+         "only an end column can have a closed junction: here gear " + lost + " could not be reached");
+  }
+}
+
+// Two columns with different gears at least: so one of them is a forward gear.
+void check_gears(const GateLayout& layout) {
+  std::array<int, 11> line_of{};  // by gear + 1: where the gear was first seen; 0 = not yet
+  std::array<bool, 11> seen{};
+  int highest = 0;
+  for (const ColumnLayout& column : layout.columns) {
+    for (const SlotLayout& slot : gears_of(column)) {
+      if (slot.gear < kReverseGear || slot.gear > 9) fail(layout, slot.line, "gears are R and 1 to 9");
+      const auto at = static_cast<std::size_t>(slot.gear + 1);
+      if (seen[at]) {
+        fail(layout, slot.line,
+             "gear " + std::string(gear_name(slot.gear)) + " is already in line " +
+                 std::to_string(line_of[at]));
+      }
+      seen[at] = true;
+      line_of[at] = slot.line;
+      highest = std::max(highest, slot.gear);
+    }
+  }
+  for (int gear = 1; gear < highest; ++gear) {
+    if (!seen[static_cast<std::size_t>(gear + 1)]) {
+      fail(layout, line_of[static_cast<std::size_t>(highest + 1)],
+           "there is a gear " + std::string(gear_name(highest)) + " but no gear " + gear_name(gear));
+    }
+  }
+}
+
+void check_feel(const GateLayout& layout) {
+  const SlotStations s = slot_stations(layout);
+  const double length = s.end - s.mouth;
+  if (!(length >= kMinSlotProper)) {
+    fail(layout, layout.lines.slot_length,
+         "slot_length_mm is too short: with this aisle and chamfer a slot needs at least " +
+             millimetres_text(s.mouth + kMinSlotProper));
+  }
+  const std::string limit = number_text(kSteepestFeel) + " N/m and pass for a wall";
+  if (!(steepest_slope(aisle_knots(layout)) <= kSteepestFeel)) {
+    fail(layout, layout.lines.feel,
+         "aisle_force_n is too large for so narrow an aisle: it would rise by more than " + limit);
+  }
+  if (!(steepest_slope(select_knots(layout)) <= kSteepestFeel)) {
+    fail(layout, layout.lines.feel,
+         "center_force_n is too large for so narrow a slot: it would rise by more than " + limit);
+  }
+  const double steepest = steepest_slope(slot_knots(layout));
+  if (!(steepest <= kSteepestFeel)) {
+    fail(layout, layout.lines.slot_length,
+         "slot_length_mm is too short for its feel: below " +
+             millimetres_text(s.mouth + length * steepest / kSteepestFeel) +
+             " its forces would rise by more than " + limit);
+  }
+}
+
+void check_workspace(const GateLayout& layout, glm::dvec2 workspace) {
+  const glm::dvec2 reach = workspace - glm::dvec2(kWorkspaceMargin);
+  const std::string device = "the device reaches " + millimetres_text(workspace.x) + " sideways and " +
+                             millimetres_text(workspace.y) + " fore and aft, and walls need " +
+                             millimetres_text(kWorkspaceMargin) + " of that";
+  for (const ColumnLayout& column : layout.columns) {
+    const double wall = std::abs(column.position) + layout.slot_width / 2.0;
+    if (!(wall <= reach.x)) {
+      fail(layout, column.line,
+           column_text(column) + " has its wall at " + millimetres_text(wall) +
+               ", outside the workspace: " + device);
+    }
+  }
+  if (!(layout.slot_length <= reach.y)) {
+    fail(layout, layout.lines.slot_length,
+         "slot_length_mm puts the end stops at " + millimetres_text(layout.slot_length) +
+             ", outside the workspace: " + device);
+  }
+}
+
+int column_of_gear(const GateLayout& layout, int gear) {
+  for (std::size_t i = 0; i < layout.columns.size(); ++i) {
+    const ColumnLayout& column = layout.columns[i];
+    if (column.forward.gear == gear || column.back.gear == gear) return static_cast<int>(i);
+  }
+  return -1;
+}
+
+void check_after_gear(const GateLayout& layout, const LockoutLayout& lockout) {
+  const std::string gear = gear_name(lockout.gear);
+  if (lockout.after_gear == lockout.gear) {
+    fail(layout, lockout.line, "gear " + gear + " could not be reached: its lockout waits for itself");
+  }
+  if (column_of_gear(layout, lockout.after_gear) != column_of_gear(layout, lockout.gear)) {
+    fail(layout, lockout.line,
+         "a lockout of gear " + gear + " after gear " + gear_name(lockout.after_gear) +
+             " needs both in one column");
+  }
+}
+
+void check_lockouts(const GateLayout& layout) {
+  if (layout.lockouts.size() > kMaxLockouts) {
+    fail(layout, layout.lockouts[kMaxLockouts].line,
+         "a gate has at most " + std::to_string(kMaxLockouts) + " lockouts");
+  }
+  for (const LockoutLayout& lockout : layout.lockouts) {
+    if (lockout.gear == kNeutralGear || column_of_gear(layout, lockout.gear) < 0) {
+      fail(layout, lockout.line,
+           "there is no gear " + std::string(gear_name(lockout.gear)) + " for this lockout to guard");
+    }
+    if (lockout.kind == LockoutKind::after_gear) check_after_gear(layout, lockout);
+    if (lockout.kind == LockoutKind::speed && !(lockout.open_below < lockout.close_above)) {
+      fail(layout, lockout.line,
+           "open_below_kmh must be smaller than close_above_kmh, or the lockout would flicker");
+    }
+  }
+}
+
+}  // namespace
+
+// The buffer is a potential: what it gives across the aisle it takes along it, as a pull to the closed wall
+// that is largest half-way into the buffer, at the open side of the aisle. It must be less than the centring.
+void check_buffers(const GateLayout& layout, const Gate& gate) {
+  const double center = layout.feel.center_force;
+  for (int i = 0; i < gate.buffer_count; ++i) {
+    const Buffer& buffer = gate.buffer[static_cast<std::size_t>(i)];
+    const glm::dvec2 at{0.5 * (buffer.wall + buffer.inner),
+                        buffer.forward_open ? gate.half_aisle : -gate.half_aisle};
+    const double outward = buffer.wall > buffer.inner ? 1.0 : -1.0;
+    const double pull = outward * gate_feel(gate, at).x + center;
+    if (buffer.force <= 0.0 || pull < center) continue;
+    fail(layout, layout.lines.feel,
+         "buffer_force_n = " + number_text(buffer.force) +
+             " would hold the lever at a closed junction: it pulls there with " + number_text(pull, 2) +
+             " N, and center_force_n is only " + number_text(center));
+  }
+}
+
+void check_layout(const GateLayout& layout, glm::dvec2 workspace) {
+  check_widths(layout);
+  check_column_count(layout);
+  check_spacing(layout);
+  check_junctions(layout);
+  check_gears(layout);
+  check_feel(layout);
+  check_workspace(layout, workspace);
+  check_lockouts(layout);
+}
+
+}  // namespace gearshift

@@ -1,0 +1,111 @@
+#include "haptics/gate/gate_compiler.h"
+
+#include <algorithm>
+
+#include "haptics/gate/gate_checks.h"
+#include "haptics/gate/gate_curves.h"
+
+namespace gearshift {
+namespace {
+
+// Share of the slot's width that the paper's rectangular buffer takes at the closed side of a junction. Wide,
+// because what the buffer gives for turning the lever it takes sideways: the narrower, the harder it pulls to
+// the closed wall.
+constexpr double kBufferShare = 0.8;
+
+int add_slot(Gate& gate, int column, Side side, int gear, const GateLayout& layout) {
+  if (gear == kNeutralGear) return kNoSlot;
+  const SlotStations stations = slot_stations(layout);
+  Slot& slot = gate.slot[static_cast<std::size_t>(gate.slot_count)];
+  slot.column = column;
+  slot.side = side;
+  slot.gear = gear;
+  slot.end = stations.end;
+  slot.rest = stations.rest;
+  slot.engage_depth = stations.engage;
+  slot.release_depth = stations.crest;
+  slot.feel = make_feel_curve(slot_knots(layout));
+  return gate.slot_count++;
+}
+
+void add_column(Gate& gate, const ColumnLayout& from, const GateLayout& layout) {
+  const int index = gate.column_count++;
+  Column& column = gate.column[static_cast<std::size_t>(index)];
+  column.center = from.position;
+  column.half_width = layout.slot_width / 2.0;
+  column.forward_slot = add_slot(gate, index, Side::forward, from.forward.gear, layout);
+  column.back_slot = add_slot(gate, index, Side::back, from.back.gear, layout);
+  column.forward = column.forward_slot == kNoSlot ? gate.half_aisle : layout.slot_length;
+  column.back = column.back_slot == kNoSlot ? -gate.half_aisle : -layout.slot_length;
+}
+
+// outward: -1 at the left end of the gate, +1 at the right end.
+void add_buffer(Gate& gate, const Column& column, int outward, const GateLayout& layout) {
+  Buffer& buffer = gate.buffer[static_cast<std::size_t>(gate.buffer_count++)];
+  buffer.wall = column.center + outward * column.half_width;
+  buffer.inner = buffer.wall - outward * kBufferShare * 2.0 * column.half_width;
+  buffer.force = layout.feel.buffer_force;
+  buffer.back_open = column.back_slot != kNoSlot;
+  buffer.forward_open = column.forward_slot != kNoSlot;
+}
+
+void add_buffers(Gate& gate, const GateLayout& layout) {
+  const auto last = layout.columns.size() - 1;
+  if (layout.columns.front().junction == JunctionKind::closed) add_buffer(gate, gate.column[0], -1, layout);
+  if (layout.columns.back().junction == JunctionKind::closed) add_buffer(gate, gate.column[last], +1, layout);
+}
+
+// A column that serves only gears with one and the same guard can be shut off as a whole, as real gates do
+// for reverse: a lateral wall. Only at an end of the gate, because the wall cuts off everything beyond it,
+// and never for after_gear, which is about changing gear inside a column.
+bool can_stand_across(const Gate& gate, int column, LockoutKind kind, const GateLayout& layout) {
+  const bool at_end = column == 0 || column == gate.column_count - 1;
+  if (!at_end || column == gate.neutral_column || kind == LockoutKind::after_gear) return false;
+  const auto guarded = [&](int slot) {
+    if (slot == kNoSlot) return true;
+    const int gear = gate.slot[static_cast<std::size_t>(slot)].gear;
+    return std::any_of(layout.lockouts.begin(), layout.lockouts.end(),
+                       [&](const LockoutLayout& l) { return l.gear == gear && l.kind == kind; });
+  };
+  const Column& c = gate.column[static_cast<std::size_t>(column)];
+  return guarded(c.forward_slot) && guarded(c.back_slot);
+}
+
+void add_lockout(Gate& gate, const LockoutLayout& from, const GateLayout& layout) {
+  Lockout& lockout = gate.lockout[static_cast<std::size_t>(gate.lockout_count++)];
+  lockout.kind = from.kind;
+  lockout.slot = slot_of_gear(gate, from.gear);
+  lockout.after_gear = from.after_gear;
+  lockout.close_above = from.close_above;
+  lockout.open_below = from.open_below;
+
+  const int column = gate.slot[static_cast<std::size_t>(lockout.slot)].column;
+  lockout.lateral = can_stand_across(gate, column, from.kind, layout);
+  if (!lockout.lateral) return;
+  lockout.beyond = column < gate.neutral_column ? -1 : +1;
+  const double own = gate.column[static_cast<std::size_t>(column)].center;
+  const double neighbour = gate.column[static_cast<std::size_t>(column - lockout.beyond)].center;
+  lockout.barrier = (own + neighbour) / 2.0;
+}
+
+}  // namespace
+
+Gate compile_gate(const GateLayout& layout, glm::dvec2 workspace) {
+  check_layout(layout, workspace);
+
+  Gate gate;
+  gate.half_aisle = layout.aisle_width / 2.0;
+  gate.chamfer = layout.chamfer;
+  gate.select_min = layout.columns.front().position - layout.slot_width / 2.0;
+  gate.select_max = layout.columns.back().position + layout.slot_width / 2.0;
+  gate.neutral_column = layout.neutral_column;
+  for (const ColumnLayout& column : layout.columns) add_column(gate, column, layout);
+  add_buffers(gate, layout);
+  for (const LockoutLayout& lockout : layout.lockouts) add_lockout(gate, lockout, layout);
+  gate.aisle_feel = make_feel_curve(aisle_knots(layout));
+  gate.select_feel = make_feel_curve(select_knots(layout));
+  check_buffers(layout, gate);
+  return gate;
+}
+
+}  // namespace gearshift

@@ -1,0 +1,101 @@
+#include "haptics/gate/gate_curves.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gearshift {
+namespace {
+
+// Shares of the slot proper (from the end of the mouth to the end stop), so that the whole curve scales with
+// the slot's length. A real gate has its latch at about a quarter of the way and its lock in the second half.
+constexpr double kBump = 0.14;
+constexpr double kLow = 0.28;
+constexpr double kCrest = 0.42;
+constexpr double kLock = 0.66;
+constexpr double kRest = 0.86;
+
+// Beyond the crest's far side the lock pulls the lever in; three quarters of the way to rest it counts as
+// engaged.
+constexpr double kEngage = kCrest + 0.75 * (kRest - kCrest);
+
+// A spring that softens smoothly into its full force: F(u) = F (3u - u^3)/2, so F(1) = F and F'(1) = 0. With
+// no curvature at u = 0 its odd mirror image joins it with continuous slope. This is its slope there, per (F
+// / length).
+constexpr double kSpringSlope = 1.5;
+
+double spring(double u) {
+  return u * (3.0 - u * u) / 2.0;
+}
+double spring_slope(double u) {
+  return kSpringSlope * (1.0 - u * u);
+}
+
+}  // namespace
+
+SlotStations slot_stations(const GateLayout& layout) {
+  SlotStations s;
+  s.half_aisle = layout.aisle_width / 2.0;
+  s.plateau = s.half_aisle / 2.0;
+  s.mouth = s.half_aisle + layout.chamfer;
+  s.end = layout.slot_length;
+  const double length = s.end - s.mouth;
+  s.bump = s.mouth + kBump * length;
+  s.low = s.mouth + kLow * length;
+  s.crest = s.mouth + kCrest * length;
+  s.lock = s.mouth + kLock * length;
+  s.engage = s.mouth + kEngage * length;
+  s.rest = s.mouth + kRest * length;
+  return s;
+}
+
+std::vector<FeelKnot> aisle_knots(const GateLayout& layout) {
+  const double plateau = slot_stations(layout).plateau;
+  const double force = layout.feel.aisle_force;
+  return {{0.0, 0.0, -kSpringSlope * force / plateau}, {plateau, -force, 0.0}};
+}
+
+// On the chamfers the free space narrows with depth, so that the force towards neutral must not depend on
+// depth there: with a constant force the energy of a point does not depend on which way round the chamfer it
+// was reached. Hence the knot pair (plateau, mouth) at one force, whatever follows deeper in the slot.
+std::vector<FeelKnot> slot_knots(const GateLayout& layout) {
+  const SlotStations s = slot_stations(layout);
+  const FeelLayout& feel = layout.feel;
+  const double low = std::min({feel.aisle_force, feel.mouth_force, feel.detent_force});
+  const double lock_width = s.rest - s.lock;
+  const double stiffness = feel.lock_force / lock_width;  // [N/m] scale of the lock's spring
+  const double past_rest = (s.end - s.rest) / lock_width;
+
+  std::vector<FeelKnot> knots = aisle_knots(layout);
+  if (s.mouth > s.plateau) knots.push_back({s.mouth, -feel.aisle_force, 0.0});
+  knots.push_back({s.bump, -feel.mouth_force, 0.0});
+  knots.push_back({s.low, -low, 0.0});
+  knots.push_back({s.crest, -feel.detent_force, 0.0});
+  knots.push_back({s.lock, feel.lock_force, 0.0});
+  knots.push_back({s.rest, 0.0, -kSpringSlope * stiffness});
+  knots.push_back({s.end, -feel.lock_force * spring(past_rest), -stiffness * spring_slope(past_rest)});
+  return knots;
+}
+
+std::vector<FeelKnot> select_knots(const GateLayout& layout) {
+  const double center = layout.columns.at(static_cast<std::size_t>(layout.neutral_column)).position;
+  const double half_width = layout.slot_width / 2.0;
+  const double force = layout.feel.center_force;
+  return {{center - half_width, force, 0.0},
+          {center, 0.0, -kSpringSlope * force / half_width},
+          {center + half_width, -force, 0.0}};
+}
+
+// Every piece is a spring or an S between two flat ends: the steepest point of both is 3/2 of the mean slope.
+// (The last piece of a slot is the beginning of a spring and no steeper than the piece before it.)
+double steepest_slope(const std::vector<FeelKnot>& knots) {
+  double steepest = 0.0;
+  for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
+    const double mean = (knots[i + 1].force - knots[i].force) / (knots[i + 1].at - knots[i].at);
+    const double ends = std::max(std::abs(knots[i].slope), std::abs(knots[i + 1].slope));
+    const bool flat = knots[i].slope == 0.0 && knots[i + 1].slope == 0.0;
+    steepest = std::max(steepest, flat ? 1.5 * std::abs(mean) : ends);
+  }
+  return steepest;
+}
+
+}  // namespace gearshift

@@ -1,0 +1,94 @@
+#include "haptics/gate/gate_feel.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+namespace gearshift {
+namespace {
+
+// Buffer potential V = -force g(u) W(y): g rises smoothly from the buffer's inner edge to the closed wall,
+// where its slope vanishes, so that pressing into that wall at one y and leaving it at another gives no
+// energy. W is constant beyond the aisle, for the same reason at the aisle's walls.
+struct Rise {
+  double value, slope;  // g, dg/dx
+};
+
+Rise buffer_rise(const Buffer& buffer, double x) noexcept {
+  const double width = buffer.wall - buffer.inner;  // signed: towards the wall
+  const double u = std::clamp((x - buffer.inner) / width, 0.0, 1.0);
+  return {u * u * (3.0 - 2.0 * u), 6.0 * u * (1.0 - u) / width};
+}
+
+struct Turn {
+  double shape, integral;  // w, W(y) [m]
+};
+
+// Both ways open: away from the centre line, peak 1 at h/sqrt(5). One way open: that way, peak 1 at the
+// centre.
+Turn buffer_turn(const Buffer& buffer, double half_aisle, double y) noexcept {
+  const double v = std::clamp(y / half_aisle, -1.0, 1.0);
+  const double rest = 1.0 - v * v;
+  if (buffer.forward_open && buffer.back_open) {
+    const double norm = 25.0 * std::sqrt(5.0) / 16.0;  // 1 / max of v (1 - v^2)^2
+    return {norm * v * rest * rest, norm * half_aisle * (1.0 - rest * rest * rest) / 6.0};
+  }
+  const double sign = buffer.forward_open ? 1.0 : -1.0;
+  const double area = v * (1.0 - v * v * (2.0 / 3.0 - v * v / 5.0)) + sign * 8.0 / 15.0;
+  return {sign * rest * rest, sign * half_aisle * area};
+}
+
+glm::dvec2 buffer_force(const Gate& gate, const Buffer& buffer, glm::dvec2 p) noexcept {
+  const bool inside = buffer.wall < buffer.inner ? p.x < buffer.inner : p.x > buffer.inner;
+  if (!inside) return {0.0, 0.0};
+  const Rise rise = buffer_rise(buffer, p.x);
+  const Turn turn = buffer_turn(buffer, gate.half_aisle, p.y);
+  return {buffer.force * rise.slope * turn.integral, buffer.force * rise.value * turn.shape};
+}
+
+double shift_sign(double y) noexcept {
+  return y < 0.0 ? -1.0 : 1.0;
+}
+
+const FeelCurve& shift_curve(const Gate& gate, glm::dvec2 p) noexcept {
+  const int slot = slot_at(gate, p);
+  return slot == kNoSlot ? gate.aisle_feel : gate.slot[static_cast<std::size_t>(slot)].feel;
+}
+
+}  // namespace
+
+int slot_at(const Gate& gate, glm::dvec2 point) noexcept {
+  if (std::abs(point.y) <= gate.half_aisle) return kNoSlot;
+  const Column& column = gate.column[static_cast<std::size_t>(nearest_column(gate, point.x))];
+  return point.y > 0.0 ? column.forward_slot : column.back_slot;
+}
+
+glm::dvec2 gate_feel(const Gate& gate, glm::dvec2 proxy) noexcept {
+  const double along = feel_force(shift_curve(gate, proxy), std::abs(proxy.y));
+  glm::dvec2 force{feel_force(gate.select_feel, proxy.x), shift_sign(proxy.y) * along};
+  for (int i = 0; i < gate.buffer_count; ++i) {
+    force += buffer_force(gate, gate.buffer[static_cast<std::size_t>(i)], proxy);
+  }
+  return force;
+}
+
+double gate_energy(const Gate& gate, glm::dvec2 proxy) noexcept {
+  double energy = -feel_work(gate.select_feel, proxy.x);
+  energy -= feel_work(shift_curve(gate, proxy), std::abs(proxy.y));
+  for (int i = 0; i < gate.buffer_count; ++i) {
+    const Buffer& buffer = gate.buffer[static_cast<std::size_t>(i)];
+    energy -= buffer.force * buffer_rise(buffer, proxy.x).value *
+              buffer_turn(buffer, gate.half_aisle, proxy.y).integral;
+  }
+  return energy;
+}
+
+double stiffest_feel(const Gate& gate) noexcept {
+  double stiffest = std::max(stiffest_slope(gate.select_feel), stiffest_slope(gate.aisle_feel));
+  for (int i = 0; i < gate.slot_count; ++i) {
+    stiffest = std::max(stiffest, stiffest_slope(gate.slot[static_cast<std::size_t>(i)].feel));
+  }
+  return stiffest;
+}
+
+}  // namespace gearshift

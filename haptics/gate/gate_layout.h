@@ -1,0 +1,73 @@
+// What a person writes about a gearbox, read and range-checked but not yet assembled.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "haptics/gate/gate.h"
+
+namespace gearshift {
+
+enum class JunctionKind { open, closed };  // closed: an end junction with a buffer on its closed side
+
+struct SlotLayout {
+  int gear = kNeutralGear;  // kReverseGear or 1, 2, ...
+  int line = 0;             // where it stands in the file
+};
+
+struct ColumnLayout {
+  double position = 0.0;     // [m] x of the centre line
+  SlotLayout forward, back;  // gear kNeutralGear = no slot on this side
+  JunctionKind junction = JunctionKind::open;
+  int line = 0;
+};
+
+struct LockoutLayout {
+  int gear = kNeutralGear;
+  LockoutKind kind = LockoutKind::push_down;
+  int after_gear = kNeutralGear;
+  double close_above = 20.0 / 3.6;  // [m/s]
+  double open_below = 15.0 / 3.6;   // [m/s]
+  int line = 0;
+};
+
+// Forces in newtons at the knob, distances in metres; the file says mm and N. The curve that they make along
+// a slot is drawn in haptics/gate/README.md.
+struct FeelLayout {
+  double center_force = 3.0;  // [N] select centring towards the neutral column
+  double aisle_force = 1.0;   // [N] shift centring inside the neutral aisle
+  double mouth_force = 4.0;   // [N] bump at the slot's mouth, towards neutral
+  double detent_force = 6.0;  // [N] resistance before the gear
+  double lock_force = 12.0;   // [N] pull-out force of an engaged gear
+  double buffer_force = 4.0;  // [N] turning force in a closed junction's buffer
+};
+
+// Where the parts without a line of their own stand in the file, for messages. 0 = unknown.
+struct LayoutLines {
+  int gate = 0;
+  int slot_length = 0;
+  int feel = 0;
+};
+
+struct GateLayout {
+  std::string name;
+  std::string file;                   // for messages
+  std::string text;                   // the whole file as read, kept for traces
+  std::vector<ColumnLayout> columns;  // from left to right
+  int neutral_column = 0;
+  double aisle_width = 0.012;  // [m] neutral aisle, wall to wall
+  double slot_width = 0.010;   // [m] wall to wall
+  double slot_length = 0.040;  // [m] from the aisle's centre line to the end stop
+  double chamfer = 0.004;      // [m] 45 degree slot mouths
+  FeelLayout feel;
+  std::vector<LockoutLayout> lockouts;
+  LayoutLines lines;
+};
+
+// Throws FileError (haptics/files) with file, line, key, value and allowed range.
+GateLayout read_gate_layout(const std::filesystem::path& file);
+GateLayout parse_gate_layout(std::string_view text, std::string file_name);
+
+}  // namespace gearshift

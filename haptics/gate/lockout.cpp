@@ -1,0 +1,81 @@
+#include "haptics/gate/lockout.h"
+
+#include <cmath>
+#include <cstddef>
+
+namespace gearshift {
+namespace {
+
+bool is_beyond(const Gate& gate, const Lockout& lockout, glm::dvec2 proxy) noexcept {
+  if (lockout.lateral) return lockout.beyond * (proxy.x - lockout.barrier) > 0.0;
+  const Slot& slot = gate.slot[static_cast<std::size_t>(lockout.slot)];
+  const Column& column = gate.column[static_cast<std::size_t>(slot.column)];
+  const bool in_slot = std::abs(proxy.x - column.center) <= column.half_width + gate.chamfer;
+  return in_slot && static_cast<int>(slot.side) * proxy.y > gate.half_aisle + gate.chamfer;
+}
+
+bool has_left_column(const Gate& gate, int gear, glm::dvec2 proxy) noexcept {
+  const int slot = slot_of_gear(gate, gear);
+  if (slot == kNoSlot) return true;
+  const int index = gate.slot[static_cast<std::size_t>(slot)].column;
+  const Column& column = gate.column[static_cast<std::size_t>(index)];
+  return std::abs(proxy.x - column.center) > column.half_width + gate.chamfer;
+}
+
+// The memory of one lockout: stays as it is between its two thresholds.
+bool latch(const Gate& gate, const Lockout& lockout, const LockoutInputs& in, glm::dvec2 proxy,
+           bool was_closed) noexcept {
+  if (lockout.kind == LockoutKind::speed) {
+    const double speed = std::abs(in.road_speed);
+    return speed > lockout.close_above || (was_closed && speed >= lockout.open_below);
+  }
+  if (in.gear == lockout.after_gear) return true;
+  return was_closed && !has_left_column(gate, lockout.after_gear, proxy);
+}
+
+bool is_locked(const Lockout& lockout, const LockoutInputs& in, bool latched) noexcept {
+  switch (lockout.kind) {
+    case LockoutKind::push_down:
+      return !in.pressed_down;
+    case LockoutKind::lift:
+      return !in.lifted;
+    case LockoutKind::speed:
+    case LockoutKind::after_gear:
+      return latched;
+  }
+  return true;
+}
+
+void close(const Lockout& lockout, Passage& passage) noexcept {
+  if (!lockout.lateral) {
+    passage.closed |= 1u << lockout.slot;
+  } else if (lockout.beyond > 0) {
+    passage.select_max = std::fmin(passage.select_max, lockout.barrier);
+  } else {
+    passage.select_min = std::fmax(passage.select_min, lockout.barrier);
+  }
+}
+
+}  // namespace
+
+Passage open_passage(const Gate& gate) noexcept {
+  Passage passage;
+  passage.select_min = gate.select_min;
+  passage.select_max = gate.select_max;
+  return passage;
+}
+
+Passage Lockouts::update(const Gate& gate, const LockoutInputs& in, glm::dvec2 proxy) noexcept {
+  Passage passage = open_passage(gate);
+  for (int i = 0; i < gate.lockout_count; ++i) {
+    const Lockout& lockout = gate.lockout[static_cast<std::size_t>(i)];
+    const std::uint32_t bit = 1u << i;
+    if (lockout.kind == LockoutKind::speed || lockout.kind == LockoutKind::after_gear) {
+      latched_ = latch(gate, lockout, in, proxy, latched_ & bit) ? latched_ | bit : latched_ & ~bit;
+    }
+    if (is_locked(lockout, in, latched_ & bit) && !is_beyond(gate, lockout, proxy)) close(lockout, passage);
+  }
+  return passage;
+}
+
+}  // namespace gearshift

@@ -1,0 +1,386 @@
+// From a layout to a gate: places, curves, lockouts, the list of walls; then any valid layout.
+#include "haptics/gate/gate_compiler.h"
+
+#include <algorithm>
+#include <cmath>
+#include <queue>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "haptics/files/file_error.h"
+#include "tests/support/gates.h"
+#include "tests/support/random_layout.h"
+
+using namespace gearshift;
+using doctest::Approx;
+using glm::dvec2;
+
+namespace {
+
+constexpr int kRandomLayouts = 200;
+
+const Slot& slot_for(const Gate& gate, int gear) {
+  const int slot = slot_of_gear(gate, gear);
+  REQUIRE(slot != kNoSlot);
+  return gate.slot[static_cast<std::size_t>(slot)];
+}
+
+const Slot& slot_for(const Gate&&, int) = delete;  // it would point into a gate that is gone
+
+const Lockout& lockout_at(const Gate& gate, int i) {
+  return gate.lockout[static_cast<std::size_t>(i)];
+}
+
+int count_role(const GateDescription& list, WallRole role) {
+  return static_cast<int>(
+      std::count_if(list.walls.begin(), list.walls.end(), [&](const WallInfo& w) { return w.role == role; }));
+}
+
+// Which gears a point-like lever reaches from neutral, by flooding a grid of 0.5 mm: nothing is known here of
+// aisles.
+bool floods_to_every_gear(const Gate& gate) {
+  constexpr double step = 0.5e-3;
+  constexpr int reach = 160;
+  constexpr int width = 2 * reach + 1;
+  std::vector<char> seen(static_cast<std::size_t>(width) * width, 0);
+  const auto index = [](int i, int j) {
+    return static_cast<std::size_t>(i + reach) * width + static_cast<std::size_t>(j + reach);
+  };
+  std::queue<std::pair<int, int>> front;
+  const auto visit = [&](int i, int j) {
+    if (std::abs(i) > reach || std::abs(j) > reach || seen[index(i, j)]) return;
+    if (!in_free_space(gate, {i * step, j * step}, 1e-9)) return;
+    seen[index(i, j)] = 1;
+    front.emplace(i, j);
+  };
+  const auto cell = [&](double metres) { return static_cast<int>(std::lround(metres / step)); };
+  const dvec2 neutral = rest_position(gate, kNeutralGear);
+  visit(cell(neutral.x), 0);
+  while (!front.empty()) {
+    const auto [i, j] = front.front();
+    front.pop();
+    visit(i + 1, j), visit(i - 1, j), visit(i, j + 1), visit(i, j - 1);
+  }
+  return std::all_of(gate.slot.begin(), gate.slot.begin() + gate.slot_count, [&](const Slot& slot) {
+    const dvec2 rest = rest_position(gate, slot.gear);
+    return seen[index(cell(rest.x), cell(rest.y))] != 0;
+  });
+}
+
+// A wall has free space on one side and none on the other.
+bool separates(const Gate& gate, const WallInfo& wall) {
+  const dvec2 middle = 0.5 * (wall.from + wall.to);
+  const dvec2 along = wall.to - wall.from;
+  const dvec2 across = 20e-6 / std::hypot(along.x, along.y) * dvec2(-along.y, along.x);
+  return in_free_space(gate, middle + across) != in_free_space(gate, middle - across);
+}
+
+// Force rises nowhere faster than 4000 N/m, and its slope nowhere jumps: third-order pieces of at most 40 N
+// over at least 0.7 mm bend by at most 6 F / l^2 per metre, which a kink would exceed at any step.
+void check_smooth(const FeelCurve& curve, double from, double to) {
+  constexpr double step = 1e-6;
+  const double bend = 6.0 * 40.0 / (0.7e-3 * 0.7e-3);
+  for (double at = from; at + 2.0 * step < to; at += step) {
+    const double rise = feel_force(curve, at + step) - feel_force(curve, at);
+    const double turn = feel_slope(curve, at + step) - feel_slope(curve, at);
+    if (std::abs(rise) <= 4001.0 * step && std::abs(turn) <= bend * step) continue;
+    FAIL("force jumps by ", rise, " N, slope by ", turn, " N/m at ", at * 1e3, " mm");
+  }
+}
+
+// On the chamfers neither force may depend on where along itself the lever is.
+void check_constant_at_mouths(const Gate& gate) {
+  for (int i = 0; i <= 20; ++i) {
+    const double depth = gate.half_aisle + gate.chamfer * i / 20.0;
+    for (int s = 0; s < gate.slot_count; ++s) {
+      CHECK(feel_slope(gate.slot[static_cast<std::size_t>(s)].feel, depth) == Approx(0.0).epsilon(1e-9));
+      CHECK(feel_force(gate.slot[static_cast<std::size_t>(s)].feel, depth) ==
+            Approx(feel_force(gate.aisle_feel, gate.half_aisle)));
+    }
+    for (int c = 0; c < gate.column_count; ++c) {
+      const Column& column = gate.column[static_cast<std::size_t>(c)];
+      const double off = column.half_width + gate.chamfer * i / 20.0;
+      for (const double x : {column.center - off, column.center + off}) {
+        CHECK(feel_slope(gate.select_feel, x) == Approx(0.0).epsilon(1e-9));
+      }
+    }
+  }
+}
+
+// Away from the walls a slot has one place to rest, and from wherever the lever is pulled in the gear comes
+// to count.
+void check_lock(const Gate& gate, const Slot& slot) {
+  CHECK(slot.release_depth < slot.engage_depth);
+  CHECK(slot.engage_depth < slot.rest);
+  CHECK(slot.rest < slot.end);
+  double edge = slot.release_depth;
+  while (edge < slot.rest && feel_force(slot.feel, edge) <= 0.0) edge += 1e-6;
+  CHECK(edge > slot.release_depth);
+  CHECK(edge < slot.engage_depth);
+  const auto all_between = [&](double from, double to, auto law) {
+    constexpr int count = 200;
+    for (int i = 1; i < count; ++i) {
+      if (!law(feel_force(slot.feel, from + (to - from) * i / count))) return false;
+    }
+    return true;
+  };
+  CHECK(all_between(gate.half_aisle, edge - 1e-6, [](double force) { return force <= 0.0; }));
+  CHECK(all_between(edge, slot.rest, [](double force) { return force > 0.0; }));
+  CHECK(feel_force(slot.feel, slot.rest) == Approx(0.0));
+  CHECK(all_between(slot.rest, slot.end, [](double force) { return force < 0.0; }));
+}
+
+void check_places(const Gate& gate) {
+  CHECK(gate.select_min == Approx(gate.column[0].center - gate.column[0].half_width));
+  for (std::size_t i = 1; i < static_cast<std::size_t>(gate.column_count); ++i) {
+    const Column& left = gate.column[i - 1];
+    const Column& right = gate.column[i];
+    CHECK(left.center + left.half_width + gate.chamfer < right.center - right.half_width - gate.chamfer);
+  }
+  CHECK(std::abs(gate.select_min) < kPaperWorkspace.x);
+  CHECK(std::abs(gate.select_max) < kPaperWorkspace.x);
+  for (int i = 0; i < gate.slot_count; ++i) {
+    const Slot& slot = gate.slot[static_cast<std::size_t>(i)];
+    CHECK(slot.end < kPaperWorkspace.y);
+    CHECK(in_free_space(gate, rest_position(gate, slot.gear)));
+  }
+}
+
+void check_lockouts(const Gate& gate) {
+  for (int i = 0; i < gate.lockout_count; ++i) {
+    const Lockout& lockout = lockout_at(gate, i);
+    REQUIRE(lockout.slot >= 0);
+    REQUIRE(lockout.slot < gate.slot_count);
+    if (lockout.kind == LockoutKind::speed) CHECK(lockout.open_below < lockout.close_above);
+    if (!lockout.lateral) continue;
+    const Column& own =
+        gate.column[static_cast<std::size_t>(gate.slot[static_cast<std::size_t>(lockout.slot)].column)];
+    CHECK(lockout.beyond * (own.center - lockout.barrier) > own.half_width + gate.chamfer);
+    CHECK(lockout.beyond * (rest_position(gate, kNeutralGear).x - lockout.barrier) < 0.0);
+  }
+}
+
+void check_description(const Gate& gate) {
+  const GateDescription list = describe_gate(gate);
+  CHECK(list.aisles.size() == static_cast<std::size_t>(1 + gate.column_count));
+  CHECK(list.junctions.size() == static_cast<std::size_t>(gate.column_count));
+  CHECK(list.wall_pairs.size() == static_cast<std::size_t>(gate.column_count - 1 + gate.slot_count));
+  CHECK(count_role(list, WallRole::end_stop) == gate.slot_count);
+  std::vector<int> walls_of(list.wall_pairs.size(), 0);
+  for (const WallInfo& wall : list.walls) {
+    CAPTURE(wall.from.x);
+    CAPTURE(wall.from.y);
+    CHECK(separates(gate, wall));
+    CHECK((wall.pair >= 0) == (wall.role == WallRole::aisle));
+    if (wall.pair >= 0) ++walls_of.at(static_cast<std::size_t>(wall.pair));
+  }
+  CHECK(std::all_of(walls_of.begin(), walls_of.end(), [](int count) { return count == 2; }));
+}
+
+// A small layout to vary: two columns, 1/2 neutral on the left, 3 and R on the right.
+GateLayout small_layout() {
+  GateLayout layout;
+  layout.file = "small.toml";
+  layout.columns.resize(2);
+  layout.columns[0].forward.gear = 1;
+  layout.columns[0].back.gear = 2;
+  layout.columns[1].position = 0.030;
+  layout.columns[1].forward.gear = 3;
+  layout.columns[1].back.gear = kReverseGear;
+  return layout;
+}
+
+LockoutLayout guard(int gear, LockoutKind kind) {
+  LockoutLayout lockout;
+  lockout.gear = gear;
+  lockout.kind = kind;
+  return lockout;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "the paper's gate: one horizontal and three vertical aisles, three junctions, eight pairs of walls") {
+  const GateDescription list = describe_gate(paper_gate());
+  CHECK(std::count_if(list.aisles.begin(), list.aisles.end(),
+                      [](const AisleInfo& a) { return a.horizontal; }) == 1);
+  CHECK(std::count_if(list.aisles.begin(), list.aisles.end(),
+                      [](const AisleInfo& a) { return !a.horizontal; }) == 3);
+
+  REQUIRE(list.junctions.size() == 3);
+  const auto& [first, second, third] = std::tie(list.junctions[0], list.junctions[1], list.junctions[2]);
+  CHECK(first.name == "I");
+  CHECK((!first.left && first.right && first.forward && first.back && first.buffer));
+  CHECK(second.name == "II");
+  CHECK((second.left && second.right && second.forward && second.back && !second.buffer));
+  CHECK(third.name == "III");
+  CHECK((third.left && !third.right && third.forward && third.back && third.buffer));
+
+  REQUIRE(list.wall_pairs.size() == 8);
+  const auto horizontal = [](const WallPairInfo& pair) { return pair.horizontal; };
+  CHECK(std::count_if(list.wall_pairs.begin(), list.wall_pairs.end(), horizontal) == 2);
+  CHECK(count_role(list, WallRole::aisle) == 16);
+  CHECK(count_role(list, WallRole::end_stop) == 6);
+  CHECK(count_role(list, WallRole::closed_side) == 2);
+  CHECK(count_role(list, WallRole::chamfer) == 8);
+}
+
+TEST_CASE("the paper's gate stands where its file puts it") {
+  const Gate gate = paper_gate();
+  CHECK(gate.half_aisle == Approx(0.006));
+  CHECK(gate.select_min == Approx(-0.035));
+  CHECK(gate.select_max == Approx(0.035));
+  CHECK(gate.neutral_column == 1);
+  CHECK(rest_position(gate, 1).x == Approx(-0.030));
+  CHECK(rest_position(gate, 1).y > 0.0);
+  CHECK(rest_position(gate, kReverseGear).x == Approx(0.030));
+  CHECK(rest_position(gate, kReverseGear).y < 0.0);
+
+  REQUIRE(gate.buffer_count == 2);
+  CHECK(gate.buffer[0].wall == Approx(-0.035));
+  CHECK(gate.buffer[0].inner == Approx(-0.027));  // 0.8 of the slot's 10 mm
+  CHECK(gate.buffer[1].wall == Approx(0.035));
+  CHECK(gate.buffer[1].inner == Approx(0.027));
+  CHECK((gate.buffer[1].back_open && gate.buffer[1].forward_open));
+}
+
+// Slot proper from 10 to 40 mm; the shares .14 .28 .42 .66 .86 of 30 mm; forces of the file. Between two flat
+// peaks a cubic passes the mean of both half-way, and 27/32 of the way up after three quarters.
+TEST_CASE("the feel along the paper's slots has the forces of the file at the places of the README") {
+  const Gate gate = paper_gate();
+  const Slot& slot = slot_for(gate, 3);
+  const auto force = [&](double millimetres) { return feel_force(slot.feel, millimetres * 1e-3); };
+  CHECK(force(0.0) == Approx(0.0));
+  CHECK(force(1.5) == Approx(-11.0 / 16.0));  // (3u - u^3)/2 at u = 1/2
+  CHECK(force(3.0) == Approx(-1.0));
+  CHECK(force(10.0) == Approx(-1.0));
+  CHECK(force(14.2) == Approx(-4.0));
+  CHECK(force(18.4) == Approx(-1.0));
+  CHECK(force(22.6) == Approx(-6.0));
+  CHECK(force(26.2) == Approx(3.0));
+  CHECK(force(28.0) == Approx(-6.0 + 18.0 * 27.0 / 32.0));
+  CHECK(force(29.8) == Approx(12.0));
+  CHECK(force(32.8) == Approx(12.0 * 11.0 / 16.0));
+  CHECK(force(35.8) == Approx(0.0).epsilon(1e-9));
+  CHECK(force(38.8) == Approx(-12.0 * 11.0 / 16.0));
+  CHECK(slot.rest == Approx(0.0358));
+  CHECK(slot.engage_depth == Approx(0.0325));
+  CHECK(slot.release_depth == Approx(0.0226));
+  CHECK(slot.end == Approx(0.040));
+}
+
+TEST_CASE("the select force pulls to the neutral column with its full strength from its slot's wall on") {
+  const Gate gate = paper_gate();
+  CHECK(feel_force(gate.select_feel, -0.030) == Approx(3.0));
+  CHECK(feel_force(gate.select_feel, -0.005) == Approx(3.0));
+  CHECK(feel_force(gate.select_feel, 0.0) == Approx(0.0));
+  CHECK(feel_force(gate.select_feel, 0.0025) == Approx(-3.0 * 11.0 / 16.0));
+  CHECK(feel_force(gate.select_feel, 0.005) == Approx(-3.0));
+  CHECK(feel_force(gate.select_feel, 0.035) == Approx(-3.0));
+}
+
+TEST_CASE("a lockout stands across the aisle only if its column serves nothing else") {
+  GateLayout layout = small_layout();
+  layout.lockouts = {guard(kReverseGear, LockoutKind::push_down)};
+  CHECK_FALSE(lockout_at(compile_gate(layout, kPaperWorkspace), 0).lateral);
+
+  layout.columns[1].forward.gear = kNeutralGear;  // R alone in its column
+  const Gate alone = compile_gate(layout, kPaperWorkspace);
+  CHECK(lockout_at(alone, 0).lateral);
+  CHECK(lockout_at(alone, 0).barrier == Approx(0.015));
+  CHECK(lockout_at(alone, 0).beyond == +1);
+
+  layout.columns[1].forward.gear = 3;  // both gears of the column behind the same guard
+  layout.lockouts.push_back(guard(3, LockoutKind::push_down));
+  CHECK(lockout_at(compile_gate(layout, kPaperWorkspace), 0).lateral);
+  layout.lockouts[1].kind = LockoutKind::lift;  // behind different ones: each closes its own slot
+  CHECK_FALSE(lockout_at(compile_gate(layout, kPaperWorkspace), 0).lateral);
+  CHECK_FALSE(lockout_at(compile_gate(layout, kPaperWorkspace), 1).lateral);
+}
+
+TEST_CASE("a lockout never stands across the way to another column, nor before the neutral column") {
+  GateLayout layout = small_layout();
+  layout.columns[1].forward.gear = kNeutralGear;
+  layout.columns.push_back({});
+  layout.columns[2].position = 0.060;
+  layout.columns[2].forward.gear = 3;
+  layout.lockouts = {guard(kReverseGear, LockoutKind::lift)};
+  CHECK_FALSE(lockout_at(compile_gate(layout, kPaperWorkspace), 0).lateral);
+
+  GateLayout at_home = small_layout();
+  at_home.lockouts = {guard(1, LockoutKind::lift), guard(2, LockoutKind::lift)};
+  CHECK_FALSE(lockout_at(compile_gate(at_home, kPaperWorkspace), 0).lateral);
+}
+
+TEST_CASE("a layout made by a program is refused like one from a file") {
+  const auto refused = [](const GateLayout& layout) {
+    try {
+      compile_gate(layout, kPaperWorkspace);
+    } catch (const FileError& error) {
+      return std::string(error.what());
+    }
+    return std::string("not refused");
+  };
+  GateLayout layout = small_layout();
+  CHECK(refused(layout) == "not refused");
+  layout.aisle_width = 0.0039;
+  CHECK(refused(layout) == "small.toml: an aisle of 3.9 mm is too narrow: it needs at least 4 mm");
+  layout.aisle_width = std::nan("");
+  CHECK(refused(layout).find("is too narrow") != std::string::npos);
+  layout = small_layout();
+  layout.columns[1].position = std::nan("");
+  CHECK(refused(layout).find("does not lie to the right") != std::string::npos);
+  layout = small_layout();
+  layout.neutral_column = 2;
+  CHECK(refused(layout) == "small.toml: the neutral column is none of the columns");
+  layout = small_layout();
+  layout.lockouts.assign(kMaxLockouts + 1, guard(1, LockoutKind::lift));
+  CHECK(refused(layout) == "small.toml: a gate has at most 16 lockouts");
+}
+
+TEST_CASE("a column with a gear on one side only is closed on the other") {
+  GateLayout layout = small_layout();
+  layout.columns[1].forward.gear = kNeutralGear;
+  layout.columns[1].junction = JunctionKind::closed;
+  layout.feel.buffer_force = 2.0;
+  const Gate gate = compile_gate(layout, kPaperWorkspace);
+  CHECK(gate.column[1].forward == Approx(gate.half_aisle));
+  CHECK(gate.column[1].forward_slot == kNoSlot);
+  REQUIRE(gate.buffer_count == 1);
+  CHECK((gate.buffer[0].back_open && !gate.buffer[0].forward_open));
+  const JunctionInfo junction = describe_gate(gate).junctions.at(1);
+  CHECK((junction.left && !junction.right && !junction.forward && junction.back && junction.buffer));
+}
+
+TEST_CASE("any valid layout compiles to a gate that keeps the laws") {
+  for (std::uint64_t seed = 1; seed <= kRandomLayouts; ++seed) {
+    CAPTURE(seed);
+    const Gate gate = compile_gate(random_layout(seed), kPaperWorkspace);
+    check_places(gate);
+    check_lockouts(gate);
+    check_description(gate);
+    check_constant_at_mouths(gate);
+    for (int i = 0; i < gate.slot_count; ++i) check_lock(gate, gate.slot[static_cast<std::size_t>(i)]);
+    check_smooth(gate.slot[0].feel, 0.0, gate.slot[0].end);
+    check_smooth(gate.select_feel, gate.select_min, gate.select_max);
+    CHECK(floods_to_every_gear(gate));
+  }
+}
+
+TEST_CASE("random layouts are the same everywhere and differ from each other") {
+  CHECK(random_layout_text(7) == random_layout_text(7));
+  CHECK(random_layout_text(7) != random_layout_text(8));
+  int with_lockouts = 0, with_buffers = 0, with_reverse = 0;
+  for (std::uint64_t seed = 1; seed <= kRandomLayouts; ++seed) {
+    const Gate gate = compile_gate(random_layout(seed), kPaperWorkspace);
+    with_lockouts += gate.lockout_count > 0;
+    with_buffers += gate.buffer_count > 0;
+    with_reverse += slot_of_gear(gate, kReverseGear) != kNoSlot;
+  }
+  // A generator that never makes something tests nothing about it.
+  CHECK(with_lockouts > kRandomLayouts / 4);
+  CHECK(with_buffers > kRandomLayouts / 4);
+  CHECK(with_reverse > kRandomLayouts / 4);
+}

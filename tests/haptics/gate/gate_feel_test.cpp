@@ -1,0 +1,136 @@
+// The mechanism's forces: a potential, continuous, and doing at each place what the paper and real boxes say.
+#include "haptics/gate/gate_feel.h"
+
+#include <cmath>
+#include <random>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include "tests/support/gates.h"
+
+using namespace gearshift;
+using glm::dvec2;
+
+namespace {
+
+dvec2 random_free_point(const Gate& gate, std::mt19937_64& random) {
+  std::uniform_real_distribution<double> x(gate.select_min, gate.select_max), y(-0.07, 0.07);
+  for (;;) {
+    const dvec2 p{x(random), y(random)};
+    if (in_free_space(gate, p)) return p;
+  }
+}
+
+// Central differences of the energy: an independent way to the force.
+dvec2 minus_gradient(const Gate& gate, dvec2 p) {
+  constexpr double h = 1e-7;
+  return {(gate_energy(gate, {p.x - h, p.y}) - gate_energy(gate, {p.x + h, p.y})) / (2.0 * h),
+          (gate_energy(gate, {p.x, p.y - h}) - gate_energy(gate, {p.x, p.y + h})) / (2.0 * h)};
+}
+
+}  // namespace
+
+TEST_CASE("feel is the negative gradient of one energy, everywhere in every gate") {
+  std::mt19937_64 random(7);
+  for (const std::string& name : shipped_names()) {
+    CAPTURE(name);
+    const Gate gate = shipped_gate(name);
+    for (int i = 0; i < 20000; ++i) {
+      const dvec2 p = random_free_point(gate, random);
+      if (std::abs(std::abs(p.y) - gate.half_aisle) < 1e-6) continue;  // a difference across a seam
+      REQUIRE(glm::distance(gate_feel(gate, p), minus_gradient(gate, p)) < 1e-4);
+    }
+  }
+}
+
+TEST_CASE("feel is continuous: no step larger than its largest slope allows") {
+  const Gate gate = paper_gate();
+  std::mt19937_64 random(8);
+  std::uniform_real_distribution<double> angle(0.0, 6.2831853);
+  for (int i = 0; i < 100000; ++i) {
+    const dvec2 p = random_free_point(gate, random);
+    const double a = angle(random);
+    const dvec2 q = p + 1e-6 * dvec2{std::cos(a), std::sin(a)};
+    if (!in_free_space(gate, q)) continue;
+    REQUIRE(glm::distance(gate_feel(gate, p), gate_feel(gate, q)) < 1e-6 * 20000.0);
+  }
+}
+
+TEST_CASE("a lever is centred to the neutral column, and to the middle of the neutral aisle") {
+  for (const std::string& name : shipped_names()) {
+    CAPTURE(name);
+    const Gate gate = shipped_gate(name);
+    const double neutral = rest_position(gate, kNeutralGear).x;
+    for (int i = 1; i < gate.column_count; ++i) {
+      const auto& a = gate.column[static_cast<std::size_t>(i - 1)];
+      const auto& b = gate.column[static_cast<std::size_t>(i)];
+      const double between = 0.5 * (a.center + b.center);
+      CHECK(gate_feel(gate, {between, 0.0}).x * (neutral - between) > 0.0);
+      CHECK(gate_feel(gate, {between, 0.9 * gate.half_aisle}).y < 0.0);
+      CHECK(gate_feel(gate, {between, -0.9 * gate.half_aisle}).y > 0.0);
+    }
+    CHECK(glm::length(gate_feel(gate, {neutral, 0.0})) < 1e-12);
+  }
+}
+
+TEST_CASE("every gear is a rest: no force there, pushed back from both sides") {
+  for (const std::string& name : shipped_names()) {
+    CAPTURE(name);
+    const Gate gate = shipped_gate(name);
+    for (int i = 0; i < gate.slot_count; ++i) {
+      const Slot& slot = gate.slot[static_cast<std::size_t>(i)];
+      CAPTURE(gear_name(slot.gear));
+      CHECK(std::abs(feel_force(slot.feel, slot.rest)) < 1e-9);
+      CHECK(feel_force(slot.feel, slot.rest - 0.001) > 0.2);
+      CHECK(feel_force(slot.feel, slot.end) < 0.0);
+      CHECK(slot.release_depth < slot.engage_depth);
+      CHECK(slot.engage_depth < slot.rest);
+    }
+  }
+}
+
+TEST_CASE("pulling out of a gear takes the lock's force, from the layout file") {
+  const GateLayout layout = read_gate_layout(GEARSHIFT_ASSETS "/gates/paper.toml");
+  const Gate gate = compile_gate(layout, kPaperWorkspace);
+  for (int i = 0; i < gate.slot_count; ++i) {
+    const Slot& slot = gate.slot[static_cast<std::size_t>(i)];
+    double hardest = 0.0;
+    for (double depth = slot.rest; depth > slot.release_depth; depth -= 1e-6) {
+      hardest = std::max(hardest, feel_force(slot.feel, depth));
+    }
+    CHECK(hardest == doctest::Approx(layout.feel.lock_force).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("paper, Fig. 7 (c): in the buffer of junctions I and III a vertical force turns the lever") {
+  const Gate gate = paper_gate();
+  REQUIRE(gate.buffer_count == 2);
+  for (int i = 0; i < 2; ++i) {
+    const Buffer& buffer = gate.buffer[static_cast<std::size_t>(i)];
+    const double half = 0.5 * gate.half_aisle;
+    const double inside = buffer.wall + 0.1 * (buffer.inner - buffer.wall);
+    CHECK(gate_feel(gate, {inside, half}).y > 0.5);
+    CHECK(gate_feel(gate, {inside, -half}).y < -0.5);
+    // and none before the lever enters it
+    const double outside = buffer.inner + 0.001 * (buffer.inner > buffer.wall ? 1.0 : -1.0);
+    CHECK(gate_feel(gate, {outside, half}).y <= 0.0);
+  }
+}
+
+TEST_CASE("a buffer never holds a free lever: centring is stronger than its pull to the closed wall") {
+  for (const std::string& name : shipped_names()) {
+    CAPTURE(name);
+    const Gate gate = shipped_gate(name);
+    const double neutral = rest_position(gate, kNeutralGear).x;
+    for (int i = 0; i < gate.buffer_count; ++i) {
+      const Buffer& buffer = gate.buffer[static_cast<std::size_t>(i)];
+      for (double s = 0.0; s <= 1.0; s += 0.01) {
+        for (double y = -1.5; y <= 1.5; y += 0.05) {
+          const double x = buffer.inner + s * (buffer.wall - buffer.inner);
+          REQUIRE(gate_feel(gate, {x, y * gate.half_aisle}).x * (neutral - x) > 0.0);
+        }
+      }
+    }
+  }
+}

@@ -1,0 +1,102 @@
+// Movable walls: each kind closes and opens when it should, and never on a lever that is beyond it.
+#include "haptics/gate/lockout.h"
+
+#include <doctest/doctest.h>
+
+#include "tests/support/gates.h"
+
+using namespace gearshift;
+using glm::dvec2;
+
+namespace {
+
+constexpr double kKmh = 1.0 / 3.6;
+
+Gate gate_with(Lockout lockout) {
+  Gate gate = paper_gate();
+  lockout.slot = slot_of_gear(gate, kReverseGear);
+  gate.lockout[0] = lockout;
+  gate.lockout_count = 1;
+  return gate;
+}
+
+bool reverse_closed(const Gate& gate, const Passage& passage) {
+  return (passage.closed >> slot_of_gear(gate, kReverseGear) & 1u) != 0;
+}
+
+}  // namespace
+
+TEST_CASE("push-down and lift: closed, open while held") {
+  for (const LockoutKind kind : {LockoutKind::push_down, LockoutKind::lift}) {
+    Lockout lockout;
+    lockout.kind = kind;
+    const Gate gate = gate_with(lockout);
+    Lockouts lockouts;
+    LockoutInputs in;
+    CHECK(reverse_closed(gate, lockouts.update(gate, in, {0.0, 0.0})));
+    (kind == LockoutKind::push_down ? in.pressed_down : in.lifted) = true;
+    CHECK_FALSE(reverse_closed(gate, lockouts.update(gate, in, {0.0, 0.0})));
+    in = {};
+    (kind == LockoutKind::push_down ? in.lifted : in.pressed_down) = true;  // the wrong button
+    CHECK(reverse_closed(gate, lockouts.update(gate, in, {0.0, 0.0})));
+  }
+}
+
+TEST_CASE("reverse closes above 20 km/h and opens below 15 km/h, forwards and backwards") {
+  Lockout lockout;
+  lockout.kind = LockoutKind::speed;
+  lockout.close_above = 20.0 * kKmh;
+  lockout.open_below = 15.0 * kKmh;
+  const Gate gate = gate_with(lockout);
+  Lockouts lockouts;
+  const auto closed_at = [&](double kmh) {
+    LockoutInputs in;
+    in.road_speed = kmh * kKmh;
+    return reverse_closed(gate, lockouts.update(gate, in, {0.0, 0.0}));
+  };
+  CHECK_FALSE(closed_at(0.0));
+  CHECK_FALSE(closed_at(19.9));
+  CHECK(closed_at(20.1));
+  CHECK(closed_at(15.1));
+  CHECK_FALSE(closed_at(14.9));
+  CHECK_FALSE(closed_at(19.9));
+  CHECK(closed_at(-20.1));
+}
+
+TEST_CASE("no direct 5 to R: closed from 5th until the lever has left the column") {
+  Lockout lockout;
+  lockout.kind = LockoutKind::after_gear;
+  lockout.after_gear = 5;
+  const Gate gate = gate_with(lockout);
+  Lockouts lockouts;
+  const dvec2 fifth = rest_position(gate, 5);
+  LockoutInputs in;
+  CHECK_FALSE(reverse_closed(gate, lockouts.update(gate, in, {fifth.x, 0.0})));  // straight from neutral
+  in.gear = 5;
+  CHECK(reverse_closed(gate, lockouts.update(gate, in, fifth)));
+  in.gear = kNeutralGear;
+  CHECK(reverse_closed(gate, lockouts.update(gate, in, {fifth.x, 0.0})));
+  CHECK_FALSE(reverse_closed(gate, lockouts.update(gate, in, {0.0, 0.0})));
+  CHECK_FALSE(reverse_closed(gate, lockouts.update(gate, in, {fifth.x, 0.0})));
+}
+
+TEST_CASE("a wall never closes on a lever that is beyond it") {
+  Lockout lockout;
+  lockout.kind = LockoutKind::push_down;
+  const Gate gate = gate_with(lockout);
+  Lockouts lockouts;
+  CHECK_FALSE(reverse_closed(gate, lockouts.update(gate, {}, rest_position(gate, kReverseGear))));
+}
+
+TEST_CASE("a lateral lockout narrows the neutral aisle on its side only") {
+  Lockout lockout;
+  lockout.lateral = true;
+  lockout.barrier = 0.020;
+  lockout.beyond = 1;
+  const Gate gate = gate_with(lockout);
+  Lockouts lockouts;
+  const Passage closed = lockouts.update(gate, {}, {0.0, 0.0});
+  CHECK(closed.select_max == 0.020);
+  CHECK(closed.select_min == gate.select_min);
+  CHECK(lockouts.update(gate, {}, {0.021, 0.0}).select_max == gate.select_max);
+}

@@ -1,0 +1,33 @@
+// The shipped gates, compiled for the paper's joystick.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "haptics/gate/gate_compiler.h"
+#include "haptics/gate/gate_layout.h"
+
+namespace gearshift {
+
+inline constexpr glm::dvec2 kPaperWorkspace{0.0771, 0.0688};  // [m] rho sin(40 deg), rho sin(35 deg)
+
+inline Gate shipped_gate(const std::string& name) {
+  return compile_gate(read_gate_layout(GEARSHIFT_ASSETS "/gates/" + name + ".toml"), kPaperWorkspace);
+}
+
+inline Gate paper_gate() {
+  return shipped_gate("paper");
+}
+
+inline std::vector<std::string> shipped_names() {
+  return {"paper",
+          "five_speed_r_left_up",
+          "five_speed_r_right_down",
+          "six_speed_r_left_up",
+          "six_speed_r_left_down",
+          "six_speed_r_right_down",
+          "dog_leg_five",
+          "four_speed"};
+}
+
+}  // namespace gearshift

@@ -1,0 +1,16 @@
+// Gate layouts for property tests: any gate that a person could write, valid by construction.
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+#include "haptics/gate/gate_layout.h"
+
+namespace gearshift {
+
+// The same seed gives the same file on every machine. It fits the paper's joystick (half extent 77.1 x 68.8
+// mm).
+std::string random_layout_text(std::uint64_t seed);
+GateLayout random_layout(std::uint64_t seed);  // the same, read; in messages its file is "random_SEED.toml"
+
+}  // namespace gearshift
