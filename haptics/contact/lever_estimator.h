@@ -1,0 +1,49 @@
+// Position and velocity of the lever from encoder readings.
+#pragma once
+
+#include <cstdint>
+
+#include <glm/vec2.hpp>
+
+#include "haptics/device/haptic_device.h"
+
+namespace gearshift {
+
+struct LeverMotion {
+  glm::dvec2 position{0.0};         // [m] newest trusted sample
+  glm::dvec2 velocity{0.0};         // [m/s] difference of the last two samples: no lag, one quantum of noise
+  glm::dvec2 smooth_velocity{0.0};  // [m/s] low-passed, for damping in free space
+  bool fresh = false;               // this cycle brought a new, finite, possible sample
+};
+
+struct EstimatorConfig {
+  double smoothing = 0.004;   // [s] time constant of smooth_velocity
+  double speed_limit = 10.0;  // [m/s] a faster jump between samples is not believed
+};
+
+class LeverEstimator {
+ public:
+  LeverEstimator(const EstimatorConfig& config, double period) noexcept;  // period [s]
+
+  // Motion after one reading. Not finite, jumping, backward or repeated readings are not fresh: position and
+  // velocity are held. After 50 ms without a believed sample the next finite one is taken as a new start with
+  // zero velocity. Real-time safe.
+  LeverMotion update(const LeverReading& reading) noexcept;
+
+ private:
+  LeverMotion hold() noexcept;
+  LeverMotion restart(const LeverReading& reading) noexcept;
+  void accept(const LeverReading& reading, glm::dvec2 velocity) noexcept;
+
+  EstimatorConfig config_;
+  double period_;
+  double blend_;  // [1] of the newest sample in smooth_velocity
+  LeverMotion motion_;
+  std::uint64_t sequence_ = 0;       // of the last believed sample
+  std::uint64_t seen_sequence_ = 0;  // of the last one, believed or not
+  std::int64_t seen_time_ns_ = 0;
+  double unbelieved_ = 0.0;  // [s] since the last believed sample
+  bool started_ = false;
+};
+
+}  // namespace gearshift

@@ -1,0 +1,78 @@
+// Motion from readings, and what is not believed.
+#include "haptics/contact/lever_estimator.h"
+
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+
+#include <doctest/doctest.h>
+
+using namespace gearshift;
+using glm::dvec2;
+
+namespace {
+
+constexpr double kPeriod = 0.001;
+constexpr std::int64_t kPeriodNs = 1'000'000;
+
+LeverReading reading(std::uint64_t sequence, dvec2 position) {
+  LeverReading r;
+  r.sequence = sequence;
+  r.time_ns = static_cast<std::int64_t>(sequence) * kPeriodNs;
+  r.position = position;
+  return r;
+}
+
+LeverEstimator moving_estimator(double speed, int samples) {
+  LeverEstimator estimator({}, kPeriod);
+  for (int i = 1; i <= samples; ++i)
+    estimator.update(reading(static_cast<std::uint64_t>(i), {speed * kPeriod * i, 0.0}));
+  return estimator;
+}
+
+}  // namespace
+
+TEST_CASE("constant speed is measured exactly; the smooth one follows 1 - exp(-t / tau)") {
+  LeverEstimator estimator({}, kPeriod);
+  estimator.update(reading(1, {0.0, 0.0}));
+  for (int i = 1; i <= 40; ++i) {
+    const LeverMotion m =
+        estimator.update(reading(static_cast<std::uint64_t>(i + 1), {0.3 * kPeriod * i, 0.0}));
+    CHECK(m.velocity.x == doctest::Approx(0.3));
+    CHECK(m.smooth_velocity.x == doctest::Approx(0.3 * (1.0 - std::exp(-i * kPeriod / 0.004))));
+  }
+}
+
+TEST_CASE("a dropped sample does not double the speed") {
+  LeverEstimator estimator = moving_estimator(0.3, 10);
+  CHECK(estimator.update(reading(12, {0.3 * kPeriod * 12, 0.0})).velocity.x == doctest::Approx(0.3));
+}
+
+TEST_CASE("repeated, backward, impossible and not finite readings are not fresh and change nothing") {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  const dvec2 last{0.3 * kPeriod * 10, 0.0};
+  LeverReading backward = reading(11, last);
+  backward.time_ns = 5 * kPeriodNs;
+  for (const LeverReading& bad : {reading(10, last), backward, reading(9, last), reading(11, {0.06, 0.0}),
+                                  reading(11, {nan, 0.0}), reading(11, {0.0, inf})}) {
+    LeverEstimator estimator = moving_estimator(0.3, 10);
+    const LeverMotion m = estimator.update(bad);
+    CHECK_FALSE(m.fresh);
+    CHECK(m.position == last);
+    CHECK(m.velocity.x == doctest::Approx(0.3));
+  }
+}
+
+TEST_CASE("a lever that really is elsewhere is taken up again after 50 ms, at rest") {
+  LeverEstimator estimator = moving_estimator(0.3, 10);
+  LeverMotion m;
+  std::uint64_t sequence = 11;
+  int cycles = 0;
+  do {
+    m = estimator.update(reading(sequence++, {0.06, 0.0}));
+    ++cycles;
+  } while (!m.fresh && cycles < 1000);
+  CHECK(cycles == doctest::Approx(51).epsilon(0.02));
+  CHECK(m.position == dvec2{0.06, 0.0});
+  CHECK(m.velocity == dvec2{0.0, 0.0});
+}

@@ -1,0 +1,75 @@
+// Half-sample hold against the integral it stands for.
+#include "haptics/contact/virtual_coupling.h"
+
+#include <cmath>
+#include <random>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include "tests/support/gates.h"
+
+using namespace gearshift;
+using glm::dvec2;
+
+namespace {
+
+constexpr double kPeriod = 0.001;
+constexpr double kHandOver = 0.5e-3;
+
+// Force at the neutral aisle's upper wall, midway between two columns: one flat wall.
+double wall_force(const Gate& gate, const Coupling& coupling, double depth, double speed) {
+  const double x = 0.5 * (gate.column[0].center + gate.column[1].center);
+  const Proxy proxy{{x, std::min(gate.half_aisle, gate.half_aisle + depth)}, {x, gate.half_aisle + depth}};
+  LeverMotion motion;
+  motion.position = {x, gate.half_aisle + depth};
+  motion.velocity = {0.0, speed};
+  return -couple(coupling, gate, open_passage(gate), proxy, motion, kHandOver).y;
+}
+
+// Mean spring force over the coming period by quadrature: the answer that the hold must equal.
+double mean_spring_force(double stiffness, double depth, double speed, double horizon) {
+  const int n = 200000;
+  double sum = 0.0;
+  for (int i = 0; i < n; ++i) sum += std::max(0.0, depth + speed * horizon * (i + 0.5) / n);
+  return stiffness * sum / n;
+}
+
+}  // namespace
+
+TEST_CASE("the held force is the mean spring force of the coming period: inside, entering and leaving") {
+  const Gate gate = paper_gate();
+  const Coupling spring{5000.0, 0.0, kPeriod};
+  const struct {
+    double depth, speed;
+  } cases[] = {{1e-3, 0.0},  {1e-3, 0.3},    {2e-3, -0.5},   {-0.1e-3, 0.3}, {-0.29e-3, 0.3},
+               {-1e-3, 0.5}, {0.1e-3, -0.3}, {0.2e-3, -1.0}, {0.3e-3, -0.3}, {-0.2e-3, 1.0}};
+  for (const auto& c : cases) {
+    CAPTURE(c.depth);
+    CAPTURE(c.speed);
+    const double expected = mean_spring_force(5000.0, c.depth, c.speed, kPeriod);
+    CHECK(wall_force(gate, spring, c.depth, c.speed) == doctest::Approx(expected).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("inside the wall the hold is a damper of KT/2: Minsky's 0.5 (paper eq 22)") {
+  const Gate gate = paper_gate();
+  const Coupling spring{5000.0, 0.0, kPeriod};
+  const double still = wall_force(gate, spring, 2e-3, 0.0), moving = wall_force(gate, spring, 2e-3, 0.1);
+  CHECK((moving - still) / 0.1 == doctest::Approx(5000.0 * kPeriod / 2.0));
+}
+
+TEST_CASE("a wall never pulls, however fast the lever leaves it") {
+  const Gate gate = paper_gate();
+  const Coupling coupling{5000.0, 20.0, kPeriod};
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> depth(0.0, 5e-3), speed(-20.0, 20.0);
+  for (int i = 0; i < 10000; ++i) REQUIRE(wall_force(gate, coupling, depth(random), speed(random)) >= 0.0);
+}
+
+TEST_CASE("no force in free space that is not about to end") {
+  const Gate gate = paper_gate();
+  const Coupling coupling{5000.0, 10.0, kPeriod};
+  CHECK(wall_force(gate, coupling, -1e-3, 0.9) == 0.0);
+  CHECK(wall_force(gate, coupling, -1e-3, -5.0) == 0.0);
+}
