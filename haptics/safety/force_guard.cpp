@@ -1,0 +1,110 @@
+#include "haptics/safety/force_guard.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+
+namespace gearshift {
+namespace {
+
+using glm::dvec2;
+
+bool is_finite(dvec2 v) noexcept {
+  return std::isfinite(v.x) && std::isfinite(v.y);
+}
+
+}  // namespace
+
+const char* guard_state_name(GuardState state) noexcept {
+  static constexpr const char* kNames[] = {"idle", "armed", "ramping", "running", "damped", "released"};
+  return kNames[static_cast<int>(state)];
+}
+
+const char* guard_fault_name(GuardFault fault) noexcept {
+  static constexpr const char* kNames[] = {"none",       "stale reading", "overruns",
+                                           "not finite", "limit broken",  "stopped"};
+  return kNames[static_cast<int>(fault)];
+}
+
+ForceGuard::ForceGuard(const GuardConfig& config, const DeviceSpec& spec, double period) noexcept
+    : config_(config),
+      max_force_(spec.max_force),
+      position_limit_(spec.workspace + config.position_margin),
+      period_(period),
+      stale_limit_(std::lround(config.stale_time / period)) {}
+
+GuardOutput ForceGuard::guard(const GuardInput& in) noexcept {
+  watch(in);
+  if (state_ == GuardState::idle || state_ == GuardState::released) {
+    last_ = {0.0, 0.0};
+    return {};
+  }
+  const dvec2 wanted = state_ == GuardState::damped ? damped_force(in) : in.force;
+  const dvec2 slewed = glm::clamp(wanted, last_ - config_.slew, last_ + config_.slew);
+  const dvec2 clamped = glm::clamp(slewed, -max_force_, max_force_);
+  last_ = clamped;
+  const bool saturated = std::abs(wanted.x) > max_force_.x || std::abs(wanted.y) > max_force_.y;
+  return {clamped * ramp_gain(), saturated && state_ != GuardState::damped};
+}
+
+// Looks for every fault before a force is let through. What is worse wins.
+void ForceGuard::watch(const GuardInput& in) noexcept {
+  stale_ = in.fresh ? 0 : stale_ + 1;
+  overruns_ = in.overrun ? overruns_ + 1 : 0;
+  const bool is_outside =
+      std::abs(in.position.x) > position_limit_.x || std::abs(in.position.y) > position_limit_.y;
+  if (!is_finite(in.force) || !is_finite(in.position) || !is_finite(in.velocity)) {
+    return fall(GuardState::released, GuardFault::not_finite);
+  }
+  if (is_outside) return fall(GuardState::released, GuardFault::limit_broken);
+  if (stale_ > stale_limit_) return fall(GuardState::damped, GuardFault::stale_reading);
+  if (overruns_ >= config_.overruns_in_row) return fall(GuardState::damped, GuardFault::overruns);
+}
+
+// Down the ladder only, and never out of idle.
+void ForceGuard::fall(GuardState state, GuardFault fault) noexcept {
+  if (state_ == GuardState::idle || state <= state_) return;
+  state_ = state;
+  fault_ = fault;
+  fade_from_ = last_ * ramp_;
+  fade_ = 1.0;
+  ramp_ = state == GuardState::damped ? 1.0 : 0.0;
+}
+
+// The last force dies away within fade_time; while readings are fresh, damping is left.
+dvec2 ForceGuard::damped_force(const GuardInput& in) noexcept {
+  fade_ = std::max(0.0, fade_ - period_ / config_.fade_time);
+  const dvec2 damping = in.fresh ? -config_.damped_damping * in.velocity : dvec2{0.0, 0.0};
+  return fade_ * fade_from_ + damping;
+}
+
+double ForceGuard::ramp_gain() noexcept {
+  if (state_ == GuardState::armed && stale_ == 0) state_ = GuardState::ramping;
+  if (state_ != GuardState::ramping) return state_ == GuardState::armed ? 0.0 : ramp_;
+  ramp_ = std::min(1.0, ramp_ + period_ / config_.ramp_time);
+  if (ramp_ == 1.0) state_ = GuardState::running;
+  return ramp_;
+}
+
+void ForceGuard::arm() noexcept {
+  if (state_ == GuardState::armed || state_ == GuardState::ramping || state_ == GuardState::running) return;
+  state_ = GuardState::armed;
+  fault_ = GuardFault::none;
+  last_ = {0.0, 0.0};
+  ramp_ = 0.0;
+  stale_ = 0;
+  overruns_ = 0;
+}
+
+void ForceGuard::disarm() noexcept {
+  state_ = GuardState::idle;
+  last_ = {0.0, 0.0};
+  ramp_ = 0.0;
+}
+
+void ForceGuard::stop() noexcept {
+  if (state_ != GuardState::idle) fall(GuardState::released, GuardFault::stopped);
+}
+
+}  // namespace gearshift

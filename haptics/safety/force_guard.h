@@ -1,0 +1,80 @@
+// The last word on every force: finite, slew, clamp, ramp; and the state ladder.
+//
+//   idle -> armed -> ramping -> running      up: by a person only, or by itself on a simulated lever
+//   damped    reading stale, or too many overruns in a row: the force dies away, damping alone is left
+//   released  a limit broken, device lost, force not finite: motors off
+#pragma once
+
+#include <cstdint>
+
+#include <glm/vec2.hpp>
+
+#include "haptics/device/haptic_device.h"
+
+namespace gearshift {
+
+enum class GuardState : std::uint8_t { idle, armed, ramping, running, damped, released };
+const char* guard_state_name(GuardState state) noexcept;
+
+enum class GuardFault : std::uint8_t { none, stale_reading, overruns, not_finite, limit_broken, stopped };
+const char* guard_fault_name(GuardFault fault) noexcept;
+
+struct GuardConfig {
+  double slew = 25.0;           // [N/cycle] largest change of force per axis; a hard impact needs 16 at 1 kHz
+  double ramp_time = 0.5;       // [s] from armed to full force
+  double stale_time = 0.020;    // [s] without a fresh reading before damped
+  double fade_time = 0.020;     // [s] in which the force dies away after that
+  int overruns_in_row = 8;      // [cycles] before damped
+  double damped_damping = 5.0;  // [N s/m] in the state damped, while readings are fresh
+  double position_margin = 0.02;  // [m] beyond the device's workspace counts as a broken limit
+};
+
+struct GuardInput {
+  glm::dvec2 force{0.0};     // [N] wanted
+  glm::dvec2 position{0.0};  // [m] trusted
+  glm::dvec2 velocity{0.0};  // [m/s] smoothed
+  bool fresh = false;        // reading fresh this cycle
+  bool overrun = false;      // this cycle came late by a period or more
+};
+
+struct GuardOutput {
+  glm::dvec2 force{0.0};   // [N] commanded
+  bool saturated = false;  // the wanted force was beyond the device on some axis
+};
+
+class ForceGuard {
+ public:
+  ForceGuard(const GuardConfig& config, const DeviceSpec& spec, double period) noexcept;  // period [s]
+
+  GuardOutput guard(const GuardInput& in) noexcept;  // once per cycle. Real-time safe
+
+  // Steps of the ladder, on the haptic thread between cycles.
+  void arm() noexcept;     // idle, damped or released -> armed (then ramping as soon as readings are fresh)
+  void disarm() noexcept;  // any -> idle, force 0
+  void stop() noexcept;    // armed or higher -> released: the large red button
+
+  GuardState state() const noexcept { return state_; }
+  GuardFault fault() const noexcept { return fault_; }  // why it last went down
+
+ private:
+  void fall(GuardState state, GuardFault fault) noexcept;
+  void watch(const GuardInput& in) noexcept;
+  glm::dvec2 damped_force(const GuardInput& in) noexcept;
+  double ramp_gain() noexcept;
+
+  GuardConfig config_;
+  glm::dvec2 max_force_;
+  glm::dvec2 position_limit_;
+  double period_;
+  GuardState state_ = GuardState::idle;
+  GuardFault fault_ = GuardFault::none;
+  glm::dvec2 last_{0.0};       // [N] commanded before the ramp
+  double ramp_ = 0.0;          // [1] 0 to 1
+  glm::dvec2 fade_from_{0.0};  // [N] commanded when it fell to damped
+  double fade_ = 0.0;          // [1] 1 to 0 of that
+  long stale_limit_;           // [cycles] without a fresh reading
+  long stale_ = 0;             // [cycles] since the last fresh reading
+  int overruns_ = 0;           // in a row
+};
+
+}  // namespace gearshift

@@ -1,0 +1,154 @@
+// The guard: what comes out is finite, slow enough, within the device, and zero soon after any fault.
+#include "haptics/safety/force_guard.h"
+
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <random>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+using namespace gearshift;
+using glm::dvec2;
+
+namespace {
+
+constexpr double kPeriod = 0.001;
+
+DeviceSpec paper_spec() {
+  DeviceSpec spec;
+  spec.workspace = {0.077, 0.069};
+  return spec;
+}
+
+GuardInput wanting(dvec2 force) {
+  GuardInput in;
+  in.force = force;
+  in.fresh = true;
+  return in;
+}
+
+ForceGuard running_guard(dvec2 force = {5.0, 0.0}) {
+  ForceGuard guard({}, paper_spec(), kPeriod);
+  guard.arm();
+  for (int i = 0; i < 600; ++i) guard.guard(wanting(force));
+  return guard;
+}
+
+}  // namespace
+
+TEST_CASE("no force before a person arms it") {
+  ForceGuard guard({}, paper_spec(), kPeriod);
+  for (int i = 0; i < 100; ++i) CHECK(guard.guard(wanting({5.0, 5.0})).force == dvec2{0.0, 0.0});
+  CHECK(guard.state() == GuardState::idle);
+}
+
+TEST_CASE("the ramp is linear and takes its stated time") {
+  ForceGuard guard({}, paper_spec(), kPeriod);
+  guard.arm();
+  for (int i = 1; i <= 500; ++i) {
+    CHECK(guard.guard(wanting({10.0, 0.0})).force.x == doctest::Approx(10.0 * i * kPeriod / 0.5));
+  }
+  CHECK(guard.state() == GuardState::running);
+}
+
+TEST_CASE("whatever is wanted, the command is finite, within the device and within the slew") {
+  ForceGuard guard = running_guard();
+  const GuardConfig config;
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> force(-200.0, 200.0);
+  dvec2 last = guard.guard(wanting({5.0, 0.0})).force;
+  for (int i = 0; i < 100000; ++i) {
+    const dvec2 now = guard.guard(wanting({force(random), force(random)})).force;
+    REQUIRE(std::abs(now.x) <= 31.7);
+    REQUIRE(std::abs(now.y) <= 31.7);
+    REQUIRE(std::abs(now.x - last.x) <= config.slew + 1e-12);
+    REQUIRE(std::abs(now.y - last.y) <= config.slew + 1e-12);
+    last = now;
+  }
+}
+
+TEST_CASE("saturation is told, per wish beyond the device") {
+  ForceGuard guard = running_guard();
+  CHECK_FALSE(guard.guard(wanting({31.6, -31.6})).saturated);
+  CHECK(guard.guard(wanting({0.0, 31.8})).saturated);
+}
+
+TEST_CASE("frozen reading: damped after 20 ms, force zero within 20 ms more") {
+  ForceGuard guard = running_guard({10.0, -8.0});
+  GuardInput frozen = wanting({10.0, -8.0});
+  frozen.fresh = false;
+  frozen.velocity = {1.0, 1.0};  // stale: must not be damped against
+  for (int ms = 1; ms <= 20; ++ms) guard.guard(frozen);
+  CHECK(guard.state() == GuardState::running);
+  double last = 10.0;
+  for (int ms = 21; ms <= 41; ++ms) {
+    const double now = glm::length(guard.guard(frozen).force);
+    CHECK(now <= last * 1.3);
+    last = now;
+  }
+  CHECK(guard.state() == GuardState::damped);
+  CHECK(guard.fault() == GuardFault::stale_reading);
+  CHECK(last == 0.0);
+}
+
+TEST_CASE("not finite, or outside the workspace: motors off in the same cycle") {
+  const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
+  for (const dvec2 bad : {dvec2{nan, 0.0}, dvec2{0.0, inf}, dvec2{-inf, nan}}) {
+    ForceGuard guard = running_guard();
+    CHECK(guard.guard(wanting(bad)).force == dvec2{0.0, 0.0});
+    CHECK(guard.state() == GuardState::released);
+    CHECK(guard.fault() == GuardFault::not_finite);
+  }
+  ForceGuard guard = running_guard();
+  GuardInput far = wanting({5.0, 0.0});
+  far.position = {0.2, 0.0};
+  CHECK(guard.guard(far).force == dvec2{0.0, 0.0});
+  CHECK(guard.fault() == GuardFault::limit_broken);
+}
+
+TEST_CASE("one overrun is counted, eight in a row are damped") {
+  ForceGuard guard = running_guard();
+  GuardInput late = wanting({5.0, 0.0});
+  late.overrun = true;
+  for (int round = 0; round < 20; ++round) {
+    for (int i = 0; i < 7; ++i) guard.guard(late);
+    guard.guard(wanting({5.0, 0.0}));
+  }
+  CHECK(guard.state() == GuardState::running);
+  for (int i = 0; i < 8; ++i) guard.guard(late);
+  CHECK(guard.state() == GuardState::damped);
+  CHECK(guard.fault() == GuardFault::overruns);
+}
+
+TEST_CASE("damped: the old force fades and what is left opposes motion") {
+  ForceGuard guard = running_guard();
+  GuardInput late = wanting({5.0, 0.0});
+  late.overrun = true;
+  late.velocity = {0.2, -0.1};
+  GuardOutput out;
+  for (int i = 0; i < 100; ++i) out = guard.guard(late);
+  const GuardConfig config;
+  CHECK(out.force.x == doctest::Approx(-config.damped_damping * 0.2));
+  CHECK(out.force.y == doctest::Approx(config.damped_damping * 0.1));
+}
+
+TEST_CASE("nothing climbs the ladder by itself; arming starts from zero force") {
+  ForceGuard guard = running_guard();
+  guard.stop();
+  for (int i = 0; i < 1000; ++i) CHECK(guard.guard(wanting({5.0, 0.0})).force == dvec2{0.0, 0.0});
+  CHECK(guard.state() == GuardState::released);
+  CHECK(guard.fault() == GuardFault::stopped);
+  guard.arm();
+  CHECK(guard.guard(wanting({5.0, 0.0})).force.x < 0.02);
+}
+
+TEST_CASE("a fall is never upwards: released does not become damped") {
+  ForceGuard guard = running_guard();
+  guard.stop();
+  GuardInput stale = wanting({5.0, 0.0});
+  stale.fresh = false;
+  for (int i = 0; i < 100; ++i) guard.guard(stale);
+  CHECK(guard.state() == GuardState::released);
+}
