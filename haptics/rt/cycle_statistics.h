@@ -1,0 +1,42 @@
+// How well a periodic thread kept its time: fixed histograms, no allocation.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+namespace gearshift {
+
+// Log-spaced histogram of durations from 1 ns to over 10 s. Below 64 ns every nanosecond has its bin, above
+// that every octave has 64: no bin is wider than 1/64 = 1.6 % of its value. Not synchronised: one thread at a
+// time.
+class DurationHistogram {
+ public:
+  void add(std::int64_t ns) noexcept;                 // negative counts as 0. Real-time safe
+  std::int64_t quantile(double q) const noexcept;     // [ns] upper edge of the bin, q in [0, 1]; 0 when empty
+  std::int64_t max() const noexcept { return max_; }  // [ns] exact
+  std::uint64_t count() const noexcept { return count_; }
+  void clear() noexcept;
+
+ private:
+  static constexpr int kSubBits = 6;  // 2^6 bins per octave
+  static constexpr int kTopBit = 34;  // longest: 2^34 ns = 17.2 s; the last bin takes what is longer
+  static constexpr std::size_t kBins = std::size_t{kTopBit - kSubBits + 1} << kSubBits;
+
+  static std::size_t bin_of(std::uint64_t ns) noexcept;
+  static std::int64_t upper_edge(std::size_t bin) noexcept;
+
+  std::array<std::uint64_t, kBins> bins_{};
+  std::uint64_t count_ = 0;
+  std::int64_t max_ = 0;
+};
+
+struct CycleStatistics {
+  DurationHistogram wake_lateness;  // [ns] wake-up behind the deadline that it slept for
+  DurationHistogram duration;       // [ns] of the cycle's work
+  std::uint64_t cycles = 0;
+  std::uint64_t overruns = 0;  // cycles that ended after the next deadline; the missed deadlines are skipped
+  std::uint64_t skipped = 0;   // deadlines skipped, for an overrun or for a wake-up late by a period or more
+};
+
+}  // namespace gearshift

@@ -1,0 +1,184 @@
+#include "haptics/rt/realtime_thread.h"
+
+#include <linux/capability.h>
+#include <sched.h>
+#include <sys/mman.h>
+#include <sys/prctl.h>
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <time.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstddef>
+#include <cstring>
+#include <future>
+#include <stdexcept>
+#include <utility>
+
+namespace gearshift {
+namespace {
+
+constexpr std::int64_t kSecond = 1'000'000'000;  // [ns]
+constexpr std::size_t kStackBytes = 256 * 1024;  // touched before the first cycle
+constexpr std::size_t kPageBytes = 4096;
+
+std::int64_t now_ns() noexcept {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return now.tv_sec * kSecond + now.tv_nsec;
+}
+
+void sleep_until(std::int64_t wake_ns) noexcept {
+  const timespec wake{wake_ns / kSecond, wake_ns % kSecond};
+  while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &wake, nullptr) == EINTR) continue;
+}
+
+void cpu_relax() noexcept {
+#if defined(__x86_64__) || defined(__i386__)
+  __builtin_ia32_pause();
+#endif
+}
+
+// Faults in the pages below this frame, so that no cycle is the first to touch them.
+[[gnu::noinline]] void prefault_stack() noexcept {
+  unsigned char stack[kStackBytes];
+  volatile unsigned char* page = stack;
+  for (std::size_t at = 0; at < kStackBytes; at += kPageBytes) page[at] = 1;
+}
+
+bool may_lock_any_amount() noexcept {
+  rlimit limit{};
+  if (getrlimit(RLIMIT_MEMLOCK, &limit) == 0 && limit.rlim_cur == RLIM_INFINITY) return true;
+  __user_cap_header_struct header{_LINUX_CAPABILITY_VERSION_3, 0};
+  __user_cap_data_struct held[_LINUX_CAPABILITY_U32S_3]{};
+  if (syscall(SYS_capget, &header, held) != 0) return false;
+  return (held[0].effective & (1u << CAP_IPC_LOCK)) != 0;
+}
+
+// Each returns what was refused, or nothing.
+std::string lock_memory() {
+  // Under a finite limit a lock that succeeds now makes some later allocation of the program fail: worse than
+  // none.
+  if (!may_lock_any_amount()) return "the memory lock was refused (grant it with 'memlock unlimited')";
+  if (mlockall(MCL_CURRENT | MCL_FUTURE) == 0) return {};
+  return std::string("the memory lock was refused: ") + std::strerror(errno) +
+         " (grant it with 'memlock unlimited')";
+}
+
+std::string schedule_fifo(int priority) {
+  sched_param wanted{};
+  wanted.sched_priority = priority;
+  if (sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &wanted) == 0) return {};
+  const std::string level = std::to_string(priority);
+  return "SCHED_FIFO at priority " + level + " was refused: " + std::strerror(errno) +
+         " (grant it with 'rtprio " + level + "')";
+}
+
+std::string pin_to(int core) {
+  if (core < 0) return {};
+  cpu_set_t set;
+  CPU_ZERO(&set);
+  if (core < CPU_SETSIZE) CPU_SET(static_cast<std::size_t>(core), &set);
+  if (sched_setaffinity(0, sizeof set, &set) == 0) return {};
+  return "core " + std::to_string(core) + " was refused: " + std::strerror(errno);
+}
+
+void append(std::string& sentence, const std::string& part) {
+  if (part.empty()) return;
+  sentence += sentence.empty() ? "not real-time: " : ", and ";
+  sentence += part;
+}
+
+void check(const RealtimeConfig& config) {
+  if (config.period_ns <= 0)
+    throw std::invalid_argument("the period of a real-time thread must be above 0 ns");
+  if (config.spin_ns < 0)
+    throw std::invalid_argument("the spin of a real-time thread must not be below 0 ns");
+  if (config.priority < 1 || config.priority > 99)
+    throw std::invalid_argument("the priority of a real-time thread must be 1 to 99");
+}
+
+}  // namespace
+
+void RealtimeThread::start(const RealtimeConfig& config, std::function<void(const CycleCall&)> cycle) {
+  if (thread_.joinable()) throw std::logic_error("the real-time thread is already running");
+  check(config);
+  config_ = config;
+  cycle_ = std::move(cycle);
+  stop_.store(false, std::memory_order_relaxed);
+  statistics_ = CycleStatistics{};
+
+  std::promise<bool> prepared;
+  std::future<bool> go = prepared.get_future();
+  thread_ = std::thread([this, ready = std::move(prepared)]() mutable {
+    prepare();
+    const bool run_it = why_not_.empty() || config_.policy == RealtimePolicy::best_effort;
+    ready.set_value(run_it);
+    if (run_it) run();
+  });
+  if (go.get()) return;
+  thread_.join();
+  throw std::runtime_error(why_not_);
+}
+
+void RealtimeThread::stop() noexcept {
+  stop_.store(true, std::memory_order_relaxed);
+  if (thread_.joinable()) thread_.join();
+}
+
+// Memory first: a real-time thread must not be the one that waits for the pages of the whole process.
+void RealtimeThread::prepare() {
+  why_not_.clear();
+  const std::string memory = lock_memory();
+  const std::string scheduling = schedule_fifo(config_.priority);
+  realtime_ = scheduling.empty();
+  append(why_not_, scheduling);
+  append(why_not_, memory);
+  append(why_not_, pin_to(config_.core));
+  if (!scheduling.empty() || !memory.empty()) why_not_ += "; limits are set in /etc/security/limits.conf";
+  prctl(PR_SET_TIMERSLACK, 1UL);  // [ns] a normal thread's timers are otherwise put off by 50 us
+  prefault_stack();
+}
+
+// Sleeps as long as it is safe to, then spins: the scheduler's wake-up latency falls into the spin.
+std::int64_t RealtimeThread::wait_until(std::int64_t deadline) const noexcept {
+  std::int64_t now = now_ns();
+  if (deadline - now > config_.spin_ns) {
+    sleep_until(deadline - config_.spin_ns);
+    now = now_ns();
+  }
+  for (; now < deadline; now = now_ns()) cpu_relax();
+  return now;
+}
+
+void RealtimeThread::run() noexcept {
+  const std::int64_t period = config_.period_ns;
+  std::int64_t deadline = now_ns() + period;
+  std::int64_t skipped = 0;
+  while (true) {
+    const std::int64_t woke = wait_until(deadline);
+    if (stop_.load(std::memory_order_relaxed)) return;
+
+    // Woken late by whole periods: take the newest deadline that has passed.
+    const std::int64_t lateness = woke - deadline;
+    skipped += lateness / period;
+    deadline += lateness / period * period;
+    statistics_.wake_lateness.add(lateness);
+    statistics_.skipped += static_cast<std::uint64_t>(skipped);
+
+    cycle_({deadline, skipped});
+    const std::int64_t done = now_ns();
+    statistics_.duration.add(done - woke);
+    ++statistics_.cycles;
+
+    // Ended after the next deadline: that one and every other that has passed are skipped, never caught up.
+    deadline += period;
+    const std::int64_t behind = done - deadline;
+    skipped = behind > 0 ? (behind + period - 1) / period : 0;
+    statistics_.overruns += behind > 0 ? 1 : 0;
+    deadline += skipped * period;
+  }
+}
+
+}  // namespace gearshift

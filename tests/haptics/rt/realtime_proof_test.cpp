@@ -1,0 +1,98 @@
+// The proof itself: it must catch what it is there to catch, and let the channels pass.
+#include "tests/support/realtime_proof.h"
+
+#include <unistd.h>
+
+#include <cstdlib>
+#include <memory>
+#include <mutex>
+#include <shared_mutex>
+
+#include <doctest/doctest.h>
+
+#include "haptics/rt/cycle_statistics.h"
+#include "haptics/rt/latest_value.h"
+#include "haptics/rt/spsc_queue.h"
+
+namespace gearshift {
+namespace {
+
+int* volatile kept = nullptr;  // the compiler must not leave the allocation out
+
+struct Big {
+  double value[64] = {};
+};
+
+}  // namespace
+
+TEST_CASE("real-time proof: arithmetic is clean" * doctest::skip(!kRealtimeProofAvailable)) {
+  double sum = 0.0;
+  const RealtimeProof proof = prove_realtime([&] {
+    for (int i = 1; i < 1000; ++i) sum += 1.0 / i;
+  });
+  INFO(proof.verdict());
+  CHECK(proof.clean());
+  CHECK(sum == 0.0);  // it ran on a copy
+}
+
+TEST_CASE("real-time proof: one allocation is caught" * doctest::skip(!kRealtimeProofAvailable)) {
+  delete new int;  // so that the allocator is warm and needs no system call
+  const RealtimeProof by_new = prove_realtime([] { kept = new int(1); });
+  CHECK(by_new.allocations == 1);
+  CHECK_FALSE(by_new.clean());
+  const RealtimeProof by_malloc = prove_realtime([] { kept = static_cast<int*>(std::malloc(4)); });
+  CHECK(by_malloc.allocations == 1);
+  kept = new int(1);
+  const RealtimeProof by_delete = prove_realtime([] { delete kept; });
+  CHECK(by_delete.allocations == 1);
+  delete kept;
+}
+
+TEST_CASE("real-time proof: one lock is caught, though nobody holds it" *
+          doctest::skip(!kRealtimeProofAvailable)) {
+  std::mutex mutex;
+  const RealtimeProof by_mutex = prove_realtime([&] { const std::lock_guard lock(mutex); });
+  CHECK(by_mutex.ran);
+  CHECK(by_mutex.locks == 1);
+  CHECK_FALSE(by_mutex.clean());
+  std::shared_mutex shared;
+  const RealtimeProof by_reader = prove_realtime([&] { const std::shared_lock lock(shared); });
+  CHECK(by_reader.locks == 1);
+}
+
+TEST_CASE("real-time proof: one system call is caught and named" * doctest::skip(!kRealtimeProofAvailable)) {
+  const RealtimeProof proof = prove_realtime([] { (void)getppid(); });
+  CHECK(proof.ran);
+  CHECK(proof.system_call == 110);  // getppid on x86-64
+  CHECK_FALSE(proof.clean());
+}
+
+TEST_CASE("real-time proof: a crash is told, not taken for clean" * doctest::skip(!kRealtimeProofAvailable)) {
+  const RealtimeProof proof = prove_realtime([] { __builtin_trap(); });
+  CHECK_FALSE(proof.ran);
+  CHECK_FALSE(proof.clean());
+  CHECK_FALSE(proof.problem.empty());
+}
+
+TEST_CASE("the channels and the statistics are real-time safe, full and empty" *
+          doctest::skip(!kRealtimeProofAvailable)) {
+  auto channel = std::make_unique<LatestValue<Big>>();
+  SpscQueue<Big> queue(16);
+  auto histogram = std::make_unique<DurationHistogram>();
+  const RealtimeProof proof = prove_realtime([&] {
+    Big value;
+    for (int i = 0; i < 100; ++i) {
+      channel->write(value);
+      channel->update();
+      channel->update();
+      (void)queue.push(value);
+      histogram->add(i * i * i);
+    }
+    while (queue.pop(value)) continue;
+    (void)histogram->quantile(0.99);
+  });
+  INFO(proof.verdict());
+  CHECK(proof.clean());
+}
+
+}  // namespace gearshift
