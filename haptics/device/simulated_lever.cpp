@@ -79,7 +79,7 @@ DeviceSpec make_spec(const SimulatedLeverConfig& config) {
   DeviceSpec spec;
   spec.max_force = glm::dvec2(config.actuator.peak_force);
   spec.continuous_force = glm::dvec2(config.actuator.continuous_force);
-  spec.workspace = yoke.radius * glm::dvec2(std::sin(yoke.theta_limit), std::sin(yoke.phi_limit));
+  spec.workspace = workspace_half_extent(yoke);
   const double quantum = std::numbers::pi / 180.0 / config.encoder_counts;  // [rad]
   spec.position_step = config.encoder_counts > 0.0 ? yoke.radius * quantum : 0.0;
   spec.delay = config.delay;

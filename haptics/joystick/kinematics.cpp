@@ -49,6 +49,10 @@ JointAngles joint_angles_from_plane(const YokeGeometry& yoke, glm::dvec2 plane) 
   return joint_angles({plane, std::sqrt(z_squared)});
 }
 
+glm::dvec2 workspace_half_extent(const YokeGeometry& yoke) noexcept {
+  return yoke.radius * glm::dvec2(std::sin(yoke.theta_limit), std::sin(yoke.phi_limit));
+}
+
 glm::dvec2 arc_position(const YokeGeometry& yoke, JointAngles q) noexcept {
   return {yoke.radius * q.theta, -yoke.radius * q.phi};
 }

@@ -43,6 +43,10 @@ JointAngles joint_angles(glm::dvec3 tip) noexcept;
 glm::dvec2 plane_position(const YokeGeometry& yoke, JointAngles q) noexcept;
 JointAngles joint_angles_from_plane(const YokeGeometry& yoke, glm::dvec2 plane) noexcept;
 
+// How far the tip reaches in the gate plane along each axis: rho sin(limit). [m] Half extents, select and
+// shift.
+glm::dvec2 workspace_half_extent(const YokeGeometry& yoke) noexcept;
+
 // The plant's coordinates: arc lengths (rho theta, -rho phi), one axis each. [m]
 glm::dvec2 arc_position(const YokeGeometry& yoke, JointAngles q) noexcept;
 JointAngles joint_angles_from_arc(const YokeGeometry& yoke, glm::dvec2 arc) noexcept;

@@ -9,7 +9,7 @@
 
 namespace gearshift {
 
-inline constexpr glm::dvec2 kPaperWorkspace{0.0771, 0.0688};  // [m] rho sin(40 deg), rho sin(35 deg)
+inline constexpr glm::dvec2 kPaperWorkspace{0.077134, 0.068829};  // [m] 0.12 sin(40 deg), 0.12 sin(35 deg)
 
 inline Gate shipped_gate(const std::string& name) {
   return compile_gate(read_gate_layout(GEARSHIFT_ASSETS "/gates/" + name + ".toml"), kPaperWorkspace);

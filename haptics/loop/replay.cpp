@@ -1,0 +1,187 @@
+#include "haptics/loop/replay.h"
+
+#include <array>
+#include <charconv>
+#include <cstddef>
+#include <stdexcept>
+#include <utility>
+#include <vector>
+
+#include "haptics/files/file_error.h"
+#include "haptics/gate/gate_compiler.h"
+#include "haptics/loop/haptic_loop.h"
+
+namespace gearshift {
+namespace {
+
+// Hands out what the recorded device measured. What is written to it moves nothing: the lever has already
+// moved.
+class RecordedDevice final : public HapticDevice {
+ public:
+  explicit RecordedDevice(const DeviceSpec& spec) noexcept : spec_(spec) {}
+  const DeviceSpec& spec() const noexcept override { return spec_; }
+  LeverReading read(std::int64_t) noexcept override { return reading; }
+  void write(glm::dvec2) noexcept override {}
+  void release() noexcept override {}
+
+  LeverReading reading;
+
+ private:
+  DeviceSpec spec_;
+};
+
+struct NamedLeaf {
+  std::string name;    // "reading.position.x"
+  std::uint64_t bits;  // as in the file
+  std::string text;
+};
+
+template <LeafField T>
+std::string value_text(T value) {
+  char text[64];
+  if constexpr (std::is_same_v<T, double>)
+    return {text, std::to_chars(text, text + sizeof text, value).ptr};
+  else if constexpr (std::is_same_v<T, bool> || std::is_enum_v<T>)
+    return value_text(static_cast<int>(value));
+  else
+    return {text, std::to_chars(text, text + sizeof text, value).ptr};
+}
+
+// Slow and allocating: only for the one cycle that differs.
+template <class T>
+void append_leaves(std::vector<NamedLeaf>& leaves, const std::string& prefix, const T& value) {
+  each_field(value, [&](const char* name, const auto& member) {
+    const std::string full = prefix + name;
+    if constexpr (LeafField<std::remove_cvref_t<decltype(member)>>)
+      leaves.push_back({full, leaf_bits(member), value_text(member)});
+    else
+      append_leaves(leaves, full + ".", member);
+  });
+}
+
+std::optional<Difference> first_difference(const TraceSample& recorded, const TraceSample& replayed) {
+  std::vector<NamedLeaf> was, is;
+  append_leaves(was, "", recorded);
+  append_leaves(is, "", replayed);
+  for (std::size_t i = 0; i < was.size(); ++i)
+    if (was[i].bits != is[i].bits)
+      return Difference{recorded.out.cycle, was[i].name, was[i].text, is[i].text};
+  return std::nullopt;
+}
+
+bool same_bits(const HapticTuning& a, const HapticTuning& b) noexcept {
+  std::array<std::byte, encoded_size<HapticTuning>()> left, right;
+  FieldWriter(left.data()).put(a);
+  FieldWriter(right.data()).put(b);
+  return left == right;
+}
+
+// Every double of the device must be a number: the config's ranges are check_config's business.
+void check_device(const DeviceSpec& spec) {
+  std::vector<NamedLeaf> leaves;
+  append_leaves(leaves, "", spec);
+  for (const NamedLeaf& leaf : leaves)
+    if (leaf.text.find("nan") != std::string::npos || leaf.text.find("inf") != std::string::npos)
+      throw std::invalid_argument("its device has " + leaf.name + " = " + leaf.text);
+}
+
+std::unique_ptr<LeverWorld> find_world(const std::string& name, const WorldFactory& make_world) {
+  std::unique_ptr<LeverWorld> world = make_world(name);
+  if (!world) throw std::invalid_argument("its world \"" + name + "\" is not known to this program");
+  return world;
+}
+
+}  // namespace
+
+std::unique_ptr<LeverWorld> make_null_world(const std::string& name) {
+  auto world = std::make_unique<NullWorld>();
+  return name == world->name() ? std::move(world) : nullptr;
+}
+
+struct Replayer::Rig {
+  Rig(const TraceHeader& header, const WorldFactory& make_world)
+      : device(header.device),
+        world(find_world(header.world, make_world)),
+        gate(compile_gate(parse_gate_layout(header.gate_text, header.gate_file), header.device.workspace)),
+        loop(header.config, gate, device, *world, channels) {
+    if (header.armed) loop.arm();
+    channels.recording.store(true);
+  }
+
+  // The inputs of the cycle, as they came in.
+  void feed(const TraceSample& recorded, bool new_tuning) noexcept {
+    device.reading = recorded.reading;
+    channels.controls.write(recorded.controls);
+    if (new_tuning) channels.tuning.write(recorded.tuning);
+    if (recorded.command != LoopCommand::none) channels.commands.push(recorded.command);
+  }
+
+  TraceSample cycle(std::int64_t deadline_ns, std::uint64_t skipped) noexcept {
+    loop.cycle(deadline_ns, static_cast<std::int64_t>(skipped));
+    for (HapticEvent event; channels.events.pop(event);) continue;
+    TraceSample replayed;
+    channels.trace.pop(replayed);
+    return replayed;
+  }
+
+  RecordedDevice device;
+  std::unique_ptr<LeverWorld> world;
+  Gate gate;
+  LoopChannels channels;
+  HapticLoop loop;
+};
+
+Replayer::Replayer(const TraceHeader& header, const std::string& file, const WorldFactory& make_world)
+    : file_(file), period_(1e-9 * static_cast<double>(period_ns(header.config))), hash_(begin_hash(header)) {
+  try {
+    check_config(header.config);
+    check_device(header.device);
+    rig_ = std::make_unique<Rig>(header, make_world);
+  } catch (const std::invalid_argument& error) {
+    throw FileError(file, 0, std::string("cannot be run again: ") + error.what());
+  } catch (const FileError& error) {
+    throw FileError(file, 0, std::string("cannot be run again, its gate is refused: ") + error.what());
+  }
+}
+
+Replayer::~Replayer() = default;
+
+bool Replayer::step(const TraceSample& recorded) {
+  const bool is_first = result_.cycles == 0;
+  if (is_first && recorded.out.cycle != rig_->loop.snapshot().cycle)
+    throw FileError(file_, 0,
+                    "cannot be run again: its recording began in the middle of a run, at cycle " +
+                        std::to_string(recorded.out.cycle));
+  if (is_first) first_ns_ = recorded.deadline_ns;
+
+  // The tuning of the first cycle follows from the header. Feeding it would hide a header that differs.
+  rig_->feed(recorded, !is_first && !same_bits(recorded.tuning, last_.tuning));
+  const TraceSample replayed = rig_->cycle(recorded.deadline_ns, recorded.skipped);
+  last_ = recorded;
+  ++result_.cycles;
+
+  const EncodedSample was = encode_sample(recorded);
+  const EncodedSample is = encode_sample(replayed);
+  hash_.add(outputs_of(is));
+  if (was == is) return true;
+  result_.first = first_difference(recorded, replayed);
+  return false;
+}
+
+ReplayResult Replayer::finish(std::uint64_t recorded_hash) const {
+  ReplayResult result = result_;
+  result.recorded_hash = recorded_hash;
+  result.replayed_hash = hash_.value();
+  if (result.cycles > 0)
+    result.seconds = 1e-9 * static_cast<double>(nanoseconds_between(first_ns_, last_.deadline_ns)) + period_;
+  return result;
+}
+
+ReplayResult replay(const Trace& trace, const WorldFactory& make_world) {
+  Replayer replayer(trace.header, trace.header.gate_file, make_world);
+  for (const TraceSample& sample : trace.samples)
+    if (!replayer.step(sample)) break;
+  return replayer.finish(trace.hash);
+}
+
+}  // namespace gearshift

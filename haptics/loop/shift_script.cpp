@@ -1,0 +1,102 @@
+#include "haptics/loop/shift_script.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include <glm/geometric.hpp>
+
+#include "haptics/gate/gate_feel.h"
+
+namespace gearshift {
+namespace {
+
+using glm::dvec2;
+
+// Collects strokes; each knows how far it is and so how long it takes.
+class StrokeWriter {
+ public:
+  StrokeWriter(dvec2 start, const ShiftStyle& style) : at_(start), style_(style) {}
+
+  void go(dvec2 to, double dwell) {
+    const double distance = glm::distance(at_, to);
+    if (distance < 1e-6) return;
+    HandStroke stroke;
+    stroke.to = to;
+    stroke.duration = style_.reaction + distance / style_.pace;
+    stroke.dwell = dwell;
+    stroke.pressed_down = pressed_;
+    stroke.lifted = lifted_;
+    strokes_.push_back(stroke);
+    at_ = to;
+  }
+
+  void hold(bool pressed, bool lifted) {
+    pressed_ = pressed;
+    lifted_ = lifted;
+  }
+
+  dvec2 at() const { return at_; }
+  std::vector<HandStroke> take() { return std::move(strokes_); }
+
+ private:
+  dvec2 at_;
+  const ShiftStyle& style_;
+  bool pressed_ = false;
+  bool lifted_ = false;
+  std::vector<HandStroke> strokes_;
+};
+
+bool has_lockout(const Gate& gate, int slot, LockoutKind kind, int after_gear = kNeutralGear) {
+  return std::any_of(gate.lockout.begin(), gate.lockout.begin() + gate.lockout_count,
+                     [&](const Lockout& lockout) {
+                       return lockout.slot == slot && lockout.kind == kind &&
+                              (kind != LockoutKind::after_gear || lockout.after_gear == after_gear);
+                     });
+}
+
+}  // namespace
+
+std::vector<HandStroke> shift_strokes(const Gate& gate, dvec2 start, std::span<const int> gears,
+                                      const ShiftStyle& style) {
+  StrokeWriter writer(start, style);
+  const auto select = [&](double x) {
+    const double way = x - writer.at().x;
+    if (std::abs(way) > style.overshoot)
+      writer.go({x + std::copysign(style.overshoot, way), 0.0}, style.dwell_neutral);
+  };
+  const double neutral_x = rest_position(gate, kNeutralGear).x;
+  int gear = kNeutralGear;
+  for (const int next : gears) {
+    const int slot = slot_of_gear(gate, next);
+    const dvec2 rest = rest_position(gate, next);
+    if (slot_at(gate, writer.at()) != kNoSlot) writer.go({writer.at().x, 0.0}, style.dwell_neutral);
+    if (has_lockout(gate, slot, LockoutKind::after_gear, gear)) select(neutral_x);
+    writer.hold(has_lockout(gate, slot, LockoutKind::push_down), has_lockout(gate, slot, LockoutKind::lift));
+    select(rest.x);
+    if (slot != kNoSlot)
+      writer.go({writer.at().x, rest.y + std::copysign(style.overshoot, rest.y)}, style.dwell_gear);
+    writer.hold(false, false);
+    gear = next;
+  }
+  return writer.take();
+}
+
+std::vector<int> tour_order(const Gate& gate) {
+  std::vector<int> order;
+  for (int i = 0; i < gate.slot_count; ++i) order.push_back(gate.slot[static_cast<std::size_t>(i)].gear);
+  std::sort(order.begin(), order.end());
+  if (!order.empty() && order.front() == kReverseGear)
+    std::rotate(order.begin(), order.begin() + 1, order.end());
+  return order;
+}
+
+ScriptedHandConfig touring_hand(dvec2 start) {
+  ScriptedHandConfig hand;
+  hand.start = start;
+  hand.effort_gain = 4000.0;
+  hand.effort_limit = 25.0;
+  return hand;
+}
+
+}  // namespace gearshift

@@ -1,0 +1,27 @@
+#include "haptics/loop/simulated_run.h"
+
+namespace gearshift {
+namespace {
+
+SimulatedLever placed_lever(const SimulatedRunConfig& config, HandDriver& driver) {
+  SimulatedLever lever(config.lever, period_ns(config.haptics), driver);
+  lever.place(config.start);
+  return lever;
+}
+
+}  // namespace
+
+SimulatedRun::SimulatedRun(const SimulatedRunConfig& config, HandDriver& driver, LeverWorld* world)
+    : period_ns_(period_ns(config.haptics)),
+      lever_(placed_lever(config, driver)),
+      loop_(config.haptics, config.gate, lever_, world ? *world : nothing_, channels_) {
+  loop_.arm();
+}
+
+const HapticSnapshot& SimulatedRun::step() noexcept {
+  loop_.cycle(now_ns_, 0);
+  now_ns_ += period_ns_;
+  return loop_.snapshot();
+}
+
+}  // namespace gearshift

@@ -1,0 +1,162 @@
+// The fields of everything that a trace carries, listed once. Writing, reading, comparing, hashing and naming
+// all walk these lists.
+//
+//   each_field(value, visit)   calls visit("name", member) for every member, in the order of the file
+//
+// Each list takes its struct apart with a structured binding: a struct that gains or loses a member no longer
+// compiles here. Then add the member below, in the same order, and raise kTraceVersion.
+#pragma once
+
+#include <concepts>
+#include <type_traits>
+
+#include <glm/vec2.hpp>
+
+#include "haptics/loop/haptic_loop.h"
+
+namespace gearshift {
+
+template <class T, class S>
+concept FieldsOf = std::same_as<std::remove_const_t<T>, S>;
+
+template <class T>
+concept LeafField = std::is_arithmetic_v<T> || std::is_enum_v<T>;
+
+constexpr void each_field(FieldsOf<glm::dvec2> auto& v, auto&& visit) {
+  visit("x", v.x);
+  visit("y", v.y);
+}
+
+constexpr void each_field(FieldsOf<AxisModel> auto& axis, auto&& visit) {
+  auto& [mass, damping, stiffness] = axis;
+  visit("mass", mass);
+  visit("damping", damping);
+  visit("stiffness", stiffness);
+}
+
+constexpr void each_field(FieldsOf<DeviceSpec> auto& spec, auto&& visit) {
+  auto& [max_force, continuous_force, workspace, position_step, delay, axis_x, axis_y, measures, simulated] =
+      spec;
+  visit("max_force", max_force);
+  visit("continuous_force", continuous_force);
+  visit("workspace", workspace);
+  visit("position_step", position_step);
+  visit("delay", delay);
+  visit("axis_x", axis_x);
+  visit("axis_y", axis_y);
+  visit("measures_hand_force", measures);
+  visit("simulated", simulated);
+}
+
+constexpr void each_field(FieldsOf<HapticTuning> auto& tuning, auto&& visit) {
+  auto& [wall_stiffness, wall_damping, feel_scale, aisle_damping, speed_limit, limit_damping] = tuning;
+  visit("wall_stiffness", wall_stiffness);
+  visit("wall_damping", wall_damping);
+  visit("feel_scale", feel_scale);
+  visit("aisle_damping", aisle_damping);
+  visit("speed_limit", speed_limit);
+  visit("limit_damping", limit_damping);
+}
+
+constexpr void each_field(FieldsOf<EstimatorConfig> auto& estimator, auto&& visit) {
+  auto& [smoothing, speed_limit] = estimator;
+  visit("smoothing", smoothing);
+  visit("speed_limit", speed_limit);
+}
+
+constexpr void each_field(FieldsOf<GuardConfig> auto& guard, auto&& visit) {
+  auto& [slew, ramp_time, stale_time, fade_time, overruns_in_row, damped_damping, position_margin] = guard;
+  visit("slew", slew);
+  visit("ramp_time", ramp_time);
+  visit("stale_time", stale_time);
+  visit("fade_time", fade_time);
+  visit("overruns_in_row", overruns_in_row);
+  visit("damped_damping", damped_damping);
+  visit("position_margin", position_margin);
+}
+
+constexpr void each_field(FieldsOf<OverPushConfig> auto& over_push, auto&& visit) {
+  auto& [warn_above, clear_below] = over_push;
+  visit("warn_above", warn_above);
+  visit("clear_below", clear_below);
+}
+
+constexpr void each_field(FieldsOf<HapticConfig> auto& config, auto&& visit) {
+  auto& [rate, tuning, estimator, guard, over_push, gear_debounce, ghost_offset] = config;
+  visit("rate", rate);
+  visit("tuning", tuning);
+  visit("estimator", estimator);
+  visit("guard", guard);
+  visit("over_push", over_push);
+  visit("gear_debounce", gear_debounce);
+  visit("ghost_offset", ghost_offset);
+}
+
+constexpr void each_field(FieldsOf<LeverReading> auto& reading, auto&& visit) {
+  auto& [sequence, time_ns, position, hand_force, actuator_force, pressed_down, lifted] = reading;
+  visit("sequence", sequence);
+  visit("time_ns", time_ns);
+  visit("position", position);
+  visit("hand_force", hand_force);
+  visit("actuator_force", actuator_force);
+  visit("pressed_down", pressed_down);
+  visit("lifted", lifted);
+}
+
+constexpr void each_field(FieldsOf<DriverControls> auto& controls, auto&& visit) {
+  auto& [throttle, brake, clutch, hand_brake, ignition, starter] = controls;
+  visit("throttle", throttle);
+  visit("brake", brake);
+  visit("clutch", clutch);
+  visit("hand_brake", hand_brake);
+  visit("ignition", ignition);
+  visit("starter", starter);
+}
+
+constexpr void each_field(FieldsOf<HapticSnapshot> auto& snapshot, auto&& visit) {
+  auto& [cycle, time_ns, lever, velocity, proxy, wall_force, feel_force, world_force, commanded, f_h, f_a,
+         f_j, road_speed, slot, gear, guard, fault, flags] = snapshot;
+  visit("cycle", cycle);
+  visit("time_ns", time_ns);
+  visit("lever", lever);
+  visit("velocity", velocity);
+  visit("proxy", proxy);
+  visit("wall_force", wall_force);
+  visit("feel_force", feel_force);
+  visit("world_force", world_force);
+  visit("commanded", commanded);
+  visit("f_h", f_h);
+  visit("f_a", f_a);
+  visit("f_j", f_j);
+  visit("road_speed", road_speed);
+  visit("slot", slot);
+  visit("gear", gear);
+  visit("guard", guard);
+  visit("fault", fault);
+  visit("flags", flags);
+}
+
+// Inputs first, then `out`: the outputs are the tail of an encoded sample.
+constexpr void each_field(FieldsOf<TraceSample> auto& sample, auto&& visit) {
+  auto& [deadline_ns, skipped, reading, controls, tuning, command, out] = sample;
+  visit("deadline_ns", deadline_ns);
+  visit("skipped", skipped);
+  visit("reading", reading);
+  visit("controls", controls);
+  visit("tuning", tuning);
+  visit("command", command);
+  visit("out", out);
+}
+
+// Largest value of an enumeration in the file.
+constexpr LoopCommand last_value(LoopCommand) {
+  return LoopCommand::stop;
+}
+constexpr GuardState last_value(GuardState) {
+  return GuardState::released;
+}
+constexpr GuardFault last_value(GuardFault) {
+  return GuardFault::stopped;
+}
+
+}  // namespace gearshift

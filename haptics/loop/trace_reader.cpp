@@ -1,0 +1,193 @@
+#include "haptics/loop/trace_reader.h"
+
+#include <cerrno>
+#include <cstring>
+#include <system_error>
+
+#include "haptics/files/file_error.h"
+#include "haptics/loop/trace_writer.h"
+
+namespace gearshift {
+namespace {
+
+std::string at_byte(std::uint64_t at) {
+  return "at byte " + std::to_string(at);
+}
+
+}  // namespace
+
+TraceReader::TraceReader(const std::filesystem::path& file, TornTrace torn)
+    : name_(file.string()), policy_(torn) {
+  open(file);
+  check_preamble();
+  read_header();
+  check_scanned();
+}
+
+void TraceReader::fail(const std::string& reason) const {
+  throw FileError(name_, 0, reason);
+}
+
+// When salvaging, damage is where the intact part ends. Returns false for that.
+bool TraceReader::stop_or_fail(const std::string& reason) {
+  if (policy_ == TornTrace::refuse) fail(reason);
+  torn_ = true;
+  return false;
+}
+
+void TraceReader::open(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::filesystem::file_status status = std::filesystem::status(file, error);
+  if (!std::filesystem::exists(status)) fail("there is no such file");
+  if (std::filesystem::is_directory(status)) fail("is a directory, not a trace");
+  if (!std::filesystem::is_regular_file(status)) fail("is not a regular file");
+  errno = 0;
+  stream_.open(file, std::ios::binary);
+  if (!stream_) fail(std::string("cannot be read: ") + std::strerror(errno));
+  size_ = std::filesystem::file_size(file, error);
+  if (error) fail("cannot be read: " + error.message());
+}
+
+void TraceReader::read(std::uint64_t at, std::span<std::byte> to) {
+  stream_.seekg(static_cast<std::streamoff>(at));
+  stream_.read(reinterpret_cast<char*>(to.data()), static_cast<std::streamsize>(to.size()));
+  if (!stream_) fail("cannot be read " + at_byte(at));
+}
+
+void TraceReader::check_preamble() {
+  if (size_ == 0) fail("is empty");
+  if (size_ < kPreambleBytes) fail("is not a gearshift trace");
+  std::array<std::byte, kPreambleBytes> bytes;
+  read(0, bytes);
+  if (std::memcmp(bytes.data(), kTraceMagic.data(), kTraceMagic.size()) != 0)
+    fail("is not a gearshift trace");
+  std::uint32_t version = 0;
+  FieldReader(std::span(bytes).subspan(kTraceMagic.size())).take(version);
+  const std::string says = "is a trace of format " + std::to_string(version);
+  const std::string reads = "this one reads format " + std::to_string(kTraceVersion);
+  if (version > kTraceVersion) fail(says + ", made by a newer gearshift; " + reads);
+  if (version < kTraceVersion) fail(says + ", which no gearshift makes; " + reads);
+}
+
+// The header must be whole even when salvaging: without it the cycles mean nothing.
+void TraceReader::read_header() {
+  if (size_ < kPreambleBytes + kFrameBytes) fail("is torn: it ends inside its header");
+  std::array<std::byte, kFrameBytes> bytes;
+  read(kPreambleBytes, bytes);
+  const std::optional<BlockFrame> frame = decode_frame(bytes);
+  if (!frame || frame->kind != BlockKind::header) fail("is damaged: its header cannot be found");
+  const Block block{kPreambleBytes + kFrameBytes, *frame};
+  if (block.at + frame->size > size_) fail("is torn: it ends inside its header");
+
+  const std::vector<std::byte> payload = read_payload(block);
+  if (crc32(payload) != frame->payload_crc) fail("is damaged: the checksum of its header does not fit");
+  std::optional<TraceHeader> header = decode_header(payload);
+  if (!header) fail("is damaged: its header does not hold what it must");
+  header_ = std::move(*header);
+  hash_ = begin_hash(header_);
+  scan_blocks(block.at + frame->size);
+}
+
+void TraceReader::scan_blocks(std::uint64_t at) {
+  torn_ = true;  // until the end block is found
+  while (size_ - at >= kFrameBytes)
+    if (!scan_block(at)) return;
+}
+
+// Moves `at` past the block. False when it was the last that can be found.
+bool TraceReader::scan_block(std::uint64_t& at) {
+  std::array<std::byte, kFrameBytes> bytes;
+  read(at, bytes);
+  const std::optional<BlockFrame> frame = decode_frame(bytes);
+  if (!frame || frame->kind == BlockKind::header)
+    return stop_or_fail("is damaged: there is no block " + at_byte(at) + ", where one must be");
+  const Block block{at + kFrameBytes, *frame};
+  if (frame->size > size_ - block.at) return false;  // cut short
+  at = block.at + frame->size;
+  if (frame->kind == BlockKind::data) {
+    blocks_.push_back(block);
+    cycles_ += frame->size / kSampleBytes;
+    return true;
+  }
+  const std::vector<std::byte> payload = read_payload(block);
+  const std::optional<TraceEnd> end = decode_end(payload);
+  if (crc32(payload) != frame->payload_crc || !end)
+    return stop_or_fail("is damaged: its end block does not fit");
+  end_ = *end;
+  torn_ = end_.torn;
+  if (at != size_) return stop_or_fail("is damaged: " + std::to_string(size_ - at) + " bytes follow its end");
+  return false;
+}
+
+void TraceReader::check_scanned() {
+  if (policy_ == TornTrace::salvage) return;
+  const std::string intact =
+      std::to_string(cycles_) + " intact cycles can be exported with --torn --csv FILE";
+  if (end_.torn) fail("is torn: the recorder could not keep up; " + intact);
+  if (torn_) fail("is torn: it has no end block; " + intact);
+  if (cycles_ != end_.cycles)
+    fail("is damaged: it holds " + std::to_string(cycles_) + " cycles where its end block says " +
+         std::to_string(end_.cycles));
+  if (cycles_ == 0) fail("holds no cycles");
+}
+
+std::vector<std::byte> TraceReader::read_payload(const Block& block) {
+  std::vector<std::byte> payload(block.frame.size);  // decode_frame has bounded it, and the file is that long
+  read(block.at, payload);
+  return payload;
+}
+
+bool TraceReader::load_block() {
+  if (next_block_ == blocks_.size()) return false;
+  const Block& block = blocks_[next_block_++];
+  payload_.resize(block.frame.size);
+  used_ = 0;
+  read(block.at, payload_);
+  if (crc32(payload_) == block.frame.payload_crc) return true;
+  payload_.clear();
+  next_block_ = blocks_.size();
+  return stop_or_fail("is damaged: the checksum of the block " + at_byte(block.at) + " does not fit");
+}
+
+bool TraceReader::next(TraceSample& sample) {
+  if (used_ == payload_.size() && !load_block()) {
+    check_end();
+    return false;
+  }
+  const auto bytes = std::span(payload_).subspan(used_).first<kSampleBytes>();
+  used_ += kSampleBytes;
+  FieldReader reader(bytes);
+  reader.take(sample);
+  if (!reader.ok())
+    fail("is damaged: cycle " + std::to_string(taken_) + " holds a value that does not exist");
+  if (taken_ > 0 && sample.out.cycle != last_cycle_ + 1)
+    fail("is damaged: cycle " + std::to_string(sample.out.cycle) + " follows cycle " +
+         std::to_string(last_cycle_));
+  last_cycle_ = sample.out.cycle;
+  ++taken_;
+  hash_.add(outputs_of(bytes));
+  return true;
+}
+
+void TraceReader::check_end() const {
+  if (torn_ || hash() == end_.hash) return;
+  fail("is damaged: its parameters and outputs are not those that its end block vouches for");
+}
+
+Trace read_trace(const std::filesystem::path& file) {
+  TraceReader reader(file);
+  Trace trace{reader.header(), {}, 0};
+  for (TraceSample sample; reader.next(sample);) trace.samples.push_back(sample);
+  trace.hash = reader.hash();
+  return trace;
+}
+
+void write_trace(const std::filesystem::path& file, const TraceHeader& header,
+                 std::span<const TraceSample> samples) {
+  TraceWriter writer(file, header);
+  for (const TraceSample& sample : samples) writer.add(sample);
+  writer.finish();
+  if (!writer.problem().empty()) throw FileError(file.string(), 0, writer.problem());
+}
+
+}  // namespace gearshift

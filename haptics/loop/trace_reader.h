@@ -1,0 +1,84 @@
+// Reads a trace file block by block, in constant memory, and believes nothing in it.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "haptics/loop/trace_format.h"
+
+namespace gearshift {
+
+enum class TornTrace {
+  refuse,  // a file that is not whole is not read at all
+  salvage  // its intact cycles are: up to the first block that is damaged or missing
+};
+
+class TraceReader {
+ public:
+  // Throws FileError with one sentence: not there, a directory, empty, foreign, of a newer format, damaged or
+  // torn. The frames of all blocks are looked at here, the payloads when it is their turn.
+  explicit TraceReader(const std::filesystem::path& file, TornTrace torn = TornTrace::refuse);
+
+  const TraceHeader& header() const noexcept { return header_; }
+  std::uint64_t cycles() const noexcept { return cycles_; }  // in all whole data blocks
+  bool torn() const noexcept { return torn_; }               // true only when salvaging
+
+  // False after the last cycle. Throws FileError where a block is damaged, cycles do not follow one another,
+  // or the outputs are not those that the end block vouches for.
+  bool next(TraceSample& sample);
+
+  std::uint64_t hash() const noexcept {
+    return hash_.value();
+  }  // of the parameters and the outputs read so far
+
+ private:
+  struct Block {
+    std::uint64_t at = 0;  // [bytes] of the payload
+    BlockFrame frame;
+  };
+
+  [[noreturn]] void fail(const std::string& reason) const;
+  void open(const std::filesystem::path& file);
+  void check_preamble();
+  void read_header();
+  void scan_blocks(std::uint64_t at);
+  bool scan_block(std::uint64_t& at);
+  void check_scanned();
+  bool load_block();
+  bool stop_or_fail(const std::string& reason);
+  void check_end() const;
+  void read(std::uint64_t at, std::span<std::byte> to);
+  std::vector<std::byte> read_payload(const Block& block);
+
+  std::string name_;
+  std::ifstream stream_;
+  std::uint64_t size_ = 0;  // [bytes] of the file
+  TornTrace policy_;
+  TraceHeader header_;
+  std::vector<Block> blocks_;  // data blocks
+  TraceEnd end_;
+  bool torn_ = false;
+  std::uint64_t cycles_ = 0;
+
+  std::size_t next_block_ = 0;
+  std::vector<std::byte> payload_;
+  std::size_t used_ = 0;  // [bytes] of payload_
+  std::uint64_t taken_ = 0;
+  std::uint64_t last_cycle_ = 0;
+  RunHash hash_;
+};
+
+// A whole trace in memory, for short ones.
+struct Trace {
+  TraceHeader header;
+  std::vector<TraceSample> samples;
+  std::uint64_t hash = 0;  // of parameters and outputs, as recorded
+};
+Trace read_trace(const std::filesystem::path& file);
+void write_trace(const std::filesystem::path& file, const TraceHeader& header,
+                 std::span<const TraceSample> samples);
+
+}  // namespace gearshift

@@ -1,0 +1,70 @@
+// Drains the loop's trace queue into a file, on any thread but the loop's.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <thread>
+
+#include "haptics/loop/haptic_loop.h"
+#include "haptics/loop/trace_writer.h"
+
+namespace gearshift {
+
+enum class TracePump {
+  own_thread,  // beside a real-time loop
+  by_caller    // a headless run calls pump() at least once every 8000 cycles
+};
+
+struct RecordingResult {
+  std::uint64_t cycles = 0;
+  std::uint64_t hash = 0;  // of parameters and outputs
+  bool torn = false;       // the queue overflowed: the file ends before the first lost cycle and says so
+  std::string problem;     // empty, or one sentence: the disk is full, or the recorder could not keep up
+};
+
+class TraceRecorder {
+ public:
+  // Start it before the loop's first cycle: only then can the trace be replayed. Throws FileError when the
+  // file cannot be created. The channels must outlive the recorder.
+  TraceRecorder(const std::filesystem::path& file, const TraceHeader& header, LoopChannels& channels,
+                TracePump pump);
+  ~TraceRecorder() { finish(); }
+  TraceRecorder(const TraceRecorder&) = delete;
+  TraceRecorder& operator=(const TraceRecorder&) = delete;
+
+  void pump() noexcept;  // by_caller only
+
+  // The problem of a running recording, once: to be shown when it happens.
+  std::optional<std::string> take_problem();
+
+  // Takes what is left in the queue and closes the file. Stop the loop first, or the last cycles are missing
+  // (the trace is whole nevertheless). May be called twice.
+  RecordingResult finish() noexcept;
+
+ private:
+  void drain() noexcept;
+  void take(const TraceSample& sample) noexcept;
+  void give_up() noexcept;
+  void run() noexcept;
+
+  LoopChannels& channels_;
+  TraceWriter writer_;
+  const std::uint64_t lost_before_;
+  std::optional<std::uint64_t> last_cycle_;
+  bool lost_ = false;  // the loop could not push a cycle
+  bool gap_ = false;   // and the cycles after it have begun to arrive
+  bool finished_ = false;
+
+  std::mutex mutex_;  // guards what stands below, between the recorder's thread and the caller's
+  std::condition_variable wake_;
+  bool stopping_ = false;
+  std::string problem_;
+  bool problem_taken_ = false;
+  std::thread thread_;
+};
+
+}  // namespace gearshift

@@ -1,0 +1,236 @@
+// What a hand feels of the gate, measured on the simulated lever through the whole cycle.
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <random>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include "haptics/gate/gate_feel.h"
+#include "haptics/loop/simulated_run.h"
+#include "tests/support/gates.h"
+#include "tests/support/hands.h"
+
+using namespace gearshift;
+using glm::dvec2;
+
+namespace {
+
+SimulatedRunConfig resting_at(const Gate& gate, dvec2 start) {
+  SimulatedRunConfig config;
+  config.gate = gate;
+  config.start = start;
+  config.haptics.guard.ramp_time = 0.01;
+  return config;
+}
+
+HapticSnapshot run_for(SimulatedRun& run, double seconds) {
+  for (const double end = run.time() + seconds; run.time() < end;) run.step();
+  return run.loop().snapshot();
+}
+
+std::vector<HapticEvent> events_of(SimulatedRun& run, EventKind kind) {
+  std::vector<HapticEvent> found;
+  for (HapticEvent event; run.channels().events.pop(event);) {
+    if (event.kind == kind) found.push_back(event);
+  }
+  return found;
+}
+
+}  // namespace
+
+TEST_CASE("row 11: a free lever away from the gears returns to the neutral position by itself") {
+  RestingHand nobody;
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> x(-0.035, 0.035), y(-0.02, 0.02);
+  for (const std::string& name : shipped_names()) {
+    CAPTURE(name);
+    const Gate gate = shipped_gate(name);
+    const dvec2 neutral = rest_position(gate, kNeutralGear);
+    for (int trial = 0; trial < 40;) {
+      const dvec2 start{x(random), y(random)};
+      const double before_crest = gate.half_aisle + gate.chamfer + 0.001;
+      if (!in_free_space(gate, start) || std::abs(start.y) > before_crest) continue;
+      ++trial;
+      CAPTURE(start.x);
+      CAPTURE(start.y);
+      SimulatedRun run(resting_at(gate, start), nobody);
+      const HapticSnapshot end = run_for(run, 3.0);
+      CHECK(glm::distance(end.lever, neutral) < 0.001);  // the handle's own spring pulls to its centre
+      CHECK(end.gear == kNeutralGear);
+    }
+  }
+}
+
+TEST_CASE("row 10: a lever in gear stays there when let go: no ejection, no drift within a minute") {
+  RestingHand nobody;
+  const Gate gate = paper_gate();
+  for (const int gear : {1, 2, 3, 4, 5, kReverseGear}) {
+    SimulatedRun run(resting_at(gate, rest_position(gate, gear)), nobody);
+    const HapticSnapshot early = run_for(run, 1.0);
+    const HapticSnapshot late = run_for(run, 60.0);
+    CHECK(late.gear == gear);
+    CHECK(glm::distance(early.lever, late.lever) < 0.0002);
+  }
+}
+
+TEST_CASE(
+    "row 10: the pull that takes a gear out is the lock's force and the handle's own spring, within 3 %") {
+  const GateLayout layout = read_gate_layout(GEARSHIFT_ASSETS "/gates/paper.toml");
+  const Gate gate = compile_gate(layout, kPaperWorkspace);
+  for (const int gear : {1, 2, 3, 4}) {
+    const double away = rest_position(gate, gear).y > 0.0 ? -1.0 : 1.0;
+    double pull = 0.0;
+    PushingHand hand([&](double time, dvec2) {
+      pull = 2.0 * std::max(0.0, time - 0.2);  // 2 N/s: slow against every mode of the lever
+      return dvec2{0.0, away * pull};
+    });
+    SimulatedRun run(resting_at(gate, rest_position(gate, gear)), hand);
+    run_for(run, 0.1);
+    REQUIRE(run.loop().snapshot().gear == gear);
+    while (run.time() < 20.0 && run.step().gear == gear) continue;
+    // The handle's spring (eq 12) helps the pull: 15.7 N/m at about 30 mm, where the lock is strongest.
+    const Slot& slot = gate.slot[static_cast<std::size_t>(slot_of_gear(gate, gear))];
+    double strongest_at = slot.rest;
+    for (double s = slot.rest; s > slot.release_depth; s -= 1e-5) {
+      if (feel_force(slot.feel, s) > feel_force(slot.feel, strongest_at)) strongest_at = s;
+    }
+    const double expected = layout.feel.lock_force - kPaperAxisY.stiffness * strongest_at;
+    CHECK(pull == doctest::Approx(expected).epsilon(0.03));
+  }
+}
+
+TEST_CASE("row 12: a steady push along the aisle ends at the speed where damping balances it, within 3 %") {
+  // A bare layout: one long aisle, no feel, so that damping alone is measured.
+  Gate gate = paper_gate();
+  gate.select_feel = {};
+  gate.buffer_count = 0;
+  SimulatedRunConfig config = resting_at(gate, {-0.034, 0.0});
+  config.lever.axis_x.stiffness = 0.0;
+  config.lever.axis_x.mass = 0.005;  // light, so that it reaches its speed within the aisle
+  config.haptics.tuning.limit_damping = 1.0;
+  config.haptics.tuning.aisle_damping = 0.5;
+  for (const double push : {2.0, 4.0}) {
+    PushingHand hand([&](double time, dvec2) { return dvec2{time > 0.02 ? push : 0.0, 0.0}; });
+    SimulatedRun run(config, hand);
+    while (run.lever().true_position().x < 0.030 && run.time() < 1.0) run.step();
+    const double reached = run.lever().true_velocity().x;
+    const HapticTuning used = run.loop().admitted().tuning;
+    const double b = config.lever.axis_x.damping + used.aisle_damping;
+    const double slow = push / b;
+    const double expected = slow <= used.speed_limit
+                                ? slow
+                                : (push + used.limit_damping * used.speed_limit) / (b + used.limit_damping);
+    CHECK(reached == doctest::Approx(expected).epsilon(0.03));
+  }
+}
+
+TEST_CASE(
+    "row 9: pushed along the neutral aisle into junctions I and III, the lever is turned the way it leans") {
+  const Gate gate = paper_gate();
+  for (const double way : {-1.0, 1.0}) {
+    for (const double lean : {-1.0, 1.0}) {
+      PushingHand hand([&](double, dvec2) { return dvec2{way * 8.0, lean * 0.05}; });
+      SimulatedRunConfig config = resting_at(gate, {0.0, lean * 0.0005});
+      config.haptics.tuning.feel_scale = 1.0;
+      SimulatedRun run(config, hand);
+      const HapticSnapshot end = run_for(run, 2.0);
+      CAPTURE(way);
+      CAPTURE(lean);
+      CHECK(way * end.proxy.x > 0.03);
+      CHECK(lean * end.lever.y > 0.5 * gate.half_aisle);
+    }
+  }
+}
+
+TEST_CASE("eq (4): f_j = f_h - f_a in every snapshot, and f_j is what accelerates the lever") {
+  const Gate gate = paper_gate();
+  PushingHand hand([](double time, dvec2) {
+    return dvec2{8.0 * std::sin(9.0 * time), 5.0 * std::cos(7.0 * time)};
+  });
+  SimulatedRunConfig config = resting_at(gate, {0.0, 0.0});
+  config.lever.force_sensor.resolution_gw = 0.0;
+  SimulatedRun run(config, hand);
+  for (int i = 0; i < 3000; ++i) {
+    const HapticSnapshot& s = run.step();
+    REQUIRE(glm::distance(s.f_j, s.f_h - s.f_a) < 1e-12);
+    // On the handle alone, small angles: f_h is the push itself, since the hand has no mass.
+    if (glm::length(s.lever) < 0.02)
+      REQUIRE(std::abs(s.f_h.x - 8.0 * std::sin(9.0 * (run.time() - 2.0 * run.period()))) < 0.35);
+  }
+}
+
+TEST_CASE("row 13: a push above 60 N warns once, clears below 50 N, and saturation is told") {
+  const Gate gate = paper_gate();
+  const double wall = -1.0;  // the neutral aisle's lower wall, between two columns
+  const dvec2 start{0.5 * (gate.column[0].center + gate.column[1].center), 0.0};
+  PushingHand hand([&](double time, dvec2) {
+    const double tremble = 4.0 * std::sin(60.0 * time);
+    return dvec2{0.0, wall * (time < 0.5   ? 20.0
+                              : time < 1.0 ? 62.0 + tremble
+                              : time < 1.5 ? 57.0 + tremble
+                                           : 20.0)};
+  });
+  SimulatedRun run(resting_at(gate, start), hand);
+  run_for(run, 0.45);
+  CHECK((run.loop().snapshot().flags & (kFlagOverPush | kFlagSaturated)) == 0);
+  run_for(run, 0.5);
+  CHECK((run.loop().snapshot().flags & kFlagOverPush) != 0);
+  CHECK((run.loop().snapshot().flags & kFlagSaturated) != 0);
+  run_for(run, 1.5);
+  CHECK((run.loop().snapshot().flags & (kFlagOverPush | kFlagSaturated)) == 0);
+  std::vector<HapticEvent> begins, ends, saturations;
+  for (HapticEvent event; run.channels().events.pop(event);) {
+    if (event.kind == EventKind::over_push_begin) begins.push_back(event);
+    if (event.kind == EventKind::over_push_end) ends.push_back(event);
+    if (event.kind == EventKind::saturation_begin) saturations.push_back(event);
+  }
+  REQUIRE(begins.size() == 1);
+  REQUIRE(ends.size() == 1);
+  CHECK(begins[0].value > 60.0);
+  CHECK(ends[0].value < 50.0);
+  CHECK(saturations.size() >= 1);
+  CHECK(run.channels().events_lost == 0);
+}
+
+TEST_CASE(
+    "row 14: the drawn lever stays inside while the hand is far outside, and past 20 mm the ghost is asked "
+    "for") {
+  Gate gate = paper_gate();
+  gate.select_feel = {};  // straight into the wall
+  const dvec2 start{0.5 * (gate.column[0].center + gate.column[1].center), 0.0};
+  PushingHand hand([](double time, dvec2) { return dvec2{0.0, time < 0.02 ? 0.0 : 60.0}; });
+  SimulatedRun run(resting_at(gate, start), hand);
+  double deepest = 0.0;
+  bool ghost = false;
+  while (run.time() < 1.0) {
+    const HapticSnapshot& s = run.step();
+    REQUIRE(in_free_space(gate, s.proxy, 1e-9));
+    const double depth = glm::distance(s.lever, s.proxy);
+    REQUIRE(((s.flags & kFlagGhost) != 0) == (depth > 0.020));
+    ghost = ghost || (s.flags & kFlagGhost) != 0;
+    deepest = std::max(deepest, depth);
+  }
+  CHECK(ghost);
+  // The paper's collapse: the motors give 31.7 N, so a bare lever runs to its stop at rho sin(35 deg).
+  CHECK(deepest ==
+        doctest::Approx(0.12 * std::sin(35.0 * 3.14159265 / 180.0) - gate.half_aisle).epsilon(0.01));
+  CHECK(events_of(run, EventKind::wall_contact).size() >= 1);
+}
+
+TEST_CASE("wall contact tells the impact's speed") {
+  const Gate gate = paper_gate();
+  const dvec2 start{0.5 * (gate.column[0].center + gate.column[1].center), -0.9 * gate.half_aisle};
+  PushingHand hand([](double time, dvec2) { return dvec2{0.0, time < 0.1 ? 0.0 : 6.0}; });
+  SimulatedRun run(resting_at(gate, start), hand);
+  double speed = 0.0, before = 0.0;
+  while (run.time() < 1.0 && (run.step().flags & kFlagContact) == 0) {
+    before = speed;
+    speed = run.lever().true_velocity().y;
+  }
+  const std::vector<HapticEvent> contacts = events_of(run, EventKind::wall_contact);
+  REQUIRE(contacts.size() == 1);
+  CHECK(contacts[0].value == doctest::Approx(before).epsilon(0.25));  // smoothed over 4 ms
+}

@@ -1,0 +1,262 @@
+// The whole cycle on a device that fails: what comes out stays finite and small, and dies away in the stated
+// time.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <memory>
+#include <random>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include "haptics/device/simulated_lever.h"
+#include "haptics/loop/haptic_loop.h"
+#include "tests/support/gates.h"
+#include "tests/support/hands.h"
+
+using namespace gearshift;
+using glm::dvec2;
+
+namespace {
+
+constexpr std::int64_t kPeriodNs = 1'000'000;
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kInf = std::numeric_limits<double>::infinity();
+
+// The simulated lever with a saboteur between it and the loop; it does not arm itself again.
+class SabotagedLever final : public HapticDevice {
+ public:
+  SabotagedLever(HandDriver& hand, dvec2 start) : lever_({}, kPeriodNs, hand), spec_(lever_.spec()) {
+    spec_.simulated = false;
+    lever_.place(start);
+  }
+  const DeviceSpec& spec() const noexcept override { return spec_; }
+  LeverReading read(std::int64_t now_ns) noexcept override {
+    LeverReading reading = lever_.read(now_ns);
+    if (sabotage) sabotage(reading);
+    return reading;
+  }
+  void write(dvec2 force) noexcept override {
+    written = force;
+    lever_.write(force);
+  }
+  void release() noexcept override {
+    ++releases;
+    lever_.release();
+  }
+
+  std::function<void(LeverReading&)> sabotage;
+  dvec2 written{0.0};
+  int releases = 0;
+
+ private:
+  SimulatedLever lever_;
+  DeviceSpec spec_;
+};
+
+// A lever pressed into the upper wall of the neutral aisle with 15 N.
+struct PressedRig {
+  PressedRig()
+      : gate(paper_gate()),
+        hand([](double, dvec2) {
+          return dvec2{0.0, 15.0};
+        }),
+        lever(hand, {0.5 * (gate.column[0].center + gate.column[1].center), 0.0}),
+        loop(HapticConfig{}, gate, lever, world, channels) {
+    loop.arm();
+    run(1500);
+  }
+  void run(int cycles, std::int64_t skipped = 0) {
+    for (int i = 0; i < cycles; ++i) {
+      now += kPeriodNs * (1 + skipped);
+      loop.cycle(now, skipped);
+      finite = finite && std::isfinite(lever.written.x) && std::isfinite(lever.written.y);
+      strongest = std::max(strongest, glm::length(lever.written));
+    }
+  }
+  // Cycles until the command is zero, at most 1000.
+  int cycles_to_zero() {
+    for (int i = 1; i <= 1000; ++i) {
+      run(1);
+      if (lever.written == dvec2{0.0, 0.0}) return i;
+    }
+    return 1000;
+  }
+
+  Gate gate;
+  PushingHand hand;
+  SabotagedLever lever;
+  NullWorld world;
+  LoopChannels channels;
+  HapticLoop loop;
+  std::int64_t now = 0;
+  bool finite = true;
+  double strongest = 0.0;
+};
+
+}  // namespace
+
+TEST_CASE("the rig presses: the wall gives back the push within 3 %") {
+  PressedRig rig;
+  CHECK(rig.loop.snapshot().guard == GuardState::running);
+  double mean = 0.0;
+  for (int i = 0; i < 50; ++i) {
+    rig.run(1);
+    mean -= rig.lever.written.y / 50.0;
+  }
+  // what the handle's own spring does not take: 15.7 N/m at about 9 mm
+  CHECK(mean == doctest::Approx(15.0 - kPaperAxisY.stiffness * rig.loop.snapshot().lever.y).epsilon(0.03));
+}
+
+TEST_CASE("fault to zero force: frozen, not finite, jumping, lost and backward readings") {
+  LeverReading frozen;
+  bool has_frozen = false;
+  const struct {
+    const char* name;
+    std::function<void(LeverReading&)> sabotage;
+    int within;  // [cycles of 1 ms]
+  } faults[] = {
+      {"frozen", [&](LeverReading& r) { r = has_frozen ? frozen : (has_frozen = true, frozen = r); }, 42},
+      {"NaN position", [](LeverReading& r) { r.position.x = kNan; }, 42},
+      {"infinite position", [](LeverReading& r) { r.position.y = kInf; }, 42},
+      {"sequence stands still", [](LeverReading& r) { r.sequence = 7; }, 42},
+      {"time runs backward", [](LeverReading& r) { r.time_ns = -r.time_ns; }, 42},
+      {"jumps about at random",
+       [n = 0](LeverReading& r) mutable {
+         ++n;
+         r.position = {n % 2 ? 0.05 : -0.05, n % 3 ? 0.04 : -0.04};
+       },
+       42},
+      {"far outside the workspace",
+       [](LeverReading& r) {
+         r.position = {0.5, 0.5};
+       },
+       60},
+  };
+  for (const auto& fault : faults) {
+    CAPTURE(fault.name);
+    has_frozen = false;
+    PressedRig rig;
+    rig.lever.sabotage = fault.sabotage;
+    CHECK(rig.cycles_to_zero() <= fault.within);
+    rig.run(500);
+    CHECK(rig.finite);
+    CHECK(rig.strongest <= 31.7 * std::sqrt(2.0));
+    CHECK(rig.lever.written == dvec2{0.0, 0.0});
+    CHECK(in_free_space(rig.gate, rig.loop.snapshot().proxy, 1e-9));
+    // health alone does not bring the force back on a device that is not simulated
+    rig.lever.sabotage = nullptr;
+    rig.run(1000);
+    CHECK(rig.loop.snapshot().guard != GuardState::running);
+    rig.channels.commands.push(LoopCommand::arm);
+    rig.run(1000);
+    CHECK(rig.loop.snapshot().guard == GuardState::running);
+  }
+}
+
+TEST_CASE("single lost, repeated and wild readings are ridden out: still running, no kick") {
+  PressedRig rig;
+  std::mt19937_64 random(3);
+  LeverReading last;
+  rig.lever.sabotage = [&](LeverReading& r) {
+    switch (random() % 20) {
+      case 0:
+        r = last;
+        break;  // repeated
+      case 1:
+        r.position = {kNan, kInf};
+        break;
+      case 2:
+        r.position.x += 0.03;
+        break;  // jumps by 30 mm for one sample
+      case 3:
+        r.time_ns -= 5 * kPeriodNs;
+        break;
+      default:
+        last = r;
+        break;
+    }
+  };
+  rig.strongest = 0.0;
+  rig.run(5000);
+  CHECK(rig.loop.snapshot().guard == GuardState::running);
+  CHECK(rig.finite);
+  CHECK(rig.strongest < 25.0);  // 15 N steady, and what a repeated reading costs
+}
+
+TEST_CASE("late cycles: one at a time is ridden out, eight in a row are damped") {
+  PressedRig rig;
+  for (int i = 0; i < 200; ++i) {
+    rig.run(1, 2);
+    rig.run(4);
+  }
+  CHECK(rig.loop.snapshot().guard == GuardState::running);
+  rig.run(8, 1);
+  CHECK(rig.loop.snapshot().guard == GuardState::damped);
+  CHECK(rig.loop.snapshot().fault == GuardFault::overruns);
+  CHECK(rig.finite);
+}
+
+TEST_CASE("a simulated lever shows its fall, and arms itself again after 50 ms of health") {
+  const Gate gate = paper_gate();
+  RestingHand nobody;
+  SimulatedLever lever({}, kPeriodNs, nobody);
+  NullWorld world;
+  LoopChannels channels;
+  HapticLoop loop(HapticConfig{}, gate, lever, world, channels);
+  loop.arm();
+  std::int64_t now = 0;
+  const auto run = [&](int cycles, std::int64_t skipped) {
+    for (int i = 0; i < cycles; ++i) loop.cycle(now += kPeriodNs * (1 + skipped), skipped);
+  };
+  run(1000, 0);
+  run(8, 1);
+  CHECK(loop.snapshot().guard == GuardState::damped);
+  CHECK(loop.snapshot().fault == GuardFault::overruns);
+  run(45, 0);
+  CHECK(loop.snapshot().guard == GuardState::damped);
+  run(15, 0);
+  CHECK(loop.snapshot().guard == GuardState::ramping);
+}
+
+TEST_CASE("a cycle whose deadline runs backward is a stale reading, not a crash") {
+  PressedRig rig;
+  for (int i = 0; i < 5; ++i) rig.loop.cycle(rig.now - 50 * kPeriodNs, 0);
+  rig.run(100);
+  CHECK(rig.loop.snapshot().guard == GuardState::running);
+  CHECK(rig.finite);
+}
+
+TEST_CASE("stop: motors off in the same cycle, and released until a person arms it") {
+  PressedRig rig;
+  rig.channels.commands.push(LoopCommand::stop);
+  rig.run(1);
+  CHECK(rig.lever.written == dvec2{0.0, 0.0});
+  CHECK(rig.lever.releases >= 1);
+  CHECK(rig.loop.snapshot().guard == GuardState::released);
+}
+
+TEST_CASE("a world that returns nonsense releases the motors") {
+  class MadWorld final : public LeverWorld {
+   public:
+    LeverOutput step(const LeverInput&, double) noexcept override {
+      LeverOutput out;
+      if (++steps_ > 700) out.force = {kNan, 1e300};
+      return out;
+    }
+    void reset() noexcept override {}
+    const char* name() const noexcept override { return "mad"; }
+
+   private:
+    int steps_ = 0;
+  };
+  PressedRig rig;
+  MadWorld mad;
+  HapticLoop loop(HapticConfig{}, rig.gate, rig.lever, mad, rig.channels);
+  loop.arm();
+  for (int i = 0; i < 710; ++i) loop.cycle(rig.now += kPeriodNs, 0);
+  CHECK(loop.snapshot().guard == GuardState::released);
+  CHECK(loop.snapshot().fault == GuardFault::not_finite);
+  CHECK(rig.lever.written == dvec2{0.0, 0.0});
+}

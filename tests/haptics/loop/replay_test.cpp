@@ -1,0 +1,307 @@
+#include "haptics/loop/replay.h"
+
+#include <future>
+#include <set>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "haptics/files/file_error.h"
+#include "haptics/rt/realtime_thread.h"
+#include "tests/haptics/loop/recorded_drive.h"
+
+namespace gearshift {
+namespace {
+
+const Trace& recorded_trace() {
+  static const Trace trace = [] {
+    const TempFolder folder;
+    RecordedDrive drive;
+    drive.record(folder / "drive.trace");
+    return read_trace(folder / "drive.trace");
+  }();
+  return trace;
+}
+
+void flip_lowest_bit(double& value) {
+  value = std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) ^ 1u);
+}
+
+// Calls visit(full name, double&) for every double inside.
+template <class T, class Visit>
+void each_double(T& value, const std::string& prefix, const Visit& visit) {
+  each_field(value, [&](const char* name, auto& member) {
+    using Member = std::remove_cvref_t<decltype(member)>;
+    if constexpr (std::is_same_v<Member, double>)
+      visit(prefix + name, member);
+    else if constexpr (!LeafField<Member>)
+      each_double(member, prefix + name + ".", visit);
+  });
+}
+
+std::vector<std::string> names_of_doubles(const HapticConfig& config) {
+  std::vector<std::string> names;
+  HapticConfig copy = config;
+  each_double(copy, "", [&](const std::string& name, double&) { names.push_back(name); });
+  return names;
+}
+
+void flip(HapticConfig& config, const std::string& wanted) {
+  each_double(config, "", [&](const std::string& name, double& value) {
+    if (name == wanted) flip_lowest_bit(value);
+  });
+}
+
+std::string refusal(const Trace& trace) {
+  try {
+    replay(trace);
+  } catch (const FileError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+bool contains(const std::string& text, const char* part) {
+  return text.find(part) != std::string::npos;
+}
+
+// A world with a memory: a spring whose rest creeps after the lever.
+class CreepingSpring final : public LeverWorld {
+ public:
+  LeverOutput step(const LeverInput& in, double period) noexcept override {
+    rest_ += period * (in.position - rest_);
+    LeverOutput out;
+    out.force = 20.0 * (rest_ - in.position) * (1.0 + in.controls.throttle);
+    out.road_speed = 100.0 * rest_.x;
+    return out;
+  }
+  void reset() noexcept override { rest_ = {0.0, 0.0}; }
+  const char* name() const noexcept override { return "creeping spring 20 N/m"; }
+
+ private:
+  glm::dvec2 rest_{0.0};
+};
+
+}  // namespace
+
+TEST_CASE("replay: the drive of these tests meets what it is there to meet") {
+  std::set<GuardState> guards;
+  std::set<GuardFault> faults;
+  std::set<int> gears;
+  std::uint64_t contacts = 0;
+  for (const TraceSample& sample : recorded_trace().samples) {
+    guards.insert(sample.out.guard);
+    faults.insert(sample.out.fault);
+    gears.insert(sample.out.gear);
+    contacts += sample.out.flags & kFlagContact ? 1 : 0;
+  }
+  CHECK(recorded_trace().samples.size() == RecordedDrive::kCycles);
+  CHECK(guards.count(GuardState::idle) + guards.count(GuardState::running) +
+            guards.count(GuardState::damped) ==
+        3);
+  CHECK(guards.count(GuardState::released) == 1);
+  CHECK(faults.count(GuardFault::stale_reading) == 1);
+  CHECK(gears.size() >= 3);
+  CHECK(contacts > 500);
+}
+
+TEST_CASE("replay: a recorded drive comes out bit for bit from its inputs alone") {
+  const ReplayResult result = replay(recorded_trace());
+  CHECK(result.bit_for_bit());
+  CHECK_FALSE(result.first.has_value());
+  CHECK(result.cycles == RecordedDrive::kCycles);
+  CHECK(result.replayed_hash == recorded_trace().hash);
+  CHECK(result.seconds == doctest::Approx(4.012).epsilon(1e-12));  // 4000 periods, and 12 deadlines missed
+}
+
+TEST_CASE("replay: the same drive driven twice gives the same hash") {
+  const TempFolder folder;
+  RecordedDrive drive;
+  CHECK(drive.record(folder / "again.trace").hash == recorded_trace().hash);
+}
+
+TEST_CASE("replay: flipping the lowest bit of any one parameter breaks it") {
+  for (const std::string& name : names_of_doubles(recorded_trace().header.config)) {
+    CAPTURE(name);
+    Trace trace = recorded_trace();
+    flip(trace.header.config, name);
+    CHECK_FALSE(replay(trace).bit_for_bit());
+  }
+  TraceHeader header = recorded_trace().header;
+  each_double(header.device, "", [&](const std::string& name, double& value) {
+    CAPTURE(name);
+    Trace trace = recorded_trace();
+    const double before = value;
+    flip_lowest_bit(value);
+    trace.header = header;
+    value = before;
+    CHECK_FALSE(replay(trace).bit_for_bit());
+  });
+  Trace trace = recorded_trace();
+  trace.header.config.guard.overruns_in_row += 1;
+  CHECK_FALSE(replay(trace).bit_for_bit());
+}
+
+// Only ever compared with something, or rounded to whole nanoseconds or cycles: their last bit moves no
+// output unless the other side is exactly equal. The hash holds them all the same (the case above).
+const std::set<std::string> kOnlyCompared = {
+    "rate",
+    "estimator.speed_limit",
+    "guard.stale_time",
+    "guard.position_margin",
+    "over_push.warn_above",
+    "over_push.clear_below",
+    "gear_debounce",
+    "ghost_offset",
+};
+
+TEST_CASE("replay: the lowest bit of every parameter that makes a force changes an output") {
+  for (const std::string& name : names_of_doubles(recorded_trace().header.config)) {
+    if (kOnlyCompared.count(name) != 0) continue;
+    CAPTURE(name);
+    Trace trace = recorded_trace();
+    const HapticConfig before = trace.header.config;
+    flip(trace.header.config, name);
+    // The tuning is recorded with every cycle, too: changed there as well, only the outputs are left to tell.
+    for (TraceSample& sample : trace.samples) {
+      HapticConfig as_sampled = before;
+      as_sampled.tuning = sample.tuning;
+      flip(as_sampled, name);
+      sample.tuning = as_sampled.tuning;
+    }
+    const ReplayResult result = replay(trace);
+    REQUIRE(result.first.has_value());
+    CHECK(result.first->field.find("out.") == 0);
+  }
+}
+
+TEST_CASE("replay: names the first cycle and field that differ, with both values") {
+  SUBCASE("an input changed") {
+    Trace trace = recorded_trace();
+    flip_lowest_bit(trace.samples[1234].reading.position.y);
+    const ReplayResult result = replay(trace);
+    REQUIRE(result.first.has_value());
+    CHECK(result.first->cycle == 1234);
+    CHECK(result.first->field == "out.lever.y");
+    CHECK(result.first->recorded != result.first->replayed);
+    CHECK(result.cycles == 1235);
+  }
+  SUBCASE("an output changed") {
+    Trace trace = recorded_trace();
+    trace.samples[7].out.commanded.x = 12.5;
+    const ReplayResult result = replay(trace);
+    REQUIRE(result.first.has_value());
+    CHECK(result.first->cycle == 7);
+    CHECK(result.first->field == "out.commanded.x");
+    CHECK(result.first->recorded == "12.5");
+  }
+  SUBCASE("a command lost") {
+    Trace trace = recorded_trace();
+    trace.samples[2600].command = LoopCommand::none;
+    const ReplayResult result = replay(trace);
+    REQUIRE(result.first.has_value());
+    CHECK(result.first->cycle == 2600);
+  }
+  SUBCASE("armed by nobody") {
+    Trace trace = recorded_trace();
+    trace.header.armed = false;
+    const ReplayResult result = replay(trace);
+    REQUIRE(result.first.has_value());
+    CHECK(result.first->cycle == 0);
+    CHECK(result.first->field == "out.commanded.x");
+    CHECK(result.first->replayed == "0");
+  }
+  SUBCASE("another gate") {
+    Trace trace = recorded_trace();
+    const std::string key = "detent_force_n = 6";
+    trace.header.gate_text.replace(trace.header.gate_text.find(key), key.size(), "detent_force_n = 7");
+    const ReplayResult result = replay(trace);
+    REQUIRE(result.first.has_value());
+    CHECK(result.first->field == "out.feel_force.y");
+  }
+  SUBCASE("a deadline skipped that was not") {
+    Trace trace = recorded_trace();
+    trace.samples[2005].skipped = 0;
+    CHECK_FALSE(replay(trace).bit_for_bit());
+  }
+}
+
+TEST_CASE("replay: a world with a memory replays, and only that world") {
+  const TempFolder folder;
+  CreepingSpring spring;
+  RecordedDrive drive(&spring);
+  drive.record(folder / "drive.trace");
+  const Trace trace = read_trace(folder / "drive.trace");
+  CHECK(trace.hash != recorded_trace().hash);
+
+  const auto make_spring = [](const std::string& name) -> std::unique_ptr<LeverWorld> {
+    auto world = std::make_unique<CreepingSpring>();
+    return name == world->name() ? std::move(world) : nullptr;
+  };
+  CHECK(replay(trace, make_spring).bit_for_bit());
+  CHECK(contains(refusal(trace), "its world \"creeping spring 20 N/m\" is not known to this program"));
+}
+
+TEST_CASE("replay: what cannot be run is refused in one sentence") {
+  Trace trace = recorded_trace();
+  SUBCASE("began in the middle") {
+    trace.samples.erase(trace.samples.begin(), trace.samples.begin() + 500);
+    CHECK(contains(refusal(trace), "its recording began in the middle of a run, at cycle 500"));
+  }
+  SUBCASE("a rate that is no number") {
+    trace.header.config.rate = std::numeric_limits<double>::quiet_NaN();
+    CHECK(contains(refusal(trace), "cannot be run again: rate_hz"));
+  }
+  SUBCASE("a device that is no number") {
+    trace.header.device.axis_x.mass = std::numeric_limits<double>::infinity();
+    CHECK(contains(refusal(trace), "its device has axis_x.mass = inf"));
+  }
+  SUBCASE("a layout that is none") {
+    trace.header.gate_text = "name = 5";
+    CHECK(contains(refusal(trace), "its gate is refused: paper.toml:1"));
+  }
+  SUBCASE("a layout beyond the device") {
+    trace.header.device.workspace = {0.01, 0.01};
+    CHECK(contains(refusal(trace), "its gate is refused: paper.toml"));
+  }
+}
+
+TEST_CASE(
+    "replay: a drive on a real-time thread, recorded beside it, comes out bit for bit, late cycles "
+    "included") {
+  constexpr std::uint64_t kEnough = 300;
+  const TempFolder folder;
+  SimulatedLeverConfig lever_config;
+  lever_config.hand = kGripHand;
+  const Gate gate = paper_gate();
+  const int gears[] = {1, 2};
+  ScriptedHand hand(touring_hand({0.0, 0.0}), shift_strokes(gate, {0.0, 0.0}, gears), 0.001);
+  SimulatedLever lever(lever_config, 1'000'000, hand);
+  NullWorld world;
+  LoopChannels channels;
+  TraceHeader header = paper_header();
+  header.config = HapticConfig{};
+  header.device = lever.spec();
+  header.armed = false;
+  HapticLoop loop(header.config, gate, lever, world, channels);
+
+  TraceRecorder recorder(folder / "live.trace", header, channels, TracePump::own_thread);
+  RealtimeThread thread;
+  std::promise<void> enough;
+  thread.start({}, [&](const CycleCall& call) {
+    loop.cycle(call.deadline_ns, call.skipped);
+    if (loop.snapshot().cycle == kEnough) enough.set_value();
+  });
+  REQUIRE(channels.commands.push(LoopCommand::arm));  // by a person, while it runs
+  enough.get_future().wait();
+  thread.stop();
+  const RecordingResult recorded = recorder.finish();
+  CHECK(recorded.problem.empty());
+  CHECK(recorded.cycles >= kEnough);
+  const ReplayResult result = replay(read_trace(folder / "live.trace"));
+  CHECK(result.bit_for_bit());
+  CHECK(result.replayed_hash == recorded.hash);
+}
+
+}  // namespace gearshift

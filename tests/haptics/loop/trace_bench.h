@@ -1,0 +1,117 @@
+// Traces for the trace's own tests: a folder that goes away, a header and samples made up without a loop, and
+// a short real drive.
+#pragma once
+
+#include <unistd.h>
+
+#include <bit>
+#include <cstdint>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include "haptics/gate/gate_layout.h"
+#include "haptics/loop/trace_reader.h"
+#include "haptics/loop/trace_writer.h"
+
+namespace gearshift {
+
+class TempFolder {
+ public:
+  TempFolder() {
+    std::string name = (std::filesystem::temp_directory_path() / "gearshift_XXXXXX").string();
+    path_ = mkdtemp(name.data());
+  }
+  ~TempFolder() { std::filesystem::remove_all(path_); }
+  TempFolder(const TempFolder&) = delete;
+  TempFolder& operator=(const TempFolder&) = delete;
+  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+using Bytes = std::vector<unsigned char>;
+
+inline Bytes file_bytes(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(stream), {}};
+}
+
+inline void put_file(const std::filesystem::path& file, const Bytes& bytes) {
+  // Some file systems wait for the disk when a file is truncated and written anew.
+  std::filesystem::remove(file);
+  std::ofstream stream(file, std::ios::binary);
+  stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+}
+
+// Bits of all kinds: numbers, signed zeros, infinities, quiet and signalling NaNs with payloads.
+inline double any_double(std::mt19937_64& random) {
+  constexpr std::uint64_t kOdd[] = {0x8000000000000000, 0x7FF0000000000000, 0xFFF0000000000000,
+                                    0x7FF8000000000123, 0x7FF0000000000456, 0xFFFFFFFFFFFFFFFF,
+                                    0x0000000000000001, 0x0000000000000000};
+  if (random() % 4 == 0) return std::bit_cast<double>(kOdd[random() % 8]);
+  return std::bit_cast<double>(random());
+}
+
+inline glm::dvec2 any_vector(std::mt19937_64& random) {
+  return {any_double(random), any_double(random)};
+}
+
+// Every field has its own bits, so that two fields exchanged show.
+inline TraceSample any_sample(std::mt19937_64& random, std::uint64_t cycle) {
+  TraceSample s;
+  s.deadline_ns = static_cast<std::int64_t>(random());
+  s.skipped = random();
+  s.reading = {random(),           static_cast<std::int64_t>(random()),
+               any_vector(random), any_vector(random),
+               any_vector(random), random() % 2 == 0,
+               random() % 2 == 0};
+  s.controls = {any_double(random), any_double(random), any_double(random),
+                any_double(random), random() % 2 == 0,  random() % 2 == 0};
+  s.tuning = {any_double(random), any_double(random), any_double(random),
+              any_double(random), any_double(random), any_double(random)};
+  s.command = static_cast<LoopCommand>(random() % 4);
+  s.out.cycle = cycle;
+  s.out.time_ns = static_cast<std::int64_t>(random());
+  for (glm::dvec2* v : {&s.out.lever, &s.out.velocity, &s.out.proxy, &s.out.wall_force, &s.out.feel_force,
+                        &s.out.world_force, &s.out.commanded, &s.out.f_h, &s.out.f_a, &s.out.f_j})
+    *v = any_vector(random);
+  s.out.road_speed = any_double(random);
+  s.out.slot = static_cast<int>(random());
+  s.out.gear = static_cast<int>(random());
+  s.out.guard = static_cast<GuardState>(random() % 6);
+  s.out.fault = static_cast<GuardFault>(random() % 6);
+  s.out.flags = static_cast<std::uint32_t>(random());
+  return s;
+}
+
+inline std::vector<TraceSample> any_samples(std::size_t count, std::uint64_t seed = 1) {
+  std::mt19937_64 random(seed);
+  std::vector<TraceSample> samples;
+  for (std::size_t i = 0; i < count; ++i) samples.push_back(any_sample(random, i));
+  return samples;
+}
+
+inline TraceHeader paper_header() {
+  TraceHeader header;
+  header.program = "1.2.3";
+  header.device.workspace = {0.0771, 0.0688};  // [m] of the paper's joystick
+  header.device.simulated = true;
+  const GateLayout layout = read_gate_layout(GEARSHIFT_ASSETS "/gates/paper.toml");
+  header.gate_file = "paper.toml";
+  header.gate_text = layout.text;
+  header.armed = true;
+  return header;
+}
+
+inline std::filesystem::path put_trace(const std::filesystem::path& file, std::size_t cycles) {
+  write_trace(file, paper_header(), any_samples(cycles));
+  return file;
+}
+
+}  // namespace gearshift

@@ -1,0 +1,118 @@
+#include "haptics/loop/trace_csv.h"
+
+#include <algorithm>
+#include <clocale>
+#include <limits>
+#include <locale>
+#include <map>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "haptics/files/file_error.h"
+#include "tests/haptics/loop/trace_bench.h"
+
+namespace gearshift {
+namespace {
+
+std::vector<std::string> cells(const std::string& line) {
+  std::vector<std::string> out;
+  std::istringstream stream(line);
+  for (std::string cell; std::getline(stream, cell, ',');) out.push_back(cell);
+  return out;
+}
+
+std::map<std::string, std::string> by_name(const std::string& line) {
+  const std::vector<std::string> names = cells(trace_csv_header()), values = cells(line);
+  REQUIRE(names.size() == values.size());
+  std::map<std::string, std::string> row;
+  for (std::size_t i = 0; i < names.size(); ++i) row[names[i]] = values[i];
+  REQUIRE(row.size() == names.size());  // no name twice
+  return row;
+}
+
+TraceSample known_sample() {
+  TraceSample sample;
+  sample.deadline_ns = 5'000'000'000;
+  sample.out.cycle = 42;
+  sample.out.lever = {-0.0125, 0.03};
+  sample.out.velocity = {0.25, 0.0};
+  sample.out.commanded = {1.5, -31.7};
+  sample.out.gear = kReverseGear;
+  sample.out.guard = GuardState::running;
+  sample.out.flags = kFlagContact | kFlagFresh;
+  sample.controls.clutch = 0.75;
+  sample.command = LoopCommand::stop;
+  sample.reading.hand_force = {std::numeric_limits<double>::quiet_NaN(), 2.0};
+  return sample;
+}
+
+// A locale that writes 1.234,5: if anything asked it.
+struct GermanNumbers : std::numpunct<char> {
+  char do_decimal_point() const override { return ','; }
+  char do_thousands_sep() const override { return '.'; }
+  std::string do_grouping() const override { return "\3"; }
+};
+
+}  // namespace
+
+TEST_CASE("csv: the header begins with the time in seconds and every quantity carries its unit") {
+  CHECK(trace_csv_header().find(
+            "cycle,time_s,lever_x_mm,lever_y_mm,proxy_x_mm,proxy_y_mm,velocity_x_mm_per_s,") == 0);
+  for (const char* name : {"commanded_x_n", "f_h_y_n", "road_speed_m_per_s", "wall_stiffness_n_per_m"})
+    CHECK(trace_csv_header().find(name) != std::string::npos);
+}
+
+TEST_CASE("csv: numbers are in the unit of their column") {
+  auto row = by_name(trace_csv_line(known_sample(), 4'999'000'000));
+  CHECK(row["cycle"] == "42");
+  CHECK(row["time_s"] == "0.001");
+  CHECK(row["lever_x_mm"] == "-12.5");
+  CHECK(row["lever_y_mm"] == "30");
+  CHECK(row["velocity_x_mm_per_s"] == "250");
+  CHECK(row["commanded_y_n"] == "-31.7");
+  CHECK(row["gear"] == "-1");
+  CHECK(row["guard"] == "running");
+  CHECK(row["contact"] == "1");
+  CHECK(row["ghost"] == "0");
+  CHECK(row["clutch"] == "0.75");
+  CHECK(row["command"] == "stop");
+  CHECK(row["hand_force_x_n"] == "nan");
+}
+
+TEST_CASE("csv: the same in any locale") {
+  const TempFolder folder;
+  const std::locale before = std::locale::global(std::locale(std::locale::classic(), new GermanNumbers));
+  TraceSample later = known_sample();
+  later.out.cycle = 1'234'567;
+  {
+    TraceCsvFile csv(folder / "t.csv");
+    csv.add(known_sample());
+    csv.add(later);
+    csv.finish();
+  }
+  std::locale::global(before);
+  std::ifstream stream(folder / "t.csv");
+  std::string line;
+  std::getline(stream, line);
+  CHECK(line == trace_csv_header());
+  std::getline(stream, line);
+  CHECK(by_name(line)["lever_x_mm"] == "-12.5");
+  CHECK(by_name(line)["time_s"] == "0");  // counts from the first cycle
+  std::getline(stream, line);
+  CHECK(by_name(line)["cycle"] == "1234567");
+  CHECK_FALSE(std::getline(stream, line));
+}
+
+TEST_CASE("csv: a file that cannot be written is told in one sentence") {
+  const TempFolder folder;
+  CHECK_THROWS_WITH_AS(TraceCsvFile(folder / "no/folder.csv"), doctest::Contains("cannot be written"),
+                       FileError);
+  TraceCsvFile csv("/dev/full");
+  for (int i = 0; i < 1000; ++i) csv.add(known_sample());
+  CHECK_THROWS_WITH_AS(csv.finish(), doctest::Contains("could not be written"), FileError);
+}
+
+}  // namespace gearshift

@@ -1,0 +1,258 @@
+// Files that are not what they should be. Each is refused in one sentence; none makes the program believe it.
+#include <cstdint>
+#include <cstring>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "haptics/files/file_error.h"
+#include "haptics/loop/trace_csv.h"
+#include "haptics/loop/trace_reader.h"
+#include "tests/haptics/loop/trace_bench.h"
+
+namespace gearshift {
+namespace {
+
+constexpr std::size_t kFrame = 16, kPreamble = 12;  // [bytes] as documented, not as the code says
+constexpr std::size_t kCycles = 600;                // two full blocks and a part of one
+
+// Bit by bit: the definition.
+std::uint32_t slow_crc(const unsigned char* bytes, std::size_t size) {
+  std::uint32_t crc = 0xFFFFFFFF;
+  for (std::size_t i = 0; i < size; ++i) {
+    crc ^= bytes[i];
+    for (int bit = 0; bit < 8; ++bit) crc = (crc >> 1) ^ (crc % 2 != 0 ? 0xEDB88320 : 0);
+  }
+  return ~crc;
+}
+
+std::uint32_t get(const Bytes& file, std::size_t at) {
+  std::uint32_t value = 0;
+  std::memcpy(&value, file.data() + at, 4);
+  return value;
+}
+void put(Bytes& file, std::size_t at, std::uint32_t value) {
+  std::memcpy(file.data() + at, &value, 4);
+}
+
+// Where the frames begin: header, data, data, data, end; and the end of the file.
+std::vector<std::size_t> borders(const Bytes& file) {
+  std::vector<std::size_t> at{kPreamble};
+  while (at.back() < file.size()) at.push_back(at.back() + kFrame + get(file, at.back() + 4));
+  return at;
+}
+
+void seal_frame(Bytes& file, std::size_t at) {
+  put(file, at + 12, slow_crc(&file[at], 12));
+}
+void seal_payload(Bytes& file, std::size_t at) {
+  put(file, at + 8, slow_crc(&file[at + kFrame], get(file, at + 4)));
+  seal_frame(file, at);
+}
+
+Bytes slice(const Bytes& file, std::size_t from, std::size_t to) {
+  return {file.begin() + static_cast<std::ptrdiff_t>(from), file.begin() + static_cast<std::ptrdiff_t>(to)};
+}
+void append(Bytes& to, const Bytes& more) {
+  to.insert(to.end(), more.begin(), more.end());
+}
+
+// What reading all of it says; empty when nothing is wrong.
+std::string refusal(const std::filesystem::path& file) {
+  try {
+    read_trace(file);
+  } catch (const FileError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+struct Hostile {
+  const char* what;
+  std::function<void(Bytes& file, const std::vector<std::size_t>& at)> change;
+  const char* sentence;  // part of it
+};
+
+using B = Bytes;
+using At = const std::vector<std::size_t>;
+
+const std::vector<Hostile> kHostile = {
+    {"empty", [](B& f, At&) { f.clear(); }, "is empty"},
+    {"a text file",
+     [](B& f, At&) { f = {'n', 'a', 'm', 'e', ' ', '=', ' ', '"', 'x', '"', '\n', '\n', '\n'}; },
+     "is not a gearshift trace"},
+    {"another magic", [](B& f, At&) { f[1] ^= 1; }, "is not a gearshift trace"},
+    {"line ends rewritten", [](B& f, At&) { f.erase(f.begin() + 6); }, "is not a gearshift trace"},
+    {"cut inside the magic", [](B& f, At&) { f.resize(5); }, "is not a gearshift trace"},
+    {"a newer format", [](B& f, At&) { put(f, 8, 2); },
+     "format 2, made by a newer gearshift; this one reads format 1"},
+    {"a far newer format", [](B& f, At&) { put(f, 8, 0xFFFFFFFF); }, "made by a newer gearshift"},
+    {"format 0", [](B& f, At&) { put(f, 8, 0); }, "format 0, which no gearshift makes"},
+    {"cut after the version", [](B& f, At& at) { f.resize(at[0]); }, "is torn: it ends inside its header"},
+    {"cut inside the header's frame", [](B& f, At& at) { f.resize(at[0] + 7); },
+     "is torn: it ends inside its header"},
+    {"cut inside the header", [](B& f, At& at) { f.resize(at[1] - 1); },
+     "is torn: it ends inside its header"},
+    {"cut after the header", [](B& f, At& at) { f.resize(at[1]); },
+     "is torn: it has no end block; 0 intact cycles"},
+    {"cut after a block", [](B& f, At& at) { f.resize(at[2]); },
+     "is torn: it has no end block; 256 intact cycles"},
+    {"cut inside a block", [](B& f, At& at) { f.resize(at[3] - 1); },
+     "is torn: it has no end block; 256 intact"},
+    {"cut before the end block", [](B& f, At& at) { f.resize(at[4]); },
+     "it has no end block; 600 intact cycles"},
+    {"cut inside the end block", [](B& f, At& at) { f.resize(at[5] - 1); },
+     "it has no end block; 600 intact cycles"},
+    {"header byte flipped", [](B& f, At& at) { f[at[0] + kFrame + 20] ^= 4; }, "the checksum of its header"},
+    {"header frame flipped", [](B& f, At& at) { f[at[0] + 4] ^= 1; },
+     "is damaged: its header cannot be found"},
+    {"data byte flipped", [](B& f, At& at) { f[at[2] + kFrame + 999] ^= 128; },
+     "is damaged: the checksum of the block"},
+    {"data frame flipped", [](B& f, At& at) { f[at[2] + 5] ^= 1; }, "is damaged: there is no block at byte"},
+    {"end byte flipped", [](B& f, At& at) { f[at[4] + kFrame] ^= 1; },
+     "is damaged: its end block does not fit"},
+    {"end frame flipped", [](B& f, At& at) { f[at[4] + 9] ^= 1; }, "is damaged: there is no block at byte"},
+    {"a block that claims 4 GB", [](B& f, At& at) { put(f, at[1] + 4, 0xFFFFFFF0), seal_frame(f, at[1]); },
+     "is damaged: there is no block at byte"},
+    {"a header that claims 4 GB", [](B& f, At& at) { put(f, at[0] + 4, 0xFFFFFFFF), seal_frame(f, at[0]); },
+     "is damaged: its header cannot be found"},
+    {"a text that claims 4 GB",
+     [](B& f, At& at) { put(f, at[0] + kFrame, 0xFFFFFFFF), seal_payload(f, at[0]); },
+     "is damaged: its header does not hold what it must"},
+    {"a block of no known kind", [](B& f, At& at) { put(f, at[2], 0x21212121), seal_frame(f, at[2]); },
+     "is damaged: there is no block at byte"},
+    {"a block that is no whole cycles", [](B& f, At& at) { put(f, at[3] + 4, 100), seal_frame(f, at[3]); },
+     "is damaged: there is no block at byte"},
+    {"a second header",
+     [](B& f, At& at) {
+       Bytes twice = slice(f, 0, at[1]);
+       append(twice, slice(f, at[0], f.size()));
+       f = twice;
+     },
+     "is damaged: there is no block at byte"},
+    {"no header",
+     [](B& f, At& at) {
+       Bytes none = slice(f, 0, at[0]);
+       append(none, slice(f, at[1], f.size()));
+       f = none;
+     },
+     "is damaged: its header cannot be found"},
+    {"a block left out",
+     [](B& f, At& at) {
+       Bytes less = slice(f, 0, at[2]);
+       append(less, slice(f, at[3], f.size()));
+       f = less;
+     },
+     "is damaged: it holds 344 cycles where its end block says 600"},
+    {"two blocks exchanged",
+     [](B& f, At& at) {
+       Bytes turned = slice(f, 0, at[1]);
+       append(turned, slice(f, at[2], at[3]));
+       append(turned, slice(f, at[1], at[2]));
+       append(turned, slice(f, at[3], f.size()));
+       f = turned;
+     },
+     "is damaged: cycle 0 follows cycle 511"},
+    {"bytes after the end", [](B& f, At&) { f.push_back(0); }, "is damaged: 1 bytes follow its end"},
+    {"two traces in one file", [](B& f, At&) { append(f, Bytes(f)); }, "bytes follow its end"},
+    {"a command that does not exist",
+     [](B& f, At& at) { f[at[1] + kFrame + 164] = 77, seal_payload(f, at[1]); },
+     "is damaged: cycle 0 holds a value that does not exist"},
+    {"an output forged, its block sealed again",
+     [](B& f, At& at) { f[at[1] + kFrame + 200] ^= 1, seal_payload(f, at[1]); },
+     "is damaged: its parameters and outputs are not those"},
+    {"the hash forged", [](B& f, At& at) { f[at[4] + kFrame + 9] ^= 1, seal_payload(f, at[4]); },
+     "is damaged: its parameters and outputs are not those"},
+    {"marked torn by the recorder", [](B& f, At& at) { f[at[4] + kFrame + 16] = 1, seal_payload(f, at[4]); },
+     "is torn: the recorder could not keep up; 600 intact cycles can be exported with --torn --csv FILE"},
+};
+
+}  // namespace
+
+TEST_CASE("hostile traces: each is refused in one sentence that says what is wrong") {
+  const TempFolder folder;
+  const Bytes good = file_bytes(put_trace(folder / "good.trace", kCycles));
+  REQUIRE(borders(good).size() == 6);
+  REQUIRE(refusal(folder / "good.trace").empty());
+
+  for (const Hostile& hostile : kHostile) {
+    CAPTURE(hostile.what);
+    Bytes bytes = good;
+    hostile.change(bytes, borders(good));
+    put_file(folder / "bad.trace", bytes);
+    const std::string said = refusal(folder / "bad.trace");
+    CAPTURE(said);
+    CHECK(said.find((folder / "bad.trace").string() + ": ") == 0);
+    CHECK(said.find(hostile.sentence) != std::string::npos);
+    CHECK(said.find('\n') == std::string::npos);
+  }
+}
+
+TEST_CASE("hostile traces: what is no regular file is refused without being read") {
+  const TempFolder folder;
+  CHECK(refusal(folder.path()).find("is a directory, not a trace") != std::string::npos);
+  CHECK(refusal(folder / "none.trace").find("there is no such file") != std::string::npos);
+  CHECK(refusal("/dev/zero").find("is not a regular file") != std::string::npos);
+}
+
+TEST_CASE("hostile traces: no cycles is no run") {
+  const TempFolder folder;
+  CHECK(refusal(put_trace(folder / "t.trace", 0)).find("holds no cycles") != std::string::npos);
+}
+
+TEST_CASE("hostile traces: flipping any one byte anywhere is noticed") {
+  const TempFolder folder;
+  Bytes bytes = file_bytes(put_trace(folder / "t.trace", 3));
+  for (std::size_t at = 0; at < bytes.size(); ++at) {
+    CAPTURE(at);
+    bytes[at] ^= 0x10;
+    put_file(folder / "t.trace", bytes);
+    CHECK_THROWS_AS(read_trace(folder / "t.trace"), FileError);
+    bytes[at] ^= 0x10;
+  }
+}
+
+TEST_CASE(
+    "hostile traces: cutting the file anywhere is noticed, and no more cycles come back than were whole") {
+  const TempFolder folder;
+  const Bytes bytes = file_bytes(put_trace(folder / "t.trace", 3));
+  for (std::size_t size = 0; size < bytes.size(); ++size) {
+    put_file(folder / "t.trace", slice(bytes, 0, size));
+    CHECK_THROWS_AS(read_trace(folder / "t.trace"), FileError);
+  }
+}
+
+TEST_CASE("a torn trace gives up its intact cycles when asked to, and says that it is torn") {
+  const TempFolder folder;
+  const Bytes good = file_bytes(put_trace(folder / "t.trace", kCycles));
+  const auto at = borders(good);
+  const auto salvaged = [&](const Bytes& bytes) {
+    put_file(folder / "t.trace", bytes);
+    TraceReader reader(folder / "t.trace", TornTrace::salvage);
+    std::size_t cycles = 0;
+    for (TraceSample sample; reader.next(sample); ++cycles) REQUIRE(sample.out.cycle == cycles);
+    CHECK(reader.torn());
+    return cycles;
+  };
+  CHECK(salvaged(slice(good, 0, at[1])) == 0);
+  CHECK(salvaged(slice(good, 0, at[2])) == 256);
+  CHECK(salvaged(slice(good, 0, at[4] - 1)) == 512);
+  CHECK(salvaged(slice(good, 0, at[5] - 1)) == 600);
+  Bytes damaged = good;
+  damaged[at[2] + kFrame + 5] ^= 1;
+  CHECK(salvaged(damaged) == 256);
+  damaged = good;
+  damaged[at[3] + 1] ^= 1;
+  CHECK(salvaged(damaged) == 512);
+}
+
+TEST_CASE("a whole trace is not called torn because one was ready to salvage it") {
+  const TempFolder folder;
+  TraceReader reader(put_trace(folder / "t.trace", kCycles), TornTrace::salvage);
+  for (TraceSample sample; reader.next(sample);) continue;
+  CHECK_FALSE(reader.torn());
+}
+
+}  // namespace gearshift
