@@ -1,0 +1,47 @@
+#include "app/assets_path.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <system_error>
+
+#include <fmt/format.h>
+
+namespace gearshift {
+
+namespace fs = std::filesystem;
+
+fs::path assets_folder() {
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  if (!error) {
+    fs::path installed = program.parent_path().parent_path() / "share" / "gearshift";
+    if (fs::is_directory(installed, error)) return installed;
+  }
+  return GEARSHIFT_SOURCE_ASSETS;
+}
+
+std::vector<std::string> shipped_names(std::string_view kind) {
+  std::vector<std::string> names;
+  std::error_code error;
+  for (fs::directory_iterator entry(assets_folder() / kind, error), end; !error && entry != end;
+       entry.increment(error)) {
+    if (entry->path().extension() == ".toml") names.push_back(entry->path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+fs::path find_asset(std::string_view kind, const std::string& name_or_path) {
+  const auto names = shipped_names(kind);
+  if (std::find(names.begin(), names.end(), name_or_path) != names.end()) {
+    return assets_folder() / kind / (name_or_path + ".toml");
+  }
+  // Whatever looks like a path, or exists, is one: reading it says best what is wrong with it.
+  fs::path path(name_or_path);
+  std::error_code error;
+  if (path.has_parent_path() || path.has_extension() || fs::exists(path, error)) return path;
+  throw std::runtime_error(fmt::format("\"{}\" is neither a file nor one of the shipped {}: {}", name_or_path,
+                                       kind, fmt::join(names, ", ")));
+}
+
+}  // namespace gearshift

@@ -1,0 +1,21 @@
+// Where the program's own files are: gates, cars, lessons, presets, models, sounds.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gearshift {
+
+// ../share/gearshift beside an installed program, otherwise the source tree's assets.
+std::filesystem::path assets_folder();
+
+// Names of the shipped files of a kind ("gates"), sorted: "paper" for assets/gates/paper.toml.
+std::vector<std::string> shipped_names(std::string_view kind);
+
+// The file that a person means: a shipped name, or else a path. Throws std::runtime_error in one sentence
+// with the shipped names where it is neither.
+std::filesystem::path find_asset(std::string_view kind, const std::string& name_or_path);
+
+}  // namespace gearshift

@@ -1,0 +1,267 @@
+// The picture is drawn in millimetres of the gate with y down, as SVG has it: forward is up.
+#include "app/draw/gate_svg.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "app/draw/gate_colours.h"
+#include "app/draw/slot_plot.h"
+#include "app/draw/svg.h"
+
+namespace gearshift {
+namespace {
+
+// Sizes on the page. [mm] of the gate
+constexpr double kPixelsPerMillimetre = 7.0;
+constexpr double kPlateRim = 9.0;  // of the plate beyond the outermost wall
+constexpr double kMargin = 6.0;
+constexpr double kTitleHeight = 9.0;
+constexpr double kScaleHeight = 6.0;
+constexpr double kSideWidth = 70.0;  // plot and legend
+constexpr double kSideGap = 11.0;
+constexpr double kLegendLine = 5.0;
+constexpr double kWallWidth = 0.7;
+constexpr double kStopWidth = 1.1;
+constexpr const char* kLongDash = "1.6 1.6";
+
+double mm(double metres) {
+  return metres * 1e3;
+}
+glm::dvec2 on_page(glm::dvec2 metres) {
+  return {mm(metres.x), -mm(metres.y)};
+}
+
+const Slot& slot_of(const Gate& gate, int index) {
+  return gate.slot[static_cast<std::size_t>(index)];
+}
+const Column& column_of(const Gate& gate, const Slot& slot) {
+  return gate.column[static_cast<std::size_t>(slot.column)];
+}
+
+// A point of a slot's branch: x across, depth along. [m]
+glm::dvec2 in_slot(const Slot& slot, double x, double depth) {
+  return on_page({x, static_cast<int>(slot.side) * depth});
+}
+
+// A line across a slot from wall to wall.
+void across_slot(Svg& svg, const Gate& gate, const Slot& slot, double depth, const Pen& pen) {
+  const Column& column = column_of(gate, slot);
+  const double left = column.center - column.half_width;
+  const double right = column.center + column.half_width;
+  svg.line(in_slot(slot, left, depth), in_slot(slot, right, depth), pen);
+}
+
+// Extent of the gate's walls on the page.
+Rect gate_box(const Gate& gate) {
+  double forward = gate.half_aisle;
+  double back = gate.half_aisle;
+  for (int i = 0; i < gate.slot_count; ++i) {
+    double& reach = slot_of(gate, i).side == Side::forward ? forward : back;
+    reach = std::max(reach, slot_of(gate, i).end);
+  }
+  return {mm(gate.select_min), -mm(forward), mm(gate.select_max - gate.select_min), mm(forward + back)};
+}
+
+void draw_free_space(Svg& svg, const GateDescription& list) {
+  for (const AisleInfo& a : list.aisles) {
+    svg.rect({mm(a.min.x), -mm(a.max.y), mm(a.max.x - a.min.x), mm(a.max.y - a.min.y)}, kFreeColour);
+  }
+  for (const WallInfo& wall : list.walls) {
+    if (wall.role != WallRole::chamfer) continue;  // the triangle that the corner opens
+    svg.polygon({on_page(wall.from), on_page(wall.to), on_page({wall.to.x, wall.from.y})}, kFreeColour);
+  }
+}
+
+void draw_buffers(Svg& svg, const Gate& gate) {
+  for (int i = 0; i < gate.buffer_count; ++i) {
+    const Buffer& b = gate.buffer[static_cast<std::size_t>(i)];
+    const Rect box{mm(std::min(b.wall, b.inner)), -mm(gate.half_aisle), mm(std::abs(b.wall - b.inner)),
+                   mm(2.0 * gate.half_aisle)};
+    svg.frame(box, "url(#buffer)", {kBufferColour, 0.25});
+  }
+}
+
+Pen wall_pen(WallRole role) {
+  switch (role) {
+    case WallRole::end_stop:
+      return {kInk, kStopWidth};
+    case WallRole::closed_side:
+      return {kClosedColour, kStopWidth};
+    case WallRole::aisle:
+    case WallRole::chamfer:
+      return {kInk, kWallWidth};
+  }
+  return {};
+}
+
+// Closed sides last: where one meets a slot's wall it is the closed side that must be seen.
+void draw_walls(Svg& svg, const GateDescription& list) {
+  for (const bool closed : {false, true}) {
+    for (const WallInfo& wall : list.walls) {
+      if ((wall.role == WallRole::closed_side) != closed) continue;
+      svg.line(on_page(wall.from), on_page(wall.to), wall_pen(wall.role));
+    }
+  }
+}
+
+void draw_gears(Svg& svg, const Gate& gate) {
+  for (int i = 0; i < gate.slot_count; ++i) {
+    const Slot& slot = slot_of(gate, i);
+    const double x = column_of(gate, slot).center;
+    across_slot(svg, gate, slot, slot.engage_depth, {kGearColour, 0.25});
+    across_slot(svg, gate, slot, slot.release_depth, {kGearColour, 0.25, kShortDash});
+    svg.dot(in_slot(slot, x, slot.rest), 0.7, kGearColour);
+    // Digits are about 0.73 of their size high: half of that brings them to the middle of the rim.
+    const glm::dvec2 label = in_slot(slot, x, slot.end + 0.5e-3 * kPlateRim) + glm::dvec2(0.0, 1.95);
+    svg.text(label, {5.4, kGearColour, "middle", true}, gear_name(slot.gear));
+  }
+}
+
+// A junction's name stands in its middle, or just inside its buffer.
+struct NamePlace {
+  double x = 0.0;  // [mm]
+  const char* anchor = "middle";
+};
+
+NamePlace name_place(const Gate& gate, int column) {
+  constexpr double kGap = 1.2;
+  for (int i = 0; i < gate.buffer_count; ++i) {
+    const Buffer& b = gate.buffer[static_cast<std::size_t>(i)];
+    if (nearest_column(gate, b.wall) != column) continue;
+    return b.wall < b.inner ? NamePlace{mm(b.inner) + kGap, "start"} : NamePlace{mm(b.inner) - kGap, "end"};
+  }
+  return {mm(gate.column[static_cast<std::size_t>(column)].center)};
+}
+
+// The neutral junction has a ring: the lever returns there.
+void draw_junctions(Svg& svg, const Gate& gate, const GateDescription& list) {
+  const double size = std::min(3.4, 0.55 * mm(gate.half_aisle));
+  for (std::size_t i = 0; i < list.junctions.size(); ++i) {
+    const int column = static_cast<int>(i);
+    const NamePlace place = name_place(gate, column);
+    if (column == gate.neutral_column) svg.ring({place.x, 0.0}, 0.95 * size, {kGearColour, 0.35});
+    svg.text({place.x, 0.35 * size}, {size, kInk, place.anchor}, list.junctions[i].name);
+  }
+}
+
+// Several lockouts at one place share one bar; the legend says what they are.
+void draw_lockouts(Svg& svg, const Gate& gate) {
+  const Pen pen{kLockoutColour, 1.2, kLongDash};
+  for (int i = 0; i < gate.lockout_count; ++i) {
+    const Lockout& lockout = gate.lockout[static_cast<std::size_t>(i)];
+    if (lockout.lateral) {
+      svg.line(on_page({lockout.barrier, -gate.half_aisle}), on_page({lockout.barrier, gate.half_aisle}),
+               pen);
+    } else {
+      across_slot(svg, gate, slot_of(gate, lockout.slot), gate.half_aisle + gate.chamfer, pen);
+    }
+  }
+}
+
+std::string lockout_words(const Gate& gate, const Lockout& lockout) {
+  const char* gear = gear_name(slot_of(gate, lockout.slot).gear);
+  switch (lockout.kind) {
+    case LockoutKind::push_down:
+      return fmt::format("{}: push the knob down", gear);
+    case LockoutKind::lift:
+      return fmt::format("{}: lift the ring", gear);
+    case LockoutKind::speed:
+      return fmt::format("{}: shut above {:.0f}, open below {:.0f} km/h", gear, lockout.close_above * 3.6,
+                         lockout.open_below * 3.6);
+    case LockoutKind::after_gear:
+      return fmt::format("{}: shut after {} until the column is left", gear, gear_name(lockout.after_gear));
+  }
+  return gear;
+}
+
+class Legend {
+ public:
+  Legend(Svg& svg, glm::dvec2 at) : svg_(svg), at_(at) {}
+
+  void line(const Pen& pen, std::string_view words) {
+    svg_.line(at_ + glm::dvec2(1.5, 0.0), at_ + glm::dvec2(6.5, 0.0), pen);
+    entry(words);
+  }
+  void dot(std::string_view words) {
+    svg_.dot(at_ + glm::dvec2(4.0, 0.0), 0.7, kGearColour);
+    entry(words);
+  }
+  void ring(std::string_view words) {
+    svg_.ring(at_ + glm::dvec2(4.0, 0.0), 1.6, {kGearColour, 0.35});
+    entry(words);
+  }
+  void buffer(std::string_view words) {
+    svg_.frame({at_.x + 1.5, at_.y - 1.5, 5.0, 3.0}, "url(#buffer)", {kBufferColour, 0.25});
+    entry(words);
+  }
+
+ private:
+  void entry(std::string_view words) {
+    svg_.text(at_ + glm::dvec2(10.0, 0.9), {2.5, kInk}, words);
+    at_.y += kLegendLine;
+  }
+
+  Svg& svg_;
+  glm::dvec2 at_;
+};
+
+// What occurs in this gate, and nothing else.
+void draw_legend(Svg& svg, const Gate& gate, glm::dvec2 at) {
+  Legend legend(svg, at);
+  legend.ring("neutral: the lever returns here");
+  legend.line({kGearColour, 0.3}, "the gear counts from here");
+  legend.line({kGearColour, 0.3, kShortDash}, "and is released here");
+  legend.dot("the engaged lever rests here");
+  legend.line({kClosedColour, kStopWidth}, "closed side of a junction");
+  if (gate.buffer_count > 0) legend.buffer("buffer: turns the lever into the slots");
+  for (int i = 0; i < gate.lockout_count; ++i) {
+    const Lockout& lockout = gate.lockout[static_cast<std::size_t>(i)];
+    legend.line({kLockoutColour, 1.2, kLongDash}, "lockout of " + lockout_words(gate, lockout));
+  }
+}
+
+double legend_height(const Gate& gate) {
+  return kLegendLine * (5 + (gate.buffer_count > 0 ? 1 : 0) + gate.lockout_count);
+}
+
+void draw_scale(Svg& svg, glm::dvec2 at) {
+  constexpr double kLength = 20.0;
+  svg.line(at, at + glm::dvec2(kLength, 0.0), {kInk, 0.4});
+  for (const double x : {0.0, 10.0, kLength}) {
+    svg.line(at + glm::dvec2(x, -1.0), at + glm::dvec2(x, 1.0), {kInk, 0.4});
+  }
+  svg.text(at + glm::dvec2(kLength + 2.0, 0.9), {2.6, kInk}, "20 mm");
+}
+
+}  // namespace
+
+std::string gate_svg(const Gate& gate, const GateDescription& description, std::string_view title) {
+  const Rect walls = gate_box(gate);
+  const Rect plate{walls.x - kPlateRim, walls.y - kPlateRim, walls.width + 2.0 * kPlateRim,
+                   walls.height + 2.0 * kPlateRim};
+  const Rect plot{plate.right() + kSideGap, plate.y + 6.0, kSideWidth, 40.0};
+  const glm::dvec2 legend{plot.x, plot.bottom() + 11.0};
+  const double bottom = std::max(plate.bottom() + kScaleHeight, legend.y + legend_height(gate));
+  const double top = plate.y - kTitleHeight - kMargin;
+  const Rect page{plate.x - kMargin, top, plot.right() - plate.x + 2.0 * kMargin, bottom + kMargin - top};
+
+  Svg svg(page, kPixelsPerMillimetre);
+  svg.stripes("buffer", kBufferGround, kBufferColour);
+  const double title_size = std::min(5.0, 1.4 * page.width / static_cast<double>(title.size() + 1));
+  svg.text({plate.x, plate.y - 4.5}, {title_size, kInk, "start", true}, title);
+  svg.rect(plate, kPlateColour, 4.0);
+  draw_free_space(svg, description);
+  draw_buffers(svg, gate);
+  draw_lockouts(svg, gate);
+  draw_walls(svg, description);
+  draw_gears(svg, gate);
+  draw_junctions(svg, gate, description);
+  draw_scale(svg, {plate.x, plate.bottom() + kScaleHeight});
+  draw_slot_plot(svg, gate, slot_of(gate, 0), plot);
+  draw_legend(svg, gate, legend);
+  return std::move(svg).finish();
+}
+
+}  // namespace gearshift

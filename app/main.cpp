@@ -1,0 +1,46 @@
+// gearshift: one program, plain verbs.
+#include <exception>
+
+#include <CLI/CLI.hpp>
+#include <fmt/core.h>
+
+#include "app/verbs/verbs.h"
+
+namespace {
+
+constexpr int kFailed = 1;
+constexpr int kBadUsage = 2;
+
+int run(int argc, char** argv) {
+  CLI::App app{"gearshift: a trainer for manual shifting"};
+  app.set_version_flag("--version", GEARSHIFT_VERSION);
+  app.require_subcommand(0, 1);  // an unknown verb shall be named, so that none is refused below
+
+  gearshift::VerbAction action;
+  gearshift::add_tour_verb(app, action);
+  gearshift::add_gate_verb(app, action);
+  gearshift::add_replay_verb(app, action);
+  gearshift::add_bench_verb(app, action);
+
+  try {
+    app.parse(argc, argv);
+    if (!action) throw CLI::RequiredError("A subcommand: tour, gate, replay or bench (see --help)");
+    return action();
+  } catch (const CLI::Success& help) {
+    return app.exit(help);
+  } catch (const CLI::ParseError& error) {
+    fmt::print(stderr, "gearshift: {}\n", error.what());
+    return kBadUsage;
+  }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const std::exception& error) {
+    fmt::print(stderr, "gearshift: {}\n", error.what());
+    return kFailed;
+  }
+}

@@ -1,0 +1,55 @@
+#include "app/plot/gnuplot.h"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <stdexcept>
+
+#include <fmt/core.h>
+
+namespace gearshift {
+namespace {
+
+std::string script_of(const Figure& figure) {
+  std::string script = "set encoding utf8\n";
+  for (const std::string terminal : {"svg", "png"}) {
+    const bool svg = terminal == "svg";
+    script += fmt::format("set terminal {} size {},{} font \"DejaVu Sans,{}\" background \"#ffffff\"\n",
+                          svg ? "svg" : "pngcairo", figure.width, figure.height, svg ? 12 : 10);
+    script += fmt::format("set output \"{}.{}\"\n", figure.name, terminal);
+    script += figure.commands + "unset output\nreset session\n";
+  }
+  return script;
+}
+
+// Runs gnuplot inside the folder, so that no path has to be quoted. 127 when it cannot be started.
+int run_gnuplot(const std::filesystem::path& folder, const std::string& script) {
+  const std::string directory = folder.string();
+  const pid_t child = fork();
+  if (child == 0) {
+    if (chdir(directory.c_str()) == 0)
+      execlp("gnuplot", "gnuplot", script.c_str(), static_cast<char*>(nullptr));
+    _exit(127);
+  }
+  int status = 0;
+  if (child < 0 || waitpid(child, &status, 0) < 0) return 127;
+  return WIFEXITED(status) ? WEXITSTATUS(status) : 127;
+}
+
+}  // namespace
+
+void draw_figure(const std::filesystem::path& folder, const Figure& figure) {
+  const std::string script = figure.name + ".gp";
+  std::ofstream out(folder / script);
+  out << script_of(figure);
+  out.close();
+  if (!out) throw std::runtime_error(fmt::format("{}: cannot be written", (folder / script).string()));
+  const int code = run_gnuplot(folder, script);
+  if (code == 127) throw std::runtime_error("gnuplot cannot be started: install the package gnuplot-nox");
+  if (code != 0)
+    throw std::runtime_error(
+        fmt::format("{}: gnuplot refused it (exit code {})", (folder / script).string(), code));
+}
+
+}  // namespace gearshift

@@ -1,0 +1,47 @@
+// The tour: a simulated hand shifts through every gear of a gate, recorded.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "haptics/device/hand.h"
+#include "haptics/gate/gate.h"
+#include "haptics/gate/gate_layout.h"
+#include "haptics/loop/haptic_config.h"
+
+namespace gearshift {
+
+struct TourSetup {
+  GateLayout layout;
+  Gate gate;
+  HandImpedance hand;
+  HapticConfig haptics;
+  std::filesystem::path folder;  // exists; receives tour.trace and tour.csv
+};
+
+struct GearTime {
+  int gear = kNeutralGear;
+  double time = 0.0;  // [s]
+};
+
+struct TourResult {
+  std::vector<int> wanted;        // gears in the order of the tour
+  std::vector<GearTime> engaged;  // as they came
+  std::vector<Limited> limited;   // parameters that the device did not admit as wanted
+  double duration = 0.0;          // [s] simulated
+  double deepest = 0.0;           // [m] lever beyond the drawn lever
+  double strongest = 0.0;         // [N] largest push of the hand
+  double contact_share = 0.0;     // [1] of the cycles
+  std::uint64_t hash = 0;         // of the recording
+
+  bool complete() const;  // engaged is wanted, in order and nothing else
+};
+
+// Drives and records. Throws FileError when a file cannot be written.
+TourResult drive_tour(const TourSetup& setup);
+
+// Fig. 9 (a) and (b) of the paper for this run: trajectory.{svg,png}, force.{svg,png}, from tour.csv.
+void draw_tour(const TourSetup& setup, const TourResult& result);
+
+}  // namespace gearshift

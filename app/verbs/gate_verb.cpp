@@ -1,0 +1,78 @@
+// gearshift gate: what the gate compiler makes of a layout.
+#include <cmath>
+#include <fstream>
+#include <memory>
+#include <stdexcept>
+
+#include <fmt/core.h>
+
+#include "app/assets_path.h"
+#include "app/draw/gate_svg.h"
+#include "app/verbs/gate_report.h"
+#include "app/verbs/verbs.h"
+#include "haptics/joystick/kinematics.h"
+
+namespace gearshift {
+namespace {
+
+constexpr const char* kHelp =
+    "What the gate compiler makes of a layout: aisles, junctions, gears, wall pairs and lockouts, as a table "
+    "or JSON, "
+    "and drawn.";
+constexpr const char* kExamples =
+    "\nExamples:\n"
+    "  gearshift gate paper                      the gate of the paper, as a table\n"
+    "  gearshift gate dog_leg_five --svg out.svg draw it as well\n"
+    "  gearshift gate my_gate.toml --json        an own layout, for programs\n";
+
+struct GateOptions {
+  std::string layout;
+  std::string svg;
+  bool json = false;
+};
+
+GateReport make_report(const std::string& name_or_path) {
+  GateReport report;
+  report.layout = read_gate_layout(find_asset("gates", name_or_path));
+  report.gate = compile_gate(report.layout, workspace_half_extent(YokeGeometry{}));
+  report.description = describe_gate(report.gate);
+  return report;
+}
+
+void write_file(const std::string& path, const std::string& text) {
+  std::ofstream out(path, std::ios::binary);
+  out << text;
+  out.close();
+  if (!out) throw std::runtime_error(fmt::format("{}: cannot be written", path));
+}
+
+int show_gate(const GateOptions& options) {
+  const GateReport report = make_report(options.layout);
+  if (!options.svg.empty()) {
+    write_file(options.svg, gate_svg(report.gate, report.description, report.layout.name));
+    fmt::print(stderr, "gearshift: drew {}\n", options.svg);
+  }
+  fmt::print("{}", options.json ? gate_json(report) : gate_table(report));
+  return 0;
+}
+
+std::string join_names() {
+  std::string names;
+  for (const auto& name : shipped_names("gates")) names += (names.empty() ? "" : ", ") + name;
+  return names;
+}
+
+}  // namespace
+
+void add_gate_verb(CLI::App& app, VerbAction& action) {
+  const auto options = std::make_shared<GateOptions>();
+  CLI::App* verb = app.add_subcommand("gate", kHelp);
+  verb->footer(kExamples);
+  verb->add_option("LAYOUT", options->layout, "a layout file, or a shipped one: " + join_names())->required();
+  verb->add_flag("--json", options->json, "print JSON instead of the table");
+  verb->add_option("--svg", options->svg, "draw the gate into this file, in true proportion")
+      ->type_name("FILE");
+  verb->callback([options, &action] { action = [options] { return show_gate(*options); }; });
+}
+
+}  // namespace gearshift

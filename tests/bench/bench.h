@@ -1,0 +1,50 @@
+// Speed against error, one row a figure: what was measured, in which unit, and where DESIGN puts it.
+#pragma once
+
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gearshift {
+
+struct BenchRow {
+  std::string family;
+  std::string name;
+  double value = 0.0;
+  std::string unit;
+  std::optional<double> goal;  // in the same unit
+  bool at_least = false;       // the goal is a lower bound
+  std::string note;
+  bool measured = true;  // false: could not be measured here, the note says why
+};
+
+bool meets_goal(const BenchRow& row) noexcept;
+
+struct BenchOptions {
+  std::string gate_folder;     // where the shipped layouts are
+  bool quick = false;          // fewer repetitions: a look, not a figure to quote
+  double jitter_block = 10.0;  // [s] of each alternating block
+  int jitter_blocks = 5;
+  std::function<void(std::string_view family, double share)> progress;  // share in [0, 1]; may be empty
+};
+
+using BenchFamily = std::vector<BenchRow> (*)(const BenchOptions&);
+struct NamedFamily {
+  std::string_view name;
+  BenchFamily run;
+};
+const std::vector<NamedFamily>& bench_families();
+
+std::vector<BenchRow> bench_cycle(const BenchOptions& options);  // cost of the haptic cycle and of its stages
+std::vector<BenchRow> bench_headless(const BenchOptions& options);  // simulated seconds per second
+std::vector<BenchRow> bench_plant(const BenchOptions& options);     // exact step against the closed form
+std::vector<BenchRow> bench_feel(const BenchOptions& options);      // commanded force along a slot
+std::vector<BenchRow> bench_intent(const BenchOptions& options);    // where a noisy hand ends up
+std::vector<BenchRow> bench_jitter(const BenchOptions& options);    // wake-up lateness beside cyclictest's
+
+// Value at quantile q in [0, 1] of an unsorted sample; sorts it. Empty: 0.
+double quantile(std::vector<double>& sample, double q);
+
+}  // namespace gearshift

@@ -1,0 +1,103 @@
+// Cost of the whole haptic cycle, and of its stages.
+#include <algorithm>
+#include <array>
+#include <chrono>
+
+#include <glm/geometric.hpp>
+
+#include "tests/bench/bench.h"
+#include "tests/bench/tape_device.h"
+#include "tests/bench/ticks.h"
+#include "tests/bench/touring.h"
+
+namespace gearshift {
+namespace {
+
+struct Tape {
+  std::vector<LeverReading> readings;
+  DeviceSpec spec;
+  double contact_share = 0.0;
+};
+
+Tape record_tour(const Gate& gate) {
+  ScriptedHand driver = touring_driver(gate, 0.001);
+  SimulatedRun run(touring_config(gate), driver);
+  Tape tape;
+  tape.spec = run.lever().spec();
+  run.channels().recording = true;
+  TraceSample sample;
+  double contacts = 0.0;
+  while (run.time() < driver.duration()) {
+    contacts += (run.step().flags & kFlagContact) != 0 ? 1.0 : 0.0;
+    while (run.channels().trace.pop(sample)) tape.readings.push_back(sample.reading);
+  }
+  tape.contact_share = contacts / static_cast<double>(tape.readings.size());
+  return tape;
+}
+
+constexpr std::size_t kStages = 8;
+constexpr const char* kStageNames[kStages] = {"read (tape)", "estimate", "move proxy", "couple",
+                                              "feel",        "world",    "guard",      "write (tape)"};
+
+struct CycleTimes {
+  std::vector<double> whole;                        // [ns] every cycle
+  std::array<std::vector<double>, kStages> stages;  // [ns] every 64th
+};
+
+void run_tape(const Gate& gate, TapeDevice& device, std::size_t cycles, CycleTimes& times) {
+  device.rewind();
+  LoopChannels channels;
+  NullWorld world;
+  HapticConfig config;
+  HapticLoop loop(config, gate, device, world, channels);
+  loop.arm();
+  HapticEvent event;
+  for (std::size_t i = 0; i < cycles; ++i) {
+    const auto deadline = static_cast<std::int64_t>(i) * period_ns(config);
+    const std::uint64_t before = ticks();
+    loop.cycle(deadline, 0);
+    times.whole.push_back(static_cast<double>(ticks() - before));
+    while (channels.events.pop(event)) continue;
+    if (i % StageStamps::kEvery != 0) continue;
+    for (std::size_t s = 0; s < kStages; ++s) {
+      times.stages[s].push_back(static_cast<double>(loop.stamps().ns[s + 1] - loop.stamps().ns[s]));
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<BenchRow> bench_cycle(const BenchOptions& options) {
+  const Gate gate = bench_gate(options.gate_folder, "paper");
+  const Tape tape = record_tour(gate);
+  TapeDevice device(tape.spec, tape.readings);
+  const int runs = options.quick ? 5 : 50;
+  CycleTimes stages;
+  std::vector<double> p50, p99;
+  for (int i = 0; i < runs; ++i) {
+    if (options.progress) options.progress("cycle", static_cast<double>(i) / runs);
+    stages.whole.clear();
+    run_tape(gate, device, tape.readings.size(), stages);
+    for (double& t : stages.whole) t /= ticks_per_ns();
+    p50.push_back(quantile(stages.whole, 0.5));
+    p99.push_back(quantile(stages.whole, 0.99));
+  }
+  const std::string note = "median of " + std::to_string(runs) + " tours";
+  std::vector<BenchRow> rows{{"cycle", "whole cycle p50", quantile(p50, 0.5), "ns", 200.0, false, note},
+                             {"cycle", "whole cycle p99", quantile(p99, 0.5), "ns", 500.0, false,
+                              note + "; every 64th cycle carries nine clock reads"},
+                             {"cycle", "cycles in contact", 100.0 * tape.contact_share, "%", 30.0, true,
+                              "gripping hand, paper's gate, 1 kHz"}};
+  for (std::size_t s = 0; s < kStages; ++s) {
+    rows.push_back({"cycle",
+                    std::string("stage ") + kStageNames[s],
+                    quantile(stages.stages[s], 0.5),
+                    "ns",
+                    {},
+                    false,
+                    "with one clock read, about 25 ns"});
+  }
+  return rows;
+}
+
+}  // namespace gearshift

@@ -1,0 +1,72 @@
+#!/usr/bin/env bash
+# Every bad command line: the stated exit code, one sentence on stderr, nothing on stdout, no file left behind.
+# Usage: hostile_command_lines.sh GEARSHIFT
+set -u
+gearshift=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+printf 'name = "x"\n' >nameless.toml
+head -c 64 /dev/zero >zeros.trace
+printf '\x89GSTRC\r\n\xff\xff\xff\xff' >newer.trace
+mkdir folder
+touch empty
+failed=0
+passed=0
+
+refuse() { # exit code, part of the sentence, arguments ...
+  local code=$1 part=$2
+  shift 2
+  "$gearshift" "$@" >out 2>err </dev/null
+  local got=$?
+  if [ $got -ne "$code" ] || [ "$(wc -l <err)" -ne 1 ] || [ -s out ] || ! grep -qF -- "$part" err; then
+    echo "FAILED: gearshift $*: exit $got (wanted $code), wanted one line with \"$part\", got:"
+    sed 's/^/    /' err out
+    failed=$((failed + 1))
+  else
+    passed=$((passed + 1))
+  fi
+}
+
+refuse 2 "subcommand"
+refuse 2 "fly" fly
+refuse 2 "--speed" --speed 3
+refuse 2 "--out" tour
+refuse 2 "--rate" tour --out t --rate 99
+refuse 2 "--rate" tour --out t --rate 4001
+refuse 2 "--rate" tour --out t --rate nan
+refuse 2 "--rate" tour --out t --rate fast
+refuse 2 "--rate" tour --out t --rate ""
+refuse 2 "--hand" tour --out t --hand bare
+refuse 2 "--hand" tour --out t --hand fist
+refuse 2 "--hand" tour --out t --hand 1,2
+refuse 2 "--hand" tour --out t --hand 1,2,3,4
+refuse 2 "--hand" tour --out t --hand -1,2,300
+refuse 2 "--hand" tour --out t --hand 0.1,inf,300
+refuse 1 "paper" tour --out t --gate spaceship
+refuse 1 "empty" tour --out empty
+refuse 1 "/proc" tour --out /proc/nowhere
+refuse 2 "extra" tour --out t extra
+refuse 2 "LAYOUT" gate
+refuse 1 "paper" gate no_such_gate
+refuse 1 "nameless.toml" gate nameless.toml
+refuse 1 "folder" gate folder
+refuse 1 "empty" gate ./empty
+refuse 1 "zeros.trace" gate zeros.trace
+refuse 1 "/nowhere/x.svg" gate paper --svg /nowhere/x.svg
+refuse 2 "required" replay
+refuse 1 "missing.trace" replay missing.trace
+refuse 1 "zeros.trace" replay zeros.trace
+refuse 1 "newer" replay newer.trace
+refuse 1 "empty" replay empty
+refuse 1 "folder" replay folder
+refuse 2 "--family" bench --family luck
+refuse 2 "--block" bench --block 0
+refuse 2 "--block" bench --block x
+refuse 1 "/nowhere/x.csv" bench --family plant --csv /nowhere/x.csv
+
+for left in t; do
+  [ -e "$left" ] && { echo "FAILED: $left was left behind"; failed=$((failed + 1)); }
+done
+echo "$passed passed, $failed failed"
+[ $failed -eq 0 ]
