@@ -17,6 +17,7 @@
 namespace gearshift {
 namespace {
 
+constexpr double kAimNoise = 0.002;  // [m] a hand never aims twice at the same spot
 constexpr int kPumpEvery = 1000;  // [cycles] between two drains of the trace queue
 
 TraceHeader header_of(const TourSetup& setup, const DeviceSpec& spec) {
@@ -60,8 +61,10 @@ TourResult drive_tour(const TourSetup& setup) {
   config.gate = setup.gate;
   config.start = rest_position(setup.gate, kNeutralGear);
   const double period = 1e-9 * static_cast<double>(period_ns(setup.haptics));
-  ScriptedHand driver(touring_hand(config.start), shift_strokes(setup.gate, config.start, result.wanted),
-                      period);
+  ScriptedHandConfig hand = touring_hand(config.start);
+  hand.aim_noise = kAimNoise;
+  hand.seed = setup.seed;
+  ScriptedHand driver(hand, shift_strokes(setup.gate, config.start, result.wanted), period);
   SimulatedRun run(config, driver);
   result.limited = run.loop().admitted().limited;
 

@@ -1,6 +1,7 @@
 // The tour: a simulated hand shifts through every gear of a gate, recorded.
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -17,6 +18,7 @@ struct TourSetup {
   Gate gate;
   HandImpedance hand;
   HapticConfig haptics;
+  std::uint64_t seed = 1;        // of the hand's aims
   std::filesystem::path folder;  // exists; receives tour.trace and tour.csv
 };
 

@@ -36,14 +36,13 @@ std::string gear_labels(const Gate& gate) {
 
 std::string trajectory_commands(const TourSetup& setup) {
   return fmt::format(R"gp(set datafile separator comma
-set title "Trajectory of the lever through the gate"
 set xlabel "select x [mm]"
 set ylabel "shift y [mm]"
 set size ratio -1
 set offsets 2, 2, 6, 6
-set key outside below
+set key horizontal center tmargin
 set grid linecolor "#e4e8ec"
-{}plot "{}" using 1:2 with lines linewidth 2.5 linecolor "#6b7785" title "walls", \
+{}plot "{}" using 1:2 with lines linewidth 5 linecolor "#c9d1d9" title "walls", \
   "tour.csv" using "lever_x_mm":"lever_y_mm" with lines linewidth 1.2 linecolor "#c5303b" title "hand's lever point", \
   "tour.csv" using "proxy_x_mm":"proxy_y_mm" with lines linewidth 1.2 linecolor "#1f5fa8" title "drawn lever (proxy)"
 )gp",
@@ -58,7 +57,7 @@ std::string gear_marks(const TourResult& result, bool named) {
         "set arrow from {0},graph 0 to {0},graph 1 nohead dashtype 2 linecolor \"#9aa5b1\" back\n",
         gear.time);
     if (named)
-      marks += fmt::format("set label \"{}\" at {},graph 1.07 center textcolor \"#1f5fa8\"\n",
+      marks += fmt::format("set label \"{}\" at {},graph 1.06 center textcolor \"#1f5fa8\"\n",
                            gear_name(gear.gear), gear.time);
   }
   return marks;
@@ -66,22 +65,22 @@ std::string gear_marks(const TourResult& result, bool named) {
 
 std::string force_commands(const TourResult& result) {
   return fmt::format(R"gp(set datafile separator comma
-set multiplot layout 3,1 margins 0.09, 0.97, 0.07, 0.93 spacing 0.05
+set multiplot layout 3,1 margins 0.08, 0.86, 0.07, 0.95 spacing 0.04
 set grid linecolor "#e4e8ec"
-set key opaque left bottom
+set key outside right top Left reverse
 set xrange [0:{:.2f}]
 set format x ""
 {}set ylabel "position [mm]"
-plot "tour.csv" using "time_s":"lever_x_mm" with lines linewidth 1.3 linecolor "#c5303b" title "x", \
-  "tour.csv" using "time_s":"lever_y_mm" with lines linewidth 1.3 linecolor "#1f5fa8" title "y"
+plot "tour.csv" using "time_s":"lever_x_mm" with lines linewidth 1.3 linecolor "#c5303b" title "select x", \
+  "tour.csv" using "time_s":"lever_y_mm" with lines linewidth 1.3 linecolor "#1f5fa8" title "shift y"
 {}set ylabel "hand f_h [N]"
-plot "tour.csv" using "time_s":"f_h_x_n" with lines linewidth 1 linecolor "#c5303b" title "x, force sensor", \
-  "tour.csv" using "time_s":"f_h_y_n" with lines linewidth 1 linecolor "#1f5fa8" title "y, force sensor"
+plot "tour.csv" using "time_s":"f_h_x_n" with lines linewidth 1 linecolor "#c5303b" title "select x", \
+  "tour.csv" using "time_s":"f_h_y_n" with lines linewidth 1 linecolor "#1f5fa8" title "shift y"
 set format x "%g"
 set xlabel "time [s]"
 set ylabel "commanded [N]"
-plot "tour.csv" using "time_s":"commanded_x_n" with lines linewidth 1 linecolor "#c5303b" title "x", \
-  "tour.csv" using "time_s":"commanded_y_n" with lines linewidth 1 linecolor "#1f5fa8" title "y"
+plot "tour.csv" using "time_s":"commanded_x_n" with lines linewidth 1 linecolor "#c5303b" title "select x", \
+  "tour.csv" using "time_s":"commanded_y_n" with lines linewidth 1 linecolor "#1f5fa8" title "shift y"
 unset multiplot
 )gp",
                      result.duration, gear_marks(result, true), gear_marks(result, false));

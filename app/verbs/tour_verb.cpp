@@ -23,6 +23,7 @@ struct TourArguments {
   std::string gate = "paper";
   std::string hand = "grip";
   double rate = HapticConfig{}.rate;
+  std::uint64_t seed = 1;
 };
 
 HandImpedance driving_hand(const std::string& text) {
@@ -64,6 +65,7 @@ int run_tour(const TourArguments& arguments) {
   setup.gate = compile_gate(setup.layout, workspace_half_extent(YokeGeometry{}));
   setup.hand = driving_hand(arguments.hand);
   setup.haptics.rate = arguments.rate;
+  setup.seed = arguments.seed;
   setup.folder = arguments.folder;
   make_folder(setup.folder);
   const TourResult result = drive_tour(setup);
@@ -91,6 +93,7 @@ void add_tour_verb(CLI::App& app, VerbAction& action) {
   verb->add_option("--rate", arguments->rate, "rate of the haptic cycle [Hz]")
       ->check(number_between(100.0, 4000.0))
       ->capture_default_str();
+  verb->add_option("--seed", arguments->seed, "another seed, other aims of the same hand")->capture_default_str();
   verb->callback([arguments, &action] { action = [arguments] { return run_tour(*arguments); }; });
 }
 

@@ -55,6 +55,28 @@ bool has_lockout(const Gate& gate, int slot, LockoutKind kind, int after_gear = 
                      });
 }
 
+const Column& column_at(const Gate& gate, double x) {
+  return gate.column[static_cast<std::size_t>(nearest_column(gate, x))];
+}
+
+// Outside this column: the neutral one, or half way to a neighbour where it is that one itself.
+double aside_of(const Gate& gate, double x) {
+  const int here = nearest_column(gate, x);
+  const double center = gate.column[static_cast<std::size_t>(here)].center;
+  if (here != gate.neutral_column) return gate.column[static_cast<std::size_t>(gate.neutral_column)].center;
+  return 0.5 * (center + gate.column[static_cast<std::size_t>(here > 0 ? here - 1 : here + 1)].center);
+}
+
+constexpr double kLean = 0.0015;  // [m] beyond a wall
+
+// A hand slides along the gate's end wall into the outer slots; at an inner slot it aims at the middle.
+double lean_at(const Gate& gate, double x, double way) {
+  const double half_width = column_at(gate, x).half_width;
+  const double wall = x + std::copysign(half_width, way);
+  const bool ends_gate = wall <= gate.select_min || wall >= gate.select_max;
+  return ends_gate ? std::copysign(half_width + kLean, way) : 0.0;
+}
+
 }  // namespace
 
 std::vector<HandStroke> shift_strokes(const Gate& gate, dvec2 start, std::span<const int> gears,
@@ -62,20 +84,24 @@ std::vector<HandStroke> shift_strokes(const Gate& gate, dvec2 start, std::span<c
   StrokeWriter writer(start, style);
   const auto select = [&](double x) {
     const double way = x - writer.at().x;
-    if (std::abs(way) > style.overshoot)
-      writer.go({x + std::copysign(style.overshoot, way), 0.0}, style.dwell_neutral);
+    if (std::abs(way) <= column_at(gate, x).half_width + 2.0 * kLean) return;  // it stands in that column already
+    writer.go({x + (style.leans ? lean_at(gate, x, way) : 0.0), 0.0}, style.dwell_neutral);
   };
-  const double neutral_x = rest_position(gate, kNeutralGear).x;
   int gear = kNeutralGear;
   for (const int next : gears) {
-    const int slot = slot_of_gear(gate, next);
+    const int index = slot_of_gear(gate, next);
     const dvec2 rest = rest_position(gate, next);
     if (slot_at(gate, writer.at()) != kNoSlot) writer.go({writer.at().x, 0.0}, style.dwell_neutral);
-    if (has_lockout(gate, slot, LockoutKind::after_gear, gear)) select(neutral_x);
-    writer.hold(has_lockout(gate, slot, LockoutKind::push_down), has_lockout(gate, slot, LockoutKind::lift));
+    if (has_lockout(gate, index, LockoutKind::after_gear, gear)) {
+      writer.go({aside_of(gate, rest.x), 0.0}, style.dwell_neutral);
+    }
+    writer.hold(has_lockout(gate, index, LockoutKind::push_down), has_lockout(gate, index, LockoutKind::lift));
     select(rest.x);
-    if (slot != kNoSlot)
-      writer.go({writer.at().x, rest.y + std::copysign(style.overshoot, rest.y)}, style.dwell_gear);
+    if (index != kNoSlot) {
+      const Slot& slot = gate.slot[static_cast<std::size_t>(index)];
+      const double depth = style.leans ? slot.end + kLean : slot.rest;
+      writer.go({writer.at().x, static_cast<int>(slot.side) * depth}, style.dwell_gear);
+    }
     writer.hold(false, false);
     gear = next;
   }

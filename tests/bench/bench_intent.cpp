@@ -30,7 +30,7 @@ Aim random_aim(const Gate& gate, std::mt19937_64& random) {
 // Aims at the gear's rest itself: whatever goes wide is the noise.
 ShiftStyle aimed_style() {
   ShiftStyle style;
-  style.overshoot = 0.0;
+  style.leans = false;
   return style;
 }
 

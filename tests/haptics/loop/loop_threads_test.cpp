@@ -1,0 +1,81 @@
+// The loop on its real-time thread, with a frame, a recorder and a person at its channels. Run it under the thread
+// sanitizer.
+#include <atomic>
+#include <cstdint>
+#include <filesystem>
+
+#include <doctest/doctest.h>
+
+#include "haptics/device/led_hand.h"
+#include "haptics/device/simulated_lever.h"
+#include "haptics/loop/haptic_loop.h"
+#include "haptics/loop/replay.h"
+#include "haptics/loop/trace_reader.h"
+#include "haptics/loop/trace_recorder.h"
+#include "haptics/rt/realtime_thread.h"
+#include "tests/support/gates.h"
+
+using namespace gearshift;
+
+TEST_CASE("on its own thread: led by a person, tuned and recorded while it runs, and the recording replays") {
+  const std::int64_t period = 1'000'000;
+  const GateLayout layout = read_gate_layout(GEARSHIFT_ASSETS "/gates/paper.toml");
+  const Gate gate = compile_gate(layout, kPaperWorkspace);
+  LatestValue<HandTarget> person;
+  LedHand hand(person, 0.001);
+  SimulatedLeverConfig lever_config;
+  lever_config.hand = kGripHand;
+  SimulatedLever lever(lever_config, period, hand);
+  NullWorld world;
+  LoopChannels channels;
+  HapticConfig config;
+  HapticLoop loop(config, gate, lever, world, channels);
+  loop.arm();
+
+  TraceHeader header;
+  header.program = "test";
+  header.config = config;
+  header.device = lever.spec();
+  header.gate_file = layout.file;
+  header.gate_text = layout.text;
+  header.armed = true;
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "gearshift_loop_threads_test.trace";
+  TraceRecorder recorder(file, header, channels, TracePump::own_thread);
+
+  std::atomic<std::uint64_t> cycles{0};
+  RealtimeThread thread;
+  RealtimeConfig realtime;
+  realtime.period_ns = period;
+  thread.start(realtime, [&](const CycleCall& call) {
+    loop.cycle(call.deadline_ns, call.skipped);
+    cycles.fetch_add(1, std::memory_order_relaxed);
+  });
+
+  // The frame: as fast as it goes, until enough cycles have passed.
+  std::uint64_t newest = 0, frames = 0;
+  HapticTuning tuning = admit_tuning(config.tuning, 0.001, lever.spec(), gate).tuning;
+  DriverControls controls;
+  while (cycles.load(std::memory_order_relaxed) < 400) {
+    ++frames;
+    person.write({{0.02 * (frames % 2 ? 1.0 : -1.0), 0.0}, {}, {}, false, false});
+    if (cycles.load(std::memory_order_relaxed) > 50) {
+      tuning.feel_scale = frames % 2 ? 0.5 : 1.0;
+      channels.tuning.write(tuning);
+      controls.throttle = static_cast<double>(frames % 100) / 100.0;
+      channels.controls.write(controls);
+    }
+    if (channels.snapshot.update()) {
+      CHECK(channels.snapshot.value().cycle >= newest);
+      newest = channels.snapshot.value().cycle;
+    }
+    for (HapticEvent event; channels.events.pop(event);) continue;
+  }
+  thread.stop();
+  const RecordingResult recording = recorder.finish();
+  CHECK(recording.problem.empty());
+  CHECK_FALSE(recording.torn);
+  CHECK(recording.cycles >= 400);
+  CHECK(channels.events_lost == 0);
+  CHECK(replay(read_trace(file)).bit_for_bit());
+  std::filesystem::remove(file);
+}
