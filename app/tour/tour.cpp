@@ -18,7 +18,7 @@ namespace gearshift {
 namespace {
 
 constexpr double kAimNoise = 0.002;  // [m] a hand never aims twice at the same spot
-constexpr int kPumpEvery = 1000;  // [cycles] between two drains of the trace queue
+constexpr int kPumpEvery = 1000;     // [cycles] between two drains of the trace queue
 
 TraceHeader header_of(const TourSetup& setup, const DeviceSpec& spec) {
   TraceHeader header;

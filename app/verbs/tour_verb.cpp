@@ -93,7 +93,8 @@ void add_tour_verb(CLI::App& app, VerbAction& action) {
   verb->add_option("--rate", arguments->rate, "rate of the haptic cycle [Hz]")
       ->check(number_between(100.0, 4000.0))
       ->capture_default_str();
-  verb->add_option("--seed", arguments->seed, "another seed, other aims of the same hand")->capture_default_str();
+  verb->add_option("--seed", arguments->seed, "another seed, other aims of the same hand")
+      ->capture_default_str();
   verb->callback([arguments, &action] { action = [arguments] { return run_tour(*arguments); }; });
 }
 

@@ -84,7 +84,8 @@ std::vector<HandStroke> shift_strokes(const Gate& gate, dvec2 start, std::span<c
   StrokeWriter writer(start, style);
   const auto select = [&](double x) {
     const double way = x - writer.at().x;
-    if (std::abs(way) <= column_at(gate, x).half_width + 2.0 * kLean) return;  // it stands in that column already
+    if (std::abs(way) <= column_at(gate, x).half_width + 2.0 * kLean)
+      return;  // it stands in that column already
     writer.go({x + (style.leans ? lean_at(gate, x, way) : 0.0), 0.0}, style.dwell_neutral);
   };
   int gear = kNeutralGear;
@@ -95,7 +96,8 @@ std::vector<HandStroke> shift_strokes(const Gate& gate, dvec2 start, std::span<c
     if (has_lockout(gate, index, LockoutKind::after_gear, gear)) {
       writer.go({aside_of(gate, rest.x), 0.0}, style.dwell_neutral);
     }
-    writer.hold(has_lockout(gate, index, LockoutKind::push_down), has_lockout(gate, index, LockoutKind::lift));
+    writer.hold(has_lockout(gate, index, LockoutKind::push_down),
+                has_lockout(gate, index, LockoutKind::lift));
     select(rest.x);
     if (index != kNoSlot) {
       const Slot& slot = gate.slot[static_cast<std::size_t>(index)];

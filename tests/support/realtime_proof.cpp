@@ -1,37 +1,5 @@
 #include "tests/support/realtime_proof.h"
 
-namespace gearshift {
-
-std::string RealtimeProof::verdict() const {
-  if (!ran) return "did not run: " + problem;
-  if (clean()) return "clean";
-  std::string first_call = system_call < 0 ? "no system call" : "system call " + std::to_string(system_call);
-  return std::to_string(allocations) + " allocations or frees, " + std::to_string(locks) + " locks, " +
-         first_call;
-}
-
-}  // namespace gearshift
-
-// The preprocessor needs the same question once more.
-#if defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
-#define GEARSHIFT_SANITIZED
-#endif
-#endif
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-#define GEARSHIFT_SANITIZED
-#endif
-
-#ifdef GEARSHIFT_SANITIZED
-
-gearshift::RealtimeProof gearshift::prove_realtime(const std::function<void()>&) {
-  RealtimeProof proof;
-  proof.problem = "not available under a sanitizer";
-  return proof;
-}
-
-#else
-
 #include <dlfcn.h>
 #include <errno.h>
 #include <linux/audit.h>
@@ -50,6 +18,18 @@ gearshift::RealtimeProof gearshift::prove_realtime(const std::function<void()>&)
 #include <unistd.h>
 
 #include <new>
+
+namespace gearshift {
+
+std::string RealtimeProof::verdict() const {
+  if (!ran) return "did not run: " + problem;
+  if (clean()) return "clean";
+  std::string first_call = system_call < 0 ? "no system call" : "system call " + std::to_string(system_call);
+  return std::to_string(allocations) + " allocations or frees, " + std::to_string(locks) + " locks, " +
+         first_call;
+}
+
+}  // namespace gearshift
 
 namespace {
 
@@ -208,5 +188,3 @@ RealtimeProof prove_realtime(const std::function<void()>& work) {
 }
 
 }  // namespace gearshift
-
-#endif

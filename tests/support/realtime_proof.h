@@ -7,7 +7,7 @@
 // Reading the clock through the vDSO is no system call. (Seccomp's strict mode would not do: it forbids the
 // time stamp counter that the vDSO reads.)
 //
-// Link it only to test programs that use it: the stand-ins serve the whole program. Not available under
+// Link it only to test programs that use it: the stand-ins serve the whole program. Not built under
 // sanitizers, which stand in for the same functions.
 #pragma once
 
@@ -16,18 +16,6 @@
 #include <string>
 
 namespace gearshift {
-
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-inline constexpr bool kRealtimeProofAvailable = false;
-#elif defined(__has_feature)
-#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer) || __has_feature(memory_sanitizer)
-inline constexpr bool kRealtimeProofAvailable = false;
-#else
-inline constexpr bool kRealtimeProofAvailable = true;
-#endif
-#else
-inline constexpr bool kRealtimeProofAvailable = true;
-#endif
 
 struct RealtimeProof {
   bool ran = false;               // to its end, or up to its first system call

@@ -1,5 +1,5 @@
-// The loop on its real-time thread, with a frame, a recorder and a person at its channels. Run it under the thread
-// sanitizer.
+// The loop on its real-time thread, with a frame, a recorder and a person at its channels. Run it under the
+// thread sanitizer.
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
@@ -39,7 +39,8 @@ TEST_CASE("on its own thread: led by a person, tuned and recorded while it runs,
   header.gate_file = layout.file;
   header.gate_text = layout.text;
   header.armed = true;
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / "gearshift_loop_threads_test.trace";
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / "gearshift_loop_threads_test.trace";
   TraceRecorder recorder(file, header, channels, TracePump::own_thread);
 
   std::atomic<std::uint64_t> cycles{0};

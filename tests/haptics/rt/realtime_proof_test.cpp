@@ -25,7 +25,7 @@ struct Big {
 
 }  // namespace
 
-TEST_CASE("real-time proof: arithmetic is clean" * doctest::skip(!kRealtimeProofAvailable)) {
+TEST_CASE("real-time proof: arithmetic is clean") {
   double sum = 0.0;
   const RealtimeProof proof = prove_realtime([&] {
     for (int i = 1; i < 1000; ++i) sum += 1.0 / i;
@@ -35,7 +35,7 @@ TEST_CASE("real-time proof: arithmetic is clean" * doctest::skip(!kRealtimeProof
   CHECK(sum == 0.0);  // it ran on a copy
 }
 
-TEST_CASE("real-time proof: one allocation is caught" * doctest::skip(!kRealtimeProofAvailable)) {
+TEST_CASE("real-time proof: one allocation is caught") {
   delete new int;  // so that the allocator is warm and needs no system call
   const RealtimeProof by_new = prove_realtime([] { kept = new int(1); });
   CHECK(by_new.allocations == 1);
@@ -48,8 +48,7 @@ TEST_CASE("real-time proof: one allocation is caught" * doctest::skip(!kRealtime
   delete kept;
 }
 
-TEST_CASE("real-time proof: one lock is caught, though nobody holds it" *
-          doctest::skip(!kRealtimeProofAvailable)) {
+TEST_CASE("real-time proof: one lock is caught, though nobody holds it") {
   std::mutex mutex;
   const RealtimeProof by_mutex = prove_realtime([&] { const std::lock_guard lock(mutex); });
   CHECK(by_mutex.ran);
@@ -60,22 +59,21 @@ TEST_CASE("real-time proof: one lock is caught, though nobody holds it" *
   CHECK(by_reader.locks == 1);
 }
 
-TEST_CASE("real-time proof: one system call is caught and named" * doctest::skip(!kRealtimeProofAvailable)) {
+TEST_CASE("real-time proof: one system call is caught and named") {
   const RealtimeProof proof = prove_realtime([] { (void)getppid(); });
   CHECK(proof.ran);
   CHECK(proof.system_call == 110);  // getppid on x86-64
   CHECK_FALSE(proof.clean());
 }
 
-TEST_CASE("real-time proof: a crash is told, not taken for clean" * doctest::skip(!kRealtimeProofAvailable)) {
+TEST_CASE("real-time proof: a crash is told, not taken for clean") {
   const RealtimeProof proof = prove_realtime([] { __builtin_trap(); });
   CHECK_FALSE(proof.ran);
   CHECK_FALSE(proof.clean());
   CHECK_FALSE(proof.problem.empty());
 }
 
-TEST_CASE("the channels and the statistics are real-time safe, full and empty" *
-          doctest::skip(!kRealtimeProofAvailable)) {
+TEST_CASE("the channels and the statistics are real-time safe, full and empty") {
   auto channel = std::make_unique<LatestValue<Big>>();
   SpscQueue<Big> queue(16);
   auto histogram = std::make_unique<DurationHistogram>();
