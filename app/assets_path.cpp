@@ -6,17 +6,13 @@
 
 #include <fmt/format.h>
 
+#include "haptics/files/printable.h"
+
 namespace gearshift {
 
 namespace fs = std::filesystem;
 
 fs::path assets_folder() {
-  std::error_code error;
-  const fs::path program = fs::read_symlink("/proc/self/exe", error);
-  if (!error) {
-    fs::path installed = program.parent_path().parent_path() / "share" / "gearshift";
-    if (fs::is_directory(installed, error)) return installed;
-  }
   return GEARSHIFT_SOURCE_ASSETS;
 }
 
@@ -40,8 +36,8 @@ fs::path find_asset(std::string_view kind, const std::string& name_or_path) {
   fs::path path(name_or_path);
   std::error_code error;
   if (path.has_parent_path() || path.has_extension() || fs::exists(path, error)) return path;
-  throw std::runtime_error(fmt::format("\"{}\" is neither a file nor one of the shipped {}: {}", name_or_path,
-                                       kind, fmt::join(names, ", ")));
+  throw std::runtime_error(fmt::format("\"{}\" is neither a file nor one of the shipped {}: {}",
+                                       printable(name_or_path), kind, fmt::join(names, ", ")));
 }
 
 }  // namespace gearshift

@@ -8,14 +8,14 @@
 
 namespace gearshift {
 
-// ../share/gearshift beside an installed program, otherwise the source tree's assets.
+// The source tree's assets: there is no installed copy yet.
 std::filesystem::path assets_folder();
 
 // Names of the shipped files of a kind ("gates"), sorted: "paper" for assets/gates/paper.toml.
 std::vector<std::string> shipped_names(std::string_view kind);
 
-// The file that a person means: a shipped name, or else a path. Throws std::runtime_error in one sentence
-// with the shipped names where it is neither.
+// The file that a person means: a shipped name, or else a path.
+// Where it is neither, throws std::runtime_error in one sentence with the shipped names.
 std::filesystem::path find_asset(std::string_view kind, const std::string& name_or_path);
 
 }  // namespace gearshift

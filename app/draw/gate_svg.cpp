@@ -3,10 +3,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include <fmt/format.h>
 
 #include "app/draw/gate_colours.h"
+#include "app/draw/lockout_words.h"
 #include "app/draw/slot_plot.h"
 #include "app/draw/svg.h"
 
@@ -33,13 +35,6 @@ glm::dvec2 on_page(glm::dvec2 metres) {
   return {mm(metres.x), -mm(metres.y)};
 }
 
-const Slot& slot_of(const Gate& gate, int index) {
-  return gate.slot[static_cast<std::size_t>(index)];
-}
-const Column& column_of(const Gate& gate, const Slot& slot) {
-  return gate.column[static_cast<std::size_t>(slot.column)];
-}
-
 // A point of a slot's branch: x across, depth along. [m]
 glm::dvec2 in_slot(const Slot& slot, double x, double depth) {
   return on_page({x, static_cast<int>(slot.side) * depth});
@@ -47,7 +42,7 @@ glm::dvec2 in_slot(const Slot& slot, double x, double depth) {
 
 // A line across a slot from wall to wall.
 void across_slot(Svg& svg, const Gate& gate, const Slot& slot, double depth, const Pen& pen) {
-  const Column& column = column_of(gate, slot);
+  const Column& column = column_of(gate, slot.column);
   const double left = column.center - column.half_width;
   const double right = column.center + column.half_width;
   svg.line(in_slot(slot, left, depth), in_slot(slot, right, depth), pen);
@@ -57,9 +52,9 @@ void across_slot(Svg& svg, const Gate& gate, const Slot& slot, double depth, con
 Rect gate_box(const Gate& gate) {
   double forward = gate.half_aisle;
   double back = gate.half_aisle;
-  for (int i = 0; i < gate.slot_count; ++i) {
-    double& reach = slot_of(gate, i).side == Side::forward ? forward : back;
-    reach = std::max(reach, slot_of(gate, i).end);
+  for (const Slot& slot : slots(gate)) {
+    double& reach = slot.side == Side::forward ? forward : back;
+    reach = std::max(reach, slot.end);
   }
   return {mm(gate.select_min), -mm(forward), mm(gate.select_max - gate.select_min), mm(forward + back)};
 }
@@ -75,8 +70,7 @@ void draw_free_space(Svg& svg, const GateDescription& list) {
 }
 
 void draw_buffers(Svg& svg, const Gate& gate) {
-  for (int i = 0; i < gate.buffer_count; ++i) {
-    const Buffer& b = gate.buffer[static_cast<std::size_t>(i)];
+  for (const Buffer& b : buffers(gate)) {
     const Rect box{mm(std::min(b.wall, b.inner)), -mm(gate.half_aisle), mm(std::abs(b.wall - b.inner)),
                    mm(2.0 * gate.half_aisle)};
     svg.frame(box, "url(#buffer)", {kBufferColour, 0.25});
@@ -107,9 +101,8 @@ void draw_walls(Svg& svg, const GateDescription& list) {
 }
 
 void draw_gears(Svg& svg, const Gate& gate) {
-  for (int i = 0; i < gate.slot_count; ++i) {
-    const Slot& slot = slot_of(gate, i);
-    const double x = column_of(gate, slot).center;
+  for (const Slot& slot : slots(gate)) {
+    const double x = column_of(gate, slot.column).center;
     across_slot(svg, gate, slot, slot.engage_depth, {kGearColour, 0.25});
     across_slot(svg, gate, slot, slot.release_depth, {kGearColour, 0.25, kShortDash});
     svg.dot(in_slot(slot, x, slot.rest), 0.7, kGearColour);
@@ -127,12 +120,11 @@ struct NamePlace {
 
 NamePlace name_place(const Gate& gate, int column) {
   constexpr double kGap = 1.2;
-  for (int i = 0; i < gate.buffer_count; ++i) {
-    const Buffer& b = gate.buffer[static_cast<std::size_t>(i)];
+  for (const Buffer& b : buffers(gate)) {
     if (nearest_column(gate, b.wall) != column) continue;
     return b.wall < b.inner ? NamePlace{mm(b.inner) + kGap, "start"} : NamePlace{mm(b.inner) - kGap, "end"};
   }
-  return {mm(gate.column[static_cast<std::size_t>(column)].center)};
+  return {mm(column_of(gate, column).center)};
 }
 
 // The neutral junction has a ring: the lever returns there.
@@ -149,8 +141,7 @@ void draw_junctions(Svg& svg, const Gate& gate, const GateDescription& list) {
 // Several lockouts at one place share one bar; the legend says what they are.
 void draw_lockouts(Svg& svg, const Gate& gate) {
   const Pen pen{kLockoutColour, 1.2, kLongDash};
-  for (int i = 0; i < gate.lockout_count; ++i) {
-    const Lockout& lockout = gate.lockout[static_cast<std::size_t>(i)];
+  for (const Lockout& lockout : lockouts(gate)) {
     if (lockout.lateral) {
       svg.line(on_page({lockout.barrier, -gate.half_aisle}), on_page({lockout.barrier, gate.half_aisle}),
                pen);
@@ -158,22 +149,6 @@ void draw_lockouts(Svg& svg, const Gate& gate) {
       across_slot(svg, gate, slot_of(gate, lockout.slot), gate.half_aisle + gate.chamfer, pen);
     }
   }
-}
-
-std::string lockout_words(const Gate& gate, const Lockout& lockout) {
-  const char* gear = gear_name(slot_of(gate, lockout.slot).gear);
-  switch (lockout.kind) {
-    case LockoutKind::push_down:
-      return fmt::format("{}: push the knob down", gear);
-    case LockoutKind::lift:
-      return fmt::format("{}: lift the ring", gear);
-    case LockoutKind::speed:
-      return fmt::format("{}: shut above {:.0f}, open below {:.0f} km/h", gear, lockout.close_above * 3.6,
-                         lockout.open_below * 3.6);
-    case LockoutKind::after_gear:
-      return fmt::format("{}: shut after {} until the column is left", gear, gear_name(lockout.after_gear));
-  }
-  return gear;
 }
 
 class Legend {
@@ -216,9 +191,10 @@ void draw_legend(Svg& svg, const Gate& gate, glm::dvec2 at) {
   legend.dot("the engaged lever rests here");
   legend.line({kClosedColour, kStopWidth}, "closed side of a junction");
   if (gate.buffer_count > 0) legend.buffer("buffer: turns the lever into the slots");
-  for (int i = 0; i < gate.lockout_count; ++i) {
-    const Lockout& lockout = gate.lockout[static_cast<std::size_t>(i)];
-    legend.line({kLockoutColour, 1.2, kLongDash}, "lockout of " + lockout_words(gate, lockout));
+  for (const Lockout& lockout : lockouts(gate)) {
+    const char* gear = gear_name(slot_of(gate, lockout.slot).gear);
+    legend.line({kLockoutColour, 1.2, kLongDash},
+                fmt::format("lockout of {}: {}", gear, lockout_words(lockout)));
   }
 }
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <string_view>
 
-#include "haptics/gate/gate_compiler.h"
+#include "haptics/gate/gate_description.h"
 
 namespace gearshift {
 

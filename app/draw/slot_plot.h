@@ -1,5 +1,4 @@
-// The force along a slot as a small plot: above the axis it pulls into the gear, below it pushes back to
-// neutral.
+// The force along a slot as a small plot: above the axis it pulls into the gear, below it pushes back.
 #pragma once
 
 #include "app/draw/svg.h"

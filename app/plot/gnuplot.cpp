@@ -3,8 +3,10 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <fstream>
 #include <stdexcept>
+#include <thread>
 
 #include <fmt/core.h>
 
@@ -24,7 +26,8 @@ std::string script_of(const Figure& figure) {
 }
 
 // Runs gnuplot inside the folder, so that no path has to be quoted. 127 when it cannot be started.
-int run_gnuplot(const std::filesystem::path& folder, const std::string& script) {
+int run_gnuplot(const std::filesystem::path& folder, const std::string& script,
+                const std::function<void()>& waiting) {
   const std::string directory = folder.string();
   const pid_t child = fork();
   if (child == 0) {
@@ -32,20 +35,27 @@ int run_gnuplot(const std::filesystem::path& folder, const std::string& script) 
       execlp("gnuplot", "gnuplot", script.c_str(), static_cast<char*>(nullptr));
     _exit(127);
   }
+  if (child < 0) return 127;
   int status = 0;
-  if (child < 0 || waitpid(child, &status, 0) < 0) return 127;
+  pid_t ended = 0;
+  while ((ended = waitpid(child, &status, WNOHANG)) == 0) {
+    waiting();
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+  }
+  if (ended < 0) return 127;
   return WIFEXITED(status) ? WEXITSTATUS(status) : 127;
 }
 
 }  // namespace
 
-void draw_figure(const std::filesystem::path& folder, const Figure& figure) {
+void draw_figure(const std::filesystem::path& folder, const Figure& figure,
+                 const std::function<void()>& waiting) {
   const std::string script = figure.name + ".gp";
   std::ofstream out(folder / script);
   out << script_of(figure);
   out.close();
   if (!out) throw std::runtime_error(fmt::format("{}: cannot be written", (folder / script).string()));
-  const int code = run_gnuplot(folder, script);
+  const int code = run_gnuplot(folder, script, waiting);
   if (code == 127) throw std::runtime_error("gnuplot cannot be started: install the package gnuplot-nox");
   if (code != 0)
     throw std::runtime_error(

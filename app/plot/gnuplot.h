@@ -2,8 +2,8 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <string>
-#include <string_view>
 
 namespace gearshift {
 
@@ -14,8 +14,9 @@ struct Figure {
   std::string commands;  // everything but terminal and output; paths relative to the folder
 };
 
-// Writes NAME.gp, NAME.svg and NAME.png into the folder. Throws std::runtime_error with one sentence when
-// gnuplot is missing or refuses the script.
-void draw_figure(const std::filesystem::path& folder, const Figure& figure);
+// Writes NAME.gp, NAME.svg and NAME.png into the folder. Calls `waiting` now and then while gnuplot works.
+// Throws std::runtime_error with one sentence when gnuplot is missing or refuses the script.
+void draw_figure(const std::filesystem::path& folder, const Figure& figure,
+                 const std::function<void()>& waiting);
 
 }  // namespace gearshift

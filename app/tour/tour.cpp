@@ -1,7 +1,6 @@
 #include "app/tour/tour.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdint>
 
 #include <glm/geometric.hpp>
@@ -38,10 +37,58 @@ void collect_gears(LoopChannels& channels, TourResult& result) {
   }
 }
 
-void export_csv(const std::filesystem::path& trace, const std::filesystem::path& csv) {
+SimulatedRunConfig run_config(const TourSetup& setup) {
+  SimulatedRunConfig config;
+  config.haptics = setup.haptics;
+  config.lever.hand = setup.hand;
+  config.gate = setup.gate;
+  config.start = rest_position(setup.gate, kNeutralGear);
+  return config;
+}
+
+ScriptedHand hand_through(const std::vector<int>& gears, const TourSetup& setup, glm::dvec2 start) {
+  ScriptedHandConfig config = touring_hand(start);
+  config.aim_noise = kAimNoise;
+  config.seed = setup.seed;
+  return {config, shift_strokes(setup.gate, start, gears), period_s(setup.haptics)};
+}
+
+void measure(const HapticSnapshot& now, TourResult& result) {
+  result.deepest = std::max(result.deepest, glm::distance(now.lever, now.proxy));
+  result.strongest = std::max(result.strongest, glm::length(now.f_h));
+  result.contacts += (now.flags & kFlagContact) != 0 ? 1u : 0u;
+  ++result.cycles;
+}
+
+void drive(SimulatedRun& run, double duration, TraceRecorder& recorder, const TourProgress& progress,
+           TourResult& result) {
+  while (run.time() < duration) {
+    measure(run.step(), result);
+    if (result.cycles % kPumpEvery != 0) continue;
+    recorder.pump();
+    collect_gears(run.channels(), result);
+    progress("drive", run.time() / duration);
+  }
+  collect_gears(run.channels(), result);
+  result.duration = run.time();
+}
+
+// Returns the hash of the run.
+std::uint64_t finish(TraceRecorder& recorder, const std::filesystem::path& trace) {
+  const RecordingResult recording = recorder.finish();
+  if (!recording.problem.empty()) throw FileError(trace.string(), 0, recording.problem);
+  return recording.hash;
+}
+
+void export_csv(const std::filesystem::path& trace, const std::filesystem::path& csv,
+                const TourProgress& progress) {
   TraceReader reader(trace);
   TraceCsvFile out(csv);
-  for (TraceSample sample; reader.next(sample);) out.add(sample);
+  std::uint64_t rows = 0;
+  for (TraceSample sample; reader.next(sample);) {
+    out.add(sample);
+    progress("table", static_cast<double>(++rows) / static_cast<double>(reader.cycles()));
+  }
   out.finish();
 }
 
@@ -52,41 +99,23 @@ bool TourResult::complete() const {
                     [](int gear, const GearTime& time) { return gear == time.gear; });
 }
 
-TourResult drive_tour(const TourSetup& setup) {
+double TourResult::contact_share() const {
+  return cycles == 0 ? 0.0 : static_cast<double>(contacts) / static_cast<double>(cycles);
+}
+
+TourResult drive_tour(const TourSetup& setup, const TourProgress& progress) {
   TourResult result;
   result.wanted = tour_order(setup.gate);
-  SimulatedRunConfig config;
-  config.haptics = setup.haptics;
-  config.lever.hand = setup.hand;
-  config.gate = setup.gate;
-  config.start = rest_position(setup.gate, kNeutralGear);
-  const double period = 1e-9 * static_cast<double>(period_ns(setup.haptics));
-  ScriptedHandConfig hand = touring_hand(config.start);
-  hand.aim_noise = kAimNoise;
-  hand.seed = setup.seed;
-  ScriptedHand driver(hand, shift_strokes(setup.gate, config.start, result.wanted), period);
-  SimulatedRun run(config, driver);
+  const SimulatedRunConfig config = run_config(setup);
+  ScriptedHand hand = hand_through(result.wanted, setup, config.start);
+  SimulatedRun run(config, hand);
   result.limited = run.loop().admitted().limited;
 
   const std::filesystem::path trace = setup.folder / "tour.trace";
   TraceRecorder recorder(trace, header_of(setup, run.lever().spec()), run.channels(), TracePump::by_caller);
-  std::uint64_t cycles = 0, contacts = 0;
-  while (run.time() < driver.duration()) {
-    const HapticSnapshot& now = run.step();
-    result.deepest = std::max(result.deepest, glm::distance(now.lever, now.proxy));
-    result.strongest = std::max(result.strongest, glm::length(now.f_h));
-    contacts += (now.flags & kFlagContact) != 0 ? 1u : 0u;
-    if (++cycles % kPumpEvery != 0) continue;
-    recorder.pump();
-    collect_gears(run.channels(), result);
-  }
-  collect_gears(run.channels(), result);
-  const RecordingResult recording = recorder.finish();
-  if (!recording.problem.empty()) throw FileError(trace.string(), 0, recording.problem);
-  result.hash = recording.hash;
-  result.duration = run.time();
-  result.contact_share = static_cast<double>(contacts) / static_cast<double>(cycles);
-  export_csv(trace, setup.folder / "tour.csv");
+  drive(run, hand.duration(), recorder, progress, result);
+  result.hash = finish(recorder, trace);
+  export_csv(trace, setup.folder / "tour.csv", progress);
   return result;
 }
 

@@ -3,7 +3,8 @@
 
 #include <cstdint>
 #include <filesystem>
-#include <string>
+#include <functional>
+#include <string_view>
 #include <vector>
 
 #include "haptics/device/hand.h"
@@ -34,16 +35,21 @@ struct TourResult {
   double duration = 0.0;          // [s] simulated
   double deepest = 0.0;           // [m] lever beyond the drawn lever
   double strongest = 0.0;         // [N] largest push of the hand
-  double contact_share = 0.0;     // [1] of the cycles
+  std::uint64_t cycles = 0;       // driven
+  std::uint64_t contacts = 0;     // cycles in contact with a wall
   std::uint64_t hash = 0;         // of the recording
 
-  bool complete() const;  // engaged is wanted, in order and nothing else
+  bool complete() const;         // engaged is wanted, in order and nothing else
+  double contact_share() const;  // [1] of the cycles
 };
 
+// Told, often, which part of the work is in hand and which share of it is done (0 to 1).
+using TourProgress = std::function<void(std::string_view what, double share)>;
+
 // Drives and records. Throws FileError when a file cannot be written.
-TourResult drive_tour(const TourSetup& setup);
+TourResult drive_tour(const TourSetup& setup, const TourProgress& progress);
 
 // Fig. 9 (a) and (b) of the paper for this run: trajectory.{svg,png}, force.{svg,png}, from tour.csv.
-void draw_tour(const TourSetup& setup, const TourResult& result);
+void draw_tour(const TourSetup& setup, const TourResult& result, const TourProgress& progress);
 
 }  // namespace gearshift

@@ -2,15 +2,19 @@
 
 #include <fmt/core.h>
 
+#include "app/draw/gate_colours.h"
 #include "app/plot/gnuplot.h"
 #include "app/tour/tour.h"
 #include "haptics/files/file_error.h"
-#include "haptics/gate/gate_compiler.h"
+#include "haptics/gate/gate_description.h"
 
 namespace gearshift {
 namespace {
 
 constexpr const char* kWalls = "gate_walls.dat";
+// Of two curves: the hand's lever and select are red, the drawn lever and shift are blue.
+constexpr const char* kRed = kLockoutColour;
+constexpr const char* kBlue = kGearColour;
 
 void write_walls(const std::filesystem::path& file, const Gate& gate) {
   std::ofstream out(file);
@@ -27,71 +31,78 @@ std::string gear_labels(const Gate& gate) {
   for (int i = 0; i < gate.slot_count; ++i) {
     const Slot& slot = gate.slot[static_cast<std::size_t>(i)];
     const glm::dvec2 rest = rest_position(gate, slot.gear);
-    labels += fmt::format("set label \"{}\" at {},{} center font \",16\" textcolor \"#1f5fa8\"\n",
+    labels += fmt::format("set label \"{}\" at {},{} center font \",16\" textcolor \"{}\"\n",
                           gear_name(slot.gear), 1e3 * rest.x,
-                          1e3 * (rest.y + static_cast<int>(slot.side) * (slot.end - slot.rest + 0.004)));
+                          1e3 * (rest.y + static_cast<int>(slot.side) * (slot.end - slot.rest + 0.004)),
+                          kGearColour);
   }
   return labels;
 }
 
 std::string trajectory_commands(const TourSetup& setup) {
-  return fmt::format(R"gp(set datafile separator comma
+  return fmt::format(
+      R"gp(set datafile separator comma
 set xlabel "select x [mm]"
 set ylabel "shift y [mm]"
 set size ratio -1
 set offsets 2, 2, 6, 6
 set key horizontal center tmargin
-set grid linecolor "#e4e8ec"
-{}plot "{}" using 1:2 with lines linewidth 5 linecolor "#c9d1d9" title "walls", \
-  "tour.csv" using "lever_x_mm":"lever_y_mm" with lines linewidth 1.2 linecolor "#c5303b" title "hand's lever point", \
-  "tour.csv" using "proxy_x_mm":"proxy_y_mm" with lines linewidth 1.2 linecolor "#1f5fa8" title "drawn lever (proxy)"
+set grid linecolor "{grid}"
+{labels}plot "{walls}" using 1:2 with lines linewidth 5 linecolor "{wall}" title "walls", \
+  "tour.csv" using "lever_x_mm":"lever_y_mm" with lines linewidth 1.2 linecolor "{red}" title "hand's lever point", \
+  "tour.csv" using "proxy_x_mm":"proxy_y_mm" with lines linewidth 1.2 linecolor "{blue}" title "drawn lever (proxy)"
 )gp",
-                     gear_labels(setup.gate), kWalls);
+      fmt::arg("grid", kAisleShade), fmt::arg("labels", gear_labels(setup.gate)), fmt::arg("walls", kWalls),
+      fmt::arg("wall", kGridInk), fmt::arg("red", kRed), fmt::arg("blue", kBlue));
 }
 
 // A dashed line with the gear's name in every panel where it was engaged.
 std::string gear_marks(const TourResult& result, bool named) {
   std::string marks = "unset arrow\nunset label\n";
   for (const GearTime& gear : result.engaged) {
-    marks += fmt::format(
-        "set arrow from {0},graph 0 to {0},graph 1 nohead dashtype 2 linecolor \"#9aa5b1\" back\n",
-        gear.time);
+    marks +=
+        fmt::format("set arrow from {0},graph 0 to {0},graph 1 nohead dashtype 2 linecolor \"{1}\" back\n",
+                    gear.time, kSoftInk);
     if (named)
-      marks += fmt::format("set label \"{}\" at {},graph 1.06 center textcolor \"#1f5fa8\"\n",
-                           gear_name(gear.gear), gear.time);
+      marks += fmt::format("set label \"{}\" at {},graph 1.06 center textcolor \"{}\"\n",
+                           gear_name(gear.gear), gear.time, kGearColour);
   }
   return marks;
+}
+
+// One panel of force.png: both axes of a quantity over time.
+std::string panel(const char* label, const char* x, const char* y, double width) {
+  return fmt::format(R"gp(set ylabel "{}"
+plot "tour.csv" using "time_s":"{}" with lines linewidth {} linecolor "{}" title "select x", \
+  "tour.csv" using "time_s":"{}" with lines linewidth {} linecolor "{}" title "shift y"
+)gp",
+                     label, x, width, kRed, y, width, kBlue);
 }
 
 std::string force_commands(const TourResult& result) {
   return fmt::format(R"gp(set datafile separator comma
 set multiplot layout 3,1 margins 0.08, 0.86, 0.07, 0.95 spacing 0.04
-set grid linecolor "#e4e8ec"
+set grid linecolor "{}"
 set key outside right top Left reverse
 set xrange [0:{:.2f}]
 set format x ""
-{}set ylabel "position [mm]"
-plot "tour.csv" using "time_s":"lever_x_mm" with lines linewidth 1.3 linecolor "#c5303b" title "select x", \
-  "tour.csv" using "time_s":"lever_y_mm" with lines linewidth 1.3 linecolor "#1f5fa8" title "shift y"
-{}set ylabel "hand f_h [N]"
-plot "tour.csv" using "time_s":"f_h_x_n" with lines linewidth 1 linecolor "#c5303b" title "select x", \
-  "tour.csv" using "time_s":"f_h_y_n" with lines linewidth 1 linecolor "#1f5fa8" title "shift y"
-set format x "%g"
+{}{}{}{}set format x "%g"
 set xlabel "time [s]"
-set ylabel "commanded [N]"
-plot "tour.csv" using "time_s":"commanded_x_n" with lines linewidth 1 linecolor "#c5303b" title "select x", \
-  "tour.csv" using "time_s":"commanded_y_n" with lines linewidth 1 linecolor "#1f5fa8" title "shift y"
-unset multiplot
+{}unset multiplot
 )gp",
-                     result.duration, gear_marks(result, true), gear_marks(result, false));
+                     kAisleShade, result.duration, gear_marks(result, true),
+                     panel("position [mm]", "lever_x_mm", "lever_y_mm", 1.3), gear_marks(result, false),
+                     panel("hand f_h [N]", "f_h_x_n", "f_h_y_n", 1.0),
+                     panel("commanded [N]", "commanded_x_n", "commanded_y_n", 1.0));
 }
 
 }  // namespace
 
-void draw_tour(const TourSetup& setup, const TourResult& result) {
+void draw_tour(const TourSetup& setup, const TourResult& result, const TourProgress& progress) {
   write_walls(setup.folder / kWalls, setup.gate);
-  draw_figure(setup.folder, {"trajectory", 900, 820, trajectory_commands(setup)});
-  draw_figure(setup.folder, {"force", 1100, 900, force_commands(result)});
+  draw_figure(setup.folder, {"trajectory", 900, 820, trajectory_commands(setup)},
+              [&] { progress("figures", 0.0); });
+  draw_figure(setup.folder, {"force", 1100, 900, force_commands(result)}, [&] { progress("figures", 0.5); });
 }
 
 }  // namespace gearshift

@@ -1,12 +1,10 @@
 // gearshift bench: speed against error, as a table, CSV or JSON.
-#include <unistd.h>
-
 #include <algorithm>
-#include <cstdio>
 #include <fstream>
 #include <memory>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include <fmt/core.h>
@@ -14,6 +12,7 @@
 
 #include "app/assets_path.h"
 #include "app/verbs/number_between.h"
+#include "app/verbs/progress_bar.h"
 #include "app/verbs/verbs.h"
 #include "tests/bench/bench.h"
 
@@ -26,12 +25,6 @@ struct BenchArguments {
   bool json = false;
   BenchOptions options;
 };
-
-void show_progress(std::string_view family, double share) {
-  if (isatty(STDERR_FILENO) == 0) return;
-  fmt::print(stderr, "\r{:<10} {:3.0f} %  ", family, 100.0 * share);
-  std::fflush(stderr);
-}
 
 void print_table(const std::vector<BenchRow>& rows) {
   fmt::print("{:<9} {:<58} {:>12} {:<20} {:>10}  {}\n", "family", "what", "value", "unit", "goal", "");
@@ -79,16 +72,23 @@ void write_csv(std::ofstream& out, const std::string& file, const std::vector<Be
   if (!out) throw std::runtime_error(file + ": cannot be written");
 }
 
-int run_bench(const BenchArguments& arguments) {
-  std::ofstream csv = open_csv(arguments.csv_file);
+std::vector<BenchRow> measure(const BenchArguments& arguments) {
+  ProgressBar progress;
+  BenchOptions options = arguments.options;
+  options.progress = [&](std::string_view family, double share) { progress.show(family, share); };
   std::vector<BenchRow> rows;
   for (const NamedFamily& family : bench_families()) {
     const auto& wanted = arguments.families;
     if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), family.name) == wanted.end()) continue;
-    const std::vector<BenchRow> more = family.run(arguments.options);
+    const std::vector<BenchRow> more = family.run(options);
     rows.insert(rows.end(), more.begin(), more.end());
   }
-  if (isatty(STDERR_FILENO) != 0) fmt::print(stderr, "\r{:<20}\r", "");
+  return rows;
+}
+
+int run_bench(const BenchArguments& arguments) {
+  std::ofstream csv = open_csv(arguments.csv_file);
+  const std::vector<BenchRow> rows = measure(arguments);
   if (csv.is_open()) write_csv(csv, arguments.csv_file, rows);
   if (!arguments.json) {
     print_table(rows);
@@ -110,7 +110,7 @@ void add_bench_verb(CLI::App& app, VerbAction& action) {
   for (const NamedFamily& family : bench_families()) names.emplace_back(family.name);
   verb->add_option("--family", arguments->families, "only these families; may be repeated")
       ->check(CLI::IsMember(names));
-  verb->add_flag("--quick", arguments->options.quick, "fewer repetitions: a look, not figures to quote");
+  verb->add_flag("--quick", arguments->options.quick, "fewer repetitions: a look, not figures to quote (jitter: one block of --block seconds)");
   verb->add_flag("--json", arguments->json, "JSON on stdout");
   verb->add_option("--csv", arguments->csv_file, "also write the rows as CSV")->type_name("FILE");
   verb->add_option("--block", arguments->options.jitter_block, "seconds of each block of the jitter family")
@@ -118,7 +118,6 @@ void add_bench_verb(CLI::App& app, VerbAction& action) {
       ->capture_default_str();
   verb->callback([arguments, &action] {
     arguments->options.gate_folder = (assets_folder() / "gates").string();
-    arguments->options.progress = show_progress;
     action = [arguments] { return run_bench(*arguments); };
   });
 }

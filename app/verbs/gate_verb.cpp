@@ -1,8 +1,7 @@
 // gearshift gate: what the gate compiler makes of a layout.
-#include <cmath>
 #include <fstream>
 #include <memory>
-#include <stdexcept>
+#include <string>
 
 #include <fmt/core.h>
 
@@ -10,6 +9,8 @@
 #include "app/draw/gate_svg.h"
 #include "app/verbs/gate_report.h"
 #include "app/verbs/verbs.h"
+#include "haptics/files/file_error.h"
+#include "haptics/gate/gate_compiler.h"
 #include "haptics/joystick/kinematics.h"
 
 namespace gearshift {
@@ -17,8 +18,7 @@ namespace {
 
 constexpr const char* kHelp =
     "What the gate compiler makes of a layout: aisles, junctions, gears, wall pairs and lockouts, as a table "
-    "or JSON, "
-    "and drawn.";
+    "or JSON, and drawn.";
 constexpr const char* kExamples =
     "\nExamples:\n"
     "  gearshift gate paper                      the gate of the paper, as a table\n"
@@ -34,7 +34,8 @@ struct GateOptions {
 GateReport make_report(const std::string& name_or_path) {
   GateReport report;
   report.layout = read_gate_layout(find_asset("gates", name_or_path));
-  report.gate = compile_gate(report.layout, workspace_half_extent(YokeGeometry{}));
+  const YokeGeometry yoke;
+  report.gate = compile_gate(report.layout, workspace_half_extent(yoke), yoke.radius);
   report.description = describe_gate(report.gate);
   return report;
 }
@@ -43,7 +44,7 @@ void write_file(const std::string& path, const std::string& text) {
   std::ofstream out(path, std::ios::binary);
   out << text;
   out.close();
-  if (!out) throw std::runtime_error(fmt::format("{}: cannot be written", path));
+  if (!out) throw FileError(path, 0, "cannot be written");
 }
 
 int show_gate(const GateOptions& options) {

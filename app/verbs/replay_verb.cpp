@@ -1,9 +1,5 @@
 // gearshift replay: runs a recorded drive again and says whether it came out the same, or exports it.
-#include <unistd.h>
-
-#include <chrono>
 #include <cstdint>
-#include <cstdio>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -13,6 +9,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
+#include "app/verbs/progress_bar.h"
 #include "app/verbs/verbs.h"
 #include "haptics/loop/replay.h"
 #include "haptics/loop/trace_csv.h"
@@ -22,9 +19,8 @@ namespace gearshift {
 namespace {
 
 constexpr const char* kFooter =
-    "A trace holds everything that came into each haptic cycle, the configuration and the gate. replay feeds "
-    "the\n"
-    "inputs to the same cycle again and compares every output by its exact bits.\n"
+    "A trace holds everything that came into each haptic cycle, the configuration and the gate.\n"
+    "replay feeds the inputs to the same cycle again and compares every output by its exact bits.\n"
     "\n"
     "Exit code: 0 bit for bit (or exported, with --torn), 1 a difference or a bad file, 2 bad usage.\n"
     "\n"
@@ -38,35 +34,6 @@ struct ReplayOptions {
   bool torn = false;
 };
 
-// A bar on a terminal, after the first second.
-class ProgressBar {
- public:
-  explicit ProgressBar(std::uint64_t total) : total_(total), shows_(isatty(STDERR_FILENO) == 1) {}
-  ~ProgressBar() {
-    if (drawn_) fmt::print(stderr, "\r{:60}\r", "");
-  }
-  ProgressBar(const ProgressBar&) = delete;
-  ProgressBar& operator=(const ProgressBar&) = delete;
-
-  void step() {
-    constexpr std::uint64_t kLookEvery = 4096;
-    if (++done_ % kLookEvery != 0 || !shows_) return;
-    const auto now = std::chrono::steady_clock::now();
-    if (now - last_ < std::chrono::seconds(1) && !drawn_) return;
-    if (now - last_ < std::chrono::milliseconds(100)) return;
-    last_ = now;
-    drawn_ = true;
-    const std::uint64_t tenths = total_ == 0 ? 0 : done_ * 40 / total_;
-    fmt::print(stderr, "\r[{:40}] {:3} %", std::string(tenths, '='), total_ == 0 ? 0 : done_ * 100 / total_);
-    std::fflush(stderr);
-  }
-
- private:
-  std::uint64_t total_, done_ = 0;
-  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
-  bool shows_, drawn_ = false;
-};
-
 // Opening the CSV file empties it: it must not be the trace that is being read.
 void check_paths(const ReplayOptions& options) {
   std::error_code not_there;
@@ -77,6 +44,10 @@ void check_paths(const ReplayOptions& options) {
 std::optional<TraceCsvFile> open_csv(const ReplayOptions& options) {
   if (options.csv.empty()) return std::nullopt;
   return TraceCsvFile(options.csv);
+}
+
+double share(std::uint64_t cycles, const TraceReader& reader) {
+  return static_cast<double>(cycles) / static_cast<double>(reader.cycles());
 }
 
 int say(const ReplayResult& result, const TraceReader& reader) {
@@ -102,14 +73,14 @@ int replay_file(const ReplayOptions& options) {
   TraceReader reader(options.trace);
   Replayer replayer(reader.header(), options.trace.string());
   std::optional<TraceCsvFile> csv = open_csv(options);
+  ProgressBar progress;
+  std::uint64_t cycles = 0;
   bool same = true;
-  {
-    ProgressBar progress(reader.cycles());
-    for (TraceSample sample; reader.next(sample); progress.step()) {
-      if (csv) csv->add(sample);
-      if (same) same = replayer.step(sample);
-    }
+  for (TraceSample sample; reader.next(sample); progress.show("replay", share(++cycles, reader))) {
+    if (csv) csv->add(sample);
+    if (same) same = replayer.step(sample);
   }
+  progress.clear();
   if (csv) csv->finish();
   return say(replayer.finish(reader.hash()), reader);
 }
@@ -117,11 +88,11 @@ int replay_file(const ReplayOptions& options) {
 int export_torn(const ReplayOptions& options) {
   TraceReader reader(options.trace, TornTrace::salvage);
   TraceCsvFile csv(options.csv);
+  ProgressBar progress;
   std::uint64_t cycles = 0;
-  {
-    ProgressBar progress(reader.cycles());
-    for (TraceSample sample; reader.next(sample); progress.step(), ++cycles) csv.add(sample);
-  }
+  for (TraceSample sample; reader.next(sample); progress.show("export", share(++cycles, reader)))
+    csv.add(sample);
+  progress.clear();
   csv.finish();
   fmt::print("{}: {} cycles exported, not replayed\n", reader.torn() ? "torn" : "whole", cycles);
   return 0;

@@ -1,9 +1,11 @@
 // gearshift tour: the simulated hand through every gear of a layout, no graphics: trace and plots.
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include <fmt/core.h>
@@ -11,7 +13,9 @@
 #include "app/assets_path.h"
 #include "app/tour/tour.h"
 #include "app/verbs/number_between.h"
+#include "app/verbs/progress_bar.h"
 #include "app/verbs/verbs.h"
+#include "haptics/device/simulated_lever.h"
 #include "haptics/gate/gate_compiler.h"
 #include "haptics/joystick/kinematics.h"
 
@@ -26,6 +30,15 @@ struct TourArguments {
   std::uint64_t seed = 1;
 };
 
+// The lever itself says which hands it can carry.
+void check_on_lever(const HandImpedance& hand) {
+  constexpr std::int64_t kAnyPeriod = 1'000'000;  // [ns]
+  SimulatedLeverConfig config;
+  config.hand = hand;
+  RestingHand nobody;
+  const SimulatedLever lever(config, kAnyPeriod, nobody);
+}
+
 HandImpedance driving_hand(const std::string& text) {
   const std::optional<HandImpedance> hand = hand_from_text(text);
   if (!hand)
@@ -35,7 +48,18 @@ HandImpedance driving_hand(const std::string& text) {
     throw CLI::ValidationError(fmt::format(
         "--hand {}: a hand of {} N/m cannot lead a lever, at least 50 is needed", text, hand->stiffness));
   }
+  try {
+    check_on_lever(*hand);
+  } catch (const std::invalid_argument& refused) {
+    throw CLI::ValidationError(fmt::format("--hand {}: {}", text, refused.what()));
+  }
   return *hand;
+}
+
+// CLI alone takes -1, as 2^64 - 1.
+std::string refuse_no_seed(const std::string& text) {
+  const bool whole = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+  return whole ? std::string{} : fmt::format("\"{}\" is not a whole number from 0", text);
 }
 
 void make_folder(const std::filesystem::path& folder) {
@@ -56,21 +80,31 @@ void print_result(const TourSetup& setup, const TourResult& result) {
   fmt::print(
       "in contact {:.0f} % of the cycles, deepest {:.2f} mm beyond a wall, strongest push {:.1f} N, hash "
       "{:016x}\n",
-      100.0 * result.contact_share, 1e3 * result.deepest, result.strongest, result.hash);
+      100.0 * result.contact_share(), 1e3 * result.deepest, result.strongest, result.hash);
 }
 
-int run_tour(const TourArguments& arguments) {
+TourSetup make_setup(const TourArguments& arguments) {
   TourSetup setup;
+  setup.hand = driving_hand(arguments.hand);
   setup.layout = read_gate_layout(find_asset("gates", arguments.gate));
   setup.gate = compile_gate(setup.layout, workspace_half_extent(YokeGeometry{}));
-  setup.hand = driving_hand(arguments.hand);
   setup.haptics.rate = arguments.rate;
   setup.seed = arguments.seed;
   setup.folder = arguments.folder;
+  return setup;
+}
+
+// All that can be refused is refused before the folder is made.
+int run_tour(const TourArguments& arguments) {
+  const TourSetup setup = make_setup(arguments);
   make_folder(setup.folder);
-  const TourResult result = drive_tour(setup);
+  ProgressBar bar;
+  const TourProgress progress = [&](std::string_view what, double share) { bar.show(what, share); };
+  const TourResult result = drive_tour(setup, progress);
+  bar.clear();
   print_result(setup, result);
-  draw_tour(setup, result);
+  draw_tour(setup, result, progress);
+  bar.clear();
   fmt::print("{0}/trajectory.png and {0}/force.png (also .svg), trace {0}/tour.trace, table {0}/tour.csv\n",
              setup.folder.string());
   if (result.complete()) return 0;
@@ -94,6 +128,7 @@ void add_tour_verb(CLI::App& app, VerbAction& action) {
       ->check(number_between(100.0, 4000.0))
       ->capture_default_str();
   verb->add_option("--seed", arguments->seed, "another seed, other aims of the same hand")
+      ->check(refuse_no_seed)
       ->capture_default_str();
   verb->callback([arguments, &action] { action = [arguments] { return run_tour(*arguments); }; });
 }

@@ -7,8 +7,8 @@
 
 namespace gearshift {
 
-// Returns the exit code: 0 done, 1 the work failed. Bad usage (2) is thrown as CLI::ValidationError or
-// FileError before or by the action; main turns exceptions into one sentence on stderr.
+// Returns the exit code: 0 done, 1 the work failed. main turns what is thrown into one sentence on stderr:
+// bad usage, a CLI::ParseError, exits 2; anything else, a FileError included, exits 1.
 using VerbAction = std::function<int()>;
 
 void add_gate_verb(CLI::App& app, VerbAction& action);

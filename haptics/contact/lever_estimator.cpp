@@ -5,14 +5,12 @@
 
 #include <glm/geometric.hpp>
 
+#include "haptics/joystick/finite.h"
+
 namespace gearshift {
 namespace {
 
 constexpr double kReacquireAfter = 0.050;  // [s] without a believed sample, then the next one is a new start
-
-bool is_finite(glm::dvec2 v) noexcept {
-  return std::isfinite(v.x) && std::isfinite(v.y);
-}
 
 }  // namespace
 
@@ -21,22 +19,27 @@ LeverEstimator::LeverEstimator(const EstimatorConfig& config, double period) noe
 
 LeverMotion LeverEstimator::update(const LeverReading& reading) noexcept {
   motion_.fresh = false;
-  const bool is_new = !started_ || (reading.sequence > seen_sequence_ && reading.time_ns > seen_time_ns_);
-  if (!is_new || !is_finite(reading.position)) return hold();
-  if (!started_) return restart(reading);
+  if (!is_finite(reading.position)) return hold();
+  const bool is_lost = !started_ || unbelieved_ >= kReacquireAfter;
+  if (is_lost && (!started_ || reading.sequence != seen_sequence_)) return restart(reading);
+  if (reading.sequence <= seen_sequence_ || reading.time_ns <= seen_time_ns_) return hold();
 
-  // A jump is judged by the time since the last reading of any kind, two periods at most: neither a lying nor
-  // a silent sensor gains credit for a wilder jump.
+  // A jump is judged by the time since the last reading of any kind, two periods at most: neither a lying nor a
+  // silent sensor gains credit for a wilder jump.
   const glm::dvec2 travel = reading.position - motion_.position;
-  const double since_seen =
-      period_ * static_cast<double>(std::min<std::uint64_t>(2, reading.sequence - seen_sequence_));
+  const double since_seen = std::min(2.0 * period_, seconds(seen_time_ns_, reading.time_ns));
+  const double since_believed = seconds(time_ns_, reading.time_ns);
   seen_sequence_ = reading.sequence;
   seen_time_ns_ = reading.time_ns;
-  if (glm::length(travel) > config_.speed_limit * since_seen) {
-    return unbelieved_ >= kReacquireAfter ? restart(reading) : hold();
-  }
-  accept(reading, travel / (period_ * static_cast<double>(reading.sequence - sequence_)));
+  if (glm::length(travel) > config_.speed_limit * since_seen) return hold();
+  accept(reading, travel / since_believed);
   return motion_;
+}
+
+// Time between two samples by the device's own clock, which need not tick with the loop. Half a period at least: a
+// clock that jitters must not make speed.
+double LeverEstimator::seconds(std::int64_t from_ns, std::int64_t to_ns) const noexcept {
+  return std::max(0.5 * period_, 1e-9 * static_cast<double>(to_ns - from_ns));
 }
 
 LeverMotion LeverEstimator::hold() noexcept {
@@ -52,8 +55,8 @@ LeverMotion LeverEstimator::restart(const LeverReading& reading) noexcept {
 }
 
 void LeverEstimator::accept(const LeverReading& reading, glm::dvec2 velocity) noexcept {
-  sequence_ = seen_sequence_ = reading.sequence;
-  seen_time_ns_ = reading.time_ns;
+  seen_sequence_ = reading.sequence;
+  time_ns_ = seen_time_ns_ = reading.time_ns;
   unbelieved_ = 0.0;
   motion_.position = reading.position;
   motion_.velocity = velocity;

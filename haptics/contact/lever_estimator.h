@@ -17,8 +17,8 @@ struct LeverMotion {
 };
 
 struct EstimatorConfig {
-  double smoothing = 0.004;   // [s] time constant of smooth_velocity
-  double speed_limit = 10.0;  // [m/s] a faster jump between samples is not believed
+  double smoothing = 0.004;   // [s] 1e-5 to 1, time constant of smooth_velocity
+  double speed_limit = 10.0;  // [m/s] 0.1 to 1000, a faster jump is not believed
 };
 
 class LeverEstimator {
@@ -26,11 +26,12 @@ class LeverEstimator {
   LeverEstimator(const EstimatorConfig& config, double period) noexcept;  // period [s]
 
   // Motion after one reading. Not finite, jumping, backward or repeated readings are not fresh: position and
-  // velocity are held. After 50 ms without a believed sample the next finite one is taken as a new start with
-  // zero velocity. Real-time safe.
+  // velocity are held. After 50 ms without a believed sample the next finite one is a new start, whatever its place
+  // and number, with zero velocity. Real-time safe.
   LeverMotion update(const LeverReading& reading) noexcept;
 
  private:
+  double seconds(std::int64_t from_ns, std::int64_t to_ns) const noexcept;
   LeverMotion hold() noexcept;
   LeverMotion restart(const LeverReading& reading) noexcept;
   void accept(const LeverReading& reading, glm::dvec2 velocity) noexcept;
@@ -39,10 +40,10 @@ class LeverEstimator {
   double period_;
   double blend_;  // [1] of the newest sample in smooth_velocity
   LeverMotion motion_;
-  std::uint64_t sequence_ = 0;       // of the last believed sample
+  std::int64_t time_ns_ = 0;         // of the last believed sample
   std::uint64_t seen_sequence_ = 0;  // of the last one, believed or not
   std::int64_t seen_time_ns_ = 0;
-  double unbelieved_ = 0.0;  // [s] since the last believed sample
+  double unbelieved_ = 0.0;          // [s] since the last believed sample
   bool started_ = false;
 };
 

@@ -7,6 +7,8 @@
 
 #include <glm/geometric.hpp>
 
+#include "haptics/joystick/finite.h"
+
 namespace gearshift {
 namespace {
 
@@ -128,10 +130,6 @@ dvec2 next_leg(const Gate& gate, const Passage& passage, dvec2 p, dvec2 lever) n
   return best;
 }
 
-bool is_finite(dvec2 v) noexcept {
-  return std::isfinite(v.x) && std::isfinite(v.y);
-}
-
 }  // namespace
 
 Proxy place_proxy(const Gate& gate, dvec2 lever) noexcept {
@@ -157,12 +155,12 @@ Proxy move_proxy(const Gate& gate, const Passage& passage, Proxy proxy, dvec2 le
   for (int leg = 0; leg < kMaxLegs && proxy.position != lever; ++leg) {
     const dvec2 to = next_leg(gate, passage, proxy.position, lever);
     const double length = glm::distance(to, proxy.position);
-    if (length < kTouch) break;
     if (length > budget) {
       proxy.position += (to - proxy.position) * (budget / length);
       break;
     }
     proxy.position = to;
+    if (length < kTouch) break;
     budget -= length;
   }
   return proxy;

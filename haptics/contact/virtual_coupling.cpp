@@ -24,24 +24,24 @@ dvec2 mean_penetration(dvec2 now, dvec2 then, double depth_now, double depth_the
 
 }  // namespace
 
-dvec2 couple(const Coupling& coupling, const Gate& gate, const Passage& passage, const Proxy& proxy,
-             const LeverMotion& motion, double hand_over) noexcept {
+Coupled couple(const Coupling& coupling, const Gate& gate, const Passage& passage, const Proxy& proxy,
+               const LeverMotion& motion) noexcept {
   const dvec2 step = motion.velocity * coupling.horizon;
   const dvec2 predicted = motion.position + step;
-  const Proxy ahead = move_proxy(gate, passage, proxy, predicted, hand_over);
+  const Proxy ahead = move_proxy(gate, passage, proxy, predicted, 0.0);
   const dvec2 now = motion.position - proxy.position;
   const dvec2 then = predicted - ahead.position;
   const double depth_now = glm::length(now);
   const double depth_then = glm::length(then);
-  if (depth_now == 0.0 && depth_then == 0.0) return {0.0, 0.0};
+  Coupled out{{0.0, 0.0}, 0.5 * (proxy.position + ahead.position)};
+  if (depth_now == 0.0 && depth_then == 0.0) return out;
 
-  dvec2 force = -coupling.stiffness * mean_penetration(now, then, depth_now, depth_then, step);
-  if (depth_now == 0.0) return force;
-
+  out.force = -coupling.stiffness * mean_penetration(now, then, depth_now, depth_then, step);
+  if (depth_now == 0.0) return out;
   const dvec2 inward = now / depth_now;
-  force -= coupling.damping * glm::dot(motion.velocity, inward) * inward;
-  const double pull = glm::dot(force, inward);
-  return pull > 0.0 ? force - pull * inward : force;
+  out.force -= coupling.damping * glm::dot(motion.velocity, inward) * inward;
+  out.force -= std::max(0.0, glm::dot(out.force, inward)) * inward;
+  return out;
 }
 
 }  // namespace gearshift

@@ -23,8 +23,14 @@ struct Coupling {
   double horizon = 0.001;     // [s] prediction: period (1 + 2 delay)
 };
 
-// Force on the lever. [N] Never pulls into the wall. hand_over [m] as in move_proxy. Real-time safe.
-glm::dvec2 couple(const Coupling& coupling, const Gate& gate, const Passage& passage, const Proxy& proxy,
-                  const LeverMotion& motion, double hand_over) noexcept;
+struct Coupled {
+  glm::dvec2 force{0.0};       // [N] on the lever; never pulls into the wall
+  glm::dvec2 mean_proxy{0.0};  // [m] where the proxy will be on average while the force is held: the place to feel at
+};
+
+// The prediction takes the proxy no further than the lever goes: a hand-over round a corner is not run ahead of.
+// Real-time safe.
+Coupled couple(const Coupling& coupling, const Gate& gate, const Passage& passage, const Proxy& proxy,
+               const LeverMotion& motion) noexcept;
 
 }  // namespace gearshift

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <string>
+#include <string_view>
 
 namespace gearshift {
 
-// Throws std::invalid_argument "<name> is <value>: allowed is <low> to <high> <unit>" unless low <= value <=
-// high.
-void require_between(const std::string& name, double value, double low, double high, const std::string& unit);
+// The value, if low <= value <= high. If not, throws std::invalid_argument in the wording of a file's reader:
+//     <name> = <value>: must be between <low> and <high> <unit>
+double require_between(std::string_view name, double value, double low, double high,
+                       std::string_view unit = {});
 
 }  // namespace gearshift

@@ -22,8 +22,7 @@ inline constexpr HandImpedance kLightHand{0.1, 5.0, 200.0};
 inline constexpr HandImpedance kGripHand{0.15, 10.0, 500.0};
 inline constexpr HandImpedance kArmHand{0.8, 5.5, 568.0};
 
-// "bare", "light", "grip", "arm", or "M,B,K" in kg, N s/m, N/m (each finite and >= 0); nothing for anything
-// else.
+// "bare", "light", "grip", "arm", or "M,B,K" in kg, N s/m, N/m (each finite and >= 0); else nothing.
 std::optional<HandImpedance> hand_from_text(std::string_view text);
 
 struct HandTarget {

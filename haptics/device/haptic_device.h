@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <limits>
 
 #include <glm/vec2.hpp>
 
@@ -14,17 +13,17 @@ namespace gearshift {
 struct DeviceSpec {
   glm::dvec2 max_force{31.7};          // [N] peak per axis, select and shift
   glm::dvec2 continuous_force{10.83};  // [N] per axis, for ever
-  glm::dvec2 workspace{0.0};           // [m] half extent of the gate plane that the tip can reach
+  glm::dvec2 workspace{0.0};           // [m] how far the tip reaches along each axis; less in the corners
   double position_step = 0.0;          // [m] encoder quantum at the tip
-  double delay = 0.0;                  // [cycles] whole samples between write and effect
+  int delay = 0;                       // [cycles] whole samples between write and effect, >= 0
   AxisModel axis_x = kPaperAxisX;      // bare handle, select
   AxisModel axis_y = kPaperAxisY;      // bare handle, shift
   bool measures_hand_force = false;    // a force sensor at the handle
   bool simulated = false;              // arms itself; may run studies that a person must not touch
 };
 
-// One sample of the lever. A reading is fresh when its sequence number differs from the last one's: a dead
-// sensor cannot be taken for a live one.
+// One sample of the lever. A reading is fresh when its sequence number differs from the last one's:
+// a dead sensor cannot be taken for a live one.
 struct LeverReading {
   std::uint64_t sequence = 0;      // counts samples taken by the device
   std::int64_t time_ns = 0;        // [ns] monotonic, when the sample was taken

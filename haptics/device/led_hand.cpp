@@ -1,10 +1,9 @@
 #include "haptics/device/led_hand.h"
 
-#include <cmath>
-
 #include <glm/common.hpp>
 
 #include "haptics/device/checked.h"
+#include "haptics/joystick/finite.h"
 
 namespace gearshift {
 namespace {
@@ -16,26 +15,12 @@ AxisModel critically_damped(double tau) noexcept {
 
 constexpr double kFarthest = 1.0;  // [m] no lever is larger; keeps the filter's numbers sane
 
-bool finite(glm::dvec2 v) noexcept {
-  return std::isfinite(v.x) && std::isfinite(v.y);
-}
-
-double checked_period(double period) {
-  require_between("LedHand: period", period, 1e-6, 1.0, "s");
-  return period;
-}
-
-double checked_smoothing(double smoothing) {
-  require_between("LedHand: smoothing", smoothing, 1e-3, 1.0, "s");
-  return smoothing;
-}
-
 }  // namespace
 
 LedHand::LedHand(LatestValue<HandTarget>& channel, double period, double smoothing)
     : channel_(channel),
-      filter_(critically_damped(checked_smoothing(smoothing))),
-      stepper_(filter_, checked_period(period)) {}
+      filter_(critically_damped(require_between("LedHand: smoothing", smoothing, 1e-3, 1.0, "s"))),
+      stepper_(filter_, require_between("LedHand: period", period, 1e-6, 1.0, "s")) {}
 
 HandTarget LedHand::next(double, glm::dvec2 lever) noexcept {
   if (!holds_) {
@@ -46,7 +31,7 @@ HandTarget LedHand::next(double, glm::dvec2 lever) noexcept {
   }
   channel_.update();
   const HandTarget& newest = channel_.value();
-  if (finite(newest.position) && finite(newest.push)) wanted_ = newest;
+  if (is_finite(newest.position) && is_finite(newest.push)) wanted_ = newest;
   wanted_.position = glm::clamp(wanted_.position, -kFarthest, kFarthest);
 
   select_ = stepper_.step(select_, filter_.stiffness * wanted_.position.x);

@@ -9,8 +9,8 @@ namespace gearshift {
 
 // Follows the newest HandTarget's position through a critically damped filter: input that comes at the frame
 // rate is a staircase at the haptic rate, and a stiff hand would rattle along its steps. The target's own
-// velocity is not used; the filter has the true velocity of what it leads to. A target that is not finite is
-// ignored.
+// velocity is not used: the filter has the true velocity of what it leads to.
+// A target that is not finite is ignored.
 class LedHand final : public HandDriver {
  public:
   // period: the device's [s], 1e-6 to 1. smoothing: time constant of the filter [s], 0.001 to 1. The channel

@@ -34,8 +34,8 @@ void check(const HandStroke& stroke, std::size_t index) {
 
 }  // namespace
 
-// Flash & Hogan: the path of least jerk between two rests is a + (b - a)(10 s^3 - 15 s^4 + 6 s^5), s = t /
-// duration.
+// Flash & Hogan: the path of least jerk between two rests is
+//     a + (b - a)(10 s^3 - 15 s^4 + 6 s^5), s = t / duration
 HandTarget minimum_jerk(glm::dvec2 a, glm::dvec2 b, double t, double duration) noexcept {
   HandTarget target;
   target.position = b;  // to the bit, once it is there

@@ -1,8 +1,8 @@
 // A hand that follows minimum-jerk strokes through waypoints.
 //
 // This work is based on:
-// Tamar Flash, Neville Hogan. The Coordination of Arm Movements: An Experimentally Confirmed Mathematical
-// Model. 1985
+// Tamar Flash, Neville Hogan.
+// The Coordination of Arm Movements: An Experimentally Confirmed Mathematical Model. 1985
 #pragma once
 
 #include <cstddef>
@@ -37,8 +37,8 @@ struct ScriptedHandConfig {
 // stays behind. On each axis, with lag = target - lever:
 //
 //     effort' = gain lag              while |lag| > 1 mm, the effort at most effort_limit
-//     effort' = ... - effort / 50 ms  once the lever has arrived (within 1 mm), or the effort points against
-//     the lag
+//     effort' = ... - effort / 50 ms  once the lever has arrived (within 1 mm),
+//                                     or while the effort points against the lag
 //
 // It lives through stroke and dwell and is carried over into the next stroke, where the second term takes it
 // away while new effort the other way grows: it never steps.
@@ -47,8 +47,7 @@ class ScriptedHand final : public HandDriver {
   // period: of the calls to next() [s], 1e-6 to 1. Throws std::invalid_argument.
   ScriptedHand(const ScriptedHandConfig& config, std::vector<HandStroke> strokes, double period);
 
-  // After the last dwell the hand stays at the last aim; before the first stroke, and without one, at the
-  // start.
+  // Before the first stroke, and without one, the hand stays at the start; after the last dwell, at its aim.
   HandTarget next(double time, glm::dvec2 lever) noexcept override;
 
   double duration() const noexcept;  // [s] of the whole script

@@ -9,6 +9,7 @@
 #include <glm/geometric.hpp>
 
 #include "haptics/device/checked.h"
+#include "haptics/joystick/finite.h"
 
 namespace gearshift {
 namespace {
@@ -16,10 +17,6 @@ namespace {
 // What no hand does; keeps the numbers finite whatever a driver returns.
 constexpr double kMostPush = 1e4;   // [N]
 constexpr double kMostSpeed = 1e2;  // [m/s]
-
-bool finite(glm::dvec2 v) noexcept {
-  return std::isfinite(v.x) && std::isfinite(v.y);
-}
 
 void check(const std::string& name, const AxisModel& axis) {
   require_between(name + ".mass", axis.mass, 1e-3, 1e3, "kg");
@@ -42,7 +39,7 @@ void check(const ActuatorLimits& actuator) {
 }
 
 void check(const ForceSensorModel& sensor) {
-  require_between("SimulatedLever: force_sensor.offset", sensor.offset, -1e9, 1e9, "");
+  require_between("SimulatedLever: force_sensor.offset", sensor.offset, -1e9, 1e9);
   require_between("SimulatedLever: force_sensor.gain", sensor.gain, 1e-9, 1e9, "per gw");
   require_between("SimulatedLever: force_sensor.resolution_gw", sensor.resolution_gw, 0.0, 1e6, "gw");
   require_between("SimulatedLever: force_sensor.range_gw", sensor.range_gw, 1e-3, 1e9, "gw");
@@ -154,7 +151,7 @@ void SimulatedLever::lead_hand() noexcept {
   target_ = driver_.next(static_cast<double>(periods_) * period_, here);
 
   const glm::dvec2 push =
-      finite(target_.push) ? glm::clamp(target_.push, -kMostPush, kMostPush) : glm::dvec2(0.0);
+      is_finite(target_.push) ? glm::clamp(target_.push, -kMostPush, kMostPush) : glm::dvec2(0.0);
   glm::dvec2 drive = arc_force(pose_, push);
   if (config_.hand.stiffness > 0.0 || config_.hand.damping > 0.0) {
     const ArcTarget wanted = arc_target(target_);
@@ -166,11 +163,11 @@ void SimulatedLever::lead_hand() noexcept {
 
 // A target that is not finite is where the lever is; one out of reach is at the stop, and rests there.
 SimulatedLever::ArcTarget SimulatedLever::arc_target(const HandTarget& target) const noexcept {
-  if (!finite(target.position)) return {{x_.state.position, y_.state.position}, {}};
+  if (!is_finite(target.position)) return {{x_.state.position, y_.state.position}, {}};
   const PlanePose pose = reachable_pose(target.position);
   const JointAngles q{std::atan(pose.a), std::atan(pose.b)};
   const bool inside = std::abs(pose.a) < tan_theta_limit_ && std::abs(pose.b) < tan_phi_limit_;
-  const bool moves = inside && finite(target.velocity);
+  const bool moves = inside && is_finite(target.velocity);
   const glm::dvec2 velocity = moves ? glm::clamp(target.velocity, -kMostSpeed, kMostSpeed) : glm::dvec2(0.0);
   return {arc_position(config_.yoke, q), arc_velocity(pose, velocity)};
 }
@@ -266,7 +263,7 @@ glm::dvec2 SimulatedLever::true_velocity() const noexcept {
 }
 
 void SimulatedLever::place(glm::dvec2 position) noexcept {
-  if (!finite(position)) return;
+  if (!is_finite(position)) return;
   const PlanePose pose = reachable_pose(position);
   const glm::dvec2 arc = arc_position(config_.yoke, {std::atan(pose.a), std::atan(pose.b)});
   x_.state = {arc.x, 0.0};

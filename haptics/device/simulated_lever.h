@@ -20,9 +20,9 @@ struct SimulatedLeverConfig {
   AxisModel axis_x = kPaperAxisX;
   AxisModel axis_y = kPaperAxisY;
   double coulomb_friction = 0.0;  // [N] per axis, 0 = none
-  // [counts/deg] 0 = no quantisation, else 1 to 1e6. Table 2's 2250 counts over 80 deg are 74.5 um at the
-  // tip; the 75.4 um quoted elsewhere are the bare encoder, 2500 lines x 4 = 10000 counts per turn = 27.8
-  // counts/deg.
+  // [counts/deg] 0 = no quantisation, else 1 to 1e6.
+  // Table 2's 2250 counts over 80 deg are 74.5 um at the tip.
+  // The 75.4 um quoted elsewhere are the bare encoder: 2500 lines x 4 = 10000 counts per turn = 27.8 per deg.
   double encoder_counts = 2250.0 / 80.0;
   ActuatorLimits actuator;
   ForceSensorModel force_sensor;
@@ -31,22 +31,20 @@ struct SimulatedLeverConfig {
   std::uint64_t seed = 1;  // for sensor noise
 };
 
-inline constexpr int kMaxDelay = 8;
-
+inline constexpr int kMaxDelay = 8;  // [cycles]
 inline constexpr int kMaxPeriodsPerRead = 1000;
 
 // Time moves only in whole periods of the loop: read(now) advances the plant by the periods since the last
 // read, under the force then due. Deterministic for a given sequence of calls.
 //
 //   first read         the clock's origin; a fresh reading, nothing moves
-//   now = last + n T   n periods and n sequence numbers on; n is rounded, at most kMaxPeriodsPerRead, the
-//   rest of a
-//                      longer gap is dropped
+//   now = last + n T   n periods and n sequence numbers on; n is rounded, at most kMaxPeriodsPerRead:
+//                      the rest of a longer gap is dropped
 //   n <= 0             the last reading again, stale
 class SimulatedLever final : public HapticDevice {
  public:
-  // period_ns: the loop's period [ns], 1 to 1e9. The driver must outlive the lever. Throws
-  // std::invalid_argument with one sentence: parameter, value and allowed range.
+  // period_ns: the loop's period [ns], 1 to 1e9. The driver must outlive the lever.
+  // Throws std::invalid_argument with one sentence: parameter, value and allowed range.
   SimulatedLever(const SimulatedLeverConfig& config, std::int64_t period_ns, HandDriver& driver);
 
   const DeviceSpec& spec() const noexcept override { return spec_; }

@@ -1,10 +1,13 @@
 #include "haptics/files/file_error.h"
 
+#include "haptics/files/printable.h"
+
 namespace gearshift {
 namespace {
 
+// Both come from outside: file names from the command line or a trace, reasons with values out of the file.
 std::string sentence(const std::string& file, int line, const std::string& reason) {
-  return line > 0 ? file + ":" + std::to_string(line) + ": " + reason : file + ": " + reason;
+  return printable(line > 0 ? file + ":" + std::to_string(line) + ": " + reason : file + ": " + reason);
 }
 
 }  // namespace

@@ -6,7 +6,7 @@
 
 namespace gearshift {
 
-// what() is one sentence: "FILE:LINE: ...". line 0 = the whole file.
+// what() is one printable line: "FILE:LINE: ...". line 0 = the whole file.
 class FileError : public std::runtime_error {
  public:
   FileError(const std::string& file, int line, const std::string& reason);

@@ -26,8 +26,9 @@ std::string number_text(double value, int decimals) {
     text.erase(text.find_last_not_of('0') + 1);
     if (text.back() == '.') text.pop_back();
   }
-  if (text == "-0" || (text == "0" && value != 0.0)) return text == "-0" ? "0" : shortest(value);
-  return text;
+  const bool zero = text == "0" || text == "-0";
+  if (zero && value != 0.0) return shortest(value);
+  return zero ? "0" : text;
 }
 
 std::string millimetres_text(double metres) {

@@ -1,7 +1,6 @@
 #include "haptics/files/text_file.h"
 
 #include <fstream>
-#include <iterator>
 #include <system_error>
 
 #include "haptics/files/file_error.h"

@@ -7,6 +7,7 @@
 #include <toml++/toml.h>
 
 #include "haptics/files/number_text.h"
+#include "haptics/files/printable.h"
 #include "haptics/files/text_file.h"
 
 namespace gearshift {
@@ -24,13 +25,18 @@ std::string join(const std::vector<std::string>& words) {
   return list;
 }
 
-// A value as it should appear in a sentence: long text is cut, tables and lists are named, not printed.
-std::string value_text(const toml::node& node) {
+// Long text is cut, but not inside a character of UTF-8.
+std::string shortened(std::string_view whole) {
   constexpr std::size_t kShown = 40;
-  if (const auto* text = node.as_string()) {
-    const std::string& whole = text->get();
-    return '"' + (whole.size() > kShown ? whole.substr(0, kShown) + "..." : whole) + '"';
-  }
+  if (whole.size() <= kShown) return std::string(whole);
+  std::size_t end = kShown;
+  while ((static_cast<unsigned char>(whole[end]) & 0xc0) == 0x80) --end;
+  return std::string(whole.substr(0, end)) + "...";
+}
+
+// A value as it should appear in a sentence: tables and lists are named, not printed.
+std::string value_text(const toml::node& node) {
+  if (const auto* text = node.as_string()) return '"' + shortened(text->get()) + '"';
   if (const auto* integer = node.as_integer()) return std::to_string(integer->get());
   if (const auto* number = node.as_floating_point()) return number_text(number->get());
   if (const auto* flag = node.as_boolean()) return flag->get() ? "true" : "false";
@@ -38,20 +44,12 @@ std::string value_text(const toml::node& node) {
   return node.is_array() ? "(a list)" : "(a date or time)";
 }
 
-// toml++ may break its message over lines.
-std::string one_line(std::string_view text) {
-  std::string line(text);
-  std::replace_if(
-      line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
-  return line;
-}
-
 toml::table parse_toml(std::string_view text, const std::string& file) {
   try {
     return toml::parse(text);
   } catch (const toml::parse_error& error) {
     const int line = static_cast<int>(error.source().begin.line);
-    throw FileError(file, line, "not valid TOML: " + one_line(error.description()));
+    throw FileError(file, line, "not valid TOML: " + std::string(error.description()));
   }
 }
 
@@ -83,10 +81,6 @@ TomlTable TomlTable::parse(std::string_view text, const std::string& file_name) 
   return TomlTable(std::make_shared<Node>(Node{std::move(root), table, file_name, {}}));
 }
 
-TomlTable TomlTable::read(const std::filesystem::path& file) {
-  return parse(read_text_file(file), file.string());
-}
-
 bool TomlTable::has(std::string_view key) const {
   return node_->ask(key) != nullptr;
 }
@@ -107,16 +101,6 @@ double TomlTable::number(std::string_view key, Range range) const {
   return number;
 }
 
-int TomlTable::integer(std::string_view key, int min, int max) const {
-  const toml::node* value = node_->ask(key);
-  const std::string limits = between({static_cast<double>(min), static_cast<double>(max)});
-  if (value == nullptr) fail(key, "is missing: it must be a whole number " + limits);
-  if (!value->is_integer()) fail(key, "must be a whole number " + limits);
-  const std::int64_t number = value->as_integer()->get();
-  if (number < min || number > max) fail(key, "must be " + limits);
-  return static_cast<int>(number);
-}
-
 std::string TomlTable::text(std::string_view key) const {
   const toml::node* value = node_->ask(key);
   if (value == nullptr) fail(key, "is missing: it must be a text in quotes");
@@ -125,9 +109,7 @@ std::string TomlTable::text(std::string_view key) const {
   if (words.empty()) fail(key, "must not be empty");
   if (words.size() > kMaxTextLength)
     fail(key, "must be at most " + std::to_string(kMaxTextLength) + " bytes long");
-  const auto control = [](char c) { return static_cast<unsigned char>(c) < 0x20 || c == 0x7f; };
-  if (std::any_of(words.begin(), words.end(), control))
-    fail(key, "must be one line without control characters");
+  if (!is_printable(words)) fail(key, "must be one line without control characters");
   return words;
 }
 
@@ -175,7 +157,7 @@ void TomlTable::refuse_unknown_keys() const {
   for (const auto& [key, value] : *node_->table) {
     const auto& asked = node_->asked;
     if (std::find(asked.begin(), asked.end(), key.str()) != asked.end()) continue;
-    const std::string name = one_line(key.str().substr(0, 40));
+    const std::string name = shortened(key.str());
     throw FileError(node_->file, line_of(value), name + " is not a known key: known here are " + join(asked));
   }
 }

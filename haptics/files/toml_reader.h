@@ -2,7 +2,6 @@
 // key, value and allowed range. The only place that sees toml++.
 #pragma once
 
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -20,14 +19,12 @@ struct Range {
 class TomlTable {
  public:
   static TomlTable parse(std::string_view text, const std::string& file_name);
-  static TomlTable read(const std::filesystem::path& file);
 
   bool has(std::string_view key) const;
   int line(std::string_view key = {}) const;  // of the key, or of the table itself
 
   // Throw FileError when missing, of another type, not finite or out of range.
   double number(std::string_view key, Range range) const;
-  int integer(std::string_view key, int min, int max) const;
   std::string text(std::string_view key) const;
   std::string choice(std::string_view key, const std::vector<std::string>& allowed) const;
   // The fallback where the key is absent.

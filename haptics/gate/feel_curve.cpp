@@ -1,7 +1,6 @@
 #include "haptics/gate/feel_curve.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstddef>
 
 namespace gearshift {
@@ -20,6 +19,11 @@ std::array<double, 4> hermite(const FeelKnot& a, const FeelKnot& b) noexcept {
   const double rise = (b.force - a.force) / h;
   return {a.force, a.slope, (3.0 * rise - 2.0 * a.slope - b.slope) / h,
           (a.slope + b.slope - 2.0 * rise) / (h * h)};
+}
+
+double piece_slope(const FeelCurve::Piece& piece, double u) noexcept {
+  const auto& c = piece.c;
+  return c[1] + u * (2.0 * c[2] + 3.0 * u * c[3]);
 }
 
 double piece_work(const FeelCurve::Piece& piece, double u) noexcept {
@@ -57,8 +61,7 @@ double feel_force(const FeelCurve& curve, double at) noexcept {
 double feel_slope(const FeelCurve& curve, double at) noexcept {
   if (curve.pieces == 0 || at < curve.piece[0].from) return 0.0;
   const FeelCurve::Piece& piece = piece_at(curve, at);
-  const double u = at - piece.from;
-  return piece.c[1] + u * (2.0 * piece.c[2] + 3.0 * u * piece.c[3]);
+  return piece_slope(piece, at - piece.from);
 }
 
 double feel_work(const FeelCurve& curve, double at) noexcept {
@@ -68,19 +71,23 @@ double feel_work(const FeelCurve& curve, double at) noexcept {
   return piece.work + piece_work(piece, at - piece.from);
 }
 
-double stiffest_slope(const FeelCurve& curve) noexcept {
-  double stiffest = 0.0;
-  for (int i = 0; i + 1 < curve.pieces; ++i) {
-    const auto& piece = curve.piece[static_cast<std::size_t>(i)];
-    const double end = curve.piece[static_cast<std::size_t>(i) + 1].from - piece.from;
-    const auto slope = [&](double u) { return piece.c[1] + u * (2.0 * piece.c[2] + 3.0 * u * piece.c[3]); };
-    stiffest = std::max({stiffest, -slope(0.0), -slope(end)});
+SlopeRange slope_range(const FeelCurve& curve) noexcept {
+  SlopeRange range;
+  const auto include = [&range](double slope) {
+    range.least = std::min(range.least, slope);
+    range.most = std::max(range.most, slope);
+  };
+  for (std::size_t i = 0; i + 1 < static_cast<std::size_t>(curve.pieces); ++i) {
+    const FeelCurve::Piece& piece = curve.piece[i];
+    const double end = curve.piece[i + 1].from - piece.from;
+    include(piece_slope(piece, 0.0));
+    include(piece_slope(piece, end));
     // The slope of a cubic is a parabola: its extreme is where the second derivative vanishes.
     if (piece.c[3] == 0.0) continue;
     const double u = -piece.c[2] / (3.0 * piece.c[3]);
-    if (u > 0.0 && u < end) stiffest = std::max(stiffest, -slope(u));
+    if (u > 0.0 && u < end) include(piece_slope(piece, u));
   }
-  return stiffest;
+  return range;
 }
 
 }  // namespace gearshift

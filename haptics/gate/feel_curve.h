@@ -14,7 +14,7 @@ struct FeelKnot {
 
 inline constexpr int kMaxFeelKnots = 16;
 
-// Cubic Hermite pieces between knots; before the first and after the last knot the force is constant.
+// Cubic Hermite pieces between knots; constant before the first and after the last knot.
 // Trivially copyable: part of a compiled Gate.
 struct FeelCurve {
   struct Piece {
@@ -30,11 +30,16 @@ struct FeelCurve {
 // 1 to kMaxFeelKnots knots with strictly rising positions.
 FeelCurve make_feel_curve(std::span<const FeelKnot> knots) noexcept;
 
-double feel_force(const FeelCurve& curve, double at) noexcept;  // [N]
-double feel_slope(const FeelCurve& curve, double at) noexcept;  // [N/m] dF/dx
-double feel_work(const FeelCurve& curve,
-                 double at) noexcept;  // [J] integral of the force from the first knot
-double stiffest_slope(
-    const FeelCurve& curve) noexcept;  // [N/m] largest restoring stiffness max(-dF/dx), >= 0
+// The force, its slope dF/dx, and its integral from the first knot. [N], [N/m], [J]
+double feel_force(const FeelCurve& curve, double at) noexcept;
+double feel_slope(const FeelCurve& curve, double at) noexcept;
+double feel_work(const FeelCurve& curve, double at) noexcept;
+
+// The extremes of dF/dx over the whole curve, exact. A spring, or a wall, is force that falls: -least.
+struct SlopeRange {
+  double least = 0.0;  // [N/m] <= 0
+  double most = 0.0;   // [N/m] >= 0
+};
+SlopeRange slope_range(const FeelCurve& curve) noexcept;
 
 }  // namespace gearshift

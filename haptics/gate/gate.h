@@ -1,5 +1,4 @@
-// The compiled gate: everything the haptic cycle needs to know of a gearbox, precomputed and trivially
-// copyable.
+// The compiled gate: everything the haptic cycle needs to know of a gearbox, precomputed, trivially copyable.
 //
 // Free space is a comb: one horizontal aisle (the neutral aisle) and one vertical aisle per column, joined by
 // chamfered mouths. Each of these is convex; the lever's proxy always moves straight inside one of them.
@@ -12,7 +11,8 @@
 #pragma once
 
 #include <array>
-#include <cstdint>
+#include <cstddef>
+#include <span>
 #include <type_traits>
 
 #include <glm/vec2.hpp>
@@ -26,7 +26,9 @@ inline constexpr int kMaxSlots = 2 * kMaxColumns;
 inline constexpr int kMaxLockouts = 16;
 inline constexpr int kReverseGear = -1;
 inline constexpr int kNeutralGear = 0;
+inline constexpr int kMaxGear = 9;
 inline constexpr int kNoSlot = -1;
+inline constexpr double kKmhPerMps = 3.6;  // road speeds: km/h for people, m/s inside
 
 enum class Side : int { back = -1, forward = 1 };
 
@@ -53,8 +55,7 @@ struct Column {
 
 // The paper's rectangular buffer at the closed side of an end junction: the deeper the lever is in it, the
 // more it is turned towards the open vertical aisles. A potential, so that it gives no energy away:
-//   V = -force g(u) W(y), u = depth into the buffer / width, g = 3u^2 - 2u^3, W' = w the shape across the
-//   aisle.
+//   V = -force g(u) W(y), u = depth into the buffer / width, g = 3u^2 - 2u^3, W' = shape across the aisle
 struct Buffer {
   double wall = 0.0;   // x of the closed wall
   double inner = 0.0;  // x where the buffer begins
@@ -69,6 +70,9 @@ enum class LockoutKind : int {
   speed,      // closed above one speed, open again below a lower one
   after_gear  // closed from the moment a gear was engaged until the lever has left that gear's column
 };
+
+// As layout files write it: "push_down", "lift", "speed", "after_gear".
+const char* lockout_kind_name(LockoutKind kind) noexcept;
 
 // A movable wall. It never closes on a lever that is already beyond it.
 struct Lockout {
@@ -101,6 +105,26 @@ struct Gate {
 };
 static_assert(std::is_trivially_copyable_v<Gate>);
 
+// What is used of the arrays above.
+inline std::span<const Column> columns(const Gate& gate) noexcept {
+  return {gate.column.data(), static_cast<std::size_t>(gate.column_count)};
+}
+inline std::span<const Slot> slots(const Gate& gate) noexcept {
+  return {gate.slot.data(), static_cast<std::size_t>(gate.slot_count)};
+}
+inline std::span<const Lockout> lockouts(const Gate& gate) noexcept {
+  return {gate.lockout.data(), static_cast<std::size_t>(gate.lockout_count)};
+}
+inline std::span<const Buffer> buffers(const Gate& gate) noexcept {
+  return {gate.buffer.data(), static_cast<std::size_t>(gate.buffer_count)};
+}
+inline const Column& column_of(const Gate& gate, int index) noexcept {
+  return gate.column[static_cast<std::size_t>(index)];
+}
+inline const Slot& slot_of(const Gate& gate, int index) noexcept {
+  return gate.slot[static_cast<std::size_t>(index)];
+}
+
 // Column whose centre is nearest to x.
 int nearest_column(const Gate& gate, double x) noexcept;
 
@@ -110,7 +134,7 @@ int slot_of_gear(const Gate& gate, int gear) noexcept;
 // Where the lever rests in a gear (neutral: the neutral column's junction). [m]
 glm::dvec2 rest_position(const Gate& gate, int gear) noexcept;
 
-// "R", "N", "1", ...; gear in [-1, 9].
+// "R", "N", "1", ...; "?" beyond kMaxGear.
 const char* gear_name(int gear) noexcept;
 
 // Is the point in free space (all lockouts open)? `slack` [m] widens every wall.

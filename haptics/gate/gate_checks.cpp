@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
+#include <string>
+#include <vector>
 
 #include "haptics/files/file_error.h"
 #include "haptics/files/number_text.h"
@@ -104,29 +107,42 @@ void check_junctions(const GateLayout& layout) {
 
 // Two columns with different gears at least: so one of them is a forward gear.
 void check_gears(const GateLayout& layout) {
-  std::array<int, 11> line_of{};  // by gear + 1: where the gear was first seen; 0 = not yet
-  std::array<bool, 11> seen{};
+  constexpr std::size_t kGears = kMaxGear - kReverseGear + 1;
+  const auto at = [](int gear) {
+    const int index = gear - kReverseGear;
+    return static_cast<std::size_t>(index);
+  };
+  std::array<int, kGears> line_of{};  // where the gear was first seen; 0 = not yet, or without a file
+  std::array<bool, kGears> seen{};
   int highest = 0;
   for (const ColumnLayout& column : layout.columns) {
     for (const SlotLayout& slot : gears_of(column)) {
-      if (slot.gear < kReverseGear || slot.gear > 9) fail(layout, slot.line, "gears are R and 1 to 9");
-      const auto at = static_cast<std::size_t>(slot.gear + 1);
-      if (seen[at]) {
+      if (slot.gear < kReverseGear || slot.gear > kMaxGear) {
+        fail(layout, slot.line, "gears are R and 1 to " + std::to_string(kMaxGear));
+      }
+      const std::size_t gear = at(slot.gear);
+      if (seen[gear]) {
         fail(layout, slot.line,
              "gear " + std::string(gear_name(slot.gear)) + " is already in line " +
-                 std::to_string(line_of[at]));
+                 std::to_string(line_of[gear]));
       }
-      seen[at] = true;
-      line_of[at] = slot.line;
+      seen[gear] = true;
+      line_of[gear] = slot.line;
       highest = std::max(highest, slot.gear);
     }
   }
   for (int gear = 1; gear < highest; ++gear) {
-    if (!seen[static_cast<std::size_t>(gear + 1)]) {
-      fail(layout, line_of[static_cast<std::size_t>(highest + 1)],
+    if (!seen[at(gear)]) {
+      fail(layout, line_of[at(highest)],
            "there is a gear " + std::string(gear_name(highest)) + " but no gear " + gear_name(gear));
     }
   }
+}
+
+// Largest |dF/dx| of the curve through these knots. [N/m]
+double steepest(const std::vector<FeelKnot>& knots) {
+  const SlopeRange range = slope_range(make_feel_curve(knots));
+  return std::max(range.most, -range.least);
 }
 
 void check_feel(const GateLayout& layout) {
@@ -138,24 +154,48 @@ void check_feel(const GateLayout& layout) {
              millimetres_text(s.mouth + kMinSlotProper));
   }
   const std::string limit = number_text(kSteepestFeel) + " N/m and pass for a wall";
-  if (!(steepest_slope(aisle_knots(layout)) <= kSteepestFeel)) {
+  if (!(steepest(aisle_knots(layout)) <= kSteepestFeel)) {
     fail(layout, layout.lines.feel,
          "aisle_force_n is too large for so narrow an aisle: it would rise by more than " + limit);
   }
-  if (!(steepest_slope(select_knots(layout)) <= kSteepestFeel)) {
+  if (!(steepest(select_knots(layout)) <= kSteepestFeel)) {
     fail(layout, layout.lines.feel,
          "center_force_n is too large for so narrow a slot: it would rise by more than " + limit);
   }
-  const double steepest = steepest_slope(slot_knots(layout));
-  if (!(steepest <= kSteepestFeel)) {
+  const double slope = steepest(slot_knots(layout));
+  if (!(slope <= kSteepestFeel)) {
     fail(layout, layout.lines.slot_length,
          "slot_length_mm is too short for its feel: below " +
-             millimetres_text(s.mouth + length * steepest / kSteepestFeel) +
+             millimetres_text(s.mouth + length * slope / kSteepestFeel) +
              " its forces would rise by more than " + limit);
   }
 }
 
-void check_workspace(const GateLayout& layout, glm::dvec2 workspace) {
+// How far from the centre walls may lie where slots are this deep, down to a tenth of a millimetre. [m]
+double outermost_wall(glm::dvec2 workspace, double radius, double depth) {
+  const double y = depth + kWorkspaceMargin;
+  const auto ellipse = [y](double half_x, double half_y) {
+    return half_x * std::sqrt(std::max(0.0, 1.0 - (y / half_y) * (y / half_y)));
+  };
+  const double reach = std::min(ellipse(workspace.x, radius), ellipse(radius, workspace.y));
+  return std::floor(1e4 * std::max(0.0, reach - kWorkspaceMargin)) * 1e-4;
+}
+
+// The slots' outer corners, where both joints are turned most.
+void check_corners(const GateLayout& layout, glm::dvec2 workspace, double radius) {
+  const double depth = layout.slot_length;
+  for (const ColumnLayout& column : layout.columns) {
+    const double wall = std::abs(column.position) + layout.slot_width / 2.0;
+    if (reaches(workspace, radius, glm::dvec2(wall, depth) + glm::dvec2(kWorkspaceMargin))) continue;
+    fail(layout, column.line,
+         column_text(column) + " has its wall at " + millimetres_text(wall) +
+             ", outside the workspace: the device reaches less in its corners, with end stops at " +
+             millimetres_text(depth) + " its walls may lie within " +
+             millimetres_text(outermost_wall(workspace, radius, depth)) + " of the centre");
+  }
+}
+
+void check_workspace(const GateLayout& layout, glm::dvec2 workspace, double radius) {
   const glm::dvec2 reach = workspace - glm::dvec2(kWorkspaceMargin);
   const std::string device = "the device reaches " + millimetres_text(workspace.x) + " sideways and " +
                              millimetres_text(workspace.y) + " fore and aft, and walls need " +
@@ -173,6 +213,7 @@ void check_workspace(const GateLayout& layout, glm::dvec2 workspace) {
          "slot_length_mm puts the end stops at " + millimetres_text(layout.slot_length) +
              ", outside the workspace: " + device);
   }
+  check_corners(layout, workspace, radius);
 }
 
 int column_of_gear(const GateLayout& layout, int gear) {
@@ -215,12 +256,16 @@ void check_lockouts(const GateLayout& layout) {
 
 }  // namespace
 
+bool reaches(glm::dvec2 half, double radius, glm::dvec2 point) noexcept {
+  const auto inside = [](double x, double y) { return x * x + y * y <= 1.0; };
+  return inside(point.x / half.x, point.y / radius) && inside(point.x / radius, point.y / half.y);
+}
+
 // The buffer is a potential: what it gives across the aisle it takes along it, as a pull to the closed wall
 // that is largest half-way into the buffer, at the open side of the aisle. It must be less than the centring.
 void check_buffers(const GateLayout& layout, const Gate& gate) {
   const double center = layout.feel.center_force;
-  for (int i = 0; i < gate.buffer_count; ++i) {
-    const Buffer& buffer = gate.buffer[static_cast<std::size_t>(i)];
+  for (const Buffer& buffer : buffers(gate)) {
     const glm::dvec2 at{0.5 * (buffer.wall + buffer.inner),
                         buffer.forward_open ? gate.half_aisle : -gate.half_aisle};
     const double outward = buffer.wall > buffer.inner ? 1.0 : -1.0;
@@ -233,14 +278,14 @@ void check_buffers(const GateLayout& layout, const Gate& gate) {
   }
 }
 
-void check_layout(const GateLayout& layout, glm::dvec2 workspace) {
+void check_layout(const GateLayout& layout, glm::dvec2 workspace, double radius) {
   check_widths(layout);
   check_column_count(layout);
   check_spacing(layout);
   check_junctions(layout);
   check_gears(layout);
   check_feel(layout);
-  check_workspace(layout, workspace);
+  check_workspace(layout, workspace, radius);
   check_lockouts(layout);
 }
 

@@ -1,6 +1,7 @@
 #include "haptics/gate/gate_compiler.h"
 
 #include <algorithm>
+#include <cstddef>
 
 #include "haptics/gate/gate_checks.h"
 #include "haptics/gate/gate_curves.h"
@@ -8,9 +9,9 @@
 namespace gearshift {
 namespace {
 
-// Share of the slot's width that the paper's rectangular buffer takes at the closed side of a junction. Wide,
-// because what the buffer gives for turning the lever it takes sideways: the narrower, the harder it pulls to
-// the closed wall.
+// Share of the slot's width that the paper's rectangular buffer takes at the closed side of a junction.
+// Wide, because what the buffer gives for turning the lever it takes sideways: the narrower, the harder it
+// pulls to the closed wall.
 constexpr double kBufferShare = 0.8;
 
 int add_slot(Gate& gate, int column, Side side, int gear, const GateLayout& layout) {
@@ -50,9 +51,9 @@ void add_buffer(Gate& gate, const Column& column, int outward, const GateLayout&
 }
 
 void add_buffers(Gate& gate, const GateLayout& layout) {
-  const auto last = layout.columns.size() - 1;
-  if (layout.columns.front().junction == JunctionKind::closed) add_buffer(gate, gate.column[0], -1, layout);
-  if (layout.columns.back().junction == JunctionKind::closed) add_buffer(gate, gate.column[last], +1, layout);
+  const auto built = columns(gate);
+  if (layout.columns.front().junction == JunctionKind::closed) add_buffer(gate, built.front(), -1, layout);
+  if (layout.columns.back().junction == JunctionKind::closed) add_buffer(gate, built.back(), +1, layout);
 }
 
 // A column that serves only gears with one and the same guard can be shut off as a whole, as real gates do
@@ -63,11 +64,11 @@ bool can_stand_across(const Gate& gate, int column, LockoutKind kind, const Gate
   if (!at_end || column == gate.neutral_column || kind == LockoutKind::after_gear) return false;
   const auto guarded = [&](int slot) {
     if (slot == kNoSlot) return true;
-    const int gear = gate.slot[static_cast<std::size_t>(slot)].gear;
+    const int gear = slot_of(gate, slot).gear;
     return std::any_of(layout.lockouts.begin(), layout.lockouts.end(),
                        [&](const LockoutLayout& l) { return l.gear == gear && l.kind == kind; });
   };
-  const Column& c = gate.column[static_cast<std::size_t>(column)];
+  const Column& c = column_of(gate, column);
   return guarded(c.forward_slot) && guarded(c.back_slot);
 }
 
@@ -79,19 +80,19 @@ void add_lockout(Gate& gate, const LockoutLayout& from, const GateLayout& layout
   lockout.close_above = from.close_above;
   lockout.open_below = from.open_below;
 
-  const int column = gate.slot[static_cast<std::size_t>(lockout.slot)].column;
+  const int column = slot_of(gate, lockout.slot).column;
   lockout.lateral = can_stand_across(gate, column, from.kind, layout);
   if (!lockout.lateral) return;
   lockout.beyond = column < gate.neutral_column ? -1 : +1;
-  const double own = gate.column[static_cast<std::size_t>(column)].center;
-  const double neighbour = gate.column[static_cast<std::size_t>(column - lockout.beyond)].center;
+  const double own = column_of(gate, column).center;
+  const double neighbour = column_of(gate, column - lockout.beyond).center;
   lockout.barrier = (own + neighbour) / 2.0;
 }
 
 }  // namespace
 
-Gate compile_gate(const GateLayout& layout, glm::dvec2 workspace) {
-  check_layout(layout, workspace);
+Gate compile_gate(const GateLayout& layout, glm::dvec2 workspace, double radius) {
+  check_layout(layout, workspace, radius);
 
   Gate gate;
   gate.half_aisle = layout.aisle_width / 2.0;

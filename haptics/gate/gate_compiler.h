@@ -1,10 +1,6 @@
 // The paper's future work: from a layout to walls, junction rules, buffers, locks and the neutral return.
 #pragma once
 
-#include <optional>
-#include <string>
-#include <vector>
-
 #include <glm/vec2.hpp>
 
 #include "haptics/gate/gate.h"
@@ -12,39 +8,14 @@
 
 namespace gearshift {
 
-// Assembles the gate. workspace: half extent of the plane that the device reaches [m].
-// Throws FileError with line and reason where the layout is impossible: overlapping columns, a gear that
-// cannot be reached, an aisle too narrow, two neutrals, a part outside the workspace.
-Gate compile_gate(const GateLayout& layout, glm::dvec2 workspace);
+inline constexpr double kPaperYokeRadius = 0.120;  // [m] centre to tip
 
-// What a person wants to know of a compiled gate: the list behind `gearshift gate`, Fig. 7 of the paper.
-struct AisleInfo {
-  std::string name;  // "neutral" or the roman number of its junction
-  bool horizontal = false;
-  glm::dvec2 min{0.0}, max{0.0};  // [m]
-};
-struct JunctionInfo {
-  std::string name;                                                 // "I", "II", ... from left to right
-  glm::dvec2 center{0.0};                                           // [m]
-  bool left = false, right = false, forward = false, back = false;  // open directions
-  bool buffer = false;  // the closed side turns the lever into the vertical aisle
-};
-enum class WallRole { aisle, chamfer, end_stop, closed_side };
-struct WallInfo {
-  glm::dvec2 from{0.0}, to{0.0};  // [m]
-  WallRole role = WallRole::aisle;
-  int pair = -1;  // index into wall_pairs, or -1
-};
-struct WallPairInfo {  // two parallel walls of one aisle segment
-  std::string name;    // "I-II" or the gear's name
-  bool horizontal = false;
-};
-struct GateDescription {
-  std::vector<AisleInfo> aisles;
-  std::vector<JunctionInfo> junctions;
-  std::vector<WallInfo> walls;
-  std::vector<WallPairInfo> wall_pairs;
-};
-GateDescription describe_gate(const Gate& gate);
+// Assembles the gate.
+// workspace: how far the device's tip reaches along each axis. [m]
+// radius: of the sphere on which it moves, which keeps it out of the corners (`reaches` in gate_checks.h);
+// infinite for a device that reaches the whole rectangle. [m]
+// Throws FileError with line and reason where the layout is impossible: columns that overlap, a gear that
+// cannot be reached, an aisle too narrow, two neutrals, a part outside the workspace.
+Gate compile_gate(const GateLayout& layout, glm::dvec2 workspace, double radius = kPaperYokeRadius);
 
 }  // namespace gearshift

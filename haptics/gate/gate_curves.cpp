@@ -1,7 +1,7 @@
 #include "haptics/gate/gate_curves.h"
 
 #include <algorithm>
-#include <cmath>
+#include <cstddef>
 
 namespace gearshift {
 namespace {
@@ -14,14 +14,12 @@ constexpr double kCrest = 0.42;
 constexpr double kLock = 0.66;
 constexpr double kRest = 0.86;
 
-// Beyond the crest's far side the lock pulls the lever in; three quarters of the way to rest it counts as
-// engaged.
+// Beyond the crest's far side the lock pulls the lever in; the gear counts three quarters of the way to rest.
 constexpr double kEngage = kCrest + 0.75 * (kRest - kCrest);
 
 // A spring that softens smoothly into its full force: F(u) = F (3u - u^3)/2, so F(1) = F and F'(1) = 0. With
-// no curvature at u = 0 its odd mirror image joins it with continuous slope. This is its slope there, per (F
-// / length).
-constexpr double kSpringSlope = 1.5;
+// no curvature at u = 0 its odd mirror image joins it with continuous slope.
+constexpr double kSpringSlope = 1.5;  // its slope at u = 0, per (F / length)
 
 double spring(double u) {
   return u * (3.0 - u * u) / 2.0;
@@ -83,19 +81,6 @@ std::vector<FeelKnot> select_knots(const GateLayout& layout) {
   return {{center - half_width, force, 0.0},
           {center, 0.0, -kSpringSlope * force / half_width},
           {center + half_width, -force, 0.0}};
-}
-
-// Every piece is a spring or an S between two flat ends: the steepest point of both is 3/2 of the mean slope.
-// (The last piece of a slot is the beginning of a spring and no steeper than the piece before it.)
-double steepest_slope(const std::vector<FeelKnot>& knots) {
-  double steepest = 0.0;
-  for (std::size_t i = 0; i + 1 < knots.size(); ++i) {
-    const double mean = (knots[i + 1].force - knots[i].force) / (knots[i + 1].at - knots[i].at);
-    const double ends = std::max(std::abs(knots[i].slope), std::abs(knots[i + 1].slope));
-    const bool flat = knots[i].slope == 0.0 && knots[i + 1].slope == 0.0;
-    steepest = std::max(steepest, flat ? 1.5 * std::abs(mean) : ends);
-  }
-  return steepest;
 }
 
 }  // namespace gearshift

@@ -29,7 +29,4 @@ std::vector<FeelKnot> aisle_knots(const GateLayout& layout);
 std::vector<FeelKnot> slot_knots(const GateLayout& layout);
 std::vector<FeelKnot> select_knots(const GateLayout& layout);
 
-// Largest |dF/dx| of these curves. [N/m]
-double steepest_slope(const std::vector<FeelKnot>& knots);
-
 }  // namespace gearshift

@@ -1,20 +1,16 @@
-// The list behind `gearshift gate`. Words of the paper: junctions are numbered from left to right; a pair is
-// two parallel walls of one aisle segment, so that the paper's gate has 2 horizontal + 6 vertical = 8; end
-// stops, the closed sides of junctions and the corners at the slot mouths are walls of no pair.
-#include <cstddef>
-#include <utility>
+// Words of the paper: junctions are numbered from left to right; a pair is two parallel walls
+// of one aisle segment, so that the paper's gate has 2 horizontal + 6 vertical = 8; end stops,
+// the closed sides of junctions and the corners at the slot mouths are walls of no pair.
+#include "haptics/gate/gate_description.h"
 
-#include "haptics/gate/gate_compiler.h"
+#include <algorithm>
+#include <utility>
 
 namespace gearshift {
 namespace {
 
 constexpr int kNoPair = -1;
 constexpr const char* kRoman[kMaxColumns] = {"I", "II", "III", "IV", "V", "VI", "VII", "VIII"};
-
-const Column& column_at(const Gate& gate, int index) {
-  return gate.column[static_cast<std::size_t>(index)];
-}
 
 // One side of a column, seen with depth = |y|.
 struct Branch {
@@ -36,7 +32,7 @@ bool is_last(const Gate& gate, int index) {
 // How far a slot's mouth reaches sideways from its wall into the aisle's wall: nothing where there is no
 // slot, or where the aisle ends at the slot's wall.
 double mouth_leg(const Gate& gate, int index, Side side, int towards) {
-  if (branch_of(column_at(gate, index), side).slot == kNoSlot) return 0.0;
+  if (branch_of(column_of(gate, index), side).slot == kNoSlot) return 0.0;
   const bool at_end_wall = towards < 0 ? is_first(index) : is_last(gate, index);
   return at_end_wall ? 0.0 : gate.chamfer;
 }
@@ -53,23 +49,22 @@ int add_pair(GateDescription& list, std::string name, bool horizontal) {
 void describe_aisles(const Gate& gate, GateDescription& list) {
   list.aisles.push_back(
       {"neutral", true, {gate.select_min, -gate.half_aisle}, {gate.select_max, gate.half_aisle}});
-  for (int i = 0; i < gate.column_count; ++i) {
-    const Column& c = column_at(gate, i);
+  for (const Column& c : columns(gate)) {
+    const std::string name = kRoman[list.aisles.size() - 1];
     list.aisles.push_back(
-        {kRoman[i], false, {c.center - c.half_width, c.back}, {c.center + c.half_width, c.forward}});
+        {name, false, {c.center - c.half_width, c.back}, {c.center + c.half_width, c.forward}});
   }
 }
 
 bool has_buffer(const Gate& gate, int index) {
-  for (int i = 0; i < gate.buffer_count; ++i) {
-    if (nearest_column(gate, gate.buffer[static_cast<std::size_t>(i)].wall) == index) return true;
-  }
-  return false;
+  const auto all = buffers(gate);
+  return std::any_of(all.begin(), all.end(),
+                     [&](const Buffer& buffer) { return nearest_column(gate, buffer.wall) == index; });
 }
 
 void describe_junctions(const Gate& gate, GateDescription& list) {
   for (int i = 0; i < gate.column_count; ++i) {
-    const Column& c = column_at(gate, i);
+    const Column& c = column_of(gate, i);
     JunctionInfo junction;
     junction.name = kRoman[i];
     junction.center = {c.center, 0.0};
@@ -84,8 +79,8 @@ void describe_junctions(const Gate& gate, GateDescription& list) {
 
 // The walls of the neutral aisle between two junctions.
 void describe_segment(const Gate& gate, int left, GateDescription& list) {
-  const Column& a = column_at(gate, left);
-  const Column& b = column_at(gate, left + 1);
+  const Column& a = column_of(gate, left);
+  const Column& b = column_of(gate, left + 1);
   const int pair = add_pair(list, std::string(kRoman[left]) + "-" + kRoman[left + 1], true);
   for (const Side side : {Side::forward, Side::back}) {
     const double y = static_cast<int>(side) * gate.half_aisle;
@@ -95,10 +90,9 @@ void describe_segment(const Gate& gate, int left, GateDescription& list) {
   }
 }
 
-// The walls of one slot, its mouth and its end stop; or the wall that closes the junction where there is no
-// slot.
+// The walls of one slot, its mouth and its end stop; without a slot, the wall that closes the junction.
 void describe_branch(const Gate& gate, int index, Side side, GateDescription& list) {
-  const Column& column = column_at(gate, index);
+  const Column& column = column_of(gate, index);
   const Branch branch = branch_of(column, side);
   const double aisle = branch.sign * gate.half_aisle;
   const double left = column.center - column.half_width;
@@ -107,7 +101,7 @@ void describe_branch(const Gate& gate, int index, Side side, GateDescription& li
     add_wall(list, {left, aisle}, {right, aisle}, WallRole::closed_side);
     return;
   }
-  const Slot& slot = gate.slot[static_cast<std::size_t>(branch.slot)];
+  const Slot& slot = slot_of(gate, branch.slot);
   const double end = branch.sign * slot.end;
   const int pair = add_pair(list, gear_name(slot.gear), false);
   for (const int towards : {-1, +1}) {

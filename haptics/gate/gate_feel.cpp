@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 
 namespace gearshift {
 namespace {
@@ -24,8 +23,8 @@ struct Turn {
   double shape, integral;  // w, W(y) [m]
 };
 
-// Both ways open: away from the centre line, peak 1 at h/sqrt(5). One way open: that way, peak 1 at the
-// centre.
+// Both ways open: away from the centre line, peak 1 at h/sqrt(5).
+// One way open: that way, peak 1 at the centre.
 Turn buffer_turn(const Buffer& buffer, double half_aisle, double y) noexcept {
   const double v = std::clamp(y / half_aisle, -1.0, 1.0);
   const double rest = 1.0 - v * v;
@@ -52,31 +51,28 @@ double shift_sign(double y) noexcept {
 
 const FeelCurve& shift_curve(const Gate& gate, glm::dvec2 p) noexcept {
   const int slot = slot_at(gate, p);
-  return slot == kNoSlot ? gate.aisle_feel : gate.slot[static_cast<std::size_t>(slot)].feel;
+  return slot == kNoSlot ? gate.aisle_feel : slot_of(gate, slot).feel;
 }
 
 }  // namespace
 
 int slot_at(const Gate& gate, glm::dvec2 point) noexcept {
   if (std::abs(point.y) <= gate.half_aisle) return kNoSlot;
-  const Column& column = gate.column[static_cast<std::size_t>(nearest_column(gate, point.x))];
+  const Column& column = column_of(gate, nearest_column(gate, point.x));
   return point.y > 0.0 ? column.forward_slot : column.back_slot;
 }
 
 glm::dvec2 gate_feel(const Gate& gate, glm::dvec2 proxy) noexcept {
   const double along = feel_force(shift_curve(gate, proxy), std::abs(proxy.y));
   glm::dvec2 force{feel_force(gate.select_feel, proxy.x), shift_sign(proxy.y) * along};
-  for (int i = 0; i < gate.buffer_count; ++i) {
-    force += buffer_force(gate, gate.buffer[static_cast<std::size_t>(i)], proxy);
-  }
+  for (const Buffer& buffer : buffers(gate)) force += buffer_force(gate, buffer, proxy);
   return force;
 }
 
 double gate_energy(const Gate& gate, glm::dvec2 proxy) noexcept {
   double energy = -feel_work(gate.select_feel, proxy.x);
   energy -= feel_work(shift_curve(gate, proxy), std::abs(proxy.y));
-  for (int i = 0; i < gate.buffer_count; ++i) {
-    const Buffer& buffer = gate.buffer[static_cast<std::size_t>(i)];
+  for (const Buffer& buffer : buffers(gate)) {
     energy -= buffer.force * buffer_rise(buffer, proxy.x).value *
               buffer_turn(buffer, gate.half_aisle, proxy.y).integral;
   }
@@ -84,11 +80,9 @@ double gate_energy(const Gate& gate, glm::dvec2 proxy) noexcept {
 }
 
 double stiffest_feel(const Gate& gate) noexcept {
-  double stiffest = std::max(stiffest_slope(gate.select_feel), stiffest_slope(gate.aisle_feel));
-  for (int i = 0; i < gate.slot_count; ++i) {
-    stiffest = std::max(stiffest, stiffest_slope(gate.slot[static_cast<std::size_t>(i)].feel));
-  }
-  return stiffest;
+  double least = std::min(slope_range(gate.select_feel).least, slope_range(gate.aisle_feel).least);
+  for (const Slot& slot : slots(gate)) least = std::min(least, slope_range(slot.feel).least);
+  return -least;
 }
 
 }  // namespace gearshift

@@ -1,5 +1,7 @@
 #include "haptics/gate/gate_layout.h"
 
+#include <algorithm>
+#include <array>
 #include <utility>
 
 #include "haptics/files/text_file.h"
@@ -9,14 +11,13 @@ namespace gearshift {
 namespace {
 
 constexpr double kMetresPerMillimetre = 1e-3;
-constexpr double kKmhPerMetrePerSecond = 3.6;
+constexpr double kMillimetresPerMetre = 1e3;
 
-// Ranges of the file's values, in the file's units. 4 mm is 53 counts of the paper's encoder (75.4 um each):
-// below that a wall would be felt on both sides at once.
+// Ranges of the file's values, in the file's units.
 constexpr Range kPositionMm{-200.0, 200.0};
-constexpr Range kAisleWidthMm{4.0, 40.0};
-constexpr Range kSlotWidthMm{4.0, 30.0};
-constexpr Range kSlotLengthMm{10.0, 120.0};
+constexpr Range kAisleWidthMm{kMinAisleWidth * kMillimetresPerMetre, 40.0};
+constexpr Range kSlotWidthMm{kMinAisleWidth * kMillimetresPerMetre, 30.0};
+constexpr Range kSlotLengthMm{kMinSlotProper * kMillimetresPerMetre, 120.0};
 constexpr Range kChamferMm{0.0, 10.0};
 constexpr Range kSpeedKmh{0.0, 400.0};
 
@@ -28,14 +29,21 @@ constexpr Range kDetentForceN{0.0, 20.0};
 constexpr Range kLockForceN{1.0, 25.0};
 constexpr Range kBufferForceN{0.0, 10.0};
 
+// "R", "1", "2", ...: every gear but neutral, which has no slot.
 const std::vector<std::string>& gear_words() {
-  static const std::vector<std::string> words = {"R", "1", "2", "3", "4", "5", "6", "7", "8", "9"};
+  static const std::vector<std::string> words = [] {
+    std::vector<std::string> list{gear_name(kReverseGear)};
+    for (int gear = 1; gear <= kMaxGear; ++gear) list.emplace_back(gear_name(gear));
+    return list;
+  }();
   return words;
 }
 
 int read_gear(const TomlTable& table, std::string_view key) {
   const std::string word = table.choice(key, gear_words());
-  return word == "R" ? kReverseGear : word[0] - '0';
+  int gear = kReverseGear;
+  while (word != gear_name(gear)) ++gear;
+  return gear;
 }
 
 SlotLayout read_slot(const TomlTable& column, std::string_view key) {
@@ -104,14 +112,17 @@ void read_feel(const TomlTable& table, GateLayout& layout) {
 }
 
 LockoutKind read_kind(const TomlTable& table) {
-  const std::string word = table.choice("kind", {"push_down", "lift", "speed", "after_gear"});
-  if (word == "push_down") return LockoutKind::push_down;
-  if (word == "lift") return LockoutKind::lift;
-  return word == "speed" ? LockoutKind::speed : LockoutKind::after_gear;
+  static constexpr std::array kKinds{LockoutKind::push_down, LockoutKind::lift, LockoutKind::speed,
+                                     LockoutKind::after_gear};
+  std::vector<std::string> names;
+  names.reserve(kKinds.size());
+  for (const LockoutKind kind : kKinds) names.emplace_back(lockout_kind_name(kind));
+  const std::string word = table.choice("kind", names);
+  return *std::find_if(kKinds.begin(), kKinds.end(),
+                       [&](LockoutKind kind) { return word == lockout_kind_name(kind); });
 }
 
-// The speeds are asked for only by a speed lockout: anywhere else they are unknown keys, not silently ignored
-// ones.
+// The speeds are asked for only by a speed lockout: anywhere else they are unknown keys, not ignored ones.
 LockoutLayout read_lockout(const TomlTable& table) {
   LockoutLayout lockout;
   lockout.line = table.line();
@@ -120,7 +131,7 @@ LockoutLayout read_lockout(const TomlTable& table) {
   if (lockout.kind == LockoutKind::after_gear) lockout.after_gear = read_gear(table, "after");
   if (lockout.kind == LockoutKind::speed) {
     const auto speed = [&](std::string_view key, double fallback) {
-      return table.has(key) ? table.number(key, kSpeedKmh) / kKmhPerMetrePerSecond : fallback;
+      return table.has(key) ? table.number(key, kSpeedKmh) / kKmhPerMps : fallback;
     };
     lockout.close_above = speed("close_above_kmh", lockout.close_above);
     lockout.open_below = speed("open_below_kmh", lockout.open_below);

@@ -10,6 +10,10 @@
 
 namespace gearshift {
 
+// 4 mm are 53 counts of the paper's encoder (75.4 um each): in less, both walls would be felt at once.
+inline constexpr double kMinAisleWidth = 0.004;  // [m] of the neutral aisle and of a slot
+inline constexpr double kMinSlotProper = 0.010;  // [m] of slot behind its mouth
+
 enum class JunctionKind { open, closed };  // closed: an end junction with a buffer on its closed side
 
 struct SlotLayout {
@@ -28,13 +32,13 @@ struct LockoutLayout {
   int gear = kNeutralGear;
   LockoutKind kind = LockoutKind::push_down;
   int after_gear = kNeutralGear;
-  double close_above = 20.0 / 3.6;  // [m/s]
-  double open_below = 15.0 / 3.6;   // [m/s]
+  double close_above = 20.0 / kKmhPerMps;  // [m/s]
+  double open_below = 15.0 / kKmhPerMps;   // [m/s]
   int line = 0;
 };
 
-// Forces in newtons at the knob, distances in metres; the file says mm and N. The curve that they make along
-// a slot is drawn in haptics/gate/README.md.
+// Forces in newtons at the knob, distances in metres; the file says mm and N.
+// The curve that they make along a slot is drawn in haptics/gate/README.md.
 struct FeelLayout {
   double center_force = 3.0;  // [N] select centring towards the neutral column
   double aisle_force = 1.0;   // [N] shift centring inside the neutral aisle

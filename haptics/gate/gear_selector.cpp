@@ -1,7 +1,6 @@
 #include "haptics/gate/gear_selector.h"
 
 #include <cmath>
-#include <cstddef>
 
 #include "haptics/gate/gate_feel.h"
 
@@ -13,7 +12,7 @@ namespace {
 int gear_at(const Gate& gate, glm::dvec2 proxy, int engaged) noexcept {
   const int index = slot_at(gate, proxy);
   if (index == kNoSlot) return kNeutralGear;
-  const Slot& slot = gate.slot[static_cast<std::size_t>(index)];
+  const Slot& slot = slot_of(gate, index);
   const double depth = std::abs(proxy.y);
   if (depth >= slot.engage_depth) return slot.gear;
   return slot.gear == engaged && depth >= slot.release_depth ? engaged : kNeutralGear;

@@ -1,15 +1,14 @@
 #include "haptics/gate/lockout.h"
 
 #include <cmath>
-#include <cstddef>
 
 namespace gearshift {
 namespace {
 
 bool is_beyond(const Gate& gate, const Lockout& lockout, glm::dvec2 proxy) noexcept {
   if (lockout.lateral) return lockout.beyond * (proxy.x - lockout.barrier) > 0.0;
-  const Slot& slot = gate.slot[static_cast<std::size_t>(lockout.slot)];
-  const Column& column = gate.column[static_cast<std::size_t>(slot.column)];
+  const Slot& slot = slot_of(gate, lockout.slot);
+  const Column& column = column_of(gate, slot.column);
   const bool in_slot = std::abs(proxy.x - column.center) <= column.half_width + gate.chamfer;
   return in_slot && static_cast<int>(slot.side) * proxy.y > gate.half_aisle + gate.chamfer;
 }
@@ -17,8 +16,7 @@ bool is_beyond(const Gate& gate, const Lockout& lockout, glm::dvec2 proxy) noexc
 bool has_left_column(const Gate& gate, int gear, glm::dvec2 proxy) noexcept {
   const int slot = slot_of_gear(gate, gear);
   if (slot == kNoSlot) return true;
-  const int index = gate.slot[static_cast<std::size_t>(slot)].column;
-  const Column& column = gate.column[static_cast<std::size_t>(index)];
+  const Column& column = column_of(gate, slot_of(gate, slot).column);
   return std::abs(proxy.x - column.center) > column.half_width + gate.chamfer;
 }
 
@@ -26,8 +24,8 @@ bool has_left_column(const Gate& gate, int gear, glm::dvec2 proxy) noexcept {
 bool latch(const Gate& gate, const Lockout& lockout, const LockoutInputs& in, glm::dvec2 proxy,
            bool was_closed) noexcept {
   if (lockout.kind == LockoutKind::speed) {
-    const double speed = std::abs(in.road_speed);
-    return speed > lockout.close_above || (was_closed && speed >= lockout.open_below);
+    const double speed = std::abs(in.road_speed);  // not a number changes nothing
+    return was_closed ? !(speed < lockout.open_below) : speed > lockout.close_above;
   }
   if (in.gear == lockout.after_gear) return true;
   return was_closed && !has_left_column(gate, lockout.after_gear, proxy);
@@ -67,13 +65,13 @@ Passage open_passage(const Gate& gate) noexcept {
 
 Passage Lockouts::update(const Gate& gate, const LockoutInputs& in, glm::dvec2 proxy) noexcept {
   Passage passage = open_passage(gate);
-  for (int i = 0; i < gate.lockout_count; ++i) {
-    const Lockout& lockout = gate.lockout[static_cast<std::size_t>(i)];
-    const std::uint32_t bit = 1u << i;
+  std::uint32_t bit = 1u;  // of this lockout's memory
+  for (const Lockout& lockout : lockouts(gate)) {
     if (lockout.kind == LockoutKind::speed || lockout.kind == LockoutKind::after_gear) {
       latched_ = latch(gate, lockout, in, proxy, latched_ & bit) ? latched_ | bit : latched_ & ~bit;
     }
     if (is_locked(lockout, in, latched_ & bit) && !is_beyond(gate, lockout, proxy)) close(lockout, passage);
+    bit <<= 1;
   }
   return passage;
 }

@@ -1,7 +1,6 @@
 // Which movable walls are closed right now, and what that leaves of the free space.
 #pragma once
 
-#include <array>
 #include <cstdint>
 
 #include <glm/vec2.hpp>

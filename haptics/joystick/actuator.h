@@ -16,8 +16,7 @@ class Actuator {
  public:
   explicit Actuator(const ActuatorLimits& limits) noexcept : limits_(limits) {}
 
-  // Force really delivered [N] for the commanded one over the next `period` [s]. Not a number delivers
-  // nothing.
+  // Force really delivered [N] for the commanded one over the next `period` [s]; none for what is no number.
   double deliver(double commanded, double period) noexcept;
 
   bool overloaded() const noexcept { return overloaded_; }

@@ -24,8 +24,8 @@ PlanePose pose_at(JointAngles q) noexcept {
 
 }  // namespace
 
-// Eq (2). The paper prints -sin(phi) sin(theta) for y; the normal of eq (1) has cos(theta), and only that
-// keeps |p| = rho.
+// Eq (2). The paper prints -sin(phi) sin(theta) for y; the normal of eq (1) has cos(theta),
+// and only that keeps |p| = rho.
 glm::dvec3 tip_position(const YokeGeometry& yoke, JointAngles q) noexcept {
   const SinCos s = sin_cos(q);
   return yoke.radius / std::sqrt(s.d) * glm::dvec3(s.cp * s.st, -s.sp * s.ct, s.cp * s.ct);
@@ -57,12 +57,8 @@ glm::dvec2 arc_position(const YokeGeometry& yoke, JointAngles q) noexcept {
   return {yoke.radius * q.theta, -yoke.radius * q.phi};
 }
 
-JointAngles joint_angles_from_arc(const YokeGeometry& yoke, glm::dvec2 arc) noexcept {
-  return {arc.x / yoke.radius, -arc.y / yoke.radius};
-}
-
-// Eq (5), corrected: in x the paper prints sin(phi) for cos(phi), in y it lost the sign. The third component
-// keeps the force tangential to the sphere.
+// Eq (5), corrected: in x the paper prints sin(phi) for cos(phi), in y it lost the sign.
+// The third component keeps the force tangential to the sphere.
 glm::dvec3 tip_force(const YokeGeometry& yoke, JointAngles q, JointTorques torque) noexcept {
   const SinCos s = sin_cos(q);
   const glm::dvec3 direction{torque.theta * s.ct / s.cp, -torque.phi * s.cp / s.ct,

@@ -2,8 +2,8 @@
 //
 // This work is based on:
 // Wei-Ching Lin, Kuu-Young Young. Design of Force-Reflection Joystick System for VR-Based Simulation.
-// Section 2. Errata used here: the y component of eq (2) is -sin(phi) cos(theta); eq (5) is misprinted, the
-// forms below follow from virtual work.
+// Section 2. Errata used here: the y component of eq (2) is -sin(phi) cos(theta); eq (5) is misprinted,
+// the forms below follow from virtual work.
 #pragma once
 
 #include <numbers>
@@ -43,13 +43,13 @@ JointAngles joint_angles(glm::dvec3 tip) noexcept;
 glm::dvec2 plane_position(const YokeGeometry& yoke, JointAngles q) noexcept;
 JointAngles joint_angles_from_plane(const YokeGeometry& yoke, glm::dvec2 plane) noexcept;
 
-// How far the tip reaches in the gate plane along each axis: rho sin(limit). [m] Half extents, select and
-// shift.
+// How far the tip reaches in the gate plane along each axis, the other joint upright: rho sin(limit). [m]
+// Not a rectangle: a point off both axes takes more of both angles, atan2(px, pz) and atan2(-py, pz), pz the
+// tip's height.
 glm::dvec2 workspace_half_extent(const YokeGeometry& yoke) noexcept;
 
 // The plant's coordinates: arc lengths (rho theta, -rho phi), one axis each. [m]
 glm::dvec2 arc_position(const YokeGeometry& yoke, JointAngles q) noexcept;
-JointAngles joint_angles_from_arc(const YokeGeometry& yoke, glm::dvec2 arc) noexcept;
 
 // Force at the tip, tangential to the sphere, from the joint torques: eq (5), corrected. [N]
 glm::dvec3 tip_force(const YokeGeometry& yoke, JointAngles q, JointTorques torque) noexcept;

@@ -1,11 +1,10 @@
 // One pose of the yoke by its tangents, and the maps between gate plane and arcs there.
 //
-// A cycle goes through these maps several times, so the tangents are taken once and the rest is inline. They
-// are the maps of kinematics.h for arc lengths (rho theta, -rho phi) instead of angles, in which rho drops
-// out.
+// A cycle goes through these maps several times, so the tangents are taken once and the rest is inline.
+// They are the maps of kinematics.h for arc lengths (rho theta, -rho phi) instead of angles: rho drops out.
 //
-// With a = tan(theta), b = tan(phi), n = sqrt(1 + a^2 + b^2), A = 1 + a^2, B = 1 + b^2 the tip is rho (a, -b,
-// 1) / n, and since rho da = A d(arc x), rho db = -B d(arc y),
+// With a = tan(theta), b = tan(phi), n = sqrt(1 + a^2 + b^2), A = 1 + a^2, B = 1 + b^2 the tip is
+// rho (a, -b, 1) / n, and since rho da = A d(arc x), rho db = -B d(arc y),
 //
 //     J = d plane / d arc = 1/n^3 [ A B   a b B ]        J^-1 = n [ 1        -a b / A ]
 //                                 [ a b A  A B  ]                 [ -a b / B  1       ]

@@ -77,8 +77,8 @@ double sign(double x) noexcept {
 }
 
 // Time until a motion with this speed [m/s] and inertial force along it [N] comes to its next zero of the
-// velocity [s], infinite if never. v(t) = exp(-a t) (v0 C + g S) with C, S the (hyperbolic) cosine and sine
-// of the mode and g = v'(0) + a v0.
+// velocity [s], infinite if never. With C, S the (hyperbolic) cosine and sine of the mode:
+//     v(t) = exp(-a t) (v0 C + g S), g = v'(0) + a v0
 double time_of_reversal(const AxisModel& axis, double speed, double inertial) noexcept {
   const Modes mode = modes(axis);
   const double g = inertial / axis.mass + mode.a * speed;
@@ -92,8 +92,8 @@ double time_of_reversal(const AxisModel& axis, double speed, double inertial) no
   return r > 0.0 ? std::atanh(ratio) / r : -speed / g;
 }
 
-// Time in [0, end] at which a motion that is monotone up to `end` reaches `place` [s]: Newton's steps,
-// halving the bracket where they leave it.
+// Time in [0, end] at which a motion that is monotone up to `end` reaches `place` [s].
+// Newton's steps, halving the bracket where they leave it.
 double time_at(const AxisModel& axis, AxisState start, double force, double end, double place) noexcept {
   const double along = sign(place - start.position);
   double low = 0.0, high = end, t = end;

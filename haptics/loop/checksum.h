@@ -7,8 +7,7 @@
 
 namespace gearshift {
 
-// CRC-32 of IEEE 802.3 (reflected polynomial 0xEDB88320), as in zip and PNG. `so_far`: CRC of the bytes
-// before.
+// CRC-32 of IEEE 802.3 (reflected polynomial 0xEDB88320), as in zip and PNG. `so_far`: of the bytes before.
 std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t so_far = 0) noexcept;
 
 // 64-bit hash of a run, in order. Not against an adversary: against a bit that came out differently.

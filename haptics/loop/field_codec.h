@@ -96,14 +96,17 @@ class FieldReader {
     }
     std::memcpy(&bits, left_.data(), sizeof bits);
     left_ = left_.subspan(sizeof bits);
-    if constexpr (std::is_same_v<T, double>)
+    if constexpr (std::is_same_v<T, double>) {
       value = std::bit_cast<double>(bits);
-    else if constexpr (std::is_same_v<T, bool>)
-      ok_ = ok_ && bits <= 1, value = bits == 1;
-    else if constexpr (std::is_enum_v<T>)
-      ok_ = ok_ && bits <= leaf_bits(last_value(T{})), value = static_cast<T>(bits);
-    else
+    } else if constexpr (std::is_same_v<T, bool>) {
+      ok_ = ok_ && bits <= 1;
+      value = bits == 1;
+    } else if constexpr (std::is_enum_v<T>) {
+      ok_ = ok_ && bits <= leaf_bits(last_value(T{}));
       value = static_cast<T>(bits);
+    } else {
+      value = static_cast<T>(bits);
+    }
   }
 
   std::span<const std::byte> left_;

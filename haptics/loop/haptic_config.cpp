@@ -1,26 +1,13 @@
 #include "haptics/loop/haptic_config.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <stdexcept>
 
+#include "haptics/device/checked.h"
 #include "haptics/gate/gate_feel.h"
 
 namespace gearshift {
 namespace {
-
-std::string number(double value) {
-  char text[32];
-  const auto end = std::to_chars(text, text + sizeof text, value).ptr;
-  return {text, end};
-}
-
-void require(double value, double min, double max, const char* name) {
-  if (std::isfinite(value) && value >= min && value <= max) return;
-  throw std::invalid_argument(std::string(name) + " = " + number(value) + ": must be between " + number(min) +
-                              " and " + number(max));
-}
 
 void limit(double& value, double most, const char* what, const char* law, std::vector<Limited>& limited) {
   if (value <= most) return;
@@ -28,8 +15,7 @@ void limit(double& value, double most, const char* what, const char* law, std::v
   value = most;
 }
 
-constexpr double kHoldMargin =
-    0.35;  // of m / tau^2 and m / tau: found by search over hands, phases and jitter
+constexpr double kHoldMargin = 0.35;  // of m / tau^2 and m / tau, see the header
 constexpr const char* kStiffnessLaw = "half-sample hold with delay: K <= 0.35 m / tau^2, tau = (delay + 1) T";
 constexpr const char* kDampingLaw = "half-sample hold with delay: B <= 0.35 m / tau, tau = (delay + 1) T";
 constexpr const char* kFeelLaw = "passive proxy: no feel stiffer than the wall that carries the proxy";
@@ -40,31 +26,33 @@ std::int64_t period_ns(const HapticConfig& config) noexcept {
   return std::llround(1e9 / config.rate);
 }
 
+double period_s(const HapticConfig& config) noexcept { return 1e-9 * static_cast<double>(period_ns(config)); }
+
 void check_tuning(const HapticTuning& tuning) {
-  require(tuning.wall_stiffness, 0.0, 20000.0, "wall_stiffness_n_per_m");
-  require(tuning.wall_damping, 0.0, 100.0, "wall_damping_n_s_per_m");
-  require(tuning.feel_scale, 0.0, 4.0, "feel_scale");
-  require(tuning.aisle_damping, 0.0, 50.0, "aisle_damping_n_s_per_m");
-  require(tuning.speed_limit, 0.05, 5.0, "speed_limit_m_per_s");
-  require(tuning.limit_damping, 0.0, 50.0, "limit_damping_n_s_per_m");
+  require_between("wall_stiffness_n_per_m", tuning.wall_stiffness, 0.0, 20000.0);
+  require_between("wall_damping_n_s_per_m", tuning.wall_damping, 0.0, 100.0);
+  require_between("feel_scale", tuning.feel_scale, 0.0, 4.0);
+  require_between("aisle_damping_n_s_per_m", tuning.aisle_damping, 0.0, 50.0);
+  require_between("speed_limit_m_per_s", tuning.speed_limit, 0.05, 5.0);
+  require_between("limit_damping_n_s_per_m", tuning.limit_damping, 0.0, 50.0);
 }
 
 void check_config(const HapticConfig& config) {
-  require(config.rate, 100.0, 4000.0, "rate_hz");
+  require_between("rate_hz", config.rate, 100.0, 4000.0);
   check_tuning(config.tuning);
-  require(config.estimator.smoothing, 1e-5, 1.0, "smoothing_s");
-  require(config.estimator.speed_limit, 0.1, 1000.0, "speed_limit_of_readings_m_per_s");
-  require(config.guard.slew, 0.1, 100.0, "slew_n_per_cycle");
-  require(config.guard.ramp_time, 0.001, 60.0, "ramp_time_s");
-  require(config.guard.stale_time, 0.001, 1.0, "stale_time_s");
-  require(config.guard.fade_time, 0.001, 1.0, "fade_time_s");
-  require(config.guard.overruns_in_row, 1, 1000, "overruns_in_row");
-  require(config.guard.damped_damping, 0.0, 50.0, "damped_damping_n_s_per_m");
-  require(config.guard.position_margin, 0.0, 1.0, "position_margin_m");
-  require(config.over_push.warn_above, 1.0, 1000.0, "warn_above_n");
-  require(config.over_push.clear_below, 0.0, config.over_push.warn_above, "clear_below_n");
-  require(config.gear_debounce, 0.0, 0.5, "gear_debounce_s");
-  require(config.ghost_offset, 0.0, 1.0, "ghost_offset_m");
+  require_between("smoothing_s", config.estimator.smoothing, 1e-5, 1.0);
+  require_between("speed_limit_of_readings_m_per_s", config.estimator.speed_limit, 0.1, 1000.0);
+  require_between("slew_n_per_cycle", config.guard.slew, 0.1, 100.0);
+  require_between("ramp_time_s", config.guard.ramp_time, 0.001, 60.0);
+  require_between("stale_time_s", config.guard.stale_time, 0.001, 1.0);
+  require_between("fade_time_s", config.guard.fade_time, 0.001, 1.0);
+  require_between("overruns_in_row", config.guard.overruns_in_row, 1, 1000);
+  require_between("damped_damping_n_s_per_m", config.guard.damped_damping, 0.0, 50.0);
+  require_between("position_margin_m", config.guard.position_margin, 0.0, 1.0);
+  require_between("warn_above_n", config.over_push.warn_above, 1.0, 1000.0);
+  require_between("clear_below_n", config.over_push.clear_below, 0.0, config.over_push.warn_above);
+  require_between("gear_debounce_s", config.gear_debounce, 0.0, 0.5);
+  require_between("ghost_offset_m", config.ghost_offset, 0.0, 1.0);
 }
 
 AdmittedTuning admit_tuning(const HapticTuning& wanted, double period, const DeviceSpec& spec,

@@ -7,7 +7,9 @@
 
 #include <glm/geometric.hpp>
 
+#include "haptics/device/checked.h"
 #include "haptics/gate/gate_feel.h"
+#include "haptics/joystick/finite.h"
 
 namespace gearshift {
 namespace {
@@ -17,6 +19,7 @@ using glm::dvec2;
 constexpr double kRearmAfter = 0.050;    // [s] of healthy readings before a simulated lever arms itself again
 constexpr double kContactApart = 0.030;  // [s] off the wall before a touch counts as a new impact
 constexpr double kSaturationHold = 0.050;  // [s] below the limit before saturation is over
+constexpr double kShortfall = 1.0;         // [N] between commanded and delivered force that a hand would notice
 constexpr std::int64_t kMostSkipped = 10;  // cycles that the world catches up after an overrun
 
 std::int64_t clock_ns() noexcept {
@@ -25,8 +28,12 @@ std::int64_t clock_ns() noexcept {
       .count();
 }
 
-bool is_finite(dvec2 v) noexcept {
-  return std::isfinite(v.x) && std::isfinite(v.y);
+constexpr int kMostDelay = 15;  // [cycles] that the commands sent are remembered
+
+const HapticConfig& checked(const HapticConfig& config, const DeviceSpec& spec) {
+  check_config(config);
+  require_between("delay of the device", spec.delay, 0, kMostDelay, "cycles");
+  return config;
 }
 
 // Stamps the stages of every 64th cycle.
@@ -49,30 +56,23 @@ class StageClock {
 
 }  // namespace
 
-const char* event_name(EventKind kind) noexcept {
-  static constexpr const char* kNames[] = {"gear engaged",    "gear left",     "wall contact",
-                                           "over-push begin", "over-push end", "saturation begin",
-                                           "saturation end",  "guard changed"};
-  return kNames[static_cast<int>(kind)];
-}
-
 HapticLoop::HapticLoop(const HapticConfig& config, const Gate& gate, HapticDevice& device, LeverWorld& world,
                        LoopChannels& channels)
-    : config_(config),
-      admitted_(
-          admit_tuning(config.tuning, 1e-9 * static_cast<double>(period_ns(config)), device.spec(), gate)),
+    : config_(checked(config, device.spec())),
+      admitted_(admit_tuning(config.tuning, period_s(config), device.spec(), gate)),
       gate_(gate),
       device_(device),
       world_(world),
       channels_(channels),
-      period_(1e-9 * static_cast<double>(period_ns(config))),
+      period_(period_s(config)),
       horizon_(period_ * (1.0 + 2.0 * device.spec().delay)),
       hand_over_(kHandOverSpeed * period_),
       tuning_(admitted_.tuning),
       estimator_(config.estimator, period_),
       selector_(config.gear_debounce),
       guard_(config.guard, device.spec(), period_),
-      passage_(open_passage(gate)) {}
+      passage_(open_passage(gate)),
+      proxy_(place_proxy(gate, rest_position(gate, kNeutralGear))) {}
 
 void HapticLoop::cycle(std::int64_t deadline_ns, std::int64_t skipped) noexcept {
   StageClock clock(stamps_, out_.cycle);
@@ -85,9 +85,10 @@ void HapticLoop::cycle(std::int64_t deadline_ns, std::int64_t skipped) noexcept 
   follow_lever();
   clock.stamp();
   const Coupling coupling{tuning_.wall_stiffness, tuning_.wall_damping, horizon_};
-  out_.wall_force = couple(coupling, gate_, passage_, proxy_, motion_, hand_over_);
+  const Coupled coupled = couple(coupling, gate_, passage_, proxy_, motion_);
+  out_.wall_force = coupled.force;
   clock.stamp();
-  out_.feel_force = mechanism_feel();
+  out_.feel_force = mechanism_feel(coupled.mean_proxy);
   clock.stamp();
   world_out_ = run_world(skipped);
   clock.stamp();
@@ -101,7 +102,7 @@ void HapticLoop::cycle(std::int64_t deadline_ns, std::int64_t skipped) noexcept 
   watch_push();
   watch_saturation(command);
   watch_contact();
-  watch_guard();
+  watch_guard(skipped);
   publish(skipped);
 }
 
@@ -121,12 +122,11 @@ void HapticLoop::obey(LoopCommand command) noexcept {
       return;
     case LoopCommand::disarm:
       guard_.disarm();
-      break;
+      return;
     case LoopCommand::stop:
       guard_.stop();
-      break;
+      return;
   }
-  device_.release();
 }
 
 // At arming the proxy starts anew at the lever, so that an old penetration cannot pull.
@@ -156,12 +156,12 @@ void HapticLoop::limit_depth() noexcept {
   passage_.depth_max = std::max(world_out_.depth_max, depth);
 }
 
-dvec2 HapticLoop::mechanism_feel() const noexcept {
+dvec2 HapticLoop::mechanism_feel(dvec2 mean_proxy) const noexcept {
   const double speed = glm::length(motion_.smooth_velocity);
   const double excess = std::max(0.0, speed - tuning_.speed_limit);
   const double damping =
       tuning_.aisle_damping + (excess > 0.0 ? tuning_.limit_damping * excess / speed : 0.0);
-  return tuning_.feel_scale * gate_feel(gate_, proxy_.position) - damping * motion_.smooth_velocity;
+  return tuning_.feel_scale * gate_feel(gate_, mean_proxy) - damping * motion_.smooth_velocity;
 }
 
 LeverOutput HapticLoop::run_world(std::int64_t skipped) noexcept {
@@ -183,7 +183,7 @@ LeverOutput HapticLoop::run_world(std::int64_t skipped) noexcept {
 
 GuardInput HapticLoop::guard_input(std::int64_t skipped) const noexcept {
   GuardInput in;
-  in.force = out_.wall_force + out_.feel_force + world_out_.force;
+  in.force = wanted_force();
   in.position = motion_.position;
   in.velocity = motion_.smooth_velocity;
   in.fresh = motion_.fresh;
@@ -191,18 +191,12 @@ GuardInput HapticLoop::guard_input(std::int64_t skipped) const noexcept {
   return in;
 }
 
-// Eq (4): f_j = f_h - f_a. Without a force sensor the push is what holds the lever against the motors and its
-// own spring and damping; its inertia is left out.
+// Eq (4): f_j = f_h - f_a.
 void HapticLoop::account_force_flow(const GuardOutput& command) noexcept {
-  const DeviceSpec& spec = device_.spec();
-  out_.f_a = -reading_.actuator_force;
-  if (spec.measures_hand_force) {
-    if (is_finite(reading_.hand_force)) out_.f_h = reading_.hand_force;
-  } else {
-    const dvec2 damping{spec.axis_x.damping, spec.axis_y.damping};
-    const dvec2 stiffness{spec.axis_x.stiffness, spec.axis_y.stiffness};
-    out_.f_h = out_.f_a + damping * motion_.smooth_velocity + stiffness * motion_.position;
-  }
+  const bool is_measured = device_.spec().measures_hand_force;
+  if (is_finite(reading_.actuator_force)) out_.f_a = -reading_.actuator_force;
+  if (!is_measured) out_.f_h = estimated_push(command);
+  if (is_measured && is_finite(reading_.hand_force)) out_.f_h = reading_.hand_force;
   out_.f_j = out_.f_h - out_.f_a;
   out_.lever = motion_.position;
   out_.velocity = motion_.smooth_velocity;
@@ -210,8 +204,19 @@ void HapticLoop::account_force_flow(const GuardOutput& command) noexcept {
   out_.world_force = world_out_.force;
   out_.road_speed = world_out_.road_speed;
   out_.commanded = command.force;
-  set_flag(kFlagPushEstimated, !spec.measures_hand_force);
+  set_flag(kFlagPushEstimated, !is_measured);
   set_flag(kFlagFresh, motion_.fresh);
+}
+
+// Without a force sensor: what holds the lever against the motors and its own spring and damping, its inertia left
+// out. Beyond the motors' limit that says nothing, but the displacement does: the push is then what the wall wanted
+// to give back at this depth.
+dvec2 HapticLoop::estimated_push(const GuardOutput& command) const noexcept {
+  const DeviceSpec& spec = device_.spec();
+  const dvec2 damping{spec.axis_x.damping, spec.axis_y.damping};
+  const dvec2 stiffness{spec.axis_x.stiffness, spec.axis_y.stiffness};
+  const dvec2 held = command.saturated ? -wanted_force() : out_.f_a;
+  return held + damping * motion_.smooth_velocity + stiffness * motion_.position;
 }
 
 void HapticLoop::watch_gear() noexcept {
@@ -231,14 +236,19 @@ void HapticLoop::watch_push() noexcept {
   if (is_over != was_over) tell(is_over ? EventKind::over_push_begin : EventKind::over_push_end, push);
 }
 
+// The hand gets less than it should: the wish is beyond the device, or the motors gave less than was commanded when
+// that force was due (overload).
 void HapticLoop::watch_saturation(const GuardOutput& command) noexcept {
-  unsaturated_ = command.saturated ? 0.0 : unsaturated_ + period_;
+  const std::uint64_t age = 1 + static_cast<std::uint64_t>(device_.spec().delay);
+  const dvec2 due = out_.cycle >= age ? sent_[(out_.cycle - age) % sent_.size()] : dvec2{0.0, 0.0};
+  const bool falls_short = motion_.fresh && glm::length(due + out_.f_a) > kShortfall;
+  sent_[out_.cycle % sent_.size()] = command.force;
+  unsaturated_ = command.saturated || falls_short ? 0.0 : unsaturated_ + period_;
   const bool was = has_flag(kFlagSaturated);
   const bool is = unsaturated_ < kSaturationHold;
   set_flag(kFlagSaturated, is);
   if (is == was) return;
-  tell(is ? EventKind::saturation_begin : EventKind::saturation_end,
-       glm::length(out_.wall_force + out_.feel_force + out_.world_force));
+  tell(is ? EventKind::saturation_begin : EventKind::saturation_end, glm::length(wanted_force()));
 }
 
 void HapticLoop::watch_contact() noexcept {
@@ -253,12 +263,14 @@ void HapticLoop::watch_contact() noexcept {
   apart_ = touches ? 0.0 : apart_ + period_;
 }
 
-// A simulated lever arms itself again once it has been healthy for a while since the fall; a real one waits
-// for a person.
-void HapticLoop::watch_guard() noexcept {
-  const bool has_fallen = guard_.state() != out_.guard;
-  healthy_ = motion_.fresh && !has_fallen ? healthy_ + period_ : 0.0;
-  if (guard_.state() == GuardState::released && has_fallen) device_.release();
+// A simulated lever arms itself again once it has been healthy for a while since the fall; a real one waits for a
+// person. Motors are off in every state without force.
+void HapticLoop::watch_guard(std::int64_t skipped) noexcept {
+  const bool has_changed = guard_.state() != out_.guard;
+  const bool is_off = guard_.state() == GuardState::idle || guard_.state() == GuardState::released;
+  if (has_changed && is_off) device_.release();
+  const bool is_healthy = motion_.fresh && skipped == 0 && !has_changed;
+  healthy_ = is_healthy ? healthy_ + period_ : 0.0;
   if (guard_.state() == GuardState::damped && device_.spec().simulated && healthy_ > kRearmAfter) arm();
   if (guard_.state() != out_.guard) tell(EventKind::guard_changed, static_cast<double>(guard_.state()));
   out_.guard = guard_.state();
@@ -272,8 +284,7 @@ void HapticLoop::publish(std::int64_t skipped) noexcept {
 }
 
 void HapticLoop::record(std::int64_t skipped) noexcept {
-  const TraceSample sample{
-      out_.time_ns, static_cast<std::uint64_t>(skipped), reading_, controls_, tuning_, command_, out_};
+  const TraceSample sample{out_.time_ns, skipped, reading_, controls_, tuning_, command_, out_};
   if (!channels_.trace.push(sample)) channels_.trace_lost.fetch_add(1, std::memory_order_relaxed);
 }
 
@@ -283,8 +294,8 @@ void HapticLoop::tell(EventKind kind, double value) noexcept {
   }
 }
 
-void HapticLoop::set_flag(SnapshotFlag flag, bool on) noexcept {
-  out_.flags = on ? out_.flags | flag : out_.flags & ~static_cast<std::uint32_t>(flag);
+void HapticLoop::set_flag(std::uint32_t flag, bool on) noexcept {
+  out_.flags = on ? out_.flags | flag : out_.flags & ~flag;
 }
 
 }  // namespace gearshift

@@ -23,10 +23,10 @@ namespace gearshift {
 
 enum class LoopCommand : std::uint8_t { none, arm, disarm, stop };
 
-// Everything that came into one cycle, and a digest of what came out: enough to run it again.
+// Everything that came into one cycle, and what came out: enough to run it again and compare.
 struct TraceSample {
   std::int64_t deadline_ns = 0;  // [ns]
-  std::uint64_t skipped = 0;     // deadlines missed before this one
+  std::int64_t skipped = 0;      // deadlines missed before this one, >= 0
   LeverReading reading;
   DriverControls controls;
   HapticTuning tuning;  // as applied in this cycle
@@ -57,7 +57,8 @@ struct StageStamps {
 
 class HapticLoop {
  public:
-  // config must have passed check_config; its tuning is admitted here. All references must outlive the loop.
+  // Checks config and device (throws std::invalid_argument) and admits the tuning. All references must outlive the
+  // loop.
   HapticLoop(const HapticConfig& config, const Gate& gate, HapticDevice& device, LeverWorld& world,
              LoopChannels& channels);
 
@@ -79,20 +80,22 @@ class HapticLoop {
   void obey(LoopCommand command) noexcept;
   void follow_lever() noexcept;
   void limit_depth() noexcept;
-  glm::dvec2 mechanism_feel() const noexcept;
+  glm::dvec2 mechanism_feel(glm::dvec2 mean_proxy) const noexcept;
   LeverOutput run_world(std::int64_t skipped) noexcept;
   GuardInput guard_input(std::int64_t skipped) const noexcept;
+  glm::dvec2 wanted_force() const noexcept { return out_.wall_force + out_.feel_force + world_out_.force; }
+  glm::dvec2 estimated_push(const GuardOutput& command) const noexcept;
   void account_force_flow(const GuardOutput& command) noexcept;
   void watch_gear() noexcept;
   void watch_push() noexcept;
   void watch_saturation(const GuardOutput& command) noexcept;
   void watch_contact() noexcept;
-  void watch_guard() noexcept;
+  void watch_guard(std::int64_t skipped) noexcept;
   void publish(std::int64_t skipped) noexcept;
   void record(std::int64_t skipped) noexcept;
   void tell(EventKind kind, double value) noexcept;
-  void set_flag(SnapshotFlag flag, bool on) noexcept;
-  bool has_flag(SnapshotFlag flag) const noexcept { return (out_.flags & flag) != 0; }
+  void set_flag(std::uint32_t flag, bool on) noexcept;
+  bool has_flag(std::uint32_t flag) const noexcept { return (out_.flags & flag) != 0; }
 
   HapticConfig config_;
   AdmittedTuning admitted_;
@@ -119,6 +122,7 @@ class HapticLoop {
   bool placed_ = false;       // the proxy stands where the lever was at the start or at arming
   bool first_step_ = true;    // of the world: period 0
   double healthy_ = 0.0;      // [s] of fresh readings in a row, to re-arm a simulated lever
+  std::array<glm::dvec2, 16> sent_{};  // [N] commanded in the last cycles: the delay is at most 15
   double apart_ = 1.0;        // [s] since the lever last touched a wall
   double unsaturated_ = 1.0;  // [s] since the wanted force was last beyond the device
   HapticSnapshot out_;

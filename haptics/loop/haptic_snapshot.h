@@ -6,19 +6,17 @@
 #include <glm/vec2.hpp>
 
 #include "haptics/gate/gate.h"
-#include "haptics/loop/lever_world.h"
 #include "haptics/safety/force_guard.h"
 
 namespace gearshift {
 
-enum SnapshotFlag : std::uint32_t {
-  kFlagContact = 1u << 0,        // the lever is pressed into a wall
-  kFlagSaturated = 1u << 1,      // the wanted force was beyond the device
-  kFlagOverPush = 1u << 2,       // the hand pushes above the warning threshold
-  kFlagPushEstimated = 1u << 3,  // no force sensor: the push is inferred
-  kFlagGhost = 1u << 4,          // lever and drawn lever differ by more than the stated offset
-  kFlagFresh = 1u << 5           // this cycle's reading was new and believed
-};
+// Bits of HapticSnapshot::flags.
+inline constexpr std::uint32_t kFlagContact = 1u << 0;        // the lever is pressed into a wall
+inline constexpr std::uint32_t kFlagSaturated = 1u << 1;      // the wanted force was beyond the device
+inline constexpr std::uint32_t kFlagOverPush = 1u << 2;       // the hand pushes above the warning threshold
+inline constexpr std::uint32_t kFlagPushEstimated = 1u << 3;  // no force sensor: the push is inferred
+inline constexpr std::uint32_t kFlagGhost = 1u << 4;          // lever and drawn lever are too far apart
+inline constexpr std::uint32_t kFlagFresh = 1u << 5;          // this cycle's reading was new and believed
 
 struct HapticSnapshot {
   std::uint64_t cycle = 0;
@@ -38,7 +36,7 @@ struct HapticSnapshot {
   int gear = kNeutralGear;
   GuardState guard = GuardState::idle;
   GuardFault fault = GuardFault::none;
-  std::uint32_t flags = 0;  // SnapshotFlag
+  std::uint32_t flags = 0;  // kFlag...
 };
 
 enum class EventKind : std::uint8_t {
@@ -51,7 +49,6 @@ enum class EventKind : std::uint8_t {
   saturation_end,
   guard_changed  // value: GuardState
 };
-const char* event_name(EventKind kind) noexcept;
 
 struct HapticEvent {
   EventKind kind = EventKind::gear_engaged;

@@ -1,14 +1,15 @@
 // The contract between the haptic cycle and whatever lies behind the lever: the driveline.
 //
 // The loop calls step() once per cycle, on the haptic thread, after the coupling and the gate's feel and
-// before the guard, always in this order and never from two threads. The first call after reset() has period
-// 0. step() must be noexcept, must not allocate, lock, wait or make a system call, and must depend on nothing
-// but its own state, the input and the period: a recording replays it bit for bit. It may return any finite
-// force: the guard makes it safe. Depth limits take effect in the next cycle and never move the lever: a
-// limit inside which the lever does not lie is applied at the lever's depth.
+// before the guard, always in this order and never from two threads. The first call has period 0.
 //
-//   LeverOutput NullWorld::step(const LeverInput&, double) noexcept { return {}; }   // nothing behind the
-//   lever
+// step() must be noexcept, must not allocate, lock, wait or make a system call, and must depend on nothing
+// but its own state, the input and the period: a recording replays it bit for bit.
+//
+// It may return any finite force: the guard makes it safe. Depth limits take effect in the next cycle and
+// never move the lever: a limit inside which the lever does not lie is applied at the lever's depth.
+//
+//   LeverOutput NullWorld::step(const LeverInput&, double) noexcept { return {}; }  // nothing behind it
 #pragma once
 
 #include <limits>
@@ -52,7 +53,6 @@ class LeverWorld {
  public:
   virtual ~LeverWorld() = default;
   virtual LeverOutput step(const LeverInput& in, double period) noexcept = 0;  // period [s]
-  virtual void reset() noexcept = 0;
   // Names the model and its parameters in a trace; a replay refuses another one.
   virtual const char* name() const noexcept = 0;
 };
@@ -60,7 +60,6 @@ class LeverWorld {
 class NullWorld final : public LeverWorld {
  public:
   LeverOutput step(const LeverInput&, double) noexcept override { return {}; }
-  void reset() noexcept override {}
   const char* name() const noexcept override { return "none"; }
 };
 

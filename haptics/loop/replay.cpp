@@ -2,8 +2,10 @@
 
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstddef>
 #include <stdexcept>
+#include <type_traits>
 #include <utility>
 #include <vector>
 
@@ -14,8 +16,7 @@
 namespace gearshift {
 namespace {
 
-// Hands out what the recorded device measured. What is written to it moves nothing: the lever has already
-// moved.
+// Hands out what the recorded device measured. What is written to it moves nothing: the drive is over.
 class RecordedDevice final : public HapticDevice {
  public:
   explicit RecordedDevice(const DeviceSpec& spec) noexcept : spec_(spec) {}
@@ -38,31 +39,35 @@ struct NamedLeaf {
 
 template <LeafField T>
 std::string value_text(T value) {
-  char text[64];
-  if constexpr (std::is_same_v<T, double>)
+  if constexpr (std::is_same_v<T, bool> || std::is_enum_v<T>) {
+    return std::to_string(static_cast<int>(value));
+  } else {
+    char text[64];
     return {text, std::to_chars(text, text + sizeof text, value).ptr};
-  else if constexpr (std::is_same_v<T, bool> || std::is_enum_v<T>)
-    return value_text(static_cast<int>(value));
-  else
-    return {text, std::to_chars(text, text + sizeof text, value).ptr};
+  }
 }
 
-// Slow and allocating: only for the one cycle that differs.
-template <class T>
-void append_leaves(std::vector<NamedLeaf>& leaves, const std::string& prefix, const T& value) {
+// Calls visit("reading.position.x", leaf) for every leaf inside. Slow and allocating: not for every cycle.
+template <class T, class Visit>
+void each_leaf(const T& value, const std::string& prefix, const Visit& visit) {
   each_field(value, [&](const char* name, const auto& member) {
-    const std::string full = prefix + name;
     if constexpr (LeafField<std::remove_cvref_t<decltype(member)>>)
-      leaves.push_back({full, leaf_bits(member), value_text(member)});
+      visit(prefix + name, member);
     else
-      append_leaves(leaves, full + ".", member);
+      each_leaf(member, prefix + name + ".", visit);
   });
 }
 
+std::vector<NamedLeaf> leaves_of(const TraceSample& sample) {
+  std::vector<NamedLeaf> leaves;
+  each_leaf(sample, "", [&](const std::string& name, auto value) {
+    leaves.push_back({name, leaf_bits(value), value_text(value)});
+  });
+  return leaves;
+}
+
 std::optional<Difference> first_difference(const TraceSample& recorded, const TraceSample& replayed) {
-  std::vector<NamedLeaf> was, is;
-  append_leaves(was, "", recorded);
-  append_leaves(is, "", replayed);
+  const std::vector<NamedLeaf> was = leaves_of(recorded), is = leaves_of(replayed);
   for (std::size_t i = 0; i < was.size(); ++i)
     if (was[i].bits != is[i].bits)
       return Difference{recorded.out.cycle, was[i].name, was[i].text, is[i].text};
@@ -78,11 +83,11 @@ bool same_bits(const HapticTuning& a, const HapticTuning& b) noexcept {
 
 // Every double of the device must be a number: the config's ranges are check_config's business.
 void check_device(const DeviceSpec& spec) {
-  std::vector<NamedLeaf> leaves;
-  append_leaves(leaves, "", spec);
-  for (const NamedLeaf& leaf : leaves)
-    if (leaf.text.find("nan") != std::string::npos || leaf.text.find("inf") != std::string::npos)
-      throw std::invalid_argument("its device has " + leaf.name + " = " + leaf.text);
+  each_leaf(spec, "", [](const std::string& name, auto value) {
+    if (!std::isfinite(static_cast<double>(value)))
+      throw std::invalid_argument("its device has " + name + " = " + value_text(value));
+  });
+  if (spec.delay < 0) throw std::invalid_argument("its device has delay = " + value_text(spec.delay));
 }
 
 std::unique_ptr<LeverWorld> find_world(const std::string& name, const WorldFactory& make_world) {
@@ -116,8 +121,8 @@ struct Replayer::Rig {
     if (recorded.command != LoopCommand::none) channels.commands.push(recorded.command);
   }
 
-  TraceSample cycle(std::int64_t deadline_ns, std::uint64_t skipped) noexcept {
-    loop.cycle(deadline_ns, static_cast<std::int64_t>(skipped));
+  TraceSample cycle(std::int64_t deadline_ns, std::int64_t skipped) noexcept {
+    loop.cycle(deadline_ns, skipped);
     for (HapticEvent event; channels.events.pop(event);) continue;
     TraceSample replayed;
     channels.trace.pop(replayed);

@@ -1,5 +1,4 @@
-// Runs a recorded drive again, from its inputs alone, and compares every output of every cycle by its exact
-// bits.
+// Runs a recorded drive again, from its inputs alone, and compares every output of every cycle, bit by bit.
 #pragma once
 
 #include <cstdint>

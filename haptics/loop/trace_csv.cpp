@@ -5,6 +5,7 @@
 #include <cstring>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 
 #include "haptics/files/file_error.h"
 #include "haptics/loop/trace_format.h"
@@ -86,7 +87,7 @@ void add_forces(Row& row, const HapticSnapshot& out) {
 }
 
 void add_state(Row& row, const HapticSnapshot& out) {
-  const auto flag = [&](const char* name, SnapshotFlag bit) { row.cell(name, (out.flags & bit) != 0); };
+  const auto flag = [&](const char* name, std::uint32_t bit) { row.cell(name, (out.flags & bit) != 0); };
   row.cell("gear", out.gear);
   row.cell("slot", out.slot);
   row.cell("road_speed_m_per_s", out.road_speed);

@@ -1,10 +1,11 @@
-// The fields of everything that a trace carries, listed once. Writing, reading, comparing, hashing and naming
-// all walk these lists.
+// The fields of everything that a trace carries, listed once.
+// Writing, reading, comparing, hashing and naming all walk these lists.
 //
 //   each_field(value, visit)   calls visit("name", member) for every member, in the order of the file
 //
 // Each list takes its struct apart with a structured binding: a struct that gains or loses a member no longer
-// compiles here. Then add the member below, in the same order, and raise kTraceVersion.
+// compiles here. Then add the member below, in the same order, and raise kTraceVersion. A member that changes
+// its type raises it, too.
 #pragma once
 
 #include <concepts>

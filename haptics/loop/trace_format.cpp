@@ -88,8 +88,7 @@ std::optional<TraceEnd> decode_end(std::span<const std::byte> payload) noexcept 
   return end;
 }
 
-// The program's version and the layout's name are no parameters: another program that computes the same
-// replays it.
+// The program's version and the layout's name are no parameters: another program may compute the same.
 RunHash begin_hash(const TraceHeader& header) {
   TraceHeader parameters = header;
   parameters.program.clear();

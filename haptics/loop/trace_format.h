@@ -1,11 +1,11 @@
-// The trace file: everything that is needed to run a recorded drive again, and a digest of what came out.
+// The trace file: everything that is needed to run a recorded drive again, and all of what came out.
 //
 //   magic 8 bytes | version u32 | header block | data blocks | end block
 //   block = frame (kind, size, CRC of the payload, CRC of these three: u32 each) | payload
 //
-// All numbers little-endian. The version stands before the first block, so that a newer file is recognised
-// whatever its blocks look like; each frame has its own CRC, so that a damaged length is told from a file cut
-// short.
+// All numbers little-endian.
+// The version stands before the first block: a newer file is recognised whatever its blocks look like.
+// Each frame has its own CRC: a damaged length is told from a file cut short.
 #pragma once
 
 #include <array>
@@ -23,7 +23,7 @@ namespace gearshift {
 
 // Not text, and spoilt by a transfer that rewrites line ends.
 inline constexpr std::array<char, 8> kTraceMagic = {'\x89', 'G', 'S', 'T', 'R', 'C', '\r', '\n'};
-inline constexpr std::uint32_t kTraceVersion = 1;
+inline constexpr std::uint32_t kTraceVersion = 2;
 
 // What must be known before the first cycle. The run must start with it: no tuning is written to the channels
 // before the first cycle (put it into the config), and the recording starts before the first cycle.
@@ -68,10 +68,10 @@ std::optional<TraceEnd> decode_end(std::span<const std::byte> payload) noexcept;
 RunHash begin_hash(const TraceHeader& header);
 
 enum class BlockKind : std::uint32_t {
-  header = 0x44414548,
-  data = 0x41544144,
-  end = 0x20444E45
-};  // "HEAD" ...
+  header = 0x44414548,  // "HEAD"
+  data = 0x41544144,    // "DATA"
+  end = 0x20444E45      // "END "
+};
 
 struct BlockFrame {
   BlockKind kind = BlockKind::data;

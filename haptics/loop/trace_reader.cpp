@@ -3,6 +3,7 @@
 #include <cerrno>
 #include <cstring>
 #include <system_error>
+#include <utility>
 
 #include "haptics/files/file_error.h"
 #include "haptics/loop/trace_writer.h"
@@ -66,7 +67,7 @@ void TraceReader::check_preamble() {
   const std::string says = "is a trace of format " + std::to_string(version);
   const std::string reads = "this one reads format " + std::to_string(kTraceVersion);
   if (version > kTraceVersion) fail(says + ", made by a newer gearshift; " + reads);
-  if (version < kTraceVersion) fail(says + ", which no gearshift makes; " + reads);
+  if (version < kTraceVersion) fail(says + ", made by an older gearshift; " + reads);
 }
 
 // The header must be whole even when salvaging: without it the cycles mean nothing.
@@ -160,13 +161,20 @@ bool TraceReader::next(TraceSample& sample) {
   reader.take(sample);
   if (!reader.ok())
     fail("is damaged: cycle " + std::to_string(taken_) + " holds a value that does not exist");
-  if (taken_ > 0 && sample.out.cycle != last_cycle_ + 1)
-    fail("is damaged: cycle " + std::to_string(sample.out.cycle) + " follows cycle " +
-         std::to_string(last_cycle_));
+  check_cycle(sample);
   last_cycle_ = sample.out.cycle;
   ++taken_;
   hash_.add(outputs_of(bytes));
   return true;
+}
+
+void TraceReader::check_cycle(const TraceSample& sample) const {
+  const auto damaged = [&](const std::string& how) {
+    fail("is damaged: cycle " + std::to_string(sample.out.cycle) + how);
+  };
+  if (taken_ > 0 && sample.out.cycle != last_cycle_ + 1)
+    damaged(" follows cycle " + std::to_string(last_cycle_));
+  if (sample.skipped < 0) damaged(" skipped " + std::to_string(sample.skipped) + " deadlines");
 }
 
 void TraceReader::check_end() const {

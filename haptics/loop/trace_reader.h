@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -26,13 +27,12 @@ class TraceReader {
   std::uint64_t cycles() const noexcept { return cycles_; }  // in all whole data blocks
   bool torn() const noexcept { return torn_; }               // true only when salvaging
 
-  // False after the last cycle. Throws FileError where a block is damaged, cycles do not follow one another,
-  // or the outputs are not those that the end block vouches for.
+  // False after the last cycle. Throws FileError where a block is damaged, a cycle holds what cannot be or
+  // does not follow the one before, or the outputs are not those that the end block vouches for.
   bool next(TraceSample& sample);
 
-  std::uint64_t hash() const noexcept {
-    return hash_.value();
-  }  // of the parameters and the outputs read so far
+  // Of the parameters and the outputs read so far.
+  std::uint64_t hash() const noexcept { return hash_.value(); }
 
  private:
   struct Block {
@@ -49,6 +49,7 @@ class TraceReader {
   void check_scanned();
   bool load_block();
   bool stop_or_fail(const std::string& reason);
+  void check_cycle(const TraceSample& sample) const;
   void check_end() const;
   void read(std::uint64_t at, std::span<std::byte> to);
   std::vector<std::byte> read_payload(const Block& block);

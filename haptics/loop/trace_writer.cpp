@@ -10,8 +10,8 @@ namespace gearshift {
 TraceWriter::TraceWriter(const std::filesystem::path& file, const TraceHeader& header)
     : name_(file.string()), file_(std::fopen(name_.c_str(), "wb")), hash_(begin_hash(header)) {
   if (!file_) throw FileError(name_, 0, std::string("cannot be written: ") + std::strerror(errno));
-  std::setvbuf(file_.get(), nullptr, _IONBF,
-               0);  // blocks are large: a failure shows at the block that failed
+  // Blocks are large: without a buffer, a failure shows at the block that failed.
+  std::setvbuf(file_.get(), nullptr, _IONBF, 0);
   block_.reserve(kSamplesPerBlock * kSampleBytes);
 
   write(std::as_bytes(std::span(kTraceMagic)));

@@ -1,6 +1,5 @@
-// Writes a trace file. It is written under its final name from the start: a killed program then leaves a file
-// that lacks its end block, is recognised as torn, and lies where one looks for it with all its intact
-// cycles.
+// Writes a trace file, under its final name from the start: a killed program then leaves a file that lacks
+// its end block, is recognised as torn, and lies where one looks for it, with all its intact cycles.
 #pragma once
 
 #include <cstdint>
@@ -17,8 +16,7 @@ namespace gearshift {
 
 class TraceWriter {
  public:
-  // Throws FileError when the file cannot be created or its header not be written. Replaces a file of that
-  // name.
+  // Replaces a file of that name. Throws FileError when it cannot be created or its header not be written.
   TraceWriter(const std::filesystem::path& file, const TraceHeader& header);
 
   // A failure to write is kept in problem(); everything after it is ignored. No allocation in health.

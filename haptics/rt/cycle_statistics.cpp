@@ -45,8 +45,4 @@ std::int64_t DurationHistogram::quantile(double q) const noexcept {
   return max_;  // the last bin is open
 }
 
-void DurationHistogram::clear() noexcept {
-  *this = DurationHistogram{};
-}
-
 }  // namespace gearshift

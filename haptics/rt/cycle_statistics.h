@@ -8,15 +8,14 @@
 namespace gearshift {
 
 // Log-spaced histogram of durations from 1 ns to over 10 s. Below 64 ns every nanosecond has its bin, above
-// that every octave has 64: no bin is wider than 1/64 = 1.6 % of its value. Not synchronised: one thread at a
-// time.
+// that every octave has 64: no bin is wider than 1/64 = 1.6 % of its value.
+// Not synchronised: one thread at a time.
 class DurationHistogram {
  public:
   void add(std::int64_t ns) noexcept;                 // negative counts as 0. Real-time safe
   std::int64_t quantile(double q) const noexcept;     // [ns] upper edge of the bin, q in [0, 1]; 0 when empty
   std::int64_t max() const noexcept { return max_; }  // [ns] exact
   std::uint64_t count() const noexcept { return count_; }
-  void clear() noexcept;
 
  private:
   static constexpr int kSubBits = 6;  // 2^6 bins per octave

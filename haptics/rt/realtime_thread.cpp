@@ -19,8 +19,8 @@
 namespace gearshift {
 namespace {
 
-constexpr std::int64_t kSecond = 1'000'000'000;  // [ns]
-constexpr std::size_t kStackBytes = 256 * 1024;  // touched before the first cycle
+constexpr std::int64_t kSecond = 1'000'000'000;               // [ns]
+constexpr std::size_t kStackBytes = std::size_t{256} * 1024;  // touched before the first cycle
 constexpr std::size_t kPageBytes = 4096;
 
 std::int64_t now_ns() noexcept {
@@ -58,8 +58,7 @@ bool may_lock_any_amount() noexcept {
 
 // Each returns what was refused, or nothing.
 std::string lock_memory() {
-  // Under a finite limit a lock that succeeds now makes some later allocation of the program fail: worse than
-  // none.
+  // Under a finite limit, a lock that succeeds now makes some later allocation fail: worse than none.
   if (!may_lock_any_amount()) return "the memory lock was refused (grant it with 'memlock unlimited')";
   if (mlockall(MCL_CURRENT | MCL_FUTURE) == 0) return {};
   return std::string("the memory lock was refused: ") + std::strerror(errno) +
@@ -88,6 +87,19 @@ void append(std::string& sentence, const std::string& part) {
   if (part.empty()) return;
   sentence += sentence.empty() ? "not real-time: " : ", and ";
   sentence += part;
+}
+
+// Woken late by whole periods: the newest deadline that has passed is taken, those before it are skipped.
+CycleCall newest_passed(const CycleCall& call, std::int64_t woke, std::int64_t period) noexcept {
+  const std::int64_t missed = (woke - call.deadline_ns) / period;
+  return {call.deadline_ns + missed * period, call.skipped + missed};
+}
+
+// Ended after the next deadline: that one and every other that has passed are skipped, never caught up.
+CycleCall first_ahead(const CycleCall& call, std::int64_t done, std::int64_t period) noexcept {
+  const std::int64_t next = call.deadline_ns + period;
+  const std::int64_t missed = done > next ? (done - next + period - 1) / period : 0;
+  return {next + missed * period, missed};
 }
 
 void check(const RealtimeConfig& config) {
@@ -154,30 +166,20 @@ std::int64_t RealtimeThread::wait_until(std::int64_t deadline) const noexcept {
 
 void RealtimeThread::run() noexcept {
   const std::int64_t period = config_.period_ns;
-  std::int64_t deadline = now_ns() + period;
-  std::int64_t skipped = 0;
+  CycleCall next{now_ns() + period, 0};
   while (true) {
-    const std::int64_t woke = wait_until(deadline);
+    const std::int64_t woke = wait_until(next.deadline_ns);
     if (stop_.load(std::memory_order_relaxed)) return;
+    statistics_.wake_lateness.add(woke - next.deadline_ns);
+    next = newest_passed(next, woke, period);
+    statistics_.skipped += static_cast<std::uint64_t>(next.skipped);
 
-    // Woken late by whole periods: take the newest deadline that has passed.
-    const std::int64_t lateness = woke - deadline;
-    skipped += lateness / period;
-    deadline += lateness / period * period;
-    statistics_.wake_lateness.add(lateness);
-    statistics_.skipped += static_cast<std::uint64_t>(skipped);
-
-    cycle_({deadline, skipped});
+    cycle_(next);
     const std::int64_t done = now_ns();
     statistics_.duration.add(done - woke);
     ++statistics_.cycles;
-
-    // Ended after the next deadline: that one and every other that has passed are skipped, never caught up.
-    deadline += period;
-    const std::int64_t behind = done - deadline;
-    skipped = behind > 0 ? (behind + period - 1) / period : 0;
-    statistics_.overruns += behind > 0 ? 1 : 0;
-    deadline += skipped * period;
+    next = first_ahead(next, done, period);
+    statistics_.overruns += next.skipped > 0 ? 1 : 0;
   }
 }
 

@@ -12,7 +12,7 @@
 namespace gearshift {
 
 enum class RealtimePolicy {
-  required,    // refuse to start without real-time scheduling and locked memory
+  required,    // refuse to start without real-time scheduling, locked memory and the core that is named
   best_effort  // start anyway and say why it is not real-time
 };
 
@@ -45,10 +45,8 @@ class RealtimeThread {
   void start(const RealtimeConfig& config, std::function<void(const CycleCall&)> cycle);
   void stop() noexcept;  // joins within a period; may be called twice, not from inside `cycle`
 
-  // SCHED_FIFO was granted.
-  bool is_realtime() const noexcept { return realtime_; }
-  // Empty, or one sentence on what was refused and how to grant it.
-  const std::string& why_not() const noexcept { return why_not_; }
+  bool is_realtime() const noexcept { return realtime_; }           // SCHED_FIFO was granted
+  const std::string& why_not() const noexcept { return why_not_; }  // what was refused, or empty
   const CycleStatistics& statistics() const noexcept { return statistics_; }
 
  private:

@@ -46,8 +46,8 @@ class SpscQueue {
  private:
   // Three groups of cache lines: read by both and never written, the writer's, the reader's. Each side keeps
   // a copy of the other's counter on its own line and looks at the original only when the copy says full or
-  // empty, so a push and a pop far apart touch no common line. The counters run on and wrap; only their
-  // difference counts.
+  // empty, so a push and a pop far apart touch no common line.
+  // The counters run on and wrap; only their difference counts.
   std::vector<T> slots_;
   std::size_t mask_;
   alignas(64) std::atomic<std::size_t> tail_{0};

@@ -5,14 +5,12 @@
 
 #include <glm/common.hpp>
 
+#include "haptics/joystick/finite.h"
+
 namespace gearshift {
 namespace {
 
 using glm::dvec2;
-
-bool is_finite(dvec2 v) noexcept {
-  return std::isfinite(v.x) && std::isfinite(v.y);
-}
 
 }  // namespace
 
@@ -40,12 +38,11 @@ GuardOutput ForceGuard::guard(const GuardInput& in) noexcept {
     last_ = {0.0, 0.0};
     return {};
   }
-  const dvec2 wanted = state_ == GuardState::damped ? damped_force(in) : in.force;
-  const dvec2 slewed = glm::clamp(wanted, last_ - config_.slew, last_ + config_.slew);
-  const dvec2 clamped = glm::clamp(slewed, -max_force_, max_force_);
-  last_ = clamped;
-  const bool saturated = std::abs(wanted.x) > max_force_.x || std::abs(wanted.y) > max_force_.y;
-  return {clamped * ramp_gain(), saturated && state_ != GuardState::damped};
+  if (state_ == GuardState::damped) return {glm::clamp(damped_force(in), -max_force_, max_force_), false};
+  const dvec2 slewed = glm::clamp(in.force, last_ - config_.slew, last_ + config_.slew);
+  last_ = glm::clamp(slewed, -max_force_, max_force_);
+  const bool saturated = std::abs(in.force.x) > max_force_.x || std::abs(in.force.y) > max_force_.y;
+  return {last_ * ramp_gain(), saturated};
 }
 
 // Looks for every fault before a force is let through. What is worse wins.
@@ -58,7 +55,7 @@ void ForceGuard::watch(const GuardInput& in) noexcept {
     return fall(GuardState::released, GuardFault::not_finite);
   }
   if (is_outside) return fall(GuardState::released, GuardFault::limit_broken);
-  if (stale_ > stale_limit_) return fall(GuardState::damped, GuardFault::stale_reading);
+  if (stale_ > stale_limit_ && state_ != GuardState::armed) return fall(GuardState::damped, GuardFault::stale_reading);
   if (overruns_ >= config_.overruns_in_row) return fall(GuardState::damped, GuardFault::overruns);
 }
 
@@ -69,7 +66,7 @@ void ForceGuard::fall(GuardState state, GuardFault fault) noexcept {
   fault_ = fault;
   fade_from_ = last_ * ramp_;
   fade_ = 1.0;
-  ramp_ = state == GuardState::damped ? 1.0 : 0.0;
+  ramp_ = 0.0;
 }
 
 // The last force dies away within fade_time; while readings are fresh, damping is left.

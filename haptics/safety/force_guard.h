@@ -20,13 +20,13 @@ enum class GuardFault : std::uint8_t { none, stale_reading, overruns, not_finite
 const char* guard_fault_name(GuardFault fault) noexcept;
 
 struct GuardConfig {
-  double slew = 25.0;           // [N/cycle] largest change of force per axis; a hard impact needs 16 at 1 kHz
-  double ramp_time = 0.5;       // [s] from armed to full force
-  double stale_time = 0.020;    // [s] without a fresh reading before damped
-  double fade_time = 0.020;     // [s] in which the force dies away after that
-  int overruns_in_row = 8;      // [cycles] before damped
-  double damped_damping = 5.0;  // [N s/m] in the state damped, while readings are fresh
-  double position_margin = 0.02;  // [m] beyond the device's workspace counts as a broken limit
+  double slew = 25.0;             // [N/cycle] 0.1 to 100, largest change per axis; an impact needs 16 at 1 kHz
+  double ramp_time = 0.5;         // [s] 0.001 to 60, from armed to full force
+  double stale_time = 0.020;      // [s] 0.001 to 1, without a fresh reading before damped
+  double fade_time = 0.020;       // [s] 0.001 to 1, in which the force dies away after that
+  int overruns_in_row = 8;        // [cycles] 1 to 1000, before damped
+  double damped_damping = 5.0;    // [N s/m] 0 to 50, in the state damped, while readings are fresh
+  double position_margin = 0.02;  // [m] 0 to 1, beyond the device's workspace counts as a broken limit
 };
 
 struct GuardInput {

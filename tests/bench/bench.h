@@ -25,8 +25,7 @@ bool meets_goal(const BenchRow& row) noexcept;
 struct BenchOptions {
   std::string gate_folder;     // where the shipped layouts are
   bool quick = false;          // fewer repetitions: a look, not a figure to quote
-  double jitter_block = 10.0;  // [s] of each alternating block
-  int jitter_blocks = 5;
+  double jitter_block = 60.0;  // [s] of each alternating block
   std::function<void(std::string_view family, double share)> progress;  // share in [0, 1]; may be empty
 };
 

@@ -1,9 +1,7 @@
 // Cost of the whole haptic cycle, and of its stages.
-#include <algorithm>
 #include <array>
-#include <chrono>
-
-#include <glm/geometric.hpp>
+#include <string>
+#include <vector>
 
 #include "tests/bench/bench.h"
 #include "tests/bench/tape_device.h"
@@ -65,33 +63,44 @@ void run_tape(const Gate& gate, TapeDevice& device, std::size_t cycles, CycleTim
   }
 }
 
+struct Medians {
+  std::vector<double> p50, p99;  // [ns] of each tour
+  CycleTimes last;
+};
+
+Medians run_tours(const Gate& gate, const Tape& tape, int runs, const BenchOptions& options) {
+  TapeDevice device(tape.spec, tape.readings);
+  Medians medians;
+  for (int i = 0; i < runs; ++i) {
+    if (options.progress) options.progress("cycle", static_cast<double>(i) / runs);
+    medians.last.whole.clear();
+    run_tape(gate, device, tape.readings.size(), medians.last);
+    for (double& t : medians.last.whole) t /= ticks_per_ns();
+    medians.p50.push_back(quantile(medians.last.whole, 0.5));
+    medians.p99.push_back(quantile(medians.last.whole, 0.99));
+  }
+  return medians;
+}
+
 }  // namespace
 
 std::vector<BenchRow> bench_cycle(const BenchOptions& options) {
   const Gate gate = bench_gate(options.gate_folder, "paper");
   const Tape tape = record_tour(gate);
-  TapeDevice device(tape.spec, tape.readings);
   const int runs = options.quick ? 5 : 50;
-  CycleTimes stages;
-  std::vector<double> p50, p99;
-  for (int i = 0; i < runs; ++i) {
-    if (options.progress) options.progress("cycle", static_cast<double>(i) / runs);
-    stages.whole.clear();
-    run_tape(gate, device, tape.readings.size(), stages);
-    for (double& t : stages.whole) t /= ticks_per_ns();
-    p50.push_back(quantile(stages.whole, 0.5));
-    p99.push_back(quantile(stages.whole, 0.99));
-  }
-  const std::string note = "median of " + std::to_string(runs) + " tours";
-  std::vector<BenchRow> rows{{"cycle", "whole cycle p50", quantile(p50, 0.5), "ns", 200.0, false, note},
-                             {"cycle", "whole cycle p99", quantile(p99, 0.5), "ns", 500.0, false,
-                              note + "; every 64th cycle carries nine clock reads"},
-                             {"cycle", "cycles in contact", 100.0 * tape.contact_share, "%", 30.0, true,
-                              "gripping hand, paper's gate, 1 kHz"}};
+  Medians medians = run_tours(gate, tape, runs, options);
+  const std::string note =
+      "median of " + std::to_string(runs) + " tours; every 64th cycle carries nine clock reads";
+  std::vector<BenchRow> rows{
+      {"cycle", "whole cycle p50", quantile(medians.p50, 0.5), "ns", 200.0, false, note},
+      {"cycle", "whole cycle p99", quantile(medians.p99, 0.5), "ns", 500.0, false, note},
+      {"cycle", "cycles in contact", 100.0 * tape.contact_share, "%", 30.0, true,
+       "gripping hand, paper's gate, 1 kHz"}};
   for (std::size_t s = 0; s < kStages; ++s) {
+    const std::string stage = std::string("stage ") + kStageNames[s];
     rows.push_back({"cycle",
-                    std::string("stage ") + kStageNames[s],
-                    quantile(stages.stages[s], 0.5),
+                    stage,
+                    quantile(medians.last.stages[s], 0.5),
                     "ns",
                     {},
                     false,

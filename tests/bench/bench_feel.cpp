@@ -10,18 +10,19 @@
 namespace gearshift {
 namespace {
 
+constexpr int kWarmUp = 600;      // [cycles] at neutral: the guard's ramp
 constexpr double kSpeed = 0.005;  // [m/s] slow enough that damping is known and small
 
 // Readings of a lever that glides at constant speed from neutral to the rest of a gear.
 std::vector<LeverReading> glide(const Gate& gate, int gear) {
   const glm::dvec2 to = rest_position(gate, gear);
   std::vector<LeverReading> tape;
-  const int warm_up = 600, steps = static_cast<int>(std::abs(to.y) / (kSpeed * 0.001));
-  for (int i = 0; i < warm_up + steps; ++i) {
+  const int steps = static_cast<int>(std::abs(to.y) / (kSpeed * 0.001));
+  for (int i = 0; i < kWarmUp + steps; ++i) {
     LeverReading reading;
     reading.sequence = static_cast<std::uint64_t>(i) + 1;
-    reading.time_ns = i * 1'000'000;
-    reading.position = {to.x, to.y * std::max(0, i - warm_up) / steps};
+    reading.time_ns = i * std::int64_t{1'000'000};
+    reading.position = {to.x, to.y * std::max(0, i - kWarmUp) / steps};
     tape.push_back(reading);
   }
   return tape;
@@ -41,7 +42,7 @@ double worst_error(const Gate& gate, const Slot& slot) {
   loop.arm();
   double worst = 0.0, strongest = 0.0;
   const int side = static_cast<int>(slot.side);
-  const int cycles = static_cast<int>(600 + slot.rest / (kSpeed * 0.001));
+  const int cycles = static_cast<int>(kWarmUp + slot.rest / (kSpeed * 0.001));
   for (int i = 0; i < cycles; ++i) {
     loop.cycle(i * 1'000'000LL, 0);
     const double depth = side * loop.snapshot().lever.y;

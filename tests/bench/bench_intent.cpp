@@ -1,6 +1,10 @@
 // Where a noisy hand ends up: the gear that it meant?
-#include <cstdio>
+#include <algorithm>
+#include <filesystem>
 #include <random>
+#include <span>
+#include <string>
+#include <utility>
 
 #include "tests/bench/bench.h"
 #include "tests/bench/touring.h"
@@ -52,36 +56,47 @@ int outcome(const Gate& gate, const Aim& aim) {
   return run.loop().snapshot().gear;
 }
 
+std::vector<std::string> gates_in(const std::string& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  }
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+constexpr int kMostListed = 12;  // misses that a row names
+
+BenchRow intent_row(const Gate& gate, const std::string& name, int aims) {
+  std::mt19937_64 random(1);
+  int misses = 0;
+  std::string listed;
+  for (int i = 0; i < aims; ++i) {
+    const Aim aim = random_aim(gate, random);
+    const int got = outcome(gate, aim);
+    if (got == aim.to || ++misses > kMostListed) continue;
+    listed += std::string(" ") + gear_name(aim.from) + ">" + gear_name(aim.to) + ":" + gear_name(got);
+  }
+  return {"intent",
+          name,
+          100.0 * (aims - misses) / aims,
+          "% as meant",
+          99.0,
+          true,
+          std::to_string(aims) +
+              " aims, 3 mm noise, misses (from>meant:got):" + (misses == 0 ? " none" : listed)};
+}
+
 }  // namespace
 
 std::vector<BenchRow> bench_intent(const BenchOptions& options) {
-  static constexpr const char* kGates[] = {"paper",
-                                           "five_speed_r_left_up",
-                                           "five_speed_r_right_down",
-                                           "six_speed_r_left_up",
-                                           "six_speed_r_left_down",
-                                           "six_speed_r_right_down",
-                                           "dog_leg_five",
-                                           "four_speed"};
   const int aims = options.quick ? 500 : 10000;
+  const std::vector<std::string> names = gates_in(options.gate_folder);
   std::vector<BenchRow> rows;
-  for (const char* name : kGates) {
-    if (options.progress) options.progress("intent", static_cast<double>(rows.size()) / 8.0);
-    const Gate gate = bench_gate(options.gate_folder, name);
-    std::mt19937_64 random(1);
-    int hits = 0, listed = 0;
-    std::string misses;
-    for (int i = 0; i < aims; ++i) {
-      const Aim aim = random_aim(gate, random);
-      const int got = outcome(gate, aim);
-      hits += got == aim.to;
-      if (got == aim.to || ++listed > 12) continue;
-      misses += std::string(misses.empty() ? "" : " ") + gear_name(aim.from) + ">" + gear_name(aim.to) + ":" +
-                gear_name(got);
-    }
-    rows.push_back({"intent", name, 100.0 * hits / aims, "% as meant", 99.0, true,
-                    std::to_string(aims) +
-                        " aims, 3 mm noise, misses (from>meant:got): " + (misses.empty() ? "none" : misses)});
+  for (const std::string& name : names) {
+    if (options.progress)
+      options.progress("intent", static_cast<double>(rows.size()) / static_cast<double>(names.size()));
+    rows.push_back(intent_row(bench_gate(options.gate_folder, name), name, aims));
   }
   return rows;
 }

@@ -17,6 +17,7 @@ namespace gearshift {
 namespace {
 
 constexpr int kPriority = 80;
+constexpr int kBlocks = 5;  // of each contestant, alternating
 constexpr std::array<double, 2> kQuantiles{0.99, 0.999};
 
 struct Lateness {
@@ -112,15 +113,14 @@ struct Contest {
 Contest compete(const Gate& gate, const BenchOptions& options, bool loaded) {
   const Load load(loaded);
   const int core = static_cast<int>(std::thread::hardware_concurrency()) - 1;
-  const int blocks = options.quick ? 1 : options.jitter_blocks;
-  const double seconds = options.quick ? 2.0 : options.jitter_block;
+  const int blocks = options.quick ? 1 : kBlocks;
   Contest contest;
   for (int b = 0; b < blocks; ++b) {
     if (options.progress)
       options.progress("jitter", (static_cast<double>(b) / blocks + (loaded ? 1.0 : 0.0)) / 2.0);
-    const Lateness theirs = run_cyclictest(seconds, core);
-    const Lateness sleeping = run_ours(gate, seconds, 0, core);
-    const Lateness spinning = run_ours(gate, seconds, RealtimeConfig{}.spin_ns, core);
+    const Lateness theirs = run_cyclictest(options.jitter_block, core);
+    const Lateness sleeping = run_ours(gate, options.jitter_block, 0, core);
+    const Lateness spinning = run_ours(gate, options.jitter_block, RealtimeConfig{}.spin_ns, core);
     for (std::size_t i = 0; i < 2; ++i) {
       contest.theirs[i].push_back(theirs.us[i]);
       contest.sleeping[i].push_back(sleeping.us[i]);
@@ -132,35 +132,23 @@ Contest compete(const Gate& gate, const BenchOptions& options, bool loaded) {
   return contest;
 }
 
-void add_rows(std::vector<BenchRow>& rows, Contest& contest, const BenchOptions& options, bool loaded) {
+// Ours beside theirs: the figure itself, and the median of the blocks' ratios, which is what is compared.
+void add_ours(std::vector<BenchRow>& rows, const std::string& what, std::vector<double>& us,
+              std::vector<double>& ratio, const std::string& note) {
+  rows.push_back({"jitter", "ours, " + what, quantile(us, 0.5), "us", {}, false, note});
+  rows.push_back({"jitter", "ours / cyclictest, " + what, quantile(ratio, 0.5), "ratio", 1.2, false, note});
+}
+
+void add_rows(std::vector<BenchRow>& rows, Contest& contest, double seconds, bool loaded) {
   const std::string where = loaded ? ", beside one busy thread per core" : ", alone";
-  const std::string note =
-      "median of " + std::to_string(contest.theirs[0].size()) + " alternating blocks of " +
-      std::to_string(static_cast<int>(options.quick ? 2.0 : options.jitter_block)) + " s";
-  for (std::size_t i = 0; i < 2; ++i) {
-    const std::string q = i == 0 ? "p99" : "p99.9";
-    rows.push_back(
-        {"jitter", "cyclictest " + q + where, quantile(contest.theirs[i], 0.5), "us", {}, false, note});
-    rows.push_back({"jitter",
-                    "ours, sleep only, " + q + where,
-                    quantile(contest.sleeping[i], 0.5),
-                    "us",
-                    {},
-                    false,
-                    note});
-    rows.push_back({"jitter", "ours, sleep only / cyclictest, " + q + where,
-                    quantile(contest.sleeping_ratio[i], 0.5), "ratio", 1.2, false,
-                    "median of the blocks' ratios"});
-    rows.push_back({"jitter",
-                    "ours, spin 50 us, " + q + where,
-                    quantile(contest.spinning[i], 0.5),
-                    "us",
-                    {},
-                    false,
-                    note});
-    rows.push_back({"jitter", "ours, spin 50 us / cyclictest, " + q + where,
-                    quantile(contest.spinning_ratio[i], 0.5), "ratio", 1.2, false,
-                    "median of the blocks' ratios"});
+  const std::string note = "median of " + std::to_string(contest.theirs[0].size()) +
+                           " alternating blocks of " + std::to_string(static_cast<int>(seconds)) + " s";
+  for (std::size_t i = 0; i < kQuantiles.size(); ++i) {
+    std::string at = i == 0 ? "p99" : "p99.9";
+    at += where;
+    rows.push_back({"jitter", "cyclictest, " + at, quantile(contest.theirs[i], 0.5), "us", {}, false, note});
+    add_ours(rows, "sleep only, " + at, contest.sleeping[i], contest.sleeping_ratio[i], note);
+    add_ours(rows, "spin 50 us, " + at, contest.spinning[i], contest.spinning_ratio[i], note);
   }
 }
 
@@ -182,7 +170,7 @@ std::vector<BenchRow> bench_jitter(const BenchOptions& options) {
       Contest contest = compete(gate, options, loaded);
       if (quantile(contest.theirs[0], 0.5) == 0.0)
         return {not_measurable("cyclictest has no real-time rights")};
-      add_rows(rows, contest, options, loaded);
+      add_rows(rows, contest, options.jitter_block, loaded);
     }
   } catch (const std::runtime_error& error) {
     return {not_measurable(error.what())};

@@ -1,5 +1,4 @@
 // Integrators of the plant, ns against error: the exact step beside the two that one would write first.
-#include <chrono>
 #include <cmath>
 
 #include "haptics/joystick/plant.h"

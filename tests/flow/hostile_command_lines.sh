@@ -1,12 +1,14 @@
 #!/usr/bin/env bash
 # Every bad command line: the stated exit code, one sentence on stderr, nothing on stdout, no file left behind.
-# Usage: hostile_command_lines.sh GEARSHIFT
+# Usage: hostile_command_lines.sh GEARSHIFT SOURCE_FOLDER
 set -u
 gearshift=$1
+source=$2
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 cd "$work" || exit 1
 printf 'name = "x"\n' >nameless.toml
+{ printf 'name = """two\nlines"""\n'; grep -v '^name' "$source/assets/gates/paper.toml"; } >two_lines.toml
 head -c 64 /dev/zero >zeros.trace
 printf '\x89GSTRC\r\n\xff\xff\xff\xff' >newer.trace
 mkdir folder
@@ -43,6 +45,14 @@ refuse 2 "--hand" tour --out t --hand 1,2
 refuse 2 "--hand" tour --out t --hand 1,2,3,4
 refuse 2 "--hand" tour --out t --hand -1,2,300
 refuse 2 "--hand" tour --out t --hand 0.1,inf,300
+refuse 2 "mass = 2000" tour --out t --hand 2000,1,300
+refuse 2 "damping = 20000" tour --out t --hand 1,20000,300
+refuse 2 "stiffness = 2000000" tour --out t --hand 1,1,2000000
+refuse 2 "--seed" tour --out t --seed -1
+refuse 2 "--seed" tour --out t --seed 1.5
+refuse 2 "--hand" tour --out t --hand fist --gate spaceship
+refuse 1 "nameless.toml" tour --out t --gate nameless.toml
+refuse 1 "two_lines.toml" tour --out t --gate two_lines.toml
 refuse 1 "paper" tour --out t --gate spaceship
 refuse 1 "empty" tour --out empty
 refuse 1 "/proc" tour --out /proc/nowhere
@@ -50,6 +60,7 @@ refuse 2 "extra" tour --out t extra
 refuse 2 "LAYOUT" gate
 refuse 1 "paper" gate no_such_gate
 refuse 1 "nameless.toml" gate nameless.toml
+refuse 1 "two_lines.toml" gate two_lines.toml
 refuse 1 "folder" gate folder
 refuse 1 "empty" gate ./empty
 refuse 1 "zeros.trace" gate zeros.trace

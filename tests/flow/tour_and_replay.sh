@@ -1,41 +1,79 @@
 #!/usr/bin/env bash
 # The tour as a user runs it: every shipped gate, plots that are pictures, a trace that replays bit for bit in another
 # process, the same hash twice, and a damaged trace refused.
-# Usage: tour_and_replay.sh GEARSHIFT
-set -eu
+# Usage: tour_and_replay.sh GEARSHIFT SOURCE_FOLDER
+set -u
 gearshift=$1
+gates=$2/assets/gates
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
-cd "$work"
+cd "$work" || exit 1
+passed=0
+failed=0
 
-fail() { echo "FAILED: $*"; exit 1; }
+check() { # what, command ...
+  local what=$1
+  shift
+  if "$@"; then
+    passed=$((passed + 1))
+  else
+    echo "FAILED: $what"
+    failed=$((failed + 1))
+  fi
+}
 
-for gate in paper five_speed_r_left_up five_speed_r_right_down six_speed_r_left_up six_speed_r_left_down \
-            six_speed_r_right_down dog_leg_five four_speed; do
-  "$gearshift" tour --out "$gate" --gate "$gate" >"$gate.txt" || fail "tour of $gate"
-  "$gearshift" replay "$gate/tour.trace" | grep -q "^bit for bit" || fail "replay of $gate"
-  "$gearshift" gate "$gate" --json >"$gate.json" || fail "gate $gate"
-  "$gearshift" gate "$gate" --svg "$gate.svg" >/dev/null && grep -q "</svg>" "$gate.svg" || fail "drawing of $gate"
+tour() { # name of the result, arguments ...
+  local name=$1
+  shift
+  "$gearshift" tour --out "$name" "$@" >"$name.txt" 2>"$name.err"
+}
+replays() { "$gearshift" replay "$1/tour.trace" | grep -q "^bit for bit"; }
+describes() { "$gearshift" gate "$1" --json >"$1.json"; }
+draws() { "$gearshift" gate "$1" --svg "$1.svg" >/dev/null 2>&1 && grep -q "</svg>" "$1.svg"; }
+is_png() { [ "$(head -c 4 "$1" | tail -c 3)" = PNG ]; }
+hash_of() { grep -o 'hash.*' "$1.txt"; }
+same_hash() { [ -n "$(hash_of "$1")" ] && [ "$(hash_of "$1")" = "$(hash_of "$2")" ]; }
+order_of() { awk '/engaged/{print $1}' "$1.txt" | tr '\n' ' '; }
+
+for layout in "$gates"/*.toml; do
+  gate=$(basename "$layout" .toml)
+  check "tour of $gate" tour "$gate" --gate "$gate"
+  check "replay of $gate" replays "$gate"
+  check "gate $gate" describes "$gate"
+  check "drawing of $gate" draws "$gate"
 done
-grep -A6 "Hz" paper.txt | awk '/engaged/{print $1}' | tr '\n' ' ' | grep -q "^1 2 3 4 5 R $" || fail "order of Fig. 9"
+check "order of Fig. 9" [ "$(order_of paper)" = "1 2 3 4 5 R " ]
+check "no word on stderr where it is no terminal" [ ! -s paper.err ]
 
 for plot in trajectory force; do
-  [ "$(head -c 4 paper/$plot.png | tail -c 3)" = PNG ] || fail "$plot.png is no picture"
-  grep -q "</svg>" paper/$plot.svg || fail "$plot.svg is not whole"
+  check "$plot.png is a picture" is_png "paper/$plot.png"
+  check "$plot.svg is whole" grep -q "</svg>" "paper/$plot.svg"
 done
-head -n 1 paper/tour.csv | grep -q "time_s,.*lever_x_mm" || fail "units in the header of tour.csv"
+head -n 1 paper/tour.csv >header
+check "units in the header of tour.csv" grep -q "time_s,.*lever_x_mm" header
 
-"$gearshift" tour --out "a folder with spaces, ä" >again.txt || fail "a path with spaces"
-[ "$(grep -o 'hash.*' again.txt)" = "$(grep -o 'hash.*' paper.txt)" ] || fail "two runs, two hashes"
-LC_ALL=tr_TR.UTF-8 "$gearshift" tour --out turkish >turkish.txt 2>/dev/null || fail "Turkish locale"
-[ "$(grep -o 'hash.*' turkish.txt)" = "$(grep -o 'hash.*' paper.txt)" ] || fail "another locale, another hash"
-for rate in 100 250 4000; do "$gearshift" tour --out "rate$rate" --rate $rate >/dev/null 2>&1 || fail "$rate Hz"; done
-for hand in light arm 0.3,8,400; do "$gearshift" tour --out "hand" --hand $hand >/dev/null || fail "hand $hand"; done
+spaces="a folder with spaces, ä"
+check "a path with spaces" tour "$spaces"
+check "two runs, one hash" same_hash "$spaces" paper
+in_turkish() { env LC_ALL=tr_TR.UTF-8 "$gearshift" tour --out turkish >turkish.txt 2>/dev/null; }
+check "Turkish locale" in_turkish
+check "another locale, the same hash" same_hash turkish paper
+for rate in 100 250 4000; do check "$rate Hz" tour "rate$rate" --rate $rate; done
+for hand in light arm 0.3,8,400; do check "hand $hand" tour "hand$hand" --hand $hand; done
+check "another seed" tour seed --seed 2
+check "another seed, other aims" [ "$(hash_of seed)" != "$(hash_of paper)" ]
 
 # One bit in the middle of the file.
-size=$(stat -c %s paper/tour.trace)
-byte=$(od -An -tu1 -j $((size / 2)) -N 1 paper/tour.trace | tr -d ' ')
-printf "$(printf '\\x%02x' $((byte ^ 1)))" | dd of=paper/tour.trace bs=1 seek=$((size / 2)) conv=notrunc status=none
-"$gearshift" replay paper/tour.trace >/dev/null 2>err && fail "a flipped bit went unnoticed"
-[ "$(wc -l <err)" -eq 1 ] || fail "one sentence wanted"
-echo "1 passed, 0 failed"
+flip_a_bit() {
+  local size byte
+  size=$(stat -c %s "$1")
+  byte=$(od -An -tu1 -j $((size / 2)) -N 1 "$1" | tr -d ' ')
+  printf "$(printf '\\x%02x' $((byte ^ 1)))" | dd of="$1" bs=1 seek=$((size / 2)) conv=notrunc status=none
+}
+flip_a_bit paper/tour.trace
+"$gearshift" replay paper/tour.trace >/dev/null 2>err
+check "a flipped bit is noticed" [ $? -eq 1 ]
+check "and told in one sentence" [ "$(wc -l <err)" -eq 1 ]
+
+echo "$passed passed, $failed failed"
+[ $failed -eq 0 ]

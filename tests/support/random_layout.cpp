@@ -1,5 +1,5 @@
-// The rules are written here a second time on purpose, in tenths of a millimetre and of a newton: what this
-// file makes, the gate compiler must accept.
+// The rules are written here a second time on purpose, in tenths of a millimetre and of a newton:
+// what this file makes, the gate compiler must accept.
 #include "tests/support/random_layout.h"
 
 #include <algorithm>
@@ -10,9 +10,12 @@
 namespace gearshift {
 namespace {
 
-constexpr int kReachX = 701;  // [0.1 mm] 77.1 mm less 7 mm behind the walls
-constexpr int kReachY = 617;
-constexpr int kWall = 20;             // between two mouths
+constexpr double kRadius = 1200.0;    // [0.1 mm] of the yoke
+constexpr double kHalfX = 771.3;      // [0.1 mm] 120 mm sin(40 deg)
+constexpr double kHalfY = 688.2;      // [0.1 mm] 120 mm sin(35 deg)
+constexpr int kMargin = 70;           // [0.1 mm] behind the walls
+constexpr int kLongest = 600;         // [0.1 mm] of a slot: beyond, two columns may not fit
+constexpr int kWall = 20;             // [0.1 mm] between two mouths
 constexpr double kSteepest = 4000.0;  // [N/m]
 
 // The engine's output is standardised, the library's distributions are not.
@@ -64,9 +67,8 @@ void plan_sizes(Dice& dice, Plan& plan) {
   plan.buffer = dice.between(0, static_cast<int>(0.95 * plan.center / pull));
 }
 
-// A smooth step of height F over a length l is nowhere steeper than 1.5 F/l: the slot must be long enough for
-// that. From mouth to end stop the bump takes 0.14, the detent's rise 0.14, the lock's rise 0.24, its fall
-// 0.20.
+// A smooth step of height F over a length l is nowhere steeper than 1.5 F/l: the slot must be long enough.
+// From mouth to end stop the bump takes 0.14, the detent's rise 0.14, the lock's rise 0.24, its fall 0.20.
 void plan_length(Dice& dice, Plan& plan) {
   const auto need = [](int tenths_of_newton, double share) {
     return 1.5 * 0.1 * tenths_of_newton / share / kSteepest * 1e4;  // [0.1 mm]
@@ -76,12 +78,22 @@ void plan_length(Dice& dice, Plan& plan) {
                 need(plan.detent + plan.lock, 0.24), need(plan.lock, 0.20)});
   const int mouth = (plan.aisle + 1) / 2 + plan.chamfer;
   const int least = mouth + static_cast<int>(std::ceil(slot)) + 1;
-  plan.slot_length = dice.between(std::min(least, kReachY), kReachY);
+  plan.slot_length = dice.between(std::min(least, kLongest), kLongest);
+}
+
+// How far to the side a wall may be, so that its slot's corner and the margin behind it are in
+// reach: a joint's stop is an ellipse over the plane, (x / half.x)^2 + (y / radius)^2 = 1 for theta.
+int reach_aside(int slot_length) {
+  const auto side = [y = slot_length + kMargin](double half_x, double half_y) {
+    return half_x * std::sqrt(1.0 - (y / half_y) * (y / half_y));
+  };
+  return static_cast<int>(std::min(side(kHalfX, kRadius), side(kRadius, kHalfY))) - kMargin;
 }
 
 void plan_positions(Dice& dice, Plan& plan) {
   const int least = plan.slot_width + 2 * plan.chamfer + kWall;
-  const int span = 2 * kReachX - plan.slot_width - 1;
+  const int reach = reach_aside(plan.slot_length);
+  const int span = 2 * reach - plan.slot_width - 1;
   const int count = dice.between(2, std::min(5, span / least + 1));
   int spare = span - (count - 1) * least;
   std::vector<int> gaps;
@@ -90,7 +102,7 @@ void plan_positions(Dice& dice, Plan& plan) {
     spare -= extra;
     gaps.push_back(least + extra);
   }
-  int x = -kReachX + plan.slot_width / 2 + 1 + dice.between(0, spare);
+  int x = -reach + plan.slot_width / 2 + 1 + dice.between(0, spare);
   plan.position.push_back(x);
   for (const int gap : gaps) plan.position.push_back(x += gap);
   plan.neutral = static_cast<std::size_t>(dice.between(0, count - 1));

@@ -8,8 +8,7 @@
 
 namespace gearshift {
 
-// The same seed gives the same file on every machine. It fits the paper's joystick (half extent 77.1 x 68.8
-// mm).
+// The same seed gives the same file on every machine. It fits the paper's joystick, corners included.
 std::string random_layout_text(std::uint64_t seed);
 GateLayout random_layout(std::uint64_t seed);  // the same, read; in messages its file is "random_SEED.toml"
 

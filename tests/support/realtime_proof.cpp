@@ -63,11 +63,14 @@ F next(const char* name) noexcept {
 
 extern "C" {
 
+// The C library's own names for what stands behind malloc and its kin.
+// NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
 void* __libc_malloc(size_t) noexcept;
 void* __libc_calloc(size_t, size_t) noexcept;
 void* __libc_realloc(void*, size_t) noexcept;
 void* __libc_memalign(size_t, size_t) noexcept;
 void __libc_free(void*) noexcept;
+// NOLINTEND(bugprone-reserved-identifier,readability-identifier-naming)
 
 void* malloc(size_t size) noexcept {
   count_allocation();
@@ -97,7 +100,9 @@ void free(void* old) noexcept {
   __libc_free(old);
 }
 
-// One stand-in per function: count, then do what was asked.
+// One stand-in per function: count, then do what was asked. Its macro's arguments are a parameter list and a
+// specifier, which bear no parentheses of their own.
+// NOLINTBEGIN(bugprone-macro-parentheses)
 #define GEARSHIFT_COUNT_LOCK(name, parameters, arguments, specifier) \
   int name parameters specifier {                                    \
     static const auto real = next<int(*) parameters>(#name);         \
@@ -121,6 +126,7 @@ GEARSHIFT_COUNT_LOCK(sem_trywait, (sem_t * s), (s), noexcept)
 GEARSHIFT_COUNT_LOCK(sem_post, (sem_t * s), (s), noexcept)
 
 #undef GEARSHIFT_COUNT_LOCK
+// NOLINTEND(bugprone-macro-parentheses)
 }
 
 namespace gearshift {

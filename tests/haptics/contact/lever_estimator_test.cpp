@@ -43,6 +43,30 @@ TEST_CASE("constant speed is measured exactly; the smooth one follows 1 - exp(-t
   }
 }
 
+TEST_CASE("a device with its own clock: faster, slower or late samples, the speed is the true one") {
+  const auto sample = [](std::uint64_t sequence, std::int64_t time_ns) {
+    LeverReading r;
+    r.sequence = sequence;
+    r.time_ns = time_ns;
+    r.position = {0.3e-9 * static_cast<double>(time_ns), 0.0};
+    return r;
+  };
+  LeverEstimator fast_loop({}, kPeriod / 4.0);  // 1 kHz device, 4 kHz loop: three of four readings are repeated
+  for (int cycle = 0; cycle < 100; ++cycle) {
+    const LeverMotion m = fast_loop.update(sample(static_cast<std::uint64_t>(cycle / 4) + 1, (cycle / 4) * kPeriodNs));
+    if (m.fresh && cycle > 4) CHECK(m.velocity.x == doctest::Approx(0.3));
+  }
+  LeverEstimator slow_loop({}, kPeriod);  // 2 kHz device, 1 kHz loop: every second sample is seen
+  for (int cycle = 0; cycle < 100; ++cycle) {
+    const LeverMotion m = slow_loop.update(sample(2 * static_cast<std::uint64_t>(cycle) + 1, cycle * kPeriodNs));
+    if (cycle > 1) CHECK(m.velocity.x == doctest::Approx(0.3));
+  }
+  LeverEstimator late({}, kPeriod);  // one sample a millisecond late
+  late.update(sample(1, 0));
+  late.update(sample(2, kPeriodNs));
+  CHECK(late.update(sample(3, 3 * kPeriodNs)).velocity.x == doctest::Approx(0.3));
+}
+
 TEST_CASE("a dropped sample does not double the speed") {
   LeverEstimator estimator = moving_estimator(0.3, 10);
   CHECK(estimator.update(reading(12, {0.3 * kPeriod * 12, 0.0})).velocity.x == doctest::Approx(0.3));
@@ -60,6 +84,17 @@ TEST_CASE("repeated, backward, impossible and not finite readings are not fresh 
     CHECK_FALSE(m.fresh);
     CHECK(m.position == last);
     CHECK(m.velocity.x == doctest::Approx(0.3));
+  }
+}
+
+TEST_CASE("after 50 ms of silence the next reading is a new start: a plugged-in device counts from one again") {
+  for (const std::uint64_t restarted : {std::uint64_t{1}, std::uint64_t{500}}) {
+    LeverEstimator estimator = moving_estimator(0.3, 10);
+    for (int i = 0; i < 60; ++i) estimator.update(reading(10, {0.003, 0.0}));
+    const LeverMotion m = estimator.update(reading(restarted, {0.012, 0.0}));
+    CHECK(m.fresh);
+    CHECK(m.position == dvec2{0.012, 0.0});
+    CHECK(m.velocity == dvec2{0.0, 0.0});  // 9 mm in an unknown time is no speed
   }
 }
 

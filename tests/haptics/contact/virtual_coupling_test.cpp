@@ -1,6 +1,7 @@
 // Half-sample hold against the integral it stands for.
 #include "haptics/contact/virtual_coupling.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
@@ -24,7 +25,7 @@ double wall_force(const Gate& gate, const Coupling& coupling, double depth, doub
   LeverMotion motion;
   motion.position = {x, gate.half_aisle + depth};
   motion.velocity = {0.0, speed};
-  return -couple(coupling, gate, open_passage(gate), proxy, motion, kHandOver).y;
+  return -couple(coupling, gate, open_passage(gate), proxy, motion).force.y;
 }
 
 // Mean spring force over the coming period by quadrature: the answer that the hold must equal.
@@ -65,6 +66,43 @@ TEST_CASE("a wall never pulls, however fast the lever leaves it") {
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> depth(0.0, 5e-3), speed(-20.0, 20.0);
   for (int i = 0; i < 10000; ++i) REQUIRE(wall_force(gate, coupling, depth(random), speed(random)) >= 0.0);
+}
+
+TEST_CASE("damping acts along the wall's normal only: sliding along a wall costs nothing") {
+  const Gate gate = paper_gate();
+  const double x = 0.5 * (gate.column[0].center + gate.column[1].center);
+  const Proxy proxy{{x, gate.half_aisle}, {x, gate.half_aisle + 0.001}};
+  LeverMotion motion;
+  motion.position = {x, gate.half_aisle + 0.001};
+  motion.velocity = {0.5, 0.0};
+  const dvec2 force = couple({5000.0, 20.0, kPeriod}, gate, open_passage(gate), proxy, motion).force;
+  CHECK(std::abs(force.x) < 1e-9);
+  CHECK(force.y == doctest::Approx(-5.0));
+}
+
+TEST_CASE("damping adds B v inside the wall") {
+  const Gate gate = paper_gate();
+  const double spring = wall_force(gate, {5000.0, 0.0, kPeriod}, 2e-3, 0.1);
+  CHECK(wall_force(gate, {5000.0, 12.0, kPeriod}, 2e-3, 0.1) - spring == doctest::Approx(12.0 * 0.1));
+}
+
+TEST_CASE("round a mouth's corner at rest the force changes by at most K times the hand-over per cycle") {
+  const Gate gate = paper_gate();
+  const Column& column = gate.column[1];
+  const Coupling coupling{5000.0, 10.0, kPeriod};
+  Proxy proxy{{column.center - 0.012, gate.half_aisle}, {column.center - 0.012, gate.half_aisle + 0.005}};
+  dvec2 before{0.0, -25.0};
+  double most = 0.0;
+  for (int um = -12000; um < 12000; ++um) {  // 1 mm/s
+    LeverMotion motion;
+    motion.position = {column.center + 1e-6 * um, gate.half_aisle + 0.005};
+    proxy = move_proxy(gate, open_passage(gate), proxy, motion.position, kHandOver);
+    const dvec2 now = couple(coupling, gate, open_passage(gate), proxy, motion).force;
+    most = std::max(most, glm::distance(now, before));
+    before = now;
+  }
+  CHECK(most <= 5000.0 * (2e-6 + kHandOver) + 1e-9);
+  CHECK(most > 1.0);
 }
 
 TEST_CASE("no force in free space that is not about to end") {

@@ -145,6 +145,14 @@ TEST_CASE("a person's hand ignores what is not a number") {
   for (int i = 0; i < 1000; ++i) CHECK(std::isfinite(hand.next(0.0, {}).position.x));
 }
 
+TEST_CASE("a person's hand refuses a period or a smoothing out of range") {
+  LatestValue<HandTarget> channel;
+  CHECK_THROWS_WITH_AS(LedHand(channel, 0.0), "LedHand: period = 0: must be between 1e-06 and 1 s",
+                       std::invalid_argument);
+  CHECK_THROWS_WITH_AS(LedHand(channel, 1e-3, 2.0), "LedHand: smoothing = 2: must be between 0.001 and 1 s",
+                       std::invalid_argument);
+}
+
 TEST_CASE("a hand is a name or three numbers, and nothing else") {
   CHECK(hand_from_text("grip")->stiffness == 500.0);
   CHECK(hand_from_text("arm")->mass == 0.8);
@@ -158,7 +166,7 @@ TEST_CASE("a hand is a name or three numbers, and nothing else") {
 
 TEST_CASE("a bad script is refused with the stroke's number and the allowed range") {
   CHECK_THROWS_WITH_AS(ScriptedHand({}, {stroke_to({}, 0.3, 0.1), stroke_to({}, 0.0, 0.1)}, 1e-3),
-                       "ScriptedHand: stroke 1 duration is 0: allowed is 0.001 to 10000 s.",
+                       "ScriptedHand: stroke 1 duration = 0: must be between 0.001 and 10000 s",
                        std::invalid_argument);
   ScriptedHandConfig config;
   config.effort_limit = std::nan("");

@@ -301,23 +301,23 @@ TEST_CASE("the sensor's noise has the stated deviation, and the seed decides eve
 TEST_CASE("a bad value is refused in one sentence with parameter, value and allowed range") {
   SimulatedLeverConfig config;
   CHECK(refusal(config) == "accepted");
-  CHECK(refusal(config, 0) == "SimulatedLever: period_ns is 0: allowed is 1 to 1e+09 ns.");
+  CHECK(refusal(config, 0) == "SimulatedLever: period_ns = 0: must be between 1 and 1000000000 ns");
   config.delay = 9;
-  CHECK(refusal(config) == "SimulatedLever: delay is 9: allowed is 0 to 8 cycles.");
+  CHECK(refusal(config) == "SimulatedLever: delay = 9: must be between 0 and 8 cycles");
   config = {};
   config.axis_x.mass = 0.0;
-  CHECK(refusal(config) == "SimulatedLever: axis_x.mass is 0: allowed is 0.001 to 1000 kg.");
+  CHECK(refusal(config) == "SimulatedLever: axis_x.mass = 0: must be between 0.001 and 1000 kg");
   config = {};
   config.axis_y.damping = kNan;
-  CHECK(refusal(config) == "SimulatedLever: axis_y.damping is nan: allowed is 0 to 10000 N s/m.");
+  CHECK(refusal(config) == "SimulatedLever: axis_y.damping = nan: must be between 0 and 10000 N s/m");
   config = {};
   config.hand.stiffness = -1.0;
-  CHECK(refusal(config) == "SimulatedLever: hand.stiffness is -1: allowed is 0 to 1000000 N/m.");
+  CHECK(refusal(config) == "SimulatedLever: hand.stiffness = -1: must be between 0 and 1000000 N/m");
   config = {};
   config.encoder_counts = kInfinity;
   CHECK(refusal(config) ==
-        "SimulatedLever: encoder_counts other than 0 is inf: allowed is 1 to 1000000 counts/deg.");
+        "SimulatedLever: encoder_counts other than 0 = inf: must be between 1 and 1000000 counts/deg");
   config = {};
   config.actuator.continuous_force = 40.0;
-  CHECK(refusal(config) == "SimulatedLever: actuator.continuous_force is 40: allowed is 0 to 31.7 N.");
+  CHECK(refusal(config) == "SimulatedLever: actuator.continuous_force = 40: must be between 0 and 31.7 N");
 }

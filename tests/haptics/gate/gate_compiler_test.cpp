@@ -3,13 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <queue>
 #include <string>
+#include <tuple>
+#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
 
 #include "haptics/files/file_error.h"
+#include "haptics/gate/gate_checks.h"
+#include "haptics/gate/gate_description.h"
+#include "tests/haptics/gate/gate_laws.h"
 #include "tests/support/gates.h"
 #include "tests/support/random_layout.h"
 
@@ -24,22 +30,17 @@ constexpr int kRandomLayouts = 200;
 const Slot& slot_for(const Gate& gate, int gear) {
   const int slot = slot_of_gear(gate, gear);
   REQUIRE(slot != kNoSlot);
-  return gate.slot[static_cast<std::size_t>(slot)];
+  return slot_of(gate, slot);
 }
 
 const Slot& slot_for(const Gate&&, int) = delete;  // it would point into a gate that is gone
-
-const Lockout& lockout_at(const Gate& gate, int i) {
-  return gate.lockout[static_cast<std::size_t>(i)];
-}
 
 int count_role(const GateDescription& list, WallRole role) {
   return static_cast<int>(
       std::count_if(list.walls.begin(), list.walls.end(), [&](const WallInfo& w) { return w.role == role; }));
 }
 
-// Which gears a point-like lever reaches from neutral, by flooding a grid of 0.5 mm: nothing is known here of
-// aisles.
+// Which gears a point-like lever reaches from neutral, by flooding a grid of 0.5 mm, which knows no aisles.
 bool floods_to_every_gear(const Gate& gate) {
   constexpr double step = 0.5e-3;
   constexpr int reach = 160;
@@ -63,7 +64,8 @@ bool floods_to_every_gear(const Gate& gate) {
     front.pop();
     visit(i + 1, j), visit(i - 1, j), visit(i, j + 1), visit(i, j - 1);
   }
-  return std::all_of(gate.slot.begin(), gate.slot.begin() + gate.slot_count, [&](const Slot& slot) {
+  const auto all = slots(gate);
+  return std::all_of(all.begin(), all.end(), [&](const Slot& slot) {
     const dvec2 rest = rest_position(gate, slot.gear);
     return seen[index(cell(rest.x), cell(rest.y))] != 0;
   });
@@ -82,7 +84,9 @@ bool separates(const Gate& gate, const WallInfo& wall) {
 void check_smooth(const FeelCurve& curve, double from, double to) {
   constexpr double step = 1e-6;
   const double bend = 6.0 * 40.0 / (0.7e-3 * 0.7e-3);
-  for (double at = from; at + 2.0 * step < to; at += step) {
+  const int count = static_cast<int>((to - from) / step) - 1;
+  for (int i = 0; i < count; ++i) {
+    const double at = from + i * step;
     const double rise = feel_force(curve, at + step) - feel_force(curve, at);
     const double turn = feel_slope(curve, at + step) - feel_slope(curve, at);
     if (std::abs(rise) <= 4001.0 * step && std::abs(turn) <= bend * step) continue;
@@ -90,27 +94,8 @@ void check_smooth(const FeelCurve& curve, double from, double to) {
   }
 }
 
-// On the chamfers neither force may depend on where along itself the lever is.
-void check_constant_at_mouths(const Gate& gate) {
-  for (int i = 0; i <= 20; ++i) {
-    const double depth = gate.half_aisle + gate.chamfer * i / 20.0;
-    for (int s = 0; s < gate.slot_count; ++s) {
-      CHECK(feel_slope(gate.slot[static_cast<std::size_t>(s)].feel, depth) == Approx(0.0).epsilon(1e-9));
-      CHECK(feel_force(gate.slot[static_cast<std::size_t>(s)].feel, depth) ==
-            Approx(feel_force(gate.aisle_feel, gate.half_aisle)));
-    }
-    for (int c = 0; c < gate.column_count; ++c) {
-      const Column& column = gate.column[static_cast<std::size_t>(c)];
-      const double off = column.half_width + gate.chamfer * i / 20.0;
-      for (const double x : {column.center - off, column.center + off}) {
-        CHECK(feel_slope(gate.select_feel, x) == Approx(0.0).epsilon(1e-9));
-      }
-    }
-  }
-}
-
-// Away from the walls a slot has one place to rest, and from wherever the lever is pulled in the gear comes
-// to count.
+// Away from the walls a slot has one place to rest, and
+// wherever it pulls the lever in, the gear comes to count.
 void check_lock(const Gate& gate, const Slot& slot) {
   CHECK(slot.release_depth < slot.engage_depth);
   CHECK(slot.engage_depth < slot.rest);
@@ -134,29 +119,25 @@ void check_lock(const Gate& gate, const Slot& slot) {
 
 void check_places(const Gate& gate) {
   CHECK(gate.select_min == Approx(gate.column[0].center - gate.column[0].half_width));
-  for (std::size_t i = 1; i < static_cast<std::size_t>(gate.column_count); ++i) {
-    const Column& left = gate.column[i - 1];
-    const Column& right = gate.column[i];
+  for (int i = 1; i < gate.column_count; ++i) {
+    const Column& left = column_of(gate, i - 1);
+    const Column& right = column_of(gate, i);
     CHECK(left.center + left.half_width + gate.chamfer < right.center - right.half_width - gate.chamfer);
   }
-  CHECK(std::abs(gate.select_min) < kPaperWorkspace.x);
-  CHECK(std::abs(gate.select_max) < kPaperWorkspace.x);
-  for (int i = 0; i < gate.slot_count; ++i) {
-    const Slot& slot = gate.slot[static_cast<std::size_t>(i)];
-    CHECK(slot.end < kPaperWorkspace.y);
+  for (const Slot& slot : slots(gate)) {
+    const Column& column = column_of(gate, slot.column);
+    CHECK(yoke_reaches({std::abs(column.center) + column.half_width + 0.0069, slot.end + 0.0069}));
     CHECK(in_free_space(gate, rest_position(gate, slot.gear)));
   }
 }
 
 void check_lockouts(const Gate& gate) {
-  for (int i = 0; i < gate.lockout_count; ++i) {
-    const Lockout& lockout = lockout_at(gate, i);
+  for (const Lockout& lockout : lockouts(gate)) {
     REQUIRE(lockout.slot >= 0);
     REQUIRE(lockout.slot < gate.slot_count);
     if (lockout.kind == LockoutKind::speed) CHECK(lockout.open_below < lockout.close_above);
     if (!lockout.lateral) continue;
-    const Column& own =
-        gate.column[static_cast<std::size_t>(gate.slot[static_cast<std::size_t>(lockout.slot)].column)];
+    const Column& own = column_of(gate, slot_of(gate, lockout.slot).column);
     CHECK(lockout.beyond * (own.center - lockout.barrier) > own.half_width + gate.chamfer);
     CHECK(lockout.beyond * (rest_position(gate, kNeutralGear).x - lockout.barrier) < 0.0);
   }
@@ -284,34 +265,34 @@ TEST_CASE("the select force pulls to the neutral column with its full strength f
 TEST_CASE("a lockout stands across the aisle only if its column serves nothing else") {
   GateLayout layout = small_layout();
   layout.lockouts = {guard(kReverseGear, LockoutKind::push_down)};
-  CHECK_FALSE(lockout_at(compile_gate(layout, kPaperWorkspace), 0).lateral);
+  CHECK_FALSE(compile_gate(layout, kPaperWorkspace).lockout[0].lateral);
 
   layout.columns[1].forward.gear = kNeutralGear;  // R alone in its column
   const Gate alone = compile_gate(layout, kPaperWorkspace);
-  CHECK(lockout_at(alone, 0).lateral);
-  CHECK(lockout_at(alone, 0).barrier == Approx(0.015));
-  CHECK(lockout_at(alone, 0).beyond == +1);
+  CHECK(alone.lockout[0].lateral);
+  CHECK(alone.lockout[0].barrier == Approx(0.015));
+  CHECK(alone.lockout[0].beyond == +1);
 
   layout.columns[1].forward.gear = 3;  // both gears of the column behind the same guard
   layout.lockouts.push_back(guard(3, LockoutKind::push_down));
-  CHECK(lockout_at(compile_gate(layout, kPaperWorkspace), 0).lateral);
+  CHECK(compile_gate(layout, kPaperWorkspace).lockout[0].lateral);
   layout.lockouts[1].kind = LockoutKind::lift;  // behind different ones: each closes its own slot
-  CHECK_FALSE(lockout_at(compile_gate(layout, kPaperWorkspace), 0).lateral);
-  CHECK_FALSE(lockout_at(compile_gate(layout, kPaperWorkspace), 1).lateral);
+  CHECK_FALSE(compile_gate(layout, kPaperWorkspace).lockout[0].lateral);
+  CHECK_FALSE(compile_gate(layout, kPaperWorkspace).lockout[1].lateral);
 }
 
 TEST_CASE("a lockout never stands across the way to another column, nor before the neutral column") {
   GateLayout layout = small_layout();
   layout.columns[1].forward.gear = kNeutralGear;
   layout.columns.push_back({});
-  layout.columns[2].position = 0.060;
+  layout.columns[2].position = 0.055;
   layout.columns[2].forward.gear = 3;
   layout.lockouts = {guard(kReverseGear, LockoutKind::lift)};
-  CHECK_FALSE(lockout_at(compile_gate(layout, kPaperWorkspace), 0).lateral);
+  CHECK_FALSE(compile_gate(layout, kPaperWorkspace).lockout[0].lateral);
 
   GateLayout at_home = small_layout();
   at_home.lockouts = {guard(1, LockoutKind::lift), guard(2, LockoutKind::lift)};
-  CHECK_FALSE(lockout_at(compile_gate(at_home, kPaperWorkspace), 0).lateral);
+  CHECK_FALSE(compile_gate(at_home, kPaperWorkspace).lockout[0].lateral);
 }
 
 TEST_CASE("a layout made by a program is refused like one from a file") {
@@ -340,6 +321,50 @@ TEST_CASE("a layout made by a program is refused like one from a file") {
   CHECK(refused(layout) == "small.toml: a gate has at most 16 lockouts");
 }
 
+TEST_CASE("what the device reaches is what its two joints reach, corners and all") {
+  int inside = 0, outside = 0;
+  for (int i = -130; i <= 130; ++i) {
+    for (int j = -130; j <= 130; ++j) {
+      const dvec2 point = 1e-3 * dvec2(i, j);
+      CHECK(reaches(kPaperWorkspace, kPaperYokeRadius, point) == yoke_reaches(point));
+      ++(yoke_reaches(point) ? inside : outside);
+    }
+  }
+  CHECK(inside > 10000);
+  CHECK(outside > 10000);
+}
+
+TEST_CASE("a flat device reaches its whole rectangle") {
+  const double flat = std::numeric_limits<double>::infinity();
+  CHECK(reaches({0.07, 0.06}, flat, {-0.07, 0.06}));
+  CHECK_FALSE(reaches({0.07, 0.06}, flat, {0.0701, 0.0}));
+  CHECK_FALSE(reaches({0.07, 0.06}, flat, {0.0, -0.0601}));
+  CHECK_FALSE(reaches({0.07, 0.06}, flat, {std::nan(""), 0.0}));
+}
+
+TEST_CASE("columns at the sides and long slots are each within reach, both together are not") {
+  const auto with = [](double side, double length) {
+    GateLayout layout = small_layout();
+    layout.columns[0].position = -side;
+    layout.columns[1].position = side;
+    layout.slot_length = length;
+    return layout;
+  };
+  CHECK_NOTHROW(compile_gate(with(0.058, 0.040), kPaperWorkspace));
+  CHECK_NOTHROW(compile_gate(with(0.012, 0.060), kPaperWorkspace));
+  CHECK_THROWS_WITH_AS(
+      compile_gate(with(0.058, 0.060), kPaperWorkspace),
+      "small.toml: the column at -58 mm has its wall at 63 mm, outside the workspace: the device "
+      "reaches less in its corners, with end stops at 60 mm its walls may lie within 20.4 mm of "
+      "the centre",
+      FileError);
+  CHECK_NOTHROW(compile_gate(with(0.058, 0.060), kPaperWorkspace, std::numeric_limits<double>::infinity()));
+
+  // The figure in the sentence is the bound: a wall there compiles, 0.2 mm further out it does not.
+  CHECK_NOTHROW(compile_gate(with(0.0154, 0.060), kPaperWorkspace));
+  CHECK_THROWS_AS(compile_gate(with(0.0156, 0.060), kPaperWorkspace), FileError);
+}
+
 TEST_CASE("a column with a gear on one side only is closed on the other") {
   GateLayout layout = small_layout();
   layout.columns[1].forward.gear = kNeutralGear;
@@ -362,7 +387,7 @@ TEST_CASE("any valid layout compiles to a gate that keeps the laws") {
     check_lockouts(gate);
     check_description(gate);
     check_constant_at_mouths(gate);
-    for (int i = 0; i < gate.slot_count; ++i) check_lock(gate, gate.slot[static_cast<std::size_t>(i)]);
+    for (const Slot& slot : slots(gate)) check_lock(gate, slot);
     check_smooth(gate.slot[0].feel, 0.0, gate.slot[0].end);
     check_smooth(gate.select_feel, gate.select_min, gate.select_max);
     CHECK(floods_to_every_gear(gate));

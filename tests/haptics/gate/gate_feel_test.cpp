@@ -1,12 +1,14 @@
 // The mechanism's forces: a potential, continuous, and doing at each place what the paper and real boxes say.
 #include "haptics/gate/gate_feel.h"
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include "haptics/gate/gate_compiler.h"
 #include "tests/support/gates.h"
 
 using namespace gearshift;
@@ -63,9 +65,7 @@ TEST_CASE("a lever is centred to the neutral column, and to the middle of the ne
     const Gate gate = shipped_gate(name);
     const double neutral = rest_position(gate, kNeutralGear).x;
     for (int i = 1; i < gate.column_count; ++i) {
-      const auto& a = gate.column[static_cast<std::size_t>(i - 1)];
-      const auto& b = gate.column[static_cast<std::size_t>(i)];
-      const double between = 0.5 * (a.center + b.center);
+      const double between = 0.5 * (column_of(gate, i - 1).center + column_of(gate, i).center);
       CHECK(gate_feel(gate, {between, 0.0}).x * (neutral - between) > 0.0);
       CHECK(gate_feel(gate, {between, 0.9 * gate.half_aisle}).y < 0.0);
       CHECK(gate_feel(gate, {between, -0.9 * gate.half_aisle}).y > 0.0);
@@ -78,8 +78,7 @@ TEST_CASE("every gear is a rest: no force there, pushed back from both sides") {
   for (const std::string& name : shipped_names()) {
     CAPTURE(name);
     const Gate gate = shipped_gate(name);
-    for (int i = 0; i < gate.slot_count; ++i) {
-      const Slot& slot = gate.slot[static_cast<std::size_t>(i)];
+    for (const Slot& slot : slots(gate)) {
       CAPTURE(gear_name(slot.gear));
       CHECK(std::abs(feel_force(slot.feel, slot.rest)) < 1e-9);
       CHECK(feel_force(slot.feel, slot.rest - 0.001) > 0.2);
@@ -93,10 +92,11 @@ TEST_CASE("every gear is a rest: no force there, pushed back from both sides") {
 TEST_CASE("pulling out of a gear takes the lock's force, from the layout file") {
   const GateLayout layout = read_gate_layout(GEARSHIFT_ASSETS "/gates/paper.toml");
   const Gate gate = compile_gate(layout, kPaperWorkspace);
-  for (int i = 0; i < gate.slot_count; ++i) {
-    const Slot& slot = gate.slot[static_cast<std::size_t>(i)];
+  for (const Slot& slot : slots(gate)) {
+    constexpr int kSteps = 20000;
     double hardest = 0.0;
-    for (double depth = slot.rest; depth > slot.release_depth; depth -= 1e-6) {
+    for (int i = 0; i <= kSteps; ++i) {
+      const double depth = slot.rest + (slot.release_depth - slot.rest) * i / kSteps;
       hardest = std::max(hardest, feel_force(slot.feel, depth));
     }
     CHECK(hardest == doctest::Approx(layout.feel.lock_force).epsilon(1e-6));
@@ -106,8 +106,7 @@ TEST_CASE("pulling out of a gear takes the lock's force, from the layout file") 
 TEST_CASE("paper, Fig. 7 (c): in the buffer of junctions I and III a vertical force turns the lever") {
   const Gate gate = paper_gate();
   REQUIRE(gate.buffer_count == 2);
-  for (int i = 0; i < 2; ++i) {
-    const Buffer& buffer = gate.buffer[static_cast<std::size_t>(i)];
+  for (const Buffer& buffer : buffers(gate)) {
     const double half = 0.5 * gate.half_aisle;
     const double inside = buffer.wall + 0.1 * (buffer.inner - buffer.wall);
     CHECK(gate_feel(gate, {inside, half}).y > 0.5);
@@ -123,14 +122,33 @@ TEST_CASE("a buffer never holds a free lever: centring is stronger than its pull
     CAPTURE(name);
     const Gate gate = shipped_gate(name);
     const double neutral = rest_position(gate, kNeutralGear).x;
-    for (int i = 0; i < gate.buffer_count; ++i) {
-      const Buffer& buffer = gate.buffer[static_cast<std::size_t>(i)];
-      for (double s = 0.0; s <= 1.0; s += 0.01) {
-        for (double y = -1.5; y <= 1.5; y += 0.05) {
-          const double x = buffer.inner + s * (buffer.wall - buffer.inner);
-          REQUIRE(gate_feel(gate, {x, y * gate.half_aisle}).x * (neutral - x) > 0.0);
+    for (const Buffer& buffer : buffers(gate)) {
+      for (int i = 0; i <= 100; ++i) {
+        const double x = buffer.inner + 0.01 * i * (buffer.wall - buffer.inner);
+        for (int j = -30; j <= 30; ++j) {
+          REQUIRE(gate_feel(gate, {x, 0.05 * j * gate.half_aisle}).x * (neutral - x) > 0.0);
         }
       }
     }
+  }
+}
+
+TEST_CASE("the stiffest feel is the steepest restoring slope that a walk along every curve finds") {
+  for (const std::string& name : shipped_names()) {
+    CAPTURE(name);
+    const Gate gate = shipped_gate(name);
+    constexpr double kStep = 1e-6;
+    double stiffest = 0.0;
+    const auto walk = [&](const FeelCurve& curve, double from, double to) {
+      const int steps = static_cast<int>((to - from) / kStep);
+      for (int i = 0; i < steps; ++i) {
+        const double at = from + i * kStep;
+        stiffest = std::max(stiffest, (feel_force(curve, at) - feel_force(curve, at + kStep)) / kStep);
+      }
+    };
+    walk(gate.select_feel, gate.select_min, gate.select_max);
+    walk(gate.aisle_feel, 0.0, gate.half_aisle);
+    for (const Slot& slot : slots(gate)) walk(slot.feel, 0.0, slot.end);
+    CHECK(stiffest_feel(gate) == doctest::Approx(stiffest).epsilon(1e-4));
   }
 }

@@ -9,6 +9,7 @@
 #include <doctest/doctest.h>
 
 #include "haptics/files/file_error.h"
+#include "haptics/files/printable.h"
 #include "haptics/gate/gate_compiler.h"
 #include "tests/support/gates.h"
 
@@ -27,35 +28,57 @@ constexpr Hostile kHostile[] = {
     {"after_itself", ":29: gear R could not be reached: its lockout waits for itself"},
     {"after_nothing", ":29: after is missing: it must be one of R, 1, 2, 3, 4, 5, 6, 7, 8, 9"},
     {"aisle_too_narrow", ":4: aisle_width_mm = 3.5: must be between 4 and 40"},
+    {"barely_negative", ":7: chamfer_mm = -1e-09: must be between 0 and 10"},
     {"buffer_holds_the_lever",
      ":9: buffer_force_n = 4 would hold the lever at a closed junction: it pulls there with "
      "2.62 N, and center_force_n is only 2"},
+    {"byte_order_of_utf16", ":1: not valid TOML: "},
     {"center_force_too_steep", ":9: center_force_n is too large for so narrow a slot"},
     {"column_not_a_list", ":3: column = (a table): must be a list of tables: write each as [[column]]"},
     {"column_without_gear", ":23: the column at 30 mm has no gear"},
     {"columns_not_in_order", ":23: the column at -60 mm does not lie to the right of the one before it"},
+    {"columns_of_numbers", ":2: column must be a list of tables: write each as [[column]]"},
+    {"date_for_a_number", ":5: slot_width_mm = (a date or time): must be a number between 4 and 30"},
     {"duplicate_gear", ":26: gear 3 is already in line 19"},
     {"duplicate_key", ":8: not valid TOML: "},
+    {"duplicate_key_with_escape", ":8: not valid TOML: "},
     {"empty", ":1: name is missing: it must be a text in quotes"},
     {"empty_name", ":1: name = \"\": must not be empty"},
+    {"escape_for_a_key", ":7: not valid TOML: "},
     {"gate_is_a_number", ":2: gate = 4: must be a table: write [gate]"},
     {"gear_gap", ":24: there is a gear 5 but no gear 3"},
+    {"gear_on_both_sides", ":26: gear 5 is already in line 25"},
+    {"gear_with_escape", ":14: forward = \"?[2J1\": must be one line without control characters"},
     {"infinity", ":10: lock_force_n = inf: must be between 1 and 25"},
     {"junction_ajar", ":27: junction = \"ajar\": must be one of open, closed"},
+    {"key_with_escape", ":7: chamfer?[31m _mm is not a known key: known here are aisle_width_mm"},
     {"lockout_of_no_gear", ":29: there is no gear 6 for this lockout to guard"},
+    {"lockout_without_gear", ":29: gear is missing: it must be one of R, 1, 2, 3, 4, 5, 6, 7, 8, 9"},
+    {"lower_case_reverse", ":26: back = \"r\": must be one of R, 1, 2, 3, 4, 5, 6, 7, 8, 9"},
     {"missing_position", ":17: position_mm is missing: it must be a number between -200 and 200"},
+    {"mixed_columns", ":2: column must be a list of tables: write each as [[column]]"},
+    {"name_of_two_lines", ":1: name = \"Hos tile\": must be one line without control characters"},
+    {"name_too_long",
+     ":1: name = \"Hostile Hostile Hostile Hostile Hostile ...\": must be at most 200 bytes long"},
+    {"name_with_c1_escape", ":1: name = \"?31mHostile\": must be one line without control characters"},
+    {"name_with_escape", ":1: name = \"?[31mHostile\": must be one line without control characters"},
     {"nan", ":24: position_mm = nan: must be between -200 and 200"},
     {"negative_chamfer", ":7: chamfer_mm = -1: must be between 0 and 10"},
-    {"neutral_not_a_flag", ":21: neutral = \"yes\": must be true or false"},
+    {"nested_too_deep", ":1: not valid TOML: "},
     {"neutral_closed", ":12: the neutral column's junction cannot be closed"},
+    {"neutral_not_a_flag", ":21: neutral = \"yes\": must be true or false"},
     {"no_columns", ":1: column is missing: write one [[column]] for every column of gears"},
     {"no_forward_gear", ":17: the column at 30 mm has no gear"},
     {"no_neutral", ":12: no column is the neutral one: write neutral = true in exactly one [[column]]"},
     {"not_toml", ":4: not valid TOML: "},
     {"not_utf8", ":1: not valid TOML: "},
     {"number_for_a_gear", ":14: forward = 1: must be a text in quotes"},
+    {"number_past_double", ":10: not valid TOML: "},
     {"one_column", ":3: a gate has between 2 and 8 columns, this one has 1"},
     {"out_of_range", ":10: lock_force_n = 60: must be between 1 and 25"},
+    {"outside_corner",
+     ":12: the column at -64 mm has its wall at 69 mm, outside the workspace: the device reaches less in its "
+     "corners, with end stops at 61 mm its walls may lie within 11.5 mm of the centre"},
     {"outside_fore_aft", ":6: slot_length_mm puts the end stops at 62 mm, outside the workspace"},
     {"outside_sideways",
      ":23: the column at 70 mm has its wall at 75 mm, outside the workspace: the device "
@@ -63,13 +86,16 @@ constexpr Hostile kHostile[] = {
     {"overlapping_columns",
      ":23: the column at 19.9 mm overlaps the one before it: slots of this width and chamfer "
      "need 20 mm from centre to centre, not 19.9 mm"},
+    {"same_column_twice", ":23: the column at 0 mm does not lie to the right of the one before it"},
     {"slot_too_short",
      ":6: slot_length_mm is too short: with this aisle and chamfer a slot needs at least 20 mm"},
     {"slot_too_short_for_its_feel", ":6: slot_length_mm is too short for its feel: below 38.1 mm"},
+    {"speed_below_zero", ":33: open_below_kmh = -1: must be between 0 and 400"},
     {"speed_of_a_lift_ring", ":32: close_above_kmh is not a known key: known here are gear, kind"},
     {"speeds_in_reverse", ":29: open_below_kmh must be smaller than close_above_kmh"},
     {"text_for_a_number", ":5: slot_width_mm = \"10 mm\": must be a number between 4 and 30"},
     {"too_many_columns", ":44: a gate has between 2 and 8 columns, this one has 9"},
+    {"too_many_lockouts", ":95: a gate has at most 16 lockouts"},
     {"two_neutrals", ":27: neutral = true: a gate has one neutral column, and line 21 names another"},
     {"unknown_gear", ":14: forward = \"10\": must be one of R, 1, 2, 3, 4, 5, 6, 7, 8, 9"},
     {"unknown_key", ":8: chamfer_in is not a known key: known here are aisle_width_mm, slot_width_mm"},
@@ -100,6 +126,8 @@ TEST_CASE("every hostile layout is refused in one sentence with file, line and r
     CAPTURE(sentence);
     CHECK(sentence.find(file.string() + hostile.sentence) == 0);
     CHECK(sentence.find('\n') == std::string::npos);
+    CHECK(sentence.find('\x1b') == std::string::npos);
+    CHECK(is_printable(sentence));
   }
 }
 
@@ -109,6 +137,25 @@ TEST_CASE("no hostile layout lies about without being tested") {
   for (const auto& entry : std::filesystem::directory_iterator(kFolder))
     found.insert(entry.path().stem().string());
   CHECK(found == expected);
+}
+
+TEST_CASE("every gear and every kind of lockout is read by the name that it has everywhere else") {
+  const auto layout_with = [](const std::string& gear, const std::string& lockout) {
+    return parse_gate_layout("name = \"Test\"\n[[column]]\nposition_mm = 0\nneutral = true\nforward = \"" +
+                                 gear + "\"\n[[lockout]]\ngear = \"R\"\n" + lockout,
+                             "test.toml");
+  };
+  for (int gear = kReverseGear; gear <= kMaxGear; ++gear) {
+    if (gear == kNeutralGear) continue;
+    CHECK(layout_with(gear_name(gear), "kind = \"lift\"").columns[0].forward.gear == gear);
+  }
+  CHECK(std::string(gear_name(kMaxGear + 1)) == "?");
+  for (const LockoutKind kind :
+       {LockoutKind::push_down, LockoutKind::lift, LockoutKind::speed, LockoutKind::after_gear}) {
+    std::string lines = std::string("kind = \"") + lockout_kind_name(kind) + "\"\n";
+    if (kind == LockoutKind::after_gear) lines += "after = \"1\"\n";
+    CHECK(layout_with("1", lines).lockouts[0].kind == kind);
+  }
 }
 
 TEST_CASE("a layout is read as written, in metres, newtons and metres per second") {

@@ -13,8 +13,8 @@ namespace {
 
 using Complex = std::complex<long double>;
 
-// The textbook solution x = f/k + A exp(p1 t) + B exp(p2 t), p the roots of m p^2 + b p + k, in extended
-// precision.
+// The textbook solution x = f/k + A exp(p1 t) + B exp(p2 t), p the roots of m p^2 + b p + k,
+// in extended precision.
 AxisState by_poles(const AxisModel& axis, AxisState start, double force, double time) {
   const Complex m = axis.mass, b = axis.damping, k = axis.stiffness, t = time;
   const Complex root = std::sqrt(b * b - 4.0L * m * k);
@@ -26,8 +26,8 @@ AxisState by_poles(const AxisModel& axis, AxisState start, double force, double 
   return {static_cast<double>((rest + e1 + e2).real()), static_cast<double>((p1 * e1 + p2 * e2).real())};
 }
 
-// Relative to the motion's own size, as a state is: position 1e-12 of the larger of start, end and force over
-// stiffness.
+// Relative to the motion's own size, as a state is: 1e-12 of start, speed over frequency, and force over
+// stiffness together.
 void check_same(const AxisModel& axis, AxisState start, double force, double time) {
   CAPTURE(axis.mass);
   CAPTURE(axis.damping);

@@ -6,11 +6,13 @@
 #include <limits>
 #include <memory>
 #include <random>
+#include <stdexcept>
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
 #include "haptics/device/simulated_lever.h"
+#include "haptics/gate/gate_feel.h"
 #include "haptics/loop/haptic_loop.h"
 #include "tests/support/gates.h"
 #include "tests/support/hands.h"
@@ -220,6 +222,41 @@ TEST_CASE("a simulated lever shows its fall, and arms itself again after 50 ms o
   CHECK(loop.snapshot().guard == GuardState::ramping);
 }
 
+TEST_CASE("a loop that is always late stays damped: no flapping between force and none") {
+  const Gate gate = paper_gate();
+  RestingHand nobody;
+  SimulatedLever lever({}, kPeriodNs, nobody);
+  NullWorld world;
+  LoopChannels channels;
+  HapticLoop loop(HapticConfig{}, gate, lever, world, channels);
+  loop.arm();
+  int changes = 0;
+  for (std::int64_t i = 1; i <= 2000; ++i) loop.cycle(2 * i * kPeriodNs, 1);
+  for (HapticEvent event; channels.events.pop(event);) changes += event.kind == EventKind::guard_changed;
+  CHECK(changes <= 3);
+  CHECK(loop.snapshot().guard == GuardState::damped);
+}
+
+TEST_CASE("a device that reports nonsense forces does not poison the snapshot") {
+  PressedRig rig;
+  rig.lever.sabotage = [](LeverReading& r) { r.hand_force = {kNan, kInf}; r.actuator_force = {kInf, kNan}; };
+  rig.run(100);
+  const HapticSnapshot& s = rig.loop.snapshot();
+  CHECK(std::isfinite(s.f_h.x + s.f_h.y + s.f_a.x + s.f_a.y + s.f_j.x + s.f_j.y));
+  CHECK(s.guard == GuardState::running);
+}
+
+TEST_CASE("a config that no check has passed is refused by the loop itself") {
+  const Gate gate = paper_gate();
+  RestingHand nobody;
+  SimulatedLever lever({}, kPeriodNs, nobody);
+  NullWorld world;
+  LoopChannels channels;
+  HapticConfig config;
+  config.estimator.smoothing = 0.0;
+  CHECK_THROWS_AS(HapticLoop(config, gate, lever, world, channels), std::invalid_argument);
+}
+
 TEST_CASE("a cycle whose deadline runs backward is a stale reading, not a crash") {
   PressedRig rig;
   for (int i = 0; i < 5; ++i) rig.loop.cycle(rig.now - 50 * kPeriodNs, 0);
@@ -237,6 +274,61 @@ TEST_CASE("stop: motors off in the same cycle, and released until a person arms 
   CHECK(rig.loop.snapshot().guard == GuardState::released);
 }
 
+TEST_CASE("arming starts anew where the lever is: no pull from where it was") {
+  PressedRig rig;
+  rig.channels.commands.push(LoopCommand::disarm);
+  rig.run(1);
+  CHECK(rig.lever.releases >= 1);
+  // While disarmed the lever is put down beyond a wall, 20 mm from its old proxy.
+  rig.lever.sabotage = [](LeverReading& r) { r.position = {-0.030, 0.030}; };
+  rig.run(200);
+  rig.channels.commands.push(LoopCommand::arm);
+  rig.run(1000);
+  CHECK(rig.loop.snapshot().guard == GuardState::running);
+  CHECK(glm::length(rig.loop.snapshot().wall_force) == 0.0);
+  CHECK(slot_at(rig.gate, rig.loop.snapshot().proxy) == slot_of_gear(rig.gate, 1));
+}
+
+TEST_CASE("with whole samples of delay the coupling looks (1 + 2 d) periods ahead") {
+  for (const int delay : {0, 1, 3}) {
+    CAPTURE(delay);
+    // A lever that moves into the upper wall of the neutral aisle at constant speed.
+    class Mover final : public HapticDevice {
+     public:
+      explicit Mover(int delay) {
+        spec_.delay = delay;
+        spec_.workspace = kPaperWorkspace;
+      }
+      const DeviceSpec& spec() const noexcept override { return spec_; }
+      LeverReading read(std::int64_t now_ns) noexcept override {
+        LeverReading reading;
+        reading.sequence = static_cast<std::uint64_t>(now_ns / kPeriodNs) + 1;
+        reading.time_ns = now_ns;
+        reading.position = {-0.015, 1e-9 * 0.02 * static_cast<double>(now_ns)};
+        return reading;
+      }
+      void write(dvec2) noexcept override {}
+      void release() noexcept override {}
+
+     private:
+      DeviceSpec spec_;
+    };
+    Mover mover(delay);
+    const Gate gate = paper_gate();
+    NullWorld world;
+    LoopChannels channels;
+    HapticConfig config;
+    config.tuning.wall_stiffness = 1000.0;  // admitted at every one of these delays
+    config.tuning.wall_damping = 2.0;
+    HapticLoop loop(config, gate, mover, world, channels);
+    for (int i = 0; i < 400; ++i) loop.cycle(i * kPeriodNs, 0);
+    const double depth = loop.snapshot().lever.y - gate.half_aisle;
+    REQUIRE(depth > 0.001);
+    const double expected = 1000.0 * (depth + 0.02 * 0.001 * (1.0 + 2.0 * delay) / 2.0) + 2.0 * 0.02;
+    CHECK(-loop.snapshot().wall_force.y == doctest::Approx(expected));
+  }
+}
+
 TEST_CASE("a world that returns nonsense releases the motors") {
   class MadWorld final : public LeverWorld {
    public:
@@ -245,7 +337,6 @@ TEST_CASE("a world that returns nonsense releases the motors") {
       if (++steps_ > 700) out.force = {kNan, 1e300};
       return out;
     }
-    void reset() noexcept override {}
     const char* name() const noexcept override { return "mad"; }
 
    private:

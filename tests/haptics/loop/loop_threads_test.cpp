@@ -1,5 +1,5 @@
-// The loop on its real-time thread, with a frame, a recorder and a person at its channels. Run it under the
-// thread sanitizer.
+// The loop on its real-time thread, with a frame, a recorder and a person at its channels.
+// Run it under the thread sanitizer.
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
@@ -14,6 +14,7 @@
 #include "haptics/loop/trace_recorder.h"
 #include "haptics/rt/realtime_thread.h"
 #include "tests/support/gates.h"
+#include "tests/support/temp_folder.h"
 
 using namespace gearshift;
 
@@ -39,8 +40,8 @@ TEST_CASE("on its own thread: led by a person, tuned and recorded while it runs,
   header.gate_file = layout.file;
   header.gate_text = layout.text;
   header.armed = true;
-  const std::filesystem::path file =
-      std::filesystem::temp_directory_path() / "gearshift_loop_threads_test.trace";
+  const TempFolder folder;
+  const std::filesystem::path file = folder / "threads.trace";
   TraceRecorder recorder(file, header, channels, TracePump::own_thread);
 
   std::atomic<std::uint64_t> cycles{0};
@@ -78,5 +79,4 @@ TEST_CASE("on its own thread: led by a person, tuned and recorded while it runs,
   CHECK(recording.cycles >= 400);
   CHECK(channels.events_lost == 0);
   CHECK(replay(read_trace(file)).bit_for_bit());
-  std::filesystem::remove(file);
 }

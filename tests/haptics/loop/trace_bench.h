@@ -1,8 +1,5 @@
-// Traces for the trace's own tests: a folder that goes away, a header and samples made up without a loop, and
-// a short real drive.
+// Traces for the trace's own tests: a header, and samples made up without a loop.
 #pragma once
-
-#include <unistd.h>
 
 #include <bit>
 #include <cstdint>
@@ -16,24 +13,9 @@
 #include "haptics/gate/gate_layout.h"
 #include "haptics/loop/trace_reader.h"
 #include "haptics/loop/trace_writer.h"
+#include "tests/support/temp_folder.h"
 
 namespace gearshift {
-
-class TempFolder {
- public:
-  TempFolder() {
-    std::string name = (std::filesystem::temp_directory_path() / "gearshift_XXXXXX").string();
-    path_ = mkdtemp(name.data());
-  }
-  ~TempFolder() { std::filesystem::remove_all(path_); }
-  TempFolder(const TempFolder&) = delete;
-  TempFolder& operator=(const TempFolder&) = delete;
-  std::filesystem::path operator/(const std::string& name) const { return path_ / name; }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 using Bytes = std::vector<unsigned char>;
 
@@ -66,7 +48,7 @@ inline glm::dvec2 any_vector(std::mt19937_64& random) {
 inline TraceSample any_sample(std::mt19937_64& random, std::uint64_t cycle) {
   TraceSample s;
   s.deadline_ns = static_cast<std::int64_t>(random());
-  s.skipped = random();
+  s.skipped = static_cast<std::int64_t>(random() >> 1);  // never negative
   s.reading = {random(),           static_cast<std::int64_t>(random()),
                any_vector(random), any_vector(random),
                any_vector(random), random() % 2 == 0,

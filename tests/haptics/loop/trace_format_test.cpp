@@ -102,7 +102,7 @@ TEST_CASE("trace: the header comes back whole") {
   header.config.tuning.wall_stiffness = 1234.5678901234567;
   header.config.guard.overruns_in_row = 3;
   header.config.ghost_offset = std::nextafter(0.02, 1.0);
-  header.device.delay = 1.0;
+  header.device.delay = 1;
   header.device.axis_y.mass = 0.5;
   header.gate_text += "# \xC3\xBC and a zero: ";
   header.gate_text.push_back('\0');
@@ -115,7 +115,7 @@ TEST_CASE("trace: the header comes back whole") {
   CHECK(back.config.tuning.wall_stiffness == 1234.5678901234567);
   CHECK(back.config.guard.overruns_in_row == 3);
   CHECK(back.config.ghost_offset == std::nextafter(0.02, 1.0));
-  CHECK(back.device.delay == 1.0);
+  CHECK(back.device.delay == 1);
   CHECK(back.device.axis_y.mass == 0.5);
   CHECK(back.device.simulated);
   CHECK_FALSE(back.device.measures_hand_force);

@@ -16,6 +16,7 @@ namespace gearshift {
 namespace {
 
 constexpr std::size_t kFrame = 16, kPreamble = 12;  // [bytes] as documented, not as the code says
+constexpr std::size_t kSample = 363;                // [bytes] per cycle
 constexpr std::size_t kCycles = 600;                // two full blocks and a part of one
 
 // Bit by bit: the definition.
@@ -78,7 +79,7 @@ struct Hostile {
 using B = Bytes;
 using At = const std::vector<std::size_t>;
 
-const std::vector<Hostile> kHostile = {
+const std::vector<Hostile> hostile_traces = {
     {"empty", [](B& f, At&) { f.clear(); }, "is empty"},
     {"a text file",
      [](B& f, At&) { f = {'n', 'a', 'm', 'e', ' ', '=', ' ', '"', 'x', '"', '\n', '\n', '\n'}; },
@@ -86,10 +87,11 @@ const std::vector<Hostile> kHostile = {
     {"another magic", [](B& f, At&) { f[1] ^= 1; }, "is not a gearshift trace"},
     {"line ends rewritten", [](B& f, At&) { f.erase(f.begin() + 6); }, "is not a gearshift trace"},
     {"cut inside the magic", [](B& f, At&) { f.resize(5); }, "is not a gearshift trace"},
-    {"a newer format", [](B& f, At&) { put(f, 8, 2); },
-     "format 2, made by a newer gearshift; this one reads format 1"},
+    {"a newer format", [](B& f, At&) { put(f, 8, 3); },
+     "format 3, made by a newer gearshift; this one reads format 2"},
     {"a far newer format", [](B& f, At&) { put(f, 8, 0xFFFFFFFF); }, "made by a newer gearshift"},
-    {"format 0", [](B& f, At&) { put(f, 8, 0); }, "format 0, which no gearshift makes"},
+    {"an older format", [](B& f, At&) { put(f, 8, 1); },
+     "format 1, made by an older gearshift; this one reads format 2"},
     {"cut after the version", [](B& f, At& at) { f.resize(at[0]); }, "is torn: it ends inside its header"},
     {"cut inside the header's frame", [](B& f, At& at) { f.resize(at[0] + 7); },
      "is torn: it ends inside its header"},
@@ -160,6 +162,13 @@ const std::vector<Hostile> kHostile = {
     {"a command that does not exist",
      [](B& f, At& at) { f[at[1] + kFrame + 164] = 77, seal_payload(f, at[1]); },
      "is damaged: cycle 0 holds a value that does not exist"},
+    {"fewer deadlines skipped than none",
+     [](B& f, At& at) {
+       const std::int64_t skipped = -3;
+       std::memcpy(&f[at[1] + kFrame + kSample + 8], &skipped, sizeof skipped);
+       seal_payload(f, at[1]);
+     },
+     "is damaged: cycle 1 skipped -3 deadlines"},
     {"an output forged, its block sealed again",
      [](B& f, At& at) { f[at[1] + kFrame + 200] ^= 1, seal_payload(f, at[1]); },
      "is damaged: its parameters and outputs are not those"},
@@ -177,7 +186,7 @@ TEST_CASE("hostile traces: each is refused in one sentence that says what is wro
   REQUIRE(borders(good).size() == 6);
   REQUIRE(refusal(folder / "good.trace").empty());
 
-  for (const Hostile& hostile : kHostile) {
+  for (const Hostile& hostile : hostile_traces) {
     CAPTURE(hostile.what);
     Bytes bytes = good;
     hostile.change(bytes, borders(good));

@@ -11,20 +11,49 @@
 
 #include "haptics/files/file_error.h"
 #include "tests/haptics/loop/trace_bench.h"
+#include "tests/support/gates.h"
 
 namespace gearshift {
 namespace {
 
-// What HapticLoop does at the end of a cycle.
-void push(LoopChannels& channels, const TraceSample& sample) {
-  if (!channels.recording.load()) return;
-  if (!channels.trace.push(sample)) channels.trace_lost.fetch_add(1);
-}
+// At rest, with nobody's hand on it; counts its readings from 0.
+class CountingLever final : public HapticDevice {
+ public:
+  const DeviceSpec& spec() const noexcept override { return spec_; }
+  LeverReading read(std::int64_t now_ns) noexcept override {
+    LeverReading reading;
+    reading.sequence = readings_++;
+    reading.time_ns = now_ns;
+    return reading;
+  }
+  void write(glm::dvec2) noexcept override {}
+  void release() noexcept override {}
+
+ private:
+  DeviceSpec spec_;
+  std::uint64_t readings_ = 0;
+};
+
+// A real loop, whose cycles are recorded or lost as they would be.
+class LoopRig {
+ public:
+  LoopChannels channels;
+
+  void run(int cycles) {
+    for (int i = 0; i < cycles; ++i) loop_.cycle(now_ns_ += kPeriodNs, 0);
+  }
+
+ private:
+  static constexpr std::int64_t kPeriodNs = 1'000'000;
+  CountingLever lever_;
+  NullWorld nothing_;
+  HapticLoop loop_{HapticConfig{}, paper_gate(), lever_, nothing_, channels};
+  std::int64_t now_ns_ = 0;
+};
 
 TraceSample numbered(std::uint64_t cycle) {
   TraceSample sample;
   sample.out.cycle = cycle;
-  sample.reading.position.x = static_cast<double>(cycle);
   return sample;
 }
 
@@ -60,21 +89,22 @@ class FullDisk {
 
 TEST_CASE("recorder: every cycle that the loop pushed is in the file, in order") {
   const TempFolder folder;
-  auto channels = std::make_unique<LoopChannels>();
-  TraceRecorder recorder(folder / "t.trace", paper_header(), *channels, TracePump::by_caller);
-  CHECK(channels->recording.load());
-  for (std::uint64_t cycle = 0; cycle < 20'000; ++cycle) {
-    push(*channels, numbered(cycle));
-    if (cycle % 5000 == 0) recorder.pump();
+  LoopRig rig;
+  TraceRecorder recorder(folder / "t.trace", paper_header(), rig.channels, TracePump::by_caller);
+  CHECK(rig.channels.recording.load());
+  for (int thousand = 0; thousand < 20; ++thousand) {
+    rig.run(1000);
+    recorder.pump();
   }
   const RecordingResult result = recorder.finish();
-  CHECK_FALSE(channels->recording.load());
+  CHECK_FALSE(rig.channels.recording.load());
   CHECK(result.cycles == 20'000);
   CHECK_FALSE(result.torn);
   CHECK(result.problem.empty());
   const Trace trace = read_trace(folder / "t.trace");
   REQUIRE(trace.samples.size() == 20'000);
-  CHECK(trace.samples[12'345].reading.position.x == 12'345.0);
+  CHECK(trace.samples[12'345].out.cycle == 12'345);
+  CHECK(trace.samples[12'345].reading.sequence == 12'345);
   CHECK(trace.hash == result.hash);
 }
 
@@ -95,16 +125,16 @@ TEST_CASE("recorder: beside the loop on its own thread none is lost") {
 
 TEST_CASE("recorder: a queue that overflows tears the trace, which keeps every cycle before the first loss") {
   const TempFolder folder;
-  auto channels = std::make_unique<LoopChannels>();
-  const std::uint64_t room = channels->trace.capacity();
-  TraceRecorder recorder(folder / "t.trace", paper_header(), *channels, TracePump::by_caller);
-  for (std::uint64_t cycle = 0; cycle < 100; ++cycle) push(*channels, numbered(cycle));
+  LoopRig rig;
+  const std::uint64_t room = rig.channels.trace.capacity();
+  TraceRecorder recorder(folder / "t.trace", paper_header(), rig.channels, TracePump::by_caller);
+  rig.run(100);
   recorder.pump();
   CHECK_FALSE(recorder.take_problem().has_value());
-  for (std::uint64_t cycle = 100; cycle < 100 + room + 7; ++cycle) push(*channels, numbered(cycle));
-  REQUIRE(channels->trace_lost.load() == 7);
+  rig.run(static_cast<int>(room) + 7);
+  REQUIRE(rig.channels.trace_lost.load() == 7);
   recorder.pump();
-  CHECK_FALSE(channels->recording.load());  // closed: no cycle after a gap is of use
+  CHECK_FALSE(rig.channels.recording.load());  // closed: no cycle after a gap is of use
 
   const std::optional<std::string> told = recorder.take_problem();
   REQUIRE(told.has_value());
@@ -121,10 +151,13 @@ TEST_CASE("recorder: a queue that overflows tears the trace, which keeps every c
 
 TEST_CASE("recorder: a loss between two cycles that did arrive is a gap, and the trace ends before it") {
   const TempFolder folder;
-  auto channels = std::make_unique<LoopChannels>();
-  TraceRecorder recorder(folder / "t.trace", paper_header(), *channels, TracePump::by_caller);
-  for (std::uint64_t cycle = 0; cycle < 50; ++cycle) push(*channels, numbered(cycle));
-  for (std::uint64_t cycle = 51; cycle < 90; ++cycle) push(*channels, numbered(cycle));
+  LoopRig rig;
+  TraceRecorder recorder(folder / "t.trace", paper_header(), rig.channels, TracePump::by_caller);
+  rig.run(50);
+  rig.channels.recording.store(false);
+  rig.run(1);
+  rig.channels.recording.store(true);
+  rig.run(39);
   const RecordingResult result = recorder.finish();
   CHECK(result.torn);
   CHECK(result.cycles == 50);
@@ -146,14 +179,14 @@ TEST_CASE("recorder: a file that cannot be created is refused before anything is
 
 TEST_CASE("recorder: a disk that fills up is told once, in one sentence, and the loop goes on") {
   const TempFolder folder;
-  auto channels = std::make_unique<LoopChannels>();
+  LoopRig rig;
   RecordingResult result;
   {
     const FullDisk disk(300'000);
-    TraceRecorder recorder(folder / "t.trace", paper_header(), *channels, TracePump::by_caller);
-    for (std::uint64_t cycle = 0; cycle < 5000; ++cycle) {
-      push(*channels, numbered(cycle));
-      if (cycle % 100 == 0) recorder.pump();
+    TraceRecorder recorder(folder / "t.trace", paper_header(), rig.channels, TracePump::by_caller);
+    for (int hundred = 0; hundred < 50; ++hundred) {
+      rig.run(100);
+      recorder.pump();
     }
     const std::optional<std::string> told = recorder.take_problem();
     REQUIRE(told.has_value());
@@ -170,15 +203,17 @@ TEST_CASE("recorder: a disk that fills up is told once, in one sentence, and the
 
 TEST_CASE("recorder: what another recording left in the queue does not get into the next one") {
   const TempFolder folder;
-  auto channels = std::make_unique<LoopChannels>();
-  for (std::uint64_t cycle = 500; cycle < 510; ++cycle) (void)channels->trace.push(numbered(cycle));
-  channels->trace_lost.store(3);  // torn was the one before
-  TraceRecorder recorder(folder / "t.trace", paper_header(), *channels, TracePump::by_caller);
-  push(*channels, numbered(0));
-  push(*channels, numbered(1));
+  LoopRig rig;
+  rig.channels.recording.store(true);
+  rig.run(10);
+  rig.channels.trace_lost.store(3);  // torn was the one before
+  TraceRecorder recorder(folder / "t.trace", paper_header(), rig.channels, TracePump::by_caller);
+  rig.run(2);
   const RecordingResult result = recorder.finish();
-  CHECK(result.cycles == 2);
   CHECK_FALSE(result.torn);
+  const Trace trace = read_trace(folder / "t.trace");
+  REQUIRE(trace.samples.size() == 2);
+  CHECK(trace.samples[0].out.cycle == 10);
 }
 
 TEST_CASE("recorder: a program that is killed leaves its cycles in a file that is known to be torn") {

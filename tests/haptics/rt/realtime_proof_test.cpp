@@ -3,6 +3,7 @@
 
 #include <unistd.h>
 
+#include <cstdint>
 #include <cstdlib>
 #include <memory>
 #include <mutex>
@@ -84,7 +85,7 @@ TEST_CASE("the channels and the statistics are real-time safe, full and empty") 
       channel->update();
       channel->update();
       (void)queue.push(value);
-      histogram->add(i * i * i);
+      histogram->add(std::int64_t{i} * i * i);
     }
     while (queue.pop(value)) continue;
     (void)histogram->quantile(0.99);

@@ -194,6 +194,9 @@ TEST_CASE("real-time thread: a core that does not exist is told, not ignored") {
   run_cycles(
       thread, 2, [](std::size_t, const CycleCall&) {}, config);
   CHECK(contains(thread.why_not(), "core 100000"));
+  config.policy = RealtimePolicy::required;
+  CHECK_THROWS_WITH_AS(thread.start(config, [](const CycleCall&) {}), doctest::Contains("core 100000"),
+                       std::runtime_error);
 }
 
 TEST_CASE("real-time thread: a config out of its range is refused before anything starts") {

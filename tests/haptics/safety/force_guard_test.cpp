@@ -108,6 +108,33 @@ TEST_CASE("not finite, or outside the workspace: motors off in the same cycle") 
   CHECK(guard.fault() == GuardFault::limit_broken);
 }
 
+TEST_CASE("outside on either axis and either side, or a speed that is not finite: motors off in the same cycle") {
+  for (const dvec2 outside : {dvec2{0.1, 0.0}, dvec2{-0.1, 0.0}, dvec2{0.0, 0.092}, dvec2{0.0, -0.092}}) {
+    ForceGuard guard = running_guard();
+    GuardInput in = wanting({5.0, 0.0});
+    in.position = outside;
+    CHECK(guard.guard(in).force == dvec2{0.0, 0.0});
+    CHECK(guard.state() == GuardState::released);
+  }
+  ForceGuard guard = running_guard();
+  GuardInput in = wanting({5.0, 0.0});
+  in.velocity = {0.0, std::numeric_limits<double>::infinity()};
+  CHECK(guard.guard(in).force == dvec2{0.0, 0.0});
+  CHECK(guard.fault() == GuardFault::not_finite);
+}
+
+TEST_CASE("arming forgets old faults: it does not fall again for what is over") {
+  ForceGuard guard = running_guard();
+  GuardInput late = wanting({5.0, 0.0});
+  late.overrun = true;
+  for (int i = 0; i < 8; ++i) guard.guard(late);
+  REQUIRE(guard.state() == GuardState::damped);
+  guard.arm();
+  for (int i = 0; i < 7; ++i) guard.guard(late);
+  CHECK(guard.state() == GuardState::ramping);
+  CHECK(guard.fault() == GuardFault::none);
+}
+
 TEST_CASE("one overrun is counted, eight in a row are damped") {
   ForceGuard guard = running_guard();
   GuardInput late = wanting({5.0, 0.0});
@@ -132,6 +159,41 @@ TEST_CASE("damped: the old force fades and what is left opposes motion") {
   const GuardConfig config;
   CHECK(out.force.x == doctest::Approx(-config.damped_damping * 0.2));
   CHECK(out.force.y == doctest::Approx(config.damped_damping * 0.1));
+}
+
+TEST_CASE("a fall never raises the force, whatever the ramp and the slew, and it is gone in fade time") {
+  for (const double slew : {0.2, 2.0, 25.0}) {
+    for (const int ramped : {1, 60, 250, 499, 600}) {
+      CAPTURE(slew);
+      CAPTURE(ramped);
+      GuardConfig config;
+      config.slew = slew;
+      ForceGuard guard(config, paper_spec(), kPeriod);
+      guard.arm();
+      double last = 0.0;
+      for (int i = 0; i < ramped; ++i) last = guard.guard(wanting({30.0, 0.0})).force.x;
+      GuardInput frozen = wanting({30.0, 0.0});
+      frozen.fresh = false;
+      for (int i = 0; i < 20; ++i) last = guard.guard(frozen).force.x;  // not yet stale: ramp and slew go on
+      for (int i = 0; i < 21; ++i) {
+        const double now = guard.guard(frozen).force.x;
+        CHECK(now <= last + 1e-12);
+        last = now;
+      }
+      CHECK(last == 0.0);
+    }
+  }
+}
+
+TEST_CASE("armed: no force and no fall while it waits for the first reading") {
+  ForceGuard guard({}, paper_spec(), kPeriod);
+  guard.arm();
+  GuardInput nothing = wanting({5.0, 0.0});
+  nothing.fresh = false;
+  for (int i = 0; i < 1000; ++i) CHECK(guard.guard(nothing).force == dvec2{0.0, 0.0});
+  CHECK(guard.state() == GuardState::armed);
+  guard.guard(wanting({5.0, 0.0}));
+  CHECK(guard.state() == GuardState::ramping);
 }
 
 TEST_CASE("nothing climbs the ladder by itself; arming starts from zero force") {

@@ -1,0 +1,52 @@
+// How far a verb is: a bar on stderr where that is a terminal, from the first second on and gone at the end.
+#pragma once
+
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cstddef>
+#include <cstdio>
+#include <string>
+#include <string_view>
+
+#include <fmt/core.h>
+
+namespace gearshift {
+
+class ProgressBar {
+ public:
+  ProgressBar() = default;
+  ~ProgressBar() { clear(); }
+  ProgressBar(const ProgressBar&) = delete;
+  ProgressBar& operator=(const ProgressBar&) = delete;
+
+  // what: the part of the work in hand; share: how much of it is done, 0 to 1. Cheap enough for every cycle.
+  void show(std::string_view what, double share) {
+    if (!is_terminal_) return;
+    const Clock::time_point now = Clock::now();
+    if (now < next_) return;
+    next_ = now + std::chrono::milliseconds(100);
+    drawn_ = true;
+    const double done = std::clamp(share, 0.0, 1.0);
+    const std::string bar(static_cast<std::size_t>(kWidth * done), '=');
+    fmt::print(stderr, "\r{:<10} [{:{}}] {:3.0f} %", what, bar, kWidth, 100.0 * done);
+    std::fflush(stderr);
+  }
+
+  // Before anything else is printed.
+  void clear() {
+    if (drawn_) fmt::print(stderr, "\r{:{}}\r", "", kWidth + 24);
+    drawn_ = false;
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr int kWidth = 40;  // [characters]
+
+  Clock::time_point next_ = Clock::now() + std::chrono::seconds(1);
+  bool is_terminal_ = isatty(STDERR_FILENO) == 1;
+  bool drawn_ = false;
+};
+
+}  // namespace gearshift

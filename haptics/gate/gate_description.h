@@ -1,0 +1,42 @@
+// What a person wants to know of a compiled gate: the list behind `gearshift gate`, Fig. 7 of the paper.
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "haptics/gate/gate.h"
+
+namespace gearshift {
+
+struct AisleInfo {
+  std::string name;  // "neutral" or the roman number of its junction
+  bool horizontal = false;
+  glm::dvec2 min{0.0}, max{0.0};  // [m]
+};
+struct JunctionInfo {
+  std::string name;                                                 // "I", "II", ... from left to right
+  glm::dvec2 center{0.0};                                           // [m]
+  bool left = false, right = false, forward = false, back = false;  // open directions
+  bool buffer = false;  // the closed side turns the lever into the vertical aisle
+};
+enum class WallRole { aisle, chamfer, end_stop, closed_side };
+struct WallInfo {
+  glm::dvec2 from{0.0}, to{0.0};  // [m]
+  WallRole role = WallRole::aisle;
+  int pair = -1;  // index into wall_pairs, or -1
+};
+struct WallPairInfo {  // two parallel walls of one aisle segment
+  std::string name;    // "I-II" or the gear's name
+  bool horizontal = false;
+};
+struct GateDescription {
+  std::vector<AisleInfo> aisles;
+  std::vector<JunctionInfo> junctions;
+  std::vector<WallInfo> walls;
+  std::vector<WallPairInfo> wall_pairs;
+};
+GateDescription describe_gate(const Gate& gate);
+
+}  // namespace gearshift

@@ -1,0 +1,33 @@
+#include "haptics/files/printable.h"
+
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "haptics/files/file_error.h"
+
+using namespace gearshift;
+
+TEST_CASE("what a terminal would obey is shown instead") {
+  CHECK(printable("plain 12 mm") == "plain 12 mm");
+  CHECK(printable("two\r\nlines\tand") == "two  lines and");
+  CHECK(printable("\x1b[31mred\x1b[0m") == "?[31mred?[0m");
+  CHECK(printable(std::string("a\0b", 3)) == "a?b");
+  CHECK(printable("del\x7f") == "del?");
+  CHECK(printable("c1 \xc2\x9b"
+                  "31m \xc2\x80\xc2\x9f") == "c1 ?31m ??");
+}
+
+TEST_CASE("letters of other alphabets are no control characters") {
+  for (const char* text : {"\xc2\xa0", "\xc3\x9b", "\xc3\x84ra", "\xe6\x9b\xb4", "\xff", "\xc2", ""}) {
+    CHECK(printable(text) == text);
+    CHECK(is_printable(text));
+  }
+  CHECK_FALSE(is_printable("a\nb"));
+  CHECK_FALSE(is_printable("\xc2\x9b"));
+}
+
+TEST_CASE("no FileError has a control character, whatever the file is called and whatever it says") {
+  const std::string sentence = FileError("odd\nname\x1b[2J.toml", 3, "x = \"\x1b[31m\n\": no").what();
+  CHECK(sentence == "odd name?[2J.toml:3: x = \"?[31m \": no");
+}
