@@ -143,8 +143,7 @@ void draw_lockouts(Svg& svg, const Gate& gate) {
   const Pen pen{kLockoutColour, 1.2, kLongDash};
   for (const Lockout& lockout : lockouts(gate)) {
     if (lockout.lateral) {
-      svg.line(on_page({lockout.barrier, -gate.half_aisle}), on_page({lockout.barrier, gate.half_aisle}),
-               pen);
+      svg.line(on_page({lockout.barrier, -gate.half_aisle}), on_page({lockout.barrier, gate.half_aisle}), pen);
     } else {
       across_slot(svg, gate, slot_of(gate, lockout.slot), gate.half_aisle + gate.chamfer, pen);
     }
@@ -193,8 +192,7 @@ void draw_legend(Svg& svg, const Gate& gate, glm::dvec2 at) {
   if (gate.buffer_count > 0) legend.buffer("buffer: turns the lever into the slots");
   for (const Lockout& lockout : lockouts(gate)) {
     const char* gear = gear_name(slot_of(gate, lockout.slot).gear);
-    legend.line({kLockoutColour, 1.2, kLongDash},
-                fmt::format("lockout of {}: {}", gear, lockout_words(lockout)));
+    legend.line({kLockoutColour, 1.2, kLongDash}, fmt::format("lockout of {}: {}", gear, lockout_words(lockout)));
   }
 }
 

@@ -13,8 +13,7 @@ std::string lockout_words(const Lockout& lockout) {
     case LockoutKind::lift:
       return "open while the ring is lifted";
     case LockoutKind::speed:
-      return fmt::format("shut above {}, open below {} km/h",
-                         number_text(lockout.close_above * kKmhPerMps, 3),
+      return fmt::format("shut above {}, open below {} km/h", number_text(lockout.close_above * kKmhPerMps, 3),
                          number_text(lockout.open_below * kKmhPerMps, 3));
     case LockoutKind::after_gear:
       return fmt::format("shut after {} until the column is left", gear_name(lockout.after_gear));

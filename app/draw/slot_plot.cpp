@@ -20,8 +20,7 @@ class SlotPlot {
   SlotPlot(Svg& svg, const Gate& gate, const Slot& slot, const Rect& box)
       : svg_(svg), gate_(gate), slot_(slot), box_(box), mouth_(gate.half_aisle + gate.chamfer) {
     double largest = kForceTick;
-    for (int i = 0; i <= steps(); ++i)
-      largest = std::max(largest, std::abs(feel_force(slot.feel, i * kStep)));
+    for (int i = 0; i <= steps(); ++i) largest = std::max(largest, std::abs(feel_force(slot.feel, i * kStep)));
     limit_ = std::ceil(1.05 * largest / kForceTick) * kForceTick;
   }
 
@@ -39,15 +38,13 @@ class SlotPlot {
     for (int i = -force_ticks; i <= force_ticks; ++i) {
       const bool zero = i == 0;
       const double force = i * kForceTick;
-      svg_.line({box_.x, y(force)}, {box_.right(), y(force)},
-                {zero ? kSoftInk : kGridInk, zero ? 0.3 : 0.15});
+      svg_.line({box_.x, y(force)}, {box_.right(), y(force)}, {zero ? kSoftInk : kGridInk, zero ? 0.3 : 0.15});
       svg_.text({box_.x - 1.2, y(force) + 0.8}, {2.2, kSoftInk, "end"}, fmt::format("{:.0f}", force));
     }
     for (int i = 0; i * kDepthTick <= slot_.end + 1e-9; ++i) {
       const double depth = i * kDepthTick;
       svg_.line({x(depth), box_.bottom()}, {x(depth), box_.bottom() + 1.0}, {kSoftInk, 0.2});
-      svg_.text({x(depth), box_.bottom() + 3.6}, {2.2, kSoftInk, "middle"},
-                fmt::format("{:.0f}", depth * 1e3));
+      svg_.text({x(depth), box_.bottom() + 3.6}, {2.2, kSoftInk, "middle"}, fmt::format("{:.0f}", depth * 1e3));
     }
     // Before the crest the upper half is empty, whatever the layout: the words find room there.
     svg_.text({x(mouth_) + 1.2, y(0.0) - 1.4}, {2.1, kSoftInk}, "pulls into gear");

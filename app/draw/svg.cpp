@@ -36,8 +36,7 @@ std::string stroke(const Pen& pen) {
 }
 
 std::string box(const Rect& r) {
-  return fmt::format("x=\"{:.3f}\" y=\"{:.3f}\" width=\"{:.3f}\" height=\"{:.3f}\"", r.x, r.y, r.width,
-                     r.height);
+  return fmt::format("x=\"{:.3f}\" y=\"{:.3f}\" width=\"{:.3f}\" height=\"{:.3f}\"", r.x, r.y, r.width, r.height);
 }
 
 std::string point_list(const std::vector<glm::dvec2>& points) {
@@ -72,8 +71,8 @@ void Svg::text(glm::dvec2 at, const Type& type, std::string_view words) {
 }
 
 void Svg::line(glm::dvec2 from, glm::dvec2 to, const Pen& pen) {
-  body_ += fmt::format("<line x1=\"{:.3f}\" y1=\"{:.3f}\" x2=\"{:.3f}\" y2=\"{:.3f}\" {}/>\n", from.x, from.y,
-                       to.x, to.y, stroke(pen));
+  body_ += fmt::format("<line x1=\"{:.3f}\" y1=\"{:.3f}\" x2=\"{:.3f}\" y2=\"{:.3f}\" {}/>\n", from.x, from.y, to.x,
+                       to.y, stroke(pen));
 }
 
 void Svg::rect(const Rect& r, std::string_view fill, double corner) {
@@ -85,13 +84,13 @@ void Svg::frame(const Rect& r, std::string_view fill, const Pen& pen) {
 }
 
 void Svg::dot(glm::dvec2 center, double radius, std::string_view fill) {
-  body_ += fmt::format("<circle cx=\"{:.3f}\" cy=\"{:.3f}\" r=\"{:.2f}\" fill=\"{}\"/>\n", center.x, center.y,
-                       radius, fill);
+  body_ +=
+      fmt::format("<circle cx=\"{:.3f}\" cy=\"{:.3f}\" r=\"{:.2f}\" fill=\"{}\"/>\n", center.x, center.y, radius, fill);
 }
 
 void Svg::ring(glm::dvec2 center, double radius, const Pen& pen) {
-  body_ += fmt::format("<circle cx=\"{:.3f}\" cy=\"{:.3f}\" r=\"{:.2f}\" fill=\"none\" {}/>\n", center.x,
-                       center.y, radius, stroke(pen));
+  body_ += fmt::format("<circle cx=\"{:.3f}\" cy=\"{:.3f}\" r=\"{:.2f}\" fill=\"none\" {}/>\n", center.x, center.y,
+                       radius, stroke(pen));
 }
 
 void Svg::polygon(const std::vector<glm::dvec2>& points, std::string_view fill) {

@@ -26,13 +26,11 @@ std::string script_of(const Figure& figure) {
 }
 
 // Runs gnuplot inside the folder, so that no path has to be quoted. 127 when it cannot be started.
-int run_gnuplot(const std::filesystem::path& folder, const std::string& script,
-                const std::function<void()>& waiting) {
+int run_gnuplot(const std::filesystem::path& folder, const std::string& script, const std::function<void()>& waiting) {
   const std::string directory = folder.string();
   const pid_t child = fork();
   if (child == 0) {
-    if (chdir(directory.c_str()) == 0)
-      execlp("gnuplot", "gnuplot", script.c_str(), static_cast<char*>(nullptr));
+    if (chdir(directory.c_str()) == 0) execlp("gnuplot", "gnuplot", script.c_str(), static_cast<char*>(nullptr));
     _exit(127);
   }
   if (child < 0) return 127;
@@ -48,8 +46,7 @@ int run_gnuplot(const std::filesystem::path& folder, const std::string& script,
 
 }  // namespace
 
-void draw_figure(const std::filesystem::path& folder, const Figure& figure,
-                 const std::function<void()>& waiting) {
+void draw_figure(const std::filesystem::path& folder, const Figure& figure, const std::function<void()>& waiting) {
   const std::string script = figure.name + ".gp";
   std::ofstream out(folder / script);
   out << script_of(figure);
@@ -58,8 +55,7 @@ void draw_figure(const std::filesystem::path& folder, const Figure& figure,
   const int code = run_gnuplot(folder, script, waiting);
   if (code == 127) throw std::runtime_error("gnuplot cannot be started: install the package gnuplot-nox");
   if (code != 0)
-    throw std::runtime_error(
-        fmt::format("{}: gnuplot refused it (exit code {})", (folder / script).string(), code));
+    throw std::runtime_error(fmt::format("{}: gnuplot refused it (exit code {})", (folder / script).string(), code));
 }
 
 }  // namespace gearshift

@@ -16,7 +16,6 @@ struct Figure {
 
 // Writes NAME.gp, NAME.svg and NAME.png into the folder. Calls `waiting` now and then while gnuplot works.
 // Throws std::runtime_error with one sentence when gnuplot is missing or refuses the script.
-void draw_figure(const std::filesystem::path& folder, const Figure& figure,
-                 const std::function<void()>& waiting);
+void draw_figure(const std::filesystem::path& folder, const Figure& figure, const std::function<void()>& waiting);
 
 }  // namespace gearshift

@@ -80,8 +80,7 @@ std::uint64_t finish(TraceRecorder& recorder, const std::filesystem::path& trace
   return recording.hash;
 }
 
-void export_csv(const std::filesystem::path& trace, const std::filesystem::path& csv,
-                const TourProgress& progress) {
+void export_csv(const std::filesystem::path& trace, const std::filesystem::path& csv, const TourProgress& progress) {
   TraceReader reader(trace);
   TraceCsvFile out(csv);
   std::uint64_t rows = 0;

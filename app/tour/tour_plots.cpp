@@ -20,8 +20,7 @@ void write_walls(const std::filesystem::path& file, const Gate& gate) {
   std::ofstream out(file);
   out << "# x_mm,y_mm; a blank line between walls\n";
   for (const WallInfo& wall : describe_gate(gate).walls) {
-    out << fmt::format("{},{}\n{},{}\n\n", 1e3 * wall.from.x, 1e3 * wall.from.y, 1e3 * wall.to.x,
-                       1e3 * wall.to.y);
+    out << fmt::format("{},{}\n{},{}\n\n", 1e3 * wall.from.x, 1e3 * wall.from.y, 1e3 * wall.to.x, 1e3 * wall.to.y);
   }
   if (!out.flush()) throw FileError(file.string(), 0, "cannot be written");
 }
@@ -31,9 +30,8 @@ std::string gear_labels(const Gate& gate) {
   for (int i = 0; i < gate.slot_count; ++i) {
     const Slot& slot = gate.slot[static_cast<std::size_t>(i)];
     const glm::dvec2 rest = rest_position(gate, slot.gear);
-    labels += fmt::format("set label \"{}\" at {},{} center font \",16\" textcolor \"{}\"\n",
-                          gear_name(slot.gear), 1e3 * rest.x,
-                          1e3 * (rest.y + static_cast<int>(slot.side) * (slot.end - slot.rest + 0.004)),
+    labels += fmt::format("set label \"{}\" at {},{} center font \",16\" textcolor \"{}\"\n", gear_name(slot.gear),
+                          1e3 * rest.x, 1e3 * (rest.y + static_cast<int>(slot.side) * (slot.end - slot.rest + 0.004)),
                           kGearColour);
   }
   return labels;
@@ -60,12 +58,11 @@ set grid linecolor "{grid}"
 std::string gear_marks(const TourResult& result, bool named) {
   std::string marks = "unset arrow\nunset label\n";
   for (const GearTime& gear : result.engaged) {
-    marks +=
-        fmt::format("set arrow from {0},graph 0 to {0},graph 1 nohead dashtype 2 linecolor \"{1}\" back\n",
-                    gear.time, kSoftInk);
+    marks += fmt::format("set arrow from {0},graph 0 to {0},graph 1 nohead dashtype 2 linecolor \"{1}\" back\n",
+                         gear.time, kSoftInk);
     if (named)
-      marks += fmt::format("set label \"{}\" at {},graph 1.06 center textcolor \"{}\"\n",
-                           gear_name(gear.gear), gear.time, kGearColour);
+      marks += fmt::format("set label \"{}\" at {},graph 1.06 center textcolor \"{}\"\n", gear_name(gear.gear),
+                           gear.time, kGearColour);
   }
   return marks;
 }
@@ -100,8 +97,7 @@ set xlabel "time [s]"
 
 void draw_tour(const TourSetup& setup, const TourResult& result, const TourProgress& progress) {
   write_walls(setup.folder / kWalls, setup.gate);
-  draw_figure(setup.folder, {"trajectory", 900, 820, trajectory_commands(setup)},
-              [&] { progress("figures", 0.0); });
+  draw_figure(setup.folder, {"trajectory", 900, 820, trajectory_commands(setup)}, [&] { progress("figures", 0.0); });
   draw_figure(setup.folder, {"force", 1100, 900, force_commands(result)}, [&] { progress("figures", 0.5); });
 }
 

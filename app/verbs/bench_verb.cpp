@@ -32,14 +32,13 @@ void print_table(const std::vector<BenchRow>& rows) {
     const std::string value = row.measured ? fmt::format("{:.4g}", row.value) : "-";
     const std::string goal = row.goal ? fmt::format("{} {:g}", row.at_least ? ">=" : "<=", *row.goal) : "";
     const char* verdict = !row.goal || !row.measured ? "" : meets_goal(row) ? "met" : "NOT MET";
-    fmt::print("{:<9} {:<58} {:>12} {:<20} {:>10}  {:<8}{}\n", row.family, row.name, value, row.unit, goal,
-               verdict, row.note);
+    fmt::print("{:<9} {:<58} {:>12} {:<20} {:>10}  {:<8}{}\n", row.family, row.name, value, row.unit, goal, verdict,
+               row.note);
   }
 }
 
 nlohmann::ordered_json to_json(const BenchRow& row) {
-  nlohmann::ordered_json json{
-      {"family", row.family}, {"name", row.name}, {"unit", row.unit}, {"note", row.note}};
+  nlohmann::ordered_json json{{"family", row.family}, {"name", row.name}, {"unit", row.unit}, {"note", row.note}};
   json["value"] = row.measured ? nlohmann::ordered_json(row.value) : nlohmann::ordered_json();
   if (row.goal) json["goal"] = *row.goal;
   if (row.goal) json["goal_is"] = row.at_least ? "at least" : "at most";
@@ -64,9 +63,9 @@ std::ofstream open_csv(const std::string& file) {
 void write_csv(std::ofstream& out, const std::string& file, const std::vector<BenchRow>& rows) {
   out << "family,what,value,unit,goal,note\n";
   for (const BenchRow& row : rows) {
-    out << row.family << ',' << csv_quoted(row.name) << ','
-        << (row.measured ? fmt::format("{}", row.value) : "") << ',' << csv_quoted(row.unit) << ','
-        << (row.goal ? fmt::format("{}", *row.goal) : "") << ',' << csv_quoted(row.note) << '\n';
+    out << row.family << ',' << csv_quoted(row.name) << ',' << (row.measured ? fmt::format("{}", row.value) : "") << ','
+        << csv_quoted(row.unit) << ',' << (row.goal ? fmt::format("{}", *row.goal) : "") << ',' << csv_quoted(row.note)
+        << '\n';
   }
   out.flush();
   if (!out) throw std::runtime_error(file + ": cannot be written");
@@ -104,13 +103,13 @@ int run_bench(const BenchArguments& arguments) {
 
 void add_bench_verb(CLI::App& app, VerbAction& action) {
   auto arguments = std::make_shared<BenchArguments>();
-  CLI::App* verb =
-      app.add_subcommand("bench", "Speed against error: what the haptic loop costs and how good it is");
+  CLI::App* verb = app.add_subcommand("bench", "Speed against error: what the haptic loop costs and how good it is");
   std::vector<std::string> names;
   for (const NamedFamily& family : bench_families()) names.emplace_back(family.name);
   verb->add_option("--family", arguments->families, "only these families; may be repeated")
       ->check(CLI::IsMember(names));
-  verb->add_flag("--quick", arguments->options.quick, "fewer repetitions: a look, not figures to quote (jitter: one block of --block seconds)");
+  verb->add_flag("--quick", arguments->options.quick,
+                 "fewer repetitions: a look, not figures to quote (jitter: one block of --block seconds)");
   verb->add_flag("--json", arguments->json, "JSON on stdout");
   verb->add_option("--csv", arguments->csv_file, "also write the rows as CSV")->type_name("FILE");
   verb->add_option("--block", arguments->options.jitter_block, "seconds of each block of the jitter family")

@@ -97,8 +97,7 @@ Json gears_json(const GateReport& report) {
 Json lockouts_json(const Gate& gate) {
   Json all = Json::array();
   for (const Lockout& lockout : lockouts(gate)) {
-    Json one = {{"gear", gear_name(slot_of(gate, lockout.slot).gear)},
-                {"kind", lockout_kind_name(lockout.kind)}};
+    Json one = {{"gear", gear_name(slot_of(gate, lockout.slot).gear)}, {"kind", lockout_kind_name(lockout.kind)}};
     one["barrier_x_mm"] = lockout.lateral ? Json(millimetres(lockout.barrier)) : Json(nullptr);
     if (lockout.kind == LockoutKind::after_gear) one["after"] = gear_name(lockout.after_gear);
     if (lockout.kind == LockoutKind::speed) {

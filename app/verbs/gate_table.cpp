@@ -33,24 +33,22 @@ void add_junctions(Text out, const GateReport& report) {
 }
 
 void add_gears(Text out, const GateReport& report) {
-  fmt::format_to(out, "\n{:<6}{:<10}{:<10}{:>10}{:>12}{:>12}{:>12}{:>14}\n", "gear", "junction", "side",
-                 "rest [mm]", "counts from", "released at", "end [mm]", "pull-out [N]");
+  fmt::format_to(out, "\n{:<6}{:<10}{:<10}{:>10}{:>12}{:>12}{:>12}{:>14}\n", "gear", "junction", "side", "rest [mm]",
+                 "counts from", "released at", "end [mm]", "pull-out [N]");
   for (const Slot& slot : slots(report.gate)) {
-    fmt::format_to(out, "{:<6}{:<10}{:<10}{:>10.1f}{:>12.1f}{:>12.1f}{:>12.1f}{:>14.1f}\n",
-                   gear_name(slot.gear), junction_name(report, slot), side_name(slot.side),
-                   millimetres(slot.rest), millimetres(slot.engage_depth), millimetres(slot.release_depth),
-                   millimetres(slot.end), report.layout.feel.lock_force);
+    fmt::format_to(out, "{:<6}{:<10}{:<10}{:>10.1f}{:>12.1f}{:>12.1f}{:>12.1f}{:>14.1f}\n", gear_name(slot.gear),
+                   junction_name(report, slot), side_name(slot.side), millimetres(slot.rest),
+                   millimetres(slot.engage_depth), millimetres(slot.release_depth), millimetres(slot.end),
+                   report.layout.feel.lock_force);
   }
 }
 
 void add_pairs(Text out, const GateDescription& list) {
-  fmt::format_to(out, "\n{:<6}{:<12}{:<10}{:>12}{:>13}\n", "pair", "between", "along", "width [mm]",
-                 "length [mm]");
+  fmt::format_to(out, "\n{:<6}{:<12}{:<10}{:>12}{:>13}\n", "pair", "between", "along", "width [mm]", "length [mm]");
   for (std::size_t i = 0; i < list.wall_pairs.size(); ++i) {
     const PairSize size = pair_size(list, i);
     fmt::format_to(out, "{:<6}{:<12}{:<10}{:>12.1f}{:>13.1f}\n", i + 1, list.wall_pairs[i].name,
-                   axis_name(list.wall_pairs[i].horizontal), millimetres(size.width),
-                   millimetres(size.length));
+                   axis_name(list.wall_pairs[i].horizontal), millimetres(size.width), millimetres(size.length));
   }
 }
 
@@ -58,11 +56,10 @@ void add_lockouts(Text out, const Gate& gate) {
   if (gate.lockout_count == 0) return;
   fmt::format_to(out, "\n{:<10}{:<34}{}\n", "lockout", "where", "when");
   for (const Lockout& lockout : lockouts(gate)) {
-    const std::string where =
-        lockout.lateral ? fmt::format("across the aisle at x = {:.1f} mm", millimetres(lockout.barrier))
-                        : "in the mouth of the slot";
-    fmt::format_to(out, "{:<10}{:<34}{}\n", gear_name(slot_of(gate, lockout.slot).gear), where,
-                   lockout_words(lockout));
+    const std::string where = lockout.lateral
+                                  ? fmt::format("across the aisle at x = {:.1f} mm", millimetres(lockout.barrier))
+                                  : "in the mouth of the slot";
+    fmt::format_to(out, "{:<10}{:<34}{}\n", gear_name(slot_of(gate, lockout.slot).gear), where, lockout_words(lockout));
   }
 }
 
@@ -74,8 +71,7 @@ std::string gate_table(const GateReport& report) {
   const Text out(text);
   fmt::format_to(out, "{} ({})\n", report.layout.name, report.layout.file);
   fmt::format_to(out, "{} aisles, {} junctions, {} wall pairs, {} gears, {} lockouts\n", list.aisles.size(),
-                 list.junctions.size(), list.wall_pairs.size(), report.gate.slot_count,
-                 report.gate.lockout_count);
+                 list.junctions.size(), list.wall_pairs.size(), report.gate.slot_count, report.gate.lockout_count);
   add_aisles(out, list);
   add_junctions(out, report);
   add_gears(out, report);

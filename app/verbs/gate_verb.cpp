@@ -1,7 +1,9 @@
 // gearshift gate: what the gate compiler makes of a layout.
+#include <filesystem>
 #include <fstream>
 #include <memory>
 #include <string>
+#include <system_error>
 
 #include <fmt/core.h>
 
@@ -48,6 +50,10 @@ void write_file(const std::string& path, const std::string& text) {
 }
 
 int show_gate(const GateOptions& options) {
+  std::error_code not_there;
+  if (!options.svg.empty() && std::filesystem::equivalent(options.layout, options.svg, not_there)) {
+    throw CLI::ValidationError("--svg", "the drawing and the layout must be two files");
+  }
   const GateReport report = make_report(options.layout);
   if (!options.svg.empty()) {
     write_file(options.svg, gate_svg(report.gate, report.description, report.layout.name));
@@ -71,8 +77,7 @@ void add_gate_verb(CLI::App& app, VerbAction& action) {
   verb->footer(kExamples);
   verb->add_option("LAYOUT", options->layout, "a layout file, or a shipped one: " + join_names())->required();
   verb->add_flag("--json", options->json, "print JSON instead of the table");
-  verb->add_option("--svg", options->svg, "draw the gate into this file, in true proportion")
-      ->type_name("FILE");
+  verb->add_option("--svg", options->svg, "draw the gate into this file, in true proportion")->type_name("FILE");
   verb->callback([options, &action] { action = [options] { return show_gate(*options); }; });
 }
 

@@ -52,17 +52,16 @@ double share(std::uint64_t cycles, const TraceReader& reader) {
 
 int say(const ReplayResult& result, const TraceReader& reader) {
   if (result.bit_for_bit()) {
-    fmt::print("bit for bit: {} cycles, {:.3f} s, hash {:016x}\n", result.cycles, result.seconds,
-               result.replayed_hash);
+    fmt::print("bit for bit: {} cycles, {:.3f} s, hash {:016x}\n", result.cycles, result.seconds, result.replayed_hash);
     return 0;
   }
   if (!result.first) {
-    fmt::print("not the recorded parameters: the hash is {:016x}, recorded was {:016x}\n",
-               result.replayed_hash, result.recorded_hash);
+    fmt::print("not the recorded parameters: the hash is {:016x}, recorded was {:016x}\n", result.replayed_hash,
+               result.recorded_hash);
     return 1;
   }
-  fmt::print("differs first in cycle {}: {} is {}, recorded was {}\n", result.first->cycle,
-             result.first->field, result.first->replayed, result.first->recorded);
+  fmt::print("differs first in cycle {}: {} is {}, recorded was {}\n", result.first->cycle, result.first->field,
+             result.first->replayed, result.first->recorded);
   if (reader.header().program != GEARSHIFT_VERSION)
     fmt::print("it was recorded by gearshift {}, this is {}\n", reader.header().program, GEARSHIFT_VERSION);
   return 1;
@@ -90,8 +89,7 @@ int export_torn(const ReplayOptions& options) {
   TraceCsvFile csv(options.csv);
   ProgressBar progress;
   std::uint64_t cycles = 0;
-  for (TraceSample sample; reader.next(sample); progress.show("export", share(++cycles, reader)))
-    csv.add(sample);
+  for (TraceSample sample; reader.next(sample); progress.show("export", share(++cycles, reader))) csv.add(sample);
   progress.clear();
   csv.finish();
   fmt::print("{}: {} cycles exported, not replayed\n", reader.torn() ? "torn" : "whole", cycles);
@@ -108,8 +106,7 @@ void add_replay_verb(CLI::App& app, VerbAction& action) {
   CLI::Option* csv =
       verb->add_option("--csv", options->csv, "also write every cycle as a CSV line, units in the header");
   csv->type_name("FILE");
-  verb->add_flag("--torn", options->torn,
-                 "export the intact cycles of a torn or damaged trace; replays nothing")
+  verb->add_flag("--torn", options->torn, "export the intact cycles of a torn or damaged trace; replays nothing")
       ->needs(csv);
   verb->callback([options, &action] {
     check_paths(*options);

@@ -42,11 +42,10 @@ void check_on_lever(const HandImpedance& hand) {
 HandImpedance driving_hand(const std::string& text) {
   const std::optional<HandImpedance> hand = hand_from_text(text);
   if (!hand)
-    throw CLI::ValidationError(
-        fmt::format("--hand {}: must be light, grip, arm or M,B,K in kg, N s/m, N/m", text));
+    throw CLI::ValidationError(fmt::format("--hand {}: must be light, grip, arm or M,B,K in kg, N s/m, N/m", text));
   if (hand->stiffness < 50.0) {
-    throw CLI::ValidationError(fmt::format(
-        "--hand {}: a hand of {} N/m cannot lead a lever, at least 50 is needed", text, hand->stiffness));
+    throw CLI::ValidationError(
+        fmt::format("--hand {}: a hand of {} N/m cannot lead a lever, at least 50 is needed", text, hand->stiffness));
   }
   try {
     check_on_lever(*hand);
@@ -65,14 +64,13 @@ std::string refuse_no_seed(const std::string& text) {
 void make_folder(const std::filesystem::path& folder) {
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  if (error)
-    throw std::runtime_error(fmt::format("{}: cannot be created: {}", folder.string(), error.message()));
+  if (error) throw std::runtime_error(fmt::format("{}: cannot be created: {}", folder.string(), error.message()));
 }
 
 void print_result(const TourSetup& setup, const TourResult& result) {
   for (const Limited& limited : result.limited) {
-    fmt::print(stderr, "gearshift: {} limited from {:g} to {:g} ({})\n", limited.what, limited.wanted,
-               limited.used, limited.law);
+    fmt::print(stderr, "gearshift: {} limited from {:g} to {:g} ({})\n", limited.what, limited.wanted, limited.used,
+               limited.law);
   }
   fmt::print("{}: {:.2f} s at {:g} Hz\n", setup.layout.name, result.duration, setup.haptics.rate);
   for (const GearTime& gear : result.engaged)
@@ -116,14 +114,12 @@ int run_tour(const TourArguments& arguments) {
 
 void add_tour_verb(CLI::App& app, VerbAction& action) {
   auto arguments = std::make_shared<TourArguments>();
-  CLI::App* verb =
-      app.add_subcommand("tour", "A simulated hand shifts through every gear of a gate: trace and plots");
+  CLI::App* verb = app.add_subcommand("tour", "A simulated hand shifts through every gear of a gate: trace and plots");
   verb->add_option("--out", arguments->folder, "folder for trace and plots; made where missing")
       ->type_name("DIR")
       ->required();
   verb->add_option("--gate", arguments->gate, "shipped gate or layout file")->capture_default_str();
-  verb->add_option("--hand", arguments->hand, "light, grip, arm, or M,B,K in kg, N s/m, N/m")
-      ->capture_default_str();
+  verb->add_option("--hand", arguments->hand, "light, grip, arm, or M,B,K in kg, N s/m, N/m")->capture_default_str();
   verb->add_option("--rate", arguments->rate, "rate of the haptic cycle [Hz]")
       ->check(number_between(100.0, 4000.0))
       ->capture_default_str();

@@ -43,7 +43,7 @@ class LeverEstimator {
   std::int64_t time_ns_ = 0;         // of the last believed sample
   std::uint64_t seen_sequence_ = 0;  // of the last one, believed or not
   std::int64_t seen_time_ns_ = 0;
-  double unbelieved_ = 0.0;          // [s] since the last believed sample
+  double unbelieved_ = 0.0;  // [s] since the last believed sample
   bool started_ = false;
 };
 

@@ -38,8 +38,7 @@ Box neutral_aisle(const Gate& gate, const Passage& passage) noexcept {
 Box vertical_aisle(const Gate& gate, const Passage& passage, const Column& column) noexcept {
   const double mouth = gate.half_aisle + gate.chamfer;
   const auto is_closed = [&](int slot) { return slot != kNoSlot && (passage.closed >> slot & 1u) != 0; };
-  Box box{{column.center - column.half_width, column.back},
-          {column.center + column.half_width, column.forward}};
+  Box box{{column.center - column.half_width, column.back}, {column.center + column.half_width, column.forward}};
   if (is_closed(column.forward_slot)) box.max.y = mouth;
   if (is_closed(column.back_slot)) box.min.y = -mouth;
   if (passage.limited_slot == kNoSlot) return box;
@@ -90,8 +89,7 @@ dvec2 nearest(const Mouth& mouth, dvec2 p) noexcept {
     const double right = upright.x < mouth.center ? -1.0 : 1.0;
     const double u = right * (upright.x - mouth.center);
     const double end = right > 0.0 ? mouth.max_x - mouth.center : mouth.center - mouth.min_x;
-    const double foot =
-        std::clamp(0.5 * (u - upright.y + limit), limit - mouth.top, std::max(end, limit - mouth.top));
+    const double foot = std::clamp(0.5 * (u - upright.y + limit), limit - mouth.top, std::max(end, limit - mouth.top));
     q = {mouth.center + right * foot, std::min(limit - foot, mouth.top)};
   }
   return {q.x, mouth.sign * q.y};
@@ -121,8 +119,7 @@ dvec2 next_leg(const Gate& gate, const Passage& passage, dvec2 p, dvec2 lever) n
   const Box neutral = neutral_aisle(gate, passage);
   if (contains(neutral, p)) offer(nearest(neutral, lever));
   if (best2 == 0.0 || gate.chamfer == 0.0) return best;
-  for (const auto& [slot, side] :
-       {std::pair{column.forward_slot, Side::forward}, {column.back_slot, Side::back}}) {
+  for (const auto& [slot, side] : {std::pair{column.forward_slot, Side::forward}, {column.back_slot, Side::back}}) {
     if (slot == kNoSlot) continue;
     const Mouth mouth = mouth_of(gate, passage, column, side);
     if (contains(mouth, p)) offer(nearest(mouth, lever));
@@ -147,8 +144,7 @@ Proxy place_proxy(const Gate& gate, dvec2 lever) noexcept {
   return {best, lever};
 }
 
-Proxy move_proxy(const Gate& gate, const Passage& passage, Proxy proxy, dvec2 lever,
-                 double hand_over) noexcept {
+Proxy move_proxy(const Gate& gate, const Passage& passage, Proxy proxy, dvec2 lever, double hand_over) noexcept {
   if (!is_finite(lever)) return proxy;
   double budget = glm::distance(lever, proxy.lever) + hand_over;
   proxy.lever = lever;

@@ -26,8 +26,7 @@ struct Proxy {
 // Proxy after the lever has moved to `lever`. It travels at most |lever - last lever| + hand_over [m], so
 // when the governing wall changes the coupling force of stiffness K changes by at most K (2 |lever step| +
 // hand_over). Real-time safe; a lever that is not finite leaves the proxy where it is.
-Proxy move_proxy(const Gate& gate, const Passage& passage, Proxy proxy, glm::dvec2 lever,
-                 double hand_over) noexcept;
+Proxy move_proxy(const Gate& gate, const Passage& passage, Proxy proxy, glm::dvec2 lever, double hand_over) noexcept;
 
 // A proxy at the point of free space nearest to the lever, all lockouts open: where a run begins.
 Proxy place_proxy(const Gate& gate, glm::dvec2 lever) noexcept;

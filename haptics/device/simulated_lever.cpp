@@ -92,11 +92,9 @@ DeviceSpec make_spec(const SimulatedLeverConfig& config) {
 SimulatedLever::Axis SimulatedLever::make_axis(const SimulatedLeverConfig& config, const AxisModel& handle,
                                                double limit, double period) {
   const HandImpedance& hand = config.hand;
-  const AxisModel model{handle.mass + hand.mass, handle.damping + hand.damping,
-                        handle.stiffness + hand.stiffness};
+  const AxisModel model{handle.mass + hand.mass, handle.damping + hand.damping, handle.stiffness + hand.stiffness};
   const AxisLimits limits{config.yoke.radius * limit, config.coulomb_friction};
-  return {model, AxisStepper(model, period), limits, Actuator(config.actuator),
-          JointEncoder(config.encoder_counts)};
+  return {model, AxisStepper(model, period), limits, Actuator(config.actuator), JointEncoder(config.encoder_counts)};
 }
 
 SimulatedLever::SimulatedLever(const SimulatedLeverConfig& config, std::int64_t period_ns, HandDriver& driver)
@@ -150,8 +148,7 @@ void SimulatedLever::lead_hand() noexcept {
   const glm::dvec2 here = plane_position(pose_, config_.yoke.radius);
   target_ = driver_.next(static_cast<double>(periods_) * period_, here);
 
-  const glm::dvec2 push =
-      is_finite(target_.push) ? glm::clamp(target_.push, -kMostPush, kMostPush) : glm::dvec2(0.0);
+  const glm::dvec2 push = is_finite(target_.push) ? glm::clamp(target_.push, -kMostPush, kMostPush) : glm::dvec2(0.0);
   glm::dvec2 drive = arc_force(pose_, push);
   if (config_.hand.stiffness > 0.0 || config_.hand.damping > 0.0) {
     const ArcTarget wanted = arc_target(target_);
@@ -199,8 +196,7 @@ void SimulatedLever::move(Axis& axis) const noexcept {
   if (axis.limits.coulomb_friction == 0.0) {
     const AxisState next = axis.stepper.step(axis.state, force);
     const double speed = std::max(std::abs(axis.state.velocity), std::abs(next.velocity));
-    const double farthest =
-        std::max(std::abs(axis.state.position), std::abs(next.position)) + speed * period_;
+    const double farthest = std::max(std::abs(axis.state.position), std::abs(next.position)) + speed * period_;
     if (farthest < axis.limits.stop) {
       axis.state = next;
       return;
@@ -231,8 +227,7 @@ void SimulatedLever::sample() noexcept {
 // - m_h a: in this form it holds at a stop and under dry friction too.
 double SimulatedLever::hand_force(const Axis& axis) const noexcept {
   const HandImpedance& hand = config_.hand;
-  const double massless =
-      axis.hand_drive - hand.stiffness * axis.state.position - hand.damping * axis.state.velocity;
+  const double massless = axis.hand_drive - hand.stiffness * axis.state.position - hand.damping * axis.state.velocity;
   if (hand.mass == 0.0) return massless;
   const double force = axis.hand_drive + axis.actuator_force;
   const double inertial = inertial_force(axis.model, axis.limits, axis.state, force);

@@ -68,7 +68,7 @@ class SimulatedLever final : public HapticDevice {
     Actuator actuator;
     JointEncoder encoder;
     AxisState state{};
-    double hand_drive = 0.0;  // [N] of the hand's target: push + stiffness target + damping target velocity
+    double hand_drive = 0.0;      // [N] of the hand's target: push + stiffness target + damping target velocity
     double actuator_force = 0.0;  // [N] delivered over the last cycle
   };
 
@@ -77,8 +77,7 @@ class SimulatedLever final : public HapticDevice {
     glm::dvec2 position{0.0}, velocity{0.0};
   };
 
-  static Axis make_axis(const SimulatedLeverConfig& config, const AxisModel& handle, double limit,
-                        double period);
+  static Axis make_axis(const SimulatedLeverConfig& config, const AxisModel& handle, double limit, double period);
   std::uint64_t take_periods(std::int64_t now_ns) noexcept;
   void advance_period() noexcept;
   void lead_hand() noexcept;

@@ -19,8 +19,7 @@ std::string shortest(double value) {
 std::string number_text(double value, int decimals) {
   if (!std::isfinite(value) || std::abs(value) >= kLargestPlain) return shortest(value);
   char digits[64];
-  const auto end =
-      std::to_chars(digits, digits + sizeof digits, value, std::chars_format::fixed, decimals).ptr;
+  const auto end = std::to_chars(digits, digits + sizeof digits, value, std::chars_format::fixed, decimals).ptr;
   std::string text(digits, end);
   if (text.find('.') != std::string::npos) {
     text.erase(text.find_last_not_of('0') + 1);

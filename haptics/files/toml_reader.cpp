@@ -107,8 +107,7 @@ std::string TomlTable::text(std::string_view key) const {
   if (!value->is_string()) fail(key, "must be a text in quotes");
   const std::string& words = value->as_string()->get();
   if (words.empty()) fail(key, "must not be empty");
-  if (words.size() > kMaxTextLength)
-    fail(key, "must be at most " + std::to_string(kMaxTextLength) + " bytes long");
+  if (words.size() > kMaxTextLength) fail(key, "must be at most " + std::to_string(kMaxTextLength) + " bytes long");
   if (!is_printable(words)) fail(key, "must be one line without control characters");
   return words;
 }

@@ -17,8 +17,7 @@ const FeelCurve::Piece& piece_at(const FeelCurve& curve, double at) noexcept {
 std::array<double, 4> hermite(const FeelKnot& a, const FeelKnot& b) noexcept {
   const double h = b.at - a.at;
   const double rise = (b.force - a.force) / h;
-  return {a.force, a.slope, (3.0 * rise - 2.0 * a.slope - b.slope) / h,
-          (a.slope + b.slope - 2.0 * rise) / (h * h)};
+  return {a.force, a.slope, (3.0 * rise - 2.0 * a.slope - b.slope) / h, (a.slope + b.slope - 2.0 * rise) / (h * h)};
 }
 
 double piece_slope(const FeelCurve::Piece& piece, double u) noexcept {

@@ -58,8 +58,7 @@ void check_column_count(const GateLayout& layout) {
   if (count < 2 || count > kMaxColumns) {
     const int line = count > kMaxColumns ? layout.columns[kMaxColumns].line : layout.lines.gate;
     fail(layout, line,
-         "a gate has between 2 and " + std::to_string(kMaxColumns) + " columns, this one has " +
-             std::to_string(count));
+         "a gate has between 2 and " + std::to_string(kMaxColumns) + " columns, this one has " + std::to_string(count));
   }
   if (layout.neutral_column < 0 || layout.neutral_column >= static_cast<int>(count)) {
     fail(layout, layout.lines.gate, "the neutral column is none of the columns");
@@ -73,8 +72,7 @@ void check_spacing(const GateLayout& layout) {
     const double spacing = column.position - layout.columns[i - 1].position;
     if (!(spacing > 0.0)) {
       fail(layout, column.line,
-           column_text(column) +
-               " does not lie to the right of the one before it: write columns from left to right");
+           column_text(column) + " does not lie to the right of the one before it: write columns from left to right");
     }
     if (!(spacing >= least - 1e-9)) {
       fail(layout, column.line,
@@ -123,8 +121,7 @@ void check_gears(const GateLayout& layout) {
       const std::size_t gear = at(slot.gear);
       if (seen[gear]) {
         fail(layout, slot.line,
-             "gear " + std::string(gear_name(slot.gear)) + " is already in line " +
-                 std::to_string(line_of[gear]));
+             "gear " + std::string(gear_name(slot.gear)) + " is already in line " + std::to_string(line_of[gear]));
       }
       seen[gear] = true;
       line_of[gear] = slot.line;
@@ -166,9 +163,24 @@ void check_feel(const GateLayout& layout) {
   if (!(slope <= kSteepestFeel)) {
     fail(layout, layout.lines.slot_length,
          "slot_length_mm is too short for its feel: below " +
-             millimetres_text(s.mouth + length * slope / kSteepestFeel) +
-             " its forces would rise by more than " + limit);
+             millimetres_text(s.mouth + length * slope / kSteepestFeel) + " its forces would rise by more than " +
+             limit);
   }
+}
+
+// The handle of the paper's joystick has a spring of its own, eq (11), that pulls to the middle of the workspace.
+constexpr double kHandleStiffness = 14.8;  // [N/m]
+constexpr double kReturnMargin = 1.2;
+constexpr double kLeastReturn = 0.5;  // [N] beyond it, or dry friction would hold the lever
+
+void check_return(const GateLayout& layout) {
+  const double neutral = layout.columns[static_cast<std::size_t>(layout.neutral_column)].position;
+  const double least = kLeastReturn + kReturnMargin * kHandleStiffness * std::abs(neutral);
+  if (layout.feel.center_force >= least) return;
+  fail(layout, layout.lines.feel,
+       "center_force_n = " + number_text(layout.feel.center_force) + ": must be at least " +
+           number_text(std::ceil(10.0 * least) / 10.0) + ", or the lever would not return to a neutral column at " +
+           millimetres_text(neutral));
 }
 
 // How far from the centre walls may lie where slots are this deep, down to a tenth of a millimetre. [m]
@@ -204,8 +216,7 @@ void check_workspace(const GateLayout& layout, glm::dvec2 workspace, double radi
     const double wall = std::abs(column.position) + layout.slot_width / 2.0;
     if (!(wall <= reach.x)) {
       fail(layout, column.line,
-           column_text(column) + " has its wall at " + millimetres_text(wall) +
-               ", outside the workspace: " + device);
+           column_text(column) + " has its wall at " + millimetres_text(wall) + ", outside the workspace: " + device);
     }
   }
   if (!(layout.slot_length <= reach.y)) {
@@ -231,8 +242,7 @@ void check_after_gear(const GateLayout& layout, const LockoutLayout& lockout) {
   }
   if (column_of_gear(layout, lockout.after_gear) != column_of_gear(layout, lockout.gear)) {
     fail(layout, lockout.line,
-         "a lockout of gear " + gear + " after gear " + gear_name(lockout.after_gear) +
-             " needs both in one column");
+         "a lockout of gear " + gear + " after gear " + gear_name(lockout.after_gear) + " needs both in one column");
   }
 }
 
@@ -248,8 +258,7 @@ void check_lockouts(const GateLayout& layout) {
     }
     if (lockout.kind == LockoutKind::after_gear) check_after_gear(layout, lockout);
     if (lockout.kind == LockoutKind::speed && !(lockout.open_below < lockout.close_above)) {
-      fail(layout, lockout.line,
-           "open_below_kmh must be smaller than close_above_kmh, or the lockout would flicker");
+      fail(layout, lockout.line, "open_below_kmh must be smaller than close_above_kmh, or the lockout would flicker");
     }
   }
 }
@@ -266,8 +275,7 @@ bool reaches(glm::dvec2 half, double radius, glm::dvec2 point) noexcept {
 void check_buffers(const GateLayout& layout, const Gate& gate) {
   const double center = layout.feel.center_force;
   for (const Buffer& buffer : buffers(gate)) {
-    const glm::dvec2 at{0.5 * (buffer.wall + buffer.inner),
-                        buffer.forward_open ? gate.half_aisle : -gate.half_aisle};
+    const glm::dvec2 at{0.5 * (buffer.wall + buffer.inner), buffer.forward_open ? gate.half_aisle : -gate.half_aisle};
     const double outward = buffer.wall > buffer.inner ? 1.0 : -1.0;
     const double pull = outward * gate_feel(gate, at).x + center;
     if (buffer.force <= 0.0 || pull < center) continue;
@@ -285,6 +293,7 @@ void check_layout(const GateLayout& layout, glm::dvec2 workspace, double radius)
   check_junctions(layout);
   check_gears(layout);
   check_feel(layout);
+  check_return(layout);
   check_workspace(layout, workspace, radius);
   check_lockouts(layout);
 }

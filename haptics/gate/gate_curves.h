@@ -16,11 +16,11 @@ struct SlotStations {
   double mouth = 0.0;       // and here it ends: the slot proper begins
   double bump = 0.0;        // peak of the mouth bump
   double low = 0.0;         // little force between bump and detent
-  double crest = 0.0;   // peak of the detent; an engaged gear is released when the lever comes back to here
-  double lock = 0.0;    // peak of the pull-out force
-  double engage = 0.0;  // the gear counts from here on
-  double rest = 0.0;    // the engaged lever rests here
-  double end = 0.0;     // end stop
+  double crest = 0.0;       // peak of the detent; an engaged gear is released when the lever comes back to here
+  double lock = 0.0;        // peak of the pull-out force
+  double engage = 0.0;      // the gear counts from here on
+  double rest = 0.0;        // the engaged lever rests here
+  double end = 0.0;         // end stop
 };
 SlotStations slot_stations(const GateLayout& layout);
 

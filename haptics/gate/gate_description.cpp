@@ -47,12 +47,10 @@ int add_pair(GateDescription& list, std::string name, bool horizontal) {
 }
 
 void describe_aisles(const Gate& gate, GateDescription& list) {
-  list.aisles.push_back(
-      {"neutral", true, {gate.select_min, -gate.half_aisle}, {gate.select_max, gate.half_aisle}});
+  list.aisles.push_back({"neutral", true, {gate.select_min, -gate.half_aisle}, {gate.select_max, gate.half_aisle}});
   for (const Column& c : columns(gate)) {
     const std::string name = kRoman[list.aisles.size() - 1];
-    list.aisles.push_back(
-        {name, false, {c.center - c.half_width, c.back}, {c.center + c.half_width, c.forward}});
+    list.aisles.push_back({name, false, {c.center - c.half_width, c.back}, {c.center + c.half_width, c.forward}});
   }
 }
 

@@ -73,8 +73,8 @@ double gate_energy(const Gate& gate, glm::dvec2 proxy) noexcept {
   double energy = -feel_work(gate.select_feel, proxy.x);
   energy -= feel_work(shift_curve(gate, proxy), std::abs(proxy.y));
   for (const Buffer& buffer : buffers(gate)) {
-    energy -= buffer.force * buffer_rise(buffer, proxy.x).value *
-              buffer_turn(buffer, gate.half_aisle, proxy.y).integral;
+    energy -=
+        buffer.force * buffer_rise(buffer, proxy.x).value * buffer_turn(buffer, gate.half_aisle, proxy.y).integral;
   }
   return energy;
 }

@@ -22,7 +22,7 @@ constexpr Range kChamferMm{0.0, 10.0};
 constexpr Range kSpeedKmh{0.0, 400.0};
 
 // The paper's lever gives 31.7 N at its peak; a lock must leave something for the walls.
-constexpr Range kCenterForceN{0.0, 10.0};
+constexpr Range kCenterForceN{0.5, 10.0};
 constexpr Range kAisleForceN{0.0, 5.0};
 constexpr Range kMouthForceN{0.0, 15.0};
 constexpr Range kDetentForceN{0.0, 20.0};
@@ -72,8 +72,8 @@ void read_columns(const TomlTable& root, GateLayout& layout) {
     layout.columns.push_back(read_column(table));
     if (table.flag_or("neutral", false)) {
       if (neutral != nullptr) {
-        table.fail("neutral", "a gate has one neutral column, and line " +
-                                  std::to_string(neutral->line("neutral")) + " names another");
+        table.fail("neutral", "a gate has one neutral column, and line " + std::to_string(neutral->line("neutral")) +
+                                  " names another");
       }
       neutral = &table;
       layout.neutral_column = static_cast<int>(layout.columns.size()) - 1;
@@ -118,8 +118,7 @@ LockoutKind read_kind(const TomlTable& table) {
   names.reserve(kKinds.size());
   for (const LockoutKind kind : kKinds) names.emplace_back(lockout_kind_name(kind));
   const std::string word = table.choice("kind", names);
-  return *std::find_if(kKinds.begin(), kKinds.end(),
-                       [&](LockoutKind kind) { return word == lockout_kind_name(kind); });
+  return *std::find_if(kKinds.begin(), kKinds.end(), [&](LockoutKind kind) { return word == lockout_kind_name(kind); });
 }
 
 // The speeds are asked for only by a speed lockout: anywhere else they are unknown keys, not ignored ones.

@@ -72,8 +72,7 @@ JointTorques joint_torques(const YokeGeometry& yoke, JointAngles q, glm::dvec3 f
   const double scale = yoke.radius / (s.d * std::sqrt(s.d));
   const double theta =
       force.x * s.cp * s.ct + force.y * s.sp * s.st * s.cp * s.cp - force.z * s.st * s.cp * s.cp * s.cp;
-  const double phi =
-      -force.x * s.st * s.sp * s.ct * s.ct - force.y * s.ct * s.cp - force.z * s.sp * s.ct * s.ct * s.ct;
+  const double phi = -force.x * s.st * s.sp * s.ct * s.ct - force.y * s.ct * s.cp - force.z * s.sp * s.ct * s.ct * s.ct;
   return {scale * theta, scale * phi};
 }
 

@@ -55,8 +55,7 @@ Response over_damped(const Modes& mode, double t) noexcept {
   const double s = r > 0.0 ? e1 * -std::expm1(-2.0 * r * t) / (2.0 * r) : t * e1;
   const double free = e1 - p1 * s;
   const bool apart = r * t >= 0.5;  // else (E1 - E2) cancels, while 1 - free does not
-  const double i =
-      apart ? (integral_of_exp(p1, t) - integral_of_exp(p2, t)) / (2.0 * r) : (1.0 - free) / mode.w2;
+  const double i = apart ? (integral_of_exp(p1, t) - integral_of_exp(p2, t)) / (2.0 * r) : (1.0 - free) / mode.w2;
   return {free, s, e2 + p1 * s, i};
 }
 
@@ -127,8 +126,7 @@ AxisState advance(const AxisModel& axis, AxisState state, double force, double t
   return AxisStepper(axis, time).step(state, force);
 }
 
-double inertial_force(const AxisModel& axis, const AxisLimits& limits, AxisState state,
-                      double force) noexcept {
+double inertial_force(const AxisModel& axis, const AxisLimits& limits, AxisState state, double force) noexcept {
   const double net = force - axis.damping * state.velocity - axis.stiffness * state.position;
   if (state.velocity != 0.0) return net - sign(state.velocity) * limits.coulomb_friction;
   const bool stuck = std::abs(net) <= limits.coulomb_friction;

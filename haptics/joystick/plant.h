@@ -54,7 +54,6 @@ AxisState advance_limited(const AxisModel& axis, const AxisLimits& limits, AxisS
                           double time) noexcept;
 
 // Mass times acceleration of that axis now [N]: 0 where friction or a stop holds it at rest.
-double inertial_force(const AxisModel& axis, const AxisLimits& limits, AxisState state,
-                      double force) noexcept;
+double inertial_force(const AxisModel& axis, const AxisLimits& limits, AxisState state, double force) noexcept;
 
 }  // namespace gearshift

@@ -43,8 +43,7 @@ std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t so_far) noex
     crc = 0;
     for (std::size_t i = 0; i < kSlices; ++i) crc ^= kCrc[kSlices - 1 - i][(word >> (8 * i)) & 255u];
   }
-  for (const std::byte byte : bytes)
-    crc = (crc >> 8) ^ kCrc[0][(crc ^ static_cast<std::uint32_t>(byte)) & 255u];
+  for (const std::byte byte : bytes) crc = (crc >> 8) ^ kCrc[0][(crc ^ static_cast<std::uint32_t>(byte)) & 255u];
   return ~crc;
 }
 

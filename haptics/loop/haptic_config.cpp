@@ -26,7 +26,9 @@ std::int64_t period_ns(const HapticConfig& config) noexcept {
   return std::llround(1e9 / config.rate);
 }
 
-double period_s(const HapticConfig& config) noexcept { return 1e-9 * static_cast<double>(period_ns(config)); }
+double period_s(const HapticConfig& config) noexcept {
+  return 1e-9 * static_cast<double>(period_ns(config));
+}
 
 void check_tuning(const HapticTuning& tuning) {
   require_between("wall_stiffness_n_per_m", tuning.wall_stiffness, 0.0, 20000.0);
@@ -55,19 +57,15 @@ void check_config(const HapticConfig& config) {
   require_between("ghost_offset_m", config.ghost_offset, 0.0, 1.0);
 }
 
-AdmittedTuning admit_tuning(const HapticTuning& wanted, double period, const DeviceSpec& spec,
-                            const Gate& gate) {
+AdmittedTuning admit_tuning(const HapticTuning& wanted, double period, const DeviceSpec& spec, const Gate& gate) {
   AdmittedTuning out{wanted, {}};
   const double mass = std::min(spec.axis_x.mass, spec.axis_y.mass);
   const double tau = (spec.delay + 1.0) * period;
   limit(out.tuning.wall_stiffness, kHoldMargin * mass / (tau * tau), "wall_stiffness_n_per_m", kStiffnessLaw,
         out.limited);
-  limit(out.tuning.wall_damping, kHoldMargin * mass / tau, "wall_damping_n_s_per_m", kDampingLaw,
-        out.limited);
-  limit(out.tuning.limit_damping, kHoldMargin * mass / tau, "limit_damping_n_s_per_m", kDampingLaw,
-        out.limited);
-  limit(out.tuning.aisle_damping, kHoldMargin * mass / tau, "aisle_damping_n_s_per_m", kDampingLaw,
-        out.limited);
+  limit(out.tuning.wall_damping, kHoldMargin * mass / tau, "wall_damping_n_s_per_m", kDampingLaw, out.limited);
+  limit(out.tuning.limit_damping, kHoldMargin * mass / tau, "limit_damping_n_s_per_m", kDampingLaw, out.limited);
+  limit(out.tuning.aisle_damping, kHoldMargin * mass / tau, "aisle_damping_n_s_per_m", kDampingLaw, out.limited);
   const double feel = stiffest_feel(gate);
   if (feel > 0.0) {
     limit(out.tuning.feel_scale, out.tuning.wall_stiffness / feel, "feel_scale", kFeelLaw, out.limited);

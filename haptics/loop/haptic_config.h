@@ -59,7 +59,6 @@ void check_config(const HapticConfig& config);
 // The tuning that holds on this device at this rate with this gate: the delay-scaled stiffness and damping of the
 // half-sample hold, K <= 0.35 m / tau^2 and B <= 0.35 m / tau, tau = (delay + 1) T, m the lighter axis. The factor
 // was found by a search over hands, impact phases, quantisation, jitter and plant error (400 runs per setting).
-AdmittedTuning admit_tuning(const HapticTuning& wanted, double period, const DeviceSpec& spec,
-                            const Gate& gate);
+AdmittedTuning admit_tuning(const HapticTuning& wanted, double period, const DeviceSpec& spec, const Gate& gate);
 
 }  // namespace gearshift

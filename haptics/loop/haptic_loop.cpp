@@ -16,15 +16,14 @@ namespace {
 
 using glm::dvec2;
 
-constexpr double kRearmAfter = 0.050;    // [s] of healthy readings before a simulated lever arms itself again
-constexpr double kContactApart = 0.030;  // [s] off the wall before a touch counts as a new impact
+constexpr double kRearmAfter = 0.050;      // [s] of healthy readings before a simulated lever arms itself again
+constexpr double kContactApart = 0.030;    // [s] off the wall before a touch counts as a new impact
 constexpr double kSaturationHold = 0.050;  // [s] below the limit before saturation is over
 constexpr double kShortfall = 1.0;         // [N] between commanded and delivered force that a hand would notice
 constexpr std::int64_t kMostSkipped = 10;  // cycles that the world catches up after an overrun
 
 std::int64_t clock_ns() noexcept {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(
-             std::chrono::steady_clock::now().time_since_epoch())
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
       .count();
 }
 
@@ -159,8 +158,7 @@ void HapticLoop::limit_depth() noexcept {
 dvec2 HapticLoop::mechanism_feel(dvec2 mean_proxy) const noexcept {
   const double speed = glm::length(motion_.smooth_velocity);
   const double excess = std::max(0.0, speed - tuning_.speed_limit);
-  const double damping =
-      tuning_.aisle_damping + (excess > 0.0 ? tuning_.limit_damping * excess / speed : 0.0);
+  const double damping = tuning_.aisle_damping + (excess > 0.0 ? tuning_.limit_damping * excess / speed : 0.0);
   return tuning_.feel_scale * gate_feel(gate_, mean_proxy) - damping * motion_.smooth_velocity;
 }
 

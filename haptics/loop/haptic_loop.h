@@ -119,12 +119,12 @@ class HapticLoop {
   Passage passage_;
   Proxy proxy_;
   LeverOutput world_out_;
-  bool placed_ = false;       // the proxy stands where the lever was at the start or at arming
-  bool first_step_ = true;    // of the world: period 0
-  double healthy_ = 0.0;      // [s] of fresh readings in a row, to re-arm a simulated lever
+  bool placed_ = false;                // the proxy stands where the lever was at the start or at arming
+  bool first_step_ = true;             // of the world: period 0
+  double healthy_ = 0.0;               // [s] of fresh readings in a row, to re-arm a simulated lever
   std::array<glm::dvec2, 16> sent_{};  // [N] commanded in the last cycles: the delay is at most 15
-  double apart_ = 1.0;        // [s] since the lever last touched a wall
-  double unsaturated_ = 1.0;  // [s] since the wanted force was last beyond the device
+  double apart_ = 1.0;                 // [s] since the lever last touched a wall
+  double unsaturated_ = 1.0;           // [s] since the wanted force was last beyond the device
   HapticSnapshot out_;
   StageStamps stamps_;
 };

@@ -69,8 +69,7 @@ std::vector<NamedLeaf> leaves_of(const TraceSample& sample) {
 std::optional<Difference> first_difference(const TraceSample& recorded, const TraceSample& replayed) {
   const std::vector<NamedLeaf> was = leaves_of(recorded), is = leaves_of(replayed);
   for (std::size_t i = 0; i < was.size(); ++i)
-    if (was[i].bits != is[i].bits)
-      return Difference{recorded.out.cycle, was[i].name, was[i].text, is[i].text};
+    if (was[i].bits != is[i].bits) return Difference{recorded.out.cycle, was[i].name, was[i].text, is[i].text};
   return std::nullopt;
 }
 

@@ -37,8 +37,7 @@ class Replayer {
  public:
   // Throws FileError (with `file` as its name) where the header describes nothing that can be run: an unknown
   // world, a parameter out of its range, a layout that does not compile.
-  Replayer(const TraceHeader& header, const std::string& file,
-           const WorldFactory& make_world = make_null_world);
+  Replayer(const TraceHeader& header, const std::string& file, const WorldFactory& make_world = make_null_world);
   ~Replayer();
 
   // One cycle again. False at the first difference: then finish. Throws FileError when the recording began in

@@ -49,11 +49,10 @@ class StrokeWriter {
 };
 
 bool has_lockout(const Gate& gate, int slot, LockoutKind kind, int after_gear = kNeutralGear) {
-  return std::any_of(gate.lockout.begin(), gate.lockout.begin() + gate.lockout_count,
-                     [&](const Lockout& lockout) {
-                       return lockout.slot == slot && lockout.kind == kind &&
-                              (kind != LockoutKind::after_gear || lockout.after_gear == after_gear);
-                     });
+  return std::any_of(gate.lockout.begin(), gate.lockout.begin() + gate.lockout_count, [&](const Lockout& lockout) {
+    return lockout.slot == slot && lockout.kind == kind &&
+           (kind != LockoutKind::after_gear || lockout.after_gear == after_gear);
+  });
 }
 
 const Column& column_at(const Gate& gate, double x) {
@@ -85,8 +84,7 @@ std::vector<HandStroke> shift_strokes(const Gate& gate, dvec2 start, std::span<c
   StrokeWriter writer(start, style);
   const auto select = [&](double x) {
     const double way = x - writer.at().x;
-    if (std::abs(way) <= column_at(gate, x).half_width + 2.0 * kLean)
-      return;  // it stands in that column already
+    if (std::abs(way) <= column_at(gate, x).half_width + 2.0 * kLean) return;  // it stands in that column already
     writer.go({x + (style.leans ? lean_at(gate, x, way) : 0.0), 0.0}, style.dwell_neutral);
   };
   int gear = kNeutralGear;
@@ -97,8 +95,7 @@ std::vector<HandStroke> shift_strokes(const Gate& gate, dvec2 start, std::span<c
     if (has_lockout(gate, index, LockoutKind::after_gear, gear)) {
       writer.go({aside_of(gate, rest.x), 0.0}, style.dwell_neutral);
     }
-    writer.hold(has_lockout(gate, index, LockoutKind::push_down),
-                has_lockout(gate, index, LockoutKind::lift));
+    writer.hold(has_lockout(gate, index, LockoutKind::push_down), has_lockout(gate, index, LockoutKind::lift));
     select(rest.x);
     if (index != kNoSlot) {
       const Slot& slot = gate.slot[static_cast<std::size_t>(index)];
@@ -115,8 +112,7 @@ std::vector<int> tour_order(const Gate& gate) {
   std::vector<int> order;
   for (int i = 0; i < gate.slot_count; ++i) order.push_back(gate.slot[static_cast<std::size_t>(i)].gear);
   std::sort(order.begin(), order.end());
-  if (!order.empty() && order.front() == kReverseGear)
-    std::rotate(order.begin(), order.begin() + 1, order.end());
+  if (!order.empty() && order.front() == kReverseGear) std::rotate(order.begin(), order.begin() + 1, order.end());
   return order;
 }
 

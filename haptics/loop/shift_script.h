@@ -14,7 +14,7 @@ struct ShiftStyle {
   double reaction = 0.10;       // [s] added to every stroke
   double dwell_gear = 0.30;     // [s] in each gear
   double dwell_neutral = 0.05;  // [s] at each turn in the neutral aisle
-  bool leans = true;  // aims 1.5 mm beyond end walls and end stops, as a hand does; else at the gear's rest
+  bool leans = true;            // aims 1.5 mm beyond end walls and end stops, as a hand does; else at the gear's rest
 };
 
 // Strokes from `start` [m] (in free space) through the gears in order, kNeutralGear included: out of the

@@ -36,8 +36,7 @@ constexpr void each_field(FieldsOf<AxisModel> auto& axis, auto&& visit) {
 }
 
 constexpr void each_field(FieldsOf<DeviceSpec> auto& spec, auto&& visit) {
-  auto& [max_force, continuous_force, workspace, position_step, delay, axis_x, axis_y, measures, simulated] =
-      spec;
+  auto& [max_force, continuous_force, workspace, position_step, delay, axis_x, axis_y, measures, simulated] = spec;
   visit("max_force", max_force);
   visit("continuous_force", continuous_force);
   visit("workspace", workspace);
@@ -115,8 +114,8 @@ constexpr void each_field(FieldsOf<DriverControls> auto& controls, auto&& visit)
 }
 
 constexpr void each_field(FieldsOf<HapticSnapshot> auto& snapshot, auto&& visit) {
-  auto& [cycle, time_ns, lever, velocity, proxy, wall_force, feel_force, world_force, commanded, f_h, f_a,
-         f_j, road_speed, slot, gear, guard, fault, flags] = snapshot;
+  auto& [cycle, time_ns, lever, velocity, proxy, wall_force, feel_force, world_force, commanded, f_h, f_a, f_j,
+         road_speed, slot, gear, guard, fault, flags] = snapshot;
   visit("cycle", cycle);
   visit("time_ns", time_ns);
   visit("lever", lever);

@@ -17,8 +17,7 @@ std::string at_byte(std::uint64_t at) {
 
 }  // namespace
 
-TraceReader::TraceReader(const std::filesystem::path& file, TornTrace torn)
-    : name_(file.string()), policy_(torn) {
+TraceReader::TraceReader(const std::filesystem::path& file, TornTrace torn) : name_(file.string()), policy_(torn) {
   open(file);
   check_preamble();
   read_header();
@@ -60,8 +59,7 @@ void TraceReader::check_preamble() {
   if (size_ < kPreambleBytes) fail("is not a gearshift trace");
   std::array<std::byte, kPreambleBytes> bytes;
   read(0, bytes);
-  if (std::memcmp(bytes.data(), kTraceMagic.data(), kTraceMagic.size()) != 0)
-    fail("is not a gearshift trace");
+  if (std::memcmp(bytes.data(), kTraceMagic.data(), kTraceMagic.size()) != 0) fail("is not a gearshift trace");
   std::uint32_t version = 0;
   FieldReader(std::span(bytes).subspan(kTraceMagic.size())).take(version);
   const std::string says = "is a trace of format " + std::to_string(version);
@@ -112,8 +110,7 @@ bool TraceReader::scan_block(std::uint64_t& at) {
   }
   const std::vector<std::byte> payload = read_payload(block);
   const std::optional<TraceEnd> end = decode_end(payload);
-  if (crc32(payload) != frame->payload_crc || !end)
-    return stop_or_fail("is damaged: its end block does not fit");
+  if (crc32(payload) != frame->payload_crc || !end) return stop_or_fail("is damaged: its end block does not fit");
   end_ = *end;
   torn_ = end_.torn;
   if (at != size_) return stop_or_fail("is damaged: " + std::to_string(size_ - at) + " bytes follow its end");
@@ -122,8 +119,7 @@ bool TraceReader::scan_block(std::uint64_t& at) {
 
 void TraceReader::check_scanned() {
   if (policy_ == TornTrace::salvage) return;
-  const std::string intact =
-      std::to_string(cycles_) + " intact cycles can be exported with --torn --csv FILE";
+  const std::string intact = std::to_string(cycles_) + " intact cycles can be exported with --torn --csv FILE";
   if (end_.torn) fail("is torn: the recorder could not keep up; " + intact);
   if (torn_) fail("is torn: it has no end block; " + intact);
   if (cycles_ != end_.cycles)
@@ -159,8 +155,7 @@ bool TraceReader::next(TraceSample& sample) {
   used_ += kSampleBytes;
   FieldReader reader(bytes);
   reader.take(sample);
-  if (!reader.ok())
-    fail("is damaged: cycle " + std::to_string(taken_) + " holds a value that does not exist");
+  if (!reader.ok()) fail("is damaged: cycle " + std::to_string(taken_) + " holds a value that does not exist");
   check_cycle(sample);
   last_cycle_ = sample.out.cycle;
   ++taken_;
@@ -172,8 +167,7 @@ void TraceReader::check_cycle(const TraceSample& sample) const {
   const auto damaged = [&](const std::string& how) {
     fail("is damaged: cycle " + std::to_string(sample.out.cycle) + how);
   };
-  if (taken_ > 0 && sample.out.cycle != last_cycle_ + 1)
-    damaged(" follows cycle " + std::to_string(last_cycle_));
+  if (taken_ > 0 && sample.out.cycle != last_cycle_ + 1) damaged(" follows cycle " + std::to_string(last_cycle_));
   if (sample.skipped < 0) damaged(" skipped " + std::to_string(sample.skipped) + " deadlines");
 }
 
@@ -190,8 +184,7 @@ Trace read_trace(const std::filesystem::path& file) {
   return trace;
 }
 
-void write_trace(const std::filesystem::path& file, const TraceHeader& header,
-                 std::span<const TraceSample> samples) {
+void write_trace(const std::filesystem::path& file, const TraceHeader& header, std::span<const TraceSample> samples) {
   TraceWriter writer(file, header);
   for (const TraceSample& sample : samples) writer.add(sample);
   writer.finish();

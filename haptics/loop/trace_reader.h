@@ -79,7 +79,6 @@ struct Trace {
   std::uint64_t hash = 0;  // of parameters and outputs, as recorded
 };
 Trace read_trace(const std::filesystem::path& file);
-void write_trace(const std::filesystem::path& file, const TraceHeader& header,
-                 std::span<const TraceSample> samples);
+void write_trace(const std::filesystem::path& file, const TraceHeader& header, std::span<const TraceSample> samples);
 
 }  // namespace gearshift

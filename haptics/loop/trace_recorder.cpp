@@ -10,8 +10,8 @@ constexpr std::chrono::milliseconds kPumpInterval{20};
 
 }  // namespace
 
-TraceRecorder::TraceRecorder(const std::filesystem::path& file, const TraceHeader& header,
-                             LoopChannels& channels, TracePump pump)
+TraceRecorder::TraceRecorder(const std::filesystem::path& file, const TraceHeader& header, LoopChannels& channels,
+                             TracePump pump)
     : channels_(channels), writer_(file, header), lost_before_(channels.trace_lost.load()) {
   for (TraceSample left_over; channels_.trace.pop(left_over);) continue;
   channels_.recording.store(true);

@@ -30,8 +30,7 @@ class TraceRecorder {
  public:
   // Start it before the loop's first cycle: only then can the trace be replayed. Throws FileError when the
   // file cannot be created. The channels must outlive the recorder.
-  TraceRecorder(const std::filesystem::path& file, const TraceHeader& header, LoopChannels& channels,
-                TracePump pump);
+  TraceRecorder(const std::filesystem::path& file, const TraceHeader& header, LoopChannels& channels, TracePump pump);
   ~TraceRecorder() { finish(); }
   TraceRecorder(const TraceRecorder&) = delete;
   TraceRecorder& operator=(const TraceRecorder&) = delete;

@@ -44,9 +44,7 @@ class LatestValue {
     T value;
   };
 
-  static std::uint8_t index_of(std::uint8_t mark) noexcept {
-    return static_cast<std::uint8_t>(mark & kIndex);
-  }
+  static std::uint8_t index_of(std::uint8_t mark) noexcept { return static_cast<std::uint8_t>(mark & kIndex); }
 
   std::array<Slot, 3> slot_;
   alignas(64) std::atomic<std::uint8_t> middle_{1};

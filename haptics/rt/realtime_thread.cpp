@@ -61,8 +61,7 @@ std::string lock_memory() {
   // Under a finite limit, a lock that succeeds now makes some later allocation fail: worse than none.
   if (!may_lock_any_amount()) return "the memory lock was refused (grant it with 'memlock unlimited')";
   if (mlockall(MCL_CURRENT | MCL_FUTURE) == 0) return {};
-  return std::string("the memory lock was refused: ") + std::strerror(errno) +
-         " (grant it with 'memlock unlimited')";
+  return std::string("the memory lock was refused: ") + std::strerror(errno) + " (grant it with 'memlock unlimited')";
 }
 
 std::string schedule_fifo(int priority) {
@@ -70,8 +69,8 @@ std::string schedule_fifo(int priority) {
   wanted.sched_priority = priority;
   if (sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &wanted) == 0) return {};
   const std::string level = std::to_string(priority);
-  return "SCHED_FIFO at priority " + level + " was refused: " + std::strerror(errno) +
-         " (grant it with 'rtprio " + level + "')";
+  return "SCHED_FIFO at priority " + level + " was refused: " + std::strerror(errno) + " (grant it with 'rtprio " +
+         level + "')";
 }
 
 std::string pin_to(int core) {
@@ -103,10 +102,8 @@ CycleCall first_ahead(const CycleCall& call, std::int64_t done, std::int64_t per
 }
 
 void check(const RealtimeConfig& config) {
-  if (config.period_ns <= 0)
-    throw std::invalid_argument("the period of a real-time thread must be above 0 ns");
-  if (config.spin_ns < 0)
-    throw std::invalid_argument("the spin of a real-time thread must not be below 0 ns");
+  if (config.period_ns <= 0) throw std::invalid_argument("the period of a real-time thread must be above 0 ns");
+  if (config.spin_ns < 0) throw std::invalid_argument("the spin of a real-time thread must not be below 0 ns");
   if (config.priority < 1 || config.priority > 99)
     throw std::invalid_argument("the priority of a real-time thread must be 1 to 99");
 }

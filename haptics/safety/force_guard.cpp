@@ -49,8 +49,7 @@ GuardOutput ForceGuard::guard(const GuardInput& in) noexcept {
 void ForceGuard::watch(const GuardInput& in) noexcept {
   stale_ = in.fresh ? 0 : stale_ + 1;
   overruns_ = in.overrun ? overruns_ + 1 : 0;
-  const bool is_outside =
-      std::abs(in.position.x) > position_limit_.x || std::abs(in.position.y) > position_limit_.y;
+  const bool is_outside = std::abs(in.position.x) > position_limit_.x || std::abs(in.position.y) > position_limit_.y;
   if (!is_finite(in.force) || !is_finite(in.position) || !is_finite(in.velocity)) {
     return fall(GuardState::released, GuardFault::not_finite);
   }

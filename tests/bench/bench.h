@@ -25,7 +25,7 @@ bool meets_goal(const BenchRow& row) noexcept;
 struct BenchOptions {
   std::string gate_folder;     // where the shipped layouts are
   bool quick = false;          // fewer repetitions: a look, not a figure to quote
-  double jitter_block = 60.0;  // [s] of each alternating block
+  double jitter_block = 20.0;  // [s] of each alternating block
   std::function<void(std::string_view family, double share)> progress;  // share in [0, 1]; may be empty
 };
 
@@ -36,7 +36,7 @@ struct NamedFamily {
 };
 const std::vector<NamedFamily>& bench_families();
 
-std::vector<BenchRow> bench_cycle(const BenchOptions& options);  // cost of the haptic cycle and of its stages
+std::vector<BenchRow> bench_cycle(const BenchOptions& options);     // cost of the haptic cycle and of its stages
 std::vector<BenchRow> bench_headless(const BenchOptions& options);  // simulated seconds per second
 std::vector<BenchRow> bench_plant(const BenchOptions& options);     // exact step against the closed form
 std::vector<BenchRow> bench_feel(const BenchOptions& options);      // commanded force along a slot

@@ -89,22 +89,15 @@ std::vector<BenchRow> bench_cycle(const BenchOptions& options) {
   const Tape tape = record_tour(gate);
   const int runs = options.quick ? 5 : 50;
   Medians medians = run_tours(gate, tape, runs, options);
-  const std::string note =
-      "median of " + std::to_string(runs) + " tours; every 64th cycle carries nine clock reads";
-  std::vector<BenchRow> rows{
-      {"cycle", "whole cycle p50", quantile(medians.p50, 0.5), "ns", 200.0, false, note},
-      {"cycle", "whole cycle p99", quantile(medians.p99, 0.5), "ns", 500.0, false, note},
-      {"cycle", "cycles in contact", 100.0 * tape.contact_share, "%", 30.0, true,
-       "gripping hand, paper's gate, 1 kHz"}};
+  const std::string note = "median of " + std::to_string(runs) + " tours; every 64th cycle carries nine clock reads";
+  std::vector<BenchRow> rows{{"cycle", "whole cycle p50", quantile(medians.p50, 0.5), "ns", 200.0, false, note},
+                             {"cycle", "whole cycle p99", quantile(medians.p99, 0.5), "ns", 500.0, false, note},
+                             {"cycle", "cycles in contact", 100.0 * tape.contact_share, "%", 30.0, true,
+                              "gripping hand, paper's gate, 1 kHz"}};
   for (std::size_t s = 0; s < kStages; ++s) {
     const std::string stage = std::string("stage ") + kStageNames[s];
-    rows.push_back({"cycle",
-                    stage,
-                    quantile(medians.last.stages[s], 0.5),
-                    "ns",
-                    {},
-                    false,
-                    "with one clock read, about 25 ns"});
+    rows.push_back(
+        {"cycle", stage, quantile(medians.last.stages[s], 0.5), "ns", {}, false, "with one clock read, about 25 ns"});
   }
   return rows;
 }

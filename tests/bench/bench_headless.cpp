@@ -16,8 +16,7 @@ std::vector<BenchRow> bench_headless(const BenchOptions& options) {
     SimulatedRun run(touring_config(gate), driver);
     const auto start = std::chrono::steady_clock::now();
     while (run.time() < driver.duration()) run.step();
-    speed.push_back(run.time() /
-                    std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+    speed.push_back(run.time() / std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
   }
   return {{"headless", "simulation at 1 kHz", quantile(speed, 0.5), "x real time", 1000.0, true,
            "lever, hand, gate, guard; median of " + std::to_string(runs) + " tours, spread " +

@@ -83,8 +83,7 @@ BenchRow intent_row(const Gate& gate, const std::string& name, int aims) {
           "% as meant",
           99.0,
           true,
-          std::to_string(aims) +
-              " aims, 3 mm noise, misses (from>meant:got):" + (misses == 0 ? " none" : listed)};
+          std::to_string(aims) + " aims, 3 mm noise, misses (from>meant:got):" + (misses == 0 ? " none" : listed)};
 }
 
 }  // namespace

@@ -61,11 +61,10 @@ std::vector<std::uint64_t> read_histogram(std::FILE* pipe) {
 Lateness run_cyclictest(double seconds, int core) {
   char command[256];
   std::snprintf(command, sizeof command,
-                "cyclictest --policy=fifo -p %d -t 1 -a %d -i 1000 -m -q -D %d -h 100000 2>/dev/null",
-                kPriority, core, static_cast<int>(seconds));
+                "cyclictest --policy=fifo -p %d -t 1 -a %d -i 1000 -m -q -D %d -h 100000 2>/dev/null", kPriority, core,
+                static_cast<int>(seconds));
   std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(popen(command, "r"), pclose);
-  const std::vector<std::uint64_t> histogram =
-      pipe ? read_histogram(pipe.get()) : std::vector<std::uint64_t>{};
+  const std::vector<std::uint64_t> histogram = pipe ? read_histogram(pipe.get()) : std::vector<std::uint64_t>{};
   std::uint64_t total = 0;
   for (const std::uint64_t n : histogram) total += n;
   Lateness result;
@@ -116,8 +115,7 @@ Contest compete(const Gate& gate, const BenchOptions& options, bool loaded) {
   const int blocks = options.quick ? 1 : kBlocks;
   Contest contest;
   for (int b = 0; b < blocks; ++b) {
-    if (options.progress)
-      options.progress("jitter", (static_cast<double>(b) / blocks + (loaded ? 1.0 : 0.0)) / 2.0);
+    if (options.progress) options.progress("jitter", (static_cast<double>(b) / blocks + (loaded ? 1.0 : 0.0)) / 2.0);
     const Lateness theirs = run_cyclictest(options.jitter_block, core);
     const Lateness sleeping = run_ours(gate, options.jitter_block, 0, core);
     const Lateness spinning = run_ours(gate, options.jitter_block, RealtimeConfig{}.spin_ns, core);
@@ -133,16 +131,16 @@ Contest compete(const Gate& gate, const BenchOptions& options, bool loaded) {
 }
 
 // Ours beside theirs: the figure itself, and the median of the blocks' ratios, which is what is compared.
-void add_ours(std::vector<BenchRow>& rows, const std::string& what, std::vector<double>& us,
-              std::vector<double>& ratio, const std::string& note) {
+void add_ours(std::vector<BenchRow>& rows, const std::string& what, std::vector<double>& us, std::vector<double>& ratio,
+              const std::string& note) {
   rows.push_back({"jitter", "ours, " + what, quantile(us, 0.5), "us", {}, false, note});
   rows.push_back({"jitter", "ours / cyclictest, " + what, quantile(ratio, 0.5), "ratio", 1.2, false, note});
 }
 
 void add_rows(std::vector<BenchRow>& rows, Contest& contest, double seconds, bool loaded) {
   const std::string where = loaded ? ", beside one busy thread per core" : ", alone";
-  const std::string note = "median of " + std::to_string(contest.theirs[0].size()) +
-                           " alternating blocks of " + std::to_string(static_cast<int>(seconds)) + " s";
+  const std::string note = "median of " + std::to_string(contest.theirs[0].size()) + " alternating blocks of " +
+                           std::to_string(static_cast<int>(seconds)) + " s";
   for (std::size_t i = 0; i < kQuantiles.size(); ++i) {
     std::string at = i == 0 ? "p99" : "p99.9";
     at += where;
@@ -168,8 +166,7 @@ std::vector<BenchRow> bench_jitter(const BenchOptions& options) {
   try {
     for (const bool loaded : {false, true}) {
       Contest contest = compete(gate, options, loaded);
-      if (quantile(contest.theirs[0], 0.5) == 0.0)
-        return {not_measurable("cyclictest has no real-time rights")};
+      if (quantile(contest.theirs[0], 0.5) == 0.0) return {not_measurable("cyclictest has no real-time rights")};
       add_rows(rows, contest, options.jitter_block, loaded);
     }
   } catch (const std::runtime_error& error) {

@@ -31,8 +31,7 @@ AxisState euler(const AxisModel& axis, AxisState s, double period) noexcept {
 
 AxisState runge_kutta4(const AxisModel& axis, AxisState s, double h) noexcept {
   const auto slope = [&](AxisState at) {
-    return AxisState{at.velocity,
-                     (kForce - axis.damping * at.velocity - axis.stiffness * at.position) / axis.mass};
+    return AxisState{at.velocity, (kForce - axis.damping * at.velocity - axis.stiffness * at.position) / axis.mass};
   };
   const auto at = [&](AxisState k, double f) {
     return AxisState{s.position + f * k.position, s.velocity + f * k.velocity};
@@ -56,8 +55,7 @@ Result measure(const AxisModel& axis, double period, Step step) {
     state = {kStart, 0.0};
     for (int i = 0; i < steps; ++i) state = step(state);
   }
-  const double ns =
-      static_cast<double>(ticks() - before) / ticks_per_ns() / (static_cast<double>(steps) * repeats);
+  const double ns = static_cast<double>(ticks() - before) / ticks_per_ns() / (static_cast<double>(steps) * repeats);
   const long double truth = closed_form(axis, kTime);
   return {static_cast<double>(std::abs((state.position - truth) / truth)), ns};
 }
@@ -77,10 +75,9 @@ std::vector<BenchRow> bench_plant(const BenchOptions&) {
     const std::string at = period == 0.001 ? " at 1 ms" : " at 10 ms";
     const AxisStepper exact(axis, period);
     add(rows, "exact" + at, measure(axis, period, [&](AxisState s) { return exact.step(s, kForce); }), 1e-12);
-    add(rows, "Runge-Kutta 4" + at,
-        measure(axis, period, [&](AxisState s) { return runge_kutta4(axis, s, period); }), {});
-    add(rows, "symplectic Euler" + at,
-        measure(axis, period, [&](AxisState s) { return euler(axis, s, period); }), {});
+    add(rows, "Runge-Kutta 4" + at, measure(axis, period, [&](AxisState s) { return runge_kutta4(axis, s, period); }),
+        {});
+    add(rows, "symplectic Euler" + at, measure(axis, period, [&](AxisState s) { return euler(axis, s, period); }), {});
   }
   return rows;
 }

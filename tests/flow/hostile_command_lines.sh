@@ -61,6 +61,7 @@ refuse 2 "LAYOUT" gate
 refuse 1 "paper" gate no_such_gate
 refuse 1 "nameless.toml" gate nameless.toml
 refuse 1 "two_lines.toml" gate two_lines.toml
+refuse 2 "two files" gate ./nameless.toml --svg ./nameless.toml
 refuse 1 "folder" gate folder
 refuse 1 "empty" gate ./empty
 refuse 1 "zeros.trace" gate zeros.trace

@@ -10,8 +10,7 @@ namespace gearshift {
 
 class PushingHand final : public HandDriver {
  public:
-  explicit PushingHand(std::function<glm::dvec2(double time, glm::dvec2 lever)> push)
-      : push_(std::move(push)) {}
+  explicit PushingHand(std::function<glm::dvec2(double time, glm::dvec2 lever)> push) : push_(std::move(push)) {}
   HandTarget next(double time, glm::dvec2 lever) noexcept override {
     HandTarget target;
     target.position = lever;

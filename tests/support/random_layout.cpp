@@ -32,8 +32,7 @@ class Dice {
 };
 
 std::string tenths(int value) {
-  const std::string digits =
-      std::to_string(std::abs(value) / 10) + "." + std::to_string(std::abs(value) % 10);
+  const std::string digits = std::to_string(std::abs(value) / 10) + "." + std::to_string(std::abs(value) % 10);
   return value < 0 ? "-" + digits : digits;
 }
 
@@ -56,7 +55,7 @@ void plan_sizes(Dice& dice, Plan& plan) {
   plan.aisle = dice.between(80, 140);
   plan.slot_width = dice.between(60, 100);
   plan.chamfer = dice.coin() ? dice.between(1, 40) : dice.between(0, 40);
-  plan.center = dice.between(0, 50);
+  plan.center = dice.between(17, 50);  // a neutral column may lie as far as 65 mm from the middle
   plan.aisle_force = dice.between(2, 20);
   plan.mouth = dice.between(10, 50);
   plan.detent = dice.between(10, 70);
@@ -73,9 +72,8 @@ void plan_length(Dice& dice, Plan& plan) {
   const auto need = [](int tenths_of_newton, double share) {
     return 1.5 * 0.1 * tenths_of_newton / share / kSteepest * 1e4;  // [0.1 mm]
   };
-  const double slot =
-      std::max({100.0, need(std::max(plan.mouth, plan.aisle_force), 0.14), need(plan.detent, 0.14),
-                need(plan.detent + plan.lock, 0.24), need(plan.lock, 0.20)});
+  const double slot = std::max({100.0, need(std::max(plan.mouth, plan.aisle_force), 0.14), need(plan.detent, 0.14),
+                                need(plan.detent + plan.lock, 0.24), need(plan.lock, 0.20)});
   const int mouth = (plan.aisle + 1) / 2 + plan.chamfer;
   const int least = mouth + static_cast<int>(std::ceil(slot)) + 1;
   plan.slot_length = dice.between(std::min(least, kLongest), kLongest);
@@ -128,9 +126,8 @@ void plan_gears(Dice& dice, Plan& plan) {
 }
 
 std::string sizes_text(const Plan& plan) {
-  return "[gate]\n" + entry("aisle_width_mm", tenths(plan.aisle)) +
-         entry("slot_width_mm", tenths(plan.slot_width)) + entry("slot_length_mm", tenths(plan.slot_length)) +
-         entry("chamfer_mm", tenths(plan.chamfer)) + "\n[feel]\n" +
+  return "[gate]\n" + entry("aisle_width_mm", tenths(plan.aisle)) + entry("slot_width_mm", tenths(plan.slot_width)) +
+         entry("slot_length_mm", tenths(plan.slot_length)) + entry("chamfer_mm", tenths(plan.chamfer)) + "\n[feel]\n" +
          entry("center_force_n", tenths(plan.center)) + entry("aisle_force_n", tenths(plan.aisle_force)) +
          entry("mouth_force_n", tenths(plan.mouth)) + entry("detent_force_n", tenths(plan.detent)) +
          entry("lock_force_n", tenths(plan.lock)) + entry("buffer_force_n", tenths(plan.buffer));
@@ -157,8 +154,7 @@ std::string lockouts_text(Dice& dice, const Plan& plan) {
       if (kind == 0) text += entry("kind", quoted("push_down"));
       if (kind == 1) text += entry("kind", quoted("lift"));
       if (kind == 2)
-        text +=
-            entry("kind", quoted("speed")) + entry("close_above_kmh", std::to_string(dice.between(16, 40)));
+        text += entry("kind", quoted("speed")) + entry("close_above_kmh", std::to_string(dice.between(16, 40)));
       if (kind == 3) text += entry("kind", quoted("after_gear")) + entry("after", quoted(other));
     }
   }

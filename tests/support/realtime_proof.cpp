@@ -25,8 +25,7 @@ std::string RealtimeProof::verdict() const {
   if (!ran) return "did not run: " + problem;
   if (clean()) return "clean";
   std::string first_call = system_call < 0 ? "no system call" : "system call " + std::to_string(system_call);
-  return std::to_string(allocations) + " allocations or frees, " + std::to_string(locks) + " locks, " +
-         first_call;
+  return std::to_string(allocations) + " allocations or frees, " + std::to_string(locks) + " locks, " + first_call;
 }
 
 }  // namespace gearshift

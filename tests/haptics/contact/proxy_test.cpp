@@ -45,8 +45,8 @@ class ClosedPath {
     std::uniform_real_distribution<double> phase(0.0, 2.0 * std::numbers::pi);
     for (int k = 1; k <= 4; ++k) {
       const double fade = 1.0 / k;
-      terms_.push_back({static_cast<double>(k), fade * amplitude(random), phase(random),
-                        fade * amplitude(random), phase(random)});
+      terms_.push_back(
+          {static_cast<double>(k), fade * amplitude(random), phase(random), fade * amplitude(random), phase(random)});
     }
     offset_ = {amplitude(random), 0.5 * amplitude(random)};
   }
@@ -209,7 +209,8 @@ TEST_CASE("a closed slot is a wall at its mouth, and a limit of depth is a wall:
     const dvec2 goal = rest_position(gate, gear), mouth{goal.x, 0.0};
     const auto pushed = [&](const Passage& passage, dvec2 from, dvec2 to) {
       Proxy proxy{from, from};
-      for (int i = 0; i <= 100; ++i) proxy = move_proxy(gate, passage, proxy, from + (to - from) * (i / 100.0), kHandOver);
+      for (int i = 0; i <= 100; ++i)
+        proxy = move_proxy(gate, passage, proxy, from + (to - from) * (i / 100.0), kHandOver);
       return std::abs(proxy.position.y);
     };
     Passage closed = open_passage(gate);
@@ -243,8 +244,7 @@ TEST_CASE("a free lever is exactly its proxy: no contact is made of rounding") {
 TEST_CASE("a lever that is not finite moves nothing") {
   const Gate gate = paper_gate();
   const Proxy proxy{{0.01, 0.0}, {0.01, 0.0}};
-  for (const double bad :
-       {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+  for (const double bad : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
     CHECK(move_proxy(gate, open_passage(gate), proxy, {bad, 0.0}, kHandOver).position == proxy.position);
     CHECK(move_proxy(gate, open_passage(gate), proxy, {0.0, bad}, kHandOver).position == proxy.position);
   }

@@ -27,8 +27,7 @@ LockoutInputs random_inputs(std::mt19937_64& random, LockoutInputs in) {
 
 }  // namespace
 
-TEST_CASE(
-    "200 random gates: a million steps and throws, walls opening and closing, never outside, never through") {
+TEST_CASE("200 random gates: a million steps and throws, walls opening and closing, never outside, never through") {
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     CAPTURE(seed);
     const Gate gate = compile_gate(random_layout(seed), kPaperWorkspace);

@@ -36,7 +36,6 @@ TEST_CASE("any other is refused in the wording of a file's reader") {
   CHECK(refusal(std::nan(""), 1e-4, 1e9) == "delay = nan: must be between 0.0001 and 1000000000");
   CHECK(refusal(std::numeric_limits<double>::max(), 1e-6, 0.1) ==
         "delay = 1.7976931348623157e+308: must be between 1e-06 and 0.1");
-  CHECK(refusal(-std::numeric_limits<double>::infinity(), 0.0, 1.0) ==
-        "delay = -inf: must be between 0 and 1");
+  CHECK(refusal(-std::numeric_limits<double>::infinity(), 0.0, 1.0) == "delay = -inf: must be between 0 and 1");
   CHECK(refusal(999999999999999.875, 0.0, 1.0) == "delay = 999999999999999.9: must be between 0 and 1");
 }

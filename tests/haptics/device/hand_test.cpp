@@ -157,8 +157,8 @@ TEST_CASE("a hand is a name or three numbers, and nothing else") {
   CHECK(hand_from_text("grip")->stiffness == 500.0);
   CHECK(hand_from_text("arm")->mass == 0.8);
   CHECK(hand_from_text(".15,10,5e2")->stiffness == 500.0);
-  for (const char* text : {"", "Grip", "grip ", "1,2", "1,2,3,4", "1,2,3 ", "1;2;3", "-1,2,3", "nan,1,1",
-                           "1,inf,1", "1,,1", "1,2,1e999", ",,", "0x1,1,1"}) {
+  for (const char* text : {"", "Grip", "grip ", "1,2", "1,2,3,4", "1,2,3 ", "1;2;3", "-1,2,3", "nan,1,1", "1,inf,1",
+                           "1,,1", "1,2,1e999", ",,", "0x1,1,1"}) {
     CAPTURE(text);
     CHECK_FALSE(hand_from_text(text).has_value());
   }
@@ -166,8 +166,7 @@ TEST_CASE("a hand is a name or three numbers, and nothing else") {
 
 TEST_CASE("a bad script is refused with the stroke's number and the allowed range") {
   CHECK_THROWS_WITH_AS(ScriptedHand({}, {stroke_to({}, 0.3, 0.1), stroke_to({}, 0.0, 0.1)}, 1e-3),
-                       "ScriptedHand: stroke 1 duration = 0: must be between 0.001 and 10000 s",
-                       std::invalid_argument);
+                       "ScriptedHand: stroke 1 duration = 0: must be between 0.001 and 10000 s", std::invalid_argument);
   ScriptedHandConfig config;
   config.effort_limit = std::nan("");
   CHECK_THROWS_AS(ScriptedHand(config, {}, 1e-3), std::invalid_argument);

@@ -46,9 +46,7 @@ struct Bench {
   void run(int periods) {
     for (int i = 0; i < periods; ++i) reading = lever.read(now += period_ns);
   }
-  glm::dvec2 arc() const {
-    return arc_position(kYoke, joint_angles_from_plane(kYoke, lever.true_position()));
-  }
+  glm::dvec2 arc() const { return arc_position(kYoke, joint_angles_from_plane(kYoke, lever.true_position())); }
 
   StillHand hand;
   SimulatedLever lever;
@@ -59,10 +57,8 @@ struct Bench {
 // m x'' + b x' + k x = k_h target from rest at 0, by its two poles.
 double led_to(const AxisModel& axis, const HandImpedance& hand, double target, double time) {
   using Complex = std::complex<double>;
-  const Complex m = axis.mass + hand.mass, b = axis.damping + hand.damping,
-                k = axis.stiffness + hand.stiffness;
-  const Complex root = std::sqrt(b * b - 4.0 * m * k), p1 = (-b + root) / (2.0 * m),
-                p2 = (-b - root) / (2.0 * m);
+  const Complex m = axis.mass + hand.mass, b = axis.damping + hand.damping, k = axis.stiffness + hand.stiffness;
+  const Complex root = std::sqrt(b * b - 4.0 * m * k), p1 = (-b + root) / (2.0 * m), p2 = (-b - root) / (2.0 * m);
   const Complex share = (p2 * std::exp(p1 * time) - p1 * std::exp(p2 * time)) / (p1 - p2);
   return (hand.stiffness * target / k * (1.0 + share)).real();
 }
@@ -117,15 +113,13 @@ TEST_CASE("the hand's force is m a + b v + k x - f of the handle, the hand's own
   for (int i = 0; i < 500; ++i) {
     const glm::dvec2 before = bench.arc();
     bench.run(1);
-    const glm::dvec2 now = bench.arc(), measured = bench.reading.hand_force,
-                     given = bench.reading.actuator_force;
+    const glm::dvec2 now = bench.arc(), measured = bench.reading.hand_force, given = bench.reading.actuator_force;
     const JointAngles q = joint_angles_from_plane(kYoke, bench.lever.true_position());
     bench.run(1);
     const glm::dvec2 after = bench.arc();
 
     const glm::dvec2 a = (after - 2.0 * now + before) / (step * step), v = (after - before) / (2.0 * step);
-    const glm::dvec2 on_handle{0.095 * a.x + 3.0 * v.x + 14.8 * now.x,
-                               0.086 * a.y + 2.9 * v.y + 15.7 * now.y};
+    const glm::dvec2 on_handle{0.095 * a.x + 3.0 * v.x + 14.8 * now.x, 0.086 * a.y + 2.9 * v.y + 15.7 * now.y};
     const glm::dvec2 expected = plane_force(kYoke, q, torques_along(on_handle)) - given;
     CHECK(glm::length(measured - expected) < 2e-3);
   }
@@ -207,8 +201,7 @@ TEST_CASE("60 N run to the stops: 77 mm to the side, 69 mm forward, and lean on 
 
   Bench forward(exact(), hand_pushing({0.0, 60.0}));
   forward.run(1000);
-  CHECK(forward.lever.true_position().y ==
-        doctest::Approx(0.120 * std::sin(35.0 * std::numbers::pi / 180.0)));
+  CHECK(forward.lever.true_position().y == doctest::Approx(0.120 * std::sin(35.0 * std::numbers::pi / 180.0)));
   CHECK(forward.lever.spec().workspace.y == doctest::Approx(0.0688).epsilon(1e-3));
 }
 

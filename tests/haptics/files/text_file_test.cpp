@@ -55,6 +55,5 @@ TEST_CASE("what is not a readable file is refused in one sentence") {
 
   const fs::path secret = write(scratch / "secret", "x");
   fs::permissions(secret, fs::perms::none);
-  if (geteuid() != 0)
-    CHECK(refusal(secret) == secret.string() + ": cannot be read");  // root reads everything
+  if (geteuid() != 0) CHECK(refusal(secret) == secret.string() + ": cannot be read");  // root reads everything
 }

@@ -105,16 +105,13 @@ TEST_CASE("a missing key is told with the line of its table") {
   CHECK(refusal([&] {
           inner.number("width_mm", {4.0, 30.0});
         }) == "sample.toml:7: width_mm is missing: it must be a number between 4 and 30");
-  CHECK(refusal([&] { inner.text("name"); }) ==
-        "sample.toml:7: name is missing: it must be a text in quotes");
-  CHECK(refusal([&] { inner.table("deep"); }) ==
-        "sample.toml:7: deep is missing: it must be a table, [deep]");
+  CHECK(refusal([&] { inner.text("name"); }) == "sample.toml:7: name is missing: it must be a text in quotes");
+  CHECK(refusal([&] { inner.table("deep"); }) == "sample.toml:7: deep is missing: it must be a table, [deep]");
 }
 
 TEST_CASE("tables and lists of tables are not mistaken for each other") {
   const TomlTable table = sample();
-  CHECK(refusal([&] { table.table("row"); }) ==
-        "sample.toml:9: row = (a list): must be a table: write [row]");
+  CHECK(refusal([&] { table.table("row"); }) == "sample.toml:9: row = (a list): must be a table: write [row]");
   CHECK(refusal([&] { table.tables("inner"); }) ==
         "sample.toml:7: inner = (a table): must be a list of tables: write each as [[inner]]");
   CHECK(refusal([&] { table.tables("list"); }) ==
@@ -126,16 +123,13 @@ TEST_CASE("a key that nobody asked for is refused, with the known ones") {
   table.number("a", {0.0, 9.0});
   table.has("z");
   table.number("c", {0.0, 9.0});
-  CHECK(refusal([&] { table.refuse_unknown_keys(); }) ==
-        "keys.toml:2: b is not a known key: known here are a, z, c");
+  CHECK(refusal([&] { table.refuse_unknown_keys(); }) == "keys.toml:2: b is not a known key: known here are a, z, c");
   table.number("b", {0.0, 9.0});
   CHECK(refusal([&] { table.refuse_unknown_keys(); }) == "not refused");
 }
 
 TEST_CASE("what is not TOML is refused in one sentence with its line") {
-  const auto parse = [](const std::string& text) {
-    return refusal([&] { TomlTable::parse(text, "bad.toml"); });
-  };
+  const auto parse = [](const std::string& text) { return refusal([&] { TomlTable::parse(text, "bad.toml"); }); };
   CHECK(parse("a = 1\na = 2\n").find("bad.toml:2: not valid TOML: ") == 0);
   CHECK(parse("a = 1\nb = \n").find("bad.toml:2: not valid TOML: ") == 0);
   CHECK(parse("a = 1\nb = \"\xff\"\n").find("bad.toml:2: not valid TOML: ") == 0);
@@ -164,10 +158,8 @@ TEST_CASE("no value and no key reaches the terminal raw: neither a line break no
   CHECK(refused("name = \"\"\"a\nb\"\"\"\n") == "f:1: name = \"a b" + is_no_name);
   CHECK(refused("name = \"\\u001b[31m\"\n") == "f:1: name = \"?[31m" + is_no_name);
   CHECK(refused("name = \"\\u009b31m\"\n") == "f:1: name = \"?31m" + is_no_name);
-  CHECK(refused("mass_kg = \"\\u001b[31m\\n\"\n") ==
-        "f:1: mass_kg = \"?[31m \": must be a number between 0 and 1");
-  CHECK(refused("\"a\\u001b[31m\\nb\" = 1\n") ==
-        "f:1: a?[31m b is not a known key: known here are name, mass_kg");
+  CHECK(refused("mass_kg = \"\\u001b[31m\\n\"\n") == "f:1: mass_kg = \"?[31m \": must be a number between 0 and 1");
+  CHECK(refused("\"a\\u001b[31m\\nb\" = 1\n") == "f:1: a?[31m b is not a known key: known here are name, mass_kg");
 }
 
 TEST_CASE("a long value or key is cut, but not inside a character") {

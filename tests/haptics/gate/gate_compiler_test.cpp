@@ -182,13 +182,10 @@ LockoutLayout guard(int gear, LockoutKind kind) {
 
 }  // namespace
 
-TEST_CASE(
-    "the paper's gate: one horizontal and three vertical aisles, three junctions, eight pairs of walls") {
+TEST_CASE("the paper's gate: one horizontal and three vertical aisles, three junctions, eight pairs of walls") {
   const GateDescription list = describe_gate(paper_gate());
-  CHECK(std::count_if(list.aisles.begin(), list.aisles.end(),
-                      [](const AisleInfo& a) { return a.horizontal; }) == 1);
-  CHECK(std::count_if(list.aisles.begin(), list.aisles.end(),
-                      [](const AisleInfo& a) { return !a.horizontal; }) == 3);
+  CHECK(std::count_if(list.aisles.begin(), list.aisles.end(), [](const AisleInfo& a) { return a.horizontal; }) == 1);
+  CHECK(std::count_if(list.aisles.begin(), list.aisles.end(), [](const AisleInfo& a) { return !a.horizontal; }) == 3);
 
   REQUIRE(list.junctions.size() == 3);
   const auto& [first, second, third] = std::tie(list.junctions[0], list.junctions[1], list.junctions[2]);
@@ -352,12 +349,11 @@ TEST_CASE("columns at the sides and long slots are each within reach, both toget
   };
   CHECK_NOTHROW(compile_gate(with(0.058, 0.040), kPaperWorkspace));
   CHECK_NOTHROW(compile_gate(with(0.012, 0.060), kPaperWorkspace));
-  CHECK_THROWS_WITH_AS(
-      compile_gate(with(0.058, 0.060), kPaperWorkspace),
-      "small.toml: the column at -58 mm has its wall at 63 mm, outside the workspace: the device "
-      "reaches less in its corners, with end stops at 60 mm its walls may lie within 20.4 mm of "
-      "the centre",
-      FileError);
+  CHECK_THROWS_WITH_AS(compile_gate(with(0.058, 0.060), kPaperWorkspace),
+                       "small.toml: the column at -58 mm has its wall at 63 mm, outside the workspace: the device "
+                       "reaches less in its corners, with end stops at 60 mm its walls may lie within 20.4 mm of "
+                       "the centre",
+                       FileError);
   CHECK_NOTHROW(compile_gate(with(0.058, 0.060), kPaperWorkspace, std::numeric_limits<double>::infinity()));
 
   // The figure in the sentence is the bound: a wall there compiles, 0.2 mm further out it does not.

@@ -33,6 +33,7 @@ constexpr Hostile kHostile[] = {
      ":9: buffer_force_n = 4 would hold the lever at a closed junction: it pulls there with "
      "2.62 N, and center_force_n is only 2"},
     {"byte_order_of_utf16", ":1: not valid TOML: "},
+    {"center_force_too_weak", ":5: center_force_n = 1: must be at least 1.6, or the lever would not return"},
     {"center_force_too_steep", ":9: center_force_n is too large for so narrow a slot"},
     {"column_not_a_list", ":3: column = (a table): must be a list of tables: write each as [[column]]"},
     {"column_without_gear", ":23: the column at 30 mm has no gear"},
@@ -58,8 +59,7 @@ constexpr Hostile kHostile[] = {
     {"missing_position", ":17: position_mm is missing: it must be a number between -200 and 200"},
     {"mixed_columns", ":2: column must be a list of tables: write each as [[column]]"},
     {"name_of_two_lines", ":1: name = \"Hos tile\": must be one line without control characters"},
-    {"name_too_long",
-     ":1: name = \"Hostile Hostile Hostile Hostile Hostile ...\": must be at most 200 bytes long"},
+    {"name_too_long", ":1: name = \"Hostile Hostile Hostile Hostile Hostile ...\": must be at most 200 bytes long"},
     {"name_with_c1_escape", ":1: name = \"?31mHostile\": must be one line without control characters"},
     {"name_with_escape", ":1: name = \"?[31mHostile\": must be one line without control characters"},
     {"nan", ":24: position_mm = nan: must be between -200 and 200"},
@@ -87,8 +87,7 @@ constexpr Hostile kHostile[] = {
      ":23: the column at 19.9 mm overlaps the one before it: slots of this width and chamfer "
      "need 20 mm from centre to centre, not 19.9 mm"},
     {"same_column_twice", ":23: the column at 0 mm does not lie to the right of the one before it"},
-    {"slot_too_short",
-     ":6: slot_length_mm is too short: with this aisle and chamfer a slot needs at least 20 mm"},
+    {"slot_too_short", ":6: slot_length_mm is too short: with this aisle and chamfer a slot needs at least 20 mm"},
     {"slot_too_short_for_its_feel", ":6: slot_length_mm is too short for its feel: below 38.1 mm"},
     {"speed_below_zero", ":33: open_below_kmh = -1: must be between 0 and 400"},
     {"speed_of_a_lift_ring", ":32: close_above_kmh is not a known key: known here are gear, kind"},
@@ -134,15 +133,14 @@ TEST_CASE("every hostile layout is refused in one sentence with file, line and r
 TEST_CASE("no hostile layout lies about without being tested") {
   std::set<std::string> expected, found;
   for (const Hostile& hostile : kHostile) expected.insert(hostile.file);
-  for (const auto& entry : std::filesystem::directory_iterator(kFolder))
-    found.insert(entry.path().stem().string());
+  for (const auto& entry : std::filesystem::directory_iterator(kFolder)) found.insert(entry.path().stem().string());
   CHECK(found == expected);
 }
 
 TEST_CASE("every gear and every kind of lockout is read by the name that it has everywhere else") {
   const auto layout_with = [](const std::string& gear, const std::string& lockout) {
-    return parse_gate_layout("name = \"Test\"\n[[column]]\nposition_mm = 0\nneutral = true\nforward = \"" +
-                                 gear + "\"\n[[lockout]]\ngear = \"R\"\n" + lockout,
+    return parse_gate_layout("name = \"Test\"\n[[column]]\nposition_mm = 0\nneutral = true\nforward = \"" + gear +
+                                 "\"\n[[lockout]]\ngear = \"R\"\n" + lockout,
                              "test.toml");
   };
   for (int gear = kReverseGear; gear <= kMaxGear; ++gear) {
@@ -228,8 +226,7 @@ after = "1"
   CHECK(layout.lockouts[1].line == 28);
 }
 
-TEST_CASE(
-    "what a layout does not say has a default; a speed lockout closes above 20 and opens below 15 km/h") {
+TEST_CASE("what a layout does not say has a default; a speed lockout closes above 20 and opens below 15 km/h") {
   const GateLayout layout = parse_gate_layout(
       "name = \"Short\"\n"
       "[[column]]\nposition_mm = 0\nforward = \"1\"\nneutral = true\n"

@@ -43,8 +43,7 @@ TEST_CASE("no flicker: tremor of a millimetre about either threshold changes the
     hold(selector, gate, at_depth(gate, 1, slot_for(gate, 1).rest), 0.1);
     int changes = 0, before = selector.gear();
     for (int i = 0; i < 2000; ++i) {
-      const int gear =
-          selector.update(gate, at_depth(gate, 1, depth + (i % 7 < 3 ? -0.5e-3 : 0.5e-3)), kPeriod);
+      const int gear = selector.update(gate, at_depth(gate, 1, depth + (i % 7 < 3 ? -0.5e-3 : 0.5e-3)), kPeriod);
       changes += gear != before;
       before = gear;
     }
@@ -60,13 +59,30 @@ TEST_CASE("a gear counts after the debounce time and not before") {
   CHECK(hold(selector, gate, in_second, 4.0 * kPeriod) == 2);
 }
 
+TEST_CASE("a gear is released after the debounce time and not before: one wild reading does not throw it out") {
+  const Gate gate = paper_gate();
+  GearSelector selector(kDebounce);
+  REQUIRE(hold(selector, gate, rest_position(gate, 2), 0.1) == 2);
+  CHECK(hold(selector, gate, {0.0, 0.0}, kDebounce - 2.0 * kPeriod) == 2);
+  CHECK(hold(selector, gate, rest_position(gate, 2), kPeriod) == 2);
+  CHECK(hold(selector, gate, {0.0, 0.0}, kDebounce + 2.0 * kPeriod) == kNeutralGear);
+}
+
+TEST_CASE("between release and engage depth of another slot an engaged gear is not kept") {
+  const Gate gate = paper_gate();
+  GearSelector selector(kDebounce);
+  REQUIRE(hold(selector, gate, rest_position(gate, 1), 0.1) == 1);
+  const Slot& third = slot_of(gate, slot_of_gear(gate, 3));
+  const glm::dvec2 between{rest_position(gate, 3).x, 0.5 * (third.release_depth + third.engage_depth)};
+  CHECK(hold(selector, gate, between, 0.1) == kNeutralGear);
+}
+
 TEST_CASE("no hang after neutral: back in the aisle the gear is gone within the debounce time") {
   const Gate gate = paper_gate();
   for (const int gear : {1, 2, 3, 4, 5, kReverseGear}) {
     GearSelector selector(kDebounce);
     REQUIRE(hold(selector, gate, rest_position(gate, gear), 0.1) == gear);
-    CHECK(hold(selector, gate, {rest_position(gate, gear).x, 0.0}, kDebounce + 2.0 * kPeriod) ==
-          kNeutralGear);
+    CHECK(hold(selector, gate, {rest_position(gate, gear).x, 0.0}, kDebounce + 2.0 * kPeriod) == kNeutralGear);
   }
 }
 

@@ -1,6 +1,8 @@
 // Movable walls: each kind closes and opens when it should, and never on a lever that is beyond it.
 #include "haptics/gate/lockout.h"
 
+#include <limits>
+
 #include <doctest/doctest.h>
 
 #include "tests/support/gates.h"
@@ -86,6 +88,58 @@ TEST_CASE("a wall never closes on a lever that is beyond it") {
   const Gate gate = gate_with(lockout);
   Lockouts lockouts;
   CHECK_FALSE(reverse_closed(gate, lockouts.update(gate, {}, rest_position(gate, kReverseGear))));
+}
+
+TEST_CASE("beyond a mouth's wall means past the chamfer: in the mouth the wall still closes") {
+  Lockout lockout;
+  lockout.kind = LockoutKind::push_down;
+  const Gate gate = gate_with(lockout);
+  Lockouts state;
+  const double x = rest_position(gate, kReverseGear).x, y = rest_position(gate, kReverseGear).y > 0.0 ? 1.0 : -1.0;
+  const double mouth = gate.half_aisle + gate.chamfer;
+  CHECK(reverse_closed(gate, state.update(gate, {}, {x, y * (mouth - 1e-6)})));
+  CHECK_FALSE(reverse_closed(gate, state.update(gate, {}, {x, y * (mouth + 1e-6)})));
+}
+
+TEST_CASE("no direct 5 to R: the lever has left the column only when it is outside the mouth, not before") {
+  Lockout lockout;
+  lockout.kind = LockoutKind::after_gear;
+  lockout.after_gear = 5;
+  const Gate gate = gate_with(lockout);
+  const Column& column = column_of(gate, slot_of(gate, slot_of_gear(gate, 5)).column);
+  const double edge = column.half_width + gate.chamfer;
+  Lockouts state;
+  LockoutInputs in;
+  in.gear = 5;
+  state.update(gate, in, rest_position(gate, 5));
+  in.gear = kNeutralGear;
+  CHECK(reverse_closed(gate, state.update(gate, in, {column.center - edge + 1e-6, 0.0})));
+  CHECK_FALSE(reverse_closed(gate, state.update(gate, in, {column.center - edge - 1e-6, 0.0})));
+}
+
+TEST_CASE("two lockouts of one gear remember apart: open only when both are") {
+  Lockout speed;
+  speed.kind = LockoutKind::speed;
+  speed.close_above = 20.0 * kKmh;
+  speed.open_below = 15.0 * kKmh;
+  Gate gate = gate_with(speed);
+  gate.lockout[1] = gate.lockout[0];
+  gate.lockout[1].kind = LockoutKind::after_gear;
+  gate.lockout[1].after_gear = 5;
+  gate.lockout_count = 2;
+  const double x = rest_position(gate, 5).x;
+  Lockouts state;
+  LockoutInputs in;
+  in.gear = 5;
+  in.road_speed = 17.0 * kKmh;  // between the thresholds: never closed by speed
+  CHECK(reverse_closed(gate, state.update(gate, in, rest_position(gate, 5))));
+  in.gear = kNeutralGear;
+  CHECK(reverse_closed(gate, state.update(gate, in, {x, 0.0})));
+  CHECK_FALSE(reverse_closed(gate, state.update(gate, in, {0.0, 0.0})));
+  in.road_speed = 25.0 * kKmh;
+  CHECK(reverse_closed(gate, state.update(gate, in, {0.0, 0.0})));
+  in.road_speed = std::numeric_limits<double>::quiet_NaN();  // not a number changes nothing
+  CHECK(reverse_closed(gate, state.update(gate, in, {0.0, 0.0})));
 }
 
 TEST_CASE("a lateral lockout narrows the neutral aisle on its side only") {

@@ -69,8 +69,7 @@ TEST_CASE("no gate is shipped without being listed") {
   CHECK(std::set<std::string>(names.begin(), names.end()) == expected);
 }
 
-TEST_CASE(
-    "every corner of every shipped gate is inside the exact workspace, pressed 6.3 mm into both walls") {
+TEST_CASE("every corner of every shipped gate is inside the exact workspace, pressed 6.3 mm into both walls") {
   for (const Knob& knob : kKnobs) {
     CAPTURE(knob.name);
     const Gate gate = shipped_gate(knob.name);

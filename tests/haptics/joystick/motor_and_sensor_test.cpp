@@ -18,8 +18,7 @@ TEST_CASE("motors give at most 3.8 N m / 0.12 m, and nothing for a command that 
   CHECK(motor.deliver(7.0, 1e-3) == 7.0);
 }
 
-TEST_CASE(
-    "a force F lasts overload_time (Fp^2 - Fc^2) / (F^2 - Fc^2), then Fc, until half the heat is gone") {
+TEST_CASE("a force F lasts overload_time (Fp^2 - Fc^2) / (F^2 - Fc^2), then Fc, until half the heat is gone") {
   const ActuatorLimits limits{30.0, 10.0, 5.0};
   for (double force : {30.0, 20.0, 12.0}) {
     Actuator motor(limits);

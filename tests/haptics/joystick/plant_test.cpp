@@ -35,8 +35,7 @@ void check_same(const AxisModel& axis, AxisState start, double force, double tim
   CAPTURE(time);
   const AxisState expected = by_poles(axis, start, force, time), got = advance(axis, start, force, time);
   const double w = std::sqrt(axis.stiffness / axis.mass);
-  const double size =
-      std::abs(start.position) + std::abs(start.velocity) / w + std::abs(force) / axis.stiffness;
+  const double size = std::abs(start.position) + std::abs(start.velocity) / w + std::abs(force) / axis.stiffness;
   CHECK(std::abs(got.position - expected.position) <= 1e-12 * size);
   CHECK(std::abs(got.velocity - expected.velocity) <= 1e-12 * size * w);
 }
@@ -44,8 +43,7 @@ void check_same(const AxisModel& axis, AxisState start, double force, double tim
 constexpr AxisState kThrown{0.02, -0.7};
 
 double energy(const AxisModel& axis, AxisState state) {
-  return 0.5 * axis.mass * state.velocity * state.velocity +
-         0.5 * axis.stiffness * state.position * state.position;
+  return 0.5 * axis.mass * state.velocity * state.velocity + 0.5 * axis.stiffness * state.position * state.position;
 }
 
 AxisState in_steps(int steps, double time, const AxisModel& axis, const AxisLimits& limits, AxisState state,
@@ -75,8 +73,7 @@ TEST_CASE("a critically damped plant is x = (A + B t) exp(-a t), and close to it
       const double slope = kThrown.velocity + a * kThrown.position, decay = std::exp(-a * time);
       const double tolerance = 1e-14 + 0.1 * std::abs(nudge);
       CHECK(std::abs(got.position - (kThrown.position + slope * time) * decay) < tolerance);
-      CHECK(std::abs(got.velocity - (slope - a * (kThrown.position + slope * time)) * decay) <
-            20.0 * tolerance);
+      CHECK(std::abs(got.velocity - (slope - a * (kThrown.position + slope * time)) * decay) < 20.0 * tolerance);
     }
   }
 }
@@ -93,8 +90,7 @@ TEST_CASE("without a spring the velocity relaxes to f/b; without a damper too th
     const AxisState falling = advance({m, 0.0, 0.0}, kThrown, f, time);
     CHECK(falling.velocity == doctest::Approx(kThrown.velocity + f / m * time).epsilon(1e-15));
     CHECK(falling.position ==
-          doctest::Approx(kThrown.position + kThrown.velocity * time + 0.5 * f / m * time * time)
-              .epsilon(1e-14));
+          doctest::Approx(kThrown.position + kThrown.velocity * time + 0.5 * f / m * time * time).epsilon(1e-14));
   }
 }
 

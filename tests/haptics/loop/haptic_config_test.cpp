@@ -1,4 +1,6 @@
 // Which numbers the cycle accepts, and what a device admits of them.
+#include "haptics/loop/haptic_config.h"
+
 #include <algorithm>
 #include <initializer_list>
 #include <limits>
@@ -8,7 +10,6 @@
 #include <doctest/doctest.h>
 
 #include "haptics/gate/gate_feel.h"
-#include "haptics/loop/haptic_config.h"
 #include "tests/support/gates.h"
 
 using namespace gearshift;

@@ -76,8 +76,7 @@ TEST_CASE("row 10: a lever in gear stays there when let go: no ejection, no drif
   }
 }
 
-TEST_CASE(
-    "row 10: the pull that takes a gear out is the lock's force and the handle's own spring, within 3 %") {
+TEST_CASE("row 10: the pull that takes a gear out is the lock's force and the handle's own spring, within 3 %") {
   const GateLayout layout = read_gate_layout(GEARSHIFT_ASSETS "/gates/paper.toml");
   const Gate gate = compile_gate(layout, kPaperWorkspace);
   for (const int gear : {1, 2, 3, 4}) {
@@ -120,15 +119,13 @@ TEST_CASE("row 12: a steady push along the aisle ends at the speed where damping
     const HapticTuning used = run.loop().admitted().tuning;
     const double b = config.lever.axis_x.damping + used.aisle_damping;
     const double slow = push / b;
-    const double expected = slow <= used.speed_limit
-                                ? slow
-                                : (push + used.limit_damping * used.speed_limit) / (b + used.limit_damping);
+    const double expected =
+        slow <= used.speed_limit ? slow : (push + used.limit_damping * used.speed_limit) / (b + used.limit_damping);
     CHECK(reached == doctest::Approx(expected).epsilon(0.03));
   }
 }
 
-TEST_CASE(
-    "row 9: pushed along the neutral aisle into junctions I and III, the lever is turned the way it leans") {
+TEST_CASE("row 9: pushed along the neutral aisle into junctions I and III, the lever is turned the way it leans") {
   const Gate gate = paper_gate();
   for (const double way : {-1.0, 1.0}) {
     for (const double lean : {-1.0, 1.0}) {
@@ -198,10 +195,7 @@ TEST_CASE("row 13: a push above 60 N warns once, clears below 50 N, and saturati
   const dvec2 start{0.5 * (gate.column[0].center + gate.column[1].center), 0.0};
   PushingHand hand([&](double time, dvec2) {
     const double tremble = 4.0 * std::sin(60.0 * time);
-    return dvec2{0.0, wall * (time < 0.5   ? 20.0
-                              : time < 1.0 ? 62.0 + tremble
-                              : time < 1.5 ? 57.0 + tremble
-                                           : 20.0)};
+    return dvec2{0.0, wall * (time < 0.5 ? 20.0 : time < 1.0 ? 62.0 + tremble : time < 1.5 ? 57.0 + tremble : 20.0)};
   });
   SimulatedRun run(resting_at(gate, start), hand);
   run_for(run, 0.45);
@@ -245,8 +239,7 @@ TEST_CASE(
   }
   CHECK(ghost);
   // The paper's collapse: the motors give 31.7 N, so a bare lever runs to its stop at rho sin(35 deg).
-  CHECK(deepest ==
-        doctest::Approx(0.12 * std::sin(35.0 * 3.14159265 / 180.0) - gate.half_aisle).epsilon(0.01));
+  CHECK(deepest == doctest::Approx(0.12 * std::sin(35.0 * 3.14159265 / 180.0) - gate.half_aisle).epsilon(0.01));
   CHECK(events_of(run, EventKind::wall_contact).size() >= 1);
 }
 

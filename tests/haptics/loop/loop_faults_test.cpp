@@ -239,7 +239,10 @@ TEST_CASE("a loop that is always late stays damped: no flapping between force an
 
 TEST_CASE("a device that reports nonsense forces does not poison the snapshot") {
   PressedRig rig;
-  rig.lever.sabotage = [](LeverReading& r) { r.hand_force = {kNan, kInf}; r.actuator_force = {kInf, kNan}; };
+  rig.lever.sabotage = [](LeverReading& r) {
+    r.hand_force = {kNan, kInf};
+    r.actuator_force = {kInf, kNan};
+  };
   rig.run(100);
   const HapticSnapshot& s = rig.loop.snapshot();
   CHECK(std::isfinite(s.f_h.x + s.f_h.y + s.f_a.x + s.f_a.y + s.f_j.x + s.f_j.y));

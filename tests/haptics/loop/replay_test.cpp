@@ -96,9 +96,7 @@ TEST_CASE("replay: the drive of these tests meets what it is there to meet") {
     contacts += sample.out.flags & kFlagContact ? 1 : 0;
   }
   CHECK(recorded_trace().samples.size() == RecordedDrive::kCycles);
-  CHECK(guards.count(GuardState::idle) + guards.count(GuardState::running) +
-            guards.count(GuardState::damped) ==
-        3);
+  CHECK(guards.count(GuardState::idle) + guards.count(GuardState::running) + guards.count(GuardState::damped) == 3);
   CHECK(guards.count(GuardState::released) == 1);
   CHECK(faults.count(GuardFault::stale_reading) == 1);
   CHECK(gears.size() >= 3);

@@ -33,9 +33,8 @@ inline void put_file(const std::filesystem::path& file, const Bytes& bytes) {
 
 // Bits of all kinds: numbers, signed zeros, infinities, quiet and signalling NaNs with payloads.
 inline double any_double(std::mt19937_64& random) {
-  constexpr std::uint64_t kOdd[] = {0x8000000000000000, 0x7FF0000000000000, 0xFFF0000000000000,
-                                    0x7FF8000000000123, 0x7FF0000000000456, 0xFFFFFFFFFFFFFFFF,
-                                    0x0000000000000001, 0x0000000000000000};
+  constexpr std::uint64_t kOdd[] = {0x8000000000000000, 0x7FF0000000000000, 0xFFF0000000000000, 0x7FF8000000000123,
+                                    0x7FF0000000000456, 0xFFFFFFFFFFFFFFFF, 0x0000000000000001, 0x0000000000000000};
   if (random() % 4 == 0) return std::bit_cast<double>(kOdd[random() % 8]);
   return std::bit_cast<double>(random());
 }

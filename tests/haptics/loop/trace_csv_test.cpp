@@ -59,8 +59,7 @@ struct GermanNumbers : std::numpunct<char> {
 }  // namespace
 
 TEST_CASE("csv: the header begins with the time in seconds and every quantity carries its unit") {
-  CHECK(trace_csv_header().find(
-            "cycle,time_s,lever_x_mm,lever_y_mm,proxy_x_mm,proxy_y_mm,velocity_x_mm_per_s,") == 0);
+  CHECK(trace_csv_header().find("cycle,time_s,lever_x_mm,lever_y_mm,proxy_x_mm,proxy_y_mm,velocity_x_mm_per_s,") == 0);
   for (const char* name : {"commanded_x_n", "f_h_y_n", "road_speed_m_per_s", "wall_stiffness_n_per_m"})
     CHECK(trace_csv_header().find(name) != std::string::npos);
 }
@@ -108,8 +107,7 @@ TEST_CASE("csv: the same in any locale") {
 
 TEST_CASE("csv: a file that cannot be written is told in one sentence") {
   const TempFolder folder;
-  CHECK_THROWS_WITH_AS(TraceCsvFile(folder / "no/folder.csv"), doctest::Contains("cannot be written"),
-                       FileError);
+  CHECK_THROWS_WITH_AS(TraceCsvFile(folder / "no/folder.csv"), doctest::Contains("cannot be written"), FileError);
   TraceCsvFile csv("/dev/full");
   for (int i = 0; i < 1000; ++i) csv.add(known_sample());
   CHECK_THROWS_WITH_AS(csv.finish(), doctest::Contains("could not be written"), FileError);

@@ -42,11 +42,10 @@ bool same_sample(const TraceSample& a, const TraceSample& b) {
          bits(t.feel_scale) == bits(u.feel_scale) && bits(t.aisle_damping) == bits(u.aisle_damping) &&
          bits(t.speed_limit) == bits(u.speed_limit) && bits(t.limit_damping) == bits(u.limit_damping) &&
          o.cycle == p.cycle && o.time_ns == p.time_ns && same_bits(o.lever, p.lever) &&
-         same_bits(o.velocity, p.velocity) && same_bits(o.proxy, p.proxy) &&
-         same_bits(o.wall_force, p.wall_force) && same_bits(o.feel_force, p.feel_force) &&
-         same_bits(o.world_force, p.world_force) && same_bits(o.commanded, p.commanded) &&
-         same_bits(o.f_h, p.f_h) && same_bits(o.f_a, p.f_a) && same_bits(o.f_j, p.f_j) &&
-         bits(o.road_speed) == bits(p.road_speed) && o.slot == p.slot && o.gear == p.gear &&
+         same_bits(o.velocity, p.velocity) && same_bits(o.proxy, p.proxy) && same_bits(o.wall_force, p.wall_force) &&
+         same_bits(o.feel_force, p.feel_force) && same_bits(o.world_force, p.world_force) &&
+         same_bits(o.commanded, p.commanded) && same_bits(o.f_h, p.f_h) && same_bits(o.f_a, p.f_a) &&
+         same_bits(o.f_j, p.f_j) && bits(o.road_speed) == bits(p.road_speed) && o.slot == p.slot && o.gear == p.gear &&
          o.guard == p.guard && o.fault == p.fault && o.flags == p.flags;
 }
 

@@ -144,8 +144,8 @@ TEST_CASE("recorder: a queue that overflows tears the trace, which keeps every c
   const RecordingResult result = recorder.finish();
   CHECK(result.torn);
   CHECK(result.cycles == 100 + room);
-  CHECK_THROWS_WITH_AS(read_trace(folder / "t.trace"),
-                       doctest::Contains("is torn: the recorder could not keep up"), FileError);
+  CHECK_THROWS_WITH_AS(read_trace(folder / "t.trace"), doctest::Contains("is torn: the recorder could not keep up"),
+                       FileError);
   CHECK(salvage(folder / "t.trace") == 100 + room);
 }
 
@@ -196,8 +196,7 @@ TEST_CASE("recorder: a disk that fills up is told once, in one sentence, and the
     result = recorder.finish();
   }
   CHECK(result.problem.find("the recording failed after ") == 0);
-  CHECK_THROWS_WITH_AS(read_trace(folder / "t.trace"), doctest::Contains("is torn: it has no end block"),
-                       FileError);
+  CHECK_THROWS_WITH_AS(read_trace(folder / "t.trace"), doctest::Contains("is torn: it has no end block"), FileError);
   CHECK(salvage(folder / "t.trace") >= 512);
 }
 
@@ -222,8 +221,7 @@ TEST_CASE("recorder: a program that is killed leaves its cycles in a file that i
     TraceWriter writer(folder / "t.trace", paper_header());
     for (std::uint64_t cycle = 0; cycle < 1000; ++cycle) writer.add(numbered(cycle));
   }  // no finish(): as if killed here
-  CHECK_THROWS_WITH_AS(read_trace(folder / "t.trace"), doctest::Contains("is torn: it has no end block"),
-                       FileError);
+  CHECK_THROWS_WITH_AS(read_trace(folder / "t.trace"), doctest::Contains("is torn: it has no end block"), FileError);
   CHECK(salvage(folder / "t.trace") == 768);  // whole blocks of 256
 }
 

@@ -48,8 +48,7 @@ TEST_CASE("histogram: every quantile is that of the sorted samples, at most 2 % 
   SUBCASE("a narrow peak with a long tail, as of a wake-up") {
     std::exponential_distribution<double> tail(1.0 / 40'000.0);
     std::vector<std::int64_t> samples(100'000);
-    for (auto& sample : samples)
-      sample = 90 + static_cast<std::int64_t>(random() % 50 == 0 ? tail(random) : 0.0);
+    for (auto& sample : samples) sample = 90 + static_cast<std::int64_t>(random() % 50 == 0 ? tail(random) : 0.0);
     check_quantiles(samples);
   }
   SUBCASE("few samples") {

@@ -34,8 +34,7 @@ struct Seen {
 
 // Runs `cycles` cycles, doing `work` in each, and tells what was seen.
 template <class Work>
-std::vector<Seen> run_cycles(RealtimeThread& thread, std::size_t cycles, Work work,
-                             RealtimeConfig config = {}) {
+std::vector<Seen> run_cycles(RealtimeThread& thread, std::size_t cycles, Work work, RealtimeConfig config = {}) {
   std::vector<Seen> seen;
   seen.reserve(cycles);
   std::promise<void> done;
@@ -82,8 +81,7 @@ bool contains(const std::string& text, const char* part) {
 
 }  // namespace
 
-TEST_CASE(
-    "real-time thread: every deadline lies on the grid of the first, and skipped says how far it moved") {
+TEST_CASE("real-time thread: every deadline lies on the grid of the first, and skipped says how far it moved") {
   RealtimeThread thread;
   const std::vector<Seen> seen = run_cycles(thread, 50, [](std::size_t, const CycleCall&) {});
   CHECK(seen[0].call.skipped >= 0);
@@ -176,8 +174,7 @@ TEST_CASE("real-time thread: without rights `required` refuses in one sentence t
   });
 }
 
-TEST_CASE(
-    "real-time thread: without rights `best_effort` runs all the same and says why it is not real-time") {
+TEST_CASE("real-time thread: without rights `best_effort` runs all the same and says why it is not real-time") {
   without_privileges([] {
     RealtimeThread thread;
     const std::vector<Seen> seen = run_cycles(thread, 5, [](std::size_t, const CycleCall&) {});
