@@ -45,7 +45,8 @@ class HapticDevice {
   // Force on the knob from now on, in the gate plane. [N] Real-time safe.
   virtual void write(glm::dvec2 force) noexcept = 0;
 
-  // Motors off, now. Real-time safe; may be called in any state and twice.
+  // Motors off, now, queued forces included. Real-time safe; may be called in any state and twice. A later write()
+  // drives them again; the loop writes zero until it is armed.
   virtual void release() noexcept = 0;
 };
 
