@@ -110,7 +110,8 @@ std::vector<HandStroke> shift_strokes(const Gate& gate, dvec2 start, std::span<c
 
 std::vector<int> tour_order(const Gate& gate) {
   std::vector<int> order;
-  for (int i = 0; i < gate.slot_count; ++i) order.push_back(gate.slot[static_cast<std::size_t>(i)].gear);
+  order.reserve(static_cast<std::size_t>(gate.slot_count));
+  for (const Slot& slot : slots(gate)) order.push_back(slot.gear);
   std::sort(order.begin(), order.end());
   if (!order.empty() && order.front() == kReverseGear) std::rotate(order.begin(), order.begin() + 1, order.end());
   return order;

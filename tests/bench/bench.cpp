@@ -11,10 +11,10 @@ bool meets_goal(const BenchRow& row) noexcept {
 }
 
 const std::vector<NamedFamily>& bench_families() {
-  static const std::vector<NamedFamily> kFamilies{{"cycle", bench_cycle},   {"headless", bench_headless},
-                                                  {"plant", bench_plant},   {"feel", bench_feel},
-                                                  {"intent", bench_intent}, {"jitter", bench_jitter}};
-  return kFamilies;
+  static const std::vector<NamedFamily> families{{"cycle", bench_cycle},   {"headless", bench_headless},
+                                                 {"plant", bench_plant},   {"feel", bench_feel},
+                                                 {"intent", bench_intent}, {"jitter", bench_jitter}};
+  return families;
 }
 
 double quantile(std::vector<double>& sample, double q) {

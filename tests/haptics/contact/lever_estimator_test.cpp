@@ -36,7 +36,7 @@ TEST_CASE("constant speed is measured exactly; the smooth one follows 1 - exp(-t
   LeverEstimator estimator({}, kPeriod);
   estimator.update(reading(1, {0.0, 0.0}));
   for (int i = 1; i <= 40; ++i) {
-    const LeverMotion m = estimator.update(reading(static_cast<std::uint64_t>(i + 1), {0.3 * kPeriod * i, 0.0}));
+    const LeverMotion m = estimator.update(reading(static_cast<std::uint64_t>(i) + 1, {0.3 * kPeriod * i, 0.0}));
     CHECK(m.velocity.x == doctest::Approx(0.3));
     CHECK(m.smooth_velocity.x == doctest::Approx(0.3 * (1.0 - std::exp(-i * kPeriod / 0.004))));
   }

@@ -91,9 +91,10 @@ TEST_CASE("row 10: the pull that takes a gear out is the lock's force and the ha
     REQUIRE(run.loop().snapshot().gear == gear);
     while (run.time() < 20.0 && run.step().gear == gear) continue;
     // The handle's spring (eq 12) helps the pull: 15.7 N/m at about 30 mm, where the lock is strongest.
-    const Slot& slot = gate.slot[static_cast<std::size_t>(slot_of_gear(gate, gear))];
+    const Slot& slot = slot_of(gate, slot_of_gear(gate, gear));
     double strongest_at = slot.rest;
-    for (double s = slot.rest; s > slot.release_depth; s -= 1e-5) {
+    for (int i = 0; i <= 1000; ++i) {
+      const double s = slot.rest - 1e-3 * i * (slot.rest - slot.release_depth);
       if (feel_force(slot.feel, s) > feel_force(slot.feel, strongest_at)) strongest_at = s;
     }
     const double expected = layout.feel.lock_force - kPaperAxisY.stiffness * strongest_at;
