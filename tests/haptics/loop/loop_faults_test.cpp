@@ -97,6 +97,21 @@ struct PressedRig {
   double strongest = 0.0;
 };
 
+// A simulated lever that nobody holds: it arms itself.
+struct IdleRig {
+  IdleRig() : lever({}, kPeriodNs, nobody), loop(HapticConfig{}, paper_gate(), lever, world, channels) { loop.arm(); }
+  void run(int cycles, std::int64_t skipped) {
+    for (int i = 0; i < cycles; ++i) loop.cycle(now += kPeriodNs * (1 + skipped), skipped);
+  }
+
+  RestingHand nobody;
+  SimulatedLever lever;
+  NullWorld world;
+  LoopChannels channels;
+  HapticLoop loop;
+  std::int64_t now = 0;
+};
+
 }  // namespace
 
 TEST_CASE("the rig presses: the wall gives back the push within 3 %") {
@@ -201,40 +216,24 @@ TEST_CASE("late cycles: one at a time is ridden out, eight in a row are damped")
 }
 
 TEST_CASE("a simulated lever shows its fall, and arms itself again after 50 ms of health") {
-  const Gate gate = paper_gate();
-  RestingHand nobody;
-  SimulatedLever lever({}, kPeriodNs, nobody);
-  NullWorld world;
-  LoopChannels channels;
-  HapticLoop loop(HapticConfig{}, gate, lever, world, channels);
-  loop.arm();
-  std::int64_t now = 0;
-  const auto run = [&](int cycles, std::int64_t skipped) {
-    for (int i = 0; i < cycles; ++i) loop.cycle(now += kPeriodNs * (1 + skipped), skipped);
-  };
-  run(1000, 0);
-  run(8, 1);
-  CHECK(loop.snapshot().guard == GuardState::damped);
-  CHECK(loop.snapshot().fault == GuardFault::overruns);
-  run(45, 0);
-  CHECK(loop.snapshot().guard == GuardState::damped);
-  run(15, 0);
-  CHECK(loop.snapshot().guard == GuardState::ramping);
+  IdleRig rig;
+  rig.run(1000, 0);
+  rig.run(8, 1);
+  CHECK(rig.loop.snapshot().guard == GuardState::damped);
+  CHECK(rig.loop.snapshot().fault == GuardFault::overruns);
+  rig.run(45, 0);
+  CHECK(rig.loop.snapshot().guard == GuardState::damped);
+  rig.run(15, 0);
+  CHECK(rig.loop.snapshot().guard == GuardState::ramping);
 }
 
 TEST_CASE("a loop that is always late stays damped: no flapping between force and none") {
-  const Gate gate = paper_gate();
-  RestingHand nobody;
-  SimulatedLever lever({}, kPeriodNs, nobody);
-  NullWorld world;
-  LoopChannels channels;
-  HapticLoop loop(HapticConfig{}, gate, lever, world, channels);
-  loop.arm();
+  IdleRig rig;
+  rig.run(2000, 1);
   int changes = 0;
-  for (std::int64_t i = 1; i <= 2000; ++i) loop.cycle(2 * i * kPeriodNs, 1);
-  for (HapticEvent event; channels.events.pop(event);) changes += event.kind == EventKind::guard_changed;
+  for (HapticEvent event; rig.channels.events.pop(event);) changes += event.kind == EventKind::guard_changed;
   CHECK(changes <= 3);
-  CHECK(loop.snapshot().guard == GuardState::damped);
+  CHECK(rig.loop.snapshot().guard == GuardState::damped);
 }
 
 TEST_CASE("a device that reports nonsense forces does not poison the snapshot") {
