@@ -76,6 +76,34 @@ TEST_CASE("row 10: a lever in gear stays there when let go: no ejection, no drif
   }
 }
 
+TEST_CASE("row 10 at every rate and delay: a bare lever comes to rest in gear, within two counts of the encoder") {
+  RestingHand nobody;
+  const Gate gate = paper_gate();
+  for (const double rate : {100.0, 200.0, 300.0, 333.0, 500.0, 1000.0, 2000.0, 4000.0}) {
+    for (int delay = 0; delay <= 3; ++delay) {
+      CAPTURE(rate);
+      CAPTURE(delay);
+      for (const int gear : {1, 4}) {
+        const dvec2 rest = rest_position(gate, gear);
+        SimulatedRunConfig config = resting_at(gate, {rest.x, rest.y - std::copysign(0.001, rest.y)});
+        config.haptics.rate = rate;
+        config.lever.delay = delay;
+        SimulatedRun run(config, nobody);
+        run_for(run, 2.0);
+        double low = 1.0, high = -1.0;
+        for (const double end = run.time() + 0.5; run.time() < end;) {
+          run.step();
+          low = std::min(low, run.lever().true_position().y);
+          high = std::max(high, run.lever().true_position().y);
+        }
+        CHECK(high - low < 0.00016);
+        // Where the rate admits less than a tenth of the feel, the handle's own spring is stronger than the lock.
+        if (run.loop().admitted().tuning.feel_scale >= 0.1) CHECK(run.loop().snapshot().gear == gear);
+      }
+    }
+  }
+}
+
 TEST_CASE("row 10: the pull that takes a gear out is the lock's force and the handle's own spring, within 3 %") {
   const GateLayout layout = read_gate_layout(GEARSHIFT_ASSETS "/gates/paper.toml");
   const Gate gate = compile_gate(layout, kPaperWorkspace);
@@ -242,6 +270,58 @@ TEST_CASE(
   // The paper's collapse: the motors give 31.7 N, so a bare lever runs to its stop at rho sin(35 deg).
   CHECK(deepest == doctest::Approx(0.12 * std::sin(35.0 * 3.14159265 / 180.0) - gate.half_aisle).epsilon(0.01));
   CHECK(events_of(run, EventKind::wall_contact).size() >= 1);
+}
+
+TEST_CASE("row 13 without a force sensor: the warning is estimated from saturation and displacement, and says so") {
+  class Blind final : public HapticDevice {
+   public:
+    explicit Blind(SimulatedLever& lever) : lever_(lever), spec_(lever.spec()) { spec_.measures_hand_force = false; }
+    const DeviceSpec& spec() const noexcept override { return spec_; }
+    LeverReading read(std::int64_t now_ns) noexcept override {
+      LeverReading reading = lever_.read(now_ns);
+      reading.hand_force = {0.0, 0.0};
+      return reading;
+    }
+    void write(dvec2 force) noexcept override { lever_.write(force); }
+    void release() noexcept override { lever_.release(); }
+
+   private:
+    SimulatedLever& lever_;
+    DeviceSpec spec_;
+  };
+  Gate gate = paper_gate();
+  gate.select_feel = {};
+  for (const double push : {25.0, 70.0}) {
+    CAPTURE(push);
+    PushingHand hand([push](double time, dvec2) { return dvec2{0.0, push * std::min(1.0, 2.0 * time)}; });
+    SimulatedLever lever({}, 1'000'000, hand);
+    lever.place({0.5 * (gate.column[0].center + gate.column[1].center), 0.0});
+    Blind blind(lever);
+    NullWorld world;
+    LoopChannels channels;
+    HapticConfig config;
+    config.guard.ramp_time = 0.01;
+    HapticLoop loop(config, gate, blind, world, channels);
+    loop.arm();
+    for (int i = 0; i < 1000; ++i) loop.cycle(i * std::int64_t{1'000'000}, 0);
+    CHECK((loop.snapshot().flags & kFlagPushEstimated) != 0);
+    int warnings = 0;
+    for (HapticEvent event; channels.events.pop(event);) warnings += event.kind == EventKind::over_push_begin;
+    CHECK((warnings > 0) == (push > 60.0));
+  }
+}
+
+TEST_CASE("saturation is told when the motors tire: commanded but not delivered") {
+  const Gate gate = paper_gate();
+  for (const int delay : {0, 2}) {
+    PushingHand hand([](double, dvec2) { return dvec2{0.0, 13.0}; });  // above 10.83 N, below 31.7 N
+    SimulatedRunConfig config = resting_at(gate, {0.5 * (gate.column[0].center + gate.column[1].center), 0.0});
+    config.lever.actuator.overload_time = 0.02;
+    config.lever.delay = delay;
+    SimulatedRun run(config, hand);
+    run_for(run, 8.0);
+    CHECK(events_of(run, EventKind::saturation_begin).size() >= 1);
+  }
 }
 
 TEST_CASE("wall contact tells the impact's speed") {
