@@ -32,8 +32,21 @@ LeverMotion LeverEstimator::update(const LeverReading& reading) noexcept {
   seen_sequence_ = reading.sequence;
   seen_time_ns_ = reading.time_ns;
   if (glm::length(travel) > config_.speed_limit * since_seen) return hold();
-  accept(reading, travel / since_believed);
+  accept(reading, window_velocity(reading, travel / since_believed));
   return motion_;
+}
+
+// Over `window` samples, or as many as there are. The newest difference where the window is one.
+glm::dvec2 LeverEstimator::window_velocity(const LeverReading& reading, glm::dvec2 newest) const noexcept {
+  const std::size_t window = std::min(static_cast<std::size_t>(config_.window), past_count_);
+  if (window <= 1) return newest;
+  const Sample& then = past_[(past_count_ - window) % past_.size()];
+  return (reading.position - then.position) / seconds(then.time_ns, reading.time_ns);
+}
+
+void LeverEstimator::remember(const LeverReading& reading) noexcept {
+  past_[past_count_ % past_.size()] = {reading.position, reading.time_ns};
+  ++past_count_;
 }
 
 // Time between two samples by the device's own clock, which need not tick with the loop. Half a period at least: a
@@ -50,6 +63,7 @@ LeverMotion LeverEstimator::hold() noexcept {
 LeverMotion LeverEstimator::restart(const LeverReading& reading) noexcept {
   started_ = true;
   motion_.smooth_velocity = {0.0, 0.0};
+  past_count_ = 0;
   accept(reading, {0.0, 0.0});
   return motion_;
 }
@@ -62,6 +76,7 @@ void LeverEstimator::accept(const LeverReading& reading, glm::dvec2 velocity) no
   motion_.velocity = velocity;
   motion_.smooth_velocity += blend_ * (velocity - motion_.smooth_velocity);
   motion_.fresh = true;
+  if (config_.window > 1) remember(reading);
 }
 
 }  // namespace gearshift

@@ -1,6 +1,7 @@
 #include "haptics/contact/virtual_coupling.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include <glm/geometric.hpp>
 
@@ -24,9 +25,32 @@ dvec2 mean_penetration(dvec2 now, dvec2 then, double depth_now, double depth_the
 
 }  // namespace
 
+double solved_force_inside(const Coupling& coupling, double begin, double free_end, double compliance) noexcept {
+  const double k = coupling.stiffness, d = coupling.damping / coupling.period;
+  return (0.5 * k * (begin + free_end) + d * (free_end - begin)) / (1.0 + compliance * (0.5 * k + d));
+}
+
+double solved_force(const Coupling& coupling, double begin, double free_end, double compliance) noexcept {
+  const double k = coupling.stiffness, d = coupling.damping / coupling.period;
+  if (begin <= 0.0 && free_end <= 0.0) return 0.0;
+  if (begin < 0.0) {  // enters: the hold ends at x, the positive root of  stiff x^2 - p x + begin free_end = 0
+    const double stiff = 1.0 + compliance * (0.5 * k + d);
+    const double p = free_end + begin + compliance * d * begin;
+    const double end = (p + std::sqrt(p * p - 4.0 * stiff * begin * free_end)) / (2.0 * stiff);
+    return (free_end - end) / compliance;
+  }
+  const double inside = solved_force_inside(coupling, begin, free_end, compliance);
+  if (free_end - compliance * inside >= 0.0) return std::max(0.0, inside);
+  // Leaves: gives back what the spring holds, F (begin - end) = K begin^2 / 2, and no more.
+  const double way = begin - free_end;
+  return k * begin * begin / (way + std::sqrt(way * way + 2.0 * compliance * k * begin * begin));
+}
+
 Coupled couple(const Coupling& coupling, const Gate& gate, const Passage& passage, const Proxy& proxy,
                const LeverMotion& motion) noexcept {
-  const dvec2 step = motion.velocity * coupling.horizon;
+  const bool holds_ahead = coupling.hold == ContactHold::half_sample;
+  const double horizon = holds_ahead ? coupling.period * (1.0 + 2.0 * coupling.delay) : 0.0;
+  const dvec2 step = motion.velocity * horizon;
   const dvec2 predicted = motion.position + step;
   const Proxy ahead = move_proxy(gate, passage, proxy, predicted, 0.0);
   const dvec2 now = motion.position - proxy.position;
@@ -41,6 +65,25 @@ Coupled couple(const Coupling& coupling, const Gate& gate, const Passage& passag
   const dvec2 inward = now / depth_now;
   out.force -= coupling.damping * glm::dot(motion.velocity, inward) * inward;
   out.force -= std::max(0.0, glm::dot(out.force, inward)) * inward;
+  return out;
+}
+
+Coupled couple(const Coupling& coupling, const Gate& gate, const Passage& passage, const Proxy& proxy,
+               const ObservedMotion& motion) noexcept {
+  const Proxy begin = move_proxy(gate, passage, proxy, motion.position, 0.0);
+  const Proxy end = move_proxy(gate, passage, begin, motion.end, 0.0);
+  const dvec2 now = motion.position - begin.position;
+  const dvec2 then = motion.end - end.position;
+  const double depth_now = glm::length(now);
+  const double depth_then = glm::length(then);
+  Coupled out{{0.0, 0.0}, 0.5 * (begin.position + end.position)};
+  if (depth_now == 0.0 && depth_then == 0.0) return out;
+
+  const dvec2 inward = depth_then > 0.0 ? then / depth_then : now / depth_now;
+  const double x0 = depth_now > 0.0 ? glm::dot(now, inward) : glm::dot(motion.position - end.position, inward);
+  const double x1 = depth_then > 0.0 ? depth_then : glm::dot(motion.end - begin.position, inward);
+  const double compliance = glm::dot(inward * inward, motion.compliance);
+  out.force = -solved_force(coupling, x0, x1, compliance) * inward;
   return out;
 }
 

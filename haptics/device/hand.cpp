@@ -1,15 +1,10 @@
 #include "haptics/device/hand.h"
 
-#include <array>
 #include <charconv>
 #include <cmath>
-#include <utility>
 
 namespace gearshift {
 namespace {
-
-constexpr std::array<std::pair<std::string_view, HandImpedance>, 4> kNamedHands{
-    {{"bare", kBareHand}, {"light", kLightHand}, {"grip", kGripHand}, {"arm", kArmHand}}};
 
 // Takes one number off the front of the text: finite and >= 0.
 std::optional<double> take_number(std::string_view& text) {

@@ -4,6 +4,7 @@
 // The impedance acts along the plant's arcs, so that lever and hand together stay one exactly solvable axis.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string_view>
 
@@ -21,6 +22,13 @@ inline constexpr HandImpedance kBareHand{0.0, 0.0, 0.0};
 inline constexpr HandImpedance kLightHand{0.1, 5.0, 200.0};
 inline constexpr HandImpedance kGripHand{0.15, 10.0, 500.0};
 inline constexpr HandImpedance kArmHand{0.8, 5.5, 568.0};
+
+struct NamedHand {
+  std::string_view name;
+  HandImpedance hand;
+};
+inline constexpr std::array<NamedHand, 4> kNamedHands{
+    {{"bare", kBareHand}, {"light", kLightHand}, {"grip", kGripHand}, {"arm", kArmHand}}};
 
 // "bare", "light", "grip", "arm", or "M,B,K" in kg, N s/m, N/m (each finite and >= 0); else nothing.
 std::optional<HandImpedance> hand_from_text(std::string_view text);

@@ -9,11 +9,14 @@
 
 namespace gearshift {
 
+inline constexpr int kMostDelay = 15;  // [cycles] that the loop can account for
+
 // What a device can do. The configuration is checked against it.
 struct DeviceSpec {
   glm::dvec2 max_force{31.7};          // [N] peak per axis, select and shift
   glm::dvec2 continuous_force{10.83};  // [N] per axis, for ever
   glm::dvec2 workspace{0.0};           // [m] how far the tip reaches along each axis; less in the corners
+  double yoke_radius = 0.0;            // [m] centre of the yoke to the tip; 0: the tip moves in the plane
   double position_step = 0.0;          // [m] encoder quantum at the tip
   int delay = 0;                       // [cycles] whole samples between write and effect, >= 0
   AxisModel axis_x = kPaperAxisX;      // bare handle, select

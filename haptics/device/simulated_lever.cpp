@@ -18,6 +18,8 @@ namespace {
 constexpr double kMostPush = 1e4;   // [N]
 constexpr double kMostSpeed = 1e2;  // [m/s]
 
+constexpr std::uint64_t kChanceSeed = 0x9e3779b97f4a7c15;  // apart from the sensor's noise of the same seed
+
 void check(const std::string& name, const AxisModel& axis) {
   require_between(name + ".mass", axis.mass, 1e-3, 1e3, "kg");
   require_between(name + ".damping", axis.damping, 0.0, 1e4, "N s/m");
@@ -67,6 +69,8 @@ const SimulatedLeverConfig& checked(const SimulatedLeverConfig& config, std::int
   check(config.force_sensor);
   require_between("SimulatedLever: delay", config.delay, 0, kMaxDelay, "cycles");
   check(config.hand);
+  require_between("SimulatedLever: model_error", config.model_error, 0.0, 0.5);
+  require_between("SimulatedLever: period_jitter", config.period_jitter, 0.0, 0.5);
   require_between("SimulatedLever: period_ns", static_cast<double>(period_ns), 1.0, 1e9, "ns");
   return config;
 }
@@ -78,6 +82,7 @@ DeviceSpec make_spec(const SimulatedLeverConfig& config) {
   spec.continuous_force = glm::dvec2(config.actuator.continuous_force);
   spec.workspace = workspace_half_extent(yoke);
   const double quantum = std::numbers::pi / 180.0 / config.encoder_counts;  // [rad]
+  spec.yoke_radius = yoke.radius;
   spec.position_step = config.encoder_counts > 0.0 ? yoke.radius * quantum : 0.0;
   spec.delay = config.delay;
   spec.axis_x = config.axis_x;
@@ -89,12 +94,25 @@ DeviceSpec make_spec(const SimulatedLeverConfig& config) {
 
 }  // namespace
 
-SimulatedLever::Axis SimulatedLever::make_axis(const SimulatedLeverConfig& config, const AxisModel& handle,
-                                               double limit, double period) {
-  const HandImpedance& hand = config.hand;
+// A factor from 1 - share to 1 + share, any of them as likely; exactly 1 for no share.
+double SimulatedLever::off_by(double share) noexcept {
+  constexpr double kStep = 1.0 / 4503599627370496.0;  // 2^-52
+  return 1.0 + share * (static_cast<double>(chance_() >> 11) * kStep - 1.0);
+}
+
+// The handle as it really is, which spec() does not know.
+AxisModel SimulatedLever::true_model(const AxisModel& nominal) {
+  const double mass = nominal.mass * off_by(config_.model_error);
+  const double damping = nominal.damping * off_by(config_.model_error);
+  return {mass, damping, nominal.stiffness * off_by(config_.model_error)};
+}
+
+SimulatedLever::Axis SimulatedLever::make_axis(const AxisModel& nominal, double limit) {
+  const AxisModel handle = true_model(nominal);
+  const HandImpedance& hand = config_.hand;
   const AxisModel model{handle.mass + hand.mass, handle.damping + hand.damping, handle.stiffness + hand.stiffness};
-  const AxisLimits limits{config.yoke.radius * limit, config.coulomb_friction};
-  return {model, AxisStepper(model, period), limits, Actuator(config.actuator), JointEncoder(config.encoder_counts)};
+  const AxisLimits limits{config_.yoke.radius * limit, config_.coulomb_friction};
+  return {model, AxisStepper(model, period_), limits, Actuator(config_.actuator), JointEncoder(config_.encoder_counts)};
 }
 
 SimulatedLever::SimulatedLever(const SimulatedLeverConfig& config, std::int64_t period_ns, HandDriver& driver)
@@ -103,11 +121,13 @@ SimulatedLever::SimulatedLever(const SimulatedLeverConfig& config, std::int64_t 
       spec_(make_spec(config)),
       period_ns_(static_cast<std::uint64_t>(period_ns)),
       period_(static_cast<double>(period_ns) * 1e-9),
+      length_(period_),
+      chance_(config.seed ^ kChanceSeed),
       tan_theta_limit_(std::tan(config.yoke.theta_limit)),
       tan_phi_limit_(std::tan(config.yoke.phi_limit)),
       reach_(glm::length(plane_position(plane_pose(tan_theta_limit_, tan_phi_limit_), config.yoke.radius))),
-      x_(make_axis(config, config.axis_x, config.yoke.theta_limit, period_)),
-      y_(make_axis(config, config.axis_y, config.yoke.phi_limit, period_)),
+      x_(make_axis(config.axis_x, config.yoke.theta_limit)),
+      y_(make_axis(config.axis_y, config.yoke.phi_limit)),
       noise_(config.seed) {
   find_pose();
 }
@@ -134,6 +154,7 @@ std::uint64_t SimulatedLever::take_periods(std::int64_t now_ns) noexcept {
 
 void SimulatedLever::advance_period() noexcept {
   lead_hand();
+  take_time();
   drive_motors();
   move(x_);
   move(y_);
@@ -146,7 +167,8 @@ void SimulatedLever::advance_period() noexcept {
 // and stiffness in the axis, this is all that is left of the hand.
 void SimulatedLever::lead_hand() noexcept {
   const glm::dvec2 here = plane_position(pose_, config_.yoke.radius);
-  target_ = driver_.next(static_cast<double>(periods_) * period_, here);
+  const double drift = static_cast<double>(drift_ns_) * 1e-9;
+  target_ = driver_.next(static_cast<double>(periods_) * period_ + drift, here);
 
   const glm::dvec2 push = is_finite(target_.push) ? glm::clamp(target_.push, -kMostPush, kMostPush) : glm::dvec2(0.0);
   glm::dvec2 drive = arc_force(pose_, push);
@@ -179,14 +201,22 @@ PlanePose SimulatedLever::reachable_pose(glm::dvec2 plane) const noexcept {
                     std::clamp(-plane.y / z, -tan_phi_limit_, tan_phi_limit_));
 }
 
+// How long this period really is. A whole number of nanoseconds, so that time stamps tell it exactly.
+void SimulatedLever::take_time() noexcept {
+  if (config_.period_jitter == 0.0) return;
+  const std::int64_t length_ns = std::llround(static_cast<double>(period_ns_) * off_by(config_.period_jitter));
+  length_ = static_cast<double>(length_ns) * 1e-9;
+  drift_ns_ += length_ns - static_cast<std::int64_t>(period_ns_);
+}
+
 // The force written `delay` periods ago reaches the motors now. They saturate each on its own joint.
 void SimulatedLever::drive_motors() noexcept {
   queue_[periods_ % queue_.size()] = written_;
   const std::uint64_t due = periods_ + queue_.size() - static_cast<std::uint64_t>(config_.delay);
   const glm::dvec2 force = queue_[due % queue_.size()];
   const glm::dvec2 wanted = arc_force(pose_, force);
-  x_.actuator_force = x_.actuator.deliver(wanted.x, period_);
-  y_.actuator_force = y_.actuator.deliver(wanted.y, period_);
+  x_.actuator_force = x_.actuator.deliver(wanted.x, length_);
+  y_.actuator_force = y_.actuator.deliver(wanted.y, length_);
   reading_.actuator_force = plane_force(pose_, {x_.actuator_force, y_.actuator_force});
 }
 
@@ -194,15 +224,17 @@ void SimulatedLever::drive_motors() noexcept {
 void SimulatedLever::move(Axis& axis) const noexcept {
   const double force = axis.hand_drive + axis.actuator_force;
   if (axis.limits.coulomb_friction == 0.0) {
-    const AxisState next = axis.stepper.step(axis.state, force);
+    const bool on_time = length_ == period_;
+    const AxisState next =
+        on_time ? axis.stepper.step(axis.state, force) : advance(axis.model, axis.state, force, length_);
     const double speed = std::max(std::abs(axis.state.velocity), std::abs(next.velocity));
-    const double farthest = std::max(std::abs(axis.state.position), std::abs(next.position)) + speed * period_;
+    const double farthest = std::max(std::abs(axis.state.position), std::abs(next.position)) + speed * length_;
     if (farthest < axis.limits.stop) {
       axis.state = next;
       return;
     }
   }
-  axis.state = advance_limited(axis.model, axis.limits, axis.state, force, period_);
+  axis.state = advance_limited(axis.model, axis.limits, axis.state, force, length_);
 }
 
 void SimulatedLever::find_pose() noexcept {
@@ -215,7 +247,7 @@ void SimulatedLever::sample() noexcept {
   const PlanePose read_pose = plane_pose(x_.encoder.read_tangent(), y_.encoder.read_tangent());
   const glm::dvec2 felt{sensed(hand_force(x_)), sensed(hand_force(y_))};
   ++reading_.sequence;
-  reading_.time_ns = last_ns_;
+  reading_.time_ns = last_ns_ + drift_ns_;
   reading_.position = plane_position(read_pose, config_.yoke.radius);
   reading_.hand_force = plane_force(pose_, felt);
   reading_.pressed_down = target_.pressed_down;
@@ -257,12 +289,13 @@ glm::dvec2 SimulatedLever::true_velocity() const noexcept {
   return plane_velocity(pose_, {x_.state.velocity, y_.state.velocity});
 }
 
-void SimulatedLever::place(glm::dvec2 position) noexcept {
-  if (!is_finite(position)) return;
+void SimulatedLever::place(glm::dvec2 position, glm::dvec2 velocity) noexcept {
+  if (!is_finite(position) || !is_finite(velocity)) return;
   const PlanePose pose = reachable_pose(position);
   const glm::dvec2 arc = arc_position(config_.yoke, {std::atan(pose.a), std::atan(pose.b)});
-  x_.state = {arc.x, 0.0};
-  y_.state = {arc.y, 0.0};
+  const glm::dvec2 speed = arc_velocity(pose, velocity);
+  x_.state = {arc.x, speed.x};
+  y_.state = {arc.y, speed.y};
   x_.hand_drive = config_.hand.stiffness * arc.x;  // the hand rests there with it
   y_.hand_drive = config_.hand.stiffness * arc.y;
   find_pose();

@@ -3,6 +3,7 @@
 
 #include <array>
 #include <cstdint>
+#include <random>
 
 #include "haptics/device/gaussian_noise.h"
 #include "haptics/device/hand.h"
@@ -28,7 +29,10 @@ struct SimulatedLeverConfig {
   ForceSensorModel force_sensor;
   int delay = 0;  // [cycles] 0 to 8, whole samples from write to effect
   HandImpedance hand = kBareHand;
-  std::uint64_t seed = 1;  // for sensor noise
+  // What no model knows, for hard cases. Drawn with the seed, evenly.
+  double model_error = 0.0;    // [1] 0 to 0.5, true mass, damping and stiffness of each axis are off by up to this
+  double period_jitter = 0.0;  // [1] 0 to 0.5, each period is this much shorter or longer
+  std::uint64_t seed = 1;      // for sensor noise, model error and jitter
 };
 
 inline constexpr int kMaxDelay = 8;  // [cycles]
@@ -41,6 +45,9 @@ inline constexpr int kMaxPeriodsPerRead = 1000;
 //   now = last + n T   n periods and n sequence numbers on; n is rounded, at most kMaxPeriodsPerRead:
 //                      the rest of a longer gap is dropped
 //   n <= 0             the last reading again, stale
+//
+// With period_jitter a period lasts a whole number of nanoseconds between T (1 - jitter) and T (1 + jitter), whatever
+// the loop's clock says; time_ns of a reading tells how long it was.
 class SimulatedLever final : public HapticDevice {
  public:
   // period_ns: the loop's period [ns], 1 to 1e9. The driver must outlive the lever.
@@ -56,8 +63,9 @@ class SimulatedLever final : public HapticDevice {
   glm::dvec2 true_position() const noexcept;
   glm::dvec2 true_velocity() const noexcept;
 
-  // Puts the tip at rest somewhere. [m] in the gate plane, moved to the nearest stop if it is out of reach
-  void place(glm::dvec2 position) noexcept;
+  // Puts the tip somewhere, at rest or moving. [m], [m/s] in the gate plane, moved to the nearest stop if it is out
+  // of reach
+  void place(glm::dvec2 position, glm::dvec2 velocity = glm::dvec2(0.0)) noexcept;
 
  private:
   // One joint along its arc: handle and hand together are one exactly stepped axis.
@@ -77,10 +85,13 @@ class SimulatedLever final : public HapticDevice {
     glm::dvec2 position{0.0}, velocity{0.0};
   };
 
-  static Axis make_axis(const SimulatedLeverConfig& config, const AxisModel& handle, double limit, double period);
+  Axis make_axis(const AxisModel& nominal, double limit);
+  AxisModel true_model(const AxisModel& nominal);
+  double off_by(double share) noexcept;
   std::uint64_t take_periods(std::int64_t now_ns) noexcept;
   void advance_period() noexcept;
   void lead_hand() noexcept;
+  void take_time() noexcept;
   void drive_motors() noexcept;
   void move(Axis& axis) const noexcept;
   void find_pose() noexcept;
@@ -94,7 +105,9 @@ class SimulatedLever final : public HapticDevice {
   HandDriver& driver_;
   DeviceSpec spec_;
   std::uint64_t period_ns_;
-  double period_;  // [s]
+  double period_;           // [s] nominal
+  double length_;           // [s] that the period now passing really lasts
+  std::mt19937_64 chance_;  // of model error and jitter
   double tan_theta_limit_, tan_phi_limit_;
   double reach_;  // [m] farthest the tip gets from the centre, in the corners
   Axis x_, y_;
@@ -106,7 +119,8 @@ class SimulatedLever final : public HapticDevice {
   glm::dvec2 written_{0.0};                        // [N]
   std::uint64_t periods_ = 0;                      // since the first read
   bool started_ = false;
-  std::int64_t last_ns_ = 0;  // [ns] of the last sample
+  std::int64_t last_ns_ = 0;   // [ns] of the last sample, on the loop's clock
+  std::int64_t drift_ns_ = 0;  // [ns] that this sample was really later than on that clock
   LeverReading reading_;
 };
 

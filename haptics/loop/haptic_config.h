@@ -6,8 +6,10 @@
 #include <vector>
 
 #include "haptics/contact/lever_estimator.h"
+#include "haptics/contact/virtual_coupling.h"
 #include "haptics/device/haptic_device.h"
 #include "haptics/gate/gate.h"
+#include "haptics/safety/energy_control.h"
 #include "haptics/safety/force_guard.h"
 
 namespace gearshift {
@@ -20,6 +22,7 @@ struct HapticTuning {
   double aisle_damping = 2.0;      // [N s/m] 0 to 50, everywhere
   double speed_limit = 0.6;        // [m/s] 0.05 to 5: above it the aisles resist
   double limit_damping = 15.0;     // [N s/m] 0 to 50, of the speed above the limit
+  bool operator==(const HapticTuning&) const = default;
 };
 
 struct OverPushConfig {
@@ -27,9 +30,19 @@ struct OverPushConfig {
   double clear_below = 50.0;  // [N] 0 to warn_above
 };
 
+// How a contact is made. Fixed while the loop runs.
+struct ContactConfig {
+  ContactHold hold = ContactHold::automatic;
+  EnergyControl energy_control =
+      EnergyControl::none;  // beside that hold; the guard's fallback switches it on by itself
+  bool reversal_limiter = true;
+  bool study = false;  // nothing is limited to what is stable: simulated devices only, a person must not touch it
+};
+
 struct HapticConfig {
   double rate = 1000.0;  // [Hz] 100 to 4000
   HapticTuning tuning;
+  ContactConfig contact;
   EstimatorConfig estimator;
   GuardConfig guard;
   OverPushConfig over_push;
@@ -37,15 +50,18 @@ struct HapticConfig {
   double ghost_offset = 0.020;   // [m] 0 to 1, lever this far from its proxy: the picture shows the true hand
 };
 
-// One thing that was not admitted as wanted.
+// One thing that was not admitted as wanted. In a study it is told and used all the same.
 struct Limited {
   std::string law;   // why, as one formula
   std::string what;  // the parameter
   double wanted = 0.0, used = 0.0;
+  double bound = 0.0;  // the most that the law admits
+  std::string hand;    // that decides; empty where none does
 };
 
 struct AdmittedTuning {
   HapticTuning tuning;
+  ContactHold hold = ContactHold::half_sample;  // never automatic
   std::vector<Limited> limited;
 };
 
@@ -56,9 +72,13 @@ double period_s(const HapticConfig& config) noexcept;         // the same
 void check_tuning(const HapticTuning& tuning);
 void check_config(const HapticConfig& config);
 
-// The tuning that holds on this device at this rate with this gate: the delay-scaled stiffness and damping of the
-// half-sample hold, K <= 0.35 m / tau^2 and B <= 0.35 m / tau, tau = (delay + 1) T, m the lighter axis. The factor
-// was found by a search over hands, impact phases, quantisation, jitter and plant error (400 runs per setting).
-AdmittedTuning admit_tuning(const HapticTuning& wanted, double period, const DeviceSpec& spec, const Gate& gate);
+// What holds of the wanted tuning, on this device, with every listed hand, the bare handle included:
+//   quiet      K <= 0.35 m / tau^2 (observer: 0.58) and B <= 0.35 m / tau, tau = (delay + 1) T, m the lighter axis:
+//              found by a search over hands, impact phases, quantisation, jitter and plant error
+//   stable     1.1 K and all damping still inside the exact boundary (sampled_loop.h) for every hand and both axes
+//   feel       no feel stiffer than the wall that carries the proxy
+// In a study all is used as wanted, and told. Throws std::invalid_argument for a study on a device that is not
+// simulated.
+AdmittedTuning admit_tuning(const HapticConfig& config, const DeviceSpec& spec, const Gate& gate);
 
 }  // namespace gearshift

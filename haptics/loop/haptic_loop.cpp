@@ -27,8 +27,6 @@ std::int64_t clock_ns() noexcept {
       .count();
 }
 
-constexpr int kMostDelay = 15;  // [cycles] that the commands sent are remembered
-
 const HapticConfig& checked(const HapticConfig& config, const DeviceSpec& spec) {
   check_config(config);
   require_between("delay of the device", spec.delay, 0, kMostDelay, "cycles");
@@ -58,20 +56,33 @@ class StageClock {
 HapticLoop::HapticLoop(const HapticConfig& config, const Gate& gate, HapticDevice& device, LeverWorld& world,
                        LoopChannels& channels)
     : config_(checked(config, device.spec())),
-      admitted_(admit_tuning(config.tuning, period_s(config), device.spec(), gate)),
+      admitted_(admit_tuning(config, device.spec(), gate)),
       gate_(gate),
       device_(device),
       world_(world),
       channels_(channels),
       period_(period_s(config)),
-      horizon_(period_ * (1.0 + 2.0 * device.spec().delay)),
       hand_over_(kHandOverSpeed * period_),
       tuning_(admitted_.tuning),
       estimator_(config.estimator, period_),
+      observer_(device.spec(), period_),
+      limiter_(device.spec(), period_),
       selector_(config.gear_debounce),
       guard_(config.guard, device.spec(), period_),
       passage_(open_passage(gate)),
-      proxy_(place_proxy(gate, rest_position(gate, kNeutralGear))) {}
+      proxy_(place_proxy(gate, rest_position(gate, kNeutralGear))) {
+  guard_.use(config.contact.energy_control);
+}
+
+AdmittedTuning HapticLoop::change_tuning(const HapticTuning& wanted) {
+  check_tuning(wanted);
+  HapticConfig config = config_;
+  config.tuning = wanted;
+  config.contact.hold = admitted_.hold;  // as it runs
+  AdmittedTuning admitted = admit_tuning(config, device_.spec(), gate_);
+  channels_.tuning.write(admitted.tuning);
+  return admitted;
+}
 
 void HapticLoop::cycle(std::int64_t deadline_ns, std::int64_t skipped) noexcept {
   StageClock clock(stamps_, out_.cycle);
@@ -83,8 +94,7 @@ void HapticLoop::cycle(std::int64_t deadline_ns, std::int64_t skipped) noexcept 
   clock.stamp();
   follow_lever();
   clock.stamp();
-  const Coupling coupling{tuning_.wall_stiffness, tuning_.wall_damping, horizon_};
-  const Coupled coupled = couple(coupling, gate_, passage_, proxy_, motion_);
+  const Coupled coupled = couple_lever();
   out_.wall_force = coupled.force;
   clock.stamp();
   out_.feel_force = mechanism_feel(coupled.mean_proxy);
@@ -101,12 +111,13 @@ void HapticLoop::cycle(std::int64_t deadline_ns, std::int64_t skipped) noexcept 
   watch_push();
   watch_saturation(command);
   watch_contact();
+  watch_chatter();
   watch_guard(skipped);
   publish(skipped);
 }
 
 void HapticLoop::take_inputs() noexcept {
-  if (channels_.tuning.update()) tuning_ = channels_.tuning.value();
+  if (channels_.tuning.update() && channels_.tuning.value() != tuning_) retune(channels_.tuning.value());
   if (channels_.controls.update()) controls_ = channels_.controls.value();
   command_ = LoopCommand::none;
   if (channels_.commands.pop(command_)) obey(command_);
@@ -128,10 +139,18 @@ void HapticLoop::obey(LoopCommand command) noexcept {
   }
 }
 
+// A new tuning or a new start: what the limiter has learnt of the old one does not hold.
+void HapticLoop::retune(const HapticTuning& tuning) noexcept {
+  tuning_ = tuning;
+  limiter_.reset();
+  guard_.use(config_.contact.energy_control);
+}
+
 // At arming the proxy starts anew at the lever, so that an old penetration cannot pull.
 void HapticLoop::arm() noexcept {
   guard_.arm();
   placed_ = false;
+  retune(tuning_);
 }
 
 void HapticLoop::follow_lever() noexcept {
@@ -153,6 +172,14 @@ void HapticLoop::limit_depth() noexcept {
   passage_.limited_slot = slot;
   passage_.depth_min = std::min(world_out_.depth_min, depth);
   passage_.depth_max = std::max(world_out_.depth_max, depth);
+}
+
+Coupled HapticLoop::couple_lever() noexcept {
+  out_.wall_stiffness = tuning_.wall_stiffness * limiter_.share();
+  Coupling coupling{out_.wall_stiffness, tuning_.wall_damping, period_, device_.spec().delay, admitted_.hold};
+  if (admitted_.hold != ContactHold::observer) return couple(coupling, gate_, passage_, proxy_, motion_);
+  coupling.damping = std::max(coupling.damping, kObservedDamping);
+  return couple(coupling, gate_, passage_, proxy_, observer_.update(motion_, out_.commanded));
 }
 
 dvec2 HapticLoop::mechanism_feel(dvec2 mean_proxy) const noexcept {
@@ -185,6 +212,7 @@ GuardInput HapticLoop::guard_input(std::int64_t skipped) const noexcept {
   in.position = motion_.position;
   in.velocity = motion_.smooth_velocity;
   in.fresh = motion_.fresh;
+  in.touches = motion_.position != proxy_.position;
   in.overrun = skipped > 0;
   return in;
 }
@@ -259,6 +287,16 @@ void HapticLoop::watch_contact() noexcept {
     tell(EventKind::wall_contact, std::abs(glm::dot(motion_.smooth_velocity, penetration / depth)));
   }
   apart_ = touches ? 0.0 : apart_ + period_;
+}
+
+// The lever chatters on a wall: less stiffness, and at the floor energy bounding.
+void HapticLoop::watch_chatter() noexcept {
+  if (!config_.contact.reversal_limiter) return;
+  if (!limiter_.update(motion_.position, has_flag(kFlagContact), tuning_.wall_stiffness)) return;
+  const double stiffness = tuning_.wall_stiffness * limiter_.share();
+  if (!limiter_.exhausted()) return tell(EventKind::stiffness_lowered, stiffness);
+  guard_.use(EnergyControl::energy_bounding);
+  tell(EventKind::energy_bounded, stiffness);
 }
 
 // A simulated lever arms itself again once it has been healthy for a while since the fall; a real one waits for a

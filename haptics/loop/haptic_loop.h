@@ -9,6 +9,7 @@
 
 #include "haptics/contact/lever_estimator.h"
 #include "haptics/contact/proxy.h"
+#include "haptics/contact/reversal_limiter.h"
 #include "haptics/contact/virtual_coupling.h"
 #include "haptics/gate/gear_selector.h"
 #include "haptics/gate/lockout.h"
@@ -37,7 +38,7 @@ struct TraceSample {
 // The wires between the loop and the rest of the program.
 struct LoopChannels {
   LatestValue<HapticSnapshot> snapshot;       // loop -> frame
-  LatestValue<HapticTuning> tuning;           // frame -> loop: already admitted (admit_tuning)
+  LatestValue<HapticTuning> tuning;           // frame -> loop, by HapticLoop::change_tuning alone: what is admitted
   LatestValue<DriverControls> controls;       // frame -> loop
   SpscQueue<HapticEvent> events{4096};        // loop -> app
   SpscQueue<TraceSample> trace{8192};         // loop -> recorder
@@ -72,14 +73,20 @@ class HapticLoop {
   // Allows forces, ramped up from zero. Before the first cycle, or by LoopCommand::arm while it runs.
   void arm() noexcept;
 
+  // While the loop runs, on the thread that owns the channels' writing end: the same check as at the start, and what
+  // it admits is used from the next cycle on. Throws std::invalid_argument where a value is outside its range.
+  AdmittedTuning change_tuning(const HapticTuning& wanted);
+
   // Stamps of the last cycle's stages for every 64th cycle; the others leave them as they are.
   const StageStamps& stamps() const noexcept { return stamps_; }
 
  private:
   void take_inputs() noexcept;
   void obey(LoopCommand command) noexcept;
+  void retune(const HapticTuning& tuning) noexcept;
   void follow_lever() noexcept;
   void limit_depth() noexcept;
+  Coupled couple_lever() noexcept;
   glm::dvec2 mechanism_feel(glm::dvec2 mean_proxy) const noexcept;
   LeverOutput run_world(std::int64_t skipped) noexcept;
   GuardInput guard_input(std::int64_t skipped) const noexcept;
@@ -90,6 +97,7 @@ class HapticLoop {
   void watch_push() noexcept;
   void watch_saturation(const GuardOutput& command) noexcept;
   void watch_contact() noexcept;
+  void watch_chatter() noexcept;
   void watch_guard(std::int64_t skipped) noexcept;
   void publish(std::int64_t skipped) noexcept;
   void record(std::int64_t skipped) noexcept;
@@ -104,12 +112,13 @@ class HapticLoop {
   LeverWorld& world_;
   LoopChannels& channels_;
   double period_;     // [s]
-  double horizon_;    // [s] that the coupling looks ahead
   double hand_over_;  // [m] per cycle
 
   HapticTuning tuning_;
   DriverControls controls_;
   LeverEstimator estimator_;
+  LeverObserver observer_;
+  ReversalLimiter limiter_;
   Lockouts lockouts_;
   GearSelector selector_;
   ForceGuard guard_;

@@ -31,6 +31,7 @@ struct HapticSnapshot {
   glm::dvec2 f_h{0.0};          // [N] eq (4): of the hand
   glm::dvec2 f_a{0.0};          // [N] eq (4): of the actuators, against the hand
   glm::dvec2 f_j{0.0};          // [N] eq (4): f_h - f_a, what moves the joystick
+  double wall_stiffness = 0.0;  // [N/m] in use: what was admitted, less what the reversal limiter took
   double road_speed = 0.0;      // [m/s]
   int slot = kNoSlot;
   int gear = kNeutralGear;
@@ -47,7 +48,9 @@ enum class EventKind : std::uint8_t {
   over_push_end,
   saturation_begin,  // value: wanted force [N]
   saturation_end,
-  guard_changed  // value: GuardState
+  guard_changed,      // value: GuardState
+  stiffness_lowered,  // value: stiffness in use from now on [N/m]; the lever chattered on a wall
+  energy_bounded      // value: the same; it chattered on at the floor, so energy bounding is on
 };
 
 struct HapticEvent {

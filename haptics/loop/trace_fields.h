@@ -36,10 +36,12 @@ constexpr void each_field(FieldsOf<AxisModel> auto& axis, auto&& visit) {
 }
 
 constexpr void each_field(FieldsOf<DeviceSpec> auto& spec, auto&& visit) {
-  auto& [max_force, continuous_force, workspace, position_step, delay, axis_x, axis_y, measures, simulated] = spec;
+  auto& [max_force, continuous_force, workspace, yoke_radius, position_step, delay, axis_x, axis_y, measures,
+         simulated] = spec;
   visit("max_force", max_force);
   visit("continuous_force", continuous_force);
   visit("workspace", workspace);
+  visit("yoke_radius", yoke_radius);
   visit("position_step", position_step);
   visit("delay", delay);
   visit("axis_x", axis_x);
@@ -59,9 +61,10 @@ constexpr void each_field(FieldsOf<HapticTuning> auto& tuning, auto&& visit) {
 }
 
 constexpr void each_field(FieldsOf<EstimatorConfig> auto& estimator, auto&& visit) {
-  auto& [smoothing, speed_limit] = estimator;
+  auto& [smoothing, speed_limit, window] = estimator;
   visit("smoothing", smoothing);
   visit("speed_limit", speed_limit);
+  visit("window", window);
 }
 
 constexpr void each_field(FieldsOf<GuardConfig> auto& guard, auto&& visit) {
@@ -81,10 +84,19 @@ constexpr void each_field(FieldsOf<OverPushConfig> auto& over_push, auto&& visit
   visit("clear_below", clear_below);
 }
 
+constexpr void each_field(FieldsOf<ContactConfig> auto& contact, auto&& visit) {
+  auto& [hold, energy_control, reversal_limiter, study] = contact;
+  visit("hold", hold);
+  visit("energy_control", energy_control);
+  visit("reversal_limiter", reversal_limiter);
+  visit("study", study);
+}
+
 constexpr void each_field(FieldsOf<HapticConfig> auto& config, auto&& visit) {
-  auto& [rate, tuning, estimator, guard, over_push, gear_debounce, ghost_offset] = config;
+  auto& [rate, tuning, contact, estimator, guard, over_push, gear_debounce, ghost_offset] = config;
   visit("rate", rate);
   visit("tuning", tuning);
+  visit("contact", contact);
   visit("estimator", estimator);
   visit("guard", guard);
   visit("over_push", over_push);
@@ -115,7 +127,7 @@ constexpr void each_field(FieldsOf<DriverControls> auto& controls, auto&& visit)
 
 constexpr void each_field(FieldsOf<HapticSnapshot> auto& snapshot, auto&& visit) {
   auto& [cycle, time_ns, lever, velocity, proxy, wall_force, feel_force, world_force, commanded, f_h, f_a, f_j,
-         road_speed, slot, gear, guard, fault, flags] = snapshot;
+         wall_stiffness, road_speed, slot, gear, guard, fault, flags] = snapshot;
   visit("cycle", cycle);
   visit("time_ns", time_ns);
   visit("lever", lever);
@@ -128,6 +140,7 @@ constexpr void each_field(FieldsOf<HapticSnapshot> auto& snapshot, auto&& visit)
   visit("f_h", f_h);
   visit("f_a", f_a);
   visit("f_j", f_j);
+  visit("wall_stiffness", wall_stiffness);
   visit("road_speed", road_speed);
   visit("slot", slot);
   visit("gear", gear);
@@ -149,6 +162,12 @@ constexpr void each_field(FieldsOf<TraceSample> auto& sample, auto&& visit) {
 }
 
 // Largest value of an enumeration in the file.
+constexpr ContactHold last_value(ContactHold) {
+  return ContactHold::observer;
+}
+constexpr EnergyControl last_value(EnergyControl) {
+  return EnergyControl::passivity_controller;
+}
 constexpr LoopCommand last_value(LoopCommand) {
   return LoopCommand::stop;
 }

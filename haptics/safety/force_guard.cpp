@@ -30,16 +30,20 @@ ForceGuard::ForceGuard(const GuardConfig& config, const DeviceSpec& spec, double
       max_force_(spec.max_force),
       position_limit_(spec.workspace + config.position_margin),
       period_(period),
+      bounder_{EnergyBounder(spec.axis_x, spec.delay, period), EnergyBounder(spec.axis_y, spec.delay, period)},
+      controller_{PassivityController(spec.axis_x, period), PassivityController(spec.axis_y, period)},
       stale_limit_(std::lround(config.stale_time / period)) {}
 
 GuardOutput ForceGuard::guard(const GuardInput& in) noexcept {
   watch(in);
   if (state_ == GuardState::idle || state_ == GuardState::released) {
     last_ = {0.0, 0.0};
+    position_ = in.position;
     return {};
   }
   if (state_ == GuardState::damped) return {glm::clamp(damped_force(in), -max_force_, max_force_), false};
-  const dvec2 slewed = glm::clamp(in.force, last_ - config_.slew, last_ + config_.slew);
+  const dvec2 wanted = controlled(in);
+  const dvec2 slewed = glm::clamp(wanted, last_ - config_.slew, last_ + config_.slew);
   last_ = glm::clamp(slewed, -max_force_, max_force_);
   const bool saturated = std::abs(in.force.x) > max_force_.x || std::abs(in.force.y) > max_force_.y;
   return {last_ * ramp_gain(), saturated};
@@ -66,6 +70,20 @@ void ForceGuard::fall(GuardState state, GuardFault fault) noexcept {
   fade_from_ = last_ * ramp_;
   fade_ = 1.0;
   ramp_ = 0.0;
+}
+
+dvec2 ForceGuard::controlled(const GuardInput& in) noexcept {
+  const dvec2 travel = in.position - position_;
+  position_ = in.position;
+  dvec2 force = in.force;
+  for (int i = 0; i < 2; ++i) {
+    const auto axis = static_cast<std::size_t>(i);
+    if (energy_control_ == EnergyControl::energy_bounding)
+      force[i] = bounder_[axis].bound(force[i], last_[i], travel[i]);
+    if (energy_control_ == EnergyControl::passivity_controller)
+      force[i] = controller_[axis].control(force[i], last_[i], travel[i], in.touches);
+  }
+  return force;
 }
 
 // The last force dies away within fade_time; while readings are fresh, damping is left.

@@ -1,15 +1,17 @@
-// The last word on every force: finite, slew, clamp, ramp; and the state ladder.
+// The last word on every force: finite, energy control where it is asked for, slew, clamp, ramp; and the state ladder.
 //
 //   idle -> armed -> ramping -> running      up: by a person only, or by itself on a simulated lever
 //   damped    reading stale, or too many overruns in a row: the force dies away, damping alone is left
 //   released  a limit broken, device lost, force not finite: motors off
 #pragma once
 
+#include <array>
 #include <cstdint>
 
 #include <glm/vec2.hpp>
 
 #include "haptics/device/haptic_device.h"
+#include "haptics/safety/energy_control.h"
 
 namespace gearshift {
 
@@ -34,6 +36,7 @@ struct GuardInput {
   glm::dvec2 position{0.0};  // [m] trusted
   glm::dvec2 velocity{0.0};  // [m/s] smoothed
   bool fresh = false;        // reading fresh this cycle
+  bool touches = false;      // the lever is pressed into a wall
   bool overrun = false;      // this cycle came late by a period or more
 };
 
@@ -53,6 +56,10 @@ class ForceGuard {
   void disarm() noexcept;  // any -> idle, force 0
   void stop() noexcept;    // armed or higher -> released: the large red button
 
+  // Between cycles: from now on, on top of all the rest.
+  void use(EnergyControl control) noexcept { energy_control_ = control; }
+  EnergyControl energy_control() const noexcept { return energy_control_; }
+
   GuardState state() const noexcept { return state_; }
   GuardFault fault() const noexcept { return fault_; }  // why it last went down
 
@@ -60,12 +67,17 @@ class ForceGuard {
   void fall(GuardState state, GuardFault fault) noexcept;
   void watch(const GuardInput& in) noexcept;
   glm::dvec2 damped_force(const GuardInput& in) noexcept;
+  glm::dvec2 controlled(const GuardInput& in) noexcept;
   double ramp_gain() noexcept;
 
   GuardConfig config_;
   glm::dvec2 max_force_;
   glm::dvec2 position_limit_;
   double period_;
+  EnergyControl energy_control_ = EnergyControl::none;
+  std::array<EnergyBounder, 2> bounder_;           // per axis
+  std::array<PassivityController, 2> controller_;  // per axis
+  glm::dvec2 position_{0.0};                       // [m] in the cycle before
   GuardState state_ = GuardState::idle;
   GuardFault fault_ = GuardFault::none;
   glm::dvec2 last_{0.0};       // [N] commanded before the ramp

@@ -9,6 +9,8 @@
 
 #include <doctest/doctest.h>
 
+#include "haptics/analysis/sampled_loop.h"
+#include "haptics/device/hand.h"
 #include "haptics/gate/gate_feel.h"
 #include "tests/support/gates.h"
 
@@ -45,42 +47,116 @@ TEST_CASE("a config out of range is refused with parameter, value and range") {
   CHECK(refusal(config).find("clear_below_n") != std::string::npos);
 }
 
-TEST_CASE("half-sample hold: K <= 0.35 m / tau^2 and B <= 0.35 m / tau, tau = (delay + 1) T, m the lighter axis") {
-  const Gate gate = paper_gate();
+namespace {
+
+AdmittedTuning admitted(const HapticTuning& wanted, double rate, int delay, ContactHold hold = ContactHold::automatic) {
+  HapticConfig config;
+  config.rate = rate;
+  config.tuning = wanted;
+  config.contact.hold = hold;
+  DeviceSpec spec;
+  spec.delay = delay;
+  return admit_tuning(config, spec, paper_gate());
+}
+
+}  // namespace
+
+TEST_CASE("quiet: K <= 0.35 m / tau^2 (observer 0.58), B <= 0.35 m / tau, tau = (delay + 1) T, m the lighter axis") {
   HapticTuning wanted;
   wanted.wall_stiffness = 20000.0;
   wanted.wall_damping = 100.0;
   wanted.aisle_damping = 50.0;
   wanted.limit_damping = 50.0;
-  for (const double period : {0.01, 0.005, 0.002, 0.001, 0.00025}) {
+  for (const double rate : {100.0, 200.0, 500.0, 1000.0, 4000.0}) {
     for (const int delay : {0, 1, 3}) {
-      DeviceSpec spec;
-      spec.delay = delay;
-      const double tau = (delay + 1) * period;
-      const HapticTuning used = admit_tuning(wanted, period, spec, gate).tuning;
-      CHECK(used.wall_stiffness == doctest::Approx(std::min(20000.0, 0.35 * 0.086 / (tau * tau))));
-      CHECK(used.wall_damping == doctest::Approx(std::min(100.0, 0.35 * 0.086 / tau)));
-      CHECK(used.aisle_damping == doctest::Approx(std::min(50.0, 0.35 * 0.086 / tau)));
-      CHECK(used.limit_damping == doctest::Approx(std::min(50.0, 0.35 * 0.086 / tau)));
+      for (const ContactHold hold : {ContactHold::half_sample, ContactHold::observer}) {
+        const double tau = (delay + 1) / rate, share = hold == ContactHold::observer ? 0.58 : 0.35;
+        const HapticTuning used = admitted(wanted, rate, delay, hold).tuning;
+        CHECK(used.wall_stiffness <= std::min(20000.0, share * 0.086 / (tau * tau)) * (1.0 + 1e-12));
+        CHECK(used.wall_damping == doctest::Approx(std::min(100.0, 0.35 * 0.086 / tau)));
+        CHECK(used.aisle_damping == doctest::Approx(std::min(50.0, 0.35 * 0.086 / tau)));
+        CHECK(used.limit_damping == doctest::Approx(std::min(50.0, 0.35 * 0.086 / tau)));
+      }
     }
   }
 }
 
+TEST_CASE("automatic: the observer where delay keeps the half-sample hold from the wanted stiffness, up to 4.5 ms") {
+  CHECK(admitted({}, 1000.0, 0).hold == ContactHold::half_sample);
+  CHECK(admitted({}, 1000.0, 1).hold == ContactHold::half_sample);
+  CHECK(admitted({}, 1000.0, 2).hold == ContactHold::observer);
+  CHECK(admitted({}, 1000.0, 2).tuning.wall_stiffness == 5000.0);
+  CHECK(admitted({}, 1000.0, 3).hold == ContactHold::observer);
+  CHECK(admitted({}, 1000.0, 4).hold == ContactHold::half_sample);  // 5 ms
+  CHECK(admitted({}, 500.0, 1).hold == ContactHold::observer);
+  CHECK(admitted({}, 200.0, 0).hold == ContactHold::half_sample);
+}
+
+TEST_CASE("whatever is admitted is stable, at every softer wall too, with every hand: rates, delays, holds, dampings") {
+  HapticTuning damped;
+  damped.wall_stiffness = 20000.0;
+  damped.wall_damping = 100.0;
+  damped.aisle_damping = 50.0;
+  for (const HapticTuning& wanted : {HapticTuning{}, damped}) {
+    for (const double rate : {100.0, 200.0, 500.0, 1000.0, 2000.0, 4000.0}) {
+      for (int delay = 0; delay <= 8; ++delay) {
+        for (const ContactHold hold : {ContactHold::zero_order, ContactHold::half_sample, ContactHold::observer}) {
+          const AdmittedTuning used = admitted(wanted, rate, delay, hold);
+          ContactLaw law{used.hold, 0.0, used.tuning.wall_damping, 1, used.tuning.aisle_damping, 0.004, delay};
+          for (const double share : {1.0, 0.75, 0.5, 0.1}) {
+            law.stiffness = share * used.tuning.wall_stiffness;
+            for (const NamedHand& named : kNamedHands)
+              for (const AxisModel& axis : {kPaperAxisX, kPaperAxisY})
+                CHECK(spectral_radius(axis, named.hand, law, 1.0 / rate) < 1.0);
+          }
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("a textbook spring is held below the exact boundary, and the hand that decides is named") {
+  HapticTuning spring;
+  spring.wall_stiffness = 20000.0;
+  spring.wall_damping = 0.0;
+  spring.aisle_damping = 0.0;
+  const AdmittedTuning used = admitted(spring, 1000.0, 0, ContactHold::zero_order);
+  // facts: 6032 N/m on the X axis, bare; Y is 2 b / T = 5800 and the same 32 beyond it.
+  CHECK(used.tuning.wall_stiffness == doctest::Approx(5832.0 / 1.1).epsilon(0.001));
+  REQUIRE(used.limited.size() >= 1);
+  CHECK(used.limited[0].hand == "bare");
+  CHECK(used.limited[0].wanted == 20000.0);
+  CHECK(used.limited[0].bound == used.tuning.wall_stiffness);
+}
+
 TEST_CASE("the default is admitted whole at 1 kHz; at 100 Hz everything that was limited is said") {
-  const Gate gate = paper_gate();
-  CHECK(admit_tuning({}, 0.001, {}, gate).limited.empty());
-  const AdmittedTuning slow = admit_tuning({}, 0.01, {}, gate);
+  CHECK(admitted({}, 1000.0, 0).limited.empty());
+  const AdmittedTuning slow = admitted({}, 100.0, 0);
   REQUIRE(slow.limited.size() >= 2);
   for (const Limited& limited : slow.limited) {
     CHECK(limited.used < limited.wanted);
+    CHECK(limited.used == limited.bound);
     CHECK_FALSE(limited.law.empty());
   }
 }
 
+TEST_CASE("a study uses what is wanted, says all the same what is not stable, and is refused on real devices") {
+  HapticConfig config;
+  config.rate = 100.0;
+  config.contact.study = true;
+  config.contact.hold = ContactHold::zero_order;
+  DeviceSpec spec;
+  CHECK_THROWS_WITH_AS(admit_tuning(config, spec, paper_gate()), doctest::Contains("study"), std::invalid_argument);
+  spec.simulated = true;
+  const AdmittedTuning used = admit_tuning(config, spec, paper_gate());
+  CHECK(used.tuning == config.tuning);
+  REQUIRE_FALSE(used.limited.empty());
+  for (const Limited& limited : used.limited) CHECK(limited.used == limited.wanted);
+}
+
 TEST_CASE("no feel stiffer than the wall that carries the proxy") {
-  const Gate gate = paper_gate();
   HapticTuning wanted;
   wanted.feel_scale = 4.0;
-  const HapticTuning used = admit_tuning(wanted, 0.001, {}, gate).tuning;
-  CHECK(used.feel_scale * stiffest_feel(gate) <= used.wall_stiffness * (1.0 + 1e-12));
+  const HapticTuning used = admitted(wanted, 1000.0, 0).tuning;
+  CHECK(used.feel_scale * stiffest_feel(paper_gate()) <= used.wall_stiffness * (1.0 + 1e-12));
 }

@@ -55,14 +55,14 @@ TEST_CASE("on its own thread: led by a person, tuned and recorded while it runs,
 
   // The frame: as fast as it goes, until enough cycles have passed.
   std::uint64_t newest = 0, frames = 0;
-  HapticTuning tuning = admit_tuning(config.tuning, 0.001, lever.spec(), gate).tuning;
+  HapticTuning tuning = config.tuning;
   DriverControls controls;
   while (cycles.load(std::memory_order_relaxed) < 400) {
     ++frames;
     person.write({{0.02 * (frames % 2 ? 1.0 : -1.0), 0.0}, {}, {}, false, false});
     if (cycles.load(std::memory_order_relaxed) > 50) {
       tuning.feel_scale = frames % 2 ? 0.5 : 1.0;
-      channels.tuning.write(tuning);
+      CHECK(loop.change_tuning(tuning).limited.empty());
       controls.throttle = static_cast<double>(frames % 100) / 100.0;
       channels.controls.write(controls);
     }

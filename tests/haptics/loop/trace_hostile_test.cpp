@@ -16,7 +16,7 @@ namespace gearshift {
 namespace {
 
 constexpr std::size_t kFrame = 16, kPreamble = 12;  // [bytes] as documented, not as the code says
-constexpr std::size_t kSample = 363;                // [bytes] per cycle
+constexpr std::size_t kSample = 371;                // [bytes] per cycle
 constexpr std::size_t kCycles = 600;                // two full blocks and a part of one
 
 // Bit by bit: the definition.
@@ -86,10 +86,10 @@ const std::vector<Hostile> hostile_traces = {
     {"another magic", [](B& f, At&) { f[1] ^= 1; }, "is not a gearshift trace"},
     {"line ends rewritten", [](B& f, At&) { f.erase(f.begin() + 6); }, "is not a gearshift trace"},
     {"cut inside the magic", [](B& f, At&) { f.resize(5); }, "is not a gearshift trace"},
-    {"a newer format", [](B& f, At&) { put(f, 8, 3); }, "format 3, made by a newer gearshift; this one reads format 2"},
+    {"a newer format", [](B& f, At&) { put(f, 8, 4); }, "format 4, made by a newer gearshift; this one reads format 3"},
     {"a far newer format", [](B& f, At&) { put(f, 8, 0xFFFFFFFF); }, "made by a newer gearshift"},
     {"an older format", [](B& f, At&) { put(f, 8, 1); },
-     "format 1, made by an older gearshift; this one reads format 2"},
+     "format 1, made by an older gearshift; this one reads format 3"},
     {"cut after the version", [](B& f, At& at) { f.resize(at[0]); }, "is torn: it ends inside its header"},
     {"cut inside the header's frame", [](B& f, At& at) { f.resize(at[0] + 7); }, "is torn: it ends inside its header"},
     {"cut inside the header", [](B& f, At& at) { f.resize(at[1] - 1); }, "is torn: it ends inside its header"},

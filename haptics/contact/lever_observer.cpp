@@ -1,0 +1,83 @@
+#include "haptics/contact/lever_observer.h"
+
+#include <cmath>
+
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec3.hpp>
+
+namespace gearshift {
+namespace {
+
+using glm::dmat3;
+using glm::dvec3;
+
+// Transition of (position, velocity, hand) over one period: the columns are where unit states go.
+dmat3 transition(const AxisStepper& stepper) noexcept {
+  const AxisState x = stepper.step({1.0, 0.0}, 0.0), v = stepper.step({0.0, 1.0}, 0.0), w = stepper.step({}, 1.0);
+  return {dvec3{x.position, x.velocity, 0.0}, dvec3{v.position, v.velocity, 0.0}, dvec3{w.position, w.velocity, 1.0}};
+}
+
+// Ackermann's formula for an observer that corrects with the sample of the same instant: the error moves by
+// (I - L C) A, whose poles all lie at `pole`. L = (A - pole I)^3 [C A; C A^2; C A^3]^-1 (0, 0, 1).
+dvec3 correction_gain(const dmat3& a, double pole) noexcept {
+  const dmat3 shifted = a - dmat3(pole);
+  const dvec3 first{a[0][0], a[1][0], a[2][0]};  // C A, C = (1, 0, 0)
+  const dvec3 second = first * a, third = second * a;
+  const dmat3 observability = glm::transpose(dmat3{first, second, third});
+  return shifted * (shifted * (shifted * (glm::inverse(observability) * dvec3{0.0, 0.0, 1.0})));
+}
+
+}  // namespace
+
+AxisObserver::AxisObserver(const AxisModel& axis, double bandwidth, double period) noexcept : stepper_(axis, period) {
+  const dvec3 gain = correction_gain(transition(stepper_), std::exp(-bandwidth * period));
+  gain_ = {gain.x, gain.y, gain.z};
+}
+
+AxisEstimate AxisObserver::predict(const AxisEstimate& estimate, double force) const noexcept {
+  const AxisState next = stepper_.step({estimate.position, estimate.velocity}, force + estimate.hand);
+  return {next.position, next.velocity, estimate.hand};
+}
+
+AxisEstimate AxisObserver::correct(AxisEstimate predicted, double position) const noexcept {
+  const double error = position - predicted.position;
+  return {predicted.position + gain_[0] * error, predicted.velocity + gain_[1] * error,
+          predicted.hand + gain_[2] * error};
+}
+
+LeverObserver::LeverObserver(const DeviceSpec& spec, double period) noexcept
+    : axis_{Axis{AxisObserver(spec.axis_x, kObserverBandwidth, period), {}},
+            Axis{AxisObserver(spec.axis_y, kObserverBandwidth, period), {}}},
+      delay_(static_cast<std::size_t>(spec.delay)) {}
+
+ObservedMotion LeverObserver::update(const LeverMotion& motion, glm::dvec2 commanded) noexcept {
+  newest_ = (newest_ + 1) % sent_.size();
+  sent_[newest_] = commanded;
+  ObservedMotion out;
+  for (int i = 0; i < 2; ++i) {
+    Axis& axis = axis_[static_cast<std::size_t>(i)];
+    const AxisEstimate begin = observe(axis, i, motion);
+    out.position[i] = begin.position;
+    out.end[i] = axis.observer.predict(begin, 0.0).position;
+    out.compliance[i] = axis.observer.compliance();
+  }
+  started_ = started_ || motion.fresh;
+  return out;
+}
+
+double LeverObserver::sent(std::size_t age, int axis) const noexcept {
+  return sent_[(newest_ + sent_.size() - age) % sent_.size()][axis];
+}
+
+// The estimate now, and from it, with the forces that are under way, that of the moment when the next command acts.
+AxisEstimate LeverObserver::observe(Axis& axis, int index, const LeverMotion& motion) noexcept {
+  const double sample = motion.position[index];
+  axis.estimate = started_ ? axis.observer.predict(axis.estimate, sent(delay_, index)) : AxisEstimate{sample, 0.0, 0.0};
+  if (motion.fresh) axis.estimate = axis.observer.correct(axis.estimate, sample);
+  AxisEstimate ahead = axis.estimate;
+  for (std::size_t age = delay_; age > 0; --age) ahead = axis.observer.predict(ahead, sent(age - 1, index));
+  return ahead;
+}
+
+}  // namespace gearshift

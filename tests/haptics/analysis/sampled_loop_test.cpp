@@ -1,0 +1,360 @@
+// The exact boundary against what it must be by hand, by frequency response, and by running the shipped loop.
+#include "haptics/analysis/sampled_loop.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <numbers>
+#include <random>
+#include <stdexcept>
+
+#include <doctest/doctest.h>
+
+#include "haptics/analysis/passivity.h"
+#include "haptics/contact/lever_estimator.h"
+#include "haptics/contact/proxy.h"
+#include "haptics/device/simulated_lever.h"
+#include "haptics/gate/plain_aisle.h"
+
+using namespace gearshift;
+
+namespace {
+
+using Complex = std::complex<double>;
+
+double between(std::mt19937_64& random, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(random);
+}
+
+double log_between(std::mt19937_64& random, double low, double high) {
+  return std::exp(between(random, std::log(low), std::log(high)));
+}
+
+struct Case {
+  AxisModel handle;
+  HandImpedance hand;
+  ContactLaw law;
+  double period = 0.001;
+};
+
+// Any device, rate, delay, hand, hold, window and damping that the cycle takes; the damping within what the rate bears.
+Case random_case(std::mt19937_64& random, int i) {
+  Case c;
+  c.handle = {between(random, 0.05, 0.5), between(random, 0.5, 8.0), between(random, 0.0, 50.0)};
+  if (i % 3 != 0) c.hand = {between(random, 0.0, 1.0), between(random, 0.0, 15.0), between(random, 0.0, 800.0)};
+  c.period = log_between(random, 2.5e-4, 1e-2);
+  c.law.hold = i % 2 == 0 ? ContactHold::half_sample : ContactHold::zero_order;
+  c.law.delay = i % 7 < 5 ? i % 7 : 0;
+  c.law.window = i % 4 == 3 ? 2 + i % 9 : 1;
+  const double mass = c.handle.mass + c.hand.mass;
+  const int late = c.law.delay + c.law.window;
+  c.law.damping = between(random, 0.0, 0.5) * mass / (c.period * late);
+  c.law.free_damping = i % 5 == 4 ? between(random, 0.0, 0.1) * mass / (c.period * late) : 0.0;
+  return c;
+}
+
+double limit_of(const Case& c) {
+  return stiffness_limit(c.handle, c.hand, c.law, c.period);
+}
+
+// Zero-order-hold transfer of 1 / (m s^2 + b s + k) from its poles p, q:
+// (1/k) - sum of the residues' (z - 1) / (z - exp(p T)). b^2 != 4 m k.
+Complex held_plant(const AxisModel& lever, double period, Complex z) {
+  const Complex root = std::sqrt(Complex(lever.damping * lever.damping - 4.0 * lever.mass * lever.stiffness));
+  const Complex p = (-lever.damping + root) / (2.0 * lever.mass), q = (-lever.damping - root) / (2.0 * lever.mass);
+  const Complex at_p = 1.0 / (lever.mass * p * (p - q)), at_q = 1.0 / (lever.mass * q * (q - p));
+  return 1.0 / lever.stiffness + at_p * (z - 1.0) / (z - std::exp(p * period)) +
+         at_q * (z - 1.0) / (z - std::exp(q * period));
+}
+
+// Smallest |1 + E G| over all frequencies: 0 where an eigenvalue lies on the unit circle.
+double distance_to_the_circle(const Case& c) {
+  const AxisModel lever{c.handle.mass + c.hand.mass, c.handle.damping + c.hand.damping,
+                        c.handle.stiffness + c.hand.stiffness};
+  const Environment wall = contact(c.law, c.period);
+  const auto distance = [&](double angle) {
+    const Complex z = std::polar(1.0, angle);
+    return std::abs(1.0 + wall(z) * held_plant(lever, c.period, z));
+  };
+  double best = 1e300, at = 0.0, step = 1e-3;
+  for (double angle = step; angle <= std::numbers::pi; angle += step) {
+    if (distance(angle) < best) best = distance(at = angle);
+  }
+  for (; step > 1e-12; step *= 0.5) {
+    for (const double next : {at - step, at + step}) {
+      if (distance(next) < best) best = distance(at = next);
+    }
+  }
+  return best;
+}
+
+Coupling coupling_of(const ContactLaw& law, double stiffness, double period) {
+  Coupling coupling;
+  coupling.hold = law.hold;
+  coupling.stiffness = stiffness;
+  coupling.damping = law.damping;
+  coupling.period = period;
+  coupling.delay = law.delay;
+  return coupling;
+}
+
+// A wall under a constant push, made by the shipped estimator, proxy and coupling on the exact plant, one axis of it.
+// The lever starts beside its rest; how much farther from it the motion goes late than early is growth or decay.
+class PushedWall {
+ public:
+  PushedWall(const Case& c, double stiffness)
+      : law_(c.law),
+        coupling_(coupling_of(c.law, stiffness, c.period)),
+        gate_(plain_aisle(0.05, kWall)),
+        passage_(open_passage(gate_)),
+        estimator_({c.law.smoothing, 1000.0, c.law.window}, c.period),
+        plant_({c.handle.mass + c.hand.mass, c.handle.damping + c.hand.damping, c.handle.stiffness + c.hand.stiffness},
+               c.period),
+        push_(stiffness * kDepth + (c.handle.stiffness + c.hand.stiffness) * kRest),
+        period_ns_(std::llround(1e9 * c.period)) {
+    under_way_.fill(-stiffness * kDepth);
+    proxy_ = place_proxy(gate_, {0.0, lever_.position});
+  }
+
+  double farthest(int cycles) {
+    double most = 0.0;
+    for (int i = 0; i < cycles; ++i) {
+      step();
+      most = std::max(most, std::abs(lever_.position - kRest));
+    }
+    return most;
+  }
+
+ private:
+  static constexpr double kWall = 0.010, kDepth = 0.005, kRest = kWall + kDepth;  // [m]
+
+  void step() {
+    LeverReading reading;
+    reading.sequence = ++cycle_;
+    reading.time_ns = static_cast<std::int64_t>(cycle_) * period_ns_;
+    reading.position = {0.0, lever_.position};
+    const LeverMotion motion = estimator_.update(reading);
+    proxy_ = move_proxy(gate_, passage_, proxy_, motion.position, 0.0);
+    const double wall = couple(coupling_, gate_, passage_, proxy_, motion).force.y;
+    under_way_[cycle_ % under_way_.size()] = wall - law_.free_damping * motion.smooth_velocity.y;
+    const auto delay = static_cast<std::uint64_t>(law_.delay);
+    const double due = under_way_[(cycle_ + under_way_.size() - delay) % under_way_.size()];
+    lever_ = plant_.step(lever_, due + push_);
+  }
+
+  ContactLaw law_;
+  Coupling coupling_;
+  Gate gate_;
+  Passage passage_;
+  LeverEstimator estimator_;
+  AxisStepper plant_;
+  double push_;  // [N]
+  std::int64_t period_ns_;
+  AxisState lever_{kRest + 1e-8, 0.0};
+  Proxy proxy_;
+  std::array<double, kMostDelay + 1> under_way_{};  // [N]
+  std::uint64_t cycle_ = 0;
+};
+
+// In which a motion at that spectral radius grows or falls by about e^5, so that the verdict is clear.
+int telling_cycles(Case c, double stiffness) {
+  c.law.stiffness = stiffness;
+  const double rate = std::abs(std::log(spectral_radius(c.handle, c.hand, c.law, c.period)));
+  return static_cast<int>(std::clamp(5.0 / rate, 1000.0, 3e6));
+}
+
+// By what factor the motion grew meanwhile.
+double growth(const Case& c, double stiffness) {
+  PushedWall wall(c, stiffness);
+  const double early = wall.farthest(500);
+  wall.farthest(telling_cycles(c, stiffness));
+  return wall.farthest(500) / early;
+}
+
+// Pushes the simulated lever into the upper wall as soon as the wall's first force arrives: it starts at rest.
+class PushingHand final : public HandDriver {
+ public:
+  PushingHand(glm::dvec2 rest, double push, int delay) : push_(push), wait_(delay) { target_.position = rest; }
+  HandTarget next(double, glm::dvec2) noexcept override {
+    if (wait_-- == 0) target_.push.y = push_;
+    return target_;
+  }
+
+ private:
+  HandTarget target_;
+  double push_;  // [N]
+  int wait_;     // [cycles]
+};
+
+// The whole simulated lever in the same wall, along y, without quantisation: farthest motion late over early.
+double simulated_growth(const Case& c, double stiffness) {
+  constexpr double kWall = 0.001, kDepth = 0.001;  // [m] near the centre, where arc and plane agree
+  SimulatedLeverConfig config;
+  config.axis_y = c.handle;
+  config.encoder_counts = 0.0;
+  config.actuator = {1e4, 1e4, 1.0};
+  config.delay = c.law.delay;
+  config.hand = c.hand;
+  const glm::dvec2 rest{0.0, kWall + kDepth};
+  PushingHand driver(rest, stiffness * kDepth + c.handle.stiffness * rest.y, c.law.delay);
+  const std::int64_t period_ns = std::llround(1e9 * c.period);
+  SimulatedLever lever(config, period_ns, driver);
+  const Gate gate = plain_aisle(0.05, kWall);
+  const Passage passage = open_passage(gate);
+  const Coupling coupling = coupling_of(c.law, stiffness, c.period);
+  LeverEstimator estimator({c.law.smoothing, 1000.0, c.law.window}, c.period);
+  lever.place(rest + glm::dvec2(0.0, 1e-7));
+  Proxy proxy = place_proxy(gate, rest);
+  std::int64_t now = 0;
+  const auto fastest = [&](int cycles) {
+    double most = 0.0;
+    for (int i = 0; i < cycles; ++i) {
+      const LeverMotion motion = estimator.update(lever.read(now += period_ns));
+      proxy = move_proxy(gate, passage, proxy, motion.position, 0.0);
+      lever.write(couple(coupling, gate, passage, proxy, motion).force);
+      most = std::max(most, std::abs(lever.true_velocity().y));
+    }
+    return most;
+  };
+  fastest(50);
+  const double early = fastest(200);
+  fastest(telling_cycles(c, stiffness));
+  return fastest(200) / early;
+}
+
+}  // namespace
+
+// z^3 + (q/2 - 2) z^2 + (1 + k/2) z - h/2, k = K T^2 / m, h = B T / m, q = k + h: Jury's conditions.
+TEST_CASE("a free mass: K T^2 / m < 2 h (2 - h) / (2 + h), h = B T / m, at most 0.686 at 0.83, nothing from 2 on") {
+  for (const double period : {0.01, 0.001, 0.0001}) {
+    const double mass = 0.3;
+    ContactLaw law;
+    law.hold = ContactHold::zero_order;
+    for (const double h : {0.01, 0.3, 2.0 * std::numbers::sqrt2 - 2.0, 1.0, 1.5, 1.99}) {
+      law.damping = h * mass / period;
+      CAPTURE(h);
+      CHECK(stiffness_limit({mass, 0.0, 0.0}, kBareHand, law, period) * period * period / mass ==
+            doctest::Approx(2.0 * h * (2.0 - h) / (2.0 + h)).epsilon(1e-8));
+    }
+    law.damping = 2.001 * mass / period;
+    CHECK(stiffness_limit({mass, 0.0, 0.0}, kBareHand, law, period) == 0.0);
+    law.damping = 0.0;
+    CHECK(stiffness_limit({mass, 0.0, 0.0}, kBareHand, law, period) == 0.0);
+  }
+}
+
+// The same polynomial with B + K T / 2 for B: k^2 + 3 h k + 2 h^2 - 4 h < 0.
+TEST_CASE("a free mass under the half-sample hold: K T^2 / m < (sqrt(h^2 + 16 h) - 3 h) / 2") {
+  const double mass = 0.3, period = 0.001;
+  ContactLaw law;
+  for (const double h : {0.01, 0.1, 0.3, 0.6, 1.0, 1.8}) {
+    law.damping = h * mass / period;
+    CAPTURE(h);
+    CHECK(stiffness_limit({mass, 0.0, 0.0}, kBareHand, law, period) * period * period / mass ==
+          doctest::Approx(0.5 * (std::sqrt(h * h + 16.0 * h) - 3.0 * h)).epsilon(1e-8));
+  }
+  law.hold = ContactHold::automatic;
+  CHECK(stiffness_limit({mass, 0.0, 0.0}, kBareHand, law, period) > 0.0);
+}
+
+// m z^2 = m - ... : without a wall only the plant is left, and its poles are exp(p T).
+TEST_CASE("without a wall the radius is the plant's slower pole, and 1 for a mass that nothing holds") {
+  const double root = std::sqrt(9.0 - 4.0 * 0.095 * 14.8);
+  CHECK(spectral_radius(kPaperAxisX, kBareHand, {}, 0.001) ==
+        doctest::Approx(std::exp((-3.0 + root) / (2.0 * 0.095) * 0.001)).epsilon(1e-13));
+  CHECK(spectral_radius({0.3, 0.0, 0.0}, kBareHand, {}, 0.001) == doctest::Approx(1.0).epsilon(1e-7));
+}
+
+TEST_CASE("as T -> 0: K (T/2 + d T) -> b + B") {
+  for (int delay = 0; delay <= kMostDelay; ++delay) {
+    for (const double damping : {0.0, 2.0, 5.0}) {
+      ContactLaw law;
+      law.hold = ContactHold::zero_order;
+      law.damping = damping;
+      law.delay = delay;
+      const double period = 2e-6;
+      const double limit = stiffness_limit(kPaperAxisX, kBareHand, law, period);
+      CHECK(limit * period * (0.5 + delay) == doctest::Approx(3.0 + damping).epsilon(0.01));
+    }
+  }
+}
+
+TEST_CASE("handle and hand are one lever") {
+  ContactLaw law;
+  law.damping = 12.0;
+  law.delay = 1;
+  const AxisModel together{0.095 + 0.15, 3.0 + 10.0, 14.8 + 500.0};
+  CHECK(stiffness_limit(kPaperAxisX, kGripHand, law, 0.002) ==
+        doctest::Approx(stiffness_limit(together, kBareHand, law, 0.002)).epsilon(1e-9));
+}
+
+TEST_CASE("a limit beyond 1e9 N/m is infinite, and nonsense is refused") {
+  CHECK(std::isinf(stiffness_limit({1e3, 1e4, 1e6}, kBareHand, {}, 1e-6)));
+  const auto refuses = [](const AxisModel& handle, const HandImpedance& hand, const ContactLaw& law, double period) {
+    CHECK_THROWS_AS(spectral_radius(handle, hand, law, period), std::invalid_argument);
+    CHECK_THROWS_AS(stiffness_limit(handle, hand, law, period), std::invalid_argument);
+  };
+  refuses({0.0, 3.0, 14.8}, kBareHand, {}, 0.001);
+  refuses({-0.1, 3.0, 14.8}, kBareHand, {}, 0.001);
+  refuses({0.1, std::nan(""), 14.8}, kBareHand, {}, 0.001);
+  refuses(kPaperAxisX, {-1.0, 0.0, 0.0}, {}, 0.001);
+  refuses(kPaperAxisX, kBareHand, {}, 0.0);
+  ContactLaw law;
+  law.window = 0;
+  refuses(kPaperAxisX, kBareHand, law, 0.001);
+  law = {};
+  law.delay = kMostDelay + 1;
+  refuses(kPaperAxisX, kBareHand, law, 0.001);
+  law = {};
+  law.damping = -1.0;
+  refuses(kPaperAxisX, kBareHand, law, 0.001);
+}
+
+TEST_CASE("at the limit an eigenvalue lies on the unit circle, by the frequency response of plant and wall") {
+  std::mt19937_64 random(4);
+  int judged = 0;
+  for (int i = 0; i < 120; ++i) {
+    Case c = random_case(random, i);
+    c.law.stiffness = limit_of(c);
+    if (c.law.stiffness == 0.0 || std::isinf(c.law.stiffness)) continue;
+    CAPTURE(i);
+    CHECK(distance_to_the_circle(c) < 1e-6);
+    ++judged;
+  }
+  CHECK(judged > 80);
+}
+
+TEST_CASE("the shipped coupling converges just below the limit and diverges just above") {
+  std::mt19937_64 random(5);
+  int judged = 0;
+  for (int i = 0; i < 100; ++i) {
+    const Case c = random_case(random, i);
+    const double limit = limit_of(c);
+    if (limit == 0.0 || std::isinf(limit)) continue;
+    CAPTURE(i);
+    CAPTURE(limit);
+    CHECK(growth(c, 0.995 * limit) < 0.5);
+    CHECK(growth(c, 1.005 * limit) > 2.0);
+    ++judged;
+  }
+  CHECK(judged > 60);
+}
+
+TEST_CASE("so does the simulated lever, within 1 %") {
+  for (const HandImpedance& hand : {kBareHand, kLightHand, kGripHand, kArmHand}) {
+    for (const int delay : {0, 1, 3}) {
+      Case c{kPaperAxisY, hand, {}};
+      c.law.hold = delay == 1 ? ContactHold::zero_order : ContactHold::half_sample;
+      c.law.delay = delay;
+      c.law.damping = 12.0;
+      c.law.window = delay == 3 ? 2 : 1;
+      const double limit = limit_of(c);
+      CAPTURE(delay);
+      CAPTURE(hand.mass);
+      CAPTURE(limit);
+      CHECK(simulated_growth(c, 0.99 * limit) < 0.5);
+      CHECK(simulated_growth(c, 1.01 * limit) > 2.0);
+    }
+  }
+}

@@ -1,0 +1,113 @@
+// Energy bounding and passivity control against the energy of the exactly stepped lever.
+#include "haptics/safety/energy_control.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <random>
+
+#include <doctest/doctest.h>
+
+using namespace gearshift;
+
+namespace {
+
+// Integral of b v^2 over one period under a held force, by Simpson's rule on 8 exact sub-steps. [J]
+double damped_energy(const AxisModel& axis, AxisState state, double force, double period) {
+  constexpr int kParts = 8;
+  double sum = 0.0;
+  for (int i = 0; i <= kParts; ++i) {
+    const double v = advance(axis, state, force, period * i / kParts).velocity;
+    sum += (i == 0 || i == kParts ? 1.0 : i % 2 == 1 ? 4.0 : 2.0) * v * v;
+  }
+  return axis.damping * sum * period / (3.0 * kParts);
+}
+
+// Drives a lever by whatever force is wanted, through the bounder. Returns the largest energy that the motors had ever
+// given beyond what the damping had taken until then. [J]
+double worst_surplus(const AxisModel& axis, const AxisModel& believed, double period,
+                     const std::function<double(AxisState)>& wanted) {
+  const EnergyBounder bounder(believed, 0, period);
+  AxisState lever{0.0, 0.4};
+  double last = 0.0, travel = 0.0, given = 0.0, taken = 0.0, worst = 0.0;
+  for (int n = 0; n < 5000; ++n) {
+    const double force = bounder.bound(wanted(lever), last, travel);
+    taken += damped_energy(axis, lever, force, period);
+    const AxisState next = advance(axis, lever, force, period);
+    travel = next.position - lever.position;
+    given += force * travel;
+    lever = next;
+    last = force;
+    worst = std::max(worst, given - taken);
+  }
+  return worst;
+}
+
+}  // namespace
+
+TEST_CASE("energy bounding: never more given than the handle's damping took, whatever force is wanted") {
+  std::mt19937_64 random(9);
+  std::uniform_real_distribution<double> force(-100.0, 100.0);
+  const std::function<double(AxisState)> wishes[] = {
+      [](AxisState s) { return s.velocity > 0.0 ? 100.0 : -100.0; },               // pushes whatever moves
+      [](AxisState s) { return s.position > 0.0 ? -50000.0 * s.position : 0.0; },  // far too stiff a wall
+      [&](AxisState) { return force(random); },
+  };
+  for (const double period : {0.01, 0.001, 0.00025}) {
+    for (const auto& wish : wishes) {
+      CHECK(worst_surplus(kPaperAxisX, kPaperAxisX, period, wish) <= 1e-12);
+      CHECK(worst_surplus(kPaperAxisY, kPaperAxisY, period, wish) <= 1e-12);
+    }
+  }
+  // Negative control: a bounder that believes in twice the damping lets energy through.
+  AxisModel believed = kPaperAxisX;
+  believed.damping *= 2.0;
+  CHECK(worst_surplus(kPaperAxisX, believed, 0.01, wishes[0]) > 1e-4);
+}
+
+TEST_CASE("energy bounding displays no more than the passive stiffness 2 b / T (14)") {
+  const EnergyBounder bounder(kPaperAxisX, 0, 0.001);
+  double last = 0.0;
+  for (int n = 0; n < 100; ++n) last = bounder.bound(-1e9, last, 1e-5);  // 1 mm into a wall of any stiffness
+  CHECK(last == doctest::Approx(-6000.0 * 1e-3));
+}
+
+namespace {
+
+// A free impact on a textbook spring of 5000 N/m: energy given by the wall, of the impact's, the mean over phases.
+double impact_energy(double period, bool controlled) {
+  double sum = 0.0;
+  constexpr int kPhases = 200;
+  for (int i = 0; i < kPhases; ++i) {
+    PassivityController controller(kPaperAxisX, period);
+    const double speed = 0.3;
+    AxisState lever{-speed * period * (i + 0.5) / kPhases, speed};
+    double last = 0.0, travel = 0.0, given = 0.0;
+    bool entered = false;
+    for (int n = 0; n < 4000; ++n) {
+      const bool touches = lever.position > 0.0;
+      if (entered && !touches) break;
+      entered = entered || touches;
+      double force = touches ? -5000.0 * lever.position : 0.0;
+      if (controlled) force = controller.control(force, last, travel, touches);
+      const AxisState next = advance(kPaperAxisX, lever, force, period);
+      travel = next.position - lever.position;
+      given += force * travel;
+      last = force;
+      lever = next;
+    }
+    sum += given / (0.5 * kPaperAxisX.mass * speed * speed);
+  }
+  return 100.0 * sum / kPhases;
+}
+
+}  // namespace
+
+TEST_CASE("passivity control: what a spring of 5000 N/m makes of an impact, with and without (facts 7b, in %)") {
+  CHECK(impact_energy(0.001, false) == doctest::Approx(33.0).epsilon(0.1));
+  CHECK(impact_energy(0.002, false) == doctest::Approx(74.0).epsilon(0.1));
+  CHECK(impact_energy(0.005, false) == doctest::Approx(231.0).epsilon(0.1));
+  CHECK(impact_energy(0.001, true) < 5.0);
+  CHECK(impact_energy(0.002, true) < 25.0);
+  CHECK(impact_energy(0.005, true) < 210.0);
+}
