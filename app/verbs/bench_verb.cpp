@@ -31,9 +31,13 @@ void print_table(const std::vector<BenchRow>& rows) {
   for (const BenchRow& row : rows) {
     const std::string value = row.measured ? fmt::format("{:.4g}", row.value) : "-";
     const std::string goal = row.goal ? fmt::format("{} {:g}", row.at_least ? ">=" : "<=", *row.goal) : "";
+    std::string note = row.note;
+    for (const Beside& more : row.beside)
+      note += fmt::format("{}{} {:.4g}{}{}", note.empty() ? "" : "; ", more.what, more.value,
+                          more.unit.empty() ? "" : " ", more.unit);
     const char* verdict = !row.goal || !row.measured ? "" : meets_goal(row) ? "met" : "NOT MET";
     fmt::print("{:<9} {:<58} {:>12} {:<20} {:>10}  {:<8}{}\n", row.family, row.name, value, row.unit, goal, verdict,
-               row.note);
+               note);
   }
 }
 
@@ -43,7 +47,16 @@ nlohmann::ordered_json to_json(const BenchRow& row) {
   if (row.goal) json["goal"] = *row.goal;
   if (row.goal) json["goal_is"] = row.at_least ? "at least" : "at most";
   if (row.goal && row.measured) json["met"] = meets_goal(row);
+  for (const Beside& more : row.beside)
+    json["beside"].push_back({{"what", more.what}, {"value", more.value}, {"unit", more.unit}});
   return json;
+}
+
+std::string beside_text(const BenchRow& row) {
+  std::string text;
+  for (const Beside& more : row.beside)
+    text += fmt::format("{}{} = {} {}", text.empty() ? "" : "; ", more.what, more.value, more.unit);
+  return text;
 }
 
 std::string csv_quoted(const std::string& text) {
@@ -61,11 +74,11 @@ std::ofstream open_csv(const std::string& file) {
 }
 
 void write_csv(std::ofstream& out, const std::string& file, const std::vector<BenchRow>& rows) {
-  out << "family,what,value,unit,goal,note\n";
+  out << "family,what,value,unit,goal,note,beside\n";
   for (const BenchRow& row : rows) {
     out << row.family << ',' << csv_quoted(row.name) << ',' << (row.measured ? fmt::format("{}", row.value) : "") << ','
         << csv_quoted(row.unit) << ',' << (row.goal ? fmt::format("{}", *row.goal) : "") << ',' << csv_quoted(row.note)
-        << '\n';
+        << ',' << csv_quoted(beside_text(row)) << '\n';
   }
   out.flush();
   if (!out) throw std::runtime_error(file + ": cannot be written");

@@ -42,7 +42,7 @@ class ContactCycle {
         period_(period),
         horizon_(law.hold == ContactHold::zero_order ? 0.0 : period * (1 + 2 * law.delay)),
         plant_({handle.mass + hand.mass, handle.damping + hand.damping, handle.stiffness + hand.stiffness}, period),
-        observer_(handle, kObserverBandwidth, period),
+        observer_(handle, observer_bandwidth(period), period),
         force_unit_((handle.mass + hand.mass) / (period * period)) {
     const bool filters = law.free_damping > 0.0;
     const bool observes = law.hold == ContactHold::observer;

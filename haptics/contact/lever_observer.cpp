@@ -47,8 +47,8 @@ AxisEstimate AxisObserver::correct(AxisEstimate predicted, double position) cons
 }
 
 LeverObserver::LeverObserver(const DeviceSpec& spec, double period) noexcept
-    : axis_{Axis{AxisObserver(spec.axis_x, kObserverBandwidth, period), {}},
-            Axis{AxisObserver(spec.axis_y, kObserverBandwidth, period), {}}},
+    : axis_{Axis{AxisObserver(spec.axis_x, observer_bandwidth(period), period), {}},
+            Axis{AxisObserver(spec.axis_y, observer_bandwidth(period), period), {}}},
       delay_(static_cast<std::size_t>(spec.delay)) {}
 
 ObservedMotion LeverObserver::update(const LeverMotion& motion, glm::dvec2 commanded) noexcept {

@@ -9,6 +9,7 @@
 // constant. All three poles of the error lie at exp(-bandwidth T).
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -20,8 +21,10 @@
 
 namespace gearshift {
 
-// [1/s] of the estimate's error. Faster, and the encoder's counts are heard; slower, and a heavy hand is not understood.
-inline constexpr double kObserverBandwidth = 500.0;
+// Of the estimate's error [1/s]. Faster, and the encoder's counts are heard; slower, and a heavy hand is not understood.
+inline double observer_bandwidth(double period) noexcept {
+  return std::min(500.0, 1.25 / period);
+}
 
 struct AxisEstimate {
   double position = 0.0;  // [m]

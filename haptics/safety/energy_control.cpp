@@ -6,13 +6,14 @@
 namespace gearshift {
 namespace {
 
+constexpr double kShare = 0.5;        // of the slope that would be lossless, and bounce for ever under a push
 constexpr double kMostDamping = 0.5;  // of m / T
 constexpr double kStill = 1e-4;       // [m/s] slower, damping has nothing to act on
 
 }  // namespace
 
 EnergyBounder::EnergyBounder(const AxisModel& handle, int delay, double period) noexcept
-    : slope_(2.0 * handle.damping / (period * (1.0 + 2.0 * delay))) {}
+    : slope_(kShare * 2.0 * handle.damping / (period * (1.0 + 2.0 * delay))) {}
 
 double EnergyBounder::bound(double wanted, double last, double travel) const noexcept {
   const double most = std::abs(last - slope_ * travel);

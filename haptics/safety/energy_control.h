@@ -20,10 +20,11 @@ enum class EnergyControl : std::uint8_t {
   passivity_controller  // counts the energy given, and damps once more was given than taken
 };
 
-// |F_n| <= |F_(n-1) - c dx|, c = 2 b / (T (1 + 2 delay)): the stiffness that (13) allows. With the storage
-// S = F^2 / (2 c) and no delay,
-//     S_n <= S_(n-1) - F_(n-1) dx + (b / T) dx^2
-// and the last term is less than the device's damping takes over that travel: passive whatever is wanted.
+// |F_n| <= |F_(n-1) - c dx|, c = b / (T (1 + 2 delay)): half the stiffness that (13) allows, so that a lever pushed
+// into it comes to rest. With the storage S = F^2 / (2 c) and no delay,
+//     S_n <= S_(n-1) - F_(n-1) dx + (c / 2) dx^2
+// and the last term is less than the device's damping takes over that travel, b dx^2 / T at least: passive whatever
+// is wanted.
 class EnergyBounder {
  public:
   EnergyBounder(const AxisModel& handle, int delay, double period) noexcept;  // delay [samples], period [s]

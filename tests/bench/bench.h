@@ -9,6 +9,13 @@
 
 namespace gearshift {
 
+// Another figure of the same thing: what it costs, what it takes.
+struct Beside {
+  std::string what;
+  double value = 0.0;
+  std::string unit;
+};
+
 struct BenchRow {
   std::string family;
   std::string name;
@@ -18,6 +25,7 @@ struct BenchRow {
   bool at_least = false;       // the goal is a lower bound
   std::string note;
   bool measured = true;  // false: could not be measured here, the note says why
+  std::vector<Beside> beside = {};
 };
 
 bool meets_goal(const BenchRow& row) noexcept;
@@ -36,12 +44,19 @@ struct NamedFamily {
 };
 const std::vector<NamedFamily>& bench_families();
 
-std::vector<BenchRow> bench_cycle(const BenchOptions& options);     // cost of the haptic cycle and of its stages
-std::vector<BenchRow> bench_headless(const BenchOptions& options);  // simulated seconds per second
-std::vector<BenchRow> bench_plant(const BenchOptions& options);     // exact step against the closed form
-std::vector<BenchRow> bench_feel(const BenchOptions& options);      // commanded force along a slot
-std::vector<BenchRow> bench_intent(const BenchOptions& options);    // where a noisy hand ends up
-std::vector<BenchRow> bench_jitter(const BenchOptions& options);    // wake-up lateness beside cyclictest's
+std::vector<BenchRow> bench_cycle(const BenchOptions& options);      // cost of the haptic cycle and of its stages
+std::vector<BenchRow> bench_headless(const BenchOptions& options);   // simulated seconds per second
+std::vector<BenchRow> bench_plant(const BenchOptions& options);      // exact step against the closed form
+std::vector<BenchRow> bench_feel(const BenchOptions& options);       // commanded force along a slot
+std::vector<BenchRow> bench_intent(const BenchOptions& options);     // where a noisy hand ends up
+std::vector<BenchRow> bench_contact(const BenchOptions& options);    // what a 5000 N/m wall does under a push
+std::vector<BenchRow> bench_energy(const BenchOptions& options);     // that the wall makes of an impact
+std::vector<BenchRow> bench_delivered(const BenchOptions& options);  // force at the tip against a steady push
+std::vector<BenchRow> bench_boundary(const BenchOptions& options);   // predicted stability against simulated divergence
+std::vector<BenchRow> bench_methods(const BenchOptions& options);    // holds, estimators, energy control side by side
+std::vector<BenchRow> bench_hard(const BenchOptions& options);       // rates, delays, pushes, jitter, quantisation
+std::vector<BenchRow> bench_faults(const BenchOptions& options);     // time from a fault to no force
+std::vector<BenchRow> bench_jitter(const BenchOptions& options);     // wake-up lateness beside cyclictest's
 
 // Value at quantile q in [0, 1] of an unsorted sample; sorts it. Empty: 0.
 double quantile(std::vector<double>& sample, double q);

@@ -61,9 +61,15 @@ Result measure(const AxisModel& axis, double period, Step step) {
 }
 
 void add(std::vector<BenchRow>& rows, const std::string& name, Result result, std::optional<double> goal) {
-  rows.push_back({"plant", name + ", error", result.error, "relative", goal, false,
-                  "after 0.5 s under 10 N, against the sum of two exponentials"});
-  rows.push_back({"plant", name + ", cost", result.ns, "ns/step", {}, false, ""});
+  rows.push_back({"plant",
+                  name,
+                  result.error,
+                  "relative",
+                  goal,
+                  false,
+                  "after 0.5 s under 10 N, against the sum of two exponentials",
+                  true,
+                  {{"cost", result.ns, "ns/step"}}});
 }
 
 }  // namespace

@@ -66,7 +66,7 @@ class FirstContact {
     if (began_ && !over_) {
       const double force = -run.loop().snapshot().f_a.x;
       result.energy += force * (x - x_);
-      result.damped += contact_.lever.axis_x.damping * 0.5 * (v * v + v_ * v_) * run.period();
+      result.damped += contact_.lever.axis_x.damping * (x - x_) * (x - x_) / run.period();
     }
     if (!began_ && x > kWall) {
       began_ = true;

@@ -24,7 +24,7 @@ struct ContactResult {
   double energy = 0.0;        // [J] that the motors gave the lever, over the first contact
   double impact = 0.0;        // [J] kinetic energy at the contact, handle and hand
   double restitution = 0.0;   // [1] speed on leaving the wall over speed on meeting it; 0: it stayed
-  double damped = 0.0;        // [J] taken by the handle's own damping over the first contact
+  double damped = 0.0;        // [J] the least that the handle itself took over it: b dx^2 / T of each period
   double force_step = 0.0;    // [N] largest change of the command in one cycle
   double force_ripple = 0.0;  // [N] peak-to-peak of the command in the last 200 ms
   double stiffness = 0.0;     // [N/m] in use at the end

@@ -16,86 +16,12 @@
 #include "haptics/loop/haptic_loop.h"
 #include "tests/support/gates.h"
 #include "tests/support/hands.h"
+#include "tests/support/pressed_rig.h"
 
 using namespace gearshift;
 using glm::dvec2;
 
 namespace {
-
-constexpr std::int64_t kPeriodNs = 1'000'000;
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInf = std::numeric_limits<double>::infinity();
-
-// The simulated lever with a saboteur between it and the loop; it does not arm itself again.
-class SabotagedLever final : public HapticDevice {
- public:
-  SabotagedLever(HandDriver& hand, dvec2 start) : lever_({}, kPeriodNs, hand), spec_(lever_.spec()) {
-    spec_.simulated = false;
-    lever_.place(start);
-  }
-  const DeviceSpec& spec() const noexcept override { return spec_; }
-  LeverReading read(std::int64_t now_ns) noexcept override {
-    LeverReading reading = lever_.read(now_ns);
-    if (sabotage) sabotage(reading);
-    return reading;
-  }
-  void write(dvec2 force) noexcept override {
-    written = force;
-    lever_.write(force);
-  }
-  void release() noexcept override {
-    ++releases;
-    lever_.release();
-  }
-
-  std::function<void(LeverReading&)> sabotage;
-  dvec2 written{0.0};
-  int releases = 0;
-
- private:
-  SimulatedLever lever_;
-  DeviceSpec spec_;
-};
-
-// A lever pressed into the upper wall of the neutral aisle with 15 N.
-struct PressedRig {
-  PressedRig()
-      : gate(paper_gate()),
-        hand([](double, dvec2) {
-          return dvec2{0.0, 15.0};
-        }),
-        lever(hand, {0.5 * (gate.column[0].center + gate.column[1].center), 0.0}),
-        loop(HapticConfig{}, gate, lever, world, channels) {
-    loop.arm();
-    run(1500);
-  }
-  void run(int cycles, std::int64_t skipped = 0) {
-    for (int i = 0; i < cycles; ++i) {
-      now += kPeriodNs * (1 + skipped);
-      loop.cycle(now, skipped);
-      finite = finite && std::isfinite(lever.written.x) && std::isfinite(lever.written.y);
-      strongest = std::max(strongest, glm::length(lever.written));
-    }
-  }
-  // Cycles until the command is zero, at most 1000.
-  int cycles_to_zero() {
-    for (int i = 1; i <= 1000; ++i) {
-      run(1);
-      if (lever.written == dvec2{0.0, 0.0}) return i;
-    }
-    return 1000;
-  }
-
-  Gate gate;
-  PushingHand hand;
-  SabotagedLever lever;
-  NullWorld world;
-  LoopChannels channels;
-  HapticLoop loop;
-  std::int64_t now = 0;
-  bool finite = true;
-  double strongest = 0.0;
-};
 
 // A simulated lever that nobody holds: it arms itself.
 struct IdleRig {
@@ -115,7 +41,7 @@ struct IdleRig {
 }  // namespace
 
 TEST_CASE("the rig presses: the wall gives back the push within 3 %") {
-  PressedRig rig;
+  PressedRig rig(paper_gate());
   CHECK(rig.loop.snapshot().guard == GuardState::running);
   double mean = 0.0;
   for (int i = 0; i < 50; ++i) {
@@ -127,35 +53,10 @@ TEST_CASE("the rig presses: the wall gives back the push within 3 %") {
 }
 
 TEST_CASE("fault to zero force: frozen, not finite, jumping, lost and backward readings") {
-  LeverReading frozen;
-  bool has_frozen = false;
-  const struct {
-    const char* name;
-    std::function<void(LeverReading&)> sabotage;
-    int within;  // [cycles of 1 ms]
-  } faults[] = {
-      {"frozen", [&](LeverReading& r) { r = has_frozen ? frozen : (has_frozen = true, frozen = r); }, 42},
-      {"NaN position", [](LeverReading& r) { r.position.x = kNan; }, 42},
-      {"infinite position", [](LeverReading& r) { r.position.y = kInf; }, 42},
-      {"sequence stands still", [](LeverReading& r) { r.sequence = 7; }, 42},
-      {"time runs backward", [](LeverReading& r) { r.time_ns = -r.time_ns; }, 42},
-      {"jumps about at random",
-       [n = 0](LeverReading& r) mutable {
-         ++n;
-         r.position = {n % 2 ? 0.05 : -0.05, n % 3 ? 0.04 : -0.04};
-       },
-       42},
-      {"far outside the workspace",
-       [](LeverReading& r) {
-         r.position = {0.5, 0.5};
-       },
-       60},
-  };
-  for (const auto& fault : faults) {
+  for (const Fault& fault : reading_faults()) {
     CAPTURE(fault.name);
-    has_frozen = false;
-    PressedRig rig;
-    rig.lever.sabotage = fault.sabotage;
+    PressedRig rig(paper_gate());
+    rig.lever.sabotage = fault.sabotage();
     CHECK(rig.cycles_to_zero() <= fault.within);
     rig.run(500);
     CHECK(rig.finite);
@@ -173,7 +74,7 @@ TEST_CASE("fault to zero force: frozen, not finite, jumping, lost and backward r
 }
 
 TEST_CASE("single lost, repeated and wild readings are ridden out: still running, no kick") {
-  PressedRig rig;
+  PressedRig rig(paper_gate());
   std::mt19937_64 random(3);
   LeverReading last;
   rig.lever.sabotage = [&](LeverReading& r) {
@@ -203,7 +104,7 @@ TEST_CASE("single lost, repeated and wild readings are ridden out: still running
 }
 
 TEST_CASE("late cycles: one at a time is ridden out, eight in a row are damped") {
-  PressedRig rig;
+  PressedRig rig(paper_gate());
   for (int i = 0; i < 200; ++i) {
     rig.run(1, 2);
     rig.run(4);
@@ -237,7 +138,7 @@ TEST_CASE("a loop that is always late stays damped: no flapping between force an
 }
 
 TEST_CASE("a device that reports nonsense forces does not poison the snapshot") {
-  PressedRig rig;
+  PressedRig rig(paper_gate());
   rig.lever.sabotage = [](LeverReading& r) {
     r.hand_force = {kNan, kInf};
     r.actuator_force = {kInf, kNan};
@@ -260,7 +161,7 @@ TEST_CASE("a config that no check has passed is refused by the loop itself") {
 }
 
 TEST_CASE("a cycle whose deadline runs backward is a stale reading, not a crash") {
-  PressedRig rig;
+  PressedRig rig(paper_gate());
   for (int i = 0; i < 5; ++i) rig.loop.cycle(rig.now - 50 * kPeriodNs, 0);
   rig.run(100);
   CHECK(rig.loop.snapshot().guard == GuardState::running);
@@ -268,7 +169,7 @@ TEST_CASE("a cycle whose deadline runs backward is a stale reading, not a crash"
 }
 
 TEST_CASE("stop: motors off in the same cycle, and released until a person arms it") {
-  PressedRig rig;
+  PressedRig rig(paper_gate());
   rig.channels.commands.push(LoopCommand::stop);
   rig.run(1);
   CHECK(rig.lever.written == dvec2{0.0, 0.0});
@@ -277,7 +178,7 @@ TEST_CASE("stop: motors off in the same cycle, and released until a person arms 
 }
 
 TEST_CASE("arming starts anew where the lever is: no pull from where it was") {
-  PressedRig rig;
+  PressedRig rig(paper_gate());
   rig.channels.commands.push(LoopCommand::disarm);
   rig.run(1);
   CHECK(rig.lever.releases >= 1);
@@ -344,7 +245,7 @@ TEST_CASE("a world that returns nonsense releases the motors") {
    private:
     int steps_ = 0;
   };
-  PressedRig rig;
+  PressedRig rig(paper_gate());
   MadWorld mad;
   HapticLoop loop(HapticConfig{}, rig.gate, rig.lever, mad, rig.channels);
   loop.arm();

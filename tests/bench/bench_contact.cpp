@@ -1,0 +1,71 @@
+// A wall of 5000 N/m under a push of 20 N: what the shipped default makes of it, at every rate and delay.
+#include <cmath>
+#include <string>
+
+#include "tests/bench/bench.h"
+#include "tests/bench/contact_campaign.h"
+
+namespace gearshift {
+namespace {
+
+struct Setting {
+  double rate;                 // [Hz]
+  int delay;                   // [samples]
+  double goal_p95, goal_most;  // [mm]
+};
+
+std::string words(const Setting& at) {
+  std::string text = std::to_string(static_cast<int>(at.rate)) + " Hz";
+  return at.delay == 0 ? text : text + ", delay " + std::to_string(at.delay);
+}
+
+Campaign push_of_20(const Setting& at, int runs) {
+  Campaign campaign;
+  campaign.contact.haptics.rate = at.rate;
+  campaign.contact.lever.delay = at.delay;
+  campaign.contact.duration = at.rate < 500.0 ? 2.0 : 1.2;
+  campaign.runs = runs;
+  return campaign;
+}
+
+void add(std::vector<BenchRow>& rows, const Setting& at, const std::string& how,
+         const std::vector<HandOutcome>& outcomes) {
+  const HandOutcome& worst = worst_ripple(outcomes);
+  double most = 0.0;
+  for (const HandOutcome& outcome : outcomes) most = std::max(most, outcome.ripple_most);
+  const std::vector<Beside> beside{{"stiffness in use", worst.softest, "N/m"},
+                                   {"displayed", 100.0 * least_displayed(outcomes), "%"},
+                                   {"deepest", 1e3 * deepest(outcomes), "mm"},
+                                   {"force ripple", worst.force_ripple, "N"}};
+  const std::string what = how + words(at) + ": last peak-to-peak";
+  rows.push_back({"contact", what + ", p95", 1e3 * worst.ripple_p95, "mm", at.goal_p95, false,
+                  "worst hand: " + worst.hand, true, beside});
+  rows.push_back({"contact", what + ", most", 1e3 * most, "mm", at.goal_most, false, "all hands"});
+}
+
+}  // namespace
+
+std::vector<BenchRow> bench_contact(const BenchOptions& options) {
+  // The first four display 5000 N/m. Beyond them the limiter's K is used and shown.
+  const Setting settings[] = {{2000, 0, .02, .04}, {1000, 0, .04, .08}, {500, 0, .10, .11}, {1000, 1, .10, .11},
+                              {4000, 0, .02, .04}, {1000, 2, .12, .3},  {1000, 3, .12, .3}, {1000, 4, .12, .3},
+                              {500, 1, .12, .3},   {200, 0, .12, .3},   {100, 0, .12, .3}};
+  std::vector<BenchRow> rows;
+  double done = 0.0;
+  for (const Setting& at : settings) {
+    if (options.progress) options.progress("contact", done++ / 14.0);
+    add(rows, at, "", run_campaign(push_of_20(at, options.quick ? 40 : 400)));
+  }
+  // The same wall forced on a device that does not bear it: what the reversal limiter finds by itself.
+  for (const Setting& at : {Setting{100, 0, .3, .3}, Setting{200, 0, .3, .3}, Setting{1000, 3, .3, .3}}) {
+    if (options.progress) options.progress("contact", done++ / 14.0);
+    Campaign campaign = push_of_20(at, options.quick ? 20 : 100);
+    campaign.contact.haptics.contact.study = true;
+    campaign.contact.haptics.contact.hold = ContactHold::half_sample;
+    campaign.contact.duration = 4.0;
+    add(rows, at, "5000 N/m forced, limiter alone, ", run_campaign(campaign));
+  }
+  return rows;
+}
+
+}  // namespace gearshift

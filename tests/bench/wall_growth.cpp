@@ -1,0 +1,115 @@
+#include "tests/bench/wall_growth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <vector>
+
+#include "haptics/gate/plain_aisle.h"
+#include "haptics/loop/simulated_run.h"
+
+namespace gearshift {
+namespace {
+
+using glm::dvec2;
+
+constexpr double kWall = 0.002;   // [m]
+constexpr double kDepth = 0.002;  // [m] at rest
+constexpr double kFar = 0.05;     // [1] of that depth: grown as far is grown, and still linear
+constexpr int kSettle = 12000;    // [cycles] on a softer wall, that is stable
+constexpr int kRamp = 3000;       // [cycles] from that to the wall in question, the push with it: the depth stays
+constexpr int kCycles = 6000;     // on that wall, at most
+
+// Presses the lever to its place in the wall and holds it there with the hand's own spring.
+class PressingHand final : public HandDriver {
+ public:
+  HandTarget next(double, dvec2) noexcept override {
+    HandTarget target;
+    target.position = {kWall + kDepth, 0.0};
+    target.push = {push, 0.0};
+    return target;
+  }
+
+  double push = 0.0;  // [N]
+};
+
+SimulatedRunConfig rig(const AxisModel& handle, const HandImpedance& hand, const ContactLaw& law, double period) {
+  SimulatedRunConfig config;
+  config.haptics.rate = 1.0 / period;
+  config.haptics.contact = {law.hold, EnergyControl::none, false, true};
+  config.haptics.tuning.wall_stiffness = law.stiffness;
+  config.haptics.tuning.wall_damping = law.damping;
+  config.haptics.tuning.aisle_damping = law.free_damping;
+  config.haptics.tuning.limit_damping = 0.0;
+  config.haptics.estimator.smoothing = law.smoothing;
+  config.haptics.estimator.window = law.window;
+  config.haptics.guard.slew = 100.0;
+  config.haptics.guard.ramp_time = 0.001;
+  config.lever.axis_x = config.lever.axis_y = handle;
+  config.lever.encoder_counts = 0.0;
+  config.lever.force_sensor.resolution_gw = 0.0;
+  config.lever.actuator = {1e4, 1e4, 1.0};
+  config.lever.delay = law.delay;
+  config.lever.hand = hand;
+  config.gate = plain_aisle(0.060, 0.060);
+  config.gate.select_max = kWall;
+  config.start = {kWall + kDepth, 0.0};
+  return config;
+}
+
+double span(const std::vector<double>& x, std::size_t from, std::size_t to) {
+  const auto begin = x.begin() + static_cast<std::ptrdiff_t>(from), end = x.begin() + static_cast<std::ptrdiff_t>(to);
+  const auto [low, high] = std::minmax_element(begin, end);
+  return *high - *low;
+}
+
+// By how much the span of the motion grows from one stretch of the record to the next, per cycle.
+double growth(const std::vector<double>& x) {
+  const std::size_t stretch = x.size() / 3;
+  if (stretch < 10) return HUGE_VAL;  // it was far at once
+  const double early = span(x, stretch, 2 * stretch), late = span(x, 2 * stretch, 3 * stretch);
+  if (early < 1e-12) return 0.0;  // [m] it has died away, to rounding
+  return std::pow(late / early, 1.0 / static_cast<double>(stretch));
+}
+
+}  // namespace
+
+double simulated_growth(const AxisModel& handle, const HandImpedance& hand, const ContactLaw& law, double period,
+                        double settle) {
+  PressingHand driver;
+  SimulatedRunConfig config = rig(handle, hand, law, period);
+  config.haptics.tuning.wall_stiffness = settle;
+  SimulatedRun run(config, driver);
+  const auto press = [&](int n) {  // the push that the wall's force of cycle n balances, when that force acts
+    const double share = std::clamp(static_cast<double>(n - law.delay) / kRamp, 0.0, 1.0);
+    const double stiffness = settle + share * (law.stiffness - settle);
+    driver.push = stiffness * kDepth + handle.stiffness * (kWall + kDepth);
+  };
+  for (int n = -kSettle; n < kRamp + law.delay; ++n) {
+    press(n - 1);
+    const double share = std::clamp(static_cast<double>(n) / kRamp, 0.0, 1.0);
+    config.haptics.tuning.wall_stiffness = settle + share * (law.stiffness - settle);
+    run.channels().tuning.write(config.haptics.tuning);
+    run.step();
+  }
+  press(kRamp + law.delay);
+  std::vector<double> x;
+  for (int n = 0; n < kCycles; ++n) {
+    run.step();
+    x.push_back(run.lever().true_position().x);
+    if (std::abs(x.back() - kWall - kDepth) > kFar * kDepth) break;
+  }
+  return growth(x);
+}
+
+double simulated_limit(const AxisModel& handle, const HandImpedance& hand, ContactLaw law, double period,
+                       double guess) {
+  double stable = 0.96 * guess, unstable = 1.04 * guess;
+  while (unstable > 1.001 * stable) {
+    law.stiffness = std::sqrt(stable * unstable);
+    (simulated_growth(handle, hand, law, period, 0.2 * guess) < 1.0 ? stable : unstable) = law.stiffness;
+  }
+  return std::sqrt(stable * unstable);
+}
+
+}  // namespace gearshift
