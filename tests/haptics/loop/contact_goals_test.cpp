@@ -1,0 +1,73 @@
+// The goals of DESIGN's table for a contact, each on a sample of what `gearshift bench` runs: nothing here is timed.
+#include <algorithm>
+
+#include <doctest/doctest.h>
+
+#include "tests/bench/bench.h"
+#include "tests/bench/contact_campaign.h"
+
+using namespace gearshift;
+
+namespace {
+
+void check_rows(std::vector<BenchRow> (*family)(const BenchOptions&)) {
+  BenchOptions options;
+  options.gate_folder = GEARSHIFT_ASSETS "/gates";
+  options.quick = true;
+  int goals = 0;
+  for (const BenchRow& row : family(options)) {
+    INFO(row.name << ": " << row.value << ' ' << row.unit << ", " << row.note);
+    CHECK(meets_goal(row));
+    goals += row.goal.has_value();
+  }
+  CHECK(goals > 0);
+}
+
+}  // namespace
+
+TEST_CASE("a 5000 N/m wall under 20 N: still, and as stiff as it says, at every rate and delay") {
+  check_rows(bench_contact);
+}
+
+TEST_CASE("a wall makes no energy of an impact; energy bounded, never more than the damping took") {
+  check_rows(bench_energy);
+}
+
+TEST_CASE("force delivered against a steady push, within 3 %") {
+  check_rows(bench_delivered);
+}
+
+TEST_CASE("predicted stability boundary against simulated divergence, within 2 %") {
+  check_rows(bench_boundary);
+}
+
+TEST_CASE("time from a fault to no force") {
+  check_rows(bench_faults);
+}
+
+TEST_CASE("what a textbook spring of 5000 N/m makes of an impact (facts 7b), through the whole cycle") {
+  ContactCase contact;
+  contact.haptics.contact = {ContactHold::zero_order, EnergyControl::none, false, true};
+  contact.haptics.tuning.wall_damping = 0.0;
+  contact.haptics.guard.slew = 100.0;
+  contact.lever.encoder_counts = 0.0;
+  const struct { double rate, percent; } facts[] = {{4000.0, 8.0}, {2000.0, 16.0}, {1000.0, 33.0}, {500.0, 74.0}};
+  for (const auto& fact : facts) {
+    contact.haptics.rate = fact.rate;
+    CHECK(100.0 * run_impacts(contact, 50).mean_share == doctest::Approx(fact.percent).epsilon(0.12));
+  }
+}
+
+TEST_CASE("the observer bears 5000 N/m at 1 ms with two samples of delay, where the half-sample hold does not") {
+  Campaign campaign;
+  campaign.contact.lever.delay = 2;
+  campaign.contact.haptics.contact.study = true;
+  campaign.contact.haptics.contact.reversal_limiter = false;
+  campaign.runs = 40;
+  campaign.contact.haptics.contact.hold = ContactHold::observer;
+  const double observed = worst_ripple(run_campaign(campaign)).ripple_p95;
+  campaign.contact.haptics.contact.hold = ContactHold::half_sample;
+  const double sampled = worst_ripple(run_campaign(campaign)).ripple_p95;
+  CHECK(observed < 0.12e-3);
+  CHECK(sampled > 0.14e-3);
+}
