@@ -19,12 +19,17 @@ int run(int argc, char** argv) {
   gearshift::VerbAction action;
   gearshift::add_tour_verb(app, action);
   gearshift::add_gate_verb(app, action);
+  gearshift::add_identify_verb(app, action);
+  gearshift::add_stability_verb(app, action);
+  gearshift::add_reproduce_verb(app, action);
   gearshift::add_replay_verb(app, action);
   gearshift::add_bench_verb(app, action);
 
   try {
     app.parse(argc, argv);
-    if (!action) throw CLI::RequiredError("A subcommand: tour, gate, replay or bench (see --help)");
+    if (!action)
+      throw CLI::RequiredError(
+          "A subcommand: tour, gate, identify, stability, reproduce, replay or bench (see --help)");
     return action();
   } catch (const CLI::Success& help) {
     return app.exit(help);

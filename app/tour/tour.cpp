@@ -40,7 +40,7 @@ void collect_gears(LoopChannels& channels, TourResult& result) {
 SimulatedRunConfig run_config(const TourSetup& setup) {
   SimulatedRunConfig config;
   config.haptics = setup.haptics;
-  config.lever.hand = setup.hand;
+  config.lever = setup.lever;
   config.gate = setup.gate;
   config.start = rest_position(setup.gate, kNeutralGear);
   return config;

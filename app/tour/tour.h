@@ -7,17 +7,25 @@
 #include <string_view>
 #include <vector>
 
-#include "haptics/device/hand.h"
+#include "haptics/device/simulated_lever.h"
 #include "haptics/gate/gate.h"
 #include "haptics/gate/gate_layout.h"
 #include "haptics/loop/haptic_config.h"
 
 namespace gearshift {
 
+// [N/m] A softer hand cannot lead a lever.
+inline constexpr double kLeastLeadingStiffness = 50.0;
+
+// That hand, or a grip where it cannot lead.
+inline HandImpedance leading_hand(const HandImpedance& hand) {
+  return hand.stiffness < kLeastLeadingStiffness ? kGripHand : hand;
+}
+
 struct TourSetup {
   GateLayout layout;
   Gate gate;
-  HandImpedance hand;
+  SimulatedLeverConfig lever;  // its hand must be able to lead it
   HapticConfig haptics;
   std::uint64_t seed = 1;        // of the hand's aims
   std::filesystem::path folder;  // exists; receives tour.trace and tour.csv

@@ -43,9 +43,9 @@ HandImpedance driving_hand(const std::string& text) {
   const std::optional<HandImpedance> hand = hand_from_text(text);
   if (!hand)
     throw CLI::ValidationError(fmt::format("--hand {}: must be light, grip, arm or M,B,K in kg, N s/m, N/m", text));
-  if (hand->stiffness < 50.0) {
-    throw CLI::ValidationError(
-        fmt::format("--hand {}: a hand of {} N/m cannot lead a lever, at least 50 is needed", text, hand->stiffness));
+  if (hand->stiffness < kLeastLeadingStiffness) {
+    throw CLI::ValidationError(fmt::format("--hand {}: a hand of {} N/m cannot lead a lever, at least {:g} is needed",
+                                           text, hand->stiffness, kLeastLeadingStiffness));
   }
   try {
     check_on_lever(*hand);
@@ -83,7 +83,7 @@ void print_result(const TourSetup& setup, const TourResult& result) {
 
 TourSetup make_setup(const TourArguments& arguments) {
   TourSetup setup;
-  setup.hand = driving_hand(arguments.hand);
+  setup.lever.hand = driving_hand(arguments.hand);
   setup.layout = read_gate_layout(find_asset("gates", arguments.gate));
   setup.gate = compile_gate(setup.layout, workspace_half_extent(YokeGeometry{}));
   setup.haptics.rate = arguments.rate;

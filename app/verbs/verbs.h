@@ -13,6 +13,9 @@ using VerbAction = std::function<int()>;
 
 void add_gate_verb(CLI::App& app, VerbAction& action);
 void add_tour_verb(CLI::App& app, VerbAction& action);
+void add_identify_verb(CLI::App& app, VerbAction& action);
+void add_stability_verb(CLI::App& app, VerbAction& action);
+void add_reproduce_verb(CLI::App& app, VerbAction& action);
 void add_replay_verb(CLI::App& app, VerbAction& action);
 void add_bench_verb(CLI::App& app, VerbAction& action);
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <stdexcept>
 #include <utility>
 
 #include "haptics/device/checked.h"
@@ -76,6 +77,7 @@ Environment delayed(Environment environment, int samples) {
 
 Environment contact(const ContactLaw& law, double period) {
   check_contact(law, period);
+  if (law.hold == ContactHold::observer) throw std::invalid_argument("the observed hold has no E(z) of the wall alone");
   const double ahead = law.hold == ContactHold::zero_order ? 0.0 : period * (0.5 + law.delay);
   const double blend = -std::expm1(-period / law.smoothing);
   const auto wall = [=](Complex z) {

@@ -25,7 +25,8 @@ Environment impedance(double stiffness, double damping, double mass, double peri
 // The same environment, its force coming `samples` >= 0 periods later: E(z) z^-samples.
 Environment delayed(Environment environment, int samples);
 
-// The wall as the loop makes it: its hold, window, free damping and delay. As in sampled_loop.h, and with its errors.
+// The wall as the loop makes it: its hold, window, free damping and delay. As in sampled_loop.h, and with its errors;
+// the observed hold is refused, too: it contains a model of the device, which this view of the wall keeps apart.
 Environment contact(const ContactLaw& law, double period);
 
 // Right side of (13), its largest value over 0 < w <= pi / T: the device's own damping must exceed it. [N s/m]
@@ -37,7 +38,7 @@ double damping_demand(const Environment& environment, double period);
 // damping b; 0 where these alone are too much. All delayed by `delay` samples, all >= 0, period [s] > 0. [N/m]
 double passive_stiffness_limit(double device_damping, double damping, double mass, int delay, double period);
 
-// The same for a wall as the loop makes it, the law's own stiffness ignored.
+// The same for a wall as the loop makes it, the law's own stiffness ignored. Errors as contact().
 double passive_stiffness_limit(double device_damping, const ContactLaw& law, double period);
 
 }  // namespace gearshift

@@ -162,5 +162,8 @@ TEST_CASE("nonsense is refused") {
   CHECK_THROWS_AS(passive_stiffness_limit(-1.0, 0.0, 0.0, 0, 0.001), std::invalid_argument);
   CHECK_THROWS_AS(passive_stiffness_limit(3.0, 0.0, 0.0, -1, 0.001), std::invalid_argument);
   CHECK_THROWS_AS(passive_stiffness_limit(3.0, 0.0, 0.0, 0, 0.0), std::invalid_argument);
+  ContactLaw observed;
+  observed.hold = ContactHold::observer;
+  CHECK_THROWS_AS(contact(observed, 0.001), std::invalid_argument);
   CHECK_THROWS_AS(damping_demand(impedance(1.0, 0.0, 0.0, 0.001), std::nan("")), std::invalid_argument);
 }

@@ -1,4 +1,4 @@
-// The exact limits that were found before there was this code, by another program: ../shared/facts/haptics.md, 7a and 1.
+// The exact limits as another program found them before there was this code: ../shared/facts/haptics.md, 7a and 1.
 #include <cmath>
 #include <limits>
 
@@ -27,9 +27,9 @@ constexpr double kDampings[] = {0.0, 3.0, 5.0, 10.0, 20.0};  // [N s/m]
 constexpr double kNotPrinted = -1.0;
 
 struct Row {
-  double period;             // [s]
-  double printed[5];         // [N/m] for kDampings
-  double best_b, best_k;     // where the limit is highest
+  double period;          // [s]
+  double printed[5];      // [N/m] for kDampings
+  double best_b, best_k;  // where the limit is highest
 };
 
 void check_table(const Row& row, int delay) {

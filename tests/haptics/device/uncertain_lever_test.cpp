@@ -156,7 +156,7 @@ TEST_CASE("parts off by up to a fifth: measured apart from spec() and inside the
   SimulatedLeverConfig config = exact();
   config.model_error = 0.2;
   double last_mass = 0.0;
-  for (const std::uint64_t seed : {1, 2, 3}) {
+  for (const std::uint64_t seed : {1u, 2u, 3u}) {
     config.seed = seed;
     StillHand nobody;
     CHECK(SimulatedLever(config, kMillisecond, nobody).spec().axis_x.mass == config.axis_x.mass);

@@ -1,0 +1,181 @@
+#include <array>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "app/identify/identify.h"
+
+namespace gearshift {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kTau = 2.0 * std::numbers::pi;
+constexpr double kMuchMisfit = 3.0;  // the points lie farther from the curve than chance puts them
+
+struct Quantity {
+  const char* name;
+  const char* unit;
+  const char* key;
+  double AxisModel::*value;
+};
+constexpr std::array<Quantity, 3> kQuantities{{{"mass", "kg", "mass_kg", &AxisModel::mass},
+                                               {"damping", "N s/m", "damping_n_s_per_m", &AxisModel::damping},
+                                               {"stiffness", "N/m", "stiffness_n_per_m", &AxisModel::stiffness}}};
+
+std::array<double, 2> pole_frequencies(const AxisModel& axis) {
+  const auto pole = poles(axis);
+  return {std::abs(pole[0]) / kTau, std::abs(pole[1]) / kTau};
+}
+
+std::string poles_text(const AxisModel& axis) {
+  const auto [slow, fast] = pole_frequencies(axis);
+  return damping_ratio(axis) < 1.0 ? fmt::format("two poles at {:.2f} Hz", slow)
+                                   : fmt::format("poles at {:.2f} and {:.2f} Hz", slow, fast);
+}
+
+double needed_stroke(const AxisIdentification& axis) {
+  return axis.literal.amplitude * std::abs(compliance(axis.fit.model, axis.literal.frequency));
+}
+
+std::string axis_text(const AxisIdentification& axis) {
+  const AxisFit& fit = axis.fit;
+  std::string text = fmt::format("axis {:<10}{:>12}{:>14}{:>14}{:>10}\n", lever_axis_name(axis.response.axis), "found",
+                                 "uncertainty", "device says", "off");
+  for (const Quantity& q : kQuantities) {
+    const double found = fit.model.*q.value, nominal = axis.nominal.*q.value;
+    const std::string off = nominal > 0.0 ? fmt::format("{:+.2f} %", 100.0 * (found / nominal - 1.0)) : "-";
+    text += fmt::format("  {:<13}{:>12.5g}{:>14.2g}{:>14.5g}{:>10}  {}\n", q.name, found, fit.deviation.*q.value,
+                        nominal, off, q.unit);
+  }
+  text += fmt::format("  damping ratio {:.2f}, {}, bandwidth {:.2f} Hz\n", damping_ratio(fit.model),
+                      poles_text(fit.model), bandwidth(fit.model));
+  text += fmt::format("  {} points from {:.3g} to {:.3g} Hz, misfit {:.2g}{}\n", fit.points,
+                      axis.response.points.front().frequency, axis.response.points.back().frequency, fit.misfit,
+                      fit.misfit > kMuchMisfit ? ": mass, damping and stiffness alone do not explain them" : "");
+  text += fmt::format("  one third of the maximum, {:.1f} N, at 1 Hz {}: it would move the lever by {:.0f} mm\n\n",
+                      axis.literal.amplitude,
+                      axis.literal.end == PointEnd::hit_stop ? "hits the stop" : "stays off the stop",
+                      1e3 * needed_stroke(axis));
+  return text;
+}
+
+std::string bandwidths_text(const Identification& found) {
+  std::vector<std::string> words;
+  for (const AxisIdentification& axis : found.axes) words.push_back(fmt::format("{:.2f}", bandwidth(axis.fit.model)));
+  return fmt::format("{} Hz", fmt::join(words, ", "));
+}
+
+// The paper's X axis is the one that the tip turns about: what moves along it is our y.
+std::string table2_text(const Identification& found) {
+  const DeviceRow row = device_row(found.spec);
+  constexpr const char* kLine = "{:<24}{:>22}{:>18}{:>14}{:>14}\n";
+  std::string text = fmt::format(kLine, "Table 2", "this lever", "developed", "SideWinder", "Immersion");
+  text += fmt::format(kLine, "range about X (shift)", fmt::format("{:.1f} deg", row.range_deg.y), "70 ~ 80 deg",
+                      "45 ~ 55 deg", "65 deg");
+  text += fmt::format(kLine, "range about Y (select)", fmt::format("{:.1f} deg", row.range_deg.x), "80 ~ 90 deg",
+                      "35 ~ 50 deg", "65 deg");
+  text += fmt::format(kLine, "continuous force", fmt::format("{:.2f} N", row.continuous_force), "10.83 Nm (1)", "small",
+                      "8.9 Nm (1)");
+  text += fmt::format(kLine, "precision", fmt::format("{:.2f} counts/deg", row.counts_per_deg), "2250/80", "low",
+                      "1100/65");
+  text += fmt::format(kLine, "  at the tip", fmt::format("{:.1f} um", 1e6 * row.step), "", "", "");
+  text += fmt::format(kLine, "bandwidth", bandwidths_text(found), "100 Hz (2)", "low", "120 Hz");
+  text += "(1) a force at the tip in newtons: 1.3 N m of the motor over 0.12 m\n";
+  text +=
+      "(2) does not follow from (11) and (12), which have 0.92 and 1.02 Hz by our definition: -3 dB of the gain at "
+      "rest.\n";
+  if (row.step > 0.0) {
+    const AxisModel& axis = found.axes.front().fit.model;
+    text += fmt::format(
+        "    One newton moves axis {} by one count of the encoder up to {:.0f} Hz, by -3 dB of one up to "
+        "{:.0f} Hz:\n    that may be why the paper's sweep ended at 65 Hz.\n",
+        lever_axis_name(found.axes.front().response.axis), frequency_at_gain(axis, row.step),
+        frequency_at_gain(axis, row.step / std::numbers::sqrt2));
+  }
+  return text + "\n";
+}
+
+std::string line_text(const char* axis, const SensorLine& line) {
+  return fmt::format("  {}: f_s = {:.2f} +- {:.2f} + ({:.5f} +- {:.5f}) f_e, farthest reading off the line {:.1f} gw\n",
+                     axis, line.offset, line.offset_deviation, line.gain, line.gain_deviation, line.nonlinearity);
+}
+
+std::string calibration_text(const Identification& found) {
+  const SensorCalibration& sensor = found.calibration;
+  return fmt::format("force sensor, 7 weights in 8 directions; the preset's is f_s = {:g} + {:g} f_e, in gw, eq (7)\n",
+                     found.sensor.offset, found.sensor.gain) +
+         line_text("x", sensor.x) + line_text("y", sensor.y) +
+         fmt::format("  directions agree within {:.2f} %, at most {:.1f} gw read across the weight\n",
+                     100.0 * sensor.direction_spread, sensor.crosswise);
+}
+
+Json point_json(const FrequencyPoint& point) {
+  return {{"frequency_hz", point.frequency},
+          {"amplitude_n", point.amplitude},
+          {"bounded_by_stroke", point.bounded_by_stroke},
+          {"gain_m_per_n", std::abs(point.response)},
+          {"phase_deg", std::arg(point.response) * 360.0 / kTau},
+          {"relative_uncertainty", point.deviation},
+          {"settled", point.end == PointEnd::measured}};
+}
+
+Json axis_json(const AxisIdentification& axis) {
+  Json json{{"axis", lever_axis_name(axis.response.axis)}};
+  for (const Quantity& q : kQuantities) {
+    json[q.key] = {{"found", axis.fit.model.*q.value},
+                   {"uncertainty", axis.fit.deviation.*q.value},
+                   {"device_says", axis.nominal.*q.value}};
+  }
+  json["misfit"] = axis.fit.misfit;
+  json["damping_ratio"] = damping_ratio(axis.fit.model);
+  json["poles_hz"] = pole_frequencies(axis.fit.model);
+  json["bandwidth_hz"] = bandwidth(axis.fit.model);
+  json["literal_1_hz"] = {{"amplitude_n", axis.literal.amplitude},
+                          {"hit_stop", axis.literal.end == PointEnd::hit_stop},
+                          {"needed_stroke_m", needed_stroke(axis)}};
+  json["points"] = Json::array();
+  for (const FrequencyPoint& point : axis.response.points) json["points"].push_back(point_json(point));
+  return json;
+}
+
+Json line_json(const SensorLine& line) {
+  return {{"offset", line.offset},
+          {"offset_uncertainty", line.offset_deviation},
+          {"gain_per_gw", line.gain},
+          {"gain_uncertainty_per_gw", line.gain_deviation},
+          {"nonlinearity_gw", line.nonlinearity}};
+}
+
+Json table2_json(const DeviceSpec& spec) {
+  const DeviceRow row = device_row(spec);
+  return {{"range_select_deg", row.range_deg.x},
+          {"range_shift_deg", row.range_deg.y},
+          {"continuous_force_n", row.continuous_force},
+          {"counts_per_deg", row.counts_per_deg},
+          {"step_at_tip_m", row.step}};
+}
+
+}  // namespace
+
+std::string identification_table(const Identification& found) {
+  std::string text;
+  for (const AxisIdentification& axis : found.axes) text += axis_text(axis);
+  return text + table2_text(found) + calibration_text(found);
+}
+
+std::string identification_json(const Identification& found) {
+  Json json{{"rate_hz", found.rate}, {"axes", Json::array()}};
+  for (const AxisIdentification& axis : found.axes) json["axes"].push_back(axis_json(axis));
+  json["table2"] = table2_json(found.spec);
+  json["force_sensor"] = {{"x", line_json(found.calibration.x)},
+                          {"y", line_json(found.calibration.y)},
+                          {"direction_spread", found.calibration.direction_spread},
+                          {"crosswise_gw", found.calibration.crosswise}};
+  return json.dump(2) + "\n";
+}
+
+}  // namespace gearshift

@@ -1,0 +1,222 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "app/draw/gate_colours.h"
+#include "app/reproduce/identified_axes.h"
+#include "app/reproduce/section.h"
+#include "app/reproduce/study_files.h"
+
+namespace gearshift {
+namespace {
+
+double decibels(double gain) {
+  return 20.0 * std::log10(gain);
+}
+double degrees(std::complex<double> response) {
+  const double angle = std::arg(response) * 180.0 / std::numbers::pi;
+  return angle > 0.0 ? angle - 360.0 : angle;
+}
+const char* end_name(PointEnd end) {
+  switch (end) {
+    case PointEnd::measured:
+      return "measured";
+    case PointEnd::never_settled:
+      return "never settled";
+    case PointEnd::hit_stop:
+      return "hit the stop";
+  }
+  return "?";
+}
+
+void write_bode(const Study& study, std::string_view name, const IdentifiedAxis& axis) {
+  CsvFile csv(study, name,
+              "frequency_hz,amplitude_n,gain_db_re_1_m_per_n,phase_deg,deviation_1,fit_gain_db,fit_phase_deg,end");
+  for (const FrequencyPoint& point : axis.response.points) {
+    const std::complex<double> fit = compliance(axis.fit.model, point.frequency);
+    csv.line(fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.3g},{:.9g},{:.9g},{}", point.frequency, point.amplitude,
+                         decibels(std::abs(point.response)), degrees(point.response), point.deviation,
+                         decibels(std::abs(fit)), degrees(fit), end_name(point.end)));
+  }
+  csv.finish();
+}
+
+// The curves are functions of m, b, k: (8).
+std::string model_functions(const AxisModel& fit, const AxisModel& paper) {
+  const auto functions = [](const char* suffix, const AxisModel& axis) {
+    return fmt::format(
+        "re{0}(f) = {3:.9g} - {1:.9g} * (2 * pi * f)**2\nim{0}(f) = {2:.9g} * 2 * pi * f\n"
+        "gain{0}(f) = -10 * log10(re{0}(f)**2 + im{0}(f)**2)\nphase{0}(f) = -atan2(im{0}(f), re{0}(f)) * 180 / pi\n",
+        suffix, axis.mass, axis.damping, axis.stiffness);
+  };
+  return functions("_fit", fit) + functions("_paper", paper);
+}
+
+void draw_bode(const Study& study, std::string_view name, const char* equation, const IdentifiedAxis& axis,
+               const AxisModel& paper) {
+  write_bode(study, name, axis);
+  const double edge = bandwidth(axis.fit.model);
+  const std::string commands = fmt::format(
+      R"gp({functions}set samples 400
+set logscale x
+set multiplot layout 2,1 margins 0.1, 0.97, 0.1, 0.96 spacing 0.05
+set key left bottom Left reverse
+set format x ""
+set ylabel "gain [dB re 1 m/N]"
+set arrow 1 from {edge},graph 0 to {edge},graph 1 nohead dashtype 2 linecolor "{orange}"
+set label 1 "-3 dB of rest at {edge:.2f} Hz" at {edge},graph 0.45 offset 1,0 textcolor "{ink}"
+plot [0.15:130] gain_paper(x) with lines linewidth 4 linecolor "{pale}" title "the paper's {equation}", \
+  gain_fit(x) with lines linewidth 1.4 linecolor "{blue}" title "fitted curve", \
+  "{name}.csv" using 1:(strcol(8) eq "measured" ? $3 : NaN) \
+    with points pointtype 3 linecolor "{red}" title "test points"
+unset label 1
+set format x "%g"
+set xlabel "frequency [Hz]"
+set ylabel "phase [deg]"
+unset key
+set ytics 45
+plot [0.15:130] phase_paper(x) with lines linewidth 4 linecolor "{pale}", \
+  phase_fit(x) with lines linewidth 1.4 linecolor "{blue}", \
+  "{name}.csv" using 1:(strcol(8) eq "measured" ? $4 : NaN) with points pointtype 3 linecolor "{red}"
+unset multiplot
+)gp",
+      fmt::arg("functions", model_functions(axis.fit.model, paper)), fmt::arg("edge", edge), fmt::arg("name", name),
+      fmt::arg("equation", equation), fmt::arg("ink", kInk), fmt::arg("pale", kGridInk),
+      fmt::arg("orange", kBufferColour), fmt::arg("blue", kGearColour), fmt::arg("red", kLockoutColour));
+  draw(study, {std::string(name), 850, 640, commands});
+}
+
+double third_of_most(const Study& study) {
+  return study.preset.lever.actuator.peak_force * SweepConfig{}.force_share;
+}
+double stop_on_x_arc(const Study& study) {
+  return study.preset.lever.yoke.radius * study.preset.lever.yoke.theta_limit;
+}
+
+// The literal amplitude's answer is that of the fit: the stop cuts it short.
+void draw_amplitudes(const Study& study, const IdentifiedAxis& x, const FrequencyResponse& literal) {
+  const double third = third_of_most(study);
+  CsvFile csv(study, "bode_amplitude", "frequency_hz,used_n,used_mm,third_n,third_mm,third_hit_the_stop_1");
+  for (std::size_t i = 0; i < std::min(x.response.points.size(), literal.points.size()); ++i) {
+    const FrequencyPoint& point = x.response.points[i];
+    const double gain = std::abs(compliance(x.fit.model, point.frequency));
+    csv.row({point.frequency, point.amplitude, 1e3 * point.amplitude * gain, third, 1e3 * third * gain,
+             literal.points[i].end == PointEnd::hit_stop ? 1.0 : 0.0});
+  }
+  csv.finish();
+  draw(study, {"bode_amplitude", 1100, 460,
+               fmt::format(R"gp(set multiplot layout 1,2 margins 0.07, 0.98, 0.13, 0.84 spacing 0.09
+set logscale xy
+set xlabel "frequency [Hz]"
+set key horizontal center tmargin maxrows 2
+set ylabel "amplitude of the force [N]"
+set yrange [0.5:50]
+plot "bode_amplitude.csv" using "frequency_hz":"third_n" \
+    with lines dashtype 3 linewidth 1.4 linecolor "{red}" title "one third of the most, the paper's", \
+  "bode_amplitude.csv" using "frequency_hz":"used_n" \
+    with linespoints pointtype 7 pointsize 0.5 linewidth 1.4 linecolor "{blue}" title "used"
+set ylabel "amplitude of the motion [mm]"
+set yrange [0.1:2000]
+plot "bode_amplitude.csv" using "frequency_hz":"third_mm" \
+    with lines dashtype 3 linewidth 1.4 linecolor "{red}" title "one third would make", \
+  "bode_amplitude.csv" using "frequency_hz":($6 == 1 ? $5 : NaN) \
+    with points pointtype 2 linecolor "{red}" title "and hit the stop", \
+  "bode_amplitude.csv" using "frequency_hz":"used_mm" \
+    with linespoints pointtype 7 pointsize 0.5 linewidth 1.4 linecolor "{blue}" title "used", \
+  {stop} with lines linewidth 1.4 linecolor "{ink}" title "the stop"
+unset multiplot
+)gp",
+                           fmt::arg("red", kLockoutColour), fmt::arg("blue", kGearColour), fmt::arg("ink", kInk),
+                           fmt::arg("stop", 1e3 * stop_on_x_arc(study)))});
+}
+
+Finding model_finding(const char* paper_words, const AxisFit& fit, const AxisModel& paper) {
+  const AxisModel &m = fit.model, &d = fit.deviation;
+  return {paper_words,
+          fmt::format("m {:.4g} kg ± {:.1g} %, b {:.4g} N s/m ± {:.1g} %, k {:.4g} N/m ± {:.1g} %", m.mass,
+                      100.0 * d.mass / m.mass, m.damping, 100.0 * d.damping / m.damping, m.stiffness,
+                      100.0 * d.stiffness / m.stiffness),
+          fmt::format("m {}, b {}, k {}", relative(m.mass, paper.mass), relative(m.damping, paper.damping),
+                      relative(m.stiffness, paper.stiffness))};
+}
+
+std::string bandwidth_words(const AxisModel& axis) {
+  if (bandwidth(axis) == 0.0) return "nowhere, it has no spring";
+  return fmt::format("at {:.2f} Hz, and {:.0f} dB below at 100 Hz", bandwidth(axis),
+                     decibels(std::abs(compliance(axis, 0.0) / compliance(axis, 100.0))));
+}
+
+Finding bandwidth_finding(const AxisModel& x, const AxisModel& y) {
+  return {"Section 2.4: the transfer function shows a 3 dB output at about 100 Hz, the bandwidth",
+          fmt::format("3 dB below the gain at rest: X {}, Y {}", bandwidth_words(x), bandwidth_words(y)),
+          fmt::format(
+              "does not follow from (11), (12), whose bandwidths are {:.2f} and {:.2f} Hz: over-damped, damping "
+              "ratios {:.2f} and {:.2f}. 100 Hz stays unverified",
+              bandwidth(kPaperAxisX), bandwidth(kPaperAxisY), damping_ratio(kPaperAxisX), damping_ratio(kPaperAxisY))};
+}
+
+Finding amplitude_finding(const Study& study, const IdentifiedAxis& x, const FrequencyResponse& literal) {
+  const auto hits = std::count_if(literal.points.begin(), literal.points.end(),
+                                  [](const FrequencyPoint& point) { return point.end == PointEnd::hit_stop; });
+  double highest = 0.0;
+  for (const FrequencyPoint& point : literal.points) {
+    if (point.end == PointEnd::hit_stop) highest = std::max(highest, point.frequency);
+  }
+  const double third = third_of_most(study);
+  return {"Section 2.4: amplitude one third of the maximum output torque",
+          fmt::format("{:.1f} N drive the X axis to its stop at {} of {} test points, up to {:.1f} Hz: at 1 Hz it "
+                      "would take {:.0f} mm, the stop is at {:.0f} mm of arc",
+                      third, hits, literal.points.size(), highest, 1e3 * third * std::abs(compliance(x.fit.model, 1.0)),
+                      1e3 * stop_on_x_arc(study)),
+          "impossible at low frequencies: used is the smaller of that third and 60 % of the stroke"};
+}
+
+// With the gain in encoder counts per newton, 0 dB is where one newton moves one count.
+std::string counts_words(const AxisModel& x, double step, double moved) {
+  if (step == 0.0) return "the preset's lever has no encoder to count by";
+  const auto crossing = [&](double level) { return frequency_at_gain(x, step * std::pow(10.0, level / 20.0)); };
+  return fmt::format(
+      "{:.0f} counts. In counts per newton the gain is +3, 0, -3 dB at {:.0f}, {:.0f}, {:.0f} Hz: the encoder's floor "
+      "may be what was meant, the paper does not say 3 dB of what",
+      moved / step, crossing(3.0), crossing(0.0), crossing(-3.0));
+}
+
+Finding end_finding(const Study& study, const AxisModel& x) {
+  const double gain = std::abs(compliance(x, kPaperHighest));
+  const double moved = third_of_most(study) * gain, rest = std::abs(compliance(x, 0.0));
+  return {"Section 2.4: the output reached 3 dB at about 65 Hz",
+          fmt::format("at 65 Hz X is {:.1f} dB below rest; one third of the most moves it {:.2f} mm",
+                      decibels(rest / gain), 1e3 * moved),
+          counts_words(x, study.device.position_step, moved)};
+}
+
+}  // namespace
+
+Section bode_section(const Study& study) {
+  const auto [x, y] = identify_axes(study);
+  const FrequencyResponse literal = sweep_axis(study, LeverAxis::x, true);
+  draw_bode(study, "bode_x", "(11)", x, kPaperAxisX);
+  draw_bode(study, "bode_y", "(12)", y, kPaperAxisY);
+  draw_amplitudes(study, x, literal);
+  return {
+      "bode",
+      "Fig. 4: identification of both axes",
+      fmt::format("The preset's lever, no hand on it, is driven along one arc at a time by {} sinusoids from {:.1f} to "
+                  "{:.0f} Hz, sampled at {:g} Hz through its encoder. Gain and phase follow by least squares over "
+                  "whole periods; m, b and k of (8) by weighted least squares over all points.",
+                  x.response.points.size(), x.response.points.back().frequency, x.response.points.front().frequency,
+                  study.preset.haptics.rate),
+      {bandwidth_finding(x.fit.model, y.fit.model), model_finding("(11): 0.095 s^2 + 3.0 s + 14.8", x.fit, kPaperAxisX),
+       model_finding("(12): 0.086 s^2 + 2.9 s + 15.7", y.fit, kPaperAxisY), amplitude_finding(study, x, literal),
+       end_finding(study, x.fit.model)},
+      {{"bode_x", "Fig. 4 (a): the X axis. Test points marked by *, the fitted curve, and below it the paper's."},
+       {"bode_y", "Fig. 4 (b): the Y axis."},
+       {"bode_amplitude",
+        "Why one third of the maximum is not used throughout: the force and the motion it makes, X axis."}}};
+}
+
+}  // namespace gearshift

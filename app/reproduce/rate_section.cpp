@@ -1,0 +1,226 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "app/assets_path.h"
+#include "app/draw/gate_colours.h"
+#include "app/reproduce/section.h"
+#include "app/reproduce/study_files.h"
+#include "app/reproduce/trial.h"
+#include "haptics/analysis/spectral_radius.h"
+
+namespace gearshift {
+namespace {
+
+constexpr double kSpeed = 0.3, kPush = 20.0;    // [m/s], [N]
+constexpr double kDuration = 1.2, kLast = 0.2;  // [s], and what is judged of it
+constexpr double kSlow = 100.0;                 // [Hz] the paper's
+constexpr HandTarget kPushing{{0.0, 0.0}, {0.0, 0.0}, {kPush, 0.0}, false, false};
+
+struct Case {
+  const char* tag;
+  const char* title;
+  HapticConfig haptics;
+};
+
+std::array<Case, 3> cases_of(const Study& study) {
+  HapticConfig slow = study.preset.haptics;
+  slow.rate = kSlow;
+  return {Case{"paper", "the paper's wall, 100 Hz", read_preset(find_asset("presets", "paper").string()).haptics},
+          Case{"ours", "ours, the preset", study.preset.haptics}, Case{"slow", "ours at 100 Hz, as limited", slow}};
+}
+
+Trial wall_trial(const Study& study, const Case& one, const HandImpedance& hand) {
+  Trial trial;
+  trial.haptics = one.haptics;
+  trial.lever = study.preset.lever;
+  trial.lever.hand = hand;
+  trial.gate = wall_at_zero();
+  trial.duration = kDuration;
+  return trial;
+}
+
+// Meets the wall at a steady speed and is pushed into it.
+TrialRun impact(const Study& study, const Case& one, const HandImpedance& hand) {
+  Trial trial = wall_trial(study, one, hand);
+  trial.start = before(0.0, kSpeed, period_s(one.haptics));
+  trial.velocity = {kSpeed, 0.0};
+  trial.hand = carried_to(0.0, kSpeed, trial.lever.axis_x, kPushing);
+  return run_trial(trial);
+}
+
+// Steps from sample to sample while the lever, pressed and nearly at rest, stays near that depth: there the cycle is
+// linear, and a disturbance goes on as its largest eigenvalue does. Without an encoder: its counts are no part of that.
+std::vector<double> free_steps(const Study& study, const Case& one, const HandImpedance& hand, double stiffness) {
+  constexpr double kDepth = 0.002, kDisturbance = 1e-8, kRounding = 1e-15;  // [m]
+  Trial trial = wall_trial(study, one, hand);
+  trial.lever.encoder_counts = 0.0;
+  trial.haptics.contact.reversal_limiter = false;
+  HandTarget pushing;
+  pushing.push = {kDepth * (stiffness + trial.lever.axis_x.stiffness + hand.stiffness), 0.0};
+  trial.start = {kDepth + kDisturbance, 0.0};
+  trial.hand = [pushing](double, glm::dvec2) { return pushing; };
+  const TrialRun run = run_trial(trial);
+  std::vector<double> steps;
+  for (std::size_t i = 1; i < run.samples.size(); ++i) {
+    const TrialSample& now = run.samples[i];
+    const double step = now.position.x - run.samples[i - 1].position.x;
+    const bool is_linear = std::abs(now.position.x - kDepth) < 0.1 * kDepth && std::abs(step) > kRounding;
+    if (!is_linear) break;
+    steps.push_back(step);
+  }
+  return steps;
+}
+
+constexpr std::size_t kLongest = 4;  // states of a cycle without delay: lever, last sample, smooth velocity
+
+// The recurrence of some order that fits the steps best: each from those before it.
+struct Recurrence {
+  double radius = 0.0;  // [1] its largest root
+  double misfit = 0.0;  // [1] what it leaves of the steps, root mean square
+};
+
+using NormalEquations = std::array<std::array<double, kLongest + 1>, kLongest>;  // the right side in the last column
+
+NormalEquations solved(NormalEquations rows, std::size_t order) {
+  for (std::size_t pivot = 0; pivot < order; ++pivot) {
+    const double diagonal = rows[pivot][pivot];
+    for (double& entry : rows[pivot]) entry /= diagonal;
+    for (std::size_t row = 0; row < order; ++row) {
+      const double share = row == pivot ? 0.0 : rows[row][pivot];
+      for (std::size_t column = 0; column <= kLongest; ++column) rows[row][column] -= share * rows[pivot][column];
+    }
+  }
+  return rows;
+}
+
+// Every step counts alike, the early and the late: each equation is taken over the size of its terms.
+Recurrence recurrence(const std::vector<double>& steps, std::size_t order) {
+  NormalEquations normal{};
+  double squares = 0.0, count = 0.0;
+  for (std::size_t i = steps.size() / 4; i + order < steps.size(); ++i) {
+    double scale = 0.0;
+    for (std::size_t k = 0; k <= order; ++k) scale = std::max(scale, std::abs(steps[i + k]));
+    const auto ago = [&](std::size_t k) { return steps[i + order - k] / scale; };
+    for (std::size_t row = 0; row < order; ++row) {
+      for (std::size_t column = 0; column < order; ++column) normal[row][column] += ago(row + 1) * ago(column + 1);
+      normal[row][kLongest] += ago(row + 1) * ago(0);
+    }
+    squares += ago(0) * ago(0);
+    count += 1.0;
+  }
+  const NormalEquations found = solved(normal, order);
+  std::array<double, kLongest * kLongest> companion{};  // column by column
+  for (std::size_t k = 0; k < order; ++k) {
+    squares -= found[k][kLongest] * normal[k][kLongest];
+    companion[k * order] = found[k][kLongest];
+    if (k + 1 < order) companion[k * order + k + 1] = 1.0;
+  }
+  return {largest_eigenvalue({companion.data(), order * order}, static_cast<int>(order)),
+          std::sqrt(std::max(0.0, squares) / count)};
+}
+
+// Growth per cycle: of the shortest recurrence that describes the steps. 0 where they are too few.
+double growth(const std::vector<double>& steps) {
+  constexpr double kGood = 1e-3;
+  if (steps.size() < 3 * kLongest) return 0.0;
+  Recurrence found = recurrence(steps, 2);
+  for (std::size_t order = 3; order <= kLongest && found.misfit > kGood; ++order) found = recurrence(steps, order);
+  return found.radius;
+}
+
+struct Result {
+  TrialRun run;
+  double predicted = 0.0, measured = 0.0;  // [1] growth per cycle; 0: not measured
+};
+
+Result examine(const Study& study, const Case& one, const HandImpedance& hand) {
+  Result result;
+  result.run = impact(study, one, hand);
+  const AdmittedTuning& admitted = result.run.admitted;
+  result.predicted = predicted_radius(wall_trial(study, one, hand), admitted);
+  result.measured = growth(free_steps(study, one, hand, admitted.tuning.wall_stiffness));
+  return result;
+}
+
+std::string words(const Case& one, const Result& result) {
+  const std::vector<TrialContact> all = contacts(result.run, wall_at_zero());
+  return fmt::format(
+      "{}, {:.0f} N/m and {:.3g} N s/m: {:.1f} mm deep, {} contact{}, {:.3f} mm peak-to-peak at the end, the "
+      "motors gave {:+.2f} mJ in the first contact",
+      one.title, result.run.stiffness, result.run.admitted.tuning.wall_damping, 1e3 * deepest(result.run), all.size(),
+      all.size() == 1 ? "" : "s", 1e3 * peak_to_peak(result.run, kLast), all.empty() ? 0.0 : 1e3 * all.front().energy);
+}
+
+std::string radii(const Result& result) {
+  if (result.measured == 0.0)
+    return fmt::format("growth per cycle {:.4f} predicted, too fast to measure", result.predicted);
+  return fmt::format("growth per cycle {:.4f} measured, {:.4f} predicted ({})", result.measured, result.predicted,
+                     relative(result.measured, result.predicted));
+}
+
+void add_columns(TrialTable& table, const Case& one, const Result& result, const char* hand) {
+  const std::string tag = fmt::format("{}_{}", one.tag, hand);
+  table.add(tag + "_time_s", result.run, [](const TrialSample& sample) { return sample.time; });
+  table.add(tag + "_x_mm", result.run, [](const TrialSample& sample) { return 1e3 * sample.position.x; });
+  table.add(tag + "_motor_n", result.run, [](const TrialSample& sample) { return -sample.motor.x; });
+}
+
+std::string panel(const std::array<Case, 3>& cases, const char* hand, const char* title) {
+  constexpr std::array<const char*, 3> kColours{kLockoutColour, kGearColour, kBufferColour};
+  std::string text =
+      fmt::format("set title \"{}\"\nplot 0 with lines dashtype 2 linecolor \"{}\" notitle", title, kSoftInk);
+  for (std::size_t i = 0; i < cases.size(); ++i)
+    text += fmt::format(
+        ", \"rate.csv\" using \"{0}_{1}_time_s\":\"{0}_{1}_x_mm\" with lines linewidth 1.4 linecolor \"{2}\" title "
+        "\"{3}\"",
+        cases[i].tag, hand, kColours[i], cases[i].title);
+  return text + "\n";
+}
+
+}  // namespace
+
+Section rate_section(const Study& study) {
+  tell(study, "rate");
+  const std::array<Case, 3> cases = cases_of(study);
+  Section section{"rate", "Section 3.1: 5000 N/m at 100 Hz, the paper's and ours", "", {}, {}};
+  section.text = fmt::format(
+      "The lever meets the wall at {:g} m/s and is pushed with {:g} N, bare and by a gripping hand: the paper's wall "
+      "(presets/paper.toml, a study), the preset, and the preset at {:g} Hz with the stiffness that is then admitted. "
+      "The "
+      "growth per cycle is measured in the same simulation, from a tiny disturbance in the pressed wall, "
+      "beside "
+      "the spectral radius that the library predicts; above 1 it is unstable.",
+      kSpeed, kPush, kSlow);
+  TrialTable table;
+  for (const NamedHand& named : {NamedHand{"bare", kBareHand}, NamedHand{"grip", kGripHand}}) {
+    for (const Case& one : cases) {
+      const Result result = examine(study, one, named.hand);
+      add_columns(table, one, result, named.name.data());
+      const bool is_paper = &one == &cases.front();
+      section.findings.push_back(
+          {is_paper ? "Section 3.1: \"around 5000 N/m ... the constraint for the passivity condition, "
+                      "specified in Eq. (21), is violated\""
+                    : "(ours)",
+           fmt::format("{}: {}", named.name, words(one, result)), radii(result)});
+    }
+  }
+  table.write(study, "rate");
+  draw(study,
+       {"rate", 1100, 520,
+        fmt::format("set multiplot layout 1,2 margins 0.07, 0.98, 0.12, 0.82 spacing 0.09\nset xlabel \"time [s]\"\n"
+                    "set ylabel \"position, the wall at 0 [mm]\"\nset key at screen 0.5, 0.98 center top horizontal\n"
+                    "{}unset key\n{}unset multiplot\n",
+                    panel(cases, "bare", "pushed without a hand's impedance"), panel(cases, "grip", "gripping hand"))});
+  section.pictures = {
+      {"rate",
+       "20 N into the wall: the paper's bounces at 100 Hz, ours rests at its rate; at 100 Hz ours is as soft "
+       "as it must be to rest."}};
+  return section;
+}
+
+}  // namespace gearshift

@@ -1,0 +1,145 @@
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "app/reproduce/identified_axes.h"
+#include "app/reproduce/section.h"
+#include "app/reproduce/study_files.h"
+#include "haptics/joystick/kinematics.h"
+
+namespace gearshift {
+namespace {
+
+// One axis driven by more than its motor can give, to its stop and until the motor is hot.
+struct DrivenAxis {
+  double angle = 0.0;       // [rad] of the stop, as the encoder reads it
+  double peak = 0.0;        // [N] along the arc
+  double continuous = 0.0;  // [N] what is left in the end
+};
+
+DrivenAxis drive_to_stop(const Study& study, glm::dvec2 direction) {
+  SimulatedLeverConfig config = study.preset.lever;
+  config.hand = kBareHand;
+  RestingHand nobody;
+  SimulatedLever lever(config, period_ns(study.preset.haptics), nobody);
+  const double duration = 2.0 * config.actuator.overload_time + 1.0;
+  const auto cycles = static_cast<std::int64_t>(duration / period_s(study.preset.haptics));
+  DrivenAxis driven;
+  for (std::int64_t i = 0; i <= cycles; ++i) {
+    const LeverReading reading = lever.read(i * period_ns(study.preset.haptics));
+    const JointAngles q = joint_angles_from_plane(config.yoke, reading.position);
+    const JointTorques torque = joint_torques_from_plane(config.yoke, q, reading.actuator_force);
+    driven.angle = direction.x > 0.0 ? q.theta : -q.phi;
+    driven.continuous = (direction.x > 0.0 ? torque.theta : -torque.phi) / config.yoke.radius;
+    driven.peak = std::max(driven.peak, driven.continuous);
+    lever.write(1e3 * direction);
+  }
+  return driven;
+}
+
+struct DeviceMeasured {
+  DrivenAxis select, shift;
+  double counts_per_deg = 0.0;
+  double bandwidth_x = 0.0, bandwidth_y = 0.0;  // [Hz]
+};
+
+DeviceMeasured measure(const Study& study) {
+  tell(study, "to the stops");
+  const auto [x, y] = identify_axes(study);
+  return {drive_to_stop(study, {1.0, 0.0}), drive_to_stop(study, {0.0, 1.0}), device_row(study.device).counts_per_deg,
+          bandwidth(x.fit.model), bandwidth(y.fit.model)};
+}
+
+double both_sides_deg(const DrivenAxis& axis) {
+  return 2.0 * axis.angle * 180.0 / std::numbers::pi;
+}
+
+Table table_2(const Study& study, const DeviceMeasured& ours) {
+  const double step = study.device.position_step;
+  return {
+      "table_2",
+      "Table 2 with the row of this device, which is simulated: a dash stands where only hardware has an answer.",
+      {{"Item", "Developed (printed)", "SideWinder (printed)", "Immersion Engine 2000 (printed)", "Here, measured"},
+       {"Range about X", "70 ~ 80 deg", "45 ~ 55 deg", "65 deg",
+        fmt::format("{:.1f} deg, moves the tip along shift", both_sides_deg(ours.shift))},
+       {"Range about Y", "80 ~ 90 deg", "35 ~ 50 deg", "65 deg",
+        fmt::format("{:.1f} deg, moves the tip along select", both_sides_deg(ours.select))},
+       {"Height (L3)", "29 cm", "18 ~ 30 cm", "28 cm", "-"},
+       {"Handle (L3-L1)", "16 cm", "13 ~ 20 cm", "18.5 cm", "-"},
+       {"Swing (R)", "22 cm", "10 ~ 16 cm", "18 cm",
+        fmt::format("{:.1f} cm along select, {:.1f} cm along shift (arcs of the tip)",
+                    200.0 * study.preset.lever.yoke.radius * ours.select.angle,
+                    200.0 * study.preset.lever.yoke.radius * ours.shift.angle)},
+       {"Output torque", "10.83 Nm", "small", "8.9 Nm",
+        fmt::format("{:.2f} N at the tip for ever, {:.1f} N at its peak", ours.select.continuous, ours.select.peak)},
+       {"Precision", "2250/80 counts/deg", "low", "1100/65 counts/deg",
+        fmt::format("{:.3f} counts/deg, {:.1f} um at the tip", ours.counts_per_deg, 1e6 * step)},
+       {"Bandwidth", "100 Hz", "low", "120 Hz",
+        fmt::format("{:.2f} Hz in X, {:.2f} Hz in Y: -3 dB of the gain at rest", ours.bandwidth_x, ours.bandwidth_y)},
+       {"Interface", "PCI", "USB, game port", "PCI", "-"},
+       {"Control", "PC", "µ-processor", "PC", "PC"},
+       {"Price", "2000 US", "100 US", "5000 US", "-"}}};
+}
+
+void write_table(const Study& study, const Table& table) {
+  CsvFile csv(study, table.name, "item,developed_printed,sidewinder_printed,immersion_printed,here_measured");
+  for (std::size_t i = 1; i < table.rows.size(); ++i)
+    csv.line(fmt::format("\"{}\"", fmt::join(table.rows[i], "\",\"")));
+  csv.finish();
+}
+
+Finding force_finding(const Study& study, const DeviceMeasured& ours) {
+  const double radius = study.preset.lever.yoke.radius;
+  return {"Table 2: output torque 10.83 Nm",
+          fmt::format("{:.2f} N at the tip for ever: {:.2f} N m over {:g} m; {:.1f} N at its peak",
+                      ours.select.continuous, ours.select.continuous * radius, radius, ours.select.peak),
+          fmt::format("{}, but it is a force in N and not a torque: a wall of {:g} N/m saturates {:.1f} mm deep, "
+                      "{:.1f} mm at the peak",
+                      relative(ours.select.continuous, 10.83), study.admitted.tuning.wall_stiffness,
+                      1e3 * ours.select.continuous / study.admitted.tuning.wall_stiffness,
+                      1e3 * ours.select.peak / study.admitted.tuning.wall_stiffness)};
+}
+
+Finding precision_finding(const Study& study, const DeviceMeasured& ours) {
+  const double step = study.device.position_step, encoder = 4.0 * 2500.0 / 360.0;
+  return {"Table 2: precision 2250/80 counts/deg",
+          fmt::format("{:.3f} counts/deg: {:.1f} um at the tip, {:.2f} N per count at {:g} N/m", ours.counts_per_deg,
+                      1e6 * step, study.admitted.tuning.wall_stiffness * step, study.admitted.tuning.wall_stiffness),
+          fmt::format("{}; section 2.2's encoder of 2500 lines would give {:.2f} counts/deg, {}",
+                      relative(ours.counts_per_deg, 2250.0 / 80.0), encoder, relative(encoder, 2250.0 / 80.0))};
+}
+
+Finding bandwidth_finding(const DeviceMeasured& ours) {
+  return {"Table 2: bandwidth 100 Hz",
+          fmt::format("{:.2f} Hz in X, {:.2f} Hz in Y, -3 dB of the gain at rest", ours.bandwidth_x, ours.bandwidth_y),
+          "unverified: see the identification. Of drive and motor alone it may be true"};
+}
+
+Finding range_finding(const DeviceMeasured& ours) {
+  const double about_x = both_sides_deg(ours.shift), about_y = both_sides_deg(ours.select);
+  return {"Table 2: range 70 ~ 80 deg about X, 80 ~ 90 deg about Y",
+          fmt::format("driven to the stops: {:.1f} deg and {:.1f} deg", about_x, about_y),
+          fmt::format("against section 2.1's 70 and 80 deg: {} and {}, the lower ends of Table 2",
+                      relative(about_x, 70.0), relative(about_y, 80.0))};
+}
+
+}  // namespace
+
+Section table_section(const Study& study) {
+  const DeviceMeasured ours = measure(study);
+  Table table = table_2(study, ours);
+  write_table(study, table);
+  return {"table",
+          "Table 2: the device beside others",
+          "Range and forces are read from the preset's lever while each motor is asked for more than it can give, to "
+          "the stop and until it is hot; the bandwidth is that of the identified m, b and k.",
+          {force_finding(study, ours), precision_finding(study, ours), bandwidth_finding(ours), range_finding(ours)},
+          {},
+          std::move(table)};
+}
+
+}  // namespace gearshift

@@ -1,0 +1,299 @@
+#include "haptics/analysis/frequency_sweep.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <stdexcept>
+
+#include <glm/geometric.hpp>
+
+#include "haptics/device/checked.h"
+#include "haptics/joystick/finite.h"
+#include "haptics/joystick/plane_pose.h"
+
+namespace gearshift {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double kTau = 2.0 * std::numbers::pi;
+constexpr double kShortestWindow = 1.0;   // [s]
+constexpr double kShortestRamp = 0.3;     // [s]
+constexpr int kMostWindows = 60;          // until a response counts as never settled
+constexpr double kAgreement = 1e-3;       // [1] between two windows, where their noise is smaller
+constexpr double kLeastDeviation = 1e-6;  // [1] of a response: no device is better
+constexpr double kNearStop = 0.9;         // [1] of the way to the stop: motors off
+constexpr double kTooFar = 1.15;          // [1] of the stroke asked for: amplitude back
+constexpr double kStaleTime = 0.020;      // [s]
+
+int axis_index(LeverAxis axis) {
+  return axis == LeverAxis::x ? 0 : 1;
+}
+
+const SweepConfig& checked(const SweepConfig& config, const DeviceSpec& spec, int axis, double period) {
+  require_between("FrequencySweep: period", period, 1e-5, 0.02, "s");
+  require_between("FrequencySweep: highest", config.highest, 0.01, 0.4 / period, "Hz");
+  require_between("FrequencySweep: lowest", config.lowest, 0.01, config.highest, "Hz");
+  require_between("FrequencySweep: points", config.points, 1, 200);
+  require_between("FrequencySweep: force_share", config.force_share, 0.001, 1.0);
+  require_between("FrequencySweep: stroke_share", config.stroke_share, 0.05, 0.7);
+  require_between("FrequencySweep: max_force of the device", spec.max_force[axis], 1e-3, 1e4, "N");
+  require_between("FrequencySweep: workspace of the device", spec.workspace[axis], 1e-4, 10.0, "m");
+  require_between("FrequencySweep: delay of the device", spec.delay, 0, 15, "cycles");
+  if (config.literal && !spec.simulated) {
+    throw std::invalid_argument("FrequencySweep: literal drives the lever to its stop: simulated devices only");
+  }
+  return config;
+}
+
+double stop_on_arc(const DeviceSpec& spec, int axis) {
+  const double radius = spec.yoke_radius, reach = spec.workspace[axis];
+  return radius > 0.0 ? radius * std::asin(std::min(1.0, reach / radius)) : reach;
+}
+
+// Fundamental of a sampled sinusoid that is held from sample to sample.
+Complex hold(double omega, double period) {
+  const Complex jwt{0.0, omega * period};
+  return (1.0 - std::exp(-jwt)) / jwt;
+}
+
+// What rounding to an encoder does to a sinusoid's amplitude, one standard deviation: its harmonics fall back on the
+// fundamental with the Bessel function J1(2 pi A / q) at a phase that nobody knows.
+double rounding_deviation(double amplitude, double quantum) {
+  return amplitude > 0.0 ? 0.1 * quantum * std::sqrt(quantum / amplitude) : 0.0;
+}
+
+}  // namespace
+
+double FrequencySweep::Envelope::at(double time) const noexcept {
+  const double s = std::clamp((time - start) / length, 0.0, 1.0);
+  return from + (to - from) * (0.5 - 0.5 * std::cos(std::numbers::pi * s));
+}
+
+FrequencySweep::FrequencySweep(const SweepConfig& config, HapticDevice& device, LeverAxis axis, double period)
+    : config_(checked(config, device.spec(), axis_index(axis), period)),
+      device_(device),
+      axis_(axis_index(axis)),
+      period_(period),
+      stop_(stop_on_arc(device.spec(), axis_)),
+      greatest_(config.force_share * device.spec().max_force[axis_]) {
+  const double ratio = config.lowest / config.highest;
+  for (int i = 0; i < config.points; ++i) {
+    const double share = config.points > 1 ? i / (config.points - 1.0) : 0.0;
+    tones_.push_back(make_tone(config.highest * std::pow(ratio, share), period));
+  }
+  response_.axis = axis;
+  response_.period = period;
+  response_.points.reserve(tones_.size());
+}
+
+FrequencySweep::Tone FrequencySweep::make_tone(double frequency, double period) {
+  const int periods = std::max(2, static_cast<int>(std::ceil(frequency * kShortestWindow)));
+  int samples = static_cast<int>(std::lround(periods / (frequency * period)));
+  while (std::gcd(samples, periods) != 1) ++samples;
+  return {periods / (samples * period), samples};
+}
+
+double FrequencySweep::progress() const noexcept {
+  const auto seconds = [this](std::size_t tones) {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < tones; ++i) sum += 2.0 * tones_[i].samples * period_ + 3.0 / tones_[i].frequency;
+    return sum;
+  };
+  return done_ ? 1.0 : seconds(current_) / seconds(tones_.size());
+}
+
+bool FrequencySweep::step(std::int64_t now_ns) noexcept {
+  if (done_) return false;
+  const LeverReading reading = device_.read(now_ns);
+  if (!take(reading)) return !done_;
+  const ArcSample here = locate(reading.position);
+  watch_stroke(here.position);
+  if (done_) return false;
+  drive(here);
+  measure(here, reading);
+  return !done_;
+}
+
+// Whether there is a new sample to work with.
+bool FrequencySweep::take(const LeverReading& reading) noexcept {
+  const bool fresh = !started_ || reading.sequence != sequence_;
+  stale_ = fresh ? 0 : stale_ + 1;
+  if (stale_ * period_ > kStaleTime) finish("no fresh reading for 20 ms");
+  if (!fresh) return false;
+  if (!is_finite(reading.position) || !is_finite(reading.hand_force)) {
+    finish("a reading is not a number");
+    return false;
+  }
+  sequence_ = reading.sequence;
+  if (!started_) origin_ns_ = reading.time_ns;
+  time_ = 1e-9 * static_cast<double>(reading.time_ns - origin_ns_);
+  if (!started_) next_tone();
+  started_ = true;
+  return true;
+}
+
+FrequencySweep::ArcSample FrequencySweep::locate(glm::dvec2 plane) const noexcept {
+  glm::dvec2 unit{0.0};
+  unit[axis_] = 1.0;
+  const double radius = device_.spec().yoke_radius;
+  if (radius <= 0.0) return {plane[axis_], unit, unit};
+  const double z = std::sqrt(std::max(1e-6 * radius * radius, radius * radius - glm::dot(plane, plane)));
+  const PlanePose pose = plane_pose(plane.x / z, -plane.y / z);
+  const glm::dvec2 arc = radius * glm::dvec2(std::atan(pose.a), -std::atan(pose.b));
+  const glm::dvec2 back{arc_force(pose, {1.0, 0.0})[axis_], arc_force(pose, {0.0, 1.0})[axis_]};
+  return {arc[axis_], plane_force(pose, unit), back};
+}
+
+void FrequencySweep::watch_stroke(double position) noexcept {
+  const double place = std::abs(position);
+  if (config_.literal) {
+    if (place >= stop_ - device_.spec().position_step && stage_ != Stage::fade) {
+      keep({tones_[current_].frequency, greatest_}, PointEnd::hit_stop);
+    }
+    return;
+  }
+  if (place > kNearStop * stop_) {
+    finish("the lever came near its stop");
+  } else if (place > kTooFar * config_.stroke_share * stop_ && !going_down()) {
+    eased_ = true;
+    swell_to(0.5 * envelope_.at(time_));
+  }
+}
+
+bool FrequencySweep::going_down() const noexcept {
+  return stage_ == Stage::fade || (stage_ == Stage::swell && envelope_.to < envelope_.from);
+}
+
+// Along one arc only: the force in the plane that does no work on the other.
+void FrequencySweep::drive(const ArcSample& here) noexcept {
+  const double phase = kTau * tones_[current_].frequency * (time_ - tone_start_);
+  const glm::dvec2 force = envelope_.at(time_) * std::sin(phase) * here.plane_per_arc;
+  device_.write(force);
+  sent_[++samples_ % sent_.size()] = force;
+}
+
+// From here to the next sample acts what was sent `delay` samples ago, at the pose of now.
+void FrequencySweep::measure(const ArcSample& here, const LeverReading& reading) noexcept {
+  if (stage_ == Stage::window) {
+    const DeviceSpec& spec = device_.spec();
+    const std::uint64_t due = samples_ + sent_.size() - static_cast<std::uint64_t>(spec.delay);
+    const double held = glm::dot(here.arc_per_plane, sent_[due % sent_.size()]);
+    const double hand = spec.measures_hand_force ? glm::dot(here.arc_per_plane, reading.hand_force) : 0.0;
+    fit_.add(time_, {here.position, held, hand});
+    if (fit_.samples() == tones_[current_].samples) end_window();
+  } else if (time_ >= envelope_.start + envelope_.length) {
+    if (stage_ == Stage::swell) {
+      begin_window();
+    } else if (++current_ < tones_.size()) {
+      next_tone();
+    } else {
+      finish({});
+    }
+  }
+}
+
+void FrequencySweep::end_window() noexcept {
+  FrequencyPoint window = evaluate();
+  const double apart = std::abs(window.response / last_window_.response - 1.0);
+  const double noise = 3.0 * std::hypot(window.deviation, last_window_.deviation);
+  const bool agrees = windows_ > 0 && apart <= std::max(kAgreement, noise);
+  last_window_ = window;
+  window.deviation = std::max({window.deviation, 0.5 * apart, kLeastDeviation});
+  if (agrees) {
+    keep(window, PointEnd::measured);
+  } else if (++windows_ == kMostWindows) {
+    keep(window, PointEnd::never_settled);
+  } else {
+    begin_window();
+  }
+}
+
+FrequencyPoint FrequencySweep::evaluate() const noexcept {
+  const double frequency = tones_[current_].frequency;
+  const auto position = fit_.phasor(0), sent = fit_.phasor(1), hand = fit_.phasor(2);
+  const Complex held = hold(kTau * frequency, period_) * sent.value;
+  const Complex force = held + hand.value;  // eq (4)
+  const double size = std::abs(position.value);
+  const double rounding = rounding_deviation(size, device_.spec().position_step);
+  FrequencyPoint point;
+  point.frequency = frequency;
+  point.amplitude = std::abs(sent.value);
+  point.bounded_by_stroke = eased_ || envelope_.to < greatest_;
+  point.response = position.value / force;
+  point.deviation = std::hypot(position.deviation / size, rounding / size, hand.deviation / std::abs(force));
+  point.held = held / force;
+  return point;
+}
+
+void FrequencySweep::keep(FrequencyPoint point, PointEnd end) noexcept {
+  point.end = end;
+  response_.points.push_back(point);
+  fade();
+}
+
+void FrequencySweep::next_tone() noexcept {
+  const double omega = kTau * tones_[current_].frequency;
+  tone_start_ = time_;
+  eased_ = false;
+  envelope_ = {};
+  swell_to(config_.literal ? greatest_ : std::min(greatest_, amplitude_for_stroke(omega)));
+}
+
+// Force whose answer is the stroke asked for. The two frequencies above this one foretell it: 1/G = k - m w^2 + j b w
+// has three unknowns. Above all resonances the answer grows with the square of the period.
+double FrequencySweep::amplitude_for_stroke(double omega) const noexcept {
+  const double stroke = config_.stroke_share * stop_;
+  const std::size_t known = response_.points.size();
+  if (known == 0) return greatest_;
+  const FrequencyPoint& near = response_.points[known - 1];
+  const double w1 = kTau * near.frequency;
+  const Complex z1 = 1.0 / near.response;
+  if (known == 1) return stroke * std::abs(z1) * omega * omega / (w1 * w1);
+  const FrequencyPoint& far = response_.points[known - 2];
+  const double w0 = kTau * far.frequency;
+  const double mass = (z1.real() - (1.0 / far.response).real()) / (w0 * w0 - w1 * w1);
+  const double spring = z1.real() + mass * w1 * w1;
+  return stroke * std::abs(Complex(spring - mass * omega * omega, z1.imag() * omega / w1));
+}
+
+void FrequencySweep::swell_to(double amplitude) noexcept {
+  stage_ = Stage::swell;
+  windows_ = 0;
+  envelope_ = {envelope_.length > 0.0 ? envelope_.at(time_) : 0.0, amplitude, time_,
+               std::max(kShortestRamp, 2.0 / tones_[current_].frequency)};
+}
+
+void FrequencySweep::fade() noexcept {
+  const bool at_stop = response_.points.back().end == PointEnd::hit_stop;
+  stage_ = Stage::fade;
+  envelope_ = {at_stop ? 0.0 : envelope_.at(time_), 0.0, time_,
+               std::max(kShortestRamp, 1.0 / tones_[current_].frequency)};
+}
+
+void FrequencySweep::begin_window() noexcept {
+  const Tone& tone = tones_[current_];
+  stage_ = Stage::window;
+  fit_.begin(kTau * tone.frequency, time_, tone.samples * period_);
+}
+
+void FrequencySweep::finish(std::string_view problem) noexcept {
+  device_.release();
+  response_.problem = problem;
+  done_ = true;
+}
+
+FrequencyResponse sweep_frequencies(const SweepConfig& config, HapticDevice& device, LeverAxis axis, double period,
+                                    std::int64_t& now_ns, const SweepProgress& progress) {
+  constexpr int kStepsPerReport = 4096;
+  const std::int64_t period_ns = std::llround(1e9 * period);
+  FrequencySweep sweep(config, device, axis, period);
+  for (int n = 0; sweep.step(now_ns); now_ns += period_ns) {
+    if (progress && ++n % kStepsPerReport == 0) progress(sweep.progress());
+  }
+  now_ns += period_ns;
+  return sweep.response();
+}
+
+}  // namespace gearshift

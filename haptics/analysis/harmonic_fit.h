@@ -1,0 +1,36 @@
+// Amplitude and phase of sampled signals at one known frequency, by least squares of cos, sin, 1 and t.
+#pragma once
+
+#include <complex>
+
+#include <glm/mat3x4.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec3.hpp>
+
+namespace gearshift {
+
+// Three signals at once, in constant memory; the sampling need not be even. Real-time safe.
+class HarmonicFit {
+ public:
+  // omega [rad/s]; the window starts at `start` [s] and is about `length` [s] long, a whole number of periods.
+  void begin(double omega, double start, double length) noexcept;
+  void add(double time, glm::dvec3 values) noexcept;  // [s], in any unit
+  int samples() const noexcept { return samples_; }
+
+  // Signal i is Re(phasor exp(j omega t)), t from the window's start, plus an offset and a drift.
+  // deviation: standard deviation of the phasor's real and of its imaginary part, from what the fit leaves.
+  struct Phasor {
+    std::complex<double> value;
+    double deviation = 0.0;
+  };
+  Phasor phasor(int i) const noexcept;  // after at least 5 samples
+
+ private:
+  double omega_ = 0.0, start_ = 0.0, length_ = 1.0;
+  int samples_ = 0;
+  glm::dmat4 normal_{0.0};       // sum of basis basis^T
+  glm::dmat3x4 projected_{0.0};  // sum of basis values^T
+  glm::dvec3 squares_{0.0};      // sum of values^2
+};
+
+}  // namespace gearshift

@@ -1,0 +1,174 @@
+#include "haptics/analysis/identification.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec3.hpp>
+
+namespace gearshift {
+namespace {
+
+using Complex = std::complex<double>;
+
+constexpr double kTau = 2.0 * std::numbers::pi;
+
+AxisModel model_of(glm::dvec3 p) {
+  return {p[0], p[1], p[2]};
+}
+
+std::vector<FrequencyPoint> measured_points(const FrequencyResponse& response) {
+  std::vector<FrequencyPoint> points;
+  std::copy_if(response.points.begin(), response.points.end(), std::back_inserter(points),
+               [](const FrequencyPoint& point) { return point.end == PointEnd::measured; });
+  if (points.size() < 3) {
+    throw std::invalid_argument("fit_axis: " + std::to_string(points.size()) +
+                                " measured points, at least 3 are needed for mass, damping and stiffness");
+  }
+  return points;
+}
+
+// Position at the samples per force held between them, over what a force that is not held would do: the step's own
+// transfer function C (z - A)^-1 B, with the fundamental of the hold taken out.
+Complex held_compliance(const AxisModel& axis, double frequency, double period) {
+  const AxisStepper stepper(axis, period);
+  const AxisState of_x = stepper.step({1.0, 0.0}, 0.0), of_v = stepper.step({0.0, 1.0}, 0.0);
+  const AxisState of_f = stepper.step({}, 1.0);
+  const Complex jwt{0.0, kTau * frequency * period}, z = std::exp(jwt);
+  const Complex sampled = ((z - of_v.velocity) * of_f.position + of_v.position * of_f.velocity) /
+                          ((z - of_x.position) * (z - of_v.velocity) - of_v.position * of_x.velocity);
+  return sampled * jwt / (1.0 - 1.0 / z);
+}
+
+// What the experiment would report of this axis.
+Complex expected_response(const AxisModel& axis, const FrequencyPoint& point, double period) {
+  const Complex held = held_compliance(axis, point.frequency, period);
+  return point.held * held + (1.0 - point.held) * compliance(axis, point.frequency);
+}
+
+// First guess, the hold's ripple left out: real and imaginary part of 1/G are linear in (k, m) and in b.
+glm::dvec3 linear_fit(const std::vector<FrequencyPoint>& points) {
+  double s1 = 0.0, sw = 0.0, sww = 0.0, sz = 0.0, szw = 0.0, b_top = 0.0, b_bottom = 0.0;
+  for (const FrequencyPoint& point : points) {
+    const Complex z = 1.0 / point.response;
+    const double weight = 1.0 / std::norm(z * point.deviation), w = kTau * point.frequency, w2 = w * w;
+    s1 += weight, sw += weight * w2, sww += weight * w2 * w2;
+    sz += weight * z.real(), szw += weight * z.real() * w2;
+    b_top += weight * w * z.imag(), b_bottom += weight * w2;
+  }
+  const double mass = (sz * sw - szw * s1) / (s1 * sww - sw * sw);
+  return {mass, b_top / b_bottom, (sz + mass * sw) / s1};
+}
+
+// Sum over all points of r^2, gradient^T r and gradient^T gradient, of the residuals in standard deviations.
+struct NormalEquations {
+  glm::dmat3 matrix{0.0};
+  glm::dvec3 slope{0.0};
+  double squares = 0.0;
+
+  void add(double residual, glm::dvec3 gradient) {
+    matrix += glm::outerProduct(gradient, gradient);
+    slope += gradient * residual;
+    squares += residual * residual;
+  }
+};
+
+NormalEquations normal_equations(const std::vector<FrequencyPoint>& points, glm::dvec3 p, double period) {
+  NormalEquations sum;
+  for (const FrequencyPoint& point : points) {
+    const auto residual = [&](glm::dvec3 at) {
+      return (expected_response(model_of(at), point, period) / point.response - 1.0) / point.deviation;
+    };
+    const Complex here = residual(p);
+    glm::dvec3 real{0.0}, imaginary{0.0};
+    for (int i = 0; i < 3; ++i) {
+      glm::dvec3 beside = p;
+      const double step = 1e-6 * std::max(std::abs(p[i]), 1e-6);
+      beside[i] += step;
+      const Complex slope = (residual(beside) - here) / step;
+      real[i] = slope.real(), imaginary[i] = slope.imag();
+    }
+    sum.add(here.real(), real);
+    sum.add(here.imag(), imaginary);
+  }
+  return sum;
+}
+
+bool has_mass(glm::dvec3 p) {
+  return p[0] > 0.0 && std::isfinite(p[0] + p[1] + p[2]);
+}
+
+}  // namespace
+
+Complex compliance(const AxisModel& axis, double frequency) noexcept {
+  const double w = kTau * frequency;
+  return 1.0 / Complex(axis.stiffness - axis.mass * w * w, axis.damping * w);
+}
+
+AxisFit fit_axis(const FrequencyResponse& response) {
+  constexpr int kMostRounds = 30;
+  constexpr double kDone = 1e-10;  // [1] of each number
+  const std::vector<FrequencyPoint> points = measured_points(response);
+  glm::dvec3 p = linear_fit(points);
+  NormalEquations sum;
+  double change = 1.0;
+  for (int round = 0; round < kMostRounds && change > kDone && has_mass(p); ++round) {
+    sum = normal_equations(points, p, response.period);
+    const glm::dvec3 step = glm::inverse(sum.matrix) * sum.slope;
+    p -= step;
+    change = std::max({std::abs(step[0] / p[0]), std::abs(step[1] / p[1]), std::abs(step[2] / p[2])});
+  }
+  if (!has_mass(p)) throw std::invalid_argument("fit_axis: no axis of positive mass answers like this");
+
+  const double freedom = 2.0 * static_cast<double>(points.size()) - 3.0;
+  const double misfit = std::sqrt(sum.squares / freedom);
+  const glm::dmat3 covariance = glm::inverse(sum.matrix);
+  glm::dvec3 deviation;
+  for (int i = 0; i < 3; ++i) deviation[i] = std::max(1.0, misfit) * std::sqrt(covariance[i][i]);
+  return {model_of(p), model_of(deviation), misfit, static_cast<int>(points.size())};
+}
+
+// |1/G|^2 = m^2 w^4 + (b^2 - 2 m k) w^2 + k^2, a parabola in w^2.
+double frequency_at_gain(const AxisModel& axis, double gain) noexcept {
+  const double m = axis.mass, b = axis.damping, k = axis.stiffness;
+  const double middle = b * b - 2.0 * m * k, rest = k * k - 1.0 / (gain * gain);
+  const double root = middle * middle - 4.0 * m * m * rest;
+  if (root < 0.0) return 0.0;
+  const double w2 = (std::sqrt(root) - middle) / (2.0 * m * m);
+  return w2 > 0.0 ? std::sqrt(w2) / kTau : 0.0;
+}
+
+double bandwidth(const AxisModel& axis) noexcept {
+  return axis.stiffness > 0.0 ? frequency_at_gain(axis, 1.0 / (std::numbers::sqrt2 * axis.stiffness)) : 0.0;
+}
+
+double damping_ratio(const AxisModel& axis) noexcept {
+  return axis.damping / (2.0 * std::sqrt(axis.mass * axis.stiffness));
+}
+
+std::array<Complex, 2> poles(const AxisModel& axis) noexcept {
+  const double a = 0.5 * axis.damping / axis.mass;
+  const Complex root = std::sqrt(Complex(a * a - axis.stiffness / axis.mass));
+  return {-a + root, -a - root};
+}
+
+DeviceRow device_row(const DeviceSpec& spec) noexcept {
+  constexpr double kDegree = std::numbers::pi / 180.0;
+  DeviceRow row;
+  row.continuous_force = std::min(spec.continuous_force.x, spec.continuous_force.y);
+  row.step = spec.position_step;
+  if (spec.yoke_radius <= 0.0) return row;
+  for (int i = 0; i < 2; ++i) {
+    row.range_deg[i] = 2.0 * std::asin(std::min(1.0, spec.workspace[i] / spec.yoke_radius)) / kDegree;
+  }
+  if (spec.position_step > 0.0) row.counts_per_deg = spec.yoke_radius * kDegree / spec.position_step;
+  return row;
+}
+
+}  // namespace gearshift

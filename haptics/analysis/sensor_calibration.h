@@ -1,0 +1,48 @@
+// Calibration of the force sensor with weights, as its own step.
+//
+// This work is based on:
+// Wei-Ching Lin, Kuu-Young Young. Design of Force-Reflection Joystick System for VR-Based Simulation.
+// Section 2.3: no load and six standard weights in eight directions of the x-y plane; eq (7).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "haptics/joystick/force_sensor.h"
+
+namespace gearshift {
+
+inline constexpr std::array<double, 7> kCalibrationWeights{0, 100, 200, 300, 500, 750, 1000};  // [gw]
+inline constexpr int kCalibrationDirections = 8;                                               // 45 deg apart
+
+struct Weighing {
+  double weight = 0.0;      // [gw]
+  int direction = 0;        // 0 to 7, times 45 deg from +x towards +y
+  glm::dvec2 reading{0.0};  // [raw] f_s of both axes
+};
+
+// All weights in all directions on two simulated sensors, each reading the mean of `samples` (1 to 100000).
+// Throws std::invalid_argument.
+std::vector<Weighing> weigh(const ForceSensorModel& x, const ForceSensorModel& y, int samples, std::uint64_t seed);
+
+// f_s = offset + gain f_e of one axis, the inverse of eq (7), by least squares.
+struct SensorLine {
+  double offset = 0.0, offset_deviation = 0.0;  // [raw] with its standard uncertainty
+  double gain = 0.0, gain_deviation = 0.0;      // [raw/gw]
+  double nonlinearity = 0.0;                    // [gw] the farthest reading from the line
+};
+
+struct SensorCalibration {
+  SensorLine x, y;
+  double direction_spread = 0.0;  // [1] the largest difference of a direction's own gain from 1, once calibrated
+  double crosswise = 0.0;         // [gw] the largest force read across the weight's direction
+};
+
+// Throws std::invalid_argument where an axis has fewer than three different forces.
+SensorCalibration calibrate_sensor(std::span<const Weighing> weighings);
+
+}  // namespace gearshift

@@ -1,0 +1,101 @@
+#!/usr/bin/env bash
+# Identification as a user runs it: m, b and k of the paper come out of the simulated lever, through noise and delay
+# too, with plots that are pictures; and a lever that is not the paper's is found as it is.
+# Usage: identify.sh GEARSHIFT SOURCE_FOLDER
+set -u
+gearshift=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+passed=0
+failed=0
+
+check() { # what, command ...
+  local what=$1
+  shift
+  if "$@"; then
+    passed=$((passed + 1))
+  else
+    echo "FAILED: $what"
+    failed=$((failed + 1))
+  fi
+}
+
+identify() { # name of the result, arguments ...
+  local name=$1
+  shift
+  "$gearshift" identify "$@" >"$name.txt" 2>"$name.err"
+}
+# Number n that follows "found" in the JSON: mass, damping, stiffness of x, then of y.
+found() { grep -o '"found": [0-9.e-]*' "$1.txt" | sed -n "$2p" | cut -d' ' -f2; }
+near() { # name, n, value, share
+  awk -v a="$(found "$1" "$2")" -v b="$3" -v s="$4" 'BEGIN { exit !(a != "" && a / b < 1 + s && a / b > 1 - s) }'
+}
+far() { ! near "$@"; }
+is_png() { [ "$(head -c 4 "$1" | tail -c 3)" = PNG ]; }
+says() { grep -qF -- "$2" "$1.txt"; }
+
+check "identify" identify plain --out plain
+check "Table 2" says plain "10.83 Nm (1)"
+check "the literal amplitude" says plain "at 1 Hz hits the stop: it would move the lever by 484 mm"
+check "eq (7)" says plain "f_s = 19.04"
+check "no word on stderr where it is no terminal" [ ! -s plain.err ]
+for axis in x y; do
+  check "bode_$axis.png is a picture" is_png plain/bode_$axis.png
+  check "bode_$axis.svg is whole" grep -q "</svg>" plain/bode_$axis.svg
+  check "24 test points" [ "$(wc -l <plain/bode_$axis.csv)" -eq 25 ]
+done
+check "units in the header" grep -q "^frequency_hz,amplitude_n" plain/bode_x.csv
+
+cat >noisy.toml <<'TOML'
+name = "Noise and delay"
+[lever]
+delay_cycles = 2
+[lever.force_sensor]
+noise_gw = 20
+TOML
+cat >other.toml <<'TOML'
+name = "Not the paper's"
+[lever]
+seed = 5
+model_error = 0.3
+[lever.axis_x]
+mass_kg = 0.3
+damping_n_s_per_m = 1
+stiffness_n_per_m = 60
+TOML
+check "a noisy lever" identify noisy --preset noisy.toml --json
+i=0
+for value in 0.095 3.0 14.8 0.086 2.9 15.7; do
+  i=$((i + 1))
+  check "number $i within 2 %" near noisy $i $value 0.02
+done
+check "another seed" identify seed --preset noisy.toml --seed 2 --json
+check "another seed, other noise" [ "$(found seed 1)" != "$(found noisy 1)" ]
+check "the paper's rate" identify slow --preset paper --json
+check "mass at 100 Hz" near slow 1 0.095 0.02
+check "another rate" identify fast --rate 4000 --axis y --json
+check "stiffness at 4 kHz" near fast 3 15.7 0.02
+check "parts that are off" identify other --preset other.toml --axis x --json
+check "are found as they are, not as they are drawn" far other 1 0.3 0.02
+check "inside what they may be off" near other 1 0.3 0.3
+
+# Bad command lines and levers: the stated exit code, one sentence, nothing on stdout.
+refuses() { # exit code, part of the sentence, arguments ...
+  local code=$1 part=$2
+  shift 2
+  "$gearshift" identify "$@" >out 2>err
+  [ $? -eq "$code" ] && [ "$(wc -l <err)" -eq 1 ] && [ ! -s out ] && grep -qF -- "$part" err
+}
+printf 'name = "x"\n[lever]\nmass = 1\n' >unknown.toml
+printf 'name = "x"\n[lever]\npeak_force_n = 0\ncontinuous_force_n = 0\n' >weak.toml
+check "no such axis" refuses 2 "--axis" --axis z
+check "rate out of range" refuses 2 "--rate" --rate 99
+check "a negative seed" refuses 2 "--seed" --seed -1
+check "no such preset" refuses 1 "default, measured, paper" --preset spaceship
+check "an unknown key" refuses 1 "unknown.toml:3: mass is not a known key" --preset unknown.toml
+check "a lever without motors" refuses 1 "max_force of the device = 0" --preset weak.toml
+check "a folder that cannot be" refuses 1 "/proc" --out /proc/nowhere
+
+echo "$passed passed, $failed failed"
+[ $failed -eq 0 ]

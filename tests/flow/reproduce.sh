@@ -1,0 +1,106 @@
+#!/usr/bin/env bash
+# The paper from one command: some sections with their files and their place on the page, the whole page once, what
+# must be refused before a folder is made, and figures that follow the preset: 5 % of mass changes Figs 4, 8 and 9.
+# Usage: reproduce.sh GEARSHIFT SOURCE_FOLDER
+set -u
+gearshift=$1
+presets=$2/assets/presets
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+passed=0
+failed=0
+
+check() { # what, command ...
+  local what=$1
+  shift
+  if "$@"; then
+    passed=$((passed + 1))
+  else
+    echo "FAILED: $what"
+    failed=$((failed + 1))
+  fi
+}
+
+reproduce() { # folder, arguments ...
+  local folder=$1
+  shift
+  "$gearshift" reproduce --out "$folder" "$@" >"$folder.txt" 2>"$folder.err"
+}
+refuses() { # exit code, arguments ...
+  local code=$1
+  shift
+  reproduce refused "$@"
+  [ $? -eq "$code" ] && [ ! -e refused ] && [ "$(wc -l <refused.err)" -eq 1 ]
+}
+is_png() { [ "$(head -c 4 "$1" | tail -c 3)" = PNG ]; }
+is_svg() { grep -q "</svg>" "$1"; }
+differs() { ! cmp -s "whole/$1" "heavier/$1"; }
+has_units() { head -n 1 "$1" | grep -qE '_(mm|deg|n|hz|s|gw|raw|1)(,|$)'; }
+
+# Every picture, link and table that the page names is there; every tag that opens closes.
+page_is_whole() {
+  [ -s "$1/index.html" ] || return 1
+  local link
+  for link in $(grep -oE '(src|href)="[^#"][^"]*"' "$1/index.html" | cut -d '"' -f 2); do
+    [ -s "$1/$link" ] || { echo "$1: no $link"; return 1; }
+  done
+  local tag
+  for tag in section h2 p table tr td th figure figcaption nav ol li a style html body head; do
+    [ "$(grep -oE "<$tag[ >]" "$1/index.html" | wc -l)" -eq "$(grep -o "</$tag>" "$1/index.html" | wc -l)" ] ||
+      { echo "$1: <$tag> does not close"; return 1; }
+  done
+}
+
+check "the whole page" reproduce whole
+check "no word on stderr where nothing is limited" [ ! -s whole.err ]
+check "the page names what is there" page_is_whole whole
+check "thirteen sections" [ "$(grep -c '<section' whole/index.html)" -eq 13 ]
+order_of() { grep -oE '<section id="[a-z_]+' "$1/index.html" | cut -d '"' -f 2 | tr '\n' ' '; }
+check "in the order of the paper" [ "$(order_of whole)" = \
+  "workspace force_map calibration bode table elements deferred_force over_push oscillation rate gate wall tour " ]
+for picture in whole/*.png; do check "$picture is a picture" is_png "$picture"; done
+for picture in whole/*.svg; do check "$picture is whole" is_svg "$picture"; done
+for table in whole/*.csv; do
+  case $table in */table_2.csv) continue ;; esac
+  check "units in the header of $table" has_units "$table"
+done
+
+# The same preset is the same figures; one of another mass is not.
+figures=(bode_x bode_y wall tour)
+check "a part of it" reproduce again --only tour bode wall
+check "of which the page knows no more" [ "$(grep -c '<section' again/index.html)" -eq 3 ]
+for name in "${figures[@]}"; do check "$name again" cmp -s "whole/$name.csv" "again/$name.csv"; done
+sed 's/^mass_kg = 0.095/mass_kg = 0.09975/; s/^mass_kg = 0.086/mass_kg = 0.0903/' "$presets/default.toml" >heavier.toml
+check "a heavier lever" reproduce heavier --preset heavier.toml --only tour bode wall
+for name in "${figures[@]}"; do
+  check "$name of the heavier lever" [ -s "heavier/$name.csv" ]
+  check "5 % of mass changes $name" differs "$name.csv"
+done
+
+sed 's/^name = .*/name = "<b>\&\\""/' "$presets/default.toml" >markup.toml
+check "a name of markup" reproduce markup --preset markup.toml --only table
+check "is only text" grep -qF '&lt;b&gt;&amp;&quot;' markup/index.html
+check "the paper's own wall" reproduce paper --preset paper --only gate
+
+# What one section cannot make does not cost the others.
+sed 's/^coulomb_friction_n = .*/coulomb_friction_n = 20/' "$presets/default.toml" >stuck.toml
+reproduce stuck --preset stuck.toml --only bode gate
+check "a lever that is stuck fails" [ $? -eq 1 ]
+check "and says what" grep -q "^gearshift: bode: " stuck.err
+check "on the page, too" grep -q "Not made" stuck/index.html
+check "the gate is there all the same" [ -s stuck/gate.svg ]
+
+check "no such section" refuses 2 --only nothing
+check "no such preset" refuses 1 --preset nothing
+sed 's/^rate_hz = .*/rate_hz = 1/' "$presets/default.toml" >slow.toml
+check "a rate out of range" refuses 1 --preset slow.toml
+sed 's/^radius_m = .*/radius_m = 0.03/' "$presets/default.toml" >small.toml
+check "a lever that is too small for the gate" refuses 1 --preset small.toml
+touch file
+"$gearshift" reproduce --out file/below --only table >/dev/null 2>err
+check "no folder below a file" [ $? -eq 1 ]
+check "told in one sentence" [ "$(wc -l <err)" -eq 1 ]
+
+echo "$passed passed, $failed failed"
+[ $failed -eq 0 ]

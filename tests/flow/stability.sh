@@ -1,0 +1,103 @@
+#!/usr/bin/env bash
+# What is stable, as a user asks it: the known limits, the map as drawing and table, and every bad question refused.
+# Usage: stability.sh GEARSHIFT SOURCE_FOLDER
+set -u
+gearshift=$1
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+cd "$work" || exit 1
+passed=0
+failed=0
+
+check() { # what, command ...
+  local what=$1
+  shift
+  if "$@"; then
+    passed=$((passed + 1))
+  else
+    echo "FAILED: $what"
+    failed=$((failed + 1))
+  fi
+}
+
+answers() { # arguments ...
+  "$gearshift" stability "$@" >out 2>err
+}
+says() { grep -qF -- "$1" out; }
+value() { grep -m 1 "\"$1\":" out | sed 's/.*: //; s/,$//; s/"//g'; }
+is() { [ "$(value "$1")" = "$2" ]; }
+near() { # key, wanted value, relative tolerance
+  value "$1" | awk -v want="$2" -v part="$3" \
+    '{ off = $1 - want; ok = off <= part * want && -off <= part * want } END { exit !ok }'
+}
+
+refuse() { # exit code, part of the sentence, arguments ...
+  local code=$1 part=$2
+  shift 2
+  "$gearshift" stability "$@" >out 2>err </dev/null
+  local got=$?
+  check "stability $*: exit $got (wanted $code), wanted one line with \"$part\", got: $(cat err out)" \
+    test $got -eq "$code" -a "$(wc -l <err)" -eq 1 -a ! -s out -a -n "$(grep -F -- "$part" err)"
+}
+
+# facts: 6032 N/m exact and 6000 passive at 1 kHz; 217 with one sample of delay at 100 Hz.
+check "1 kHz answers" answers --json
+check "1 kHz: exact" near k_max_n_per_m 6032 0.001
+check "1 kHz: passive" near passive_k_max_n_per_m 6000 1e-9
+check "1 kHz: may be used" is may_use true
+check "1 kHz: passive" is passive true
+check "1 kHz: every input is told" test "$(grep -cE '"(mass_kg|rate_hz|delay_samples|window_samples|hold)"' out)" -ge 5
+answers --rate 100 --delay 1 --json
+check "100 Hz, one late: exact" near k_max_n_per_m 217 0.002
+check "100 Hz, one late: passive" near passive_k_max_n_per_m 200 1e-9
+check "100 Hz, one late: not stable" is stable false
+answers --axis y --rate 100 --json
+check "Y axis: passive 580" near passive_k_max_n_per_m 580 1e-9
+answers --delay 3 --hand grip --wall-damping 40 --json
+check "grip, three late" near k_max_n_per_m 11059 0.0001
+answers --hand all --rate 100 --json
+check "all hands are judged" test "$(grep -c '"name"' out)" -eq 4
+check "the bare one decides" is deciding_hand bare
+answers --mass 1000 --damping 10000 --rate 20000 --wall-damping 1e5 --json
+check "an infinite limit is null" is k_max_n_per_m null
+answers --mass 1000 --damping 10000 --rate 20000 --wall-damping 1e5
+check "and in words" says "any K up to 1e9 N/m"
+answers --hold observer --delay 3 --json
+check "the observed hold: no passive limit is known" is passive_k_max_n_per_m null
+check "the observed hold: 5000 N/m three samples late" is stable true
+answers --window 15 --wall-damping 10
+check "a 15 ms window fails by its damping" says "No: K up to 3465.76 N/m"
+check "passivity is not the last word" says "sufficient"
+
+check "the map is made" answers --hand all --svg map.svg --csv map.csv
+check "the drawing is whole" grep -q "</svg>" map.svg
+check "the drawing names its loop" grep -q "1000 Hz (T = 1 ms), no delay, zero-order hold" map.svg
+check "the table's head" test "$(head -n 1 map.csv)" = "b_n_s_per_m,bare_k_max_n_per_m,light_k_max_n_per_m,\
+grip_k_max_n_per_m,arm_k_max_n_per_m,passive_k_max_n_per_m"
+check "the table begins with the answer" \
+  awk -F, 'NR == 2 { ok = $1 == 0 && int($2) == 6031 && $6 == 6000 } END { exit !ok }' map.csv
+check "the table ends where nothing is stable" awk -F, 'END { exit !($1 > 190 && $2 == 0 && $6 == 0) }' map.csv
+
+refuse 2 "--rate" --rate 49
+refuse 2 "--rate" --rate nan
+refuse 2 "--delay" --delay 9
+refuse 2 "--delay" --delay 1.5
+refuse 2 "--delay" --delay -1
+refuse 2 "--window" --window 0
+refuse 2 "--axis" --axis z
+refuse 2 "--hold" --hold second_order
+refuse 2 "--mass" --mass 0
+refuse 2 "--mass" --mass -1
+refuse 2 "--wall-stiffness" --wall-stiffness inf
+refuse 2 "--wall-damping" --wall-damping -1
+refuse 2 "--hand" --hand fist
+refuse 2 "--hand" --hand 1,2
+refuse 2 "hand.mass = 2000" --hand 2000,1,300
+refuse 2 "extra" extra
+refuse 2 "two files" --svg one --csv one
+refuse 1 "/nowhere/x.svg" --svg /nowhere/x.svg
+refuse 1 "/nowhere/x.csv" --csv /nowhere/x.csv
+check "nothing is left behind by what was refused" test ! -e one
+
+echo "$passed passed, $failed failed"
+[ $failed -eq 0 ]

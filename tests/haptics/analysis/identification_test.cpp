@@ -1,0 +1,455 @@
+// Section 2.4 on simulated levers and on a device of another kind: what the plant is comes out again.
+#include "haptics/analysis/identification.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <numbers>
+#include <random>
+#include <stdexcept>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "haptics/device/simulated_lever.h"
+
+using namespace gearshift;
+
+namespace {
+
+constexpr double kTau = 2.0 * std::numbers::pi;
+
+// Encoder and sensor as they are in the paper, and a sensor noise that it does not name.
+SimulatedLeverConfig noisy_lever(std::uint64_t seed = 1) {
+  SimulatedLeverConfig config;
+  config.force_sensor.noise_gw = 20.0;
+  config.seed = seed;
+  return config;
+}
+
+SimulatedLeverConfig exact_lever() {
+  SimulatedLeverConfig config;
+  config.encoder_counts = 0.0;
+  config.force_sensor.resolution_gw = 0.0;
+  return config;
+}
+
+SweepConfig sweep_at(double rate) {
+  SweepConfig config;
+  config.highest = std::min(65.0, 0.25 * rate);
+  return config;
+}
+
+FrequencyResponse sweep_lever(const SimulatedLeverConfig& config, LeverAxis axis, double rate = 1000.0) {
+  RestingHand nobody;
+  SimulatedLever lever(config, std::llround(1e9 / rate), nobody);
+  std::int64_t now = 0;
+  return sweep_frequencies(sweep_at(rate), lever, axis, 1.0 / rate, now);
+}
+
+AxisFit identify(const SimulatedLeverConfig& config, LeverAxis axis, double rate = 1000.0) {
+  return fit_axis(sweep_lever(config, axis, rate));
+}
+
+std::array<double, 3> numbers_of(const AxisModel& axis) {
+  return {axis.mass, axis.damping, axis.stiffness};
+}
+
+// Of mass, damping and stiffness, in standard uncertainties.
+std::array<double, 3> errors_in_deviations(const AxisFit& fit, const AxisModel& truth) {
+  const auto found = numbers_of(fit.model), real = numbers_of(truth), deviation = numbers_of(fit.deviation);
+  std::array<double, 3> z{};
+  for (std::size_t i = 0; i < 3; ++i) z[i] = (found[i] - real[i]) / deviation[i];
+  return z;
+}
+
+bool within(const AxisFit& fit, const AxisModel& truth, double share) {
+  const auto found = numbers_of(fit.model), real = numbers_of(truth);
+  bool all = true;
+  for (std::size_t i = 0; i < 3; ++i) all = all && std::abs(found[i] / real[i] - 1.0) < share;
+  return all;
+}
+
+void check_good(const AxisFit& fit, const AxisModel& truth) {
+  CAPTURE(fit.model.mass);
+  CAPTURE(fit.model.damping);
+  CAPTURE(fit.model.stiffness);
+  CHECK(within(fit, truth, 0.02));
+  const auto deviation = numbers_of(fit.deviation), real = numbers_of(truth);
+  const auto z = errors_in_deviations(fit, truth);
+  for (std::size_t i = 0; i < 3; ++i) {
+    CAPTURE(z[i]);
+    CHECK(std::abs(z[i]) < 3.5);
+    CHECK(deviation[i] < 0.02 * real[i]);
+  }
+  CHECK(fit.misfit > 0.3);
+  CHECK(fit.misfit < 1.6);
+  CHECK(fit.points == 24);
+}
+
+// Over- and under-damped axes that the paper's motors can drive.
+AxisModel random_plant(std::mt19937_64& engine) {
+  const auto between = [&](double low, double high) {
+    return low * std::pow(high / low, static_cast<double>(engine() >> 11) / 9007199254740992.0);
+  };
+  const double mass = between(0.04, 0.4), stiffness = between(8.0, 120.0);
+  return {mass, 2.0 * between(0.15, 2.2) * std::sqrt(mass * stiffness), stiffness};
+}
+
+// A lever of another make: no yoke, no force sensor, two sleds in the plane. Every fault that a sweep must survive.
+class Sleds final : public HapticDevice {
+ public:
+  Sleds() {
+    spec_.max_force = {6.0, 9.0};
+    spec_.workspace = {0.05, 0.08};
+    spec_.axis_x = kX, spec_.axis_y = kY;
+  }
+  const DeviceSpec& spec() const noexcept override { return spec_; }
+  LeverReading read(std::int64_t now_ns) noexcept override {
+    if (cycles_ > 0) {
+      at_[0] = x_.step(at_[0], force_.x);
+      at_[1] = y_.step(at_[1], force_.y);
+    }
+    if (cycles_ != freeze_at_) ++cycles_;
+    LeverReading reading;
+    reading.sequence = cycles_;
+    reading.time_ns = now_ns;
+    reading.position = {at_[0].position, at_[1].position};
+    if (cycles_ == nan_at_) reading.position.x = std::numeric_limits<double>::quiet_NaN();
+    if (cycles_ >= shove_at_) reading.position.x = 0.0499;
+    farthest_ = std::max(farthest_, std::abs(at_[0].position));
+    return reading;
+  }
+  void write(glm::dvec2 force) noexcept override {
+    force_ = force;
+    strongest_ = std::max(strongest_, std::abs(force.x));
+  }
+  void release() noexcept override {
+    force_ = glm::dvec2(0.0);
+    released_ = true;
+  }
+
+  static constexpr AxisModel kX{0.2, 1.0, 60.0}, kY{0.3, 4.0, 9.0};
+  static constexpr std::uint64_t kNever = ~std::uint64_t{0};
+  std::uint64_t freeze_at_ = kNever, nan_at_ = kNever, shove_at_ = kNever;
+  std::array<AxisState, 2> at_{};
+  double farthest_ = 0.0, strongest_ = 0.0;
+  bool released_ = false;
+  glm::dvec2 force_{0.0};
+  DeviceSpec spec_;
+
+ private:
+  AxisStepper x_{kX, 1e-3}, y_{kY, 1e-3};
+  std::uint64_t cycles_ = 0;
+};
+
+// A response as a perfect experiment without a hold would find it.
+FrequencyResponse ideal_response(const AxisModel& axis) {
+  FrequencyResponse response;
+  response.period = 1e-3;
+  for (double frequency = 65.0; frequency > 0.2; frequency *= 0.8) {
+    FrequencyPoint point;
+    point.frequency = frequency;
+    point.response = compliance(axis, frequency);
+    point.deviation = 0.005;
+    point.held = 0.0;
+    response.points.push_back(point);
+  }
+  return response;
+}
+
+}  // namespace
+
+TEST_CASE("the paper's X and Y come out within 2 % through encoder, sensor resolution and noise, at any delay") {
+  for (const int delay : {0, 2}) {
+    SimulatedLeverConfig config = noisy_lever();
+    config.delay = delay;
+    check_good(identify(config, LeverAxis::x), kPaperAxisX);
+    check_good(identify(config, LeverAxis::y), kPaperAxisY);
+  }
+}
+
+TEST_CASE("five random plants, over- and under-damped, within 2 %") {
+  std::mt19937_64 engine(7);
+  double squares = 0.0;
+  for (std::uint64_t i = 1; i <= 5; ++i) {
+    SimulatedLeverConfig config = noisy_lever(i);
+    config.axis_x = random_plant(engine), config.axis_y = random_plant(engine);
+    for (const LeverAxis axis : {LeverAxis::x, LeverAxis::y}) {
+      const AxisModel& truth = axis == LeverAxis::x ? config.axis_x : config.axis_y;
+      const AxisFit fit = identify(config, axis);
+      check_good(fit, truth);
+      for (const double z : errors_in_deviations(fit, truth)) squares += z * z;
+    }
+  }
+  const double scatter = std::sqrt(squares / 30.0);  // of 30 errors, each in its own stated uncertainty
+  CAPTURE(scatter);
+  CHECK(scatter > 0.5);
+  CHECK(scatter < 1.6);
+}
+
+TEST_CASE("other rates, a long delay, uneven periods") {
+  SimulatedLeverConfig config = noisy_lever();
+  check_good(identify(config, LeverAxis::x, 100.0), kPaperAxisX);
+  check_good(identify(config, LeverAxis::y, 4000.0), kPaperAxisY);
+  config.delay = 8;
+  check_good(identify(config, LeverAxis::x, 250.0), kPaperAxisX);
+  config.delay = 1;
+  config.period_jitter = 0.1;
+  check_good(identify(config, LeverAxis::y), kPaperAxisY);
+}
+
+TEST_CASE("without noise the hold leaves no error, not even at 100 Hz, where a quarter of the rate is swept") {
+  for (const double rate : {100.0, 1000.0}) {
+    const FrequencyResponse response = sweep_lever(exact_lever(), LeverAxis::x, rate);
+    CHECK(within(fit_axis(response), kPaperAxisX, 2e-5));
+    FrequencyResponse unaware = response;  // the same, taken for a force that does not stand still
+    for (FrequencyPoint& point : unaware.points) point.held = 0.0;
+    if (rate < 1000.0) CHECK_FALSE(within(fit_axis(unaware), kPaperAxisX, 2e-5));
+  }
+}
+
+TEST_CASE("parts that are not as drawn: found as they are, not as spec() says") {
+  SimulatedLeverConfig config = noisy_lever(3);
+  config.model_error = 0.2;
+  const AxisFit fit = identify(config, LeverAxis::x);
+  CHECK(within(fit, config.axis_x, 0.21));
+  CHECK_FALSE(within(fit, config.axis_x, 0.02));
+  CHECK(fit.misfit < 1.6);
+}
+
+TEST_CASE("a hand that rests on the lever is in f_h of (4) and changes nothing") {
+  class Leaning final : public HandDriver {
+   public:
+    HandTarget next(double, glm::dvec2) noexcept override {
+      HandTarget target;
+      target.push = {0.3, -0.2};
+      return target;
+    }
+  } leaning;
+  SimulatedLever lever(noisy_lever(), 1'000'000, leaning);
+  std::int64_t now = 0;
+  CHECK(within(fit_axis(sweep_frequencies({}, lever, LeverAxis::x, 1e-3, now)), kPaperAxisX, 0.02));
+}
+
+TEST_CASE("a device without yoke and force sensor, its clock anywhere") {
+  Sleds sleds;
+  std::int64_t now = 123'456'789'012;
+  CHECK(within(fit_axis(sweep_frequencies({}, sleds, LeverAxis::x, 1e-3, now)), Sleds::kX, 1e-4));
+  CHECK(sleds.released_);
+  CHECK(within(fit_axis(sweep_frequencies({}, sleds, LeverAxis::y, 1e-3, now)), Sleds::kY, 1e-4));
+}
+
+TEST_CASE("negative controls: a delay that nobody told, and a gain that is not one") {
+  class Late final : public HapticDevice {  // by two samples, and does not say so
+   public:
+    const DeviceSpec& spec() const noexcept override { return sleds_.spec(); }
+    LeverReading read(std::int64_t now_ns) noexcept override { return sleds_.read(now_ns); }
+    void write(glm::dvec2 force) noexcept override {
+      sleds_.write(queue_[0]);
+      queue_ = {queue_[1], force};
+    }
+    void release() noexcept override { sleds_.release(); }
+
+   private:
+    Sleds sleds_;
+    std::array<glm::dvec2, 2> queue_{};
+  } late;
+  std::int64_t now = 0;
+  CHECK_FALSE(within(fit_axis(sweep_frequencies({}, late, LeverAxis::x, 1e-3, now)), Sleds::kX, 0.02));
+
+  FrequencyResponse response = sweep_lever(noisy_lever(), LeverAxis::x);
+  for (FrequencyPoint& point : response.points) {
+    if (point.frequency > 5.0) point.response *= 1.1;
+  }
+  const AxisFit fit = fit_axis(response);
+  CHECK_FALSE(within(fit, kPaperAxisX, 0.02));
+  CHECK(fit.misfit > 3.0);
+}
+
+TEST_CASE("dry friction does not fit (8), and the misfit says so") {
+  SimulatedLeverConfig config = noisy_lever();
+  config.coulomb_friction = 0.2;
+  const AxisFit fit = identify(config, LeverAxis::x);
+  CHECK(fit.misfit > 5.0);
+  CHECK(fit.deviation.damping > 0.01 * kPaperAxisX.damping);
+}
+
+TEST_CASE("amplitudes: one third of the maximum above some 6.8 Hz, below it what takes 60 % of the stroke") {
+  RestingHand nobody;
+  SimulatedLever lever(noisy_lever(), 1'000'000, nobody);
+  FrequencySweep sweep({}, lever, LeverAxis::x, 1e-3);
+  const double stop = 0.120 * 40.0 * std::numbers::pi / 180.0;
+  double farthest = 0.0, last_progress = 0.0;
+  for (std::int64_t now = 0; sweep.step(now); now += 1'000'000) {
+    const JointAngles q = joint_angles_from_plane({}, lever.true_position());
+    farthest = std::max(farthest, std::abs(0.120 * q.theta));
+    CHECK_FALSE(sweep.progress() < last_progress);
+    last_progress = sweep.progress();
+  }
+  CHECK(sweep.progress() == 1.0);
+  CHECK(farthest > 0.55 * stop);
+  CHECK(farthest < 0.65 * stop);
+  for (const FrequencyPoint& point : sweep.response().points) {
+    CHECK(point.end == PointEnd::measured);
+    CHECK(point.bounded_by_stroke == (point.frequency < 6.8));
+    const double expected = std::min(31.7 / 3.0, 0.6 * stop / std::abs(compliance(kPaperAxisX, point.frequency)));
+    CHECK(point.amplitude == doctest::Approx(expected).epsilon(0.05));
+  }
+  CHECK(sweep.response().points.front().frequency == doctest::Approx(65.0).epsilon(0.01));
+  CHECK(sweep.response().points.back().frequency == doctest::Approx(0.2).epsilon(0.01));
+}
+
+TEST_CASE("the paper's amplitude at 1 Hz, taken literally: the stop") {
+  SweepConfig config;
+  config.highest = config.lowest = 1.0;
+  config.points = 1;
+  config.literal = true;
+  RestingHand nobody;
+  SimulatedLever lever(noisy_lever(), 1'000'000, nobody);
+  std::int64_t now = 0;
+  const FrequencyResponse response = sweep_frequencies(config, lever, LeverAxis::x, 1e-3, now);
+  REQUIRE(response.points.size() == 1);
+  CHECK(response.points[0].end == PointEnd::hit_stop);
+  CHECK(response.points[0].amplitude == doctest::Approx(31.7 / 3.0));
+  CHECK(31.7 / 3.0 * std::abs(compliance(kPaperAxisX, 1.0)) == doctest::Approx(0.484).epsilon(2e-3));
+  CHECK_THROWS_AS(fit_axis(response), std::invalid_argument);
+  config.literal = false;
+  CHECK(sweep_frequencies(config, lever, LeverAxis::x, 1e-3, now).problem == "the lever came near its stop");
+
+  Sleds real;
+  config.literal = true;
+  CHECK_THROWS_AS(FrequencySweep(config, real, LeverAxis::x, 1e-3), std::invalid_argument);
+}
+
+TEST_CASE("a resonance that nothing foretold: the amplitude goes back before the stop comes") {
+  Sleds sleds;
+  sleds.spec_.max_force.x = 2.4;
+  SweepConfig config;
+  config.highest = config.lowest = 2.757;  // sqrt(k / m) of the sled: 14 times the answer at rest
+  config.points = 1;
+  std::int64_t now = 0;
+  const FrequencyResponse response = sweep_frequencies(config, sleds, LeverAxis::x, 1e-3, now);
+  CHECK(response.problem.empty());
+  REQUIRE(response.points.size() == 1);
+  CHECK(response.points[0].bounded_by_stroke);
+  CHECK(sleds.farthest_ < 0.9 * 0.05);
+  const std::complex<double> truth = compliance(Sleds::kX, response.points[0].frequency);
+  CHECK(std::abs(response.points[0].response / truth - 1.0) < 2e-3);
+}
+
+TEST_CASE("readings that stop, are no number or lie near the stop: motors off, and the reason") {
+  const auto problem = [](Sleds& sleds) {
+    std::int64_t now = 0;
+    const FrequencyResponse response = sweep_frequencies({}, sleds, LeverAxis::x, 1e-3, now);
+    CHECK(sleds.released_);
+    CHECK(sleds.force_ == glm::dvec2(0.0));
+    CHECK(now < 5'100'000'000);
+    return std::string(response.problem);
+  };
+  Sleds frozen, blind, shoved;
+  frozen.freeze_at_ = 5000;
+  blind.nan_at_ = 5000;
+  shoved.shove_at_ = 5000;
+  CHECK(problem(frozen) == "no fresh reading for 20 ms");
+  CHECK(problem(blind) == "a reading is not a number");
+  CHECK(problem(shoved) == "the lever came near its stop");
+}
+
+TEST_CASE("a device that does not answer at all is measured as such, and not fitted") {
+  class Stuck final : public HapticDevice {
+   public:
+    Stuck() { spec_.workspace = {0.07, 0.07}; }
+    const DeviceSpec& spec() const noexcept override { return spec_; }
+    LeverReading read(std::int64_t now_ns) noexcept override { return {++sequence_, now_ns, {}, {}, {}, false, false}; }
+    void write(glm::dvec2) noexcept override {}
+    void release() noexcept override {}
+
+   private:
+    DeviceSpec spec_;
+    std::uint64_t sequence_ = 0;
+  } stuck;
+  SweepConfig config;
+  config.lowest = 30.0;
+  config.points = 4;
+  std::int64_t now = 0;
+  const FrequencyResponse response = sweep_frequencies(config, stuck, LeverAxis::x, 1e-3, now);
+  REQUIRE(response.points.size() == 4);
+  for (const FrequencyPoint& point : response.points) CHECK(point.end == PointEnd::never_settled);
+  CHECK_THROWS_AS(fit_axis(response), std::invalid_argument);
+}
+
+TEST_CASE("the fit of a perfect response is its plant, and what is no plant is refused") {
+  for (const AxisModel& axis : {kPaperAxisX, AxisModel{0.2, 1.0, 60.0}, AxisModel{1.0, 0.2, 3.0}}) {
+    const AxisFit fit = fit_axis(ideal_response(axis));
+    CHECK(within(fit, axis, 1e-9));
+    CHECK(fit.misfit < 1e-6);
+  }
+  FrequencyResponse upside_down = ideal_response(kPaperAxisX);
+  for (FrequencyPoint& point : upside_down.points) point.response = -point.response;
+  CHECK_THROWS_AS(fit_axis(upside_down), std::invalid_argument);
+  FrequencyResponse two = ideal_response(kPaperAxisX);
+  two.points.resize(2);
+  CHECK_THROWS_AS(fit_axis(two), std::invalid_argument);
+}
+
+TEST_CASE("bandwidth, damping and poles of (11) and (12): 0.92 and 1.02 Hz, not 100") {
+  CHECK(bandwidth(kPaperAxisX) == doctest::Approx(0.9244).epsilon(1e-3));
+  CHECK(bandwidth(kPaperAxisY) == doctest::Approx(1.02).epsilon(5e-3));
+  CHECK(damping_ratio(kPaperAxisX) == doctest::Approx(1.27).epsilon(5e-3));
+  CHECK(damping_ratio(kPaperAxisY) == doctest::Approx(1.25).epsilon(5e-3));
+  CHECK(-poles(kPaperAxisX)[0].real() / kTau == doctest::Approx(0.97).epsilon(5e-3));
+  CHECK(-poles(kPaperAxisX)[1].real() / kTau == doctest::Approx(4.05).epsilon(5e-3));
+  for (const AxisModel& axis : {kPaperAxisX, kPaperAxisY, Sleds::kX}) {
+    const double gain = std::abs(compliance(axis, bandwidth(axis)));
+    CHECK(gain * axis.stiffness == doctest::Approx(std::sqrt(0.5)).epsilon(1e-12));
+  }
+  // Where one newton moves the paper's encoder by 1 count, and by -3 dB of it.
+  const double count = 75.4e-6;
+  CHECK(frequency_at_gain(kPaperAxisX, count) == doctest::Approx(59.0).epsilon(0.01));
+  CHECK(frequency_at_gain(kPaperAxisX, count / std::numbers::sqrt2) == doctest::Approx(71.0).epsilon(0.01));
+  CHECK(frequency_at_gain(kPaperAxisX, 1.0) == 0.0);
+  CHECK(bandwidth({0.1, 1.0, 0.0}) == 0.0);
+}
+
+TEST_CASE("the simulated lever's row of Table 2") {
+  RestingHand nobody;
+  const DeviceRow row = device_row(SimulatedLever({}, 1'000'000, nobody).spec());
+  CHECK(row.range_deg.x == doctest::Approx(80.0));
+  CHECK(row.range_deg.y == doctest::Approx(70.0));
+  CHECK(row.continuous_force == 10.83);
+  CHECK(row.counts_per_deg == doctest::Approx(2250.0 / 80.0));
+  CHECK(row.step == doctest::Approx(74.5e-6).epsilon(1e-3));
+  const DeviceRow plane = device_row(Sleds().spec());
+  CHECK(plane.range_deg == glm::dvec2(0.0));
+  CHECK(plane.counts_per_deg == 0.0);
+}
+
+TEST_CASE("a sweep that cannot be is refused with parameter, value and range") {
+  const auto refusal = [](const SweepConfig& config, double period = 1e-3) -> std::string {
+    Sleds sleds;
+    try {
+      FrequencySweep(config, sleds, LeverAxis::x, period);
+    } catch (const std::invalid_argument& error) {
+      return error.what();
+    }
+    return "accepted";
+  };
+  SweepConfig config;
+  CHECK(refusal(config) == "accepted");
+  CHECK(refusal(config, 0.01) == "FrequencySweep: highest = 65: must be between 0.01 and 40 Hz");
+  CHECK(refusal(config, 0.0) == "FrequencySweep: period = 0: must be between 1e-05 and 0.02 s");
+  config.lowest = 70.0;
+  CHECK(refusal(config) == "FrequencySweep: lowest = 70: must be between 0.01 and 65 Hz");
+  config = {};
+  config.points = 0;
+  CHECK(refusal(config) == "FrequencySweep: points = 0: must be between 1 and 200");
+  config = {};
+  config.stroke_share = 0.8;
+  CHECK(refusal(config) == "FrequencySweep: stroke_share = 0.8: must be between 0.05 and 0.7");
+  config = {};
+  config.force_share = std::nan("");
+  CHECK(refusal(config) == "FrequencySweep: force_share = nan: must be between 0.001 and 1");
+}
