@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "app/limited_words.h"
 #include "haptics/files/file_error.h"
 
 namespace gearshift {
@@ -103,15 +104,6 @@ std::string tuning_words(const AdmittedTuning& admitted) {
   return fmt::format("wall {:g} N/m and {:g} N s/m by {}; aisles {:g} N s/m, above {:g} m/s {:g} N s/m; feel x {:g}",
                      t.wall_stiffness, t.wall_damping, hold_words(admitted.hold), t.aisle_damping, t.speed_limit,
                      t.limit_damping, t.feel_scale);
-}
-
-// In a study the loop tells what it should have limited.
-std::string limited_words(const Limited& limited) {
-  const bool used_all_the_same = limited.used == limited.wanted;
-  return fmt::format("{} wanted {:g}, {} {:g} ({}{}{})", limited.what, limited.wanted,
-                     used_all_the_same ? "used all the same although the bound is" : "limited to",
-                     used_all_the_same ? limited.bound : limited.used, limited.law,
-                     limited.hand.empty() ? "" : "; hand: ", limited.hand);
 }
 
 // What was run: all of it from the one preset.

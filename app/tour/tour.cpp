@@ -56,6 +56,7 @@ ScriptedHand hand_through(const std::vector<int>& gears, const TourSetup& setup,
 void measure(const HapticSnapshot& now, TourResult& result) {
   result.deepest = std::max(result.deepest, glm::distance(now.lever, now.proxy));
   result.strongest = std::max(result.strongest, glm::length(now.f_h));
+  result.softest = std::min(result.softest, now.wall_stiffness);
   result.contacts += (now.flags & kFlagContact) != 0 ? 1u : 0u;
   ++result.cycles;
 }
@@ -109,6 +110,7 @@ TourResult drive_tour(const TourSetup& setup, const TourProgress& progress) {
   ScriptedHand hand = hand_through(result.wanted, setup, config.start);
   SimulatedRun run(config, hand);
   result.limited = run.loop().admitted().limited;
+  result.admitted = result.softest = run.loop().admitted().tuning.wall_stiffness;
 
   const std::filesystem::path trace = setup.folder / "tour.trace";
   TraceRecorder recorder(trace, header_of(setup, run.lever().spec()), run.channels(), TracePump::by_caller);

@@ -40,6 +40,8 @@ struct TourResult {
   std::vector<int> wanted;        // gears in the order of the tour
   std::vector<GearTime> engaged;  // as they came
   std::vector<Limited> limited;   // parameters that the device did not admit as wanted
+  double admitted = 0.0;          // [N/m] wall stiffness at the start
+  double softest = 0.0;           // [N/m] the least in use: lowered where the lever chattered
   double duration = 0.0;          // [s] simulated
   double deepest = 0.0;           // [m] lever beyond the drawn lever
   double strongest = 0.0;         // [N] largest push of the hand

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "app/assets_path.h"
+#include "app/limited_words.h"
 #include "app/reproduce/page.h"
 #include "app/reproduce/reproduce.h"
 #include "app/verbs/progress_bar.h"
@@ -47,8 +48,7 @@ void make_folder(const std::filesystem::path& folder) {
 
 void print_result(const Study& study, const std::vector<Section>& sections) {
   for (const Limited& limited : study.admitted.limited) {
-    fmt::print(stderr, "gearshift: {} wanted {:g}, used {:g} ({})\n", limited.what, limited.wanted, limited.used,
-               limited.law);
+    fmt::print(stderr, "gearshift: {}\n", limited_words(limited));
   }
   for (const Section& section : sections) {
     if (!section.problem.empty()) fmt::print(stderr, "gearshift: {}: {}\n", section.id, section.problem);

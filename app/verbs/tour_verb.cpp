@@ -11,6 +11,7 @@
 #include <fmt/core.h>
 
 #include "app/assets_path.h"
+#include "app/limited_words.h"
 #include "app/tour/tour.h"
 #include "app/verbs/number_between.h"
 #include "app/verbs/progress_bar.h"
@@ -18,6 +19,7 @@
 #include "haptics/device/simulated_lever.h"
 #include "haptics/gate/gate_compiler.h"
 #include "haptics/joystick/kinematics.h"
+#include "haptics/loop/preset.h"
 
 namespace gearshift {
 namespace {
@@ -25,8 +27,9 @@ namespace {
 struct TourArguments {
   std::string folder;
   std::string gate = "paper";
-  std::string hand = "grip";
-  double rate = HapticConfig{}.rate;
+  std::string preset = "default";
+  std::string hand;            // empty: the preset's, or a grip where that cannot lead
+  std::optional<double> rate;  // [Hz] none: the preset's
   std::uint64_t seed = 1;
 };
 
@@ -69,12 +72,15 @@ void make_folder(const std::filesystem::path& folder) {
 
 void print_result(const TourSetup& setup, const TourResult& result) {
   for (const Limited& limited : result.limited) {
-    fmt::print(stderr, "gearshift: {} limited from {:g} to {:g} ({})\n", limited.what, limited.wanted, limited.used,
-               limited.law);
+    fmt::print(stderr, "gearshift: {}\n", limited_words(limited));
   }
   fmt::print("{}: {:.2f} s at {:g} Hz\n", setup.layout.name, result.duration, setup.haptics.rate);
   for (const GearTime& gear : result.engaged)
     fmt::print("  {:>2} engaged at {:6.3f} s\n", gear_name(gear.gear), gear.time);
+  if (result.softest < result.admitted) {
+    fmt::print(stderr, "gearshift: the lever chattered on a wall: its stiffness was lowered from {:g} to {:g} N/m\n",
+               result.admitted, result.softest);
+  }
   fmt::print(
       "in contact {:.0f} % of the cycles, deepest {:.2f} mm beyond a wall, strongest push {:.1f} N, hash "
       "{:016x}\n",
@@ -83,10 +89,13 @@ void print_result(const TourSetup& setup, const TourResult& result) {
 
 TourSetup make_setup(const TourArguments& arguments) {
   TourSetup setup;
-  setup.lever.hand = driving_hand(arguments.hand);
+  const Preset preset = read_preset(find_asset("presets", arguments.preset).string());
+  setup.haptics = preset.haptics;
+  setup.lever = preset.lever;
+  setup.lever.hand = arguments.hand.empty() ? leading_hand(preset.lever.hand) : driving_hand(arguments.hand);
+  if (arguments.rate) setup.haptics.rate = *arguments.rate;
   setup.layout = read_gate_layout(find_asset("gates", arguments.gate));
-  setup.gate = compile_gate(setup.layout, workspace_half_extent(YokeGeometry{}));
-  setup.haptics.rate = arguments.rate;
+  setup.gate = compile_gate(setup.layout, workspace_half_extent(setup.lever.yoke), setup.lever.yoke.radius);
   setup.seed = arguments.seed;
   setup.folder = arguments.folder;
   return setup;
@@ -119,10 +128,13 @@ void add_tour_verb(CLI::App& app, VerbAction& action) {
       ->type_name("DIR")
       ->required();
   verb->add_option("--gate", arguments->gate, "shipped gate or layout file")->capture_default_str();
-  verb->add_option("--hand", arguments->hand, "light, grip, arm, or M,B,K in kg, N s/m, N/m")->capture_default_str();
-  verb->add_option("--rate", arguments->rate, "rate of the haptic cycle [Hz]")
-      ->check(number_between(100.0, 4000.0))
+  verb->add_option("--preset", arguments->preset, "shipped preset or file: device and configuration")
       ->capture_default_str();
+  verb->add_option("--hand", arguments->hand,
+                   "light, grip, arm, or M,B,K in kg, N s/m, N/m; the preset's where none is given, a grip if that "
+                   "cannot lead");
+  verb->add_option("--rate", arguments->rate, "rate of the haptic cycle [Hz]; the preset's where none is given")
+      ->check(number_between(100.0, 4000.0));
   verb->add_option("--seed", arguments->seed, "another seed, other aims of the same hand")
       ->check(refuse_no_seed)
       ->capture_default_str();

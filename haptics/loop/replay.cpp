@@ -106,7 +106,8 @@ struct Replayer::Rig {
   Rig(const TraceHeader& header, const WorldFactory& make_world)
       : device(header.device),
         world(find_world(header.world, make_world)),
-        gate(compile_gate(parse_gate_layout(header.gate_text, header.gate_file), header.device.workspace)),
+        gate(compile_gate(parse_gate_layout(header.gate_text, header.gate_file), header.device.workspace,
+                          header.device.yoke_radius > 0.0 ? header.device.yoke_radius : HUGE_VAL)),
         loop(header.config, gate, device, *world, channels) {
     if (header.armed) loop.arm();
     channels.recording.store(true);

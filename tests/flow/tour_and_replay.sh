@@ -61,6 +61,15 @@ check "another locale, the same hash" same_hash turkish paper
 for rate in 100 250 4000; do check "$rate Hz" tour "rate$rate" --rate $rate; done
 for hand in light arm 0.3,8,400; do check "hand $hand" tour "hand$hand" --hand $hand; done
 check "another seed" tour seed --seed 2
+
+# Presets: another lever, a delay that brings the observer, and the paper's own wall.
+printf 'name = "wide"\n[lever.yoke]\nradius_m = 0.15\n[lever]\ndelay_cycles = 2\nhand = "grip"\n' >wide.toml
+for preset in measured paper wide.toml; do
+  tour "preset_$preset" --preset "$preset" --hand grip
+  [ $? -le 1 ] || check "tour with preset $preset" false
+  check "it replays" replays "preset_$preset"
+done
+check "the paper's wall is told to be beyond its bound" grep -q "used all the same, the bound is" preset_paper.err
 check "another seed, other aims" [ "$(hash_of seed)" != "$(hash_of paper)" ]
 
 # One bit in the middle of the file.
