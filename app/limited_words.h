@@ -7,7 +7,8 @@
 
 namespace gearshift {
 
-// "wall_stiffness_n_per_m limited from 5000 to 301 (law; hand: bare)"; in a study "... used all the same, the bound is".
+// "wall_stiffness_n_per_m limited from 5000 to 301 (law; hand: bare)"; in a study "... used all the same, the bound
+// is"; "hold limited from observer to half_sample".
 std::string limited_words(const Limited& limited);
 
 }  // namespace gearshift

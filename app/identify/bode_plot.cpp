@@ -41,7 +41,7 @@ void write_points(const std::filesystem::path& file, const AxisIdentification& a
 }
 
 // Fig. 4: gain above, phase below, test points as *, and the curve through them.
-std::string bode_commands(const AxisIdentification& axis) {
+std::string bode_commands(const AxisIdentification& axis, std::string_view nominal) {
   const AxisModel& model = axis.fit.model;
   const double edge = bandwidth(model);
   return fmt::format(
@@ -50,6 +50,9 @@ m = {m}; b = {b}; k = {k}; edge = {edge}
 w(f) = 2 * pi * f
 gain(f) = -10 * log10((k - m * w(f)**2)**2 + (b * w(f))**2)
 phase(f) = -atan2(b * w(f), k - m * w(f)**2) * 180 / pi
+m0 = {m0}; b0 = {b0}; k0 = {k0}
+gain0(f) = -10 * log10((k0 - m0 * w(f)**2)**2 + (b0 * w(f))**2)
+phase0(f) = -atan2(b0 * w(f), k0 - m0 * w(f)**2) * 180 / pi
 set logscale x
 set xrange [0.1:100]
 set samples 500
@@ -62,7 +65,8 @@ set ylabel "gain [dB re 1 m/N]"
 set arrow 1 from edge,graph 0 to edge,graph 1 nohead dashtype 2 linecolor "{soft}"
 set arrow 2 from 0.1,gain(edge) to edge,gain(edge) nohead dashtype 2 linecolor "{soft}"
 set label 2 sprintf("-3 dB of the gain at rest: %.2f Hz", edge) at edge,graph 0.10 offset 1,0 textcolor "{soft}"
-plot gain(x) with lines linewidth 1.5 linecolor "{blue}" title "fitted", \
+plot gain0(x) with lines linewidth 4 linecolor "{pale}" title "{nominal}", \
+  gain(x) with lines linewidth 1.5 linecolor "{blue}" title "fitted", \
   "bode_{axis}.csv" using "frequency_hz":(20 * log10(column("gain_m_per_n"))) with points pointtype 3 pointsize 1.2 \
     linecolor "{red}" title "test points"
 unset label
@@ -73,24 +77,25 @@ set xlabel "frequency [Hz]"
 set ylabel "phase [deg]"
 set yrange [-190:10]
 set ytics 45
-plot phase(x) with lines linewidth 1.5 linecolor "{blue}", \
+plot phase0(x) with lines linewidth 4 linecolor "{pale}", phase(x) with lines linewidth 1.5 linecolor "{blue}", \
   "bode_{axis}.csv" using "frequency_hz":(column("phase_deg") > 10 ? column("phase_deg") - 360 : column("phase_deg")) \
     with points pointtype 3 pointsize 1.2 linecolor "{red}"
 unset multiplot
 )gp",
       fmt::arg("m", model.mass), fmt::arg("b", model.damping), fmt::arg("k", model.stiffness), fmt::arg("edge", edge),
       fmt::arg("axis", lever_axis_name(axis.response.axis)), fmt::arg("grid", kAisleShade), fmt::arg("soft", kSoftInk),
-      fmt::arg("blue", kGearColour), fmt::arg("red", kLockoutColour));
+      fmt::arg("blue", kGearColour), fmt::arg("red", kLockoutColour), fmt::arg("m0", axis.nominal.mass),
+      fmt::arg("b0", axis.nominal.damping), fmt::arg("k0", axis.nominal.stiffness), fmt::arg("pale", kGridInk),
+      fmt::arg("nominal", nominal));
 }
 
 }  // namespace
 
-void draw_bode(const std::filesystem::path& folder, const AxisIdentification& axis, const IdentifyProgress& progress) {
+void draw_bode(const std::filesystem::path& folder, const AxisIdentification& axis, std::string_view nominal,
+               const std::function<void()>& waiting) {
   const std::string name = fmt::format("bode_{}", lever_axis_name(axis.response.axis));
   write_points(folder / (name + ".csv"), axis);
-  draw_figure(folder, {name, 900, 720, bode_commands(axis)}, [&] {
-    if (progress) progress("figures", 0.0);
-  });
+  draw_figure(folder, {name, 900, 720, bode_commands(axis, nominal)}, waiting);
 }
 
 }  // namespace gearshift

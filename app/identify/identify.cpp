@@ -11,23 +11,6 @@ namespace {
 
 constexpr int kReadingsPerWeight = 20;
 
-// On a lever of its own, so that no axis depends on what was done to the other.
-FrequencyResponse sweep(const Preset& preset, LeverAxis axis, const SweepConfig& config,
-                        const SweepProgress& progress = {}) {
-  SimulatedLeverConfig lever = preset.lever;
-  lever.hand = kBareHand;
-  RestingHand nobody;
-  SimulatedLever device(lever, period_ns(preset.haptics), nobody);
-  std::int64_t now = 0;
-  return sweep_frequencies(config, device, axis, period_s(preset.haptics), now, progress);
-}
-
-SweepConfig sweep_config(double rate) {
-  SweepConfig config;
-  config.highest = std::min(config.highest, 0.25 * rate);
-  return config;
-}
-
 SweepConfig literal_config() {
   SweepConfig config;
   config.highest = config.lowest = 1.0;
@@ -36,24 +19,42 @@ SweepConfig literal_config() {
   return config;
 }
 
-AxisIdentification identify_axis(const Preset& preset, LeverAxis axis, const SweepProgress& progress) {
-  AxisIdentification found;
-  found.response = sweep(preset, axis, sweep_config(preset.haptics.rate), progress);
-  if (!found.response.problem.empty()) {
-    throw std::runtime_error(
-        fmt::format("axis {}: the sweep ended early: {}", lever_axis_name(axis), found.response.problem));
-  }
-  try {
-    found.fit = fit_axis(found.response);
-  } catch (const std::invalid_argument& refused) {
-    throw std::runtime_error(fmt::format("axis {}: {}", lever_axis_name(axis), refused.what()));
-  }
-  found.nominal = axis == LeverAxis::x ? preset.lever.axis_x : preset.lever.axis_y;
-  found.literal = sweep(preset, axis, literal_config()).points.at(0);
-  return found;
+FrequencyResponse whole(FrequencyResponse response) {
+  if (response.problem.empty()) return response;
+  throw std::runtime_error(
+      fmt::format("axis {}: the sweep ended early: {}", lever_axis_name(response.axis), response.problem));
 }
 
 }  // namespace
+
+SweepConfig preset_sweep(const Preset& preset) {
+  SweepConfig config;
+  config.highest = std::min(config.highest, 0.25 * preset.haptics.rate);
+  return config;
+}
+
+FrequencyResponse sweep_lever(const Preset& preset, LeverAxis axis, const SweepConfig& config,
+                              const SweepProgress& progress) {
+  SimulatedLeverConfig lever = preset.lever;
+  lever.hand = kBareHand;
+  RestingHand nobody;
+  SimulatedLever device(lever, period_ns(preset.haptics), nobody);
+  std::int64_t now = 0;
+  return sweep_frequencies(config, device, axis, period_s(preset.haptics), now, progress);
+}
+
+AxisIdentification identify_axis(const Preset& preset, LeverAxis axis, const SweepProgress& progress) {
+  AxisIdentification found;
+  found.nominal = axis == LeverAxis::x ? preset.lever.axis_x : preset.lever.axis_y;
+  try {
+    found.response = whole(sweep_lever(preset, axis, preset_sweep(preset), progress));
+    found.fit = fit_axis(found.response);
+    found.literal = whole(sweep_lever(preset, axis, literal_config())).points.at(0);
+  } catch (const std::invalid_argument& refused) {
+    throw std::runtime_error(fmt::format("axis {}: {}", lever_axis_name(axis), refused.what()));
+  }
+  return found;
+}
 
 const char* lever_axis_name(LeverAxis axis) noexcept {
   return axis == LeverAxis::x ? "x" : "y";

@@ -32,15 +32,25 @@ const char* lever_axis_name(LeverAxis axis) noexcept;  // "x", "y"
 
 using IdentifyProgress = std::function<void(std::string_view what, double share)>;
 
-// Sweeps from the smaller of 65 Hz and a quarter of the preset's rate down to 0.2 Hz with the hand off the lever, and
-// weighs the sensor. Throws std::runtime_error in one sentence when a sweep ended early or no axis fits it.
+// From the smaller of 65 Hz, where the paper stopped, and a quarter of the rate down to 0.2 Hz.
+SweepConfig preset_sweep(const Preset& preset);
+
+// One axis of the preset's lever swept, the hand off it; on a lever of its own, so that no sweep depends on another.
+FrequencyResponse sweep_lever(const Preset& preset, LeverAxis axis, const SweepConfig& config,
+                              const SweepProgress& progress = {});
+
+// preset_sweep() of one axis, and what it says. Throws std::runtime_error in one sentence when the sweep ended early or
+// no axis fits it.
+AxisIdentification identify_axis(const Preset& preset, LeverAxis axis, const SweepProgress& progress = {});
+
+// These axes, and the force sensor weighed. Throws as identify_axis.
 Identification identify_lever(const Preset& preset, const std::vector<LeverAxis>& axes,
                               const IdentifyProgress& progress = {});
 
-// bode_AXIS.csv with the test points and bode_AXIS.svg, .png as in Fig. 4, into a folder that exists. Throws
-// std::runtime_error, FileError.
-void draw_bode(const std::filesystem::path& folder, const AxisIdentification& axis,
-               const IdentifyProgress& progress = {});
+// bode_AXIS.csv with the test points and bode_AXIS.svg, .png as in Fig. 4, into a folder that exists. nominal: what the
+// pale curve of axis.nominal is called. Throws std::runtime_error, FileError.
+void draw_bode(const std::filesystem::path& folder, const AxisIdentification& axis, std::string_view nominal,
+               const std::function<void()>& waiting);
 
 // What the verb prints.
 std::string identification_table(const Identification& found);

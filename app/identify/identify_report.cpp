@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "app/identify/identify.h"
+#include "app/identify/table_2.h"
 
 namespace gearshift {
 namespace {
@@ -31,6 +32,11 @@ std::array<double, 2> pole_frequencies(const AxisModel& axis) {
   return {std::abs(pole[0]) / kTau, std::abs(pole[1]) / kTau};
 }
 
+// Not told from none where it is smaller than its own uncertainty, twice the standard one.
+bool has_spring(const AxisFit& fit) {
+  return fit.model.stiffness > 2.0 * fit.deviation.stiffness;
+}
+
 std::string poles_text(const AxisModel& axis) {
   const auto [slow, fast] = pole_frequencies(axis);
   return damping_ratio(axis) < 1.0 ? fmt::format("two poles at {:.2f} Hz", slow)
@@ -51,8 +57,9 @@ std::string axis_text(const AxisIdentification& axis) {
     text += fmt::format("  {:<13}{:>12.5g}{:>14.2g}{:>14.5g}{:>10}  {}\n", q.name, found, fit.deviation.*q.value,
                         nominal, off, q.unit);
   }
-  text += fmt::format("  damping ratio {:.2f}, {}, bandwidth {:.2f} Hz\n", damping_ratio(fit.model),
-                      poles_text(fit.model), bandwidth(fit.model));
+  text += has_spring(fit) ? fmt::format("  damping ratio {:.2f}, {}, bandwidth {:.2f} Hz\n", damping_ratio(fit.model),
+                                        poles_text(fit.model), bandwidth(fit.model))
+                          : "  no spring: neither damping ratio nor bandwidth\n";
   text += fmt::format("  {} points from {:.3g} to {:.3g} Hz, misfit {:.2g}{}\n", fit.points,
                       axis.response.points.front().frequency, axis.response.points.back().frequency, fit.misfit,
                       fit.misfit > kMuchMisfit ? ": mass, damping and stiffness alone do not explain them" : "");
@@ -65,8 +72,10 @@ std::string axis_text(const AxisIdentification& axis) {
 
 std::string bandwidths_text(const Identification& found) {
   std::vector<std::string> words;
-  for (const AxisIdentification& axis : found.axes) words.push_back(fmt::format("{:.2f}", bandwidth(axis.fit.model)));
-  return fmt::format("{} Hz", fmt::join(words, ", "));
+  for (const AxisIdentification& axis : found.axes) {
+    words.push_back(has_spring(axis.fit) ? fmt::format("{:.2f} Hz", bandwidth(axis.fit.model)) : "no spring");
+  }
+  return fmt::format("{}", fmt::join(words, ", "));
 }
 
 // The paper's X axis is the one that the tip turns about: what moves along it is our y.
@@ -74,20 +83,19 @@ std::string table2_text(const Identification& found) {
   const DeviceRow row = device_row(found.spec);
   constexpr const char* kLine = "{:<24}{:>22}{:>18}{:>14}{:>14}\n";
   std::string text = fmt::format(kLine, "Table 2", "this lever", "developed", "SideWinder", "Immersion");
-  text += fmt::format(kLine, "range about X (shift)", fmt::format("{:.1f} deg", row.range_deg.y), "70 ~ 80 deg",
-                      "45 ~ 55 deg", "65 deg");
-  text += fmt::format(kLine, "range about Y (select)", fmt::format("{:.1f} deg", row.range_deg.x), "80 ~ 90 deg",
-                      "35 ~ 50 deg", "65 deg");
-  text += fmt::format(kLine, "continuous force", fmt::format("{:.2f} N", row.continuous_force), "10.83 Nm (1)", "small",
-                      "8.9 Nm (1)");
-  text += fmt::format(kLine, "precision", fmt::format("{:.2f} counts/deg", row.counts_per_deg), "2250/80", "low",
-                      "1100/65");
-  text += fmt::format(kLine, "  at the tip", fmt::format("{:.1f} um", 1e6 * row.step), "", "", "");
-  text += fmt::format(kLine, "bandwidth", bandwidths_text(found), "100 Hz (2)", "low", "120 Hz");
-  text += "(1) a force at the tip in newtons: 1.3 N m of the motor over 0.12 m\n";
+  const auto line = [&](const char* what, const std::string& ours, const PrintedLine& printed) {
+    text += fmt::format(kLine, what, ours, printed.developed, printed.sidewinder, printed.immersion);
+  };
+  line("range about X (shift)", fmt::format("{:.1f} deg", row.range_deg.y), kPrintedRangeX);
+  line("range about Y (select)", fmt::format("{:.1f} deg", row.range_deg.x), kPrintedRangeY);
+  line("continuous force (1)", fmt::format("{:.2f} N", row.continuous_force), kPrintedTorque);
+  line("precision", fmt::format("{:.2f} counts/deg", row.counts_per_deg), kPrintedPrecision);
+  line("  at the tip", fmt::format("{:.1f} um", 1e6 * row.step), {"", "", ""});
+  line("bandwidth (2)", bandwidths_text(found), kPrintedBandwidth);
+  text += "(1) printed in Nm, but a force at the tip in newtons: 1.3 N m of the motor over 0.12 m\n";
   text +=
-      "(2) does not follow from (11) and (12), which have 0.92 and 1.02 Hz by our definition: -3 dB of the gain at "
-      "rest.\n";
+      "(2) the printed one does not follow from (11) and (12), which have 0.92 and 1.02 Hz: -3 dB of the gain at "
+      "rest\n";
   if (row.step > 0.0) {
     const AxisModel& axis = found.axes.front().fit.model;
     text += fmt::format(
@@ -131,9 +139,9 @@ Json axis_json(const AxisIdentification& axis) {
                    {"device_says", axis.nominal.*q.value}};
   }
   json["misfit"] = axis.fit.misfit;
-  json["damping_ratio"] = damping_ratio(axis.fit.model);
+  json["damping_ratio"] = has_spring(axis.fit) ? Json(damping_ratio(axis.fit.model)) : Json(nullptr);
   json["poles_hz"] = pole_frequencies(axis.fit.model);
-  json["bandwidth_hz"] = bandwidth(axis.fit.model);
+  json["bandwidth_hz"] = has_spring(axis.fit) ? Json(bandwidth(axis.fit.model)) : Json(nullptr);
   json["literal_1_hz"] = {{"amplitude_n", axis.literal.amplitude},
                           {"hit_stop", axis.literal.end == PointEnd::hit_stop},
                           {"needed_stroke_m", needed_stroke(axis)}};

@@ -1,13 +1,12 @@
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 #include <string_view>
 
 #include <fmt/format.h>
 
 #include "app/draw/gate_colours.h"
-#include "app/reproduce/identified_axes.h"
+#include "app/identify/identify.h"
 #include "app/reproduce/section.h"
 #include "app/reproduce/study_files.h"
 
@@ -17,77 +16,13 @@ namespace {
 double decibels(double gain) {
   return 20.0 * std::log10(gain);
 }
-double degrees(std::complex<double> response) {
-  const double angle = std::arg(response) * 180.0 / std::numbers::pi;
-  return angle > 0.0 ? angle - 360.0 : angle;
-}
-const char* end_name(PointEnd end) {
-  switch (end) {
-    case PointEnd::measured:
-      return "measured";
-    case PointEnd::never_settled:
-      return "never settled";
-    case PointEnd::hit_stop:
-      return "hit the stop";
-  }
-  return "?";
+AxisIdentification identify(const Study& study, LeverAxis axis) {
+  return identify_axis(study.preset, axis, [&](double) { tell(study, "frequency sweep"); });
 }
 
-void write_bode(const Study& study, std::string_view name, const IdentifiedAxis& axis) {
-  CsvFile csv(study, name,
-              "frequency_hz,amplitude_n,gain_db_re_1_m_per_n,phase_deg,deviation_1,fit_gain_db,fit_phase_deg,end");
-  for (const FrequencyPoint& point : axis.response.points) {
-    const std::complex<double> fit = compliance(axis.fit.model, point.frequency);
-    csv.line(fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{:.3g},{:.9g},{:.9g},{}", point.frequency, point.amplitude,
-                         decibels(std::abs(point.response)), degrees(point.response), point.deviation,
-                         decibels(std::abs(fit)), degrees(fit), end_name(point.end)));
-  }
-  csv.finish();
-}
-
-// The curves are functions of m, b, k: (8).
-std::string model_functions(const AxisModel& fit, const AxisModel& paper) {
-  const auto functions = [](const char* suffix, const AxisModel& axis) {
-    return fmt::format(
-        "re{0}(f) = {3:.9g} - {1:.9g} * (2 * pi * f)**2\nim{0}(f) = {2:.9g} * 2 * pi * f\n"
-        "gain{0}(f) = -10 * log10(re{0}(f)**2 + im{0}(f)**2)\nphase{0}(f) = -atan2(im{0}(f), re{0}(f)) * 180 / pi\n",
-        suffix, axis.mass, axis.damping, axis.stiffness);
-  };
-  return functions("_fit", fit) + functions("_paper", paper);
-}
-
-void draw_bode(const Study& study, std::string_view name, const char* equation, const IdentifiedAxis& axis,
-               const AxisModel& paper) {
-  write_bode(study, name, axis);
-  const double edge = bandwidth(axis.fit.model);
-  const std::string commands = fmt::format(
-      R"gp({functions}set samples 400
-set logscale x
-set multiplot layout 2,1 margins 0.1, 0.97, 0.1, 0.96 spacing 0.05
-set key left bottom Left reverse
-set format x ""
-set ylabel "gain [dB re 1 m/N]"
-set arrow 1 from {edge},graph 0 to {edge},graph 1 nohead dashtype 2 linecolor "{orange}"
-set label 1 "-3 dB of rest at {edge:.2f} Hz" at {edge},graph 0.45 offset 1,0 textcolor "{ink}"
-plot [0.15:130] gain_paper(x) with lines linewidth 4 linecolor "{pale}" title "the paper's {equation}", \
-  gain_fit(x) with lines linewidth 1.4 linecolor "{blue}" title "fitted curve", \
-  "{name}.csv" using 1:(strcol(8) eq "measured" ? $3 : NaN) \
-    with points pointtype 3 linecolor "{red}" title "test points"
-unset label 1
-set format x "%g"
-set xlabel "frequency [Hz]"
-set ylabel "phase [deg]"
-unset key
-set ytics 45
-plot [0.15:130] phase_paper(x) with lines linewidth 4 linecolor "{pale}", \
-  phase_fit(x) with lines linewidth 1.4 linecolor "{blue}", \
-  "{name}.csv" using 1:(strcol(8) eq "measured" ? $4 : NaN) with points pointtype 3 linecolor "{red}"
-unset multiplot
-)gp",
-      fmt::arg("functions", model_functions(axis.fit.model, paper)), fmt::arg("edge", edge), fmt::arg("name", name),
-      fmt::arg("equation", equation), fmt::arg("ink", kInk), fmt::arg("pale", kGridInk),
-      fmt::arg("orange", kBufferColour), fmt::arg("blue", kGearColour), fmt::arg("red", kLockoutColour));
-  draw(study, {std::string(name), 850, 640, commands});
+void draw_beside(const Study& study, AxisIdentification axis, const AxisModel& paper, std::string_view words) {
+  axis.nominal = paper;
+  draw_bode(study.folder, axis, words, [&] { tell(study, "frequency sweep"); });
 }
 
 double third_of_most(const Study& study) {
@@ -98,7 +33,7 @@ double stop_on_x_arc(const Study& study) {
 }
 
 // The literal amplitude's answer is that of the fit: the stop cuts it short.
-void draw_amplitudes(const Study& study, const IdentifiedAxis& x, const FrequencyResponse& literal) {
+void draw_amplitudes(const Study& study, const AxisIdentification& x, const FrequencyResponse& literal) {
   const double third = third_of_most(study);
   CsvFile csv(study, "bode_amplitude", "frequency_hz,used_n,used_mm,third_n,third_mm,third_hit_the_stop_1");
   for (std::size_t i = 0; i < std::min(x.response.points.size(), literal.points.size()); ++i) {
@@ -159,7 +94,7 @@ Finding bandwidth_finding(const AxisModel& x, const AxisModel& y) {
               bandwidth(kPaperAxisX), bandwidth(kPaperAxisY), damping_ratio(kPaperAxisX), damping_ratio(kPaperAxisY))};
 }
 
-Finding amplitude_finding(const Study& study, const IdentifiedAxis& x, const FrequencyResponse& literal) {
+Finding amplitude_finding(const Study& study, const AxisIdentification& x, const FrequencyResponse& literal) {
   const auto hits = std::count_if(literal.points.begin(), literal.points.end(),
                                   [](const FrequencyPoint& point) { return point.end == PointEnd::hit_stop; });
   double highest = 0.0;
@@ -186,7 +121,7 @@ std::string counts_words(const AxisModel& x, double step, double moved) {
 }
 
 Finding end_finding(const Study& study, const AxisModel& x) {
-  const double gain = std::abs(compliance(x, kPaperHighest));
+  const double gain = std::abs(compliance(x, SweepConfig{}.highest));
   const double moved = third_of_most(study) * gain, rest = std::abs(compliance(x, 0.0));
   return {"Section 2.4: the output reached 3 dB at about 65 Hz",
           fmt::format("at 65 Hz X is {:.1f} dB below rest; one third of the most moves it {:.2f} mm",
@@ -197,10 +132,12 @@ Finding end_finding(const Study& study, const AxisModel& x) {
 }  // namespace
 
 Section bode_section(const Study& study) {
-  const auto [x, y] = identify_axes(study);
-  const FrequencyResponse literal = sweep_axis(study, LeverAxis::x, true);
-  draw_bode(study, "bode_x", "(11)", x, kPaperAxisX);
-  draw_bode(study, "bode_y", "(12)", y, kPaperAxisY);
+  const AxisIdentification x = identify(study, LeverAxis::x), y = identify(study, LeverAxis::y);
+  SweepConfig paper_amplitude = preset_sweep(study.preset);
+  paper_amplitude.literal = true;
+  const FrequencyResponse literal = sweep_lever(study.preset, LeverAxis::x, paper_amplitude);
+  draw_beside(study, x, kPaperAxisX, "the paper's (11)");
+  draw_beside(study, y, kPaperAxisY, "the paper's (12)");
   draw_amplitudes(study, x, literal);
   return {
       "bode",

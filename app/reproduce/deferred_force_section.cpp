@@ -73,7 +73,7 @@ void account(Hold& hold, double stiffness) {
 std::array<Hold, 3> make_holds(double stiffness) {
   std::array<Hold, 3> holds{Hold{"zero-order hold, the paper's", "zero_order"},
                             Hold{"half-sample hold, the shipped default", "half_sample"},
-                            Hold{"observed hold, with a true model", "observed"}};
+                            Hold{"ideal: the hold's end known", "observed"}};
   Coupling coupling{stiffness, 0.0, kPeriod, 0, ContactHold::zero_order};
   for (int i = kFirst; i < kLast; ++i) {
     const auto sample = static_cast<std::size_t>(i);
@@ -165,24 +165,26 @@ Section deferred_force_section(const Study& study) {
   section.text = fmt::format(
       "A prescribed path enters the wall at {:g} ms and leaves it at {:g} ms, sampled at {:g} Hz; entry speed {:g} "
       "m/s. The "
-      "force is that of the shipped coupling fed with these samples, a spring of {:g} N/m without damping. Energy is "
+      "force is that of the shipped coupling fed with these samples, a spring of {:g} N/m without damping. The third "
+      "hold "
+      "is an ideal: it is told where the hold ends, which an observer with a true model would know. Energy is "
       "what the "
       "held force gives the lever beyond what the spring would have, in the hold where the lever enters (region I) and "
       "in the "
       "one where it leaves (region II); per cent of the {:.3g} mJ that the spring stores at the deepest point.",
       1e3 * kEnters, 1e3 * kLeaves, 1.0 / kPeriod, kEntrySpeed, stiffness, 1e3 * most);
-  section.findings = {{"Fig. 6 (b): entered at 188 ms, \"the simulated reflective force was computed until 190 ms\"; "
-                       "left at 213 ms, until "
-                       "215 ms",
-                       fmt::format("zero-order force from {:g} to {:g} ms", begins, ends),
-                       fmt::format("{:+.2g} and {:+.2g} ms", begins - 190.0, ends - 215.0)},
-                      {"Section 3.1: \"late energy generation\" in regions I and II",
-                       "zero-order hold: " + energies(holds[0], most), "the paper gives no numbers"},
-                      {"Section 3.1: the cure is \"a sampling rate up to 1 K Hz\" or a slow joystick",
-                       "half-sample hold at the same 200 Hz: " + energies(holds[1], most) +
-                           "; observed hold: " + energies(holds[2], most),
-                       fmt::format("{:.2g} and {:.2g} of the zero-order hold's energy", holds[1].whole / holds[0].whole,
-                                   holds[2].whole / holds[0].whole)}};
+  section.findings = {
+      {"Fig. 6 (b): entered at 188 ms, \"the simulated reflective force was computed until 190 ms\"; "
+       "left at 213 ms, until "
+       "215 ms",
+       fmt::format("zero-order force from {:g} to {:g} ms", begins, ends),
+       fmt::format("{:+.2g} and {:+.2g} ms", begins - 190.0, ends - 215.0)},
+      {"Section 3.1: \"late energy generation\" in regions I and II", "zero-order hold: " + energies(holds[0], most),
+       "the paper gives no numbers"},
+      {"Section 3.1: the cure is \"a sampling rate up to 1 K Hz\" or a slow joystick",
+       "half-sample hold at the same 200 Hz: " + energies(holds[1], most) + "; the ideal: " + energies(holds[2], most),
+       fmt::format("{:.2g} and {:.2g} of the zero-order hold's energy", holds[1].whole / holds[0].whole,
+                   holds[2].whole / holds[0].whole)}};
   section.pictures = {
       {"deferred_force",
        "Position and held force on one scale. Region I: in the wall without a force; region II: out of the "

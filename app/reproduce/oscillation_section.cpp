@@ -104,8 +104,7 @@ std::vector<Case> cures(const HapticConfig& wall) {
 std::string words(const Case& one, const Outcome& outcome) {
   return fmt::format(
       "{:g} m/s at {:g} Hz: {:.0f} contacts a second, {:.2f} mm peak-to-peak at the end; the motors give {:+.0f} % of "
-      "its "
-      "energy to the first impact; calm in {} of {} phases; pressed to one wall the spectral radius is {:.3f}",
+      "its energy to the first impact; calm in {} of {} phases; pressed to one wall the spectral radius is {:.3f}",
       one.speed, one.haptics.rate, static_cast<double>(contacts(outcome.run, outcome.gate).size()) / kDuration,
       1e3 * outcome.ripple, 100.0 * outcome.given, outcome.calm, kPhases, outcome.radius);
 }
@@ -216,6 +215,26 @@ std::string enough(const std::vector<double>& ripple) {
   return rate > 0.0 ? fmt::format("suffices from {:g} Hz", rate) : "suffices at no rate tried";
 }
 
+// One row a case, in the order of cures(); the last is ours.
+std::vector<Finding> findings(const std::vector<Case>& cases, const std::vector<Outcome>& outcomes,
+                              const std::vector<std::vector<double>>& ripple) {
+  std::vector<Finding> all;
+  const auto row = [&](const char* paper, std::size_t i) {
+    all.push_back({paper, cases[i].title + ", " + words(cases[i], outcomes[i]),
+                   i < ripple.size() ? verdict(outcomes[i]) + "; " + enough(ripple[i]) : verdict(outcomes[i])});
+  };
+  row("Section 3.1: \"the joystick might bounce between the walls when it hit the wall hard\"", 0);
+  row("Section 3.1: \"alleviated with the operator's hand resting on the joystick\": light", 1);
+  row("the same: grip", 2);
+  row("the same: arm", 3);
+  row("Section 3.1: \"by introducing the damping into the virtual wall\", B/(K T) > 0.5 of (22)", 4);
+  row("Section 3.1: \"speed reduction of the joystick\"", 5);
+  row("Section 3.1: \"with both speed reduction ... and damping ... stability under a violated passivity condition\"",
+      6);
+  row("(ours: the preset)", 7);
+  return all;
+}
+
 }  // namespace
 
 Section oscillation_section(const Study& study) {
@@ -233,28 +252,12 @@ Section oscillation_section(const Study& study) {
   Section section{"oscillation", "Section 3.1: the wall's oscillation, and what calms it", "", {}, {}};
   section.text = fmt::format(
       "The lever is carried to a wall of an aisle {:g} mm wide and let go at the first sample in it; the wall is the "
-      "paper's, {:g} N/m from the "
-      "last "
-      "sample at {:g} Hz (presets/paper.toml), on the preset's device. Each row is the worst of {} phases between "
-      "impact and "
-      "sample; calm is below {:g} mm peak-to-peak over the last {:g} s of {:g} s.",
+      "paper's, {:g} N/m from the last sample at {:g} Hz (presets/paper.toml), on the preset's device. Each row is the "
+      "worst of {} phases between impact and sample; calm is below {:g} mm peak-to-peak over the last {:g} s of {:g} "
+      "s.",
       2e3 * study.gate.half_aisle, wall.tuning.wall_stiffness, wall.rate, kPhases, 1e3 * kCalm, kLast, kDuration);
-  const auto row = [&](const char* paper, std::size_t i) {
-    section.findings.push_back(
-        {paper, cases[i].title + ", " + words(cases[i], outcomes[i]),
-         i < ripple.size() ? verdict(outcomes[i]) + "; " + enough(ripple[i]) : verdict(outcomes[i])});
-  };
-  row("Section 3.1: \"the joystick might bounce between the walls when it hit the wall hard\"", 0);
-  row("Section 3.1: \"alleviated with the operator's hand resting on the joystick\": light", 1);
-  row("the same: grip", 2);
-  row("the same: arm", 3);
-  row("Section 3.1: \"by introducing the damping into the virtual wall\", B/(K T) > 0.5 of (22)", 4);
-  row("Section 3.1: \"speed reduction of the joystick\"", 5);
-  section.findings.back().difference +=
-      fmt::format("; below {:.2f} m/s the bare handle always comes to rest", critical);
-  row("Section 3.1: \"with both speed reduction ... and damping ... stability under a violated passivity condition\"",
-      6);
-  row("(ours: the preset)", 7);
+  section.findings = findings(cases, outcomes, ripple);
+  section.findings[5].difference += fmt::format("; below {:.2f} m/s the bare handle always comes to rest", critical);
   section.pictures = {
       {"oscillation",
        "A lever thrown at the paper's wall, and what the paper names against its bouncing; last, ours. Dashed: "

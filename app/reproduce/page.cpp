@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "app/hold_words.h"
 #include "app/limited_words.h"
 #include "haptics/files/file_error.h"
 
@@ -85,20 +86,6 @@ std::string device_words(const DeviceSpec& device) {
                      device.max_force.x, device.continuous_force.x, 1e6 * device.position_step, device.delay);
 }
 
-const char* hold_words(ContactHold hold) {
-  switch (hold) {
-    case ContactHold::automatic:
-      break;
-    case ContactHold::zero_order:
-      return "zero-order hold";
-    case ContactHold::half_sample:
-      return "half-sample hold";
-    case ContactHold::observer:
-      return "observer";
-  }
-  return "?";
-}
-
 std::string tuning_words(const AdmittedTuning& admitted) {
   const HapticTuning& t = admitted.tuning;
   return fmt::format("wall {:g} N/m and {:g} N s/m by {}; aisles {:g} N s/m, above {:g} m/s {:g} N s/m; feel x {:g}",
@@ -156,8 +143,9 @@ std::string section_text(const Study& study, const Section& section) {
 }
 
 constexpr const char* kIntroduction =
-    "W.-C. Lin, K.-Y. Young, “Design of Force-Reflection Joystick System for VR-Based Simulation”, section by section: "
-    "what it says, what this program gives, and how far apart the two are. Every figure is computed from the preset "
+    "W.-C. Lin, K.-Y. Young, “Design of Force-Reflection Joystick System for VR-Based Simulation”, section by "
+    "section: what it says, what this program gives, and how far apart the two are. Every figure is computed from the "
+    "preset "
     "below; what moves, moves through the shipped haptic cycle on a simulated lever. SVG, PNG and CSV lie beside this "
     "page.";
 

@@ -54,14 +54,19 @@ TrialRun impact(const Study& study, const Case& one, const HandImpedance& hand) 
 }
 
 // Steps from sample to sample while the lever, pressed and nearly at rest, stays near that depth: there the cycle is
-// linear, and a disturbance goes on as its largest eigenvalue does. Without an encoder: its counts are no part of that.
-std::vector<double> free_steps(const Study& study, const Case& one, const HandImpedance& hand, double stiffness) {
+// linear, and a disturbance goes on as its largest eigenvalue does. Without an encoder: its counts are no part of that;
+// and without the limiter of reversals, which only a study may leave out: what was admitted, as it is.
+std::vector<double> free_steps(const Study& study, const Case& one, const HandImpedance& hand,
+                               const AdmittedTuning& admitted) {
   constexpr double kDepth = 0.002, kDisturbance = 1e-8, kRounding = 1e-15;  // [m]
   Trial trial = wall_trial(study, one, hand);
   trial.lever.encoder_counts = 0.0;
+  trial.haptics.tuning = admitted.tuning;
+  trial.haptics.contact.hold = admitted.hold;
   trial.haptics.contact.reversal_limiter = false;
+  trial.haptics.contact.study = true;
   HandTarget pushing;
-  pushing.push = {kDepth * (stiffness + trial.lever.axis_x.stiffness + hand.stiffness), 0.0};
+  pushing.push = {kDepth * (admitted.tuning.wall_stiffness + trial.lever.axis_x.stiffness + hand.stiffness), 0.0};
   trial.start = {kDepth + kDisturbance, 0.0};
   trial.hand = [pushing](double, glm::dvec2) { return pushing; };
   const TrialRun run = run_trial(trial);
@@ -143,7 +148,7 @@ Result examine(const Study& study, const Case& one, const HandImpedance& hand) {
   result.run = impact(study, one, hand);
   const AdmittedTuning& admitted = result.run.admitted;
   result.predicted = predicted_radius(wall_trial(study, one, hand), admitted);
-  result.measured = growth(free_steps(study, one, hand, admitted.tuning.wall_stiffness));
+  result.measured = growth(free_steps(study, one, hand, admitted));
   return result;
 }
 

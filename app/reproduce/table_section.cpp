@@ -6,7 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "app/reproduce/identified_axes.h"
+#include "app/identify/identify.h"
+#include "app/identify/table_2.h"
 #include "app/reproduce/section.h"
 #include "app/reproduce/study_files.h"
 #include "haptics/joystick/kinematics.h"
@@ -49,7 +50,7 @@ struct DeviceMeasured {
 
 DeviceMeasured measure(const Study& study) {
   tell(study, "to the stops");
-  const auto [x, y] = identify_axes(study);
+  const AxisIdentification x = identify_axis(study.preset, LeverAxis::x), y = identify_axis(study.preset, LeverAxis::y);
   return {drive_to_stop(study, {1.0, 0.0}), drive_to_stop(study, {0.0, 1.0}), device_row(study.device).counts_per_deg,
           bandwidth(x.fit.model), bandwidth(y.fit.model)};
 }
@@ -64,9 +65,9 @@ Table table_2(const Study& study, const DeviceMeasured& ours) {
       "table_2",
       "Table 2 with the row of this device, which is simulated: a dash stands where only hardware has an answer.",
       {{"Item", "Developed (printed)", "SideWinder (printed)", "Immersion Engine 2000 (printed)", "Here, measured"},
-       {"Range about X", "70 ~ 80 deg", "45 ~ 55 deg", "65 deg",
+       {"Range about X", kPrintedRangeX.developed, kPrintedRangeX.sidewinder, kPrintedRangeX.immersion,
         fmt::format("{:.1f} deg, moves the tip along shift", both_sides_deg(ours.shift))},
-       {"Range about Y", "80 ~ 90 deg", "35 ~ 50 deg", "65 deg",
+       {"Range about Y", kPrintedRangeY.developed, kPrintedRangeY.sidewinder, kPrintedRangeY.immersion,
         fmt::format("{:.1f} deg, moves the tip along select", both_sides_deg(ours.select))},
        {"Height (L3)", "29 cm", "18 ~ 30 cm", "28 cm", "-"},
        {"Handle (L3-L1)", "16 cm", "13 ~ 20 cm", "18.5 cm", "-"},
@@ -74,11 +75,11 @@ Table table_2(const Study& study, const DeviceMeasured& ours) {
         fmt::format("{:.1f} cm along select, {:.1f} cm along shift (arcs of the tip)",
                     200.0 * study.preset.lever.yoke.radius * ours.select.angle,
                     200.0 * study.preset.lever.yoke.radius * ours.shift.angle)},
-       {"Output torque", "10.83 Nm", "small", "8.9 Nm",
+       {"Output torque", kPrintedTorque.developed, kPrintedTorque.sidewinder, kPrintedTorque.immersion,
         fmt::format("{:.2f} N at the tip for ever, {:.1f} N at its peak", ours.select.continuous, ours.select.peak)},
-       {"Precision", "2250/80 counts/deg", "low", "1100/65 counts/deg",
-        fmt::format("{:.3f} counts/deg, {:.1f} um at the tip", ours.counts_per_deg, 1e6 * step)},
-       {"Bandwidth", "100 Hz", "low", "120 Hz",
+       {"Precision [counts/deg]", kPrintedPrecision.developed, kPrintedPrecision.sidewinder,
+        kPrintedPrecision.immersion, fmt::format("{:.3f}, {:.1f} um at the tip", ours.counts_per_deg, 1e6 * step)},
+       {"Bandwidth", kPrintedBandwidth.developed, kPrintedBandwidth.sidewinder, kPrintedBandwidth.immersion,
         fmt::format("{:.2f} Hz in X, {:.2f} Hz in Y: -3 dB of the gain at rest", ours.bandwidth_x, ours.bandwidth_y)},
        {"Interface", "PCI", "USB, game port", "PCI", "-"},
        {"Control", "PC", "µ-processor", "PC", "PC"},

@@ -145,14 +145,9 @@ std::vector<TrialContact> contacts(const TrialRun& run, const Gate& gate) {
 }
 
 double predicted_radius(const Trial& trial, const AdmittedTuning& admitted) {
-  ContactLaw law;
-  law.hold = admitted.hold;
-  law.stiffness = admitted.tuning.wall_stiffness;
-  law.damping = admitted.tuning.wall_damping;
-  law.window = trial.haptics.estimator.window;
-  law.free_damping = admitted.tuning.aisle_damping;
-  law.smoothing = trial.haptics.estimator.smoothing;
-  law.delay = trial.lever.delay;
+  DeviceSpec device;
+  device.delay = trial.lever.delay;
+  const ContactLaw law = contact_law(trial.haptics, admitted, device);
   return spectral_radius(trial.lever.axis_x, trial.lever.hand, law, period_s(trial.haptics));
 }
 

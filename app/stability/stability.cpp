@@ -8,6 +8,7 @@ namespace gearshift {
 namespace {
 
 constexpr int kMapSteps = 120;
+constexpr double kLeastEnd = 0.01;  // [1] of m / T: a map has a width even where no damping is stable
 
 ContactLaw with_damping(ContactLaw wall, double damping) {
   wall.damping = damping;
@@ -31,7 +32,7 @@ double damping_end(const StabilityQuestion& question, const JudgedHand& judged) 
   const double inertia = (question.handle.mass + judged.hand.mass) / question.period();
   double good = 0.0, bad = 4.0 * (inertia + question.handle.damping + judged.hand.damping);
   if (limit_of(question, judged, bad) > 0.0) return bad;
-  while (bad - good > 0.002 * bad) {
+  while (bad - good > 0.002 * bad && bad > kLeastEnd * inertia) {
     const double middle = 0.5 * (good + bad);
     (limit_of(question, judged, middle) > 0.0 ? good : bad) = middle;
   }

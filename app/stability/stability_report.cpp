@@ -6,6 +6,9 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include "app/hold_words.h"
+#include "app/limited_words.h"
+
 namespace gearshift {
 namespace {
 
@@ -13,12 +16,10 @@ using Json = nlohmann::ordered_json;
 
 constexpr const char* kExactLaw = "spectral radius of one cycle of lever, hand and wall < 1";
 
-std::string hold_words(const ContactLaw& wall) {
+std::string law_words(const ContactLaw& wall) {
   if (wall.hold == ContactHold::observer)
-    return fmt::format("observed hold with B of at least {:g} N s/m", kObservedDamping);
-  return fmt::format("{} hold, velocity over {} sample{}",
-                     wall.hold == ContactHold::zero_order ? "zero-order" : "half-sample", wall.window,
-                     wall.window == 1 ? "" : "s");
+    return fmt::format("{} with B of at least {:g} N s/m", hold_words(wall.hold), kObservedDamping);
+  return fmt::format("{}, velocity over {} sample{}", hold_words(wall.hold), wall.window, wall.window == 1 ? "" : "s");
 }
 
 std::string passive_law(const ContactLaw& wall) {
@@ -36,8 +37,11 @@ Json finite_or_null(std::optional<double> value) {
   return !value || std::isinf(*value) ? Json(nullptr) : Json(*value);
 }
 
+std::string wall_words(double stiffness, double damping) {
+  return fmt::format("K = {:g} N/m, B = {:g} N s/m", stiffness, damping);
+}
 std::string wall_words(const ContactLaw& wall) {
-  return fmt::format("K = {:g} N/m, B = {:g} N s/m", wall.stiffness, wall.damping);
+  return wall_words(wall.stiffness, wall.damping);
 }
 
 std::string hand_words(const JudgedHand& judged) {
@@ -68,6 +72,47 @@ std::string passive_words(const ContactLaw& wall, const StabilityAnswer& answer)
                      up_to(*answer.passive_limit));
 }
 
+bool is_clipped(const ContactLaw& wall, const TrainerAnswer& trainer) {
+  return trainer.stiffness != wall.stiffness || trainer.damping != wall.damping;
+}
+
+std::string trainer_words(const ContactLaw& wall, const TrainerAnswer& trainer) {
+  if (!trainer.problem.empty()) return fmt::format("The trainer does not run there: {}.\n", trainer.problem);
+  const AdmittedTuning& admitted = trainer.admitted;
+  std::string text = fmt::format("The trainer would use {}, {}{}\n",
+                                 wall_words(admitted.tuning.wall_stiffness, admitted.tuning.wall_damping),
+                                 hold_words(admitted.hold), admitted.limited.empty() ? "." : ":");
+  if (is_clipped(wall, trainer))
+    text += fmt::format("  asked for {}, the most that it takes\n", wall_words(trainer.stiffness, trainer.damping));
+  for (const Limited& limited : admitted.limited) text += fmt::format("  {}\n", limited_words(limited));
+  return text;
+}
+
+Json limited_json(const Limited& limited) {
+  const auto value = [&](double number) {
+    return limited.what == "hold" ? Json(hold_name(static_cast<ContactHold>(number))) : Json(number);
+  };
+  return {{"law", limited.law},
+          {"what", limited.what},
+          {"wanted", value(limited.wanted)},
+          {"used", value(limited.used)},
+          {"hand", limited.hand}};
+}
+
+// Nothing but nulls where the trainer does not run.
+Json trainer_json(const TrainerAnswer& trainer) {
+  const HapticTuning& tuning = trainer.admitted.tuning;
+  const auto known = [&](const auto& value) { return trainer.problem.empty() ? Json(value) : Json(nullptr); };
+  Json limited = Json::array();
+  for (const Limited& one : trainer.admitted.limited) limited.push_back(limited_json(one));
+  return {{"asked_wall_stiffness_n_per_m", known(trainer.stiffness)},
+          {"asked_wall_damping_n_s_per_m", known(trainer.damping)},
+          {"admitted_wall_stiffness_n_per_m", known(tuning.wall_stiffness)},
+          {"admitted_wall_damping_n_s_per_m", known(tuning.wall_damping)},
+          {"admitted_hold", known(hold_name(trainer.admitted.hold))},
+          {"limited", known(limited)}};
+}
+
 Json hand_json(const JudgedHand& judged, const HandVerdict& verdict, std::optional<double> passive_limit) {
   return {{"name", judged.name},
           {"mass_kg", judged.hand.mass},
@@ -81,19 +126,6 @@ Json hand_json(const JudgedHand& judged, const HandVerdict& verdict, std::option
 
 }  // namespace
 
-const char* hold_name(ContactHold hold) {
-  switch (hold) {
-    case ContactHold::zero_order:
-      return "zero_order";
-    case ContactHold::half_sample:
-    case ContactHold::automatic:
-      return "half_sample";
-    case ContactHold::observer:
-      return "observer";
-  }
-  return "?";
-}
-
 std::string device_words(const StabilityQuestion& question) {
   return fmt::format("{}: m = {:g} kg, b = {:g} N s/m, k = {:g} N/m", question.device, question.handle.mass,
                      question.handle.damping, question.handle.stiffness);
@@ -103,10 +135,11 @@ std::string loop_words(const StabilityQuestion& question) {
   const ContactLaw& wall = question.wall;
   const std::string delay =
       wall.delay == 0 ? "no delay" : fmt::format("{} sample{} of delay", wall.delay, wall.delay == 1 ? "" : "s");
-  return fmt::format("{:g} Hz (T = {:g} ms), {}, {}", question.rate, 1e3 * question.period(), delay, hold_words(wall));
+  return fmt::format("{:g} Hz (T = {:g} ms), {}, {}", question.rate, 1e3 * question.period(), delay, law_words(wall));
 }
 
-std::string stability_text(const StabilityQuestion& question, const StabilityAnswer& answer) {
+std::string stability_text(const StabilityQuestion& question, const StabilityAnswer& answer,
+                           const TrainerAnswer& trainer) {
   const ContactLaw& wall = question.wall;
   std::string text = fmt::format("device   {}\n", device_words(question));
   text += fmt::format("loop     {}\n", loop_words(question));
@@ -116,10 +149,11 @@ std::string stability_text(const StabilityQuestion& question, const StabilityAns
   text += fmt::format("  exact    {}: {:.6f}, {}\n", kExactLaw, answer.radius, up_to(answer.limit));
   text += "  passive  " + passive_words(wall, answer);
   text += "Passivity is sufficient for stability with every passive hand, not necessary: the exact limit decides.\n";
-  return text;
+  return text + trainer_words(wall, trainer);
 }
 
-std::string stability_json(const StabilityQuestion& question, const StabilityAnswer& answer) {
+std::string stability_json(const StabilityQuestion& question, const StabilityAnswer& answer,
+                           const TrainerAnswer& trainer) {
   const ContactLaw& wall = question.wall;
   Json json{{"device", question.device},
             {"mass_kg", question.handle.mass},
@@ -141,6 +175,7 @@ std::string stability_json(const StabilityQuestion& question, const StabilityAns
             {"deciding_hand", question.hands[answer.deciding].name},
             {"law", kExactLaw},
             {"passive_law", passive_law(wall)}};
+  json.update(trainer_json(trainer));
   for (std::size_t i = 0; i < answer.hands.size(); ++i) {
     json["hands"].push_back(hand_json(question.hands[i], answer.hands[i], answer.passive_limit));
   }

@@ -1,18 +1,16 @@
 // gearshift identify: frequency response, mass, damping and stiffness of a lever, and its force sensor.
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <optional>
-#include <stdexcept>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 #include <fmt/core.h>
 
 #include "app/assets_path.h"
 #include "app/identify/identify.h"
+#include "app/output_folder.h"
 #include "app/verbs/number_between.h"
 #include "app/verbs/progress_bar.h"
 #include "app/verbs/verbs.h"
@@ -41,14 +39,9 @@ std::vector<LeverAxis> axes_of(const std::string& word) {
   return {word == "x" ? LeverAxis::x : LeverAxis::y};
 }
 
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw std::runtime_error(fmt::format("{}: cannot be created: {}", folder.string(), error.message()));
-}
-
 void draw(const std::string& folder, const Identification& found, const IdentifyProgress& progress) {
-  for (const AxisIdentification& axis : found.axes) draw_bode(folder, axis, progress);
+  for (const AxisIdentification& axis : found.axes)
+    draw_bode(folder, axis, "device says", [&] { progress("figures", 0.0); });
 }
 
 int run_identify(const IdentifyArguments& arguments) {

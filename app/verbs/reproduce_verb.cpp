@@ -1,17 +1,15 @@
 // gearshift reproduce: every figure and table of the paper from one preset, as one page.
 #include <algorithm>
-#include <filesystem>
 #include <memory>
-#include <stdexcept>
 #include <string>
 #include <string_view>
-#include <system_error>
 #include <vector>
 
 #include <fmt/format.h>
 
 #include "app/assets_path.h"
 #include "app/limited_words.h"
+#include "app/output_folder.h"
 #include "app/reproduce/page.h"
 #include "app/reproduce/reproduce.h"
 #include "app/verbs/progress_bar.h"
@@ -38,12 +36,6 @@ std::string refuse_unknown_section(const std::string& id) {
   const bool known =
       std::any_of(sections.begin(), sections.end(), [&](const NamedSection& section) { return section.id == id; });
   return known ? std::string{} : fmt::format("\"{}\" is no section: {}", id, ids());
-}
-
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw std::runtime_error(fmt::format("{}: cannot be created: {}", folder.string(), error.message()));
 }
 
 void print_result(const Study& study, const std::vector<Section>& sections) {

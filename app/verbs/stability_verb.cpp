@@ -1,12 +1,16 @@
 // gearshift stability: may I use this wall at this rate on this device?
+#include <algorithm>
+#include <array>
 #include <fstream>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <vector>
 
 #include <fmt/core.h>
 
+#include "app/hold_words.h"
 #include "app/stability/stability.h"
 #include "app/stability/stability_report.h"
 #include "app/stability/stability_svg.h"
@@ -54,9 +58,15 @@ std::string device_name(const StabilityArguments& arguments) {
   return own ? "the given device" : arguments.axis == "x" ? "the paper's X axis" : "the paper's Y axis";
 }
 
+constexpr std::array kHolds = {ContactHold::zero_order, ContactHold::half_sample, ContactHold::observer};
+
+// One of those names: the option sees to it.
 ContactHold hold_of(const std::string& name) {
-  if (name == "zero_order") return ContactHold::zero_order;
-  return name == "observer" ? ContactHold::observer : ContactHold::half_sample;
+  return *std::find_if(kHolds.begin(), kHolds.end(), [&](ContactHold hold) { return name == hold_name(hold); });
+}
+
+std::vector<std::string> hold_names() {
+  return {hold_name(kHolds[0]), hold_name(kHolds[1]), hold_name(kHolds[2])};
 }
 
 ContactLaw wall_of(const StabilityArguments& arguments) {
@@ -123,7 +133,9 @@ int run_stability(const StabilityArguments& arguments) {
                                    hands_of(arguments.hand)};
   const StabilityAnswer answer = answer_or_refuse(question, arguments.hand);
   write_map(arguments, question, answer);
-  fmt::print("{}", arguments.json ? stability_json(question, answer) : stability_text(question, answer));
+  const TrainerAnswer trainer = ask_trainer(question);
+  fmt::print("{}",
+             arguments.json ? stability_json(question, answer, trainer) : stability_text(question, answer, trainer));
   return 0;
 }
 
@@ -155,7 +167,7 @@ void add_wall_options(CLI::App& verb, StabilityArguments& arguments) {
       ->check(number_between(1, kMostWindow))
       ->capture_default_str();
   verb.add_option("--hold", arguments.hold, "zero_order (the textbook's spring), half_sample or observer")
-      ->check(CLI::IsMember({"zero_order", "half_sample", "observer"}))
+      ->check(CLI::IsMember(hold_names()))
       ->capture_default_str();
 }
 

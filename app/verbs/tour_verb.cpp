@@ -1,17 +1,16 @@
 // gearshift tour: the simulated hand through every gear of a layout, no graphics: trace and plots.
 #include <cstdint>
-#include <filesystem>
 #include <memory>
 #include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
-#include <system_error>
 
 #include <fmt/core.h>
 
 #include "app/assets_path.h"
 #include "app/limited_words.h"
+#include "app/output_folder.h"
 #include "app/tour/tour.h"
 #include "app/verbs/number_between.h"
 #include "app/verbs/progress_bar.h"
@@ -62,12 +61,6 @@ HandImpedance driving_hand(const std::string& text) {
 std::string refuse_no_seed(const std::string& text) {
   const bool whole = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
   return whole ? std::string{} : fmt::format("\"{}\" is not a whole number from 0", text);
-}
-
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code error;
-  std::filesystem::create_directories(folder, error);
-  if (error) throw std::runtime_error(fmt::format("{}: cannot be created: {}", folder.string(), error.message()));
 }
 
 void print_result(const TourSetup& setup, const TourResult& result) {

@@ -25,7 +25,6 @@ constexpr double kAgreement = 1e-3;       // [1] between two windows, where thei
 constexpr double kLeastDeviation = 1e-6;  // [1] of a response: no device is better
 constexpr double kNearStop = 0.9;         // [1] of the way to the stop: motors off
 constexpr double kTooFar = 1.15;          // [1] of the stroke asked for: amplitude back
-constexpr double kStaleTime = 0.020;      // [s]
 
 int axis_index(LeverAxis axis) {
   return axis == LeverAxis::x ? 0 : 1;
@@ -40,7 +39,7 @@ const SweepConfig& checked(const SweepConfig& config, const DeviceSpec& spec, in
   require_between("FrequencySweep: stroke_share", config.stroke_share, 0.05, 0.7);
   require_between("FrequencySweep: max_force of the device", spec.max_force[axis], 1e-3, 1e4, "N");
   require_between("FrequencySweep: workspace of the device", spec.workspace[axis], 1e-4, 10.0, "m");
-  require_between("FrequencySweep: delay of the device", spec.delay, 0, 15, "cycles");
+  require_between("FrequencySweep: delay of the device", spec.delay, 0, kMostDelay, "cycles");
   if (config.literal && !spec.simulated) {
     throw std::invalid_argument("FrequencySweep: literal drives the lever to its stop: simulated devices only");
   }
@@ -50,6 +49,17 @@ const SweepConfig& checked(const SweepConfig& config, const DeviceSpec& spec, in
 double stop_on_arc(const DeviceSpec& spec, int axis) {
   const double radius = spec.yoke_radius, reach = spec.workspace[axis];
   return radius > 0.0 ? radius * std::asin(std::min(1.0, reach / radius)) : reach;
+}
+
+std::string_view fault_words(GuardFault fault) {
+  switch (fault) {
+    case GuardFault::stale_reading:
+      return "no fresh reading for 20 ms";
+    case GuardFault::limit_broken:
+      return "the lever is outside its workspace";
+    default:
+      return guard_fault_name(fault);
+  }
 }
 
 // Fundamental of a sampled sinusoid that is held from sample to sample.
@@ -74,6 +84,7 @@ double FrequencySweep::Envelope::at(double time) const noexcept {
 FrequencySweep::FrequencySweep(const SweepConfig& config, HapticDevice& device, LeverAxis axis, double period)
     : config_(checked(config, device.spec(), axis_index(axis), period)),
       device_(device),
+      guard_({}, device.spec(), period),
       axis_(axis_index(axis)),
       period_(period),
       stop_(stop_on_arc(device.spec(), axis_)),
@@ -86,6 +97,7 @@ FrequencySweep::FrequencySweep(const SweepConfig& config, HapticDevice& device, 
   response_.axis = axis;
   response_.period = period;
   response_.points.reserve(tones_.size());
+  guard_.arm();
 }
 
 FrequencySweep::Tone FrequencySweep::make_tone(double frequency, double period) {
@@ -107,31 +119,48 @@ double FrequencySweep::progress() const noexcept {
 bool FrequencySweep::step(std::int64_t now_ns) noexcept {
   if (done_) return false;
   const LeverReading reading = device_.read(now_ns);
-  if (!take(reading)) return !done_;
-  const ArcSample here = locate(reading.position);
-  watch_stroke(here.position);
-  if (done_) return false;
-  drive(here);
-  measure(here, reading);
+  const bool fresh = is_fresh(reading);
+  if (!is_finite(reading.position) || !is_finite(reading.hand_force)) {
+    finish("a reading is not a number");
+  } else if (fresh && guard_.state() == GuardState::running) {
+    work(reading);
+  } else {
+    send(sent_[cycles_ % sent_.size()], reading, fresh);  // zero, until the guard runs
+  }
   return !done_;
 }
 
-// Whether there is a new sample to work with.
-bool FrequencySweep::take(const LeverReading& reading) noexcept {
-  const bool fresh = !started_ || reading.sequence != sequence_;
-  stale_ = fresh ? 0 : stale_ + 1;
-  if (stale_ * period_ > kStaleTime) finish("no fresh reading for 20 ms");
-  if (!fresh) return false;
-  if (!is_finite(reading.position) || !is_finite(reading.hand_force)) {
-    finish("a reading is not a number");
-    return false;
-  }
+bool FrequencySweep::is_fresh(const LeverReading& reading) noexcept {
+  const bool fresh = cycles_ == 0 || reading.sequence != sequence_;
   sequence_ = reading.sequence;
-  if (!started_) origin_ns_ = reading.time_ns;
-  time_ = 1e-9 * static_cast<double>(reading.time_ns - origin_ns_);
+  return fresh;
+}
+
+void FrequencySweep::work(const LeverReading& reading) noexcept {
+  keep_time(reading.time_ns);
+  const ArcSample here = locate(reading.position);
+  watch_stroke(here.position);
+  if (!done_) send(wanted(here), reading, true);
+  if (!done_) measure(here, reading);
+}
+
+void FrequencySweep::keep_time(std::int64_t time_ns) noexcept {
+  if (!started_) origin_ns_ = time_ns;
+  time_ = 1e-9 * static_cast<double>(time_ns - origin_ns_);
   if (!started_) next_tone();
   started_ = true;
-  return true;
+}
+
+// No velocity for the guard: it would damp with it, but where it falls the sweep is over.
+void FrequencySweep::send(glm::dvec2 force, const LeverReading& reading, bool fresh) noexcept {
+  GuardInput in;
+  in.force = force;
+  in.position = reading.position;
+  in.fresh = fresh;
+  const glm::dvec2 guarded = guard_.guard(in).force;
+  if (guard_.state() >= GuardState::damped) return finish(fault_words(guard_.fault()));
+  device_.write(guarded);
+  sent_[++cycles_ % sent_.size()] = guarded;
 }
 
 FrequencySweep::ArcSample FrequencySweep::locate(glm::dvec2 plane) const noexcept {
@@ -167,18 +196,16 @@ bool FrequencySweep::going_down() const noexcept {
 }
 
 // Along one arc only: the force in the plane that does no work on the other.
-void FrequencySweep::drive(const ArcSample& here) noexcept {
+glm::dvec2 FrequencySweep::wanted(const ArcSample& here) const noexcept {
   const double phase = kTau * tones_[current_].frequency * (time_ - tone_start_);
-  const glm::dvec2 force = envelope_.at(time_) * std::sin(phase) * here.plane_per_arc;
-  device_.write(force);
-  sent_[++samples_ % sent_.size()] = force;
+  return envelope_.at(time_) * std::sin(phase) * here.plane_per_arc;
 }
 
 // From here to the next sample acts what was sent `delay` samples ago, at the pose of now.
 void FrequencySweep::measure(const ArcSample& here, const LeverReading& reading) noexcept {
   if (stage_ == Stage::window) {
     const DeviceSpec& spec = device_.spec();
-    const std::uint64_t due = samples_ + sent_.size() - static_cast<std::uint64_t>(spec.delay);
+    const std::uint64_t due = cycles_ + sent_.size() - static_cast<std::uint64_t>(spec.delay);
     const double held = glm::dot(here.arc_per_plane, sent_[due % sent_.size()]);
     const double hand = spec.measures_hand_force ? glm::dot(here.arc_per_plane, reading.hand_force) : 0.0;
     fit_.add(time_, {here.position, held, hand});

@@ -19,6 +19,7 @@
 
 #include "haptics/analysis/harmonic_fit.h"
 #include "haptics/device/haptic_device.h"
+#include "haptics/safety/force_guard.h"
 
 namespace gearshift {
 
@@ -58,6 +59,8 @@ struct FrequencyResponse {
 
 // Steps the device through the sweep: one step is one cycle of the device's loop. Per frequency: swell to the
 // amplitude, then windows of whole periods until two in a row agree, then fade, so that the next one starts at rest.
+// Every force goes through a guard of the sweep's own, which is armed from the first step; what it lets through is what
+// is sent and measured. Its slew bends no sinusoid below half of what it lets change in a cycle: 12.5 N.
 class FrequencySweep {
  public:
   // period [s] of the cycles, 1e-5 to 0.02. The device must outlive the sweep, and be driven by nobody else.
@@ -66,8 +69,8 @@ class FrequencySweep {
   FrequencySweep(const SweepConfig& config, HapticDevice& device, LeverAxis axis, double period);
 
   // Reads, measures, writes. False when the sweep is over: then the motors are off. It ends early, and says why in
-  // response().problem, when the lever comes near its stop, when readings stay away for 20 ms or are no numbers.
-  // Real-time safe.
+  // response().problem, when the lever comes near its stop, a reading is no number, or the guard falls: readings stay
+  // away for 20 ms, the lever is outside its workspace. Real-time safe.
   bool step(std::int64_t now_ns) noexcept;
 
   const FrequencyResponse& response() const noexcept { return response_; }
@@ -94,11 +97,14 @@ class FrequencySweep {
   };
 
   static Tone make_tone(double frequency, double period);
-  bool take(const LeverReading& reading) noexcept;
+  bool is_fresh(const LeverReading& reading) noexcept;
+  void work(const LeverReading& reading) noexcept;
+  void keep_time(std::int64_t time_ns) noexcept;
+  void send(glm::dvec2 force, const LeverReading& reading, bool fresh) noexcept;
   ArcSample locate(glm::dvec2 plane) const noexcept;
   void watch_stroke(double position) noexcept;
   bool going_down() const noexcept;
-  void drive(const ArcSample& here) noexcept;
+  glm::dvec2 wanted(const ArcSample& here) const noexcept;
   void measure(const ArcSample& here, const LeverReading& reading) noexcept;
   void end_window() noexcept;
   FrequencyPoint evaluate() const noexcept;
@@ -112,6 +118,7 @@ class FrequencySweep {
 
   SweepConfig config_;
   HapticDevice& device_;
+  ForceGuard guard_;
   int axis_;
   double period_;    // [s]
   double stop_;      // [m] of the arc
@@ -124,13 +131,12 @@ class FrequencySweep {
   std::int64_t origin_ns_ = 0;
   double time_ = 0.0;  // [s] of the sample in hand
   std::uint64_t sequence_ = 0;
-  int stale_ = 0;  // [cycles]
   Stage stage_ = Stage::swell;
   Envelope envelope_;
-  double tone_start_ = 0.0;            // [s] where its phase is 0
-  bool eased_ = false;                 // the amplitude was taken back for the stroke
-  std::array<glm::dvec2, 16> sent_{};  // [N] in the gate plane, by sample
-  std::uint64_t samples_ = 0;
+  double tone_start_ = 0.0;                        // [s] where its phase is 0
+  bool eased_ = false;                             // the amplitude was taken back for the stroke
+  std::array<glm::dvec2, kMostDelay + 1> sent_{};  // [N] in the gate plane, by cycle
+  std::uint64_t cycles_ = 0;
   HarmonicFit fit_;
   int windows_ = 0;
   FrequencyPoint last_window_;

@@ -3,11 +3,13 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
+#include <limits>
 #include <numbers>
 #include <stdexcept>
 #include <string>
 #include <vector>
 
+#include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
@@ -100,6 +102,11 @@ NormalEquations normal_equations(const std::vector<FrequencyPoint>& points, glm:
   return sum;
 }
 
+double misfit_of(const NormalEquations& sum, std::size_t points) {
+  const double freedom = 2.0 * static_cast<double>(points) - 3.0;
+  return std::sqrt(sum.squares / freedom);
+}
+
 bool has_mass(glm::dvec3 p) {
   return p[0] > 0.0 && std::isfinite(p[0] + p[1] + p[2]);
 }
@@ -113,21 +120,22 @@ Complex compliance(const AxisModel& axis, double frequency) noexcept {
 
 AxisFit fit_axis(const FrequencyResponse& response) {
   constexpr int kMostRounds = 30;
-  constexpr double kDone = 1e-10;  // [1] of each number
+  constexpr double kDone =
+      1e-6;  // [1] length of a step in standard deviations: none of the three may be 0 to divide by
   const std::vector<FrequencyPoint> points = measured_points(response);
   glm::dvec3 p = linear_fit(points);
   NormalEquations sum;
   double change = 1.0;
-  for (int round = 0; round < kMostRounds && change > kDone && has_mass(p); ++round) {
+  for (int round = 0; round < kMostRounds && !(change <= kDone) && has_mass(p); ++round) {
     sum = normal_equations(points, p, response.period);
     const glm::dvec3 step = glm::inverse(sum.matrix) * sum.slope;
     p -= step;
-    change = std::max({std::abs(step[0] / p[0]), std::abs(step[1] / p[1]), std::abs(step[2] / p[2])});
+    change = std::sqrt(glm::dot(step, sum.slope)) / std::max(1.0, misfit_of(sum, points.size()));
   }
   if (!has_mass(p)) throw std::invalid_argument("fit_axis: no axis of positive mass answers like this");
+  if (!(change <= kDone)) throw std::invalid_argument("fit_axis: no axis fits: 30 rounds did not settle");
 
-  const double freedom = 2.0 * static_cast<double>(points.size()) - 3.0;
-  const double misfit = std::sqrt(sum.squares / freedom);
+  const double misfit = misfit_of(sum, points.size());
   const glm::dmat3 covariance = glm::inverse(sum.matrix);
   glm::dvec3 deviation;
   for (int i = 0; i < 3; ++i) deviation[i] = std::max(1.0, misfit) * std::sqrt(covariance[i][i]);
@@ -149,6 +157,7 @@ double bandwidth(const AxisModel& axis) noexcept {
 }
 
 double damping_ratio(const AxisModel& axis) noexcept {
+  if (axis.stiffness <= 0.0) return std::numeric_limits<double>::infinity();
   return axis.damping / (2.0 * std::sqrt(axis.mass * axis.stiffness));
 }
 

@@ -28,7 +28,8 @@ struct AxisFit {
 
 // Weighted least squares of 1/G = k - m w^2 + j b w over the measured points, then refined on what a sampled sinusoid
 // really does: the motors hold their force, exactly stepped. Delay is already in the response.
-// Throws std::invalid_argument in one sentence: fewer than three measured points, or no positive mass in them.
+// Throws std::invalid_argument in one sentence: fewer than three measured points, no positive mass in them, or a fit
+// that does not settle.
 AxisFit fit_axis(const FrequencyResponse& response);
 
 // Highest frequency at which the gain is still `gain` [m/N]; 0 where it never is. [Hz]
@@ -38,7 +39,7 @@ double frequency_at_gain(const AxisModel& axis, double gain) noexcept;
 // does not follow from its own (11) and (12), whose bandwidths are 0.92 and 1.02 Hz.
 double bandwidth(const AxisModel& axis) noexcept;
 
-double damping_ratio(const AxisModel& axis) noexcept;                       // [1] above 1 over-damped
+double damping_ratio(const AxisModel& axis) noexcept;  // [1] above 1 over-damped, infinite without a spring
 std::array<std::complex<double>, 2> poles(const AxisModel& axis) noexcept;  // [rad/s] the slower first
 
 // The device's row of Table 2, of what spec() knows.

@@ -129,7 +129,7 @@ class ContactCycle {
 // The cycle is linear: its matrix is what it makes of each unit vector.
 double radius_of(const ContactCycle& cycle) {
   const std::size_t n = cycle.order();
-  std::array<double, kMostStates * kMostStates> matrix;
+  std::array<double, std::size_t{kMostStates} * kMostStates> matrix;
   for (std::size_t column = 0; column < n; ++column) {
     const std::span<double> state(matrix.data() + column * n, n);
     std::fill(state.begin(), state.end(), 0.0);

@@ -1,5 +1,6 @@
 #include "haptics/contact/lever_observer.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include <glm/mat3x3.hpp>
@@ -11,6 +12,8 @@ namespace {
 
 using glm::dmat3;
 using glm::dvec3;
+
+constexpr std::int64_t kMostSkipped = 10;  // [cycles] that it catches up with
 
 // Transition of (position, velocity, hand) over one period: the columns are where unit states go.
 dmat3 transition(const AxisStepper& stepper) noexcept {
@@ -51,9 +54,8 @@ LeverObserver::LeverObserver(const DeviceSpec& spec, double period) noexcept
             Axis{AxisObserver(spec.axis_y, observer_bandwidth(period), period), {}}},
       delay_(static_cast<std::size_t>(spec.delay)) {}
 
-ObservedMotion LeverObserver::update(const LeverMotion& motion, glm::dvec2 commanded) noexcept {
-  newest_ = (newest_ + 1) % sent_.size();
-  sent_[newest_] = commanded;
+ObservedMotion LeverObserver::update(const LeverMotion& motion, glm::dvec2 commanded, std::int64_t skipped) noexcept {
+  for (std::int64_t n = std::min(skipped, kMostSkipped); n >= 0; --n) pass_period(commanded);
   ObservedMotion out;
   for (int i = 0; i < 2; ++i) {
     Axis& axis = axis_[static_cast<std::size_t>(i)];
@@ -66,6 +68,17 @@ ObservedMotion LeverObserver::update(const LeverMotion& motion, glm::dvec2 comma
   return out;
 }
 
+// One period with the command that was due in it.
+void LeverObserver::pass_period(glm::dvec2 commanded) noexcept {
+  newest_ = (newest_ + 1) % sent_.size();
+  sent_[newest_] = commanded;
+  if (!started_) return;
+  for (int i = 0; i < 2; ++i) {
+    Axis& axis = axis_[static_cast<std::size_t>(i)];
+    axis.estimate = axis.observer.predict(axis.estimate, sent(delay_, i));
+  }
+}
+
 double LeverObserver::sent(std::size_t age, int axis) const noexcept {
   return sent_[(newest_ + sent_.size() - age) % sent_.size()][axis];
 }
@@ -73,7 +86,7 @@ double LeverObserver::sent(std::size_t age, int axis) const noexcept {
 // The estimate now, and from it, with the forces that are under way, that of the moment when the next command acts.
 AxisEstimate LeverObserver::observe(Axis& axis, int index, const LeverMotion& motion) noexcept {
   const double sample = motion.position[index];
-  axis.estimate = started_ ? axis.observer.predict(axis.estimate, sent(delay_, index)) : AxisEstimate{sample, 0.0, 0.0};
+  if (!started_) axis.estimate = {sample, 0.0, 0.0};
   if (motion.fresh) axis.estimate = axis.observer.correct(axis.estimate, sample);
   AxisEstimate ahead = axis.estimate;
   for (std::size_t age = delay_; age > 0; --age) ahead = axis.observer.predict(ahead, sent(age - 1, index));

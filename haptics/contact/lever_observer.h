@@ -12,6 +12,7 @@
 #include <algorithm>
 #include <array>
 #include <cstddef>
+#include <cstdint>
 
 #include <glm/vec2.hpp>
 
@@ -59,8 +60,9 @@ class LeverObserver {
  public:
   LeverObserver(const DeviceSpec& spec, double period) noexcept;  // period [s]
 
-  // commanded: the force that was written in the cycle before [N]. Real-time safe.
-  ObservedMotion update(const LeverMotion& motion, glm::dvec2 commanded) noexcept;
+  // commanded: the force that was written in the cycle before [N]; skipped: cycles missed since then, in which it was
+  // held. Real-time safe.
+  ObservedMotion update(const LeverMotion& motion, glm::dvec2 commanded, std::int64_t skipped = 0) noexcept;
 
  private:
   struct Axis {
@@ -69,6 +71,7 @@ class LeverObserver {
   };
 
   double sent(std::size_t age, int axis) const noexcept;
+  void pass_period(glm::dvec2 commanded) noexcept;
   AxisEstimate observe(Axis& axis, int index, const LeverMotion& motion) noexcept;
 
   std::array<Axis, 2> axis_;

@@ -5,11 +5,15 @@
 namespace gearshift {
 namespace {
 
-constexpr double kTurn = 4.0;         // [counts] back from an extreme: more than the encoder makes by itself
-constexpr double kLeastStep = 20e-6;  // [m] taken for a count where the encoder is finer
-constexpr double kWithin = 0.25;      // [s] that the reversals fall into
-constexpr double kLower = 0.75;       // [1] of the stiffness, each time
-constexpr double kFloor = 0.3;        // [1] of m / tau^2, tau = (delay + 1) T
+constexpr double kTurn = 4.0;          // [counts] back from an extreme: more than the encoder makes by itself
+constexpr double kLeastStep = 20e-6;   // [m] taken for a count where the encoder is finer
+constexpr double kWithin = 0.25;       // [s] that the reversals fall into
+constexpr double kPause = 0.5;         // [s] without chatter: it had calmed
+constexpr double kLower = 0.75;        // [1] of the stiffness, each time
+constexpr double kFloor = 0.3;         // [1] of m / tau^2, tau = (delay + 1) T
+constexpr int kBounces = 3;            // times at the floor that may be a bounce dying away
+constexpr double kLowerBelow = 0.5;    // [1] of the stiffness, each further time
+constexpr double kLeast = 1.0 / 64.0;  // [1] of the stiffness: beyond softening
 
 }  // namespace
 
@@ -22,6 +26,7 @@ ReversalLimiter::ReversalLimiter(const DeviceSpec& spec, double period) noexcept
 void ReversalLimiter::reset() noexcept {
   share_ = 1.0;
   at_floor_ = 0;
+  exhausted_ = false;
   for (Axis& axis : axis_) axis.count = 0;
 }
 
@@ -48,11 +53,16 @@ bool ReversalLimiter::chatters(Axis& axis, double position) noexcept {
 
 bool ReversalLimiter::lower(double wanted) noexcept {
   for (Axis& axis : axis_) axis.count = 0;
-  if (now_ - chattered_ > kWithin) at_floor_ = 0;
+  if (now_ - chattered_ > kPause) at_floor_ = 0;
   chattered_ = now_;
-  const double least = wanted > floor_ ? floor_ / wanted : 1.0;
-  if (share_ <= least) return ++at_floor_ == kMostAtFloor;
-  share_ = std::max(least, kLower * share_);
+  const double floor = wanted > floor_ ? floor_ / wanted : 1.0;
+  if (share_ > floor) {
+    share_ = std::max(floor, kLower * share_);
+    return true;
+  }
+  if (++at_floor_ <= kBounces || exhausted_) return false;
+  share_ *= kLowerBelow;
+  exhausted_ = share_ < kLeast;
   return true;
 }
 

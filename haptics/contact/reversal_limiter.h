@@ -1,9 +1,10 @@
 // Softens a wall on which the lever chatters: what no model foresaw is seen in the motion.
 //
 // A hand does not reverse a lever six times in a quarter of a second; a wall that is too stiff for its device does.
-// Then the wall's stiffness falls by a quarter, and again, down to a floor that holds on any device of this mass and
-// delay. It stays there until the loop is armed anew or tuned. A bounce that dies away by itself takes little or
-// nothing; only what chatters on at the floor, for many times six reversals, is beyond softening.
+// Each time, a quarter of the wall's stiffness is taken, down to 0.3 m / tau^2, which would hold if mass and delay were
+// what the device says. Where it chatters on all the same they are not: then half of it, and again, until it is still.
+// It stays there until the loop is armed anew or the wall is tuned. A bounce that dies away by itself takes little or
+// nothing. What chatters on at 1/64 is no wall's doing.
 #pragma once
 
 #include <array>
@@ -25,12 +26,11 @@ class ReversalLimiter {
   // is wanted of that wall [N/m]. True when share() or exhausted() has just changed. Real-time safe.
   bool update(glm::dvec2 position, bool touches, double wanted) noexcept;
 
-  double share() const noexcept { return share_; }                       // [1] of the wanted stiffness to be used
-  bool exhausted() const noexcept { return at_floor_ >= kMostAtFloor; }  // softening does not help
+  double share() const noexcept { return share_; }        // [1] of the wanted stiffness to be used
+  bool exhausted() const noexcept { return exhausted_; }  // softening does not help
 
  private:
   static constexpr std::size_t kReversals = 6;
-  static constexpr int kMostAtFloor = 8;  // times six reversals, without a pause
 
   // The turning points of one axis: a turn counts once the lever has come back from it by kTurn counts.
   struct Axis {
@@ -44,13 +44,14 @@ class ReversalLimiter {
   bool lower(double wanted) noexcept;
 
   double period_;
-  double turn_;            // [m] that makes a reversal
-  double floor_;           // [N/m]
-  double now_ = 0.0;       // [s]
-  double touched_ = -1.0;  // [s] when the lever was last in a wall
-  double share_ = 1.0;
+  double turn_;              // [m] that makes a reversal
+  double floor_;             // [N/m] that would hold if the device were what it says
+  double now_ = 0.0;         // [s]
+  double touched_ = -1.0;    // [s] when the lever was last in a wall
   double chattered_ = -1.0;  // [s] when it last did
-  int at_floor_ = 0;         // times in a row that there was nothing left to take
+  int at_floor_ = 0;         // times in a row that it chattered at the floor or below
+  double share_ = 1.0;
+  bool exhausted_ = false;
   std::array<Axis, 2> axis_{};
 };
 

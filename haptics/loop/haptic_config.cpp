@@ -23,10 +23,12 @@ constexpr const char* kQuietLaw = "quiet half-sample hold: K <= 0.35 m / tau^2, 
 constexpr const char* kObservedLaw = "quiet observed hold: K <= 0.58 m / tau^2, tau = (delay + 1) T";
 constexpr const char* kDampingLaw = "quiet half-sample hold: B <= 0.35 m / tau, tau = (delay + 1) T";
 constexpr const char* kStableLaw = "spectral radius of the sampled loop below 1 at 1.1 K";
+constexpr const char* kFreeLaw = "spectral radius of the sampled lever in free space below 1";
+constexpr const char* kObservedDampingLaw = "observed hold: B >= 50 N s/m, or a heavy arm rings";
 constexpr const char* kObserverLaw = "spectral radius of the observed loop below 1 at any K";
 constexpr const char* kFeelLaw = "passive proxy: no feel stiffer than the wall that carries the proxy";
 
-// Holds a value to a bound, or in a study only says so.
+// Holds a value to a bound, or in a study only says so. The last law that bound a parameter is the one that is told.
 struct Limiter {
   bool study;
   std::vector<Limited>& limited;
@@ -34,7 +36,11 @@ struct Limiter {
   void limit(double& value, double most, const char* what, const char* law, std::string_view hand = {}) const {
     if (value <= most) return;
     const double used = study ? value : most;
-    limited.push_back({law, what, value, used, most, std::string(hand)});
+    const auto same = [&](const Limited& one) { return one.what == what; };
+    const auto before = std::find_if(limited.begin(), limited.end(), same);
+    const double wanted = before == limited.end() ? value : before->wanted;
+    if (before != limited.end()) limited.erase(before);
+    limited.push_back({law, what, wanted, used, most, std::string(hand)});
     value = used;
   }
 };
@@ -61,11 +67,52 @@ void limit_to_quiet(const HapticConfig& config, const DeviceSpec& spec, Admitted
   const double tau = lag(config, spec), damping = kQuiet * lighter_mass(spec) / tau;
   limiter.limit(tuning.aisle_damping, damping, "aisle_damping_n_s_per_m", kDampingLaw);
   limiter.limit(tuning.limit_damping, damping, "limit_damping_n_s_per_m", kDampingLaw);
-  limiter.limit(tuning.wall_damping, damping, "wall_damping_n_s_per_m", kDampingLaw);
-  if (admitted.hold == ContactHold::zero_order) return;
   const bool observed = admitted.hold == ContactHold::observer;
+  if (!observed) limiter.limit(tuning.wall_damping, damping, "wall_damping_n_s_per_m", kDampingLaw);
+  if (admitted.hold == ContactHold::zero_order) return;
   const double stiffness = (observed ? kQuietObserved : kQuiet) * lighter_mass(spec) / (tau * tau);
   limiter.limit(tuning.wall_stiffness, stiffness, "wall_stiffness_n_per_m", observed ? kObservedLaw : kQuietLaw);
+}
+
+// Not a limit but what the hold is made of: in a study, too.
+void raise_observed_damping(AdmittedTuning& admitted) {
+  double& damping = admitted.tuning.wall_damping;
+  if (admitted.hold != ContactHold::observer || damping >= kObservedDamping) return;
+  admitted.limited.push_back(
+      {kObservedDampingLaw, "wall_damping_n_s_per_m", damping, kObservedDamping, kObservedDamping, {}});
+  damping = kObservedDamping;
+}
+
+// Visits every axis with every listed hand.
+void each_lever(const DeviceSpec& spec, const auto& visit) {
+  for (const NamedHand& named : kNamedHands)
+    for (const AxisModel& axis : {spec.axis_x, spec.axis_y}) visit(axis, named);
+}
+
+// Damping alone, away from all walls. A lever without friction or spring is on the boundary and stays there.
+bool is_free_lever_stable(const HapticConfig& config, const AdmittedTuning& admitted, const DeviceSpec& spec) {
+  ContactLaw law = contact_law(config, admitted, spec);
+  law.hold = ContactHold::zero_order;
+  law.stiffness = law.damping = 0.0;
+  law.free_damping += admitted.tuning.limit_damping;
+  double worst = 0.0;
+  each_lever(spec, [&](const AxisModel& axis, const NamedHand& named) {
+    worst = std::max(worst, spectral_radius(axis, named.hand, law, period_s(config)));
+  });
+  return worst < 1.0 + 1e-9;
+}
+
+void limit_free_damping(const HapticConfig& config, const DeviceSpec& spec, AdmittedTuning& admitted,
+                        const Limiter& limiter) {
+  AdmittedTuning trial = admitted;
+  double share = 1.0;
+  while (!is_free_lever_stable(config, trial, spec) && share > 1e-3) {
+    share *= 0.5;
+    trial.tuning.aisle_damping = share * admitted.tuning.aisle_damping;
+    trial.tuning.limit_damping = share * admitted.tuning.limit_damping;
+  }
+  limiter.limit(admitted.tuning.aisle_damping, trial.tuning.aisle_damping, "aisle_damping_n_s_per_m", kFreeLaw);
+  limiter.limit(admitted.tuning.limit_damping, trial.tuning.limit_damping, "limit_damping_n_s_per_m", kFreeLaw);
 }
 
 struct StableStiffness {
@@ -75,23 +122,31 @@ struct StableStiffness {
 
 // The wanted stiffness first: where every hand bears it, nothing has to be searched.
 StableStiffness stable_stiffness(const HapticConfig& config, const AdmittedTuning& admitted, const DeviceSpec& spec) {
-  ContactLaw law;
-  law.hold = admitted.hold;
-  law.stiffness = kGainMargin * admitted.tuning.wall_stiffness;
-  law.damping = admitted.tuning.wall_damping;
-  law.window = config.estimator.window;
-  law.free_damping = admitted.tuning.aisle_damping;
-  law.smoothing = config.estimator.smoothing;
-  law.delay = spec.delay;
   StableStiffness stable;
-  for (const NamedHand& named : kNamedHands) {
-    for (const AxisModel& axis : {spec.axis_x, spec.axis_y}) {
-      if (spectral_radius(axis, named.hand, law, period_s(config)) < 1.0) continue;
+  ContactLaw law = contact_law(config, admitted, spec);
+  law.stiffness *= kGainMargin;
+  const double slow = law.free_damping, fast = slow + admitted.tuning.limit_damping;
+  for (const double free_damping : {slow, fast}) {
+    law.free_damping = free_damping;
+    each_lever(spec, [&](const AxisModel& axis, const NamedHand& named) {
+      if (spectral_radius(axis, named.hand, law, period_s(config)) < 1.0) return;
       const double most = stiffness_limit(axis, named.hand, law, period_s(config)) / kGainMargin;
       if (most < stable.most) stable = {most, named.name};
-    }
+    });
   }
   return stable;
+}
+
+// What only a study may have.
+void refuse_without_study(const HapticConfig& config, const DeviceSpec& spec) {
+  if (config.contact.study && !spec.simulated)
+    throw std::invalid_argument("study = true: only a simulated device may be driven beyond what is stable");
+  if (config.contact.study) return;
+  if (config.estimator.window > 1)
+    throw std::invalid_argument("window_samples above 1: in a study only, it makes damping destabilise a wall");
+  if (!config.contact.reversal_limiter) throw std::invalid_argument("reversal_limiter = false: in a study only");
+  if (config.contact.energy_control == EnergyControl::passivity_controller)
+    throw std::invalid_argument("energy_control = passivity_controller: in a study only");
 }
 
 }  // namespace
@@ -132,27 +187,58 @@ void check_config(const HapticConfig& config) {
   require_between("ghost_offset_m", config.ghost_offset, 0.0, 1.0);
 }
 
-AdmittedTuning admit_tuning(const HapticConfig& config, const DeviceSpec& spec, const Gate& gate) {
-  if (config.contact.study && !spec.simulated) {
-    throw std::invalid_argument("study = true: only a simulated device may be driven beyond what is stable");
+void check_device(const DeviceSpec& spec) {
+  const auto check_vector = [](const char* name, glm::dvec2 value, double most, const char* unit) {
+    require_between(name, value.x, 0.0, most, unit);
+    require_between(name, value.y, 0.0, most, unit);
+  };
+  check_vector("max_force of the device", spec.max_force, 1e4, "N");
+  check_vector("continuous_force of the device", spec.continuous_force, 1e4, "N");
+  check_vector("workspace of the device", spec.workspace, 10.0, "m");
+  require_between("yoke_radius of the device", spec.yoke_radius, 0.0, 10.0, "m");
+  require_between("position_step of the device", spec.position_step, 0.0, 0.1, "m");
+  require_between("delay of the device", spec.delay, 0, kMostDelay, "cycles");
+  for (const AxisModel& axis : {spec.axis_x, spec.axis_y}) {
+    require_between("mass of the device", axis.mass, 1e-3, 1e3, "kg");
+    require_between("damping of the device", axis.damping, 0.0, 1e4, "N s/m");
+    require_between("stiffness of the device", axis.stiffness, 0.0, 1e6, "N/m");
   }
+}
+
+ContactLaw contact_law(const HapticConfig& config, const AdmittedTuning& admitted, const DeviceSpec& spec) noexcept {
+  ContactLaw law;
+  law.hold = admitted.hold;
+  law.stiffness = admitted.tuning.wall_stiffness;
+  law.damping = admitted.tuning.wall_damping;
+  law.window = config.estimator.window;
+  law.free_damping = admitted.tuning.aisle_damping;
+  law.smoothing = config.estimator.smoothing;
+  law.delay = spec.delay;
+  return law;
+}
+
+AdmittedTuning admit_tuning(const HapticConfig& config, const DeviceSpec& spec, const Gate& gate) {
+  refuse_without_study(config, spec);
   AdmittedTuning out{config.tuning, chosen_hold(config, spec), {}};
   const Limiter limiter{config.contact.study, out.limited};
   limit_to_quiet(config, spec, out, limiter);
-  StableStiffness stable = stable_stiffness(config, out, spec);
-  if (out.hold == ContactHold::observer && stable.most == 0.0 && !config.contact.study) {
-    // Not even without stiffness: the observer's own damping comes too late. The sampled hold then.
-    out = {config.tuning, ContactHold::half_sample, {}};
-    out.limited.push_back({kObserverLaw, "hold", static_cast<double>(ContactHold::observer),
-                           static_cast<double>(out.hold), static_cast<double>(out.hold), std::string(stable.hand)});
-    limit_to_quiet(config, spec, out, limiter);
-    stable = stable_stiffness(config, out, spec);
+  limit_free_damping(config, spec, out, limiter);
+  raise_observed_damping(out);
+  const StableStiffness stable = stable_stiffness(config, out, spec);
+  if (stable.most == 0.0 && !config.contact.study) {
+    if (out.hold != ContactHold::observer)
+      throw std::invalid_argument("no wall of any stiffness is stable on this device");
+    // The observer's own damping comes too late here: the sampled hold then.
+    HapticConfig sampled = config;
+    sampled.contact.hold = ContactHold::half_sample;
+    AdmittedTuning instead = admit_tuning(sampled, spec, gate);
+    const double from = static_cast<double>(ContactHold::observer), to = static_cast<double>(instead.hold);
+    instead.limited.push_back({kObserverLaw, "hold", from, to, to, std::string(stable.hand)});
+    return instead;
   }
   limiter.limit(out.tuning.wall_stiffness, stable.most, "wall_stiffness_n_per_m", kStableLaw, stable.hand);
   const double feel = stiffest_feel(gate);
-  if (feel > 0.0) {
-    limiter.limit(out.tuning.feel_scale, out.tuning.wall_stiffness / feel, "feel_scale", kFeelLaw);
-  }
+  if (feel > 0.0) limiter.limit(out.tuning.feel_scale, out.tuning.wall_stiffness / feel, "feel_scale", kFeelLaw);
   return out;
 }
 

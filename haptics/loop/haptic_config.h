@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "haptics/analysis/sampled_loop.h"
 #include "haptics/contact/lever_estimator.h"
 #include "haptics/contact/virtual_coupling.h"
 #include "haptics/device/haptic_device.h"
@@ -33,9 +34,8 @@ struct OverPushConfig {
 // How a contact is made. Fixed while the loop runs.
 struct ContactConfig {
   ContactHold hold = ContactHold::automatic;
-  EnergyControl energy_control =
-      EnergyControl::none;  // beside that hold; the guard's fallback switches it on by itself
-  bool reversal_limiter = true;
+  EnergyControl energy_control = EnergyControl::none;  // on top of that hold; passivity_controller in a study only
+  bool reversal_limiter = true;                        // false in a study only
   bool study = false;  // nothing is limited to what is stable: simulated devices only, a person must not touch it
 };
 
@@ -72,13 +72,20 @@ double period_s(const HapticConfig& config) noexcept;         // the same
 void check_tuning(const HapticTuning& tuning);
 void check_config(const HapticConfig& config);
 
+void check_device(const DeviceSpec& spec);
+
 // What holds of the wanted tuning, on this device, with every listed hand, the bare handle included:
 //   quiet      K <= 0.35 m / tau^2 (observer: 0.58) and B <= 0.35 m / tau, tau = (delay + 1) T, m the lighter axis:
 //              found by a search over hands, impact phases, quantisation, jitter and plant error
-//   stable     1.1 K and all damping still inside the exact boundary (sampled_loop.h) for every hand and both axes
+//   stable     the spectral radius of the sampled cycle (sampled_loop.h) is below 1 on both axes: in the wall at 1.1 K,
+//              with the aisles' damping and with that of the speed limit, too; and in free space with both
 //   feel       no feel stiffer than the wall that carries the proxy
-// In a study all is used as wanted, and told. Throws std::invalid_argument for a study on a device that is not
-// simulated.
+// An observed hold has a damping of kObservedDamping at least. In a study all is used as wanted, and told.
+// Throws std::invalid_argument for what only a study may have, for a study on a device that is not simulated, and where
+// no wall of any stiffness is stable.
 AdmittedTuning admit_tuning(const HapticConfig& config, const DeviceSpec& spec, const Gate& gate);
+
+// What presses the lever back in the wall under that tuning: for spectral_radius().
+ContactLaw contact_law(const HapticConfig& config, const AdmittedTuning& admitted, const DeviceSpec& spec) noexcept;
 
 }  // namespace gearshift

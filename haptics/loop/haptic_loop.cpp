@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <stdexcept>
 
 #include <glm/geometric.hpp>
 
@@ -29,7 +30,7 @@ std::int64_t clock_ns() noexcept {
 
 const HapticConfig& checked(const HapticConfig& config, const DeviceSpec& spec) {
   check_config(config);
-  require_between("delay of the device", spec.delay, 0, kMostDelay, "cycles");
+  check_device(spec);
   return config;
 }
 
@@ -68,11 +69,10 @@ HapticLoop::HapticLoop(const HapticConfig& config, const Gate& gate, HapticDevic
       observer_(device.spec(), period_),
       limiter_(device.spec(), period_),
       selector_(config.gear_debounce),
-      guard_(config.guard, device.spec(), period_),
+      guard_(config.guard, device.spec(), period_, config.contact.energy_control),
+      stiffest_feel_(stiffest_feel(gate)),
       passage_(open_passage(gate)),
-      proxy_(place_proxy(gate, rest_position(gate, kNeutralGear))) {
-  guard_.use(config.contact.energy_control);
-}
+      proxy_(place_proxy(gate, rest_position(gate, kNeutralGear))) {}
 
 AdmittedTuning HapticLoop::change_tuning(const HapticTuning& wanted) {
   check_tuning(wanted);
@@ -80,6 +80,9 @@ AdmittedTuning HapticLoop::change_tuning(const HapticTuning& wanted) {
   config.tuning = wanted;
   config.contact.hold = admitted_.hold;  // as it runs
   AdmittedTuning admitted = admit_tuning(config, device_.spec(), gate_);
+  if (admitted.hold != admitted_.hold) {
+    throw std::invalid_argument("this tuning needs another hold than the one that runs: start the loop with it");
+  }
   channels_.tuning.write(admitted.tuning);
   return admitted;
 }
@@ -94,7 +97,7 @@ void HapticLoop::cycle(std::int64_t deadline_ns, std::int64_t skipped) noexcept 
   clock.stamp();
   follow_lever();
   clock.stamp();
-  const Coupled coupled = couple_lever();
+  const Coupled coupled = couple_lever(skipped);
   out_.wall_force = coupled.force;
   clock.stamp();
   out_.feel_force = mechanism_feel(coupled.mean_proxy);
@@ -139,18 +142,18 @@ void HapticLoop::obey(LoopCommand command) noexcept {
   }
 }
 
-// A new tuning or a new start: what the limiter has learnt of the old one does not hold.
+// What the limiter has learnt holds of the wall that it has seen.
 void HapticLoop::retune(const HapticTuning& tuning) noexcept {
+  const bool same_wall = tuning.wall_stiffness == tuning_.wall_stiffness && tuning.wall_damping == tuning_.wall_damping;
+  if (!same_wall) limiter_.reset();
   tuning_ = tuning;
-  limiter_.reset();
-  guard_.use(config_.contact.energy_control);
 }
 
 // At arming the proxy starts anew at the lever, so that an old penetration cannot pull.
 void HapticLoop::arm() noexcept {
   guard_.arm();
   placed_ = false;
-  retune(tuning_);
+  limiter_.reset();
 }
 
 void HapticLoop::follow_lever() noexcept {
@@ -174,19 +177,20 @@ void HapticLoop::limit_depth() noexcept {
   passage_.depth_max = std::max(world_out_.depth_max, depth);
 }
 
-Coupled HapticLoop::couple_lever() noexcept {
+Coupled HapticLoop::couple_lever(std::int64_t skipped) noexcept {
   out_.wall_stiffness = tuning_.wall_stiffness * limiter_.share();
-  Coupling coupling{out_.wall_stiffness, tuning_.wall_damping, period_, device_.spec().delay, admitted_.hold};
+  const Coupling coupling{out_.wall_stiffness, tuning_.wall_damping, period_, device_.spec().delay, admitted_.hold};
   if (admitted_.hold != ContactHold::observer) return couple(coupling, gate_, passage_, proxy_, motion_);
-  coupling.damping = std::max(coupling.damping, kObservedDamping);
-  return couple(coupling, gate_, passage_, proxy_, observer_.update(motion_, out_.commanded));
+  return couple(coupling, gate_, passage_, proxy_, observer_.update(motion_, out_.commanded, skipped));
 }
 
 dvec2 HapticLoop::mechanism_feel(dvec2 mean_proxy) const noexcept {
   const double speed = glm::length(motion_.smooth_velocity);
   const double excess = std::max(0.0, speed - tuning_.speed_limit);
   const double damping = tuning_.aisle_damping + (excess > 0.0 ? tuning_.limit_damping * excess / speed : 0.0);
-  return tuning_.feel_scale * gate_feel(gate_, mean_proxy) - damping * motion_.smooth_velocity;
+  const double softened = std::min(tuning_.feel_scale * stiffest_feel_, out_.wall_stiffness);  // the wall carries it
+  const double scale = stiffest_feel_ > 0.0 ? softened / stiffest_feel_ : tuning_.feel_scale;
+  return scale * gate_feel(gate_, mean_proxy) - damping * motion_.smooth_velocity;
 }
 
 LeverOutput HapticLoop::run_world(std::int64_t skipped) noexcept {
@@ -289,25 +293,24 @@ void HapticLoop::watch_contact() noexcept {
   apart_ = touches ? 0.0 : apart_ + period_;
 }
 
-// The lever chatters on a wall: less stiffness, and at the floor energy bounding.
+// The lever chatters on a wall: less stiffness, and where that does not calm it, none.
 void HapticLoop::watch_chatter() noexcept {
   if (!config_.contact.reversal_limiter) return;
   if (!limiter_.update(motion_.position, has_flag(kFlagContact), tuning_.wall_stiffness)) return;
-  const double stiffness = tuning_.wall_stiffness * limiter_.share();
-  if (!limiter_.exhausted()) return tell(EventKind::stiffness_lowered, stiffness);
-  guard_.use(EnergyControl::energy_bounding);
-  tell(EventKind::energy_bounded, stiffness);
+  tell(EventKind::stiffness_lowered, tuning_.wall_stiffness * limiter_.share());
+  if (limiter_.exhausted()) guard_.damp();
 }
 
 // A simulated lever arms itself again once it has been healthy for a while since the fall; a real one waits for a
-// person. Motors are off in every state without force.
+// person, and so does one that chattered whatever its wall did. Motors are off in every state without force.
 void HapticLoop::watch_guard(std::int64_t skipped) noexcept {
   const bool has_changed = guard_.state() != out_.guard;
   const bool is_off = guard_.state() == GuardState::idle || guard_.state() == GuardState::released;
   if (has_changed && is_off) device_.release();
   const bool is_healthy = motion_.fresh && skipped == 0 && !has_changed;
   healthy_ = is_healthy ? healthy_ + period_ : 0.0;
-  if (guard_.state() == GuardState::damped && device_.spec().simulated && healthy_ > kRearmAfter) arm();
+  const bool may_rearm = device_.spec().simulated && guard_.fault() != GuardFault::chatter;
+  if (guard_.state() == GuardState::damped && may_rearm && healthy_ > kRearmAfter) arm();
   if (guard_.state() != out_.guard) tell(EventKind::guard_changed, static_cast<double>(guard_.state()));
   out_.guard = guard_.state();
   out_.fault = guard_.fault();

@@ -74,7 +74,8 @@ class HapticLoop {
   void arm() noexcept;
 
   // While the loop runs, on the thread that owns the channels' writing end: the same check as at the start, and what
-  // it admits is used from the next cycle on. Throws std::invalid_argument where a value is outside its range.
+  // it admits is used from the next cycle on. Throws std::invalid_argument where a value is outside its range, or where
+  // it is admitted only with another hold than the one that runs.
   AdmittedTuning change_tuning(const HapticTuning& wanted);
 
   // Stamps of the last cycle's stages for every 64th cycle; the others leave them as they are.
@@ -86,7 +87,7 @@ class HapticLoop {
   void retune(const HapticTuning& tuning) noexcept;
   void follow_lever() noexcept;
   void limit_depth() noexcept;
-  Coupled couple_lever() noexcept;
+  Coupled couple_lever(std::int64_t skipped) noexcept;
   glm::dvec2 mechanism_feel(glm::dvec2 mean_proxy) const noexcept;
   LeverOutput run_world(std::int64_t skipped) noexcept;
   GuardInput guard_input(std::int64_t skipped) const noexcept;
@@ -122,18 +123,19 @@ class HapticLoop {
   Lockouts lockouts_;
   GearSelector selector_;
   ForceGuard guard_;
+  double stiffest_feel_;  // [N/m] of the gate
   LoopCommand command_ = LoopCommand::none;
   LeverReading reading_;
   LeverMotion motion_;
   Passage passage_;
   Proxy proxy_;
   LeverOutput world_out_;
-  bool placed_ = false;                // the proxy stands where the lever was at the start or at arming
-  bool first_step_ = true;             // of the world: period 0
-  double healthy_ = 0.0;               // [s] of fresh readings in a row, to re-arm a simulated lever
-  std::array<glm::dvec2, 16> sent_{};  // [N] commanded in the last cycles: the delay is at most 15
-  double apart_ = 1.0;                 // [s] since the lever last touched a wall
-  double unsaturated_ = 1.0;           // [s] since the wanted force was last beyond the device
+  bool placed_ = false;                            // the proxy stands where the lever was at the start or at arming
+  bool first_step_ = true;                         // of the world: period 0
+  double healthy_ = 0.0;                           // [s] of fresh readings in a row, to re-arm a simulated lever
+  std::array<glm::dvec2, kMostDelay + 1> sent_{};  // [N] commanded in the last cycles
+  double apart_ = 1.0;                             // [s] since the lever last touched a wall
+  double unsaturated_ = 1.0;                       // [s] since the wanted force was last beyond the device
   HapticSnapshot out_;
   StageStamps stamps_;
 };

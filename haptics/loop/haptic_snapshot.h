@@ -48,9 +48,8 @@ enum class EventKind : std::uint8_t {
   over_push_end,
   saturation_begin,  // value: wanted force [N]
   saturation_end,
-  guard_changed,      // value: GuardState
-  stiffness_lowered,  // value: stiffness in use from now on [N/m]; the lever chattered on a wall
-  energy_bounded      // value: the same; it chattered on at the floor, so energy bounding is on
+  guard_changed,     // value: GuardState
+  stiffness_lowered  // value: stiffness in use from now on [N/m]; the lever chattered on a wall
 };
 
 struct HapticEvent {

@@ -37,6 +37,7 @@ void read_word(const TomlTable& table, std::string_view key, Word& value,
                const std::vector<std::pair<std::string, Word>>& words) {
   if (!table.has(key)) return;
   std::vector<std::string> allowed;
+  allowed.reserve(words.size());
   for (const auto& [word, meaning] : words) allowed.push_back(word);
   const std::string chosen = table.choice(key, allowed);
   for (const auto& [word, meaning] : words) {

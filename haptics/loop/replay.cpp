@@ -80,15 +80,6 @@ bool same_bits(const HapticTuning& a, const HapticTuning& b) noexcept {
   return left == right;
 }
 
-// Every double of the device must be a number: the config's ranges are check_config's business.
-void check_device(const DeviceSpec& spec) {
-  each_leaf(spec, "", [](const std::string& name, auto value) {
-    if (!std::isfinite(static_cast<double>(value)))
-      throw std::invalid_argument("its device has " + name + " = " + value_text(value));
-  });
-  if (spec.delay < 0) throw std::invalid_argument("its device has delay = " + value_text(spec.delay));
-}
-
 std::unique_ptr<LeverWorld> find_world(const std::string& name, const WorldFactory& make_world) {
   std::unique_ptr<LeverWorld> world = make_world(name);
   if (!world) throw std::invalid_argument("its world \"" + name + "\" is not known to this program");

@@ -175,7 +175,7 @@ constexpr GuardState last_value(GuardState) {
   return GuardState::released;
 }
 constexpr GuardFault last_value(GuardFault) {
-  return GuardFault::stopped;
+  return GuardFault::chatter;
 }
 
 }  // namespace gearshift

@@ -24,7 +24,7 @@ enum class EnergyControl : std::uint8_t {
 // into it comes to rest. With the storage S = F^2 / (2 c) and no delay,
 //     S_n <= S_(n-1) - F_(n-1) dx + (c / 2) dx^2
 // and the last term is less than the device's damping takes over that travel, b dx^2 / T at least: passive whatever
-// is wanted.
+// is wanted. Of the travel as it is measured: an encoder's count adds what a count's error of the travel can.
 class EnergyBounder {
  public:
   EnergyBounder(const AxisModel& handle, int delay, double period) noexcept;  // delay [samples], period [s]
@@ -41,7 +41,9 @@ class PassivityController {
  public:
   PassivityController(const AxisModel& handle, double period) noexcept;  // period [s]
 
-  // The wanted force [N] with that damping. last: the force held over the last period [N]; travel: in it [m];
+  void reset() noexcept { taken_ = 0.0; }
+
+  // The wanted force [N] with that damping. last: the force that acted over the last period [N]; travel: in it [m];
   // touches: the account is opened anew with every contact.
   double control(double wanted, double last, double travel, bool touches) noexcept;
 

@@ -20,29 +20,40 @@ const char* guard_state_name(GuardState state) noexcept {
 }
 
 const char* guard_fault_name(GuardFault fault) noexcept {
-  static constexpr const char* kNames[] = {"none",       "stale reading", "overruns",
-                                           "not finite", "limit broken",  "stopped"};
+  static constexpr const char* kNames[] = {"none",         "stale reading", "overruns", "not finite",
+                                           "limit broken", "stopped",       "chatter"};
   return kNames[static_cast<int>(fault)];
 }
 
-ForceGuard::ForceGuard(const GuardConfig& config, const DeviceSpec& spec, double period) noexcept
+ForceGuard::ForceGuard(const GuardConfig& config, const DeviceSpec& spec, double period,
+                       EnergyControl energy_control) noexcept
     : config_(config),
       max_force_(spec.max_force),
       position_limit_(spec.workspace + config.position_margin),
       period_(period),
+      energy_control_(energy_control),
       bounder_{EnergyBounder(spec.axis_x, spec.delay, period), EnergyBounder(spec.axis_y, spec.delay, period)},
       controller_{PassivityController(spec.axis_x, period), PassivityController(spec.axis_y, period)},
+      delay_(static_cast<std::size_t>(spec.delay)),
       stale_limit_(std::lround(config.stale_time / period)) {}
 
 GuardOutput ForceGuard::guard(const GuardInput& in) noexcept {
   watch(in);
+  const dvec2 travel = in.position - position_;
+  position_ = in.position;
+  const GuardOutput out = allowed(in, travel);
+  newest_ = (newest_ + 1) % applied_.size();
+  applied_[newest_] = out.force;
+  return out;
+}
+
+GuardOutput ForceGuard::allowed(const GuardInput& in, dvec2 travel) noexcept {
   if (state_ == GuardState::idle || state_ == GuardState::released) {
     last_ = {0.0, 0.0};
-    position_ = in.position;
     return {};
   }
   if (state_ == GuardState::damped) return {glm::clamp(damped_force(in), -max_force_, max_force_), false};
-  const dvec2 wanted = controlled(in);
+  const dvec2 wanted = controlled(in, travel);
   const dvec2 slewed = glm::clamp(wanted, last_ - config_.slew, last_ + config_.slew);
   last_ = glm::clamp(slewed, -max_force_, max_force_);
   const bool saturated = std::abs(in.force.x) > max_force_.x || std::abs(in.force.y) > max_force_.y;
@@ -72,16 +83,17 @@ void ForceGuard::fall(GuardState state, GuardFault fault) noexcept {
   ramp_ = 0.0;
 }
 
-dvec2 ForceGuard::controlled(const GuardInput& in) noexcept {
-  const dvec2 travel = in.position - position_;
-  position_ = in.position;
+// Bounded against the newest command, whose effect is still to come; counted against the one that acted over `travel`.
+dvec2 ForceGuard::controlled(const GuardInput& in, dvec2 travel) noexcept {
+  const dvec2 newest = applied_[newest_];
+  const dvec2 acted = applied_[(newest_ + applied_.size() - delay_) % applied_.size()];
   dvec2 force = in.force;
   for (int i = 0; i < 2; ++i) {
     const auto axis = static_cast<std::size_t>(i);
     if (energy_control_ == EnergyControl::energy_bounding)
-      force[i] = bounder_[axis].bound(force[i], last_[i], travel[i]);
+      force[i] = bounder_[axis].bound(force[i], newest[i], travel[i]);
     if (energy_control_ == EnergyControl::passivity_controller)
-      force[i] = controller_[axis].control(force[i], last_[i], travel[i], in.touches);
+      force[i] = controller_[axis].control(force[i], acted[i], travel[i], in.touches);
   }
   return force;
 }
@@ -109,12 +121,18 @@ void ForceGuard::arm() noexcept {
   ramp_ = 0.0;
   stale_ = 0;
   overruns_ = 0;
+  applied_.fill({0.0, 0.0});
+  for (PassivityController& controller : controller_) controller.reset();
 }
 
 void ForceGuard::disarm() noexcept {
   state_ = GuardState::idle;
   last_ = {0.0, 0.0};
   ramp_ = 0.0;
+}
+
+void ForceGuard::damp() noexcept {
+  fall(GuardState::damped, GuardFault::chatter);
 }
 
 void ForceGuard::stop() noexcept {

@@ -1,11 +1,13 @@
 // The last word on every force: finite, energy control where it is asked for, slew, clamp, ramp; and the state ladder.
 //
 //   idle -> armed -> ramping -> running      up: by a person only, or by itself on a simulated lever
-//   damped    reading stale, or too many overruns in a row: the force dies away, damping alone is left
+//   damped    reading stale, too many overruns in a row, or a chatter that softening the wall did not calm: the force
+//             dies away, damping alone is left
 //   released  a limit broken, device lost, force not finite: motors off
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include <glm/vec2.hpp>
@@ -18,7 +20,7 @@ namespace gearshift {
 enum class GuardState : std::uint8_t { idle, armed, ramping, running, damped, released };
 const char* guard_state_name(GuardState state) noexcept;
 
-enum class GuardFault : std::uint8_t { none, stale_reading, overruns, not_finite, limit_broken, stopped };
+enum class GuardFault : std::uint8_t { none, stale_reading, overruns, not_finite, limit_broken, stopped, chatter };
 const char* guard_fault_name(GuardFault fault) noexcept;
 
 struct GuardConfig {
@@ -47,7 +49,9 @@ struct GuardOutput {
 
 class ForceGuard {
  public:
-  ForceGuard(const GuardConfig& config, const DeviceSpec& spec, double period) noexcept;  // period [s]
+  // period [s]
+  ForceGuard(const GuardConfig& config, const DeviceSpec& spec, double period,
+             EnergyControl energy_control = EnergyControl::none) noexcept;
 
   GuardOutput guard(const GuardInput& in) noexcept;  // once per cycle. Real-time safe
 
@@ -55,10 +59,7 @@ class ForceGuard {
   void arm() noexcept;     // idle, damped or released -> armed (then ramping as soon as readings are fresh)
   void disarm() noexcept;  // any -> idle, force 0
   void stop() noexcept;    // armed or higher -> released: the large red button
-
-  // Between cycles: from now on, on top of all the rest.
-  void use(EnergyControl control) noexcept { energy_control_ = control; }
-  EnergyControl energy_control() const noexcept { return energy_control_; }
+  void damp() noexcept;    // armed or higher -> damped: the lever chatters whatever the wall does
 
   GuardState state() const noexcept { return state_; }
   GuardFault fault() const noexcept { return fault_; }  // why it last went down
@@ -67,17 +68,21 @@ class ForceGuard {
   void fall(GuardState state, GuardFault fault) noexcept;
   void watch(const GuardInput& in) noexcept;
   glm::dvec2 damped_force(const GuardInput& in) noexcept;
-  glm::dvec2 controlled(const GuardInput& in) noexcept;
+  GuardOutput allowed(const GuardInput& in, glm::dvec2 travel) noexcept;
+  glm::dvec2 controlled(const GuardInput& in, glm::dvec2 travel) noexcept;
   double ramp_gain() noexcept;
 
   GuardConfig config_;
   glm::dvec2 max_force_;
   glm::dvec2 position_limit_;
   double period_;
-  EnergyControl energy_control_ = EnergyControl::none;
-  std::array<EnergyBounder, 2> bounder_;           // per axis
-  std::array<PassivityController, 2> controller_;  // per axis
-  glm::dvec2 position_{0.0};                       // [m] in the cycle before
+  EnergyControl energy_control_;
+  std::array<EnergyBounder, 2> bounder_;              // per axis
+  std::array<PassivityController, 2> controller_;     // per axis
+  glm::dvec2 position_{0.0};                          // [m] in the cycle before
+  std::array<glm::dvec2, kMostDelay + 1> applied_{};  // [N] the last commands, as they went out
+  std::size_t newest_ = 0;                            // of them
+  std::size_t delay_;
   GuardState state_ = GuardState::idle;
   GuardFault fault_ = GuardFault::none;
   glm::dvec2 last_{0.0};       // [N] commanded before the ramp

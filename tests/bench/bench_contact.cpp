@@ -1,4 +1,5 @@
 // A wall of 5000 N/m under a push of 20 N: what the shipped default makes of it, at every rate and delay.
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -12,6 +13,7 @@ struct Setting {
   double rate;                 // [Hz]
   int delay;                   // [samples]
   double goal_p95, goal_most;  // [mm]
+  bool shows_5000 = false;     // must display what is wanted
 };
 
 std::string words(const Setting& at) {
@@ -33,13 +35,20 @@ void add(std::vector<BenchRow>& rows, const Setting& at, const std::string& how,
   const HandOutcome& worst = worst_ripple(outcomes);
   double most = 0.0;
   for (const HandOutcome& outcome : outcomes) most = std::max(most, outcome.ripple_most);
-  const std::vector<Beside> beside{{"stiffness in use", worst.softest, "N/m"},
+  double softest = 1e9;
+  for (const HandOutcome& outcome : outcomes) softest = std::min(softest, outcome.softest);
+  const std::vector<Beside> beside{{"stiffness in use, least", softest, "N/m"},
                                    {"displayed", 100.0 * least_displayed(outcomes), "%"},
                                    {"deepest", 1e3 * deepest(outcomes), "mm"},
                                    {"force ripple", worst.force_ripple, "N"}};
   const std::string what = how + words(at) + ": last peak-to-peak";
   rows.push_back({"contact", what + ", p95", 1e3 * worst.ripple_p95, "mm", at.goal_p95, false,
                   "worst hand: " + worst.hand, true, beside});
+  if (at.shows_5000) {
+    const double displayed = least_displayed(outcomes) * softest;
+    rows.push_back({"contact", how + words(at) + ": displayed stiffness, least", displayed, "N/m", 0.97 * 5000.0, true,
+                    "all hands, at 20 N"});
+  }
   rows.push_back({"contact", what + ", most", 1e3 * most, "mm", at.goal_most, false, "all hands"});
 }
 
@@ -47,9 +56,10 @@ void add(std::vector<BenchRow>& rows, const Setting& at, const std::string& how,
 
 std::vector<BenchRow> bench_contact(const BenchOptions& options) {
   // The first four display 5000 N/m. Beyond them the limiter's K is used and shown.
-  const Setting settings[] = {{2000, 0, .02, .04}, {1000, 0, .04, .08}, {500, 0, .10, .11}, {1000, 1, .10, .11},
-                              {4000, 0, .02, .04}, {1000, 2, .12, .3},  {1000, 3, .12, .3}, {1000, 4, .12, .3},
-                              {500, 1, .12, .3},   {200, 0, .12, .3},   {100, 0, .12, .3}};
+  const Setting settings[] = {{2000, 0, .02, .04, true}, {1000, 0, .04, .08, true}, {500, 0, .10, .11, true},
+                              {1000, 1, .10, .11, true}, {4000, 0, .02, .04},       {1000, 2, .12, .3},
+                              {1000, 3, .12, .3},        {1000, 4, .12, .3},        {500, 1, .12, .3},
+                              {200, 0, .12, .3},         {100, 0, .12, .3}};
   std::vector<BenchRow> rows;
   double done = 0.0;
   for (const Setting& at : settings) {

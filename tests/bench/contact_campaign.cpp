@@ -37,7 +37,7 @@ HandOutcome run_hand(const Campaign& campaign, const NamedHand& named) {
     out.force_step = std::max(out.force_step, one.force_step);
     out.softest = std::min(out.softest, one.stiffness);
     out.lowered = std::max(out.lowered, one.lowered);
-    out.bounded += one.bounded;
+    out.stopped += one.stopped;
   }
   out.ripple_p95 = quantile(ripple, 0.95);
   out.ripple_most = quantile(ripple, 1.0);

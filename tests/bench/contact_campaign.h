@@ -28,7 +28,7 @@ struct HandOutcome {
   double force_ripple = 0.0;  // [N] p95
   double softest = 0.0;       // [N/m] stiffness in use at the end, the least
   int lowered = 0;            // most times in one run
-  int bounded = 0;            // runs that fell back to energy bounding
+  int stopped = 0;            // runs in which the guard took the force
 };
 
 // One outcome per listed hand.

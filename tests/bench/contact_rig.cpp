@@ -88,7 +88,6 @@ class FirstContact {
 void count_events(SimulatedRun& run, ContactResult& result) {
   for (HapticEvent event; run.channels().events.pop(event);) {
     result.lowered += event.kind == EventKind::stiffness_lowered;
-    result.bounded = result.bounded || event.kind == EventKind::energy_bounded;
   }
 }
 
@@ -130,6 +129,7 @@ ContactResult run_contact(const ContactCase& contact) {
     result.stiffness = now.wall_stiffness;
   }
   const auto samples = [&](double seconds) { return static_cast<std::size_t>(std::lround(seconds / period)); };
+  result.stopped = run.loop().snapshot().fault == GuardFault::chatter;
   result.peak = *std::max_element(position.begin(), position.end()) - kWall;
   result.ripple = span(position, samples(0.2));
   result.force_ripple = span(command, samples(0.2));

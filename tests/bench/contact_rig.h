@@ -29,7 +29,7 @@ struct ContactResult {
   double force_ripple = 0.0;  // [N] peak-to-peak of the command in the last 200 ms
   double stiffness = 0.0;     // [N/m] in use at the end
   int lowered = 0;            // times that the reversal limiter took some of it
-  bool bounded = false;       // energy bounding was switched on
+  bool stopped = false;       // softening did not calm it: the guard took the force
 };
 
 ContactResult run_contact(const ContactCase& contact);

@@ -38,7 +38,8 @@ SimulatedRunConfig rig(const AxisModel& handle, const HandImpedance& hand, const
   config.haptics.rate = 1.0 / period;
   config.haptics.contact = {law.hold, EnergyControl::none, false, true};
   config.haptics.tuning.wall_stiffness = law.stiffness;
-  config.haptics.tuning.wall_damping = law.damping;
+  const bool observed = law.hold == ContactHold::observer;
+  config.haptics.tuning.wall_damping = observed ? std::max(law.damping, kObservedDamping) : law.damping;
   config.haptics.tuning.aisle_damping = law.free_damping;
   config.haptics.tuning.limit_damping = 0.0;
   config.haptics.estimator.smoothing = law.smoothing;

@@ -36,7 +36,7 @@ is_png() { [ "$(head -c 4 "$1" | tail -c 3)" = PNG ]; }
 says() { grep -qF -- "$2" "$1.txt"; }
 
 check "identify" identify plain --out plain
-check "Table 2" says plain "10.83 Nm (1)"
+check "Table 2" says plain "10.83 Nm"
 check "the literal amplitude" says plain "at 1 Hz hits the stop: it would move the lever by 484 mm"
 check "eq (7)" says plain "f_s = 19.04"
 check "no word on stderr where it is no terminal" [ ! -s plain.err ]
@@ -80,6 +80,11 @@ check "parts that are off" identify other --preset other.toml --axis x --json
 check "are found as they are, not as they are drawn" far other 1 0.3 0.02
 check "inside what they may be off" near other 1 0.3 0.3
 
+printf 'name = "x"\n[lever.axis_x]\nstiffness_n_per_m = 0\n' >springless.toml
+check "a lever without a spring" identify springless --preset springless.toml --axis x
+check "says that in words" says springless "no spring: neither damping ratio nor bandwidth"
+check "and has no number that is none" [ "$(grep -c nan springless.txt)" -eq 0 ]
+
 # Bad command lines and levers: the stated exit code, one sentence, nothing on stdout.
 refuses() { # exit code, part of the sentence, arguments ...
   local code=$1 part=$2
@@ -94,7 +99,7 @@ check "rate out of range" refuses 2 "--rate" --rate 99
 check "a negative seed" refuses 2 "--seed" --seed -1
 check "no such preset" refuses 1 "default, measured, paper" --preset spaceship
 check "an unknown key" refuses 1 "unknown.toml:3: mass is not a known key" --preset unknown.toml
-check "a lever without motors" refuses 1 "max_force of the device = 0" --preset weak.toml
+check "a lever without motors" refuses 1 "axis x: FrequencySweep: max_force of the device = 0" --preset weak.toml
 check "a folder that cannot be" refuses 1 "/proc" --out /proc/nowhere
 
 echo "$passed passed, $failed failed"

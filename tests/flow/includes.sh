@@ -7,7 +7,7 @@ cd "$1" || exit 1
 declare -A sees=(
   [files]="" [rt]="" [joystick]=""
   [gate]="files" [device]="joystick rt" [contact]="gate device files joystick rt"
-  [analysis]="contact gate device files joystick rt"
+  [analysis]="contact safety gate device files joystick rt"
   [safety]="device joystick rt" [loop]="analysis contact safety rt gate device files joystick"
 )
 failed=0

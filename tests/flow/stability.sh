@@ -78,6 +78,37 @@ check "the table begins with the answer" \
   awk -F, 'NR == 2 { ok = $1 == 0 && int($2) == 6031 && $6 == 6000 } END { exit !ok }' map.csv
 check "the table ends where nothing is stable" awk -F, 'END { exit !($1 > 190 && $2 == 0 && $6 == 0) }' map.csv
 
+# A handle on a hard spring, without damping and two samples late: no wall is stable at any damping.
+check "a map where nothing is stable ends" \
+  timeout 10 "$gearshift" stability --damping 0 --stiffness 95000 --delay 2 --svg none.svg --csv none.csv >out 2>err
+check "and says so" says "not even a soft wall is stable"
+check "its drawing is whole" grep -q "</svg>" none.svg
+check "its table has a width" awk -F, 'END { exit !(NR == 122 && $1 > 0 && $2 == 0) }' none.csv
+
+# What the guard of the loop makes of the same wall.
+answers --hold half_sample --rate 100 --wall-damping 10 --json
+check "the trainer: K" near admitted_wall_stiffness_n_per_m 332.5 1e-9
+check "the trainer: B" near admitted_wall_damping_n_s_per_m 3.325 1e-9
+check "the trainer: hold" is admitted_hold half_sample
+check "the trainer: K, B and the loop's own damping are limited" test "$(grep -c '"law": "quiet' out)" -eq 3
+answers --hold half_sample --rate 100 --wall-damping 10
+check "the trainer in words" says "The trainer would use K = 332.5 N/m, B = 3.325 N s/m, half-sample hold:"
+check "and why" says "wall_stiffness_n_per_m limited from 5000 to 332.5 (quiet half-sample hold: K <= 0.35 m / tau^2"
+answers --hold half_sample --wall-damping 10 --json
+check "the shipped wall is used as it is" is admitted_wall_stiffness_n_per_m 5000.0
+check "nothing is limited" is limited "[]"
+answers --hold half_sample --rate 4000 --wall-stiffness 90000 --wall-damping 500 --json
+check "asked for no more than the trainer takes" is asked_wall_stiffness_n_per_m 20000.0
+check "of damping too" is asked_wall_damping_n_s_per_m 100.0
+answers --hold half_sample --rate 4000 --wall-stiffness 90000
+check "and that is said" says "asked for K = 20000 N/m, B = 0 N s/m, the most that it takes"
+for place in "--rate 50" "--rate 8000" "--window 2"; do
+  answers $place --json
+  check "the trainer does not run at $place: null" is admitted_wall_stiffness_n_per_m null
+  answers $place
+  check "the trainer does not run at $place: words" says "The trainer does not run there"
+done
+
 refuse 2 "--rate" --rate 49
 refuse 2 "--rate" --rate nan
 refuse 2 "--delay" --delay 9

@@ -122,6 +122,8 @@ inline std::vector<Fault> reading_faults() {
          });
        },
        42},
+      {"drifts out of the workspace",
+       [] { return Saboteur([far = 0.0](LeverReading& r) mutable { r.position.y += far += 0.004; }); }, 42},
       {"far outside the workspace", [] { return Saboteur([](LeverReading& r) {
                                            r.position = {0.5, 0.5};
                                          }); }, 60},

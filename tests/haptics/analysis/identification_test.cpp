@@ -119,11 +119,14 @@ class Sleds final : public HapticDevice {
     reading.position = {at_[0].position, at_[1].position};
     if (cycles_ == nan_at_) reading.position.x = std::numeric_limits<double>::quiet_NaN();
     if (cycles_ >= shove_at_) reading.position.x = 0.0499;
+    if (cycles_ >= break_at_) reading.position.y = 0.11;
     farthest_ = std::max(farthest_, std::abs(at_[0].position));
     return reading;
   }
   void write(glm::dvec2 force) noexcept override {
+    fastest_ = std::max(fastest_, std::abs(force.x - force_.x));
     force_ = force;
+    if (cycles_ < 500) early_ = std::max(early_, std::abs(force.x));
     strongest_ = std::max(strongest_, std::abs(force.x));
   }
   void release() noexcept override {
@@ -133,9 +136,11 @@ class Sleds final : public HapticDevice {
 
   static constexpr AxisModel kX{0.2, 1.0, 60.0}, kY{0.3, 4.0, 9.0};
   static constexpr std::uint64_t kNever = ~std::uint64_t{0};
-  std::uint64_t freeze_at_ = kNever, nan_at_ = kNever, shove_at_ = kNever;
+  std::uint64_t freeze_at_ = kNever, nan_at_ = kNever, shove_at_ = kNever, break_at_ = kNever;
   std::array<AxisState, 2> at_{};
   double farthest_ = 0.0, strongest_ = 0.0;
+  double fastest_ = 0.0;  // [N/cycle]
+  double early_ = 0.0;    // [N] in the half second that the guard takes to let a force through
   bool released_ = false;
   glm::dvec2 force_{0.0};
   DeviceSpec spec_;
@@ -349,13 +354,56 @@ TEST_CASE("readings that stop, are no number or lie near the stop: motors off, a
     CHECK(now < 5'100'000'000);
     return std::string(response.problem);
   };
-  Sleds frozen, blind, shoved;
+  Sleds frozen, blind, shoved, broken;
   frozen.freeze_at_ = 5000;
   blind.nan_at_ = 5000;
   shoved.shove_at_ = 5000;
+  broken.break_at_ = 5000;  // across the axis that is swept: the guard alone looks there
   CHECK(problem(frozen) == "no fresh reading for 20 ms");
   CHECK(problem(blind) == "a reading is not a number");
   CHECK(problem(shoved) == "the lever came near its stop");
+  CHECK(problem(broken) == "the lever is outside its workspace");
+}
+
+TEST_CASE("the guard has the last word: no force until it runs, and no change faster than its slew") {
+  Sleds sleds;
+  sleds.spec_.max_force.x = 80.0;
+  SweepConfig config;
+  config.force_share = 1.0;
+  config.lowest = 60.0;
+  config.points = 2;
+  std::int64_t now = 0;
+  const FrequencyResponse response = sweep_frequencies(config, sleds, LeverAxis::x, 1e-3, now);
+  CHECK(response.problem == "");
+  CHECK(sleds.early_ == 0.0);
+  CHECK(sleds.fastest_ == doctest::Approx(25.0));
+  REQUIRE(response.points.size() == 2);
+  for (const FrequencyPoint& point : response.points) {
+    CHECK(point.amplitude < 0.99 * 80.0);  // bent; what was sent is what the answer is held against
+    const std::complex<double> truth = compliance(Sleds::kX, point.frequency);
+    CHECK(std::abs(point.response / truth - 1.0) < 2e-3);
+  }
+}
+
+TEST_CASE("the guard bends no sinusoid of the paper's, not even four samples a period") {
+  SweepConfig config;
+  config.lowest = 60.0;
+  config.points = 2;
+  RestingHand nobody;
+  SimulatedLever lever(exact_lever(), std::llround(1e9 / 260.0), nobody);
+  std::int64_t now = 0;
+  for (const FrequencyPoint& point : sweep_frequencies(config, lever, LeverAxis::x, 1.0 / 260.0, now).points) {
+    CHECK(point.amplitude == doctest::Approx(31.7 / 3.0).epsilon(1e-6));
+  }
+}
+
+TEST_CASE("a lever without a spring is found to have none") {
+  SimulatedLeverConfig config = exact_lever();
+  config.axis_x.stiffness = 0.0;
+  const AxisFit fit = identify(config, LeverAxis::x);
+  CHECK(fit.model.mass == doctest::Approx(config.axis_x.mass).epsilon(0.02));
+  CHECK(std::abs(fit.model.stiffness) < 0.05);
+  CHECK(std::isinf(damping_ratio({0.1, 1.0, -1e-9})));
 }
 
 TEST_CASE("a device that does not answer at all is measured as such, and not fitted") {
@@ -393,6 +441,26 @@ TEST_CASE("the fit of a perfect response is its plant, and what is no plant is r
   FrequencyResponse two = ideal_response(kPaperAxisX);
   two.points.resize(2);
   CHECK_THROWS_AS(fit_axis(two), std::invalid_argument);
+}
+
+TEST_CASE("answers at random fit nothing: where the fit does not settle it is refused, and not returned") {
+  std::mt19937_64 engine(1);
+  const auto share = [&] { return static_cast<double>(engine() >> 11) / 9007199254740992.0; };
+  int unsettled = 0;
+  for (int i = 0; i < 50; ++i) {
+    FrequencyResponse random = ideal_response(kPaperAxisX);
+    for (FrequencyPoint& point : random.points) {
+      const double gain = std::exp(4.0 * share() - 2.0);
+      point.response *= std::polar(gain, kTau * share());
+      point.held = 1.0;
+    }
+    try {
+      fit_axis(random);
+    } catch (const std::invalid_argument& refused) {
+      unsettled += std::string(refused.what()) == "fit_axis: no axis fits: 30 rounds did not settle";
+    }
+  }
+  CHECK(unsettled > 0);
 }
 
 TEST_CASE("bandwidth, damping and poles of (11) and (12): 0.92 and 1.02 Hz, not 100") {

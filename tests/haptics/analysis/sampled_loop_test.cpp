@@ -79,10 +79,11 @@ double distance_to_the_circle(const Case& c) {
     return std::abs(1.0 + wall(z) * held_plant(lever, c.period, z));
   };
   double best = 1e300, at = 0.0, step = 1e-3;
-  for (double angle = step; angle <= std::numbers::pi; angle += step) {
-    if (distance(angle) < best) best = distance(at = angle);
+  for (int n = 1; n * step <= std::numbers::pi; ++n) {
+    if (distance(n * step) < best) best = distance(at = n * step);
   }
-  for (; step > 1e-12; step *= 0.5) {
+  while (step > 1e-12) {
+    step *= 0.5;
     for (const double next : {at - step, at + step}) {
       if (distance(next) < best) best = distance(at = next);
     }

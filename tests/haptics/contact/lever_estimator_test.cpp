@@ -1,6 +1,7 @@
 // Motion from readings, and what is not believed.
 #include "haptics/contact/lever_estimator.h"
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <limits>
@@ -109,4 +110,19 @@ TEST_CASE("a lever that really is elsewhere is taken up again after 50 ms, at re
   CHECK(cycles == doctest::Approx(51).epsilon(0.02));
   CHECK(m.position == dvec2{0.06, 0.0});
   CHECK(m.velocity == dvec2{0.0, 0.0});
+}
+
+TEST_CASE("a longer window: the difference over it, of what there is at first, and nothing from before a loss") {
+  EstimatorConfig config;
+  config.window = 5;
+  LeverEstimator estimator(config, kPeriod);
+  const auto at = [](int n) { return 1e-6 * n * n; };  // [m], so that every window has its own speed
+  for (int n = 1; n <= 30; ++n) {
+    const LeverMotion m = estimator.update(reading(static_cast<std::uint64_t>(n), {at(n), 0.0}));
+    const int back = std::min(5, n - 1);
+    if (back > 0) CHECK(m.velocity.x == doctest::Approx((at(n) - at(n - back)) / (back * kPeriod)));
+  }
+  for (int n = 0; n < 60; ++n) estimator.update(reading(30, {at(30), 0.0}));  // lost, and found elsewhere
+  CHECK(estimator.update(reading(91, {0.03, 0.0})).velocity.x == 0.0);
+  CHECK(estimator.update(reading(92, {0.0301, 0.0})).velocity.x == doctest::Approx(0.1));
 }

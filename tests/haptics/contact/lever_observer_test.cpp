@@ -65,9 +65,8 @@ TEST_CASE("with a true model it knows the lever at the moment when the next comm
       select = x.step(select, force.x);
       shift = y.step(shift, force.y);
     }
-    for (int n = 200; n < 380; ++n) {
-      const auto begin = static_cast<std::size_t>(n + delay);
-      const auto i = static_cast<std::size_t>(n);
+    for (std::size_t i = 200; i < 380; ++i) {
+      const std::size_t begin = i + static_cast<std::size_t>(delay);
       CHECK(seen_begin[i].x == doctest::Approx(at[begin].x).epsilon(1e-9));
       CHECK(seen_begin[i].y == doctest::Approx(at[begin].y).epsilon(1e-9));
       CHECK(seen_end[i].x == doctest::Approx(at[begin + 1].x).epsilon(1e-9));

@@ -33,6 +33,15 @@ TEST_CASE("a wall makes no energy of an impact; energy bounded, never more than 
   check_rows(bench_energy);
 }
 
+TEST_CASE("control of that goal: the same spring without bounding gives more than the damping took, at 500 Hz") {
+  ContactCase contact;
+  contact.haptics.rate = 500.0;
+  contact.haptics.contact = {ContactHold::zero_order, EnergyControl::none, false, true};
+  contact.haptics.tuning.wall_damping = 0.0;
+  contact.haptics.guard.slew = 100.0;
+  CHECK(run_impacts(contact, 40).surplus > 1e-3);
+}
+
 TEST_CASE("force delivered against a steady push, within 3 %") {
   check_rows(bench_delivered);
 }
@@ -70,4 +79,15 @@ TEST_CASE("the observer bears 5000 N/m at 1 ms with two samples of delay, where 
   const double sampled = worst_ripple(run_campaign(campaign)).ripple_p95;
   CHECK(observed < 0.12e-3);
   CHECK(sampled > 0.14e-3);
+}
+
+TEST_CASE("the observer at 5 ms, where it is asked for: 1995 N/m in every hand, the arm included") {
+  Campaign campaign;
+  campaign.contact.haptics.rate = 200.0;
+  campaign.contact.haptics.contact.hold = ContactHold::observer;
+  campaign.contact.duration = 2.0;
+  campaign.runs = 60;
+  const std::vector<HandOutcome> outcomes = run_campaign(campaign);
+  CHECK(worst_ripple(outcomes).ripple_p95 < 0.13e-3);
+  for (const HandOutcome& outcome : outcomes) CHECK(outcome.softest == doctest::Approx(0.58 * 0.086 / 25e-6));
 }

@@ -16,7 +16,7 @@ using namespace gearshift;
 
 namespace {
 
-const std::string kPresets = GEARSHIFT_ASSETS "/presets/";
+const std::string presets = GEARSHIFT_ASSETS "/presets/";
 
 // A file of this text, after the line that names it: the text begins in line 2.
 Preset preset_of(const std::string& text) {
@@ -75,7 +75,7 @@ void check_equal(const SimulatedLeverConfig& a, const SimulatedLeverConfig& b) {
 }  // namespace
 
 TEST_CASE("default.toml writes out the defaults of the structs, every one") {
-  const Preset preset = read_preset(kPresets + "default.toml");
+  const Preset preset = read_preset(presets + "default.toml");
   check_equal(preset.haptics, HapticConfig{}, "haptics");
   check_equal(preset.lever, SimulatedLeverConfig{});
 }
@@ -88,7 +88,7 @@ TEST_CASE("a preset of a name alone has the defaults") {
 }
 
 TEST_CASE("paper.toml is the paper's wall as it stood: a bare spring, held for 10 ms, nothing limited") {
-  const Preset preset = read_preset(kPresets + "paper.toml");
+  const Preset preset = read_preset(presets + "paper.toml");
   CHECK(preset.haptics.rate == 100.0);
   CHECK(preset.haptics.tuning.wall_stiffness == 5000.0);
   CHECK(preset.haptics.tuning.wall_damping == 0.0);

@@ -258,13 +258,13 @@ TEST_CASE("replay: what cannot be run is refused in one sentence") {
   }
   SUBCASE("a device that is no number") {
     trace.header.device.axis_x.mass = std::numeric_limits<double>::infinity();
-    CHECK(contains(refusal(trace), "its device has axis_x.mass = inf"));
+    CHECK(contains(refusal(trace), "mass of the device = inf"));
     trace.header.device.axis_x.mass = -std::numeric_limits<double>::quiet_NaN();
-    CHECK(contains(refusal(trace), "its device has axis_x.mass = -nan"));
+    CHECK(contains(refusal(trace), "mass of the device = -nan"));
   }
   SUBCASE("a device that acts before it is told") {
     trace.header.device.delay = -1;
-    CHECK(contains(refusal(trace), "its device has delay = -1"));
+    CHECK(contains(refusal(trace), "delay of the device = -1"));
   }
   SUBCASE("a layout that is none") {
     trace.header.gate_text = "name = 5";

@@ -1,12 +1,16 @@
 // The loop's own defences of a contact: what it softens, bounds, tells, and replays.
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <memory>
+#include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include "haptics/gate/plain_aisle.h"
 #include "haptics/loop/replay.h"
 #include "haptics/loop/simulated_run.h"
 #include "haptics/loop/trace_recorder.h"
@@ -18,6 +22,11 @@ using namespace gearshift;
 using glm::dvec2;
 
 namespace {
+
+// One wall before and one behind, and nothing that would lead the lever along them.
+Gate walled_gate() {
+  return plain_aisle(0.060, 0.006);
+}
 
 // A bare handle pushed into the upper wall of the neutral aisle, between two columns.
 SimulatedRunConfig pushed(const Gate& gate, double rate, int delay) {
@@ -63,7 +72,7 @@ double span_of(SimulatedRun& run, double seconds) {
 
 TEST_CASE("a wall forced on a device that does not bear it is softened until it is still, and says so") {
   PushingHand hand = push_of(15.0);
-  SimulatedRunConfig config = pushed(paper_gate(), 100.0, 0);
+  SimulatedRunConfig config = pushed(walled_gate(), 100.0, 0);
   config.haptics.contact = {ContactHold::half_sample, EnergyControl::none, true, true};
   SimulatedRun run(config, hand);
   const std::vector<HapticEvent> events = run_events(run, 5.0);
@@ -83,52 +92,142 @@ TEST_CASE("a wall forced on a device that does not bear it is softened until it 
   CHECK(span_of(without, 0.5) > 0.01);
 }
 
-TEST_CASE("what chatters on at the floor is bounded by its energy: a device that lies about its mass") {
-  class Liar final : public HapticDevice {
-   public:
-    explicit Liar(SimulatedLever& lever) : lever_(lever), spec_(lever.spec()) {
-      spec_.axis_x.mass = spec_.axis_y.mass = 4.0;
-    }
-    const DeviceSpec& spec() const noexcept override { return spec_; }
-    LeverReading read(std::int64_t now_ns) noexcept override { return lever_.read(now_ns); }
-    void write(dvec2 force) noexcept override { lever_.write(force); }
-    void release() noexcept override { lever_.release(); }
+namespace {
 
-   private:
-    SimulatedLever& lever_;
-    DeviceSpec spec_;
-  };
-  const Gate gate = paper_gate();
-  PushingHand hand = push_of(15.0);
-  const SimulatedRunConfig rig = pushed(gate, 100.0, 0);
-  SimulatedLever lever(rig.lever, 10'000'000, hand);
-  lever.place(rig.start);
-  Liar liar(lever);
+// A simulated lever whose commands come later than it says, or whose readings shake by themselves.
+class Liar final : public HapticDevice {
+ public:
+  Liar(SimulatedLever& lever, int claimed_delay) : lever_(lever), spec_(lever.spec()) { spec_.delay = claimed_delay; }
+  const DeviceSpec& spec() const noexcept override { return spec_; }
+  LeverReading read(std::int64_t now_ns) noexcept override {
+    LeverReading reading = lever_.read(now_ns);
+    if (shakes) reading.position.y += 0.001 * std::sin(2.0 * 3.14159265 * 30.0 * 1e-9 * static_cast<double>(now_ns));
+    return reading;
+  }
+  void write(dvec2 force) noexcept override {
+    written = force;
+    lever_.write(force);
+  }
+  void release() noexcept override { lever_.release(); }
+
+  bool shakes = false;
+  dvec2 written{0.0};
+
+ private:
+  SimulatedLever& lever_;
+  DeviceSpec spec_;
+};
+
+struct LyingRig {
+  LyingRig(const Gate& gate, int real_delay, int claimed_delay, const HandImpedance& grip, bool limiter)
+      : hand([](double time, dvec2) {
+          return dvec2{0.0, 9.0 * std::min(1.0, time)};
+        }),  // the motors bear it for ever
+        lever(lever_config(real_delay, grip), 1'000'000, hand),
+        liar(lever, claimed_delay),
+        loop(config(limiter), gate, liar, world, channels) {
+    lever.place({0.5 * (gate.column[0].center + gate.column[1].center), 0.0});
+    loop.arm();
+  }
+  static SimulatedLeverConfig lever_config(int delay, const HandImpedance& grip) {
+    SimulatedLeverConfig config;
+    config.delay = delay;
+    config.hand = grip;
+    return config;
+  }
+  static HapticConfig config(bool limiter) {
+    HapticConfig config;
+    config.contact.study = !limiter;
+    config.contact.reversal_limiter = limiter;
+    return config;
+  }
+  // Largest and smallest depth of the true lever in that time, from the aisle's wall. [m]
+  std::pair<double, double> run(double seconds, double wall) {
+    double low = 1.0, high = -1.0;
+    for (int n = 0; n < static_cast<int>(1000.0 * seconds); ++n) {
+      loop.cycle(now += 1'000'000, 0);
+      low = std::min(low, lever.true_position().y - wall);
+      high = std::max(high, lever.true_position().y - wall);
+      for (HapticEvent event; channels.events.pop(event);) lowered += event.kind == EventKind::stiffness_lowered;
+    }
+    return {low, high};
+  }
+
+  PushingHand hand;
+  SimulatedLever lever;
+  Liar liar;
   NullWorld world;
   LoopChannels channels;
-  HapticConfig config = rig.haptics;
-  HapticLoop loop(config, gate, liar, world, channels);  // 4 kg bear 5000 N/m at 100 Hz; 0.09 kg do not
-  CHECK(loop.admitted().tuning.wall_stiffness == 5000.0);
-  loop.arm();
+  HapticLoop loop;
   std::int64_t now = 0;
-  int bounded = 0;
-  for (int n = 0; n < 3000; ++n) {
-    loop.cycle(now += 10'000'000, 0);
-    for (HapticEvent event; channels.events.pop(event);) bounded += event.kind == EventKind::energy_bounded;
+  int lowered = 0;
+};
+
+}  // namespace
+
+TEST_CASE("a device that is later than it says: softened until it rests in the wall, not on the stop") {
+  const Gate gate = walled_gate();
+  const struct {
+    int real, claimed;
+    HandImpedance hand;
+  } lies[] = {{5, 0, kBareHand}, {8, 0, kBareHand}, {8, 0, kGripHand}, {4, 1, kBareHand}};
+  for (const auto& lie : lies) {
+    CAPTURE(lie.real);
+    CAPTURE(lie.claimed);
+    LyingRig rig(gate, lie.real, lie.claimed, lie.hand, true);
+    rig.run(12.0, gate.half_aisle);
+    const auto [low, high] = rig.run(1.0, gate.half_aisle);
+    CHECK(rig.loop.snapshot().guard == GuardState::running);
+    CHECK(rig.lowered >= 1);
+    CHECK(high - low < 0.0005);
+    CHECK(low > 0.0);
+    CHECK(high < 0.060);  // the stop is 63 mm behind the wall
+    CHECK(-rig.loop.snapshot().f_a.y == doctest::Approx(-9.0).epsilon(0.2));
+
+    LyingRig control(gate, lie.real, lie.claimed, lie.hand, false);
+    control.run(4.0, gate.half_aisle);
+    const auto [lowest, highest] = control.run(1.0, gate.half_aisle);
+    CHECK(highest - lowest > 0.0005);
   }
-  CHECK(bounded == 1);
-  double low = 1.0, high = -1.0;
-  for (int n = 0; n < 50; ++n) {
-    loop.cycle(now += 10'000'000, 0);
-    low = std::min(low, lever.true_position().y);
-    high = std::max(high, lever.true_position().y);
+}
+
+TEST_CASE("what shakes whatever the wall does is damped, told why, and not brought back by itself") {
+  const Gate gate = walled_gate();
+  LyingRig rig(gate, 0, 0, kBareHand, true);
+  rig.run(2.0, gate.half_aisle);
+  REQUIRE(rig.loop.snapshot().guard == GuardState::running);
+  rig.liar.shakes = true;
+  rig.run(6.0, gate.half_aisle);
+  CHECK(rig.loop.snapshot().guard == GuardState::damped);
+  CHECK(rig.loop.snapshot().fault == GuardFault::chatter);
+  rig.liar.shakes = false;
+  rig.run(3.0, gate.half_aisle);
+  CHECK(rig.loop.snapshot().guard == GuardState::damped);
+  rig.channels.commands.push(LoopCommand::arm);
+  rig.run(3.0, gate.half_aisle);
+  CHECK(rig.loop.snapshot().guard == GuardState::running);
+  CHECK(rig.loop.snapshot().wall_stiffness == 5000.0);
+}
+
+TEST_CASE("moving another slider does not give a chattering wall its stiffness back") {
+  const Gate gate = walled_gate();
+  LyingRig rig(gate, 5, 0, kBareHand, true);
+  HapticTuning tuning = rig.loop.admitted().tuning;
+  for (int i = 0; i < 700; ++i) {  // every 16 ms
+    tuning.feel_scale = i % 2 ? 0.9 : 1.0;
+    rig.loop.change_tuning(tuning);
+    rig.run(0.016, gate.half_aisle);
   }
-  CHECK(high - low < 0.001);  // it was 100 times that
+  CHECK(rig.loop.snapshot().wall_stiffness < 5000.0);
+  tuning.wall_stiffness = 4000.0;
+  rig.loop.change_tuning(tuning);
+  rig.run(0.001, gate.half_aisle);
+  CHECK(rig.loop.snapshot().wall_stiffness == 4000.0);
 }
 
 TEST_CASE("a change while running passes the same check as at the start, and what is admitted is used") {
   RestingHand nobody;
-  SimulatedRun run(pushed(paper_gate(), 200.0, 0), nobody);
+  SimulatedRun run(pushed(walled_gate(), 200.0, 0), nobody);
   HapticTuning wanted;
   wanted.wall_stiffness = 20000.0;
   wanted.wall_damping = 100.0;
@@ -176,4 +275,49 @@ TEST_CASE("every hold, energy control and the limiter replay bit for bit") {
     CHECK(result.bit_for_bit());
     CHECK(result.cycles == 3000);
   }
+}
+
+TEST_CASE("energy control that a configuration asks for is on from the first cycle") {
+  const auto depth = [](EnergyControl control) {
+    PushingHand hand = push_of(9.0);
+    SimulatedRunConfig config = pushed(walled_gate(), 1000.0, 0);
+    config.haptics.contact.energy_control = control;
+    SimulatedRun run(config, hand);
+    run_events(run, 2.0);
+    return run.loop().snapshot().lever.y - config.gate.half_aisle;
+  };
+  CHECK(depth(EnergyControl::none) < 0.0020);             // 9 N / 5000 N/m
+  CHECK(depth(EnergyControl::energy_bounding) > 0.0028);  // 9 N / (b / T), 3000 N/m in X and 2900 in Y
+}
+
+TEST_CASE("a change keeps the hold that runs, and its numbers are checked") {
+  RestingHand nobody;
+  SimulatedRunConfig config = pushed(walled_gate(), 1000.0, 2);
+  config.haptics.tuning.wall_stiffness = 2000.0;  // the half-sample hold suffices
+  SimulatedRun run(config, nobody);
+  REQUIRE(run.loop().admitted().hold == ContactHold::half_sample);
+  const AdmittedTuning changed = run.loop().change_tuning({});  // 5000 would have been the observer's
+  CHECK(changed.hold == ContactHold::half_sample);
+  CHECK(changed.tuning.wall_stiffness == doctest::Approx(0.35 * 0.086 / 9e-6));
+  for (const double bad : {20001.0, std::nan("")}) {
+    HapticTuning tuning;
+    tuning.wall_stiffness = bad;
+    CHECK_THROWS_AS(run.loop().change_tuning(tuning), std::invalid_argument);
+  }
+}
+
+TEST_CASE("shaking in free space takes nothing from the walls") {
+  RestingHand nobody;
+  SimulatedLever lever({}, 1'000'000, nobody);
+  Liar liar(lever, 0);
+  liar.shakes = true;  // 2 mm, in an aisle of 12
+  NullWorld world;
+  LoopChannels channels;
+  const Gate gate = walled_gate();
+  lever.place({0.5 * (gate.column[0].center + gate.column[1].center), 0.0});
+  HapticLoop loop(HapticConfig{}, gate, liar, world, channels);
+  loop.arm();
+  for (int n = 1; n < 5000; ++n) loop.cycle(n * std::int64_t{1'000'000}, 0);
+  CHECK(loop.snapshot().wall_stiffness == 5000.0);
+  CHECK(loop.snapshot().guard == GuardState::running);
 }

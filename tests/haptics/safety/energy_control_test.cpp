@@ -8,6 +8,8 @@
 
 #include <doctest/doctest.h>
 
+#include "haptics/safety/force_guard.h"
+
 using namespace gearshift;
 
 namespace {
@@ -110,4 +112,94 @@ TEST_CASE("passivity control: what a spring of 5000 N/m makes of an impact, with
   CHECK(impact_energy(0.001, true) < 5.0);
   CHECK(impact_energy(0.002, true) < 25.0);
   CHECK(impact_energy(0.005, true) < 210.0);
+}
+
+namespace {
+
+GuardInput still_at(double x, double force) {
+  GuardInput in;
+  in.force = {force, 0.0};
+  in.position = {x, 0.0};
+  in.fresh = true;
+  in.touches = true;
+  return in;
+}
+
+}  // namespace
+
+TEST_CASE("the guard bounds what goes out, and forgets at arming how far the lever went meanwhile") {
+  GuardConfig config;
+  config.ramp_time = 0.001;
+  DeviceSpec spec;
+  spec.workspace = {0.077, 0.069};
+  ForceGuard guard(config, spec, 0.001, EnergyControl::energy_bounding);
+  guard.arm();
+  guard.guard(still_at(0.0, 0.0));
+  // 1 mm in steps of 10 um into a wall that wants 30 N: b / T = 3000 N/m of it
+  double force = 0.0;
+  for (int n = 1; n <= 100; ++n) force = guard.guard(still_at(1e-5 * n, -30.0)).force.x;
+  CHECK(force == doctest::Approx(-3.0));
+  for (int n = 0; n < 30; ++n) {  // the sensor dies: damped
+    GuardInput dead = still_at(1e-3, -30.0);
+    dead.fresh = false;
+    guard.guard(dead);
+  }
+  REQUIRE(guard.state() == GuardState::damped);
+  for (int n = 0; n < 100; ++n) guard.guard(still_at(0.030, -30.0));  // carried 29 mm away while damped
+  guard.arm();
+  CHECK(guard.guard(still_at(0.030, -30.0)).force.x == 0.0);
+  CHECK(guard.guard(still_at(0.030, -30.0)).force.x == 0.0);
+  // Negative control: without it the whole wish goes out.
+  ForceGuard open(config, spec, 0.001);
+  open.arm();
+  open.guard(still_at(0.0, -30.0));
+  open.guard(still_at(0.0, -30.0));
+  CHECK(open.guard(still_at(0.0, -30.0)).force.x == -30.0);
+}
+
+TEST_CASE("a lever that chatters whatever is done is damped, and only arming brings the force back") {
+  ForceGuard guard({}, {}, 0.001);
+  guard.arm();
+  guard.damp();
+  CHECK(guard.state() == GuardState::damped);
+  CHECK(guard.fault() == GuardFault::chatter);
+  for (int n = 0; n < 30; ++n) guard.guard(still_at(0.0, -30.0));
+  CHECK(guard.guard(still_at(0.0, -30.0)).force.x == 0.0);
+}
+
+TEST_CASE("each axis by its own model, and with delay half of (13)'s K (T/2 + d T)") {
+  GuardConfig config;
+  config.ramp_time = 0.001;
+  config.slew = 100.0;
+  for (const int delay : {0, 1, 3}) {
+    DeviceSpec spec;
+    spec.workspace = {0.077, 0.069};
+    spec.delay = delay;
+    spec.axis_y.damping = 5.0;
+    ForceGuard guard(config, spec, 0.001, EnergyControl::energy_bounding);
+    guard.arm();
+    GuardInput in = still_at(0.0, 0.0);
+    guard.guard(in);
+    glm::dvec2 force{0.0};
+    for (int n = 1; n <= 100; ++n) {
+      in.position = {1e-5 * n, 1e-5 * n};
+      in.force = {-30.0, -30.0};
+      force = guard.guard(in).force;
+    }
+    const double passive = 1.0 / (0.001 * (0.5 + delay));  // (13) per unit of damping
+    CHECK(force.x == doctest::Approx(-0.5 * 3.0 * passive * 1e-3));
+    CHECK(force.y == doctest::Approx(-0.5 * 5.0 * passive * 1e-3));
+  }
+}
+
+TEST_CASE("passivity control: nothing out of contact, and every contact is a new account") {
+  PassivityController controller(kPaperAxisX, 0.001);
+  controller.control(-1.0, 10.0, 1e-3, true);  // 10 mJ given
+  CHECK(controller.taken() == doctest::Approx(-0.010));
+  CHECK(controller.control(-1.0, 0.0, -1e-4, true) > -1.0 + 1.0);  // so it damps
+  CHECK(controller.control(-1.0, 0.0, -1e-4, false) == -1.0);      // but not in free space
+  CHECK(controller.taken() == 0.0);
+  // Never more than 0.5 m / T: a sampled damper that is stronger would ring.
+  controller.control(0.0, 100.0, 1e-2, true);
+  CHECK(controller.control(0.0, 0.0, -1e-3, true) == doctest::Approx(0.5 * 0.095 / 0.001 * 1.0));
 }
