@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <cstdlib>
 #include <fstream>
 #include <stdexcept>
 #include <thread>
@@ -30,6 +31,7 @@ int run_gnuplot(const std::filesystem::path& folder, const std::string& script, 
   const std::string directory = folder.string();
   const pid_t child = fork();
   if (child == 0) {
+    setenv("LC_ALL", "C.UTF-8", 1);  // a bare system has no other: without it gnuplot complains of its degree sign
     if (chdir(directory.c_str()) == 0) execlp("gnuplot", "gnuplot", script.c_str(), static_cast<char*>(nullptr));
     _exit(127);
   }
