@@ -4,22 +4,7 @@
 # Usage: identify.sh GEARSHIFT SOURCE_FOLDER
 set -u
 gearshift=$1
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-passed=0
-failed=0
-
-check() { # what, command ...
-  local what=$1
-  shift
-  if "$@"; then
-    passed=$((passed + 1))
-  else
-    echo "FAILED: $what"
-    failed=$((failed + 1))
-  fi
-}
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 
 identify() { # name of the result, arguments ...
   local name=$1
@@ -32,7 +17,6 @@ near() { # name, n, value, share
   awk -v a="$(found "$1" "$2")" -v b="$3" -v s="$4" 'BEGIN { exit !(a != "" && a / b < 1 + s && a / b > 1 - s) }'
 }
 far() { ! near "$@"; }
-is_png() { [ "$(head -c 4 "$1" | tail -c 3)" = PNG ]; }
 says() { grep -qF -- "$2" "$1.txt"; }
 
 check "identify" identify plain --out plain
@@ -102,5 +86,4 @@ check "an unknown key" refuses 1 "unknown.toml:3: mass is not a known key" --pre
 check "a lever without motors" refuses 1 "axis x: FrequencySweep: max_force of the device = 0" --preset weak.toml
 check "a folder that cannot be" refuses 1 "/proc" --out /proc/nowhere
 
-echo "$passed passed, $failed failed"
-[ $failed -eq 0 ]
+finish

@@ -5,22 +5,7 @@
 set -u
 gearshift=$1
 presets=$2/assets/presets
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-passed=0
-failed=0
-
-check() { # what, command ...
-  local what=$1
-  shift
-  if "$@"; then
-    passed=$((passed + 1))
-  else
-    echo "FAILED: $what"
-    failed=$((failed + 1))
-  fi
-}
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 
 reproduce() { # folder, arguments ...
   local folder=$1
@@ -33,7 +18,6 @@ refuses() { # exit code, arguments ...
   reproduce refused "$@"
   [ $? -eq "$code" ] && [ ! -e refused ] && [ "$(wc -l <refused.err)" -eq 1 ]
 }
-is_png() { [ "$(head -c 4 "$1" | tail -c 3)" = PNG ]; }
 is_svg() { grep -q "</svg>" "$1"; }
 differs() { ! cmp -s "whole/$1" "heavier/$1"; }
 has_units() { head -n 1 "$1" | grep -qE '_(mm|deg|n|hz|s|gw|raw|1)(,|$)'; }
@@ -102,5 +86,4 @@ touch file
 check "no folder below a file" [ $? -eq 1 ]
 check "told in one sentence" [ "$(wc -l <err)" -eq 1 ]
 
-echo "$passed passed, $failed failed"
-[ $failed -eq 0 ]
+finish

@@ -3,22 +3,7 @@
 # Usage: stability.sh GEARSHIFT SOURCE_FOLDER
 set -u
 gearshift=$1
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-passed=0
-failed=0
-
-check() { # what, command ...
-  local what=$1
-  shift
-  if "$@"; then
-    passed=$((passed + 1))
-  else
-    echo "FAILED: $what"
-    failed=$((failed + 1))
-  fi
-}
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 
 answers() { # arguments ...
   "$gearshift" stability "$@" >out 2>err
@@ -130,5 +115,4 @@ refuse 1 "/nowhere/x.svg" --svg /nowhere/x.svg
 refuse 1 "/nowhere/x.csv" --csv /nowhere/x.csv
 check "nothing is left behind by what was refused" test ! -e one
 
-echo "$passed passed, $failed failed"
-[ $failed -eq 0 ]
+finish

@@ -5,22 +5,7 @@
 set -u
 gearshift=$1
 gates=$2/assets/gates
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
-passed=0
-failed=0
-
-check() { # what, command ...
-  local what=$1
-  shift
-  if "$@"; then
-    passed=$((passed + 1))
-  else
-    echo "FAILED: $what"
-    failed=$((failed + 1))
-  fi
-}
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 
 tour() { # name of the result, arguments ...
   local name=$1
@@ -30,7 +15,6 @@ tour() { # name of the result, arguments ...
 replays() { "$gearshift" replay "$1/tour.trace" | grep -q "^bit for bit"; }
 describes() { "$gearshift" gate "$1" --json >"$1.json"; }
 draws() { "$gearshift" gate "$1" --svg "$1.svg" >/dev/null 2>&1 && grep -q "</svg>" "$1.svg"; }
-is_png() { [ "$(head -c 4 "$1" | tail -c 3)" = PNG ]; }
 hash_of() { grep -o 'hash.*' "$1.txt"; }
 same_hash() { [ -n "$(hash_of "$1")" ] && [ "$(hash_of "$1")" = "$(hash_of "$2")" ]; }
 order_of() { awk '/engaged/{print $1}' "$1.txt" | tr '\n' ' '; }
@@ -84,5 +68,4 @@ flip_a_bit paper/tour.trace
 check "a flipped bit is noticed" [ $? -eq 1 ]
 check "and told in one sentence" [ "$(wc -l <err)" -eq 1 ]
 
-echo "$passed passed, $failed failed"
-[ $failed -eq 0 ]
+finish
