@@ -184,7 +184,7 @@ Section deferred_force_section(const Study& study) {
       {"Section 3.1: the cure is \"a sampling rate up to 1 K Hz\" or a slow joystick",
        "half-sample hold at the same 200 Hz: " + energies(holds[1], most) + "; the ideal: " + energies(holds[2], most),
        fmt::format("{:+.0f} % and {:+.0f} % of what the zero-order hold gives", 100.0 * holds[1].whole / holds[0].whole,
-                   holds[2].whole / holds[0].whole)}};
+                   100.0 * holds[2].whole / holds[0].whole)}};
   section.pictures = {
       {"deferred_force",
        "Position and held force on one scale. Region I: in the wall without a force; region II: out of the "
