@@ -20,25 +20,11 @@
 namespace gearshift {
 namespace {
 
-const char* role_name(WallRole role) {
-  switch (role) {
-    case WallRole::aisle:
-      return "aisle";
-    case WallRole::chamfer:
-      return "chamfer";
-    case WallRole::end_stop:
-      return "end stop";
-    case WallRole::closed_side:
-      return "closed side";
-  }
-  return "?";
-}
-
 void write_walls(const Study& study, const GateDescription& list) {
   CsvFile csv(study, "gate", "from_x_mm,from_y_mm,to_x_mm,to_y_mm,role,pair");
   for (const WallInfo& wall : list.walls) {
     csv.line(fmt::format("{:.9g},{:.9g},{:.9g},{:.9g},{},{}", 1e3 * wall.from.x, 1e3 * wall.from.y, 1e3 * wall.to.x,
-                         1e3 * wall.to.y, role_name(wall.role),
+                         1e3 * wall.to.y, wall_role_name(wall.role),
                          wall.pair < 0 ? "" : list.wall_pairs[static_cast<std::size_t>(wall.pair)].name));
   }
   csv.finish();

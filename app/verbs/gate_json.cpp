@@ -13,20 +13,6 @@ double kmh(double metres_per_second) {
   return std::round(metres_per_second * kKmhPerMps * 1e6) / 1e6;
 }
 
-const char* role_name(WallRole role) {
-  switch (role) {
-    case WallRole::aisle:
-      return "aisle";
-    case WallRole::chamfer:
-      return "chamfer";
-    case WallRole::end_stop:
-      return "end_stop";
-    case WallRole::closed_side:
-      return "closed_side";
-  }
-  return "?";
-}
-
 Json point_json(glm::dvec2 point) {
   return Json::array({millimetres(point.x), millimetres(point.y)});
 }
@@ -60,7 +46,7 @@ Json walls_json(const GateDescription& list) {
   for (const WallInfo& wall : list.walls) {
     all.push_back({{"from_mm", point_json(wall.from)},
                    {"to_mm", point_json(wall.to)},
-                   {"role", role_name(wall.role)},
+                   {"role", wall_role_name(wall.role)},
                    {"pair", wall.pair >= 0 ? Json(wall.pair) : Json(nullptr)}});
   }
   return all;

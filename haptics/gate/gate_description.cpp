@@ -120,6 +120,20 @@ void describe_ends(const Gate& gate, GateDescription& list) {
 
 }  // namespace
 
+const char* wall_role_name(WallRole role) noexcept {
+  switch (role) {
+    case WallRole::aisle:
+      return "aisle";
+    case WallRole::chamfer:
+      return "chamfer";
+    case WallRole::end_stop:
+      return "end_stop";
+    case WallRole::closed_side:
+      return "closed_side";
+  }
+  return "?";
+}
+
 GateDescription describe_gate(const Gate& gate) {
   GateDescription list;
   describe_aisles(gate, list);

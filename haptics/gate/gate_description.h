@@ -22,6 +22,8 @@ struct JunctionInfo {
   bool buffer = false;  // the closed side turns the lever into the vertical aisle
 };
 enum class WallRole { aisle, chamfer, end_stop, closed_side };
+// "aisle", "chamfer", "end_stop", "closed_side".
+const char* wall_role_name(WallRole role) noexcept;
 struct WallInfo {
   glm::dvec2 from{0.0}, to{0.0};  // [m]
   WallRole role = WallRole::aisle;
