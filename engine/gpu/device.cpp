@@ -1,0 +1,169 @@
+#include "engine/gpu/device.h"
+
+#include <algorithm>
+#include <cstring>
+#include <optional>
+#include <vector>
+
+#include <fmt/format.h>
+
+namespace gearshift {
+namespace {
+
+// What a device has, or what is asked of it: one chain for both.
+struct Features {
+  VkPhysicalDeviceVulkan13Features v13{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
+  VkPhysicalDeviceVulkan12Features v12{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, .pNext = &v13};
+  VkPhysicalDeviceFeatures2 core{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &v12};
+  Features() = default;
+  Features(const Features&) = delete;  // it points into itself
+  Features& operator=(const Features&) = delete;
+
+  bool are_enough() const {
+    return v13.dynamicRendering == VK_TRUE && v13.synchronization2 == VK_TRUE && v12.timelineSemaphore == VK_TRUE;
+  }
+};
+
+std::vector<VkPhysicalDevice> physical_devices(VkInstance instance) {
+  std::uint32_t count = 0;
+  check(vkEnumeratePhysicalDevices(instance, &count, nullptr), "vkEnumeratePhysicalDevices");
+  std::vector<VkPhysicalDevice> devices(count);
+  check(vkEnumeratePhysicalDevices(instance, &count, devices.data()), "vkEnumeratePhysicalDevices");
+  devices.resize(count);
+  return devices;
+}
+
+std::vector<VkQueueFamilyProperties> queue_families(VkPhysicalDevice physical) {
+  std::uint32_t count = 0;
+  vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, nullptr);
+  std::vector<VkQueueFamilyProperties> families(count);
+  vkGetPhysicalDeviceQueueFamilyProperties(physical, &count, families.data());
+  return families;
+}
+
+std::optional<std::uint32_t> graphics_family(VkPhysicalDevice physical) {
+  const auto families = queue_families(physical);
+  for (std::uint32_t i = 0; i < families.size(); ++i) {
+    if ((families[i].queueFlags & VK_QUEUE_GRAPHICS_BIT) != 0) return i;
+  }
+  return std::nullopt;
+}
+
+bool has_swapchain(VkPhysicalDevice physical) {
+  std::uint32_t count = 0;
+  vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
+  std::vector<VkExtensionProperties> extensions(count);
+  vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
+  return std::any_of(extensions.begin(), extensions.end(),
+                     [](const auto& e) { return std::strcmp(e.extensionName, VK_KHR_SWAPCHAIN_EXTENSION_NAME) == 0; });
+}
+
+bool is_usable(VkPhysicalDevice physical, const VkPhysicalDeviceProperties& properties, bool swapchain) {
+  if (properties.apiVersion < VK_API_VERSION_1_3 || !graphics_family(physical)) return false;
+  if (swapchain && !has_swapchain(physical)) return false;
+  Features has;
+  vkGetPhysicalDeviceFeatures2(physical, &has.core);
+  return has.are_enough();
+}
+
+int rank(VkPhysicalDeviceType type) {
+  switch (type) {
+    case VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU:
+      return 4;
+    case VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU:
+      return 3;
+    case VK_PHYSICAL_DEVICE_TYPE_VIRTUAL_GPU:
+      return 2;
+    case VK_PHYSICAL_DEVICE_TYPE_CPU:
+      return 0;
+    default:
+      return 1;
+  }
+}
+
+VkPhysicalDevice choose(VkInstance instance, bool swapchain, const std::string& wanted) {
+  VkPhysicalDevice best = VK_NULL_HANDLE;
+  int best_rank = -1;
+  std::string names;
+  for (VkPhysicalDevice physical : physical_devices(instance)) {
+    VkPhysicalDeviceProperties properties;
+    vkGetPhysicalDeviceProperties(physical, &properties);
+    if (!is_usable(physical, properties, swapchain)) continue;
+    names += (names.empty() ? "" : ", ") + std::string(properties.deviceName);
+    const bool named = std::string_view(properties.deviceName).find(wanted) != std::string_view::npos;
+    if (!named || rank(properties.deviceType) <= best_rank) continue;
+    best = physical;
+    best_rank = rank(properties.deviceType);
+  }
+  if (names.empty()) {
+    throw GpuError("No Vulkan 1.3 device: the package mesa-vulkan-drivers brings one that needs no card.");
+  }
+  if (best == VK_NULL_HANDLE) {
+    throw GpuError(
+        fmt::format("No Vulkan 1.3 device has \"{}\" in its name (GEARSHIFT_GPU); there is {}.", wanted, names));
+  }
+  return best;
+}
+
+GpuTraits traits_of(const VkPhysicalDeviceProperties& properties, const Features& has,
+                    const VkQueueFamilyProperties& family) {
+  const auto& limits = properties.limits;
+  GpuTraits traits;
+  traits.name = properties.deviceName;
+  traits.is_cpu = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
+  traits.layered_vertex = has.v12.shaderOutputLayer == VK_TRUE;
+  traits.four_samples =
+      (limits.framebufferColorSampleCounts & limits.framebufferDepthSampleCounts & VK_SAMPLE_COUNT_4_BIT) != 0;
+  traits.depth_clamp = has.core.features.depthClamp == VK_TRUE;
+  if (has.core.features.samplerAnisotropy == VK_TRUE && !traits.is_cpu) {
+    traits.most_anisotropy = limits.maxSamplerAnisotropy;
+  }
+  traits.tick_ns = static_cast<double>(limits.timestampPeriod);
+  traits.timestamp_bits = family.timestampValidBits;
+  return traits;
+}
+
+VkDevice make_device(VkPhysicalDevice physical, std::uint32_t family, const GpuTraits& traits, const Features& has,
+                     bool swapchain) {
+  Features wanted;
+  wanted.v13.dynamicRendering = VK_TRUE;
+  wanted.v13.synchronization2 = VK_TRUE;
+  wanted.v12.timelineSemaphore = VK_TRUE;
+  wanted.v12.shaderOutputLayer = has.v12.shaderOutputLayer;
+  wanted.v12.shaderOutputViewportIndex = has.v12.shaderOutputViewportIndex;
+  wanted.core.features.depthClamp = has.core.features.depthClamp;
+  wanted.core.features.samplerAnisotropy = traits.most_anisotropy > 1.0f ? VK_TRUE : VK_FALSE;
+  const float priority = 1.0f;
+  const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
+                                      .queueFamilyIndex = family,
+                                      .queueCount = 1,
+                                      .pQueuePriorities = &priority};
+  const char* const extension = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
+  const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
+                                .pNext = &wanted.core,
+                                .queueCreateInfoCount = 1,
+                                .pQueueCreateInfos = &queue,
+                                .enabledExtensionCount = swapchain ? 1u : 0u,
+                                .ppEnabledExtensionNames = &extension};
+  VkDevice device = VK_NULL_HANDLE;
+  check(vkCreateDevice(physical, &info, nullptr, &device), "vkCreateDevice");
+  return device;
+}
+
+}  // namespace
+
+Device::Device(VkInstance instance, bool swapchain, const std::string& wanted)
+    : physical_(choose(instance, swapchain, wanted)), family_(graphics_family(physical_).value()) {
+  vkGetPhysicalDeviceProperties(physical_, &properties_);
+  Features has;
+  vkGetPhysicalDeviceFeatures2(physical_, &has.core);
+  traits_ = traits_of(properties_, has, queue_families(physical_)[family_]);
+  device_ = make_device(physical_, family_, traits_, has, swapchain);
+  vkGetDeviceQueue(device_, family_, 0, &queue_);
+}
+
+Device::~Device() {
+  vkDestroyDevice(device_, nullptr);
+}
+
+}  // namespace gearshift

@@ -1,0 +1,129 @@
+#include "engine/gpu/memory.h"
+
+#include <algorithm>
+#include <array>
+#include <cassert>
+#include <iterator>
+
+#include <fmt/format.h>
+
+namespace gearshift {
+namespace {
+
+constexpr VkDeviceSize kBlockSize = VkDeviceSize{32} << 20;
+constexpr VkMemoryPropertyFlags kMapped = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+
+// What is best, then what will do.
+std::array<VkMemoryPropertyFlags, 2> wishes(MemoryKind kind) {
+  switch (kind) {
+    case MemoryKind::device:
+      return {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0};
+    case MemoryKind::upload:
+      return {kMapped, kMapped};
+    case MemoryKind::read_back:
+      break;
+  }
+  return {kMapped | VK_MEMORY_PROPERTY_HOST_CACHED_BIT, kMapped};
+}
+
+}  // namespace
+
+std::optional<VkDeviceSize> FreeRanges::take(VkDeviceSize size, VkDeviceSize alignment) {
+  for (const auto& [start, length] : free_) {
+    const VkDeviceSize offset = (start + alignment - 1) & ~(alignment - 1);
+    const VkDeviceSize end = start + length;
+    if (offset + size > end) continue;
+    const VkDeviceSize before = offset - start;
+    free_.erase(start);
+    if (before > 0) free_.emplace(offset - before, before);
+    if (offset + size < end) free_.emplace(offset + size, end - offset - size);
+    return offset;
+  }
+  return std::nullopt;
+}
+
+void FreeRanges::give(VkDeviceSize offset, VkDeviceSize size) {
+  const auto next = free_.lower_bound(offset);
+  assert(next == free_.end() || offset + size <= next->first);
+  if (next != free_.end() && next->first == offset + size) {
+    size += next->second;
+    free_.erase(next);
+  }
+  const auto here = free_.emplace(offset, size).first;
+  if (here == free_.begin()) return;
+  const auto previous = std::prev(here);
+  assert(previous->first + previous->second <= offset);
+  if (previous->first + previous->second != offset) return;
+  previous->second += size;
+  free_.erase(here);
+}
+
+DeviceMemory::DeviceMemory(VkPhysicalDevice physical, VkDevice device) : device_(device) {
+  vkGetPhysicalDeviceMemoryProperties(physical, &properties_);
+}
+
+DeviceMemory::~DeviceMemory() {
+  for (const auto& block : blocks_) vkFreeMemory(device_, block->memory, nullptr);
+}
+
+std::uint32_t DeviceMemory::type_for(std::uint32_t allowed, MemoryKind kind) const {
+  for (const VkMemoryPropertyFlags wish : wishes(kind)) {
+    for (std::uint32_t i = 0; i < properties_.memoryTypeCount; ++i) {
+      const bool fits = (properties_.memoryTypes[i].propertyFlags & wish) == wish;
+      if (fits && (allowed >> i & 1u) != 0) return i;
+    }
+  }
+  throw GpuError("No memory type of the device fits.");
+}
+
+MemoryBlock& DeviceMemory::add_block(VkDeviceSize size, std::uint32_t type, MemoryUser user) {
+  const VkDeviceSize heap = properties_.memoryHeaps[properties_.memoryTypes[type].heapIndex].size;
+  if (size > heap) throw GpuError(fmt::format("{} MiB are more memory than the device has.", size >> 20));
+  const VkMemoryAllocateInfo info{
+      .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = size, .memoryTypeIndex = type};
+  blocks_.reserve(blocks_.size() + 1);
+  auto block = std::make_unique<MemoryBlock>(MemoryBlock{VK_NULL_HANDLE, nullptr, type, user, FreeRanges(size)});
+  check(vkAllocateMemory(device_, &info, nullptr, &block->memory), "vkAllocateMemory");
+  blocks_.push_back(std::move(block));
+  MemoryBlock& added = *blocks_.back();
+  if ((properties_.memoryTypes[type].propertyFlags & kMapped) == kMapped) {
+    void* mapped = nullptr;
+    check(vkMapMemory(device_, added.memory, 0, VK_WHOLE_SIZE, 0, &mapped), "vkMapMemory");
+    added.mapped = static_cast<std::byte*>(mapped);
+  }
+  return added;
+}
+
+Allocation DeviceMemory::allocate(const VkMemoryRequirements& needs, MemoryKind kind, MemoryUser user) {
+  const std::uint32_t type = type_for(needs.memoryTypeBits, kind);
+  MemoryBlock* home = nullptr;
+  std::optional<VkDeviceSize> offset;
+  for (const auto& block : blocks_) {
+    if (block->type != type || block->user != user) continue;
+    home = block.get();
+    if ((offset = home->ranges.take(needs.size, needs.alignment))) break;
+  }
+  if (!offset) {
+    home = &add_block(std::max(needs.size, kBlockSize), type, user);
+    offset = home->ranges.take(needs.size, needs.alignment);
+  }
+  in_use_ += needs.size;
+  return {.memory = home->memory,
+          .offset = *offset,
+          .size = needs.size,
+          .mapped = home->mapped == nullptr ? nullptr : home->mapped + *offset,
+          .block = home};
+}
+
+void DeviceMemory::free(const Allocation& allocation) noexcept {
+  if (allocation.block == nullptr) return;
+  in_use_ -= allocation.size;
+  allocation.block->ranges.give(allocation.offset, allocation.size);
+  if (!allocation.block->ranges.is_whole()) return;
+  const auto block =
+      std::find_if(blocks_.begin(), blocks_.end(), [&](const auto& b) { return b.get() == allocation.block; });
+  vkFreeMemory(device_, (*block)->memory, nullptr);
+  blocks_.erase(block);
+}
+
+}  // namespace gearshift

@@ -1,0 +1,55 @@
+// Device memory in blocks, first fit.
+#pragma once
+
+#include <map>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/gpu/gpu.h"
+
+namespace gearshift {
+
+// Free pieces of [0, size), neighbours merged.
+class FreeRanges {
+ public:
+  explicit FreeRanges(VkDeviceSize size) : size_(size), free_{{0, size}} {}
+  // Offset of the first piece that fits. alignment: power of two
+  std::optional<VkDeviceSize> take(VkDeviceSize size, VkDeviceSize alignment);
+  void give(VkDeviceSize offset, VkDeviceSize size);  // what was taken
+  bool is_whole() const { return free_.size() == 1 && free_.begin()->second == size_; }
+
+ private:
+  VkDeviceSize size_;
+  std::map<VkDeviceSize, VkDeviceSize> free_;  // offset to size
+};
+
+struct MemoryBlock {
+  VkDeviceMemory memory;
+  std::byte* mapped;  // null: the host does not see it
+  std::uint32_t type;
+  MemoryUser user;
+  FreeRanges ranges;
+};
+
+class DeviceMemory {
+ public:
+  DeviceMemory(VkPhysicalDevice physical, VkDevice device);
+  ~DeviceMemory();
+  DeviceMemory(const DeviceMemory&) = delete;
+  DeviceMemory& operator=(const DeviceMemory&) = delete;
+
+  Allocation allocate(const VkMemoryRequirements& needs, MemoryKind kind, MemoryUser user);
+  void free(const Allocation& allocation) noexcept;
+  VkDeviceSize in_use() const noexcept { return in_use_; }
+
+ private:
+  std::uint32_t type_for(std::uint32_t allowed, MemoryKind kind) const;
+  MemoryBlock& add_block(VkDeviceSize size, std::uint32_t type, MemoryUser user);
+  VkDevice device_;
+  VkPhysicalDeviceMemoryProperties properties_{};
+  std::vector<std::unique_ptr<MemoryBlock>> blocks_;
+  VkDeviceSize in_use_ = 0;
+};
+
+}  // namespace gearshift

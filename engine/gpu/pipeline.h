@@ -1,0 +1,63 @@
+// Pipelines for dynamic rendering, from a few lines.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/gpu/gpu.h"
+
+namespace gearshift {
+
+struct VertexInput {
+  std::uint32_t stride = 0;  // 0: the vertices are made in the shader
+  std::vector<VkVertexInputAttributeDescription> attributes;
+};
+
+enum class Blend { none, alpha };        // alpha: source over, straight alpha
+enum class Depth { none, test, write };  // greater or equal: reverse-Z; write: test and write
+
+struct PipelineDesc {
+  std::span<const std::uint32_t> vertex;    // SPIR-V
+  std::span<const std::uint32_t> fragment;  // empty: depth only
+  VkPipelineLayout layout = VK_NULL_HANDLE;
+  VertexInput input;
+  VkFormat colour = VK_FORMAT_UNDEFINED;
+  VkFormat depth = VK_FORMAT_UNDEFINED;
+  VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
+  Blend blend = Blend::none;
+  Depth depth_use = Depth::none;
+  float depth_bias = 0.0f, depth_slope = 0.0f;
+  bool depth_clamp = false;                  // where the device can: casters before a shadow's near plane
+  std::span<const std::uint32_t> constants;  // specialization constants 0, 1, 2, ..., of both stages
+};
+// Triangle list. Dynamic: viewport, scissor, cull mode, front face.
+Pipeline make_pipeline(const Gpu& gpu, const PipelineDesc& desc);
+
+struct Binding {
+  std::uint32_t binding = 0;
+  VkDescriptorType type = VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER;
+  VkShaderStageFlags stages = VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT;
+  std::uint32_t count = 1;
+};
+SetLayout make_set_layout(const Gpu& gpu, std::span<const Binding> bindings);
+PipelineLayout make_pipeline_layout(const Gpu& gpu, std::span<const VkDescriptorSetLayout> sets,
+                                    std::uint32_t push_constant_bytes);
+
+// Fixed in size: sets are made once and live as long as the pool.
+class SetPool {
+ public:
+  SetPool() = default;
+  SetPool(const Gpu& gpu, std::uint32_t sets, std::span<const VkDescriptorPoolSize> sizes);
+  VkDescriptorSet make(VkDescriptorSetLayout layout);
+
+ private:
+  VkDevice device_ = VK_NULL_HANDLE;
+  DescriptorPool pool_;
+};
+
+void bind_buffer(const Gpu& gpu, VkDescriptorSet set, std::uint32_t binding, VkDescriptorType type, VkBuffer buffer,
+                 VkDeviceSize offset = 0, VkDeviceSize size = VK_WHOLE_SIZE);
+void bind_texture(const Gpu& gpu, VkDescriptorSet set, std::uint32_t binding, VkImageView view, VkSampler sampler);
+
+}  // namespace gearshift

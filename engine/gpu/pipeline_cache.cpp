@@ -1,0 +1,83 @@
+#include "engine/gpu/pipeline_cache.h"
+
+#include <unistd.h>
+
+#include <array>
+#include <cstdint>
+#include <cstring>
+#include <exception>
+#include <fstream>
+#include <string>
+
+namespace gearshift {
+namespace {
+
+// Ours, before the driver's bytes: drivers check device and version, but trust that the rest is whole.
+struct Frame {
+  std::array<char, 8> magic{'g', 's', 'c', 'a', 'c', 'h', 'e', '1'};
+  std::uint64_t size = 0;
+  std::uint64_t sum = 0;
+};
+
+// FNV-1a, 64 bits: http://www.isthe.com/chongo/tech/comp/fnv/
+std::uint64_t sum_of(std::span<const std::byte> bytes) {
+  std::uint64_t sum = 0xcbf29ce484222325u;
+  for (const std::byte b : bytes) sum = (sum ^ static_cast<std::uint64_t>(b)) * 0x100000001b3u;
+  return sum;
+}
+
+std::vector<std::byte> read_file(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary | std::ios::ate);
+  if (!in) return {};
+  std::vector<std::byte> bytes(static_cast<std::size_t>(in.tellg()));
+  in.seekg(0);
+  in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+  return in ? bytes : std::vector<std::byte>{};
+}
+
+bool is_for(std::span<const std::byte> content, const VkPhysicalDeviceProperties& device) {
+  VkPipelineCacheHeaderVersionOne header;
+  if (content.size() < sizeof header) return false;
+  std::memcpy(&header, content.data(), sizeof header);
+  return header.headerSize >= sizeof header && header.headerVersion == VK_PIPELINE_CACHE_HEADER_VERSION_ONE &&
+         header.vendorID == device.vendorID && header.deviceID == device.deviceID &&
+         std::memcmp(header.pipelineCacheUUID, device.pipelineCacheUUID, VK_UUID_SIZE) == 0;
+}
+
+}  // namespace
+
+std::vector<std::byte> load_pipeline_cache(const std::filesystem::path& file,
+                                           const VkPhysicalDeviceProperties& device) {
+  std::vector<std::byte> bytes = read_file(file);
+  Frame frame;
+  if (bytes.size() < sizeof frame) return {};
+  std::memcpy(&frame, bytes.data(), sizeof frame);
+  const auto content = std::span<const std::byte>(bytes).subspan(sizeof frame);
+  const bool whole = frame.magic == Frame{}.magic && frame.size == content.size() && frame.sum == sum_of(content);
+  if (!whole || !is_for(content, device)) return {};
+  return {content.begin(), content.end()};
+}
+
+void save_pipeline_cache(const std::filesystem::path& file, std::span<const std::byte> content) noexcept {
+  try {
+    if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path());
+    const std::filesystem::path part = file.string() + "." + std::to_string(getpid());
+    Frame frame;
+    frame.size = content.size();
+    frame.sum = sum_of(content);
+    std::ofstream out(part, std::ios::binary | std::ios::trunc);
+    out.write(reinterpret_cast<const char*>(&frame), sizeof frame);
+    out.write(reinterpret_cast<const char*>(content.data()), static_cast<std::streamsize>(content.size()));
+    out.close();
+    std::error_code ignored;
+    if (out) {
+      std::filesystem::rename(part, file, ignored);
+    } else {
+      std::filesystem::remove(part, ignored);
+    }
+  } catch (const std::exception&) {
+    return;  // the next start compiles again
+  }
+}
+
+}  // namespace gearshift

@@ -1,0 +1,134 @@
+// PNG and JPEG through stb, which is believed only after its input has been looked at.
+#include <stb_image.h>
+#include <stb_image_write.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <system_error>
+
+#include <fmt/core.h>
+
+#include "engine/image/image.h"
+
+namespace gearshift {
+
+namespace {
+
+constexpr std::uintmax_t kMostImageBytes = 1u << 30;
+
+bool starts_with(std::span<const std::uint8_t> bytes, std::initializer_list<std::uint8_t> magic) {
+  return bytes.size() > magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
+}
+
+bool is_png(std::span<const std::uint8_t> bytes) {
+  return starts_with(bytes, {0x89, 'P', 'N', 'G', '\r', '\n', 0x1a, '\n'});
+}
+
+bool is_jpeg(std::span<const std::uint8_t> bytes) {
+  return starts_with(bytes, {0xff, 0xd8, 0xff});
+}
+
+std::vector<std::uint8_t> encoded_png(const Image& image) {
+  std::vector<std::uint8_t> bytes;
+  const auto append = [](void* context, void* data, int size) {
+    const auto* first = static_cast<const std::uint8_t*>(data);
+    static_cast<std::vector<std::uint8_t>*>(context)->insert(static_cast<std::vector<std::uint8_t>*>(context)->end(),
+                                                             first, first + size);
+  };
+  if (stbi_write_png_to_func(append, &bytes, image.width, image.height, 4, image.rgba.data(), 4 * image.width) == 0) {
+    throw std::runtime_error("the picture cannot be encoded");
+  }
+  return bytes;
+}
+
+void check_shape(const Image& image) {
+  const bool sized =
+      image.width > 0 && image.height > 0 && image.width <= kMostImageSide && image.height <= kMostImageSide;
+  if (!sized ||
+      image.rgba.size() != 4 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height)) {
+    throw std::runtime_error("the picture has no pixels or the wrong number of them");
+  }
+}
+
+std::vector<std::uint8_t> file_bytes(const std::filesystem::path& file) {
+  std::error_code error;
+  const std::uintmax_t size = std::filesystem::file_size(file, error);
+  if (error) throw std::runtime_error(error.message());
+  if (size > kMostImageBytes) throw std::runtime_error("the file is too large");
+  std::ifstream in(file, std::ios::binary);
+  std::vector<std::uint8_t> bytes(size);
+  if (!in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size))) {
+    throw std::runtime_error("the file cannot be read");
+  }
+  return bytes;
+}
+
+}  // namespace
+
+void write_png(const std::filesystem::path& file, const Image& image) {
+  // A name of this process's own: who looks at `file` sees the old picture or the new one.
+  std::filesystem::path part = file;
+  part += fmt::format(".{}.part", getpid());
+  try {
+    check_shape(image);
+    const std::vector<std::uint8_t> bytes = encoded_png(image);
+    std::ofstream out(part, std::ios::binary | std::ios::trunc);
+    out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+    out.close();
+    if (!out) throw std::runtime_error(std::strerror(errno));
+    std::filesystem::rename(part, file);
+  } catch (const std::exception& e) {
+    std::error_code ignored;
+    std::filesystem::remove(part, ignored);
+    const auto* system = dynamic_cast<const std::system_error*>(&e);
+    throw std::runtime_error(fmt::format("{}: the picture cannot be written: {}", file.string(),
+                                         system != nullptr ? system->code().message() : e.what()));
+  }
+}
+
+Image read_png(const std::filesystem::path& file) try {
+  const std::vector<std::uint8_t> bytes = file_bytes(file);
+  if (!is_png(bytes)) throw std::runtime_error("it is not a PNG file");
+  return decode_image(bytes);
+} catch (const std::exception& e) {
+  throw std::runtime_error(fmt::format("{}: the picture cannot be read: {}", file.string(), e.what()));
+}
+
+ImageSize encoded_size(std::span<const std::uint8_t> bytes) {
+  // stb knows more kinds, and knows them less well.
+  if (!is_png(bytes) && !is_jpeg(bytes)) throw std::runtime_error("it is neither PNG nor JPEG");
+  if (bytes.size() > kMostImageBytes) throw std::runtime_error("it is too large");
+  ImageSize size;
+  int channels = 0;
+  if (stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &size.width, &size.height, &channels) == 0) {
+    throw std::runtime_error("its header is broken");
+  }
+  if (size.width < 1 || size.height < 1 || size.width > kMostImageSide || size.height > kMostImageSide) {
+    throw std::runtime_error(
+        fmt::format("{} x {} pixels are more than {} a side", size.width, size.height, kMostImageSide));
+  }
+  return size;
+}
+
+Image decode_image(std::span<const std::uint8_t> bytes) {
+  const ImageSize size = encoded_size(bytes);
+  Image image{size.width, size.height, {}};
+  int width = 0, height = 0, channels = 0;
+  const std::unique_ptr<stbi_uc, void (*)(void*)> pixels(
+      stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels, 4),
+      stbi_image_free);
+  if (pixels == nullptr || width != size.width || height != size.height)
+    throw std::runtime_error("its pixels are broken");
+  image.rgba.assign(pixels.get(),
+                    pixels.get() + 4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
+  return image;
+}
+
+}  // namespace gearshift

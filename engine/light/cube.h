@@ -1,0 +1,35 @@
+// Directions of a cube map's texels, in Vulkan's order of faces.
+#pragma once
+
+#include <glm/geometric.hpp>
+#include <glm/vec3.hpp>
+
+namespace gearshift {
+
+// Not unit: the point on the cube [-1, 1]^3. Vulkan 1.3, 16.5.4 "Cube Map Face Selection": s and t in [-1, 1] run right
+// and down on faces +X -X +Y -Y +Z -Z.
+inline glm::vec3 cube_point(int face, float s, float t) {
+  switch (face) {
+    case 0:
+      return {1.0f, -t, -s};
+    case 1:
+      return {-1.0f, -t, s};
+    case 2:
+      return {s, 1.0f, t};
+    case 3:
+      return {s, -1.0f, -t};
+    case 4:
+      return {s, -t, 1.0f};
+    default:
+      return {-s, -t, -1.0f};
+  }
+}
+
+// Through the centre of a texel of a face of side x side texels.
+inline glm::vec3 cube_direction(int face, int side, int x, int y) {
+  const float texel = 2.0f / static_cast<float>(side);
+  return glm::normalize(
+      cube_point(face, (static_cast<float>(x) + 0.5f) * texel - 1.0f, (static_cast<float>(y) + 0.5f) * texel - 1.0f));
+}
+
+}  // namespace gearshift

@@ -1,0 +1,49 @@
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "engine/light/environment.h"
+
+namespace gearshift {
+
+namespace {
+
+// Radiances, in units in which a clear sky is about 1. Chosen by eye, for a sun 45 to 60 degrees high.
+constexpr glm::vec3 kZenith{0.20f, 0.40f, 0.84f};
+constexpr glm::vec3 kHaze{0.88f, 0.96f, 1.04f};
+constexpr glm::vec3 kGlow{0.70f, 0.58f, 0.42f};
+constexpr glm::vec3 kAsphalt{0.15f, 0.15f, 0.16f};
+constexpr glm::vec3 kVerge{0.17f, 0.21f, 0.09f};
+
+constexpr float kEyeHeight = 1.1f;      // [m] above the road
+constexpr float kRoadHalfWidth = 6.0f;  // [m] the road runs along z
+constexpr float kSoftEdge = 2.0f;       // [m] from road to verge: what is reflected shows no seam
+
+glm::vec3 above(glm::vec3 direction, glm::vec3 towards_sun) {
+  // Haze thickens with the air mass towards the horizon.
+  const float haze = std::exp(-4.5f * direction.y);
+  const float near_sun = glm::max(glm::dot(direction, towards_sun), 0.0f);
+  const float glow = 0.5f * std::pow(near_sun, 6.0f) + 1.5f * std::pow(near_sun, 60.0f);
+  return glm::mix(kZenith, kHaze, haze) + glow * kGlow;
+}
+
+glm::vec3 below(glm::vec3 direction, glm::vec3 horizon) {
+  const float metres_per_unit = kEyeHeight / -direction.y;
+  const float aside = std::abs(direction.x) * metres_per_unit;
+  const float verge = glm::smoothstep(kRoadHalfWidth, kRoadHalfWidth + kSoftEdge, aside);
+  const float haze = std::exp(40.0f * direction.y);  // what is far away takes the horizon's colour
+  return glm::mix(glm::mix(kAsphalt, kVerge, verge), horizon, haze);
+}
+
+}  // namespace
+
+Radiance day_sky(glm::vec3 towards_sun) {
+  const glm::vec3 sun = glm::normalize(towards_sun);
+  return [sun](glm::vec3 direction) {
+    if (direction.y >= 0.0f) return above(direction, sun);
+    return below(direction, above(glm::vec3(direction.x, 0.0f, direction.z), sun));
+  };
+}
+
+}  // namespace gearshift

@@ -1,0 +1,50 @@
+// Light from all around: a sky over a road, its irradiance as spherical harmonics, its reflections prefiltered.
+//
+// This work is based on:
+// Ravi Ramamoorthi, Pat Hanrahan. An Efficient Representation for Irradiance Environment Maps. 2001
+// Brian Karis. Real Shading in Unreal Engine 4. 2013
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+namespace gearshift {
+
+// Radiance that comes from a direction (unit, +Y up). The sun itself is not in it: it is a light of its own.
+using Radiance = std::function<glm::vec3(glm::vec3 direction)>;
+
+// The sky that the cabin drives under: zenith, horizon haze, sun's glow, asphalt and verge below the horizon.
+Radiance day_sky(glm::vec3 towards_sun);
+
+// Irradiance / pi by direction, from nine coefficients: sum_i c_i Y_i(n), the cosine lobe folded in.
+struct Irradiance {
+  std::array<glm::vec3, 9> c{};
+  glm::vec3 operator()(glm::vec3 normal) const;
+};
+Irradiance project_irradiance(const Radiance& radiance, int samples_per_face_side = 32);
+
+// Cube map of prefiltered radiance: level 0 a mirror, the last level roughness 1; roughness of level i = i / (levels - 1).
+// Faces in Vulkan's order (+X -X +Y -Y +Z -Z), texels as linear RGB half floats with alpha 1, rows from the top.
+struct PrefilteredCube {
+  int side = 0;                                    // [texels] of level 0
+  std::vector<std::vector<std::uint16_t>> levels;  // 6 faces of (side >> level)^2 texels, 4 halves each
+};
+PrefilteredCube prefilter(const Radiance& radiance, int side = 64, int levels = 6, int samples = 64);
+
+// Split sum: scale and bias of F0 for (n.v, roughness), GGX with height-correlated Smith visibility. n.v > 0. The table is
+// sampled
+// at texel centres: u = n.v, v = roughness.
+glm::dvec2 environment_brdf(double n_dot_v, double roughness, int samples);  // the integral itself
+struct BrdfTable {
+  int side = 0;                                            // [texels]
+  std::vector<std::uint16_t> texels;                       // 2 unorm16 a texel, rows from roughness 0
+  glm::vec2 sample(float n_dot_v, float roughness) const;  // bilinear, as a GPU does it
+};
+BrdfTable bake_brdf(int side = 64, int samples = 128);
+
+}  // namespace gearshift

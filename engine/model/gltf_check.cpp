@@ -1,0 +1,336 @@
+#include "engine/model/gltf_check.h"
+
+#include <algorithm>
+#include <array>
+
+#include <fmt/core.h>
+
+#include "engine/model/gltf.h"
+#include "engine/model/gltf_bytes.h"
+#include "engine/model/gltf_extensions.h"
+#include "engine/model/json_item.h"
+
+namespace gearshift {
+
+namespace {
+
+// glTF's numbers.
+enum Component : std::uint64_t { i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126 };
+
+// glTF 2.0, 3.6.2.2: bytes of a component; 0 where the number names no type.
+std::uint64_t component_bytes(std::uint64_t type) {
+  switch (type) {
+    case i8:
+    case u8:
+      return 1;
+    case i16:
+    case u16:
+      return 2;
+    case u32:
+    case f32:
+      return 4;
+    default:
+      return 0;
+  }
+}
+
+// glTF 2.0, 3.6.2.3; 0 where the word names no type.
+std::uint64_t component_count(std::string_view type) {
+  constexpr std::array<std::pair<std::string_view, std::uint64_t>, 7> counts{
+      {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}}};
+  const auto* found = std::find_if(counts.begin(), counts.end(), [&](const auto& c) { return c.first == type; });
+  return found == counts.end() ? 0 : found->second;
+}
+
+struct Accessor {
+  std::string type;
+  std::uint64_t component = 0;
+  std::uint64_t count = 0;
+  bool normalized = false;
+  bool stored = false;  // in a buffer view, not just zeros
+};
+
+// Walks the lists in the order in which one refers to another.
+class Check {
+ public:
+  Check(const nlohmann::json& json, std::size_t binary_bytes) : root_(json, ""), binary_bytes_(binary_bytes) {}
+
+  void all() {
+    check_asset();
+    check_extensions();
+    check_buffers();
+    check_views();
+    for (const JsonItem& item : root_.items("accessors")) accessors_.push_back(checked_accessor(item));
+    check_textures();
+    for (const JsonItem& item : root_.items("materials")) check_material(item);
+    check_meshes();
+    check_nodes();
+    check_skins();
+    check_scenes();
+  }
+
+ private:
+  void check_asset() {
+    const std::string version = root_.needed_item("asset").needed_text("version");
+    if (!version.starts_with("2.")) throw GltfError(fmt::format("it is glTF {}, not 2.0", shown_name(version)));
+  }
+
+  void check_extensions() {
+    root_.texts("extensionsUsed");
+    for (const std::string& name : root_.texts("extensionsRequired")) {
+      if (!knows_extension(name)) throw GltfError(fmt::format("it requires {}, which is not known", shown_name(name)));
+    }
+  }
+
+  void check_buffers() {
+    std::uint64_t total = 0;
+    for (const JsonItem& item : root_.items("buffers")) {
+      const std::uint64_t size = item.needed_integer("byteLength", 1, kMostGltfBytes);
+      const bool in_chunk = buffer_bytes_.empty() && binary_bytes_ > 0 && !item.has("uri");
+      if (in_chunk && size > binary_bytes_) item.refuse("is longer than the binary chunk");
+      if (!in_chunk) item.needed_text("uri");
+      total += size;
+      if (total > kMostGltfBytes) throw GltfError("its buffers are too large together");
+      buffer_bytes_.push_back(size);
+    }
+  }
+
+  void check_views() {
+    for (const JsonItem& item : root_.items("bufferViews")) {
+      const std::uint64_t whole = buffer_bytes_[item.needed_index("buffer", buffer_bytes_.size())];
+      const std::uint64_t offset = item.integer("byteOffset", 0, whole).value_or(0);
+      const std::uint64_t length = item.needed_integer("byteLength", 1, kMostGltfBytes);
+      if (length > whole - offset) item.refuse("reaches beyond its buffer");
+      const std::uint64_t stride = item.integer("byteStride", 4, 252).value_or(0);
+      if (stride % 4 != 0) item.refuse("has a stride that is no multiple of 4");
+      views_.push_back({length, stride});
+    }
+  }
+
+  // `count` elements from the item's byteOffset on must lie in its buffer view.
+  void check_range(const JsonItem& item, std::uint64_t count, std::uint64_t element) const {
+    const View& view = views_[item.needed_index("bufferView", views_.size())];
+    const std::uint64_t offset = item.integer("byteOffset", 0, view.length).value_or(0);
+    const std::uint64_t stride = view.stride == 0 ? element : view.stride;
+    if (stride < element) item.refuse("has elements longer than their stride");
+    // No product here can pass 2^64: count is below 2^24, stride below 2^8.
+    if ((count - 1) * stride + element > view.length - offset) item.refuse("reaches beyond its buffer view");
+  }
+
+  Accessor checked_accessor(const JsonItem& item) const {
+    Accessor accessor;
+    accessor.type = item.needed_text("type");
+    accessor.component = item.needed_integer("componentType", i8, f32);
+    accessor.count = item.needed_integer("count", 1, kMostGltfElements);
+    const std::uint64_t element = component_count(accessor.type) * component_bytes(accessor.component);
+    if (element == 0) item.refuse("is of no type that glTF has");
+    accessor.normalized = item.flag("normalized");
+    if (item.has("bufferView")) check_range(item, accessor.count, element);
+    if (const auto sparse = item.item("sparse")) check_sparse(*sparse, accessor.count, element);
+    accessor.stored = item.has("bufferView");
+    return accessor;
+  }
+
+  void check_sparse(const JsonItem& sparse, std::uint64_t most, std::uint64_t element) const {
+    const std::uint64_t count = sparse.needed_integer("count", 1, most);
+    const JsonItem indices = sparse.needed_item("indices");
+    const std::uint64_t type = indices.needed_integer("componentType", u8, u32);
+    if (type != u8 && type != u16 && type != u32) indices.refuse("is of no type that an index has");
+    check_range(indices, count, component_bytes(type));
+    check_range(sparse.needed_item("values"), count, element);
+  }
+
+  void check_textures() {
+    const std::vector<JsonItem> images = root_.items("images");
+    for (const JsonItem& item : images) {
+      if (item.has("uri") == item.has("bufferView")) item.refuse("needs a URI or a buffer view, and not both");
+      item.text("uri");
+      item.index("bufferView", views_.size());
+    }
+    const std::vector<JsonItem> samplers = root_.items("samplers");
+    for (const JsonItem& item : samplers) {
+      for (const char* key : {"magFilter", "minFilter", "wrapS", "wrapT"}) item.integer(key, 0, 0xffff);
+    }
+    for (const JsonItem& item : root_.items("textures")) {
+      item.index("source", images.size());
+      item.index("sampler", samplers.size());
+      ++textures_;
+    }
+  }
+
+  void check_texture_use(const JsonItem& parent, const char* key) const {
+    const auto use = parent.item(key);
+    if (!use) return;
+    use->needed_index("index", textures_);
+    use->integer("texCoord", 0, 0xffff);
+    use->number("scale");
+    use->number("strength");
+    const auto extensions = use->item("extensions");
+    const auto transform = extensions ? extensions->item(kTextureTransform) : std::nullopt;
+    if (!transform) return;
+    transform->numbers("offset", 2);
+    transform->numbers("scale", 2);
+    transform->number("rotation");
+    transform->integer("texCoord", 0, 0xffff);
+  }
+
+  void check_material(const JsonItem& item) {
+    ++materials_;
+    item.text("name");
+    item.numbers("emissiveFactor", 3);
+    item.number("alphaCutoff");
+    item.flag("doubleSided");
+    const std::string mode = item.text("alphaMode").value_or("OPAQUE");
+    if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND") item.refuse("has an alpha mode that glTF has not");
+    for (const char* key : {"normalTexture", "occlusionTexture", "emissiveTexture"}) check_texture_use(item, key);
+    if (const auto surface = item.item("pbrMetallicRoughness")) {
+      surface->numbers("baseColorFactor", 4);
+      surface->number("metallicFactor");
+      surface->number("roughnessFactor");
+      for (const char* key : {"baseColorTexture", "metallicRoughnessTexture"}) check_texture_use(*surface, key);
+    }
+    if (const auto extensions = item.item("extensions")) {
+      const auto emissive = extensions->item(kEmissiveStrength);
+      if (emissive) emissive->number("emissiveStrength");
+    }
+  }
+
+  void check_meshes() {
+    for (const JsonItem& item : root_.items("meshes")) {
+      ++meshes_;
+      item.text("name");
+      const std::vector<JsonItem> primitives = item.items("primitives");
+      if (primitives.empty()) item.refuse("has no primitives");
+      for (const JsonItem& primitive : primitives) check_primitive(primitive);
+    }
+  }
+
+  void check_primitive(const JsonItem& item) {
+    item.index("material", materials_);
+    const std::uint64_t mode = item.integer("mode", 0, 6).value_or(4);
+    const std::uint64_t vertices = checked_attributes(item);
+    std::uint64_t corners = vertices;
+    if (const auto index = item.index("indices", accessors_.size())) {
+      const Accessor& indices = accessors_[*index];
+      const bool typed = indices.component == u8 || indices.component == u16 || indices.component == u32;
+      if (indices.type != "SCALAR" || !typed || indices.normalized) item.refuse("has indices that are no integers");
+      if (!indices.stored) item.refuse("has indices without a buffer view");
+      corners = indices.count;
+    }
+    if (mode == 4 && corners % 3 != 0) item.refuse("is no whole number of triangles");
+    if (mode > 4 && corners < 3) item.refuse("is no triangle");
+    if (mode > 4) corners = 3 * (corners - 2);
+    elements_ += std::max(vertices, corners);
+    if (elements_ > kMostGltfElements) throw GltfError("it has too many vertices or indices");
+  }
+
+  // Their number of vertices.
+  std::uint64_t checked_attributes(const JsonItem& item) const {
+    const auto attributes = item.named_indices("attributes", accessors_.size());
+    const auto position =
+        std::find_if(attributes.begin(), attributes.end(), [](const auto& a) { return a.first == "POSITION"; });
+    if (position == attributes.end()) item.refuse("has no positions");
+    for (const auto& [name, index] : attributes) {
+      if (!fits(name, accessors_[index])) {
+        item.refuse(fmt::format("has a {} of a type that glTF does not allow", shown_name(name)));
+      }
+      if (accessors_[index].count != accessors_[position->second].count) {
+        item.refuse("has attributes of different lengths");
+      }
+    }
+    return accessors_[position->second].count;
+  }
+
+  // glTF 2.0, 3.7.2.1, the table of attributes. Names that are not in it are not read.
+  static bool fits(std::string_view name, const Accessor& a) {
+    const bool is_float = a.component == f32;
+    const bool is_fraction = is_float || ((a.component == u8 || a.component == u16) && a.normalized);
+    if (name == "POSITION" || name == "NORMAL") return a.type == "VEC3" && is_float;
+    if (name == "TANGENT") return a.type == "VEC4" && is_float;
+    if (name.starts_with("TEXCOORD_")) return a.type == "VEC2" && is_fraction;
+    if (name.starts_with("COLOR_")) return (a.type == "VEC3" || a.type == "VEC4") && is_fraction;
+    if (name.starts_with("WEIGHTS_")) return a.type == "VEC4" && is_fraction;
+    if (name.starts_with("JOINTS_"))
+      return a.type == "VEC4" && (a.component == u8 || a.component == u16) && !a.normalized;
+    return true;
+  }
+
+  void check_nodes() {
+    const std::vector<JsonItem> nodes = root_.items("nodes");
+    const std::size_t skins = root_.items("skins").size();
+    has_parent_.assign(nodes.size(), false);
+    std::vector<std::vector<std::size_t>> children;
+    for (const JsonItem& item : nodes) {
+      item.text("name");
+      item.index("mesh", meshes_);
+      item.index("skin", skins);
+      item.numbers("matrix", 16);
+      item.numbers("translation", 3);
+      item.numbers("rotation", 4);
+      item.numbers("scale", 3);
+      children.push_back(item.indices("children", nodes.size()));
+      for (const std::size_t child : children.back()) {
+        if (has_parent_[child]) throw GltfError(fmt::format("nodes[{}] has two parents", child));
+        has_parent_[child] = true;
+      }
+    }
+    check_no_cycle(children);
+  }
+
+  // With at most one parent each, whatever no root leads to lies on or behind a cycle.
+  void check_no_cycle(const std::vector<std::vector<std::size_t>>& children) const {
+    std::vector<std::size_t> reached;
+    for (std::size_t i = 0; i < children.size(); ++i) {
+      if (!has_parent_[i]) reached.push_back(i);
+    }
+    for (std::size_t i = 0; i < reached.size(); ++i) {
+      const std::vector<std::size_t>& next = children[reached[i]];
+      reached.insert(reached.end(), next.begin(), next.end());
+    }
+    if (reached.size() != children.size()) throw GltfError("its nodes are their own ancestors");
+  }
+
+  void check_skins() const {
+    constexpr std::size_t most_joints = 0xffff;
+    for (const JsonItem& item : root_.items("skins")) {
+      const std::vector<std::size_t> joints = item.indices("joints", has_parent_.size());
+      if (joints.empty() || joints.size() > most_joints) item.refuse("has no joints, or too many");
+      const auto index = item.index("inverseBindMatrices", accessors_.size());
+      if (!index) continue;
+      const Accessor& matrices = accessors_[*index];
+      if (matrices.type != "MAT4" || matrices.component != f32 || matrices.count < joints.size()) {
+        item.refuse("has not one bind matrix a joint");
+      }
+    }
+  }
+
+  void check_scenes() const {
+    const std::vector<JsonItem> scenes = root_.items("scenes");
+    for (const JsonItem& item : scenes) {
+      for (const std::size_t node : item.indices("nodes", has_parent_.size())) {
+        if (has_parent_[node]) item.refuse(fmt::format("has node {}, which is no root", node));
+      }
+    }
+    root_.index("scene", scenes.size());
+  }
+
+  struct View {
+    std::uint64_t length = 0, stride = 0;  // stride 0: none given
+  };
+  JsonItem root_;
+  std::size_t binary_bytes_;
+  std::vector<std::uint64_t> buffer_bytes_;
+  std::vector<View> views_;
+  std::vector<Accessor> accessors_;
+  std::size_t textures_ = 0, materials_ = 0, meshes_ = 0;
+  std::vector<bool> has_parent_;  // of the nodes
+  std::uint64_t elements_ = 0;
+};
+
+}  // namespace
+
+void check_gltf(const nlohmann::json& root, std::size_t binary_bytes) {
+  Check(root, binary_bytes).all();
+}
+
+}  // namespace gearshift

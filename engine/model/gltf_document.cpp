@@ -1,0 +1,87 @@
+#include "engine/model/gltf_document.h"
+
+#include <fmt/core.h>
+
+#include "engine/model/gltf_bytes.h"
+#include "engine/model/gltf_check.h"
+
+namespace gearshift {
+
+using nlohmann::json;
+
+namespace {
+
+constexpr int kMostDepth = 64;  // of JSON; glTF itself needs about ten, extensions a few more
+
+// Before a parser builds anything: how deep it would have to go, and how much it would have to build. Base64 lies in
+// strings and counts as one value. Text that is no JSON may be counted wrongly; the parser refuses it then.
+void check_extent(std::string_view text) {
+  int depth = 0;
+  std::uint64_t values = 1;
+  bool in_string = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (in_string) {
+      if (c == '\\') ++i;
+      in_string = c != '"';
+      continue;
+    }
+    in_string = c == '"';
+    if (c == '{' || c == '[') ++depth;
+    if (c == '}' || c == ']') --depth;
+    if (c == '{' || c == '[' || c == ',' || c == ':') ++values;
+    if (depth > kMostDepth) throw GltfError("its JSON is nested too deeply");
+    if (values > kMostGltfValues) throw GltfError("its JSON has too many values");
+  }
+}
+
+json parsed(std::string_view text) {
+  check_extent(text);
+  try {
+    return json::parse(text.begin(), text.end());
+  } catch (const json::parse_error& e) {
+    throw GltfError(fmt::format("it is neither .glb nor JSON, or broken at byte {}", e.byte));
+  } catch (const json::exception&) {
+    throw GltfError("its JSON has a number that does not fit");
+  }
+}
+
+std::vector<std::uint8_t> buffer_bytes(const json& buffer, std::size_t index, std::span<const std::uint8_t> binary,
+                                       const std::filesystem::path& folder) {
+  const std::size_t size = buffer.at("byteLength").get<std::size_t>();
+  if (!buffer.contains("uri")) return {binary.begin(), binary.begin() + static_cast<std::ptrdiff_t>(size)};
+  std::vector<std::uint8_t> bytes = bytes_at(buffer.at("uri").get_ref<const std::string&>(), folder);
+  if (bytes.size() < size) {
+    throw GltfError(fmt::format("buffers[{}] has {} bytes, not {}", index, bytes.size(), size));
+  }
+  bytes.resize(size);
+  return bytes;
+}
+
+}  // namespace
+
+GltfDocument open_gltf(const std::filesystem::path& file) {
+  const std::vector<std::uint8_t> bytes = whole_file(file);
+  const GltfChunks chunks = chunks_of(bytes);
+  GltfDocument document{parsed(chunks.json), {}, file.parent_path()};
+  check_gltf(document.json, chunks.binary.size());
+  if (!document.json.contains("buffers")) return document;
+  const json& buffers = document.json["buffers"];
+  for (std::size_t i = 0; i < buffers.size(); ++i) {
+    document.buffers.push_back(buffer_bytes(buffers[i], i, chunks.binary, document.folder));
+  }
+  return document;
+}
+
+std::vector<std::uint8_t> image_bytes(const GltfDocument& document, std::size_t image) {
+  const json& description = document.json.at("images").at(image);
+  if (description.contains("uri")) {
+    return bytes_at(description.at("uri").get_ref<const std::string&>(), document.folder);
+  }
+  const json& view = document.json.at("bufferViews").at(description.at("bufferView").get<std::size_t>());
+  const std::vector<std::uint8_t>& buffer = document.buffers.at(view.at("buffer").get<std::size_t>());
+  const auto first = buffer.begin() + view.value("byteOffset", std::ptrdiff_t{0});
+  return {first, first + view.at("byteLength").get<std::ptrdiff_t>()};
+}
+
+}  // namespace gearshift

@@ -1,0 +1,16 @@
+// Vertices moved by the joints of a skin, on the CPU: a hand is two thousand triangles.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "engine/model/model.h"
+
+namespace gearshift {
+
+// Linear blend skinning (glTF 2.0, 3.7.3.3): p' = sum_i w_i J_i B_i p, J the joint's world matrix, B its inverse bind
+// matrix; normals and tangents by the same matrix. The result is in world space. `node` carries a mesh and a skin;
+// world has one matrix a node; out is resized to the mesh's vertex_count.
+void skin_vertices(const Model& model, int node, std::span<const glm::mat4> world, std::vector<Vertex>& out);
+
+}  // namespace gearshift

@@ -1,0 +1,50 @@
+// What a frame shows, and in which order.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "engine/render/gpu_model.h"
+#include "engine/render/pipelines.h"
+#include "engine/scene/frame_scene.h"
+
+namespace gearshift {
+
+// A mesh whose vertices of this frame lie in the frame's own buffer.
+struct DeformedPlace {
+  int mesh = kNone;
+  std::uint32_t first_vertex = 0;  // in that buffer
+  Box box;
+};
+
+struct DrawItem {
+  const Part* part = nullptr;
+  const GpuMaterial* material = nullptr;
+  std::uint32_t node = 0;
+  Box box;  // [m] world
+  std::int32_t vertex_offset = 0;
+  bool deformed = false;  // vertices in the frame's own buffer
+  bool mirrored = false;  // the node turns the triangles inside out
+  bool blended = false;
+  bool shows_mirror = false;  // the mirror of this frame, in the main pass
+  float emission = 1.0f, opacity = 1.0f;
+};
+
+// Every part of every visible node.
+std::vector<DrawItem> list_items(const GpuModel& model, const FrameScene& scene,
+                                 std::span<const DeformedPlace> deformed);
+
+struct DrawList {
+  std::vector<const DrawItem*> solid;    // those of one pipeline and material together, near before far
+  std::vector<const DrawItem*> blended;  // back to front
+};
+DrawList list_draws(std::span<const DrawItem> items, const Frusta& frusta, glm::vec3 eye);
+
+// The features that a pass uses of a material's.
+struct FeatureChoice {
+  bool shadow = true, normal_maps = true;
+};
+std::uint32_t features_in(PassKind pass, const DrawItem& item, const FeatureChoice& choice);
+
+}  // namespace gearshift

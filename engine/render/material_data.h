@@ -1,0 +1,15 @@
+// A glTF material as the shader reads it.
+#pragma once
+
+#include <array>
+
+#include "engine/model/model.h"
+#include "shaders/shared.h"
+
+namespace gearshift {
+
+std::array<const TextureUse*, shader::kMaps> maps_of(const Material& material);  // by shader::kMap...
+std::uint32_t features_of(const Material& material, bool vertex_colours);
+shader::MaterialData data_of(const Material& material);
+
+}  // namespace gearshift

@@ -1,0 +1,45 @@
+#include "engine/render/pass_timer.h"
+
+namespace gearshift {
+
+PassTimer::PassTimer(Gpu& gpu) : gpu_(gpu) {
+  if (gpu.traits().timestamp_bits == 0) return;
+  const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
+                                   .queryType = VK_QUERY_TYPE_TIMESTAMP,
+                                   .queryCount = kStamps * kFramesInFlight};
+  VkQueryPool pool = VK_NULL_HANDLE;
+  check(vkCreateQueryPool(gpu.device(), &info, nullptr, &pool), "vkCreateQueryPool");
+  queries_ = QueryPool(gpu.device(), pool);
+}
+
+void PassTimer::begin(VkCommandBuffer commands, int slot) {
+  if (!queries_) return;
+  const auto index = static_cast<std::size_t>(slot);
+  const std::uint32_t first = kStamps * static_cast<std::uint32_t>(slot);
+  if (written_[index]) read(first);
+  written_[index] = true;
+  vkCmdResetQueryPool(commands, queries_.get(), first, kStamps);
+  next_ = first;
+  stamp(commands);
+}
+
+void PassTimer::stamp(VkCommandBuffer commands) {
+  if (!queries_) return;
+  vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_.get(), next_++);
+}
+
+void PassTimer::read(std::uint32_t first) {
+  std::array<std::uint64_t, kStamps> stamps{};
+  // A frame that failed half-way left some unwritten: then the times stay what they were.
+  if (vkGetQueryPoolResults(gpu_.device(), queries_.get(), first, kStamps, sizeof stamps, stamps.data(),
+                            sizeof stamps[0], VK_QUERY_RESULT_64_BIT) != VK_SUCCESS)
+    return;
+  const std::uint32_t bits = gpu_.traits().timestamp_bits;
+  const std::uint64_t valid = bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1;
+  const auto between = [&](std::size_t from, std::size_t to) {
+    return static_cast<double>((stamps[to] - stamps[from]) & valid) * gpu_.traits().tick_ns * 1e-6;
+  };
+  times_ = {between(0, 1), between(1, 2), between(2, 3), between(3, 4), between(0, 4)};
+}
+
+}  // namespace gearshift

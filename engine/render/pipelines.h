@@ -1,0 +1,55 @@
+// Pipelines by what a draw has to do, made when first needed.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <utility>
+
+#include "engine/gpu/overlay.h"
+#include "engine/gpu/pipeline.h"
+#include "engine/light/environment.h"
+#include "shaders/shared.h"
+
+namespace gearshift {
+
+enum class PassKind : std::uint8_t { shadow, mirror, main, depth };  // depth: the main pass's, before it
+inline constexpr std::array kPasses{PassKind::shadow, PassKind::mirror, PassKind::main, PassKind::depth};
+inline constexpr std::size_t kPassKinds = kPasses.size();
+
+inline constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;            // reverse-Z wants a float
+inline constexpr VkFormat kMirrorFormat = VK_FORMAT_R16G16B16A16_SFLOAT;  // radiance
+
+// Set and pipeline layouts: those of shaders/shared.h.
+struct RenderLayouts {
+  explicit RenderLayouts(const Gpu& gpu);
+  SetLayout pass, material;
+  PipelineLayout pipeline;
+};
+
+class Pipelines {
+ public:
+  Pipelines(const Gpu& gpu, const RenderLayouts& layouts, VkFormat shadow_format, VkSampleCountFlagBits samples,
+            bool layered, const Irradiance& sky);
+  VkPipeline mesh(PassKind pass, std::uint32_t features);  // features: of the pass, see features_in()
+  VkPipeline sky(PassKind pass);
+
+ private:
+  struct Target {
+    VkFormat colour, depth;
+    VkSampleCountFlagBits samples;
+  };
+  Target target(PassKind pass) const;
+  Pipeline make_mesh(PassKind pass, std::uint32_t features) const;
+  Pipeline make_sky(PassKind pass) const;
+  const Gpu& gpu_;
+  const RenderLayouts& layouts_;
+  VkFormat shadow_format_;
+  VkSampleCountFlagBits samples_;
+  bool layered_;
+  std::array<std::uint32_t, 1 + 3 * shader::kIrradianceTerms> constants_{};  // the first is the features
+  std::map<std::pair<PassKind, std::uint32_t>, Pipeline> meshes_;
+  std::map<PassKind, Pipeline> skies_;
+};
+
+}  // namespace gearshift

@@ -1,0 +1,97 @@
+// What a renderer keeps: renderer.cpp makes it, passes.cpp draws with it.
+#pragma once
+
+#include <array>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "engine/gpu/commands.h"
+#include "engine/render/draw_list.h"
+#include "engine/render/frame_slot.h"
+#include "engine/render/light_textures.h"
+#include "engine/render/mirror_view.h"
+#include "engine/render/pass_timer.h"
+#include "engine/render/renderer.h"
+#include "engine/render/still_casters.h"
+#include "engine/render/targets.h"
+
+namespace gearshift {
+
+// The mirror of this frame: its window, and the mirrored views by eye.
+struct MirrorOfFrame {
+  MirrorWindow window;
+  std::vector<View> views;
+};
+
+// What one frame works with.
+struct Frame {
+  VkCommandBuffer commands = VK_NULL_HANDLE;
+  FrameSlot* slot = nullptr;
+  int slot_index = 0;
+  const FrameScene* scene = nullptr;
+  std::span<const View> views;
+  std::optional<MirrorOfFrame> mirror;
+  glm::vec3 eye{0.0f};  // midway between the eyes
+  std::vector<DrawItem> items;
+  shader::PassData data{};  // what the passes have in common
+};
+
+// Eyes that are drawn by one recording: all of them into the layers of an image, or one into its layer.
+struct EyeGroup {
+  std::uint32_t first = 0, count = 1;
+};
+
+struct Renderer::State {
+  State(Gpu& device, const RenderConfig& wanted);
+  ~State() { gpu.wait_idle(); }  // nothing dies while a frame uses it
+
+  // renderer.cpp
+  void make_targets();
+  void make_pipelines();
+  void set_light(const LightMaps& maps);
+  void set_model(const Model& content);
+  void fit_mirror(const MirrorWindow& window);
+  void bind_mirror();
+  std::vector<EyeGroup> eye_groups() const;
+
+  // passes.cpp
+  std::uint64_t draw(const FrameScene& scene, std::span<const View> views, std::span<Overlay* const> overlays,
+                     Finish* finish);
+  std::optional<MirrorOfFrame> mirror_of(const FrameScene& scene, std::span<const View> views) const;
+  void prepare(Frame& frame);
+  void draw_shadow(Frame& frame);
+  void draw_casters(const Frame& frame, VkImageView view, VkAttachmentLoadOp load,
+                    std::span<const DrawItem* const> casters);
+  void draw_mirror(Frame& frame);
+  void draw_main(Frame& frame);
+  void resolve(VkCommandBuffer commands);
+  void draw_overlays(const Frame& frame, std::span<Overlay* const> overlays);
+  void draw_eyes(const Frame& frame, PassKind pass, EyeImage& colour, EyeImage& depth, const DrawList& list);
+  void draw_depth(const Frame& frame, EyeImage& depth, std::span<const DrawItem* const> solid, EyeGroup eyes,
+                  const Attachment& target);
+  void record(const Frame& frame, PassKind pass, std::span<const DrawItem* const> items, EyeGroup eyes);
+  void bind_item(const Frame& frame, PassKind pass, const DrawItem& item, const DrawItem* before);
+
+  Gpu& gpu;
+  RenderConfig config;
+  FrameRing ring;
+  PassTimer timer;
+  RenderLayouts layouts;
+  ShadowFormat shadow_format;
+  Sampler clamped, by_roughness, shadow_compare;
+  SetPool sets;
+  std::array<FrameSlot, kFramesInFlight> slots;
+  LightTextures light;
+  ShadowTarget shadow;
+  StillCasters still_casters;
+  bool shadow_is_still = false;    // the map shows what stands still, and nothing else
+  MirrorTarget no_mirror, mirror;  // no_mirror: one black texel, for the pass that draws the other
+  PictureTarget picture;
+  std::unique_ptr<Pipelines> pipelines;
+  GpuModel model;
+  bool layered = false;
+  int draws = 0;
+};
+
+}  // namespace gearshift

@@ -1,0 +1,86 @@
+#include "engine/render/targets.h"
+
+namespace gearshift {
+
+namespace {
+
+constexpr VkImageUsageFlags kColour = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+constexpr VkImageUsageFlags kDepth = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
+constexpr VkImageUsageFlags kSource = VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+constexpr VkImageUsageFlags kSampled = VK_IMAGE_USAGE_SAMPLED_BIT;
+
+ImageDesc target_desc(VkExtent2D extent, std::uint32_t layers, VkFormat format, VkImageUsageFlags usage) {
+  return {.width = extent.width, .height = extent.height, .layers = layers, .format = format, .usage = usage};
+}
+
+VkRenderingAttachmentInfo attachment_info(const Attachment& attachment, ImageUse use) {
+  return {.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
+          .imageView = attachment.view,
+          .imageLayout = layout_of(use),
+          .loadOp = attachment.load,
+          .storeOp = attachment.store};  // cleared to zero: black, and reverse-Z's infinity
+}
+
+}  // namespace
+
+EyeImage::EyeImage(Gpu& gpu, const ImageDesc& desc)
+    : image(gpu, desc), all(make_view(gpu, image, VK_IMAGE_VIEW_TYPE_2D_ARRAY, 0, desc.layers)) {
+  for (std::uint32_t eye = 0; eye < desc.layers; ++eye) one[eye] = make_view(gpu, image, VK_IMAGE_VIEW_TYPE_2D, eye, 1);
+}
+
+PictureTarget::PictureTarget(Gpu& gpu, VkExtent2D extent, std::uint32_t eyes, VkSampleCountFlagBits count)
+    : multisampled(count != VK_SAMPLE_COUNT_1_BIT) {
+  ImageDesc picture =
+      target_desc(extent, eyes, kColourFormat, kColour | kSource | kSampled | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
+  picture.also = kOverlayFormat;
+  colour = EyeImage(gpu, picture);
+  for (std::uint32_t eye = 0; eye < eyes; ++eye)
+    overlay[eye] = make_view(gpu, colour.image, VK_IMAGE_VIEW_TYPE_2D, eye, 1, kOverlayFormat);
+  ImageDesc deep = target_desc(extent, eyes, kDepthFormat, kDepth);
+  deep.samples = count;
+  depth = EyeImage(gpu, deep);
+  if (!multisampled) return;
+  ImageDesc several = target_desc(extent, eyes, kColourFormat, kColour | kSource);
+  several.samples = count;
+  samples = EyeImage(gpu, several);
+}
+
+MirrorTarget::MirrorTarget(Gpu& gpu, VkExtent2D extent, std::uint32_t eyes)
+    : colour(gpu, target_desc(extent, eyes, kMirrorFormat, kColour | kSampled)),
+      depth(gpu, target_desc(extent, eyes, kDepthFormat, kDepth)) {}
+
+ShadowTarget::ShadowTarget(Gpu& gpu, std::uint32_t side, VkFormat format)
+    : depth(gpu, target_desc({side, side}, 1, format, kDepth | kSampled | VK_IMAGE_USAGE_TRANSFER_DST_BIT)),
+      view(make_view(gpu, depth, VK_IMAGE_VIEW_TYPE_2D)),
+      still(gpu, target_desc({side, side}, 1, format, kDepth | kSource)),
+      still_view(make_view(gpu, still, VK_IMAGE_VIEW_TYPE_2D)) {}
+
+ShadowFormat shadow_format(const Gpu& gpu) {
+  constexpr VkFormatFeatureFlags2 kNeeded =
+      VK_FORMAT_FEATURE_2_DEPTH_STENCIL_ATTACHMENT_BIT | VK_FORMAT_FEATURE_2_SAMPLED_IMAGE_DEPTH_COMPARISON_BIT;
+  for (const VkFormat format : {VK_FORMAT_D16_UNORM, VK_FORMAT_D32_SFLOAT}) {
+    if (gpu.supports(format, kNeeded | VK_FORMAT_FEATURE_2_SAMPLED_IMAGE_FILTER_LINEAR_BIT)) return {format, true};
+  }
+  return {};
+}
+
+void begin_rendering(VkCommandBuffer commands, VkExtent2D extent, std::uint32_t layers, const Attachment* colour,
+                     const Attachment* depth) {
+  VkRenderingAttachmentInfo colour_info{}, depth_info{};
+  if (colour != nullptr) colour_info = attachment_info(*colour, ImageUse::colour_target);
+  if (depth != nullptr) depth_info = attachment_info(*depth, ImageUse::depth_target);
+  const VkRenderingInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
+                             .renderArea = {{0, 0}, extent},
+                             .layerCount = layers,
+                             .colorAttachmentCount = colour != nullptr ? 1u : 0u,
+                             .pColorAttachments = &colour_info,
+                             .pDepthAttachment = depth != nullptr ? &depth_info : nullptr};
+  vkCmdBeginRendering(commands, &info);
+  const VkViewport viewport{0.0f, 0.0f, static_cast<float>(extent.width), static_cast<float>(extent.height),
+                            0.0f, 1.0f};
+  const VkRect2D scissor{{0, 0}, extent};
+  vkCmdSetViewport(commands, 0, 1, &viewport);
+  vkCmdSetScissor(commands, 0, 1, &scissor);
+}
+
+}  // namespace gearshift

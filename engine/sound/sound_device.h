@@ -1,0 +1,35 @@
+// A device of OpenAL with its context: a sound card, or memory.
+#pragma once
+
+#include <AL/alc.h>
+
+#include <memory>
+#include <span>
+
+#include "engine/sound/sound_world.h"
+
+namespace gearshift {
+
+class SoundDevice {
+ public:
+  // card or memory, stereo floats at kSoundRate. Throws std::runtime_error, in a few words, when there is none.
+  explicit SoundDevice(SoundOutput output);
+  virtual ~SoundDevice() = default;
+  SoundDevice(const SoundDevice&) = delete;
+  SoundDevice& operator=(const SoundDevice&) = delete;
+
+  virtual bool connected() const;  // false from when the card was pulled out or its server ended
+  void make_current() const;
+  void render(std::span<float> stereo);  // memory only
+
+ private:
+  struct Close {
+    void operator()(ALCdevice* device) const { alcCloseDevice(device); }
+    void operator()(ALCcontext* context) const;
+  };
+  std::unique_ptr<ALCdevice, Close> device_;
+  std::unique_ptr<ALCcontext, Close> context_;  // goes before its device
+  void (*render_samples_)(ALCdevice*, void*, ALCsizei) = nullptr;
+};
+
+}  // namespace gearshift

@@ -1,0 +1,291 @@
+#include "engine/sound/sound_world.h"
+
+#include <AL/al.h>
+#include <AL/alext.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <exception>
+#include <utility>
+
+#include "engine/sound/sound_device.h"
+
+namespace gearshift {
+
+namespace {
+
+constexpr double kRetryPeriod = 1.0;  // [s] between attempts to get a lost device back
+
+struct Clip {
+  std::vector<float> samples;
+  ALuint buffer = 0;
+};
+
+struct Loop {
+  ClipId clip = 0;
+  Voice voice;
+  ALuint source = 0;  // 0: the device has no more
+  bool changed = true, starts = true;
+};
+
+struct OneShot {
+  ALuint source = 0;
+  std::uint64_t number = 0;  // of the play() that it plays: the smallest is the oldest
+};
+
+struct Listener {
+  glm::vec3 position{0.0f}, forward{0.0f, 0.0f, -1.0f}, up{0.0f, 1.0f, 0.0f};
+  float volume = 1.0f;
+};
+
+float within(float value, float low, float high) {
+  return std::isnan(value) ? low : std::clamp(value, low, high);
+}
+
+bool is_finite(glm::vec3 v) {
+  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+}
+
+void write_voice(ALuint source, const Voice& voice) {
+  if (is_finite(voice.position)) alSource3f(source, AL_POSITION, voice.position.x, voice.position.y, voice.position.z);
+  alSourcef(source, AL_GAIN, within(voice.gain, 0.0f, 1.0f));
+  alSourcef(source, AL_PITCH, within(voice.pitch, 0.25f, 4.0f));
+  alSourcef(source, AL_SOURCE_RADIUS, within(voice.radius, 0.0f, 1e3f));  // AL_EXT_SOURCE_RADIUS; without it a point
+}
+
+void write_listener(const Listener& listener) {
+  const auto& [position, forward, up, volume] = listener;
+  const float orientation[6] = {forward.x, forward.y, forward.z, up.x, up.y, up.z};
+  if (is_finite(position)) alListener3f(AL_POSITION, position.x, position.y, position.z);
+  if (is_finite(forward) && is_finite(up)) alListenerfv(AL_ORIENTATION, orientation);
+  alListenerf(AL_GAIN, within(volume, 0.0f, 1.0f));
+}
+
+// Gain is reference / max(reference, distance). 0: the device has no more sources
+ALuint make_source() {
+  alGetError();  // an older error is not this one's
+  ALuint source = 0;
+  alGenSources(1, &source);
+  if (alGetError() != AL_NO_ERROR) return 0;
+  alSourcef(source, AL_REFERENCE_DISTANCE, kSoundReferenceDistance);
+  return source;
+}
+
+ALuint make_buffer(const std::vector<float>& samples) {
+  ALuint buffer = 0;
+  alGenBuffers(1, &buffer);
+  alBufferData(buffer, AL_FORMAT_MONO_FLOAT32, samples.data(), static_cast<ALsizei>(samples.size() * sizeof(float)),
+               kSoundRate);
+  return buffer;
+}
+
+// AL_SOFT_deferred_updates: what is written between the two reaches the mixer at one sample.
+struct AtOnce {
+  using Function = void (*)();
+  AtOnce() { call("alDeferUpdatesSOFT"); }
+  ~AtOnce() { call("alProcessUpdatesSOFT"); }
+  static void call(const char* name) {
+    if (alIsExtensionPresent("AL_SOFT_deferred_updates") == AL_FALSE) return;
+    if (const auto function = reinterpret_cast<Function>(alGetProcAddress(name))) function();
+  }
+};
+
+std::unique_ptr<SoundDevice> open_device(SoundOutput output) {
+  return std::make_unique<SoundDevice>(output);
+}
+
+}  // namespace
+
+// The book of what should be heard, and the device that plays it. The book outlives devices.
+struct SoundWorld::State {
+  SoundOutput wanted = SoundOutput::none;
+  SoundDeviceOpener opener;
+  std::unique_ptr<SoundDevice> device;
+  std::string why_silent = "sound is off";
+  bool is_lost = false;
+  double next_try = 0.0;  // [s]
+
+  std::vector<Clip> clips;
+  std::vector<Loop> loops;
+  std::array<OneShot, kOneShotVoices> one_shots;
+  std::uint64_t played = 0;
+  Listener listener;
+  bool listener_changed = true;
+
+  void open();
+  void lose() noexcept;
+  void reopen(double time) noexcept;
+  void rebuild();
+  void set_up(Loop& loop);
+  void apply_changes();
+  void start_loops();
+  OneShot& next_one_shot();
+};
+
+// Throws what the opener throws.
+void SoundWorld::State::open() {
+  device = opener(wanted);
+  rebuild();
+  why_silent.clear();
+  is_lost = false;
+}
+
+void SoundWorld::State::lose() noexcept {
+  device.reset();
+  is_lost = true;
+  why_silent = "the sound device was lost";
+}
+
+void SoundWorld::State::reopen(double time) noexcept {
+  next_try = std::min(next_try, time + kRetryPeriod);  // a clock that was set back does not stop the attempts
+  if (time < next_try) return;
+  next_try = time + kRetryPeriod;
+  try {
+    open();
+  } catch (const std::exception&) {
+    device.reset();  // the reason stays: it was lost
+  }
+}
+
+// Gives a fresh device everything that the book holds. One-shots that were cut off are past.
+void SoundWorld::State::rebuild() {
+  device->make_current();
+  alDistanceModel(AL_INVERSE_DISTANCE_CLAMPED);
+  for (Clip& clip : clips) clip.buffer = make_buffer(clip.samples);
+  for (OneShot& shot : one_shots) shot = {make_source(), 0};
+  for (Loop& loop : loops) set_up(loop);
+  listener_changed = true;
+}
+
+void SoundWorld::State::set_up(Loop& loop) {
+  loop.source = make_source();
+  alSourcei(loop.source, AL_BUFFER, static_cast<ALint>(clips.at(static_cast<std::size_t>(loop.clip)).buffer));
+  alSourcei(loop.source, AL_LOOPING, AL_TRUE);
+  loop.changed = loop.starts = true;
+}
+
+void SoundWorld::State::apply_changes() {
+  device->make_current();
+  {
+    const AtOnce at_once;
+    if (std::exchange(listener_changed, false)) write_listener(listener);
+    for (Loop& loop : loops) {
+      if (std::exchange(loop.changed, false)) write_voice(loop.source, loop.voice);
+    }
+  }
+  start_loops();
+}
+
+void SoundWorld::State::start_loops() {
+  std::vector<ALuint> sources;
+  for (Loop& loop : loops) {
+    if (std::exchange(loop.starts, false) && loop.source != 0) sources.push_back(loop.source);
+  }
+  if (!sources.empty()) alSourcePlayv(static_cast<ALsizei>(sources.size()), sources.data());
+}
+
+// One that has ended, else the oldest.
+OneShot& SoundWorld::State::next_one_shot() {
+  for (OneShot& shot : one_shots) {
+    ALint state = AL_STOPPED;
+    alGetSourcei(shot.source, AL_SOURCE_STATE, &state);
+    if (state != AL_PLAYING) return shot;
+  }
+  return *std::min_element(one_shots.begin(), one_shots.end(),
+                           [](const OneShot& a, const OneShot& b) { return a.number < b.number; });
+}
+
+SoundWorld::SoundWorld(SoundOutput output) : SoundWorld(output, open_device) {}
+
+SoundWorld::SoundWorld(SoundOutput output, SoundDeviceOpener open) : state_(std::make_unique<State>()) {
+  state_->wanted = output;
+  state_->opener = std::move(open);
+  if (output == SoundOutput::none) return;
+  try {
+    state_->open();
+  } catch (const std::exception& error) {
+    state_->device.reset();
+    state_->why_silent = error.what();
+  }
+}
+
+SoundWorld::~SoundWorld() = default;
+
+SoundOutput SoundWorld::output() const noexcept {
+  return state_->device ? state_->wanted : SoundOutput::none;
+}
+
+const std::string& SoundWorld::why_silent() const noexcept {
+  return state_->why_silent;
+}
+
+ClipId SoundWorld::add_clip(std::span<const float> samples) {
+  Clip& clip = state_->clips.emplace_back();
+  clip.samples.assign(samples.begin(), samples.end());
+  if (state_->device) {
+    state_->device->make_current();
+    clip.buffer = make_buffer(clip.samples);
+  }
+  return static_cast<ClipId>(state_->clips.size()) - 1;
+}
+
+void SoundWorld::set_listener(glm::vec3 position, glm::vec3 forward, glm::vec3 up) {
+  Listener& listener = state_->listener;
+  listener = {position, forward, up, listener.volume};
+  state_->listener_changed = true;
+}
+
+void SoundWorld::set_volume(float gain) {
+  state_->listener.volume = gain;
+  state_->listener_changed = true;
+}
+
+void SoundWorld::play(ClipId clip, const Voice& voice) {
+  const ALuint buffer = state_->clips.at(static_cast<std::size_t>(clip)).buffer;
+  if (!state_->device) return;
+  state_->device->make_current();
+  OneShot& shot = state_->next_one_shot();
+  shot.number = ++state_->played;
+  alSourceStop(shot.source);  // a playing source takes no other clip
+  alSourcei(shot.source, AL_BUFFER, static_cast<ALint>(buffer));
+  write_voice(shot.source, voice);
+  alSourcePlay(shot.source);
+}
+
+VoiceId SoundWorld::loop(ClipId clip, const Voice& voice) {
+  state_->clips.at(static_cast<std::size_t>(clip));
+  Loop& loop = state_->loops.emplace_back(Loop{clip, voice});
+  if (state_->device) {
+    state_->device->make_current();
+    state_->set_up(loop);
+  }
+  return static_cast<VoiceId>(state_->loops.size()) - 1;
+}
+
+void SoundWorld::set(VoiceId voice, const Voice& to) {
+  Loop& loop = state_->loops.at(static_cast<std::size_t>(voice));
+  loop.voice = to;
+  loop.changed = true;
+}
+
+void SoundWorld::restart(VoiceId voice) {
+  state_->loops.at(static_cast<std::size_t>(voice)).starts = true;
+}
+
+void SoundWorld::update(double time) {
+  if (state_->device && !state_->device->connected()) state_->lose();
+  if (state_->is_lost) state_->reopen(time);
+  if (state_->device) state_->apply_changes();
+}
+
+void SoundWorld::render(std::span<float> stereo) {
+  if (output() != SoundOutput::memory) {
+    std::fill(stereo.begin(), stereo.end(), 0.0f);
+    return;
+  }
+  state_->apply_changes();
+  state_->device->render(stereo);
+}
+
+}  // namespace gearshift

@@ -1,0 +1,238 @@
+#include "engine/window/window.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <stdexcept>
+#include <thread>
+
+// After vulkan.h, so that GLFW declares what makes a surface.
+#include <GLFW/glfw3.h>
+
+#include <fmt/format.h>
+
+#include "engine/window/glfw_use.h"
+
+namespace gearshift {
+namespace {
+
+struct Rectangle {
+  int x = 0, y = 0, width = 0, height = 0;
+};
+
+Rectangle area_of(GLFWwindow* window) {
+  Rectangle r;
+  glfwGetWindowPos(window, &r.x, &r.y);
+  glfwGetWindowSize(window, &r.width, &r.height);
+  return r;
+}
+
+Rectangle area_of(GLFWmonitor* monitor) {
+  Rectangle r;
+  const GLFWvidmode* mode = glfwGetVideoMode(monitor);
+  glfwGetMonitorPos(monitor, &r.x, &r.y);
+  r.width = mode->width;
+  r.height = mode->height;
+  return r;
+}
+
+long overlap(const Rectangle& a, const Rectangle& b) {
+  const int width = std::min(a.x + a.width, b.x + b.width) - std::max(a.x, b.x);
+  const int height = std::min(a.y + a.height, b.y + b.height) - std::max(a.y, b.y);
+  return width <= 0 || height <= 0 ? 0 : static_cast<long>(width) * height;
+}
+
+// The monitor that shows most of the window; null where there is none.
+GLFWmonitor* monitor_of(GLFWwindow* window) {
+  int count = 0;
+  GLFWmonitor** monitors = glfwGetMonitors(&count);
+  if (count == 0) return nullptr;
+  const Rectangle area = area_of(window);
+  return *std::max_element(monitors, monitors + count, [&](GLFWmonitor* a, GLFWmonitor* b) {
+    return overlap(area, area_of(a)) < overlap(area, area_of(b));
+  });
+}
+
+std::vector<PadState> read_pads() {
+  std::vector<PadState> pads;
+  for (int id = GLFW_JOYSTICK_1; id <= GLFW_JOYSTICK_LAST; ++id) {
+    if (glfwJoystickPresent(id) == GLFW_FALSE) continue;
+    int axes = 0, buttons = 0;
+    const float* axis = glfwGetJoystickAxes(id, &axes);
+    const unsigned char* button = glfwGetJoystickButtons(id, &buttons);
+    const char* name = glfwGetJoystickName(id);
+    if (name == nullptr) continue;  // unplugged this moment: then all three are null
+    pads.push_back({name, {axis, axis + axes}, {button, button + buttons}});
+  }
+  return pads;
+}
+
+}  // namespace
+
+bool has_display() {
+  try {
+    const GlfwUse use;
+    return true;
+  } catch (const std::exception&) {
+    return false;
+  }
+}
+
+struct Window::State {
+  State(int width, int height, const std::string& title);
+  ~State() { glfwDestroyWindow(window); }
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+
+  void listen();
+  void moved_to(double x, double y);
+  void pressed(int button, bool down);
+  bool is_shown() const;
+
+  GlfwUse use;
+  GLFWwindow* window = nullptr;
+  WindowInput input;
+  std::array<bool, 5> held{};  // mouse buttons, now
+  glm::dvec2 cursor{0.0};      // where GLFW has it: of the window's coordinates, unbounded while captured
+  bool captured = false;
+  bool shown = true;
+  Rectangle before_full_screen;
+};
+
+Window::State::State(int width, int height, const std::string& title) {
+  glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
+  window = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
+  if (window == nullptr) throw std::runtime_error(fmt::format("No window can be opened: {}.", glfw_error()));
+  glfwSetWindowUserPointer(window, this);
+  glfwGetCursorPos(window, &cursor.x, &cursor.y);
+  listen();
+}
+
+void Window::State::listen() {
+  static constexpr auto of = [](GLFWwindow* w) { return static_cast<State*>(glfwGetWindowUserPointer(w)); };
+  glfwSetCursorPosCallback(window, [](GLFWwindow* w, double x, double y) { of(w)->moved_to(x, y); });
+  glfwSetMouseButtonCallback(
+      window, [](GLFWwindow* w, int button, int action, int) { of(w)->pressed(button, action == GLFW_PRESS); });
+  glfwSetScrollCallback(window, [](GLFWwindow* w, double x, double y) { of(w)->input.scroll += glm::dvec2(x, y); });
+  glfwSetKeyCallback(window, [](GLFWwindow* w, int key, int, int action, int mods) {
+    if (action == GLFW_REPEAT) return;
+    of(w)->input.keys.push_back({.key = key,
+                                 .down = action == GLFW_PRESS,
+                                 .shift = (mods & GLFW_MOD_SHIFT) != 0,
+                                 .control = (mods & GLFW_MOD_CONTROL) != 0,
+                                 .alt = (mods & GLFW_MOD_ALT) != 0});
+  });
+  glfwSetCharCallback(window,
+                      [](GLFWwindow* w, unsigned int c) { of(w)->input.text.push_back(static_cast<char32_t>(c)); });
+}
+
+void Window::State::moved_to(double x, double y) {
+  int width = 0, height = 0, pixels_wide = 0, pixels_high = 0;
+  glfwGetWindowSize(window, &width, &height);
+  glfwGetFramebufferSize(window, &pixels_wide, &pixels_high);
+  if (width <= 0 || height <= 0) return;
+  const glm::dvec2 pixels{static_cast<double>(pixels_wide) / width, static_cast<double>(pixels_high) / height};
+  const glm::dvec2 now{x, y};
+  input.mouse_moved += (now - cursor) * pixels;
+  cursor = now;
+  if (!captured) input.mouse = now * pixels;
+}
+
+void Window::State::pressed(int button, bool down) {
+  if (button < 0 || button >= static_cast<int>(held.size())) return;
+  const auto index = static_cast<std::size_t>(button);
+  held[index] = down;
+  if (down) input.mouse_down[index] = true;
+}
+
+// A window manager iconifies, or takes the window off the screen (another desktop): nothing to draw for in either case.
+bool Window::State::is_shown() const {
+  return glfwGetWindowAttrib(window, GLFW_ICONIFIED) == GLFW_FALSE &&
+         glfwGetWindowAttrib(window, GLFW_VISIBLE) == GLFW_TRUE;
+}
+
+Window::Window(int width, int height, const std::string& title)
+    : state_(std::make_unique<State>(width, height, title)) {}
+
+Window::~Window() = default;
+
+std::vector<const char*> Window::instance_extensions() {
+  std::uint32_t count = 0;
+  const char** names = glfwGetRequiredInstanceExtensions(&count);
+  if (names == nullptr) throw GpuError("No Vulkan driver here can draw into a window.");
+  return {names, names + count};
+}
+
+const WindowInput& Window::poll() {
+  State& s = *state_;
+  if (!s.shown) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  s.input.mouse_moved = s.input.scroll = glm::dvec2(0.0);
+  s.input.keys.clear();
+  s.input.text.clear();
+  s.input.mouse_down = s.held;
+  glfwPollEvents();
+  for (std::size_t i = 0; i < s.held.size(); ++i) s.input.mouse_down[i] = s.input.mouse_down[i] || s.held[i];
+  s.input.pads = read_pads();
+  s.input.focused = glfwGetWindowAttrib(s.window, GLFW_FOCUSED) == GLFW_TRUE;
+  s.shown = s.is_shown();
+  return s.input;
+}
+
+bool Window::wants_close() const {
+  return glfwWindowShouldClose(state_->window) == GLFW_TRUE;
+}
+
+bool Window::is_key_down(int key) const {
+  return glfwGetKey(state_->window, key) == GLFW_PRESS;
+}
+
+glm::ivec2 Window::framebuffer() const {
+  glm::ivec2 size{0};
+  if (state_->shown) glfwGetFramebufferSize(state_->window, &size.x, &size.y);
+  return size;
+}
+
+float Window::content_scale() const {
+  float x = 1.0f, y = 1.0f;
+  glfwGetWindowContentScale(state_->window, &x, &y);
+  return x;
+}
+
+void Window::set_full_screen(bool on) {
+  if (on == full_screen()) return;
+  State& s = *state_;
+  if (!on) {
+    const Rectangle& r = s.before_full_screen;
+    glfwSetWindowMonitor(s.window, nullptr, r.x, r.y, r.width, r.height, GLFW_DONT_CARE);
+    return;
+  }
+  GLFWmonitor* monitor = monitor_of(s.window);
+  if (monitor == nullptr) return;
+  s.before_full_screen = area_of(s.window);
+  const GLFWvidmode* mode = glfwGetVideoMode(monitor);
+  glfwSetWindowMonitor(s.window, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+}
+
+bool Window::full_screen() const {
+  return glfwGetWindowMonitor(state_->window) != nullptr;
+}
+
+void Window::capture_mouse(bool on) {
+  State& s = *state_;
+  if (glfwRawMouseMotionSupported() == GLFW_TRUE) glfwSetInputMode(s.window, GLFW_RAW_MOUSE_MOTION, on);
+  glfwSetInputMode(s.window, GLFW_CURSOR, on ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
+  s.captured = on;
+  glfwGetCursorPos(s.window, &s.cursor.x, &s.cursor.y);  // that it jumps here is no motion of the mouse
+}
+
+void Window::set_title(const std::string& title) {
+  glfwSetWindowTitle(state_->window, title.c_str());
+}
+
+VkSurfaceKHR Window::make_surface(VkInstance instance) const {
+  VkSurfaceKHR surface = VK_NULL_HANDLE;
+  check(glfwCreateWindowSurface(instance, state_->window, nullptr, &surface), "glfwCreateWindowSurface");
+  return surface;
+}
+
+}  // namespace gearshift

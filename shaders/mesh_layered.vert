@@ -1,0 +1,6 @@
+#version 460
+#extension GL_GOOGLE_include_directive : require
+#extension GL_ARB_shader_viewport_layer_array : require
+#define LAYERED
+#include "shared.h"
+#include "mesh_vertex.glsl"

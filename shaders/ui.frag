@@ -1,0 +1,13 @@
+// Text, lines and areas of Dear ImGui: the font's texture is coverage alone.
+#version 460
+
+layout(set = 0, binding = 0) uniform sampler2D font;
+
+layout(location = 0) in vec2 place;
+layout(location = 1) in vec4 colour;
+
+layout(location = 0) out vec4 shade;
+
+void main() {
+  shade = vec4(colour.rgb, colour.a * texture(font, place).r);
+}

@@ -1,0 +1,118 @@
+#include "engine/gpu/memory.h"
+
+#include <cstring>
+#include <list>
+#include <random>
+#include <set>
+
+#include <doctest/doctest.h>
+
+#include "engine/gpu/gpu_buffer.h"
+#include "engine/gpu/gpu_image.h"
+#include "tests/support/gpu_fixture.h"
+
+using namespace gearshift;
+
+TEST_CASE("pieces of a block never overlap, are aligned, lie first in the block, and all come back") {
+  constexpr VkDeviceSize size = 4096;
+  std::mt19937 random(3);
+  FreeRanges ranges(size);
+  std::array<bool, size> taken{};  // the other method: a mark per byte
+  std::vector<std::pair<VkDeviceSize, VkDeviceSize>> pieces;
+  const auto first_fit = [&](VkDeviceSize wanted, VkDeviceSize alignment) -> std::optional<VkDeviceSize> {
+    for (VkDeviceSize start = 0; start + wanted <= size; start += alignment) {
+      const auto begin = taken.begin() + static_cast<std::ptrdiff_t>(start);
+      if (std::find(begin, begin + static_cast<std::ptrdiff_t>(wanted), true) ==
+          begin + static_cast<std::ptrdiff_t>(wanted)) {
+        return start;
+      }
+    }
+    return std::nullopt;
+  };
+  int refused = 0;
+  for (int step = 0; step < 5000; ++step) {
+    if (random() % 5 < 3 || pieces.empty()) {
+      const VkDeviceSize wanted = 1 + random() % 200, alignment = VkDeviceSize{1} << random() % 8;
+      const auto expected = first_fit(wanted, alignment);
+      const auto offset = ranges.take(wanted, alignment);
+      REQUIRE(offset == expected);
+      refused += !offset;
+      if (!offset) continue;
+      std::fill_n(taken.begin() + static_cast<std::ptrdiff_t>(*offset), wanted, true);
+      pieces.emplace_back(*offset, wanted);
+    } else {
+      std::swap(pieces[random() % pieces.size()], pieces.back());
+      const auto [offset, length] = pieces.back();
+      pieces.pop_back();
+      ranges.give(offset, length);
+      std::fill_n(taken.begin() + static_cast<std::ptrdiff_t>(offset), length, false);
+    }
+    REQUIRE(ranges.is_whole() == pieces.empty());
+  }
+  CHECK(refused > 0);
+  for (const auto& [offset, length] : pieces) ranges.give(offset, length);
+  CHECK(ranges.is_whole());
+  CHECK(ranges.take(size, 1) == VkDeviceSize{0});
+}
+
+TEST_CASE("buffers that come and go keep their bytes, and the memory is returned") {
+  GpuFixture fixture;
+  Gpu& gpu = fixture.gpu();
+  std::mt19937 random(5);
+  struct Owned {
+    GpuBuffer buffer;
+    int byte;
+  };
+  std::vector<Owned> owned;
+  const auto is_intact = [](const Owned& o) {
+    const auto* bytes = o.buffer.mapped();
+    const auto is_own = [&](std::byte b) { return b == static_cast<std::byte>(o.byte); };
+    return std::all_of(bytes, bytes + o.buffer.size(), is_own);
+  };
+  for (int step = 0; step < 400; ++step) {
+    if (random() % 2 == 0 || owned.empty()) {
+      const VkDeviceSize size = 1 + random() % (VkDeviceSize{1} << (4 + random() % 16));
+      const MemoryKind kind = random() % 2 == 0 ? MemoryKind::upload : MemoryKind::read_back;
+      Owned made{GpuBuffer(gpu, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, kind), step % 256};
+      std::memset(made.buffer.mapped(), made.byte, made.buffer.size());
+      owned.push_back(std::move(made));
+    } else {
+      std::swap(owned[random() % owned.size()], owned.back());
+      CHECK(is_intact(owned.back()));
+      owned.pop_back();
+    }
+  }
+  CHECK(gpu.allocated() > 0);
+  for (const Owned& o : owned) CHECK(is_intact(o));
+  owned.clear();
+  CHECK(gpu.allocated() == 0);
+}
+
+TEST_CASE("small things share a block, large ones have their own, buffers and images never meet") {
+  GpuFixture fixture;
+  Gpu& gpu = fixture.gpu();
+  const auto needs = [](VkDeviceSize size) {
+    return VkMemoryRequirements{.size = size, .alignment = 256, .memoryTypeBits = ~0u};
+  };
+  const Allocation a = gpu.allocate(needs(1000), MemoryKind::device, MemoryUser::buffer);
+  const Allocation b = gpu.allocate(needs(1000), MemoryKind::device, MemoryUser::buffer);
+  const Allocation image = gpu.allocate(needs(1000), MemoryKind::device, MemoryUser::image);
+  const Allocation large = gpu.allocate(needs(VkDeviceSize{40} << 20), MemoryKind::device, MemoryUser::buffer);
+  CHECK(a.memory == b.memory);
+  CHECK(b.offset == a.offset + 1024);
+  CHECK(image.memory != a.memory);
+  CHECK(large.memory != a.memory);
+  CHECK(large.offset == 0);
+  CHECK(gpu.allocated() == 3000 + (VkDeviceSize{40} << 20));
+  for (const Allocation& each : {a, b, image, large}) gpu.free(each);
+  CHECK(gpu.allocated() == 0);
+}
+
+TEST_CASE("more memory than there is is refused by a GpuError, and what is there goes on") {
+  GpuFixture fixture;
+  Gpu& gpu = fixture.gpu();
+  const VkMemoryRequirements absurd{.size = VkDeviceSize{1} << 50, .alignment = 1, .memoryTypeBits = ~0u};
+  CHECK_THROWS_AS(gpu.allocate(absurd, MemoryKind::device, MemoryUser::buffer), GpuError);
+  CHECK(gpu.allocated() == 0);
+  CHECK_NOTHROW(GpuBuffer(gpu, 64, VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::device));
+}

@@ -1,0 +1,192 @@
+// Pictures: to a file and back, cut, joined, compared; files that are none.
+#include "engine/image/image.h"
+
+#include <cmath>
+#include <fstream>
+#include <limits>
+#include <random>
+#include <stdexcept>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "tests/support/temp_folder.h"
+
+using namespace gearshift;
+using doctest::Approx;
+
+namespace {
+
+Image noise(int width, int height, unsigned seed) {
+  std::mt19937 random(seed);
+  Image image{width, height, std::vector<std::uint8_t>(4 * static_cast<std::size_t>(width * height))};
+  for (std::uint8_t& byte : image.rgba) byte = static_cast<std::uint8_t>(random());
+  return image;
+}
+
+// Says which pixel it is.
+Image numbered(int width, int height, std::uint8_t picture = 0) {
+  Image image = noise(width, height, 1);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      image.pixel(x, y)[0] = static_cast<std::uint8_t>(x);
+      image.pixel(x, y)[1] = static_cast<std::uint8_t>(y);
+      image.pixel(x, y)[2] = picture;
+    }
+  }
+  return image;
+}
+
+std::vector<std::uint8_t> file_bytes(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void write_bytes(const std::filesystem::path& file, const std::vector<std::uint8_t>& bytes) {
+  std::ofstream(file, std::ios::binary)
+      .write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+}
+
+std::uint32_t big_endian(const std::vector<std::uint8_t>& bytes, std::size_t at) {
+  return std::uint32_t{bytes[at]} << 24 | std::uint32_t{bytes[at + 1]} << 16 | std::uint32_t{bytes[at + 2]} << 8 |
+         bytes[at + 3];
+}
+
+// The one sentence that `act` throws.
+template <typename Act>
+std::string refusal(Act act) {
+  try {
+    act();
+  } catch (const std::runtime_error& e) {
+    return e.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("a picture comes back from its file as it was, bit by bit, alpha included") {
+  TempFolder folder;
+  const std::pair<int, int> sizes[] = {{1, 1}, {3, 7}, {64, 48}, {1, 300}};
+  for (const auto& [width, height] : sizes) {
+    const Image image = noise(width, height, 5);
+    write_png(folder / "image.png", image);
+    const Image back = read_png(folder / "image.png");
+    CHECK(back.width == width);
+    CHECK(back.height == height);
+    CHECK(back.rgba == image.rgba);
+  }
+}
+
+TEST_CASE("the file is a PNG as the standard has it: signature, size, eight bits of RGBA") {
+  TempFolder folder;
+  write_png(folder / "image.png", noise(5, 3, 2));
+  const std::vector<std::uint8_t> bytes = file_bytes(folder / "image.png");
+  REQUIRE(bytes.size() > 33);
+  CHECK(big_endian(bytes, 0) == 0x89504e47);
+  CHECK(big_endian(bytes, 12) == 0x49484452);  // IHDR
+  CHECK(big_endian(bytes, 16) == 5);
+  CHECK(big_endian(bytes, 20) == 3);
+  CHECK(bytes[24] == 8);
+  CHECK(bytes[25] == 6);
+}
+
+TEST_CASE("a write replaces the file and leaves nothing beside it; a failed one leaves the old picture") {
+  TempFolder folder;
+  const Image first = noise(4, 4, 1), second = noise(5, 5, 2);
+  write_png(folder / "image.png", first);
+  write_png(folder / "image.png", second);
+  CHECK(read_png(folder / "image.png").rgba == second.rgba);
+  CHECK_THROWS_AS(write_png(folder / "image.png", Image{2, 2, {1, 2, 3}}), std::runtime_error);
+  CHECK(read_png(folder / "image.png").rgba == second.rgba);
+  CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 1);
+  const std::string reason = refusal([&] { write_png(folder / "none" / "image.png", first); });
+  CHECK(reason.starts_with((folder / "none" / "image.png").string() + ": "));
+  CHECK(reason.find("No such file") != std::string::npos);
+  std::filesystem::create_directory(folder / "taken.png");
+  CHECK_FALSE(refusal([&] { write_png(folder / "taken.png", first); }).empty());
+  CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 2);
+}
+
+TEST_CASE("what is no PNG is refused in one sentence that names the file") {
+  TempFolder folder;
+  write_png(folder / "good.png", noise(8, 8, 3));
+  const std::vector<std::uint8_t> good = file_bytes(folder / "good.png");
+  std::vector<std::uint8_t> huge = good;
+  huge[16] = huge[20] = 0x7f;
+  const std::vector<std::uint8_t> files[] = {{},
+                                             {'n', 'o'},
+                                             {0xff, 0xd8, 0xff, 0xe0},
+                                             {good.begin(), good.begin() + 8},
+                                             {good.begin(), good.begin() + 30},
+                                             {good.begin(), good.end() - 40},
+                                             huge};
+  for (const std::vector<std::uint8_t>& bytes : files) {
+    write_bytes(folder / "bad.png", bytes);
+    const std::string reason = refusal([&] { read_png(folder / "bad.png"); });
+    CAPTURE(reason);
+    CHECK(reason.starts_with((folder / "bad.png").string() + ": "));
+    CHECK(reason.find('\n') == std::string::npos);
+  }
+  CHECK_FALSE(refusal([&] { read_png(folder / "none.png"); }).empty());
+  CHECK_FALSE(refusal([&] { read_png(folder.path()); }).empty());
+}
+
+TEST_CASE("the size of an encoded picture is known without its pixels") {
+  TempFolder folder;
+  write_png(folder / "good.png", noise(9, 4, 3));
+  std::vector<std::uint8_t> bytes = file_bytes(folder / "good.png");
+  bytes.resize(45);  // header and the beginning of the data
+  CHECK(encoded_size(bytes).width == 9);
+  CHECK(encoded_size(bytes).height == 4);
+  CHECK_THROWS_AS(decode_image(bytes), std::runtime_error);
+}
+
+TEST_CASE("a cut holds the pixels of its rectangle, and must lie inside") {
+  const Image image = numbered(20, 10);
+  const Image part = crop(image, 7, 2, 5, 6);
+  REQUIRE(part.width == 5);
+  REQUIRE(part.rgba.size() == 4 * 5 * 6);
+  for (int y = 0; y < 6; ++y) {
+    for (int x = 0; x < 5; ++x) {
+      CHECK(part.pixel(x, y)[0] == x + 7);
+      CHECK(part.pixel(x, y)[1] == y + 2);
+    }
+  }
+  CHECK(crop(image, 0, 0, 20, 10).rgba == image.rgba);
+  const int outside[][4] = {{-1, 0, 2, 2}, {0, -1, 2, 2}, {19, 0, 2, 1},
+                            {0, 9, 1, 2},  {0, 0, 0, 1},  {5, 5, std::numeric_limits<int>::max(), 1}};
+  for (const auto& r : outside) CHECK_THROWS_AS(crop(image, r[0], r[1], r[2], r[3]), std::invalid_argument);
+}
+
+TEST_CASE("two halves lie side by side, left on the left") {
+  const Image left = numbered(3, 5, 100), right = numbered(4, 5, 200);
+  const Image both = side_by_side(left, right);
+  REQUIRE(both.width == 7);
+  CHECK(crop(both, 0, 0, 3, 5).rgba == left.rgba);
+  CHECK(crop(both, 3, 0, 4, 5).rgba == right.rgba);
+  CHECK_THROWS_AS(side_by_side(left, numbered(3, 4)), std::invalid_argument);
+}
+
+TEST_CASE("the difference of pictures: nothing, a known error, the share beyond the tolerance") {
+  const Image image = noise(10, 10, 4);
+  const ImageDifference none = difference(image, image);
+  CHECK(none.psnr == std::numeric_limits<double>::infinity());
+  CHECK(none.share_beyond == 0.0);
+  CHECK(none.worst == 0);
+
+  Image grey{10, 10, std::vector<std::uint8_t>(400, 100)}, off = grey;
+  for (std::size_t i = 0; i < 400; ++i)
+    off.rgba[i] = static_cast<std::uint8_t>(i % 4 == 3 ? 7 : 105);  // alpha is not compared
+  CHECK(difference(grey, off).psnr == Approx(20.0 * std::log10(255.0 / 5.0)));
+  CHECK(difference(grey, off).worst == 5);
+  CHECK(difference(grey, off).share_beyond == 1.0);
+  CHECK(difference(grey, off, 5).share_beyond == 0.0);
+
+  Image one = grey;
+  one.pixel(3, 4)[1] = 96;
+  CHECK(difference(grey, one).share_beyond == Approx(0.01));
+  CHECK(difference(one, grey).worst == 4);
+  CHECK(difference(grey, one).psnr == Approx(10.0 * std::log10(255.0 * 255.0 * 300.0 / 16.0)));
+  CHECK_THROWS_AS(difference(grey, noise(10, 11, 1)), std::invalid_argument);
+}

@@ -1,0 +1,106 @@
+// Nine coefficients against integrals that are known.
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+
+#include "engine/light/environment.h"
+
+using namespace gearshift;
+using glm::vec3;
+
+namespace {
+
+vec3 random_direction(std::mt19937& random) {
+  std::normal_distribution<float> normal;
+  return glm::normalize(vec3(normal(random), normal(random), normal(random)));
+}
+
+// Irradiance / pi by summing a Fibonacci sphere: another method, another set of directions.
+vec3 summed(const Radiance& radiance, vec3 n, int count = 40000) {
+  vec3 sum(0.0f);
+  for (int i = 0; i < count; ++i) {
+    const float z = 1.0f - 2.0f * (static_cast<float>(i) + 0.5f) / static_cast<float>(count);
+    const float phi = static_cast<float>(i) * 2.39996323f, r = std::sqrt(1.0f - z * z);
+    const vec3 d(r * std::cos(phi), r * std::sin(phi), z);
+    sum += std::max(glm::dot(d, n), 0.0f) * radiance(d);
+  }
+  return 4.0f / static_cast<float>(count) * sum;
+}
+
+}  // namespace
+
+TEST_CASE("a constant sky lights every surface by itself: E / pi = L") {
+  const Irradiance irradiance = project_irradiance([](vec3) { return vec3(0.3f, 0.7f, 1.5f); });
+  std::mt19937 random(1);
+  for (int i = 0; i < 100; ++i) {
+    const vec3 e = irradiance(random_direction(random));
+    CHECK(e.x == doctest::Approx(0.3).epsilon(1e-4));
+    CHECK(e.y == doctest::Approx(0.7).epsilon(1e-4));
+    CHECK(e.z == doctest::Approx(1.5).epsilon(1e-4));
+  }
+}
+
+TEST_CASE("radiance of degree 1 comes back by 2/3, of degree 2 by 1/4: exact for what nine coefficients hold") {
+  const vec3 axis = glm::normalize(vec3(1.0f, 2.0f, -0.5f));
+  const Irradiance linear = project_irradiance([=](vec3 d) { return vec3(glm::dot(d, axis)); }, 128);
+  const Irradiance square =
+      project_irradiance([=](vec3 d) { return vec3(1.5f * glm::dot(d, axis) * glm::dot(d, axis) - 0.5f); }, 128);
+  std::mt19937 random(2);
+  for (int i = 0; i < 100; ++i) {
+    const vec3 n = random_direction(random);
+    const float c = glm::dot(n, axis);
+    CHECK(std::abs(linear(n).x - 2.0f / 3.0f * c) < 2e-4f);
+    CHECK(std::abs(square(n).x - 0.25f * (1.5f * c * c - 0.5f)) < 2e-4f);
+  }
+}
+
+TEST_CASE("degree 2 of a clamped cosine sky is off by less than 1 % of its peak, as its own series says") {
+  // max(d.a, 0) lit surface: E / pi at n.a = 1 is 2/3; the terms of degree 4 and up are left out, the largest of them
+  // c_4 A_4 / pi P_4 = (-3/32)(-1/24) = 1/256.
+  const Irradiance irradiance = project_irradiance([](vec3 d) { return vec3(std::max(d.y, 0.0f)); }, 128);
+  CHECK(std::abs(irradiance(vec3(0, 1, 0)).x - 2.0f / 3.0f) < 0.0067f);
+  float worst = 0.0f;
+  std::mt19937 random(3);
+  for (int i = 0; i < 50; ++i) {
+    const vec3 n = random_direction(random);
+    worst = std::max(worst, std::abs(irradiance(n).x - summed([](vec3 d) { return vec3(std::max(d.y, 0.0f)); }, n).x));
+  }
+  CHECK(worst < 0.0067f);
+  CHECK(worst > 0.001f);  // degree 2 is not exact here: the comparison can see an error
+}
+
+TEST_CASE("the day sky's irradiance is within 4 % of its peak of the summed one") {
+  const Radiance sky = day_sky({0.35f, 0.80f, -0.48f});
+  const Irradiance irradiance = project_irradiance(sky);
+  const vec3 up = summed(sky, {0.0f, 1.0f, 0.0f});
+  const float peak = std::max({up.x, up.y, up.z});
+  float worst = 0.0f;
+  std::mt19937 random(4);
+  for (int i = 0; i < 100; ++i) {
+    const vec3 n = random_direction(random), error = glm::abs(irradiance(n) - summed(sky, n));
+    worst = std::max({worst, error.x, error.y, error.z});
+  }
+  MESSAGE("worst error of degree 2: " << worst / peak << " of the peak " << peak);
+  CHECK(worst < 0.04f * peak);
+}
+
+TEST_CASE("the day sky is finite and positive everywhere, brighter above than below, brightest towards the sun") {
+  const vec3 sun = glm::normalize(vec3(0.35f, 0.80f, -0.48f));
+  const Radiance sky = day_sky(sun);
+  std::mt19937 random(5);
+  const float towards_sun = glm::dot(sky(sun), vec3(1.0f));
+  for (int i = 0; i < 2000; ++i) {
+    const vec3 d = random_direction(random), l = sky(d);
+    CHECK(std::isfinite(glm::dot(l, l)));
+    CHECK(std::min({l.x, l.y, l.z}) > 0.0f);
+    CHECK(glm::dot(l, vec3(1.0f)) <= towards_sun);
+  }
+  CHECK(glm::dot(sky({0, 1, 0}), vec3(1.0f)) > 2.0f * glm::dot(sky({0, -1, 0}), vec3(1.0f)));
+  // No step at the horizon.
+  const vec3 just_above = sky(glm::normalize(vec3(1, 1e-4f, 1))), just_below = sky(glm::normalize(vec3(1, -1e-4f, 1)));
+  CHECK(glm::length(just_above - just_below) < 0.01f);
+}

@@ -1,0 +1,84 @@
+// Reflections of skies whose blur is known.
+#include <algorithm>
+#include <cmath>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+#include <glm/gtc/packing.hpp>
+
+#include "engine/light/cube.h"
+#include "engine/light/environment.h"
+
+using namespace gearshift;
+using glm::vec3;
+
+namespace {
+
+vec3 texel(const PrefilteredCube& cube, int level, int face, int x, int y) {
+  const int side = cube.side >> level;
+  const auto at = static_cast<std::size_t>(((face * side + y) * side + x) * 4);
+  const std::uint16_t* half = cube.levels[static_cast<std::size_t>(level)].data() + at;
+  return {glm::unpackHalf1x16(half[0]), glm::unpackHalf1x16(half[1]), glm::unpackHalf1x16(half[2])};
+}
+
+}  // namespace
+
+TEST_CASE("faces lie as Vulkan has them: the middle texels look along their axis, neighbours share an edge") {
+  const vec3 axis[6] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+  for (int face = 0; face < 6; ++face) {
+    CHECK(cube_direction(face, 1, 0, 0) == axis[face]);
+  }
+  CHECK(glm::length(cube_point(4, 1, 0) - cube_point(0, -1, 0)) == 0.0f);  // +Z's right is +X's left
+  CHECK(glm::length(cube_point(0, 1, 0) - cube_point(5, -1, 0)) == 0.0f);  // +X's right is -Z's left
+  CHECK(glm::length(cube_point(4, 0, -1) - cube_point(2, 0, 1)) == 0.0f);  // +Z's top is +Y's bottom
+  CHECK(glm::length(cube_point(4, 0, 1) - cube_point(3, 0, -1)) == 0.0f);  // +Z's bottom is -Y's top
+  CHECK(cube_point(4, 0, -1).y == 1.0f);                                   // rows run from the top
+}
+
+TEST_CASE("level 0 is the radiance itself, as half floats") {
+  const Radiance sky = day_sky({0.3f, 0.8f, -0.5f});
+  const PrefilteredCube cube = prefilter(sky, 16, 3, 16);
+  for (int face = 0; face < 6; ++face) {
+    const vec3 seen = texel(cube, 0, face, 5, 11), there = sky(cube_direction(face, 16, 5, 11));
+    CHECK(glm::length(seen - there) < 1e-3f * glm::length(there));
+  }
+}
+
+TEST_CASE("a constant sky stays what it is at every roughness") {
+  const PrefilteredCube cube = prefilter([](vec3) { return vec3(0.5f, 1.0f, 2.0f); }, 8, 4, 32);
+  REQUIRE(cube.levels.size() == 4);
+  for (int level = 0; level < 4; ++level)
+    CHECK(glm::length(texel(cube, level, 3, 0, 0) - vec3(0.5f, 1.0f, 2.0f)) < 2e-3f);
+}
+
+TEST_CASE("the last level of a linear sky is its n.l weighted GGX lobe at roughness 1") {
+  // At alpha = 1 half vectors are spread evenly over cos^2, and l = reflect(n, h): cos_l = 2 cos_h^2 - 1, uniform in
+  // (-1, 1). Weighted by n.l over (0, 1): mean of cos_l is (1/3) / (1/2) = 2/3.
+  const PrefilteredCube cube = prefilter([](vec3 d) { return vec3(2.0f + d.y); }, 8, 4, 1024);
+  CHECK(texel(cube, 3, 2, 0, 0).x == doctest::Approx(2.0 + 2.0 / 3.0).epsilon(2e-3));
+  CHECK(texel(cube, 3, 3, 0, 0).x == doctest::Approx(2.0 - 2.0 / 3.0).epsilon(2e-3));
+  CHECK(texel(cube, 3, 0, 0, 0).x == doctest::Approx(2.0).epsilon(2e-3));
+}
+
+TEST_CASE("64 samples of the day sky are within 5 % RMS of 4096, and the rougher the flatter") {
+  const Radiance sky = day_sky({0.35f, 0.80f, -0.48f});
+  const PrefilteredCube few = prefilter(sky, 32, 6), many = prefilter(sky, 32, 6, 4096);
+  float spread_before = 1e9f;
+  for (int level = 1; level < 6; ++level) {
+    const int side = 32 >> level;
+    float squares = 0.0f, low = 1e9f, high = 0.0f;
+    for (int face = 0; face < 6; ++face)
+      for (int y = 0; y < side; ++y)
+        for (int x = 0; x < side; ++x) {
+          const vec3 a = texel(few, level, face, x, y), b = texel(many, level, face, x, y);
+          squares += glm::dot(a - b, a - b) / glm::dot(b, b) / static_cast<float>(6 * side * side);
+          low = std::min(low, b.x);
+          high = std::max(high, b.x);
+        }
+    CAPTURE(level);
+    CHECK(std::sqrt(squares) < 0.05f);
+    MESSAGE("level " << level << ": " << 100.0f * std::sqrt(squares) << " % RMS");
+    CHECK(high - low < spread_before);
+    spread_before = high - low;
+  }
+}

@@ -1,0 +1,215 @@
+// Frames one after the other: in flight, resized, refused.
+#include <cstring>
+
+#include "engine/gpu/gpu_buffer.h"
+#include "tests/engine/render/render_bench.h"
+
+using namespace gearshift;
+using glm::vec3;
+
+namespace {
+
+// Copies the picture of its frame aside before the next one overwrites it.
+struct Keep final : Renderer::Finish {
+  Keep(Gpu& gpu, int width, int height)
+      : buffer(gpu, 4u * static_cast<unsigned>(width * height), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+               MemoryKind::read_back) {}
+  void record(VkCommandBuffer commands, GpuImage& colour) override {
+    expect(colour, ImageUse::copy_from);
+    const VkBufferImageCopy copy{.imageSubresource = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .layerCount = 1},
+                                 .imageExtent = {colour.desc().width, colour.desc().height, 1}};
+    vkCmdCopyImageToBuffer(commands, colour.get(), layout_of(ImageUse::copy_from), buffer.get(), 1, &copy);
+    const VkMemoryBarrier2 to_host{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                   .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
+                                   .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                                   .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
+                                   .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
+    const VkDependencyInfo dependency{
+        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &to_host};
+    vkCmdPipelineBarrier2(commands, &dependency);
+  }
+  Image picture(int width, int height) const {
+    Image image{width, height, std::vector<std::uint8_t>(buffer.size())};
+    std::memcpy(image.rgba.data(), buffer.mapped(), buffer.size());
+    return image;
+  }
+  GpuBuffer buffer;
+};
+
+// Paints its own slot's colour over the left half of the picture.
+struct HalfCover final : Overlay {
+  void draw(VkCommandBuffer commands, VkExtent2D extent, int) override {
+    const VkClearAttachment clear{.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .clearValue = {{{0.5f, 0.25f, 1.0f, 1.0f}}}};
+    const VkClearRect left{{{0, 0}, {extent.width / 2, extent.height}}, 0, 1};
+    vkCmdClearAttachments(commands, 1, &clear, 1, &left);
+    ++drawn;
+  }
+  int drawn = 0;
+};
+
+Model patch() {
+  Model model;
+  add_rectangle(model, "Patch", {0.3f, 0.3f}, add_material(model, lamp({1, 1, 1})), {});
+  return model;
+}
+
+// The patch moved aside, by its vertices.
+DeformedMesh moved_patch(float x) {
+  DeformedMesh mesh{0, rectangle(0.3f, 0.3f)};
+  for (Vertex& vertex : mesh.vertices) vertex.position.x += x;
+  return mesh;
+}
+
+}  // namespace
+
+TEST_CASE("frames in flight: every one shows its own deformed mesh, also far from where the mesh was") {
+  GpuFixture fixture;
+  const RenderConfig config = small_picture();
+  Renderer renderer(fixture.gpu(), config);
+  renderer.set_environment(constant_sky(vec3(0.0f)));
+  const Model model = patch();
+  renderer.set_model(model);
+  FrameScene scene = still(model);
+  scene.nodes[0].world =
+      glm::translate(glm::mat4(1.0f), vec3(-4.0f, 0.0f, 0.0f));  // out of sight, but for its vertices
+  const View view = view_at(config, look_at({0, 0, 3}, {0, 0, 0}));
+  std::vector<Keep> kept;
+  for (int i = 0; i < 7; ++i) kept.emplace_back(fixture.gpu(), config.width, config.height);
+  std::uint64_t last = 0;
+  for (int i = 0; i < 7; ++i) {
+    scene.deformed = {moved_patch(4.0f + 0.25f * static_cast<float>(i - 3))};
+    last = renderer.draw(scene, {&view, 1}, {}, kept[static_cast<std::size_t>(i)]);  // no wait between
+  }
+  fixture.gpu().wait(last);
+  for (int i = 0; i < 7; ++i) {
+    const glm::dvec3 expected = project(view, {0.25 * (i - 3), 0.0, 0.0}, {160, 120});
+    const glm::dvec2 seen = centroid(kept[static_cast<std::size_t>(i)].picture(160, 120), 1);
+    CAPTURE(i);
+    CHECK(std::abs(seen.x - expected.x) < 0.5);
+  }
+}
+
+TEST_CASE("a deformed mesh of another size, a scene of another model, a wrong number of views are refused whole") {
+  GpuFixture fixture;
+  Renderer renderer(fixture.gpu(), small_picture());
+  const Model model = patch();
+  renderer.set_model(model);
+  const View view = view_at(renderer.config(), look_at({0, 0, 3}, {0, 0, 0}));
+  FrameScene good = still(model), scene = good;
+  scene.deformed = {{0, std::vector<Vertex>(3)}};
+  CHECK_THROWS_AS(renderer.draw(scene, {&view, 1}), std::invalid_argument);
+  scene.deformed = {{7, rectangle(1, 1)}};
+  CHECK_THROWS_AS(renderer.draw(scene, {&view, 1}), std::invalid_argument);
+  CHECK_THROWS_AS(renderer.draw(FrameScene{}, {&view, 1}), std::invalid_argument);
+  CHECK_THROWS_AS(renderer.draw(good, {}), std::invalid_argument);
+  scene = good;
+  scene.mirror = 5;
+  CHECK_THROWS_AS(renderer.draw(scene, {&view, 1}), std::invalid_argument);
+  CHECK_NOTHROW(renderer.draw(good, {&view, 1}));
+  CHECK(centroid(renderer.read_eye(0), 0).x > 0.0);
+}
+
+TEST_CASE("a configuration out of range is refused, and the renderer stays what it was") {
+  GpuFixture fixture;
+  Renderer renderer(fixture.gpu(), small_picture());
+  const auto refused = [&](auto change) {
+    RenderConfig config = small_picture();
+    change(config);
+    CHECK_THROWS_AS(renderer.resize(config), std::invalid_argument);
+  };
+  refused([](RenderConfig& c) { c.width = 0; });
+  refused([](RenderConfig& c) { c.height = 20000; });
+  refused([](RenderConfig& c) { c.eyes = 3; });
+  refused([](RenderConfig& c) { c.samples = 2; });
+  refused([](RenderConfig& c) { c.shadow_side = 5; });
+  refused([](RenderConfig& c) { c.mirror_height = -1; });
+  CHECK(renderer.config().width == 160);
+}
+
+TEST_CASE("after any resizing the picture is what a new renderer draws") {
+  GpuFixture fixture;
+  Model model;
+  add_floor(model, "Floor", 3.0f, add_material(model, paint(vec3(0.5f))), -0.5f);
+  add_cube(model, "Cube", 0.4f, add_material(model, paint({0.8f, 0.2f, 0.1f}, 0.4f)), {});
+  FrameScene scene = still(model);
+  scene.sun = Sun{};
+  RenderConfig config = small_picture();
+  config.shadow_side = 128;
+  Renderer renderer(fixture.gpu(), config);
+  renderer.set_model(model);
+  const auto picture = [&](Renderer& from) {
+    const View view = view_at(from.config(), look_at({1, 1, 2}, {0, 0, 0}));
+    const std::vector<View> views(static_cast<std::size_t>(from.config().eyes), view);
+    from.draw(scene, views);
+    return from.read_eye(from.config().eyes - 1);
+  };
+  for (const auto [width, height, eyes, samples] :
+       {std::array{160, 120, 1, 1}, std::array{33, 257, 1, 4}, std::array{64, 64, 2, 1}, std::array{160, 120, 2, 4},
+        std::array{1, 1, 1, 1}, std::array{160, 120, 1, 1}}) {
+    config.width = width;
+    config.height = height;
+    config.eyes = eyes;
+    config.samples = samples;
+    renderer.resize(config);
+    Renderer fresh(fixture.gpu(), config);
+    fresh.set_model(model);
+    CHECK(difference(picture(renderer), picture(fresh)).worst == 0);
+  }
+}
+
+TEST_CASE("another model replaces the one before, also while frames are in flight") {
+  GpuFixture fixture;
+  Renderer renderer(fixture.gpu(), small_picture());
+  renderer.set_environment(constant_sky(vec3(0.0f)));
+  const View view = view_at(renderer.config(), look_at({0, 0, 3}, {0, 0, 0}));
+  for (int i = 0; i < 4; ++i) {
+    Model model;
+    add_rectangle(model, "Patch", {0.3f, 0.3f}, add_material(model, lamp(i % 2 == 0 ? vec3(1, 0, 0) : vec3(0, 1, 0))),
+                  {});
+    renderer.set_model(model);
+    renderer.draw(still(model), {&view, 1});
+    renderer.draw(still(model), {&view, 1});
+  }
+  const Image last = renderer.read_eye(0);
+  CHECK(centroid(last, 1).x > 0.0);
+  CHECK(centroid(last, 0, 100).x < 0.0);
+}
+
+TEST_CASE("an overlay covers what it draws on in every eye, in display values, and leaves the rest") {
+  GpuFixture fixture;
+  for (const int samples : {1, 4}) {
+    RenderConfig config = small_picture();
+    config.eyes = 2;
+    config.samples = samples;
+    Renderer renderer(fixture.gpu(), config);
+    renderer.set_environment(constant_sky({0.1f, 0.4f, 0.1f}));
+    const View view = view_at(config, look_at({0, 0, 3}, {0, 0, 0}));
+    const std::array views{view, view};
+    HalfCover cover;
+    Overlay* const overlay = &cover;
+    renderer.draw(FrameScene{}, views, {&overlay, 1});
+    CHECK(cover.drawn == 2);
+    for (int eye = 0; eye < 2; ++eye) {
+      const Image picture = renderer.read_eye(eye);
+      CHECK(std::abs(picture.pixel(20, 60)[0] - 128) <= 1);
+      CHECK(picture.pixel(20, 60)[1] == 64);
+      CHECK(picture.pixel(20, 60)[2] == 255);
+      check_shown(picture, 140, 60, {0.1, 0.4, 0.1});
+    }
+  }
+}
+
+TEST_CASE("the passes' times add up to the frame's") {
+  GpuFixture fixture;
+  RenderConfig config = small_picture();
+  config.shadow_side = 64;
+  Renderer renderer(fixture.gpu(), config);
+  const Model model = patch();
+  renderer.set_model(model);
+  const View view = view_at(config, look_at({0, 0, 3}, {0, 0, 0}));
+  for (int i = 0; i < 4; ++i) renderer.draw(still(model), {&view, 1});
+  const PassTimes& t = renderer.times();
+  REQUIRE(fixture.gpu().traits().timestamp_bits > 0);
+  CHECK(t.main > 0.0);
+  CHECK(t.all == doctest::Approx(t.shadow + t.mirror + t.main + t.overlay));
+}

@@ -1,0 +1,179 @@
+// A bench for pictures of a few triangles: models made here, a camera, a renderer, and the closed forms of what a
+// surface shows.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+
+#include "engine/render/renderer.h"
+#include "tests/support/gpu_fixture.h"
+
+namespace gearshift {
+
+inline Material paint(glm::vec3 colour, float roughness = 1.0f, float metallic = 0.0f) {
+  Material material;
+  material.base_colour = glm::vec4(colour, 1.0f);
+  material.roughness = roughness;
+  material.metallic = metallic;
+  return material;
+}
+
+// Black, and shines by itself.
+inline Material lamp(glm::vec3 colour) {
+  Material material = paint(glm::vec3(0.0f));
+  material.emissive = colour;
+  return material;
+}
+
+inline int add_material(Model& model, const Material& material) {
+  model.materials.push_back(material);
+  return static_cast<int>(model.materials.size()) - 1;
+}
+
+inline int add_node(Model& model, const std::string& name, int mesh, glm::vec3 at) {
+  Node node;
+  node.name = name;
+  node.mesh = mesh;
+  node.translation = at;
+  model.nodes.push_back(node);
+  return static_cast<int>(model.nodes.size()) - 1;
+}
+
+inline int add_mesh(Model& model, const std::vector<Vertex>& vertices, const std::vector<std::uint32_t>& indices,
+                    int material) {
+  Primitive primitive;
+  primitive.first_index = static_cast<std::uint32_t>(model.indices.size());
+  primitive.index_count = static_cast<std::uint32_t>(indices.size());
+  primitive.material = material;
+  primitive.low = primitive.high = vertices.front().position;
+  const auto first = static_cast<std::uint32_t>(model.vertices.size());
+  for (const Vertex& vertex : vertices) {
+    primitive.low = glm::min(primitive.low, vertex.position);
+    primitive.high = glm::max(primitive.high, vertex.position);
+    model.vertices.push_back(vertex);
+  }
+  for (const std::uint32_t index : indices) model.indices.push_back(first + index);
+  model.meshes.push_back({"", {primitive}, first, static_cast<std::uint32_t>(vertices.size())});
+  return static_cast<int>(model.meshes.size()) - 1;
+}
+
+// A rectangle in the plane z = 0 that faces +Z; (0, 0) of its texture is the upper left corner.
+inline std::vector<Vertex> rectangle(float half_width, float half_height) {
+  std::vector<Vertex> corners(4);
+  for (int i = 0; i < 4; ++i) {
+    const float x = i % 2 == 0 ? -1.0f : 1.0f, y = i / 2 == 0 ? 1.0f : -1.0f;
+    corners[static_cast<std::size_t>(i)].position = {x * half_width, y * half_height, 0.0f};
+    corners[static_cast<std::size_t>(i)].uv0 =
+        corners[static_cast<std::size_t>(i)].uv1 = {0.5f + 0.5f * x, 0.5f - 0.5f * y};
+  }
+  return corners;
+}
+inline const std::vector<std::uint32_t> kRectangle{0, 2, 1, 1, 2, 3};
+
+inline int add_rectangle(Model& model, const std::string& name, glm::vec2 half, int material, glm::vec3 at) {
+  return add_node(model, name, add_mesh(model, rectangle(half.x, half.y), kRectangle, material), at);
+}
+
+// Lies flat, faces up.
+inline int add_floor(Model& model, const std::string& name, float half, int material, float height) {
+  std::vector<Vertex> corners = rectangle(half, half);
+  for (Vertex& corner : corners) {
+    corner.position = {corner.position.x, 0.0f, -corner.position.y};
+    corner.normal = {0.0f, 1.0f, 0.0f};
+  }
+  return add_node(model, name, add_mesh(model, corners, kRectangle, material), {0.0f, height, 0.0f});
+}
+
+inline int add_cube(Model& model, const std::string& name, float half, int material, glm::vec3 at) {
+  std::vector<Vertex> vertices;
+  std::vector<std::uint32_t> indices;
+  for (int axis = 0; axis < 3; ++axis) {
+    for (const float side : {-1.0f, 1.0f}) {
+      glm::vec3 z(0.0f), x(0.0f);
+      z[axis] = side;
+      x[(axis + 1) % 3] = 1.0f;
+      const glm::vec3 y = glm::cross(z, x);
+      const auto first = static_cast<std::uint32_t>(vertices.size());
+      for (Vertex corner : rectangle(half, half)) {
+        corner.position = corner.position.x * x + corner.position.y * y + half * z;
+        corner.normal = z;
+        vertices.push_back(corner);
+      }
+      for (const std::uint32_t index : kRectangle) indices.push_back(first + index);
+    }
+  }
+  return add_node(model, name, add_mesh(model, vertices, indices, material), at);
+}
+
+inline FrameScene still(const Model& model) {
+  FrameScene scene;
+  for (const glm::mat4& world : rest_pose(model)) scene.nodes.push_back({.world = world});
+  scene.sun.irradiance = glm::vec3(0.0f);
+  return scene;
+}
+
+inline Radiance constant_sky(glm::vec3 radiance) {
+  return [=](glm::vec3) { return radiance; };
+}
+
+inline RenderConfig small_picture(int width = 160, int height = 120) {
+  RenderConfig config;
+  config.width = width;
+  config.height = height;
+  config.shadow_side = 0;
+  config.mirror_height = 0;
+  return config;
+}
+
+inline View view_at(const RenderConfig& config, const EyePose& eye, double vertical = 1.0) {
+  return view_from(eye, symmetric_fov(vertical, static_cast<double>(config.width) / config.height), 0.05);
+}
+
+// What a display shows of a radiance: Hill's ACES fit, then IEC 61966-2-1's transfer curve, in double.
+inline std::array<double, 3> shown(glm::dvec3 radiance) {
+  const glm::dmat3 to{{0.59719, 0.07600, 0.02840}, {0.35458, 0.90834, 0.13383}, {0.04823, 0.01566, 0.83777}};
+  const glm::dmat3 from{{1.60475, -0.10208, -0.00327}, {-0.53108, 1.10813, -0.07276}, {-0.07367, -0.00605, 1.07602}};
+  glm::dvec3 v = to * radiance;
+  v = (v * (v + 0.0245786) - 0.000090537) / (v * (0.983729 * v + 0.4329510) + 0.238081);
+  v = from * v;
+  std::array<double, 3> codes{};
+  for (int c = 0; c < 3; ++c) {
+    const double linear = std::min(std::max(v[c], 0.0), 1.0);
+    codes[static_cast<std::size_t>(c)] =
+        255.0 * (linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055);
+  }
+  return codes;
+}
+
+inline void check_shown(const Image& picture, int x, int y, glm::dvec3 radiance, double tolerance = 1.0) {
+  const std::array<double, 3> expected = shown(radiance);
+  for (std::size_t c = 0; c < 3; ++c) {
+    CAPTURE(c);
+    CHECK(std::abs(picture.pixel(x, y)[c] - expected[c]) <= tolerance);
+  }
+}
+
+// Centre of the light in a channel, weighed by how far it is above the threshold. [px] x < 0: there is none
+inline glm::dvec2 centroid(const Image& picture, int channel, int threshold = 40) {
+  glm::dvec2 sum(0.0);
+  double weight = 0.0;
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const double w = picture.pixel(x, y)[channel] - threshold;
+      if (w <= 0.0) continue;
+      sum += w * glm::dvec2(x + 0.5, y + 0.5);
+      weight += w;
+    }
+  }
+  return weight > 0.0 ? sum / weight : glm::dvec2(-1.0);
+}
+
+}  // namespace gearshift

@@ -1,0 +1,206 @@
+// A device that can be pulled out: OpenAL's own to memory, except for what it says of its connection. And real runs of
+// this program with no card, and with OpenAL's card that plays to nowhere.
+#include <cstdio>
+#include <cstdlib>
+#include <new>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "engine/sound/sound_device.h"
+#include "tests/engine/sound/measure.h"
+
+using namespace gearshift;
+
+namespace {
+
+struct Socket {
+  bool is_plugged = true;
+  int opened = 0, asked = 0;
+};
+
+class PluggedDevice : public SoundDevice {
+ public:
+  PluggedDevice(SoundOutput output, const Socket& socket)
+      : SoundDevice(output), socket_(socket), number_(socket.opened) {}
+  // Once pulled out a device stays lost: only a new one plays.
+  bool connected() const override {
+    return SoundDevice::connected() && socket_.is_plugged && socket_.opened == number_;
+  }
+
+ private:
+  const Socket& socket_;
+  int number_;
+};
+
+SoundDeviceOpener opener_of(Socket& socket) {
+  return [&socket](SoundOutput output) -> std::unique_ptr<SoundDevice> {
+    ++socket.asked;
+    if (!socket.is_plugged) throw std::runtime_error("unplugged");
+    ++socket.opened;
+    return std::make_unique<PluggedDevice>(output, socket);
+  };
+}
+
+std::vector<float> hum(double frequency) {
+  std::vector<float> out(kSoundRate / 2);
+  for (std::size_t n = 0; n < out.size(); ++n) {
+    out[n] =
+        0.5f * static_cast<float>(std::sin(2.0 * std::numbers::pi * frequency * static_cast<double>(n) / kSoundRate));
+  }
+  return out;
+}
+
+constexpr glm::vec3 kAhead{0.0f, 0.0f, -0.5f};
+
+// This program again, one test case of it, in another environment. Returns what it printed.
+std::string run_case(const std::string& environment, const std::string& name) {
+  const std::string command =
+      "env " + environment + " /proc/$PPID/exe --no-skip --test-case='" + name + "' 2>&1; echo \"rc $?\"";
+  std::string printed;
+  FILE* pipe = popen(command.c_str(), "r");
+  REQUIRE(pipe != nullptr);
+  char line[512];
+  while (std::fgets(line, sizeof line, pipe) != nullptr) printed += line;
+  pclose(pipe);
+  return printed;
+}
+
+void use_everything(SoundWorld& world) {
+  const ClipId clip = world.add_clip(hum(440.0));
+  const VoiceId voice = world.loop(clip, {kAhead});
+  for (int n = 0; n < 60; ++n) {
+    world.play(clip, {kAhead, 0.1f});
+    world.set(voice, {kAhead, 0.01f * static_cast<float>(n)});
+    world.restart(voice);
+    world.set_listener(kAhead, {0.0f, 0.0f, -1.0f}, {0.0f, 1.0f, 0.0f});
+    world.set_volume(0.5f);
+    world.update(0.1 * n);
+  }
+  std::vector<float> stereo(960, 1.0f);
+  world.render(stereo);
+  CHECK(peak(doubles(stereo)) == 0.0);  // a card's world renders nothing to memory
+}
+
+}  // namespace
+
+TEST_CASE("a lost device comes back with its clips and loops, as they were last asked for") {
+  Socket socket;
+  SoundWorld world(SoundOutput::memory, opener_of(socket));
+  const VoiceId voice = world.loop(world.add_clip(hum(440.0)), {kAhead});
+  world.set_volume(0.5f);
+  world.update(0.0);
+  const double before = amplitude_at(channel(listen(world, 0.5), Ear::left), 440.0);
+
+  socket.is_plugged = false;
+  world.update(1.0);
+  CHECK(world.output() == SoundOutput::none);
+  CHECK(world.why_silent() == "the sound device was lost");
+  CHECK(peak(channel(listen(world, 0.1), Ear::left)) == 0.0);
+  // Everything is still safe, and is remembered.
+  world.set(voice, {kAhead, 0.5f, 2.0f});
+  const VoiceId late = world.loop(world.add_clip(hum(300.0)), {kAhead, 0.25f});
+  world.play(0, {kAhead});
+  world.update(1.5);
+
+  socket.is_plugged = true;
+  world.update(2.5);
+  CHECK(world.output() == SoundOutput::memory);
+  CHECK(world.why_silent().empty());
+  const std::vector<double> left = channel(listen(world, 0.5), Ear::left);
+  CHECK(amplitude_at(left, 880.0) == doctest::Approx(0.5 * before).epsilon(0.02));
+  CHECK(amplitude_at(left, 300.0) == doctest::Approx(0.25 * before).epsilon(0.02));
+  CHECK(amplitude_at(left, 440.0) < 0.01 * before);  // nothing of what was asked long ago; the one-shot is past
+  world.set(late, {kAhead, 0.0f});
+  listen(world, 0.1);
+  CHECK(amplitude_at(channel(listen(world, 0.5), Ear::left), 300.0) < 1e-3 * before);
+}
+
+TEST_CASE("a lost device is asked for at most once a second, at once the first time, and for as long as it takes") {
+  Socket socket;
+  SoundWorld world(SoundOutput::memory, opener_of(socket));
+  CHECK(socket.asked == 1);
+  socket.is_plugged = false;
+  for (int frame = 0; frame <= 600; ++frame) world.update(100.0 + frame / 60.0);  // 10 s
+  CHECK(socket.asked >= 1 + 10);
+  CHECK(socket.asked <= 1 + 11);
+  const int so_far = socket.asked;
+  world.update(5.0);  // the clock was set back: at most a second is lost by that
+  world.update(6.1);
+  CHECK(socket.asked == so_far + 1);
+  socket.is_plugged = true;
+  world.update(7.2);
+  CHECK(world.output() == SoundOutput::memory);
+  CHECK(socket.opened == 2);
+  for (int frame = 0; frame < 600; ++frame) world.update(8.0 + frame / 60.0);
+  CHECK(socket.opened == 2);  // a device that works is left alone
+}
+
+TEST_CASE("ten losses in a row: every time it comes back, and nothing is left over") {
+  Socket socket;
+  SoundWorld world(SoundOutput::memory, opener_of(socket));
+  world.loop(world.add_clip(hum(440.0)), {kAhead});
+  const double before = amplitude_at(channel(listen(world, 0.5), Ear::left), 440.0);
+  for (int n = 0; n < 10; ++n) {
+    socket.is_plugged = false;
+    world.update(10.0 * n);
+    CHECK(world.output() == SoundOutput::none);
+    socket.is_plugged = true;
+    world.update(10.0 * n + 2.0);
+    CHECK(amplitude_at(channel(listen(world, 0.5), Ear::left), 440.0) == doctest::Approx(before).epsilon(1e-3));
+  }
+}
+
+TEST_CASE("an opener that fails in any way is no sound, and no exception") {
+  SoundWorld never(SoundOutput::card,
+                   [](SoundOutput) -> std::unique_ptr<SoundDevice> { throw std::runtime_error("no sound card"); });
+  CHECK(never.output() == SoundOutput::none);
+  CHECK(never.why_silent() == "no sound card");
+  use_everything(never);
+  bool is_first = true;
+  SoundWorld once(SoundOutput::memory, [&is_first](SoundOutput output) -> std::unique_ptr<SoundDevice> {
+    struct Loses : SoundDevice {
+      using SoundDevice::SoundDevice;
+      bool connected() const override { return false; }
+    };
+    if (!std::exchange(is_first, false)) throw std::bad_alloc();
+    return std::make_unique<Loses>(output);
+  });
+  CHECK(once.output() == SoundOutput::memory);
+  CHECK_NOTHROW(once.update(1.0));
+  CHECK(once.output() == SoundOutput::none);
+}
+
+TEST_CASE("child: without a sound card every call is safe and silent" * doctest::skip()) {
+  SoundWorld world(SoundOutput::card);
+  CHECK(world.output() == SoundOutput::none);
+  CHECK(world.why_silent() == "no sound card");
+  use_everything(world);
+  CHECK(SoundWorld(SoundOutput::memory).output() == SoundOutput::memory);  // memory needs no card
+}
+
+TEST_CASE("child: a card that plays to nowhere is a card" * doctest::skip()) {
+  SoundWorld world(SoundOutput::card);
+  CHECK(world.output() == SoundOutput::card);
+  CHECK(world.why_silent().empty());
+  use_everything(world);
+  CHECK(world.output() == SoundOutput::card);
+}
+
+TEST_CASE("without a sound card the world is silent, says so, prints nothing of its own, and every call is safe") {
+  const std::string printed = run_case("ALSOFT_DRIVERS=alsa ALSA_CONFIG_PATH=/nonexistent", "child: without*");
+  CAPTURE(printed);
+  CHECK(printed.find("1 passed") != std::string::npos);
+  CHECK(printed.find("rc 0") != std::string::npos);
+  CHECK(printed.find("ALSA lib") == std::string::npos);
+  CHECK(printed.find("AL lib") == std::string::npos);
+}
+
+TEST_CASE("a sound card plays by the mixer's own thread while every call is made") {
+  const std::string printed = run_case("ALSOFT_DRIVERS=null", "child: a card*");
+  CAPTURE(printed);
+  CHECK(printed.find("1 passed") != std::string::npos);
+  CHECK(printed.find("rc 0") != std::string::npos);
+}

@@ -1,0 +1,150 @@
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "engine/ui/ui.h"
+#include "engine/ui/ui_style.h"
+
+using namespace gearshift;
+
+namespace {
+
+constexpr int kKeyDown = 264, kKeyUp = 265, kKeySpace = 32, kKeyA = 65;  // as GLFW numbers them
+
+// One window with a button and a field.
+struct Form {
+  UiContext ui;
+  UiInput screen;
+  UiEvents events;
+  char text[32] = "";
+  int presses = 0;
+  ImVec2 button{0, 0}, field{0, 0};
+
+  void frame() {
+    ui.feed(events);
+    events.keys.clear();
+    events.text.clear();
+    events.scroll = {};
+    ui.begin(screen);
+    ImGui::SetNextWindowPos({20, 20});
+    ImGui::SetNextWindowSize({300, 200});
+    ImGui::Begin("form");
+    presses += ImGui::Button("press") ? 1 : 0;
+    button = middle();
+    ImGui::InputText("text", text, sizeof text);
+    field = middle();
+    ImGui::End();
+    ui.end();
+  }
+  void click(ImVec2 at) {
+    events.mouse = {static_cast<double>(at.x), static_cast<double>(at.y)};
+    frame();
+    events.mouse_down[0] = true;
+    frame();
+    events.mouse_down[0] = false;
+    frame();
+  }
+  static ImVec2 middle() {
+    const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+    return {0.5f * (low.x + high.x), 0.5f * (low.y + high.y)};
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a fed mouse presses a button once per click, and only there") {
+  Form form;
+  form.frame();
+  form.click(form.button);
+  CHECK(form.presses == 1);
+  form.click({600, 500});
+  CHECK(form.presses == 1);
+  form.events.mouse_here = false;  // captured by the lever: the buttons of the mouse are the lever's
+  form.events.mouse_down[0] = true;
+  form.frame();
+  form.events.mouse_down[0] = false;
+  form.frame();
+  CHECK(form.presses == 1);
+}
+
+TEST_CASE("the mouse belongs to the interface where a window is, and to what lies behind it elsewhere") {
+  Form form;
+  form.frame();
+  form.events.mouse = {static_cast<double>(form.button.x), static_cast<double>(form.button.y)};
+  form.frame();
+  form.frame();
+  CHECK(form.ui.wants_mouse());
+  form.events.mouse = {700, 600};
+  form.frame();
+  form.frame();
+  CHECK_FALSE(form.ui.wants_mouse());
+}
+
+TEST_CASE("the keyboard belongs to the interface while a field is edited, not because a button was clicked") {
+  Form form;
+  form.frame();
+  form.click(form.button);
+  CHECK_FALSE(form.ui.wants_keys());
+  form.click(form.field);
+  form.frame();
+  CHECK(form.ui.wants_keys());
+  form.events.text = U"5\u00b5";
+  form.frame();
+  form.frame();
+  CHECK(std::string(form.text) == "5\u00b5");
+}
+
+TEST_CASE("keys move and press: GLFW's numbers are known") {
+  Form form;
+  form.frame();
+  const auto strike = [&form](int key) {
+    form.events.keys = {{key, true}};
+    form.frame();
+    form.events.keys = {{key, false}};
+    form.frame();
+  };
+  form.click(form.button);
+  CHECK(form.presses == 1);
+  strike(kKeyDown);
+  strike(kKeyUp);
+  CHECK(form.ui.wants_keys());
+  strike(kKeySpace);
+  CHECK(form.presses == 2);
+  form.events.keys = {{9999, true}, {-1, true}, {kKeyA, true}};  // keys of no known number are no fault
+  form.frame();
+}
+
+TEST_CASE("keys that were down are up when the window lost the focus") {
+  Form form;
+  form.events.keys = {{kKeySpace, true}};
+  form.frame();
+  CHECK(ImGui::IsKeyDown(kKeySpace));
+  form.events.focused = false;
+  form.frame();
+  CHECK_FALSE(ImGui::IsKeyDown(kKeySpace));
+}
+
+TEST_CASE("fonts and sizes follow the scale, and letters beyond ASCII have a shape of their own") {
+  UiContext ui;
+  UiInput screen;
+  ui.begin(screen);
+  const float one = ui_em(), padding = ImGui::GetStyle().FramePadding.x;
+  for (const ImWchar letter : {ImWchar(0xb5), ImWchar(0xd7), ImWchar(0xb7), ImWchar(0x2026), ImWchar(0x2264)})
+    CHECK(ui_font(UiFont::body)->FindGlyphNoFallback(letter) != nullptr);
+  ui.end();
+  screen.scale = 3.0f;
+  ui.begin(screen);
+  CHECK(ui_em() == doctest::Approx(3.0 * static_cast<double>(one)).epsilon(0.01));
+  CHECK(ImGui::GetStyle().FramePadding.x == doctest::Approx(3.0 * static_cast<double>(padding)).epsilon(0.01));
+  ui.end();
+}
+
+TEST_CASE("two contexts do not disturb each other") {
+  Form one, other;
+  one.frame();
+  other.frame();
+  one.click(one.button);
+  other.frame();
+  CHECK(one.presses == 1);
+  CHECK(other.presses == 0);
+}

@@ -1,0 +1,106 @@
+// What a test sees and does from outside the program: a second client of the X server.
+#pragma once
+
+#include <X11/Xatom.h>
+#include <X11/Xlib.h>
+#include <X11/Xutil.h>
+
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "engine/image/image.h"
+
+namespace gearshift {
+
+class XServer {
+ public:
+  XServer() : display_(XOpenDisplay(nullptr)) {
+    [[maybe_unused]] static Display* const stays = XOpenDisplay(nullptr);  // Xvfb starts over when its last client goes
+    REQUIRE_MESSAGE(display_ != nullptr,
+                    "this test needs an X server: xvfb-run -a -s \"-screen 0 1280x720x24\" PROGRAM");
+  }
+  ~XServer() { XCloseDisplay(display_); }
+  XServer(const XServer&) = delete;
+  XServer& operator=(const XServer&) = delete;
+
+  // The window with that title, 0 where there is none.
+  ::Window find(const std::string& title) const {
+    ::Window root = 0, parent = 0, *children = nullptr, found = 0;
+    unsigned int count = 0;
+    XQueryTree(display_, DefaultRootWindow(display_), &root, &parent, &children, &count);
+    for (unsigned int i = 0; i < count; ++i) {
+      char* name = nullptr;
+      if (XFetchName(display_, children[i], &name) == 0) continue;
+      if (title == name) found = children[i];
+      XFree(name);
+    }
+    if (children != nullptr) XFree(children);
+    return found;
+  }
+
+  void resize(::Window window, int width, int height) {
+    XResizeWindow(display_, window, static_cast<unsigned>(width), static_cast<unsigned>(height));
+    XSync(display_, False);
+  }
+  void move(::Window window, int x, int y) {
+    XMoveWindow(display_, window, x, y);
+    XSync(display_, False);
+  }
+  // What a window manager does that minimises by taking the window off the screen, and back.
+  void unmap(::Window window) {
+    XUnmapWindow(display_, window);
+    XSync(display_, False);
+  }
+  void map(::Window window) {
+    XMapWindow(display_, window);
+    XSync(display_, False);
+  }
+  // What one does that keeps it on the screen: ICCCM 4.1.3.1, WM_STATE is Iconic (3) or Normal (1).
+  void set_iconic(::Window window, bool iconic) {
+    const Atom state = XInternAtom(display_, "WM_STATE", False);
+    const long value[2] = {iconic ? 3L : 1L, 0L};
+    XChangeProperty(display_, window, state, state, 32, PropModeReplace, reinterpret_cast<const unsigned char*>(value),
+                    2);
+    XSync(display_, False);
+  }
+  void ask_to_close(::Window window) {
+    XEvent event{};
+    event.xclient.type = ClientMessage;
+    event.xclient.window = window;
+    event.xclient.message_type = XInternAtom(display_, "WM_PROTOCOLS", False);
+    event.xclient.format = 32;
+    event.xclient.data.l[0] = static_cast<long>(XInternAtom(display_, "WM_DELETE_WINDOW", False));
+    XSendEvent(display_, window, False, NoEventMask, &event);
+    XSync(display_, False);
+  }
+
+  // What the screen shows of the window.
+  Image picture(::Window window) const {
+    XWindowAttributes at;
+    REQUIRE(XGetWindowAttributes(display_, window, &at) != 0);
+    XImage* seen = XGetImage(display_, window, 0, 0, static_cast<unsigned>(at.width), static_cast<unsigned>(at.height),
+                             AllPlanes, ZPixmap);
+    REQUIRE(seen != nullptr);
+    Image image{.width = at.width, .height = at.height, .rgba = {}};
+    for (int i = 0; i < at.width * at.height; ++i) {
+      const unsigned long pixel = XGetPixel(seen, i % at.width, i / at.width);
+      for (const int shift : {16, 8, 0}) image.rgba.push_back(static_cast<std::uint8_t>(pixel >> shift));
+      image.rgba.push_back(255);
+    }
+    XDestroyImage(seen);
+    return image;
+  }
+
+ private:
+  Display* display_;
+};
+
+// Mouse and keys as a person makes them: xdotool's, by XTEST.
+inline void xdotool(const std::string& arguments) {
+  REQUIRE_MESSAGE(std::system(("xdotool " + arguments).c_str()) == 0, "xdotool " << arguments);
+}
+
+}  // namespace gearshift

@@ -1,0 +1,74 @@
+// Whatever bytes: read_gltf() refuses them or gives a lawful model. The mutator keeps the lengths in the .glb header
+// true, or nearly every input would end there. Run: gltf_fuzz -max_len=20000 -malloc_limit_mb=3000 -rss_limit_mb=6000
+#include <algorithm>
+#include <cstdlib>
+#include <cstring>
+#include <random>
+#include <string>
+
+#include "tests/engine/model/gltf_everything.h"
+#include "tests/engine/model/model_laws.h"
+
+using namespace gearshift;
+
+// libFuzzer gives the names.
+// NOLINTBEGIN(readability-identifier-naming)
+extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
+
+namespace {
+
+std::size_t word_at(const std::uint8_t* at) {
+  std::uint32_t value = 0;
+  std::memcpy(&value, at, sizeof value);
+  return value;
+}
+
+std::string mutated(std::string bytes, std::size_t room) {
+  const std::size_t size = bytes.size();
+  bytes.resize(size + room);
+  bytes.resize(LLVMFuzzerMutate(reinterpret_cast<std::uint8_t*>(bytes.data()), size, bytes.size()));
+  return bytes;
+}
+
+std::string assembled(std::string json, std::string binary) {
+  json.resize((json.size() + 3) / 4 * 4, ' ');
+  binary.resize((binary.size() + 3) / 4 * 4, '\0');
+  const auto word = GltfMaker::word;
+  return "glTF" + word(2) + word(28 + json.size() + binary.size()) + word(json.size()) + "JSON" + json +
+         word(binary.size()) + std::string("BIN\0", 4) + binary;
+}
+
+}  // namespace
+
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
+                                               unsigned seed) {
+  std::minstd_rand random(seed);
+  const std::size_t json_size = size < 28 ? 0 : word_at(data + 12);
+  std::string file;
+  if (json_size == 0 || json_size > size - 28) {
+    file = everything().glb();
+  } else if (random() % 8 == 0) {
+    return LLVMFuzzerMutate(data, size, max_size);
+  } else {
+    std::string json(reinterpret_cast<const char*>(data) + 20, json_size);
+    std::string binary(reinterpret_cast<const char*>(data) + 28 + json_size, size - 28 - json_size);
+    std::string& part = random() % 3 == 0 ? binary : json;
+    part = mutated(part, 64);
+    file = assembled(json, binary);
+  }
+  if (file.size() > max_size) file.resize(max_size);
+  std::copy(file.begin(), file.end(), data);
+  return file.size();
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const TempFolder folder;
+  const std::filesystem::path file = folder / "model.glb";
+  write_bytes(file, {reinterpret_cast<const char*>(data), size});
+  try {
+    if (!lawful(read_gltf(file))) std::abort();
+  } catch (const GltfError&) {  // the only thing that it may throw
+  }
+  return 0;
+}
+// NOLINTEND(readability-identifier-naming)
