@@ -1,0 +1,1 @@
+"""Interior of a left-hand-drive compact hatchback."""

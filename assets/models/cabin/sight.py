@@ -1,0 +1,62 @@
+"""Where the cabin is looked at from: viewpoints that decide what is hidden, texel density, cameras of previews."""
+from mathutils import Vector
+
+from cabin.dimensions import CENTRE_X, CLUSTER_CENTRE, EYE, KNOB_CENTRE
+
+VIEWPOINTS = [
+    (0.0, -0.05, 0.635),
+    (-0.15, 0.05, 0.60),
+    (0.15, 0.05, 0.70),
+    (0.0, 0.20, 0.45),
+    (-0.25, 0.25, 0.15),
+    (0.33, 0.10, 0.50),
+    (0.20, 0.15, 0.30),
+    (0.33, 0.45, 0.60),
+    (0.67, -0.05, 0.60),
+    (0.93, -0.30, 0.80),
+    (0.90, 0.25, 0.15),
+    (0.67, 0.45, 0.10),
+    (0.0, 0.60, -0.05),
+    (0.33, -0.60, 0.70),
+    (0.33, 0.75, 0.75),
+]
+NEAR = ("Knob", "Boot", "GatePlate", "Lever", "Cluster", "Tach", "Speed", "Gear", "SteeringWheel")
+CLOSE = (
+    "Console",
+    "CentreStack",
+    "Climate",
+    "Radio",
+    "Hazard",
+    "Handbrake",
+    "Stalk",
+    "Column",
+    "Vents",
+    "Dash",
+    "Pedal",
+)
+FAR = ("Roof", "Pillars", "Rear", "Floor", "Tunnel", "SunVisor", "Wipers", "Belt")
+
+
+def density(name):
+    """Texels along an edge, against an ordinary part."""
+    for k, names in ((2.2, NEAR), (1.5, CLOSE), (0.5, FAR)):
+        if name.startswith(names):
+            return k
+    return 0.9
+
+
+CAMERAS = {  # position, target, field of view [deg] across
+    "driver": (EYE, Vector((0.10, 0.70, 0.42)), 82),
+    "lever": (EYE + Vector((0.03, 0.06, 0.0)), Vector((0.29, 0.33, 0.07)), 50),
+    "quarter": (Vector((0.93, -0.30, 0.80)), Vector((0.06, 0.46, 0.20)), 88),
+    "ahead": (EYE, EYE + Vector((0, 1, -0.08)), 95),
+    "gate": (KNOB_CENTRE + Vector((-0.09, -0.19, 0.20)), KNOB_CENTRE + Vector((0, 0, -0.04)), 50),
+    "cluster": (EYE, CLUSTER_CENTRE, 28),
+    "down": (EYE, Vector((0, 0.75, -0.1)), 75),
+    "left": (EYE, Vector((-0.5, 0.5, 0.35)), 85),
+    "outside": (Vector((-1.6, 2.6, 1.2)), Vector((0.33, 0.2, 0.3)), 45),
+    "seats": (Vector((0.33, 0.75, 0.75)), Vector((0.33, -0.4, 0.15)), 90),
+    "top": (Vector((CENTRE_X, -0.2, 3.2)), Vector((CENTRE_X, 0.25, 0)), 45),
+}
+
+HIDDEN = {"top": ("RoofLining", "SunVisor"), "gate": ("Boot",)}  # parts left out of a preview

@@ -1,0 +1,1 @@
+"""Tools shared by all models: pieces and parts, outlines, textures, materials, occlusion bake, export."""

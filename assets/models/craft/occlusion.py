@@ -1,0 +1,190 @@
+"""Ambient occlusion baked into a second UV set.
+
+Faces that no viewpoint in the cabin sees share one texel; what is near the hands gets more texels than the roof.
+"""
+import os
+
+import bpy
+import numpy as np
+from mathutils import Vector
+from mathutils.bvhtree import BVHTree
+from PIL import Image
+
+from craft import atlas, scene, textures
+from craft.materials import MATERIALS, load_image
+
+SIZE, SAMPLES, REACH = 2048, 64, 0.30  # texels a side, rays a texel, m
+FLOOR = 0.26  # darkest value: light has bounced more than once
+
+
+def wanted(ob):
+    return any(m and m["occlusion"] for m in ob.data.materials)
+
+
+def sees_through(ob):
+    return any(m and m.name in ("Glass",) for m in ob.data.materials)
+
+
+def world_tree(objects):
+    """All faces in world coordinates, for rays."""
+    verts, faces = [], []
+    for o in objects:
+        first, world = len(verts), scene.WORLD[o.name]
+        verts += [world @ v.co for v in o.data.vertices]
+        faces += [[first + v for v in p.vertices] for p in o.data.polygons]
+    return BVHTree.FromPolygons(verts, faces)
+
+
+def is_seen(tree, points, normal, viewpoints):
+    for eye in viewpoints:
+        for p in points:
+            ray = p - eye
+            if ray.dot(normal) >= 0:
+                continue
+            distance = ray.length
+            hit = tree.ray_cast(eye, ray / distance, distance - 0.002)
+            if hit[0] is None:
+                return True
+    return False
+
+
+def seen_faces(ob, tree, viewpoints):
+    """One flag a face: whether its middle or a point near a corner is seen."""
+    world = scene.WORLD[ob.name]
+    turn = world.to_3x3()
+    flags = []
+    for p in ob.data.polygons:
+        middle, normal = world @ p.center, turn @ p.normal
+        corners = [world @ ob.data.vertices[v].co for v in p.vertices]
+        points = [middle] + [middle.lerp(c, 0.8) for c in corners]
+        two_sided = not ob.data.materials[p.material_index].use_backface_culling
+        seen = is_seen(tree, points, normal, viewpoints)
+        flags.append(seen or (two_sided and is_seen(tree, points, -normal, viewpoints)))
+    return flags
+
+
+def unwrap(objects, hidden, density):
+    """UVAO: smart projection of what is seen, density[name] times as many texels; the rest in the corner."""
+    bpy.ops.object.select_all(action="DESELECT")
+    for o in objects:
+        layer = o.data.uv_layers.new(name="UVAO")
+        o.data.uv_layers.active = layer
+        o.select_set(True)
+        bpy.context.view_layer.objects.active = o
+    bpy.ops.object.mode_set(mode="EDIT")
+    bpy.ops.mesh.select_all(action="SELECT")
+    bpy.ops.uv.smart_project(angle_limit=1.2566, island_margin=0.0, area_weight=0.2, correct_aspect=False)
+    bpy.ops.object.mode_set(mode="OBJECT")
+    owners, shapes = [], []
+    for o in objects:
+        uv = o.data.uv_layers["UVAO"].data
+        seen = [not h for h in hidden[o.name]]
+        k = density(o.name) * atlas.world_scale(o, "UVAO", [p for p, s in zip(o.data.polygons, seen) if s])
+        for loops in atlas.islands(o.data, "UVAO", seen):
+            owners.append((uv, loops))
+            shapes.append(np.array([uv[li].uv for li in loops]) * k)
+        for p, s in zip(o.data.polygons, seen):
+            if not s:
+                for li in p.loop_indices:
+                    uv[li].uv = (0.25 / SIZE, 0.25 / SIZE)
+    placed, scale = atlas.pack(shapes, 3.0 / SIZE)
+    for (uv, loops), points in zip(owners, placed):
+        for li, point in zip(loops, points):
+            uv[li].uv = point
+    print("occlusion: %d islands, %.2f mm a texel at density 1" % (len(shapes), 1e3 / (scale * SIZE)))
+
+
+def joined_copy(objects):
+    """One mesh of all objects where they stand in the world, hidden faces included: they still cast shade."""
+    bpy.ops.object.select_all(action="DESELECT")
+    for o in objects:
+        copy = scene.link(o.copy())
+        copy.data = o.data.copy()
+        copy.parent = None
+        copy.matrix_world = scene.WORLD[o.name]
+        copy.hide_render = False
+        copy.select_set(True)
+        bpy.context.view_layer.objects.active = copy
+    bpy.ops.object.join()
+    return bpy.context.view_layer.objects.active
+
+
+def bake(objects):
+    """Bakes and saves the occlusion picture. Returns its path."""
+    sc = bpy.context.scene
+    sc.render.engine, sc.cycles.samples, sc.cycles.seed = "CYCLES", SAMPLES, 0
+    sc.cycles.use_denoising = False  # Debian's Blender has no denoiser: left on, the bake comes out black
+    sc.world = sc.world or bpy.data.worlds.new("world")
+    sc.world.light_settings.distance = REACH
+    for o in scene.meshes():
+        o.hide_render = True
+    whole = joined_copy(objects)
+    picture = bpy.data.images.new("occlusion", SIZE, SIZE)
+    picture.colorspace_settings.name = "Non-Color"
+    target = bpy.data.materials.new("bake")
+    target.use_nodes = True
+    node = target.node_tree.nodes.new("ShaderNodeTexImage")
+    node.image = picture
+    target.node_tree.nodes.active = node
+    for i in range(len(whole.data.materials)):
+        whole.data.materials[i] = target
+    layer = whole.data.uv_layers["UVAO"]
+    whole.data.uv_layers.active = layer
+    layer.active_render = True
+    bpy.ops.object.bake(type="AO", margin=3, use_clear=True)
+    values = np.empty(SIZE * SIZE * 4, np.float32)
+    picture.pixels.foreach_get(values)
+    path = save_occlusion(values.reshape(SIZE, SIZE, 4)[::-1, :, 0])
+    mesh = whole.data  # an orphan mesh with an empty slot crashes the exporter: remove it too
+    bpy.data.objects.remove(whole)
+    bpy.data.meshes.remove(mesh)
+    bpy.data.materials.remove(target)
+    for o in scene.meshes():
+        o.hide_render = False
+    for o in objects:
+        o.data.uv_layers["UVMap"].active = True
+        o.data.uv_layers["UVMap"].active_render = True
+    return path
+
+
+def save_occlusion(values):
+    softened = FLOOR + (1 - FLOOR) * np.clip(values, 0, 1) ** 0.8
+    softened[-2:, :2] = 0.5  # the texel of all hidden faces
+    path = os.path.join(textures.FOLDER, "occlusion.jpg")
+    Image.fromarray((softened * 255).astype(np.uint8)).convert("RGB").save(path, quality=88)
+    return path
+
+
+def connect(path):
+    """glTF occlusionTexture: a group node of this very name with an input `Occlusion`, fed through UVAO."""
+    group = bpy.data.node_groups.new("glTF Material Output", "ShaderNodeTree")
+    group.inputs.new("NodeSocketFloat", "Occlusion")
+    group.nodes.new("NodeGroupInput")
+    picture = load_image(path, True)
+    for m in MATERIALS.values():
+        if not m["occlusion"]:
+            continue
+        tree = m.node_tree
+        output = tree.nodes.new("ShaderNodeGroup")
+        output.node_tree = group
+        texture = tree.nodes.new("ShaderNodeTexImage")
+        texture.image = picture
+        second = tree.nodes.new("ShaderNodeUVMap")
+        second.uv_map = "UVAO"
+        tree.links.new(second.outputs[0], texture.inputs[0])
+        tree.links.new(texture.outputs[0], output.inputs["Occlusion"])
+        first = tree.nodes.new("ShaderNodeUVMap")
+        first.uv_map = "UVMap"
+        for n in tree.nodes:  # bpy wrappers: compare names, never identity
+            if n.type == "TEX_IMAGE" and n.name != texture.name:
+                tree.links.new(first.outputs[0], n.inputs[0])
+
+
+def add(viewpoints, density):
+    """Second UV set, bake and connection for all objects whose materials take occlusion."""
+    objects = [o for o in scene.meshes() if wanted(o)]
+    tree = world_tree([o for o in scene.meshes() if not sees_through(o)])
+    hidden = {o.name: [not s for s in seen_faces(o, tree, [Vector(v) for v in viewpoints])] for o in objects}
+    unwrap(objects, hidden, density)
+    connect(bake(objects))
+    return sum(sum(h) for h in hidden.values()), sum(len(h) for h in hidden.values())

@@ -1,0 +1,165 @@
+"""The print atlas: dials, radio screen, gear characters, climate icons; base colour and emission.
+
+2048 x 1024 px, drawn at twice the size. Rectangles are (left, top, right, bottom) in pixels, v downwards.
+"""
+import os
+from math import cos, radians, sin
+
+from PIL import Image, ImageDraw, ImageFont
+
+from craft import textures
+
+WIDTH, HEIGHT = 2048, 1024
+DIAL = 672
+GEARS = "RN123456789"  # one cell each; the gear panel's uv0 covers N
+GEAR_CELL = 176
+GEAR_STEP = GEAR_CELL / WIDTH  # uv0 shift in u from one character to the next
+PIXELS = {
+    "tach": (0, 0, DIAL, DIAL),
+    "speed": (DIAL, 0, 2 * DIAL, DIAL),
+    "screen": (1344, 0, 2048, 396),
+    "climate": (1344, 400, 2048, 576),
+    "hazard": (1344, 580, 1472, 644),
+    "gear": (GEAR_CELL, DIAL, 2 * GEAR_CELL, DIAL + GEAR_CELL),
+}
+FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf"
+OVER = 2  # supersampling
+WHITE, GREY = (236, 238, 240), (150, 158, 166)
+
+
+def rect(name):
+    """(u0, v0, u1, v1) with v counted upwards, Blender's sense."""
+    a, b, c, d = PIXELS[name]
+    return a / WIDTH, 1 - d / HEIGHT, c / WIDTH, 1 - b / HEIGHT
+
+
+def dimmed(colour, k):
+    return tuple(int(v * k) for v in colour)
+
+
+class Sheet:
+    """Two pictures drawn together: what reflects light and what glows."""
+
+    def __init__(self):
+        self.base = Image.new("RGB", (WIDTH * OVER, HEIGHT * OVER), (10, 10, 11))
+        self.glow = Image.new("RGB", self.base.size, (0, 0, 0))
+        self.on_base, self.on_glow = ImageDraw.Draw(self.base), ImageDraw.Draw(self.glow)
+
+    def both(self, draw, colour, glow_colour):
+        draw(self.on_base, colour)
+        draw(self.on_glow, glow_colour)
+
+    def text(self, x, y, words, px, colour=WHITE, glow=0.62):
+        font = ImageFont.truetype(FONT, int(px * OVER))
+        at = (x * OVER, y * OVER)
+        self.both(lambda d, c: d.text(at, words, font=font, fill=c, anchor="mm"), colour, dimmed(colour, glow))
+
+    def line(self, p, q, width, colour=WHITE, glow=0.62):
+        ends = [v * OVER for v in (*p, *q)]
+        self.both(lambda d, c: d.line(ends, fill=c, width=int(width * OVER)), colour, dimmed(colour, glow))
+
+    def box(self, r, colour, glow_colour, radius=0):
+        corners = [r[0] * OVER, r[1] * OVER, r[2] * OVER - 1, r[3] * OVER - 1]
+        self.both(lambda d, c: d.rounded_rectangle(corners, radius * OVER, fill=c), colour, glow_colour)
+
+    def disc(self, cx, cy, r, **k):
+        self.on_base.ellipse([(cx - r) * OVER, (cy - r) * OVER, (cx + r) * OVER, (cy + r) * OVER], **k)
+
+    def arc(self, cx, cy, r, a0, a1, width, colour, glow_colour):
+        """From a0 to a1 degrees, clockwise from three o'clock."""
+        around = [(cx - r) * OVER, (cy - r) * OVER, (cx + r) * OVER, (cy + r) * OVER]
+        self.both(lambda d, c: d.arc(around, a0, a1, fill=c, width=width * OVER), colour, glow_colour)
+
+    def save(self):
+        paths = []
+        for name, picture in (("prints.png", self.base), ("prints_emit.png", self.glow)):
+            paths.append(os.path.join(textures.FOLDER, name))
+            picture.resize((WIDTH, HEIGHT), Image.LANCZOS).save(paths[-1], optimize=True)
+        return paths
+
+
+def draw_dial(sheet, name, top, major, minor, label, unit, sweep, red=None, px=44):
+    """A dial of `sweep` degrees, zero at the lower left."""
+    left, upper, right, lower = PIXELS[name]
+    cx, cy, s = (left + right) / 2, (upper + lower) / 2, DIAL / 512
+    face, scale = 248 * s, 240 * s
+    for i in range(60, 0, -1):  # dark radial gradient
+        v = int(9 + 13 * (1 - i / 60))
+        sheet.disc(cx, cy, face * i / 60, fill=(v, v, v + 2))
+
+    def polar(value, r):
+        a = radians(90 + sweep / 2 - sweep * value / top)
+        return cx + r * s * cos(a), cy - r * s * sin(a)
+
+    if red is not None:
+        a0 = 270 - sweep / 2 + sweep * red / top
+        sheet.arc(cx, cy, scale, a0, 270 + sweep / 2, int(13 * s), (205, 28, 24), (150, 12, 8))
+    for i in range(round(top / minor) + 1):
+        value = i * minor
+        is_major = i % round(major / minor) == 0
+        colour = (235, 50, 40) if red is not None and value >= red - 1e-6 else WHITE
+        ends = polar(value, 238), polar(value, 204 if is_major else 222)
+        sheet.line(*ends, (6 if is_major else 2.6) * s, colour)
+        if is_major:
+            sheet.text(*polar(value, 170), label(value), px * s, colour)
+    sheet.text(cx, cy + 92 * s, unit, 21 * s, GREY)
+    sheet.disc(cx, cy, face, outline=(60, 62, 66), width=int(3 * s * OVER))
+
+
+def draw_screen(sheet):
+    left, top, right, bottom = PIXELS["screen"]
+    k = (right - left) / 512
+    x, y = (lambda v: left + v * k), (lambda v: top + v * k)
+    sheet.box(PIXELS["screen"], (9, 13, 19), (6, 10, 16))
+    sheet.text(x(256), y(40), "12:00", 30 * k, (220, 230, 240))
+    sheet.text(x(70), y(40), "FM", 22 * k, (130, 170, 210))
+    sheet.text(x(440), y(40), "21\N{DEGREE SIGN}C", 22 * k, (130, 170, 210))
+    sheet.line((x(20), y(64)), (x(492), y(64)), 2, (60, 90, 120))
+    sheet.text(x(256), y(128), "98.4 MHz", 52 * k, (235, 240, 245))
+    sheet.text(x(256), y(178), "Cabin Radio", 22 * k, (130, 150, 170))
+    for i, words in enumerate(("RADIO", "MEDIA", "MAP", "CAR")):
+        tile = (x(20 + i * 120), y(222), x(130 + i * 120), y(270))
+        sheet.box(tile, (30, 38, 48) if i else (120, 26, 20), (20, 28, 38) if i else (88, 16, 12), 8 * k)
+        sheet.text(x(75 + i * 120), y(246), words, 18 * k, (200, 208, 216))
+
+
+def draw_gears(sheet):
+    for i, character in enumerate(GEARS):
+        left, top = i * GEAR_CELL, DIAL
+        sheet.box((left, top, left + GEAR_CELL, top + GEAR_CELL), (8, 10, 12), (4, 6, 8))
+        sheet.text(left + GEAR_CELL / 2, top + 100, character, 112, (240, 244, 248), 0.9)
+        sheet.text(left + GEAR_CELL / 2, top + 26, "GEAR", 20, GREY)
+
+
+def draw_climate(sheet):
+    left, top, right, bottom = PIXELS["climate"]
+    middle, k = (top + bottom) / 2, (right - left) / 512
+    sheet.box(PIXELS["climate"], (9, 9, 10), (0, 0, 0))
+    for i, centre in enumerate((96, 256, 416)):
+        for step in range(11):
+            a = radians(225 - 27 * step)
+            warm = (70, 120, 220) if step < 5 else (220, 60, 50)
+            x = left + centre * k
+            ends = [(x + r * k * cos(a), middle - r * k * sin(a)) for r in (51, 58)]
+            sheet.line(*ends, 4 * k, warm if i == 0 else (205, 208, 212), 0.45)
+
+
+def draw_hazard(sheet):
+    left, top, right, bottom = PIXELS["hazard"]
+    cx = (left + right) / 2
+    sheet.box(PIXELS["hazard"], (18, 18, 19), (0, 0, 0))
+    corners = [(cx, top + 10), (cx + 26, top + 54), (cx - 26, top + 54), (cx, top + 10), (cx + 26, top + 54)]
+    outline = [(x * OVER, y * OVER) for x, y in corners]
+    sheet.both(lambda d, c: d.line(outline, fill=c, width=6 * OVER), (220, 40, 36), (120, 14, 10))
+
+
+def draw_all(sweep, tach_top, tach_red, speed_top):
+    """Draws and saves the atlas. Returns the paths of base colour and emission."""
+    sheet = Sheet()
+    draw_dial(sheet, "tach", tach_top, 1, 0.25, lambda v: "%d" % round(v), "1/min x1000", sweep, tach_red, 46)
+    draw_dial(sheet, "speed", speed_top, 20, 10, lambda v: "%d" % round(v), "km/h", sweep, px=30)
+    draw_screen(sheet)
+    draw_gears(sheet)
+    draw_climate(sheet)
+    draw_hazard(sheet)
+    return sheet.save()

@@ -1,0 +1,59 @@
+"""Twelve metres of road, repeatable along y; x = 0 is the middle of the driver's lane (right-hand traffic)."""
+from math import sin
+
+from road.pieces import Thing
+
+LENGTH, LANE, LINE = 12.0, 3.5, 0.12
+DASH = 4.0  # and 8 m of gap: one dash a tile
+VERGE = 30.0  # grass to either side
+LEFT, RIGHT = -LANE * 1.5, LANE / 2  # edge lines
+SHOULDER = 0.45
+PAINT_LIFT = 0.0  # strips lie side by side in the surface
+
+
+def columns():
+    """x of the strips across the road and whether a strip is a marking."""
+    xs = [LEFT - SHOULDER]
+    for line in (LEFT, -LANE / 2, RIGHT):
+        xs += [line - LINE / 2, line + LINE / 2]
+    return xs + [RIGHT + SHOULDER]
+
+
+def build():
+    half = LENGTH / 2
+    part = Thing("Road", smooth=60)
+    xs = columns()
+    for i, (x0, x1) in enumerate(zip(xs, xs[1:])):
+        is_line, is_middle = i % 2 == 1, i == 3
+        ends = ((-half, -half + DASH), (-half + DASH, half)) if is_middle else ((-half, half),)
+        for k, (y0, y1) in enumerate(ends):
+            corners = [(x0, y0, 0), (x1, y0, 0), (x1, y1, 0), (x0, y1, 0)]
+            if is_line and not (is_middle and k):
+                part.face(corners, "paint")
+            else:
+                part.piece(corners, [(0, 1, 2, 3)], "Asphalt", recalc=False)
+    for side, edge in ((-1, xs[0]), (1, xs[-1])):
+        add_verge(part, side, edge, half)
+    part.build()
+
+
+def add_verge(part, side, edge, half):
+    """Gravel strip, shallow ditch, then grass that falls away a little."""
+    gravel = [(edge, y, z) for y in (-half, half) for z in (0,)]
+    gravel = [gravel[0], (edge + side * 0.6, -half, -0.05), (edge + side * 0.6, half, -0.05), gravel[1]]
+    part.face(gravel if side > 0 else gravel[::-1], "earth")
+    profile = ((0.6, -0.05), (1.6, -0.28), (2.4, -0.30), (3.6, -0.06), (8.0, 0.02), (16.0, -0.05), (VERGE, -0.45))
+    stations = [-half + LENGTH * i / 4 for i in range(5)]
+    grid = []
+    for y in stations:
+        roll = 0.05 * sin(2 * 3.141592653589793 * y / LENGTH)  # repeats with the tile
+        grid.append([(edge + side * d, y, z + roll * (d > 3)) for d, z in profile])
+    verts = [p for row in grid for p in row]
+    n = len(profile)
+    faces = []
+    for j in range(len(grid) - 1):
+        for i in range(n - 1):
+            a = j * n + i
+            quad = (a, a + 1, a + n + 1, a + n)
+            faces.append(quad if side > 0 else quad[::-1])
+    part.piece(verts, faces, "Grass", recalc=False)
