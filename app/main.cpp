@@ -17,7 +17,10 @@ int run(int argc, char** argv) {
   app.require_subcommand(0, 1);  // an unknown verb shall be named, so that none is refused below
 
   gearshift::VerbAction action;
+  gearshift::add_train_verb(app, action);
+  gearshift::add_demo_verb(app, action);
   gearshift::add_tour_verb(app, action);
+  gearshift::add_render_verb(app, action);
   gearshift::add_gate_verb(app, action);
   gearshift::add_identify_verb(app, action);
   gearshift::add_stability_verb(app, action);
@@ -29,7 +32,8 @@ int run(int argc, char** argv) {
     app.parse(argc, argv);
     if (!action)
       throw CLI::RequiredError(
-          "A subcommand: tour, gate, identify, stability, reproduce, replay or bench (see --help)");
+          "A subcommand: train, demo, tour, render, gate, identify, stability, reproduce, replay or bench (see "
+          "--help)");
     return action();
   } catch (const CLI::Success& help) {
     return app.exit(help);

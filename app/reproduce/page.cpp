@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "app/draw/html.h"
 #include "app/hold_words.h"
 #include "app/limited_words.h"
 #include "haptics/files/file_error.h"
@@ -13,66 +14,21 @@
 namespace gearshift {
 namespace {
 
-constexpr const char* kStyle = R"css(
-body { font: 16px/1.5 "DejaVu Sans", "Segoe UI", sans-serif; color: #1f2933; background: #fff; max-width: 72rem;
-       margin: 2rem auto; padding: 0 1.5rem; }
-h1 { font-size: 1.7rem; line-height: 1.25; }
-h2 { font-size: 1.3rem; margin-top: 3rem; border-top: 1px solid #d5dbe1; padding-top: 1.2rem; }
-a { color: #1f5fa8; }
-nav ol { columns: 2; }
-table { border-collapse: collapse; width: 100%; margin: 1rem 0; font-size: 0.92rem; }
-caption { text-align: left; color: #6b7785; padding-bottom: 0.4rem; }
-th, td { text-align: left; vertical-align: top; padding: 0.45rem 0.8rem 0.45rem 0; border-bottom: 1px solid #d5dbe1; }
-table.findings th, table.findings td { width: 33%; }
-table.facts { width: auto; }
-figure { margin: 1.6rem 0; }
-img { max-width: 100%; height: auto; }
-figcaption { color: #6b7785; font-size: 0.92rem; }
-@media print {
-  body { font-size: 10pt; max-width: none; margin: 0; }
-  h2, figure, tr { break-inside: avoid; }
-  h2 { break-after: avoid; }
-}
-)css";
-
-std::string html(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
-
 std::string table_row(std::string_view tag, const std::vector<std::string>& cells) {
   std::string row = "<tr>";
-  for (const std::string& cell : cells) row += fmt::format("<{0}>{1}</{0}>", tag, html(cell));
+  for (const std::string& cell : cells) row += fmt::format("<{0}>{1}</{0}>", tag, html_text(cell));
   return row + "</tr>\n";
 }
 
 std::string link_if_there(const Study& study, const std::string& file, std::string_view words) {
   if (!std::filesystem::exists(study.folder / file)) return {};
-  return fmt::format(" <a href=\"{}\">{}</a>", html(file), words);
+  return fmt::format(" <a href=\"{}\">{}</a>", html_text(file), words);
 }
 
 std::string contents(const std::vector<Section>& sections) {
   std::string list = "<nav><ol>\n";
   for (const Section& section : sections) {
-    list += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", html(section.id), html(section.title));
+    list += fmt::format("<li><a href=\"#{}\">{}</a></li>\n", html_text(section.id), html_text(section.title));
   }
   return list + "</ol></nav>\n";
 }
@@ -96,7 +52,7 @@ std::string tuning_words(const AdmittedTuning& admitted) {
 // What was run: all of it from the one preset.
 std::string configuration(const Study& study) {
   const auto row = [](std::string_view what, const std::string& value) {
-    return fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", what, html(value));
+    return fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", what, html_text(value));
   };
   std::string table =
       "<table class=\"facts\">\n" + row("Preset", study.preset.name) +
@@ -120,7 +76,7 @@ std::string findings_table(const std::vector<Finding>& findings) {
 
 std::string plain_table(const Study& study, const Table& table) {
   if (table.rows.empty()) return {};
-  std::string text = fmt::format("<table>\n<caption>{}{}</caption>\n", html(table.caption),
+  std::string text = fmt::format("<table>\n<caption>{}{}</caption>\n", html_text(table.caption),
                                  link_if_there(study, table.name + ".csv", "CSV"));
   for (std::size_t i = 0; i < table.rows.size(); ++i) text += table_row(i == 0 ? "th" : "td", table.rows[i]);
   return text + "</table>\n";
@@ -129,14 +85,16 @@ std::string plain_table(const Study& study, const Table& table) {
 std::string picture_figure(const Study& study, const Picture& picture) {
   const std::string& data = picture.data.empty() ? picture.name : picture.data;
   return fmt::format("<figure><img src=\"{0}.svg\" alt=\"{1}\">\n<figcaption>{1}{2}{3}{4}</figcaption></figure>\n",
-                     html(picture.name), html(picture.caption), link_if_there(study, picture.name + ".svg", "SVG"),
+                     html_text(picture.name), html_text(picture.caption),
+                     link_if_there(study, picture.name + ".svg", "SVG"),
                      link_if_there(study, picture.name + ".png", "PNG"), link_if_there(study, data + ".csv", "CSV"));
 }
 
 std::string section_text(const Study& study, const Section& section) {
-  std::string text = fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n<p>{}</p>\n", html(section.id), html(section.title),
-                                 html(section.text));
-  if (!section.problem.empty()) text += fmt::format("<p><strong>Not made: {}</strong></p>\n", html(section.problem));
+  std::string text = fmt::format("<section id=\"{}\">\n<h2>{}</h2>\n<p>{}</p>\n", html_text(section.id),
+                                 html_text(section.title), html_text(section.text));
+  if (!section.problem.empty())
+    text += fmt::format("<p><strong>Not made: {}</strong></p>\n", html_text(section.problem));
   text += findings_table(section.findings) + plain_table(study, section.table);
   for (const Picture& picture : section.pictures) text += picture_figure(study, picture);
   return text + "</section>\n";
@@ -157,7 +115,7 @@ void write_page(const Study& study, const std::vector<Section>& sections) {
   out << "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>The paper, "
          "reproduced</title>\n<style>"
-      << kStyle << "</style>\n</head>\n<body>\n<h1>The paper, reproduced</h1>\n<p>" << kIntroduction << "</p>\n"
+      << html_style() << "</style>\n</head>\n<body>\n<h1>The paper, reproduced</h1>\n<p>" << kIntroduction << "</p>\n"
       << configuration(study) << contents(sections);
   for (const Section& section : sections) out << section_text(study, section);
   out << "<p>gearshift " << GEARSHIFT_VERSION << "</p>\n</body>\n</html>\n";

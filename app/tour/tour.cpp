@@ -7,7 +7,6 @@
 
 #include "haptics/device/scripted_hand.h"
 #include "haptics/files/file_error.h"
-#include "haptics/loop/shift_script.h"
 #include "haptics/loop/simulated_run.h"
 #include "haptics/loop/trace_csv.h"
 #include "haptics/loop/trace_reader.h"
@@ -30,11 +29,14 @@ TraceHeader header_of(const TourSetup& setup, const DeviceSpec& spec) {
   return header;
 }
 
-void collect_gears(LoopChannels& channels, TourResult& result) {
+std::vector<HapticEvent> take_events(LoopChannels& channels, TourResult& result) {
+  std::vector<HapticEvent> events;
   for (HapticEvent event; channels.events.pop(event);) {
+    events.push_back(event);
     if (event.kind != EventKind::gear_engaged) continue;
     result.engaged.push_back({static_cast<int>(event.value), 1e-9 * static_cast<double>(event.time_ns)});
   }
+  return events;
 }
 
 SimulatedRunConfig run_config(const TourSetup& setup) {
@@ -50,7 +52,7 @@ ScriptedHand hand_through(const std::vector<int>& gears, const TourSetup& setup,
   ScriptedHandConfig config = touring_hand(start);
   config.aim_noise = kAimNoise;
   config.seed = setup.seed;
-  return {config, shift_strokes(setup.gate, start, gears), period_s(setup.haptics)};
+  return {config, shift_strokes(setup.gate, start, gears, setup.style), period_s(setup.haptics)};
 }
 
 void measure(const HapticSnapshot& now, TourResult& result) {
@@ -62,15 +64,20 @@ void measure(const HapticSnapshot& now, TourResult& result) {
 }
 
 void drive(SimulatedRun& run, double duration, TraceRecorder& recorder, const TourProgress& progress,
-           TourResult& result) {
+           const TourWatch& watch, TourResult& result) {
+  double next_watch = 0.0;
   while (run.time() < duration) {
     measure(run.step(), result);
+    if (run.time() >= next_watch) {
+      next_watch += kWatchPeriod;
+      const std::vector<HapticEvent> events = take_events(run.channels(), result);
+      if (watch) watch(run.loop().snapshot(), events);
+    }
     if (result.cycles % kPumpEvery != 0) continue;
     recorder.pump();
-    collect_gears(run.channels(), result);
     progress("drive", run.time() / duration);
   }
-  collect_gears(run.channels(), result);
+  take_events(run.channels(), result);
   result.duration = run.time();
 }
 
@@ -103,7 +110,7 @@ double TourResult::contact_share() const {
   return cycles == 0 ? 0.0 : static_cast<double>(contacts) / static_cast<double>(cycles);
 }
 
-TourResult drive_tour(const TourSetup& setup, const TourProgress& progress) {
+TourResult drive_tour(const TourSetup& setup, const TourProgress& progress, const TourWatch& watch) {
   TourResult result;
   result.wanted = tour_order(setup.gate);
   const SimulatedRunConfig config = run_config(setup);
@@ -114,7 +121,7 @@ TourResult drive_tour(const TourSetup& setup, const TourProgress& progress) {
 
   const std::filesystem::path trace = setup.folder / "tour.trace";
   TraceRecorder recorder(trace, header_of(setup, run.lever().spec()), run.channels(), TracePump::by_caller);
-  drive(run, hand.duration(), recorder, progress, result);
+  drive(run, hand.duration(), recorder, progress, watch, result);
   result.hash = finish(recorder, trace);
   export_csv(trace, setup.folder / "tour.csv", progress);
   return result;

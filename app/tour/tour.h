@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -11,23 +12,18 @@
 #include "haptics/gate/gate.h"
 #include "haptics/gate/gate_layout.h"
 #include "haptics/loop/haptic_config.h"
+#include "haptics/loop/haptic_snapshot.h"
+#include "haptics/loop/shift_script.h"
 
 namespace gearshift {
-
-// [N/m] A softer hand cannot lead a lever.
-inline constexpr double kLeastLeadingStiffness = 50.0;
-
-// That hand, or a grip where it cannot lead.
-inline HandImpedance leading_hand(const HandImpedance& hand) {
-  return hand.stiffness < kLeastLeadingStiffness ? kGripHand : hand;
-}
 
 struct TourSetup {
   GateLayout layout;
   Gate gate;
   SimulatedLeverConfig lever;  // its hand must be able to lead it
   HapticConfig haptics;
-  std::uint64_t seed = 1;        // of the hand's aims
+  std::uint64_t seed = 1;  // of the hand's aims
+  ShiftStyle style;
   std::filesystem::path folder;  // exists; receives tour.trace and tour.csv
 };
 
@@ -56,8 +52,12 @@ struct TourResult {
 // Told, often, which part of the work is in hand and which share of it is done (0 to 1).
 using TourProgress = std::function<void(std::string_view what, double share)>;
 
+// Shown a cycle every 1/60 s of the drive, and what happened since the one before.
+inline constexpr double kWatchPeriod = 1.0 / 60.0;  // [s]
+using TourWatch = std::function<void(const HapticSnapshot& now, std::span<const HapticEvent> events)>;
+
 // Drives and records. Throws FileError when a file cannot be written.
-TourResult drive_tour(const TourSetup& setup, const TourProgress& progress);
+TourResult drive_tour(const TourSetup& setup, const TourProgress& progress, const TourWatch& watch = {});
 
 // Fig. 9 (a) and (b) of the paper for this run: trajectory.{svg,png}, force.{svg,png}, from tour.csv.
 void draw_tour(const TourSetup& setup, const TourResult& result, const TourProgress& progress);

@@ -130,6 +130,7 @@ void add_bench_verb(CLI::App& app, VerbAction& action) {
       ->capture_default_str();
   verb->callback([arguments, &action] {
     arguments->options.gate_folder = (assets_folder() / "gates").string();
+    arguments->options.model_folder = (assets_folder() / "models").string();
     action = [arguments] { return run_bench(*arguments); };
   });
 }

@@ -11,6 +11,9 @@ namespace gearshift {
 // bad usage, a CLI::ParseError, exits 2; anything else, a FileError included, exits 1.
 using VerbAction = std::function<int()>;
 
+void add_train_verb(CLI::App& app, VerbAction& action);
+void add_demo_verb(CLI::App& app, VerbAction& action);
+void add_render_verb(CLI::App& app, VerbAction& action);
 void add_gate_verb(CLI::App& app, VerbAction& action);
 void add_tour_verb(CLI::App& app, VerbAction& action);
 void add_identify_verb(CLI::App& app, VerbAction& action);

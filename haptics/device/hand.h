@@ -30,6 +30,14 @@ struct NamedHand {
 inline constexpr std::array<NamedHand, 4> kNamedHands{
     {{"bare", kBareHand}, {"light", kLightHand}, {"grip", kGripHand}, {"arm", kArmHand}}};
 
+// [N/m] A softer hand cannot lead a lever.
+inline constexpr double kLeastLeadingStiffness = 50.0;
+
+// That hand, or a grip where it cannot lead.
+constexpr HandImpedance leading_hand(const HandImpedance& hand) noexcept {
+  return hand.stiffness < kLeastLeadingStiffness ? kGripHand : hand;
+}
+
 // "bare", "light", "grip", "arm", or "M,B,K" in kg, N s/m, N/m (each finite and >= 0); else nothing.
 std::optional<HandImpedance> hand_from_text(std::string_view text);
 

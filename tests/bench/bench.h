@@ -32,6 +32,7 @@ bool meets_goal(const BenchRow& row) noexcept;
 
 struct BenchOptions {
   std::string gate_folder;     // where the shipped layouts are
+  std::string model_folder;    // where the cabin is
   bool quick = false;          // fewer repetitions: a look, not a figure to quote
   double jitter_block = 20.0;  // [s] of each alternating block
   std::function<void(std::string_view family, double share)> progress;  // share in [0, 1]; may be empty
@@ -56,6 +57,9 @@ std::vector<BenchRow> bench_boundary(const BenchOptions& options);   // predicte
 std::vector<BenchRow> bench_methods(const BenchOptions& options);    // holds, estimators, energy control side by side
 std::vector<BenchRow> bench_hard(const BenchOptions& options);       // rates, delays, pushes, jitter, quantisation
 std::vector<BenchRow> bench_faults(const BenchOptions& options);     // time from a fault to no force
+std::vector<BenchRow> bench_picture(const BenchOptions& options);    // the cabin, pass by pass; the first frame
+std::vector<BenchRow> bench_quality(const BenchOptions& options);    // anti-aliasing, shadow, mirror, projected points
+std::vector<BenchRow> bench_light(const BenchOptions& options);      // what is baked at the start
 std::vector<BenchRow> bench_jitter(const BenchOptions& options);     // wake-up lateness beside cyclictest's
 
 // Value at quantile q in [0, 1] of an unsorted sample; sorts it. Empty: 0.

@@ -1,0 +1,95 @@
+#include "app/cabin_sound/cabin_sound.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "app/cabin_sound/synth.h"
+
+namespace gearshift {
+
+namespace {
+
+// Ahead of the dash. The engine stands in the car's middle, 0.37 m to the right, but the whole bulkhead sounds.
+constexpr glm::vec3 kEnginePlace{0.2f, 0.2f, -1.5f};  // [m]
+constexpr float kWarningGain = 0.55f, kGrindGain = 0.6f;
+constexpr float kWarningRadius = 0.5f;  // [m] so wide that both ears hear it, wherever the driver looks
+
+VoiceId silent_loop(SoundWorld& world, const std::vector<float>& samples) {
+  return world.loop(world.add_clip(samples), {.gain = 0.0f});
+}
+
+}  // namespace
+
+CabinSound::CabinSound(SoundWorld& world, const CabinSoundConfig& config)
+    : world_(world),
+      config_(config),
+      knock_(world.add_clip(wall_knock())),
+      gear_in_(world.add_clip(gear_in_click())),
+      gear_out_(world.add_clip(gear_out_click())),
+      grind_(silent_loop(world, grind_loop())),
+      over_push_{silent_loop(world, over_push_loop()), {kWarningLength, 0.0}},
+      saturation_{silent_loop(world, saturation_loop()), {kWarningLength, kSaturationHold}} {
+  set_config(config);
+}
+
+void CabinSound::set_config(const CabinSoundConfig& config) {
+  for (const auto& [cylinders, engine] : engines_) engine.set(world_, 0.0, 0.0, 0.0, kEnginePlace);
+  config_ = config;
+  config_.cylinders = std::clamp(config.cylinders, 1, 12);
+  if (config_.engine) engine_voices();  // made now, not in a frame
+  world_.set_volume(config_.volume);
+}
+
+void CabinSound::hear(const HapticEvent& event, glm::vec3 knob) {
+  switch (event.kind) {
+    case EventKind::wall_contact: {
+      // The peak of a blow on a spring is proportional to its speed: v sqrt(k m).
+      const double gain = std::clamp(event.value / config_.loudest_impact, 0.0, 1.0);
+      return world_.play(knock_, {knob, static_cast<float>(gain)});
+    }
+    case EventKind::gear_engaged:
+      return world_.play(gear_in_, {knob});
+    case EventKind::gear_left:
+      return world_.play(gear_out_, {knob});
+    case EventKind::over_push_begin:
+      return over_push_.hold.begin();
+    case EventKind::saturation_begin:
+      return saturation_.hold.begin();
+    default:
+      return;  // the ends are in the snapshot's flags; the rest is seen, not heard
+  }
+}
+
+void CabinSound::update(const HapticSnapshot& lever, const VehicleState& car, const EyePose& ears, glm::vec3 knob,
+                        double time) {
+  listen(ears);
+  sound_engine(car);
+  world_.set(grind_, {knob, car.grinding ? kGrindGain : 0.0f});
+  sound_warning(over_push_, (lever.flags & kFlagOverPush) != 0, knob, time);
+  sound_warning(saturation_, (lever.flags & kFlagSaturated) != 0, knob, time);
+  world_.update(time);
+}
+
+const EngineVoices& CabinSound::engine_voices() {
+  return engines_.try_emplace(config_.cylinders, world_, config_.cylinders).first->second;
+}
+
+void CabinSound::listen(const EyePose& ears) {
+  const glm::dvec3 forward = ears.orientation * glm::dvec3(0.0, 0.0, -1.0);
+  const glm::dvec3 up = ears.orientation * glm::dvec3(0.0, 1.0, 0.0);
+  world_.set_listener(glm::vec3(ears.position), glm::vec3(forward), glm::vec3(up));
+}
+
+void CabinSound::sound_engine(const VehicleState& car) {
+  if (!config_.engine) return;
+  const double speed = car.engine_speed * 30.0 / std::numbers::pi;  // [1/min]
+  engine_voices().set(world_, speed, car.engine_load, 1.0, kEnginePlace);
+}
+
+void CabinSound::sound_warning(Warning& warning, bool lasts, glm::vec3 knob, double time) {
+  const WarningHold::Now now = warning.hold.update(lasts, time);
+  if (now.starts) world_.restart(warning.voice);
+  world_.set(warning.voice, {.position = knob, .gain = now.heard ? kWarningGain : 0.0f, .radius = kWarningRadius});
+}
+
+}  // namespace gearshift

@@ -1,0 +1,128 @@
+#include "app/demo/demo.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+
+#include <fmt/core.h>
+
+#include "app/assets_path.h"
+#include "app/cabin_sound/cabin_sound.h"
+#include "app/demo/contact_sheet.h"
+#include "app/demo/demo_page.h"
+#include "app/demo/film.h"
+#include "app/demo/shots.h"
+#include "app/output_folder.h"
+#include "app/stage/stage.h"
+#include "engine/sound/wav.h"
+
+namespace gearshift {
+namespace {
+
+constexpr int kSheetColumns = 3;
+constexpr int kSheetWidth = 480;  // [px] about, of a picture on the contact sheet
+
+Stage make_stage(const DemoSetup& setup, Cabin cabin) {
+  StageConfig config;
+  config.gate = setup.tour.gate;
+  config.gate_title = setup.tour.layout.name;
+  config.yoke = setup.tour.lever.yoke;
+  config.open_gate = cabin != Cabin::closed;
+  config.hand = cabin == Cabin::closed;
+  config.cutaway = cabin == Cabin::cutaway;
+  return {config, assets_folder() / "models"};
+}
+
+Image take_picture(CabinView& view, Stage& stage, const FilmFrame& frame, const EyePose& eye) {
+  stage.place({frame.lever, frame.car, frame.time});
+  view.begin();
+  view.draw(stage.scene(), eye);
+  return view.picture();
+}
+
+double ms_since(std::chrono::steady_clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
+}
+
+// One cabin after another: a model is uploaded once.
+std::vector<Image> take_pictures(CabinView& view, const DemoSetup& setup, const std::vector<Shot>& shots,
+                                 const TourProgress& progress, DemoResult& result) {
+  std::vector<Image> pictures(shots.size());
+  std::vector<double> times;
+  for (const Cabin cabin : {Cabin::closed, Cabin::open_gate, Cabin::cutaway}) {
+    Stage stage = make_stage(setup, cabin);
+    view.set_model(stage.model());
+    for (std::size_t i = 0; i < shots.size(); ++i) {
+      if (shots[i].cabin != cabin) continue;
+      const auto start = std::chrono::steady_clock::now();
+      pictures[i] = take_picture(view, stage, *shots[i].frame, camera(shots[i].camera));
+      times.push_back(ms_since(start));
+      write_png(setup.tour.folder / (shots[i].name + ".png"), pictures[i]);
+      progress("pictures", static_cast<double>(times.size()) / static_cast<double>(shots.size()));
+    }
+  }
+  std::nth_element(times.begin(), times.begin() + static_cast<std::ptrdiff_t>(times.size() / 2), times.end());
+  result.picture_ms = times[times.size() / 2];
+  return pictures;
+}
+
+void shoot_film(CabinView& view, const DemoSetup& setup, std::span<const FilmFrame> film, const TourProgress& progress,
+                DemoResult& result) {
+  if (setup.film_rate <= 0.0) return;
+  const std::filesystem::path folder = setup.tour.folder / "film";
+  make_folder(folder);
+  Stage stage = make_stage(setup, Cabin::closed);
+  view.set_model(stage.model());
+  for (; result.film_frames / setup.film_rate < film.back().time; ++result.film_frames) {
+    const FilmFrame& frame = frame_at(film, result.film_frames / setup.film_rate);
+    write_png(folder / fmt::format("{:05}.png", result.film_frames),
+              take_picture(view, stage, frame, camera("driver")));
+    progress("film", frame.time / film.back().time);
+  }
+}
+
+void record_sound(const DemoSetup& setup, std::span<const FilmFrame> film, const TourProgress& progress) {
+  SoundWorld world(SoundOutput::memory);
+  CabinSound sound(world, {});
+  Stage stage = make_stage(setup, Cabin::closed);
+  std::vector<float> stereo;
+  constexpr std::size_t kFrames = static_cast<std::size_t>(kSoundRate * kWatchPeriod);
+  std::vector<float> part(2 * kFrames);
+  for (const FilmFrame& frame : film) {
+    stage.place({frame.lever, frame.car, frame.time});
+    for (const HapticEvent& event : frame.events) sound.hear(event, stage.knob());
+    sound.update(frame.lever, frame.car, camera("driver"), stage.knob(), frame.time);
+    world.render(part);
+    stereo.insert(stereo.end(), part.begin(), part.end());
+    progress("sound", frame.time / film.back().time);
+  }
+  write_wav(setup.tour.folder / "demo.wav", stereo, kSoundRate);
+}
+
+}  // namespace
+
+DemoResult run_demo(const DemoSetup& setup, const TourProgress& progress) {
+  DemoResult result;
+  std::vector<FilmFrame> film;
+  result.tour = drive_tour(setup.tour, progress, [&](const HapticSnapshot& now, std::span<const HapticEvent> events) {
+    film.push_back({static_cast<double>(film.size()) * kWatchPeriod, now, {events.begin(), events.end()}, {}});
+  });
+  draw_tour(setup.tour, result.tour, progress);
+  drive_car(film, result.tour.engaged);
+  record_sound(setup, film, progress);
+
+  CabinView view(setup.view, nullptr, nullptr);
+  const std::vector<Shot> shots = key_shots(film, result.tour);
+  const std::vector<Image> pictures = take_pictures(view, setup, shots, progress, result);
+  const int shrink = std::max(1, pictures[0].width / kSheetWidth);
+  write_png(setup.tour.folder / "contact_sheet.png", contact_sheet(pictures, kSheetColumns, shrink));
+  shoot_film(view, setup, film, progress, result);
+
+  for (const Shot& shot : shots) result.pictures.push_back({shot.name + ".png", shot.caption});
+  result.device = view.gpu().name;
+  result.validation_messages = view.validation_messages();
+  write_demo_page(setup, result);
+  return result;
+}
+
+}  // namespace gearshift

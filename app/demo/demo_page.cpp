@@ -1,0 +1,73 @@
+#include "app/demo/demo_page.h"
+
+#include <fstream>
+
+#include <fmt/format.h>
+
+#include "app/draw/html.h"
+#include "app/limited_words.h"
+#include "haptics/files/file_error.h"
+
+namespace gearshift {
+namespace {
+
+std::string figure(const std::string& file, const std::string& caption) {
+  return fmt::format(
+      "<figure><a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\"></a>\n<figcaption>{1}</figcaption></figure>\n",
+      html_text(file), html_text(caption));
+}
+
+std::string facts(const DemoSetup& setup, const DemoResult& result) {
+  const auto row = [](std::string_view what, const std::string& value) {
+    return fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", what, html_text(value));
+  };
+  const TourResult& tour = result.tour;
+  std::string table = "<table class=\"facts\">\n";
+  table += row("Gate", setup.tour.layout.name);
+  table += row("Drive", fmt::format("{:.2f} s at {:g} Hz, {} cycles, hash {:016x}", tour.duration,
+                                    setup.tour.haptics.rate, tour.cycles, tour.hash));
+  table += row("In contact", fmt::format("{:.0f} % of the cycles", 100.0 * tour.contact_share()));
+  table += row("Deepest beyond a wall", fmt::format("{:.2f} mm", 1e3 * tour.deepest));
+  table += row("Strongest push", fmt::format("{:.1f} N", tour.strongest));
+  for (const Limited& limited : tour.limited) table += row("Limited", limited_words(limited));
+  table += row("Drawn by", fmt::format("{}, {:.0f} ms a picture", result.device, result.picture_ms));
+  return table + "</table>\n";
+}
+
+std::string gear_table(const TourResult& tour) {
+  std::string table = "<table>\n<tr><th>Gear</th><th>engaged at</th></tr>\n";
+  for (const GearTime& gear : tour.engaged)
+    table += fmt::format("<tr><td>{}</td><td>{:.3f} s</td></tr>\n", gear_name(gear.gear), gear.time);
+  return table + "</table>\n";
+}
+
+constexpr const char* kIntroduction =
+    "A simulated hand shifts through every gear of the gate. The lever that is drawn is the proxy, which never leaves "
+    "the "
+    "slots; the hand pushes through the walls and is held by the force that is plotted below. Everything on this page "
+    "came "
+    "from one deterministic run: the trace replays bit for bit.";
+
+}  // namespace
+
+void write_demo_page(const DemoSetup& setup, const DemoResult& result) {
+  const std::filesystem::path file = setup.tour.folder / "index.html";
+  std::ofstream out(file);
+  out << "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>gearshift: a drive</title>\n"
+         "<style>"
+      << html_style() << "</style>\n</head>\n<body>\n<h1>" << html_text(setup.tour.layout.name) << ", driven</h1>\n<p>"
+      << kIntroduction << "</p>\n<p>Sound: <audio controls src=\"demo.wav\"></audio></p>\n"
+      << facts(setup, result) << "<h2>Gears</h2>\n"
+      << gear_table(result.tour) << "<h2>Pictures</h2>\n";
+  for (const DemoPicture& picture : result.pictures) out << figure(picture.file, picture.caption);
+  out << "<h2>Lever and force</h2>\n"
+      << figure("trajectory.svg", "The hand's lever point and the drawn lever in the gate (Fig. 9 a of the paper)")
+      << figure("force.svg", "Position and force against time (Fig. 9 b of the paper)")
+      << "<p><a href=\"tour.csv\">Table</a>, <a href=\"tour.trace\">trace</a>, <a href=\"contact_sheet.png\">contact "
+         "sheet</a></p>\n<p>gearshift "
+      << GEARSHIFT_VERSION << "</p>\n</body>\n</html>\n";
+  if (!out.flush()) throw FileError(file.string(), 0, "cannot be written");
+}
+
+}  // namespace gearshift

@@ -1,0 +1,162 @@
+#include "app/input/bindings.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <functional>
+#include <set>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "app/input/key_names.h"
+#include "haptics/files/text_file.h"
+#include "haptics/files/toml_reader.h"
+
+namespace gearshift {
+namespace {
+
+constexpr int kMostPads = 16, kMostAxes = 64, kMostButtons = 128;
+constexpr double kLeastSpan = 0.1;  // [1] of an axis, from `from` to `to`: a shorter one is a switch
+
+// "Left, Keypad 4" -> its words, without the spaces around them.
+std::vector<std::string> words_of(const std::string& list) {
+  std::vector<std::string> words;
+  for (std::size_t begin = 0; begin <= list.size();) {
+    const std::size_t end = std::min(list.find(',', begin), list.size());
+    std::string word = list.substr(begin, end - begin);
+    word.erase(0, word.find_first_not_of(' '));
+    word.erase(word.find_last_not_of(' ') + 1);
+    words.push_back(std::move(word));
+    begin = end + 1;
+  }
+  return words;
+}
+
+std::optional<int> button_of(std::string_view word) {
+  if (word.empty() || word.size() > 3 || word.find_first_not_of("0123456789") != std::string_view::npos) return {};
+  const int button = std::atoi(std::string(word).c_str());
+  return button < kMostButtons ? std::optional(button) : std::nullopt;
+}
+
+// One table of action = "name, name, ...". of: what a name means; kind: what it must be.
+std::map<Action, std::vector<int>> read_actions(const TomlTable& root, std::string_view section,
+                                                const std::function<std::optional<int>(std::string_view)>& of,
+                                                const std::string& kind) {
+  std::map<Action, std::vector<int>> bound;
+  if (!root.has(section)) return bound;
+  const TomlTable table = root.table(section);
+  std::map<int, std::string_view> taken;
+  for (const ActionInfo& action : all_actions()) {
+    if (!table.has(action.key)) continue;
+    for (const std::string& word : words_of(table.text(action.key))) {
+      const std::optional<int> code = of(word);
+      if (!code) table.fail(action.key, fmt::format("\"{}\" must be {}", word, kind));
+      const auto [other, is_new] = taken.emplace(*code, action.key);
+      if (!is_new) table.fail(action.key, fmt::format("\"{}\" does {} already", word, other->second));
+      bound[action.action].push_back(*code);
+    }
+  }
+  table.refuse_unknown_keys();
+  return bound;
+}
+
+int whole(const TomlTable& table, std::string_view key, int most) {
+  const double number = table.number_or(key, 0.0, {0.0, static_cast<double>(most)});
+  if (number != std::floor(number)) table.fail(key, "must be a whole number");
+  return static_cast<int>(number);
+}
+
+using TakenAxes = std::map<std::pair<int, int>, std::string>;
+
+void read_axis(const TomlTable& axes, std::string_view key, std::optional<AxisBinding>& axis, TakenAxes& taken) {
+  if (!axes.has(key)) return;
+  const TomlTable table = axes.table(key);
+  AxisBinding read;
+  read.pad = whole(table, "pad", kMostPads - 1);
+  (void)table.number("axis", {0.0, kMostAxes - 1.0});  // must be there
+  read.axis = whole(table, "axis", kMostAxes - 1);
+  read.from = table.number_or("from", read.from, {-1.0, 1.0});
+  read.to = table.number_or("to", read.to, {-1.0, 1.0});
+  if (std::abs(read.to - read.from) < kLeastSpan)
+    table.fail("to", fmt::format("must be at least {} away from from = {}", kLeastSpan, read.from));
+  read.dead_zone = table.number_or("dead_zone", read.dead_zone, {0.0, 0.9});
+  const auto [other, is_new] = taken.emplace(std::pair(read.pad, read.axis), key);
+  if (!is_new) table.fail("axis", fmt::format("does {} already", other->second));
+  table.refuse_unknown_keys();
+  axis = read;
+}
+
+void read_axes(const TomlTable& root, Bindings& bindings) {
+  if (!root.has("pad_axes")) return;
+  const TomlTable axes = root.table("pad_axes");
+  TakenAxes taken;
+  read_axis(axes, "lever_select", bindings.lever_select, taken);
+  read_axis(axes, "lever_shift", bindings.lever_shift, taken);
+  read_axis(axes, "throttle", bindings.throttle, taken);
+  read_axis(axes, "brake", bindings.brake, taken);
+  read_axis(axes, "clutch", bindings.clutch, taken);
+  axes.refuse_unknown_keys();
+}
+
+void read_pace(const TomlTable& root, Bindings& bindings) {
+  if (!root.has("pace")) return;
+  const TomlTable pace = root.table("pace");
+  bindings.mouse_mm_per_px = pace.number_or("mouse_mm_per_px", bindings.mouse_mm_per_px, {0.005, 5.0});
+  bindings.key_speed = pace.number_or("lever_key_m_per_s", bindings.key_speed, {0.01, 2.0});
+  bindings.pedal_time = pace.number_or("pedal_key_s", bindings.pedal_time, {0.01, 5.0});
+  pace.refuse_unknown_keys();
+}
+
+std::string joined(const std::vector<int>& codes, const std::function<std::string(int)>& name) {
+  std::string list;
+  for (const int code : codes) list += (list.empty() ? "" : ", ") + name(code);
+  return list;
+}
+
+// The action that stands for an axis in the help: its words are the same.
+std::string_view says(std::string_view key) {
+  for (const ActionInfo& action : all_actions())
+    if (action.key == key) return action.says;
+  return key == "lever_select" ? "lever sideways" : "lever forward and back";
+}
+
+}  // namespace
+
+Bindings read_bindings(const std::filesystem::path& file) {
+  const TomlTable root = TomlTable::parse(read_text_file(file), file.string());
+  Bindings bindings;
+  bindings.keys = read_actions(root, "keys", key_of, "a key such as A, 7, F1, Left, Space, Left Shift or Keypad 4");
+  bindings.pad_buttons =
+      read_actions(root, "pad_buttons", button_of, fmt::format("a button's number, 0 to {}", kMostButtons - 1));
+  read_axes(root, bindings);
+  read_pace(root, bindings);
+  root.refuse_unknown_keys();
+  if (!bindings.keys.contains(Action::stop)) root.fail({}, "[keys] has no stop: one key must turn the motors off");
+  return bindings;
+}
+
+std::string help_text(const Bindings& bindings) {
+  std::string text;
+  const auto line = [&text](const std::string& what, std::string_view does) {
+    text += fmt::format("{:<22}{}\n", what, does);
+  };
+  for (const ActionInfo& action : all_actions())
+    if (const auto keys = bindings.keys.find(action.action); keys != bindings.keys.end())
+      line(joined(keys->second, key_name), action.says);
+  line("Mouse", "the lever, after a click beside the panel");
+  for (const ActionInfo& action : all_actions())
+    if (const auto buttons = bindings.pad_buttons.find(action.action); buttons != bindings.pad_buttons.end())
+      line("Pad button " + joined(buttons->second, [](int button) { return std::to_string(button); }), action.says);
+  const std::pair<const std::optional<AxisBinding>&, std::string_view> axes[] = {
+      {bindings.lever_select, "lever_select"},
+      {bindings.lever_shift, "lever_shift"},
+      {bindings.throttle, "throttle"},
+      {bindings.brake, "brake"},
+      {bindings.clutch, "clutch"}};
+  for (const auto& [axis, key] : axes)
+    if (axis) line(fmt::format("Pad axis {}", axis->axis), says(key));
+  return text;
+}
+
+}  // namespace gearshift

@@ -1,0 +1,75 @@
+// Which key, button or axis does what. A TOML file says it; the shipped one is assets/bindings/default.toml.
+// What the file does not name is not bound; only `stop` must have a key.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace gearshift {
+
+// Everything that input can do. Held ones act while held, others once when pressed.
+enum class Action {
+  // held: the hand
+  lever_left,
+  lever_right,
+  lever_forward,
+  lever_back,
+  push_down,
+  lift,
+  // held: the car
+  throttle,
+  brake,
+  clutch,
+  starter,
+  // once
+  hand_brake,
+  ignition,
+  arm,
+  stop,
+  recentre,
+  full_screen,
+  help,
+  panel,
+  next_camera,
+  record,
+  undo,
+  redo,
+  grab_mouse,
+  quit
+};
+struct ActionInfo {
+  Action action;
+  std::string_view key;   // in the file: "lever_left"
+  std::string_view says;  // in the help: "lever to the left"
+  bool held;
+};
+const std::vector<ActionInfo>& all_actions();
+
+struct AxisBinding {
+  int pad = 0;  // 0: the first one plugged in
+  int axis = 0;
+  double from = -1.0;      // raw value that means 0 ...
+  double to = 1.0;         // ... and 1 (pedals), or -1 and 1 (lever)
+  double dead_zone = 0.0;  // [1] 0 to 0.9, around the middle (lever) or at the start (pedals)
+};
+
+struct Bindings {
+  std::map<Action, std::vector<int>> keys;  // GLFW_KEY_...
+  std::map<Action, std::vector<int>> pad_buttons;
+  std::optional<AxisBinding> lever_select, lever_shift, throttle, brake, clutch;
+  double mouse_mm_per_px = 0.12;  // [mm] of the hand in the lever plane per pixel of the mouse
+  double key_speed = 0.25;        // [m/s] of the hand while a lever key is held
+  double pedal_time = 0.25;       // [s] from up to down by key
+};
+
+// Throws FileError: file, line, key, value, allowed range. A key, button or axis that does two things is refused.
+Bindings read_bindings(const std::filesystem::path& file);
+
+// What F1 shows: a line for each action that has a key, then mouse and pad.
+std::string help_text(const Bindings& bindings);
+
+}  // namespace gearshift

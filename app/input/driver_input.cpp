@@ -1,0 +1,232 @@
+#include "app/input/driver_input.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+
+#include "app/input/key_names.h"
+
+namespace gearshift {
+namespace {
+
+constexpr double kMoved = 0.02;       // [1] of an axis: less is noise
+constexpr double kPushTravel = 0.05;  // [m] of the mouse beyond reach, from no push to most_push
+constexpr double kBeyondGate = 0.02;  // [m]
+
+enum Watched : std::size_t { kLeverSelect, kLeverShift, kThrottle, kBrake, kClutch };
+
+bool is_once(Action action) {
+  const auto& actions = all_actions();
+  const auto info =
+      std::find_if(actions.begin(), actions.end(), [&](const ActionInfo& a) { return a.action == action; });
+  return info != actions.end() && !info->held;
+}
+
+// 0 to 1 of the way from `from` to `to`.
+double share(const AxisBinding& axis, double raw) {
+  return std::clamp((raw - axis.from) / (axis.to - axis.from), 0.0, 1.0);
+}
+
+// What is left of a value from 0 to 1 beyond the dead zone, stretched to the whole again.
+double beyond(double dead_zone, double value) {
+  return std::max(0.0, value - dead_zone) / (1.0 - dead_zone);
+}
+
+// Towards 1 or 0, the whole way in `time`.
+double ramped(double pedal, bool down, double seconds, double time) {
+  const double step = seconds / time;
+  return std::clamp(pedal + (down ? step : -step), 0.0, 1.0);
+}
+
+}  // namespace
+
+glm::dvec2 hand_reach(const Gate& gate, const DeviceSpec& device) noexcept {
+  glm::dvec2 reach{std::max(-gate.select_min, gate.select_max), 0.0};
+  for (const Slot& slot : slots(gate)) reach.y = std::max(reach.y, slot.end);
+  return glm::min(reach + kBeyondGate, device.workspace);
+}
+
+DriverInput::DriverInput(const InputConfig& config) : config_(config) {
+  controls_.ignition = true;
+}
+
+void DriverInput::update(const WindowInput& input, double seconds, bool ui_has_mouse, bool ui_has_keys) {
+  seconds = std::isfinite(seconds) ? std::max(seconds, 0.0) : 0.0;
+  pressed_.clear();
+  for (const Source& source : released_) down_.erase(source);
+  released_.clear();
+  if (focused_ && !input.focused) {
+    let_go_all();
+    mouse_leads_ = false;
+  }
+  focused_ = input.focused;
+  take_keys(input, ui_has_keys);
+  take_buttons(input);
+  take_mouse(input, ui_has_mouse);
+  move_hand(input, seconds);
+  move_feet(input, seconds);
+}
+
+// A key that goes down and up between two frames is held for one.
+void DriverInput::take_keys(const WindowInput& input, bool ui_has_keys) {
+  for (const KeyEvent& key : input.keys) {
+    const Source source{false, key.key};
+    if (key.down)
+      press(source, ui_has_keys);
+    else
+      let_go(source);
+  }
+}
+
+void DriverInput::take_buttons(const WindowInput& input) {
+  for (const auto& [action, buttons] : config_.bindings.pad_buttons) {
+    for (const int button : buttons) {
+      const auto index = static_cast<std::size_t>(button);
+      const bool down = std::any_of(input.pads.begin(), input.pads.end(), [index](const PadState& pad) {
+        return index < pad.buttons.size() && pad.buttons[index] != 0;
+      });
+      const Source source{true, button};
+      if (down)
+        press(source, false);
+      else
+        let_go(source);
+    }
+  }
+}
+
+void DriverInput::press(Source source, bool ui_has_keys) {
+  const auto& bound = source.pad ? config_.bindings.pad_buttons : config_.bindings.keys;
+  const auto found = std::find_if(bound.begin(), bound.end(), [&](const auto& binding) {
+    return std::find(binding.second.begin(), binding.second.end(), source.code) != binding.second.end();
+  });
+  if (found == bound.end()) return;
+  const Action action = found->first;
+  const bool stops = action == Action::stop && !types_text(source.code);
+  const bool frees = action == Action::grab_mouse && mouse_leads_;
+  if (ui_has_keys && !stops && !frees) return;
+  const bool was_down = down_.contains(source) && !released_.contains(source);
+  down_.insert(source);
+  released_.erase(source);
+  if (!was_down && is_once(action)) happen(action);
+}
+
+void DriverInput::happen(Action action) {
+  pressed_.push_back(action);
+  if (action == Action::grab_mouse) mouse_leads_ = !mouse_leads_;
+  if (action == Action::hand_brake) controls_.hand_brake = controls_.hand_brake > 0.5 ? 0.0 : 1.0;
+  if (action == Action::ignition) controls_.ignition = !controls_.ignition;
+}
+
+bool DriverInput::is_held(Action action) const {
+  const auto holds = [this, action](const std::map<Action, std::vector<int>>& bound, bool pad) {
+    const auto found = bound.find(action);
+    return found != bound.end() && std::any_of(found->second.begin(), found->second.end(), [&](int code) {
+             return down_.contains({pad, code});
+           });
+  };
+  return holds(config_.bindings.keys, false) || holds(config_.bindings.pad_buttons, true);
+}
+
+void DriverInput::take_mouse(const WindowInput& input, bool ui_has_mouse) {
+  const bool clicked = input.mouse_down[0] && !click_;
+  click_ = input.mouse_down[0];
+  if (clicked && !ui_has_mouse) mouse_leads_ = true;
+}
+
+void DriverInput::move_hand(const WindowInput& input, double seconds) {
+  if (led_ && mouse_leads_) aim_by_mouse(input.mouse_moved);
+  led_ = mouse_leads_;
+  aim_by_keys(config_.bindings.key_speed * seconds);
+  lead_by_stick(input);
+  set_hand();
+  hand_.pressed_down = is_held(Action::push_down);
+  hand_.lifted = is_held(Action::lift);
+}
+
+// On the desk the mouse goes forward where the pointer goes up.
+void DriverInput::aim_by_mouse(glm::dvec2 moved_px) {
+  const double metres = 1e-3 * config_.bindings.mouse_mm_per_px;
+  const glm::dvec2 aim = aim_ + metres * glm::dvec2{moved_px.x, -moved_px.y};
+  if (!std::isfinite(aim.x) || !std::isfinite(aim.y)) return;
+  const glm::dvec2 farthest = config_.reach + kPushTravel;
+  aim_ = glm::clamp(aim, -farthest, farthest);
+}
+
+// A key that is held a little long must not push: keys end at the reach.
+void DriverInput::aim_by_keys(double way) {
+  const auto direction = [this](Action plus, Action minus) { return double(is_held(plus)) - double(is_held(minus)); };
+  const glm::dvec2 step{direction(Action::lever_right, Action::lever_left),
+                        direction(Action::lever_forward, Action::lever_back)};
+  const glm::dvec2 farthest = glm::max(config_.reach, glm::abs(aim_));
+  aim_ = glm::clamp(aim_ + way * step, -farthest, farthest);
+}
+
+void DriverInput::lead_by_stick(const WindowInput& input) {
+  const glm::dvec2 at{stick(input, config_.bindings.lever_select, kLeverSelect),
+                      stick(input, config_.bindings.lever_shift, kLeverShift)};
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const int i = static_cast<int>(axis);
+    const bool deflected = at[i] != 0.0;
+    if (deflected || stick_leads_[axis]) aim_[i] = at[i] * config_.reach[i];
+    stick_leads_[axis] = deflected;
+  }
+}
+
+void DriverInput::set_hand() {
+  hand_.position = glm::clamp(aim_, -config_.reach, config_.reach);
+  hand_.push = (aim_ - hand_.position) / kPushTravel * config_.most_push;
+}
+
+void DriverInput::recentre(glm::dvec2 lever) {
+  aim_ = glm::clamp(lever, -config_.reach, config_.reach);
+  set_hand();
+}
+
+void DriverInput::set_reach(glm::dvec2 reach) {
+  config_.reach = reach;
+  recentre(aim_);
+}
+
+// Raw value, once the axis has moved.
+std::optional<double> DriverInput::raw_axis(const WindowInput& input, const std::optional<AxisBinding>& axis,
+                                            std::size_t watch) {
+  if (!axis) return std::nullopt;
+  const auto pad = static_cast<std::size_t>(axis->pad), number = static_cast<std::size_t>(axis->axis);
+  const bool there = pad < input.pads.size() && number < input.pads[pad].axes.size();
+  AxisWatch& seen = watch_[watch];
+  if (!there || !std::isfinite(input.pads[pad].axes[number])) {
+    seen = {};
+    return std::nullopt;
+  }
+  const double raw = static_cast<double>(input.pads[pad].axes[number]);
+  if (!seen.first) seen.first = raw;
+  seen.moved = seen.moved || std::abs(raw - *seen.first) > kMoved;
+  return seen.moved ? std::optional(raw) : std::nullopt;
+}
+
+double DriverInput::stick(const WindowInput& input, const std::optional<AxisBinding>& axis, std::size_t watch) {
+  const std::optional<double> raw = raw_axis(input, axis, watch);
+  if (!raw) return 0.0;
+  const double value = 2.0 * share(*axis, *raw) - 1.0;
+  return std::copysign(beyond(axis->dead_zone, std::abs(value)), value);
+}
+
+double DriverInput::pedal_axis(const WindowInput& input, const std::optional<AxisBinding>& axis, std::size_t watch) {
+  const std::optional<double> raw = raw_axis(input, axis, watch);
+  return raw ? beyond(axis->dead_zone, share(*axis, *raw)) : 0.0;
+}
+
+void DriverInput::move_feet(const WindowInput& input, double seconds) {
+  const Bindings& bindings = config_.bindings;
+  const double time = bindings.pedal_time;
+  throttle_key_ = ramped(throttle_key_, is_held(Action::throttle), seconds, time);
+  brake_key_ = ramped(brake_key_, is_held(Action::brake), seconds, time);
+  clutch_key_ = ramped(clutch_key_, is_held(Action::clutch), seconds, time);
+  controls_.throttle = std::max(throttle_key_, pedal_axis(input, bindings.throttle, kThrottle));
+  controls_.brake = std::max(brake_key_, pedal_axis(input, bindings.brake, kBrake));
+  controls_.clutch = std::max(clutch_key_, pedal_axis(input, bindings.clutch, kClutch));
+  controls_.starter = is_held(Action::starter);
+}
+
+}  // namespace gearshift

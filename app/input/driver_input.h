@@ -1,0 +1,100 @@
+// From window input to what the driver's hand and feet do. Needs no window: the same input gives the same driver.
+//
+//   hand    the mouse leads it while it leads the lever; lever keys move it at their speed; a stick puts it where the
+//           stick is, from when it leaves its rest until it is back there. It stays within reach; a mouse that goes on
+//           pushes instead, against whatever holds the lever
+//   feet    a pedal's key moves it down in pedal_time and up again when released; an axis puts it where the axis is,
+//           once that has moved: a pad tells nothing of an axis before. The pedal is where it is deepest
+//   mouse   leads the lever after a click beside the panel or by grab_mouse, until grab_mouse or the focus is lost
+//   panel   what it uses is not the driver's: no key goes down and no click counts. Two things pass: a key that types
+//           no text for `stop`, and grab_mouse while the mouse leads
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <set>
+#include <vector>
+
+#include "app/input/bindings.h"
+#include "engine/window/window.h"
+#include "haptics/device/hand.h"
+#include "haptics/device/haptic_device.h"
+#include "haptics/gate/gate.h"
+#include "haptics/loop/lever_world.h"
+
+namespace gearshift {
+
+struct InputConfig {
+  Bindings bindings;
+  glm::dvec2 reach{0.06, 0.06};  // [m] the hand stays within, on each side of the origin: hand_reach()
+  double most_push = 75.0;       // [N] per axis, of a mouse 50 mm beyond reach: above the over-push warning
+};
+
+// Beyond the gate's end stops and end walls by 20 mm, as far as the device goes: what a hand of 500 N/m needs to pull
+// the lever over any detent. [m]
+glm::dvec2 hand_reach(const Gate& gate, const DeviceSpec& device) noexcept;
+
+class DriverInput {
+ public:
+  explicit DriverInput(const InputConfig& config);
+
+  // Once a frame. ui_has_mouse, ui_has_keys: the panel uses them, they are not the driver's. seconds since the last call.
+  void update(const WindowInput& input, double seconds, bool ui_has_mouse, bool ui_has_keys);
+
+  const HandTarget& hand() const noexcept { return hand_; }
+  const DriverControls& controls() const noexcept { return controls_; }     // at first: the ignition is on
+  const std::vector<Action>& pressed() const noexcept { return pressed_; }  // once-actions of this frame, in order
+  bool mouse_leads() const noexcept { return mouse_leads_; }                // captured by the lever
+
+  void recentre(glm::dvec2 lever);   // the hand is where the lever is now, and does not push
+  void set_reach(glm::dvec2 reach);  // [m] of another gate or device
+  void set_mouse_leads(bool on) { mouse_leads_ = on; }
+
+ private:
+  // An axis as it was: it counts from its first movement on.
+  struct AxisWatch {
+    std::optional<double> first;
+    bool moved = false;
+  };
+  struct Source {  // what can be held down
+    bool pad = false;
+    int code = 0;
+    auto operator<=>(const Source&) const = default;
+  };
+
+  void take_keys(const WindowInput& input, bool ui_has_keys);
+  void take_buttons(const WindowInput& input);
+  void take_mouse(const WindowInput& input, bool ui_has_mouse);
+  void press(Source source, bool ui_has_keys);
+  void let_go(Source source) { released_.insert(source); }
+  void let_go_all() { released_ = down_; }
+  void happen(Action action);
+  bool is_held(Action action) const;
+  void move_hand(const WindowInput& input, double seconds);
+  void lead_by_stick(const WindowInput& input);
+  void move_feet(const WindowInput& input, double seconds);
+  void aim_by_mouse(glm::dvec2 moved_px);
+  void aim_by_keys(double way);
+  void set_hand();
+  std::optional<double> raw_axis(const WindowInput& input, const std::optional<AxisBinding>& axis, std::size_t watch);
+  double stick(const WindowInput& input, const std::optional<AxisBinding>& axis, std::size_t watch);
+  double pedal_axis(const WindowInput& input, const std::optional<AxisBinding>& axis, std::size_t watch);
+
+  InputConfig config_;
+  glm::dvec2 aim_{0.0};  // [m] where the hand wants to be: beyond reach it pushes
+  HandTarget hand_;
+  DriverControls controls_;
+  std::vector<Action> pressed_;
+  bool mouse_leads_ = false;
+  bool led_ = false;           // in the frame before: what moved the mouse to where it takes hold is not the hand's
+  bool click_ = false;         // the left button was down in the frame before
+  bool focused_ = false;       // in the frame before
+  std::set<Source> down_;      // in this frame, if only for a part of it
+  std::set<Source> released_;  // of these, at its end
+  std::array<AxisWatch, 5> watch_;     // lever_select, lever_shift, throttle, brake, clutch
+  std::array<bool, 2> stick_leads_{};  // select, shift
+  double throttle_key_ = 0.0, brake_key_ = 0.0, clutch_key_ = 0.0;  // [1] pedals by key
+};
+
+}  // namespace gearshift

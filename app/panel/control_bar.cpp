@@ -1,0 +1,193 @@
+#include "app/panel/control_bar.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "app/panel/palette.h"
+
+namespace gearshift {
+namespace {
+
+// The bar from left to right; each part takes its width and leaves the cursor at its right.
+class Parts {
+ public:
+  Parts() : low_(ImGui::GetCursorScreenPos()), height_(ImGui::GetContentRegionAvail().y) {}
+
+  ImVec2 low() const { return low_; }
+  float height() const { return height_; }
+  void next(float width) {
+    low_.x += width + ui_em();
+    ImGui::SetCursorScreenPos(low_);
+  }
+
+ private:
+  ImVec2 low_;
+  float height_;
+};
+
+void pedal(const char* name, double pressed, ImVec2 low, ImVec2 size, ImU32 colour) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  ImFont* font = ui_font(UiFont::small);
+  const float foot = low.y + size.y - font->FontSize;
+  const float top = foot - (foot - low.y) * static_cast<float>(std::clamp(pressed, 0.0, 1.0));
+  list.AddRectFilled(low, {low.x + size.x, foot}, ink::kWell, 2.0f);
+  list.AddRectFilled({low.x, top}, {low.x + size.x, foot}, colour, 2.0f);
+  const float width = font->CalcTextSizeA(font->FontSize, 1e9f, 0.0f, name).x;
+  list.AddText(font, font->FontSize, {low.x + 0.5f * (size.x - width), foot}, ink::kSoft, name);
+}
+
+float draw_car(const Parts& parts, const PanelInput& input) {
+  const float em = ui_em(), gear_width = 2.9f * em, text_width = 5.6f * em, pedal_width = 1.5f * em;
+  const VehicleState& car = input.car;
+  ImFont* digits = ui_font(UiFont::digits);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 low = parts.low();
+  const char* gear = gear_name(input.now.gear);
+  const float width = digits->CalcTextSizeA(digits->FontSize, 1e9f, 0.0f, gear).x;
+  list.AddText(digits, digits->FontSize,
+               {low.x + 0.5f * (gear_width - width), low.y + 0.5f * (parts.height() - digits->FontSize)},
+               car.grinding ? ink::kBad : ink::kText, gear);
+  const float line = ImGui::GetTextLineHeightWithSpacing();
+  const float top = low.y + 0.5f * (parts.height() - 2.0f * line) + 0.1f * em;
+  const double rpm = car.engine_speed * 60.0 / (2.0 * std::numbers::pi);
+  list.AddText({low.x + gear_width + 0.4f * em, top}, car.stalled ? ink::kBad : ink::kText,
+               (car.stalled ? std::string("stalled") : fmt::format("{:.0f} rpm", rpm)).c_str());
+  list.AddText({low.x + gear_width + 0.4f * em, top + line}, ink::kText,
+               fmt::format("{:.0f} km/h", kKmhPerMps * car.road_speed).c_str());
+  float x = low.x + gear_width + text_width;
+  const ImVec2 size(pedal_width, parts.height());
+  pedal("C", car.clutch, {x, low.y}, size, ink::kAccent);
+  pedal("B", car.brake, {x += pedal_width + 0.4f * em, low.y}, size, ink::kBad);
+  pedal("T", car.throttle, {x += pedal_width + 0.4f * em, low.y}, size, ink::kGood);
+  return x + pedal_width - low.x;
+}
+
+void lamp(ImVec2 at, const char* text, bool on, ImU32 colour) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float em = ui_em(), height = ImGui::GetTextLineHeight();
+  const ImVec2 middle(at.x + 0.5f * em, at.y + 0.5f * height);
+  if (on) list.AddCircleFilled(middle, 0.62f * em, with_alpha(colour, 0.3f));
+  list.AddCircleFilled(middle, 0.36f * em, on ? colour : ink::kRaised);
+  list.AddText({at.x + 1.3f * em, at.y}, on ? colour : with_alpha(ink::kSoft, 0.75f), text);
+}
+
+float draw_lamps(const Parts& parts, const PanelInput& input) {
+  const float em = ui_em(), column = 7.0f * em, line = 1.75f * em;
+  const ImVec2 low(parts.low().x, parts.low().y + 0.5f * (parts.height() - line - ImGui::GetTextLineHeight()));
+  const HapticSnapshot& now = input.now;
+  const bool softened = now.wall_stiffness > 0.0 && now.wall_stiffness < 0.999 * input.admitted.tuning.wall_stiffness;
+  lamp(low, "Over-push", (now.flags & kFlagOverPush) != 0, ink::kBad);
+  lamp({low.x, low.y + line}, "Saturated", (now.flags & kFlagSaturated) != 0, ink::kWarn);
+  lamp({low.x + column, low.y}, "Ghost hand", (now.flags & kFlagGhost) != 0, ink::kWarn);
+  lamp({low.x + column, low.y + line}, "Softened", softened, ink::kWarn);
+  return 2.0f * column;
+}
+
+std::string loop_line(const PanelInput& input) {
+  const LoopHealth& health = input.health;
+  return fmt::format("{:.0f} Hz · p99 late {:.0f} µs · {} missed · {:.0f} ms a frame", health.rate,
+                     1e6 * health.late_p99, health.overruns, input.frame_ms);
+}
+
+// The message takes what is left; where it is longer than two lines of that, it is there to be hovered.
+void draw_message(Controls& controls, const Parts& parts, float width, const PanelInput& input) {
+  const WithFont small(UiFont::small);
+  const ImVec2 low = parts.low();
+  const float line = ImGui::GetTextLineHeight();
+  const ImVec2 room(width, parts.height() - line - 2.0f);
+  ImGui::PushClipRect(low, {low.x + room.x, low.y + room.y}, true);
+  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width);
+  ImGui::TextUnformatted(input.message.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopClipRect();
+  const bool is_long = ImGui::GetItemRectSize().y > room.y;
+  if (is_long && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", input.message.c_str());
+  ImGui::SetCursorScreenPos({low.x, low.y + parts.height() - line});
+  controls.line(loop_line(input), width, ink::kSoft);
+}
+
+ImU32 state_colour(GuardState state) {
+  switch (state) {
+    case GuardState::running:
+      return ink::kGood;
+    case GuardState::armed:
+    case GuardState::ramping:
+      return ink::kAccent;
+    case GuardState::damped:
+      return ink::kWarn;
+    case GuardState::released:
+      return ink::kBad;
+    case GuardState::idle:
+      return ink::kSoft;
+  }
+  return ink::kSoft;
+}
+
+void draw_state(const Parts& parts, float width, const HapticSnapshot& now) {
+  const ImU32 colour = state_colour(now.guard);
+  const bool fell =
+      (now.guard == GuardState::damped || now.guard == GuardState::released) && now.fault != GuardFault::none;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 low = parts.low(), high(low.x + width, low.y + parts.height());
+  list.AddRectFilled(low, high, with_alpha(colour, 0.16f), 4.0f);
+  list.AddRect(low, high, with_alpha(colour, 0.7f), 4.0f);
+  const auto centred = [&](UiFont which, const char* text, float y, ImU32 shade) {
+    ImFont* font = ui_font(which);
+    const float text_width = font->CalcTextSizeA(font->FontSize, 1e9f, 0.0f, text).x;
+    list.AddText(font, font->FontSize, {low.x + 0.5f * (width - text_width), y}, shade, text);
+  };
+  const float title = ui_font(UiFont::title)->FontSize, small = ui_font(UiFont::small)->FontSize;
+  const float top = low.y + 0.5f * (parts.height() - title - (fell ? small : 0.0f));
+  centred(UiFont::title, guard_state_name(now.guard), top, colour);
+  if (fell) centred(UiFont::small, guard_fault_name(now.fault), top + title, ink::kText);
+}
+
+void draw_arm(Controls& controls, const Parts& parts, float width, GuardState state, PanelRequests& out) {
+  const bool off = state == GuardState::idle || state == GuardState::damped || state == GuardState::released;
+  const ImVec2 size(width, parts.height());
+  if (off) {
+    out.arm = controls.button("arm", "Arm", size, ink::kAccentDeep);
+  } else {
+    out.disarm = controls.button("disarm", "Release", size);
+  }
+}
+
+void draw_recording(Controls& controls, const Parts& parts, float width, bool recording, PanelRequests& out) {
+  const float gap = 0.25f * ui_em();
+  const ImVec2 size(width, 0.5f * (parts.height() - gap));
+  out.record = recording ? controls.button("record", "End recording", size, ink::kBadDeep)
+                         : controls.button("record", "Record", size);
+  ImGui::SetCursorScreenPos({parts.low().x, parts.low().y + size.y + gap});
+  out.replay = controls.button("replay", "Replay", size);
+}
+
+void draw_stop(Controls& controls, const Parts& parts, float width, PanelRequests& out) {
+  const WithFont large(UiFont::digits);
+  out.stop = controls.button("stop", "STOP", {width, parts.height()}, ink::kBadDeep);
+}
+
+}  // namespace
+
+void draw_control_bar(Controls& controls, const PanelInput& input, PanelRequests& out) {
+  const float em = ui_em(), right_edge = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
+  constexpr float kState = 7.0f, kArm = 5.5f, kRecording = 7.4f, kStop = 9.0f;  // [em] wide
+  Parts parts;
+  parts.next(draw_car(parts, input));
+  parts.next(draw_lamps(parts, input));
+  const float message = right_edge - parts.low().x - (kState + kArm + kRecording + kStop + 4.0f) * em;
+  draw_message(controls, parts, message, input);
+  parts.next(message);
+  draw_state(parts, kState * em, input.now);
+  parts.next(kState * em);
+  draw_arm(controls, parts, kArm * em, input.now.guard, out);
+  parts.next(kArm * em);
+  draw_recording(controls, parts, kRecording * em, input.recording, out);
+  parts.next(kRecording * em);
+  draw_stop(controls, parts, kStop * em, out);
+}
+
+}  // namespace gearshift

@@ -1,0 +1,205 @@
+#include "app/panel/panel.h"
+
+#include <algorithm>
+#include <vector>
+
+#include "app/panel/clip_meter.h"
+#include "app/panel/control_bar.h"
+#include "app/panel/event_list.h"
+#include "app/panel/force_plots.h"
+#include "app/panel/gate_view.h"
+#include "app/panel/help_view.h"
+#include "app/panel/loop_view.h"
+#include "app/panel/palette.h"
+#include "app/panel/panel_keys.h"
+#include "app/panel/preset_view.h"
+#include "app/panel/setup_view.h"
+#include "app/panel/tuning_view.h"
+
+namespace gearshift {
+namespace {
+
+// Two columns and a bar; the middle is the cabin's.
+struct Layout {
+  float bar, side;  // [px]
+  ImVec2 screen;
+};
+
+Layout make_layout() {
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  const float em = ui_em();
+  const float side = std::clamp(0.25f * screen.x, 20.5f * em, 30.0f * em);
+  return {4.6f * em, std::min(side, 0.5f * screen.x), screen};
+}
+
+constexpr const char* kBarName = "Drive";
+
+bool begin_part(const char* name, ImVec2 at, ImVec2 size) {
+  constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
+  ImGui::SetNextWindowPos(at);
+  ImGui::SetNextWindowSize(size);
+  return ImGui::Begin(name, nullptr, kFlags);
+}
+
+void title(const char* text) {
+  const WithFont bold(UiFont::title);
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(text);
+}
+
+}  // namespace
+
+struct Panel::State {
+  bool visible = true;
+  bool help = false;
+  std::string bindings;
+  std::vector<TuningView::Step> steps;  // asked for between two frames
+  Controls controls;
+  Trail trail;
+  ForcePlots plots;
+  ClipMeter clip;
+  TuningView tuning;
+  SetupView setup;
+  PresetView presets;
+  EventList events;
+  std::int64_t last_ns = -1;  // [ns] of the newest snapshot that was taken
+
+  void take(const PanelInput& input);
+  void take(const HapticSnapshot& snapshot);
+  void draw_left(const Layout& layout, const PanelInput& input);
+  void draw_right(const Layout& layout, const PanelInput& input, PanelRequests& out);
+  void draw_choices(const PanelInput& input, PanelRequests& out);
+  void draw_tabs(const PanelInput& input, PanelRequests& out);
+  void draw_bar(const Layout& layout, const PanelInput& input, PanelRequests& out);
+};
+
+void Panel::State::take(const HapticSnapshot& snapshot) {
+  trail.push(snapshot);
+  plots.push(snapshot);
+  clip.push(snapshot);
+  last_ns = snapshot.time_ns;
+}
+
+// Also while it is hidden: what is seen when it comes back is whole.
+void Panel::State::take(const PanelInput& input) {
+  for (const HapticSnapshot& snapshot : input.history) take(snapshot);
+  if (input.now.time_ns != last_ns) take(input.now);
+  events.take(input.events);
+}
+
+void Panel::State::draw_left(const Layout& layout, const PanelInput& input) {
+  if (begin_part("Lever", {0.0f, 0.0f}, {layout.side, layout.screen.y - layout.bar})) {
+    title("Lever");
+    plots.draw_axis_choice(controls);
+    const float spacing = ImGui::GetStyle().ItemSpacing.y;
+    const float height = ImGui::GetContentRegionAvail().y - ClipMeter::height() - spacing;
+    const float gate_height = 0.38f * height;
+    const double most = std::max(input.device->max_force.x, input.device->max_force.y);
+    draw_gate_view({ImGui::GetContentRegionAvail().x, gate_height}, *input.gate, input.now, trail, most);
+    plots.draw(controls, height - gate_height - spacing, *input.gate, input.now, trail);
+    clip.draw(controls, input.now, *input.device);
+  }
+  ImGui::End();
+}
+
+void Panel::State::draw_choices(const PanelInput& input, PanelRequests& out) {
+  const float label = 4.6f * ui_em();
+  const auto row = [&](const char* name, const char* words, const std::string& current,
+                       const std::vector<std::string>& options, std::optional<std::string>& asked) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextDisabled("%s", words);
+    ImGui::SameLine(label);
+    asked = controls.choice(name, current, options, ImGui::GetContentRegionAvail().x);
+  };
+  row("gate", "Gate", input.gate_name, input.gates, out.gate);
+  row("preset", "Preset", input.preset_name, input.presets, out.preset);
+  row("hand", "Hand", input.hand_name, input.hands, out.hand);
+  row("device", "Device", input.device_name, input.devices, out.device);
+}
+
+void Panel::State::draw_tabs(const PanelInput& input, PanelRequests& out) {
+  if (!ImGui::BeginTabBar("parts")) return;
+  const auto tab = [&](const char* name, const char* label, const auto& draw_it) {
+    const bool open = ImGui::BeginTabItem(label);
+    controls.mark(name);
+    if (!open) return;
+    ImGui::BeginChild(name, {0.0f, 0.0f}, false, ImGuiWindowFlags_NavFlattened);
+    draw_it();
+    ImGui::EndChild();
+    ImGui::EndTabItem();
+  };
+  tab("tab_tuning", "Tuning", [&] {
+    tuning.draw(controls, input, out);
+    events.draw();
+  });
+  tab("tab_setup", "Setup", [&] { setup.draw(controls, input, out); });
+  tab("tab_loop", "Loop", [&] { draw_loop_view(input); });
+  tab("tab_presets", "Presets", [&] { presets.draw(controls, input, out); });
+  ImGui::EndTabBar();
+}
+
+void Panel::State::draw_right(const Layout& layout, const PanelInput& input, PanelRequests& out) {
+  if (begin_part("Haptics", {layout.screen.x - layout.side, 0.0f}, {layout.side, layout.screen.y - layout.bar})) {
+    draw_choices(input, out);
+    ImGui::Spacing();
+    draw_tabs(input, out);
+  }
+  ImGui::End();
+}
+
+void Panel::State::draw_bar(const Layout& layout, const PanelInput& input, PanelRequests& out) {
+  if (begin_part(kBarName, {0.0f, layout.screen.y - layout.bar}, {layout.screen.x, layout.bar}))
+    draw_control_bar(controls, input, out);
+  ImGui::End();
+}
+
+Panel::Panel() : state_(std::make_unique<State>()) {}
+Panel::~Panel() = default;
+
+PanelRequests Panel::draw(const PanelInput& input) {
+  State& s = *state_;
+  PanelRequests out;
+  s.controls.begin_frame();
+  share_keyboard(kBarName);
+  s.take(input);
+  s.tuning.follow(input);
+  for (const TuningView::Step step : s.steps) s.tuning.take(step, input, out);
+  s.steps.clear();
+  if (s.visible) {
+    const Layout layout = make_layout();
+    s.draw_left(layout, input);
+    s.draw_right(layout, input, out);
+    s.draw_bar(layout, input, out);
+  }
+  draw_help(s.help, s.bindings);
+  return out;
+}
+
+void Panel::undo() {
+  state_->steps.push_back(TuningView::Step::undo);
+}
+void Panel::redo() {
+  state_->steps.push_back(TuningView::Step::redo);
+}
+bool Panel::visible() const noexcept {
+  return state_->visible;
+}
+void Panel::set_visible(bool on) noexcept {
+  state_->visible = on;
+}
+bool Panel::shows_help() const noexcept {
+  return state_->help;
+}
+void Panel::show_help(bool on, const std::string& bindings_text) {
+  state_->help = on;
+  state_->bindings = bindings_text;
+}
+std::optional<ControlRect> Panel::control_rect(std::string_view name) const {
+  return state_->controls.rect(name);
+}
+int Panel::shortened_texts() const noexcept {
+  return state_->controls.shortened();
+}
+
+}  // namespace gearshift

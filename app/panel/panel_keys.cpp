@@ -1,0 +1,40 @@
+#include "app/panel/panel_keys.h"
+
+#include <imgui.h>
+#include <imgui_internal.h>
+
+namespace gearshift {
+namespace {
+
+bool pressed(ImGuiKey_ key) {
+  return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false);
+}
+
+// The first control of the window gets the frame, in the coming frame.
+void enter(ImGuiWindow* window) {
+  if (window == nullptr) return;
+  ImGui::FocusWindow(window);
+  ImGui::NavInitWindow(window, true);
+  ImGui::GetCurrentContext()->NavDisableHighlight = false;
+}
+
+}  // namespace
+
+void share_keyboard(const char* first_window) {
+  const ImGuiContext& ui = *ImGui::GetCurrentContext();
+  const bool busy = ImGui::IsAnyItemActive() || ui.NavWindowingTarget != nullptr ||
+                    ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
+  if (busy) return;
+  if (ui.NavWindow == nullptr) {
+    if (pressed(ImGuiKey_Tab) && !ui.IO.KeyCtrl) enter(ImGui::FindWindowByName(first_window));
+    return;
+  }
+  const bool by_mouse = ui.NavDisableHighlight, nowhere = ui.NavId == 0;
+  if (by_mouse || (nowhere && pressed(ImGuiKey_Escape))) {
+    ImGui::SetWindowFocus(nullptr);
+  } else if (nowhere) {
+    enter(ui.NavWindow);  // by Ctrl+Tab
+  }
+}
+
+}  // namespace gearshift

@@ -1,0 +1,10 @@
+// The keyboard belongs to the car unless somebody walks the panel with it.
+#pragma once
+
+namespace gearshift {
+
+// After NewFrame, before the panel's windows. A press of Tab enters at that window; a click does not keep the keyboard,
+// and Escape gives it back.
+void share_keyboard(const char* first_window);
+
+}  // namespace gearshift

@@ -1,0 +1,121 @@
+#include "app/panel/plot_area.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "app/panel/palette.h"
+
+namespace gearshift {
+namespace {
+
+// Of the grid, so that about `most` lines stand in the range.
+double grid_step(PlotRange range, double most) {
+  return nice_above((range.high - range.low) / most, 1e-6);
+}
+
+}  // namespace
+
+double nice_above(double value, double least) {
+  double decade = least;
+  while (decade * 10.0 < value) decade *= 10.0;
+  for (const double factor : {1.0, 2.0, 5.0, 10.0}) {
+    if (decade * factor >= value) return decade * factor;
+  }
+  return value;  // not finite
+}
+
+PlotArea::PlotArea(ImVec2 size, PlotRange x, PlotRange y, const char* x_unit)
+    : list_(ImGui::GetWindowDrawList()), low_(ImGui::GetCursorScreenPos()), x_(x), y_(y), x_unit_(x_unit) {
+  const float below = x_unit == nullptr ? 0.0f : ui_font(UiFont::small)->FontSize + 2.0f;
+  ImGui::Dummy(size);
+  high_ = {low_.x + size.x, low_.y + size.y - below};
+  list_->AddRectFilled(low_, high_, ink::kWell, 3.0f);
+  draw_grid();
+  list_->PushClipRect(low_, high_, true);
+}
+
+// Numbers last, so that no curve hides them.
+PlotArea::~PlotArea() {
+  list_->PopClipRect();
+  number_y();
+  if (x_unit_ != nullptr) number_x();
+}
+
+ImVec2 PlotArea::at(double x, double y) const {
+  const double across = (x - x_.low) / (x_.high - x_.low), up = (y - y_.low) / (y_.high - y_.low);
+  return {low_.x + static_cast<float>(across) * (high_.x - low_.x),
+          high_.y - static_cast<float>(up) * (high_.y - low_.y)};
+}
+
+template <class Visit>
+void PlotArea::each_line(PlotRange range, float pixels_per_line, float pixels, Visit visit) {
+  const double step = grid_step(range, std::max(2.0, static_cast<double>(pixels / pixels_per_line)));
+  const auto first = static_cast<int>(std::ceil(range.low / step - 1e-6));
+  const auto last = static_cast<int>(std::floor(range.high / step + 1e-6));
+  for (int i = first; i <= last; ++i) visit(step * i);
+}
+
+template <class Visit>
+void PlotArea::each_y(Visit visit) const {
+  each_line(y_, 1.5f * ui_em(), high_.y - low_.y, visit);
+}
+
+template <class Visit>
+void PlotArea::each_x(Visit visit) const {
+  each_line(x_, 4.0f * ui_em(), high_.x - low_.x, visit);
+}
+
+void PlotArea::draw_grid() {
+  const auto shade = [](double value) { return with_alpha(ink::kLine, value == 0.0 ? 1.0f : 0.5f); };
+  each_y([&](double y) { list_->AddLine({low_.x, at(0.0, y).y}, {high_.x, at(0.0, y).y}, shade(y)); });
+  each_x([&](double x) { list_->AddLine({at(x, 0.0).x, low_.y}, {at(x, 0.0).x, high_.y}, shade(x)); });
+}
+
+void PlotArea::number_y() {
+  ImFont* font = ui_font(UiFont::small);
+  each_y([&](double y) {
+    const std::string text = fmt::format("{:g}", y);
+    const ImVec2 size = font->CalcTextSizeA(font->FontSize, 1e9f, 0.0f, text.c_str());
+    const float top = std::clamp(at(0.0, y).y - 0.5f * size.y, low_.y, std::max(low_.y, high_.y - size.y));
+    const ImVec2 place(low_.x + 0.2f * ui_em(), top);
+    list_->AddRectFilled(place, {place.x + size.x, place.y + size.y}, with_alpha(ink::kWell, 0.7f), 2.0f);
+    list_->AddText(font, font->FontSize, place, ink::kSoft, text.c_str());
+  });
+}
+
+void PlotArea::number_x() {
+  ImFont* font = ui_font(UiFont::small);
+  each_x([&](double x) {
+    const std::string text = x == 0.0 ? fmt::format("0 {}", x_unit_) : fmt::format("{:g}", x);
+    const float width = font->CalcTextSizeA(font->FontSize, 1e9f, 0.0f, text.c_str()).x;
+    const float place = std::clamp(at(x, 0.0).x - 0.5f * width, low_.x, high_.x - width);
+    list_->AddText(font, font->FontSize, {place, high_.y + 1.0f}, ink::kSoft, text.c_str());
+  });
+}
+
+// Two points per column, in the order in which its extremes are likely to have come: up where it ends above its start.
+void PlotArea::strip(const Strip& strip, double factor, ImU32 colour) {
+  static thread_local std::vector<ImVec2> line;
+  const float width = (high_.x - low_.x) / static_cast<float>(strip.columns());
+  const float thick = std::max(1.0f, 0.1f * ui_em());
+  const auto flush = [&] {
+    if (line.size() > 1) list_->AddPolyline(line.data(), static_cast<int>(line.size()), colour, 0, thick);
+    line.clear();
+  };
+  for (int i = 0; i < strip.columns(); ++i) {
+    const StripColumn& column = strip.column(i);
+    if (column.count == 0) continue;
+    const float x = low_.x + (static_cast<float>(i) + 0.5f) * width;
+    const bool rising = column.last >= column.first;
+    const float begin = at(0.0, factor * (rising ? column.least : column.most)).y;
+    const float end = at(0.0, factor * (rising ? column.most : column.least)).y;
+    line.push_back({x, begin});
+    if (std::abs(end - begin) > 0.5f) line.push_back({x, end});
+  }
+  flush();
+}
+
+}  // namespace gearshift

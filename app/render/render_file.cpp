@@ -1,0 +1,82 @@
+#include "app/render/render_file.h"
+
+#include <algorithm>
+#include <array>
+#include <charconv>
+#include <chrono>
+#include <cmath>
+#include <numbers>
+#include <optional>
+#include <stdexcept>
+
+#include <fmt/core.h>
+#include <glm/geometric.hpp>
+
+#include "app/render/still_scene.h"
+#include "app/stage/stage.h"
+#include "engine/model/gltf.h"
+
+namespace gearshift {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double ms_since(Clock::time_point start) {
+  return std::chrono::duration<double, std::milli>(Clock::now() - start).count();
+}
+
+// "X,Y,Z:X,Y,Z": eye and target.
+std::optional<std::array<glm::dvec3, 2>> two_points(std::string_view text) {
+  std::array<double, 6> number{};
+  const char* at = text.data();
+  const char* const end = at + text.size();
+  for (std::size_t i = 0; i < number.size(); ++i) {
+    if (i > 0 && (at == end || *at++ != (i == 3 ? ':' : ','))) return {};
+    const auto [next, error] = std::from_chars(at, end, number[i]);
+    if (error != std::errc{} || !std::isfinite(number[i]) || std::abs(number[i]) > 1e4) return {};
+    at = next;
+  }
+  if (at != end) return {};
+  return std::array<glm::dvec3, 2>{{{number[0], number[1], number[2]}, {number[3], number[4], number[5]}}};
+}
+
+EyePose chosen_eye(const RenderFileSetup& setup, const Model& model) {
+  const ViewConfig& view = setup.view;
+  if (setup.camera == "fit") {
+    const double aspect = static_cast<double>(view.width) / (view.stereo ? 2 : 1) / view.height;
+    return fitting_eye(model, view.vertical_fov * std::numbers::pi / 180.0, aspect);
+  }
+  if (setup.camera.find(':') == std::string::npos) return camera(setup.camera);
+  const auto points = two_points(setup.camera);
+  if (!points || glm::distance((*points)[0], (*points)[1]) < 1e-6)
+    throw std::invalid_argument(fmt::format(
+        "--camera {}: must be X,Y,Z:X,Y,Z, an eye and another point that it looks at, in metres", setup.camera));
+  return look_at((*points)[0], (*points)[1]);
+}
+
+}  // namespace
+
+RenderFileResult render_file(const RenderFileSetup& setup) {
+  const Clock::time_point start = Clock::now();
+  const Model model = read_gltf(setup.file);
+  RenderFileResult result;
+  result.triangles = model.triangle_count();
+  result.skipped = model.skipped;
+  result.load_ms = ms_since(start);
+
+  FrameScene scene = still_scene(model);
+  const int mirror = model.node("InteriorMirrorSurface");
+  if (mirror != kNone && model.nodes[static_cast<std::size_t>(mirror)].mesh != kNone) scene.mirror = mirror;
+  const EyePose eye = chosen_eye(setup, model);
+  CabinView view(setup.view, nullptr, nullptr);
+  view.set_model(model);
+  view.draw(scene, eye);
+  const Image picture = view.picture();
+  result.first_frame_ms = ms_since(start);
+  result.draws = view.renderer().draws();
+  result.device = view.gpu().name;
+  write_png(setup.out, picture);
+  return result;
+}
+
+}  // namespace gearshift

@@ -1,0 +1,217 @@
+#include "app/stage/gearbox.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include <glm/gtc/quaternion.hpp>
+
+#include "app/stage/pieces.h"
+#include "app/stage/strokes.h"
+#include "engine/model/assemble.h"
+
+namespace gearshift {
+namespace {
+
+constexpr glm::vec3 kPlace{0.70f, 0.19f, -0.42f};  // [m] in the cabin: before the passenger's knees
+constexpr double kWidest = 0.54;                   // [m] that fits there
+constexpr double kFingerReach = 0.030;             // [m] its axis to the middle of its tip
+constexpr double kRingTravel = 0.0005;             // [m] until the cone grips
+constexpr double kKeysMeet = 0.003;                // [m] of sleeve travel at which the keys press the ring
+constexpr double kTurnPerMetre = 0.5;              // [rad/m] of the hub: slow enough to be seen
+constexpr double kTurnPerTurn = 0.02;              // of a free gear, for a turn of the engine
+constexpr double kLongestStep = 0.1;               // [s]
+constexpr double kSign = 0.030;                    // [m] height of a gear's sign
+constexpr const char* kEnd[2] = {"Forward", "Back"};
+constexpr double kWay[2] = {1.0, -1.0};  // of the shift axis
+
+const Slot* slot_at(const Gate& gate, int column, int end) {
+  const Column& c = column_of(gate, column);
+  const int slot = end == 0 ? c.forward_slot : c.back_slot;
+  return slot == kNoSlot ? nullptr : &slot_of(gate, slot);
+}
+
+std::vector<Piece> both(const Model& model, const char* a, const char* b) {
+  std::vector<Piece> pieces = pieces_of(model, needed_node(model, a));
+  for (Piece& piece : pieces_of(model, needed_node(model, b))) pieces.push_back(std::move(piece));
+  return pieces;
+}
+
+// What moves together becomes one mesh, small faces take a neighbour's steel.
+void join_parts(Model& box) {
+  repaint(box, "GearForward", "Steel", "GearSteel");
+  repaint(box, "GearBack", "Steel", "GearSteel");
+  set_pieces(box, needed_node(box, "Rail"), both(box, "Rail", "Fork"));
+  set_pieces(box, needed_node(box, "Hub"), both(box, "Hub", "Shaft"));
+  repaint(box, "Hub", "Steel", "GearSteel");
+}
+
+int add_group(Model& model, std::string name, glm::vec3 translation, int parent) {
+  Node node;
+  node.name = std::move(name);
+  node.translation = translation;
+  node.parent = parent;
+  model.nodes.push_back(std::move(node));
+  return static_cast<int>(model.nodes.size()) - 1;
+}
+
+// A gear's number floats before the end at which the gear is: ahead above it and behind below it, so that a
+// passenger who looks down ahead sees both beside the gears.
+void add_sign(Patch& ink, const Slot& slot, double x) {
+  const double way = static_cast<int>(slot.side);
+  for (const Stroke& stroke : gear_sign(slot.gear, {x, way * 0.095}, kSign, 0.16 * kSign, glm::vec3(1.0f))) {
+    add_flat(ink, stroke_triangles(stroke), way > 0.0 ? 0.075 : -0.060, 0xffffffffu);
+  }
+}
+
+glm::quat about(glm::vec3 axis, double angle) {
+  return glm::angleAxis(static_cast<float>(std::remainder(angle, 2.0 * std::numbers::pi)), axis);
+}
+
+}  // namespace
+
+double set_place(const Gate& gate, int column) noexcept {
+  return kSetDistance * (column - 0.5 * (gate.column_count - 1));
+}
+
+double rail_shift(const Gate& gate, int column, glm::dvec2 lever) noexcept {
+  if (nearest_column(gate, lever.x) != column) return 0.0;
+  const Slot* slot = slot_at(gate, column, lever.y > 0.0 ? 0 : 1);
+  if (slot == nullptr) return 0.0;
+  const double taken = (std::abs(lever.y) - gate.half_aisle) / (slot->rest - gate.half_aisle);
+  return std::copysign(kRailTravel * std::clamp(taken, 0.0, 1.0), lever.y);
+}
+
+double finger_place(const Gate& gate, double select) noexcept {
+  const int last = gate.column_count - 1;
+  if (select <= column_of(gate, 0).center) return set_place(gate, 0);
+  for (int i = 0; i < last; ++i) {
+    const double a = column_of(gate, i).center, b = column_of(gate, i + 1).center;
+    if (select <= b) return set_place(gate, i) + kSetDistance * (select - a) / (b - a);
+  }
+  return set_place(gate, last);
+}
+
+void Gearbox::add_to(Model& model, const Model& gear_model, const Gate& gate) {
+  Model box = gear_model;
+  join_parts(box);
+  for (const char* name : {"Fork", "Shaft"}) box.nodes[static_cast<std::size_t>(needed_node(box, name))].mesh = kNone;
+  const int first = append_model(model, box);
+  const auto end = static_cast<int>(model.nodes.size());
+  const int root = needed_node(model, "Gearbox");
+  Node& top = model.nodes[static_cast<std::size_t>(root)];
+  top.translation = kPlace;
+  top.scale = glm::vec3(static_cast<float>(std::min(1.0, kWidest / (kSetDistance * gate.column_count))));
+
+  Patch ink;
+  for (int column = 0; column < gate.column_count; ++column) {
+    const std::string number = std::to_string(column);
+    const double x = set_place(gate, column);
+    const int set = add_group(model, "GearboxSet" + number, {static_cast<float>(x), 0.0f, 0.0f}, root);
+    for (int i = first; i < end; ++i) {
+      const Node& node = model.nodes[static_cast<std::size_t>(i)];
+      if (node.mesh == kNone || node.name == "Finger") continue;
+      bool is_there = true;
+      for (int k = 0; k < 2; ++k) {
+        const bool of_end = node.name == std::string("Gear") + kEnd[k] || node.name == std::string("Ring") + kEnd[k];
+        if (of_end && slot_at(gate, column, k) == nullptr) is_there = false;
+      }
+      if (is_there) add_twin(model, i, node.name + number, set);
+    }
+    for (int k = 0; k < 2; ++k) {
+      if (const Slot* slot = slot_at(gate, column, k)) add_sign(ink, *slot, x);
+    }
+  }
+  for (int i = first; i < end; ++i) {
+    Node& node = model.nodes[static_cast<std::size_t>(i)];
+    if (node.name != "Finger") node.mesh = kNone;  // the pattern for the sets
+  }
+  Material white;
+  white.name = "GearboxInk";
+  white.metallic = 0.0f;
+  white.roughness = 0.6f;
+  white.emissive = glm::vec3(0.35f);
+  model.materials.push_back(white);
+  const std::array<MeshPiece, 1> pieces{MeshPiece{ink, static_cast<int>(model.materials.size()) - 1}};
+  add_mesh_node(model, "GearboxSigns", pieces, glm::vec3(0.0f), root);
+}
+
+std::vector<std::string> Gearbox::moving_names(const Gate& gate) {
+  std::vector<std::string> names{"Finger"};
+  for (int column = 0; column < gate.column_count; ++column) {
+    const std::string number = std::to_string(column);
+    for (const char* name : {"Rail", "Sleeve", "Hub"}) names.push_back(name + number);
+    for (int k = 0; k < 2; ++k) {
+      if (slot_at(gate, column, k) == nullptr) continue;
+      names.push_back(std::string("Gear") + kEnd[k] + number);
+      names.push_back(std::string("Ring") + kEnd[k] + number);
+    }
+  }
+  return names;
+}
+
+Gearbox::Gearbox(const Model& model, const Gate& gate) : rest_(model.nodes), finger_(needed_node(model, "Finger")) {
+  for (int column = 0; column < gate.column_count; ++column) {
+    const std::string number = std::to_string(column);
+    Set set;
+    set.rail = needed_node(model, "Rail" + number);
+    set.sleeve = needed_node(model, "Sleeve" + number);
+    set.hub = needed_node(model, "Hub" + number);
+    for (int k = 0; k < 2; ++k) {
+      if (slot_at(gate, column, k) == nullptr) continue;
+      set.gear[k] = needed_node(model, std::string("Gear") + kEnd[k] + number);
+      set.ring[k] = needed_node(model, std::string("Ring") + kEnd[k] + number);
+    }
+    sets_.push_back(set);
+  }
+}
+
+void Gearbox::place(const Gate& gate, glm::dvec2 lever, const VehicleState& car, double time, std::vector<Node>& pose) {
+  const double step = std::clamp(time - time_, 0.0, kLongestStep);
+  time_ = time;
+  hub_angle_ = kTurnPerMetre * std::fmod(car.distance, 4.0 * std::numbers::pi / kTurnPerMetre);
+  const auto node = [&](int index) -> Node& { return pose[static_cast<std::size_t>(index)]; };
+  double finger_shift = 0.0;
+  for (int column = 0; column < gate.column_count; ++column) {
+    Set& set = sets_[static_cast<std::size_t>(column)];
+    const double shift = rail_shift(gate, column, lever);
+    if (shift != 0.0) finger_shift = shift;
+    const glm::vec3 along(0.0f, 0.0f, static_cast<float>(-shift));
+    const glm::quat turned = about({0.0f, 0.0f, 1.0f}, hub_angle_);
+    node(set.rail).translation = rest_[static_cast<std::size_t>(set.rail)].translation + along;
+    node(set.sleeve).translation = rest_[static_cast<std::size_t>(set.sleeve)].translation + along;
+    node(set.sleeve).rotation = node(set.hub).rotation = turned;
+    turn_gears(gate, column, shift, car, step, set, pose);
+  }
+  const auto across = static_cast<float>(finger_place(gate, lever.x));
+  node(finger_).translation = rest_[static_cast<std::size_t>(finger_)].translation + glm::vec3(across, 0.0f, 0.0f);
+  node(finger_).rotation = about({1.0f, 0.0f, 0.0f}, std::asin(finger_shift / kFingerReach));
+}
+
+// A free gear turns with the engine. From where the sleeve meets the dogs on it turns with the hub, tooth in gap.
+void Gearbox::turn_gears(const Gate& gate, int column, double shift, const VehicleState& car, double step, Set& set,
+                         std::vector<Node>& pose) {
+  constexpr double kPitch = 2.0 * std::numbers::pi / kDogTeeth;
+  constexpr double kDogsMeet = 0.007;  // [m]
+  for (int k = 0; k < 2; ++k) {
+    const Slot* slot = slot_at(gate, column, k);
+    if (slot == nullptr) continue;
+    const double taken = kWay[k] * shift;
+    double& angle = set.gear_angle[k];
+    if (taken >= kDogsMeet) {
+      angle = hub_angle_ + kPitch * std::round((angle - hub_angle_) / kPitch);
+    } else {
+      const double ratio = slot->gear == kReverseGear ? -0.6 : 0.5 + 0.15 * slot->gear;
+      angle = std::remainder(angle + step * kTurnPerTurn * ratio * car.engine_speed, 2.0 * std::numbers::pi);
+    }
+    const double pressed = kRingTravel * std::clamp((taken - kKeysMeet) / 0.002, 0.0, 1.0);
+    const auto ring = static_cast<std::size_t>(set.ring[k]);
+    pose[static_cast<std::size_t>(set.gear[k])].rotation = about({0.0f, 0.0f, 1.0f}, angle);
+    pose[ring].rotation = about({0.0f, 0.0f, 1.0f}, hub_angle_);
+    pose[ring].translation = rest_[ring].translation + glm::vec3(0.0f, 0.0f, static_cast<float>(-kWay[k] * pressed));
+  }
+}
+
+}  // namespace gearshift

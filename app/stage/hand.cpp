@@ -1,0 +1,78 @@
+#include "app/stage/hand.h"
+
+#include <utility>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtx/quaternion.hpp>
+#include <glm/mat3x3.hpp>
+
+#include "app/stage/pieces.h"
+#include "engine/model/assemble.h"
+
+namespace gearshift {
+namespace {
+
+constexpr glm::dvec3 kElbow{-0.085, 0.055, 0.325};  // [m] from the knob of the upright lever (assets/models/README.md)
+
+glm::dquat turn_of(const glm::mat4& world) {
+  return glm::normalize(glm::dquat(glm::quat_cast(glm::mat3(world))));
+}
+
+// Primitives of one material whose indices follow each other become one: a draw less. (A skin cannot be taken apart
+// and put back as plain meshes can.)
+void join_neighbours(Mesh& mesh) {
+  std::vector<Primitive> joined;
+  for (const Primitive& next : mesh.primitives) {
+    if (joined.empty() || joined.back().material != next.material ||
+        joined.back().first_index + joined.back().index_count != next.first_index) {
+      joined.push_back(next);
+      continue;
+    }
+    joined.back().index_count += next.index_count;
+    joined.back().low = glm::min(joined.back().low, next.low);
+    joined.back().high = glm::max(joined.back().high, next.high);
+  }
+  mesh.primitives = std::move(joined);
+}
+
+}  // namespace
+
+void Hand::add_to(Model& model, const Model& hand_model, glm::vec3 knob) {
+  Node root;
+  root.name = "HandRoot";
+  root.translation = knob;
+  model.nodes.push_back(root);
+  append_model(model, hand_model, static_cast<int>(model.nodes.size()) - 1);
+  const int skin = needed_node(model, "HandMesh");
+  join_neighbours(model.meshes[static_cast<std::size_t>(model.nodes[static_cast<std::size_t>(skin)].mesh)]);
+  const int ghost = add_twin(model, skin, "GhostHand", kNone);
+  model.nodes[static_cast<std::size_t>(ghost)].skin = kNone;  // its vertices come with the hand's
+}
+
+Hand::Hand(const Model& model)
+    : root_(needed_node(model, "HandRoot")),
+      skin_(needed_node(model, "HandMesh")),
+      ghost_(needed_node(model, "GhostHand")),
+      wrist_(model.nodes[static_cast<std::size_t>(needed_node(model, "Forearm"))].parent),
+      forearm_(needed_node(model, "Forearm")) {
+  const std::vector<glm::mat4> rest = rest_pose(model);
+  const glm::dvec3 knob(rest[static_cast<std::size_t>(root_)][3]);
+  wrist_at_ = glm::dvec3(rest[static_cast<std::size_t>(forearm_)][3]) - knob;
+  wrist_turn_ = wrist_ == kNone ? glm::dquat(1.0, 0.0, 0.0, 0.0) : turn_of(rest[static_cast<std::size_t>(wrist_)]);
+  forearm_turn_ = turn_of(rest[static_cast<std::size_t>(forearm_)]);
+  elbow_ = knob + kElbow;
+}
+
+void Hand::place(glm::dvec3 knob, const glm::dquat& lever, std::vector<Node>& pose) const {
+  const glm::dquat lean = glm::slerp(glm::dquat(1.0, 0.0, 0.0, 0.0), lever, kWristShare);
+  Node& root = pose[static_cast<std::size_t>(root_)];
+  root.translation = glm::vec3(knob);
+  root.rotation = glm::quat(lean);
+  const glm::dvec3 at_rest = glm::normalize(kElbow - wrist_at_);
+  const glm::dvec3 now = glm::normalize(elbow_ - knob - lean * wrist_at_);
+  const glm::dquat forearm = glm::rotation(at_rest, now) * forearm_turn_;
+  pose[static_cast<std::size_t>(forearm_)].rotation = glm::quat(glm::inverse(lean * wrist_turn_) * forearm);
+}
+
+}  // namespace gearshift

@@ -1,0 +1,182 @@
+#include "app/stage/roadside.h"
+
+#include <cmath>
+#include <iterator>
+#include <numbers>
+
+#include <glm/geometric.hpp>
+#include <glm/gtc/matrix_transform.hpp>
+#include <glm/mat3x3.hpp>
+
+#include "app/stage/pieces.h"
+#include "engine/model/assemble.h"
+
+namespace gearshift {
+namespace {
+
+// [m] The middle of the lane is the car's; the road lies under the tyres (assets/models/README.md).
+constexpr glm::vec3 kRoadPlace{0.335f, -0.53f, 0.0f};
+constexpr int kTilesAhead = 36, kTilesBehind = 11;
+constexpr double kLeftEdge = -5.7, kRightEdge = 2.2;  // [m] of the asphalt, from the middle of the lane
+
+// A thing of road.glb at a place: x right of the lane's middle, ahead of the block's near end. [m], [rad]
+struct Thing {
+  const char* name;
+  double x, ahead;
+  double yaw = 0.0, size = 1.0;
+};
+
+// Height of the ground beside the road, as the tile's verge has it. [m]
+double ground(double x) {
+  constexpr double kProfile[][2] = {{0.0, 0.0},   {0.6, -0.05}, {1.6, -0.28},  {2.4, -0.30},
+                                    {3.6, -0.06}, {8.0, 0.02},  {16.0, -0.05}, {30.0, -0.45}};
+  const double off = x > 0.0 ? x - kRightEdge : kLeftEdge - x;
+  if (off <= 0.0) return 0.0;
+  for (std::size_t i = 1; i < std::size(kProfile); ++i) {
+    const auto& a = kProfile[i - 1];
+    const auto& b = kProfile[i];
+    if (off <= b[0]) return a[1] + (b[1] - a[1]) * (off - a[0]) / (b[0] - a[0]);
+  }
+  return kProfile[std::size(kProfile) - 1][1];
+}
+
+// Numbers of one block, in the order in which they are asked for.
+class Dice {
+ public:
+  explicit Dice(int block) : block_(block) {}
+  double between(double low, double high) { return low + (high - low) * road_dice(block_, next_++); }
+  double side(double near, double far) {  // beside the road, left or right
+    const double off = between(near, far);
+    return between(0.0, 1.0) < 0.5 ? kLeftEdge - off : kRightEdge + off;
+  }
+
+ private:
+  int block_;
+  int next_ = 0;
+};
+
+// The same thing again and again along the block.
+void add_row(const char* name, double x, double first, double step, int count, std::vector<Thing>& things) {
+  for (int i = 0; i < count; ++i) things.push_back({name, x, first + step * i});
+}
+
+void add_furniture(int block, std::vector<Thing>& things) {
+  add_row("Post", kRightEdge + 0.5, 6.0, 24.0, 5, things);
+  add_row("Post", kLeftEdge - 0.5, 18.0, 24.0, 5, things);
+  add_row("Pole", kLeftEdge - 6.5, 20.0, 40.0, 3, things);
+  if (block % 3 == 0) add_row("Sign", kRightEdge + 1.0, 57.0, 0.0, 1, things);
+  if (block % 3 == 1) add_row("GuardRail", kRightEdge + 0.9, 40.0, 4.0, 11, things);
+}
+
+void add_landmarks(int block, std::vector<Thing>& things) {
+  if (block == 2) things.push_back({"House", kRightEdge + 17.0, 60.0});
+  if (block == 5) things.push_back({"Barn", kRightEdge + 21.0, 75.0});
+  if (block == 4) {
+    for (int i = 0; i < 4; ++i) things.push_back({"Bale", kRightEdge + 12.0 + 3.7 * (i % 2), 30.0 + 9.0 * i, 0.4 * i});
+  }
+}
+
+std::vector<Thing> things_of(int block) {
+  std::vector<Thing> things;
+  add_furniture(block, things);
+  add_landmarks(block, things);
+  Dice dice(block);
+  const bool has_house = block == 2 || block == 5;
+  for (int i = 0; i < 5; ++i) {
+    const char* tree = dice.between(0.0, 1.0) < 0.6 ? "TreeBroad" : "TreeSpruce";
+    const double x = has_house ? kLeftEdge - dice.between(9.0, 24.0) : dice.side(9.0, 24.0);
+    const double ahead = (i + dice.between(0.1, 0.9)) * kBlockLength / 5.0;
+    things.push_back({tree, x, ahead, dice.between(0.0, 2.0 * std::numbers::pi), dice.between(0.8, 1.35)});
+  }
+  for (int i = 0; i < 5; ++i) {
+    const double x = dice.side(3.8, 7.0), ahead = dice.between(0.0, kBlockLength);
+    things.push_back({"Bush", x, ahead, dice.between(0.0, 2.0 * std::numbers::pi), dice.between(0.7, 1.4)});
+  }
+  return things;
+}
+
+// The pieces of a thing, placed. placed: no shear and one scale, so that normals turn as directions do.
+void stamp(const Model& road, const char* name, const glm::mat4& placed, std::vector<Piece>& pieces) {
+  for (Piece& piece : pieces_of(road, needed_node(road, name))) {
+    for (Vertex& vertex : piece.patch.vertices) {
+      vertex.position = glm::vec3(placed * glm::vec4(vertex.position, 1.0f));
+      vertex.normal = glm::normalize(glm::mat3(placed) * vertex.normal);
+      vertex.tangent = glm::vec4(glm::normalize(glm::mat3(placed) * glm::vec3(vertex.tangent)), vertex.tangent.w);
+    }
+    pieces.push_back(std::move(piece));
+  }
+}
+
+glm::mat4 place_of(const Thing& thing) {
+  const glm::vec3 at(glm::dvec3(thing.x, ground(thing.x), -thing.ahead));
+  const glm::mat4 turned =
+      glm::rotate(glm::translate(glm::mat4(1.0f), at), static_cast<float>(thing.yaw), {0.0f, 1.0f, 0.0f});
+  return glm::scale(turned, glm::vec3(static_cast<float>(thing.size)));
+}
+
+std::vector<Piece> strip_of_tiles(const Model& road) {
+  std::vector<Piece> strip;
+  for (int i = -kTilesBehind; i <= kTilesAhead; ++i) {
+    const float back = static_cast<float>(-kTileLength * i);
+    stamp(road, "Road", glm::translate(glm::mat4(1.0f), {0.0f, 0.0f, back}), strip);
+  }
+  return strip;
+}
+
+// Adds a node for pieces whose materials are the model's from `first_material` on.
+void add_node(Model& model, std::string name, std::vector<Piece> pieces, int first_material) {
+  for (Piece& piece : pieces) piece.material += first_material;
+  Node node;
+  node.name = std::move(name);
+  node.translation = kRoadPlace;
+  model.nodes.push_back(std::move(node));
+  set_pieces(model, static_cast<int>(model.nodes.size()) - 1, pieces);
+}
+
+std::string block_name(int block) {
+  return "RoadBlock" + std::to_string(block);
+}
+
+}  // namespace
+
+void Roadside::add_to(Model& model, const Model& road_model) {
+  const auto first_material = static_cast<int>(model.materials.size());
+  Model paints;  // materials and textures alone
+  paints.materials = road_model.materials;
+  paints.textures = road_model.textures;
+  append_model(model, paints);
+  add_node(model, "RoadStrip", strip_of_tiles(road_model), first_material);
+  std::vector<Piece> land;
+  stamp(road_model, "Fields", glm::mat4(1.0f), land);
+  stamp(road_model, "Hills", glm::mat4(1.0f), land);
+  add_node(model, "Land", std::move(land), first_material);
+  for (int block = 0; block < kBlocks; ++block) {
+    std::vector<Piece> pieces;
+    for (const Thing& thing : things_of(block)) stamp(road_model, thing.name, place_of(thing), pieces);
+    add_node(model, block_name(block), std::move(pieces), first_material);
+  }
+}
+
+std::vector<std::string> Roadside::moving_names() {
+  std::vector<std::string> names{"RoadStrip", "Land"};  // the land stands still, but lies in no part of the cabin
+  for (int block = 0; block < kBlocks; ++block) names.push_back(block_name(block));
+  return names;
+}
+
+Roadside::Roadside(const Model& model) : strip_(needed_node(model, "RoadStrip")) {
+  for (int block = 0; block < kBlocks; ++block) {
+    block_[static_cast<std::size_t>(block)] = needed_node(model, block_name(block));
+  }
+}
+
+void Roadside::place(double distance, std::vector<Node>& pose) const {
+  pose[static_cast<std::size_t>(strip_)].translation =
+      kRoadPlace + glm::vec3(0.0f, 0.0f, static_cast<float>(tile_shift(distance)));
+  for (int block = 0; block < kBlocks; ++block) {
+    const BlockPlace at = block_place(block, distance);
+    pose[static_cast<std::size_t>(block_[static_cast<std::size_t>(block)])].translation =
+        kRoadPlace + glm::vec3(glm::dvec3(0.0, at.height, -at.ahead));
+  }
+}
+
+}  // namespace gearshift

@@ -1,0 +1,62 @@
+// From what the loop and the car say to where everything stands in the cabin. Knows meshes and nodes, no GPU.
+#pragma once
+
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "app/vehicle/vehicle_state.h"
+#include "engine/model/model.h"
+#include "engine/scene/frame_scene.h"
+#include "engine/scene/view.h"
+#include "haptics/gate/gate.h"
+#include "haptics/joystick/kinematics.h"
+#include "haptics/loop/haptic_snapshot.h"
+
+namespace gearshift {
+
+struct StageConfig {
+  Gate gate;
+  std::string gate_title;
+  YokeGeometry yoke;       // the drawn lever turns about the same centre as the device's yoke
+  bool cutaway = false;    // the gearbox is seen beside the console
+  bool open_gate = false;  // a slotted plate of the loaded gate in place of the boot
+  bool hand = true;        // a hand on the knob
+};
+
+struct StageInput {
+  HapticSnapshot lever;
+  VehicleState car;
+  double time = 0.0;  // [s] for what blinks
+};
+
+class Stage {
+ public:
+  // folder: assets/models. Throws GltfError (a model), std::runtime_error (a node that the stage needs is missing).
+  Stage(const StageConfig& config, const std::filesystem::path& folder);
+  ~Stage();
+
+  const Model& model() const noexcept;  // static parts merged, gate plate and gearbox made for the gate
+
+  // Places everything. The drawn lever is the proxy, through the exact kinematics; past the offset at which the loop
+  // raises kFlagGhost the ghost stands where the lever point is.
+  void place(const StageInput& input);
+  const FrameScene& scene() const noexcept;
+
+  glm::dvec3 knob() const noexcept;        // [m] world, centre of the drawn knob
+  glm::dvec3 ghost_knob() const noexcept;  // [m] world, where the lever point is
+  EyePose driver_eye() const noexcept;     // at rest, looking ahead and a little down
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+// Named cameras: "driver", "lever", "gate", "cluster", "gearbox". Throws std::invalid_argument naming them all.
+EyePose camera(std::string_view name);
+
+}  // namespace gearshift

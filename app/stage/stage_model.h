@@ -1,0 +1,14 @@
+// All meshes and nodes of the stage: the files of assets/models, what is made for the gate, few draws.
+#pragma once
+
+#include <filesystem>
+
+#include "app/stage/stage.h"
+#include "engine/model/model.h"
+
+namespace gearshift {
+
+// Throws GltfError (a file), std::runtime_error (a node that the stage needs is missing).
+Model make_stage_model(const StageConfig& config, const std::filesystem::path& folder);
+
+}  // namespace gearshift

@@ -1,0 +1,28 @@
+// Where the person looks from: a named place in the cabin, turned by the mouse.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include <glm/vec2.hpp>
+
+#include "engine/scene/view.h"
+
+namespace gearshift {
+
+class LookAround {
+ public:
+  explicit LookAround(std::string_view first);  // throws std::invalid_argument for an unknown camera
+  void next();
+  void turn(glm::dvec2 moved_px);  // right +, down +; 0.2 deg a pixel, up to 80 deg to the side and 60 up or down
+  void recentre();
+  EyePose pose() const;
+
+ private:
+  static constexpr std::array<std::string_view, 5> kPlaces{"driver", "lever", "gate", "cluster", "gearbox"};
+  std::size_t place_ = 0;
+  double yaw_ = 0.0, pitch_ = 0.0;  // [rad] left and up +
+};
+
+}  // namespace gearshift

@@ -1,0 +1,228 @@
+#include "app/train/train.h"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+
+#include <fmt/core.h>
+
+#include "app/input/driver_input.h"
+#include "app/train/gear_lines.h"
+#include "app/train/look_around.h"
+#include "engine/ui/ui.h"
+
+namespace gearshift {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kOffscreenRate = 30.0;      // [1/s] frames of simulated time
+constexpr double kFastestFrame = 1.0 / 144;  // [s] where the display does not hold the frames back
+constexpr double kLongestFrame = 0.25;       // [s] a frame that took longer moves car and pedals on by this
+constexpr float kPanelLines = 1080.0f;       // [px] a picture of this height has the panel at scale 1
+
+float ui_scale(int height, float content_scale) {
+  return std::max(content_scale, static_cast<float>(height) / kPanelLines);
+}
+
+UiEvents ui_events(const WindowInput& input, bool mouse_here) {
+  UiEvents events;
+  events.mouse = input.mouse;
+  events.mouse_here = mouse_here;
+  events.mouse_down = input.mouse_down;
+  events.scroll = input.scroll;
+  for (const KeyEvent& key : input.keys) {
+    events.keys.push_back({key.key, key.down});
+    events.shift = key.shift;
+    events.control = key.control;
+    events.alt = key.alt;
+  }
+  events.text = input.text;
+  events.focused = input.focused;
+  return events;
+}
+
+// One frame after another in a window: poll, lead, read, panel, place, show.
+class WindowTrainer {
+ public:
+  explicit WindowTrainer(const TrainSetup& setup)
+      : setup_(setup),
+        window_(setup.view.width, setup.view.height, "gearshift"),
+        view_(std::make_unique<CabinView>(setup.view, &window_, &ui_)),
+        session_(setup.choice),
+        input_({setup.bindings}),
+        look_(setup.camera),
+        last_frame_(Clock::now()) {
+    panel_.set_visible(setup.panel);
+  }
+
+  bool done() const { return quit_ || window_.wants_close(); }
+
+  void frame() {
+    pace();
+    poll();
+    act();
+    lead();
+    session_.advance(seconds_);
+    print_events(session_.events(), session_.time());
+    draw_panel();
+    session_.set_ears(look_.pose());
+    session_.place();
+    show();
+  }
+
+ private:
+  // Sleeps before input is read, not after: what is seen is as new as can be.
+  void pace() {
+    const auto next =
+        last_frame_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(kFastestFrame));
+    std::this_thread::sleep_until(next);
+    const Clock::time_point now = Clock::now();
+    const double passed = std::chrono::duration<double>(now - last_frame_).count();
+    session_.set_frame_ms(1e3 * passed);
+    seconds_ = std::min(passed, kLongestFrame);
+    last_frame_ = now;
+  }
+
+  void poll() {
+    const WindowInput& input = window_.poll();
+    const bool ui_has_mouse = panel_.visible() && ui_.wants_mouse();
+    const bool ui_has_keys = panel_.visible() && ui_.wants_keys();
+    ui_.feed(ui_events(input, !input_.mouse_leads()));
+    input_.update(input, seconds_, ui_has_mouse, ui_has_keys);
+    if (input.mouse_down[1] && !ui_has_mouse) look_.turn(input.mouse_moved);
+  }
+
+  // Another gate, hand or device: the person's hand is where the lever is.
+  void lead() {
+    if (session_.take_new_trainer()) {
+      Trainer& trainer = session_.trainer();
+      input_.set_reach(hand_reach(trainer.gate(), trainer.device()));
+      input_.recentre(trainer.snapshot().lever);
+    }
+    session_.lead(input_.hand(), input_.controls());
+  }
+
+  void act() {
+    for (const Action action : input_.pressed()) act(action);
+    window_.capture_mouse(input_.mouse_leads());
+  }
+
+  void act(Action action) {
+    PanelRequests requests;
+    switch (action) {
+      case Action::stop:
+        requests.stop = true;
+        break;
+      case Action::arm:
+        requests.arm = true;
+        break;
+      case Action::record:
+        requests.record = true;
+        break;
+      case Action::recentre:
+        look_.recentre();
+        input_.recentre(session_.trainer().snapshot().lever);
+        break;
+      case Action::full_screen:
+        window_.set_full_screen(!window_.full_screen());
+        break;
+      case Action::help:
+        help_ = !help_;
+        panel_.show_help(help_, help_text(setup_.bindings));
+        break;
+      case Action::panel:
+        panel_.set_visible(!panel_.visible());
+        break;
+      case Action::next_camera:
+        look_.next();
+        break;
+      case Action::undo:
+        panel_.undo();
+        break;
+      case Action::redo:
+        panel_.redo();
+        break;
+      case Action::quit:
+        quit_ = true;
+        break;
+      default:
+        break;  // the driver's own: held by DriverInput
+    }
+    session_.obey(requests);
+  }
+
+  void draw_panel() {
+    const glm::ivec2 size = window_.framebuffer();
+    ui_.begin({static_cast<float>(std::max(size.x, 1)), static_cast<float>(std::max(size.y, 1)),
+               static_cast<float>(std::max(seconds_, 1e-4)), ui_scale(size.y, window_.content_scale())});
+    const PanelRequests requests = panel_.draw(session_.panel_input());
+    ui_.end();
+    help_ = panel_.shows_help();
+    session_.obey(requests);
+  }
+
+  void show() {
+    try {
+      if (session_.take_new_model() || fresh_view_) view_->set_model(session_.stage().model());
+      fresh_view_ = false;
+      if (view_->begin()) view_->draw(session_.stage().scene(), look_.pose());
+    } catch (const GpuLost& lost) {
+      fmt::print(stderr, "gearshift: {}; the picture is made anew, the lever goes on\n", lost.what());
+      view_.reset();
+      view_ = std::make_unique<CabinView>(setup_.view, &window_, &ui_);
+      fresh_view_ = true;
+    }
+  }
+
+  TrainSetup setup_;
+  Window window_;
+  UiContext ui_;
+  Panel panel_;
+  std::unique_ptr<CabinView> view_;
+  Session session_;
+  DriverInput input_;
+  LookAround look_;
+  Clock::time_point last_frame_;
+  double seconds_ = 1.0 / 60.0;  // [s] that this frame stands for
+  bool help_ = false;
+  bool quit_ = false;
+  bool fresh_view_ = true;
+};
+
+}  // namespace
+
+int train_in_window(const TrainSetup& setup) {
+  WindowTrainer trainer(setup);
+  while (!trainer.done()) trainer.frame();
+  return 0;
+}
+
+int train_offscreen(const TrainSetup& setup, const OffscreenSetup& offscreen) {
+  UiContext ui;
+  Panel panel;
+  panel.set_visible(setup.panel);
+  CabinView view(setup.view, nullptr, &ui);
+  Session session(setup.choice);
+  const LookAround look(setup.camera);
+  const double seconds = 1.0 / kOffscreenRate;
+  view.set_model(session.stage().model());
+  while (session.time() < offscreen.seconds) {
+    session.advance(seconds);
+    print_events(session.events(), session.time());
+    ui.begin({static_cast<float>(setup.view.width), static_cast<float>(setup.view.height), static_cast<float>(seconds),
+              ui_scale(setup.view.height, 1.0f)});
+    session.obey(panel.draw(session.panel_input()));
+    ui.end();
+    session.place();
+    if (session.take_new_model()) view.set_model(session.stage().model());
+    view.begin();
+    view.draw(session.stage().scene(), look.pose());
+  }
+  const std::filesystem::path picture = offscreen.folder / "train.png";
+  write_png(picture, view.picture());
+  fmt::print("{}\n", picture.string());
+  return 0;
+}
+
+}  // namespace gearshift

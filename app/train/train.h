@@ -1,0 +1,31 @@
+// The trainer: a window where there is a display, or frames in memory.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+
+#include "app/input/bindings.h"
+#include "app/train/session.h"
+#include "app/view/cabin_view.h"
+
+namespace gearshift {
+
+struct TrainSetup {
+  SessionChoice choice;
+  ViewConfig view;
+  Bindings bindings;
+  bool panel = true;
+  std::string camera = "driver";
+};
+
+// Until the window is closed. Prints a line for each gear. Returns the exit code.
+int train_in_window(const TrainSetup& setup);
+
+// Frames in memory, on the virtual clock: 30 a second of it. Writes train.png, the last one, into the folder.
+struct OffscreenSetup {
+  std::filesystem::path folder;
+  double seconds = 5.0;  // [s] > 0
+};
+int train_offscreen(const TrainSetup& setup, const OffscreenSetup& offscreen);
+
+}  // namespace gearshift

@@ -1,0 +1,56 @@
+#include "app/trainer/cycle_runner.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace gearshift {
+namespace {
+
+// RealtimeThread's clock: steady_clock is CLOCK_MONOTONIC here.
+std::int64_t clock_ns() noexcept {
+  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
+      .count();
+}
+
+}  // namespace
+
+void CycleRunner::cycle(const CycleCall& call, const CycleStatistics* statistics) noexcept {
+  const std::int64_t late_ns = statistics != nullptr ? lateness(call, *statistics) : 0;
+  if (next_.load(std::memory_order_relaxed) != nullptr) run_ = next_.exchange(nullptr, std::memory_order_acquire);
+  if (run_ == nullptr) return;
+  run_->loop.cycle(call.deadline_ns, call.skipped);
+  publish(late_ns);
+  now_ns_.store(call.deadline_ns, std::memory_order_relaxed);
+  ran_.store(run_, std::memory_order_release);
+}
+
+// Deadlines skipped for an overrun were not slept for: the thread was at work. All others it slept through.
+std::int64_t CycleRunner::lateness(const CycleCall& call, const CycleStatistics& statistics) noexcept {
+  const bool was_at_work = statistics.overruns != overruns_;
+  overruns_ = statistics.overruns;
+  const std::int64_t slept_for = was_at_work ? 0 : call.skipped * period_ns_;
+  return std::max<std::int64_t>(0, clock_ns() - call.deadline_ns) + slept_for;
+}
+
+void CycleRunner::publish(std::int64_t late_ns) noexcept {
+  CycleRecord record{run_->loop.snapshot(), late_ns};
+  --record.snapshot.cycle;  // the loop counts the next one already
+  (void)records.push(record);
+  const StageStamps& stamps = run_->loop.stamps();
+  if (stamps.cycle == record.snapshot.cycle) add_stamps(stamps);
+}
+
+void CycleRunner::add_stamps(const StageStamps& stamps) noexcept {
+  std::array<std::int64_t, 8>& newest = stage_ns_[stamps_++ % kStamps];
+  for (std::size_t i = 0; i < newest.size(); ++i) newest[i] = stamps.ns[i + 1] - stamps.ns[i];
+  const double count = static_cast<double>(std::min(stamps_, kStamps));
+  LoopFigures told;
+  told.overruns = overruns_;
+  for (const auto& stages : stage_ns_) {
+    for (std::size_t i = 0; i < stages.size(); ++i) told.stage_ns[i] += static_cast<double>(stages[i]) / count;
+  }
+  for (const double stage : told.stage_ns) told.cycle_ns += stage;
+  figures.write(told);
+}
+
+}  // namespace gearshift

@@ -1,0 +1,323 @@
+#include "app/trainer/trainer.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+#include <thread>
+#include <utility>
+
+#include "app/trainer/cycle_runner.h"
+#include "app/trainer/history.h"
+#include "app/trainer/loop_run.h"
+#include "app/trainer/touring_hand.h"
+#include "haptics/device/led_hand.h"
+#include "haptics/device/simulated_lever.h"
+#include "haptics/gate/gate_compiler.h"
+#include "haptics/joystick/kinematics.h"
+#include "haptics/loop/trace_recorder.h"
+#include "haptics/rt/realtime_thread.h"
+
+namespace gearshift {
+namespace {
+
+constexpr std::uint64_t kServeEvery = 1000;  // [cycles] of the virtual clock; the queues hold eight times that
+constexpr std::size_t kMostHistory = 16384;  // [snapshots] kept for a frame that does not ask for them
+constexpr std::chrono::microseconds kLookEvery{
+    100};  // for the next cycle of a thread that has a period of 250 us or more
+
+TrainerConfig checked(TrainerConfig config) {
+  check_config(config.preset.haptics);
+  HandImpedance& hand = config.preset.lever.hand;
+  hand = leading_hand(hand);
+  return config;
+}
+
+}  // namespace
+
+struct Trainer::State {
+  explicit State(const TrainerConfig& wanted);
+  ~State();
+
+  std::unique_ptr<HandDriver> make_hand();
+  std::unique_ptr<LoopRun> make_run() { return std::make_unique<LoopRun>(as_it_runs(), gate, lever); }
+  HapticConfig as_it_runs() const;
+  TraceHeader header(bool armed) const;
+  bool is_armed() const;
+  void hand_over(std::unique_ptr<LoopRun> next);
+  void begin();
+  void cycle_once();
+  void serve();
+  void take_snapshot();
+  void take_records();
+  void take_events();
+  void send(LoopCommand command);
+
+  bool is_virtual() const { return config.clock == TrainerClock::virtual_time; }
+
+  TrainerConfig config;
+  std::int64_t period_ns;
+  Gate gate;
+  LatestValue<HandTarget> person;
+  std::unique_ptr<HandDriver> hand;
+  SimulatedLever lever;
+  std::unique_ptr<LoopRun> run;
+  AdmittedTuning admitted;
+  CycleRunner runner;
+  std::unique_ptr<TraceRecorder> recorder;
+  RealtimeThread thread;
+
+  // The frame's own.
+  HapticSnapshot newest;
+  std::vector<HapticSnapshot> history;
+  std::vector<HapticEvent> events;
+  DurationHistogram lateness;
+  DriverControls controls;
+  std::uint64_t events_lost = 0;      // in the loops before this one
+  bool wants_forces = false;          // the last of arm, disarm and stop
+  std::int64_t start_ns = 0;          // [ns] on the loop's clock
+  std::int64_t virtual_ns = 0;        // [ns] of the last cycle
+  double owed = 0.0;                  // [s] asked for by advance() and less than a period
+  std::uint64_t unserved_cycles = 0;  // of the virtual clock
+};
+
+Trainer::State::State(const TrainerConfig& wanted)
+    : config(checked(wanted)),
+      period_ns(gearshift::period_ns(config.preset.haptics)),
+      gate(compile_gate(config.layout, workspace_half_extent(config.preset.lever.yoke),
+                        config.preset.lever.yoke.radius)),
+      person(HandTarget{rest_position(gate, kNeutralGear), {}, {}, false, false}),
+      hand(make_hand()),
+      lever(config.preset.lever, period_ns, *hand),
+      run(std::make_unique<LoopRun>(config.preset.haptics, gate, lever)),
+      admitted(run->loop.admitted()),
+      runner(period_ns) {
+  const glm::dvec2 start = rest_position(gate, kNeutralGear);
+  lever.place(start);
+  newest.lever = newest.proxy = start;
+  newest.wall_stiffness = admitted.tuning.wall_stiffness;
+  begin();
+}
+
+Trainer::State::~State() {
+  thread.stop();
+  lever.release();
+}
+
+std::unique_ptr<HandDriver> Trainer::State::make_hand() {
+  const double period = period_s(config.preset.haptics);
+  if (config.hand == HandKind::touring) return std::make_unique<TouringHand>(gate, config.seed, period);
+  return std::make_unique<LedHand>(person, period);
+}
+
+void Trainer::State::begin() {
+  runner.hand_over(*run);
+  if (is_virtual()) return;
+  RealtimeConfig realtime;
+  realtime.period_ns = period_ns;
+  thread.start(realtime, [this](const CycleCall& call) { runner.cycle(call, &thread.statistics()); });
+  while (!runner.has_run(*run)) std::this_thread::sleep_for(kLookEvery);
+  take_snapshot();
+  start_ns = newest.time_ns - period_ns;
+}
+
+// The tuning that was wanted last, under the hold that runs: what change_tuning() admitted is admitted again.
+HapticConfig Trainer::State::as_it_runs() const {
+  HapticConfig haptics = config.preset.haptics;
+  haptics.contact.hold = admitted.hold;
+  return haptics;
+}
+
+TraceHeader Trainer::State::header(bool armed) const {
+  return {config.program, as_it_runs(), lever.spec(), config.layout.file, config.layout.text, run->world.name(), armed};
+}
+
+// As the person wants it, unless a fault has taken the forces and only a person may give them back. A command that the
+// loop has not taken yet counts already.
+bool Trainer::State::is_armed() const {
+  const bool waits = newest.guard == GuardState::released ||
+                     (newest.guard == GuardState::damped && newest.fault == GuardFault::chatter);
+  return wants_forces && !waits;
+}
+
+// Returns when the next loop has run its first cycle: what is sent from then on goes to it, and its recording is whole.
+void Trainer::State::hand_over(std::unique_ptr<LoopRun> next) {
+  next->channels.controls.write(controls);
+  runner.hand_over(*next);
+  if (is_virtual()) {
+    cycle_once();
+    owed -= 1e-9 * static_cast<double>(period_ns);
+  }
+  while (!runner.has_run(*next)) std::this_thread::sleep_for(kLookEvery);
+  take_events();
+  events_lost += run->channels.events_lost.load();
+  run = std::move(next);
+}
+
+void Trainer::State::cycle_once() {
+  virtual_ns += period_ns;
+  runner.cycle({virtual_ns, 0}, nullptr);
+  if (++unserved_cycles >= kServeEvery) serve();
+}
+
+// What a thread or a frame would do meanwhile.
+void Trainer::State::serve() {
+  unserved_cycles = 0;
+  if (recorder) recorder->pump();
+  take_records();
+  take_events();
+}
+
+void Trainer::State::take_snapshot() {
+  if (run->channels.snapshot.update()) newest = run->channels.snapshot.value();
+}
+
+void Trainer::State::take_records() {
+  for (CycleRecord record; runner.records.pop(record);) {
+    history.push_back(record.snapshot);
+    lateness.add(record.late_ns);
+  }
+  if (history.size() > kMostHistory) history = thinned(history, kMostHistory / 2);
+}
+
+void Trainer::State::take_events() {
+  for (HapticEvent event; run->channels.events.pop(event);) events.push_back(event);
+}
+
+// Commands wait for the cycle that takes them, one each. Where so many wait that the queue is full, the oldest are void
+// on a clock that stands; a thread takes one within a period.
+void Trainer::State::send(LoopCommand command) {
+  while (!run->channels.commands.push(command)) {
+    LoopCommand oldest;
+    if (is_virtual())
+      (void)run->channels.commands.pop(oldest);
+    else
+      std::this_thread::sleep_for(kLookEvery);
+  }
+}
+
+Trainer::Trainer(const TrainerConfig& config) : state_(std::make_unique<State>(config)) {}
+Trainer::~Trainer() = default;
+
+const TrainerConfig& Trainer::config() const noexcept {
+  return state_->config;
+}
+
+const Gate& Trainer::gate() const noexcept {
+  return state_->gate;
+}
+
+const DeviceSpec& Trainer::device() const noexcept {
+  return state_->lever.spec();
+}
+
+const AdmittedTuning& Trainer::admitted() const noexcept {
+  return state_->admitted;
+}
+
+HapticSnapshot Trainer::snapshot() {
+  state_->take_snapshot();
+  return state_->newest;
+}
+
+std::vector<HapticEvent> Trainer::take_events() {
+  state_->take_events();
+  return std::exchange(state_->events, {});
+}
+
+std::vector<HapticSnapshot> Trainer::take_history(std::size_t most) {
+  state_->take_records();
+  std::vector<HapticSnapshot> taken = thinned(state_->history, most);
+  state_->history.clear();
+  return taken;
+}
+
+void Trainer::set_hand(const HandTarget& target) {
+  state_->person.write(target);
+}
+
+void Trainer::set_controls(const DriverControls& controls) {
+  state_->controls = controls;
+  state_->run->channels.controls.write(controls);
+}
+
+AdmittedTuning Trainer::change_tuning(const HapticTuning& wanted) {
+  state_->admitted = state_->run->loop.change_tuning(wanted);
+  state_->config.preset.haptics.tuning = wanted;
+  return state_->admitted;
+}
+
+void Trainer::arm() {
+  state_->wants_forces = true;
+  state_->send(LoopCommand::arm);
+}
+
+void Trainer::disarm() {
+  state_->wants_forces = false;
+  state_->send(LoopCommand::disarm);
+}
+
+void Trainer::stop() {
+  state_->wants_forces = false;
+  state_->send(LoopCommand::stop);
+}
+
+LoopHealth Trainer::health() {
+  State& s = *state_;
+  s.take_records();
+  s.runner.figures.update();
+  const LoopFigures& figures = s.runner.figures.value();
+  LoopHealth health;
+  health.rate = s.config.preset.haptics.rate;
+  health.late_p50 = 1e-9 * static_cast<double>(s.lateness.quantile(0.5));
+  health.late_p99 = 1e-9 * static_cast<double>(s.lateness.quantile(0.99));
+  health.late_worst = 1e-9 * static_cast<double>(s.lateness.max());
+  s.lateness = {};
+  health.overruns = figures.overruns;
+  health.events_lost = s.events_lost + s.run->channels.events_lost.load();
+  health.stage_ns = figures.stage_ns;
+  health.cycle_ns = figures.cycle_ns;
+  health.realtime = s.thread.is_realtime();
+  health.why_not = s.is_virtual() ? "not real-time: a virtual clock" : s.thread.why_not();
+  return health;
+}
+
+void Trainer::start_recording(const std::filesystem::path& file) {
+  State& s = *state_;
+  if (s.recorder) throw std::logic_error("a recording is running already: stop it first");
+  s.take_snapshot();
+  std::unique_ptr<LoopRun> next = s.make_run();
+  const bool armed = s.is_armed();
+  if (armed) next->loop.arm();
+  const TracePump pump = s.is_virtual() ? TracePump::by_caller : TracePump::own_thread;
+  s.recorder = std::make_unique<TraceRecorder>(file, s.header(armed), next->channels, pump);
+  s.hand_over(std::move(next));
+}
+
+std::optional<std::string> Trainer::stop_recording() {
+  if (!state_->recorder) return std::nullopt;
+  const RecordingResult result = state_->recorder->finish();
+  state_->recorder.reset();
+  return result.problem.empty() ? std::nullopt : std::optional(result.problem);
+}
+
+bool Trainer::recording() const noexcept {
+  return state_->recorder != nullptr;
+}
+
+void Trainer::advance(double seconds) {
+  State& s = *state_;
+  if (!s.is_virtual()) throw std::logic_error("a trainer on the real clock cannot be moved on");
+  if (!(seconds > 0.0) || !std::isfinite(seconds)) return;
+  const double period = 1e-9 * static_cast<double>(s.period_ns);
+  s.owed += seconds;
+  const std::int64_t cycles = std::llround(std::floor(s.owed / period + 1e-6));  // a whole number, but for rounding
+  for (std::int64_t i = 0; i < cycles; ++i) s.cycle_once();
+  s.owed -= static_cast<double>(cycles) * period;
+}
+
+double Trainer::time() const noexcept {
+  return 1e-9 * static_cast<double>(std::max<std::int64_t>(0, state_->runner.now_ns() - state_->start_ns));
+}
+
+}  // namespace gearshift

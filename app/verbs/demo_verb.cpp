@@ -1,0 +1,72 @@
+// gearshift demo: the tour in the cabin, offscreen: pictures, sound, trace, plots, a page.
+#include <memory>
+#include <string>
+#include <string_view>
+
+#include <fmt/core.h>
+
+#include "app/demo/demo.h"
+#include "app/output_folder.h"
+#include "app/verbs/number_between.h"
+#include "app/verbs/picture_size.h"
+#include "app/verbs/progress_bar.h"
+#include "app/verbs/tour_arguments.h"
+#include "app/verbs/tour_words.h"
+#include "app/verbs/verbs.h"
+
+namespace gearshift {
+namespace {
+
+constexpr double kDriveInGear = 2.0;  // [s] the car shall move, not only the lever
+
+struct DemoArguments {
+  TourArguments tour;
+  std::string size = "1280x720";
+  int samples = 4;
+  bool stereo = false;
+  double film_rate = 0.0;  // [1/s]
+};
+
+// All that can be refused is refused before the folder is made.
+int run(const DemoArguments& arguments) {
+  DemoSetup setup;
+  setup.tour = make_tour_setup(arguments.tour);
+  setup.tour.style.dwell_gear = kDriveInGear;
+  const PictureSize size = picture_size(arguments.size);
+  setup.view.width = size.width;
+  setup.view.height = size.height;
+  setup.view.samples = arguments.samples;
+  setup.view.stereo = arguments.stereo;
+  setup.film_rate = arguments.film_rate;
+  make_folder(setup.tour.folder);
+  ProgressBar bar;
+  const DemoResult result = run_demo(setup, [&](std::string_view what, double share) { bar.show(what, share); });
+  bar.clear();
+  print_tour(setup.tour, result.tour);
+  fmt::print("{} pictures of {} by {}, {:.0f} ms each\n", result.pictures.size(), arguments.size, result.device,
+             result.picture_ms);
+  fmt::print("{0}/index.html shows pictures, sound, trace and plots; {0}/contact_sheet.png all pictures on one\n",
+             setup.tour.folder.string());
+  if (result.tour.complete()) return 0;
+  fmt::print(stderr, "gearshift: the hand did not engage every gear in order\n");
+  return 1;
+}
+
+}  // namespace
+
+void add_demo_verb(CLI::App& app, VerbAction& action) {
+  auto arguments = std::make_shared<DemoArguments>();
+  CLI::App* verb =
+      app.add_subcommand("demo", "A simulated hand through every gear in the cabin, offscreen: pictures, sound, page");
+  add_tour_options(*verb, arguments->tour);
+  verb->add_option("--size", arguments->size, "of a picture [px]")->type_name("WxH")->capture_default_str();
+  verb->add_option("--samples", arguments->samples, "a pixel: 1 or 4")
+      ->check(CLI::IsMember({1, 4}))
+      ->capture_default_str();
+  verb->add_flag("--stereo", arguments->stereo, "both eyes, side by side");
+  verb->add_option("--film", arguments->film_rate, "pictures a second of the whole drive, too [1/s]")
+      ->check(number_between(0.1, 60.0));
+  verb->callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
+}
+
+}  // namespace gearshift

@@ -1,0 +1,222 @@
+#include "haptics/loop/preset_writer.h"
+
+#include <unistd.h>
+
+#include <charconv>
+#include <cmath>
+#include <concepts>
+#include <cstdint>
+#include <fstream>
+#include <numbers>
+#include <string_view>
+#include <system_error>
+
+#include "haptics/files/file_error.h"
+
+namespace gearshift {
+namespace {
+
+std::string digits_of(auto value) {
+  char digits[64];
+  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+
+// A basic string of TOML: quotes and backslashes are escaped; control characters are the reader's to refuse.
+std::string in_quotes(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + '"';
+}
+
+// The reader multiplies by pi / 180. Of the neighbours, the number of degrees that gives the angle to the bit.
+double degrees_of(double radians) {
+  const double nearest = radians * 180.0 / std::numbers::pi;
+  for (const double candidate : {nearest, std::nextafter(nearest, 0.0), std::nextafter(nearest, HUGE_VAL)})
+    if (candidate * std::numbers::pi / 180.0 == radians) return candidate;
+  return nearest;
+}
+
+class TomlText {
+ public:
+  void section(std::string_view name) { text_ += "\n[" + std::string(name) + "]\n"; }
+  void put(std::string_view key, const std::string& words) { line(key, in_quotes(words)); }
+  void put(std::string_view key, bool flag) { line(key, flag ? "true" : "false"); }
+  void put(std::string_view key, double number) { line(key, digits_of(number)); }
+  void put(std::string_view key, std::integral auto number) { line(key, digits_of(number)); }
+  std::string take() { return std::move(text_); }
+
+ private:
+  void line(std::string_view key, const std::string& value) { text_ += std::string(key) + " = " + value + '\n'; }
+
+  std::string text_;
+};
+
+std::string hand_text(const HandImpedance& hand) {
+  for (const auto& [name, named] : kNamedHands)
+    if (named.mass == hand.mass && named.damping == hand.damping && named.stiffness == hand.stiffness)
+      return std::string(name);
+  return digits_of(hand.mass) + ',' + digits_of(hand.damping) + ',' + digits_of(hand.stiffness);
+}
+
+std::string word_of(ContactHold hold) {
+  switch (hold) {
+    case ContactHold::automatic:
+      return "automatic";
+    case ContactHold::zero_order:
+      return "zero_order";
+    case ContactHold::half_sample:
+      return "half_sample";
+    case ContactHold::observer:
+      break;
+  }
+  return "observer";
+}
+
+std::string word_of(EnergyControl control) {
+  switch (control) {
+    case EnergyControl::none:
+      return "none";
+    case EnergyControl::energy_bounding:
+      return "energy_bounding";
+    case EnergyControl::passivity_controller:
+      break;
+  }
+  return "passivity_controller";
+}
+
+void put_axis(TomlText& out, std::string_view section, const AxisModel& axis) {
+  out.section(section);
+  out.put("mass_kg", axis.mass);
+  out.put("damping_n_s_per_m", axis.damping);
+  out.put("stiffness_n_per_m", axis.stiffness);
+}
+
+void put_lever(TomlText& out, const SimulatedLeverConfig& lever) {
+  out.section("lever");
+  out.put("encoder_counts_per_deg", lever.encoder_counts);
+  out.put("peak_force_n", lever.actuator.peak_force);
+  out.put("continuous_force_n", lever.actuator.continuous_force);
+  out.put("overload_time_s", lever.actuator.overload_time);
+  out.put("coulomb_friction_n", lever.coulomb_friction);
+  out.put("delay_cycles", lever.delay);
+  out.put("hand", hand_text(lever.hand));
+  out.put("model_error", lever.model_error);
+  out.put("period_jitter", lever.period_jitter);
+  out.put("seed", lever.seed);
+  out.section("lever.yoke");
+  out.put("radius_m", lever.yoke.radius);
+  out.put("theta_limit_deg", degrees_of(lever.yoke.theta_limit));
+  out.put("phi_limit_deg", degrees_of(lever.yoke.phi_limit));
+  put_axis(out, "lever.axis_x", lever.axis_x);
+  put_axis(out, "lever.axis_y", lever.axis_y);
+  out.section("lever.force_sensor");
+  out.put("offset", lever.force_sensor.offset);
+  out.put("gain_per_gw", lever.force_sensor.gain);
+  out.put("resolution_gw", lever.force_sensor.resolution_gw);
+  out.put("range_gw", lever.force_sensor.range_gw);
+  out.put("noise_gw", lever.force_sensor.noise_gw);
+}
+
+void put_tuning(TomlText& out, const HapticTuning& tuning) {
+  out.section("tuning");
+  out.put("wall_stiffness_n_per_m", tuning.wall_stiffness);
+  out.put("wall_damping_n_s_per_m", tuning.wall_damping);
+  out.put("feel_scale", tuning.feel_scale);
+  out.put("aisle_damping_n_s_per_m", tuning.aisle_damping);
+  out.put("speed_limit_m_per_s", tuning.speed_limit);
+  out.put("limit_damping_n_s_per_m", tuning.limit_damping);
+}
+
+void put_contact(TomlText& out, const ContactConfig& contact) {
+  out.section("contact");
+  out.put("hold", word_of(contact.hold));
+  out.put("energy_control", word_of(contact.energy_control));
+  out.put("reversal_limiter", contact.reversal_limiter);
+  out.put("study", contact.study);
+}
+
+void put_guard(TomlText& out, const GuardConfig& guard) {
+  out.section("guard");
+  out.put("slew_n_per_cycle", guard.slew);
+  out.put("ramp_time_s", guard.ramp_time);
+  out.put("stale_time_s", guard.stale_time);
+  out.put("fade_time_s", guard.fade_time);
+  out.put("overruns_in_row", guard.overruns_in_row);
+  out.put("damped_damping_n_s_per_m", guard.damped_damping);
+  out.put("position_margin_m", guard.position_margin);
+}
+
+void put_haptics(TomlText& out, const HapticConfig& haptics) {
+  out.section("loop");
+  out.put("rate_hz", haptics.rate);
+  out.put("gear_debounce_s", haptics.gear_debounce);
+  out.put("ghost_offset_m", haptics.ghost_offset);
+  put_tuning(out, haptics.tuning);
+  put_contact(out, haptics.contact);
+  out.section("estimator");
+  out.put("smoothing_s", haptics.estimator.smoothing);
+  out.put("speed_limit_m_per_s", haptics.estimator.speed_limit);
+  out.put("window_samples", haptics.estimator.window);
+  put_guard(out, haptics.guard);
+  out.section("over_push");
+  out.put("warn_above_n", haptics.over_push.warn_above);
+  out.put("clear_below_n", haptics.over_push.clear_below);
+}
+
+// Gone with it unless it has been renamed.
+class PartFile {
+ public:
+  explicit PartFile(const std::filesystem::path& file) : path_(file) { path_ += ".part" + std::to_string(getpid()); }
+  ~PartFile() {
+    std::error_code ignored;
+    std::filesystem::remove(path_, ignored);
+  }
+  PartFile(const PartFile&) = delete;
+  PartFile& operator=(const PartFile&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+void write_text(const std::filesystem::path& part, const std::string& text, const std::string& name) {
+  std::ofstream out(part, std::ios::binary | std::ios::trunc);
+  out.write(text.data(), static_cast<std::streamsize>(text.size()));
+  out.close();
+  if (!out) throw FileError(name, 0, "cannot be written");
+}
+
+void check_readable(const std::filesystem::path& part, const std::string& name) {
+  try {
+    (void)read_preset(part.string());
+  } catch (const FileError& error) {
+    std::string reason = error.what();
+    const std::size_t at = reason.find(part.string());
+    if (at != std::string::npos) reason = reason.substr(reason.find(": ", at) + 2);
+    throw FileError(name, 0, "not written, it could not be read again: " + reason);
+  }
+}
+
+}  // namespace
+
+std::string preset_text(const Preset& preset) {
+  TomlText out;
+  out.put("name", preset.name);
+  put_lever(out, preset.lever);
+  put_haptics(out, preset.haptics);
+  return out.take();
+}
+
+void write_preset(const Preset& preset, const std::filesystem::path& file) {
+  const PartFile part(file);
+  write_text(part.path(), preset_text(preset), file.string());
+  check_readable(part.path(), file.string());
+  std::error_code error;
+  std::filesystem::rename(part.path(), file, error);
+  if (error) throw FileError(file.string(), 0, "cannot be written: " + error.message());
+}
+
+}  // namespace gearshift

@@ -1,0 +1,364 @@
+// The driver's hand and feet, frame by frame, without a window.
+#include "app/input/driver_input.h"
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <doctest/doctest.h>
+
+#include "tests/support/gates.h"
+
+using namespace gearshift;
+
+namespace {
+
+constexpr double kFrame = 0.01;  // [s]
+
+Bindings bindings() {
+  Bindings b;
+  b.keys = {{Action::lever_left, {GLFW_KEY_LEFT}},  {Action::lever_right, {GLFW_KEY_RIGHT}},
+            {Action::lever_forward, {GLFW_KEY_UP}}, {Action::lever_back, {GLFW_KEY_DOWN}},
+            {Action::push_down, {GLFW_KEY_X}},      {Action::lift, {GLFW_KEY_Y}},
+            {Action::throttle, {GLFW_KEY_D}},       {Action::clutch, {GLFW_KEY_A}},
+            {Action::starter, {GLFW_KEY_E}},        {Action::hand_brake, {GLFW_KEY_H}},
+            {Action::ignition, {GLFW_KEY_I}},       {Action::stop, {GLFW_KEY_SPACE, GLFW_KEY_F12}},
+            {Action::recentre, {GLFW_KEY_R}},       {Action::grab_mouse, {GLFW_KEY_ESCAPE}},
+            {Action::full_screen, {GLFW_KEY_F11}}};
+  b.pad_buttons = {{Action::lift, {2}}, {Action::arm, {5}}};
+  b.lever_select = AxisBinding{0, 0, -1.0, 1.0, 0.2};
+  b.lever_shift = AxisBinding{0, 1, 1.0, -1.0, 0.2};
+  b.throttle = AxisBinding{0, 2, -1.0, 1.0, 0.0};
+  return b;
+}
+
+struct Driver {
+  DriverInput driver{{bindings(), {0.06, 0.05}}};
+  WindowInput input;
+
+  void key(int code, bool down) { input.keys.push_back({code, down, false, false, false}); }
+  void frame(double seconds = kFrame, bool ui_has_mouse = false, bool ui_has_keys = false) {
+    driver.update(input, seconds, ui_has_mouse, ui_has_keys);
+    input.keys.clear();
+    input.mouse_moved = glm::dvec2(0.0);
+  }
+  void click() {
+    input.mouse_down[0] = true;
+    frame();
+    input.mouse_down[0] = false;
+    frame();
+  }
+  glm::dvec2 at() const { return driver.hand().position; }
+};
+
+bool near(glm::dvec2 a, glm::dvec2 b) {
+  return std::abs(a.x - b.x) < 1e-12 && std::abs(a.y - b.y) < 1e-12;
+}
+
+}  // namespace
+
+TEST_CASE("the mouse leads the hand once it has been clicked: right is right, forward is forward, 0.12 mm a pixel") {
+  Driver d;
+  d.input.mouse_moved = {100.0, 50.0};
+  d.frame();
+  CHECK(near(d.at(), {0.0, 0.0}));  // nobody has asked for it
+  d.click();
+  CHECK(d.driver.mouse_leads());
+  d.input.mouse_moved = {100.0, -50.0};
+  d.frame();
+  CHECK(near(d.at(), {0.012, 0.006}));
+  d.frame();
+  CHECK(near(d.at(), {0.012, 0.006}));  // a hand stays where it is
+}
+
+TEST_CASE(
+    "a click on the panel is the panel's; the grab key takes the mouse and gives it back, from the panel as well") {
+  Driver d;
+  d.input.mouse_down[0] = true;
+  d.frame(kFrame, true);
+  d.frame();  // still down, beside the panel now: no click
+  CHECK_FALSE(d.driver.mouse_leads());
+  d.key(GLFW_KEY_ESCAPE, true);
+  d.frame(kFrame, false, true);
+  CHECK_FALSE(d.driver.mouse_leads());  // the panel's key
+  d.key(GLFW_KEY_ESCAPE, false);
+  d.key(GLFW_KEY_ESCAPE, true);
+  d.frame();
+  CHECK(d.driver.mouse_leads());
+  d.key(GLFW_KEY_ESCAPE, false);
+  d.key(GLFW_KEY_ESCAPE, true);
+  d.frame(kFrame, true, true);
+  CHECK_FALSE(d.driver.mouse_leads());
+}
+
+TEST_CASE("the way of the mouse to where it takes hold of the lever does not move the hand") {
+  Driver d;
+  d.input.mouse_moved = {-300.0, -100.0};
+  d.input.mouse_down[0] = true;
+  d.frame();
+  CHECK(d.driver.mouse_leads());
+  CHECK(near(d.at(), {0.0, 0.0}));
+  d.input.mouse_moved = {100.0, 0.0};
+  d.frame();
+  CHECK(near(d.at(), {0.012, 0.0}));
+}
+
+TEST_CASE("lever keys move the hand at their speed, by time and not by frames") {
+  Driver slow, fast;
+  for (Driver* d : {&slow, &fast}) {
+    d->key(GLFW_KEY_RIGHT, true);
+    d->key(GLFW_KEY_UP, true);
+  }
+  for (int i = 0; i < 10; ++i) slow.frame(0.01);
+  for (int i = 0; i < 100; ++i) fast.frame(0.001);
+  CHECK(near(slow.at(), {0.025, 0.025}));
+  CHECK(near(fast.at(), {0.025, 0.025}));
+  slow.key(GLFW_KEY_RIGHT, false);
+  slow.key(GLFW_KEY_DOWN, true);  // up and down together: nothing
+  slow.frame(0.001);              // the frame in which it is released still counts
+  const glm::dvec2 stays = slow.at();
+  slow.frame(0.5);
+  CHECK(near(slow.at(), stays));
+}
+
+TEST_CASE("the hand stays within reach, whatever leads it") {
+  Driver d;
+  d.click();
+  std::mt19937 chance(4);
+  std::uniform_real_distribution<double> any(-1000.0, 1000.0);
+  for (int i = 0; i < 1000; ++i) {
+    d.input.mouse_moved = {any(chance), any(chance)};
+    if (i % 100 == 0) d.input.mouse_moved.x = std::numeric_limits<double>::quiet_NaN();
+    d.frame();
+    CHECK(std::abs(d.at().x) <= 0.06);
+    CHECK(std::abs(d.at().y) <= 0.05);
+  }
+  d.driver.recentre({1.0, -0.01});
+  CHECK(near(d.at(), {0.06, -0.01}));
+  d.driver.recentre({0.01, 0.02});
+  CHECK(near(d.at(), {0.01, 0.02}));
+  d.driver.set_reach({0.005, 0.03});
+  CHECK(near(d.at(), {0.005, 0.02}));
+}
+
+TEST_CASE("a mouse beyond reach pushes, up to 75 N at 50 mm, and stops pushing as it comes back") {
+  Driver d;
+  d.click();
+  d.input.mouse_moved = {0.0, -(0.05 + 0.025) / 0.12e-3};  // half of the way to the most
+  d.frame();
+  CHECK(near(d.at(), {0.0, 0.05}));
+  CHECK(d.driver.hand().push.y == doctest::Approx(37.5));
+  CHECK(d.driver.hand().push.x == 0.0);
+  d.input.mouse_moved = {0.0, -100'000.0};
+  d.frame();
+  CHECK(d.driver.hand().push.y == doctest::Approx(75.0));
+  d.input.mouse_moved = {0.0, 0.05 / 0.12e-3};
+  d.frame();
+  CHECK(d.driver.hand().push.y == doctest::Approx(0.0).scale(1.0));
+  CHECK(d.at().y == doctest::Approx(0.05));
+  // Keys never push: held long, they end at the reach.
+  d.key(GLFW_KEY_UP, true);
+  d.frame(10.0);
+  CHECK(d.driver.hand().push.y == doctest::Approx(0.0).scale(1.0));
+  d.input.mouse_moved = {0.0, -100'000.0};
+  d.driver.recentre({0.0, 0.0});
+  CHECK(d.driver.hand().push == glm::dvec2(0.0));
+}
+
+TEST_CASE("the reach of every shipped gate goes beyond its gears and not beyond the device") {
+  DeviceSpec device;
+  device.workspace = kPaperWorkspace;
+  for (const std::string& name : shipped_names()) {
+    CAPTURE(name);
+    const Gate gate = shipped_gate(name);
+    const glm::dvec2 reach = hand_reach(gate, device);
+    CHECK(reach.x <= kPaperWorkspace.x);
+    CHECK(reach.y <= kPaperWorkspace.y);
+    for (const Slot& slot : slots(gate)) {
+      const glm::dvec2 rest = rest_position(gate, slot.gear);
+      CHECK(std::abs(rest.x) + 0.01 < reach.x);
+      CHECK(std::abs(rest.y) + 0.015 < reach.y);
+    }
+  }
+  CHECK(near(hand_reach(paper_gate(), device), {0.055, 0.060}));
+}
+
+TEST_CASE("knob and ring are held while their key or button is") {
+  Driver d;
+  d.key(GLFW_KEY_X, true);
+  d.input.pads = {{"pad", {}, {0, 0, 1}}};
+  d.frame();
+  CHECK(d.driver.hand().pressed_down);
+  CHECK(d.driver.hand().lifted);
+  d.key(GLFW_KEY_X, false);
+  d.input.pads = {{"pad", {}, {0, 0, 0}}};
+  d.frame();
+  d.frame();
+  CHECK_FALSE(d.driver.hand().pressed_down);
+  CHECK_FALSE(d.driver.hand().lifted);
+}
+
+TEST_CASE("a key that goes down and up between two frames counts for one frame, and acts once") {
+  Driver d;
+  d.key(GLFW_KEY_RIGHT, true);
+  d.key(GLFW_KEY_RIGHT, false);
+  d.key(GLFW_KEY_R, true);
+  d.key(GLFW_KEY_R, false);
+  d.frame();
+  CHECK(near(d.at(), {0.0025, 0.0}));
+  CHECK(d.driver.pressed() == std::vector{Action::recentre});
+  d.frame();
+  CHECK(near(d.at(), {0.0025, 0.0}));
+  CHECK(d.driver.pressed().empty());
+}
+
+TEST_CASE("once-actions come in order, once per press, held ones never") {
+  Driver d;
+  d.key(GLFW_KEY_F11, true);
+  d.key(GLFW_KEY_D, true);
+  d.key(GLFW_KEY_SPACE, true);
+  d.input.pads = {{"pad", {}, {0, 0, 0, 0, 0, 1}}};
+  d.frame();
+  CHECK(d.driver.pressed() == std::vector{Action::full_screen, Action::stop, Action::arm});
+  d.key(GLFW_KEY_F11, true);  // repeated by the system
+  d.frame();
+  CHECK(d.driver.pressed().empty());
+}
+
+TEST_CASE("pedals ramp down and up by key in the pedal's time") {
+  Driver d;
+  d.key(GLFW_KEY_D, true);
+  for (int i = 0; i < 10; ++i) d.frame();
+  CHECK(d.driver.controls().throttle == doctest::Approx(0.1 / 0.25));
+  for (int i = 0; i < 20; ++i) d.frame();
+  CHECK(d.driver.controls().throttle == 1.0);
+  d.key(GLFW_KEY_D, false);
+  d.frame();
+  for (int i = 0; i < 10; ++i) d.frame();
+  CHECK(d.driver.controls().throttle == doctest::Approx(1.0 - 0.1 / 0.25));
+  for (int i = 0; i < 20; ++i) d.frame();
+  CHECK(d.driver.controls().throttle == 0.0);
+}
+
+TEST_CASE("ignition is on at first; ignition and hand brake change with each press, the starter is held") {
+  Driver d;
+  d.frame();
+  CHECK(d.driver.controls().ignition);
+  CHECK(d.driver.controls().hand_brake == 0.0);
+  for (const int key : {GLFW_KEY_I, GLFW_KEY_H, GLFW_KEY_E}) d.key(key, true);
+  d.frame();
+  CHECK_FALSE(d.driver.controls().ignition);
+  CHECK(d.driver.controls().hand_brake == 1.0);
+  CHECK(d.driver.controls().starter);
+  for (const int key : {GLFW_KEY_I, GLFW_KEY_H, GLFW_KEY_E}) d.key(key, false);
+  for (const int key : {GLFW_KEY_I, GLFW_KEY_H}) d.key(key, true);
+  d.frame();
+  d.frame();
+  CHECK(d.driver.controls().ignition);
+  CHECK(d.driver.controls().hand_brake == 0.0);
+  CHECK_FALSE(d.driver.controls().starter);
+}
+
+TEST_CASE("a pedal's axis counts from its first movement on: a pad tells 0 of a trigger that was not touched yet") {
+  Driver d;
+  d.input.pads = {{"pad", {0.0f, 0.0f, 0.0f}, {}}};  // 0 would be half throttle
+  d.frame();
+  CHECK(d.driver.controls().throttle == 0.0);
+  d.input.pads[0].axes[2] = -1.0f;
+  d.frame();
+  CHECK(d.driver.controls().throttle == 0.0);
+  d.input.pads[0].axes[2] = 0.0f;
+  d.frame();
+  CHECK(d.driver.controls().throttle == doctest::Approx(0.5));
+  d.key(GLFW_KEY_D, true);
+  d.frame(0.2);
+  CHECK(d.driver.controls().throttle == doctest::Approx(0.8));  // the deeper of the two
+  d.input.pads.clear();                                         // unplugged
+  d.key(GLFW_KEY_D, false);
+  d.frame(0.0);
+  d.frame(1.0);
+  CHECK(d.driver.controls().throttle == 0.0);
+}
+
+TEST_CASE("a stick puts the hand where it is, from its dead zone on, and lets go where it rests") {
+  Driver d;
+  d.input.pads = {{"pad", {0.0f, 0.0f, 0.0f}, {}}};
+  d.frame();
+  d.input.pads[0].axes = {1.0f, -1.0f, 0.0f};  // right and forward
+  d.frame();
+  CHECK(near(d.at(), {0.06, 0.05}));
+  d.input.pads[0].axes = {-0.6f, 0.1f, 0.0f};
+  d.frame();
+  CHECK(d.at().x == doctest::Approx(-0.5 * 0.06));  // (0.6 - 0.2) / 0.8
+  CHECK(d.at().y == 0.0);                           // inside the dead zone
+  d.input.pads[0].axes = {0.0f, 0.0f, 0.0f};
+  d.frame();
+  CHECK(near(d.at(), {0.0, 0.0}));
+  // At rest it leads nothing: keys do.
+  d.key(GLFW_KEY_RIGHT, true);
+  d.frame(0.1);
+  CHECK(near(d.at(), {0.025, 0.0}));
+}
+
+TEST_CASE("what the panel has is not the driver's, but a key that types nothing stops, and what was held goes up") {
+  Driver d;
+  d.key(GLFW_KEY_D, true);
+  d.frame();
+  d.key(GLFW_KEY_RIGHT, true);
+  d.key(GLFW_KEY_SPACE, true);
+  d.key(GLFW_KEY_F11, true);
+  d.frame(kFrame, true, true);
+  CHECK(d.driver.pressed().empty());
+  CHECK(near(d.at(), {0.0, 0.0}));
+  d.key(GLFW_KEY_F12, true);
+  d.key(GLFW_KEY_D, false);
+  d.frame(kFrame, true, true);
+  CHECK(d.driver.pressed() == std::vector{Action::stop});
+  for (int i = 0; i < 10; ++i) d.frame(kFrame, true, true);
+  CHECK(d.driver.controls().throttle == 0.0);
+}
+
+TEST_CASE("when the window loses the focus everything is let go") {
+  Driver d;
+  d.click();
+  d.key(GLFW_KEY_RIGHT, true);
+  d.key(GLFW_KEY_D, true);
+  d.frame();
+  d.input.focused = false;
+  d.frame();
+  const glm::dvec2 stays = d.at();
+  CHECK_FALSE(d.driver.mouse_leads());
+  d.input.mouse_moved = {100.0, 100.0};
+  for (int i = 0; i < 30; ++i) d.frame();
+  CHECK(near(d.at(), stays));
+  CHECK(d.driver.controls().throttle == 0.0);
+}
+
+// A bare X server without a window manager never says that a window has the focus.
+TEST_CASE("a window that never had the focus still gets its keys") {
+  Driver d;
+  d.input.focused = false;
+  d.key(GLFW_KEY_RIGHT, true);
+  for (int i = 0; i < 10; ++i) d.frame();
+  CHECK(near(d.at(), {0.025, 0.0}));
+}
+
+TEST_CASE("the same input gives the same driver, to the bit") {
+  Driver a, b;
+  for (Driver* d : {&a, &b}) {
+    std::mt19937 chance(9);
+    d->click();
+    for (int i = 0; i < 2000; ++i) {
+      d->input.mouse_moved = {static_cast<double>(chance() % 21) - 10.0, static_cast<double>(chance() % 21) - 10.0};
+      d->key(GLFW_KEY_SPACE + static_cast<int>(chance() % 300), chance() % 2 == 0);
+      d->input.pads = {{"pad", {static_cast<float>(chance() % 100) / 50.0f - 1.0f, 0.0f, 0.3f}, {1, 0, 1}}};
+      d->frame(0.001 * static_cast<double>(chance() % 40));
+    }
+  }
+  CHECK(a.at() == b.at());
+  CHECK(a.driver.controls().throttle == b.driver.controls().throttle);
+  CHECK(a.driver.pressed() == b.driver.pressed());
+}

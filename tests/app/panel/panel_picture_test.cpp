@@ -1,0 +1,141 @@
+// What the panel looks like: drawn at the sizes that people have, without a GPU.
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+#include <doctest/doctest.h>
+
+#include "engine/image/image.h"
+#include "engine/ui/ui_style.h"
+#include "tests/app/panel/panel_rig.h"
+#include "tests/engine/ui/ui_raster.h"
+
+using namespace gearshift;
+
+namespace {
+
+struct Screen {
+  int width, height;
+  float scale;
+};
+constexpr Screen kScreens[] = {{1280, 720, 1.0f}, {1920, 1080, 1.0f}, {3840, 2160, 2.0f}, {3840, 2160, 3.0f}};
+
+// A lever that is pushed through a wall while the loop is late: all that the panel has to say at once.
+void make_busy(PanelRig& rig) {
+  rig.input.history = toured(rig.gate, 6.0);
+  rig.input.now = rig.input.history.back();
+  rig.input.now.lever += glm::dvec2(0.004, 0.006);
+  rig.input.now.f_h = {12.0, 18.0};
+  rig.input.now.f_a = -rig.input.now.f_h;
+  rig.input.now.gear = 5;
+  rig.input.now.wall_stiffness = 3800.0;
+  rig.input.now.commanded = {-12.5, -17.0};
+  rig.input.now.flags |= kFlagOverPush | kFlagSaturated;
+  rig.input.now.guard = GuardState::released;
+  rig.input.now.fault = GuardFault::limit_broken;
+  rig.input.health.late_p99 = 120e-6;
+  rig.input.health.stage_ns = {40, 25, 60, 45, 30, 5, 20, 15};
+  rig.input.health.cycle_ns = 240;
+  rig.input.car.engine_speed = 230.0;
+  rig.input.car.road_speed = 13.4;
+  rig.input.car.clutch = 0.7;
+  rig.input.car.throttle = 0.3;
+  rig.input.events = {{EventKind::gear_engaged, 1200, 1'200'000'000, 1.0},
+                      {EventKind::wall_contact, 2310, 2'310'000'000, 0.31},
+                      {EventKind::gear_left, 2900, 2'900'000'000, 1.0},
+                      {EventKind::over_push_begin, 3100, 3'100'000'000, 63.0},
+                      {EventKind::guard_changed, 3200, 3'200'000'000, 5.0}};
+  rig.input.message = "assets/presets/heavy.toml:4: wall_stiffness_n_per_m = 70000: must be between 0 and 20000";
+  rig.input.frame_ms = 16.7;
+}
+
+void settle(PanelRig& rig) {
+  for (int i = 0; i < 6; ++i) rig.frame();  // tables and windows find their size in some frames
+}
+
+Image picture_of(PanelRig& rig) {
+  settle(rig);
+  return UiRaster(*ImGui::GetDrawData(), {92, 110, 124}).draw();
+}
+
+// Into the folder that GEARSHIFT_PICTURES names, for eyes.
+void show(PanelRig& rig, const std::string& name) {
+  settle(rig);
+  if (const char* folder = std::getenv("GEARSHIFT_PICTURES"))
+    write_png(std::filesystem::path(folder) / name, picture_of(rig));
+}
+
+// Between the columns and above the bar: nothing is drawn there.
+bool middle_is_free(const Screen& screen) {
+  const ImDrawData& data = *ImGui::GetDrawData();
+  const float low = 0.27f * static_cast<float>(screen.width), high = 0.73f * static_cast<float>(screen.width);
+  for (int l = 0; l < data.CmdListsCount; ++l) {
+    for (const ImDrawVert& v : data.CmdLists[l]->VtxBuffer)
+      if (v.pos.x > low && v.pos.x < high && v.pos.y < 0.85f * static_cast<float>(screen.height)) return false;
+  }
+  return true;
+}
+
+std::string name_of(const Screen& screen, std::string_view what) {
+  return std::string(what) + "_" + std::to_string(screen.width) + "_" + std::to_string(static_cast<int>(screen.scale)) +
+         ".png";
+}
+
+}  // namespace
+
+TEST_CASE("on every screen all texts have room, the middle is free and the controls lie on the screen") {
+  for (const Screen& screen : kScreens) {
+    CAPTURE(screen.width);
+    CAPTURE(screen.scale);
+    PanelRig rig(1);
+    rig.screen.width = static_cast<float>(screen.width);
+    rig.screen.height = static_cast<float>(screen.height);
+    rig.screen.scale = screen.scale;
+    make_busy(rig);
+    show(rig, name_of(screen, "tuning"));
+    CHECK(rig.panel.shortened_texts() == 0);
+    CHECK(middle_is_free(screen));
+    for (const char* name : {"stop", "arm", "record", "replay", "gate", "device", "undo", "reset", "slot_b",
+                             "wall_stiffness_n_per_m", "limit_damping_n_s_per_m", "tab_presets"}) {
+      const ControlRect r = rig.rect(name);
+      CHECK(r.min.x >= 0.0);
+      CHECK(r.min.y >= 0.0);
+      CHECK(r.max.x <= screen.width);
+      CHECK(r.max.y <= screen.height);
+    }
+    for (const char* tab : {"tab_setup", "tab_loop", "tab_presets"}) {
+      rig.click(tab);
+      if (std::string_view(tab) == "tab_presets") {
+        rig.click("compare");
+        rig.click("compare: paper");
+        rig.input.compared = read_preset(GEARSHIFT_ASSETS "/presets/paper.toml");
+      }
+      show(rig, name_of(screen, tab));
+      CHECK(rig.panel.shortened_texts() == 0);
+    }
+  }
+}
+
+TEST_CASE("an unsafe wish is seen in red where it is made") {
+  PanelRig rig(1);
+  make_busy(rig);
+  const auto red_pixels = [&] {
+    const Image picture = picture_of(rig);
+    const ControlRect r = rig.rect("wall_stiffness_n_per_m");
+    int red = 0;
+    for (int y = static_cast<int>(r.min.y); y < static_cast<int>(r.max.y); ++y) {
+      for (int x = static_cast<int>(r.min.x); x < static_cast<int>(r.max.x); ++x) {
+        const std::uint8_t* p = picture.pixel(x, y);
+        red += p[0] > 160 && p[1] < 110 && p[2] < 110;
+      }
+    }
+    return red;
+  };
+  CHECK(red_pixels() == 0);
+  rig.drag("wall_stiffness_n_per_m", 0.25, 0.9);
+  CHECK(red_pixels() > 50);
+  show(rig, "refused.png");
+  rig.panel.show_help(true, "W A S D\tlever\nSpace\tlarge red stop\nF1\tthis help\nF11\tfull screen\n");
+  show(rig, "help.png");
+}

@@ -1,0 +1,161 @@
+// A panel in front of a real run: a simulated hand drives the paper's gate, a scripted mouse and keyboard the panel.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "app/panel/panel.h"
+#include "engine/ui/ui.h"
+#include "haptics/device/scripted_hand.h"
+#include "haptics/loop/shift_script.h"
+#include "haptics/loop/simulated_run.h"
+#include "tests/support/gates.h"
+
+namespace gearshift {
+
+// Snapshots of that long a tour through the gears, every `step`-th cycle.
+inline std::vector<HapticSnapshot> toured(const Gate& gate, double seconds, int step = 4) {
+  SimulatedRunConfig config;
+  config.gate = gate;
+  config.lever.hand = kGripHand;
+  config.start = rest_position(gate, kNeutralGear);
+  ScriptedHand hand(touring_hand(config.start), shift_strokes(gate, config.start, tour_order(gate)),
+                    period_s(config.haptics));
+  SimulatedRun run(config, hand);
+  std::vector<HapticSnapshot> snapshots;
+  for (int i = 0; run.time() < seconds; ++i) {
+    const HapticSnapshot& now = run.step();
+    if (i % step == 0) snapshots.push_back(now);
+  }
+  return snapshots;
+}
+
+struct PanelRig {
+  Gate gate = paper_gate();
+  DeviceSpec device;
+  UiContext ui;
+  UiInput screen;
+  UiEvents events;
+  Panel panel;
+  PanelInput input;
+  PanelRequests asked;  // of the last frame
+
+  explicit PanelRig(int delay = 0) {
+    device.simulated = true;
+    device.delay = delay;
+    device.workspace = kPaperWorkspace;
+    input.gate = &gate;
+    input.device = &device;
+    input.admitted = admit_tuning(input.haptics, device, gate);
+    input.gate_name = "paper";
+    input.gates = {"paper", "four_speed", "dog_leg_five"};
+    input.preset_name = "default";
+    input.presets = {"default", "measured", "paper"};
+    input.hand_name = "mouse and keys";
+    input.hands = {"mouse and keys", "touring"};
+    input.device_name = "simulated lever";
+    input.devices = {"simulated lever"};
+    input.health.rate = 1000.0;
+    input.message = "Ready.";
+    frame();
+    frame();  // what stands where is known from the second on
+  }
+
+  // One frame of panel and program: what is asked of the tuning is done, as the trainer does it.
+  const PanelRequests& frame() {
+    ui.feed(events);
+    events.keys.clear();
+    events.text.clear();
+    events.scroll = {};
+    ui.begin(screen);
+    asked = panel.draw(input);
+    ui.end();
+    input.history.clear();
+    input.events.clear();
+    if (asked.tuning) {
+      HapticConfig wanted = input.haptics;
+      wanted.tuning = *asked.tuning;
+      wanted.contact.hold = input.admitted.hold;
+      input.admitted = admit_tuning(wanted, device, gate);
+      input.haptics.tuning = *asked.tuning;
+    }
+    return asked;
+  }
+
+  ControlRect rect(const std::string& name) const {
+    const auto found = panel.control_rect(name);
+    REQUIRE_MESSAGE(found.has_value(), name << " is not on the screen");
+    return *found;
+  }
+  void point(const std::string& name, double share = 0.5) {
+    const ControlRect r = rect(name);
+    events.mouse = {r.min.x + share * (r.max.x - r.min.x), 0.5 * (r.min.y + r.max.y)};
+  }
+
+  // Everything that was asked for on the way.
+  PanelRequests click(const std::string& name) {
+    point(name);
+    frame();
+    events.mouse_down[0] = true;
+    PanelRequests all = frame();
+    events.mouse_down[0] = false;
+    merge(all, frame());
+    merge(all, frame());
+    return all;
+  }
+  // Every tuning that was asked for while the slider was drawn from one share of its width to the other.
+  std::vector<HapticTuning> drag(const std::string& name, double from, double to, int steps = 10) {
+    std::vector<HapticTuning> tunings;
+    const auto look = [&] {
+      frame();
+      if (asked.tuning) tunings.push_back(*asked.tuning);
+    };
+    point(name, from);
+    look();
+    events.mouse_down[0] = true;
+    for (int i = 0; i <= steps; ++i) {
+      point(name, from + (to - from) * i / steps);
+      look();
+    }
+    events.mouse_down[0] = false;
+    look();
+    look();
+    return tunings;
+  }
+  PanelRequests press(int key, bool control = false) {
+    events.control = control;
+    events.keys = {{key, true}};
+    PanelRequests all = frame();
+    merge(all, frame());
+    events.keys = {{key, false}};
+    merge(all, frame());
+    events.control = false;
+    merge(all, frame());
+    return all;
+  }
+
+  static void merge(PanelRequests& all, const PanelRequests& next) {
+    all.arm |= next.arm;
+    all.disarm |= next.disarm;
+    all.stop |= next.stop;
+    all.record |= next.record;
+    all.replay |= next.replay;
+    const auto take = [](auto& to, const auto& from) {
+      if (from) to = from;
+    };
+    take(all.tuning, next.tuning);
+    take(all.restart, next.restart);
+    take(all.gate, next.gate);
+    take(all.preset, next.preset);
+    take(all.hand, next.hand);
+    take(all.device, next.device);
+    take(all.save_preset, next.save_preset);
+    take(all.compare, next.compare);
+  }
+};
+
+}  // namespace gearshift

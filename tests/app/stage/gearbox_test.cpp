@@ -1,0 +1,132 @@
+#include "app/stage/gearbox.h"
+
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include "engine/model/gltf.h"
+#include "tests/support/gates.h"
+
+namespace gearshift {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+struct BoxRig {
+  Gate gate;
+  Model model;
+  std::vector<Node> pose;
+
+  explicit BoxRig(const std::string& name) : gate(shipped_gate(name)) {
+    Gearbox::add_to(model, read_gltf(GEARSHIFT_ASSETS "/models/gearbox.glb"), gate);
+    pose = model.nodes;
+  }
+  const Node& node(const std::string& name) const {
+    const int index = model.node(name);
+    REQUIRE(index != kNone);
+    return pose[static_cast<std::size_t>(index)];
+  }
+  double moved(const std::string& name) const {  // forward +
+    return -static_cast<double>(
+        (node(name).translation - model.nodes[static_cast<std::size_t>(model.node(name))].translation).z);
+  }
+  double angle(const std::string& name) const {  // about the shaft
+    const glm::quat q = node(name).rotation;
+    return 2.0 * std::atan2(static_cast<double>(q.z), static_cast<double>(q.w));
+  }
+};
+
+}  // namespace
+
+TEST_CASE("in every gear of every gate one sleeve is moved by 9 mm to that gear's side, the others by nothing") {
+  for (const std::string& name : shipped_names()) {
+    CAPTURE(name);
+    BoxRig rig(name);
+    Gearbox box(rig.model, rig.gate);
+    for (const Slot& slot : slots(rig.gate)) {
+      box.place(rig.gate, rest_position(rig.gate, slot.gear), {}, 0.0, rig.pose);
+      for (int column = 0; column < rig.gate.column_count; ++column) {
+        const double wanted = column == slot.column ? 0.009 * static_cast<int>(slot.side) : 0.0;
+        CHECK(rig.moved("Sleeve" + std::to_string(column)) == doctest::Approx(wanted));
+        CHECK(rig.moved("Rail" + std::to_string(column)) == doctest::Approx(wanted));
+      }
+    }
+    box.place(rig.gate, rest_position(rig.gate, kNeutralGear), {}, 0.0, rig.pose);
+    for (int column = 0; column < rig.gate.column_count; ++column) {
+      CHECK(rig.moved("Sleeve" + std::to_string(column)) == 0.0);
+    }
+  }
+}
+
+TEST_CASE("between aisle and rest the rail follows the lever in proportion") {
+  const Gate gate = paper_gate();
+  const Slot& slot = slot_of(gate, slot_of_gear(gate, 4));
+  const double x = column_of(gate, slot.column).center;
+  for (const double share : {0.0, 0.25, 0.5, 1.0, 1.2}) {
+    const double depth = gate.half_aisle + share * (slot.rest - gate.half_aisle);
+    CHECK(rail_shift(gate, slot.column, {x, -depth}) == doctest::Approx(-0.009 * std::min(share, 1.0)));
+  }
+  CHECK(rail_shift(gate, slot.column, {x, 0.5 * gate.half_aisle}) == 0.0);
+}
+
+TEST_CASE("the finger stands at the rail of the lever's column and its tip goes with that rail") {
+  BoxRig rig("six_speed_r_left_up");
+  Gearbox box(rig.model, rig.gate);
+  const double at_rest = static_cast<double>(rig.node("Finger").translation.x);
+  for (const Slot& slot : slots(rig.gate)) {
+    box.place(rig.gate, rest_position(rig.gate, slot.gear), {}, 0.0, rig.pose);
+    const Node& set = rig.node("GearboxSet" + std::to_string(slot.column));
+    CHECK(static_cast<double>(rig.node("Finger").translation.x) - at_rest ==
+          doctest::Approx(static_cast<double>(set.translation.x)));
+    const glm::vec3 tip = rig.node("Finger").rotation * glm::vec3(0.0f, -0.030f, 0.0f);
+    CHECK(-static_cast<double>(tip.z) == doctest::Approx(0.009 * static_cast<int>(slot.side)).epsilon(1e-4));
+  }
+  // Half way between two columns it is half way between their rails.
+  const double half = 0.5 * (column_of(rig.gate, 1).center + column_of(rig.gate, 2).center);
+  CHECK(finger_place(rig.gate, half) == doctest::Approx(0.5 * (set_place(rig.gate, 1) + set_place(rig.gate, 2))));
+}
+
+TEST_CASE("a gear that is in turns with the hub, tooth in gap; a free one turns with the engine") {
+  BoxRig rig("paper");
+  Gearbox box(rig.model, rig.gate);
+  VehicleState car;
+  car.engine_speed = 300.0;
+  double last_free = 0.0;
+  for (int i = 0; i < 200; ++i) {
+    car.distance = 0.37 * i;
+    box.place(rig.gate, rest_position(rig.gate, 3), car, 0.02 * i, rig.pose);
+    const double slip = (rig.angle("GearForward1") - rig.angle("Hub1")) / (2.0 * kPi / 30.0);
+    CHECK(std::abs(slip - std::round(slip)) < 1e-3);
+    CHECK(std::abs(std::remainder(rig.angle("Sleeve1") - rig.angle("Hub1"), 2.0 * kPi)) < 1e-5);
+    const double free = rig.angle("GearBack1");
+    if (i > 0)
+      CHECK(std::remainder(free - last_free, 2.0 * kPi) ==
+            doctest::Approx(0.02 * 0.02 * (0.5 + 0.15 * 4) * 300.0).epsilon(1e-3));
+    last_free = free;
+  }
+  // The hub turns by the road alone.
+  const double before = rig.angle("Hub1");
+  box.place(rig.gate, rest_position(rig.gate, 3), car, 10.0, rig.pose);
+  CHECK(std::abs(std::remainder(rig.angle("Hub1") - before, 2.0 * kPi)) < 1e-6);
+}
+
+TEST_CASE("every gear of a gate has a gear and a ring, and no slot without a gear has one") {
+  for (const std::string& name : shipped_names()) {
+    CAPTURE(name);
+    BoxRig rig(name);
+    for (int column = 0; column < rig.gate.column_count; ++column) {
+      const Column& c = column_of(rig.gate, column);
+      const std::string number = std::to_string(column);
+      CHECK((rig.model.node("GearForward" + number) != kNone) == (c.forward_slot != kNoSlot));
+      CHECK((rig.model.node("RingForward" + number) != kNone) == (c.forward_slot != kNoSlot));
+      CHECK((rig.model.node("GearBack" + number) != kNone) == (c.back_slot != kNoSlot));
+      CHECK((rig.model.node("RingBack" + number) != kNone) == (c.back_slot != kNoSlot));
+    }
+  }
+}
+
+}  // namespace gearshift

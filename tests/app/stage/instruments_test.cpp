@@ -1,0 +1,96 @@
+#include "app/stage/instruments.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <doctest/doctest.h>
+
+namespace gearshift {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+VehicleState running(double rpm) {
+  VehicleState car;
+  car.engine_speed = rpm * kPi / 30.0;
+  return car;
+}
+
+float light(Lamp lamp, const VehicleState& car, double time = 0.0) {
+  return lamp_light(lamp, car, HapticSnapshot{}, time);
+}
+
+}  // namespace
+
+TEST_CASE("half of the scale is twelve o'clock, its ends lie 135 deg to the left and right") {
+  CHECK(tach_angle(running(4000.0)) == doctest::Approx(0.0));
+  CHECK(tach_angle(running(0.0)) == doctest::Approx(0.75 * kPi));
+  CHECK(tach_angle(running(8000.0)) == doctest::Approx(-0.75 * kPi));
+  CHECK(tach_angle(running(1000.0)) - tach_angle(running(3000.0)) == doctest::Approx(67.5 * kPi / 180.0));
+  VehicleState car;
+  car.road_speed = 110.0 / 3.6;
+  CHECK(speed_angle(car) == doctest::Approx(0.0));
+  car.road_speed = -110.0 / 3.6;
+  CHECK(speed_angle(car) == doctest::Approx(0.0));
+}
+
+TEST_CASE("a needle stays on its scale") {
+  CHECK(tach_angle(running(12000.0)) == tach_angle(running(8000.0)));
+  CHECK(needle_angle(-5.0, 220.0) == needle_angle(0.0, 220.0));
+}
+
+TEST_CASE("lamps of the engine burn while it stands with ignition, and go out when it runs") {
+  for (const Lamp lamp : {Lamp::oil, Lamp::battery, Lamp::engine}) {
+    CHECK(light(lamp, running(0.0)) == 1.0f);
+    CHECK(light(lamp, running(800.0)) == 0.0f);
+    VehicleState off = running(0.0);
+    off.ignition = false;
+    CHECK(light(lamp, off) == 0.0f);
+  }
+  CHECK(light(Lamp::engine, running(7200.0)) == 1.0f);
+  VehicleState car = running(0.0);
+  CHECK(light(Lamp::stall, car) == 0.0f);
+  car.stalled = true;
+  CHECK(light(Lamp::stall, car) == 1.0f);
+  CHECK(light(Lamp::hand_brake, car) == 0.0f);
+  car.hand_brake = 1.0;
+  CHECK(light(Lamp::hand_brake, car) == 1.0f);
+}
+
+TEST_CASE("indicators blink at 1.5 Hz, half of the time on, each side for itself") {
+  VehicleState car = running(900.0);
+  car.turn_left = true;
+  int lit = 0, edges = 0;
+  bool was = light(Lamp::turn_left, car, 0.0) > 0.0f;
+  constexpr int kSamples = 20000;  // 20 s
+  for (int i = 0; i < kSamples; ++i) {
+    const bool now = light(Lamp::turn_left, car, 0.001 * i) > 0.0f;
+    lit += now ? 1 : 0;
+    edges += now != was ? 1 : 0;
+    was = now;
+    CHECK(light(Lamp::turn_right, car, 0.001 * i) == 0.0f);
+  }
+  CHECK(lit == doctest::Approx(0.5 * kSamples).epsilon(0.01));
+  CHECK(edges >= 59);
+  CHECK(edges <= 60);
+}
+
+TEST_CASE("the lamp at the lever warns of over-push and of saturation, and of nothing else") {
+  HapticSnapshot lever;
+  for (std::uint32_t bit = 0; bit < 6; ++bit) {
+    lever.flags = 1u << bit;
+    const bool warns = lever.flags == kFlagOverPush || lever.flags == kFlagSaturated;
+    CHECK(lamp_light(Lamp::lever, VehicleState{}, lever, 0.0) == (warns ? 1.0f : 0.0f));
+  }
+}
+
+TEST_CASE("controls move with the foot and the hand and stop at their ends") {
+  CHECK(pedal_angle(0.0) == 0.0);
+  CHECK(pedal_angle(0.5) == doctest::Approx(0.5 * pedal_angle(1.0)));
+  CHECK(pedal_angle(3.0) == pedal_angle(1.0));
+  CHECK(pedal_angle(1.0) > 0.2);
+  CHECK(hand_brake_angle(-1.0) == 0.0);
+  CHECK(hand_brake_angle(2.0) == hand_brake_angle(1.0));
+}
+
+}  // namespace gearshift

@@ -1,0 +1,106 @@
+#include "app/stage/roadside.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "engine/model/assemble.h"
+#include "engine/model/gltf.h"
+
+namespace gearshift {
+namespace {
+
+const Model& road_model() {
+  static const Model model = [] {
+    Model made;
+    Roadside::add_to(made, read_gltf(GEARSHIFT_ASSETS "/models/road.glb"));
+    return made;
+  }();
+  return model;
+}
+
+const Mesh& mesh_of(const std::string& node) {
+  const int index = road_model().node(node);
+  REQUIRE(index != kNone);
+  return road_model().meshes[static_cast<std::size_t>(road_model().nodes[static_cast<std::size_t>(index)].mesh)];
+}
+
+std::string block_name(int block) {
+  return "RoadBlock" + std::to_string(block);
+}
+
+double z_of(const std::vector<Node>& pose, const std::string& name) {
+  return static_cast<double>(pose[static_cast<std::size_t>(road_model().node(name))].translation.z);
+}
+
+}  // namespace
+
+TEST_CASE("nothing of the roadside stands on the road or reaches beyond its block") {
+  for (int block = 0; block < kBlocks; ++block) {
+    const Mesh& mesh = mesh_of(block_name(block));
+    CHECK(mesh.vertex_count > 500);
+    for (std::uint32_t i = 0; i < mesh.vertex_count; ++i) {
+      const glm::vec3 p = road_model().vertices[mesh.first_vertex + i].position;
+      const bool over_the_road = p.x > -5.7f && p.x < 2.2f;
+      if (over_the_road || p.z > 6.0f || p.z < -126.0f) CHECK_FALSE(over_the_road);
+    }
+  }
+}
+
+TEST_CASE("a sunken block shows nothing above the fields") {
+  float highest = 0.0f;
+  for (int block = 0; block < kBlocks; ++block) {
+    for (const Primitive& p : mesh_of(block_name(block)).primitives) highest = std::max(highest, p.high.y);
+  }
+  CHECK(highest > 5.0f);
+  CHECK(static_cast<double>(highest) + kSunk < -0.5);
+}
+
+TEST_CASE("no two blocks look alike") {
+  for (int a = 0; a < kBlocks; ++a) {
+    for (int b = a + 1; b < kBlocks; ++b) {
+      const Mesh& first = mesh_of(block_name(a));
+      const Mesh& second = mesh_of(block_name(b));
+      bool same = first.vertex_count == second.vertex_count;
+      for (std::uint32_t i = 0; same && i < first.vertex_count; ++i) {
+        same = road_model().vertices[first.first_vertex + i].position ==
+               road_model().vertices[second.first_vertex + i].position;
+      }
+      CHECK_FALSE(same);
+    }
+  }
+}
+
+TEST_CASE("all comes towards a car that drives, at the car's speed, even after a thousand kilometres") {
+  const Roadside road(road_model());
+  std::vector<Node> pose = road_model().nodes;
+  for (const double start : {0.5, 1e6 + 0.5}) {
+    road.place(start, pose);
+    const double strip = z_of(pose, "RoadStrip"), block = z_of(pose, block_name(2));
+    road.place(start + 0.25, pose);
+    CHECK(z_of(pose, "RoadStrip") - strip == doctest::Approx(0.25).epsilon(1e-4));
+    CHECK(z_of(pose, block_name(2)) - block == doctest::Approx(0.25).epsilon(1e-3));
+    road.place(start, pose);  // and back
+    CHECK(z_of(pose, "RoadStrip") == strip);
+  }
+}
+
+TEST_CASE("the strip lies under the car from behind the mirror's view to the hills, wherever it stands") {
+  double near = -1e9, far = 1e9;
+  for (const Primitive& p : mesh_of("RoadStrip").primitives) {
+    near = std::max(near, static_cast<double>(p.high.z));
+    far = std::min(far, static_cast<double>(p.low.z));
+  }
+  CHECK(near > 100.0);
+  CHECK(far + kTileLength < -420.0);
+}
+
+TEST_CASE("the road costs 16 draws") {
+  CHECK(draw_count(road_model()) <= 16);
+  MESSAGE(draw_count(road_model()) << " draws, " << road_model().triangle_count() << " triangles");
+}
+
+}  // namespace gearshift

@@ -1,0 +1,61 @@
+// The XDG base directory specification, variable by variable.
+#include "app/trainer/user_folder.h"
+
+#include <stdlib.h>
+
+#include <optional>
+#include <string>
+
+#include <doctest/doctest.h>
+
+using namespace gearshift;
+
+namespace {
+
+// Sets a variable, or takes it away, for as long as this lives.
+class Variable {
+ public:
+  Variable(const char* name, const char* value) : name_(name) {
+    if (const char* was = getenv(name)) was_ = was;
+    set(value);
+  }
+  ~Variable() { set(was_ ? was_->c_str() : nullptr); }
+  Variable(const Variable&) = delete;
+  Variable& operator=(const Variable&) = delete;
+
+ private:
+  void set(const char* value) const {
+    if (value != nullptr)
+      setenv(name_, value, 1);
+    else
+      unsetenv(name_);
+  }
+  const char* name_;
+  std::optional<std::string> was_;
+};
+
+}  // namespace
+
+TEST_CASE("the variables name the base folders") {
+  const Variable config("XDG_CONFIG_HOME", "/c"), data("XDG_DATA_HOME", "/d"), home("HOME", "/h");
+  CHECK(user_config_folder() == "/c/gearshift");
+  CHECK(user_data_folder() == "/d/gearshift");
+  CHECK(user_presets_folder() == "/c/gearshift/presets");
+}
+
+TEST_CASE("without them, or where they are empty or relative, the defaults below the home folder") {
+  for (const char* value : {static_cast<const char*>(nullptr), "", "relative/path"}) {
+    const Variable config("XDG_CONFIG_HOME", value), data("XDG_DATA_HOME", value), home("HOME", "/h");
+    CHECK(user_config_folder() == "/h/.config/gearshift");
+    CHECK(user_data_folder() == "/h/.local/share/gearshift");
+  }
+}
+
+TEST_CASE("without HOME the system's home folder of this user, or one sentence") {
+  const Variable config("XDG_CONFIG_HOME", nullptr), home("HOME", nullptr);
+  try {
+    CHECK(user_config_folder().is_absolute());
+  } catch (const std::runtime_error& error) {
+    CHECK(std::string(error.what()).find("XDG_CONFIG_HOME nor HOME") != std::string::npos);
+  }
+}

@@ -1,0 +1,124 @@
+// Lights that are baked at the start: how long it takes, how wrong it is.
+#include <cmath>
+#include <random>
+
+#include <fmt/core.h>
+#include <glm/geometric.hpp>
+
+#include "engine/light/environment.h"
+#include "tests/bench/bench.h"
+#include "tests/bench/picture/picture_rig.h"
+
+namespace gearshift {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kReferenceSamples = 16384;
+constexpr double kPi = 3.14159265358979323846;
+
+struct Error {
+  double square = 0.0, worst = 0.0;
+  int count = 0;
+  void add(double e) {
+    square += e * e;
+    worst = std::max(worst, std::abs(e));
+    ++count;
+  }
+  double rms() const { return std::sqrt(square / count); }
+};
+
+// facts/rendering.md: RMS .0010, worst .0055 for a table from 1024 samples.
+BenchRow brdf_row(int side, int samples) {
+  const auto start = Clock::now();
+  const BrdfTable table = bake_brdf(side, samples);
+  const double ms = ms_since(start);
+  Error error;
+  for (int i = 1; i < 20; ++i) {
+    for (int j = 1; j < 20; ++j) {
+      const double n_dot_v = i / 20.0, roughness = j / 20.0;
+      const glm::dvec2 truth = environment_brdf(n_dot_v, roughness, kReferenceSamples);
+      const glm::vec2 seen = table.sample(static_cast<float>(n_dot_v), static_cast<float>(roughness));
+      error.add(static_cast<double>(seen.x) - truth.x);
+      error.add(static_cast<double>(seen.y) - truth.y);
+    }
+  }
+  return {"light",
+          fmt::format("environment BRDF, {0}x{0} table, {1} samples: RMS", side, samples),
+          error.rms(),
+          "",
+          samples >= 256 ? std::optional<double>(0.0010) : std::nullopt,
+          false,
+          "",
+          true,
+          {{"worst", error.worst, ""}, {"bake", ms, "ms"}}};
+}
+
+// Irradiance / pi by midpoint quadrature over the hemisphere around n: independent of any basis.
+glm::dvec3 irradiance_by_quadrature(const Radiance& radiance, glm::vec3 n, int rings) {
+  const glm::vec3 side = glm::normalize(glm::cross(n, std::abs(n.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0)));
+  const glm::vec3 other = glm::cross(n, side);
+  glm::dvec3 sum(0.0);
+  for (int i = 0; i < rings; ++i) {
+    const double sin2 = (i + 0.5) / rings;  // uniform in sin^2: the cosine is in the measure
+    for (int j = 0; j < 4 * rings; ++j) {
+      const double phi = 2.0 * kPi * (j + 0.5) / (4 * rings);
+      const auto r = static_cast<float>(std::sqrt(sin2)), up = static_cast<float>(std::sqrt(1.0 - sin2));
+      sum += glm::dvec3(radiance(r * static_cast<float>(std::cos(phi)) * side +
+                                 r * static_cast<float>(std::sin(phi)) * other + up * n));
+    }
+  }
+  return sum / (4.0 * rings * rings);
+}
+
+BenchRow irradiance_row(int samples) {
+  const Radiance sky = day_sky(glm::normalize(glm::vec3(0.35f, 0.80f, -0.48f)));
+  const auto start = Clock::now();
+  const Irradiance fast = project_irradiance(sky, samples);
+  const double ms = ms_since(start);
+  std::mt19937 chance(1);
+  std::normal_distribution<float> normal;
+  Error relative;
+  for (int i = 0; i < 60; ++i) {
+    const glm::vec3 n = glm::normalize(glm::vec3(normal(chance), normal(chance), normal(chance)));
+    const glm::dvec3 truth = irradiance_by_quadrature(sky, n, 48);
+    relative.add(glm::length(glm::dvec3(fast(n)) - truth) / glm::length(truth));
+  }
+  return {"light",
+          fmt::format("irradiance by harmonics of degree 2, {0}x{0} samples a face: RMS of the truth", samples),
+          100.0 * relative.rms(),
+          "%",
+          {},
+          false,
+          "",
+          true,
+          {{"worst", 100.0 * relative.worst, "%"}, {"projection", ms, "ms"}}};
+}
+
+BenchRow prefilter_row(int samples) {
+  const Radiance sky = day_sky(glm::normalize(glm::vec3(0.35f, 0.80f, -0.48f)));
+  const auto start = Clock::now();
+  const PrefilteredCube cube = prefilter(sky, 64, 6, samples);
+  return {"light",
+          fmt::format("reflections prefiltered, 64^2 x 6 x {} levels, {} samples", cube.levels.size(), samples),
+          ms_since(start),
+          "ms",
+          {},
+          false,
+          "",
+          true,
+          {}};
+}
+
+}  // namespace
+
+std::vector<BenchRow> bench_light(const BenchOptions&) {
+  std::vector<BenchRow> rows;
+  for (const int samples : {16, 64, 256, 1024}) rows.push_back(brdf_row(64, samples));
+  rows.push_back(brdf_row(32, 256));
+  for (const int samples : {8, 32, 64}) rows.push_back(irradiance_row(samples));
+  for (const int samples : {16, 64, 256}) rows.push_back(prefilter_row(samples));
+  return rows;
+}
+
+}  // namespace gearshift

@@ -1,0 +1,185 @@
+// What a picture costs: the cabin, pass by pass; many untextured triangles; the way to the first frame.
+#include <array>
+#include <cmath>
+
+#include <fmt/core.h>
+
+#include "app/stage/stage.h"
+#include "haptics/gate/gate_compiler.h"
+#include "haptics/gate/gate_layout.h"
+#include "haptics/joystick/kinematics.h"
+#include "tests/bench/bench.h"
+#include "tests/bench/picture/picture_rig.h"
+
+namespace gearshift {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+// facts/rendering.md, on this kind of machine: pbrbasic, 221k untextured GGX triangles, 74 to 104 ms.
+constexpr double kPbrBasic = 104.0;  // [ms]
+constexpr int kSpheres = 20;
+constexpr int kRings = 75, kSegments = 75;  // 20 x 75 x 74 x 2 = 222,000 triangles
+
+StageConfig paper_cabin(const BenchOptions& options) {
+  StageConfig config;
+  const GateLayout layout = read_gate_layout(options.gate_folder + "/paper.toml");
+  config.gate = compile_gate(layout, workspace_half_extent(config.yoke), config.yoke.radius);
+  config.gate_title = layout.name;
+  return config;
+}
+
+StageInput in_first(const Gate& gate) {
+  StageInput input;
+  input.lever.gear = input.car.gear = 1;
+  input.lever.lever = input.lever.proxy = rest_position(gate, 1);
+  input.car.engine_speed = 200.0;
+  return input;
+}
+
+BenchRow first_frame(const BenchOptions& options) {
+  const auto start = Clock::now();
+  const StageConfig config = paper_cabin(options);
+  Stage stage(config, options.model_folder);
+  const double models = ms_since(start);
+  Gpu gpu({});
+  const double device = ms_since(start);
+  const RenderConfig render;
+  Renderer renderer(gpu, render);
+  const double lights = ms_since(start);
+  renderer.set_model(stage.model());
+  stage.place(in_first(config.gate));
+  const double upload = ms_since(start);
+  const View view = seen_from(stage.driver_eye(), render);
+  gpu.wait(renderer.draw(stage.scene(), {&view, 1}));
+  const double all = ms_since(start);
+  return {"picture",
+          "start to first frame, cabin loaded, no pipeline cache",
+          all,
+          "ms",
+          1000.0,
+          false,
+          gpu.traits().name,
+          true,
+          {{"models", models, "ms"},
+           {"device", device - models, "ms"},
+           {"lights and pipelines", lights - device, "ms"},
+           {"upload", upload - lights, "ms"},
+           {"frame", all - upload, "ms"}}};
+}
+
+std::vector<Beside> passes(const FrameCost& cost) {
+  return {{"shadow", cost.gpu.shadow, "ms"},
+          {"mirror", cost.gpu.mirror, "ms"},
+          {"main", cost.gpu.main, "ms"},
+          {"GPU in all", cost.gpu.all, "ms"}};
+}
+
+struct CabinCase {
+  std::string name;
+  RenderConfig render;
+  std::optional<double> goal;
+};
+
+BenchRow cabin_row(const BenchOptions& options, Gpu& gpu, Stage& stage, const CabinCase& what) {
+  Renderer renderer(gpu, what.render);
+  renderer.set_model(stage.model());
+  const Fov centre = symmetric_fov(1.0, static_cast<double>(what.render.width) / what.render.height);
+  const StereoEyes eyes = stereo_eyes(stage.driver_eye(), centre, 0.063, 2.0);
+  std::vector<View> views{seen_from(stage.driver_eye(), what.render)};
+  if (what.render.eyes == 2)
+    views = {view_from(eyes.pose[0], eyes.fov[0], 0.05), view_from(eyes.pose[1], eyes.fov[1], 0.05)};
+  const FrameCost cost = time_frames(gpu, renderer, stage.scene(), views, options.quick ? 5 : 25);
+  BenchRow row{"picture", what.name, cost.host_ms, "ms", what.goal, false, "", true, passes(cost)};
+  row.beside.push_back({"draws", static_cast<double>(renderer.draws()), ""});
+  return row;
+}
+
+std::vector<BenchRow> cabin_rows(const BenchOptions& options) {
+  const StageConfig config = paper_cabin(options);
+  Stage stage(config, options.model_folder);
+  stage.place(in_first(config.gate));
+  Gpu gpu({});
+  RenderConfig plain, smooth, stereo;
+  smooth.samples = 4;
+  stereo.eyes = 2;
+  stereo.width = 640;
+  std::vector<BenchRow> rows;
+  for (const CabinCase& what :
+       {CabinCase{"cabin 1280x720, 1x, shadow and mirror", plain, 60.0}, CabinCase{"cabin 1280x720, 4x", smooth, {}},
+        CabinCase{"cabin 2 x 640x720, 1x, both eyes in one pass where the device does it", stereo, {}}})
+    rows.push_back(cabin_row(options, gpu, stage, what));
+  rows[0].beside.push_back({"triangles", static_cast<double>(stage.model().triangle_count()), ""});
+  return rows;
+}
+
+void add_sphere(Model& model, glm::vec3 centre, float radius) {
+  const auto first = static_cast<std::uint32_t>(model.vertices.size());
+  for (int ring = 0; ring <= kRings; ++ring) {
+    for (int segment = 0; segment <= kSegments; ++segment) {
+      const float v = 3.14159265f * static_cast<float>(ring) / kRings;
+      const float u = 6.28318531f * static_cast<float>(segment) / kSegments;
+      Vertex vertex;
+      vertex.normal = {std::sin(v) * std::cos(u), std::cos(v), std::sin(v) * std::sin(u)};
+      vertex.position = centre + radius * vertex.normal;
+      model.vertices.push_back(vertex);
+    }
+  }
+  for (std::uint32_t ring = 0; ring < kRings; ++ring) {
+    for (std::uint32_t segment = 0; segment < kSegments; ++segment) {
+      const std::uint32_t a = first + ring * (kSegments + 1) + segment, b = a + kSegments + 1;
+      if (ring > 0) model.indices.insert(model.indices.end(), {a, a + 1, b + 1});
+      if (ring + 1 < kRings) model.indices.insert(model.indices.end(), {a, b + 1, b});
+    }
+  }
+}
+
+Model many_spheres() {
+  Model model;
+  for (int i = 0; i < kSpheres; ++i) {
+    const auto column = static_cast<float>(i % 5), row = static_cast<float>(i / 5);
+    add_sphere(model, {1.1f * (column - 2.0f), 1.1f * (row - 1.5f), 0.0f}, 0.5f);
+  }
+  Primitive all;
+  all.index_count = static_cast<std::uint32_t>(model.indices.size());
+  all.material = 0;
+  all.low = glm::vec3(-3.0f);
+  all.high = glm::vec3(3.0f);
+  model.materials.emplace_back();
+  model.materials[0].roughness = 0.4f;
+  model.meshes.push_back({"Spheres", {all}, 0, static_cast<std::uint32_t>(model.vertices.size())});
+  model.nodes.emplace_back();
+  model.nodes[0].mesh = 0;
+  return model;
+}
+
+BenchRow many_triangles(const BenchOptions& options) {
+  Gpu gpu({});
+  RenderConfig config;
+  config.shadow_side = 0;
+  Renderer renderer(gpu, config);
+  const Model model = many_spheres();
+  renderer.set_model(model);
+  const View view = seen_from(look_at({0.0, 0.0, 5.0}, {0.0, 0.0, 0.0}), config);
+  const FrameCost cost = time_frames(gpu, renderer, standing(model), {&view, 1}, options.quick ? 5 : 25);
+  return {"picture",
+          fmt::format("{} untextured GGX triangles, 1280x720, 1x", model.triangle_count()),
+          cost.host_ms,
+          "ms",
+          kPbrBasic,
+          false,
+          "goal: the slowest that pbrbasic was seen at",
+          true,
+          {{"GPU", cost.gpu.all, "ms"}}};
+}
+
+}  // namespace
+
+std::vector<BenchRow> bench_picture(const BenchOptions& options) {
+  std::vector<BenchRow> rows{first_frame(options)};
+  for (BenchRow& row : cabin_rows(options)) rows.push_back(std::move(row));
+  rows.push_back(many_triangles(options));
+  return rows;
+}
+
+}  // namespace gearshift

@@ -1,0 +1,27 @@
+#include "tests/bench/picture/picture_rig.h"
+
+#include "tests/bench/bench.h"
+
+namespace gearshift {
+
+FrameCost time_frames(Gpu& gpu, Renderer& renderer, const FrameScene& scene, std::span<const View> views, int frames,
+                      int warm_up) {
+  std::vector<double> host, shadow, mirror, main, overlay, all;
+  for (int i = 0; i < frames + warm_up; ++i) {
+    const auto start = std::chrono::steady_clock::now();
+    gpu.wait(renderer.draw(scene, views));
+    if (i < warm_up) continue;
+    host.push_back(ms_since(start));
+    const PassTimes& times = renderer.times();
+    shadow.push_back(times.shadow);
+    mirror.push_back(times.mirror);
+    main.push_back(times.main);
+    overlay.push_back(times.overlay);
+    all.push_back(times.all);
+  }
+  return {
+      quantile(host, 0.5),
+      {quantile(shadow, 0.5), quantile(mirror, 0.5), quantile(main, 0.5), quantile(overlay, 0.5), quantile(all, 0.5)}};
+}
+
+}  // namespace gearshift

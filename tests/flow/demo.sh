@@ -1,0 +1,55 @@
+#!/usr/bin/env bash
+# The demo as a user without a display runs it: pictures, sound, trace and page are there, whole, the same twice, and
+# validation has nothing to say. Usage: demo.sh GEARSHIFT SOURCE_FOLDER
+set -u
+gearshift=$1
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
+unset DISPLAY WAYLAND_DISPLAY
+export GEARSHIFT_VALIDATION=1 XDG_CACHE_HOME=$work/cache XDG_RUNTIME_DIR=$work/runtime
+mkdir -m 700 runtime
+
+demo() { # name of the result, arguments ...
+  local name=$1
+  shift
+  "$gearshift" demo --out "$name" --size 320x180 "$@" >"$name.txt" 2>"$name.err"
+}
+same() { cmp -s "$1" "$2"; }
+shown_files_exist() {
+  local file
+  for file in $(grep -oE '(src|href)="[^"]+"' one/index.html | sed 's/.*="//; s/"//'); do
+    [ -s "one/$file" ] || { echo "missing: $file"; return 1; }
+  done
+}
+
+check "demo of the paper's gate" demo one
+check "nothing on stderr, validation included" [ ! -s one.err ]
+check "six gears in the order of Fig. 9" [ "$(awk '/engaged/{print $1}' one.txt | tr '\n' ' ')" = "1 2 3 4 5 R " ]
+for picture in cabin driver clamp gearbox cluster gear_1 gear_R contact_sheet; do
+  check "$picture.png is a picture" is_png "one/$picture.png"
+done
+check "everything that the page shows is there" shown_files_exist
+check "sound is a WAV file" grep -q WAVE <(head -c 16 one/demo.wav)
+check "its trace replays" "$gearshift" replay one/tour.trace
+check "the same again" demo two
+for file in cabin.png driver.png clamp.png gearbox.png demo.wav tour.trace; do
+  check "$file is the same twice" same "one/$file" "two/$file"
+done
+different() { ! same "$1" "$2"; }
+check "first and fifth gear do not look the same" different one/gear_1.png one/gear_5.png
+check "another gate" demo six --gate six_speed_r_left_up
+check "stereo and a film" demo film --stereo --film 1 --samples 1
+check "the film has frames" is_png film/film/00003.png
+
+refused() { # sentence, arguments ...
+  local sentence=$1
+  shift
+  "$gearshift" "$@" >refused.txt 2>refused.err && return 1
+  [ "$(wc -l <refused.err)" = 1 ] && grep -q -- "$sentence" refused.err
+}
+check "a size that is none" refused "must be WIDTHxHEIGHT" demo --out no --size 1280
+check "a size that is too large" refused "16 to 8192" demo --out no --size 99999x2
+check "three samples" refused "samples" demo --out no --samples 3
+check "no folder was made" [ ! -e no ]
+check "train without a display says what to do" refused "no display" train
+check "an unknown GPU is named" env GEARSHIFT_GPU=nonesuch bash -c "! '$gearshift' demo --out gpu 2>gpu.err && [ \$(wc -l <gpu.err) = 1 ]"
+finish

@@ -1,0 +1,58 @@
+// Both eyes of the real cabin, one pass or two, against single views; at a camera whose near plane cuts the wheel.
+#include <array>
+
+#include <doctest/doctest.h>
+
+#include "tests/picture/cabin_rig.h"
+
+using namespace gearshift;
+
+namespace {
+
+constexpr double kCutsTheWheel = 0.42;  // [m] the rim is 0.40 m ahead of the driver's eye
+
+RenderConfig small(int eyes, int samples, EyePasses passes = EyePasses::automatic) {
+  RenderConfig config;
+  config.width = 320;
+  config.height = 240;
+  config.eyes = eyes;
+  config.samples = samples;
+  config.eye_passes = passes;
+  return config;
+}
+
+std::array<View, 2> both_views(const RenderConfig& config) {
+  const Fov centre = symmetric_fov(1.2, static_cast<double>(config.width) / config.height);
+  const StereoEyes eyes = stereo_eyes(camera("driver"), centre, 0.063, 2.0);
+  return {view_from(eyes.pose[0], eyes.fov[0], kCutsTheWheel), view_from(eyes.pose[1], eyes.fov[1], kCutsTheWheel)};
+}
+
+void check_against_single_views(int samples, EyePasses passes) {
+  const RenderConfig two = small(2, samples, passes);
+  CabinRig stereo(two);
+  const std::array<View, 2> views = both_views(two);
+  const StageInput input = resting_in(stereo.gate, 3);
+  stereo.stage.place(input);
+  stereo.renderer.draw(stereo.stage.scene(), views);
+
+  CabinRig mono(small(1, samples));
+  for (int eye = 0; eye < 2; ++eye) {
+    const Image reference = mono.picture(input, views[static_cast<std::size_t>(eye)]);
+    const ImageDifference apart = difference(stereo.renderer.read_eye(eye), reference, 1);
+    CHECK_MESSAGE(apart.share_beyond == 0.0, "eye ", eye, ", worst ", apart.worst, "/255");
+  }
+  const ImageDifference eyes = difference(stereo.renderer.read_eye(0), stereo.renderer.read_eye(1), 3);
+  CHECK(eyes.share_beyond > 0.05);  // the eyes do not see the same
+}
+
+}  // namespace
+
+TEST_CASE("each eye of one pass is the single view, geometry cut at the near plane") {
+  check_against_single_views(1, EyePasses::layered);
+  check_against_single_views(4, EyePasses::layered);
+}
+
+TEST_CASE("each eye of two passes is the single view") {
+  check_against_single_views(1, EyePasses::one_by_one);
+  check_against_single_views(4, EyePasses::one_by_one);
+}
