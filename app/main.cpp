@@ -29,7 +29,11 @@ int run(int argc, char** argv) {
   gearshift::add_bench_verb(app, action);
 
   try {
-    app.parse(argc, argv);
+    if (argc == 1) {
+      app.parse("train");
+    } else {
+      app.parse(argc, argv);
+    }
     if (!action)
       throw CLI::RequiredError(
           "A subcommand: train, demo, tour, render, gate, identify, stability, reproduce, replay or bench (see "

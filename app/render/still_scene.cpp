@@ -40,6 +40,7 @@ Box bounds(const Model& model) {
 
 FrameScene still_scene(const Model& model) {
   FrameScene scene;
+  scene.shadow_reach = std::numeric_limits<float>::max();  // all of it
   const std::vector<glm::mat4> world = rest_pose(model);
   scene.nodes.resize(model.nodes.size());
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {

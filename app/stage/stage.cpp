@@ -21,7 +21,8 @@ namespace gearshift {
 namespace {
 
 constexpr float kGhostOpacity = 0.4f;
-constexpr float kExposure = 2.0f;  // for eyes inside: the cabin is darker than the road
+constexpr float kExposure = 2.0f;     // for eyes inside: the cabin is darker than the road
+constexpr float kShadowReach = 2.2f;  // [m] about the eyes: the whole cabin, with texels of 2 mm
 constexpr glm::vec3 kX{1.0f, 0.0f, 0.0f}, kZ{0.0f, 0.0f, 1.0f};
 
 glm::quat about(glm::vec3 axis, double angle) {
@@ -56,6 +57,7 @@ struct Stage::State {
     find_nodes();
     scene.nodes.resize(model.nodes.size());
     scene.exposure = kExposure;
+    scene.shadow_reach = kShadowReach;
     scene.mirror = needed_node(model, "InteriorMirrorSurface");
     pivot = glm::dvec3(rest_pose(model)[static_cast<std::size_t>(lever)][3]);
     if (!config.open_gate) take_boot();

@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include "app/input/driver_input.h"
+#include "app/output_folder.h"
 #include "app/train/gear_lines.h"
 #include "app/train/look_around.h"
 #include "engine/ui/ui.h"
@@ -199,12 +200,13 @@ int train_in_window(const TrainSetup& setup) {
 }
 
 int train_offscreen(const TrainSetup& setup, const OffscreenSetup& offscreen) {
+  Session session(setup.choice);
+  const LookAround look(setup.camera);
   UiContext ui;
   Panel panel;
   panel.set_visible(setup.panel);
   CabinView view(setup.view, nullptr, &ui);
-  Session session(setup.choice);
-  const LookAround look(setup.camera);
+  make_folder(offscreen.folder);
   const double seconds = 1.0 / kOffscreenRate;
   view.set_model(session.stage().model());
   while (session.time() < offscreen.seconds) {

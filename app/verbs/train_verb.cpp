@@ -7,7 +7,6 @@
 #include <fmt/core.h>
 
 #include "app/assets_path.h"
-#include "app/output_folder.h"
 #include "app/train/train.h"
 #include "app/verbs/number_between.h"
 #include "app/verbs/picture_size.h"
@@ -45,7 +44,6 @@ int run_train(const TrainArguments& arguments) {
     setup.choice.clock = TrainerClock::virtual_time;
     setup.choice.sound = SoundOutput::none;
     if (setup.choice.hand.empty()) setup.choice.hand = kTouringHand;
-    make_folder(arguments.offscreen);
     return train_offscreen(setup, {arguments.offscreen, arguments.seconds});
   }
   if (!has_display())

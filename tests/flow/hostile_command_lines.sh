@@ -30,7 +30,25 @@ refuse() { # exit code, part of the sentence, arguments ...
   fi
 }
 
-refuse 2 "subcommand"
+unset DISPLAY WAYLAND_DISPLAY
+refuse 1 "no display"
+refuse 1 "no display" train
+refuse 1 "neither a file nor one of the shipped gates" train --offscreen t --gate nonesuch
+refuse 1 "neither a file nor one of the shipped presets" train --offscreen t --preset nonesuch
+refuse 1 "neither a file nor one of the shipped bindings" train --offscreen t --bindings nonesuch
+refuse 1 "hand strong" train --offscreen t --hand strong
+refuse 2 "--camera" train --offscreen t --camera nowhere
+refuse 2 "--size" train --offscreen t --size 10x10
+refuse 2 "--seconds" train --offscreen t --seconds 0
+refuse 1 "name" train --offscreen t --gate nameless.toml
+refuse 2 "--out" demo
+refuse 2 "--size" demo --out t --size big
+refuse 2 "--samples" demo --out t --samples 2
+refuse 2 "--film" demo --out t --film 100
+refuse 2 "file is required" render
+refuse 2 "--out" render nothing.glb
+refuse 2 "--fov" render nothing.glb --out t.png --fov 179
+refuse 1 "nothing.glb" render nothing.glb --out t.png
 refuse 2 "fly" fly
 refuse 2 "--speed" --speed 3
 refuse 2 "--out" tour

@@ -16,6 +16,7 @@ inline StageConfig open_gate_cabin() {
   config.gate = shipped_gate("paper");
   config.gate_title = "paper";
   config.open_gate = true;
+  config.hand = false;
   return config;
 }
 

@@ -19,8 +19,7 @@ def build_interior_mirror():
     part = Part("InteriorMirrorHousing", F, "InteriorMirror", smooth=50)
 
     def ring(k, depth):
-        shrink = min(k, 0.9) if k <= 0.9 else k
-        return [at(F, x * shrink, depth, z * shrink) for x, z in superellipse(0.122, 0.034, 4.5, 36)]
+        return [at(F, x * k, depth, z * k) for x, z in superellipse(0.122, 0.034, 4.5, 36)]
 
     shell = ((0.30, -0.034), (0.61, -0.030), (0.90, -0.016), (1.0, -0.002), (1.0, 0.003), (0.975, 0.0045))
     shell += ((0.95, 0.0035), (0.945, 0.0))

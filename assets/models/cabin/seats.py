@@ -1,4 +1,6 @@
 """Front seats: cushion, backrest and headrest with bolsters, seams, recliner; seat belts."""
+from math import radians
+
 from mathutils import Matrix, Vector
 
 from cabin.dimensions import CENTRE_X, FLOOR_Z, HALF_BELT, SEAT_TILT, SEAT_W, SEAT_X
@@ -55,7 +57,7 @@ def build():
     for name, x in SEAT_X.items():
         scene.empty("Seat" + name, (x, 0, 0), "Cabin")
         build_cushion(name, x)
-        B = Matrix.Translation((x, -0.150, -0.075)) @ Matrix.Rotation(SEAT_TILT * 0.017453292519943295, 4, "X")
+        B = Matrix.Translation((x, -0.150, -0.075)) @ Matrix.Rotation(radians(SEAT_TILT), 4, "X")
         build_back(name, B)
         build_headrest(name, B)
         build_belt(name, x)

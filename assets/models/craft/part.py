@@ -148,9 +148,9 @@ class Part:
         """Rows of points, thickened to both sides."""
         return self.loft(grid, mat, closed=False, solid=thick, sub=sub, strip_mats=strip_mats, **k)
 
-    def seam(self, path, mat="Stitch", width=0.0035, normal=None, lift=0.0008, n=3):
+    def seam(self, path, mat="Stitch", width=0.0035, normal=None, lift=0.0008):
         """Stitched seam: a low ridge over a path, UV0 along it (u in repeats of one stitch)."""
-        P = smooth = [Vector(p) for p in path]
+        P = [Vector(p) for p in path]
         m = len(P)
         rows, length, lengths = [], 0.0, []
         for i, p in enumerate(P):
@@ -160,7 +160,7 @@ class Part:
             up = x.cross(t)
             profile = ((-1, 0.0), (-0.5, 0.8), (0.5, 0.8), (1, 0.0))
             rows.append([tuple(p + x * a * width / 2 + up * (lift + b * width * 0.25)) for a, b in profile])
-            length += (p - smooth[i - 1]).length if i else 0
+            length += (p - P[i - 1]).length if i else 0
             lengths.append(length)
         ob = self.loft(rows, mat, closed=False, recalc=False)
         uv = ob.data.uv_layers["UVMap"].data

@@ -47,7 +47,7 @@ def build_hills():
                 (radius * out * p[0], radius * out * p[1], top[i]),
                 (radius * out * q[0], radius * out * q[1], top[j]),
             ]
-            part.face(wall[::-1] if False else wall, colour)
+            part.face(wall, colour)
     part.build()
 
 

@@ -1,5 +1,5 @@
 """Twelve metres of road, repeatable along y; x = 0 is the middle of the driver's lane (right-hand traffic)."""
-from math import sin
+from math import pi, sin
 
 from road.pieces import Thing
 
@@ -8,7 +8,6 @@ DASH = 4.0  # and 8 m of gap: one dash a tile
 VERGE = 30.0  # grass to either side
 LEFT, RIGHT = -LANE * 1.5, LANE / 2  # edge lines
 SHOULDER = 0.45
-PAINT_LIFT = 0.0  # strips lie side by side in the surface
 
 
 def columns():
@@ -39,14 +38,14 @@ def build():
 
 def add_verge(part, side, edge, half):
     """Gravel strip, shallow ditch, then grass that falls away a little."""
-    gravel = [(edge, y, z) for y in (-half, half) for z in (0,)]
-    gravel = [gravel[0], (edge + side * 0.6, -half, -0.05), (edge + side * 0.6, half, -0.05), gravel[1]]
+    outer = edge + side * 0.6
+    gravel = [(edge, -half, 0), (outer, -half, -0.05), (outer, half, -0.05), (edge, half, 0)]
     part.face(gravel if side > 0 else gravel[::-1], "earth")
     profile = ((0.6, -0.05), (1.6, -0.28), (2.4, -0.30), (3.6, -0.06), (8.0, 0.02), (16.0, -0.05), (VERGE, -0.45))
     stations = [-half + LENGTH * i / 4 for i in range(5)]
     grid = []
     for y in stations:
-        roll = 0.05 * sin(2 * 3.141592653589793 * y / LENGTH)  # repeats with the tile
+        roll = 0.05 * sin(2 * pi * y / LENGTH)  # repeats with the tile
         grid.append([(edge + side * d, y, z + roll * (d > 3)) for d, z in profile])
     verts = [p for row in grid for p in row]
     n = len(profile)
