@@ -104,6 +104,9 @@ GpuImage make_texture(Gpu& gpu, const Image& pixels, bool srgb, bool mips);
 // Raw texels for each level of each layer, level by level: tables and environments.
 GpuImage make_texture(Gpu& gpu, const ImageDesc& desc, std::span<const std::vector<std::byte>> levels);
 
+// Records the barrier after which the host may read what copies have written, once the commands are done.
+void make_copies_visible_to_host(VkCommandBuffer commands);
+
 // Four bytes a pixel, of one layer at level 0; the image is left in copy_from. Waits.
 Image read_back(Gpu& gpu, GpuImage& image, std::uint32_t layer = 0);
 

@@ -90,6 +90,17 @@ GpuImage make_texture(Gpu& gpu, const ImageDesc& desc, std::span<const std::vect
   return image;
 }
 
+void make_copies_visible_to_host(VkCommandBuffer commands) {
+  const VkMemoryBarrier2 to_host{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
+                                 .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
+                                 .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
+                                 .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
+                                 .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
+  const VkDependencyInfo dependency{
+      .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &to_host};
+  vkCmdPipelineBarrier2(commands, &dependency);
+}
+
 Image read_back(Gpu& gpu, GpuImage& image, std::uint32_t layer) {
   const auto [width, height] = image.extent();
   Image pixels{.width = static_cast<int>(width), .height = static_cast<int>(height), .rgba = {}};
@@ -101,14 +112,7 @@ Image read_back(Gpu& gpu, GpuImage& image, std::uint32_t layer) {
     copy.imageSubresource.baseArrayLayer = layer;
     copy.imageSubresource.layerCount = 1;
     vkCmdCopyImageToBuffer(commands, image.get(), layout_of(ImageUse::copy_from), staging.get(), 1, &copy);
-    const VkMemoryBarrier2 to_host{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                   .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
-                                   .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                                   .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
-                                   .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
-    const VkDependencyInfo dependency{
-        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &to_host};
-    vkCmdPipelineBarrier2(commands, &dependency);
+    make_copies_visible_to_host(commands);
   });
   std::memcpy(pixels.rgba.data(), staging.mapped(), pixels.rgba.size());
   return pixels;

@@ -19,14 +19,7 @@ struct Keep final : Renderer::Finish {
     const VkBufferImageCopy copy{.imageSubresource = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .layerCount = 1},
                                  .imageExtent = {colour.desc().width, colour.desc().height, 1}};
     vkCmdCopyImageToBuffer(commands, colour.get(), layout_of(ImageUse::copy_from), buffer.get(), 1, &copy);
-    const VkMemoryBarrier2 to_host{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
-                                   .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,
-                                   .srcAccessMask = VK_ACCESS_2_TRANSFER_WRITE_BIT,
-                                   .dstStageMask = VK_PIPELINE_STAGE_2_HOST_BIT,
-                                   .dstAccessMask = VK_ACCESS_2_HOST_READ_BIT};
-    const VkDependencyInfo dependency{
-        .sType = VK_STRUCTURE_TYPE_DEPENDENCY_INFO, .memoryBarrierCount = 1, .pMemoryBarriers = &to_host};
-    vkCmdPipelineBarrier2(commands, &dependency);
+    make_copies_visible_to_host(commands);
   }
   Image picture(int width, int height) const {
     Image image{width, height, std::vector<std::uint8_t>(buffer.size())};
