@@ -38,17 +38,17 @@ SHARED uint kMaps = 5u;
 SHARED uint kBindMaterial = 5u;  // MaterialData
 
 // Specialization constant 0: what a pipeline has to do. A material without a map costs no sampling.
-SHARED uint kHasMap = 1u;              // << kMap...: that map is there
+SHARED uint kHasMap = 1u;  // << kMap...: that map is there
 SHARED uint kAllMaps = 31u;
-SHARED uint kMapOnUv1 = 1u << 5;       // << kMap...: and lies on the second set
+SHARED uint kMapOnUv1 = 1u << 5;        // << kMap...: and lies on the second set
 SHARED uint kTransformedUv = 1u << 10;  // some map has a KHR_texture_transform
 SHARED uint kVertexColour = 1u << 11;
 SHARED uint kMasked = 1u << 12;   // alpha below the cutoff is a hole
 SHARED uint kBlended = 1u << 13;  // alpha is written: glass and ghosts
 SHARED uint kEmits = 1u << 14;
-SHARED uint kShadowed = 1u << 15;    // the sun's shadow is looked up
+SHARED uint kShadowed = 1u << 15;     // the sun's shadow is looked up
 SHARED uint kShowsMirror = 1u << 16;  // reflects the mirror's picture, not the surroundings
-SHARED uint kLinearOut = 1u << 17;   // radiance is written as it is: no tone mapping
+SHARED uint kLinearOut = 1u << 17;    // radiance is written as it is: no tone mapping
 
 // Specialization constants 1 to 27: the sky's irradiance over pi as a polynomial in the normal, see irradiance() in
 // mesh.frag. It changes with the sky, hardly ever, and a software driver is slow at reading 27 uniforms a pixel.
@@ -78,10 +78,10 @@ struct ObjectData {
 
 struct MaterialData {
   vec4 base_colour;
-  vec4 emissive;           // rgb; w: scale of the normal map
-  vec4 surface;            // metallic, roughness, strength of the occlusion, alpha's cutoff
-  vec4 uv_matrix[kMaps];   // columns of a 2x2
-  vec4 uv_offset[kMaps];   // xy
+  vec4 emissive;          // rgb; w: scale of the normal map
+  vec4 surface;           // metallic, roughness, strength of the occlusion, alpha's cutoff
+  vec4 uv_matrix[kMaps];  // columns of a 2x2
+  vec4 uv_offset[kMaps];  // xy
 };
 
 struct DrawData {

@@ -29,6 +29,12 @@ StageConfig paper_cabin(const BenchOptions& options) {
   return config;
 }
 
+// From the driver's place, a little below the horizon: road, wheel, dash and the interior mirror are seen.
+EyePose seeing_mirror(const Stage& stage) {
+  const glm::dvec3 eye = stage.driver_eye().position;
+  return look_at(eye, eye + glm::dvec3(0.05, -0.10, -1.0));
+}
+
 StageInput in_first(const Gate& gate) {
   StageInput input;
   input.lever.gear = input.car.gear = 1;
@@ -85,8 +91,8 @@ BenchRow cabin_row(const BenchOptions& options, Gpu& gpu, Stage& stage, const Ca
   Renderer renderer(gpu, what.render);
   renderer.set_model(stage.model());
   const Fov centre = symmetric_fov(1.0, static_cast<double>(what.render.width) / what.render.height);
-  const StereoEyes eyes = stereo_eyes(stage.driver_eye(), centre, 0.063, 2.0);
-  std::vector<View> views{seen_from(stage.driver_eye(), what.render)};
+  const StereoEyes eyes = stereo_eyes(seeing_mirror(stage), centre, 0.063, 2.0);
+  std::vector<View> views{seen_from(seeing_mirror(stage), what.render)};
   if (what.render.eyes == 2)
     views = {view_from(eyes.pose[0], eyes.fov[0], 0.05), view_from(eyes.pose[1], eyes.fov[1], 0.05)};
   const FrameCost cost = time_frames(gpu, renderer, stage.scene(), views, options.quick ? 5 : 25);
