@@ -25,32 +25,9 @@ void begin_once(VkCommandBuffer commands) {
   check(vkBeginCommandBuffer(commands, &info), "vkBeginCommandBuffer");
 }
 
-// Two stamps a frame; none where the device has none.
-QueryPool make_stamps(const Gpu& gpu) {
-  if (gpu.traits().timestamp_bits == 0) return {};
-  const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
-                                   .queryType = VK_QUERY_TYPE_TIMESTAMP,
-                                   .queryCount = 2 * kFramesInFlight};
-  VkQueryPool pool = VK_NULL_HANDLE;
-  check(vkCreateQueryPool(gpu.device(), &info, nullptr, &pool), "vkCreateQueryPool");
-  return {gpu.device(), pool};
-}
-
-// Between the frame's stamps. [ms]
-double elapsed_ms(const Gpu& gpu, VkQueryPool queries, int slot) {
-  std::array<std::uint64_t, 2> stamps{};
-  check(vkGetQueryPoolResults(gpu.device(), queries, static_cast<std::uint32_t>(2 * slot), 2, sizeof stamps,
-                              stamps.data(), sizeof stamps[0], VK_QUERY_RESULT_64_BIT | VK_QUERY_RESULT_WAIT_BIT),
-        "vkGetQueryPoolResults");
-  const std::uint32_t bits = gpu.traits().timestamp_bits;
-  const std::uint64_t valid = bits >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits) - 1;
-  return static_cast<double>((stamps[1] - stamps[0]) & valid) * gpu.traits().tick_ns * 1e-6;
-}
-
 }  // namespace
 
-FrameRing::FrameRing(Gpu& gpu)
-    : gpu_(gpu), pool_(make_pool(gpu, VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT)), queries_(make_stamps(gpu)) {
+FrameRing::FrameRing(Gpu& gpu) : gpu_(gpu), pool_(make_pool(gpu, VK_COMMAND_POOL_CREATE_RESET_COMMAND_BUFFER_BIT)) {
   allocate(gpu, pool_.get(), kFramesInFlight, commands_.data());
 }
 
@@ -67,26 +44,16 @@ VkCommandBuffer FrameRing::begin() {
   const auto index = static_cast<std::size_t>(slot_);
   if (done_[index] != 0) {
     gpu_.wait(done_[index]);
-    if (queries_) gpu_ms_ = elapsed_ms(gpu_, queries_.get(), slot_);
     done_[index] = 0;
   }
   VkCommandBuffer commands = commands_[index];
   check(vkResetCommandBuffer(commands, 0), "vkResetCommandBuffer");  // also of a frame that was never ended
   begin_once(commands);
-  if (queries_) {
-    const auto first = static_cast<std::uint32_t>(2 * slot_);
-    vkCmdResetQueryPool(commands, queries_.get(), first, 2);
-    vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_.get(), first);
-  }
   return commands;
 }
 
 std::uint64_t FrameRing::end(VkSemaphore wait_for, VkSemaphore then_signal) {
   const auto index = static_cast<std::size_t>(slot_);
-  if (queries_) {
-    vkCmdWriteTimestamp2(commands_[index], VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_.get(),
-                         static_cast<std::uint32_t>(2 * slot_ + 1));
-  }
   check(vkEndCommandBuffer(commands_[index]), "vkEndCommandBuffer");
   return done_[index] = gpu_.submit(commands_[index], wait_for, then_signal);
 }

@@ -23,17 +23,12 @@ class FrameRing {
   std::uint64_t end(VkSemaphore wait_for = VK_NULL_HANDLE, VkSemaphore then_signal = VK_NULL_HANDLE);
   void wait();  // for all frames
 
-  // Time between the two last stamps of a finished frame. [ms] 0 where the device has no timestamps
-  double gpu_ms() const noexcept { return gpu_ms_; }
-
  private:
   Gpu& gpu_;
   CommandPool pool_;
-  QueryPool queries_;
   std::array<VkCommandBuffer, kFramesInFlight> commands_{};
   std::array<std::uint64_t, kFramesInFlight> done_{};
   int slot_ = kFramesInFlight - 1;
-  double gpu_ms_ = 0.0;
 };
 
 // Records, submits, waits.

@@ -84,14 +84,15 @@ MemoryBlock& DeviceMemory::add_block(VkDeviceSize size, std::uint32_t type, Memo
   blocks_.reserve(blocks_.size() + 1);
   auto block = std::make_unique<MemoryBlock>(MemoryBlock{VK_NULL_HANDLE, nullptr, type, user, FreeRanges(size)});
   check(vkAllocateMemory(device_, &info, nullptr, &block->memory), "vkAllocateMemory");
-  blocks_.push_back(std::move(block));
-  MemoryBlock& added = *blocks_.back();
   if ((properties_.memoryTypes[type].propertyFlags & kMapped) == kMapped) {
     void* mapped = nullptr;
-    check(vkMapMemory(device_, added.memory, 0, VK_WHOLE_SIZE, 0, &mapped), "vkMapMemory");
-    added.mapped = static_cast<std::byte*>(mapped);
+    const VkResult result = vkMapMemory(device_, block->memory, 0, VK_WHOLE_SIZE, 0, &mapped);
+    if (result != VK_SUCCESS) vkFreeMemory(device_, block->memory, nullptr);
+    check(result, "vkMapMemory");
+    block->mapped = static_cast<std::byte*>(mapped);
   }
-  return added;
+  blocks_.push_back(std::move(block));
+  return *blocks_.back();
 }
 
 Allocation DeviceMemory::allocate(const VkMemoryRequirements& needs, MemoryKind kind, MemoryUser user) {

@@ -26,11 +26,15 @@ std::uint64_t sum_of(std::span<const std::byte> bytes) {
   return sum;
 }
 
+constexpr std::uintmax_t kLargest = std::uintmax_t{256} << 20;  // [bytes] drivers keep a few MiB
+
 std::vector<std::byte> read_file(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary | std::ios::ate);
-  if (!in) return {};
-  std::vector<std::byte> bytes(static_cast<std::size_t>(in.tellg()));
-  in.seekg(0);
+  std::error_code problem;
+  if (!std::filesystem::is_regular_file(file, problem)) return {};
+  const std::uintmax_t size = std::filesystem::file_size(file, problem);
+  if (problem || size > kLargest) return {};
+  std::ifstream in(file, std::ios::binary);
+  std::vector<std::byte> bytes(size);
   in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
   return in ? bytes : std::vector<std::byte>{};
 }

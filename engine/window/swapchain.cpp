@@ -22,20 +22,27 @@ Semaphore make_semaphore(VkDevice device) {
   return {device, semaphore};
 }
 
+// A surface can be lost at any call that names it; it never leaves this file.
+struct SurfaceLost {};
+void check_surface(VkResult result, const char* what) {
+  if (result == VK_ERROR_SURFACE_LOST_KHR) throw SurfaceLost{};
+  check(result, what);
+}
+
 template <class T, class Query>
 std::vector<T> list(Query query) {
   std::uint32_t count = 0;
-  check(query(&count, static_cast<T*>(nullptr)), "a query of the surface");
+  check_surface(query(&count, static_cast<T*>(nullptr)), "a query of the surface");
   std::vector<T> items(count);
-  check(query(&count, items.data()), "a query of the surface");
+  check_surface(query(&count, items.data()), "a query of the surface");
   items.resize(count);
   return items;
 }
 
 void require_present(const Gpu& gpu, VkSurfaceKHR surface) {
   VkBool32 can_present = VK_FALSE;
-  check(vkGetPhysicalDeviceSurfaceSupportKHR(gpu.physical(), gpu.queue_family(), surface, &can_present),
-        "vkGetPhysicalDeviceSurfaceSupportKHR");
+  check_surface(vkGetPhysicalDeviceSurfaceSupportKHR(gpu.physical(), gpu.queue_family(), surface, &can_present),
+                "vkGetPhysicalDeviceSurfaceSupportKHR");
   if (can_present == VK_FALSE) {
     throw GpuError(fmt::format("{} cannot show pictures in this window.", gpu.traits().name));
   }
@@ -115,7 +122,11 @@ VkRect2D place_of(const ShownLayer& layer, VkExtent2D picture, VkExtent2D window
 struct Swapchain::State {
   State(Gpu& g, Window& w, bool v) : gpu(g), window(w), vsync(v) {
     for (Semaphore& semaphore : acquired) semaphore = make_semaphore(gpu.device());
-    make_surface();
+    try {
+      make_surface();
+    } catch (const SurfaceLost&) {
+      lost = true;
+    }
   }
   ~State() { drop_surface(); }
   State(const State&) = delete;
@@ -169,8 +180,9 @@ void Swapchain::State::drop_surface() noexcept {
 
 void Swapchain::State::build() {
   VkSurfaceCapabilitiesKHR can;
-  check(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(gpu.physical(), surface, &can),
-        "vkGetPhysicalDeviceSurfaceCapabilitiesKHR");
+  check_surface(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(gpu.physical(), surface, &can),
+                "vkGetPhysicalDeviceSurfaceCapabilitiesKHR");
+  stale = true;  // until all of it is there
   built_for = window.framebuffer();
   extent = choose_extent(can, built_for);
   if (extent.width == 0 || extent.height == 0) return;
@@ -195,7 +207,7 @@ void Swapchain::State::build() {
   const VkResult made = vkCreateSwapchainKHR(gpu.device(), &info, nullptr, &swapchain);
   vkDestroySwapchainKHR(gpu.device(), old, nullptr);  // retired, whether the new one was made or not
   if (made != VK_SUCCESS) swapchain = VK_NULL_HANDLE;
-  check(made, "vkCreateSwapchainKHR");
+  check_surface(made, "vkCreateSwapchainKHR");
   const auto raw = list<VkImage>(
       [&](auto* count, auto* items) { return vkGetSwapchainImagesKHR(gpu.device(), swapchain, count, items); });
   for (VkImage image : raw) {
@@ -209,12 +221,17 @@ void Swapchain::State::build() {
 bool Swapchain::State::make_ready() {
   const glm::ivec2 framebuffer = window.framebuffer();
   if (framebuffer.x <= 0 || framebuffer.y <= 0) return false;
-  if (lost) {
-    drop_surface();
-    make_surface();
+  try {
+    if (lost) {
+      drop_surface();
+      make_surface();
+    }
+    // Not every driver says that its images have another size than the window.
+    if (stale || framebuffer != built_for) build();
+  } catch (const SurfaceLost&) {
+    lost = true;
+    return false;
   }
-  // Not every driver says that its images have another size than the window.
-  if (stale || framebuffer != built_for) build();
   return !stale;
 }
 
@@ -246,10 +263,12 @@ Swapchain::~Swapchain() = default;
 bool Swapchain::acquire() {
   State& s = *state_;
   if (!s.make_ready()) return false;
-  s.frame = (s.frame + 1) % s.acquired.size();
+  const std::size_t next = (s.frame + 1) % s.acquired.size();
   const VkResult result =
-      vkAcquireNextImageKHR(s.gpu.device(), s.swapchain, kPatience, acquired(), VK_NULL_HANDLE, &s.index);
-  return s.take(result, "vkAcquireNextImageKHR");
+      vkAcquireNextImageKHR(s.gpu.device(), s.swapchain, kPatience, s.acquired[next].get(), VK_NULL_HANDLE, &s.index);
+  if (!s.take(result, "vkAcquireNextImageKHR")) return false;  // the semaphore stays unused, and is the next one again
+  s.frame = next;
+  return true;
 }
 
 VkSemaphore Swapchain::acquired() const noexcept {

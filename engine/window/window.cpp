@@ -182,10 +182,6 @@ bool Window::wants_close() const {
   return glfwWindowShouldClose(state_->window) == GLFW_TRUE;
 }
 
-bool Window::is_key_down(int key) const {
-  return glfwGetKey(state_->window, key) == GLFW_PRESS;
-}
-
 glm::ivec2 Window::framebuffer() const {
   glm::ivec2 size{0};
   if (state_->shown) glfwGetFramebufferSize(state_->window, &size.x, &size.y);
@@ -223,10 +219,6 @@ void Window::capture_mouse(bool on) {
   glfwSetInputMode(s.window, GLFW_CURSOR, on ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
   s.captured = on;
   glfwGetCursorPos(s.window, &s.cursor.x, &s.cursor.y);  // that it jumps here is no motion of the mouse
-}
-
-void Window::set_title(const std::string& title) {
-  glfwSetWindowTitle(state_->window, title.c_str());
 }
 
 VkSurfaceKHR Window::make_surface(VkInstance instance) const {

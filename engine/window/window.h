@@ -56,13 +56,11 @@ class Window {
 
   const WindowInput& poll();  // never waits; while minimised at most 20 times a second
   bool wants_close() const;
-  bool is_key_down(int key) const;
   glm::ivec2 framebuffer() const;  // [px] (0, 0) while minimised
   float content_scale() const;     // 1 at 96 dpi
   void set_full_screen(bool on);   // on the monitor that it is on
   bool full_screen() const;
   void capture_mouse(bool on);  // hidden and endless
-  void set_title(const std::string& title);
 
   VkSurfaceKHR make_surface(VkInstance instance) const;
 

@@ -118,7 +118,7 @@ TEST_CASE("timeline values grow with each submission and stand when the work is 
   CHECK(gpu.is_done(last));
 }
 
-TEST_CASE("a frame ring gives its slots in turn, never one whose frame is still drawn, and times the frame") {
+TEST_CASE("a frame ring gives its slots in turn, never one whose frame is still drawn") {
   GpuFixture fixture;
   Gpu& gpu = fixture.gpu();
   FrameRing ring(gpu);
@@ -135,8 +135,6 @@ TEST_CASE("a frame ring gives its slots in turn, never one whose frame is still 
   ring.wait();
   CHECK(gpu.is_done(newest[0]));
   CHECK(gpu.is_done(newest[1]));
-  if (gpu.traits().timestamp_bits > 0) CHECK(ring.gpu_ms() > 0.0);
-  CHECK(ring.gpu_ms() < 10e3);
 }
 
 TEST_CASE("a frame that was begun and never ended leaves the ring usable") {

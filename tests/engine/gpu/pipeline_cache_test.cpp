@@ -67,6 +67,16 @@ TEST_CASE("a cache comes back as it was saved, for the device that it was made o
   }
 }
 
+TEST_CASE("a folder, or a file larger than any cache, in the cache's place is none") {
+  const TempFolder folder;
+  std::filesystem::create_directory(folder / "pipelines");
+  CHECK(load_pipeline_cache(folder / "pipelines", some_device()).empty());
+  const auto huge = folder / "huge";
+  save_pipeline_cache(huge, content_for(some_device()));
+  std::filesystem::resize_file(huge, std::uintmax_t{1} << 40);  // sparse
+  CHECK(load_pipeline_cache(huge, some_device()).empty());
+}
+
 TEST_CASE("a cache that is torn anywhere or has any byte changed is none") {
   const TempFolder folder;
   const auto file = folder / "pipelines";

@@ -12,6 +12,7 @@ using gearshift::injected_faults;
 extern "C" VKAPI_ATTR VkResult VKAPI_CALL vkAcquireNextImageKHR(VkDevice device, VkSwapchainKHR swapchain,
                                                                 std::uint64_t timeout, VkSemaphore semaphore,
                                                                 VkFence fence, std::uint32_t* index) {
+  injected_faults.acquired_with.push_back(semaphore);
   const VkResult fault = std::exchange(injected_faults.next_acquire, VK_SUCCESS);
   if (fault < VK_SUCCESS || fault == VK_TIMEOUT) return fault;
   const auto real = reinterpret_cast<PFN_vkAcquireNextImageKHR>(dlsym(RTLD_NEXT, "vkAcquireNextImageKHR"));
@@ -24,4 +25,25 @@ extern "C" VKAPI_ATTR VkResult VKAPI_CALL vkQueuePresentKHR(VkQueue queue, const
   const auto real = reinterpret_cast<PFN_vkQueuePresentKHR>(dlsym(RTLD_NEXT, "vkQueuePresentKHR"));
   const VkResult result = real(queue, info);
   return fault == VK_SUCCESS ? result : fault;
+}
+
+extern "C" VKAPI_ATTR VkResult VKAPI_CALL vkGetPhysicalDeviceSurfaceCapabilitiesKHR(VkPhysicalDevice device,
+                                                                                    VkSurfaceKHR surface,
+                                                                                    VkSurfaceCapabilitiesKHR* can) {
+  const VkResult fault = std::exchange(injected_faults.next_capabilities, VK_SUCCESS);
+  if (fault != VK_SUCCESS) return fault;
+  const auto real = reinterpret_cast<PFN_vkGetPhysicalDeviceSurfaceCapabilitiesKHR>(
+      dlsym(RTLD_NEXT, "vkGetPhysicalDeviceSurfaceCapabilitiesKHR"));
+  const VkResult result = real(device, surface, can);
+  if (injected_faults.no_extent) can->currentExtent = {0, 0};
+  return result;
+}
+
+extern "C" VKAPI_ATTR VkResult VKAPI_CALL vkCreateSwapchainKHR(VkDevice device, const VkSwapchainCreateInfoKHR* info,
+                                                               const VkAllocationCallbacks* allocator,
+                                                               VkSwapchainKHR* swapchain) {
+  const VkResult fault = std::exchange(injected_faults.next_create, VK_SUCCESS);
+  if (fault != VK_SUCCESS) return fault;
+  const auto real = reinterpret_cast<PFN_vkCreateSwapchainKHR>(dlsym(RTLD_NEXT, "vkCreateSwapchainKHR"));
+  return real(device, info, allocator, swapchain);
 }

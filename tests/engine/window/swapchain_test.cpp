@@ -276,6 +276,48 @@ TEST_CASE("what the driver says of a surface is lived with: out of date, not opt
   CHECK(shown.comes_to_show([](const Image& seen) { return shows_picture(seen, 320, 180); }));
 }
 
+TEST_CASE("a surface that is lost while its images are made anew is made anew with them") {
+  for (VkResult InjectedFaults::*call : {&InjectedFaults::next_capabilities, &InjectedFaults::next_create}) {
+    Shown shown;
+    REQUIRE(shown.frame_within(10));
+    injected_faults.next_present = VK_ERROR_OUT_OF_DATE_KHR;  // so that the next frame builds
+    REQUIRE(shown.frame());
+    injected_faults.*call = VK_ERROR_SURFACE_LOST_KHR;
+    CHECK_FALSE(shown.frame());
+    CHECK(shown.comes_to_show([](const Image& seen) { return shows_picture(seen, 320, 180); }));
+  }
+}
+
+TEST_CASE("a surface without extent is waited for, and shown on when it has one again") {
+  Shown shown;
+  REQUIRE(shown.frame_within(10));
+  const std::uint64_t before = shown.swapchain().rebuilt();
+  injected_faults.no_extent = true;
+  shown.server.resize(shown.id, 400, 300);
+  while (shown.window.framebuffer() != glm::ivec2(400, 300)) shown.window.poll();
+  for (int i = 0; i < 3; ++i) CHECK_FALSE(shown.frame());
+  injected_faults.no_extent = false;
+  CHECK(shown.frame());
+  CHECK(shown.swapchain().rebuilt() == before + 1);
+}
+
+// VUID-vkAcquireNextImageKHR-semaphore-01779: a semaphore given to an acquisition has no wait pending. One whose
+// acquisition failed has none; those before it may.
+TEST_CASE("an acquisition that failed is tried again with the same semaphore") {
+  Shown shown;
+  REQUIRE(shown.frame_within(10));
+  injected_faults.acquired_with.clear();
+  for (int i = 0; i < 5; ++i) {
+    injected_faults.next_acquire = VK_TIMEOUT;
+    CHECK_FALSE(shown.frame());
+  }
+  REQUIRE(shown.frame());
+  REQUIRE(injected_faults.acquired_with.size() == 6);
+  for (const VkSemaphore semaphore : injected_faults.acquired_with) {
+    CHECK(semaphore == injected_faults.acquired_with.front());
+  }
+}
+
 TEST_CASE("a lost device is a GpuLost; window, device and swapchain made anew show the picture again") {
   {
     Shown shown;
