@@ -61,6 +61,7 @@ std::vector<BenchRow> bench_picture(const BenchOptions& options);    // the cabi
 std::vector<BenchRow> bench_quality(const BenchOptions& options);    // anti-aliasing, shadow, mirror, projected points
 std::vector<BenchRow> bench_light(const BenchOptions& options);      // what is baked at the start
 std::vector<BenchRow> bench_jitter(const BenchOptions& options);     // wake-up lateness beside cyclictest's
+std::vector<BenchRow> bench_beside(const BenchOptions& options);     // the same while the renderer draws flat out
 
 // Value at quantile q in [0, 1] of an unsorted sample; sorts it. Empty: 0.
 double quantile(std::vector<double>& sample, double q);

@@ -5,9 +5,6 @@
 #include <fmt/core.h>
 
 #include "app/stage/stage.h"
-#include "haptics/gate/gate_compiler.h"
-#include "haptics/gate/gate_layout.h"
-#include "haptics/joystick/kinematics.h"
 #include "tests/bench/bench.h"
 #include "tests/bench/picture/picture_rig.h"
 
@@ -21,26 +18,10 @@ constexpr double kPbrBasic = 104.0;  // [ms]
 constexpr int kSpheres = 20;
 constexpr int kRings = 75, kSegments = 75;  // 20 x 75 x 74 x 2 = 222,000 triangles
 
-StageConfig paper_cabin(const BenchOptions& options) {
-  StageConfig config;
-  const GateLayout layout = read_gate_layout(options.gate_folder + "/paper.toml");
-  config.gate = compile_gate(layout, workspace_half_extent(config.yoke), config.yoke.radius);
-  config.gate_title = layout.name;
-  return config;
-}
-
 // From the driver's place, a little below the horizon: road, wheel, dash and the interior mirror are seen.
 EyePose seeing_mirror(const Stage& stage) {
   const glm::dvec3 eye = stage.driver_eye().position;
   return look_at(eye, eye + glm::dvec3(0.05, -0.10, -1.0));
-}
-
-StageInput in_first(const Gate& gate) {
-  StageInput input;
-  input.lever.gear = input.car.gear = 1;
-  input.lever.lever = input.lever.proxy = rest_position(gate, 1);
-  input.car.engine_speed = 200.0;
-  return input;
 }
 
 BenchRow first_frame(const BenchOptions& options) {

@@ -9,7 +9,7 @@ const std::vector<NamedFamily>& bench_families() {
       {"delivered", bench_delivered}, {"boundary", bench_boundary}, {"methods", bench_methods},
       {"hard", bench_hard},           {"faults", bench_faults},     {"intent", bench_intent},
       {"picture", bench_picture},     {"quality", bench_quality},   {"light", bench_light},
-      {"jitter", bench_jitter}};
+      {"jitter", bench_jitter},       {"beside", bench_beside}};
   return families;
 }
 

@@ -1,8 +1,26 @@
 #include "tests/bench/picture/picture_rig.h"
 
-#include "tests/bench/bench.h"
+#include "haptics/gate/gate_compiler.h"
+#include "haptics/gate/gate_layout.h"
+#include "haptics/joystick/kinematics.h"
 
 namespace gearshift {
+
+StageConfig paper_cabin(const BenchOptions& options) {
+  StageConfig config;
+  const GateLayout layout = read_gate_layout(options.gate_folder + "/paper.toml");
+  config.gate = compile_gate(layout, workspace_half_extent(config.yoke), config.yoke.radius);
+  config.gate_title = layout.name;
+  return config;
+}
+
+StageInput in_first(const Gate& gate) {
+  StageInput input;
+  input.lever.gear = input.car.gear = 1;
+  input.lever.lever = input.lever.proxy = rest_position(gate, 1);
+  input.car.engine_speed = 200.0;
+  return input;
+}
 
 FrameCost time_frames(Gpu& gpu, Renderer& renderer, const FrameScene& scene, std::span<const View> views, int frames,
                       int warm_up) {

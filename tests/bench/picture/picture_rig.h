@@ -5,10 +5,12 @@
 #include <string>
 #include <vector>
 
+#include "app/stage/stage.h"
 #include "engine/gpu/gpu.h"
 #include "engine/image/image.h"
 #include "engine/render/renderer.h"
 #include "engine/scene/view.h"
+#include "tests/bench/bench.h"
 
 namespace gearshift {
 
@@ -29,6 +31,9 @@ inline FrameScene standing(const Model& model) {
 inline View seen_from(const EyePose& eye, const RenderConfig& config, double vertical_fov = 1.0) {
   return view_from(eye, symmetric_fov(vertical_fov, static_cast<double>(config.width) / config.height), 0.05);
 }
+
+StageConfig paper_cabin(const BenchOptions& options);  // the paper's gate in the cabin
+StageInput in_first(const Gate& gate);                 // the lever in first, the engine turning
 
 // Draws `frames` frames after `warm_up` others, each waited for. [ms] median, on the host
 struct FrameCost {

@@ -1,0 +1,170 @@
+#include "tests/bench/jitter_contest.h"
+
+#include <array>
+#include <chrono>
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <stdexcept>
+#include <thread>
+
+#include "haptics/rt/realtime_thread.h"
+#include "tests/bench/touring.h"
+
+namespace gearshift {
+namespace {
+
+constexpr int kPriority = 80;
+constexpr int kBlocks = 5;  // of each contestant, alternating
+constexpr std::array<double, 2> kQuantiles{0.99, 0.999};
+
+struct Lateness {
+  std::array<double, 2> us{};  // at kQuantiles
+  double cycle_us = 0.0;       // of the cycle's work, at the last quantile; ours alone
+  double overruns = 0.0;       // ours alone
+};
+
+// The shipped loop with the simulated lever on the real-time thread, for `seconds`.
+Lateness run_ours(const Gate& gate, double seconds, std::int64_t spin_ns, int core) {
+  SimulatedRunConfig config = touring_config(gate);
+  ScriptedHand driver = touring_driver(gate, 0.001);
+  SimulatedRun run(config, driver);
+  RealtimeConfig realtime;
+  realtime.policy = RealtimePolicy::required;
+  realtime.priority = kPriority;
+  realtime.spin_ns = spin_ns;
+  realtime.core = core;
+  RealtimeThread thread;
+  thread.start(realtime, [&](const CycleCall& call) { run.loop().cycle(call.deadline_ns, call.skipped); });
+  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+  thread.stop();
+  Lateness result;
+  for (std::size_t i = 0; i < 2; ++i) {
+    result.us[i] = 1e-3 * static_cast<double>(thread.statistics().wake_lateness.quantile(kQuantiles[i]));
+  }
+  result.cycle_us = 1e-3 * static_cast<double>(thread.statistics().duration.quantile(kQuantiles[1]));
+  result.overruns = static_cast<double>(thread.statistics().overruns);
+  return result;
+}
+
+std::vector<std::uint64_t> read_histogram(std::FILE* pipe) {
+  std::vector<std::uint64_t> histogram;
+  char line[512];
+  unsigned long long us = 0, count = 0;
+  while (std::fgets(line, sizeof line, pipe)) {
+    if (line[0] == '#' || std::sscanf(line, "%llu %llu", &us, &count) != 2) continue;
+    if (histogram.size() <= us) histogram.resize(us + 1);
+    histogram[us] += count;
+  }
+  return histogram;
+}
+
+// cyclictest prints how often each whole microsecond of lateness was seen.
+Lateness run_cyclictest(double seconds, int core) {
+  char command[256];
+  std::snprintf(command, sizeof command,
+                "cyclictest --policy=fifo -p %d -t 1 -a %d -i 1000 -m -q -D %d -h 100000 2>/dev/null", kPriority, core,
+                static_cast<int>(seconds));
+  std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(popen(command, "r"), pclose);
+  const std::vector<std::uint64_t> histogram = pipe ? read_histogram(pipe.get()) : std::vector<std::uint64_t>{};
+  std::uint64_t total = 0;
+  for (const std::uint64_t n : histogram) total += n;
+  Lateness result;
+  for (std::size_t i = 0; i < 2; ++i) {
+    double seen = 0.0;
+    for (std::size_t us = 0; us < histogram.size(); ++us) {
+      seen += static_cast<double>(histogram[us]);
+      if (seen < kQuantiles[i] * static_cast<double>(total)) continue;
+      result.us[i] = static_cast<double>(us) + 1.0;  // upper edge
+      break;
+    }
+  }
+  return result;
+}
+
+struct Contest {
+  std::array<std::vector<double>, 2> theirs, sleeping, spinning, sleeping_ratio, spinning_ratio;
+  std::vector<double> cycle_us;  // spinning, as shipped
+  double overruns = 0.0;         // of all blocks
+};
+
+Contest compete(const Gate& gate, const BenchOptions& options, const std::function<void(double)>& progress) {
+  const int core = static_cast<int>(std::thread::hardware_concurrency()) - 1;
+  const int blocks = options.quick ? 1 : kBlocks;
+  Contest contest;
+  for (int b = 0; b < blocks; ++b) {
+    progress(static_cast<double>(b) / blocks);
+    const Lateness theirs = run_cyclictest(options.jitter_block, core);
+    const Lateness sleeping = run_ours(gate, options.jitter_block, 0, core);
+    const Lateness spinning = run_ours(gate, options.jitter_block, RealtimeConfig{}.spin_ns, core);
+    contest.cycle_us.push_back(spinning.cycle_us);
+    contest.overruns += spinning.overruns + sleeping.overruns;
+    for (std::size_t i = 0; i < 2; ++i) {
+      contest.theirs[i].push_back(theirs.us[i]);
+      contest.sleeping[i].push_back(sleeping.us[i]);
+      contest.spinning[i].push_back(spinning.us[i]);
+      contest.sleeping_ratio[i].push_back(sleeping.us[i] / theirs.us[i]);
+      contest.spinning_ratio[i].push_back(spinning.us[i] / theirs.us[i]);
+    }
+  }
+  return contest;
+}
+
+// Ours beside theirs: the figure itself, and the median of the blocks' ratios, which is what is compared.
+void add_ours(std::vector<BenchRow>& rows, const std::string& family, const std::string& what, std::vector<double>& us,
+              std::vector<double>& ratio, const std::string& note) {
+  rows.push_back({family, "ours, " + what, quantile(us, 0.5), "us", {}, false, note});
+  rows.push_back({family, "ours / cyclictest, " + what, quantile(ratio, 0.5), "ratio", 1.2, false, note});
+}
+
+std::vector<BenchRow> rows_of(Contest& contest, const BenchOptions& options, const std::string& family,
+                              const std::string& where) {
+  const std::string note = "median of " + std::to_string(contest.theirs[0].size()) + " alternating blocks of " +
+                           std::to_string(static_cast<int>(options.jitter_block)) + " s";
+  std::vector<BenchRow> rows;
+  for (std::size_t i = 0; i < kQuantiles.size(); ++i) {
+    std::string at = i == 0 ? "p99" : "p99.9";
+    at += where;
+    rows.push_back({family, "cyclictest, " + at, quantile(contest.theirs[i], 0.5), "us", {}, false, note});
+    add_ours(rows, family, "sleep only, " + at, contest.sleeping[i], contest.sleeping_ratio[i], note);
+    add_ours(rows, family, "spin 50 us, " + at, contest.spinning[i], contest.spinning_ratio[i], note);
+  }
+  rows.push_back({family,
+                  "ours, work of a cycle, p99.9" + where,
+                  quantile(contest.cycle_us, 0.5),
+                  "us",
+                  {},
+                  false,
+                  note,
+                  true,
+                  {{"overruns in all blocks", contest.overruns, ""}}});
+  return rows;
+}
+
+BenchRow not_measurable(const std::string& family, const std::string& why) {
+  BenchRow row{family, "wake-up lateness", 0.0, "us", {}, false, "not measurable: " + why};
+  row.measured = false;
+  return row;
+}
+
+}  // namespace
+
+std::vector<BenchRow> jitter_rows(const BenchOptions& options, const std::string& family, const JitterLoad& load,
+                                  double share_from, double share_to) {
+  if (std::system("command -v cyclictest >/dev/null 2>&1") != 0)
+    return {not_measurable(family, "cyclictest (package rt-tests) is not installed")};
+  const auto progress = [&](double share) {
+    if (options.progress) options.progress(family, share_from + share * (share_to - share_from));
+  };
+  try {
+    const Gate gate = bench_gate(options.gate_folder, "paper");
+    const std::shared_ptr<void> running = load.start();
+    Contest contest = compete(gate, options, progress);
+    if (quantile(contest.theirs[0], 0.5) == 0.0) return {not_measurable(family, "cyclictest has no real-time rights")};
+    return rows_of(contest, options, family, load.where);
+  } catch (const std::runtime_error& error) {
+    return {not_measurable(family, error.what())};
+  }
+}
+
+}  // namespace gearshift
