@@ -62,7 +62,7 @@ class GltfReader {
     for (const tinygltf::Material& material : source_.materials) model_.materials.push_back(read_material(material));
     read_textures();
     read_nodes();
-    for (const tinygltf::Skin& skin : source_.skins) model_.skins.push_back(read_skin(skin));
+    read_skins();
     for (const tinygltf::Mesh& mesh : source_.meshes) read_mesh(mesh);
     check_joints();
     if (drop_flat_meshes(model_)) skip("meshes that a scale of zero makes flat");
@@ -406,7 +406,21 @@ class GltfReader {
     model_.vertex_joints.insert(model_.vertex_joints.end(), surface.joints.begin(), surface.joints.end());
   }
 
-  // --- skins ---
+  // --- skins: those that the scene's nodes name; the others stay empty in their places ---
+
+  void read_skins() {
+    std::set<int> named;
+    for (const Node& node : model_.nodes) named.insert(node.skin);
+    model_.skins.resize(source_.skins.size());
+    std::uint64_t matrices = 0;
+    for (std::size_t i = 0; i < source_.skins.size(); ++i) {
+      const tinygltf::Skin& in = source_.skins[i];
+      if (named.count(static_cast<int>(i)) == 0) continue;
+      if (in.inverseBindMatrices != -1) matrices += accessor(in.inverseBindMatrices).count;
+      if (matrices > kMostSkinMatrices) throw GltfError("its skins have too many matrices");
+      model_.skins[i] = read_skin(in);
+    }
+  }
 
   Skin read_skin(const tinygltf::Skin& in) const {
     Skin out;
@@ -422,8 +436,9 @@ class GltfReader {
   }
 
   void check_joints() const {
+    std::set<std::pair<int, int>> checked;  // mesh and skin
     for (const Node& node : model_.nodes) {
-      if (node.skin == kNone) continue;
+      if (node.skin == kNone || !checked.emplace(node.mesh, node.skin).second) continue;
       if (without_joints_.count(node.mesh) != 0) throw GltfError("a skinned mesh has no joints");
       const Mesh& mesh = at(model_.meshes, node.mesh);
       const std::size_t joints = at(model_.skins, node.skin).joints.size();

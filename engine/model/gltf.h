@@ -16,6 +16,7 @@ struct GltfError : std::runtime_error {
 inline constexpr std::uint64_t kMostGltfBytes = 1u << 30;      // of a file or buffer
 inline constexpr std::uint64_t kMostGltfValues = 2'000'000;    // of its JSON, names included
 inline constexpr std::uint64_t kMostGltfElements = 8'000'000;  // vertices or indices of a model
+inline constexpr std::uint64_t kMostSkinMatrices = 65'536;     // of all skins of a scene
 inline constexpr int kMostTextureSide = 8192;                  // [px]
 inline constexpr std::uint64_t kMostTexturePixels = 1u << 28;  // of all textures of a file
 

@@ -73,15 +73,18 @@ GltfDocument open_gltf(const std::filesystem::path& file) {
   return document;
 }
 
-std::vector<std::uint8_t> image_bytes(const GltfDocument& document, std::size_t image) {
+std::span<const std::uint8_t> image_bytes(GltfDocument& document, std::size_t image) {
   const json& description = document.json.at("images").at(image);
   if (description.contains("uri")) {
-    return bytes_at(description.at("uri").get_ref<const std::string&>(), document.folder);
+    document.images.push_back(bytes_at(description.at("uri").get_ref<const std::string&>(), document.folder));
+    std::uint64_t bytes = 0;
+    for (const auto& read : document.images) bytes += read.size();
+    if (bytes > kMostGltfBytes) throw GltfError("its images have too many bytes together");
+    return document.images.back();
   }
   const json& view = document.json.at("bufferViews").at(description.at("bufferView").get<std::size_t>());
   const std::vector<std::uint8_t>& buffer = document.buffers.at(view.at("buffer").get<std::size_t>());
-  const auto first = buffer.begin() + view.value("byteOffset", std::ptrdiff_t{0});
-  return {first, first + view.at("byteLength").get<std::ptrdiff_t>()};
+  return std::span(buffer).subspan(view.value("byteOffset", std::size_t{0}), view.at("byteLength").get<std::size_t>());
 }
 
 }  // namespace gearshift

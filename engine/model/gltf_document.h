@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -14,14 +15,16 @@ namespace gearshift {
 
 struct GltfDocument {
   nlohmann::json json;
-  std::vector<std::vector<std::uint8_t>> buffers;  // as long as the JSON says, one a buffer
-  std::filesystem::path folder;                    // where files beside it lie
+  std::vector<std::vector<std::uint8_t>> buffers;   // as long as the JSON says, one a buffer
+  std::filesystem::path folder;                     // where files beside it lie
+  std::vector<std::vector<std::uint8_t>> images{};  // encoded, of those that lie in no buffer and were asked for
 };
 
 // All of these throw GltfError with the reason alone.
 GltfDocument open_gltf(const std::filesystem::path& file);
 
-// The encoded bytes of an image of the document, from wherever they lie.
-std::vector<std::uint8_t> image_bytes(const GltfDocument& document, std::size_t image);
+// The encoded bytes of an image of the document, from wherever they lie; as long as the document. At most
+// kMostGltfBytes of those that lie in no buffer.
+std::span<const std::uint8_t> image_bytes(GltfDocument& document, std::size_t image);
 
 }  // namespace gearshift

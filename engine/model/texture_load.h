@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -11,7 +12,7 @@ namespace gearshift {
 
 struct EncodedImage {
   std::string place;  // for sentences: "images[3]"
-  std::vector<std::uint8_t> bytes;
+  std::span<const std::uint8_t> bytes;
   int uses = 1;  // copies of its pixels that the model will hold
 };
 

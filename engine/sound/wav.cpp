@@ -2,12 +2,16 @@
 // IBM, Microsoft. Multimedia Programming Interface and Data Specifications 1.0. 1991: RIFF, WAVE_FORMAT_PCM
 #include "engine/sound/wav.h"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <stdexcept>
 #include <string>
+#include <system_error>
 
 namespace gearshift {
 
@@ -49,9 +53,17 @@ void write_wav(const std::filesystem::path& path, std::span<const float> stereo,
   std::string bytes = header(static_cast<std::uint32_t>(stereo.size() * 2), static_cast<std::uint32_t>(rate));
   bytes.reserve(bytes.size() + stereo.size() * 2);
   for (const float sample : stereo) put(bytes, sample_16(sample), 2);
-  std::ofstream file(path, std::ios::binary);
+  // Beside the old one and then in its place: a full disk leaves that whole.
+  const std::filesystem::path part = path.string() + "." + std::to_string(getpid()) + ".part";
+  std::ofstream file(part, std::ios::binary);
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
-  if (!file.flush()) throw std::runtime_error(path.string() + ": cannot be written");
+  file.close();
+  std::error_code problem;
+  if (file) std::filesystem::rename(part, path, problem);
+  if (file && !problem) return;
+  std::error_code ignored;
+  std::filesystem::remove(part, ignored);
+  throw std::runtime_error(path.string() + ": cannot be written");
 }
 
 }  // namespace gearshift

@@ -5,6 +5,7 @@
 
 #include <doctest/doctest.h>
 
+#include "engine/model/gltf_document.h"
 #include "tests/engine/model/gltf_everything.h"
 #include "tests/engine/model/gltf_maker.h"
 #include "tests/engine/model/model_laws.h"
@@ -260,6 +261,30 @@ TEST_CASE("pictures that lie about their size, or are no pictures, refuse the fi
   CHECK(with_picture({'G', 'I', 'F', '8', '9', 'a', 1, 0, 1, 0, 0, 0, 0}));
   CHECK(with_picture({0xff, 0xd8, 0xff, 0xe0}));
   CHECK(with_picture({'n', 'o'}));
+}
+
+TEST_CASE("an image that lies in a buffer is looked at there, however many name it") {
+  const TempFolder folder;
+  write_bytes(folder / "model.gltf", everything().gltf());
+  GltfDocument document = open_gltf(folder / "model.gltf");
+  const std::vector<std::uint8_t>& buffer = document.buffers.front();
+  const auto bytes = image_bytes(document, 0);
+  CHECK(bytes.data() > buffer.data());
+  CHECK(bytes.data() + bytes.size() <= buffer.data() + buffer.size());
+  CHECK(document.images.empty());
+  const auto beside = image_bytes(document, 1);
+  REQUIRE(document.images.size() == 1);
+  CHECK(beside.data() == document.images.front().data());
+}
+
+TEST_CASE("skins that ask for more matrices than any hand has joints refuse the file before they are read") {
+  GltfMaker maker = everything();
+  maker.root["accessors"].push_back({{"componentType", f32}, {"count", 60'000}, {"type", "MAT4"}});
+  const std::size_t zeros = maker.root["accessors"].size() - 1;
+  maker.root["skins"][0]["inverseBindMatrices"] = zeros;
+  CHECK_FALSE(is_refused(maker.gltf()));
+  maker.root["accessors"][zeros]["count"] = 70'000;
+  CHECK(is_refused(maker.gltf()));
 }
 
 TEST_CASE("text that is no glTF is refused in one sentence") {

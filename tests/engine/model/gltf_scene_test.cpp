@@ -303,6 +303,16 @@ TEST_CASE("a skin keeps its joints, bind matrices and weights, the weights made 
   CHECK(read_back(maker).skins[0].inverse_bind[1] == mat4(1));
 }
 
+TEST_CASE("a skin that the scene does not use is not read, whatever it names") {
+  GltfMaker maker = triangle();
+  maker.append("nodes", {{"name", "elsewhere"}});
+  maker.append("skins", {{"joints", {1}}});
+  maker.append("scenes", {{"nodes", {0}}});
+  maker.append("scenes", {{"nodes", {1}}});
+  maker.root["scene"] = 0;
+  CHECK(read_back(maker).triangle_count() == 1);
+}
+
 TEST_CASE("an unknown extension that is required refuses the file, by name") {
   GltfMaker maker = triangle();
   maker.root["extensionsUsed"] =

@@ -14,6 +14,8 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/support/temp_folder.h"
+
 using namespace gearshift;
 
 namespace {
@@ -70,4 +72,12 @@ TEST_CASE("what cannot be written is refused in a sentence that names the file")
   CHECK_THROWS_WITH(write_wav("/nonexistent/a.wav", frame, 48000), doctest::Contains("/nonexistent/a.wav"));
   CHECK_THROWS_AS(write_wav(own_file(), std::span(frame).first(1), 48000), std::runtime_error);
   CHECK_THROWS_AS(write_wav(own_file(), frame, 0), std::runtime_error);
+}
+
+TEST_CASE("a sound that cannot be put in its place leaves what is there, and nothing beside it") {
+  const TempFolder folder;
+  std::filesystem::create_directories(folder / "a.wav/kept");
+  CHECK_THROWS_AS(write_wav(folder / "a.wav", std::vector<float>(2), 48000), std::runtime_error);
+  CHECK(std::filesystem::exists(folder / "a.wav/kept"));
+  CHECK(std::distance(std::filesystem::directory_iterator(folder / ""), {}) == 1);
 }
