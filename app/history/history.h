@@ -1,0 +1,85 @@
+// What is remembered of learners: one SQLite file, by default history.db in the user's data folder.
+//
+// Every call that writes is one transaction: a process that is killed loses the shift in progress and nothing else. Two
+// programs may use one file at once. A file that cannot be used is left as it is: the caller goes on without a history.
+// One thread.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/training/lesson_result.h"
+
+namespace gearshift {
+
+// One sentence that names the file: damaged, of a newer program, read-only, the disk is full, ...
+struct HistoryError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct LearnerRow {
+  std::int64_t id = 0;
+  std::string name;
+  std::string made_at;      // ISO 8601, UTC
+  std::string next_lesson;  // as the instructor wants it; empty: as suggested
+};
+
+struct RunRow {
+  std::int64_t id = 0;
+  std::int64_t session = 0;
+  std::string begun_at;   // ISO 8601, UTC
+  std::string recording;  // trace file, or empty
+  LessonResult result;    // with faults, deductions and shifts
+};
+
+struct CommentRow {
+  std::string at;  // ISO 8601, UTC
+  std::string author, text;
+};
+
+class History {
+ public:
+  // Opens or makes it, with its folder. Throws HistoryError, as every other call does.
+  explicit History(const std::filesystem::path& file);
+  ~History();
+  History(const History&) = delete;
+  History& operator=(const History&) = delete;
+
+  // Known or made. Throws std::invalid_argument for an empty name, or one of more than 100 bytes.
+  std::int64_t learner(std::string_view name);
+  std::optional<LearnerRow> find_learner(std::string_view name);
+  std::vector<LearnerRow> learners();
+  void set_next_lesson(std::int64_t learner, std::string_view lesson);  // empty: as suggested
+
+  std::int64_t begin_session(std::int64_t learner, std::string_view program);
+  // What was set from then on: gate, car, preset, as text.
+  void add_settings(std::int64_t session, std::string_view text);
+
+  // The result as far as it is known: lesson, task, mode, guided.
+  std::int64_t begin_run(std::int64_t session, const LessonResult& result, std::string_view recording);
+  void add_shift(std::int64_t run, const ShiftRecord& shift);
+  // The end of it; shifts that add_shift() has not seen are added.
+  void end_run(std::int64_t run, const LessonResult& result);
+  void add_comment(std::int64_t run, std::string_view author, std::string_view text);
+
+  std::vector<RunRow> runs(std::int64_t learner);  // oldest first
+  std::vector<CommentRow> comments(std::int64_t run);
+  std::vector<std::string> settings(std::int64_t session);
+
+  // Gone for good, from the file's free pages, too. Returns the recordings that nobody names any more.
+  std::vector<std::string> erase_learner(std::int64_t learner);
+
+  const std::filesystem::path& file() const noexcept;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace gearshift

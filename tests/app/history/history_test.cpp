@@ -1,0 +1,348 @@
+// What was written comes back, whole, from another opening of the file; what may not be used is left as it is.
+#include "app/history/history.h"
+
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+
+#include <doctest/doctest.h>
+
+#include "app/history/schema.h"
+#include "tests/app/history/full_disk.h"
+#include "tests/app/history/some_result.h"
+#include "tests/support/temp_folder.h"
+
+using namespace gearshift;
+
+namespace {
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void write_bytes(const std::filesystem::path& file, const std::string& bytes) {
+  std::ofstream(file, std::ios::binary) << bytes;
+}
+
+void check_same(const ShiftRecord& a, const ShiftRecord& b) {
+  CHECK(a.number == b.number);
+  CHECK(a.from == b.from);
+  CHECK(a.to == b.to);
+  CHECK(a.guided == b.guided);
+  CHECK(a.missed == b.missed);
+  CHECK(a.steps == b.steps);
+  std::vector<double> of_a, of_b;
+  each_figure(a, [&](const char*, const auto& value) { of_a.push_back(static_cast<double>(value)); });
+  each_figure(b, [&](const char*, const auto& value) { of_b.push_back(static_cast<double>(value)); });
+  CHECK(of_a == of_b);
+}
+
+void check_same(const LessonResult& a, const LessonResult& b) {
+  CHECK(a.lesson == b.lesson);
+  CHECK(a.task == b.task);
+  CHECK(a.mode == b.mode);
+  CHECK(a.end == b.end);
+  CHECK(a.guided == b.guided);
+  CHECK(a.whole == b.whole);
+  CHECK(a.begin == b.begin);
+  CHECK(a.duration == b.duration);
+  CHECK(a.grade == b.grade);
+  CHECK(a.passed == b.passed);
+  CHECK(a.why == b.why);
+  CHECK(a.slip_energy == b.slip_energy);
+  CHECK(a.fuel == b.fuel);
+  REQUIRE(a.shifts.size() == b.shifts.size());
+  for (std::size_t i = 0; i < a.shifts.size(); ++i) check_same(a.shifts[i], b.shifts[i]);
+  REQUIRE(a.faults.size() == b.faults.size());
+  for (std::size_t i = 0; i < a.faults.size(); ++i) {
+    CHECK(a.faults[i].kind == b.faults[i].kind);
+    CHECK(a.faults[i].severity == b.faults[i].severity);
+    CHECK(a.faults[i].time == b.faults[i].time);
+    CHECK(a.faults[i].value == b.faults[i].value);
+    CHECK(a.faults[i].shift == b.faults[i].shift);
+  }
+  REQUIRE(a.deductions.size() == b.deductions.size());
+  for (std::size_t i = 0; i < a.deductions.size(); ++i) {
+    CHECK(a.deductions[i].fault == b.deductions[i].fault);
+    CHECK(a.deductions[i].points == b.deductions[i].points);
+  }
+}
+
+bool is_refused(const std::filesystem::path& file, const std::string& with) {
+  try {
+    History history(file);
+    history.learners();
+    return false;
+  } catch (const HistoryError& problem) {
+    const std::string said = problem.what();
+    CAPTURE(said);
+    CHECK(said.find(file.string()) == 0);
+    CHECK(said.find('\n') == std::string::npos);
+    CHECK(said.find(with) != std::string::npos);
+    return true;
+  }
+}
+
+// Learners, sessions and runs enough to fill some pages.
+void fill(const std::filesystem::path& file) {
+  History history(file);
+  const std::int64_t session = history.begin_session(history.learner("Ada"), "1.0");
+  for (int i = 0; i < 10; ++i) history.end_run(history.begin_run(session, some_result(0), ""), some_result(4));
+}
+
+}  // namespace
+
+TEST_CASE("a lesson comes back as it was driven, with its faults, shifts, settings and comments") {
+  const TempFolder folder;
+  const auto file = folder / "deep/down/history.db";
+  std::int64_t run = 0, session = 0;
+  {
+    History history(file);
+    const std::int64_t ada = history.learner("Ada Löwe");
+    CHECK(history.learner("Ada Löwe") == ada);
+    CHECK(history.learner("Bob") != ada);
+    session = history.begin_session(ada, "gearshift 1.0");
+    history.add_settings(session, "gate = paper");
+    history.add_settings(session, "gate = dog_leg");
+    run = history.begin_run(session, some_result(0), "drive.trace");
+    history.add_shift(run, some_shift(0));
+    history.end_run(run, some_result(7));
+    history.add_comment(run, "Instructor", "Läuft.");
+    history.set_next_lesson(ada, "reverse");
+  }
+  History history(file);
+  REQUIRE(history.learners().size() == 2);
+  const auto ada = history.find_learner("Ada Löwe");
+  REQUIRE(ada.has_value());
+  CHECK(ada->next_lesson == "reverse");
+  CHECK(ada->made_at.size() == std::string("2026-01-02T03:04:05Z").size());
+  CHECK_FALSE(history.find_learner("ada löwe").has_value());
+  const std::vector<RunRow> runs = history.runs(ada->id);
+  REQUIRE(runs.size() == 1);
+  CHECK(runs[0].id == run);
+  CHECK(runs[0].session == session);
+  CHECK(runs[0].recording == "drive.trace");
+  check_same(runs[0].result, some_result(7));
+  CHECK(history.settings(session) == std::vector<std::string>{"gate = paper", "gate = dog_leg"});
+  REQUIRE(history.comments(run).size() == 1);
+  CHECK(history.comments(run)[0].author == "Instructor");
+  CHECK(history.comments(run)[0].text == "Läuft.");
+  CHECK_THROWS_AS(history.learner(""), std::invalid_argument);
+  CHECK_THROWS_AS(history.learner(std::string(101, 'x')), std::invalid_argument);
+}
+
+TEST_CASE("a run that never ended is there, as running, with the shifts so far") {
+  const TempFolder folder;
+  std::int64_t ada = 0;
+  {
+    History history(folder / "history.db");
+    ada = history.learner("Ada");
+    const std::int64_t run = history.begin_run(history.begin_session(ada, "1.0"), some_result(0), "");
+    for (int i = 0; i < 3; ++i) history.add_shift(run, some_shift(i));
+  }
+  History history(folder / "history.db");
+  const std::vector<RunRow> runs = history.runs(ada);
+  REQUIRE(runs.size() == 1);
+  CHECK(runs[0].result.end == LessonEnd::running);
+  CHECK(runs[0].result.shifts.size() == 3);
+}
+
+// Law: what add_shift() has returned from is in the file, wherever the process is killed.
+TEST_CASE("killed at a random moment 50 times, no shift that was taken is lost, and the file is whole") {
+  const TempFolder folder;
+  const auto file = folder / "history.db";
+  std::mt19937 chance(1);
+  for (int round = 0; round < 50; ++round) {
+    int told[2];
+    REQUIRE(pipe(told) == 0);
+    const pid_t child = fork();
+    if (child == 0) {
+      try {
+        History history(file);
+        const std::int64_t session = history.begin_session(history.learner(std::to_string(round)), "1.0");
+        const std::int64_t run = history.begin_run(session, some_result(0), "");
+        for (int i = 0;; ++i) {
+          history.add_shift(run, some_shift(i));
+          if (write(told[1], "s", 1) != 1) break;
+        }
+      } catch (...) {
+      }
+      _exit(1);
+    }
+    close(told[1]);
+    std::int64_t taken = 0;
+    const auto enough = static_cast<std::int64_t>(chance() % 30);
+    for (char c = 0; taken < enough && read(told[0], &c, 1) == 1;) ++taken;
+    kill(child, SIGKILL);
+    waitpid(child, nullptr, 0);
+    for (char c = 0; read(told[0], &c, 1) == 1;) ++taken;  // told before it died
+    close(told[0]);
+
+    History history(file);
+    const auto learner = history.find_learner(std::to_string(round));
+    if (taken == 0 && !learner) continue;
+    REQUIRE(learner.has_value());
+    const std::vector<RunRow> runs = history.runs(learner->id);
+    const std::size_t kept = runs.empty() ? 0 : runs[0].result.shifts.size();
+    CHECK(static_cast<std::int64_t>(kept) >= taken);
+    for (std::size_t i = 0; i < kept; ++i) check_same(runs[0].result.shifts[i], some_shift(static_cast<int>(i)));
+  }
+}
+
+TEST_CASE("two programs write one file at once, and both find all of it") {
+  const TempFolder folder;
+  const auto file = folder / "history.db";
+  constexpr int kRuns = 40;
+  std::vector<pid_t> programs;
+  for (const char* name : {"Ada", "Bob"}) {
+    programs.push_back(fork());
+    if (programs.back() != 0) continue;
+    int failed = 0;
+    try {
+      History history(file);
+      const std::int64_t session = history.begin_session(history.learner(name), "1.0");
+      for (int i = 0; i < kRuns; ++i) history.end_run(history.begin_run(session, some_result(0), ""), some_result(2));
+    } catch (...) {
+      failed = 1;
+    }
+    _exit(failed);
+  }
+  for (const pid_t program : programs) {
+    int status = -1;
+    waitpid(program, &status, 0);
+    CHECK(status == 0);
+  }
+  History history(file);
+  for (const char* name : {"Ada", "Bob"}) CHECK(history.runs(history.learner(name)).size() == kRuns);
+}
+
+TEST_CASE("a file that is damaged, foreign or newer is refused in one sentence and not touched") {
+  const TempFolder folder;
+  const auto good = folder / "good.db", file = folder / "history.db";
+  fill(good);
+  const std::string whole = bytes_of(good);
+  REQUIRE(whole.size() > 20000);
+
+  const auto refused = [&](const std::string& bytes, const std::string& with) {
+    write_bytes(file, bytes);
+    const bool is = is_refused(file, with);
+    return is && bytes_of(file) == bytes;
+  };
+  CHECK_FALSE(refused(whole, ""));  // the control
+  CHECK(refused("learner,grade\nAda,7\n" + std::string(4096, ' '), "left as it is"));
+  std::string foreign = whole, newer = whole;
+  foreign[71] ^= 1;  // the application's number stands at 68, the version at 60: sqlite.org/fileformat2.html, 1.3
+  newer[63] = kSchemaVersion + 1;
+  CHECK(refused(foreign, "no history of this program"));
+  CHECK(refused(newer, "newer program"));
+  CHECK(refused(whole.substr(0, whole.size() / 2), "damaged"));
+  std::string torn = whole;
+  for (std::size_t i = 8192; i < 12288; ++i) torn[i] = 'x';
+  CHECK(refused(torn, "damaged"));
+}
+
+TEST_CASE("a file with any bytes changed gives the sentence or something to read, and never ends the program") {
+  const TempFolder folder;
+  const auto good = folder / "good.db", file = folder / "history.db";
+  fill(good);
+  const std::string whole = bytes_of(good);
+  std::mt19937 chance(2);
+  int refused = 0;
+  for (int round = 0; round < 150; ++round) {
+    std::string spoilt = whole;
+    for (int i = 0; i < 20; ++i) spoilt[chance() % spoilt.size()] = static_cast<char>(chance());
+    write_bytes(file, spoilt);
+    try {
+      History history(file);
+      for (const LearnerRow& learner : history.learners()) history.runs(learner.id);
+    } catch (const HistoryError&) {
+      ++refused;
+    }
+    for (const char* beside : {"history.db-wal", "history.db-shm"}) std::filesystem::remove(folder / beside);
+  }
+  CHECK(refused > 50);
+}
+
+TEST_CASE("a folder in the file's place, or a place that cannot be, is refused in one sentence") {
+  const TempFolder folder;
+  std::filesystem::create_directory(folder / "history.db");
+  CHECK(is_refused(folder / "history.db", "cannot be"));
+  write_bytes(folder / "plain", "");
+  CHECK(is_refused(folder / "plain/history.db", "folder"));
+}
+
+// As a user without the right to write, which root never is.
+TEST_CASE("a file that may not be written is refused in one sentence") {
+  const TempFolder folder;
+  const auto file = folder / "history.db";
+  fill(file);
+  std::filesystem::permissions(folder / "", std::filesystem::perms(0555));
+  std::filesystem::permissions(file, std::filesystem::perms(0444));
+  const pid_t child = fork();
+  if (child == 0) {
+    if (geteuid() == 0 && setuid(65534) != 0) _exit(2);
+    try {
+      History history(file);
+      history.learner("Bob");
+      _exit(3);
+    } catch (const HistoryError& problem) {
+      _exit(std::string(problem.what()).find("may not be written") != std::string::npos ? 0 : 4);
+    }
+  }
+  int status = -1;
+  waitpid(child, &status, 0);
+  CHECK(WEXITSTATUS(status) == 0);
+  std::filesystem::permissions(folder / "", std::filesystem::perms(0755));
+}
+
+TEST_CASE("a full disk is one sentence; what was there stays, and there is more when there is room again") {
+  const TempFolder folder;
+  const auto file = folder / "history.db";
+  History history(file);
+  const std::int64_t ada = history.learner("Ada");
+  const std::int64_t run = history.begin_run(history.begin_session(ada, "1.0"), some_result(0), "");
+  history.add_shift(run, some_shift(0));
+  disk_is_full = true;
+  CHECK_THROWS_WITH_AS(history.add_shift(run, some_shift(1)), doctest::Contains("the disk is full"), HistoryError);
+  disk_is_full = false;
+  REQUIRE(history.runs(ada).size() == 1);
+  CHECK(history.runs(ada)[0].result.shifts.size() == 1);
+  history.add_shift(run, some_shift(2));
+  CHECK(history.runs(ada)[0].result.shifts.size() == 2);
+}
+
+TEST_CASE("an erased learner is in no byte of the file; the others stay, and their recordings") {
+  const TempFolder folder;
+  const auto file = folder / "history.db";
+  const std::string name = "Xanthippe of the Quokkas", why = "Zymurgic quincunx";
+  std::int64_t bob = 0;
+  {
+    History history(file);
+    const std::int64_t gone = history.learner(name);
+    bob = history.learner("Bob");
+    LessonResult result = some_result(30);
+    result.why = why;
+    for (const char* recording : {"mine.trace", "both.trace"})
+      history.end_run(history.begin_run(history.begin_session(gone, "1.0"), result, recording), result);
+    history.end_run(history.begin_run(history.begin_session(bob, "1.0"), some_result(1), "both.trace"), some_result(1));
+  }
+  const auto found = [&](const std::string& text) {
+    bool anywhere = false;
+    for (const auto& entry : std::filesystem::directory_iterator(folder / ""))
+      anywhere |= bytes_of(entry.path()).find(text) != std::string::npos;
+    return anywhere;
+  };
+  CHECK(found(name));
+  CHECK(found(why));
+  History history(file);
+  CHECK(history.erase_learner(history.learner(name)) == std::vector<std::string>{"mine.trace"});
+  CHECK_FALSE(found(name));
+  CHECK_FALSE(found(why));
+  CHECK(history.learners().size() == 1);
+  CHECK(history.runs(bob).size() == 1);
+}
