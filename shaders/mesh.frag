@@ -30,6 +30,7 @@ layout(set = 0, binding = kBindPass) uniform Pass { PassData pass; };
 layout(set = 0, binding = kBindReflections) uniform samplerCube reflections;
 layout(set = 0, binding = kBindBrdf) uniform sampler2D brdf;
 layout(set = 0, binding = kBindShadow) uniform sampler2DShadow shadow;
+layout(set = 0, binding = kBindIndoors) uniform samplerCube reflections_indoors;
 layout(set = 0, binding = kBindMirror) uniform sampler2DArray mirror;
 layout(set = 1, binding = kMapBaseColour) uniform sampler2D base_colour_map;
 layout(set = 1, binding = kMapMetalRough) uniform sampler2D metal_rough_map;
@@ -79,12 +80,33 @@ vec3 irradiance(vec3 n) {
   return max(e, vec3(0.0));
 }
 
-// Share of the sun that arrives: percentage closer filtering of 3x3 texels by four bilinear comparisons, which weigh
-// them 1 2 1, 2 4 2, 1 2 1. The map's coordinates are half a texel up and left, see fit_shadow().
+// Scale and bias of F0. A software driver is slower at a texture than at a polynomial.
+vec2 split_sum(float n_dot_v, float roughness) {
+  if (!has(kFittedBrdf)) return texture(brdf, vec2(n_dot_v, roughness)).xy;
+  float t = 2.0 * n_dot_v - 1.0;
+  vec2 ab = material.brdf[3].zw * t + material.brdf[3].xy;
+  for (int i = 2; i >= 0; --i) ab = (ab * t + material.brdf[i].zw) * t + material.brdf[i].xy;
+  return ab;
+}
+
+vec3 surroundings(vec3 direction, float roughness) {
+  float level = roughness * float(kReflectionLevels - 1u);
+  return has(kIndoors) ? textureLod(reflections_indoors, direction, level).rgb
+                       : textureLod(reflections, direction, level).rgb;
+}
+
+// Share of the sun that arrives: the mean over 3x3 texels of bilinear comparisons, by 4x4 comparisons in four gathers.
+// The weights are worked out here: a driver need not filter depth, and a software one does not.
 float sunlit() {
-  vec3 at = vec3(place.xy, max(place.z, 0.0));
-  return 0.25 * (texture(shadow, at) + textureOffset(shadow, at, ivec2(1, 0)) +
-                 textureOffset(shadow, at, ivec2(0, 1)) + textureOffset(shadow, at, ivec2(1, 1)));
+  float side = pass.shadow_texel.y, depth = max(place.z, 0.0);
+  vec2 at = place.xy * side - 0.5, texel = floor(at), f = at - texel, e = 1.0 - f;
+  vec4 low = vec4(texel, texel + 2.0) / side;  // where four texels meet
+  vec4 a = textureGather(shadow, low.xy, depth), b = textureGather(shadow, low.zy, depth);
+  vec4 c = textureGather(shadow, low.xw, depth), d = textureGather(shadow, low.zw, depth);
+  float rows = dot(vec4(e.x, 1.0, 1.0, f.x), vec4(a.x, a.y, b.x, b.y) + vec4(c.w, c.z, d.w, d.z));
+  float above = dot(vec4(e.x, 1.0, 1.0, f.x), vec4(a.w, a.z, b.w, b.z));
+  float below = dot(vec4(e.x, 1.0, 1.0, f.x), vec4(c.x, c.y, d.x, d.y));
+  return (rows + e.y * above + f.y * below) * (1.0 / 9.0);
 }
 
 void main() {
@@ -105,11 +127,10 @@ void main() {
   float n_dot_v = clamp(dot(n, v), 1e-3, 1.0);
 
   // The sky: split sum, and what is not reflected enters.
-  vec2 ab = texture(brdf, vec2(n_dot_v, roughness)).xy;
+  vec2 ab = split_sum(n_dot_v, roughness);
   vec3 reflectance = f0 * ab.x + ab.y;
   vec3 diffuse = base.rgb * (1.0 - metallic) * (1.0 - reflectance);
-  vec3 around = has(kShowsMirror) ? texture(mirror, place).rgb
-                                  : textureLod(reflections, reflect(-v, n), roughness * float(kReflectionLevels - 1u)).rgb;
+  vec3 around = has(kShowsMirror) ? texture(mirror, place).rgb : surroundings(reflect(-v, n), roughness);
   vec3 reflected = around * reflectance;
   vec3 scattered = irradiance(n) * diffuse;
   if (has(kHasMap << kMapOcclusion)) {

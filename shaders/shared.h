@@ -27,6 +27,7 @@ SHARED uint kBindBrdf = 3u;         // scale and bias of F0 over (n.v, roughness
 SHARED uint kBindShadow = 4u;       // depth, seen from the sun
 SHARED uint kBindMirror = 5u;       // what the mirror shows, a layer an eye
 SHARED uint kBindSky = 6u;          // cube, sharp
+SHARED uint kBindIndoors = 7u;      // cube as kBindReflections, of what stands indoors
 
 // Set 1, one a material: five textures and its numbers.
 SHARED uint kMapBaseColour = 0u;
@@ -49,9 +50,12 @@ SHARED uint kEmits = 1u << 14;
 SHARED uint kShadowed = 1u << 15;     // the sun's shadow is looked up
 SHARED uint kShowsMirror = 1u << 16;  // reflects the mirror's picture, not the surroundings
 SHARED uint kLinearOut = 1u << 17;    // radiance is written as it is: no tone mapping
+SHARED uint kIndoors = 1u << 18;      // lit by what a point inside sees, not by the open sky
+SHARED uint kFittedBrdf = 1u << 19;   // one roughness: MaterialData::brdf stands in for the table
 
-// Specialization constants 1 to 27: the sky's irradiance over pi as a polynomial in the normal, see irradiance() in
-// mesh.frag. It changes with the sky, hardly ever, and a software driver is slow at reading 27 uniforms a pixel.
+// Specialization constants 1 to 27: irradiance over pi, of the open sky or indoors, as a polynomial in the normal, see
+// irradiance() in mesh.frag. It changes with the light, hardly ever, and a software driver is slow at reading 27
+// uniforms a pixel.
 SHARED uint kIrradianceTerms = 9u;
 
 SHARED uint kReflectionLevels = 6u;  // of the cube, roughness 0 to 1
@@ -63,7 +67,7 @@ struct PassData {
   vec4 sky_right[2];
   vec4 sky_down[2];
   mat4 shadow_from_world;  // (u, v, depth)
-  vec4 shadow_texel;       // x: [m] a texel's width
+  vec4 shadow_texel;       // x: [m] a texel's width; y: texels a side
   vec4 mirror_u;           // texture coordinates of the mirror's picture: dot(mirror_u, (world, 1))
   vec4 mirror_v;
   vec4 towards_sun;  // xyz unit
@@ -82,6 +86,7 @@ struct MaterialData {
   vec4 surface;           // metallic, roughness, strength of the occlusion, alpha's cutoff
   vec4 uv_matrix[kMaps];  // columns of a 2x2
   vec4 uv_offset[kMaps];  // xy
+  vec4 brdf[4];           // scale and bias of F0: coefficients of powers of 2 n.v - 1, two a vector, constant first
 };
 
 struct DrawData {

@@ -39,13 +39,50 @@ std::vector<Piece> both(const Model& model, const char* a, const char* b) {
   return pieces;
 }
 
-// What moves together becomes one mesh, small faces take a neighbour's steel.
+// One material for all that is seen from one side: its colour goes to the vertices, metal and roughness to a texel
+// each, as glTF packs them (roughness green, metal blue).
+int add_shared_material(Model& box) {
+  Texture surfaces;
+  surfaces.pixels.width = static_cast<int>(box.materials.size());
+  surfaces.pixels.height = 1;
+  for (const Material& material : box.materials) {
+    for (const float value : {1.0f, material.roughness, material.metallic, 1.0f}) {
+      surfaces.pixels.rgba.push_back(static_cast<std::uint8_t>(std::lround(255.0f * value)));
+    }
+  }
+  surfaces.wrap_u = surfaces.wrap_v = Wrap::clamp;
+  box.textures.push_back(std::move(surfaces));
+  Material shared;
+  shared.name = "GearboxParts";
+  shared.metal_rough_map.texture = static_cast<int>(box.textures.size()) - 1;
+  box.materials.push_back(std::move(shared));
+  return static_cast<int>(box.materials.size()) - 1;
+}
+
+void share_material(Model& box) {
+  const auto count = static_cast<float>(box.materials.size());
+  const int shared = add_shared_material(box);
+  for (std::size_t i = 0; i < box.nodes.size(); ++i) {
+    std::vector<Piece> pieces = pieces_of(box, static_cast<int>(i));
+    if (pieces.empty()) continue;
+    for (Piece& piece : pieces) {
+      const Material& own = box.materials[static_cast<std::size_t>(piece.material)];
+      if (own.double_sided) continue;
+      for (Vertex& vertex : piece.patch.vertices) {
+        vertex.colour = linear_rgba(glm::vec3(own.base_colour));
+        vertex.uv0 = {(static_cast<float>(piece.material) + 0.5f) / count, 0.5f};
+      }
+      piece.material = shared;
+    }
+    set_pieces(box, static_cast<int>(i), pieces);
+  }
+}
+
+// What moves together becomes one mesh, and a mesh one draw.
 void join_parts(Model& box) {
-  repaint(box, "GearForward", "Steel", "GearSteel");
-  repaint(box, "GearBack", "Steel", "GearSteel");
   set_pieces(box, needed_node(box, "Rail"), both(box, "Rail", "Fork"));
   set_pieces(box, needed_node(box, "Hub"), both(box, "Hub", "Shaft"));
-  repaint(box, "Hub", "Steel", "GearSteel");
+  share_material(box);
 }
 
 int add_group(Model& model, std::string name, glm::vec3 translation, int parent) {

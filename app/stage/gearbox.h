@@ -33,7 +33,8 @@ double finger_place(const Gate& gate, double select) noexcept;
 
 class Gearbox {
  public:
-  // Adds the sets of the gate to the model, below a root node "Gearbox". gear_model: the models' gearbox.glb. Throws std::runtime_error where a node is missing.
+  // Adds the sets of the gate to the model, below a root node "Gearbox". gear_model: the models' gearbox.glb. Throws
+  // std::runtime_error where a node is missing.
   static void add_to(Model& model, const Model& gear_model, const Gate& gate);
 
   // Names of what moves: not to be merged with what stands still.

@@ -6,6 +6,10 @@
 #include <unordered_map>
 #include <utility>
 
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+
 namespace gearshift {
 namespace {
 
@@ -46,6 +50,19 @@ std::vector<Piece> pieces_of(const Model& model, int node) {
   return pieces;
 }
 
+std::vector<Piece> placed_pieces(const Model& model, int node, const glm::mat4& placed) {
+  std::vector<Piece> pieces = pieces_of(model, node);
+  const glm::mat3 normal_turn = glm::transpose(glm::inverse(glm::mat3(placed)));
+  for (Piece& piece : pieces) {
+    for (Vertex& vertex : piece.patch.vertices) {
+      vertex.position = glm::vec3(placed * glm::vec4(vertex.position, 1.0f));
+      vertex.normal = glm::normalize(normal_turn * vertex.normal);
+      vertex.tangent = glm::vec4(glm::normalize(glm::mat3(placed) * glm::vec3(vertex.tangent)), vertex.tangent.w);
+    }
+  }
+  return pieces;
+}
+
 void set_pieces(Model& model, int node, const std::vector<Piece>& pieces) {
   std::vector<Piece> joined;
   for (const Piece& piece : pieces) {
@@ -74,6 +91,21 @@ void repaint(Model& model, std::string_view node, std::string_view from, std::st
     if (piece.material == old_material) piece.material = new_material;
   }
   set_pieces(model, at, pieces);
+}
+
+void join_into(Model& model, std::string_view from, std::string_view into) {
+  const int source = needed_node(model, from), target = needed_node(model, into);
+  Node& taken = model.nodes[static_cast<std::size_t>(source)];
+  const Node& kept = model.nodes[static_cast<std::size_t>(target)];
+  if (taken.parent != kept.parent) {
+    throw std::runtime_error("'" + std::string(from) + "' and '" + std::string(into) + "' have not the same parent");
+  }
+  std::vector<Piece> pieces = pieces_of(model, target);
+  for (Piece& piece : placed_pieces(model, source, glm::inverse(kept.local()) * taken.local())) {
+    pieces.push_back(std::move(piece));
+  }
+  taken.mesh = kNone;
+  set_pieces(model, target, pieces);
 }
 
 void leave_behind(Model& model, std::string_view node, std::string_view material) {

@@ -20,11 +20,18 @@ int needed_material(const Model& model, std::string_view name);
 
 std::vector<Piece> pieces_of(const Model& model, int node);
 
+// As they are where the node stands in `placed`, which has an inverse.
+std::vector<Piece> placed_pieces(const Model& model, int node, const glm::mat4& placed);
+
 // A new mesh for the node; pieces of one material become one.
 void set_pieces(Model& model, int node, const std::vector<Piece>& pieces);
 
 // What `node` shows in one material is shown in another from now on: a draw less.
 void repaint(Model& model, std::string_view node, std::string_view from, std::string_view to);
+
+// What `from` shows becomes part of `into`, at the same place: a draw less for each material that both have. Throws
+// std::runtime_error where they have not the same parent.
+void join_into(Model& model, std::string_view from, std::string_view into);
 
 // What `node` shows in that material goes to a new node beside it, which stands still as the file places it.
 void leave_behind(Model& model, std::string_view node, std::string_view material);

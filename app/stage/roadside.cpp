@@ -95,16 +95,8 @@ std::vector<Thing> things_of(int block) {
   return things;
 }
 
-// The pieces of a thing, placed. placed: no shear and one scale, so that normals turn as directions do.
 void stamp(const Model& road, const char* name, const glm::mat4& placed, std::vector<Piece>& pieces) {
-  for (Piece& piece : pieces_of(road, needed_node(road, name))) {
-    for (Vertex& vertex : piece.patch.vertices) {
-      vertex.position = glm::vec3(placed * glm::vec4(vertex.position, 1.0f));
-      vertex.normal = glm::normalize(glm::mat3(placed) * vertex.normal);
-      vertex.tangent = glm::vec4(glm::normalize(glm::mat3(placed) * glm::vec3(vertex.tangent)), vertex.tangent.w);
-    }
-    pieces.push_back(std::move(piece));
-  }
+  for (Piece& piece : placed_pieces(road, needed_node(road, name), placed)) pieces.push_back(std::move(piece));
 }
 
 glm::mat4 place_of(const Thing& thing) {
@@ -150,9 +142,14 @@ void Roadside::add_to(Model& model, const Model& road_model) {
   stamp(road_model, "Fields", glm::mat4(1.0f), land);
   stamp(road_model, "Hills", glm::mat4(1.0f), land);
   add_node(model, "Land", std::move(land), first_material);
+  // Leaves and all else are on one picture: what stands beside leaves is drawn with them, masked.
+  const int masked = needed_material(road_model, "Leaves"), opaque = needed_material(road_model, "Roadside");
   for (int block = 0; block < kBlocks; ++block) {
     std::vector<Piece> pieces;
     for (const Thing& thing : things_of(block)) stamp(road_model, thing.name, place_of(thing), pieces);
+    for (Piece& piece : pieces) {
+      if (piece.material == opaque) piece.material = masked;
+    }
     add_node(model, block_name(block), std::move(pieces), first_material);
   }
 }

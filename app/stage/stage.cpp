@@ -21,8 +21,8 @@ namespace gearshift {
 namespace {
 
 constexpr float kGhostOpacity = 0.4f;
-constexpr float kExposure = 2.0f;     // for eyes inside: the cabin is darker than the road
-constexpr float kShadowReach = 2.2f;  // [m] about the eyes: the whole cabin, with texels of 2 mm
+constexpr float kExposure = 3.0f;  // for eyes inside: the cabin is darker than the road
+constexpr ShadowRoom kCabin{{-0.45f, -0.31f, -1.25f}, {1.12f, 0.96f, 1.45f}};  // [m]
 constexpr glm::vec3 kX{1.0f, 0.0f, 0.0f}, kZ{0.0f, 0.0f, 1.0f};
 
 glm::quat about(glm::vec3 axis, double angle) {
@@ -57,7 +57,10 @@ struct Stage::State {
     find_nodes();
     scene.nodes.resize(model.nodes.size());
     scene.exposure = kExposure;
-    scene.shadow_reach = kShadowReach;
+    scene.shadow_room = kCabin;
+    for (NodeState& state : scene.nodes) state.indoors = true;
+    for (const std::string& name : outdoor_names())
+      scene.nodes[static_cast<std::size_t>(needed_node(model, name))].indoors = false;
     scene.mirror = needed_node(model, "InteriorMirrorSurface");
     pivot = glm::dvec3(rest_pose(model)[static_cast<std::size_t>(lever)][3]);
     if (!config.open_gate) take_boot();

@@ -56,7 +56,9 @@ class Stage {
   std::unique_ptr<State> state_;
 };
 
-// Named cameras: "driver", "lever", "gate", "cluster", "gearbox". Throws std::invalid_argument naming them all.
+// Named cameras: "driver", "ahead", "lever", "gate", "cluster", "gearbox". What each is for lies in the middle square of
+// the picture: the panel may cover the sides. Throw std::invalid_argument naming them all.
 EyePose camera(std::string_view name);
+double camera_field(std::string_view name);  // [deg] across the shorter side of the picture
 
 }  // namespace gearshift

@@ -26,6 +26,7 @@ constexpr int kCapSide = 256;                                                   
 constexpr float kModelRod = 0.006f;      // [m] radius of the cabin's LeverRod
 constexpr glm::dvec2 kLamp{0.0, 0.061};  // [m] on the boot's frame, ahead of the lever
 constexpr double kLampRadius = 0.0032;   // [m]
+constexpr const char* kBodywork = "Bodywork";
 
 Node& node_of(Model& model, std::string_view name) {
   return model.nodes[static_cast<std::size_t>(needed_node(model, name))];
@@ -49,6 +50,23 @@ void join_draws(Model& cabin) {
   const Node& boot = node_of(cabin, "Boot");
   ring.translation += boot.translation;
   ring.parent = boot.parent;
+}
+
+// What of the cabin's file is lit by the open sky, in one mesh at a node of its own.
+void gather_bodywork(Model& cabin) {
+  const std::vector<glm::mat4> world = rest_pose(cabin);
+  std::vector<Piece> pieces;
+  for (const char* name : {"Bonnet", "Wipers", "DoorMirrorLeftHousing", "DoorMirrorLeftSurface",
+                           "DoorMirrorRightHousing", "DoorMirrorRightSurface"}) {
+    const int node = needed_node(cabin, name);
+    for (Piece& piece : placed_pieces(cabin, node, world[static_cast<std::size_t>(node)]))
+      pieces.push_back(std::move(piece));
+    hide(cabin, name);
+  }
+  Node bodywork;
+  bodywork.name = kBodywork;
+  cabin.nodes.push_back(std::move(bodywork));
+  set_pieces(cabin, static_cast<int>(cabin.nodes.size()) - 1, pieces);
 }
 
 Material plain_material(std::string name, glm::vec3 colour, float metallic, float roughness) {
@@ -118,12 +136,15 @@ void open_the_gate(Model& model, const StageConfig& config) {
   node_of(model, "LeverRod").scale = glm::vec3(thin, 1.0f, thin);
 }
 
+// Rod, collar and knob move as one. After open_the_gate(), which makes the rod thin.
+void join_lever(Model& model) {
+  for (const char* part : {"LeverRod", "LeverCollar"}) join_into(model, part, "Knob");
+}
+
 // A second lever for the place where the hand is: shown translucent, without a boot.
 void add_ghost(Model& model) {
   const int pivot = needed_node(model, "LeverPivot");
   const int ghost = add_twin(model, pivot, "GhostPivot", model.nodes[static_cast<std::size_t>(pivot)].parent);
-  add_twin(model, needed_node(model, "LeverRod"), "GhostRod", ghost);
-  add_twin(model, needed_node(model, "LeverCollar"), "GhostCollar", ghost);
   const int knob = add_twin(model, needed_node(model, "Knob"), "GhostKnob", ghost);
   add_twin(model, needed_node(model, "KnobCap"), "GhostCap", knob);
 }
@@ -134,9 +155,9 @@ glm::vec3 knob_at_rest(const Model& model) {
 }
 
 std::vector<std::string> moving_names(const StageConfig& config) {
-  std::vector<std::string> names = {"LeverPivot",    "Boot",        "TachNeedle", "SpeedNeedle",
-                                    "SteeringWheel", "PedalClutch", "PedalBrake", "GearPanel",
-                                    "PedalThrottle", "Handbrake",   "GhostPivot", "InteriorMirrorSurface"};
+  std::vector<std::string> names = {
+      "LeverPivot", "Boot",          "TachNeedle", "SpeedNeedle", "SteeringWheel",         "PedalClutch", "PedalBrake",
+      "GearPanel",  "PedalThrottle", "Handbrake",  "GhostPivot",  "InteriorMirrorSurface", kBodywork};
   names.insert(names.end(), kLampNodes.begin(), kLampNodes.end());
   if (config.hand) names.insert(names.end(), {"HandRoot", "GhostHand"});
   for (std::string& name : Roadside::moving_names()) names.push_back(std::move(name));
@@ -148,15 +169,23 @@ std::vector<std::string> moving_names(const StageConfig& config) {
 
 }  // namespace
 
+std::vector<std::string> outdoor_names() {
+  std::vector<std::string> names = Roadside::moving_names();
+  names.emplace_back(kBodywork);
+  return names;
+}
+
 Model make_stage_model(const StageConfig& config, const std::filesystem::path& folder) {
   Model model = read_gltf(folder / "cabin.glb");
   join_draws(model);
+  gather_bodywork(model);
   draw_knob_cap(model, config.gate);
   if (config.open_gate) {
     open_the_gate(model, config);
   } else {
     add_lever_lamp(model, Node(node_of(model, "GatePlate")), above(kLamp, 0.0));
   }
+  join_lever(model);
   add_ghost(model);
   if (config.hand) Hand::add_to(model, read_gltf(folder / "hand.glb"), knob_at_rest(model));
   Roadside::add_to(model, read_gltf(folder / "road.glb"));

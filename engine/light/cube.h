@@ -1,6 +1,8 @@
 // Directions of a cube map's texels, in Vulkan's order of faces.
 #pragma once
 
+#include <cmath>
+
 #include <glm/geometric.hpp>
 #include <glm/vec3.hpp>
 
@@ -30,6 +32,18 @@ inline glm::vec3 cube_direction(int face, int side, int x, int y) {
   const float texel = 2.0f / static_cast<float>(side);
   return glm::normalize(
       cube_point(face, (static_cast<float>(x) + 0.5f) * texel - 1.0f, (static_cast<float>(y) + 0.5f) * texel - 1.0f));
+}
+
+// Solid angle of the part of a face between its centre and (s, t): atan2(s t, sqrt(1 + s^2 + t^2)). [sr]
+inline double cube_corner_angle(double s, double t) {
+  return std::atan2(s * t, std::sqrt(s * s + t * t + 1.0));
+}
+
+// Solid angle of a texel of a face of side x side texels. [sr]
+inline double cube_texel_angle(int side, int x, int y) {
+  const double texel = 2.0 / side, s = x * texel - 1.0, t = y * texel - 1.0;
+  return cube_corner_angle(s, t) - cube_corner_angle(s + texel, t) - cube_corner_angle(s, t + texel) +
+         cube_corner_angle(s + texel, t + texel);
 }
 
 }  // namespace gearshift

@@ -10,8 +10,8 @@ namespace gearshift {
 namespace {
 
 // Radiances, in units in which a clear sky is about 1. Chosen by eye, for a sun 45 to 60 degrees high.
-constexpr glm::vec3 kZenith{0.20f, 0.40f, 0.84f};
-constexpr glm::vec3 kHaze{0.88f, 0.96f, 1.04f};
+constexpr glm::vec3 kZenith{0.25f, 0.42f, 0.74f};
+constexpr glm::vec3 kHaze{1.00f, 1.02f, 1.04f};
 constexpr glm::vec3 kGlow{0.70f, 0.58f, 0.42f};
 constexpr glm::vec3 kAsphalt{0.15f, 0.15f, 0.16f};
 constexpr glm::vec3 kVerge{0.17f, 0.21f, 0.09f};
@@ -22,7 +22,7 @@ constexpr float kSoftEdge = 2.0f;       // [m] from road to verge: what is refle
 
 glm::vec3 above(glm::vec3 direction, glm::vec3 towards_sun) {
   // Haze thickens with the air mass towards the horizon.
-  const float haze = std::exp(-4.5f * direction.y);
+  const float haze = std::exp(-6.0f * direction.y);
   const float near_sun = glm::max(glm::dot(direction, towards_sun), 0.0f);
   const float glow = 0.5f * std::pow(near_sun, 6.0f) + 1.5f * std::pow(near_sun, 60.0f);
   return glm::mix(kZenith, kHaze, haze) + glow * kGlow;

@@ -21,11 +21,15 @@ using Radiance = std::function<glm::vec3(glm::vec3 direction)>;
 // The sky that the cabin drives under: zenith, horizon haze, sun's glow, asphalt and verge below the horizon.
 Radiance day_sky(glm::vec3 towards_sun);
 
-// Irradiance / pi by direction, from nine coefficients: sum_i c_i Y_i(n), the cosine lobe folded in.
-struct Irradiance {
+// Something smooth by direction, from nine coefficients: sum_i c_i Y_i, real spherical harmonics to degree 2.
+struct Harmonics {
   std::array<glm::vec3, 9> c{};
-  glm::vec3 operator()(glm::vec3 normal) const;
+  glm::vec3 operator()(glm::vec3 direction) const;
 };
+Harmonics project(const Radiance& radiance, int samples_per_face_side = 32);
+
+// Irradiance / pi by normal: the cosine lobe is folded in.
+using Irradiance = Harmonics;
 Irradiance project_irradiance(const Radiance& radiance, int samples_per_face_side = 32);
 
 // Cube map of prefiltered radiance: level 0 a mirror, the last level roughness 1; roughness of level i = i / (levels - 1).

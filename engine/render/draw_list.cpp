@@ -21,10 +21,12 @@ float distance(const DrawItem& item, glm::vec3 eye) {
 }
 
 // Each set of features is a shader that a software driver compiles at its first use, slowly. So the
-// small mirror has two of them, for what is solid and what is blended: a map that a material lacks is white there.
+// small mirror has few of them, for what is solid and what is blended, in the open and indoors: a map that a material
+// lacks is white there.
 std::uint32_t mirror_features(std::uint32_t features) {
   using namespace shader;
-  constexpr std::uint32_t kKept = kMasked | kBlended | kVertexColour | kTransformedUv | kMapOnUv1 << kMapBaseColour;
+  constexpr std::uint32_t kKept =
+      kIndoors | kMasked | kBlended | kVertexColour | kTransformedUv | kMapOnUv1 << kMapBaseColour;
   constexpr std::uint32_t kAlways = kHasMap << kMapBaseColour | kHasMap << kMapOcclusion | kMapOnUv1 << kMapOcclusion;
   const bool occluded_by_uv0 =
       (features & kHasMap << kMapOcclusion) != 0 && (features & kMapOnUv1 << kMapOcclusion) == 0;
@@ -55,6 +57,7 @@ std::vector<DrawItem> list_items(const GpuModel& model, const FrameScene& scene,
             static_cast<std::int32_t>(place->first_vertex) - static_cast<std::int32_t>(mesh.first_vertex);
       item.mirrored = glm::determinant(glm::mat3(state.world)) < 0.0f;
       item.blended = item.material->blended || state.opacity < 1.0f;
+      item.indoors = state.indoors;
       item.emission = state.emissive;
       item.opacity = state.opacity;
       items.push_back(item);
@@ -85,6 +88,7 @@ std::uint32_t features_in(PassKind pass, const DrawItem& item, const FeatureChoi
     return (features & kHole) == kHole ? features & (kHole | kMapOnUv1 << kMapBaseColour) : 0u;
   }
   if (item.blended) features |= kBlended;
+  if (item.indoors) features |= kIndoors;
   if (pass == PassKind::mirror) return mirror_features(features);
   if (!choice.normal_maps) features &= ~(kHasMap << kMapNormal);
   if ((features & kAllMaps) == 0) features |= kEmits;  // lamps and what is plainly painted share a shader

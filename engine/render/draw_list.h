@@ -27,6 +27,7 @@ struct DrawItem {
   bool deformed = false;  // vertices in the frame's own buffer
   bool mirrored = false;  // the node turns the triangles inside out
   bool blended = false;
+  bool indoors = false;
   bool shows_mirror = false;  // the mirror of this frame, in the main pass
   float emission = 1.0f, opacity = 1.0f;
 };

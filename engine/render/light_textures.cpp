@@ -27,17 +27,21 @@ GpuImage upload_cube(Gpu& gpu, const PrefilteredCube& cube) {
 
 }  // namespace
 
-LightMaps light_maps(const Radiance& radiance) {
-  return {prefilter(radiance, kSkySide, 1, 1), prefilter(radiance, kReflectionSide, shader::kReflectionLevels),
-          project_irradiance(radiance)};
+LightMaps light_maps(const Radiance& open, const Radiance& indoors) {
+  return {prefilter(open, kSkySide, 1, 1), prefilter(open, kReflectionSide, shader::kReflectionLevels),
+          prefilter(indoors, kReflectionSide, shader::kReflectionLevels), project_irradiance(open),
+          project_irradiance(indoors)};
 }
 
 void upload_light(Gpu& gpu, const LightMaps& maps, LightTextures& into) {
   into.sky = upload_cube(gpu, maps.sky);
   into.reflections = upload_cube(gpu, maps.reflections);
+  into.indoors = upload_cube(gpu, maps.indoors);
   into.sky_view = make_view(gpu, into.sky, VK_IMAGE_VIEW_TYPE_CUBE, 0, 6);
   into.reflections_view = make_view(gpu, into.reflections, VK_IMAGE_VIEW_TYPE_CUBE, 0, 6);
+  into.indoors_view = make_view(gpu, into.indoors, VK_IMAGE_VIEW_TYPE_CUBE, 0, 6);
   into.irradiance = maps.irradiance;
+  into.irradiance_indoors = maps.irradiance_indoors;
 }
 
 void upload_brdf(Gpu& gpu, const BrdfTable& table, LightTextures& into) {

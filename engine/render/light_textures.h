@@ -1,4 +1,5 @@
-// A sky on the GPU: what is seen of it, what is reflected, what it scatters, and the table that both need.
+// Light on the GPU: the sky that is seen, what is reflected and what scatters, in the open and indoors, and the table
+// that both need.
 #pragma once
 
 #include "engine/gpu/gpu_image.h"
@@ -7,16 +8,16 @@
 namespace gearshift {
 
 struct LightMaps {
-  PrefilteredCube sky;          // sharp, one level
-  PrefilteredCube reflections;  // by roughness
-  Irradiance irradiance;
+  PrefilteredCube sky;                   // sharp, one level
+  PrefilteredCube reflections, indoors;  // by roughness
+  Irradiance irradiance, irradiance_indoors;
 };
-LightMaps light_maps(const Radiance& radiance);  // needs no GPU
+LightMaps light_maps(const Radiance& open, const Radiance& indoors);  // needs no GPU
 
 struct LightTextures {
-  GpuImage sky, reflections, brdf;
-  ImageView sky_view, reflections_view, brdf_view;
-  Irradiance irradiance;
+  GpuImage sky, reflections, indoors, brdf;
+  ImageView sky_view, reflections_view, indoors_view, brdf_view;
+  Irradiance irradiance, irradiance_indoors;
 };
 void upload_light(Gpu& gpu, const LightMaps& maps, LightTextures& into);
 void upload_brdf(Gpu& gpu, const BrdfTable& table, LightTextures& into);

@@ -29,9 +29,9 @@ void set_sun(shader::PassData& data, const FrameScene& scene) {
   data.sun = glm::vec4(scene.sun.irradiance, scene.exposure);
 }
 
-void set_shadow(shader::PassData& data, const ShadowFit& fit) {
+void set_shadow(shader::PassData& data, const ShadowFit& fit, int side) {
   data.shadow_from_world = fit.shadow_from_world;
-  data.shadow_texel.x = fit.texel;
+  data.shadow_texel = {fit.texel, static_cast<float>(side), 0.0f, 0.0f};
 }
 
 void set_mirror(shader::PassData& data, const MirrorWindow& window) {

@@ -6,7 +6,7 @@ PassTimer::PassTimer(Gpu& gpu) : gpu_(gpu) {
   if (gpu.traits().timestamp_bits == 0) return;
   const VkQueryPoolCreateInfo info{.sType = VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO,
                                    .queryType = VK_QUERY_TYPE_TIMESTAMP,
-                                   .queryCount = kStamps * kFramesInFlight};
+                                   .queryCount = kQueries * kFramesInFlight};
   VkQueryPool pool = VK_NULL_HANDLE;
   check(vkCreateQueryPool(gpu.device(), &info, nullptr, &pool), "vkCreateQueryPool");
   queries_ = QueryPool(gpu.device(), pool);
@@ -15,17 +15,24 @@ PassTimer::PassTimer(Gpu& gpu) : gpu_(gpu) {
 void PassTimer::begin(VkCommandBuffer commands, int slot) {
   if (!queries_) return;
   const auto index = static_cast<std::size_t>(slot);
-  const std::uint32_t first = kStamps * static_cast<std::uint32_t>(slot);
+  const std::uint32_t first = kQueries * static_cast<std::uint32_t>(slot);
   if (written_[index]) read(first);
   written_[index] = true;
-  vkCmdResetQueryPool(commands, queries_.get(), first, kStamps);
+  vkCmdResetQueryPool(commands, queries_.get(), first, kQueries);
   next_ = first;
+  next_nudge_ = first + kStamps;
+  end_ = first + kQueries;
   stamp(commands);
 }
 
 void PassTimer::stamp(VkCommandBuffer commands) {
   if (!queries_) return;
   vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_.get(), next_++);
+}
+
+void PassTimer::nudge(VkCommandBuffer commands) {
+  if (queries_ && next_nudge_ < end_)
+    vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_.get(), next_nudge_++);
 }
 
 void PassTimer::read(std::uint32_t first) {
@@ -39,7 +46,7 @@ void PassTimer::read(std::uint32_t first) {
   const auto between = [&](std::size_t from, std::size_t to) {
     return static_cast<double>((stamps[to] - stamps[from]) & valid) * gpu_.traits().tick_ns * 1e-6;
   };
-  times_ = {between(0, 1), between(1, 2), between(2, 3), between(3, 4), between(0, 4)};
+  times_ = {between(0, 1), between(1, 2), between(2, 3), between(3, 4), between(4, 5), between(0, 5)};
 }
 
 }  // namespace gearshift

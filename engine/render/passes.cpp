@@ -3,7 +3,7 @@
 #include <stdexcept>
 
 #include <glm/common.hpp>
-#include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "engine/render/pass_data.h"
 #include "engine/render/renderer_state.h"
@@ -12,23 +12,45 @@ namespace gearshift {
 
 namespace {
 
-// About the eye, in steps: a head that moves a little leaves the kept shadow as it is.
-constexpr float kSphereSteps = 8.0f;
+constexpr std::uint32_t kCollected = 5000;  // [triangles]
 
-Sphere shadow_sphere(const Box& scene, glm::vec3 eye, float reach) {
-  const Sphere whole{scene.centre(), 0.5f * glm::distance(scene.low, scene.high)};
-  if (whole.radius <= reach) return {whole.centre, std::max(whole.radius, 1e-3f)};
-  const float step = reach / kSphereSteps;
-  return {glm::round(eye / step) * step, reach};
+// What the sun's shadow is looked up in: all of the model that lies in the scene's room for it.
+Box shadowed_box(const Box& model, const ShadowRoom& room) {
+  const Box box{glm::max(model.low, room.low), glm::min(model.high, room.high)};
+  return glm::all(glm::lessThan(box.low, box.high)) ? box : model;
 }
 
-void copy_depth(VkCommandBuffer commands, GpuImage& from, GpuImage& to) {
+VkRect2D whole(const GpuImage& image) {
+  return {{0, 0}, image.extent()};
+}
+
+// The texels that an orthographic map may draw boxes on.
+VkRect2D texels_of(std::span<const DrawItem* const> items, const glm::mat4& clip_from_world, const GpuImage& map) {
+  constexpr float kRounding = 2.0f;  // [texels]
+  const glm::vec2 size(static_cast<float>(map.desc().width), static_cast<float>(map.desc().height));
+  glm::vec2 low = size, high(0.0f);
+  for (const DrawItem* item : items) {
+    const Box box = moved(clip_from_world, item->box);
+    low = glm::min(low, (0.5f * glm::vec2(box.low) + 0.5f) * size - kRounding);
+    high = glm::max(high, (0.5f * glm::vec2(box.high) + 0.5f) * size + kRounding);
+  }
+  const glm::ivec2 first(glm::clamp(low, glm::vec2(0.0f), size)),
+      end(glm::clamp(glm::ceil(high), glm::vec2(0.0f), size));
+  const glm::uvec2 extent(glm::max(end - first, glm::ivec2(0)));
+  return {{first.x, first.y}, {extent.x, extent.y}};
+}
+
+void copy_depth(VkCommandBuffer commands, GpuImage& from, GpuImage& to, const VkRect2D& texels) {
+  if (texels.extent.width == 0 || texels.extent.height == 0) return;
   transition(commands, from, ImageUse::copy_from);
-  forget(to);
   transition(commands, to, ImageUse::copy_to);
   const VkImageSubresourceLayers layer{.aspectMask = VK_IMAGE_ASPECT_DEPTH_BIT, .layerCount = 1};
-  const VkImageCopy region{
-      .srcSubresource = layer, .dstSubresource = layer, .extent = {to.desc().width, to.desc().height, 1}};
+  const VkOffset3D at{texels.offset.x, texels.offset.y, 0};
+  const VkImageCopy region{.srcSubresource = layer,
+                           .srcOffset = at,
+                           .dstSubresource = layer,
+                           .dstOffset = at,
+                           .extent = {texels.extent.width, texels.extent.height, 1}};
   vkCmdCopyImage(commands, from.get(), layout_of(ImageUse::copy_from), to.get(), layout_of(ImageUse::copy_to), 1,
                  &region);
 }
@@ -67,6 +89,9 @@ std::uint64_t Renderer::State::draw(const FrameScene& scene, std::span<const Vie
   prepare(frame);
   draw_shadow(frame);
   timer.stamp(frame.commands);
+  ready_targets(frame);
+  draw_depth(frame);
+  timer.stamp(frame.commands);
   draw_mirror(frame);
   timer.stamp(frame.commands);
   draw_main(frame);
@@ -102,37 +127,44 @@ void Renderer::State::prepare(Frame& frame) {
   frame.slot->write_objects(gpu, *frame.scene);
   const std::vector<DeformedPlace> deformed = frame.slot->write_deformed(gpu, model, frame.scene->deformed);
   frame.items = list_items(model, *frame.scene, deformed);
+  for (DrawItem& item : frame.items)
+    item.shows_mirror = frame.mirror.has_value() && item.node == static_cast<std::uint32_t>(frame.scene->mirror);
+  frame.list = list_draws(frame.items, Frusta(clips_of(frame.views)), frame.eye);
+  draws = static_cast<int>(frame.list.solid.size() + frame.list.blended.size());
+  set_views(frame.data, frame.views);
   set_sun(frame.data, *frame.scene);
   if (frame.mirror) set_mirror(frame.data, frame.mirror->window);
 }
 
-// The casters that stand still are drawn when they change, and copied: most of a cabin never moves.
+// The casters that stand still are drawn when they change, and copied where others were drawn over them: most of a cabin
+// never moves.
 void Renderer::State::draw_shadow(Frame& frame) {
   if (config.shadow_side == 0) return;
-  const Sphere sphere = shadow_sphere(model.box, frame.eye, frame.scene->shadow_reach);
-  const ShadowFit fit = fit_shadow(sphere, frame.scene->sun.towards, config.shadow_side);
-  set_shadow(frame.data, fit);
+  const std::vector<glm::vec3> seen =
+      seen_corners(shadowed_box(model.box, frame.scene->shadow_room), clips_of(frame.views));
+  const ShadowFit fit = fit_shadow(seen, frame.scene->sun.towards, config.shadow_side);
+  set_shadow(frame.data, fit, config.shadow_side);
   shader::PassData data = frame.data;
   data.clip_from_world[0] = fit.clip_from_world;
   frame.slot->write_pass(PassKind::shadow, data);
 
   const bool anew = still_casters.changed(fit, *frame.scene, frame.items);
-  const DrawList seen = list_draws(frame.items, Frusta({&fit.clip_from_world, 1}), frame.eye);
+  const DrawList casters = list_draws(frame.items, Frusta({&fit.clip_from_world, 1}), frame.eye);
   std::vector<const DrawItem*> still, moving;
-  for (const DrawItem* item : seen.solid) (still_casters.stands_still(item->node) ? still : moving).push_back(item);
-  if (!anew && shadow_is_still && moving.empty()) return;
+  for (const DrawItem* item : casters.solid) (still_casters.stands_still(item->node) ? still : moving).push_back(item);
   if (anew) {
+    shadow_touched = whole(shadow.depth);
     forget(shadow.still);
     transition(frame.commands, shadow.still, ImageUse::depth_target);
     draw_casters(frame, shadow.still_view.get(), VK_ATTACHMENT_LOAD_OP_CLEAR, still);
   }
-  copy_depth(frame.commands, shadow.still, shadow.depth);
+  copy_depth(frame.commands, shadow.still, shadow.depth, shadow_touched);
+  shadow_touched = texels_of(moving, fit.clip_from_world, shadow.depth);
   if (!moving.empty()) {
     transition(frame.commands, shadow.depth, ImageUse::depth_target);
     draw_casters(frame, shadow.view.get(), VK_ATTACHMENT_LOAD_OP_LOAD, moving);
   }
   transition(frame.commands, shadow.depth, ImageUse::sampled);
-  shadow_is_still = moving.empty();
 }
 
 void Renderer::State::draw_casters(const Frame& frame, VkImageView view, VkAttachmentLoadOp load,
@@ -147,6 +179,33 @@ void Renderer::State::draw_casters(const Frame& frame, VkImageView view, VkAttac
   vkCmdEndRendering(frame.commands);
 }
 
+// All that depth, mirror and main pass draw into, before the first of them: between two passes a barrier makes a software
+// driver wait for the first.
+void Renderer::State::ready_targets(const Frame& frame) {
+  const auto ready = [&](GpuImage& image, ImageUse use) {
+    forget(image);
+    transition(frame.commands, image, use);
+  };
+  ready(picture.drawn().image, ImageUse::colour_target);
+  ready(picture.depth.image, ImageUse::depth_target);
+  if (!frame.mirror) return;
+  ready(mirror.colour.image, ImageUse::colour_target);
+  ready(mirror.depth.image, ImageUse::depth_target);
+}
+
+// Depth first, so that each pixel is shaded once. At four samples a software driver loses more by the second pass over
+// the triangles than it saves.
+void Renderer::State::draw_depth(Frame& frame) {
+  if (picture.multisampled) return;
+  frame.slot->write_pass(PassKind::depth, frame.data);
+  for (const EyeGroup eyes : eye_groups()) {
+    const Attachment deep{.view = view_of(picture.depth, eyes)};
+    begin_rendering(frame.commands, picture.depth.image.extent(), eyes.count, nullptr, &deep);
+    record(frame, PassKind::depth, frame.list.solid, eyes);
+    vkCmdEndRendering(frame.commands);
+  }
+}
+
 void Renderer::State::draw_mirror(Frame& frame) {
   if (!frame.mirror) return;
   shader::PassData data = frame.data;
@@ -157,18 +216,13 @@ void Renderer::State::draw_mirror(Frame& frame) {
                 [&](const DrawItem& item) { return item.node == static_cast<std::uint32_t>(frame.scene->mirror); });
   const DrawList list = list_draws(others, Frusta(clips_of(frame.mirror->views)), frame.mirror->views[0].eye);
   draw_eyes(frame, PassKind::mirror, mirror.colour, mirror.depth, list);
-  transition(frame.commands, mirror.colour.image, ImageUse::sampled);
 }
 
 void Renderer::State::draw_main(Frame& frame) {
-  set_views(frame.data, frame.views);
   frame.slot->write_pass(PassKind::main, frame.data);
-  frame.slot->write_pass(PassKind::depth, frame.data);
-  for (DrawItem& item : frame.items)
-    item.shows_mirror = frame.mirror.has_value() && item.node == static_cast<std::uint32_t>(frame.scene->mirror);
-  const DrawList list = list_draws(frame.items, Frusta(clips_of(frame.views)), frame.eye);
-  draws = static_cast<int>(list.solid.size() + list.blended.size());
-  draw_eyes(frame, PassKind::main, picture.drawn(), picture.depth, list);
+  if (frame.mirror) transition(frame.commands, mirror.colour.image, ImageUse::sampled);
+  if (!picture.multisampled) transition(frame.commands, picture.depth.image, ImageUse::depth_target);
+  draw_eyes(frame, PassKind::main, picture.drawn(), picture.depth, frame.list);
   if (picture.multisampled) resolve(frame.commands);
 }
 
@@ -199,21 +253,17 @@ void Renderer::State::draw_overlays(const Frame& frame, std::span<Overlay* const
   }
 }
 
+VkImageView Renderer::State::view_of(const EyeImage& image, EyeGroup eyes) const {
+  return layered ? image.all.get() : image.one[eyes.first].get();
+}
+
 // Solid, sky, blended: for all eyes at once, or for each into its layer.
 void Renderer::State::draw_eyes(const Frame& frame, PassKind pass, EyeImage& colour, EyeImage& depth,
                                 const DrawList& list) {
-  for (GpuImage* image : {&colour.image, &depth.image}) forget(*image);
-  transition(frame.commands, colour.image, ImageUse::colour_target);
-  transition(frame.commands, depth.image, ImageUse::depth_target);
   for (const EyeGroup eyes : eye_groups()) {
-    const auto view = [&](const EyeImage& image) { return layered ? image.all.get() : image.one[eyes.first].get(); };
-    const Attachment drawn{.view = view(colour)};
-    Attachment deep{.view = view(depth)};
-    if (pass == PassKind::main && !picture.multisampled) {
-      draw_depth(frame, depth, list.solid, eyes, deep);
-      deep.load = VK_ATTACHMENT_LOAD_OP_LOAD;
-    }
-    deep.store = VK_ATTACHMENT_STORE_OP_DONT_CARE;
+    const Attachment drawn{.view = view_of(colour, eyes)};
+    Attachment deep{.view = view_of(depth, eyes), .store = VK_ATTACHMENT_STORE_OP_DONT_CARE};
+    if (pass == PassKind::main && !picture.multisampled) deep.load = VK_ATTACHMENT_LOAD_OP_LOAD;  // draw_depth()
     begin_rendering(frame.commands, colour.image.extent(), eyes.count, &drawn, &deep);
     record(frame, pass, list.solid, eyes);
     const VkDescriptorSet set = frame.slot->set(pass);
@@ -228,16 +278,6 @@ void Renderer::State::draw_eyes(const Frame& frame, PassKind pass, EyeImage& col
   }
 }
 
-// Depth first, so that each pixel is shaded once. At four samples a software driver loses more by the second pass over
-// the triangles than it saves.
-void Renderer::State::draw_depth(const Frame& frame, EyeImage& depth, std::span<const DrawItem* const> solid,
-                                 EyeGroup eyes, const Attachment& target) {
-  begin_rendering(frame.commands, depth.image.extent(), eyes.count, nullptr, &target);
-  record(frame, PassKind::depth, solid, eyes);
-  vkCmdEndRendering(frame.commands);
-  transition(frame.commands, depth.image, ImageUse::depth_target);
-}
-
 void Renderer::State::record(const Frame& frame, PassKind pass, std::span<const DrawItem* const> items, EyeGroup eyes) {
   if (items.empty()) return;
   const VkDescriptorSet set = frame.slot->set(pass);
@@ -249,8 +289,19 @@ void Renderer::State::record(const Frame& frame, PassKind pass, std::span<const 
     bind_item(frame, pass, *item, before);
     vkCmdDrawIndexed(frame.commands, item->part->index_count, eyes.count, item->part->first_index, item->vertex_offset,
                      eyes.first);
+    shade_soon(frame, item->part->index_count / 3 * eyes.count);
     before = item;
   }
+}
+
+// A software driver collects the triangles of a pass, on one thread, and begins to shade when there is no room for more;
+// a stamp makes it begin.
+void Renderer::State::shade_soon(const Frame& frame, std::uint32_t triangles) {
+  if (!gpu.traits().is_cpu) return;
+  collected += triangles;
+  if (collected < kCollected) return;
+  timer.nudge(frame.commands);
+  collected = 0;
 }
 
 // What differs from the item drawn before.

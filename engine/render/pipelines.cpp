@@ -46,7 +46,8 @@ SetLayout pass_layout(const Gpu& gpu) {
       Binding{shader::kBindBrdf, kImage, kFragment},
       Binding{shader::kBindShadow, kImage, kFragment},
       Binding{shader::kBindMirror, kImage, kFragment},
-      Binding{shader::kBindSky, kImage, kFragment}};
+      Binding{shader::kBindSky, kImage, kFragment},
+      Binding{shader::kBindIndoors, kImage, kFragment}};
   return make_set_layout(gpu, bindings);
 }
 
@@ -59,12 +60,12 @@ SetLayout material_layout(const Gpu& gpu) {
 }
 
 // Spherical harmonics (engine/light/irradiance.cpp) multiplied out; c6 (3 z^2 - 1) gives a constant and a square.
-std::array<glm::vec3, shader::kIrradianceTerms> polynomial_of(const Irradiance& sky) {
+std::array<glm::vec3, shader::kIrradianceTerms> polynomial_of(const Irradiance& light) {
   constexpr std::array kFactor{0.282095f, 0.488603f, 0.488603f, 0.488603f, 1.092548f,
                                1.092548f, 0.946176f, 1.092548f, 0.546274f};
   std::array<glm::vec3, shader::kIrradianceTerms> terms;
-  for (std::size_t i = 0; i < terms.size(); ++i) terms[i] = kFactor[i] * sky.c[i];
-  terms[0] -= 0.315392f * sky.c[6];
+  for (std::size_t i = 0; i < terms.size(); ++i) terms[i] = kFactor[i] * light.c[i];
+  terms[0] -= 0.315392f * light.c[6];
   return terms;
 }
 
@@ -78,19 +79,28 @@ PipelineLayout pipeline_layout(const Gpu& gpu, const SetLayout& pass, const SetL
 RenderLayouts::RenderLayouts(const Gpu& gpu)
     : pass(pass_layout(gpu)), material(material_layout(gpu)), pipeline(pipeline_layout(gpu, pass, material)) {}
 
-Pipelines::Pipelines(const Gpu& gpu, const RenderLayouts& layouts, VkFormat shadow_format,
-                     VkSampleCountFlagBits samples, bool layered, const Irradiance& sky)
-    : gpu_(gpu), layouts_(layouts), shadow_format_(shadow_format), samples_(samples), layered_(layered) {
-  const auto terms = polynomial_of(sky);
+Pipelines::Pipelines(const Gpu& gpu, const RenderLayouts& layouts, VkSampleCountFlagBits samples, bool layered,
+                     const Irradiance& open, const Irradiance& indoors)
+    : gpu_(gpu),
+      layouts_(layouts),
+      samples_(samples),
+      layered_(layered),
+      open_(constants_of(open)),
+      indoors_(constants_of(indoors)) {}
+
+Pipelines::Constants Pipelines::constants_of(const Irradiance& light) {
+  Constants constants{};
+  const auto terms = polynomial_of(light);
   for (std::size_t i = 0; i < terms.size(); ++i)
     for (std::size_t c = 0; c < 3; ++c)
-      constants_[1 + 3 * i + c] = std::bit_cast<std::uint32_t>(terms[i][static_cast<int>(c)]);
+      constants[1 + 3 * i + c] = std::bit_cast<std::uint32_t>(terms[i][static_cast<int>(c)]);
+  return constants;
 }
 
 Pipelines::Target Pipelines::target(PassKind pass) const {
   switch (pass) {
     case PassKind::shadow:
-      return {VK_FORMAT_UNDEFINED, shadow_format_, VK_SAMPLE_COUNT_1_BIT};
+      return {VK_FORMAT_UNDEFINED, kShadowFormat, VK_SAMPLE_COUNT_1_BIT};
     case PassKind::depth:
       return {VK_FORMAT_UNDEFINED, kDepthFormat, samples_};
     case PassKind::mirror:
@@ -123,7 +133,7 @@ Pipeline Pipelines::make_mesh(PassKind pass, std::uint32_t features) const {
   desc.samples = to.samples;
   desc.blend = blended ? Blend::alpha : Blend::none;
   desc.depth_use = blended ? Depth::test : Depth::write;
-  auto constants = constants_;
+  Constants constants = (features & shader::kIndoors) != 0 ? indoors_ : open_;
   constants[0] = features;
   desc.constants = constants;
   if (to.colour == VK_FORMAT_UNDEFINED) {

@@ -18,6 +18,7 @@ inline constexpr std::array kPasses{PassKind::shadow, PassKind::mirror, PassKind
 inline constexpr std::size_t kPassKinds = kPasses.size();
 
 inline constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;            // reverse-Z wants a float
+inline constexpr VkFormat kShadowFormat = VK_FORMAT_D16_UNORM;            // every device draws and samples it
 inline constexpr VkFormat kMirrorFormat = VK_FORMAT_R16G16B16A16_SFLOAT;  // radiance
 
 // Set and pipeline layouts: those of shaders/shared.h.
@@ -29,8 +30,8 @@ struct RenderLayouts {
 
 class Pipelines {
  public:
-  Pipelines(const Gpu& gpu, const RenderLayouts& layouts, VkFormat shadow_format, VkSampleCountFlagBits samples,
-            bool layered, const Irradiance& sky);
+  Pipelines(const Gpu& gpu, const RenderLayouts& layouts, VkSampleCountFlagBits samples, bool layered,
+            const Irradiance& open, const Irradiance& indoors);
   VkPipeline mesh(PassKind pass, std::uint32_t features);  // features: of the pass, see features_in()
   VkPipeline sky(PassKind pass);
 
@@ -44,10 +45,12 @@ class Pipelines {
   Pipeline make_sky(PassKind pass) const;
   const Gpu& gpu_;
   const RenderLayouts& layouts_;
-  VkFormat shadow_format_;
   VkSampleCountFlagBits samples_;
   bool layered_;
-  std::array<std::uint32_t, 1 + 3 * shader::kIrradianceTerms> constants_{};  // the first is the features
+  // Of a shader, the first is the features.
+  using Constants = std::array<std::uint32_t, 1 + 3 * shader::kIrradianceTerms>;
+  static Constants constants_of(const Irradiance& light);
+  Constants open_, indoors_;
   std::map<std::pair<PassKind, std::uint32_t>, Pipeline> meshes_;
   std::map<PassKind, Pipeline> skies_;
 };

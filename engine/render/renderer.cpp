@@ -5,6 +5,7 @@
 #include <future>
 #include <stdexcept>
 
+#include "engine/light/enclosure.h"
 #include "engine/render/renderer_state.h"
 #include "engine/render/samplers.h"
 
@@ -31,8 +32,14 @@ SetPool pass_sets(const Gpu& gpu) {
   constexpr std::uint32_t kSets = kPassKinds * kFramesInFlight;
   constexpr std::array kSizes{VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, kSets},
                               VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_STORAGE_BUFFER, kSets},
-                              VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 5 * kSets}};
+                              VkDescriptorPoolSize{VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, 6 * kSets}};
   return {gpu, kSets, kSizes};
+}
+
+LightMaps day_light() {
+  const Sun sun;
+  const Radiance open = day_sky(sun.towards);
+  return light_maps(open, inside(car_cabin(), open, sun.towards, sun.irradiance));
 }
 
 VkSampleCountFlagBits sample_count(const RenderConfig& config) {
@@ -53,14 +60,14 @@ Renderer::State::State(Gpu& device, const RenderConfig& wanted)
       ring(device),
       timer(device),
       layouts(device),
-      shadow_format(gearshift::shadow_format(device)),
       clamped(picture_sampler(device)),
       by_roughness(reflection_sampler(device)),
-      shadow_compare(shadow_sampler(device, shadow_format.linear)),
+      shadow_compare(shadow_sampler(device)),
       sets(pass_sets(device)) {
   check_config(gpu, config);
-  auto maps = std::async(std::launch::async, [] { return light_maps(day_sky(Sun{}.towards)); });
-  upload_brdf(gpu, bake_brdf(), light);
+  auto maps = std::async(std::launch::async, day_light);
+  brdf = bake_brdf();
+  upload_brdf(gpu, brdf, light);
   for (FrameSlot& slot : slots) {
     std::array<VkDescriptorSet, kPassKinds> of_slot{};
     for (VkDescriptorSet& set : of_slot) {
@@ -72,7 +79,7 @@ Renderer::State::State(Gpu& device, const RenderConfig& wanted)
   no_mirror = MirrorTarget(gpu, {1, 1}, 1);
   run_once(gpu, [&](VkCommandBuffer commands) { transition(commands, no_mirror.colour.image, ImageUse::sampled); });
   make_targets();
-  model = upload_model(gpu, Model{}, layouts.material.get());
+  model = upload_model(gpu, Model{}, brdf, layouts.material.get());
   set_light(maps.get());
 }
 
@@ -84,7 +91,7 @@ void Renderer::State::make_targets() {
   picture = PictureTarget(gpu, extent, eyes, sample_count(config));
   make_pipelines();
   still_casters.forget();
-  shadow = ShadowTarget(gpu, static_cast<std::uint32_t>(std::max(1, config.shadow_side)), shadow_format.format);
+  shadow = ShadowTarget(gpu, static_cast<std::uint32_t>(std::max(1, config.shadow_side)));
   run_once(gpu, [&](VkCommandBuffer commands) { transition(commands, shadow.depth, ImageUse::sampled); });
   for (const FrameSlot& slot : slots) {
     for (const PassKind pass : kPasses)
@@ -95,8 +102,8 @@ void Renderer::State::make_targets() {
 }
 
 void Renderer::State::make_pipelines() {
-  pipelines =
-      std::make_unique<Pipelines>(gpu, layouts, shadow_format.format, sample_count(config), layered, light.irradiance);
+  pipelines = std::make_unique<Pipelines>(gpu, layouts, sample_count(config), layered, light.irradiance,
+                                          light.irradiance_indoors);
 }
 
 void Renderer::State::set_light(const LightMaps& maps) {
@@ -105,13 +112,14 @@ void Renderer::State::set_light(const LightMaps& maps) {
   for (const FrameSlot& slot : slots) {
     for (const PassKind pass : kPasses) {
       bind_texture(gpu, slot.set(pass), shader::kBindReflections, light.reflections_view.get(), by_roughness.get());
+      bind_texture(gpu, slot.set(pass), shader::kBindIndoors, light.indoors_view.get(), by_roughness.get());
       bind_texture(gpu, slot.set(pass), shader::kBindSky, light.sky_view.get(), clamped.get());
     }
   }
 }
 
 void Renderer::State::set_model(const Model& content) {
-  model = upload_model(gpu, content, layouts.material.get());
+  model = upload_model(gpu, content, brdf, layouts.material.get());
   still_casters.forget();
 }
 
@@ -148,8 +156,8 @@ void Renderer::set_model(const Model& model) {
   state_->set_model(model);
 }
 
-void Renderer::set_environment(const Radiance& radiance) {
-  const LightMaps maps = light_maps(radiance);
+void Renderer::set_environment(const Radiance& open, const Radiance& indoors) {
+  const LightMaps maps = light_maps(open, indoors ? indoors : open);
   state_->ring.wait();
   state_->set_light(maps);
 }

@@ -34,7 +34,7 @@ struct RenderConfig {
 
 // Time on the GPU of the passes of the last finished frame. [ms] 0 without timestamps
 struct PassTimes {
-  double shadow = 0.0, mirror = 0.0, main = 0.0, overlay = 0.0, all = 0.0;
+  double shadow = 0.0, depth = 0.0, mirror = 0.0, main = 0.0, overlay = 0.0, all = 0.0;
 };
 
 class Renderer {
@@ -43,9 +43,11 @@ class Renderer {
   Renderer(Gpu& gpu, const RenderConfig& config);
   ~Renderer();
 
-  void set_model(const Model& model);              // uploads; may be called again. Waits for the frames in flight
-  void set_environment(const Radiance& radiance);  // the day sky until then. Waits for the frames in flight
-  void resize(const RenderConfig& config);         // size, eyes, samples. Waits for the frames in flight
+  void set_model(const Model& model);  // uploads; may be called again. Waits for the frames in flight
+  // The day sky, and what a car's cabin leaves of it, until then. indoors: for nodes that stand there; empty: the same
+  // as in the open. Waits for the frames in flight.
+  void set_environment(const Radiance& open, const Radiance& indoors = {});
+  void resize(const RenderConfig& config);  // size, eyes, samples. Waits for the frames in flight
   const RenderConfig& config() const noexcept;
 
   // Records and submits one frame: views.size() == eyes. Overlays are drawn on every eye in order. Returns the timeline

@@ -34,6 +34,7 @@ struct Frame {
   std::optional<MirrorOfFrame> mirror;
   glm::vec3 eye{0.0f};  // midway between the eyes
   std::vector<DrawItem> items;
+  DrawList list;            // of the main pass
   shader::PassData data{};  // what the passes have in common
 };
 
@@ -63,14 +64,16 @@ struct Renderer::State {
   void draw_shadow(Frame& frame);
   void draw_casters(const Frame& frame, VkImageView view, VkAttachmentLoadOp load,
                     std::span<const DrawItem* const> casters);
+  void ready_targets(const Frame& frame);
+  void draw_depth(Frame& frame);
   void draw_mirror(Frame& frame);
   void draw_main(Frame& frame);
   void resolve(VkCommandBuffer commands);
   void draw_overlays(const Frame& frame, std::span<Overlay* const> overlays);
+  VkImageView view_of(const EyeImage& image, EyeGroup eyes) const;
   void draw_eyes(const Frame& frame, PassKind pass, EyeImage& colour, EyeImage& depth, const DrawList& list);
-  void draw_depth(const Frame& frame, EyeImage& depth, std::span<const DrawItem* const> solid, EyeGroup eyes,
-                  const Attachment& target);
   void record(const Frame& frame, PassKind pass, std::span<const DrawItem* const> items, EyeGroup eyes);
+  void shade_soon(const Frame& frame, std::uint32_t triangles);
   void bind_item(const Frame& frame, PassKind pass, const DrawItem& item, const DrawItem* before);
 
   Gpu& gpu;
@@ -78,20 +81,21 @@ struct Renderer::State {
   FrameRing ring;
   PassTimer timer;
   RenderLayouts layouts;
-  ShadowFormat shadow_format;
   Sampler clamped, by_roughness, shadow_compare;
   SetPool sets;
   std::array<FrameSlot, kFramesInFlight> slots;
+  BrdfTable brdf;
   LightTextures light;
   ShadowTarget shadow;
   StillCasters still_casters;
-  bool shadow_is_still = false;    // the map shows what stands still, and nothing else
+  VkRect2D shadow_touched{};       // what else than still casters the map shows lies in these texels
   MirrorTarget no_mirror, mirror;  // no_mirror: one black texel, for the pass that draws the other
   PictureTarget picture;
   std::unique_ptr<Pipelines> pipelines;
   GpuModel model;
   bool layered = false;
   int draws = 0;
+  std::uint32_t collected = 0;  // [triangles] since the driver was last told to shade
 };
 
 }  // namespace gearshift

@@ -46,8 +46,8 @@ Sampler reflection_sampler(const Gpu& gpu) {
   return {gpu.device(), sampler};
 }
 
-Sampler shadow_sampler(const Gpu& gpu, bool linear) {
-  return make_sampler(gpu, {.linear = linear, .u = kClamp, .v = kClamp, .mips = false, .compare = true});
+Sampler shadow_sampler(const Gpu& gpu) {
+  return make_sampler(gpu, {.linear = false, .u = kClamp, .v = kClamp, .mips = false, .compare = true});
 }
 
 }  // namespace gearshift

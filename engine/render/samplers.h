@@ -9,6 +9,6 @@ namespace gearshift {
 Sampler texture_sampler(const Gpu& gpu, const Texture& texture);
 Sampler picture_sampler(const Gpu& gpu);  // tables and pictures: linear, clamped
 Sampler reflection_sampler(const Gpu& gpu);
-Sampler shadow_sampler(const Gpu& gpu, bool linear);
+Sampler shadow_sampler(const Gpu& gpu);  // for gathers: the shader weighs the comparisons
 
 }  // namespace gearshift

@@ -1,36 +1,121 @@
 #include "engine/render/shadow_fit.h"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vector_relational.hpp>
 
 namespace gearshift {
 
-ShadowFit fit_shadow(const Sphere& sphere, glm::vec3 towards_sun, int side) {
+namespace {
+
+constexpr int kSteps = 16;               // of the middle, a width
+constexpr double kNarrowest = 1e-3;      // [m]
+constexpr double kLadder = 1.189207115;  // 2^(1/4)
+constexpr double kDepthStep = 0.25;      // [m] of the deepest point
+
+struct Corner {
+  glm::vec3 world;
+  glm::vec4 clip;
+};
+using Polygon = std::vector<Corner>;
+
+// Ivan Sutherland, Gary Hodgman. Reentrant Polygon Clipping. 1974. Keeps dot(plane, clip) >= 0.
+Polygon clipped(const Polygon& polygon, glm::vec4 plane) {
+  Polygon kept;
+  for (std::size_t i = 0; i < polygon.size(); ++i) {
+    const Corner &a = polygon[i], &b = polygon[(i + 1) % polygon.size()];
+    const float in_a = glm::dot(plane, a.clip), in_b = glm::dot(plane, b.clip);
+    if (in_a >= 0.0f) kept.push_back(a);
+    if ((in_a >= 0.0f) == (in_b >= 0.0f)) continue;
+    const float t = in_a / (in_a - in_b);
+    kept.push_back({glm::mix(a.world, b.world, t), glm::mix(a.clip, b.clip, t)});
+  }
+  return kept;
+}
+
+// Left, right, top, bottom. The near plane is left out: the pyramid's tip stands for it.
+constexpr std::array<glm::vec4, 4> kSides{{{1, 0, 0, 1}, {-1, 0, 0, 1}, {0, 1, 0, 1}, {0, -1, 0, 1}}};
+
+std::array<glm::vec3, 8> corners_of(const Box& box) {
+  std::array<glm::vec3, 8> corners;
+  for (std::size_t i = 0; i < 8; ++i)
+    corners[i] = {i & 1 ? box.high.x : box.low.x, i & 2 ? box.high.y : box.low.y, i & 4 ? box.high.z : box.low.z};
+  return corners;
+}
+
+constexpr int kFaces[6][4] = {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}};
+
+// Where all four sides meet: clip x = y = w = 0.
+glm::vec3 tip_of(const glm::mat4& clip_from_world) {
+  const glm::mat4 rows = glm::transpose(clip_from_world);
+  const glm::mat3 system = glm::transpose(glm::mat3(glm::vec3(rows[0]), glm::vec3(rows[1]), glm::vec3(rows[3])));
+  return glm::inverse(system) * -glm::vec3(rows[0].w, rows[1].w, rows[3].w);
+}
+
+bool holds(const Box& box, glm::vec3 point) {
+  return glm::all(glm::lessThanEqual(box.low, point)) && glm::all(glm::lessThanEqual(point, box.high));
+}
+
+}  // namespace
+
+std::vector<glm::vec3> seen_corners(const Box& box, std::span<const glm::mat4> clip_from_world) {
+  const std::array<glm::vec3, 8> corners = corners_of(box);
+  std::vector<glm::vec3> seen;
+  for (const glm::mat4& clip : clip_from_world) {
+    for (const auto& face : kFaces) {
+      Polygon polygon;
+      for (const int corner : face) {
+        const glm::vec3 at = corners[static_cast<std::size_t>(corner)];
+        polygon.push_back({at, clip * glm::vec4(at, 1.0f)});
+      }
+      for (const glm::vec4& side : kSides) polygon = clipped(polygon, side);
+      for (const Corner& corner : polygon) seen.push_back(corner.world);
+    }
+    if (const glm::vec3 tip = tip_of(clip); holds(box, tip)) seen.push_back(tip);
+  }
+  if (seen.empty()) seen.assign(corners.begin(), corners.end());
+  return seen;
+}
+
+ShadowFit fit_shadow(std::span<const glm::vec3> points, glm::vec3 towards_sun, int side) {
   const glm::dvec3 z = glm::normalize(glm::dvec3(towards_sun));
   const glm::dvec3 aside = std::abs(z.y) < 0.99 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(1.0, 0.0, 0.0);
   const glm::dvec3 x = glm::normalize(glm::cross(aside, z)), y = glm::cross(z, x);
 
-  // The margin is no part of the sphere's picture.
-  const double radius = sphere.radius * static_cast<double>(side) / (side - 2 * kShadowMargin);
-  const double texel = 2.0 * radius / side;
-  const auto snapped = [&](const glm::dvec3& axis) {
-    return texel * std::round(glm::dot(axis, glm::dvec3(sphere.centre)) / texel);
-  };
-  const double depth_range = 2.0 * sphere.radius + kCasterReach;
-  const double deepest = glm::dot(z, glm::dvec3(sphere.centre)) - sphere.radius;
+  glm::dvec3 low(1e30), high(-1e30);
+  for (const glm::vec3& point : points) {
+    const glm::dvec3 p(point), seen(glm::dot(x, p), glm::dot(y, p), glm::dot(z, p));
+    low = glm::min(low, seen);
+    high = glm::max(high, seen);
+  }
+  // Wide enough for a middle that is rounded to whole steps.
+  const int inner = side - 2 * kShadowMargin, texels_a_step = std::max(1, inner / kSteps);
+  const double slack = 1.0 - static_cast<double>(texels_a_step) / inner;
+  const double needed = std::max({high.x - low.x, high.y - low.y, kNarrowest}) / slack;
+  const double width = std::pow(kLadder, std::ceil(std::log(needed) / std::log(kLadder)));
+  const double texel = width / inner, step = texel * texels_a_step, half = 0.5 * texel * side;
+  const glm::dvec2 middle = step * glm::round(0.5 * glm::dvec2(low + high) / step);
+  const double deepest = kDepthStep * std::floor(low.z / kDepthStep);
+  const double highest = kDepthStep * std::ceil(high.z / kDepthStep);
+  const double depth_range = highest - deepest + static_cast<double>(kCasterReach);
 
   glm::dmat4 clip(1.0);
   for (int i = 0; i < 3; ++i) {
-    clip[i][0] = x[i] / radius;
-    clip[i][1] = -y[i] / radius;
+    clip[i][0] = x[i] / half;
+    clip[i][1] = -y[i] / half;
     clip[i][2] = z[i] / depth_range;
   }
-  clip[3] = {-snapped(x) / radius, snapped(y) / radius, -deepest / depth_range, 1.0};
+  clip[3] = {-middle.x / half, middle.y / half, -deepest / depth_range, 1.0};
 
   glm::dmat4 texture(1.0);
   texture[0][0] = texture[1][1] = 0.5;
-  texture[3] = {0.5 - 0.5 / side, 0.5 - 0.5 / side, 0.0, 1.0};
+  texture[3] = {0.5, 0.5, 0.0, 1.0};
   return {glm::mat4(clip), glm::mat4(texture * clip), static_cast<float>(texel)};
 }
 

@@ -49,20 +49,11 @@ MirrorTarget::MirrorTarget(Gpu& gpu, VkExtent2D extent, std::uint32_t eyes)
     : colour(gpu, target_desc(extent, eyes, kMirrorFormat, kColour | kSampled)),
       depth(gpu, target_desc(extent, eyes, kDepthFormat, kDepth)) {}
 
-ShadowTarget::ShadowTarget(Gpu& gpu, std::uint32_t side, VkFormat format)
-    : depth(gpu, target_desc({side, side}, 1, format, kDepth | kSampled | VK_IMAGE_USAGE_TRANSFER_DST_BIT)),
+ShadowTarget::ShadowTarget(Gpu& gpu, std::uint32_t side)
+    : depth(gpu, target_desc({side, side}, 1, kShadowFormat, kDepth | kSampled | VK_IMAGE_USAGE_TRANSFER_DST_BIT)),
       view(make_view(gpu, depth, VK_IMAGE_VIEW_TYPE_2D)),
-      still(gpu, target_desc({side, side}, 1, format, kDepth | kSource)),
+      still(gpu, target_desc({side, side}, 1, kShadowFormat, kDepth | kSource)),
       still_view(make_view(gpu, still, VK_IMAGE_VIEW_TYPE_2D)) {}
-
-ShadowFormat shadow_format(const Gpu& gpu) {
-  constexpr VkFormatFeatureFlags2 kNeeded =
-      VK_FORMAT_FEATURE_2_DEPTH_STENCIL_ATTACHMENT_BIT | VK_FORMAT_FEATURE_2_SAMPLED_IMAGE_DEPTH_COMPARISON_BIT;
-  for (const VkFormat format : {VK_FORMAT_D16_UNORM, VK_FORMAT_D32_SFLOAT}) {
-    if (gpu.supports(format, kNeeded | VK_FORMAT_FEATURE_2_SAMPLED_IMAGE_FILTER_LINEAR_BIT)) return {format, true};
-  }
-  return {};
-}
 
 void begin_rendering(VkCommandBuffer commands, VkExtent2D extent, std::uint32_t layers, const Attachment* colour,
                      const Attachment* depth) {

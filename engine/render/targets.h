@@ -38,19 +38,12 @@ struct MirrorTarget {
 
 struct ShadowTarget {
   ShadowTarget() = default;
-  ShadowTarget(Gpu& gpu, std::uint32_t side, VkFormat format);
+  ShadowTarget(Gpu& gpu, std::uint32_t side);
   GpuImage depth;  // what is looked up
   ImageView view;
   GpuImage still;  // of what never moves; copied into depth before the rest is drawn
   ImageView still_view;
 };
-
-// A depth format that the device filters when it compares, or one that it only compares.
-struct ShadowFormat {
-  VkFormat format = VK_FORMAT_D16_UNORM;
-  bool linear = false;
-};
-ShadowFormat shadow_format(const Gpu& gpu);
 
 // vkCmdBeginRendering over some layers; the attachments must stand ready. Viewport and scissor cover them.
 struct Attachment {

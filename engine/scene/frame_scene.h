@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <glm/mat4x4.hpp>
@@ -18,6 +19,7 @@ struct NodeState {
   glm::vec2 uv_shift{0.0f};  // added to uv0: a display shows another field of its atlas
   float opacity = 1.0f;      // factor on alpha; below 1 the node is drawn blended: a ghost
   bool visible = true;
+  bool indoors = false;  // lit by what a point inside sees, not by the open sky
 };
 
 struct Sun {
@@ -31,14 +33,19 @@ struct DeformedMesh {
   std::vector<Vertex> vertices;  // Mesh::vertex_count of them
 };
 
+// A box outside of which nothing is in shadow: the smaller, the sharper the shadows in it. [m] world
+struct ShadowRoom {
+  glm::vec3 low{-std::numeric_limits<float>::max()}, high{std::numeric_limits<float>::max()};
+};
+
 // A mirror: the plane z = 0 of that node, seen from its +Z side.
 struct FrameScene {
   std::vector<NodeState> nodes;        // one a node of the model
   std::vector<DeformedMesh> deformed;  // may be empty
   Sun sun;
   float exposure = 1.0f;
-  int mirror = kNone;         // node whose mesh shows what its plane mirrors
-  float shadow_reach = 4.0f;  // [m] about the eyes the sun casts shadows; the whole scene where that is smaller
+  int mirror = kNone;  // node whose mesh shows what its plane mirrors
+  ShadowRoom shadow_room;
 };
 
 }  // namespace gearshift

@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kCutsTheWheel = 0.42;  // [m] the rim is 0.40 m ahead of the driver's eye
 
-// Wholly seen by each eye: the sun's map is fitted to what is seen, this way it is the same for one eye and for two. [m]
+// Wholly seen by each eye: the sun's map is fitted to what is seen, and so is the same for one eye and for two. [m]
 constexpr ShadowRoom kAboutTheGate{{0.22f, 0.0f, -0.40f}, {0.44f, 0.25f, -0.20f}};
 
 RenderConfig small(int eyes, int samples, EyePasses passes = EyePasses::automatic) {

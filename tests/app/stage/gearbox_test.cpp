@@ -62,6 +62,36 @@ TEST_CASE("in every gear of every gate one sleeve is moved by 9 mm to that gear'
   }
 }
 
+TEST_CASE("every moving part of the gearbox is one draw and keeps the metal that its file gives it") {
+  const Model file = read_gltf(GEARSHIFT_ASSETS "/models/gearbox.glb");
+  const BoxRig rig("paper");
+  const auto mesh_of = [](const Model& model, const std::string& node) -> const Mesh& {
+    return model.meshes[static_cast<std::size_t>(model.nodes[static_cast<std::size_t>(model.node(node))].mesh)];
+  };
+  for (const std::string& name : Gearbox::moving_names(rig.gate)) {
+    CAPTURE(name);
+    CHECK(mesh_of(rig.model, name).primitives.size() == 1);
+  }
+  // Each triangle of the forward ring: colour, metal and roughness as its own material says, within a 255th.
+  const Primitive& own = mesh_of(file, "RingForward").primitives.front();
+  const Primitive& drawn = mesh_of(rig.model, "RingForward0").primitives.front();
+  const Material& brass = file.materials[static_cast<std::size_t>(own.material)];
+  const Material& shared = rig.model.materials[static_cast<std::size_t>(drawn.material)];
+  const Image& surfaces = rig.model.textures[static_cast<std::size_t>(shared.metal_rough_map.texture)].pixels;
+  REQUIRE(drawn.index_count == own.index_count);
+  REQUIRE(brass.name == "Brass");
+  for (std::uint32_t i = 0; i < drawn.index_count; ++i) {
+    const Vertex& vertex = rig.model.vertices[rig.model.indices[drawn.first_index + i]];
+    const std::uint8_t* texel = surfaces.pixel(static_cast<int>(vertex.uv0.x * static_cast<float>(surfaces.width)), 0);
+    CHECK(shared.roughness * static_cast<float>(texel[1]) / 255.0f == doctest::Approx(brass.roughness).epsilon(0.01));
+    CHECK(shared.metallic * static_cast<float>(texel[2]) / 255.0f == doctest::Approx(brass.metallic).epsilon(0.01));
+    for (int k = 0; k < 3; ++k) {
+      const auto channel = static_cast<float>((vertex.colour >> (8 * k)) & 0xffu) / 255.0f;
+      CHECK(std::abs(shared.base_colour[k] * channel - brass.base_colour[k]) < 0.003f);
+    }
+  }
+}
+
 TEST_CASE("between aisle and rest the rail follows the lever in proportion") {
   const Gate gate = paper_gate();
   const Slot& slot = slot_of(gate, slot_of_gear(gate, 4));

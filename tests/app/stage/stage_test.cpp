@@ -169,9 +169,15 @@ TEST_CASE("the stage is drawn in at most 64 draws, whatever it shows but the gea
   for (const bool open_gate : {false, true}) {
     StageConfig config = config_of("six_speed_r_left_up");
     config.open_gate = open_gate;
-    const Stage stage(config, kModels);
+    Stage stage(config, kModels);
+    const int alone = visible_draws(stage);
+    StageInput pushed;
+    pushed.lever.flags = kFlagGhost;
+    stage.place(pushed);
     MESSAGE(std::string(open_gate ? "open gate: " : "boot: ")
-            << visible_draws(stage) << " draws, " << stage.model().triangle_count() << " triangles");
+            << alone << " draws, with the ghost " << visible_draws(stage) << ", " << stage.model().triangle_count()
+            << " triangles");
+    CHECK(visible_draws(stage) > alone);
     CHECK(visible_draws(stage) <= 64);
   }
   StageConfig config = config_of("six_speed_r_left_up");
@@ -194,13 +200,33 @@ TEST_CASE("every shipped gate makes a stage, open and closed") {
 }
 
 TEST_CASE("cameras have names, and an unknown one is told them all") {
-  for (const char* name : {"driver", "lever", "gate", "cluster", "gearbox"}) {
+  for (const char* name : {"driver", "ahead", "lever", "gate", "cluster", "gearbox"}) {
     CHECK(glm::length(camera(name).orientation) == doctest::Approx(1.0));
   }
   CHECK(glm::distance(camera("driver").position, glm::dvec3(0.0, 0.635, 0.05)) < 1e-12);
   CHECK(glm::distance(paper_stage().driver_eye().position, camera("driver").position) == 0.0);
-  CHECK_THROWS_WITH_AS(camera("roof"), "no camera 'roof': there are driver, lever, gate, cluster, gearbox",
+  CHECK_THROWS_WITH_AS(camera("roof"), "no camera 'roof': there are driver, ahead, lever, gate, cluster, gearbox",
                        std::invalid_argument);
+}
+
+TEST_CASE(
+    "road, instruments, hand and gate lie in the middle square of the driver's picture, the mirror in the view "
+    "ahead's") {
+  const auto in_middle = [](const char* name, glm::dvec3 point) {
+    const double fov = camera_field(name) * std::numbers::pi / 180.0;
+    const View view = view_from(camera(name), symmetric_fov(fov, 16.0 / 9.0), 0.05);
+    const glm::dvec3 at = project(view, point, {1280.0, 720.0});
+    // What the panel of a window of 1280 x 720 leaves free.
+    return at.z > 0.0 && at.x > 320.0 && at.x < 960.0 && at.y > 0.0 && at.y < 652.0;
+  };
+  const glm::dvec3 horizon = camera("driver").position + glm::dvec3(0.0, 0.0, -1e4);
+  const glm::dvec3 tach = place_of(paper_stage(), "TachDial"), speed = place_of(paper_stage(), "SpeedDial");
+  for (const glm::dvec3 point : {horizon, tach, speed, paper_stage().knob(), kPivot + glm::dvec3(0.049, 0.03, 0.053),
+                                 kPivot + glm::dvec3(-0.049, 0.03, -0.053)})
+    CHECK(in_middle("driver", point));
+  for (const glm::dvec3 point : {horizon, tach, speed, place_of(paper_stage(), "InteriorMirrorSurface")})
+    CHECK(in_middle("ahead", point));
+  CHECK_FALSE(in_middle("driver", place_of(paper_stage(), "InteriorMirrorSurface")));  // the reason for two of them
 }
 
 TEST_CASE("a folder without models is refused with a sentence") {

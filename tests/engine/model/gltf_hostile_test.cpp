@@ -224,6 +224,41 @@ TEST_CASE("numbers in the buffer are believed no more than those in the text") {
   CHECK_FALSE(spoiled(1, 8, 0.0f));  // a normal without length is mended
 }
 
+// glTF 2.0, 3.7.2.1: all attribute accessors of a primitive have the same count.
+TEST_CASE("an attribute of more or fewer vertices than the positions refuses the file, whichever it is") {
+  struct Attribute {
+    const char* name;
+    const char* type;
+    std::size_t components;
+  };
+  const auto sentence = [](const Attribute& a, std::size_t vertices) {
+    GltfMaker maker = triangle();  // three positions
+    json& attributes = maker.root["meshes"][0]["primitives"][0]["attributes"];
+    // All 1: lengths apart there is nothing wrong with any of them.
+    attributes[a.name] = maker.accessor(std::vector<float>(a.components * vertices, 1.0f), a.type, f32);
+    try {
+      read_back(maker);
+      return std::string();
+    } catch (const GltfError& e) {
+      return std::string(e.what());
+    }
+  };
+  for (const Attribute& a :
+       {Attribute{"NORMAL", "VEC3", 3}, Attribute{"TANGENT", "VEC4", 4}, Attribute{"TEXCOORD_0", "VEC2", 2},
+        Attribute{"TEXCOORD_1", "VEC2", 2}, Attribute{"COLOR_0", "VEC4", 4}}) {
+    CAPTURE(a.name);
+    CHECK(sentence(a, 3).empty());
+    for (const std::size_t vertices : {1u, 2u, 4u, 300u})
+      CHECK(sentence(a, vertices).find("has attributes of different lengths") != std::string::npos);
+  }
+  for (const std::size_t vertices : {2u, 4u}) {  // joints, with weights of the right length
+    GltfMaker maker = everything();
+    json& attributes = maker.root["meshes"][0]["primitives"][0]["attributes"];
+    attributes["JOINTS_0"] = maker.accessor(std::vector<std::uint8_t>(4 * vertices), "VEC4", u8);
+    CHECK(is_refused(maker.gltf()));
+  }
+}
+
 TEST_CASE("sparse indices that do not grow, or lead beyond the accessor, refuse the file") {
   for (const std::vector<std::uint8_t>& indices : {std::vector<std::uint8_t>{1, 1}, {2, 0}, {0, 3}, {255, 0}}) {
     GltfMaker maker = triangle();

@@ -87,7 +87,7 @@ TEST_CASE(
     single.set_model(model);
     const std::vector<View> views = stereo_views(config, look_at({0, 0, 0}, {0, -0.05, -1}));
     FrameScene scene = lit(model);
-    scene.shadow_reach = 100.0f;  // about the whole scene, not about an eye
+    scene.shadow_room = {{-1.5f, -0.25f, -5.0f}, {1.5f, 0.9f, -3.0f}};  // wholly seen by each: one map for all
     std::array<Image, 2> reference;
     for (std::size_t eye = 0; eye < 2; ++eye) {
       single.draw(scene, {&views[eye], 1});

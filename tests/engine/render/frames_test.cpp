@@ -204,5 +204,5 @@ TEST_CASE("the passes' times add up to the frame's") {
   const PassTimes& t = renderer.times();
   REQUIRE(fixture.gpu().traits().timestamp_bits > 0);
   CHECK(t.main > 0.0);
-  CHECK(t.all == doctest::Approx(t.shadow + t.mirror + t.main + t.overlay));
+  CHECK(t.all == doctest::Approx(t.shadow + t.depth + t.mirror + t.main + t.overlay));
 }

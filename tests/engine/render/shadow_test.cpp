@@ -1,4 +1,7 @@
 // The sun's shadow against rays.
+#include <algorithm>
+#include <random>
+
 #include "engine/render/shadow_fit.h"
 #include "tests/engine/render/render_bench.h"
 
@@ -153,35 +156,135 @@ TEST_CASE("a face that the sun sees at a slant does not shadow itself, nor a clo
   }
 }
 
-TEST_CASE("the map moves in whole texels: a point's place in its texel stays while the sphere moves") {
-  const Sphere sphere{{0.3f, 0.2f, -0.5f}, 4.0f};
-  const ShadowFit fit = fit_shadow(sphere, kSun, 2048);
-  CHECK(fit.texel == doctest::Approx(8.0 / 2044.0));
-  const auto texels = [&](const ShadowFit& f, vec3 point) {
-    return 2048.0f * glm::vec2(f.shadow_from_world * glm::vec4(point, 1.0f));
-  };
-  const glm::vec2 before = texels(fit, {1.0f, 0.5f, -1.0f});
+namespace {
+
+constexpr int kSide = 512;
+
+std::vector<vec3> corners(vec3 centre, float half) {
+  std::vector<vec3> points;
+  for (int i = 0; i < 8; ++i) points.push_back(centre + half * vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1));
+  return points;
+}
+
+glm::vec2 texels(const ShadowFit& fit, vec3 point) {
+  return float(kSide) * glm::vec2(fit.shadow_from_world * glm::vec4(point, 1.0f));
+}
+
+}  // namespace
+
+TEST_CASE("the map moves in whole texels: a point's place in its texel stays while what is seen moves") {
+  const vec3 centre(0.3f, 0.2f, -0.5f), mark(1.0f, 0.5f, -1.0f);
+  const ShadowFit fit = fit_shadow(corners(centre, 1.0f), kSun, kSide);
   for (const vec3 step : {vec3(0.001f, 0, 0), vec3(0.0123f, 0.2f, -0.07f), vec3(-1, 0.5f, 2)}) {
-    const ShadowFit moved = fit_shadow({sphere.centre + step, sphere.radius}, kSun, 2048);
-    const glm::vec2 shift = texels(moved, {1.0f, 0.5f, -1.0f}) - before;
+    const ShadowFit moved = fit_shadow(corners(centre + step, 1.0f), kSun, kSide);
+    const glm::vec2 shift = texels(moved, mark) - texels(fit, mark);
+    CHECK(moved.texel == fit.texel);
     CHECK(glm::length(shift - glm::round(shift)) < 0.02f);
   }
 }
 
-TEST_CASE("the map holds the sphere, its depth falls away from the sun and keeps casters before it") {
-  const Sphere sphere{{1.0f, 2.0f, 3.0f}, 2.0f};
-  const ShadowFit fit = fit_shadow(sphere, kSun, 256);
-  const vec3 sun = glm::normalize(kSun);
-  for (const vec3 axis : {vec3(1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), vec3(-1, 0, 0), sun, -sun}) {
-    const glm::vec4 clip = fit.clip_from_world * glm::vec4(sphere.centre + 1.99f * axis, 1.0f);
-    CHECK(std::abs(clip.x) < 1.0f);
-    CHECK(std::abs(clip.y) < 1.0f);
-    CHECK(clip.z > 0.0f);
-    CHECK(clip.z < 1.0f);
+TEST_CASE("of 400 small steps of the eye few change the map") {
+  int changes = 0;
+  glm::mat4 before(0.0f);
+  for (int i = 0; i < 400; ++i) {
+    const vec3 at(0.3f + 0.0005f * float(i), 0.2f, -0.5f);
+    const glm::mat4 now = fit_shadow(corners(at, 1.0f), kSun, kSide).clip_from_world;
+    changes += now != before ? 1 : 0;
+    before = now;
   }
-  const auto depth = [&](float along) {
-    return (fit.clip_from_world * glm::vec4(sphere.centre + along * sun, 1.0f)).z;
+  MESSAGE("0.2 m in 400 steps: " << changes << " maps");
+  CHECK(changes <= 6);
+}
+
+TEST_CASE(
+    "the map holds the points and a margin, and is no wider than they ask for by half; it keeps casters before them") {
+  const vec3 sun = glm::normalize(kSun);
+  for (const float half : {0.01f, 0.3f, 1.0f, 7.0f}) {
+    const std::vector<vec3> points = corners({1.0f, 2.0f, 3.0f}, half);
+    const ShadowFit fit = fit_shadow(points, kSun, kSide);
+    glm::vec2 low(1e9f), high(-1e9f);
+    for (const vec3 point : points) {
+      const glm::vec4 clip = fit.clip_from_world * glm::vec4(point, 1.0f);
+      CHECK(clip.z >= 0.0f);
+      CHECK((fit.clip_from_world * glm::vec4(point + 0.9f * kCasterReach * sun, 1.0f)).z <= 1.0f);
+      low = glm::min(low, texels(fit, point));
+      high = glm::max(high, texels(fit, point));
+    }
+    CHECK(std::min(low.x, low.y) > kShadowMargin - 0.01f);
+    CHECK(std::max(high.x, high.y) < kSide - kShadowMargin + 0.01f);
+    CHECK(std::max(high.x - low.x, high.y - low.y) > kSide / 1.5f);
+    const auto depth = [&](float along) {
+      return (fit.clip_from_world * glm::vec4(points[0] + along * half * sun, 1.0f)).z;
+    };
+    CHECK(depth(1.0f) > depth(0.0f));
+  }
+}
+
+TEST_CASE("what is seen of a box lies between its seen corners: points thrown into it, from outside and from inside") {
+  const Box box{{-1.0f, -0.5f, -2.0f}, {1.5f, 0.5f, 1.0f}};
+  std::mt19937 dice(3);
+  std::uniform_real_distribution<float> throws(0.0f, 1.0f);
+  for (const dvec3 eye : {dvec3(0.1, 0.2, 0.3), dvec3(4.0, 3.0, 5.0), dvec3(0.0, 0.0, 1.5), dvec3(-3.0, 0.0, -1.0)}) {
+    const View view = view_from(look_at(eye, {0.3, -0.1, -1.0}), symmetric_fov(0.6, 1.5), 0.05);
+    const glm::mat4 clip = view.clip_from_view * view.view_from_world;
+    const std::vector<vec3> seen = seen_corners(box, {&clip, 1});
+    // The hull's extents along many axes: each point that is seen lies within them, and they are reached.
+    for (int k = 0; k < 20; ++k) {
+      const vec3 axis = glm::normalize(vec3(throws(dice), throws(dice), throws(dice)) - 0.5f);
+      float high = -1e9f, reached = -1e9f;
+      for (const vec3 corner : seen) high = std::max(high, glm::dot(axis, corner));
+      for (int i = 0; i < 4000; ++i) {
+        const vec3 point = glm::mix(box.low, box.high, vec3(throws(dice), throws(dice), throws(dice)));
+        const glm::vec4 at = clip * glm::vec4(point, 1.0f);
+        if (at.w > 0.0f && std::abs(at.x) <= at.w && std::abs(at.y) <= at.w)
+          reached = std::max(reached, glm::dot(axis, point));
+      }
+      REQUIRE(reached > -1e9f);
+      CHECK(reached <= high + 1e-4f);
+      CHECK(reached > high - 0.5f);
+    }
+  }
+  const View away = view_from(look_at({0, 0, 4}, {0, 0, 9}), symmetric_fov(0.6, 1.5), 0.05);
+  const glm::mat4 clip = away.clip_from_view * away.view_from_world;
+  CHECK(seen_corners(box, {&clip, 1}).size() == 8);
+}
+
+TEST_CASE("the shadow of a straight edge is straight: within a fifth of a texel where it is half lit") {
+  GpuFixture fixture;
+  Yard yard;
+  constexpr int kCoarse = 64;
+  RenderConfig config = shadowed(kCoarse);
+  config.width = config.height = 400;
+  Renderer renderer(fixture.gpu(), config);
+  renderer.set_environment(constant_sky(vec3(0.02f)));
+  renderer.set_model(yard.model);
+  // The blocker's right edge, x = 0.3 at height 0.6, falls on x = 0.3 - 0.6 * 0.5 = 0. Straight down onto it, from below
+  // the blocker.
+  const View view = view_at(config, look_at({0.001, 0.5, -0.18}, {0, 0, -0.18}, {0, 0, -1}));
+  renderer.draw(yard.scene, {&view, 1});
+  const Image picture = renderer.read_eye(0);
+  std::vector<glm::dvec2> edge;  // [m] x and z of the half-lit points
+  const auto light = [&](int x, int y) {
+    const double s = picture.pixel(x, y)[1] / 255.0;
+    return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
   };
-  CHECK(depth(1.0f) > depth(-1.0f));
-  CHECK(depth(2.0f + 0.9f * kCasterReach) < 1.0f);
+  const double per_pixel = 2.0 * 0.5 * std::tan(0.5) / 400.0;  // [m] on the floor
+  for (int y = 40; y < 360; ++y) {
+    const double half = 0.5 * (light(0, y) + light(399, y));
+    for (int x = 1; x < 400; ++x) {
+      const double a = light(x - 1, y), b = light(x, y);
+      if ((a < half) == (b < half)) continue;
+      edge.push_back({per_pixel * (x - 200.0 + (half - a) / (b - a)), y * per_pixel});
+      break;
+    }
+  }
+  REQUIRE(edge.size() > 300);
+  double mean = 0.0, square = 0.0;
+  for (const glm::dvec2 point : edge) mean += point.x / static_cast<double>(edge.size());
+  for (const glm::dvec2 point : edge) square += std::pow(point.x - mean, 2.0) / static_cast<double>(edge.size());
+  const glm::mat4 clip = view.clip_from_view * view.view_from_world;
+  const double texel = static_cast<double>(
+      fit_shadow(seen_corners({{-1.5f, 0.0f, -1.5f}, {1.5f, kHeight, 1.5f}}, {&clip, 1}), kSun, kCoarse).texel);
+  MESSAGE("texel " << 1e3 * texel << " mm, edge off by " << std::sqrt(square) / texel << " texels RMS");
+  CHECK(std::sqrt(square) < 0.2 * texel);
 }

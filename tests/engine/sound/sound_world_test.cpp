@@ -107,6 +107,27 @@ TEST_CASE("what stands to the right is louder right, mirrored to the left, and t
   CHECK(balance(kAhead, east) < -6.0);            // now to the left
 }
 
+TEST_CASE("ears hear from where they are: to move them is to move everything else the other way") {
+  const auto heard_at = [](glm::vec3 ears, glm::vec3 source) {
+    SoundWorld world(SoundOutput::memory);
+    world.set_listener(ears, {0.0f, 0.0f, -1.0f}, {0.0f, 1.0f, 0.0f});
+    world.loop(world.add_clip(sine(1000.0, 0.5)), {source, 0.1f});
+    listen(world, 0.1);
+    const std::vector<float> stereo = listen(world, 0.5);
+    return std::pair(rms(channel(stereo, Ear::left)), rms(channel(stereo, Ear::right)));
+  };
+  const glm::vec3 source{0.4f, 0.1f, -0.9f};
+  const auto [left, right] = heard_at(glm::vec3(0.0f), source);
+  for (const glm::vec3 ears : {glm::vec3(3.0f, 0.0f, 0.0f), {0.0f, 0.65f, 0.05f}, {-7.0f, 2.0f, 40.0f}}) {
+    const auto [left_there, right_there] = heard_at(ears, source + ears);
+    CHECK(left_there == doctest::Approx(left).epsilon(1e-3));
+    CHECK(right_there == doctest::Approx(right).epsilon(1e-3));
+  }
+  // A source at the origin, heard 1 m and 4 m from it: 12.04 dB.
+  const double near = heard_at({0.0f, 0.0f, 1.0f}, {}).first, far = heard_at({0.0f, 0.0f, 4.0f}, {}).first;
+  CHECK(decibels(near / far) == doctest::Approx(12.041).epsilon(1e-3));
+}
+
 TEST_CASE("a point beside the listener is heard with one ear, a source as wide as it is far with both") {
   const std::vector<float> point = heard({kRight}), wide = heard({.position = kRight, .radius = 0.5f});
   CHECK(rms(channel(point, Ear::left)) < 1e-3 * rms(channel(point, Ear::right)));

@@ -1,0 +1,122 @@
+#include "engine/light/enclosure.h"
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <vector>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+#include <glm/gtc/constants.hpp>
+#include <glm/trigonometric.hpp>
+
+#include "engine/light/cube.h"
+
+namespace gearshift {
+
+namespace {
+
+constexpr int kWindowSide = 16;  // [texels] of the cube map's faces that windows are summed over
+constexpr int kLiningSide = 4;   // [texels] that their light is sampled at: it is smooth
+
+// A window by azimuth (0 ahead, 90 to the right) and elevation. [deg] Both sides of the car are alike.
+struct Pane {
+  float from, to;  // azimuth, of the right half
+  float low, high;
+};
+
+// What (0.335, 0.56, -0.12) of cabin.glb sees, between the heads and the lever: windscreen, doors, rear window between
+// the headrests (tests/picture/cabin_light_test.cpp compares them by rays).
+constexpr Pane kPanes[] = {{0.0f, 24.0f, -9.0f, 38.0f},
+                           {24.0f, 54.0f, -9.0f, 28.0f},
+                           {61.0f, 122.0f, -9.0f, 25.0f},
+                           {155.0f, 180.0f, -3.0f, 12.0f}};
+constexpr glm::vec3 kAbove{0.57f, 0.54f, 0.49f};     // above the sills: headliner, pillars
+constexpr glm::vec3 kBelow{0.060f, 0.058f, 0.055f};  // below: dash, seats, doors, carpet
+constexpr float kSill = -9.0f;                       // [deg] elevation
+
+// Directions that stand for their share of the sphere. [sr]
+struct Ray {
+  glm::vec3 direction;
+  float angle = 0.0f;
+};
+std::vector<Ray> all_around(int side) {
+  std::vector<Ray> rays;
+  for (int face = 0; face < 6; ++face)
+    for (int y = 0; y < side; ++y)
+      for (int x = 0; x < side; ++x)
+        rays.push_back({cube_direction(face, side, x, y), static_cast<float>(cube_texel_angle(side, x, y))});
+  return rays;
+}
+
+// What reaches the lining without having met lining before. [E / pi]
+class FirstLight {
+ public:
+  FirstLight(const Enclosure& room, const Radiance& open, glm::vec3 towards_sun, glm::vec3 irradiance)
+      : window_(room.window), towards_sun_(towards_sun), sun_(irradiance / glm::pi<float>()) {
+    std::vector<Ray> windows;
+    for (const Ray& ray : all_around(kWindowSide))
+      if (room.window(ray.direction)) windows.push_back(ray);
+    const auto from_windows = [&](glm::vec3 at) {
+      glm::vec3 sum(0.0f);
+      for (const Ray& window : windows) {
+        const glm::vec3 way = window.direction - at;
+        const float length = glm::length(way);
+        if (length > 1e-3f) sum += window.angle * open(way / length);
+      }
+      return sum / (4.0f * glm::pi<float>());
+    };
+    sky_ = project(from_windows, kLiningSide);
+  }
+
+  glm::vec3 operator()(glm::vec3 at) const {
+    glm::vec3 light = glm::max(sky_(at), glm::vec3(0.0f));
+    const float slant = -glm::dot(at, towards_sun_);
+    if (slant > 0.0f && window_(at + 2.0f * slant * towards_sun_)) light += slant * sun_;
+    return light;
+  }
+
+ private:
+  std::function<bool(glm::vec3)> window_;
+  glm::vec3 towards_sun_, sun_;
+  Harmonics sky_;
+};
+
+}  // namespace
+
+Radiance inside(const Enclosure& room, const Radiance& open, glm::vec3 towards_sun, glm::vec3 irradiance) {
+  const FirstLight first(room, open, glm::normalize(towards_sun), irradiance);
+  glm::vec3 once(0.0f), albedo(0.0f);
+  for (const Ray& ray : all_around(kWindowSide)) {
+    if (room.window(ray.direction)) continue;
+    const glm::vec3 share = ray.angle / (4.0f * glm::pi<float>()) * room.albedo(ray.direction);
+    once += share * first(ray.direction);
+    albedo += share;
+  }
+  const glm::vec3 again = once / (1.0f - albedo);
+  return [=](glm::vec3 direction) {
+    if (room.window(direction)) return open(direction);
+    return room.albedo(direction) * (first(direction) + again);
+  };
+}
+
+Enclosure car_cabin() {
+  const auto height_of = [](float elevation) { return std::sin(glm::radians(elevation)); };
+  struct Opening {
+    float from, to, low, high;  // azimuth [deg], heights on the unit sphere
+  };
+  std::vector<Opening> openings;
+  for (const Pane& pane : kPanes) openings.push_back({pane.from, pane.to, height_of(pane.low), height_of(pane.high)});
+  const auto is_window = [=](glm::vec3 d) {
+    const auto at_height = [&](const Opening& opening) { return d.y >= opening.low && d.y < opening.high; };
+    if (std::none_of(openings.begin(), openings.end(), at_height)) return false;  // spares the azimuth
+    const float azimuth = glm::degrees(std::atan2(std::abs(d.x), -d.z));
+    return std::any_of(openings.begin(), openings.end(), [&](const Opening& opening) {
+      return at_height(opening) && azimuth >= opening.from && azimuth <= opening.to;
+    });
+  };
+  const float sill = height_of(kSill);
+  return {is_window, [=](glm::vec3 d) { return d.y > sill ? kAbove : kBelow; }};
+}
+
+}  // namespace gearshift

@@ -1,0 +1,125 @@
+// Which way the parts of the cut-away gearbox go.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "app/stage/gearbox.h"
+#include "engine/model/gltf.h"
+#include "tests/support/gates.h"
+
+namespace gearshift {
+namespace {
+
+constexpr double kTurn = 2.0 * std::numbers::pi;
+
+struct Box {
+  Gate gate;
+  Model model;
+  std::vector<Node> pose;
+
+  explicit Box(const std::string& name) : gate(shipped_gate(name)) {
+    Gearbox::add_to(model, read_gltf(GEARSHIFT_ASSETS "/models/gearbox.glb"), gate);
+    pose = model.nodes;
+  }
+  const Node& node(const std::string& name) const {
+    REQUIRE(model.node(name) != kNone);
+    return pose[static_cast<std::size_t>(model.node(name))];
+  }
+  double angle(const std::string& name) const {  // [rad] about the shaft
+    const glm::quat q = node(name).rotation;
+    return 2.0 * std::atan2(static_cast<double>(q.z), static_cast<double>(q.w));
+  }
+  // [m] of the part's middle along the shaft, in its set.
+  double along(const std::string& name) const {
+    const Mesh& mesh = model.meshes[static_cast<std::size_t>(node(name).mesh)];
+    float low = 1e9f, high = -1e9f;
+    for (const Primitive& primitive : mesh.primitives) {
+      low = std::min(low, primitive.low.z);
+      high = std::max(high, primitive.high.z);
+    }
+    return static_cast<double>(0.5f * (low + high) + node(name).translation.z);
+  }
+};
+
+// The lever at that share of the way from the aisle to the slot's rest.
+glm::dvec2 on_the_way(const Gate& gate, const Slot& slot, double share) {
+  const double depth = gate.half_aisle + share * (slot.rest - gate.half_aisle);
+  return {column_of(gate, slot.column).center, static_cast<int>(slot.side) * depth};
+}
+
+std::string end_of(const Slot& slot) {
+  return (slot.side == Side::forward ? "Forward" : "Back") + std::to_string(slot.column);
+}
+
+}  // namespace
+
+TEST_CASE("the sleeve presses the ring of its gear onto that gear's cone, half a millimetre, and no other ring") {
+  for (const std::string& name : shipped_names()) {
+    CAPTURE(name);
+    Box box(name);
+    Gearbox gearbox(box.model, box.gate);
+    gearbox.place(box.gate, rest_position(box.gate, kNeutralGear), {}, 0.0, box.pose);
+    const std::vector<Node> rest = box.pose;
+    for (const Slot& slot : slots(box.gate)) {
+      CAPTURE(slot.gear);
+      const std::string end = end_of(slot);
+      box.pose = rest;
+      const double gap = std::abs(box.along("Gear" + end) - box.along("Ring" + end));
+      double last = gap;
+      for (const double share : {0.2, 0.4, 0.6, 0.8, 1.0}) {
+        gearbox.place(box.gate, on_the_way(box.gate, slot, share), {}, 0.0, box.pose);
+        const double now = std::abs(box.along("Gear" + end) - box.along("Ring" + end));
+        CHECK(now <= last + 1e-7);  // nearer to the gear, never farther
+        last = now;
+      }
+      CHECK(gap - last == doctest::Approx(0.0005).epsilon(1e-3));
+      for (const Slot& other : slots(box.gate)) {
+        if (other.gear == slot.gear) continue;
+        const auto ring = static_cast<std::size_t>(box.model.node("Ring" + end_of(other)));
+        CHECK(box.pose[ring].translation == rest[ring].translation);
+      }
+    }
+  }
+}
+
+// A free gear and the hub run at one speed when the gear drives the car: so they turn the same way, and a car that its
+// reverse gear drives goes back.
+TEST_CASE("a free gear turns as the hub would if that gear drove the car: reverse the other way than all others") {
+  for (const std::string& name : shipped_names()) {
+    CAPTURE(name);
+    Box box(name);
+    Gearbox gearbox(box.model, box.gate);
+    const glm::dvec2 neutral = rest_position(box.gate, kNeutralGear);
+    VehicleState car;
+    car.engine_speed = 100.0;
+    gearbox.place(box.gate, neutral, car, 0.0, box.pose);
+    const std::vector<Node> before = box.pose;
+    const auto turned = [&](const std::string& part) {
+      const double now = box.angle(part);
+      const glm::quat q = before[static_cast<std::size_t>(box.model.node(part))].rotation;
+      return std::remainder(now - 2.0 * std::atan2(static_cast<double>(q.z), static_cast<double>(q.w)), kTurn);
+    };
+    gearbox.place(box.gate, neutral, car, 0.05, box.pose);
+    double last = 0.0;
+    for (int gear = 1; gear <= kMaxGear; ++gear) {
+      const int slot = slot_of_gear(box.gate, gear);
+      if (slot == kNoSlot) continue;
+      const double way = turned("Gear" + end_of(slot_of(box.gate, slot)));
+      CHECK(way > last);  // forward, and a higher gear faster
+      last = way;
+    }
+    const double reverse = turned("Gear" + end_of(slot_of(box.gate, slot_of_gear(box.gate, kReverseGear))));
+    CHECK(reverse < 0.0);
+    for (const double driven : {0.5, -0.5}) {  // [m]
+      car.distance = driven;
+      gearbox.place(box.gate, neutral, car, 0.05, box.pose);
+      CHECK(turned("Hub0") * driven > 0.0);
+    }
+  }
+}
+
+}  // namespace gearshift

@@ -1,0 +1,87 @@
+// Where the hand and its ghost are drawn.
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include "app/stage/stage.h"
+#include "tests/support/gates.h"
+
+namespace gearshift {
+namespace {
+
+constexpr glm::dvec3 kPivot{0.330, 0.007, -0.270};  // [m] of the lever, from the cabin's notes
+
+// On the sphere of 0.12 m about the pivot, straight above the plane point.
+glm::dvec3 knob_above(glm::dvec2 p) {
+  return kPivot + glm::dvec3(p.x, std::sqrt(0.12 * 0.12 - p.x * p.x - p.y * p.y), -p.y);
+}
+
+// The skin of a node as it is drawn.
+std::vector<glm::dvec3> drawn_skin(const Stage& stage, const char* name) {
+  const auto node = static_cast<std::size_t>(stage.model().node(name));
+  const int mesh = stage.model().nodes[node].mesh;
+  const std::vector<DeformedMesh>& deformed = stage.scene().deformed;
+  const auto skin =
+      std::find_if(deformed.begin(), deformed.end(), [&](const DeformedMesh& d) { return d.mesh == mesh; });
+  REQUIRE(skin != deformed.end());
+  std::vector<glm::dvec3> points;
+  for (const Vertex& vertex : skin->vertices)
+    points.push_back(glm::dvec3(stage.scene().nodes[node].world * glm::vec4(vertex.position, 1.0f)));
+  return points;
+}
+
+double nearest(const std::vector<glm::dvec3>& points, glm::dvec3 to) {
+  double least = 1e9;
+  for (const glm::dvec3 point : points) least = std::min(least, glm::distance(point, to));
+  return least;
+}
+
+}  // namespace
+
+TEST_CASE("the hand holds the drawn knob and its ghost holds the ghost's: as far apart as drawn and true lever") {
+  StageConfig config;
+  config.gate = paper_gate();
+  Stage stage(config, GEARSHIFT_ASSETS "/models");
+  for (const auto& [proxy, lever] : {std::pair(glm::dvec2(-0.035, 0.020), glm::dvec2(-0.060, 0.020)),
+                                     {{0.0, 0.0}, {0.0, 0.025}},
+                                     {{0.035, -0.040}, {0.050, -0.060}}}) {
+    StageInput input;
+    input.lever.proxy = proxy;
+    input.lever.lever = lever;
+    input.lever.flags = kFlagGhost;
+    stage.place(input);
+    const std::vector<glm::dvec3> hand = drawn_skin(stage, "HandMesh"), ghost = drawn_skin(stage, "GhostHand");
+    const glm::dvec3 knob = knob_above(proxy), ghost_knob = knob_above(lever);
+    // The knob's radius is 24 mm: skin lies on it.
+    CHECK(nearest(hand, knob) > 0.015);
+    CHECK(nearest(hand, knob) < 0.030);
+    CHECK(nearest(ghost, ghost_knob) == doctest::Approx(nearest(hand, knob)).epsilon(1e-3));
+    REQUIRE(ghost.size() == hand.size());
+    for (std::size_t i = 0; i < hand.size(); i += 97)
+      CHECK(glm::distance(ghost[i] - hand[i], ghost_knob - knob) < 1e-5);
+  }
+}
+
+TEST_CASE("the ghost's hand is seen past the loop's flag only, as faint as the ghost's knob") {
+  StageConfig config;
+  config.gate = paper_gate();
+  Stage stage(config, GEARSHIFT_ASSETS "/models");
+  const auto state = [&](const char* name) -> const NodeState& {
+    return stage.scene().nodes[static_cast<std::size_t>(stage.model().node(name))];
+  };
+  StageInput input;
+  input.lever.lever = {0.03, 0.0};
+  stage.place(input);
+  CHECK_FALSE(state("GhostHand").visible);
+  input.lever.flags = kFlagGhost;
+  stage.place(input);
+  CHECK(state("GhostHand").visible);
+  CHECK(state("GhostHand").opacity == state("GhostKnob").opacity);
+  CHECK(state("GhostHand").opacity < 0.5f);
+  CHECK(state("HandMesh").opacity == 1.0f);
+}
+
+}  // namespace gearshift
