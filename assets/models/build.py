@@ -15,7 +15,7 @@ HERE = os.path.dirname(os.path.abspath(__file__))
 sys.path.insert(0, HERE)
 sys.dont_write_bytecode = True
 
-from craft import export, facing, materials, occlusion, preview, scene, textures  # noqa: E402
+from craft import export, facing, materials, occlusion, preview, scene, textures, visibility  # noqa: E402
 
 ARGUMENTS = sys.argv[sys.argv.index("--") + 1 :] if "--" in sys.argv else []
 
@@ -37,9 +37,11 @@ def build_cabin(path):
     scene.drop_leftovers()
     if "--facing" in ARGUMENTS:
         print("seen from behind, % of rays:", facing.seen_from_behind(sight.VIEWPOINTS))
+    parts = scene.meshes()
+    seen = visibility.seen_faces(parts, sight.VIEWPOINTS, sight.MOVING)
     if "--no-occlusion" not in ARGUMENTS:
-        hidden, faces = occlusion.add(sight.VIEWPOINTS, sight.density)
-        print("%d of %d faces are never seen" % (hidden, faces))
+        occlusion.add(seen, sight.density)
+    print("%d faces are never seen and left out" % visibility.cut(parts, seen, sight.MOVING))
     look(sight.CAMERAS, sight.HIDDEN)
     export.write(path, keep_uv=("KnobCap",))
 

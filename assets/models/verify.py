@@ -179,7 +179,15 @@ PIVOTS = {
     "BootRing": (0.330, 0.037, -0.270),
     "Handbrake": (0.335, -0.030, 0.170),
 }
-LAMPS = ("TurnLeft", "TurnRight", "Oil", "Battery", "Handbrake", "Engine", "Stall")
+LAMPS = {  # and the field of the print atlas that colours it: left edge [px]; 64 px square, from v = 580 px
+    "TurnLeft": 1648,
+    "TurnRight": 1648,
+    "Oil": 1488,
+    "Battery": 1488,
+    "Handbrake": 1488,
+    "Engine": 1568,
+    "Stall": 1568,
+}
 GEAR_STEP = 176 / 2048
 
 
@@ -292,9 +300,14 @@ def check_lamps(glb):
     for i, n in enumerate(glb.nodes):
         for p in glb.gltf["meshes"][n["mesh"]]["primitives"] if "mesh" in n else []:
             users.setdefault(glb.material(p)["name"], set()).add(n["name"])
-    for lamp in LAMPS:
-        name = "Lamp" + lamp
-        check(users.get(name) == {name}, name + " has a material of its own")
+    lamps = {"Lamp" + lamp for lamp in LAMPS}
+    check(users.get("Lamp") == lamps, "Lamp is the material of the %d lamps and of nothing else" % len(lamps))
+    for lamp, left in LAMPS.items():
+        uv = glb.attribute("Lamp" + lamp, "TEXCOORD_0")
+        inside = all(left < 2048 * u < left + 64 and 580 < 1024 * v < 644 for u, v in uv)
+        check(
+            inside and len(glb.primitives("Lamp" + lamp)) == 1, "Lamp%s is one draw in the field of its colour" % lamp
+        )
 
 
 def check_mirrors(glb):
@@ -308,7 +321,8 @@ def check_mirrors(glb):
 
 def check_cabin():
     glb = Glb("cabin.glb")
-    check_budget(glb, 40000, 80000, 15)
+    check_budget(glb, 40000, 65000, 15)
+    check(len(glb.gltf["materials"]) <= 16, "cabin: at most 16 materials")
     check_attributes(glb)
     check_pivots(glb)
     check_needle(glb, "TachNeedle", 8, {0: -135, 4: 0, 8: 135})
@@ -382,9 +396,16 @@ def check_hand():
     check(max(abs(sum(w) - 1) for w in weights) < 1e-5, "hand: weights sum to 1")
 
 
+TREES = ("TreeBroad", "TreeSpruce", "Bush")
+
+
 def check_road():
     glb = Glb("road.glb")
-    check_budget(glb, 500, 15000, 3)
+    check_budget(glb, 500, 2000, 3)
+    trees = {n: sum(glb.gltf["accessors"][p["indices"]]["count"] // 3 for p in glb.primitives(n)) for n in TREES}
+    check(all(n <= 250 for n in trees.values()), "road: at most 250 triangles a tree, %s" % trees)
+    leaves = next(m for m in glb.gltf["materials"] if m["name"] == "Leaves")
+    check(leaves.get("alphaMode") == "MASK", "road: leaves have holes")
     check_attributes(glb)
     low, high = reach(glb, "Road")
     check(abs(low + 6) < 1e-4 and abs(high - 6) < 1e-4, "road: a tile is 12 m long")

@@ -28,7 +28,7 @@ def build():
     build_cover()
 
 
-def arch(y, half_w, top, foot, n=22, e=3.2):
+def arch(y, half_w, top, foot, n=30, e=3.2):
     angles = [pi - pi * i / n for i in range(n + 1)]
     return [(half_w * super_power(cos(a), e), y, foot + (top - foot) * super_power(max(0, sin(a)), e)) for a in angles]
 
@@ -49,7 +49,7 @@ def build_hood():
         (0.90, 0.195, 0.425, 0.36),
     )
     part = Part("ClusterHood", parent="Dashboard", smooth=50)
-    part.loft([arch(*s) for s in sections], "PlasticSoft", closed=False, sub=1)
+    part.loft([arch(*s) for s in sections], "PlasticSoft", closed=False)
     part.build()
 
 
@@ -75,7 +75,7 @@ def build_dial(name, side):
     blade = [(-0.0017, -0.005), (0.0017, -0.005), (0.0007, DIAL_R * 0.89), (-0.0007, DIAL_R * 0.89)]
     needle.panel(D, blade, 0.0045, 0.0056, "Needle", bevel=0.0003, seg=1)
     cap = [(0.0085, 0.001), (0.0085, 0.0065), (0.0075, 0.008), (0.0002, 0.0083)]
-    needle.lathe(D, cap, "PlasticGloss", n=24)
+    needle.lathe(D, cap, "PlasticGloss", n=18)
     needle.build()
     # at rest on zero: about Blender's -Y, which is glTF's +Z
     scene.rest_rotation(name + "Needle", Matrix.Rotation(radians(-DIAL_SWEEP / 2), 4, "Y"))
@@ -120,14 +120,14 @@ ENGINE = [(-4, -2.6), (2, -2.6), (3.2, -1.4), (4.4, -1.4), (4.4, 1.2), (3.2, 1.2
 ENGINE += [(-5.6, 1.0), (-5.6, -1.4), (-4, -1.4)]
 TRIANGLE_LEG = [(0, 3.4), (-4, -2.8), (-2.9, -2.8), (0, 1.7)]
 STALL = [TRIANGLE_LEG, mirrored(TRIANGLE_LEG), bar(0, -2.5, 6.4, 0.7), bar(0, -0.3, 0.8, 1.8), bar(0, -1.6, 0.8, 0.6)]
-LAMPS = (  # node and material, x and z in the cluster [mm], outlines [mm]
-    ("LampTurnLeft", -26, 45, [ARROW]),
-    ("LampTurnRight", 26, 45, [mirrored(ARROW)]),
-    ("LampOil", -13, -21, [OIL_CAN, DROP]),
-    ("LampBattery", 0, -11, BATTERY),
-    ("LampHandbrake", 13, -21, BRAKE),
-    ("LampEngine", -8, -32, [ENGINE, bar(-0.5, 3, 4, 0.8)]),
-    ("LampStall", 8, -32, STALL),
+LAMPS = (  # node, field of the print atlas, x and z in the cluster [mm], outlines [mm]
+    ("LampTurnLeft", "green", -26, 45, [ARROW]),
+    ("LampTurnRight", "green", 26, 45, [mirrored(ARROW)]),
+    ("LampOil", "red", -13, -21, [OIL_CAN, DROP]),
+    ("LampBattery", "red", 0, -11, BATTERY),
+    ("LampHandbrake", "red", 13, -21, BRAKE),
+    ("LampEngine", "amber", -8, -32, [ENGINE, bar(-0.5, 3, 4, 0.8)]),
+    ("LampStall", "amber", 8, -32, STALL),
 )
 
 
@@ -136,11 +136,13 @@ def counter_clockwise(outline):
     return outline if area > 0 else outline[::-1]
 
 
-def build_lamp(name, x, z, outlines):
+def build_lamp(name, colour, x, z, outlines):
+    """One node, lit alone by its node's emission; all lamps share a material, its picture gives the colour."""
     L = shifted(x / 1e3, -0.0012, z / 1e3)
+    field = (prints.rect(colour), L, 0.03, 0.03)
     part = Part(name, L, "Cluster")
     for outline in outlines:
-        part.flat(L, [(a / 1e3, b / 1e3) for a, b in counter_clockwise(outline)], 0, name)
+        part.flat(L, [(a / 1e3, b / 1e3) for a, b in counter_clockwise(outline)], 0, "Lamp", field)
     part.build()
 
 

@@ -85,11 +85,11 @@ def add_speaker(part, side):
     """Grille with concentric ribs."""
     F = on_wall(side, 0.66, -0.01, 0.026)
     ribs = []
-    for i in range(6):
-        r, h = 0.078 - 0.012 * i, 0.004 + 0.0012 * i
-        ribs += [(r, h), (r - 0.004, h + 0.0024), (r - 0.008, h)]
-    part.lathe(F, [(0.088, -0.012), (0.088, 0.006), (0.084, 0.010)] + ribs + [(0.0005, 0.011)], "PlasticHard", n=30)
-    part.lathe(F, [(0.089, 0.002), (0.0905, 0.006), (0.0875, 0.0105), (0.0855, 0.0098)], "MetalSatin", n=30)
+    for i in range(5):
+        r, h = 0.079 - 0.0145 * i, 0.004 + 0.0012 * i
+        ribs += [(r, h), (r - 0.0045, h + 0.0032), (r - 0.0095, h)]
+    part.lathe(F, [(0.088, 0.004), (0.084, 0.010)] + ribs + [(0.0005, 0.010)], "PlasticHard", n=20)
+    part.lathe(F, [(0.089, 0.002), (0.0905, 0.006), (0.0875, 0.0105), (0.0855, 0.0098)], "MetalSatin", n=28)
 
 
 def add_pull(part, side):

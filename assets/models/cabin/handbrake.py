@@ -43,5 +43,5 @@ def build_gaiter():
         (0.45, 0.03, -0.010),
     )
     rings = [[(CENTRE_X + x * k, -0.145 + y * k + forward, z) for x, y in base] for k, forward, z in folds]
-    part.loft(rings, "Leather", sub=1)
+    part.loft(rings, "Leather")
     part.build()

@@ -50,7 +50,7 @@ def build_gate_frame():
     for sx in (-1, 1):
         for sz in (-1, 1):
             S = GATE_FACE @ Matrix.Translation((sx * 0.0565, 0, sz * 0.0605))
-            part.lathe(S, screw, "PlasticGloss", n=14)
+            part.lathe(S, screw, "PlasticGloss", n=10)
     part.build()
     scene.empty("GateMount", GATE, "Console")
 
@@ -75,9 +75,9 @@ def boot_ring(t, base):
     return ring
 
 
-def build_boot(rings=24):
+def build_boot(rings=21):
     part = Part("Boot", GATE, "Console", smooth=70)
-    base = rounded(0.090, 0.098, 0.020, 13)
+    base = rounded(0.090, 0.098, 0.020, 10)
     part.loft([boot_ring(k / (rings - 1), base) for k in range(rings)], "Leather", caps=False)
     part.build()
     ring = Part("BootRing", GATE, "Boot")
@@ -110,7 +110,7 @@ def build_knob():
     part = Part("Knob", KNOB_CENTRE, "LeverPivot", smooth=50)
     profile = [(0.0085, -0.027), (0.0105, -0.0265), (0.0128, -0.0235), (0.0165, -0.0165), (0.0205, -0.008)]
     profile += [(0.0232, 0.000), (R, 0.006), (0.0232, 0.0115), (0.0215, 0.0158), (0.0188, 0.0188), (0.0180, 0.0192)]
-    part.lathe(K, [(p.x, p.y) for p in smooth_path([(r, d, 0) for r, d in profile], 2)], "Leather", n=28)
+    part.lathe(K, [(p.x, p.y) for p in smooth_path([(r, d, 0) for r, d in profile], 2)], "Leather", n=26)
     ring = [(0.0186, 0.0180), (0.0186, 0.0196), (0.0178, 0.0204), (0.0168, 0.0200), (0.0165, 0.0190)]
     part.lathe(K, ring, "MetalSatin", n=40)
     part.build()

@@ -19,7 +19,7 @@ def build_interior_mirror():
     part = Part("InteriorMirrorHousing", F, "InteriorMirror", smooth=50)
 
     def ring(k, depth):
-        return [at(F, x * k, depth, z * k) for x, z in superellipse(0.122, 0.034, 4.5, 36)]
+        return [at(F, x * k, depth, z * k) for x, z in superellipse(0.122, 0.034, 4.5, 28)]
 
     shell = ((0.30, -0.034), (0.61, -0.030), (0.90, -0.016), (1.0, -0.002), (1.0, 0.003), (0.975, 0.0045))
     shell += ((0.95, 0.0035), (0.945, 0.0))
@@ -28,7 +28,7 @@ def build_interior_mirror():
     part.tube(stalk, [0.010, 0.009, 0.018], "PlasticHard", n=12)
     part.build()
     surface = Part("InteriorMirrorSurface", F, "InteriorMirror")
-    surface.flat(F, superellipse(0.1145, 0.0315, 4.5, 36), 0.001, "Mirror")
+    surface.flat(F, superellipse(0.1145, 0.0315, 4.5, 28), 0.001, "Mirror")
     surface.build()
 
 

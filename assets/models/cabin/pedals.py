@@ -17,7 +17,7 @@ def build_pedal(name, x, w, h):
         y, z = y + 0.035, z - 0.015
     part = Part("Pedal" + name, (x, py, pz), "Cabin")
     bends = [(x, py, pz), (x, py - 0.015, pz - 0.09), (x, py - 0.012, pz - 0.16), (x, y + 0.012, z + 0.02)]
-    part.tube(smooth_path(bends + [(x, y + 0.010, z)], 4), 0.0095, "MetalSatin", n=10)
+    part.tube(smooth_path(bends + [(x, y + 0.010, z)], 2), 0.0095, "MetalSatin", n=8)
     part.tube([(x - 0.022, py, pz), (x + 0.022, py, pz)], 0.014, "PlasticHard", n=16)
     F = frame((x, y, z), 42 if is_throttle else 34)
     part.panel(F, rounded(w, h, 0.010), -0.006, 0.003, "MetalSatin", bevel=0.002, seg=1)

@@ -143,7 +143,7 @@ def build_headrest(name, B):
         (0.79, 0.120, 0.042, -0.040),
         (0.803, 0.095, 0.026, -0.046),
     )
-    rings = [[tuple(B @ Vector((x, f + y, h))) for x, y in superellipse(a, t, 3, 24)] for h, a, t, f in sections]
+    rings = [[tuple(B @ Vector((x, f + y, h))) for x, y in superellipse(a, t, 3, 16)] for h, a, t, f in sections]
     part.loft(rings, "Leather", sub=1)
     part.build()
 

@@ -94,11 +94,11 @@ def build_roof():
     rows = []
     for y, rail, middle in stations:
         rows.append([(CENTRE_X + u * (HALF_ROOF + 0.02), y, lerp(middle, rail, abs(u) ** 2.6)) for u in across])
-    part.sheet(rows, "Headliner", thick=0, sub=1)
+    part.sheet(rows, "Headliner", thick=0)
     F = frame((CENTRE_X, 0.34, 0.902), -78)
     dome = [(0.0005, 0.020), (0.040, 0.018), (0.062, 0.012), (0.066, 0.004), (0.066, -0.02)]
-    part.lathe(F, dome, "Headliner", n=32)
-    part.lathe(F, [(0.0005, 0.0215), (0.036, 0.0195), (0.038, 0.016), (0.038, -0.01)], "PlasticHard", n=28)
+    part.lathe(F, dome, "Headliner", n=24)
+    part.lathe(F, [(0.0005, 0.0215), (0.036, 0.0195), (0.038, 0.016), (0.038, -0.01)], "PlasticHard", n=20)
     bends = ((0.10, 0.885), (0.09, 0.858), (0.0, 0.850), (-0.09, 0.858), (-0.10, 0.885))
     grip = [(CENTRE_X + HALF_ROOF - 0.028, y, z) for y, z in bends]
     part.tube(smooth_path(grip, 4), 0.0085, "Headliner", n=10)
@@ -109,7 +109,7 @@ def build_visor(name, side):
     hinge = Vector((CENTRE_X + side * 0.30, 0.425, 0.876))
     part = Part("SunVisor" + name, hinge, "Cabin")
     outline = rounded(0.36, 0.135, 0.035, 5, cx=0, cy=0.075)
-    part.panel(frame(hinge, -74), outline, -0.012, 0.006, "Headliner", bevel=0.007, seg=3)
+    part.panel(frame(hinge, -74), outline, -0.012, 0.006, "Headliner", bevel=0.007, seg=2)
     part.build()
 
 

@@ -19,7 +19,17 @@ VIEWPOINTS = [
     (0.0, 0.60, -0.05),
     (0.33, -0.60, 0.70),
     (0.33, 0.75, 0.75),
+    (0.07, 0.20, 0.36),  # the stage's cameras: lever, gate, cluster, gearbox
+    (0.235, 0.175, 0.275),
+    (0.0, 0.475, 0.455),
+    (0.56, 0.12, 0.45),
+    (-0.10, -0.12, 0.58),  # heads about the driver's place
+    (0.12, 0.10, 0.62),
+    (0.0, 0.05, 0.72),
+    (0.33, 0.47, 0.79),  # the interior mirror
 ]
+# What another pose shows from behind: hides nothing and is never cut.
+MOVING = ("SteeringWheel", "Pedal", "Handbrake", "Lever", "Knob", "Boot", "TachNeedle", "SpeedNeedle", "SunVisor")
 NEAR = ("Knob", "Boot", "GatePlate", "Lever", "Cluster", "Tach", "Speed", "Gear", "SteeringWheel")
 CLOSE = (
     "Console",

@@ -35,7 +35,7 @@ def add_radio(part):
     bezel(part, edge, rounded(0.250, 0.129, 0.016), rounded(0.244, 0.123, 0.013), -0.01, 0.003, 0, "MetalSatin")
     knob = [(0.0135, 0), (0.013, 0.010), (0.011, 0.0125), (0.0005, 0.0127)]
     for side in (-1, 1):
-        part.lathe(shifted(side * 0.1003, -0.004, 0.016), knob, "PlasticHard", n=24)
+        part.lathe(shifted(side * 0.1003, -0.004, 0.016), knob, "PlasticHard", n=18)
     for i in range(5):
         key = rounded(0.030, 0.011, 0.003, cx=(i - 2) * 0.036, cy=-0.057)
         part.panel(F, key, 0, 0.0035, "PlasticHard", bevel=0.001, seg=1)
@@ -56,8 +56,8 @@ def add_climate(part):
     ring = [(0.0215, 0.0028), (0.0222, 0.0045), (0.0215, 0.0062), (0.0205, 0.0064)]
     for i in (-1, 0, 1):
         K = shifted(i * 0.0738, -0.004, -0.098)
-        part.lathe(K, knob + [(0.0005, 0.0165)], "PlasticHard", n=26)
-        part.lathe(K, ring, "MetalSatin", n=26)
+        part.lathe(K, knob + [(0.0005, 0.0165)], "PlasticHard", n=20)
+        part.lathe(K, ring, "MetalSatin", n=20)
         part.box((0, -0.0172, 0.013), (0.0018, 0.002, 0.010), "Headliner", K, bevel=0.0005, seg=1)
 
 

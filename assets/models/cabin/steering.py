@@ -30,14 +30,14 @@ def build():
 
 
 def add_rim(part):
-    n = 64
+    n = 56
     angles = [2 * pi * i / n for i in range(n)]
     grips = radians(38), radians(142)
     radii = [RIM_R * (1 + 0.13 * sum(bump(a, g, 0.16) for g in grips)) for a in angles]
     part.tube([at(F, RADIUS * cos(a), 0, RADIUS * sin(a)) for a in angles], radii, "Leather", n=12, loop=True)
     inner = RADIUS - RIM_R
     seam = [at(F, inner * cos(2 * pi * i / 60), 0, inner * sin(2 * pi * i / 60)) for i in range(60)]
-    part.tube(seam, 0.0011, "Stitch", n=4, loop=True)
+    part.tube(seam, 0.0011, "Stitch", n=3, loop=True)
 
 
 def add_spoke(part, angle, w0, w1):
@@ -87,24 +87,23 @@ def add_buttons(part, side):
 def add_airbag(part):
     def ring(k, depth):
         points = []
-        for x, z in superellipse(0.070 * k, 0.062 * k, 2.5, 36):
-            wide = 1 + 0.10 * max(z, 0) / 0.062
-            drop = 0.010 * (1 - abs(x) / 0.08) * k if z < 0 else 0
-            points.append(at(F, x * wide, depth, z - 0.004 - drop))
+        for x, z in superellipse(0.062 * k, 0.052 * k, 2.8, 32):
+            wide = 1 + 0.10 * max(z, 0) / 0.052
+            drop = 0.008 * (1 - abs(x) / 0.07) * k if z < 0 else 0
+            points.append(at(F, x * wide, depth, z - 0.002 - drop))
         return points
 
-    profile = ((0.80, -0.062), (0.97, -0.040), (1.0, -0.022), (0.985, -0.010), (0.93, -0.002), (0.80, 0.004))
-    profile += ((0.55, 0.0085), (0.28, 0.0105), (0.06, 0.0108))
+    profile = ((0.80, -0.062), (0.97, -0.040), (1.0, -0.022), (0.985, -0.010), (0.95, -0.003), (0.90, 0.001))
+    groove = ((0.885, -0.001), (0.87, -0.001), (0.855, 0.0022))
+    profile += groove + ((0.72, 0.0062), (0.50, 0.0090), (0.26, 0.0103), (0.06, 0.0106))
     part.loft([ring(*p) for p in profile], "PlasticSoft")
-    emblem = F @ Matrix.Translation((0, -0.0105, 0.004))
-    outer = [(0.0215, -0.004), (0.0215, 0.001), (0.0195, 0.0022), (0.0175, 0.001), (0.0172, -0.001)]
-    part.lathe(emblem, outer, "MetalSatin", n=36)
-    part.lathe(
-        emblem,
-        [(0.0172, -0.004), (0.0172, 0), (0.0130, 0.0010), (0.0122, 0.0002), (0.0112, 0.0011), (0.0002, 0.0018)],
-        "MetalSatin",
-        n=28,
-    )
+    emblem = F @ Matrix.Translation((0, -0.0103, 0.003))
+    outer = [(0.0170, -0.003), (0.0170, 0.001), (0.0156, 0.0020), (0.0144, 0.0010), (0.0141, -0.0004)]
+    part.lathe(emblem, outer, "MetalSatin", n=28)
+    part.lathe(emblem, [(0.0142, -0.0002), (0.0075, 0.0006), (0.0002, 0.0008)], "PlasticGloss", n=24)
+    for x in (-1, 0, 1):  # a gate of three slots: our own sign
+        part.box((x * 0.0058, -0.0010, 0), (0.0016, 0.0012, 0.0140), "MetalSatin", emblem, bevel=0)
+    part.box((0, -0.0010, 0), (0.0116, 0.0012, 0.0016), "MetalSatin", emblem, bevel=0)
 
 
 def build_shroud():
@@ -112,7 +111,7 @@ def build_shroud():
     sections = ((-0.058, 0.046, 0.046), (-0.064, 0.052, 0.052), (-0.09, 0.055, 0.056), (-0.16, 0.058, 0.062))
     sections += ((-0.30, 0.062, 0.070),)
     rings = [[at(F, x, d, z - 0.008) for x, z in superellipse(a, b, 3.2, 24)] for d, a, b in sections]
-    part.loft(rings, "PlasticHard", sub=1)
+    part.loft(rings, "PlasticHard")
     lock = F @ Matrix.Translation((0.062, 0.125, -0.012)) @ Matrix.Rotation(radians(60), 4, "Z")
     profile = [(0.015, -0.012), (0.015, 0.001), (0.013, 0.003), (0.009, 0.003), (0.008, 0), (0.0002, 0)]
     part.lathe(lock, profile, "MetalSatin", n=24)

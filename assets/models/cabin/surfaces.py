@@ -4,31 +4,20 @@ from craft.materials import material
 
 from cabin.dimensions import DIAL_SWEEP, SPEED_TOP, TACH_RED, TACH_TOP
 
-RED, AMBER, GREEN = (1.0, 0.03, 0.02), (1.0, 0.42, 0.02), (0.05, 1.0, 0.16)
-LAMPS = {
-    "LampTurnLeft": GREEN,
-    "LampTurnRight": GREEN,
-    "LampOil": RED,
-    "LampBattery": RED,
-    "LampHandbrake": RED,
-    "LampEngine": AMBER,
-    "LampStall": AMBER,
-}
-
 
 def make_all():
     plastic, leather, felt = textures.plastic(), textures.leather(), textures.felt()
     fabric, fabric_normals = textures.fabric()
     printed, glowing = prints.draw_all(DIAL_SWEEP, TACH_TOP, TACH_RED, SPEED_TOP)
 
-    material("PlasticSoft", (0.044, 0.042, 0.039), 0.80, normals=plastic, bump=0.9, repeats=12)
-    material("PlasticHard", (0.062, 0.059, 0.054), 0.60, normals=plastic, bump=0.6, repeats=14)
+    material("PlasticSoft", (0.052, 0.051, 0.050), 0.80, normals=plastic, bump=0.9, repeats=12)
+    material("PlasticHard", (0.118, 0.114, 0.108), 0.60, normals=plastic, bump=0.6, repeats=14)
     material("PlasticGloss", (0.006, 0.006, 0.007), 0.14)
     material("Fabric", (0.05, 0.05, 0.05), 0.93, texture=fabric, normals=fabric_normals, repeats=14)
-    material("Leather", (0.037, 0.034, 0.0315), 0.50, normals=leather, bump=0.7, repeats=15, two_sided=True)
+    material("Leather", (0.050, 0.048, 0.046), 0.50, normals=leather, bump=0.7, repeats=15, two_sided=True)
     material("MetalSatin", (0.40, 0.40, 0.405), 0.40, metal=1.0)
-    material("Headliner", (0.50, 0.465, 0.415), 0.95, normals=felt, bump=0.5, repeats=10, two_sided=True)
-    material("Carpet", (0.052, 0.049, 0.045), 1.0, normals=felt, repeats=9, two_sided=True)
+    material("Headliner", (0.60, 0.57, 0.52), 0.95, normals=felt, bump=0.5, repeats=10, two_sided=True)
+    material("Carpet", (0.105, 0.101, 0.096), 1.0, normals=felt, repeats=9, two_sided=True)
     material("Stitch", (0.3, 0.02, 0.015), 0.8, texture=textures.stitches(), repeats=150)
     material("Prints", (0.5, 0.5, 0.5), 0.42, texture=printed, emit_texture=glowing)
     material("KnobCap", (0.02, 0.02, 0.02), 0.35, texture=textures.knob_cap(), occlusion=False)
@@ -36,5 +25,4 @@ def make_all():
     material("Glass", (0.03, 0.05, 0.045), 0.02, alpha=0.06, two_sided=True, occlusion=False)
     material("Mirror", (0.92, 0.93, 0.95), 0.02, metal=1.0, occlusion=False)
     material("BodyPaint", (0.20, 0.012, 0.010), 0.28, metal=0.15, two_sided=True, occlusion=False)
-    for name, light in LAMPS.items():
-        material(name, tuple(0.25 * c for c in light), 0.4, emit=light, occlusion=False)
+    material("Lamp", (0.5, 0.5, 0.5), 0.4, texture=printed, emit_texture=glowing, occlusion=False)

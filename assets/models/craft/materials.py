@@ -35,11 +35,13 @@ def material(
     emit=None,
     emit_texture=None,
     alpha=1.0,
+    cutoff=None,
     two_sided=False,
     repeats=8.0,
     occlusion=True,
 ):
-    """colour, emit: linear; occlusion: whether the baked ambient occlusion is laid over it."""
+    """colour, emit: linear; cutoff: what the texture's alpha leaves below it is a hole; occlusion: whether the baked
+    ambient occlusion is laid over it."""
     m = bpy.data.materials.new(name)
     m.use_nodes = True
     tree = m.node_tree
@@ -50,7 +52,11 @@ def material(
     inputs["Specular"].default_value = 0.5
     inputs["Emission"].default_value = (*(emit or (0, 0, 0)), 1)
     if texture:
-        tree.links.new(image_node(tree, texture).outputs[0], inputs["Base Color"])
+        picture = image_node(tree, texture)
+        tree.links.new(picture.outputs[0], inputs["Base Color"])
+        if cutoff:
+            tree.links.new(picture.outputs["Alpha"], inputs["Alpha"])
+            m.blend_method, m.alpha_threshold = "CLIP", cutoff
     if normals:
         map_node = tree.nodes.new("ShaderNodeNormalMap")
         map_node.inputs["Strength"].default_value = bump

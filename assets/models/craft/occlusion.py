@@ -1,66 +1,25 @@
 """Ambient occlusion baked into a second UV set.
 
-Faces that no viewpoint in the cabin sees share one texel; what is near the hands gets more texels than the roof.
+Faces that no viewpoint in the cabin sees share one texel; what is near the hands gets more texels than the roof. Two
+reaches: the near one draws contacts and seams, the far one darkens foot wells and what is under the dashboard.
 """
 import os
 
 import bpy
 import numpy as np
-from mathutils import Vector
-from mathutils.bvhtree import BVHTree
 from PIL import Image
 
 from craft import atlas, scene, textures
 from craft.materials import MATERIALS, load_image
 
-SIZE, SAMPLES, REACH = 2048, 64, 0.30  # texels a side, rays a texel, m
+SIZE = 2048  # texels a side
+NEAR, FAR = (SIZE, 0.25, 48), (SIZE // 2, 0.90, 48)  # texels a side, reach [m], rays a texel
+FAR_SHARE = 0.40  # of the far picture: most of a cabin's walls are within its reach of another one
 FLOOR = 0.26  # darkest value: light has bounced more than once
 
 
 def wanted(ob):
     return any(m and m["occlusion"] for m in ob.data.materials)
-
-
-def sees_through(ob):
-    return any(m and m.name in ("Glass",) for m in ob.data.materials)
-
-
-def world_tree(objects):
-    """All faces in world coordinates, for rays."""
-    verts, faces = [], []
-    for o in objects:
-        first, world = len(verts), scene.WORLD[o.name]
-        verts += [world @ v.co for v in o.data.vertices]
-        faces += [[first + v for v in p.vertices] for p in o.data.polygons]
-    return BVHTree.FromPolygons(verts, faces)
-
-
-def is_seen(tree, points, normal, viewpoints):
-    for eye in viewpoints:
-        for p in points:
-            ray = p - eye
-            if ray.dot(normal) >= 0:
-                continue
-            distance = ray.length
-            hit = tree.ray_cast(eye, ray / distance, distance - 0.002)
-            if hit[0] is None:
-                return True
-    return False
-
-
-def seen_faces(ob, tree, viewpoints):
-    """One flag a face: whether its middle or a point near a corner is seen."""
-    world = scene.WORLD[ob.name]
-    turn = world.to_3x3()
-    flags = []
-    for p in ob.data.polygons:
-        middle, normal = world @ p.center, turn @ p.normal
-        corners = [world @ ob.data.vertices[v].co for v in p.vertices]
-        points = [middle] + [middle.lerp(c, 0.8) for c in corners]
-        two_sided = not ob.data.materials[p.material_index].use_backface_culling
-        seen = is_seen(tree, points, normal, viewpoints)
-        flags.append(seen or (two_sided and is_seen(tree, points, -normal, viewpoints)))
-    return flags
 
 
 def unwrap(objects, hidden, density):
@@ -109,32 +68,38 @@ def joined_copy(objects):
     return bpy.context.view_layer.objects.active
 
 
-def bake(objects):
-    """Bakes and saves the occlusion picture. Returns its path."""
+def openness(node, side, reach, rays):
+    """Share of the rays that meet nothing within their reach, SIZE x SIZE. node: of the picture that is baked."""
     sc = bpy.context.scene
-    sc.render.engine, sc.cycles.samples, sc.cycles.seed = "CYCLES", SAMPLES, 0
+    node.image = bpy.data.images.new("occlusion", side, side)
+    node.image.colorspace_settings.name = "Non-Color"
+    sc.render.engine, sc.cycles.samples, sc.cycles.seed = "CYCLES", rays, 0
     sc.cycles.use_denoising = False  # Debian's Blender has no denoiser: left on, the bake comes out black
     sc.world = sc.world or bpy.data.worlds.new("world")
-    sc.world.light_settings.distance = REACH
+    sc.world.light_settings.distance = reach
+    bpy.ops.object.bake(type="AO", margin=3, use_clear=True)
+    values = np.empty(side * side * 4, np.float32)
+    node.image.pixels.foreach_get(values)
+    values = np.clip(values.reshape(side, side, 4)[::-1, :, 0], 0, 1)
+    return np.array(Image.fromarray(values).resize((SIZE, SIZE), Image.BILINEAR))
+
+
+def bake(objects):
+    """Bakes and saves the occlusion picture. Returns its path."""
     for o in scene.meshes():
         o.hide_render = True
     whole = joined_copy(objects)
-    picture = bpy.data.images.new("occlusion", SIZE, SIZE)
-    picture.colorspace_settings.name = "Non-Color"
     target = bpy.data.materials.new("bake")
     target.use_nodes = True
     node = target.node_tree.nodes.new("ShaderNodeTexImage")
-    node.image = picture
     target.node_tree.nodes.active = node
     for i in range(len(whole.data.materials)):
         whole.data.materials[i] = target
     layer = whole.data.uv_layers["UVAO"]
     whole.data.uv_layers.active = layer
     layer.active_render = True
-    bpy.ops.object.bake(type="AO", margin=3, use_clear=True)
-    values = np.empty(SIZE * SIZE * 4, np.float32)
-    picture.pixels.foreach_get(values)
-    path = save_occlusion(values.reshape(SIZE, SIZE, 4)[::-1, :, 0])
+    near, far = openness(node, *NEAR), openness(node, *FAR)
+    path = save_occlusion(near * (1 - FAR_SHARE + FAR_SHARE * far))
     mesh = whole.data  # an orphan mesh with an empty slot crashes the exporter: remove it too
     bpy.data.objects.remove(whole)
     bpy.data.meshes.remove(mesh)
@@ -148,7 +113,7 @@ def bake(objects):
 
 
 def save_occlusion(values):
-    softened = FLOOR + (1 - FLOOR) * np.clip(values, 0, 1) ** 0.8
+    softened = FLOOR + (1 - FLOOR) * values**0.8
     softened[-2:, :2] = 0.5  # the texel of all hidden faces
     path = os.path.join(textures.FOLDER, "occlusion.jpg")
     Image.fromarray((softened * 255).astype(np.uint8)).convert("RGB").save(path, quality=88)
@@ -180,11 +145,10 @@ def connect(path):
                 tree.links.new(first.outputs[0], n.inputs[0])
 
 
-def add(viewpoints, density):
-    """Second UV set, bake and connection for all objects whose materials take occlusion."""
+def add(seen, density):
+    """Second UV set, bake and connection for all objects whose materials take occlusion. seen: {object's name: one
+    flag a face}."""
     objects = [o for o in scene.meshes() if wanted(o)]
-    tree = world_tree([o for o in scene.meshes() if not sees_through(o)])
-    hidden = {o.name: [not s for s in seen_faces(o, tree, [Vector(v) for v in viewpoints])] for o in objects}
+    hidden = {o.name: [not s for s in seen[o.name]] for o in objects}
     unwrap(objects, hidden, density)
     connect(bake(objects))
-    return sum(sum(h) for h in hidden.values()), sum(len(h) for h in hidden.values())

@@ -21,7 +21,11 @@ PIXELS = {
     "climate": (1344, 400, 2048, 576),
     "hazard": (1344, 580, 1472, 644),
     "gear": (GEAR_CELL, DIAL, 2 * GEAR_CELL, DIAL + GEAR_CELL),
+    "red": (1488, 580, 1552, 644),
+    "amber": (1568, 580, 1632, 644),
+    "green": (1648, 580, 1712, 644),
 }
+LAMPS = {"red": (255, 48, 39), "amber": (255, 173, 39), "green": (63, 255, 112)}  # sRGB, lit
 FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf"
 OVER = 2  # supersampling
 WHITE, GREY = (236, 238, 240), (150, 158, 166)
@@ -98,29 +102,51 @@ def draw_dial(sheet, name, top, major, minor, label, unit, sweep, red=None, px=4
         value = i * minor
         is_major = i % round(major / minor) == 0
         colour = (235, 50, 40) if red is not None and value >= red - 1e-6 else WHITE
-        ends = polar(value, 238), polar(value, 204 if is_major else 222)
-        sheet.line(*ends, (6 if is_major else 2.6) * s, colour)
+        ends = polar(value, 238), polar(value, 206 if is_major else 222)
+        sheet.line(*ends, (7 if is_major else 3) * s, colour, 0.8)
         if is_major:
-            sheet.text(*polar(value, 170), label(value), px * s, colour)
-    sheet.text(cx, cy + 92 * s, unit, 21 * s, GREY)
+            sheet.text(*polar(value, 166), label(value), px * s, colour, 0.85)
+    sheet.text(cx, cy + 92 * s, unit, 25 * s, GREY, 0.8)
     sheet.disc(cx, cy, face, outline=(60, 62, 66), width=int(3 * s * OVER))
 
 
+def draw_map(sheet, area, at):
+    """Roads across a dark ground, the way ahead in blue, an arrow for the car. at: picture's unit square -> pixels."""
+    sheet.box(area, (16, 24, 30), (10, 16, 20), 10)
+    roads = (((0.02, 0.62), (0.36, 0.50), (0.60, 0.10)), ((0.10, 0.16), (0.30, 0.52), (0.34, 0.96)))
+    roads += (((0.30, 0.30), (0.60, 0.42)), ((0.04, 0.86), (0.60, 0.78)), ((0.46, 0.16), (0.50, 0.96)))
+    for road in roads:
+        for p, q in zip(road, road[1:]):
+            sheet.line(at(*p), at(*q), 7, (74, 86, 94), 0.8)
+    way = ((0.33, 0.80), (0.325, 0.60), (0.36, 0.50), (0.46, 0.34), (0.56, 0.17))
+    for p, q in zip(way, way[1:]):
+        sheet.line(at(*p), at(*q), 9, (70, 150, 240), 0.95)
+    tip, left, notch, right = (
+        at(0.33 + dx, 0.80 + dy) for dx, dy in ((0, -0.07), (-0.022, 0.05), (0, 0.02), (0.022, 0.05))
+    )
+    arrow = [(x * OVER, y * OVER) for x, y in (tip, left, notch, right)]
+    sheet.both(lambda d, c: d.polygon(arrow, fill=c), (245, 248, 250), (235, 240, 245))
+
+
 def draw_screen(sheet):
+    """Navigation on the left, radio on the right, a row of keys below."""
     left, top, right, bottom = PIXELS["screen"]
-    k = (right - left) / 512
-    x, y = (lambda v: left + v * k), (lambda v: top + v * k)
-    sheet.box(PIXELS["screen"], (9, 13, 19), (6, 10, 16))
-    sheet.text(x(256), y(40), "12:00", 30 * k, (220, 230, 240))
-    sheet.text(x(70), y(40), "FM", 22 * k, (130, 170, 210))
-    sheet.text(x(440), y(40), "21\N{DEGREE SIGN}C", 22 * k, (130, 170, 210))
-    sheet.line((x(20), y(64)), (x(492), y(64)), 2, (60, 90, 120))
-    sheet.text(x(256), y(128), "98.4 MHz", 52 * k, (235, 240, 245))
-    sheet.text(x(256), y(178), "Cabin Radio", 22 * k, (130, 150, 170))
+    width, height = right - left, bottom - top
+    at = lambda x, y: (left + x * width, top + y * height)  # noqa: E731
+    sheet.box(PIXELS["screen"], (7, 10, 14), (4, 7, 10))
+    draw_map(sheet, (*at(0.02, 0.13), *at(0.615, 0.81)), at)
+    sheet.text(*at(0.07, 0.065), "12:00", 30, (225, 232, 240), 0.9)
+    sheet.text(*at(0.93, 0.065), "21\N{DEGREE SIGN}C", 26, (150, 180, 210), 0.9)
+    sheet.box((*at(0.64, 0.13), *at(0.98, 0.81)), (18, 24, 32), (12, 17, 23), 10)
+    sheet.text(*at(0.81, 0.25), "FM", 26, (120, 165, 215), 0.9)
+    sheet.text(*at(0.81, 0.42), "98.4", 66, (240, 244, 248), 0.95)
+    sheet.text(*at(0.81, 0.56), "Cabin Radio", 25, (160, 175, 190), 0.9)
+    sheet.line(at(0.67, 0.70), at(0.95, 0.70), 5, (60, 72, 84), 0.8)
+    sheet.line(at(0.67, 0.70), at(0.80, 0.70), 5, (200, 60, 48), 0.9)
     for i, words in enumerate(("RADIO", "MEDIA", "MAP", "CAR")):
-        tile = (x(20 + i * 120), y(222), x(130 + i * 120), y(270))
-        sheet.box(tile, (30, 38, 48) if i else (120, 26, 20), (20, 28, 38) if i else (88, 16, 12), 8 * k)
-        sheet.text(x(75 + i * 120), y(246), words, 18 * k, (200, 208, 216))
+        x = 0.02 + 0.2425 * i
+        sheet.box((*at(x, 0.85), *at(x + 0.2325, 0.97)), (26, 33, 42), (18, 24, 31), 8)
+        sheet.text(*at(x + 0.116, 0.91), words, 25, (210, 216, 224), 0.85)
 
 
 def draw_gears(sheet):
@@ -153,13 +179,20 @@ def draw_hazard(sheet):
     sheet.both(lambda d, c: d.line(outline, fill=c, width=6 * OVER), (220, 40, 36), (120, 14, 10))
 
 
+def draw_lamps(sheet):
+    """Plain fields: a lamp's outline lies in one of them."""
+    for name, light in LAMPS.items():
+        sheet.box(PIXELS[name], dimmed(light, 0.28), light)
+
+
 def draw_all(sweep, tach_top, tach_red, speed_top):
     """Draws and saves the atlas. Returns the paths of base colour and emission."""
     sheet = Sheet()
-    draw_dial(sheet, "tach", tach_top, 1, 0.25, lambda v: "%d" % round(v), "1/min x1000", sweep, tach_red, 46)
-    draw_dial(sheet, "speed", speed_top, 20, 10, lambda v: "%d" % round(v), "km/h", sweep, px=30)
+    draw_dial(sheet, "tach", tach_top, 1, 0.25, lambda v: "%d" % round(v), "1/min x1000", sweep, tach_red, 56)
+    draw_dial(sheet, "speed", speed_top, 20, 10, lambda v: "%d" % round(v), "km/h", sweep, px=31)
     draw_screen(sheet)
     draw_gears(sheet)
     draw_climate(sheet)
     draw_hazard(sheet)
+    draw_lamps(sheet)
     return sheet.save()

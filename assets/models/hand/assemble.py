@@ -4,6 +4,7 @@ import os
 import numpy as np
 
 from craft import textures
+from hand import glove as picture
 from hand import gltf, grip, sleeve
 
 SOURCE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "generic_hand_right.glb")
@@ -110,11 +111,23 @@ def rigid(mesh, joint):
     return with_normals(mesh)
 
 
-def skin_material(name, colour, rough, picture, strength):
+def glove_material(colours, normals):
+    """Painted colours; the grain is finer than they are: its own scale of uv."""
+    grain = {"index": normals, "scale": 0.45, "extensions": {"KHR_texture_transform": {"scale": [8, 8]}}}
+    surface = {"baseColorTexture": {"index": colours}, "metallicFactor": 0, "roughnessFactor": 0.5}
+    return {"name": "Glove", "pbrMetallicRoughness": surface, "normalTexture": grain}
+
+
+def sleeve_material(normals):
     return {
-        "name": name,
-        "pbrMetallicRoughness": {"baseColorFactor": [*colour, 1], "metallicFactor": 0, "roughnessFactor": rough},
-        "normalTexture": {"index": picture, "scale": strength},
+        "name": "Sleeve",
+        "pbrMetallicRoughness": {
+            "baseColorFactor": [0.045, 0.052, 0.062, 1],
+            "metallicFactor": 0,
+            "roughnessFactor": 0.95,
+        },
+        "normalTexture": {"index": normals, "scale": 0.4},
+        "doubleSided": True,
     }
 
 
@@ -122,7 +135,7 @@ def build(path):
     hand = in_hand_frame(gltf.read_hand(SOURCE))
     pose = grip.closed(hand["bind"])
     to_knob = placement()
-    glove = {"uv": hand["uv"] * 5.0, "triangles": hand["triangles"]}
+    glove = {"uv": hand["uv"], "triangles": hand["triangles"]}
     points = np.c_[skinned(hand, pose), np.ones(len(hand["positions"]))]
     glove["positions"] = (points @ to_knob.T)[:, :3]
 
@@ -142,10 +155,6 @@ def build(path):
     last = len(names) - 1
     cuff = rigid(sleeve.glove_cuff(start, along, across), last)
     arm = rigid(sleeve.jacket(start, along, across, FOREARM), last)
-    materials = [
-        skin_material("Glove", (0.115, 0.052, 0.027), 0.55, 0, 0.7),
-        skin_material("Sleeve", (0.030, 0.036, 0.048), 0.95, 1, 0.8),
-    ]
-    materials[1]["doubleSided"] = True
-    images = [textures.leather(), textures.felt()]
+    materials = [glove_material(0, 1), sleeve_material(2)]
+    images = [picture.draw(hand), textures.leather(), textures.felt()]
     gltf.write(path, [(with_normals(glove), 0), (cuff, 0), (arm, 1)], joints, materials, images)

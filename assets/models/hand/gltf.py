@@ -102,7 +102,9 @@ def write(path, meshes, joints, materials, images):
     pictures = []
     for file in images:
         with open(file, "rb") as f:
-            pictures.append({"bufferView": out.view(f.read()), "mimeType": "image/png"})
+            pictures.append(
+                {"bufferView": out.view(f.read()), "mimeType": "image/jpeg" if file.endswith("jpg") else "image/png"}
+            )
     gltf = {
         "asset": {"version": "2.0", "generator": "assets/models/build.py"},
         "scene": 0,
@@ -111,6 +113,7 @@ def write(path, meshes, joints, materials, images):
         "meshes": [{"name": "HandMesh", "primitives": primitives}],
         "skins": [skin],
         "materials": materials,
+        "extensionsUsed": ["KHR_texture_transform"],
         "textures": [{"source": i, "sampler": 0} for i in range(len(images))],
         "samplers": [{"magFilter": 9729, "minFilter": 9987}],
         "images": pictures,

@@ -8,8 +8,8 @@ from itertools import product
 import numpy as np
 
 KNOB_R = 0.0245  # m, of the ball that the fingers close on
-KNOB = np.array([-0.008, -0.046, -0.084])  # its centre, under the palm
-THUMB_TIP = KNOB + np.array([-0.029, -0.010, -0.006])  # along the knob's side
+KNOB = np.array([-0.004, -0.0395, -0.078])  # its centre, under the palm
+THUMB_TIP = KNOB + np.array([-0.030, -0.008, -0.010])  # along the knob's side
 FINGERS = {  # name -> radii of the three phalanges [m], range of the side turn at the root [deg]
     "index": ((0.0098, 0.0088, 0.0080), (-8, 6)),
     "middle": ((0.0098, 0.0088, 0.0080), (-5, 7)),

@@ -1,6 +1,8 @@
 """Forearm: the cuff of the glove and a jacket sleeve from the wrist towards the elbow."""
 import numpy as np
 
+from hand.glove import on_cuff
+
 
 def oval(centre, across, up, half_w, half_h, n):
     """Ring in the plane of two unit vectors; superellipse of exponent 2.3."""
@@ -30,8 +32,12 @@ def folds(distance):
 
 
 def glove_cuff(start, along, across):
-    profile = ((-0.012, 0.0290, 0.0225), (-0.010, 0.0318, 0.0252), (0.010, 0.0330, 0.0268), (0.024, 0.0345, 0.0285))
-    return tube(profile + ((0.026, 0.0335, 0.0275), (0.020, 0.0300, 0.0250)), start, along, across, 28, 9.0)
+    profile = ((-0.012, 0.0290, 0.0225), (-0.010, 0.0312, 0.0246), (0.010, 0.0322, 0.0260), (0.024, 0.0340, 0.0280))
+    profile += ((0.026, 0.0335, 0.0275), (0.020, 0.0300, 0.0250))
+    n = 28
+    mesh = tube(profile, start, along, across, n, 1.0)
+    mesh["uv"] = np.array([on_cuff(i / n, (d + 0.012) / 0.038) for d, _, _ in profile for i in range(n + 1)])
+    return mesh
 
 
 def jacket(start, along, across, length):

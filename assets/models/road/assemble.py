@@ -9,11 +9,11 @@ def build():
     asphalt, asphalt_normals = colours.asphalt()
     plain = dict(occlusion=False)
     material("Asphalt", (0.07, 0.07, 0.07), 0.9, texture=asphalt, normals=asphalt_normals, repeats=1 / 3, **plain)
-    grass = colours.blades("grass.png", (84, 104, 46), 0.22)
+    grass = colours.blades("grass.png", (84, 104, 46), 0.16)
     material("Grass", (0.09, 0.13, 0.03), 1.0, texture=grass, repeats=1 / 4, two_sided=True, **plain)
-    leaves = colours.blades("leaves.png", (58, 82, 34), 0.42)
-    material("Leaves", (0.05, 0.09, 0.02), 0.95, texture=leaves, repeats=0.6, two_sided=True, **plain)
-    material("Roadside", (0.5, 0.5, 0.5), 0.75, texture=colours.draw(), **plain)
+    picture = colours.draw()
+    material("Leaves", (0.05, 0.09, 0.02), 0.9, texture=picture, cutoff=0.42, **plain)
+    material("Roadside", (0.5, 0.5, 0.5), 0.75, texture=picture, **plain)
     for room in (tile, trees, furniture, buildings, land):
         room.build()
 

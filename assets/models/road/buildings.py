@@ -28,8 +28,11 @@ def gabled(part, half_x, half_y, eaves, ridge, walls, roof, overhang=0.45):
 
 def window(part, x, y, z, w=1.0, h=1.3):
     """On the front (x) facing -x: white frame, dark pane."""
-    part.block((x - 0.02, y, z), (0.10, w + 0.18, h + 0.18), "white")
-    part.block((x - 0.06, y, z), (0.06, w, h), "pane")
+    for out, grow, colour in ((0.03, 0.09, "white"), (0.06, 0.0, "pane")):
+        a, b = w / 2 + grow, h / 2 + grow
+        part.face(
+            [(x - out, y + a, z - b), (x - out, y - a, z - b), (x - out, y - a, z + b), (x - out, y + a, z + b)], colour
+        )
 
 
 def build_house():
@@ -41,8 +44,8 @@ def build_house():
                 window(part, -4.2, y, z, h=1.2)
     part.block((-4.22, 1.6, 0.95), (0.12, 1.1, 2.1), "wood")
     for x in (-2, 2):  # gable end towards the traffic
-        part.block((x, -5.52, 1.6), (1.15, 0.10, 1.4), "white")
-        part.block((x, -5.56, 1.6), (0.98, 0.06, 1.2), "pane")
+        for y, a, b, colour in ((-5.53, 0.575, 0.7, "white"), (-5.56, 0.49, 0.6, "pane")):
+            part.face([(x - a, y, 1.6 - b), (x + a, y, 1.6 - b), (x + a, y, 1.6 + b), (x - a, y, 1.6 + b)], colour)
     part.block((1.2, 2.5, 8.2), (0.7, 0.7, 1.6), "stone")
     part.build()
 

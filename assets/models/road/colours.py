@@ -1,4 +1,4 @@
-"""One picture for all roadside things: a speed sign on the left, 32 px cells of plain colour on the right."""
+"""One picture for all roadside things: a speed sign, cells of plain colour below it, a spruce and a bough."""
 import os
 
 import numpy as np
@@ -6,9 +6,12 @@ from PIL import Image, ImageDraw, ImageFont
 
 from craft import textures
 from craft.prints import FONT
+from road import foliage
 
-WIDTH, HEIGHT, CELL = 512, 256, 32
-SIGN = (0.0, 0.0, 0.5, 1.0)  # uv rectangle
+WIDTH, HEIGHT, CELL = 1024, 512, 32
+SIGN = (0.0, 0.5, 0.25, 1.0)  # uv rectangles, v counted upwards
+SPRUCE = (0.252, 0.004, 0.498, 0.996)
+BOUGH = (0.502, 0.004, 0.998, 0.996)
 CELLS = {  # sRGB
     "paint": (226, 226, 220),
     "steel": (150, 154, 158),
@@ -17,6 +20,7 @@ CELLS = {  # sRGB
     "red": (176, 32, 26),
     "orange": (224, 120, 26),
     "bark": (74, 58, 44),
+    "shade": (40, 60, 24),
     "plaster": (214, 202, 178),
     "plaster_b": (188, 150, 108),
     "tiles": (132, 62, 44),
@@ -40,18 +44,21 @@ def cell_middle(name):
     """uv of a colour's cell, v counted upwards."""
     k = list(CELLS).index(name)
     column, row = k % 8, k // 8
-    return (256 + CELL * (column + 0.5)) / WIDTH, 1 - CELL * (row + 0.5) / HEIGHT
+    return CELL * (column + 0.5) / WIDTH, 1 - (256 + CELL * (row + 0.5)) / HEIGHT
 
 
 def draw():
-    picture = Image.new("RGB", (WIDTH, HEIGHT), (120, 120, 120))
+    picture = Image.new("RGBA", (WIDTH, HEIGHT), (120, 120, 120, 255))
     draw = ImageDraw.Draw(picture)
     for k, colour in enumerate(CELLS.values()):
-        x, y = 256 + CELL * (k % 8), CELL * (k // 8)
+        x, y = CELL * (k % 8), 256 + CELL * (k // 8)
         draw.rectangle([x, y, x + CELL - 1, y + CELL - 1], fill=colour)
     draw.ellipse([0, 0, 255, 255], fill=(190, 26, 24))
     draw.ellipse([34, 34, 221, 221], fill=(238, 238, 234))
     draw.text((128, 130), "80", font=ImageFont.truetype(FONT, 112), fill=(24, 24, 26), anchor="mm")
+    random = np.random.default_rng(3)
+    picture.paste(foliage.spruce(256, 512, random), (256, 0))
+    picture.paste(foliage.bough(512, random), (512, 0))
     path = os.path.join(textures.FOLDER, "roadside.png")
     picture.save(path, optimize=True)
     return path
@@ -61,7 +68,7 @@ def asphalt():
     """Colour and normal map of a 3 m tile: stones in bitumen, two darker wheel tracks are not drawn."""
     n = 512
     grain = textures.band_noise(n, 60, 220)
-    shade = 74 + 9 * grain + 5 * textures.band_noise(n, 2, 9)
+    shade = 74 + 9 * grain + 2.2 * textures.band_noise(n, 2, 9)
     stones = textures.band_noise(n, 90, 160) > 1.9
     shade = np.where(stones, shade + 34, shade)
     colour = textures.save("asphalt_c.png", np.dstack((shade, shade * 0.995, shade * 0.975)))
@@ -69,7 +76,7 @@ def asphalt():
 
 
 def blades(name, tint, contrast):
-    """Mottled green of grass or leaves."""
+    """Mottled green of grass."""
     n = 256
     h = 0.6 * textures.band_noise(n, 30, 110) + 0.5 * textures.band_noise(n, 4, 16) + 0.3 * textures.band_noise(n, 1, 4)
     k = np.clip(1 + contrast * h, 0.25, 2.2)[..., None]

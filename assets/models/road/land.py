@@ -34,20 +34,13 @@ def ridge(n, low, high):
 
 def build_hills():
     part = Thing("Hills", smooth=80)
-    n = 90
+    n = 64
     for radius, low, high, colour in ((660, 60, 128, "wood_far"), (540, 22, 70, "wood_mid"), (430, 6, 30, "wood_near")):
-        top = ridge(n, low, high)
-        for i in range(n):
-            j = (i + 1) % n
-            a, b = 2 * pi * i / n, 2 * pi * j / n
-            p, q = (cos(a), sin(a)), (cos(b), sin(b))
-            wall = [(radius * q[0], radius * q[1], LEVEL - 4), (radius * p[0], radius * p[1], LEVEL - 4)]
-            out = 1.12
-            wall += [
-                (radius * out * p[0], radius * out * p[1], top[i]),
-                (radius * out * q[0], radius * out * q[1], top[j]),
-            ]
-            part.face(wall, colour)
+        angles = [2 * pi * i / n for i in range(n)]
+        foot = [(radius * cos(a), radius * sin(a), LEVEL - 4) for a in angles]
+        top = [(1.12 * radius * cos(a), 1.12 * radius * sin(a), z) for a, z in zip(angles, ridge(n, low, high))]
+        walls = [((i + 1) % n, i, n + i, n + (i + 1) % n) for i in range(n)]
+        part.tint(part.piece(foot + top, walls, "Roadside", recalc=False), colour)
     part.build()
 
 

@@ -1,4 +1,6 @@
 """Parts painted with one colour of the roadside picture."""
+from mathutils import Vector
+
 from craft.part import Part
 from road.colours import cell_middle
 
@@ -17,3 +19,27 @@ class Thing(Part):
 
     def face(self, verts, colour):
         return self.tint(self.piece(verts, [tuple(range(len(verts)))], "Roadside", recalc=False), colour)
+
+    def card(self, corners, rect):
+        """Four corners, counter-clockwise from the lower left, that show a rectangle (u0, v0, u1, v1) of the picture
+        from both sides: two faces, since a face seen from behind would be lit from behind."""
+        ob = self.piece(list(corners) * 2, [(0, 1, 2, 3), (7, 6, 5, 4)], "Leaves", recalc=False)
+        u0, v0, u1, v1 = rect
+        uv = ((u0, v0), (u1, v0), (u1, v1), (u0, v1))
+        for loop in ob.data.loops:
+            ob.data.uv_layers["UVMap"].data[loop.index].uv = uv[loop.vertex_index % 4]
+        return ob
+
+    def light_leaves_from(self, centre, up=0.35):
+        """Normals of all leaves point away from the middle of the crown, lifted a little: a crown of cards is lit
+        like a body. After build()."""
+        mesh = self.pieces[0].data
+        mesh.calc_normals_split()
+        normals = [loop.normal.copy() for loop in mesh.loops]
+        for p in mesh.polygons:
+            if mesh.materials[p.material_index].name != "Leaves":
+                continue
+            for li in p.loop_indices:
+                away = mesh.vertices[mesh.loops[li].vertex_index].co - Vector(centre)
+                normals[li] = (away.normalized() + Vector((0, 0, up))).normalized()
+        mesh.normals_split_custom_set(normals)

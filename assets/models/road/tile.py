@@ -1,6 +1,4 @@
 """Twelve metres of road, repeatable along y; x = 0 is the middle of the driver's lane (right-hand traffic)."""
-from math import pi, sin
-
 from road.pieces import Thing
 
 LENGTH, LANE, LINE = 12.0, 3.5, 0.12
@@ -42,17 +40,11 @@ def add_verge(part, side, edge, half):
     gravel = [(edge, -half, 0), (outer, -half, -0.05), (outer, half, -0.05), (edge, half, 0)]
     part.face(gravel if side > 0 else gravel[::-1], "earth")
     profile = ((0.6, -0.05), (1.6, -0.28), (2.4, -0.30), (3.6, -0.06), (8.0, 0.02), (16.0, -0.05), (VERGE, -0.45))
-    stations = [-half + LENGTH * i / 4 for i in range(5)]
-    grid = []
-    for y in stations:
-        roll = 0.05 * sin(2 * pi * y / LENGTH)  # repeats with the tile
-        grid.append([(edge + side * d, y, z + roll * (d > 3)) for d, z in profile])
+    grid = [[(edge + side * d, y, z) for d, z in profile] for y in (-half, half)]
     verts = [p for row in grid for p in row]
     n = len(profile)
     faces = []
-    for j in range(len(grid) - 1):
-        for i in range(n - 1):
-            a = j * n + i
-            quad = (a, a + 1, a + n + 1, a + n)
-            faces.append(quad if side > 0 else quad[::-1])
+    for a in range(n - 1):
+        quad = (a, a + 1, a + n + 1, a + n)
+        faces.append(quad if side > 0 else quad[::-1])
     part.piece(verts, faces, "Grass", recalc=False)

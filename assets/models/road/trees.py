@@ -1,70 +1,90 @@
-"""A broad-leaved tree and a spruce of lumps and tiers."""
+"""A broad-leaved tree, a spruce and a bush: a dark body, and cards with drawn leaves about it."""
 from math import cos, pi, sin
 
 import numpy as np
+from mathutils import Vector
 
+from road.colours import BOUGH, SPRUCE
 from road.pieces import Thing
 
 _random = np.random.default_rng(11)
 
 
-def lump(part, centre, radius, squash, n=9, rows=6):
-    """Uneven ball of leaves."""
+def lump(part, centre, radius, squash, n=7, rows=4):
+    """Uneven ball: the shade between the boughs."""
     rings = []
     for j in range(rows + 1):
         t = pi * (j / rows - 0.5)
         ring = []
         for i in range(n):
             a = 2 * pi * (i + 0.5 * (j % 2)) / n
-            r = radius * (1 + 0.16 * _random.standard_normal()) * (cos(t) if 0 < j < rows else 0.02)
-            height = radius * squash * sin(t) * (1 + 0.08 * _random.standard_normal())
-            ring.append((centre[0] + r * cos(a), centre[1] + r * sin(a), centre[2] + height))
+            r = radius * (1 + 0.10 * _random.standard_normal()) * (cos(t) if 0 < j < rows else 0.05)
+            ring.append((centre[0] + r * cos(a), centre[1] + r * sin(a), centre[2] + radius * squash * sin(t)))
         rings.append(ring)
-    part.loft(rings, "Leaves")
+    part.tint(part.loft(rings, "Leaves", caps=False), "shade")
+
+
+def bough(part, centre, size, heading, lean):
+    """Square card about a centre, turned in its plane at random. heading [rad] about the vertical, lean [rad] up."""
+    facing = Vector((cos(heading) * cos(lean), sin(heading) * cos(lean), sin(lean)))
+    x = Vector((-sin(heading), cos(heading), 0))
+    y = facing.cross(x)
+    turn = _random.uniform(-0.6, 0.6)
+    x, y = cos(turn) * x + sin(turn) * y, cos(turn) * y - sin(turn) * x
+    half = size / 2
+    corners = [Vector(centre) + half * (a * x + b * y) for a, b in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
+    part.card([tuple(c) for c in corners], BOUGH)
 
 
 def trunk(part, height, r0, r1, lean=0.0):
-    path = [(lean * t * t, 0.3 * lean * t, height * t - 0.1) for t in (0, 0.35, 0.7, 1)]
-    radii = [r0 * 1.25, r0, (r0 + r1) / 2, r1]
-    part.tint(part.tube(path, radii, "Roadside", n=7), "bark")
+    path = [(lean * t * t, 0.3 * lean * t, height * t - 0.1) for t in (0, 0.5, 1)]
+    part.tint(part.tube(path, [r0 * 1.25, r0, r1], "Roadside", n=6, caps=False), "bark")
 
 
 def build_broad_leaved():
     part = Thing("TreeBroad", smooth=80)
-    trunk(part, 3.2, 0.17, 0.11, 0.15)
-    for x, y, z, r in ((0.1, 0.1, 5.0, 1.75), (-1.1, 0.3, 4.1, 1.15), (1.2, -0.3, 4.2, 1.25), (0.2, 1.0, 4.2, 1.15)):
-        lump(part, (x, y, z), r, 0.92)
-    for x, y, z, r in ((-0.2, -1.1, 4.0, 1.1), (0.5, 0.3, 6.2, 1.1)):
-        lump(part, (x, y, z), r, 0.85, 8, 5)
+    trunk(part, 4.2, 0.17, 0.08, 0.15)
+    for x, y, z in ((1.1, -0.3, 4.0), (-1.0, 0.4, 4.1), (0.1, 1.0, 4.4)):
+        part.tint(part.tube([(0.06, 0.02, 2.3), (x, y, z)], [0.07, 0.03], "Roadside", n=3, caps=False), "bark")
+    crown = (0.1, 0.1, 4.7)
+    lump(part, crown, 1.35, 1.0)
+    golden = pi * (3 - 5**0.5)
+    n = 15
+    for i in range(n):
+        z = -0.62 + 1.57 * i / (n - 1)
+        r = (1 - (z * 0.95) ** 2) ** 0.5
+        a = i * golden
+        k = 1.22 * _random.uniform(0.85, 1.15)
+        middle = (crown[0] + k * r * cos(a), crown[1] + k * r * sin(a), crown[2] + 1.45 * z)
+        bough(part, middle, _random.uniform(2.0, 2.5), a + _random.uniform(-0.7, 0.7), 0.5 * z)
+    for i in range(3):  # upright through the middle: a full outline from every side
+        bough(part, (crown[0], crown[1], crown[2] + 0.2), 3.4, pi * i / 3 + 0.3, 0.0)
     part.build()
+    part.light_leaves_from((crown[0], crown[1], crown[2] - 0.5))
 
 
 def build_spruce():
+    """Five upright pictures of the whole tree through its stem."""
     part = Thing("TreeSpruce", smooth=60)
-    trunk(part, 1.6, 0.16, 0.14)
-    tiers = 6
-    for k in range(tiers):
-        low, radius = 1.0 + 1.25 * k, 1.9 * (1 - k / (tiers + 0.4)) + 0.12
-        n = 13
-        rings = []
-        for r, z in ((radius * 0.25, low + 0.35), (radius, low), (radius * 0.45, low + 0.85), (0.03, low + 1.9)):
-            ring = []
-            for i in range(n):
-                a = 2 * pi * (i + 0.37 * k) / n
-                k_r = r * (
-                    1 + (0.22 if r == radius else 0.05) * (1 if i % 2 else -1) + 0.05 * _random.standard_normal()
-                )
-                ring.append((k_r * cos(a), k_r * sin(a), z - (0.16 if r == radius and i % 2 else 0)))
-            rings.append(ring)
-        part.loft(rings, "Leaves", caps=False)
+    trunk(part, 1.4, 0.16, 0.13)
+    low, high, half = 0.35, 9.2, 2.15
+    for i in range(5):
+        a = pi * i / 5
+        k = _random.uniform(0.92, 1.06)
+        x, y = half * k * cos(a), half * k * sin(a)
+        part.card([(-x, -y, low), (x, y, low), (x, y, high), (-x, -y, high)], SPRUCE)
     part.build()
+    part.light_leaves_from((0, 0, 2.0), 0.5)
 
 
 def build_bush():
     part = Thing("Bush", smooth=80)
-    for x, y, z, r in ((0, 0, 0.55, 0.75), (0.8, 0.2, 0.42, 0.58), (-0.7, -0.1, 0.40, 0.52)):
-        lump(part, (x, y, z), r, 0.8, 8, 5)
+    lump(part, (0, 0, 0.40), 0.55, 0.8, 6, 3)
+    for x, y, z, size, a in ((0, 0, 0.62, 1.7, 0.2), (0.55, 0.15, 0.5, 1.4, 1.3), (-0.5, -0.1, 0.48, 1.35, 2.3)):
+        bough(part, (x, y, z), size, a, 0.15)
+        bough(part, (x, y, z), size * 0.95, a + pi / 2, -0.1)
     part.build()
+    part.light_leaves_from((0, 0, 0.1))
 
 
 def build():
