@@ -33,8 +33,12 @@ std::int64_t CycleRunner::lateness(const CycleCall& call, const CycleStatistics&
 }
 
 void CycleRunner::publish(std::int64_t late_ns) noexcept {
-  CycleRecord record{run_->loop.snapshot(), late_ns};
+  CycleRecord record{run_->loop.snapshot(), {}, late_ns};
   --record.snapshot.cycle;  // the loop counts the next one already
+  if (run_->car) {
+    record.car = run_->car->state();
+    car.write(record.car);
+  }
   (void)records.push(record);
   const StageStamps& stamps = run_->loop.stamps();
   if (stamps.cycle == record.snapshot.cycle) add_stamps(stamps);

@@ -7,6 +7,7 @@
 #include <cstdint>
 
 #include "app/trainer/loop_run.h"
+#include "app/vehicle/vehicle_state.h"
 #include "haptics/rt/latest_value.h"
 #include "haptics/rt/realtime_thread.h"
 #include "haptics/rt/spsc_queue.h"
@@ -15,6 +16,7 @@ namespace gearshift {
 
 struct CycleRecord {
   HapticSnapshot snapshot;
+  VehicleState car;          // as at the start where there is none
   std::int64_t late_ns = 0;  // [ns] woken behind the deadline
 };
 
@@ -40,6 +42,7 @@ class CycleRunner {
 
   SpscQueue<CycleRecord> records{kMostRecords};  // full: the newest are left out
   LatestValue<LoopFigures> figures;
+  LatestValue<VehicleState> car;
 
  private:
   static constexpr std::size_t kStamps = 16;  // that the means are taken over

@@ -40,10 +40,12 @@ struct Trainer::State {
   ~State();
 
   std::unique_ptr<HandDriver> make_hand();
-  std::unique_ptr<LoopRun> make_run() { return std::make_unique<LoopRun>(as_it_runs(), gate, lever); }
+  std::unique_ptr<CarWorld> make_car(const CarStart& from) const;
+  std::unique_ptr<LoopRun> make_run();
+  glm::dvec2 start_position() const { return rest_position(gate, config.start.gear); }
   HapticConfig as_it_runs() const;
-  TraceHeader header(bool armed) const;
-  bool is_armed() const;
+  TraceHeader header(const char* world, bool armed) const;
+  bool waits_for_person() const;
   void hand_over(std::unique_ptr<LoopRun> next);
   void begin();
   void cycle_once();
@@ -86,16 +88,19 @@ Trainer::State::State(const TrainerConfig& wanted)
       period_ns(gearshift::period_ns(config.preset.haptics)),
       gate(compile_gate(config.layout, workspace_half_extent(config.preset.lever.yoke),
                         config.preset.lever.yoke.radius)),
-      person(HandTarget{rest_position(gate, kNeutralGear), {}, {}, false, false}),
+      person(HandTarget{start_position(), {}, {}, false, false}),
       hand(make_hand()),
       lever(config.preset.lever, period_ns, *hand),
-      run(std::make_unique<LoopRun>(config.preset.haptics, gate, lever)),
+      run(std::make_unique<LoopRun>(config.preset.haptics, gate, lever, make_car(config.start))),
       admitted(run->loop.admitted()),
       runner(period_ns) {
-  const glm::dvec2 start = rest_position(gate, kNeutralGear);
+  const glm::dvec2 start = start_position();
   lever.place(start);
   newest.lever = newest.proxy = start;
   newest.wall_stiffness = admitted.tuning.wall_stiffness;
+  if (run->car) runner.car.write(run->car->state());
+  controls.ignition = config.car && config.start.running;
+  run->channels.controls.write(controls);
   begin();
 }
 
@@ -108,6 +113,17 @@ std::unique_ptr<HandDriver> Trainer::State::make_hand() {
   const double period = period_s(config.preset.haptics);
   if (config.hand == HandKind::touring) return std::make_unique<TouringHand>(gate, config.seed, period);
   return std::make_unique<LedHand>(person, period);
+}
+
+std::unique_ptr<CarWorld> Trainer::State::make_car(const CarStart& from) const {
+  if (!config.car) return nullptr;
+  return std::make_unique<CarWorld>(*config.car, gate, lever.spec().max_force.y, from, config.seed);
+}
+
+// The next one: the car goes on.
+std::unique_ptr<LoopRun> Trainer::State::make_run() {
+  runner.car.update();
+  return std::make_unique<LoopRun>(as_it_runs(), gate, lever, make_car(start_from(runner.car.value())));
 }
 
 void Trainer::State::begin() {
@@ -128,19 +144,18 @@ HapticConfig Trainer::State::as_it_runs() const {
   return haptics;
 }
 
-TraceHeader Trainer::State::header(bool armed) const {
-  return {config.program, as_it_runs(), lever.spec(), config.layout.file, config.layout.text, run->world.name(), armed};
+TraceHeader Trainer::State::header(const char* world, bool armed) const {
+  return {config.program, as_it_runs(), lever.spec(), config.layout.file, config.layout.text, world, armed};
 }
 
-// As the person wants it, unless a fault has taken the forces and only a person may give them back. A command that the
-// loop has not taken yet counts already.
-bool Trainer::State::is_armed() const {
-  const bool waits = newest.guard == GuardState::released ||
-                     (newest.guard == GuardState::damped && newest.fault == GuardFault::chatter);
-  return wants_forces && !waits;
+// A fault has taken the forces, and only a person may give them back.
+bool Trainer::State::waits_for_person() const {
+  return newest.guard == GuardState::released ||
+         (newest.guard == GuardState::damped && newest.fault == GuardFault::chatter);
 }
 
 // Returns when the next loop has run its first cycle: what is sent from then on goes to it, and its recording is whole.
+// A fault of the old loop after the next one was made ends that one's forces, too: they have hardly begun to ramp up.
 void Trainer::State::hand_over(std::unique_ptr<LoopRun> next) {
   next->channels.controls.write(controls);
   runner.hand_over(*next);
@@ -151,7 +166,11 @@ void Trainer::State::hand_over(std::unique_ptr<LoopRun> next) {
   while (!runner.has_run(*next)) std::this_thread::sleep_for(kLookEvery);
   take_events();
   events_lost += run->channels.events_lost.load();
+  take_snapshot();
   run = std::move(next);
+  if (!wants_forces || !waits_for_person()) return;
+  wants_forces = false;
+  send(LoopCommand::stop);
 }
 
 void Trainer::State::cycle_once() {
@@ -218,6 +237,11 @@ const AdmittedTuning& Trainer::admitted() const noexcept {
 HapticSnapshot Trainer::snapshot() {
   state_->take_snapshot();
   return state_->newest;
+}
+
+VehicleState Trainer::car() {
+  state_->runner.car.update();
+  return state_->runner.car.value();
 }
 
 std::vector<HapticEvent> Trainer::take_events() {
@@ -287,11 +311,17 @@ void Trainer::start_recording(const std::filesystem::path& file) {
   if (s.recorder) throw std::logic_error("a recording is running already: stop it first");
   s.take_snapshot();
   std::unique_ptr<LoopRun> next = s.make_run();
-  const bool armed = s.is_armed();
+  // As the person wants it: a command that the loop has not taken yet counts already.
+  const bool armed = s.wants_forces && !s.waits_for_person();
   if (armed) next->loop.arm();
   const TracePump pump = s.is_virtual() ? TracePump::by_caller : TracePump::own_thread;
-  s.recorder = std::make_unique<TraceRecorder>(file, s.header(armed), next->channels, pump);
+  s.recorder = std::make_unique<TraceRecorder>(file, s.header(next->world().name(), armed), next->channels, pump);
+  s.wants_forces = armed;
   s.hand_over(std::move(next));
+}
+
+std::optional<std::string> Trainer::take_recording_problem() {
+  return state_->recorder ? state_->recorder->take_problem() : std::nullopt;
 }
 
 std::optional<std::string> Trainer::stop_recording() {

@@ -12,6 +12,7 @@
 #include <string>
 #include <vector>
 
+#include "app/vehicle/car_world.h"
 #include "haptics/device/hand.h"
 #include "haptics/gate/gate.h"
 #include "haptics/gate/gate_layout.h"
@@ -30,10 +31,12 @@ enum class HandKind {
 
 struct TrainerConfig {
   GateLayout layout;
-  Preset preset;  // a hand that cannot lead is replaced by leading_hand()
+  std::optional<CarSpec> car;  // behind the lever; none: nothing
+  CarStart start;              // of the car, and the gear that the lever stands in
+  Preset preset;               // a hand that cannot lead is replaced by leading_hand()
   HandKind hand = HandKind::led;
   TrainerClock clock = TrainerClock::real_time;
-  std::uint64_t seed = 1;             // of the touring hand's aims
+  std::uint64_t seed = 1;             // of the touring hand's aims and the car's chance
   std::string program = "gearshift";  // that records: its name and version, for the trace
 };
 
@@ -52,8 +55,9 @@ struct LoopHealth {
 
 class Trainer {
  public:
-  // Starts the loop with the lever at neutral, disarmed. Throws FileError (the layout is impossible on this device),
-  // std::invalid_argument or std::runtime_error with one sentence.
+  // Starts the loop with the lever in the gear of the start, disarmed; a running engine's ignition is on until
+  // set_controls() says otherwise. Throws FileError (the layout is impossible on this device), std::invalid_argument (the
+  // car does not fit the gate, too) or std::runtime_error with one sentence.
   explicit Trainer(const TrainerConfig& config);
   ~Trainer();  // releases the motors, closes the recording
   Trainer(const Trainer&) = delete;
@@ -66,6 +70,7 @@ class Trainer {
 
   // Frame side, one thread.
   HapticSnapshot snapshot();               // newest
+  VehicleState car();                      // newest; a default one where there is no car
   std::vector<HapticEvent> take_events();  // since the last call, in order
   // Snapshots of the cycles since the last call, in order, for plots. More than `most` are thinned evenly, the strongest
   // and the weakest push of each part kept. Of a pause of more than 8192 cycles the first 8192.
@@ -83,12 +88,13 @@ class Trainer {
   LoopHealth health();
 
   // A trace can be run again only from a loop's first cycle on. So a recording starts a new loop at the lever as it
-  // stands, between two cycles: armed if the old one was, and then its forces ramp up from zero, as after arm(). The
-  // lever, the hand and the clock go on; cycles count from 0 again and the gear that is in is engaged anew (a second
-  // event, no gear_left before it). Throws FileError where the file cannot be made, std::logic_error while recording:
-  // nothing has changed then.
+  // stands, between two cycles: armed if the old one was to its end, and then its forces ramp up from zero, as after
+  // arm(). The lever, the hand and the clock go on; cycles count from 0 again and the gear that is in is engaged anew (a
+  // second event, no gear_left before it). The car goes on from where it is when this is called. Throws FileError where the file cannot be made, std::logic_error while
+  // recording: nothing has changed then.
   void start_recording(const std::filesystem::path& file);
-  std::optional<std::string> stop_recording();  // a problem, if there was one
+  std::optional<std::string> take_recording_problem();  // that ended the running recording, once, when it happens
+  std::optional<std::string> stop_recording();          // a problem, if there was one
   bool recording() const noexcept;
 
   void advance(double seconds);  // virtual clock only (else std::logic_error): that long, in whole cycles

@@ -20,7 +20,7 @@
 
 namespace gearshift {
 
-// The driver's other controls. Newest whole value from the frame.
+// The driver's other controls, and what a lesson sets. Newest whole value from the frame.
 struct DriverControls {
   double throttle = 0.0;    // [1] 0 to 1
   double brake = 0.0;       // [1] 0 to 1
@@ -28,6 +28,9 @@ struct DriverControls {
   double hand_brake = 0.0;  // [1] 0 to 1
   bool ignition = false;
   bool starter = false;
+  double slope = 0.0;              // [rad] of the road, uphill +
+  int guided_gear = kNeutralGear;  // where the teacher's guidance leads
+  double guidance = 0.0;           // [1] 0 to 1: its strength; 0: there is none
 };
 
 struct LeverInput {

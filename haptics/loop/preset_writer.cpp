@@ -1,17 +1,14 @@
 #include "haptics/loop/preset_writer.h"
 
-#include <unistd.h>
-
 #include <charconv>
 #include <cmath>
 #include <concepts>
 #include <cstdint>
-#include <fstream>
 #include <numbers>
 #include <string_view>
-#include <system_error>
 
 #include "haptics/files/file_error.h"
+#include "haptics/files/part_file.h"
 
 namespace gearshift {
 namespace {
@@ -166,29 +163,6 @@ void put_haptics(TomlText& out, const HapticConfig& haptics) {
   out.put("clear_below_n", haptics.over_push.clear_below);
 }
 
-// Gone with it unless it has been renamed.
-class PartFile {
- public:
-  explicit PartFile(const std::filesystem::path& file) : path_(file) { path_ += ".part" + std::to_string(getpid()); }
-  ~PartFile() {
-    std::error_code ignored;
-    std::filesystem::remove(path_, ignored);
-  }
-  PartFile(const PartFile&) = delete;
-  PartFile& operator=(const PartFile&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
-void write_text(const std::filesystem::path& part, const std::string& text, const std::string& name) {
-  std::ofstream out(part, std::ios::binary | std::ios::trunc);
-  out.write(text.data(), static_cast<std::streamsize>(text.size()));
-  out.close();
-  if (!out) throw FileError(name, 0, "cannot be written");
-}
-
 void check_readable(const std::filesystem::path& part, const std::string& name) {
   try {
     (void)read_preset(part.string());
@@ -211,12 +185,10 @@ std::string preset_text(const Preset& preset) {
 }
 
 void write_preset(const Preset& preset, const std::filesystem::path& file) {
-  const PartFile part(file);
-  write_text(part.path(), preset_text(preset), file.string());
+  PartFile part(file);
+  part.write(preset_text(preset));
   check_readable(part.path(), file.string());
-  std::error_code error;
-  std::filesystem::rename(part.path(), file, error);
-  if (error) throw FileError(file.string(), 0, "cannot be written: " + error.message());
+  part.keep();
 }
 
 }  // namespace gearshift

@@ -1,5 +1,6 @@
 #include "haptics/loop/replay.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
@@ -10,11 +11,14 @@
 #include <vector>
 
 #include "haptics/files/file_error.h"
+#include "haptics/files/printable.h"
 #include "haptics/gate/gate_compiler.h"
 #include "haptics/loop/haptic_loop.h"
 
 namespace gearshift {
 namespace {
+
+constexpr std::size_t kShownName = 80;  // [bytes] of a world's name in a message
 
 // Hands out what the recorded device measured. What is written to it moves nothing: the drive is over.
 class RecordedDevice final : public HapticDevice {
@@ -80,15 +84,22 @@ bool same_bits(const HapticTuning& a, const HapticTuning& b) noexcept {
   return left == right;
 }
 
-std::unique_ptr<LeverWorld> find_world(const std::string& name, const WorldFactory& make_world) {
-  std::unique_ptr<LeverWorld> world = make_world(name);
-  if (!world) throw std::invalid_argument("its world \"" + name + "\" is not known to this program");
-  return world;
+// A name may hold a whole file: its first line says what it is.
+std::unique_ptr<LeverWorld> find_world(const std::string& name, const Gate& gate, const WorldFactory& make_world) {
+  std::unique_ptr<LeverWorld> world;
+  try {
+    world = make_world(name, gate);
+  } catch (const FileError& error) {
+    throw std::invalid_argument(std::string("its world is refused: ") + error.what());
+  }
+  if (world) return world;
+  const std::string first_line = printable(name.substr(0, std::min<std::size_t>(name.find('\n'), kShownName)));
+  throw std::invalid_argument("its world \"" + first_line + "\" is not known to this program");
 }
 
 }  // namespace
 
-std::unique_ptr<LeverWorld> make_null_world(const std::string& name) {
+std::unique_ptr<LeverWorld> make_null_world(const std::string& name, const Gate&) {
   auto world = std::make_unique<NullWorld>();
   return name == world->name() ? std::move(world) : nullptr;
 }
@@ -96,9 +107,9 @@ std::unique_ptr<LeverWorld> make_null_world(const std::string& name) {
 struct Replayer::Rig {
   Rig(const TraceHeader& header, const WorldFactory& make_world)
       : device(header.device),
-        world(find_world(header.world, make_world)),
         gate(compile_gate(parse_gate_layout(header.gate_text, header.gate_file), header.device.workspace,
                           header.device.yoke_radius > 0.0 ? header.device.yoke_radius : HUGE_VAL)),
+        world(find_world(header.world, gate, make_world)),
         loop(header.config, gate, device, *world, channels) {
     if (header.armed) loop.arm();
     channels.recording.store(true);
@@ -121,8 +132,8 @@ struct Replayer::Rig {
   }
 
   RecordedDevice device;
-  std::unique_ptr<LeverWorld> world;
   Gate gate;
+  std::unique_ptr<LeverWorld> world;
   LoopChannels channels;
   HapticLoop loop;
 };

@@ -13,9 +13,9 @@
 
 namespace gearshift {
 
-// The world of that name, or nothing when it is not known.
-using WorldFactory = std::function<std::unique_ptr<LeverWorld>(const std::string& name)>;
-std::unique_ptr<LeverWorld> make_null_world(const std::string& name);
+// The world of that name behind that gate, or nothing when the name is not known.
+using WorldFactory = std::function<std::unique_ptr<LeverWorld>(const std::string& name, const Gate& gate)>;
+std::unique_ptr<LeverWorld> make_null_world(const std::string& name, const Gate& gate);
 
 // The first thing that came out differently.
 struct Difference {

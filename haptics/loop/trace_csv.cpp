@@ -115,6 +115,9 @@ void add_inputs(Row& row, const TraceSample& sample) {
   row.cell("hand_brake", sample.controls.hand_brake);
   row.cell("ignition", sample.controls.ignition);
   row.cell("starter", sample.controls.starter);
+  row.cell("slope_rad", sample.controls.slope);
+  row.cell("guided_gear", sample.controls.guided_gear);
+  row.cell("guidance", sample.controls.guidance);
   row.cell("wall_stiffness_n_per_m", sample.tuning.wall_stiffness);
   row.cell("wall_damping_n_s_per_m", sample.tuning.wall_damping);
   row.cell("command", command_name(sample.command));

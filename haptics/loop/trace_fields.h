@@ -116,13 +116,16 @@ constexpr void each_field(FieldsOf<LeverReading> auto& reading, auto&& visit) {
 }
 
 constexpr void each_field(FieldsOf<DriverControls> auto& controls, auto&& visit) {
-  auto& [throttle, brake, clutch, hand_brake, ignition, starter] = controls;
+  auto& [throttle, brake, clutch, hand_brake, ignition, starter, slope, guided_gear, guidance] = controls;
   visit("throttle", throttle);
   visit("brake", brake);
   visit("clutch", clutch);
   visit("hand_brake", hand_brake);
   visit("ignition", ignition);
   visit("starter", starter);
+  visit("slope", slope);
+  visit("guided_gear", guided_gear);
+  visit("guidance", guidance);
 }
 
 constexpr void each_field(FieldsOf<HapticSnapshot> auto& snapshot, auto&& visit) {

@@ -56,6 +56,7 @@ std::vector<BenchRow> bench_delivered(const BenchOptions& options);  // force at
 std::vector<BenchRow> bench_boundary(const BenchOptions& options);   // predicted stability against simulated divergence
 std::vector<BenchRow> bench_methods(const BenchOptions& options);    // holds, estimators, energy control side by side
 std::vector<BenchRow> bench_hard(const BenchOptions& options);       // rates, delays, pushes, jitter, quantisation
+std::vector<BenchRow> bench_driveline(const BenchOptions& options);  // launch, dumps, money shift against a reference
 std::vector<BenchRow> bench_faults(const BenchOptions& options);     // time from a fault to no force
 std::vector<BenchRow> bench_picture(const BenchOptions& options);    // the cabin, pass by pass; the first frame
 std::vector<BenchRow> bench_quality(const BenchOptions& options);    // anti-aliasing, shadow, mirror, projected points

@@ -12,7 +12,8 @@
 
 using namespace gearshift;
 
-TEST_CASE("the callback is real-time safe: queues full, late, recorded, handed over to another loop, touring") {
+TEST_CASE(
+    "the callback is real-time safe: queues full, late, recorded, handed over to another loop with a car, touring") {
   constexpr std::int64_t kPeriod = 1'000'000;
   const Gate gate = paper_gate();
   TouringHand hand(gate, 1, 0.001);
@@ -20,7 +21,8 @@ TEST_CASE("the callback is real-time safe: queues full, late, recorded, handed o
   config.hand = kGripHand;
   SimulatedLever lever(config, kPeriod, hand);
   auto first = std::make_unique<LoopRun>(HapticConfig{}, gate, lever);
-  auto second = std::make_unique<LoopRun>(HapticConfig{}, gate, lever);
+  const CarSpec car = read_car(GEARSHIFT_ASSETS "/cars/hatchback.toml");
+  auto second = std::make_unique<LoopRun>(HapticConfig{}, gate, lever, std::make_unique<CarWorld>(car, gate, 31.7));
   first->loop.arm();
   second->loop.arm();
   second->channels.recording.store(true);

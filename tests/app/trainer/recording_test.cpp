@@ -1,8 +1,10 @@
 // Recordings begun in the middle of a drive: they replay bit for bit.
-#include <signal.h>
-#include <sys/resource.h>
+#include <sys/stat.h>
 
+#include <algorithm>
 #include <filesystem>
+#include <fstream>
+#include <limits>
 #include <optional>
 #include <stdexcept>
 #include <string>
@@ -15,6 +17,7 @@
 #include "haptics/loop/replay.h"
 #include "haptics/loop/trace_reader.h"
 #include "tests/app/trainer/trainer_bench.h"
+#include "tests/support/small_files.h"
 #include "tests/support/temp_folder.h"
 
 using namespace gearshift;
@@ -28,26 +31,19 @@ HapticTuning softer(const Trainer& trainer) {
   return tuning;
 }
 
-// No file may grow beyond that, as on a disk that is full.
-class SmallFiles {
- public:
-  explicit SmallFiles(rlim_t bytes) {
-    getrlimit(RLIMIT_FSIZE, &was_);
-    handler_ = signal(SIGXFSZ, SIG_IGN);
-    const rlimit small{bytes, was_.rlim_max};
-    setrlimit(RLIMIT_FSIZE, &small);
-  }
-  ~SmallFiles() {
-    setrlimit(RLIMIT_FSIZE, &was_);
-    signal(SIGXFSZ, handler_);
-  }
-  SmallFiles(const SmallFiles&) = delete;
-  SmallFiles& operator=(const SmallFiles&) = delete;
+// A device whose stop, as its encoder reads it, is 8 um beyond what its guard allows: who pushes it there breaks a limit.
+TrainerConfig breakable(TrainerClock clock) {
+  TrainerConfig config = trainer_config(clock);
+  config.preset.haptics.guard.position_margin = 0.0;
+  return config;
+}
 
- private:
-  rlimit was_{};
-  void (*handler_)(int) = nullptr;
-};
+HandTarget against_the_stop() {
+  HandTarget target;
+  target.position = {0.0, 0.06};
+  target.push = {0.0, 100.0};
+  return target;
+}
 
 }  // namespace
 
@@ -181,7 +177,61 @@ TEST_CASE("a file that cannot be made changes nothing; a second recording is ref
   CHECK_FALSE(std::filesystem::exists(folder / "b.trace"));
 }
 
-TEST_CASE("a disk that fills up is told when the recording stops, and the lever goes on") {
+TEST_CASE("a fault that falls while the file is being opened stays: the recording's loop gives no force") {
+  const TempFolder folder;
+  const std::filesystem::path pipe = folder / "pipe.trace";
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);  // opened for writing only when somebody reads it
+  Trainer trainer(breakable(TrainerClock::real_time));
+  trainer.arm();
+  std::this_thread::sleep_for(std::chrono::milliseconds(800));
+  REQUIRE(trainer.snapshot().guard == GuardState::running);
+  (void)trainer.take_events();
+
+  std::thread other([&] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(200));
+    trainer.set_hand(against_the_stop());
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    trainer.set_hand({});
+    std::this_thread::sleep_for(std::chrono::milliseconds(500));
+    std::ifstream reader(pipe, std::ios::binary);
+    reader.ignore(std::numeric_limits<std::streamsize>::max());
+  });
+  trainer.start_recording(pipe);
+  std::this_thread::sleep_for(std::chrono::milliseconds(800));
+  const HapticSnapshot now = trainer.snapshot();
+  const std::vector<HapticEvent> events = trainer.take_events();
+  (void)trainer.stop_recording();
+  other.join();
+  const bool fell = std::any_of(events.begin(), events.end(), [](const HapticEvent& event) {
+    return event.kind == EventKind::guard_changed && static_cast<GuardState>(event.value) == GuardState::released;
+  });
+  CHECK(fell);
+  CHECK(now.guard == GuardState::released);
+  CHECK(now.commanded == glm::dvec2(0.0));
+}
+
+TEST_CASE("a fault outlives any number of recordings: only a person gives the forces back") {
+  const TempFolder folder;
+  Trainer trainer(breakable(TrainerClock::virtual_time));
+  trainer.arm();
+  trainer.advance(1.0);
+  trainer.set_hand(against_the_stop());
+  trainer.advance(0.5);
+  REQUIRE(trainer.snapshot().guard == GuardState::released);
+  trainer.set_hand({});
+  trainer.advance(0.5);
+  for (const char* name : {"a.trace", "b.trace"}) {
+    trainer.start_recording(folder / name);
+    trainer.advance(1.0);
+    CHECK(trainer.snapshot().commanded == glm::dvec2(0.0));
+    CHECK_FALSE(trainer.stop_recording());
+  }
+  trainer.arm();
+  trainer.advance(1.0);
+  CHECK(trainer.snapshot().guard == GuardState::running);
+}
+
+TEST_CASE("a disk that fills up is told once while the recording runs, and again when it stops; the lever goes on") {
   const TempFolder folder;
   Trainer trainer(trainer_config(TrainerClock::virtual_time));
   trainer.arm();
@@ -189,8 +239,13 @@ TEST_CASE("a disk that fills up is told when the recording stops, and the lever 
   {
     const SmallFiles small(300'000);  // [bytes] less than a second
     trainer.start_recording(folder / "drive.trace");
+    CHECK_FALSE(trainer.take_recording_problem());
     trainer.advance(3.0);
+    const std::optional<std::string> told = trainer.take_recording_problem();
+    CHECK_FALSE(trainer.take_recording_problem());
     problem = trainer.stop_recording();
+    CHECK(told == problem);
+    CHECK_FALSE(trainer.take_recording_problem());
   }
   CHECK(trainer.snapshot().guard == GuardState::running);
   REQUIRE(problem);

@@ -71,8 +71,8 @@ TEST_CASE("health on the real clock: lateness is there, ordered, and starts anew
   const LoopHealth health = trainer.health();
   CHECK(health.late_worst > 0.0);
   CHECK(health.late_p50 <= health.late_p99);
-  CHECK(health.late_p99 <= 1.02 * health.late_worst);  // the histogram tells at most 1/64 too much
-  CHECK(health.realtime == health.why_not.empty());
+  CHECK(health.late_p99 <= 1.02 * health.late_worst);   // the histogram tells at most 1/64 too much
+  CHECK((health.realtime || !health.why_not.empty()));  // it may be real-time and yet have to tell of its memory
   const LoopHealth at_once = trainer.health();
   CHECK(at_once.late_p50 <= at_once.late_worst * 1.02);
 }

@@ -1,40 +1,13 @@
 // The XDG base directory specification, variable by variable.
 #include "app/trainer/user_folder.h"
 
-#include <stdlib.h>
-
-#include <optional>
 #include <string>
 
 #include <doctest/doctest.h>
 
+#include "tests/support/variable.h"
+
 using namespace gearshift;
-
-namespace {
-
-// Sets a variable, or takes it away, for as long as this lives.
-class Variable {
- public:
-  Variable(const char* name, const char* value) : name_(name) {
-    if (const char* was = getenv(name)) was_ = was;
-    set(value);
-  }
-  ~Variable() { set(was_ ? was_->c_str() : nullptr); }
-  Variable(const Variable&) = delete;
-  Variable& operator=(const Variable&) = delete;
-
- private:
-  void set(const char* value) const {
-    if (value != nullptr)
-      setenv(name_, value, 1);
-    else
-      unsetenv(name_);
-  }
-  const char* name_;
-  std::optional<std::string> was_;
-};
-
-}  // namespace
 
 TEST_CASE("the variables name the base folders") {
   const Variable config("XDG_CONFIG_HOME", "/c"), data("XDG_DATA_HOME", "/d"), home("HOME", "/h");

@@ -238,7 +238,7 @@ TEST_CASE("replay: a world with a memory replays, and only that world") {
   const Trace trace = read_trace(folder / "drive.trace");
   CHECK(trace.hash != recorded_trace().hash);
 
-  const auto make_spring = [](const std::string& name) -> std::unique_ptr<LeverWorld> {
+  const auto make_spring = [](const std::string& name, const Gate&) -> std::unique_ptr<LeverWorld> {
     auto world = std::make_unique<CreepingSpring>();
     return name == world->name() ? std::move(world) : nullptr;
   };

@@ -44,6 +44,9 @@ TraceSample known_sample() {
   sample.out.guard = GuardState::running;
   sample.out.flags = kFlagContact | kFlagFresh;
   sample.controls.clutch = 0.75;
+  sample.controls.slope = -0.0625;
+  sample.controls.guided_gear = 3;
+  sample.controls.guidance = 0.5;
   sample.command = LoopCommand::stop;
   sample.reading.hand_force = {std::numeric_limits<double>::quiet_NaN(), 2.0};
   return sample;
@@ -77,6 +80,9 @@ TEST_CASE("csv: numbers are in the unit of their column") {
   CHECK(row["contact"] == "1");
   CHECK(row["ghost"] == "0");
   CHECK(row["clutch"] == "0.75");
+  CHECK(row["slope_rad"] == "-0.0625");
+  CHECK(row["guided_gear"] == "3");
+  CHECK(row["guidance"] == "0.5");
   CHECK(row["command"] == "stop");
   CHECK(row["hand_force_x_n"] == "nan");
 }

@@ -134,7 +134,7 @@ TEST_CASE("trace: a sample is little-endian, inputs first, outputs last") {
   CHECK(std::memcmp(bytes.data(), first, 8) == 0);
   CHECK(std::memcmp(bytes.data() + bytes.size() - 4, last, 4) == 0);
   CHECK(outputs_of(bytes).data() + outputs_of(bytes).size() == bytes.data() + bytes.size());
-  CHECK(kSampleBytes - kOutputBytes == 8 + 8 + (8 + 8 + 6 * 8 + 2) + (4 * 8 + 2) + 6 * 8 + 1);
+  CHECK(kSampleBytes - kOutputBytes == 8 + 8 + (8 + 8 + 6 * 8 + 2) + (4 * 8 + 2 + 8 + 4 + 8) + 6 * 8 + 1);
   CHECK(kOutputBytes == 8 + 8 + 10 * 16 + 2 * 8 + 4 + 4 + 1 + 1 + 4);
 }
 

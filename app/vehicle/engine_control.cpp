@@ -1,0 +1,45 @@
+#include "app/vehicle/engine_control.h"
+
+#include <algorithm>
+
+namespace gearshift {
+namespace {
+constexpr double kFiresAt = 0.5;  // [1] of the starter's speed: turned that fast, a dead engine fires
+}
+
+EngineControl::EngineControl(const EngineSpec& spec) noexcept : spec_(spec) {
+  const double most = full(spec.idle);
+  idle_load_ = most > 0.0 ? std::min(1.0, friction_torque(spec, spec.idle) / most) : 0.0;
+}
+
+EngineControl::Fires EngineControl::next(double speed) const noexcept {
+  if (!ignition_) return {false, false};
+  const bool turned = starter_ && speed >= kFiresAt * spec_.starter_speed;
+  const bool survives = fires_.running && speed >= spec_.stall;
+  const bool running = turned || survives;
+  const bool cut = speed > spec_.limiter || (fires_.cut && speed >= spec_.limiter - spec_.limiter_band);
+  return {running, running && cut};
+}
+
+// Below the table the engine has what it has at its first point: the starter would not bring it up otherwise.
+double EngineControl::full(double speed) const noexcept {
+  const double tabled = spec_.points > 0 ? std::max(speed, spec_.full_load[0].speed) : speed;
+  return full_torque(spec_, tabled) + friction_torque(spec_, speed);
+}
+
+// The idle control is proportional about the load that idling needs; the pedal takes over where it asks for more.
+double EngineControl::load(double speed, double pedal) const noexcept {
+  if (!fires_.running || fires_.cut) return 0.0;
+  const double idling = std::clamp(idle_load_ + spec_.idle_gain * (spec_.idle - speed), 0.0, 1.0);
+  return std::max(pedal, idling);
+}
+
+double EngineControl::torque(double speed, double pedal) const noexcept {
+  double torque = 0.0;
+  const double opened = load(speed, pedal);
+  if (opened > 0.0) torque += opened * full(speed);
+  if (starter_ && speed < spec_.starter_speed) torque += spec_.starter_torque * (1.0 - speed / spec_.starter_speed);
+  return torque;
+}
+
+}  // namespace gearshift

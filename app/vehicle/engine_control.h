@@ -1,0 +1,40 @@
+// What makes the engine fire: key, starter, idle control, limiter, and the speed below which it dies.
+#pragma once
+
+#include "app/vehicle/car_spec.h"
+
+namespace gearshift {
+
+class EngineControl {
+ public:
+  explicit EngineControl(const EngineSpec& spec) noexcept;
+
+  void turn_key(bool ignition, bool starter) noexcept { ignition_ = ignition, starter_ = ignition && starter; }
+  void set_running(bool running) noexcept { fires_ = {running, false}; }
+  // What speed [rad/s] and key change: it dies below its stall speed and stays dead until the starter has turned it fast
+  // enough; the limiter cuts the fuel until the speed has fallen by its band.
+  void update(double speed) noexcept { fires_ = next(speed); }
+  bool would_change(double speed) const noexcept { return !(next(speed) == fires_); }
+
+  bool running() const noexcept { return fires_.running; }
+  bool ignition() const noexcept { return ignition_; }
+  // [1] 0 to 1: share of the torque that it could give, at that speed [rad/s] and pedal [1]; 0 where the fuel is cut.
+  double load(double speed, double pedal) const noexcept;
+  // [N m] of combustion and starter, friction not taken off.
+  double torque(double speed, double pedal) const noexcept;
+
+ private:
+  struct Fires {
+    bool running = true, cut = false;
+    bool operator==(const Fires&) const = default;
+  };
+  Fires next(double speed) const noexcept;
+  double full(double speed) const noexcept;  // [N m] of combustion, throttle open
+
+  EngineSpec spec_;
+  double idle_load_;  // [1] that gives back the friction at idle
+  bool ignition_ = true, starter_ = false;
+  Fires fires_;
+};
+
+}  // namespace gearshift

@@ -1,0 +1,28 @@
+// A file that is there whole or not at all: written beside its place, then renamed.
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <string_view>
+
+namespace gearshift {
+
+class PartFile {
+ public:
+  explicit PartFile(const std::filesystem::path& file);
+  ~PartFile();  // what was not kept is gone
+  PartFile(const PartFile&) = delete;
+  PartFile& operator=(const PartFile&) = delete;
+
+  const std::filesystem::path& path() const noexcept { return part_; }  // where it is written
+  void write(std::string_view text);                                    // all of it. Throws FileError
+  void keep();                                                          // under its name. Throws FileError
+
+ private:
+  std::filesystem::path file_, part_;
+};
+
+// Throws FileError; then what was there before still is.
+void write_text_file(const std::filesystem::path& file, std::string_view text);
+
+}  // namespace gearshift

@@ -1,0 +1,108 @@
+// A drive with a car behind the lever, recorded and run again from its inputs and the world's name alone.
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "haptics/files/file_error.h"
+#include "haptics/loop/replay.h"
+#include "haptics/loop/trace_recorder.h"
+#include "tests/app/vehicle/car_run.h"
+#include "tests/support/temp_folder.h"
+
+using namespace gearshift;
+
+namespace {
+
+// Up and down with the clutch, once without, a stall and a restart, on a hill.
+DriverControls busy_feet(double time) {
+  DriverControls feet = std::fmod(time, 1.1) < 0.9 ? clutch_down() : clutch_up(0.37);
+  if (time > 5.0) feet = clutch_up();
+  feet.slope = 0.031 * std::sin(time);
+  feet.brake = time > 6.0 ? 0.9 : 0.0;
+  feet.starter = time > 8.0;
+  if (time > 8.0) feet.clutch = 1.0;
+  return feet;
+}
+
+Trace recorded(const CarSpec& car, std::uint64_t seed = 5) {
+  const TempFolder folder;
+  const Gate gate = gate_of(car);
+  ScriptedHand hand = shifting_hand(gate, 2, {3, 4, 3, 2, 1, kNeutralGear, 2});
+  CarRun run(car, rolling_in(car, 2, 231.7), hand, busy_feet, seed);
+  const GateLayout layout = read_gate_layout(GEARSHIFT_ASSETS "/gates/" + car.gate + ".toml");
+  const SimulatedRunConfig config = gripped(gate, 2);
+  const TraceHeader header{"test", config.haptics, run.run.lever().spec(), layout.file, layout.text, run.world.name(),
+                           true};
+  TraceRecorder recorder(folder / "car.trace", header, run.run.channels(), TracePump::by_caller);
+  for (int i = 0; i < 9000; ++i) {
+    run.step();
+    if (i % 1000 == 0) recorder.pump();
+  }
+  recorder.finish();
+  return read_trace(folder / "car.trace");
+}
+
+std::string refusal(const Trace& trace) {
+  try {
+    replay(trace, make_car_world);
+  } catch (const FileError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("a drive replays bit for bit from the world's name, whole car included: both cars") {
+  for (const char* name : {"hatchback", "diesel"}) {
+    CAPTURE(name);
+    const Trace trace = recorded(shipped_car(name));
+    const ReplayResult result = replay(trace, make_car_world);
+    CHECK(result.bit_for_bit());
+    CHECK(result.cycles == 9000);
+    bool rolled = false;
+    for (const TraceSample& sample : trace.samples) rolled = rolled || sample.out.road_speed > 3.0;
+    CHECK(rolled);
+    CHECK(recorded(shipped_car(name)).hash == trace.hash);
+  }
+}
+
+TEST_CASE("it does not with another seed, another start or another car") {
+  const Trace trace = recorded(shipped_car("hatchback"));
+  const auto changed = [&](const std::string& from, const std::string& to) {
+    Trace other = trace;
+    const std::size_t at = other.header.world.find(from);
+    REQUIRE(at != std::string::npos);
+    other.header.world.replace(at, from.size(), to);
+    const ReplayResult result = replay(other, make_car_world);
+    return result.first.has_value();
+  };
+  CHECK(changed("car 31.7 5 ", "car 31.7 6 "));
+  CHECK(changed("car 31.7 5 ", "car 31.6 5 "));
+  CHECK(changed("mass_kg = 1373.4", "mass_kg = 1373.5"));
+  CHECK(changed("friction = 0.10", "friction = 0.101"));
+  const CarSpec car = shipped_car("hatchback");
+  const CarWorld faster(car, gate_of(car), kPaperForce, rolling_in(car, 2, 231.8), 5);
+  CHECK(changed(trace.header.world, faster.name()));
+}
+
+TEST_CASE("a world's name makes the same world; what is no car is none, and a bad car is refused") {
+  const CarSpec car = shipped_car("hatchback");
+  const Gate gate = gate_of(car);
+  CarStart start = rolling_in(car, 3, 123.456);
+  start.distance = 1e6 / 3.0;
+  const CarWorld world(car, gate, 31.7, start, 1234567890123456789u);
+  const std::unique_ptr<LeverWorld> again = make_car_world(world.name(), gate);
+  REQUIRE(again);
+  CHECK(std::string(again->name()) == world.name());
+  for (const char* name : {"none", "", "car", "car 31.7 1", "car 31.7 1 0 0 1 0 0 0 0", "car nan 1 0 0 1 0 0 0 0\nx\n"})
+    CHECK(make_car_world(name, gate) == nullptr);
+
+  Trace trace = recorded(car);
+  trace.header.world.replace(trace.header.world.find("ratio_2 = 1.94"), 14, "ratio_2 = 9.94");
+  CHECK(refusal(trace).find("cannot be run again: its world is refused: hatchback.toml:") != std::string::npos);
+  CHECK(refusal(trace).find("must be less than ratio_1") != std::string::npos);
+  trace.header.world = "a \x1b[31mship\nof wood";
+  CHECK(refusal(trace).find("its world \"a ?[31mship\" is not known to this program") != std::string::npos);
+}

@@ -1,0 +1,150 @@
+// Reading cars, and refusing bad ones: file, line and reason in one sentence.
+#include "app/vehicle/car_spec.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <set>
+#include <stdexcept>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "app/vehicle/car_world.h"
+#include "haptics/files/file_error.h"
+#include "haptics/files/printable.h"
+#include "tests/app/vehicle/cars.h"
+
+using namespace gearshift;
+
+namespace {
+
+struct Hostile {
+  const char* file;
+  const char* sentence;  // after the file's name
+};
+
+// Lines and reasons as a person finds them in tests/data/hostile_cars.
+constexpr Hostile kHostile[] = {
+    {"bite_beyond_pedal", ":33: bite_pedal = 1.2: must be between 0 and 1"},
+    {"capacity_missing", ":31: capacity_nm is missing: it must be a number between 1 and 10000"},
+    {"closed_above_bite", ":34: closed_pedal = 0.8: must be less than bite_pedal"},
+    {"cone_in_radians", ":50: cone_half_angle_deg = 0.113: must be between 3 and 20"},
+    {"efficiency_above_one", ":59: efficiency = 1.1: must be between 0.5 and 1"},
+    {"empty", ":1: title is missing: it must be a text in quotes"},
+    {"friction_below_zero", ":16: friction_nm = -1: must be between 0 and 5000"},
+    {"gate_is_a_number", ":2: gate = 5: must be a text in quotes"},
+    {"gate_under_engine", ":1: gate is missing: it must be a text in quotes"},
+    {"idle_above_shift", ":20: idle_rpm = 2100: must be less than shift_from_rpm"},
+    {"idle_below_stall", ":22: stall_rpm = 350: must be less than idle_rpm"},
+    {"inertia_nan", ":19: inertia_kgm2 = nan: must be between 0.01 and 10"},
+    {"limiter_band_to_idle", ":25: limiter_band_rpm = 1000: must not reach from limiter_rpm down to idle_rpm"},
+    {"lug_above_shift", ":30: lug_below_rpm = 2500: must be less than shift_to_rpm"},
+    {"massless", ":61: mass_kg = 0: must be between 100 and 60000"},
+    {"negative_reverse", ":42: ratio_r = -3.17: must be between 0.1 and 20"},
+    {"no_engine", ":1: engine is missing: it must be a table, [engine]"},
+    {"no_first_gear", ":36: ratio_1 is missing: it must be a number between 0.1 and 20"},
+    {"no_friction", ":48: friction = 0: must be between 0.01 and 0.5"},
+    {"no_title", ":1: title is missing: it must be a text in quotes"},
+    {"not_toml", ":31: not valid TOML: "},
+    {"one_point",
+     ":4: full_load = (a list): must have between 2 and 24 points, each { rpm = ..., nm = ... }, this has 1"},
+    {"point_of_power", ":10: kw is not a known key: known here are rpm, nm"},
+    {"point_without_torque", ":10: nm is missing: it must be a number between 0 and 5000"},
+    {"points_of_numbers", ":4: full_load must be a list of tables: write each as [[full_load]]"},
+    {"ratio_gap", ":39: ratio_4 = 0.97: there is no ratio_3"},
+    {"ratio_text", ":38: ratio_2 = \"35:18\": must be a number between 0.1 and 20"},
+    {"ratios_rise", ":40: ratio_4 = 1.3: must be less than ratio_3"},
+    {"red_line_above_limiter", ":23: red_line_rpm = 6500: must be less than limiter_rpm"},
+    {"shift_above_red_line", ":29: shift_to_rpm = 6300: must be less than red_line_rpm"},
+    {"shift_band_turned", ":28: shift_from_rpm = 2000: must be less than shift_to_rpm"},
+    {"speeds_do_not_rise", ":9: rpm = 2000: must be larger than that of the point before"},
+    {"starter_infinite", ":26: starter_nm = inf: must be between 1 and 1000"},
+    {"tenth_gear", ":43: ratio_10 is not a known key: known here are ratio_1"},
+    {"title_with_escape", ":1: title = \"?[31mHostile\": must be one line without control characters"},
+    {"too_many_points",
+     ":4: full_load = (a list): must have between 2 and 24 points, each { rpm = ..., nm = ... }, this has 25"},
+    {"torque_begins_late",
+     ":4: full_load = (a list): must reach from idle_rpm or below to limiter_rpm or above, this has 1500 to 7000"},
+    {"torque_stops_short",
+     ":4: full_load = (a list): must reach from idle_rpm or below to limiter_rpm or above, this has 600 to 6000"},
+    {"unknown_key", ":68: abs is not a known key: known here are mass_kg"},
+    {"unknown_table",
+     ":69: turbo is not a known key: known here are title, gate, engine, clutch, gearbox, synchro, body"},
+    {"wheel_in_metres", ":63: wheel_radius_mm = 0.303: must be between 100 and 1000"},
+};
+
+constexpr const char* kFolder = GEARSHIFT_TEST_DATA "/hostile_cars";
+
+std::string refusal(const std::filesystem::path& file) {
+  try {
+    read_car(file);
+  } catch (const FileError& error) {
+    return error.what();
+  }
+  return "not refused";
+}
+
+}  // namespace
+
+TEST_CASE("every hostile car is refused in one sentence with file, line and reason") {
+  for (const Hostile& hostile : kHostile) {
+    const std::filesystem::path file = std::filesystem::path(kFolder) / (std::string(hostile.file) + ".toml");
+    const std::string sentence = refusal(file);
+    CAPTURE(sentence);
+    CHECK(sentence.find(file.string() + hostile.sentence) == 0);
+    CHECK(is_printable(sentence));
+  }
+}
+
+TEST_CASE("no hostile car lies about without being tested") {
+  std::set<std::string> expected, found;
+  for (const Hostile& hostile : kHostile) expected.insert(hostile.file);
+  for (const auto& entry : std::filesystem::directory_iterator(kFolder)) found.insert(entry.path().stem().string());
+  CHECK(found == expected);
+}
+
+TEST_CASE("a file that is not there is refused by its name") {
+  CHECK(refusal("no_such_car.toml").find("no_such_car.toml") == 0);
+}
+
+TEST_CASE("the hatchback is the car of the facts, in SI units") {
+  const CarSpec car = shipped_car("hatchback");
+  CHECK(car.name == "hatchback");
+  CHECK(car.gate == "five_speed_r_right_down");
+  CHECK(full_torque(car.engine, 4000.0 * kRpm) == doctest::Approx(145.0));
+  CHECK(full_torque(car.engine, 6000.0 * kRpm) * 6000.0 * kRpm == doctest::Approx(74e3).epsilon(0.01));
+  CHECK(friction_torque(car.engine, 3090.0 * kRpm) == doctest::Approx(11.9).epsilon(0.06));
+  CHECK(friction_torque(car.engine, 5660.0 * kRpm) == doctest::Approx(22.7).epsilon(0.01));
+  CHECK(car.engine.idle == doctest::Approx(83.8).epsilon(0.001));
+  CHECK(car.engine.idle_gain * 1000.0 * kRpm == doctest::Approx(1.0));
+  CHECK(car.synchro.cone_angle == doctest::Approx(0.11345).epsilon(1e-4));
+  CHECK(car.synchro.radius == doctest::Approx(0.03));
+  CHECK(car.body.wheel_radius == doctest::Approx(0.3032));
+  const double kmh_per_krpm[] = {8.1, 14.4, 21.7, 28.9, 36.8};  // facts, training.md section 3
+  for (int gear = 1; gear <= 5; ++gear)
+    CHECK(3.6 * road_speed_at(car, gear, 1000.0 * kRpm) == doctest::Approx(kmh_per_krpm[gear - 1]).epsilon(0.007));
+  CHECK(shaft_per_road(car, 6) == 0.0);
+}
+
+TEST_CASE("every shipped car fits its gate, and its rings block") {
+  int cars = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(GEARSHIFT_ASSETS "/cars")) {
+    if (entry.path().extension() != ".toml") continue;
+    CAPTURE(entry.path());
+    ++cars;
+    const CarSpec car = read_car(entry.path());
+    CHECK_NOTHROW(check_car_fits(car, gate_of(car)));
+    CHECK(critical_friction(car.synchro) < car.synchro.friction);
+    CHECK(car.clutch.capacity > 1.5 * full_torque(car.engine, 2000.0 * kRpm));
+  }
+  CHECK(cars == 2);
+}
+
+TEST_CASE("a gate with a gear that the car lacks is refused where they meet") {
+  const CarSpec car = shipped_car("hatchback");
+  const Gate six = shipped_gate("six_speed_r_left_up");
+  const std::string sentence = "this gate has a gear 6, the car \"hatchback\" has none";
+  CHECK_THROWS_WITH_AS(CarWorld(car, six, kPaperForce), sentence.c_str(), std::invalid_argument);
+  CHECK_NOTHROW(CarWorld(car, shipped_gate("four_speed"), kPaperForce));  // fifth is out of reach, no more
+  CHECK_THROWS_AS(CarWorld(car, gate_of(car), 0.0), std::invalid_argument);
+}

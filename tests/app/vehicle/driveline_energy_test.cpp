@@ -1,0 +1,137 @@
+// The ledger: what came in has gone somewhere, to rounding, whatever the feet do.
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include <doctest/doctest.h>
+
+#include "tests/app/vehicle/driveline_rig.h"
+#include "tests/bench/driveline/drives.h"
+
+using namespace gearshift;
+
+namespace {
+
+double spent(const EnergyLedger& e) {
+  return e.friction + e.clutch + e.cone + e.shaft_drag + e.rolling + e.brakes + e.slope + e.teeth + e.mesh;
+}
+
+double turnover(const EnergyLedger& e) {
+  return std::abs(e.engine) + e.friction + e.clutch + e.cone + e.shaft_drag + e.rolling + e.brakes + e.teeth + e.mesh;
+}
+
+// Nothing but the slope gives back.
+bool none_shrinks(const EnergyLedger& a, const EnergyLedger& b, double rounding) {
+  const double EnergyLedger::*kept[] = {&EnergyLedger::friction, &EnergyLedger::clutch, &EnergyLedger::cone,
+                                        &EnergyLedger::rolling,  &EnergyLedger::brakes, &EnergyLedger::shaft_drag,
+                                        &EnergyLedger::teeth,    &EnergyLedger::mesh};
+  return std::all_of(std::begin(kept), std::end(kept),
+                     [&](const double EnergyLedger::*part) { return b.*part >= a.*part - rounding; });
+}
+
+// Pedals that wander, gears at random, now and then the key and the cone.
+class Fool {
+ public:
+  explicit Fool(unsigned seed) : random_(seed) {}
+  DrivelineInput next() {
+    for (double* pedal : {&in_.throttle, &in_.clutch, &in_.brake, &in_.hand_brake}) {
+      if (random_() % 200 == 0) *pedal = random_() % 2 == 0 ? number(0.0, 1.0) : random_() % 3 == 0 ? 1.0 : 0.0;
+    }
+    if (random_() % 50 == 0) in_.slope = number(-0.2, 0.2);
+    if (random_() % 500 == 0) in_.meshed = static_cast<int>(random_() % 7) - 1;
+    if (random_() % 500 == 0) in_.cone_gear = static_cast<int>(random_() % 7) - 1;
+    if (random_() % 100 == 0) in_.cone_torque = number(0.0, 40.0);
+    if (random_() % 3000 == 0) in_.ignition = !in_.ignition;
+    if (!in_.ignition && random_() % 200 == 0) in_.ignition = true;
+    in_.starter = random_() % 400 == 0 ? !in_.starter : in_.starter;
+    return in_;
+  }
+  double number(double from, double to) { return std::uniform_real_distribution<double>(from, to)(random_); }
+
+ private:
+  std::mt19937 random_;
+  DrivelineInput in_;
+};
+
+}  // namespace
+
+TEST_CASE("energy: what engine and slope give is kinetic or spent, to 1e-12 over a minute of folly") {
+  for (unsigned seed = 0; seed < 20; ++seed) {
+    CAPTURE(seed);
+    CarSpec car = hatchback();
+    if (seed % 2 == 1) car.gearbox.efficiency = 0.93;
+    Fool fool(seed);
+    Driveline line(car);
+    line.place(100.0, 50.0, fool.number(-10.0, 30.0), true);
+    const double begin = line.kinetic_energy();
+    bool good = true;
+    for (int i = 0; i < 60000; ++i) {
+      const EnergyLedger before = line.energy();
+      line.step(fool.next(), 0.001);
+      good = good && none_shrinks(before, line.energy(), 1e-8) && std::isfinite(line.state().acceleration) &&
+             line.state().engine_speed >= 0.0;
+    }
+    CHECK(good);
+    const EnergyLedger& e = line.energy();
+    CHECK(std::abs(begin + e.engine - spent(e) - line.kinetic_energy()) < 1e-12 * (turnover(e) + begin));
+    CHECK(turnover(e) > 1e5);
+    CHECK(line.fallbacks() == 0);
+  }
+}
+
+TEST_CASE("the parts that the drive does not use stay empty") {
+  Driveline line(hatchback());
+  for (int i = 0; i < 2000; ++i) line.step(pedals(0, 0.3, 1.0), 0.001);
+  const EnergyLedger& e = line.energy();
+  CHECK(e.engine > 0.0);
+  CHECK(e.friction > 0.0);
+  for (const double part : {e.clutch, e.cone, e.shaft_drag, e.rolling, e.brakes, e.slope, e.teeth, e.mesh})
+    CHECK(part == 0.0);
+}
+
+TEST_CASE("with a dead engine the car only loses") {
+  Driveline line(hatchback());
+  line.place(400.0, 400.0, 400.0 / shaft_per_road(hatchback(), 2), false);
+  DrivelineInput in = pedals(2, 1.0, 0.0);
+  in.ignition = false;
+  double last = 1e99;
+  bool falls = true;
+  for (int i = 0; i < 60000 && line.state().road_speed != 0.0; ++i) {
+    in.clutch = 0.5 + 0.5 * std::sin(0.01 * i);
+    line.step(in, 0.001);
+    falls = falls && line.kinetic_energy() < last;
+    last = line.kinetic_energy();
+  }
+  CHECK(falls);
+  CHECK(line.state().road_speed == 0.0);
+  CHECK(line.energy().engine == 0.0);
+}
+
+// Teeth of 0.9 in a long pull: a tenth of what goes through them.
+TEST_CASE("teeth take (1 - efficiency) of what goes through them") {
+  CarSpec car = bare_car(0.1, 0.6, 300.0, 100.0);
+  car.gearbox.efficiency = 0.9;
+  Driveline line(car);
+  line.place(50.0, 50.0, 5.0, true);
+  const double begin = 0.5 * car.body.mass * 25.0;
+  for (int i = 0; i < 2000; ++i) line.step(pedals(1, 1.0, 0.0), 0.001);
+  const double gained = 0.5 * car.body.mass * std::pow(line.state().road_speed, 2) - begin;
+  CHECK(line.energy().teeth == doctest::Approx(gained / 9.0).epsilon(1e-9));
+}
+
+TEST_CASE("momentum: with nothing from outside it stays, slipping, locking and locked") {
+  const CarSpec car = bare_car(0.15, 0.569, 200.0);
+  Driveline line(car);
+  line.place(300.0, 30.0, 3.0, false);
+  DrivelineInput in = pedals(1, 0.0, 0.0);
+  in.ignition = false;
+  const auto momentum = [&] { return 0.15 * line.state().engine_speed + 0.569 * kPerRoad * line.state().road_speed; };
+  const double begin = momentum();
+  double worst = 0.0;
+  for (int i = 0; i < 1000; ++i) {
+    line.step(in, 0.001);
+    worst = std::max(worst, std::abs(momentum() / begin - 1.0));
+  }
+  CHECK(line.state().clutch_locked);
+  CHECK(worst < 1e-13);
+}

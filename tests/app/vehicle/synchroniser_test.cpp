@@ -1,0 +1,443 @@
+// The synchroniser against the closed forms of the cone, of the ring and of two inertias.
+#include "app/vehicle/synchroniser.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "app/vehicle/driveline.h"
+#include "tests/app/vehicle/cars.h"
+
+using namespace gearshift;
+
+namespace {
+
+constexpr double kT = 0.001;  // [s]
+constexpr double kScale = kPaperForce / kHandMost;
+
+// A sleeve that is held against whatever stops it, in a car with the clutch down or not.
+struct Bench {
+  explicit Bench(const CarSpec& spec, double scale = kScale, std::uint64_t seed = 1)
+      : car(spec),
+        gate(gate_of(spec)),
+        sleeve(spec.synchro, gate, scale, kNeutralGear, seed),
+        driveline(spec),
+        force_scale(scale) {}
+
+  // Into that gear's slot, from a shaft at this speed, with the car at that one.
+  void enter(int wanted, double shaft, double road) {
+    gear = wanted;
+    input.slot = slot_of_gear(gate, gear);
+    at = sleeve_stations(slot_of(gate, input.slot));
+    driveline.place(clutch_down ? car.engine.idle : shaft, shaft, road, true);
+    input.depth = at.block;
+  }
+
+  // One cycle with this push of a person [N] at the real knob. The sleeve goes as far as it may.
+  void step(double push) {
+    const VehicleState& now = driveline.state();
+    input.push = force_scale * push;
+    input.difference = (now.shaft_speed - shaft_per_road(car, gear) * now.road_speed) / ratio_of(car, gear);
+    input.clutch_open = clutch_down;
+    input.load = now.drive_torque / car.gearbox.final_drive;
+    out = sleeve.step(input, kT);
+    DrivelineInput in;
+    in.clutch = clutch_down ? 1.0 : 0.0;
+    in.throttle = throttle;
+    in.meshed = out.meshed;
+    in.cone_gear = out.cone_gear;
+    in.cone_torque = out.cone_torque;
+    driveline.step(in, kT);
+    if (moves) input.depth = std::min(out.depth_max, input.depth + 0.0003);
+    time += kT;
+  }
+
+  CarSpec car;
+  Gate gate;
+  Synchroniser sleeve;
+  Driveline driveline;
+  double force_scale;
+  bool clutch_down = true;
+  double throttle = 0.0;
+  bool moves = false;  // on where it may: 0.3 m/s
+  int gear = kNeutralGear;
+  SleeveStations at;
+  SleeveInput input;
+  SleeveOutput out;
+  double time = 0.0;
+};
+
+struct Shift {
+  int from, to;
+  double push, facts;  // [N], [s] of shared facts, training.md section 4
+};
+const Shift kShifts[] = {{1, 2, 60.0, 0.109}, {2, 3, 60.0, 0.057}, {3, 4, 60.0, 0.032}, {4, 5, 60.0, 0.022},
+                         {1, 2, 30.0, 0.205}, {2, 3, 30.0, 0.109}, {3, 4, 30.0, 0.062}, {4, 5, 30.0, 0.043},
+                         {2, 1, 60.0, 0.42},  {3, 2, 60.0, 0.14}};
+
+// At the shaft: J w' = -+T_c/i - T_drag, and the car takes its share: m v' = +-G T_c/i. The drag helps an upshift.
+double closed_form(const CarSpec& car, const Shift& shift, double difference) {
+  const double ratio = ratio_of(car, shift.to), per_road = shaft_per_road(car, shift.to);
+  const double cone = shift.push * car.synchro.lever_ratio * car.synchro.efficiency * cone_gain(car.synchro) / ratio;
+  const double drag = car.gearbox.drag * (shift.to > shift.from ? 1.0 : -1.0);
+  const double shaft = car.clutch.disc_inertia, mass = car.body.mass + car.body.rotating;
+  return ratio * difference / (cone * (1.0 / shaft + per_road * per_road / mass) + drag / shaft);
+}
+
+// A car that nothing slows while it is being shifted.
+CarSpec rolling_hatchback() {
+  CarSpec car = shipped_car("hatchback");
+  car.body.resistance = car.body.resistance_slope = car.body.resistance_square = 0.0;
+  return car;
+}
+
+// The ring holds the sleeve until its synchroniser has done its work: how long, or 5 s.
+double synchronising_time(Bench& bench, double push) {
+  do bench.step(push);
+  while (bench.out.depth_max == bench.at.block && bench.time < 5.0);
+  return bench.time;
+}
+
+}  // namespace
+
+TEST_CASE("cone and ring: gains, and the friction below which the ring no longer blocks") {
+  CarSpec car = shipped_car("hatchback");
+  CHECK(cone_gain(car.synchro) == doctest::Approx(0.0265).epsilon(0.001));
+  CHECK(60.0 * 9.0 * 0.8 * cone_gain(car.synchro) == doctest::Approx(11.4).epsilon(0.005));
+  CHECK(index_gain(car.synchro) == doctest::Approx(0.0222).epsilon(0.002));
+  CHECK(cone_gain(car.synchro) / index_gain(car.synchro) == doctest::Approx(1.20).epsilon(0.005));
+  CHECK(critical_friction(car.synchro) == doctest::Approx(0.084).epsilon(0.005));
+  car.synchro.pointing_angle = 57.5 * std::numbers::pi / 180.0;
+  CHECK(cone_gain(car.synchro) / index_gain(car.synchro) == doctest::Approx(1.46).epsilon(0.005));
+  CHECK(critical_friction(car.synchro) == doctest::Approx(0.068).epsilon(0.008));
+}
+
+TEST_CASE("a synchroniser takes J dw i^2 / (T_c +- T_drag i): up and down, 60 N and 30 N, at 2500 rpm") {
+  const CarSpec car = rolling_hatchback();
+  for (const Shift& shift : kShifts) {
+    CAPTURE(shift.from);
+    CAPTURE(shift.to);
+    CAPTURE(shift.push);
+    Bench bench(car);
+    const double road = road_speed_at(car, shift.from, 2500.0 * kRpm);
+    const double target = shaft_per_road(car, shift.to) * road;
+    const double difference = std::abs(2500.0 * kRpm - target) / ratio_of(car, shift.to);
+    CHECK(closed_form(car, shift, difference) == doctest::Approx(shift.facts).epsilon(0.025));
+    bench.enter(shift.to, 2500.0 * kRpm, road);
+    const double took = synchronising_time(bench, shift.push);
+    const double wanted = closed_form(car, shift, difference - car.synchro.dog_speed);
+    CHECK(std::abs(took - wanted) < 2.5 * kT);  // half of the first cycle has no cone yet, the last sees the one before
+  }
+}
+
+TEST_CASE("the cone's heat is half of its torque times the difference times the time, whatever the push") {
+  const CarSpec car = shipped_car("hatchback");
+  for (const double push : {15.0, 30.0, 60.0, 120.0}) {
+    CAPTURE(push);
+    Bench bench(car);
+    const double road = road_speed_at(car, 1, 2500.0 * kRpm);
+    const double difference = (2500.0 * kRpm - shaft_per_road(car, 2) * road) / ratio_of(car, 2);
+    bench.enter(2, 2500.0 * kRpm, road);
+    const double kinetic = bench.driveline.kinetic_energy();
+    const double took = synchronising_time(bench, push);
+    const double torque = push * car.synchro.lever_ratio * car.synchro.efficiency * cone_gain(car.synchro);
+    const EnergyLedger& went = bench.driveline.energy();
+    CHECK(went.cone == doctest::Approx(0.5 * torque * difference * took).epsilon(0.03));
+    const double lost = kinetic - bench.driveline.kinetic_energy() + went.engine;
+    CHECK(lost == doctest::Approx(went.cone + went.shaft_drag + went.rolling + went.friction).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("the ring is a hard wall: no push opens it while the speeds differ") {
+  const CarSpec car = shipped_car("hatchback");
+  for (const double push : {0.0, 5.0, 60.0, 300.0, 1e4}) {
+    CAPTURE(push);
+    Bench bench(car);
+    bench.enter(2, 2500.0 * kRpm, road_speed_at(car, 1, 2500.0 * kRpm));
+    bench.step(push);
+    for (int i = 0; i < 3000 && std::abs(bench.input.difference) > car.synchro.dog_speed; ++i) {
+      REQUIRE(bench.out.depth_max == bench.at.block);
+      REQUIRE(bench.out.phase == SyncPhase::synchronising);
+      REQUIRE(bench.out.meshed == kNeutralGear);
+      bench.step(push);
+    }
+    if (push >= 5.0) CHECK(bench.out.depth_max == bench.at.dogs);
+  }
+}
+
+TEST_CASE("with the clutch up the cone would have to turn the engine: 60 N do not, for 2.5 s") {
+  const CarSpec car = shipped_car("hatchback");
+  for (const double throttle : {0.0, 0.3}) {
+    CAPTURE(throttle);
+    Bench bench(car);
+    bench.clutch_down = false;
+    bench.throttle = throttle;
+    bench.enter(1, throttle > 0.0 ? 300.0 : car.engine.idle, 5.0);  // it asks for 235 rad/s
+    for (int i = 0; i < 2500; ++i) {
+      bench.step(60.0);
+      REQUIRE(bench.out.depth_max == bench.at.block);
+    }
+  }
+}
+
+TEST_CASE("with the clutch up, revs that match let it pass: the engine falls to them") {
+  const CarSpec car = shipped_car("hatchback");
+  Bench bench(car);
+  bench.clutch_down = false;
+  bench.moves = true;
+  const double road = road_speed_at(car, 3, 2000.0 * kRpm);
+  bench.enter(3, 2300.0 * kRpm, road);
+  while (bench.out.meshed == kNeutralGear && bench.time < 3.0) bench.step(20.0);
+  CHECK(bench.out.meshed == 3);
+  CHECK(bench.driveline.state().engine_speed == doctest::Approx(2000.0 * kRpm).epsilon(0.02));
+  CHECK(bench.driveline.energy().mesh < 1.0);
+}
+
+TEST_CASE("worn: below the critical friction the ring lets the sleeve through, above it does not") {
+  CarSpec car = shipped_car("hatchback");
+  const double critical = critical_friction(car.synchro);
+  for (const double worn : {0.6, 0.9, 0.99, 1.01, 1.1}) {
+    CAPTURE(worn);
+    car.synchro.friction = worn * critical;
+    Bench bench(car);
+    bench.enter(2, 2500.0 * kRpm, road_speed_at(car, 1, 2500.0 * kRpm));
+    bench.step(30.0);
+    CHECK(bench.out.depth_max == (worn < 1.0 ? bench.at.dogs : bench.at.block));
+  }
+}
+
+TEST_CASE("dogs that clash are a hard wall; they grind with F mu R dw, and go in once the speeds are near") {
+  CarSpec car = shipped_car("hatchback");
+  car.synchro.friction = 0.05;
+  double longer = std::numeric_limits<double>::infinity();
+  for (const double push : {15.0, 30.0, 60.0}) {
+    CAPTURE(push);
+    Bench bench(car);
+    bench.moves = true;
+    bench.enter(2, 2500.0 * kRpm, road_speed_at(car, 1, 2500.0 * kRpm));
+    double ground = 0.0;
+    while (bench.out.meshed == kNeutralGear && bench.time < 10.0) {
+      bench.step(push);
+      if (bench.out.meshed != kNeutralGear) break;
+      REQUIRE(bench.input.depth <= bench.at.dogs);
+      if (bench.out.phase != SyncPhase::clashing) continue;
+      ground += kT;
+      const double rub = push * 9.0 * 0.8 * car.synchro.index_friction * car.synchro.index_radius;
+      REQUIRE(bench.out.grind_power == doctest::Approx(rub * std::abs(bench.input.difference)).epsilon(1e-9));
+      REQUIRE(std::abs(bench.input.difference) > car.synchro.dog_speed);
+    }
+    CHECK(bench.out.meshed == 2);
+    CHECK(bench.driveline.energy().mesh < 0.1);
+    CHECK(ground > 0.1);
+    CHECK(ground < longer);  // who pushes harder grinds louder and shorter
+    longer = ground;
+  }
+}
+
+TEST_CASE("reverse has no cone: the shaft runs down by its drag alone, and only then do the dogs go in") {
+  const CarSpec car = shipped_car("hatchback");
+  Bench bench(car);
+  const double start = car.engine.idle;
+  bench.enter(kReverseGear, start, 0.0);
+  bench.input.depth = bench.at.block;  // not at the dogs: nothing rubs
+  const double near = car.synchro.dog_speed * ratio_of(car, kReverseGear);
+  const double run_down = car.clutch.disc_inertia * (start - near) / car.gearbox.drag;
+  while (std::abs(bench.driveline.state().shaft_speed) > near) bench.step(20.0);
+  CHECK(bench.time == doctest::Approx(run_down).epsilon(0.005));
+  CHECK(bench.out.cone_gear == kNeutralGear);
+  bench.input.depth = bench.at.dogs;
+  bench.step(20.0);
+  bench.step(20.0);
+  CHECK(bench.out.meshed == kReverseGear);
+}
+
+TEST_CASE("reverse pushed at its turning dogs grinds and stays out; rubbing, they stop the shaft sooner") {
+  const CarSpec car = shipped_car("hatchback");
+  Bench bench(car);
+  bench.enter(kReverseGear, car.engine.idle, 0.0);
+  bench.input.depth = bench.at.dogs;
+  bench.step(20.0);
+  CHECK(bench.out.phase == SyncPhase::clashing);
+  const double rub = 20.0 * 9.0 * 0.8 * car.synchro.index_friction * car.synchro.index_radius;
+  const double ratio = ratio_of(car, kReverseGear);
+  const double near = car.synchro.dog_speed * ratio;
+  const double run_down = car.clutch.disc_inertia * (car.engine.idle - near) / (car.gearbox.drag + rub / ratio);
+  while (bench.out.meshed == kNeutralGear && bench.time < 5.0) bench.step(20.0);
+  CHECK(bench.time == doctest::Approx(run_down).epsilon(0.01));
+}
+
+TEST_CASE("the second bump is at most a third of the effort, random, and the same for the same seed") {
+  const CarSpec car = shipped_car("hatchback");
+  const auto peak = [&](std::uint64_t seed, double push) {
+    Bench bench(car, kScale, seed);
+    bench.moves = true;
+    bench.enter(3, 2500.0 * kRpm, road_speed_at(car, 2, 2500.0 * kRpm));
+    double most = 0.0;
+    for (int i = 0; i < 1000; ++i) {
+      bench.step(push);
+      REQUIRE(bench.out.force <= 0.0);
+      most = std::max(most, -bench.out.force);
+    }
+    REQUIRE(bench.out.meshed == 3);
+    REQUIRE(bench.out.phase == SyncPhase::meshed);
+    return most;
+  };
+  const double effort = 15.0;  // [N] at the real knob; little enough for the device to give all of the bump
+  std::vector<double> peaks;
+  for (std::uint64_t seed = 0; seed < 200; ++seed) peaks.push_back(peak(seed, effort));
+  std::sort(peaks.begin(), peaks.end());
+  CHECK(peaks.back() <= kScale * effort / 3.0);
+  CHECK(peaks.back() > 0.9 * kScale * effort / 3.0);
+  CHECK(peaks.front() < 0.1 * kScale * effort / 3.0);
+  CHECK(peaks[100] == doctest::Approx(0.5 * kScale * effort / 3.0).epsilon(0.2));
+  CHECK(peak(7, effort) == peak(7, effort));
+  for (const double push : {30.0, 60.0, 200.0})
+    for (std::uint64_t seed = 0; seed < 20; ++seed) CHECK(peak(seed, push) <= kScale * push / 3.0);
+}
+
+TEST_CASE("the bump is continuous with its slope, and is felt on the way in alone") {
+  const CarSpec car = shipped_car("hatchback");
+  Bench bench(car, kScale, 3);
+  bench.enter(3, 2500.0 * kRpm, road_speed_at(car, 2, 2500.0 * kRpm));
+  (void)synchronising_time(bench, 60.0);
+  bench.input.depth = bench.at.dogs;
+  while (bench.out.meshed == kNeutralGear) bench.step(60.0);
+  const double step = 1e-6, width = bench.at.home - bench.at.dogs;
+  double before = 0.0, slope_before = 0.0, most = 0.0, steepest = 0.0;
+  for (double depth = bench.at.dogs; depth <= bench.at.home + 0.001; depth += step) {
+    bench.input.depth = depth;
+    bench.step(60.0);
+    const double slope = (bench.out.force - before) / step;
+    REQUIRE(std::abs(slope - slope_before) < 1.1 * step * 2.0 * 2000.0 * std::numbers::pi / width);
+    before = bench.out.force;
+    slope_before = slope;
+    most = std::max(most, -bench.out.force);
+    steepest = std::max(steepest, std::abs(slope));
+  }
+  CHECK(most > 0.3);
+  CHECK(steepest < 2000.0);
+  for (double depth = bench.at.home; depth >= bench.at.out; depth -= 1e-5) {
+    bench.input.depth = depth;
+    bench.step(-10.0);
+    REQUIRE(bench.out.force == 0.0);
+  }
+}
+
+TEST_CASE("under load the gear stays in; light when coasting; free with the clutch down, whatever the load") {
+  const CarSpec car = shipped_car("hatchback");
+  const Gate gate = gate_of(car);
+  const int slot = slot_of_gear(gate, 3);
+  const double rest = slot_of(gate, slot).rest;
+  // T = F i eta R / (mu + taper): what a hand of 60 N can just overcome.
+  const double most = kHandMost * 9.0 * 0.8 * car.synchro.index_radius / (car.synchro.index_friction + 0.07);
+  CHECK(most > 80.0);
+  CHECK(most < 120.0);  // [N m] in third: 60 to 90 N m of the engine
+  const auto draws_out = [&](double load, double pull, bool clutch_open) {
+    Synchroniser sleeve(car.synchro, gate, kScale, 3, 1);
+    SleeveInput in;
+    in.slot = slot;
+    in.depth = rest;
+    in.load = load;
+    in.clutch_open = clutch_open;
+    SleeveOutput out = sleeve.step(in, 0.0);
+    REQUIRE(out.meshed == 3);
+    for (int i = 0; i < 3000 && out.meshed == 3; ++i) {
+      in.push = -kScale * pull;
+      in.depth = std::max(out.depth_min, in.depth - 0.0002);
+      out = sleeve.step(in, kT);
+    }
+    return out.meshed == kNeutralGear;
+  };
+  for (const double load : {1.02 * most, -1.02 * most, 1000.0}) {
+    CHECK_FALSE(draws_out(load, 60.0, false));
+    CHECK_FALSE(draws_out(load, 1000.0, false));
+    CHECK(draws_out(load, 15.0, true));
+  }
+  CHECK(draws_out(0.98 * most, 61.0, false));
+  CHECK_FALSE(draws_out(0.98 * most, 55.0, false));
+  for (const double load : {0.2 * most, -0.2 * most}) {
+    CHECK(draws_out(load, 13.0, false));
+    CHECK_FALSE(draws_out(load, 11.0, false));
+  }
+  CHECK(draws_out(0.0, 0.5, false));
+}
+
+TEST_CASE("the dogs are in before the gear counts, in every slot of every gate, and out before the crest") {
+  for (const std::string& name : shipped_names()) {
+    CAPTURE(name);
+    const Gate gate = shipped_gate(name);
+    for (const Slot& slot : slots(gate)) {
+      const SleeveStations at = sleeve_stations(slot);
+      CHECK(slot.release_depth < at.block);
+      CHECK(at.block < at.out);
+      CHECK(at.out < at.dogs);
+      CHECK(at.dogs < at.home);
+      CHECK(at.home < slot.engage_depth);
+      CHECK(at.crest == slot.release_depth);
+    }
+  }
+}
+
+TEST_CASE("drawn out slowly, the dogs leave before the detent's crest, and the gear must be synchronised again") {
+  const CarSpec car = shipped_car("hatchback");
+  const Gate gate = gate_of(car);
+  Synchroniser sleeve(car.synchro, gate, kScale, 4, 1);
+  SleeveInput in;
+  in.slot = slot_of_gear(gate, 4);
+  in.clutch_open = true;
+  const SleeveStations at = sleeve_stations(slot_of(gate, in.slot));
+  for (in.depth = at.home; in.depth > at.out; in.depth -= 1e-5) REQUIRE(sleeve.step(in, kT).meshed == 4);
+  in.depth = at.out - 1e-5;
+  in.difference = 20.0;
+  CHECK(sleeve.step(in, kT).meshed == kNeutralGear);
+  in.depth = at.dogs;
+  CHECK(sleeve.step(in, kT).phase == SyncPhase::clashing);
+  in.depth = at.crest;
+  CHECK(sleeve.step(in, kT).depth_max == at.block);
+}
+
+TEST_CASE("a sleeve that starts in gear is in gear; one that starts elsewhere is not, wherever it goes") {
+  const CarSpec car = shipped_car("hatchback");
+  const Gate gate = gate_of(car);
+  SleeveInput in;
+  in.slot = slot_of_gear(gate, 4);
+  in.depth = slot_of(gate, in.slot).rest;
+  in.difference = 50.0;
+  CHECK(Synchroniser(car.synchro, gate, kScale, 4, 1).step(in, 0.0).meshed == 4);
+  CHECK(Synchroniser(car.synchro, gate, kScale, 3, 1).step(in, 0.0).meshed == kNeutralGear);
+  Synchroniser elsewhere(car.synchro, gate, kScale, 4, 1);
+  CHECK(elsewhere.step({}, 0.0).meshed == kNeutralGear);
+  CHECK(elsewhere.step(in, kT).meshed == kNeutralGear);
+}
+
+TEST_CASE("in and out by any way, the bump gives the hand nothing: its work is never positive") {
+  const CarSpec car = shipped_car("hatchback");
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    Bench bench(car, kScale, seed);
+    bench.enter(3, 2500.0 * kRpm, road_speed_at(car, 2, 2500.0 * kRpm));
+    (void)synchronising_time(bench, 60.0);
+    std::uint64_t row = seed;
+    const auto chance = [&] {
+      row = row * 6364136223846793005u + 1442695040888963407u;
+      return static_cast<double>(row >> 11) * 0x1.0p-53;
+    };
+    double work = 0.0, last = 0.0, most = 0.0;
+    for (int i = 0; i < 20000; ++i) {
+      const double before = bench.input.depth;
+      const double way = 0.0004 * (chance() - 0.49);
+      bench.input.depth =
+          std::clamp(before + way, bench.at.block, std::min(bench.out.depth_max, bench.at.home + 0.003));
+      bench.input.depth = std::max(bench.input.depth, bench.out.depth_min);
+      bench.step(10.0);
+      work += 0.5 * (bench.out.force + last) * (bench.input.depth - before);
+      last = bench.out.force;
+      most = std::max(most, work);
+      REQUIRE(bench.out.phase != SyncPhase::clashing);
+    }
+    CHECK(most < 2e-5);  // [J] of the trapezoid rule's error
+    CHECK(work < 0.0);
+  }
+}

@@ -1,0 +1,99 @@
+// Ways to step a driveline, each at 1 and 4 ms: what a step costs, and how far it ends from the reference.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "tests/bench/bench.h"
+#include "tests/bench/driveline/methods.h"
+#include "tests/bench/ticks.h"
+
+namespace gearshift {
+namespace {
+
+constexpr DriveMethod kMethods[] = {DriveMethod::events, DriveMethod::impulses, DriveMethod::tanh};
+
+// [ns] a step, the pedals' function and the samples included: the same for all methods. Methods alternate, so that a
+// busy machine slows them alike.
+std::vector<double> costs(const Drive& drive, double step, int rounds) {
+  std::vector<std::vector<double>> taken(std::size(kMethods));
+  for (int i = 0; i < rounds; ++i) {
+    for (std::size_t m = 0; m < std::size(kMethods); ++m) {
+      const std::uint64_t before = ticks();
+      const DriveOutcome out = drive_by(kMethods[m], drive, step);
+      taken[m].push_back(static_cast<double>(ticks() - before) / ticks_per_ns() /
+                         static_cast<double>(out.samples.size() - 1));
+    }
+  }
+  std::vector<double> medians;
+  for (std::vector<double>& t : taken) medians.push_back(quantile(t, 0.5));
+  return medians;
+}
+
+BenchRow row_of(const Drive& drive, DriveMethod method, double step, const DriveOutcome& should, double ns) {
+  const DriveOutcome has = drive_by(method, drive, step);
+  const std::size_t each = static_cast<std::size_t>(std::lround(step / 0.001));
+  double worst = 0.0;
+  for (std::size_t i = 0; i < has.samples.size(); ++i)
+    worst = std::max(worst, std::abs(has.samples[i].engine - should.samples[i * each].engine));
+  BenchRow row{"driveline",
+               drive.name + ", " + std::to_string(std::lround(1e3 * step)) + " ms: " + name_of(method),
+               100.0 * std::abs(has.slip_energy / should.slip_energy - 1.0),
+               "% of the slip energy",
+               {},
+               false,
+               has.running == should.running ? ""
+               : has.running                 ? "does not stall"
+                                             : "stalls falsely",
+               true,
+               {{"engine at worst", worst, "rad/s"},
+                {"at the end", std::abs(has.samples.back().engine - should.samples.back().engine), "rad/s"},
+                {"cost", ns, "ns a step"}}};
+  if (method == DriveMethod::events && step < 0.002) row.goal = 0.01;
+  return row;
+}
+
+// A drive from its start to its end, the inputs made before: nothing but steps is timed.
+BenchRow headless_step(const std::vector<Drive>& drives, int rounds) {
+  std::vector<double> each;
+  for (int i = 0; i < rounds; ++i) {
+    for (const Drive& drive : drives) {
+      std::vector<DrivelineInput> inputs;
+      for (int n = 0; n < std::lround(1e3 * drive.duration); ++n) inputs.push_back(drive.input(0.001 * n));
+      Driveline line(drive.car);
+      line.place(drive.engine, drive.shaft, drive.road, true);
+      const std::uint64_t before = ticks();
+      for (const DrivelineInput& in : inputs) line.step(in, 0.001);
+      each.push_back(static_cast<double>(ticks() - before) / ticks_per_ns() / static_cast<double>(inputs.size()));
+    }
+  }
+  const double ns = quantile(each, 0.5);
+  return {"driveline",
+          "a step of 1 ms, headless",
+          ns,
+          "ns",
+          {},
+          false,
+          "median over all drives, " + std::to_string(rounds) + " times each",
+          true,
+          {{"p90", quantile(each, 0.9), "ns"}, {"that is", 1e6 / ns, "x real time"}}};
+}
+
+}  // namespace
+
+std::vector<BenchRow> bench_driveline(const BenchOptions& options) {
+  const int rounds = options.quick ? 3 : 41;
+  std::vector<BenchRow> rows{headless_step(all_drives(), rounds)};
+  const std::vector<Drive> drives{launch(), dump_at_idle(), dump_at_4000(), money_shift()};
+  for (const Drive& drive : drives) {
+    const DriveOutcome should = reference_of(drive);
+    for (const double step : {0.001, 0.004}) {
+      if (options.progress) options.progress("driveline", static_cast<double>(rows.size()) / 25.0);
+      const std::vector<double> ns = costs(drive, step, rounds);
+      for (std::size_t m = 0; m < std::size(kMethods); ++m)
+        rows.push_back(row_of(drive, kMethods[m], step, should, ns[m]));
+    }
+  }
+  return rows;
+}
+
+}  // namespace gearshift
