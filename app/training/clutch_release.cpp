@@ -1,0 +1,55 @@
+#include "app/training/clutch_release.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/training/fault_rules.h"
+
+namespace gearshift {
+namespace {
+
+constexpr double kLongest = 5.0;  // [s] after which a clutch that slips on is no longer one release [engineering value]
+constexpr double kBraking = 0.05;  // [1] pedal: then it is the brake that jerks
+
+}  // namespace
+
+ClutchRelease::ClutchRelease(const CarSpec& car) noexcept : closed_(car.clutch.closed), pedal_(car.clutch.bite) {}
+
+std::optional<DriveFault> ClutchRelease::add(const DriveSample& sample, double dt) {
+  pedal_.update(sample.car.clutch, sample.time());
+  const double jerk = std::abs(filter_.update(sample.car.acceleration, dt));
+  if (!open_ && pedal_.went_up() && sample.car.gear != kNeutralGear) {
+    open_ = true;
+    stalled_ = false;
+    begin_ = pedal_.up_at();
+    closed_at_ = locked_at_ = slip_peak_ = jerk_peak_ = 0.0;
+  }
+  if (!open_) return std::nullopt;
+  stalled_ = stalled_ || !sample.car.running;
+  slip_peak_ = std::max(slip_peak_, sample.car.slip_power);
+  if (sample.car.brake < kBraking) jerk_peak_ = std::max(jerk_peak_, jerk);
+  if (closed_at_ == 0.0 && sample.car.clutch <= closed_) closed_at_ = sample.time();
+  if (!is_over(sample)) return std::nullopt;
+  open_ = false;
+  return judge();
+}
+
+bool ClutchRelease::is_over(const DriveSample& sample) noexcept {
+  const double time = sample.time();
+  if (locked_at_ == 0.0 && sample.car.clutch_locked) locked_at_ = time;
+  if (pedal_.is_down() || sample.car.gear == kNeutralGear || time - begin_ > kLongest) return true;
+  return locked_at_ > 0.0 && time - std::max(locked_at_, closed_at_) >= kJerkSettles;
+}
+
+std::optional<DriveFault> ClutchRelease::judge() const noexcept {
+  const bool fast = closed_at_ > 0.0 && closed_at_ - begin_ < kFastRelease;
+  if (fast && slip_peak_ >= fault_rule(FaultKind::clutch_dump).raise) {
+    return DriveFault{FaultKind::clutch_dump, fault_severity(FaultKind::clutch_dump, slip_peak_), begin_, slip_peak_};
+  }
+  if (!stalled_ && jerk_peak_ >= fault_rule(FaultKind::jerk).raise) {
+    return DriveFault{FaultKind::jerk, fault_severity(FaultKind::jerk, jerk_peak_), begin_, jerk_peak_};
+  }
+  return std::nullopt;
+}
+
+}  // namespace gearshift

@@ -1,0 +1,37 @@
+// One letting up of the clutch in gear, from its bite point until it holds: was it dumped, did the car jerk?
+#pragma once
+
+#include <optional>
+
+#include "app/training/drive_fault.h"
+#include "app/training/drive_sample.h"
+#include "app/training/jerk_filter.h"
+#include "app/training/pedal_edge.h"
+#include "app/vehicle/car_spec.h"
+
+namespace gearshift {
+
+class ClutchRelease {
+ public:
+  explicit ClutchRelease(const CarSpec& car) noexcept;
+
+  // Every cycle. The fault of the release that is over, if there is one: a dump, or else a jerk; no jerk beside a stall.
+  std::optional<DriveFault> add(const DriveSample& sample, double dt);
+
+ private:
+  bool is_over(const DriveSample& sample) noexcept;
+  std::optional<DriveFault> judge() const noexcept;
+
+  double closed_;  // [1] pedal
+  PedalEdge pedal_;
+  JerkFilter filter_;
+  bool open_ = false;
+  bool stalled_ = false;
+  double begin_ = 0.0;      // [s]
+  double closed_at_ = 0.0;  // [s]; 0: not yet
+  double locked_at_ = 0.0;  // [s]; 0: not yet
+  double slip_peak_ = 0.0;  // [W]
+  double jerk_peak_ = 0.0;  // [m/s^3]
+};
+
+}  // namespace gearshift

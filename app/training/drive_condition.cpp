@@ -1,0 +1,45 @@
+#include "app/training/drive_condition.h"
+
+namespace gearshift {
+namespace {
+
+bool same(const std::optional<bool>& wanted, bool is) noexcept {
+  return !wanted || *wanted == is;
+}
+
+bool between(const std::optional<double>& above, const std::optional<double>& below, double value) noexcept {
+  return !(above && value <= *above) && !(below && value >= *below);
+}
+
+}  // namespace
+
+bool holds(const DriveCondition& c, const DriveSample& sample, const DriveProgress& progress) noexcept {
+  const VehicleState& car = sample.car;
+  return (!c.gear || *c.gear == car.gear) && same(c.ignition, car.ignition) && same(c.running, car.running) &&
+         same(c.clutch_locked, car.clutch_locked) && between(c.clutch_above, c.clutch_below, car.clutch) &&
+         between(c.throttle_above, c.throttle_below, car.throttle) &&
+         between(c.brake_above, c.brake_below, car.brake) &&
+         between(c.hand_brake_above, c.hand_brake_below, car.hand_brake) &&
+         between(c.engine_above, c.engine_below, car.engine_speed) &&
+         between(c.speed_above, c.speed_below, car.road_speed) && between(c.distance_above, {}, progress.distance) &&
+         between(c.rolled_back_above, {}, progress.rolled_back);
+}
+
+bool is_empty(const DriveCondition& c) noexcept {
+  return !c.gear && !c.ignition && !c.running && !c.clutch_locked && !c.clutch_above && !c.clutch_below &&
+         !c.throttle_above && !c.throttle_below && !c.brake_above && !c.brake_below && !c.hand_brake_above &&
+         !c.hand_brake_below && !c.engine_above && !c.engine_below && !c.speed_above && !c.speed_below &&
+         !c.distance_above && !c.rolled_back_above;
+}
+
+bool HeldCondition::update(const DriveCondition& condition, const DriveSample& sample,
+                           const DriveProgress& progress) noexcept {
+  const bool on = holds(condition, sample, progress);
+  if (on && !on_) since_ = sample.time();
+  on_ = on;
+  if (first_) began_false_ = !on;
+  first_ = false;
+  return on && sample.time() - since_ >= condition.held;
+}
+
+}  // namespace gearshift

@@ -1,0 +1,81 @@
+#include "app/training/drive_fault.h"
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+
+#include <fmt/core.h>
+
+#include "haptics/gate/gate.h"
+
+namespace gearshift {
+namespace {
+
+constexpr double kRpm = 60.0 / 6.283185307179586;  // per rad/s
+
+struct FaultWords {
+  std::string_view key;
+  std::string_view says;  // {}: the value, scaled
+  double scale = 1.0;
+  int digits = 0;
+};
+
+// In the order of FaultKind.
+constexpr std::array<FaultWords, kFaultKinds> kWords{{
+    {"stall", "The engine stalled, from {} rpm.", kRpm, 0},
+    {"over_rev", "The engine was turned to {} rpm, above its red line.", kRpm, 0},
+    {"lugging", "The engine laboured for {} s: too high a gear for that speed.", 1.0, 1},
+    {"clutch_dump", "The clutch came up too fast: it burnt {} kW.", 1e-3, 1},
+    {"clutch_early", "The clutch came up {} s before the gear was in.", 1.0, 2},
+    {"clutch_late", "The lever moved {} s before the clutch was down.", 1.0, 2},
+    {"no_clutch", "The gear was changed without the clutch, {} rpm apart.", kRpm, 0},
+    {"riding_clutch", "The foot rested on the clutch for {} s.", 1.0, 1},
+    {"riding_lever", "The hand leaned on the lever for {} s.", 1.0, 1},
+    {"throttle_in_shift", "The engine flared by {} rpm while the clutch was down: lift the throttle first.", kRpm, 0},
+    {"rev_mismatch", "Engine and gearbox were {} rpm apart when the clutch took hold.", kRpm, 0},
+    {"grind", "The gear ground, {} J.", 1.0, 1},
+    {"blocked", "The lever was pushed against the synchroniser for {} s.", 1.0, 2},
+    {"missed_shift", "Gear {} was not reached.", 1.0, 0},
+    {"wrong_gear", "That was gear {}, another one was meant.", 1.0, 0},
+    {"wrong_column", "The lever entered {} wrong slots.", 1.0, 0},
+    {"over_push", "The lever was pushed with {} N.", 1.0, 0},
+    {"step_order", "{} steps of the shift were out of order.", 1.0, 0},
+    {"rollback", "The car rolled back {} m.", 1.0, 2},
+    {"jerk", "The car jerked, {} m/s3.", 1.0, 1},
+    {"early_shift", "Shifted at {} rpm: too early.", kRpm, 0},
+    {"late_shift", "Shifted at {} rpm: too late.", kRpm, 0},
+    {"too_slow", "The shift took {} s.", 1.0, 1},
+    {"wrong_direction", "That gear was chosen at {} km/h the other way.", kKmhPerMps, 0},
+}};
+
+constexpr std::array<std::string_view, 4> kSeverities{"note", "minor", "severe", "very_severe"};
+
+const FaultWords& words_of(FaultKind kind) noexcept {
+  return kWords[static_cast<std::size_t>(kind)];
+}
+
+}  // namespace
+
+std::string_view fault_key(FaultKind kind) noexcept {
+  return words_of(kind).key;
+}
+
+std::optional<FaultKind> fault_of(std::string_view key) noexcept {
+  const auto found =
+      std::find_if(kWords.begin(), kWords.end(), [&](const FaultWords& words) { return words.key == key; });
+  if (found == kWords.end()) return std::nullopt;
+  return static_cast<FaultKind>(found - kWords.begin());
+}
+
+std::string_view severity_key(Severity severity) noexcept {
+  return kSeverities[static_cast<std::size_t>(severity)];
+}
+
+std::string fault_sentence(const DriveFault& fault) {
+  const FaultWords& words = words_of(fault.kind);
+  if (fault.kind == FaultKind::missed_shift || fault.kind == FaultKind::wrong_gear)
+    return fmt::format(fmt::runtime(words.says), gear_name(static_cast<int>(fault.value)));
+  return fmt::format(fmt::runtime(words.says), fmt::format("{:.{}f}", words.scale * fault.value, words.digits));
+}
+
+}  // namespace gearshift

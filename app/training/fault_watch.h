@@ -1,0 +1,86 @@
+// Samples and shift records to faults: what was done wrong, once per deed, as soon as it is known.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "app/training/clutch_release.h"
+#include "app/training/drive_fault.h"
+#include "app/training/drive_sample.h"
+#include "app/training/episode.h"
+#include "app/training/recent_peak.h"
+#include "app/training/shift_record.h"
+#include "app/vehicle/car_spec.h"
+#include "haptics/gate/gate.h"
+
+namespace gearshift {
+
+struct ShiftBand {
+  double from = 0.0, to = 1e9;  // [rad/s] engine speed at an upshift
+};
+
+// A cause is told and not its consequences: fault_watch.cpp says which at the places where one is left out.
+class FaultWatch {
+ public:
+  FaultWatch(const CarSpec& car, const Gate& gate, ShiftBand band = {});
+
+  // Every cycle, in order. wanted_gear: that the lesson asks for now, kNeutralGear where it does not care.
+  // shifting: ShiftMeter::is_open.
+  void add(const DriveSample& sample, int wanted_gear, bool shifting);
+
+  // The record that has ended with this sample, after add.
+  void judge(const ShiftRecord& record);
+
+  // The drive is over: what still lasts is told.
+  void finish();
+
+  // Faults since the last call.
+  std::vector<DriveFault> take();
+
+ private:
+  enum class Measure { length, peak, sum };
+  struct Lasting {
+    FaultKind kind;
+    Measure measure;  // what of the episode is the fault's value
+    Episode episode;
+  };
+
+  void watch_engine(const DriveSample& now, double dt);
+  void watch_feet(const DriveSample& now, double dt);
+  void watch_hand(const DriveSample& now, bool shifting, double dt);
+  void watch_dogs(const DriveSample& now, double dt);
+  void watch_direction(const DriveSample& now);
+  void watch_gear(const DriveSample& now, int wanted_gear);
+  void watch_rollback(const DriveSample& now);
+  void tell_rollback(double time);
+  void goes_on(Lasting& lasting, bool on, double value, double time, double dt);
+  void tell_lasting(const Lasting& lasting);
+  void judge_order(const ShiftRecord& record, std::size_t faults_before);
+  void judge_engine(const ShiftRecord& record);
+  bool judge_clutch(const ShiftRecord& record);
+  double flare_needed(const ShiftRecord& record) const noexcept;
+  // Where the value is one.
+  bool tell_if(FaultKind kind, double time, double value, std::int64_t shift = -1);
+  int gear_reached_for(const DriveSample& now) const noexcept;
+
+  CarSpec car_;
+  Gate gate_;
+  ShiftBand band_;
+  ClutchRelease release_;
+  RecentPeak engine_;
+  Lasting over_rev_, lugging_, riding_clutch_, riding_lever_, over_push_, grind_, block_;
+  DriveSample last_;
+  bool first_ = true;
+  bool shift_moved_ = false;       // the gear was left in the shift that is open
+  bool wrong_way_ = false;         // told for this visit to the slot
+  int last_gear_ = kNeutralGear;   // in which it was driven last
+  int tried_gear_ = kNeutralGear;  // that the lever was pushed to since the last record
+  int wanted_gear_ = kNeutralGear;
+  bool touching_ = false;
+  double touch_error_ = 0.0;  // [rad/s] engine less the gear's demand, at the dogs' first touch without clutch
+  double highest_ = 0.0;      // [m] of the distance, since it last stood or rolled forward
+  std::vector<DriveFault> faults_;
+};
+
+}  // namespace gearshift

@@ -1,0 +1,63 @@
+#include "app/training/gate_path.h"
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include <glm/geometric.hpp>
+
+namespace gearshift {
+namespace {
+
+using glm::dvec2;
+
+constexpr double kSlack = 1e-4;  // [m] a string may touch a corner
+constexpr double kStep = 5e-4;   // [m] between the points of a leg that are looked at
+
+bool is_free(const Gate& gate, dvec2 from, dvec2 to) {
+  const int parts = 1 + static_cast<int>(glm::distance(from, to) / kStep);
+  for (int i = 0; i <= parts; ++i) {
+    if (!in_free_space(gate, from + (to - from) * (static_cast<double>(i) / parts), kSlack)) return false;
+  }
+  return true;
+}
+
+// The corners by which a string leaves the slot that holds `point`, towards x: from the slot outwards.
+std::vector<dvec2> corners(const Gate& gate, dvec2 point, double x) {
+  if (std::abs(point.y) <= gate.half_aisle) return {};
+  const Column& column = column_of(gate, nearest_column(gate, point.x));
+  const double side = std::copysign(1.0, x - column.center), up = std::copysign(1.0, point.y);
+  const dvec2 deep{column.center + side * column.half_width, up * (gate.half_aisle + gate.chamfer)};
+  const dvec2 shallow{column.center + side * (column.half_width + gate.chamfer), up * gate.half_aisle};
+  return {deep, shallow};
+}
+
+}  // namespace
+
+double shortest_way(const Gate& gate, dvec2 from, dvec2 to) {
+  if (is_free(gate, from, to)) return glm::distance(from, to);
+  std::vector<dvec2> bends = corners(gate, from, to.x);
+  const std::vector<dvec2> last = corners(gate, to, from.x);
+  bends.insert(bends.end(), last.rbegin(), last.rend());
+
+  double shortest = std::numeric_limits<double>::max();
+  for (std::size_t chosen = 0; chosen < (std::size_t{1} << bends.size()); ++chosen) {
+    double length = 0.0;
+    dvec2 at = from;
+    bool free = true;
+    const auto go = [&](dvec2 next) {
+      free = free && is_free(gate, at, next);
+      length += glm::distance(at, next);
+      at = next;
+    };
+    for (std::size_t i = 0; i < bends.size(); ++i) {
+      if ((chosen >> i & 1u) != 0) go(bends[i]);
+    }
+    go(to);
+    if (free && length < shortest) shortest = length;
+  }
+  return shortest;
+}
+
+}  // namespace gearshift

@@ -1,0 +1,73 @@
+#include "app/training/grade.h"
+
+#include <algorithm>
+#include <string>
+
+#include <fmt/core.h>
+
+namespace gearshift {
+namespace {
+
+// [engineering value]s: with a pass grade of 6, eight minor faults or two severe ones still pass, one more does not.
+constexpr std::array<double, 4> kPoints{0.0, 0.5, 2.0, 4.0};
+
+double points_of_all(std::span<const DriveFault> faults) noexcept {
+  double points = 0.0;
+  for (const DriveFault& fault : faults) points += points_of(fault.severity);
+  return points;
+}
+
+const DriveFault* failing_fault(const Lesson& lesson, const LessonResult& result) {
+  const auto fails = [&](const DriveFault& fault) {
+    return std::find(lesson.fails_on.begin(), lesson.fails_on.end(), fault.kind) != lesson.fails_on.end();
+  };
+  const auto found = std::find_if(result.faults.begin(), result.faults.end(), fails);
+  return found == result.faults.end() ? nullptr : &*found;
+}
+
+// Why it was not passed; empty: it was. An abort's own words are kept.
+std::string reason(const Lesson& lesson, const LessonResult& result) {
+  if (result.guided) return "The lever was guided: such a trial is not graded.";
+  if (!result.whole) return "A part of the drive was lost: it is not graded.";
+  if (result.end == LessonEnd::aborted && !result.why.empty()) return result.why;
+  if (const DriveFault* fault = failing_fault(lesson, result)) return fault_sentence(*fault);
+  if (result.end == LessonEnd::aborted) return "The lesson was broken off.";
+  if (result.end == LessonEnd::out_of_time) return fmt::format("It was not done in {:.0f} s.", lesson.time_limit);
+  if (result.end == LessonEnd::left) return "The lesson was left.";
+  if (result.end == LessonEnd::running) return "The lesson is not over.";
+  if (result.grade >= lesson.pass_grade) return {};
+  return fmt::format("Grade {:.1f} is below {:.1f}.", result.grade, lesson.pass_grade);
+}
+
+}  // namespace
+
+double points_of(Severity severity) noexcept {
+  return kPoints[static_cast<std::size_t>(severity)];
+}
+
+std::array<std::size_t, 4> count_by_severity(std::span<const DriveFault> faults) noexcept {
+  std::array<std::size_t, 4> counts{};
+  for (const DriveFault& fault : faults) ++counts[static_cast<std::size_t>(fault.severity)];
+  return counts;
+}
+
+void grade_result(const Lesson& lesson, LessonResult& result) {
+  result.deductions.clear();
+  result.grade = 0.0;
+  if (!result.guided && result.whole) {
+    for (std::size_t i = 0; i < result.faults.size(); ++i) {
+      const double points = points_of(result.faults[i].severity);
+      if (points > 0.0) result.deductions.push_back({i, points});
+    }
+    result.grade = std::max(0.0, kBestGrade - points_of_all(result.faults));
+  }
+  result.why = reason(lesson, result);
+  result.passed = result.why.empty();
+}
+
+double run_error(const LessonResult& result) noexcept {
+  if (result.end != LessonEnd::done) return 1.0;
+  return std::min(1.0, points_of_all(result.faults) / kBestGrade);
+}
+
+}  // namespace gearshift

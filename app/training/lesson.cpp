@@ -1,0 +1,205 @@
+#include "app/training/lesson.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/training/drive_condition.h"
+#include "haptics/files/text_file.h"
+#include "haptics/files/toml_reader.h"
+
+namespace gearshift {
+namespace {
+
+constexpr double kRadPerSecond = 6.283185307179586 / 60.0;  // per rpm
+
+// Ranges of the file's values, in the file's units.
+constexpr Range kPedal{0.0, 1.0};
+constexpr Range kEngineRpm{0.0, 10000.0};
+constexpr Range kSpeedKmPerH{-60.0, 250.0};
+constexpr Range kStartKmPerH{0.0, 150.0};
+constexpr Range kDistanceM{0.0, 5000.0};
+constexpr Range kRolledBackM{0.0, 50.0};
+constexpr Range kHeldS{0.0, 60.0};
+constexpr Range kPatienceS{1.0, 60.0};
+constexpr Range kSlopePercent{-30.0, 30.0};
+constexpr Range kPassGrade{1.0, 10.0};
+constexpr Range kTimeLimitS{10.0, 1800.0};
+constexpr std::size_t kMostSteps = 64;
+
+// "R", "N", "1", "2", ...
+const std::vector<std::string>& gear_words() {
+  static const std::vector<std::string> words = [] {
+    std::vector<std::string> list;
+    for (int gear = kReverseGear; gear <= kMaxGear; ++gear) list.emplace_back(gear_name(gear));
+    return list;
+  }();
+  return words;
+}
+
+int read_gear(const TomlTable& table, std::string_view key) {
+  const std::string word = table.choice(key, gear_words());
+  return kReverseGear +
+         static_cast<int>(std::find(gear_words().begin(), gear_words().end(), word) - gear_words().begin());
+}
+
+std::string text_or_none(const TomlTable& table, std::string_view key) {
+  return table.has(key) ? table.text(key) : std::string();
+}
+
+void read_limit(const TomlTable& table, const std::string& key, Range range, double unit,
+                std::optional<double>& value) {
+  if (table.has(key)) value = table.number(key, range) * unit;
+}
+
+// NAME_above and NAME_below, with the unit behind.
+void read_limits(const TomlTable& table, const std::string& name, const std::string& unit_name, Range range,
+                 double unit, std::optional<double>& above, std::optional<double>& below) {
+  read_limit(table, name + "_above" + unit_name, range, unit, above);
+  read_limit(table, name + "_below" + unit_name, range, unit, below);
+  if (above && below && *above >= *below) {
+    table.fail(name + "_above" + unit_name, "can never hold: it must be smaller than " + name + "_below" + unit_name);
+  }
+}
+
+void read_flag(const TomlTable& table, std::string_view key, std::optional<bool>& value) {
+  if (table.has(key)) value = table.flag_or(key, false);
+}
+
+DriveCondition read_condition(const TomlTable& table) {
+  DriveCondition c;
+  if (table.has("gear")) c.gear = read_gear(table, "gear");
+  read_flag(table, "ignition", c.ignition);
+  read_flag(table, "running", c.running);
+  read_flag(table, "clutch_locked", c.clutch_locked);
+  read_limits(table, "clutch", "", kPedal, 1.0, c.clutch_above, c.clutch_below);
+  read_limits(table, "throttle", "", kPedal, 1.0, c.throttle_above, c.throttle_below);
+  read_limits(table, "brake", "", kPedal, 1.0, c.brake_above, c.brake_below);
+  read_limits(table, "hand_brake", "", kPedal, 1.0, c.hand_brake_above, c.hand_brake_below);
+  read_limits(table, "engine", "_rpm", kEngineRpm, kRadPerSecond, c.engine_above, c.engine_below);
+  read_limits(table, "speed", "_km_per_h", kSpeedKmPerH, 1.0 / kKmhPerMps, c.speed_above, c.speed_below);
+  read_limit(table, "distance_above_m", kDistanceM, 1.0, c.distance_above);
+  read_limit(table, "rolled_back_above_m", kRolledBackM, 1.0, c.rolled_back_above);
+  c.held = table.number_or("held_s", c.held, kHeldS);
+  table.refuse_unknown_keys();
+  if (is_empty(c)) table.fail({}, "names no condition: it would hold at once");
+  return c;
+}
+
+LessonStart read_start(const TomlTable& table) {
+  LessonStart start;
+  if (table.has("gear")) start.gear = read_gear(table, "gear");
+  start.speed = table.number_or("speed_km_per_h", 0.0, kStartKmPerH) / kKmhPerMps;
+  start.slope = std::atan(table.number_or("slope_percent", 0.0, kSlopePercent) / 100.0);
+  start.hand_brake = table.number_or("hand_brake", 0.0, kPedal);
+  start.running = table.flag_or("running", start.running);
+  table.refuse_unknown_keys();
+  if (start.gear == kReverseGear && start.speed > 0.0) table.fail("speed_km_per_h", "must be 0 in gear R");
+  if (!start.running && start.speed > 0.0) table.fail("speed_km_per_h", "must be 0 where the engine stands");
+  return start;
+}
+
+// A step that waits for a gear guides to it, unless the file says otherwise; it cannot guide to another one.
+LessonStep read_step(const TomlTable& table) {
+  LessonStep step;
+  step.prompt = table.text("prompt");
+  step.hint = text_or_none(table, "hint");
+  step.patience = table.number_or("patience_s", step.patience, kPatienceS);
+  step.until = read_condition(table.table("until"));
+  step.gear = step.until.gear.value_or(kNeutralGear);
+  if (table.has("guide_to")) step.gear = read_gear(table, "guide_to");
+  if (step.until.gear && *step.until.gear != kNeutralGear && step.gear != *step.until.gear) {
+    table.fail("guide_to",
+               std::string("leads away from gear ") + gear_name(*step.until.gear) + ", for which this step waits");
+  }
+  table.refuse_unknown_keys();
+  return step;
+}
+
+LessonAbort read_abort(const TomlTable& table) {
+  LessonAbort abort;
+  abort.says = table.text("says");
+  abort.when = read_condition(table.table("when"));
+  table.refuse_unknown_keys();
+  return abort;
+}
+
+// [faults]: each kind that this lesson looks at, "counts" or "fails".
+void read_faults(const TomlTable& table, Lesson& lesson) {
+  for (int i = 0; i < kFaultKinds; ++i) {
+    const auto kind = static_cast<FaultKind>(i);
+    if (!table.has(fault_key(kind))) continue;
+    lesson.catches.push_back(kind);
+    if (table.choice(fault_key(kind), {"counts", "fails"}) == "fails") lesson.fails_on.push_back(kind);
+  }
+  table.refuse_unknown_keys();
+  if (lesson.catches.empty()) table.fail({}, "names no fault: nothing could be learnt from such a lesson's grade");
+}
+
+void read_shift_band(const TomlTable& root, Lesson& lesson) {
+  lesson.shift_from = root.number_or("shift_from_rpm", 0.0, kEngineRpm) * kRadPerSecond;
+  if (root.has("shift_to_rpm")) lesson.shift_to = root.number("shift_to_rpm", kEngineRpm) * kRadPerSecond;
+  if (lesson.shift_from >= lesson.shift_to) root.fail("shift_from_rpm", "must be smaller than shift_to_rpm");
+  const auto counts = [&](FaultKind kind) {
+    return std::find(lesson.catches.begin(), lesson.catches.end(), kind) != lesson.catches.end();
+  };
+  if (counts(FaultKind::early_shift) && !root.has("shift_from_rpm")) {
+    root.fail("shift_from_rpm", "is missing: this lesson counts early_shift");
+  }
+  if (counts(FaultKind::late_shift) && !root.has("shift_to_rpm")) {
+    root.fail("shift_to_rpm", "is missing: this lesson counts late_shift");
+  }
+}
+
+void read_steps(const TomlTable& root, Lesson& lesson) {
+  for (const TomlTable& table : root.tables("step")) lesson.steps.push_back(read_step(table));
+  if (lesson.steps.empty()) root.fail("step", "is missing: write one [[step]] for everything that is to be done");
+  if (lesson.steps.size() > kMostSteps) root.fail("step", "is written more than 64 times: make two lessons of it");
+  for (const TomlTable& table : root.tables("abort")) lesson.aborts.push_back(read_abort(table));
+}
+
+// A gear can be wrong only where one is asked for.
+void check_wrong_gear(const TomlTable& faults, const Lesson& lesson) {
+  const auto asks = [](const LessonStep& step) { return step.gear != kNeutralGear; };
+  const std::string_view key = fault_key(FaultKind::wrong_gear);
+  if (!faults.has(key) || std::any_of(lesson.steps.begin(), lesson.steps.end(), asks)) return;
+  faults.fail(key, "no step asks for a gear, so that none could be wrong");
+}
+
+// No step may wait longer than the lesson lasts.
+void check_times(const TomlTable& root, const Lesson& lesson) {
+  double held = 0.0;
+  for (const LessonStep& step : lesson.steps) held += step.until.held;
+  if (held >= lesson.time_limit) root.fail("time_limit_s", "is over before the steps' held_s are");
+}
+
+}  // namespace
+
+Lesson read_lesson(const std::filesystem::path& file) {
+  return parse_lesson(read_text_file(file), file.string());
+}
+
+Lesson parse_lesson(std::string_view text, const std::string& file_name) {
+  Lesson lesson;
+  lesson.file = file_name;
+  lesson.text = text;
+  lesson.key = std::filesystem::path(file_name).stem().string();
+  const TomlTable root = TomlTable::parse(text, file_name);
+  lesson.title = root.text("title");
+  lesson.goal = root.text("goal");
+  lesson.task = root.text("task");
+  lesson.car = text_or_none(root, "car");
+  lesson.gate = text_or_none(root, "gate");
+  lesson.pass_grade = root.number_or("pass_grade", lesson.pass_grade, kPassGrade);
+  lesson.time_limit = root.number_or("time_limit_s", lesson.time_limit, kTimeLimitS);
+  if (root.has("start")) lesson.start = read_start(root.table("start"));
+  read_steps(root, lesson);
+  read_faults(root.table("faults"), lesson);
+  check_wrong_gear(root.table("faults"), lesson);
+  read_shift_band(root, lesson);
+  root.refuse_unknown_keys();
+  check_times(root, lesson);
+  return lesson;
+}
+
+}  // namespace gearshift

@@ -1,0 +1,74 @@
+// A lesson, as a TOML file says it: where it begins, what to do step by step, when it is done and when it is lost.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/training/drive_fault.h"
+#include "haptics/gate/gate.h"
+
+namespace gearshift {
+
+// All that is named must hold at once, for `held` seconds on end.
+struct DriveCondition {
+  std::optional<int> gear;
+  std::optional<bool> ignition, running, clutch_locked;
+  std::optional<double> clutch_above, clutch_below;          // [1] pedal
+  std::optional<double> throttle_above, throttle_below;      // [1]
+  std::optional<double> brake_above, brake_below;            // [1]
+  std::optional<double> hand_brake_above, hand_brake_below;  // [1]
+  std::optional<double> engine_above, engine_below;          // [rad/s]
+  std::optional<double> speed_above, speed_below;            // [m/s]
+  std::optional<double> distance_above;                      // [m] since the lesson began, forward
+  std::optional<double> rolled_back_above;                   // [m] since the step began
+  double held = 0.0;                                         // [s]
+};
+
+struct LessonStep {
+  std::string prompt;  // "Press the clutch all the way down."
+  std::string hint;    // what is said when it takes too long; may be empty
+  DriveCondition until;
+  int gear = kNeutralGear;  // where the guidance leads; kNeutralGear: nowhere
+  double patience = 8.0;    // [s] before the hint
+};
+
+struct LessonAbort {
+  DriveCondition when;
+  std::string says;
+};
+
+struct LessonStart {
+  int gear = kNeutralGear;
+  double speed = 0.0;       // [m/s]
+  double slope = 0.0;       // [rad] uphill +
+  double hand_brake = 0.0;  // [1]
+  bool running = true;
+};
+
+struct Lesson {
+  std::string key;  // the file's name without .toml
+  std::string title;
+  std::string goal;  // said first
+  std::string task;  // what its grade counts for: "moving_off", "upshift", ...
+  std::string car;   // empty: the one that is chosen
+  std::string gate;  // empty: the car's
+  LessonStart start;
+  std::vector<LessonStep> steps;
+  std::vector<LessonAbort> aborts;
+  std::vector<FaultKind> catches;           // what this lesson looks at; the others are notes
+  std::vector<FaultKind> fails_on;          // one of these and it is not passed
+  double shift_from = 0.0, shift_to = 1e9;  // [rad/s] band of engine speed for an upshift
+  double pass_grade = 6.0;                  // [1] of 10
+  double time_limit = 120.0;                // [s]
+  std::string text;                         // the whole file as read
+  std::string file;                         // for messages
+};
+
+// Throws FileError with file, line, key, value and allowed range.
+Lesson read_lesson(const std::filesystem::path& file);
+Lesson parse_lesson(std::string_view text, const std::string& file_name);
+
+}  // namespace gearshift

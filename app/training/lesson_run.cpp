@@ -1,0 +1,231 @@
+#include "app/training/lesson_run.h"
+
+#include <algorithm>
+#include <optional>
+#include <stdexcept>
+#include <utility>
+
+#include "app/training/drive_condition.h"
+#include "app/training/fault_watch.h"
+#include "app/training/grade.h"
+#include "app/training/shift_meter.h"
+
+namespace gearshift {
+namespace {
+
+constexpr double kShiftEnds = 3.0;      // [s] that a shift in progress gets once all steps are done [engineering value]
+constexpr double kLongestPeriod = 0.1;  // [s] between samples
+
+void check_gear(const Lesson& lesson, const Gate& gate, int gear) {
+  if (gear == kNeutralGear || slot_of_gear(gate, gear) != kNoSlot) return;
+  throw std::invalid_argument("lesson " + lesson.key + " needs gear " + gear_name(gear) + ", which this gate lacks");
+}
+
+void check_gears(const Lesson& lesson, const Gate& gate) {
+  check_gear(lesson, gate, lesson.start.gear);
+  for (const LessonStep& step : lesson.steps) {
+    check_gear(lesson, gate, step.gear);
+    check_gear(lesson, gate, step.until.gear.value_or(kNeutralGear));
+  }
+  for (const LessonAbort& abort : lesson.aborts) check_gear(lesson, gate, abort.when.gear.value_or(kNeutralGear));
+}
+
+}  // namespace
+
+struct LessonRun::State {
+  State(const Lesson& a_lesson, const CarSpec& car, const Gate& gate, const LessonRunConfig& a_config)
+      : lesson(a_lesson),
+        config(a_config),
+        meter(car, gate),
+        watch(car, gate, {a_lesson.shift_from, a_lesson.shift_to}),
+        abort_held(a_lesson.aborts.size()) {}
+
+  void begin(const DriveSample& sample);
+  void measure(const DriveSample& sample, double dt);
+  void judge(std::vector<DriveFault> faults);
+  void attribute(DriveFault& fault) const;
+  bool aborts(const DriveSample& sample);
+  void follow_steps(const DriveSample& sample);
+  void go_to(std::size_t step);
+  void say_hint(double time);
+  void end(LessonEnd how);
+  DriveProgress progress() const { return {last.car.distance - start_distance, highest - last.car.distance}; }
+  bool all_done() const { return view.step >= lesson.steps.size(); }
+
+  Lesson lesson;
+  LessonRunConfig config;
+  ShiftMeter meter;
+  FaultWatch watch;
+  HeldCondition held, next_held;
+  std::vector<HeldCondition> abort_held;
+  LessonView view;
+  LessonResult result;
+  std::vector<ShiftRecord> fresh;
+  DriveSample last;
+  bool began = false;
+  double start_distance = 0.0;  // [m]
+  double start_slip = 0.0;      // [J]
+  double highest = 0.0;         // [m] of the distance since the step began
+  double step_began = 0.0;      // [s]
+  double steps_done = 0.0;      // [s] when the last step was
+};
+
+LessonRun::LessonRun(const Lesson& lesson, const CarSpec& car, const Gate& gate, const LessonRunConfig& config) {
+  check_gears(lesson, gate);
+  state_ = std::make_unique<State>(lesson, car, gate, config);
+  LessonResult& result = state_->result;
+  result.lesson = lesson.key;
+  result.task = lesson.task;
+  result.mode = config.mode;
+  result.guided = config.guidance > 0.0;
+  state_->view.steps = lesson.steps.size();
+  state_->go_to(0);
+  grade_result(lesson, result);
+}
+
+LessonRun::~LessonRun() = default;
+
+void LessonRun::add(const DriveSample& sample) {
+  if (is_over()) return;
+  State& state = *state_;
+  if (!state.began) state.begin(sample);
+  const double dt = std::clamp(sample.time() - state.last.time(), 0.0, kLongestPeriod);
+  state.measure(sample, dt);
+  state.last = sample;
+  if (state.aborts(sample)) return;
+  state.follow_steps(sample);
+  const double time = sample.time();
+  const bool shift_ends = !state.meter.is_open() && !state.meter.is_pending();
+  if (state.all_done() && (shift_ends || time - state.steps_done > kShiftEnds)) {
+    state.end(LessonEnd::done);
+  } else if (state.result.duration >= state.lesson.time_limit) {
+    state.end(LessonEnd::out_of_time);
+  } else {
+    state.say_hint(time);
+  }
+}
+
+void LessonRun::State::begin(const DriveSample& sample) {
+  began = true;
+  last = sample;
+  result.begin = step_began = sample.time();
+  start_distance = highest = sample.car.distance;
+  start_slip = sample.car.slip_energy;
+}
+
+void LessonRun::State::measure(const DriveSample& sample, double dt) {
+  result.duration = sample.time() - result.begin;
+  result.slip_energy = sample.car.slip_energy - start_slip;
+  const double power = sample.car.engine_torque * sample.car.engine_speed;
+  result.fuel += 0.5 * dt * (last.car.engine_torque * last.car.engine_speed + power);
+  result.guided = result.guided || sample.controls.guidance > 0.0;
+  highest = std::max(highest, sample.car.distance);
+
+  const std::optional<ShiftRecord> ended = meter.add(sample);
+  watch.add(sample, all_done() ? kNeutralGear : lesson.steps[view.step].gear, meter.is_open());
+  if (ended) watch.judge(*ended);
+  if (ended) {
+    result.shifts.push_back(*ended);
+    fresh.push_back(*ended);
+    for (DriveFault& fault : result.faults) attribute(fault);
+  }
+  judge(watch.take());
+}
+
+// What this lesson does not look at is a note.
+void LessonRun::State::judge(std::vector<DriveFault> faults) {
+  for (DriveFault& fault : faults) {
+    const bool counts = std::find(lesson.catches.begin(), lesson.catches.end(), fault.kind) != lesson.catches.end();
+    if (!counts) fault.severity = Severity::note;
+    attribute(fault);
+    result.faults.push_back(fault);
+    if (counts && config.hints != HintStyle::summary) view.said.push_back(fault_sentence(fault));
+  }
+  if (!faults.empty()) grade_result(lesson, result);
+}
+
+// A fault in the time of a shift is its own, whichever of the two is told first.
+void LessonRun::State::attribute(DriveFault& fault) const {
+  for (const ShiftRecord& record : result.shifts) {
+    if (fault.shift < 0 && fault.time >= record.begin && fault.time <= record.end) fault.shift = record.number;
+  }
+}
+
+bool LessonRun::State::aborts(const DriveSample& sample) {
+  for (std::size_t i = 0; i < lesson.aborts.size(); ++i) {
+    if (!abort_held[i].update(lesson.aborts[i].when, sample, progress())) continue;
+    result.why = lesson.aborts[i].says;
+    end(LessonEnd::aborted);
+    return true;
+  }
+  return false;
+}
+
+// A step that was passed over is done when the next one is: a learner who goes on is not kept waiting. But only by what
+// was not so already when this step began.
+void LessonRun::State::follow_steps(const DriveSample& sample) {
+  while (!all_done()) {
+    const bool done = held.update(lesson.steps[view.step].until, sample, progress());
+    const bool has_next = view.step + 1 < lesson.steps.size();
+    const bool next =
+        has_next && next_held.update(lesson.steps[view.step + 1].until, sample, progress()) && next_held.began_false();
+    if (!done && !next) return;
+    step_began = steps_done = sample.time();
+    highest = sample.car.distance;
+    go_to(view.step + (done ? 1 : 2));
+  }
+}
+
+void LessonRun::State::go_to(std::size_t step) {
+  view.step = step;
+  view.hint.clear();
+  held.reset();
+  next_held.reset();
+  view.guided_gear = all_done() ? kNeutralGear : lesson.steps[step].gear;
+  const bool prompted = config.mode == LessonMode::follow_me && !all_done();
+  view.prompt = prompted ? lesson.steps[step].prompt : lesson.goal;
+}
+
+void LessonRun::State::say_hint(double time) {
+  if (all_done() || config.hints != HintStyle::prescriptive || !view.hint.empty()) return;
+  const LessonStep& step = lesson.steps[view.step];
+  if (time - step_began >= step.patience) view.hint = step.hint;
+}
+
+void LessonRun::State::end(LessonEnd how) {
+  result.end = how;
+  watch.finish();
+  judge(watch.take());
+  grade_result(lesson, result);
+  if (config.hints != HintStyle::summary) return;
+  for (const DriveFault& fault : result.faults) {
+    if (fault.severity != Severity::note) view.said.push_back(fault_sentence(fault));
+  }
+}
+
+void LessonRun::mark_torn() {
+  state_->result.whole = false;
+  grade_result(state_->lesson, state_->result);
+}
+
+void LessonRun::leave() {
+  if (!is_over()) state_->end(LessonEnd::left);
+}
+
+const LessonView& LessonRun::view() const noexcept {
+  return state_->view;
+}
+
+bool LessonRun::is_over() const noexcept {
+  return state_->result.end != LessonEnd::running;
+}
+
+const LessonResult& LessonRun::result() const noexcept {
+  return state_->result;
+}
+
+std::vector<ShiftRecord> LessonRun::take_shifts() {
+  return std::exchange(state_->fresh, {});
+}
+
+}  // namespace gearshift

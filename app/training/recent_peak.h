@@ -1,0 +1,43 @@
+// The largest of a signal over the time just gone by, in a few numbers instead of all samples.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+namespace gearshift {
+
+// Keeps the value of largest magnitude, sign included, of each of ten parts of the window: what it answers is the peak
+// over the last 0.9 to 1 windows.
+class RecentPeak {
+ public:
+  explicit RecentPeak(double window) noexcept : part_(window / kParts) {}  // [s]
+
+  void add(double value, double dt) noexcept {
+    age_ += dt;
+    if (age_ >= part_) {
+      age_ = 0.0;
+      newest_ = (newest_ + 1) % kParts;
+      peak_[newest_] = value;
+    } else if (std::abs(value) > std::abs(peak_[newest_])) {
+      peak_[newest_] = value;
+    }
+  }
+
+  double value() const noexcept {
+    double largest = 0.0;
+    for (const double peak : peak_) {
+      if (std::abs(peak) > std::abs(largest)) largest = peak;
+    }
+    return largest;
+  }
+
+ private:
+  static constexpr std::size_t kParts = 10;
+  double part_;
+  double age_ = 0.0;
+  std::size_t newest_ = 0;
+  std::array<double, kParts> peak_{};
+};
+
+}  // namespace gearshift

@@ -1,0 +1,19 @@
+// The order in which lever and pedals are taught, and how far a shift was from it.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "app/training/shift_record.h"
+
+namespace gearshift {
+
+// Off the throttle, clutch down, neutral, gear, clutch up, throttle. Out of neutral there is no neutral to go to, into
+// neutral no gear.
+std::vector<ShiftStep> taught_steps(int from, int to);
+
+// Least number of steps to add, leave out or replace that makes `steps` the taught ones (Levenshtein distance): 2 for
+// two that were exchanged. Whether the throttle was taken up again before the shift ended does not count.
+int steps_out_of_place(std::span<const ShiftStep> steps, int from, int to);
+
+}  // namespace gearshift

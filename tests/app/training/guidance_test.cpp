@@ -1,0 +1,130 @@
+// The guidance policy against its own recursion, and what it must never do.
+#include "app/training/guidance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+using namespace gearshift;
+
+TEST_CASE("the gain follows g <- clamp(f g + k error), with f falling as skill grows") {
+  const GuidanceConfig config;
+  GuidancePolicy policy(1);
+  double g = config.start, skill = 0.0;
+  for (int n = 0; n < 60; ++n) {
+    const double error = std::exp(-n / 12.0);
+    const double f = config.forget * (1.0 - skill) + config.forget_skilled * skill;
+    g = std::clamp(f * g + config.per_error * error, 0.0, 1.0);
+    skill = config.skill_memory * skill + (1.0 - config.skill_memory) * (1.0 - error);
+    policy.learn(error);
+    CHECK(policy.gain() == doctest::Approx(g).epsilon(1e-12));
+    CHECK(policy.skill() == doctest::Approx(skill).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("a learner without error is left alone by and by: (product of f) of the gain") {
+  GuidanceConfig config;
+  config.skill_memory = 1.0;  // stays unskilled: f does not change
+  GuidancePolicy policy(1, config);
+  for (int n = 0; n < 20; ++n) policy.learn(0.0);
+  CHECK(policy.gain() == doctest::Approx(std::pow(config.forget, 20)).epsilon(1e-12));
+}
+
+TEST_CASE("steady error keeps the gain at k e / (1 - f)") {
+  GuidanceConfig config;
+  config.skill_memory = 1.0;
+  GuidancePolicy policy(1, config);
+  for (int n = 0; n < 400; ++n) policy.learn(0.3);
+  CHECK(policy.gain() == doctest::Approx(config.per_error * 0.3 / (1.0 - config.forget)).epsilon(1e-9));
+}
+
+TEST_CASE("guidance fades faster for the skilled") {
+  GuidancePolicy skilled(1), novice(1);
+  for (int n = 0; n < 10; ++n) skilled.learn(0.05), novice.learn(0.9);
+  CHECK(skilled.skill() > 0.8);
+  CHECK(novice.skill() < 0.2);
+  CHECK(skilled.gain() < 0.1);
+  CHECK(novice.gain() > 0.9);
+}
+
+TEST_CASE("half of the trials are unguided, of every four, in an order that the seed draws") {
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    GuidancePolicy policy(seed);
+    int guided = 0;
+    for (int n = 1; n <= 400; ++n) {
+      policy.learn(1.0);
+      guided += policy.next().guidance > 0.0 ? 1 : 0;
+      if (n % 4 == 0) CHECK(guided == n / 2);
+    }
+  }
+  std::vector<int> first(4, 0);
+  for (std::uint64_t seed = 0; seed < 4000; ++seed) {
+    GuidancePolicy policy(seed);
+    for (int& count : first) count += policy.next().guidance > 0.0 ? 1 : 0;
+  }
+  for (const int count : first) CHECK(count == doctest::Approx(2000).epsilon(0.06));  // 4 standard deviations
+}
+
+TEST_CASE("the same seed and errors give the same plans, another seed others") {
+  const auto plans = [](std::uint64_t seed) {
+    GuidancePolicy policy(seed);
+    std::vector<double> list;
+    for (int n = 0; n < 40; ++n) {
+      list.push_back(policy.next().guidance);
+      policy.learn(0.5);
+    }
+    return list;
+  };
+  CHECK(plans(5) == plans(5));
+  CHECK(plans(5) != plans(6));
+}
+
+TEST_CASE("a guided trial has the gain, an unguided one none, and what is too little is none") {
+  GuidancePolicy policy(3);
+  for (int n = 0; n < 40; ++n) {
+    const double gain = policy.gain();
+    const TrialPlan plan = policy.next();
+    if (plan.guidance != 0.0) CHECK(plan.guidance == gain);
+    if (plan.guidance != 0.0) CHECK(gain >= GuidanceConfig().least);
+    policy.learn(0.0);
+  }
+  CHECK(policy.gain() < GuidanceConfig().least);
+  for (int n = 0; n < 8; ++n) CHECK(policy.next().guidance == 0.0);
+}
+
+TEST_CASE("a retention test is unguided and silent") {
+  GuidancePolicy policy(3);
+  CHECK(policy.retention().guidance == 0.0);
+  CHECK(policy.retention().hints == HintStyle::summary);
+}
+
+TEST_CASE("hints go from prescriptive over bandwidth to summary as skill grows, and back where it is lost") {
+  GuidancePolicy policy(3);
+  std::vector<HintStyle> styles{policy.next().hints};
+  const auto go_on = [&](double error) {
+    for (int n = 0; n < 12; ++n) {
+      policy.learn(error);
+      const HintStyle style = policy.next().hints;
+      if (style != styles.back()) styles.push_back(style);
+    }
+  };
+  go_on(0.0);
+  CHECK(styles == std::vector<HintStyle>{HintStyle::prescriptive, HintStyle::bandwidth, HintStyle::summary});
+  go_on(1.0);
+  CHECK(styles.back() == HintStyle::prescriptive);
+}
+
+TEST_CASE("what is no error teaches nothing, and none is beyond 1") {
+  GuidancePolicy policy(3);
+  policy.learn(std::numeric_limits<double>::quiet_NaN());
+  policy.learn(-1.0);
+  CHECK(policy.gain() == GuidanceConfig().start);
+  GuidancePolicy one(3), many(3);
+  one.learn(1.0);
+  many.learn(50.0);
+  CHECK(one.gain() == many.gain());
+  CHECK(one.skill() == many.skill());
+}

@@ -1,0 +1,355 @@
+// The state machine of a lesson: prompts, steps, hints, aborts, time, feedback, guidance, and the same result twice.
+#include "app/training/lesson_run.h"
+
+#include <cmath>
+#include <functional>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "app/training/grade.h"
+#include "tests/app/training/constructed_shift.h"
+
+using namespace gearshift;
+
+namespace {
+
+DriveCondition in_gear(int gear) {
+  DriveCondition c;
+  c.gear = gear;
+  return c;
+}
+
+DriveCondition clutch_above(double value) {
+  DriveCondition c;
+  c.clutch_above = value;
+  return c;
+}
+
+// Clutch, third gear, clutch up: what the constructed shift does.
+Lesson shift_lesson() {
+  Lesson lesson;
+  lesson.key = lesson.task = "shift";
+  lesson.goal = "Shift to third.";
+  lesson.time_limit = 20.0;
+  lesson.catches = {FaultKind::clutch_early, FaultKind::over_push, FaultKind::wrong_gear, FaultKind::stall};
+  lesson.fails_on = {FaultKind::stall};
+  DriveCondition up = in_gear(3);
+  up.clutch_below = 0.2;
+  up.clutch_locked = true;
+  lesson.steps = {{"Clutch down.", "All the way.", clutch_above(0.8), kNeutralGear, 2.0},
+                  {"Lever to 3.", "Straight ahead.", in_gear(3), 3, 2.0},
+                  {"Clutch up.", "Slowly.", up, 3, 2.0}};
+  return lesson;
+}
+
+// What a run leaves.
+class Outcome {
+ public:
+  explicit Outcome(LessonRun& run) : view_(run.view()), result_(run.result()), shifts_(run.take_shifts()) {
+    CHECK(run.take_shifts().empty());
+  }
+  const LessonView& view() const { return view_; }
+  const LessonResult& result() const { return result_; }
+  std::size_t shifts() const { return shifts_.size(); }
+
+ private:
+  LessonView view_;
+  LessonResult result_;
+  std::vector<ShiftRecord> shifts_;
+};
+
+struct Driven {
+  ConstructedShift shift;
+  Lesson lesson = shift_lesson();
+  LessonRunConfig config;
+  std::function<void(LessonRun&, double)> each = [](LessonRun&, double) {};
+
+  Outcome run() const {
+    LessonRun run(lesson, shift.car, shift.gate, config);
+    for (const DriveSample& s : shift.samples()) {
+      run.add(s);
+      each(run, s.time() - 100.0);
+    }
+    return Outcome(run);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("steps are prompted in turn, in their mode, and the lesson is done when the shift is") {
+  std::vector<std::pair<std::string, double>> prompts;
+  double done = 0.0;
+  Driven driven;
+  driven.each = [&](LessonRun& run, double t) {
+    if (prompts.empty() || prompts.back().first != run.view().prompt) prompts.emplace_back(run.view().prompt, t);
+    if (run.is_over() && done == 0.0) done = t;
+  };
+  const Outcome run = driven.run();
+  REQUIRE(prompts.size() == 4);
+  CHECK(prompts[0].first == "Clutch down.");
+  CHECK(prompts[1].first == "Lever to 3.");
+  CHECK(prompts[1].second == doctest::Approx(0.081).epsilon(0.02));
+  CHECK(prompts[2].first == "Clutch up.");
+  CHECK(prompts[3].first == "Shift to third.");
+  CHECK(prompts[3].second == doctest::Approx(0.761).epsilon(0.01));
+  CHECK(done == doctest::Approx(0.85).epsilon(0.01));  // the record has come
+  CHECK(run.result().end == LessonEnd::done);
+  CHECK(run.result().passed);
+  CHECK(run.result().grade == 10.0);
+  CHECK(run.result().shifts.size() == 1);
+  CHECK(run.shifts() == 1);
+  CHECK(run.result().begin == doctest::Approx(99.0));
+  CHECK(run.result().duration == doctest::Approx(1.0 + done).epsilon(1e-6));
+
+  Driven alone;
+  alone.config.mode = LessonMode::by_yourself;
+  alone.each = [](LessonRun& r, double) { CHECK(r.view().prompt == "Shift to third."); };
+  CHECK(alone.run().result().passed);
+}
+
+TEST_CASE("the guided gear is the step's") {
+  Driven driven;
+  driven.each = [](LessonRun& run, double t) {
+    if (t < 0.07) CHECK(run.view().guided_gear == kNeutralGear);
+    if (t > 0.1 && t < 0.75) CHECK(run.view().guided_gear == 3);
+    if (run.is_over()) CHECK(run.view().guided_gear == kNeutralGear);
+  };
+  driven.run();
+}
+
+TEST_CASE("a hint comes after the step's patience, and goes with the step; bandwidth and summary have none") {
+  for (const HintStyle style : {HintStyle::prescriptive, HintStyle::bandwidth, HintStyle::summary}) {
+    Driven driven;
+    driven.config.hints = style;
+    driven.shift.from = -4.0;
+    const bool prescriptive = style == HintStyle::prescriptive;
+    driven.each = [&](LessonRun& run, double t) {
+      if (t < -2.01) CHECK(run.view().hint.empty());
+      if (t > -1.99 && t < 0.0) CHECK(run.view().hint == (prescriptive ? "All the way." : ""));
+      if (t > 0.1) CHECK(run.view().hint.empty());
+    };
+    driven.run();
+  }
+}
+
+TEST_CASE("faults are said as they happen; at the end in summary; what is not looked at is a note and not said") {
+  const auto spoil = [](DriveSample& s, double t) {
+    if (t > 0.3 && t < 0.35) s.lever.f_h = {70.0, 0.0};
+    s.car.throttle = t < 0.15 ? 0.3 : 0.0;  // step order, which this lesson does not look at
+  };
+  Driven driven;
+  driven.shift.spoil = spoil;
+  double said = 0.0;
+  driven.each = [&](LessonRun& run, double t) {
+    if (said == 0.0 && !run.view().said.empty()) said = t;
+  };
+  const Outcome run = driven.run();
+  CHECK(said == doctest::Approx(0.65).epsilon(0.02));  // the push, and the gap that ends it
+  CHECK(run.view().said == std::vector<std::string>{"The lever was pushed with 70 N."});
+  REQUIRE(run.result().faults.size() == 2);
+  CHECK(run.result().faults[1].kind == FaultKind::step_order);
+  CHECK(run.result().faults[1].severity == Severity::note);
+  CHECK(run.result().faults[0].shift == 0);
+  CHECK(run.result().grade == 9.5);
+
+  Driven silent;
+  silent.shift.spoil = spoil;
+  silent.config.hints = HintStyle::summary;
+  silent.each = [](LessonRun& r, double) { CHECK(r.view().said.empty() == !r.is_over()); };
+  CHECK(silent.run().view().said.size() == 1);
+}
+
+TEST_CASE("a fault belongs to the shift in whose time it was, also where it is told after the shift's record") {
+  Driven driven;
+  driven.lesson.catches = {FaultKind::clutch_dump};
+  driven.lesson.steps[2].until.held = 1.0;
+  driven.shift.spoil = [](DriveSample& s, double t) {
+    if (t > 0.6) s.car.clutch = ConstructedShift::line(t, 0.6, 1.0, 0.8, 0.0);
+    if (t > 0.74) s.car.clutch = 0.0;
+    s.car.clutch_locked = t < 0.075 || t > 0.68;
+    s.car.slip_power = t > 0.65 && t < 0.68 ? 20e3 : 0.0;
+  };
+  const Outcome run = driven.run();
+  REQUIRE(run.result().faults.size() == 1);
+  CHECK(run.result().faults[0].kind == FaultKind::clutch_dump);
+  CHECK(run.result().faults[0].shift == 0);
+}
+
+TEST_CASE("a gear that was not asked for is told at once") {
+  Driven driven;
+  driven.lesson.steps[1].until = in_gear(4);
+  driven.lesson.steps[1].gear = 4;
+  driven.lesson.steps[2].until.gear = 4;
+  const Outcome run = driven.run();
+  REQUIRE(run.result().faults.size() == 1);
+  CHECK(run.result().faults[0].kind == FaultKind::wrong_gear);
+  CHECK(run.view().said == std::vector<std::string>{"That was gear 3, another one was meant."});
+  CHECK(run.view().step == 1);
+}
+
+TEST_CASE("a step that was passed over is done when the next one is, but not by what was so before") {
+  Driven driven;
+  driven.lesson.steps[0].until = DriveCondition();
+  driven.lesson.steps[0].until.throttle_above = 0.9;  // nobody does
+  CHECK(driven.run().result().end == LessonEnd::done);
+  Driven stays;
+  stays.lesson.steps[0].until.clutch_above = {};
+  stays.lesson.steps[0].until.throttle_above = 0.9;
+  stays.lesson.steps[1].until = DriveCondition();
+  stays.lesson.steps[1].until.speed_above = 1.0;  // from the beginning
+  CHECK(stays.run().view().step == 0);
+}
+
+TEST_CASE("held: a condition must last on end") {
+  const auto step_done_at = [](double held, double gap) {
+    Driven driven;
+    driven.lesson.steps.resize(1);
+    driven.lesson.steps[0].until.held = held;
+    driven.shift.spoil = [gap](DriveSample& s, double t) {
+      if (t > 0.3 && t < 0.3 + gap) s.car.clutch = 0.79;
+    };
+    double at = 0.0;
+    driven.each = [&](LessonRun& run, double t) {
+      if (at == 0.0 && run.view().step == 1) at = t;
+    };
+    driven.run();
+    return at;
+  };
+  CHECK(step_done_at(0.3, 0.0) == doctest::Approx(0.081 + 0.3).epsilon(0.01));
+  CHECK(step_done_at(0.3, 0.01) == doctest::Approx(0.31 + 0.3).epsilon(0.01));
+  CHECK(step_done_at(0.9, 0.0) == 0.0);
+}
+
+TEST_CASE("distance counts from the lesson's begin, rolling back from the step's") {
+  Driven driven;
+  driven.lesson.steps.resize(1);
+  driven.lesson.steps[0].until = DriveCondition();
+  driven.lesson.steps[0].until.distance_above = 12.0;  // at 12 m/s: after one second
+  double at = 0.0;
+  driven.each = [&](LessonRun& run, double t) {
+    if (at == 0.0 && run.view().step == 1) at = t;
+  };
+  driven.run();
+  CHECK(at == doctest::Approx(0.001).epsilon(0.01));
+
+  Driven back;
+  DriveCondition rolled;
+  rolled.rolled_back_above = 1.0;
+  back.lesson.aborts = {{rolled, "The car rolled back more than a metre."}};
+  back.shift.spoil = [](DriveSample& s, double t) { s.car.distance = t < 0.2 ? 5.0 + t : 5.2 - 5.0 * (t - 0.2); };
+  const Outcome run = back.run();
+  CHECK(run.result().end == LessonEnd::aborted);
+  CHECK(run.result().why == "The car rolled back more than a metre.");
+  CHECK_FALSE(run.result().passed);
+}
+
+TEST_CASE("out of time, left, torn: no pass, and nothing counts after the end") {
+  Driven slow;
+  slow.lesson.time_limit = 1.5;
+  slow.shift.spoil = [](DriveSample& s, double) { s.car.clutch = 0.0; };
+  const Outcome run = slow.run();
+  CHECK(run.result().end == LessonEnd::out_of_time);
+  CHECK(run.result().duration == doctest::Approx(1.5).epsilon(0.001));
+
+  Driven left;
+  left.each = [](LessonRun& r, double t) {
+    if (t > 0.2) r.leave();
+  };
+  CHECK(left.run().result().end == LessonEnd::left);
+  CHECK(left.run().result().why == "The lesson was left.");
+
+  Driven torn;
+  torn.each = [](LessonRun& r, double t) {
+    if (t > 0.2 && t < 0.2015) r.mark_torn();
+  };
+  const Outcome lost = torn.run();
+  CHECK(lost.result().end == LessonEnd::done);
+  CHECK_FALSE(lost.result().passed);
+  CHECK(lost.result().deductions.empty());
+}
+
+TEST_CASE("what fails the lesson fails it") {
+  Driven driven;
+  driven.shift.spoil = [](DriveSample& s, double t) { s.car.running = t < 0.3 || t > 0.31; };
+  const Outcome run = driven.run();
+  CHECK(run.result().end == LessonEnd::done);
+  CHECK_FALSE(run.result().passed);
+  CHECK(run.result().why.find("The engine stalled") == 0);
+}
+
+TEST_CASE("guided trials are never graded, whether planned or seen in the controls") {
+  Driven planned;
+  planned.config.guidance = 0.4;
+  CHECK(planned.run().result().guided);
+  CHECK_FALSE(planned.run().result().passed);
+  CHECK(planned.run().result().grade == 0.0);
+  CHECK(run_error(planned.run().result()) == 0.0);
+  Driven seen;
+  seen.shift.spoil = [](DriveSample& s, double t) { s.controls.guidance = t > 0.3 && t < 0.303 ? 0.1 : 0.0; };
+  CHECK(seen.run().result().guided);
+  CHECK_FALSE(seen.run().result().passed);
+}
+
+TEST_CASE("work of the engine and heat of the clutch are those of the lesson") {
+  Driven driven;
+  driven.shift.spoil = [](DriveSample& s, double t) {
+    s.car.engine_speed = 200.0;
+    s.car.engine_torque = t < 0.0 ? 50.0 : -10.0;
+    s.car.slip_energy = 1000.0 + 100.0 * (t + 1.0);
+  };
+  const LessonResult result = driven.run().result();
+  CHECK(result.fuel == doctest::Approx(200.0 * (50.0 * 1.0 - 10.0 * (result.duration - 1.0))).epsilon(0.002));
+  CHECK(result.slip_energy == doctest::Approx(100.0 * result.duration).epsilon(1e-6));
+}
+
+TEST_CASE("a shift in progress at the last step gets its end, and no more than three seconds") {
+  Driven driven;
+  driven.lesson.steps.resize(2);  // done as soon as third is in
+  CHECK(driven.run().result().shifts.size() == 1);
+  Driven never;
+  never.lesson.steps.resize(2);
+  never.shift.to = 6.0;
+  never.shift.spoil = [](DriveSample& s, double t) { s.car.clutch = t > 0.1 ? 1.0 : s.car.clutch; };
+  const Outcome run = never.run();
+  CHECK(run.result().end == LessonEnd::done);
+  CHECK(run.result().shifts.empty());
+  CHECK(run.result().duration == doctest::Approx(1.0 + 0.491 + 3.0).epsilon(0.01));
+}
+
+TEST_CASE("the same drive gives the same result") {
+  const auto once = [] {
+    Driven driven;
+    driven.shift.spoil = [](DriveSample& s, double t) {
+      s.lever.f_h = {30.0 * std::sin(40.0 * t), 65.0 * std::sin(9.0 * t)};
+    };
+    return driven.run();
+  };
+  const Outcome first = once(), second = once();
+  const LessonResult &a = first.result(), &b = second.result();
+  CHECK(a.grade == b.grade);
+  CHECK(a.fuel == b.fuel);
+  REQUIRE(a.faults.size() == b.faults.size());
+  CHECK_FALSE(a.faults.empty());
+  for (std::size_t i = 0; i < a.faults.size(); ++i) CHECK(a.faults[i].value == b.faults[i].value);
+  REQUIRE(a.shifts.size() == 1);
+  CHECK(a.shifts[0].impulse == b.shifts[0].impulse);
+  CHECK(a.shifts[0].jerk_peak == b.shifts[0].jerk_peak);
+}
+
+TEST_CASE("a lesson for a gear that the gate lacks is refused") {
+  const ConstructedShift shift;
+  const auto refused = [&](auto change) {
+    Lesson lesson = shift_lesson();
+    change(lesson);
+    CHECK_THROWS_AS(LessonRun(lesson, shift.car, shift.gate, {}), std::invalid_argument);
+  };
+  refused([](Lesson& l) { l.steps[1].gear = 6; });
+  refused([](Lesson& l) { l.steps[1].until.gear = 6; });
+  refused([](Lesson& l) { l.start.gear = 7; });
+  refused([](Lesson& l) { l.aborts = {{in_gear(8), "No."}}; });
+  CHECK_NOTHROW(LessonRun(shift_lesson(), shift.car, shift.gate, {}));
+}

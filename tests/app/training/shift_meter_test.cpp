@@ -1,0 +1,316 @@
+// Every number of a shift record, on a shift whose numbers are known by hand.
+#include "app/training/shift_meter.h"
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "app/training/gate_path.h"
+#include "tests/app/training/constructed_shift.h"
+
+using namespace gearshift;
+
+namespace {
+
+ShiftRecord only_record(const ConstructedShift& shift) {
+  const std::vector<ShiftRecord> records = shift.records();
+  REQUIRE(records.size() == 1);
+  return records[0];
+}
+
+ShiftRecord spoilt(std::function<void(DriveSample&, double)> spoil) {
+  ConstructedShift shift;
+  shift.spoil = std::move(spoil);
+  return only_record(shift);
+}
+
+bool within(double t, double a, double b) {
+  return t >= a - 1e-9 && t <= b + 1e-9;
+}
+
+}  // namespace
+
+TEST_CASE("times of a shift are those of its pedal and its lever, at any period") {
+  for (const double period : {0.001, 0.002, 0.0042, 0.011}) {
+    CAPTURE(period);
+    ConstructedShift shift;
+    shift.period = period;
+    const ShiftRecord record = only_record(shift);
+    const Slot& two = slot_of(shift.gate, slot_of_gear(shift.gate, 2));
+    const double left = 0.2 + 0.1 * (two.rest - two.engage_depth) / two.rest;
+    const double in = 0.4 + 0.1 * two.engage_depth / two.rest;
+    const auto near = [&](double value) { return doctest::Approx(value).epsilon(1e-9).scale(1e9 * 1.01 * period); };
+    CHECK(record.begin == near(100.075));
+    CHECK(record.end == near(100.75));
+    CHECK(record.clutch_time == near(0.575));
+    CHECK(record.lever_time == near(in - left));
+    CHECK(record.clutch_lead == near(left - 0.075));
+    CHECK(record.clutch_lag == near(0.65 - in));
+    CHECK(record.from == 2);
+    CHECK(record.to == 3);
+    CHECK_FALSE(record.missed);
+    CHECK(record.steps_out_of_place == 0);
+    CHECK(record.wrong_columns == 0);
+  }
+}
+
+TEST_CASE("the record comes once, a filter's settling after the shift's end") {
+  ConstructedShift shift;
+  ShiftMeter meter(shift.car, shift.gate);
+  double came = 0.0;
+  for (const DriveSample& s : shift.samples()) {
+    if (meter.add(s)) {
+      CHECK(came == 0.0);
+      came = s.time();
+    }
+  }
+  CHECK(came == doctest::Approx(100.75 + kJerkSettles).epsilon(1e-5));
+}
+
+TEST_CASE("drive that is lost counts as torque gap, against what there was before the throttle was lifted") {
+  // 400 N m up to -0.2 s, 15 N m (3.75 %) from 0.2 s to 0.6 s, 30 N m (7.5 %) else.
+  const ShiftRecord record = spoilt([](DriveSample& s, double t) {
+    s.car.drive_torque = t < -0.2 ? 400.0 : within(t, 0.2, 0.6) ? 15.0 : 30.0;
+  });
+  CHECK(record.torque_gap == doctest::Approx(0.4).epsilon(0.01));
+  // Pulled by the engine before, braked by it after: that is a gap too; without drive before there is none.
+  CHECK(spoilt([](DriveSample& s, double t) { s.car.drive_torque = t < -0.2 ? 400.0 : -100.0; }).torque_gap ==
+        doctest::Approx(0.675).epsilon(0.01));
+  CHECK(spoilt([](DriveSample& s, double) { s.car.drive_torque = 0.0; }).torque_gap == 0.0);
+}
+
+TEST_CASE("heat of the clutch, revs and flare") {
+  // A triangle of 3 kW between 0.65 s and 0.75 s: 150 J. Engine 12 rad/s above the shaft as the clutch takes hold, and
+  // 20 rad/s up at 0.3 s.
+  ConstructedShift shift;
+  shift.spoil = [&](DriveSample& s, double t) {
+    const double u = std::clamp((t - 0.65) / 0.1, 0.0, 1.0);
+    s.car.slip_power = 3000.0 * (1.0 - std::abs(2.0 * u - 1.0));
+    s.car.slip_energy = 7.0 + 300.0 * (u < 0.5 ? u * u : 0.5 - (1.0 - u) * (1.0 - u));
+    s.car.engine_speed = shift.engine(t < 0.45 ? 2 : 3) + (t > 0.45 && t < 0.66 ? 12.0 : 0.0);
+    if (within(t, 0.3, 0.31)) s.car.engine_speed += 20.0;
+  };
+  const ShiftRecord record = only_record(shift);
+  CHECK(record.slip_energy == doctest::Approx(150.0).epsilon(1e-6));
+  CHECK(record.slip_power_peak == doctest::Approx(3000.0).epsilon(1e-6));
+  CHECK(record.rev_error == doctest::Approx(12.0).epsilon(1e-9));
+  CHECK(record.flare == doctest::Approx(20.0).epsilon(1e-9));
+  CHECK(record.engine_speed == doctest::Approx(shift.engine(2)).epsilon(1e-9));
+}
+
+TEST_CASE("comfort: jerk of a step, fourth-power dose of what is constant") {
+  const double lasts = 0.675 + kJerkSettles;
+  const ShiftRecord steady = spoilt([](DriveSample& s, double) { s.car.acceleration = 2.0; });
+  CHECK(steady.jerk_peak == doctest::Approx(0.0));
+  CHECK(steady.vibration_dose == doctest::Approx(2.0 * std::pow(lasts, 0.25)).epsilon(1e-3));
+  // 1.5 m/s^2 w exp(-pi/4) m/s^3, w = 2 pi 15 Hz; the second step falls on the shift's end and is felt after it.
+  const double peak = 1.5 * 6.283185307179586 * 15.0 * std::exp(-0.785398163397448);
+  CHECK(spoilt([](DriveSample& s, double t) { s.car.acceleration = t > 0.3 ? 1.5 : 0.0; }).jerk_peak ==
+        doctest::Approx(peak).epsilon(0.002));
+  CHECK(spoilt([](DriveSample& s, double t) { s.car.acceleration = t > 0.75 ? 1.5 : 0.0; }).jerk_peak ==
+        doctest::Approx(peak).epsilon(0.002));
+  CHECK(spoilt([](DriveSample& s, double t) { s.car.acceleration = t < -0.5 ? 1.5 : 0.0; }).jerk_peak < 0.01);
+}
+
+TEST_CASE("the hand's force: peak and impulse") {
+  const ShiftRecord record = spoilt([](DriveSample& s, double t) {
+    if (within(t, 0.2, 0.5)) s.lever.f_h = {6.0, 8.0};
+    if (within(t, 1.5, 1.6)) s.lever.f_h = {90.0, 0.0};  // after the shift
+  });
+  CHECK(record.force_peak == doctest::Approx(10.0));
+  CHECK(record.impulse == doctest::Approx(10.0 * 0.301).epsilon(1e-6));  // 301 samples
+}
+
+TEST_CASE("work into a wall counts on the way in only, and overshoot is the deepest place behind it") {
+  // Twice 1 mm into a wall of 5000 N/m: K d^2 / 2 = 2.5 mJ each.
+  const ShiftRecord record = spoilt([](DriveSample& s, double t) {
+    const double u = std::fmod(t + 10.0, 0.1) / 0.1;
+    const double depth = within(t, 0.3, 0.4999) ? 1e-3 * (1.0 - std::abs(2.0 * u - 1.0)) : 0.0;
+    s.lever.lever += glm::dvec2{depth, 0.0};
+    s.lever.wall_force = {-5000.0 * depth, 0.0};
+  });
+  CHECK(record.wall_work == doctest::Approx(0.005).epsilon(1e-3));
+  CHECK(record.overshoot == doctest::Approx(1e-3).epsilon(1e-3));
+}
+
+TEST_CASE("the lever's way, and how much longer than the shortest it was") {
+  ConstructedShift shift;
+  const ShiftRecord record = only_record(shift);
+  const Slot& slot = slot_of(shift.gate, slot_of_gear(shift.gate, 3));
+  const glm::dvec2 two = rest_position(shift.gate, 2);
+  const double length = slot.rest + std::abs(two.x) + slot.engage_depth;
+  CHECK(record.path_length == doctest::Approx(length).epsilon(0.005));
+  CHECK(record.path_efficiency ==
+        doctest::Approx(length / shortest_way(shift.gate, two, {0.0, slot.engage_depth})).epsilon(0.005));
+  CHECK(record.path_efficiency > 1.0);
+  // The noise of one encoder count, 75 um, adds nothing.
+  const ShiftRecord noisy = spoilt([](DriveSample& s, double t) {
+    if (std::lround(1e3 * t) % 2 == 0) s.lever.lever += glm::dvec2{75e-6, 75e-6};
+  });
+  CHECK(noisy.path_length == doctest::Approx(length).epsilon(0.01));
+}
+
+TEST_CASE("dogs and ring: how long it was blocked, how long and how much it ground") {
+  const ShiftRecord record = spoilt([](DriveSample& s, double t) {
+    if (within(t, 0.42, 0.499)) s.car.sync = SyncPhase::synchronising;
+    s.car.grinding = within(t, 0.45, 0.499);
+    s.car.grind_power = s.car.grinding ? 100.0 : 0.0;
+  });
+  CHECK(record.block_time == doctest::Approx(0.080).epsilon(1e-6));
+  CHECK(record.grind_time == doctest::Approx(0.050).epsilon(1e-6));
+  CHECK(record.grind_energy == doctest::Approx(5.0).epsilon(1e-6));
+}
+
+TEST_CASE(
+    "a clutch that comes up before the gear is in has a negative lag, one that goes down after the lever a lead") {
+  ConstructedShift shift;
+  shift.spoil = [](DriveSample& s, double t) {
+    s.car.clutch = t < 0.3 ? ConstructedShift::line(t, 0.24, 0.0, 0.25, 1.0) : t > 0.4 ? 0.0 : 1.0;
+  };
+  const ShiftRecord record = only_record(shift);
+  const Slot& slot = slot_of(shift.gate, slot_of_gear(shift.gate, 2));
+  const double left = 0.2 + 0.1 * (slot.rest - slot.engage_depth) / slot.rest;
+  const double in = 0.4 + 0.1 * slot.engage_depth / slot.rest;
+  CHECK(record.clutch_lead == doctest::Approx(left - 0.2475).epsilon(0.02));
+  CHECK(record.clutch_lag == doctest::Approx(0.4 - in).epsilon(0.02));
+  CHECK(record.clutch_lead < 0.0);
+  CHECK(record.clutch_lag < 0.0);
+}
+
+TEST_CASE("steps are noted as they happen and measured against the taught order") {
+  CHECK(only_record(ConstructedShift()).steps == std::vector<ShiftStep>{ShiftStep::throttle_off, ShiftStep::clutch_down,
+                                                                        ShiftStep::neutral, ShiftStep::gear,
+                                                                        ShiftStep::clutch_up});
+  // The throttle comes off after the clutch is down: two steps are exchanged.
+  const ShiftRecord late = spoilt([](DriveSample& s, double t) { s.car.throttle = t < 0.15 ? 0.3 : 0.0; });
+  CHECK(late.steps.front() == ShiftStep::clutch_down);
+  CHECK(late.steps_out_of_place == 2);
+  // Between clutch and gear a blip: two steps too many.
+  CHECK(spoilt([](DriveSample& s, double t) {
+          s.car.throttle = within(t, 0.3, 0.35) ? 0.5 : 0.0;
+        }).steps_out_of_place == 2);
+}
+
+TEST_CASE("a mouth entered off the way is a wrong column") {
+  // In the middle of the aisle, 3's slot being ahead: into 4's, which lies opposite, and back.
+  ConstructedShift shift;
+  shift.to = 3.0;
+  const double depth = shift.gate.half_aisle + shift.gate.chamfer + 0.002;
+  shift.spoil = [&](DriveSample& s, double t) {
+    if (within(t, 0.35, 0.4)) shift.place(s, {0.0, within(t, 0.37, 0.38) ? -depth : 0.0});
+  };
+  CHECK(only_record(shift).wrong_columns == 1);
+  CHECK(only_record(ConstructedShift()).wrong_columns == 0);
+}
+
+TEST_CASE(
+    "a pedal that goes down and up with the gear in is no shift, nor is a lever that comes back with its gear in") {
+  ConstructedShift pedal;
+  pedal.spoil = [&](DriveSample& s, double) {
+    pedal.place(s, rest_position(pedal.gate, 2));
+    s.car.gear = 2;
+  };
+  CHECK(pedal.records().empty());
+  ConstructedShift lever;
+  lever.spoil = [&](DriveSample& s, double t) {
+    const Slot& two = slot_of(lever.gate, slot_of_gear(lever.gate, 2));
+    const double back = within(t, 0.2, 0.4) ? two.engage_depth - 0.001 : two.rest;
+    lever.place(s, {rest_position(lever.gate, 2).x, -back});
+    s.car.gear = 2;
+    s.car.clutch = 0.0;
+    s.car.clutch_locked = true;
+  };
+  CHECK(lever.records().empty());
+}
+
+TEST_CASE("who gives up, or comes back to the gear that was left, has missed the shift; who wants neutral has not") {
+  const auto stops_at = [](double depth_share) {
+    ConstructedShift shift;
+    shift.to = 5.0;
+    shift.spoil = [shift, depth_share](DriveSample& s, double t) {
+      const Slot& three = slot_of(shift.gate, slot_of_gear(shift.gate, 3));
+      const double depth = within(t, 0.45, 0.55) ? depth_share * three.release_depth : 0.0;
+      if (t > 0.4) shift.place(s, {0.0, depth});
+      if (t > 0.4) s.car.gear = kNeutralGear;
+    };
+    return only_record(shift);
+  };
+  const ShiftRecord missed = stops_at(1.01);
+  CHECK(missed.missed);
+  CHECK(missed.to == kNeutralGear);
+  CHECK(missed.end == doctest::Approx(100.66 + 2.0).epsilon(1e-4));
+  CHECK(missed.lever_time == 0.0);
+  CHECK_FALSE(stops_at(0.0).missed);
+
+  ConstructedShift back;
+  back.spoil = [&](DriveSample& s, double t) {
+    const double y =
+        t < 0.35 ? ConstructedShift::line(t, 0.2, -1.0, 0.3, 0.0) : ConstructedShift::line(t, 0.4, 0.0, 0.5, -1.0);
+    back.place(s, {rest_position(back.gate, 2).x, -y * rest_position(back.gate, 2).y});
+    s.car.gear = within(t, 0.25, 0.48) ? kNeutralGear : 2;
+  };
+  const ShiftRecord returned = only_record(back);
+  CHECK(returned.missed);
+  CHECK(returned.from == 2);
+  CHECK(returned.to == 2);
+}
+
+TEST_CASE("without the clutch the revs are those just before the dogs were in") {
+  ConstructedShift shift;
+  shift.spoil = [&](DriveSample& s, double t) {
+    s.car.clutch = 0.0;
+    s.car.clutch_locked = true;
+    s.car.engine_speed = shift.engine(3) + (s.car.gear == 3 ? 0.0 : 5.0);
+    if (t < 0.2) s.car.engine_speed = shift.engine(2);
+  };
+  const ShiftRecord record = only_record(shift);
+  CHECK(record.clutch_time == 0.0);
+  CHECK(record.clutch_lead == 0.0);
+  CHECK(record.clutch_lag == 0.0);
+  CHECK(record.rev_error == doctest::Approx(5.0).epsilon(1e-9));
+  CHECK(record.steps_out_of_place == 2);  // clutch down and up are missing
+}
+
+TEST_CASE("guidance at any time makes the shift a guided one") {
+  CHECK_FALSE(only_record(ConstructedShift()).guided);
+  CHECK(spoilt([](DriveSample& s, double t) { s.controls.guidance = within(t, 0.3, 0.301) ? 0.2 : 0.0; }).guided);
+  CHECK_FALSE(spoilt([](DriveSample& s, double t) { s.controls.guidance = t < 0.0 ? 0.2 : 0.0; }).guided);
+}
+
+TEST_CASE("a next shift before the clutch holds ends the one before it") {
+  ConstructedShift shift;
+  shift.spoil = [](DriveSample& s, double t) {
+    s.car.clutch_locked = t < 0.075;
+    if (t > 0.9) s.car.clutch = 1.0;
+  };
+  ShiftMeter meter(shift.car, shift.gate);
+  std::vector<ShiftRecord> records;
+  for (const DriveSample& s : shift.samples()) {
+    if (const auto record = meter.add(s)) records.push_back(*record);
+  }
+  REQUIRE(records.size() == 1);
+  CHECK(records[0].to == 3);
+  CHECK(records[0].end == doctest::Approx(100.9).epsilon(1e-4));
+  CHECK(meter.is_open());
+}
+
+TEST_CASE("shifts are numbered in their order, and one noisy pedal makes one shift") {
+  ConstructedShift shift;
+  shift.to = 3.0;
+  shift.spoil = [](DriveSample& s, double t) { s.car.clutch += 0.005 * (std::lround(1e3 * t) % 2 == 0 ? 1.0 : -1.0); };
+  const ShiftRecord record = only_record(shift);
+  CHECK(record.number == 0);
+  CHECK(record.steps.size() == 5);
+}
+
+TEST_CASE("samples that are not finite do no worse than spoil their own numbers") {
+  ConstructedShift shift;
+  shift.spoil = [](DriveSample& s, double t) {
+    if (within(t, 0.3, 0.31)) s.lever.f_h.x = std::numeric_limits<double>::quiet_NaN();
+  };
+  const ShiftRecord record = only_record(shift);
+  CHECK(record.to == 3);
+  CHECK(std::isfinite(record.lever_time));
+}

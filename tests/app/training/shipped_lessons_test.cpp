@@ -1,0 +1,250 @@
+// The lessons that are shipped: read, driven as they are meant, and driven with each fault that they look at.
+#include <algorithm>
+#include <filesystem>
+#include <functional>
+#include <set>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "app/training/grade.h"
+#include "app/training/lesson_run.h"
+#include "app/training/suggest.h"
+#include "tests/app/training/constructed_shift.h"
+#include "tests/app/training/ideal_driver.h"
+
+using namespace gearshift;
+
+namespace {
+
+const std::string kFolder = GEARSHIFT_ASSETS "/lessons/";
+
+Lesson shipped_lesson(std::string_view key) {
+  return read_lesson(kFolder + std::string(key) + ".toml");
+}
+
+Gate gate_of(const Lesson& lesson) {
+  return shipped_gate(lesson.gate.empty() ? "five_speed_r_right_down" : lesson.gate);
+}
+
+using Spoil = std::function<void(DriveSample&)>;
+
+LessonResult driven(const Lesson& lesson, Spoil spoil, double pause = 0.0, LessonMode mode = LessonMode::follow_me) {
+  const Gate gate = gate_of(lesson);
+  const CarSpec car = test_car();
+  LessonRun run(lesson, car, gate, {mode, 0.0, HintStyle::prescriptive});
+  IdealDriver driver(lesson, car, gate);
+  driver.spoil = std::move(spoil);
+  driver.pause = pause;
+  driver.drive(run);
+  return run.result();
+}
+
+std::string fault_list(const LessonResult& result) {
+  std::string list;
+  for (const DriveFault& fault : result.faults) list += fault_sentence(fault) + " ";
+  return list;
+}
+
+bool has(const LessonResult& result, FaultKind kind) {
+  return std::any_of(result.faults.begin(), result.faults.end(),
+                     [&](const DriveFault& f) { return f.kind == kind && f.severity != Severity::note; });
+}
+
+// Shows the first drive in gear for `seconds` from `after` on as `change` makes it.
+Spoil for_a_while(double seconds, std::function<bool(const DriveSample&)> when,
+                  std::function<void(DriveSample&, double)> change) {
+  return [=, since = -1.0](DriveSample& s) mutable {
+    if (since < 0.0 && s.time() > 101.0 && when(s)) since = s.time();
+    if (since >= 0.0 && s.time() - since < seconds) change(s, s.time() - since);
+  };
+}
+
+bool drives(const DriveSample& s) {
+  return s.car.gear > 0 && s.car.clutch == 0.0 && s.car.road_speed > 1.0;
+}
+
+bool always(const DriveSample&) {
+  return true;
+}
+
+// What a driver with that fault would have shown. Nothing for a kind that cannot be put into samples from outside.
+Spoil spoil_of(FaultKind kind, const Gate& gate) {
+  const double bite = test_car().clutch.bite;
+  const double red = test_car().engine.red_line;
+  switch (kind) {
+    case FaultKind::stall:
+      return for_a_while(
+          1.0, [](const DriveSample& s) { return s.car.running; },
+          [](DriveSample& s, double t) { s.car.running = t < 0.1; });
+    case FaultKind::over_rev:
+      return for_a_while(0.2, drives, [=](DriveSample& s, double) { s.car.engine_speed = 1.05 * red; });
+    case FaultKind::lugging:
+      return for_a_while(1.5, drives, [](DriveSample& s, double) {
+        s.car.engine_speed = 90.0, s.car.engine_load = 0.9, s.car.clutch_locked = true;
+      });
+    case FaultKind::clutch_dump:
+      return [=](DriveSample& s) {
+        const bool up = s.car.gear != kNeutralGear && s.car.clutch < bite - 0.03 && s.car.clutch > 0.0;
+        if (up)
+          s.car.clutch = 0.0, s.car.clutch_locked = s.car.clutch_locked && s.car.clutch < 0.4, s.car.slip_power = 20e3;
+      };
+    case FaultKind::jerk:
+      return [=](DriveSample& s) {
+        if (s.car.gear != kNeutralGear && s.car.clutch < 0.6 && s.car.clutch > 0.4) s.car.acceleration += 3.0;
+      };
+    case FaultKind::rollback:
+      return for_a_while(1.0, always, [base = 0.0](DriveSample& s, double t) mutable {
+        if (t == 0.0) base = s.car.distance;
+        s.car.road_speed = -0.4, s.car.distance = base - 0.4 * t;
+      });
+    case FaultKind::grind:
+      return for_a_while(0.2, always, [](DriveSample& s, double) { s.car.grinding = true, s.car.grind_power = 100.0; });
+    case FaultKind::over_push:
+      return for_a_while(0.2, always, [](DriveSample& s, double) { s.lever.f_h = {0.0, 70.0}; });
+    case FaultKind::riding_lever:
+      return for_a_while(
+          3.0, [](const DriveSample& s) { return drives(s) && s.car.road_speed > 4.5; },
+          [](DriveSample& s, double) {
+            s.lever.f_h = {5.0, 0.0};
+          });
+    case FaultKind::riding_clutch:
+      return for_a_while(
+          3.0, [](const DriveSample& s) { return drives(s) && s.car.road_speed > 4.5; },
+          [](DriveSample& s, double) { s.car.clutch = std::max(s.car.clutch, 0.3); });
+    case FaultKind::wrong_gear:
+      return [from = kNeutralGear, before = kNeutralGear, at = -1.0](DriveSample& s) mutable {
+        if (s.car.gear != before && s.car.gear != kNeutralGear && at < 0.0 && s.time() > 101.0) at = s.time();
+        if (at < 0.0 && s.car.gear != kNeutralGear) from = s.car.gear;
+        before = s.car.gear;
+        int wrong = 1;
+        while (wrong == s.car.gear || wrong == from) ++wrong;
+        if (at >= 0.0 && s.time() - at < 0.05) s.car.gear = wrong;
+      };
+    case FaultKind::wrong_direction:
+      return [&gate](DriveSample& s) {
+        if (s.lever.slot != kNoSlot && slot_of(gate, s.lever.slot).gear == kReverseGear) s.car.road_speed = 3.0;
+      };
+    case FaultKind::rev_mismatch:
+      return [=](DriveSample& s) {
+        if (s.car.clutch >= bite - 0.05) s.car.engine_speed -= 60.0;
+      };
+    case FaultKind::throttle_in_shift:
+      return [=](DriveSample& s) {
+        if (s.car.clutch >= bite && s.car.gear == kNeutralGear) s.car.engine_speed += 200.0;
+      };
+    case FaultKind::early_shift:
+      return [=](DriveSample& s) {
+        if (s.car.clutch > bite - 0.05) s.car.engine_speed *= 0.5;
+      };
+    case FaultKind::late_shift:
+      return [=](DriveSample& s) {
+        if (s.car.clutch > bite - 0.05) s.car.engine_speed *= 2.5;
+      };
+    case FaultKind::no_clutch:
+      return [](DriveSample& s) {
+        s.car.clutch = 0.0, s.car.clutch_locked = true;
+        if (s.car.gear == kNeutralGear) s.car.engine_speed += 90.0;
+      };
+    case FaultKind::clutch_late:
+      return [out = 0.0](DriveSample& s) mutable {
+        if (s.car.gear != kNeutralGear && s.car.clutch == 0.0) out = 0.0;
+        if (s.car.gear == kNeutralGear && out == 0.0) out = s.time();
+        if (s.time() - out < 0.1 || out == 0.0) s.car.clutch = 0.0;
+      };
+    case FaultKind::clutch_early:
+      return [&gate, up = false](DriveSample& s) mutable {
+        const bool goes_in = s.car.gear == kNeutralGear && std::abs(s.lever.proxy.y) > gate.half_aisle + gate.chamfer;
+        if (s.car.clutch == 0.0) up = false;
+        up = up || (goes_in && s.time() > 101.0 && s.lever.slot != kNoSlot && s.car.clutch >= 0.99);
+        if (up) s.car.clutch = 0.0;
+      };
+    case FaultKind::step_order:
+      return [](DriveSample& s) {
+        if (s.car.clutch > 0.0 && s.car.gear != kNeutralGear && s.lever.slot != kNoSlot) s.car.throttle = 0.3;
+      };
+    case FaultKind::wrong_column:
+      return [&gate, at = -1.0, wrong = kNoSlot, gear = 0](DriveSample& s) mutable {
+        if (s.car.gear != kNeutralGear) gear = s.car.gear;
+        const bool in_aisle = s.car.gear == kNeutralGear && std::abs(s.lever.proxy.y) < 1e-9 && s.car.clutch == 1.0;
+        if (at < 0.0 && in_aisle && s.time() > 101.0) at = s.time();
+        if (at < 0.0 || s.time() - at > 0.02) return;
+        wrong = slot_of_gear(gate, gear == 5 || gear == 4 ? 1 : 5);
+        const Slot& slot = slot_of(gate, wrong);
+        s.lever.proxy = s.lever.lever = {column_of(gate, slot.column).center,
+                                         static_cast<int>(slot.side) * (gate.half_aisle + gate.chamfer + 0.002)};
+        s.lever.slot = wrong;
+      };
+    case FaultKind::blocked:
+      return [](DriveSample& s) {
+        if (s.car.clutch == 1.0) s.car.sync = SyncPhase::synchronising, s.lever.f_h = {0.0, 10.0};
+      };
+    case FaultKind::too_slow:
+      return [](DriveSample&) {};
+    case FaultKind::missed_shift:
+      return nullptr;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+TEST_CASE("the shipped lessons are those of the teaching order") {
+  std::set<std::string> files, order(kTeachingOrder.begin(), kTeachingOrder.end());
+  for (const auto& entry : std::filesystem::directory_iterator(kFolder)) {
+    if (entry.path().extension() == ".toml") files.insert(entry.path().stem().string());
+  }
+  CHECK(files == order);
+}
+
+TEST_CASE("each shipped lesson that names no gate has its gears in every gate of five speeds and more") {
+  for (const std::string_view key : kTeachingOrder) {
+    const Lesson lesson = shipped_lesson(key);
+    for (const std::string& name : shipped_names()) {
+      const Gate gate = shipped_gate(name);
+      if (lesson.gate.empty() && slot_of_gear(gate, 5) != kNoSlot && slot_of_gear(gate, kReverseGear) != kNoSlot) {
+        CHECK_NOTHROW(LessonRun(lesson, test_car(), gate, {}));
+      }
+    }
+  }
+}
+
+TEST_CASE("each shipped lesson, driven as it is meant, is passed with the best grade, prompted or not") {
+  for (const std::string_view key : kTeachingOrder) {
+    for (const LessonMode mode : {LessonMode::follow_me, LessonMode::by_yourself}) {
+      CAPTURE(key);
+      const Lesson lesson = shipped_lesson(key);
+      const LessonResult result = driven(
+          lesson, [](DriveSample&) {}, 0.0, mode);
+      CAPTURE(fault_list(result));
+      CAPTURE(result.why);
+      CHECK(result.end == LessonEnd::done);
+      CHECK(result.grade == 10.0);
+      CHECK(result.passed);
+      CHECK(result.deductions.empty());
+      CHECK(result.faults.empty());
+      CHECK(result.duration < lesson.time_limit);
+    }
+  }
+}
+
+TEST_CASE("each shipped lesson sees every fault that it looks at, and is failed by those that fail it") {
+  for (const std::string_view key : kTeachingOrder) {
+    const Lesson lesson = shipped_lesson(key);
+    const Gate gate = gate_of(lesson);
+    for (const FaultKind kind : lesson.catches) {
+      const Spoil spoil = spoil_of(kind, gate);
+      if (!spoil) continue;
+      const bool waits = kind == FaultKind::too_slow || kind == FaultKind::blocked;
+      const LessonResult result = driven(lesson, spoil, waits ? 3.0 : 0.0);
+      CAPTURE(key);
+      CAPTURE(fault_key(kind));
+      CAPTURE(fault_list(result));
+      CAPTURE(result.why);
+      CHECK(has(result, kind));
+      CHECK(result.grade < 10.0);
+      const bool fails = std::find(lesson.fails_on.begin(), lesson.fails_on.end(), kind) != lesson.fails_on.end();
+      if (fails) CHECK_FALSE(result.passed);
+    }
+  }
+}
