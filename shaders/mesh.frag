@@ -80,15 +80,6 @@ vec3 irradiance(vec3 n) {
   return max(e, vec3(0.0));
 }
 
-// Scale and bias of F0. A software driver is slower at a texture than at a polynomial.
-vec2 split_sum(float n_dot_v, float roughness) {
-  if (!has(kFittedBrdf)) return texture(brdf, vec2(n_dot_v, roughness)).xy;
-  float t = 2.0 * n_dot_v - 1.0;
-  vec2 ab = material.brdf[3].zw * t + material.brdf[3].xy;
-  for (int i = 2; i >= 0; --i) ab = (ab * t + material.brdf[i].zw) * t + material.brdf[i].xy;
-  return ab;
-}
-
 vec3 surroundings(vec3 direction, float roughness) {
   float level = roughness * float(kReflectionLevels - 1u);
   return has(kIndoors) ? textureLod(reflections_indoors, direction, level).rgb
@@ -127,7 +118,7 @@ void main() {
   float n_dot_v = clamp(dot(n, v), 1e-3, 1.0);
 
   // The sky: split sum, and what is not reflected enters.
-  vec2 ab = split_sum(n_dot_v, roughness);
+  vec2 ab = texture(brdf, vec2(n_dot_v, roughness)).xy;
   vec3 reflectance = f0 * ab.x + ab.y;
   vec3 diffuse = base.rgb * (1.0 - metallic) * (1.0 - reflectance);
   vec3 around = has(kShowsMirror) ? texture(mirror, place).rgb : surroundings(reflect(-v, n), roughness);

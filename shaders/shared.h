@@ -51,7 +51,6 @@ SHARED uint kShadowed = 1u << 15;     // the sun's shadow is looked up
 SHARED uint kShowsMirror = 1u << 16;  // reflects the mirror's picture, not the surroundings
 SHARED uint kLinearOut = 1u << 17;    // radiance is written as it is: no tone mapping
 SHARED uint kIndoors = 1u << 18;      // lit by what a point inside sees, not by the open sky
-SHARED uint kFittedBrdf = 1u << 19;   // one roughness: MaterialData::brdf stands in for the table
 
 // Specialization constants 1 to 27: irradiance over pi, of the open sky or indoors, as a polynomial in the normal, see
 // irradiance() in mesh.frag. It changes with the light, hardly ever, and a software driver is slow at reading 27
@@ -86,7 +85,6 @@ struct MaterialData {
   vec4 surface;           // metallic, roughness, strength of the occlusion, alpha's cutoff
   vec4 uv_matrix[kMaps];  // columns of a 2x2
   vec4 uv_offset[kMaps];  // xy
-  vec4 brdf[4];           // scale and bias of F0: coefficients of powers of 2 n.v - 1, two a vector, constant first
 };
 
 struct DrawData {

@@ -65,7 +65,7 @@ class GltfReader {
     read_skins();
     for (const tinygltf::Mesh& mesh : source_.meshes) read_mesh(mesh);
     check_joints();
-    if (drop_flat_meshes(model_)) skip("meshes that a scale of zero makes flat");
+    if (drop_flat_meshes(model_)) skip("meshes scaled to no volume, or to more than a number can hold");
     model_.skipped.assign(skipped_.begin(), skipped_.end());
     return std::move(model_);
   }

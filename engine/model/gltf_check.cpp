@@ -71,8 +71,11 @@ class Check {
 
  private:
   void check_asset() {
-    const std::string version = root_.needed_item("asset").needed_text("version");
+    const JsonItem asset = root_.needed_item("asset");
+    const std::string version = asset.needed_text("version");
     if (!version.starts_with("2.")) throw GltfError(fmt::format("it is glTF {}, not 2.0", shown_name(version)));
+    const std::string needs = asset.text("minVersion").value_or("2.0");  // glTF 2.0, 5.8: the target must support it
+    if (needs != "2.0") throw GltfError(fmt::format("it needs glTF {}, not 2.0", shown_name(needs)));
   }
 
   void check_extensions() {

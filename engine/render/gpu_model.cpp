@@ -41,14 +41,13 @@ std::vector<bool> coloured_materials(const Model& model) {
   return coloured;
 }
 
-void upload_materials(Gpu& gpu, const Model& model, const BrdfTable& brdf, VkDescriptorSetLayout layout,
-                      GpuModel& into) {
+void upload_materials(Gpu& gpu, const Model& model, VkDescriptorSetLayout layout, GpuModel& into) {
   std::vector<Material> materials = model.materials;
   materials.emplace_back();
   const std::vector<bool> coloured = coloured_materials(model);
   std::vector<std::byte> data(materials.size() * kMaterialStride);
   for (std::size_t i = 0; i < materials.size(); ++i) {
-    const shader::MaterialData content = data_of(materials[i], brdf);
+    const shader::MaterialData content = data_of(materials[i]);
     std::memcpy(data.data() + i * kMaterialStride, &content, sizeof content);
   }
   into.material_data = make_device_buffer(gpu, VK_BUFFER_USAGE_UNIFORM_BUFFER_BIT, data);
@@ -107,7 +106,7 @@ Box box_at_rest(const Model& model, const GpuModel& made) {
 
 }  // namespace
 
-GpuModel upload_model(Gpu& gpu, const Model& model, const BrdfTable& brdf, VkDescriptorSetLayout material_layout) {
+GpuModel upload_model(Gpu& gpu, const Model& model, VkDescriptorSetLayout material_layout) {
   GpuModel made;
   if (!model.indices.empty()) {
     made.vertices =
@@ -115,7 +114,7 @@ GpuModel upload_model(Gpu& gpu, const Model& model, const BrdfTable& brdf, VkDes
     made.indices = make_device_buffer(gpu, VK_BUFFER_USAGE_INDEX_BUFFER_BIT, std::as_bytes(std::span(model.indices)));
   }
   upload_textures(gpu, model, made);
-  upload_materials(gpu, model, brdf, material_layout, made);
+  upload_materials(gpu, model, material_layout, made);
   list_parts(model, made);
   for (const Node& node : model.nodes) made.mesh_of_node.push_back(node.mesh);
   made.box = box_at_rest(model, made);

@@ -7,7 +7,6 @@
 #include "engine/gpu/gpu_buffer.h"
 #include "engine/gpu/gpu_image.h"
 #include "engine/gpu/pipeline.h"
-#include "engine/light/environment.h"
 #include "engine/model/model.h"
 #include "engine/render/frustum.h"
 
@@ -45,6 +44,6 @@ struct GpuModel {
   Box box;                        // [m] world, at rest
 };
 
-GpuModel upload_model(Gpu& gpu, const Model& model, const BrdfTable& brdf, VkDescriptorSetLayout material_layout);
+GpuModel upload_model(Gpu& gpu, const Model& model, VkDescriptorSetLayout material_layout);
 
 }  // namespace gearshift

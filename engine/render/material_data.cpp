@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "engine/render/brdf_fit.h"
-
 namespace gearshift {
 
 std::array<const TextureUse*, shader::kMaps> maps_of(const Material& material) {
@@ -16,7 +14,6 @@ std::uint32_t features_of(const Material& material, bool vertex_colours) {
   if (material.alpha_mode == AlphaMode::mask) features |= shader::kMasked;
   if (material.alpha_mode == AlphaMode::blend) features |= shader::kBlended;
   if (material.emissive != glm::vec3(0.0f)) features |= shader::kEmits;
-  if (has_brdf_fit(material)) features |= shader::kFittedBrdf;
   const auto maps = maps_of(material);
   for (std::uint32_t map = 0; map < shader::kMaps; ++map) {
     if (maps[map]->texture == kNone) continue;
@@ -27,7 +24,7 @@ std::uint32_t features_of(const Material& material, bool vertex_colours) {
   return features;
 }
 
-shader::MaterialData data_of(const Material& material, const BrdfTable& table) {
+shader::MaterialData data_of(const Material& material) {
   shader::MaterialData data{};
   data.base_colour = material.base_colour;
   data.emissive = glm::vec4(material.emissive, material.normal_scale);
@@ -40,9 +37,6 @@ shader::MaterialData data_of(const Material& material, const BrdfTable& table) {
     data.uv_matrix[map] = {c * scale.x, -s * scale.x, s * scale.y, c * scale.y};
     data.uv_offset[map] = glm::vec4(maps[map]->offset, 0.0f, 0.0f);
   }
-  if (!has_brdf_fit(material)) return data;
-  const BrdfFit fit = fit_brdf(table, material.roughness);
-  for (std::size_t i = 0; i < fit.size(); i += 2) data.brdf[i / 2] = {fit[i], fit[i + 1]};
   return data;
 }
 

@@ -3,7 +3,6 @@
 
 #include <array>
 
-#include "engine/light/environment.h"
 #include "engine/model/model.h"
 #include "shaders/shared.h"
 
@@ -11,6 +10,6 @@ namespace gearshift {
 
 std::array<const TextureUse*, shader::kMaps> maps_of(const Material& material);  // by shader::kMap...
 std::uint32_t features_of(const Material& material, bool vertex_colours);
-shader::MaterialData data_of(const Material& material, const BrdfTable& table);
+shader::MaterialData data_of(const Material& material);
 
 }  // namespace gearshift

@@ -66,8 +66,7 @@ Renderer::State::State(Gpu& device, const RenderConfig& wanted)
       sets(pass_sets(device)) {
   check_config(gpu, config);
   auto maps = std::async(std::launch::async, day_light);
-  brdf = bake_brdf();
-  upload_brdf(gpu, brdf, light);
+  upload_brdf(gpu, bake_brdf(), light);
   for (FrameSlot& slot : slots) {
     std::array<VkDescriptorSet, kPassKinds> of_slot{};
     for (VkDescriptorSet& set : of_slot) {
@@ -79,7 +78,7 @@ Renderer::State::State(Gpu& device, const RenderConfig& wanted)
   no_mirror = MirrorTarget(gpu, {1, 1}, 1);
   run_once(gpu, [&](VkCommandBuffer commands) { transition(commands, no_mirror.colour.image, ImageUse::sampled); });
   make_targets();
-  model = upload_model(gpu, Model{}, brdf, layouts.material.get());
+  model = upload_model(gpu, Model{}, layouts.material.get());
   set_light(maps.get());
 }
 
@@ -119,7 +118,7 @@ void Renderer::State::set_light(const LightMaps& maps) {
 }
 
 void Renderer::State::set_model(const Model& content) {
-  model = upload_model(gpu, content, brdf, layouts.material.get());
+  model = upload_model(gpu, content, layouts.material.get());
   still_casters.forget();
 }
 

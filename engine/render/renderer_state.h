@@ -84,7 +84,6 @@ struct Renderer::State {
   Sampler clamped, by_roughness, shadow_compare;
   SetPool sets;
   std::array<FrameSlot, kFramesInFlight> slots;
-  BrdfTable brdf;
   LightTextures light;
   ShadowTarget shadow;
   StillCasters still_casters;

@@ -24,7 +24,7 @@ StageInput in_first(const Gate& gate) {
 
 FrameCost time_frames(Gpu& gpu, Renderer& renderer, const FrameScene& scene, std::span<const View> views, int frames,
                       int warm_up) {
-  std::vector<double> host, shadow, mirror, main, overlay, all;
+  std::vector<double> host, shadow, depth, mirror, main, overlay, all;
   for (int i = 0; i < frames + warm_up; ++i) {
     const auto start = std::chrono::steady_clock::now();
     gpu.wait(renderer.draw(scene, views));
@@ -32,14 +32,19 @@ FrameCost time_frames(Gpu& gpu, Renderer& renderer, const FrameScene& scene, std
     host.push_back(ms_since(start));
     const PassTimes& times = renderer.times();
     shadow.push_back(times.shadow);
+    depth.push_back(times.depth);
     mirror.push_back(times.mirror);
     main.push_back(times.main);
     overlay.push_back(times.overlay);
     all.push_back(times.all);
   }
-  return {
-      quantile(host, 0.5),
-      {quantile(shadow, 0.5), quantile(mirror, 0.5), quantile(main, 0.5), quantile(overlay, 0.5), quantile(all, 0.5)}};
+  return {quantile(host, 0.5),
+          {.shadow = quantile(shadow, 0.5),
+           .depth = quantile(depth, 0.5),
+           .mirror = quantile(mirror, 0.5),
+           .main = quantile(main, 0.5),
+           .overlay = quantile(overlay, 0.5),
+           .all = quantile(all, 0.5)}};
 }
 
 }  // namespace gearshift

@@ -59,6 +59,8 @@ const std::vector<Hostile>& hostile_files() {
       set("/asset/version", "1.0"),
       set("/asset/version", 2),
       set("/asset", "2.0"),
+      set("/asset/minVersion", "2.9"),
+      set("/asset/minVersion", 2),
       set("/accessors", "three"),
       set("/nodes", json::object()),
       set("/meshes/0", 7),

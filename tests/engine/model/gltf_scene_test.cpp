@@ -107,6 +107,22 @@ TEST_CASE("only the default scene is read, the others named") {
   CHECK(model.skipped == std::vector<std::string>{"scenes but the default one"});
 }
 
+TEST_CASE("a file that needs glTF 2.0 and no more is read") {
+  GltfMaker maker = triangle();
+  maker.root["asset"]["minVersion"] = "2.0";
+  CHECK(read_back(maker).nodes.size() == 1);
+}
+
+TEST_CASE("a mesh scaled beyond all numbers is not drawn, and not said to be scaled by zero") {
+  GltfMaker maker = triangle();
+  maker.root["nodes"][0]["scale"] = {1e30, 1e30, 1e30};
+  const Model huge = read_back(maker);
+  CHECK(huge.nodes[0].mesh == kNone);
+  REQUIRE(huge.skipped.size() == 1);
+  CHECK(huge.skipped[0].find("zero") == std::string::npos);
+  CHECK(huge.skipped[0].find("more than a number can hold") != std::string::npos);
+}
+
 TEST_CASE("a mesh scaled to nothing is not drawn and named; a mirrored one is drawn") {
   GltfMaker maker = triangle();
   maker.root["nodes"][0]["scale"] = {1, 0, 1};

@@ -192,6 +192,24 @@ TEST_CASE("an overlay covers what it draws on in every eye, in display values, a
   }
 }
 
+TEST_CASE("a frame of a million triangles is drawn to the last of them") {
+  GpuFixture fixture;
+  const RenderConfig config = small_picture(32, 24);
+  Renderer renderer(fixture.gpu(), config);
+  renderer.set_environment(constant_sky(vec3(0.0f)));
+  constexpr std::uint32_t kNodes = 200, kTriangles = 5000;
+  Model model = patch();
+  for (std::uint32_t i = 1; i < kTriangles; ++i) model.indices.insert(model.indices.end(), {0u, 0u, 0u});
+  model.meshes[0].primitives[0].index_count = 3 * kTriangles;
+  model.nodes.resize(kNodes, model.nodes[0]);
+  add_rectangle(model, "Last", {0.3f, 0.3f}, add_material(model, lamp({0, 1, 0})), {0.0f, 0.0f, 0.1f});
+  renderer.set_model(model);
+  const View view = view_at(config, look_at({0, 0, 3}, {0, 0, 0}));
+  renderer.draw(still(model), {&view, 1});
+  const Image seen = renderer.read_eye(0);
+  CHECK(seen.pixel(16, 12)[1] > seen.pixel(16, 12)[0] + 100);  // green, before what is white
+}
+
 TEST_CASE("the passes' times add up to the frame's") {
   GpuFixture fixture;
   RenderConfig config = small_picture();

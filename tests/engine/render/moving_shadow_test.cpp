@@ -1,0 +1,67 @@
+// The kept shadow of what stands still, and what moves over it.
+#include "tests/engine/render/render_bench.h"
+
+using namespace gearshift;
+using glm::vec3;
+
+namespace {
+
+// Over a floor: a cube that stands, one that moves, a sun aside.
+struct Yard {
+  Model model;
+  int mover = kNone;
+  FrameScene scene;
+  RenderConfig config = small_picture();
+  View view;
+
+  Yard() {
+    add_floor(model, "Floor", 3.0f, add_material(model, paint(vec3(0.6f))), -0.5f);
+    const int box = add_material(model, paint({0.7f, 0.3f, 0.2f}));
+    add_cube(model, "Still", 0.2f, box, {0.3f, 0.1f, 0.0f});
+    mover = add_cube(model, "Mover", 0.25f, box, {});
+    scene = still(model);
+    scene.sun = Sun{};
+    config.shadow_side = 256;
+    view = view_at(config, look_at({0.5, 3.0, 3.0}, {0.0, -0.5, 0.0}));
+  }
+  void move(vec3 to, bool visible = true) {
+    NodeState& node = scene.nodes[static_cast<std::size_t>(mover)];
+    node.world = glm::translate(glm::mat4(1.0f), to);
+    node.visible = visible;
+  }
+  Image seen_by(Renderer& renderer) {
+    renderer.draw(scene, {&view, 1});
+    return renderer.read_eye(0);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a caster leaves no shadow behind: on any walk the picture is what a new renderer draws") {
+  GpuFixture fixture;
+  Yard yard;
+  Renderer renderer(fixture.gpu(), yard.config);
+  renderer.set_model(yard.model);
+  Renderer unshadowed(fixture.gpu(), [&] {
+    RenderConfig config = yard.config;
+    config.shadow_side = 0;
+    return config;
+  }());
+  unshadowed.set_model(yard.model);
+  struct Step {
+    vec3 at;
+    bool visible = true;
+  };
+  // Across the other's shadow, out of the map and back, away and back.
+  for (const Step step : {Step{{-0.8f, 0.2f, 0.0f}}, Step{{-0.8f, 0.2f, 0.1f}}, Step{{0.1f, 0.3f, 0.3f}},
+                          Step{{40.0f, 0.2f, 0.0f}}, Step{{0.9f, 0.2f, 0.8f}}, Step{{0.9f, 0.2f, 0.8f}, false},
+                          Step{{0.9f, 0.2f, 0.8f}, false}, Step{{-2.7f, 0.0f, -2.7f}}, Step{{0.2f, 0.5f, 0.2f}}}) {
+    yard.move(step.at, step.visible);
+    Renderer fresh(fixture.gpu(), yard.config);
+    fresh.set_model(yard.model);
+    const Image seen = yard.seen_by(renderer);
+    CAPTURE(step.at.x);
+    CHECK(difference(seen, yard.seen_by(fresh)).worst == 0);
+    CHECK(difference(seen, yard.seen_by(unshadowed)).share_beyond > 0.01);  // the shadows would be missed
+  }
+}
