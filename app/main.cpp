@@ -4,6 +4,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
+#include "app/program_name.h"
 #include "app/verbs/verbs.h"
 
 namespace {
@@ -13,12 +14,13 @@ constexpr int kBadUsage = 2;
 
 int run(int argc, char** argv) {
   CLI::App app{"gearshift: a trainer for manual shifting"};
-  app.set_version_flag("--version", GEARSHIFT_VERSION);
+  app.set_version_flag("--version", gearshift::program_name());
   app.require_subcommand(0, 1);  // an unknown verb shall be named, so that none is refused below
 
   gearshift::VerbAction action;
   gearshift::add_train_verb(app, action);
   gearshift::add_demo_verb(app, action);
+  gearshift::add_lesson_verb(app, action);
   gearshift::add_tour_verb(app, action);
   gearshift::add_render_verb(app, action);
   gearshift::add_gate_verb(app, action);
@@ -26,6 +28,7 @@ int run(int argc, char** argv) {
   gearshift::add_stability_verb(app, action);
   gearshift::add_reproduce_verb(app, action);
   gearshift::add_replay_verb(app, action);
+  gearshift::add_report_verb(app, action);
   gearshift::add_bench_verb(app, action);
 
   try {
@@ -36,7 +39,8 @@ int run(int argc, char** argv) {
     }
     if (!action)
       throw CLI::RequiredError(
-          "A subcommand: train, demo, tour, render, gate, identify, stability, reproduce, replay or bench (see "
+          "A subcommand: train, demo, lesson, tour, render, gate, identify, stability, reproduce, replay, report or "
+          "bench (see "
           "--help)");
     return action();
   } catch (const CLI::Success& help) {

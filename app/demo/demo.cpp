@@ -13,7 +13,7 @@
 #include "app/demo/film.h"
 #include "app/demo/shots.h"
 #include "app/output_folder.h"
-#include "app/stage/stage.h"
+#include "app/view/cabin_kind.h"
 #include "engine/sound/wav.h"
 
 namespace gearshift {
@@ -23,20 +23,13 @@ constexpr int kSheetColumns = 3;
 constexpr int kSheetWidth = 480;  // [px] about, of a picture on the contact sheet
 
 Stage make_stage(const DemoSetup& setup, Cabin cabin) {
-  StageConfig config;
-  config.gate = setup.tour.gate;
-  config.gate_title = setup.tour.layout.name;
-  config.yoke = setup.tour.lever.yoke;
-  config.open_gate = cabin != Cabin::closed;
-  config.hand = cabin == Cabin::closed;
-  config.cutaway = cabin == Cabin::cutaway;
-  return {config, assets_folder() / "models"};
+  return {stage_config(setup.tour.gate, setup.tour.lever.yoke, cabin), assets_folder() / "models"};
 }
 
-Image take_picture(CabinView& view, Stage& stage, const FilmFrame& frame, const EyePose& eye) {
+Image take_picture(CabinView& view, Stage& stage, const FilmFrame& frame, const std::string& from) {
   stage.place({frame.lever, frame.car, frame.time});
   view.begin();
-  view.draw(stage.scene(), eye);
+  view.draw(stage.scene(), camera(from), camera_field(from));
   return view.picture();
 }
 
@@ -53,9 +46,9 @@ std::vector<Image> take_pictures(CabinView& view, const DemoSetup& setup, const 
     Stage stage = make_stage(setup, cabin);
     view.set_model(stage.model());
     for (std::size_t i = 0; i < shots.size(); ++i) {
-      if (shots[i].cabin != cabin) continue;
+      if (cabin_seen_from(shots[i].camera) != cabin) continue;
       const auto start = std::chrono::steady_clock::now();
-      pictures[i] = take_picture(view, stage, *shots[i].frame, camera(shots[i].camera));
+      pictures[i] = take_picture(view, stage, *shots[i].frame, shots[i].camera);
       times.push_back(ms_since(start));
       write_png(setup.tour.folder / (shots[i].name + ".png"), pictures[i]);
       progress("pictures", static_cast<double>(times.size()) / static_cast<double>(shots.size()));
@@ -75,8 +68,7 @@ void shoot_film(CabinView& view, const DemoSetup& setup, std::span<const FilmFra
   view.set_model(stage.model());
   for (; result.film_frames / setup.film_rate < film.back().time; ++result.film_frames) {
     const FilmFrame& frame = frame_at(film, result.film_frames / setup.film_rate);
-    write_png(folder / fmt::format("{:05}.png", result.film_frames),
-              take_picture(view, stage, frame, camera("driver")));
+    write_png(folder / fmt::format("{:05}.png", result.film_frames), take_picture(view, stage, frame, "driver"));
     progress("film", frame.time / film.back().time);
   }
 }

@@ -1,12 +1,13 @@
 #include "app/demo/demo_page.h"
 
-#include <fstream>
+#include <sstream>
 
 #include <fmt/format.h>
 
 #include "app/draw/html.h"
 #include "app/limited_words.h"
-#include "haptics/files/file_error.h"
+#include "app/program_name.h"
+#include "haptics/files/part_file.h"
 
 namespace gearshift {
 namespace {
@@ -51,8 +52,7 @@ constexpr const char* kIntroduction =
 }  // namespace
 
 void write_demo_page(const DemoSetup& setup, const DemoResult& result) {
-  const std::filesystem::path file = setup.tour.folder / "index.html";
-  std::ofstream out(file);
+  std::ostringstream out;
   out << "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>gearshift: a drive</title>\n"
          "<style>"
@@ -65,9 +65,9 @@ void write_demo_page(const DemoSetup& setup, const DemoResult& result) {
       << figure("trajectory.svg", "The hand's lever point and the drawn lever in the gate (Fig. 9 a of the paper)")
       << figure("force.svg", "Position and force against time (Fig. 9 b of the paper)")
       << "<p><a href=\"tour.csv\">Table</a>, <a href=\"tour.trace\">trace</a>, <a href=\"contact_sheet.png\">contact "
-         "sheet</a></p>\n<p>gearshift "
-      << GEARSHIFT_VERSION << "</p>\n</body>\n</html>\n";
-  if (!out.flush()) throw FileError(file.string(), 0, "cannot be written");
+         "sheet</a></p>\n<p>"
+      << program_name() << "</p>\n</body>\n</html>\n";
+  write_text_file(setup.tour.folder / "index.html", out.str());
 }
 
 }  // namespace gearshift

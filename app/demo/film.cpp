@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/demo/feet.h"
+#include "app/train/feet.h"
 #include "app/vehicle/rolling_car.h"
 
 namespace gearshift {
@@ -17,7 +17,7 @@ void drive_car(std::vector<FilmFrame>& film, std::span<const GearTime> engaged) 
   config.start_speed = kStartSpeed;
   RollingCar car(config);
   for (FilmFrame& frame : film) {
-    car.step(feet_at(frame.time, engaged), frame.lever.gear, kWatchPeriod);
+    car.step(feet_at(frame.time, engaged, car.state()), frame.lever.gear, kWatchPeriod);
     frame.car = car.state();
   }
 }

@@ -9,15 +9,11 @@
 
 namespace gearshift {
 
-// With boot and hand; the slotted plate without them; the gearbox laid open beside it.
-enum class Cabin { closed, open_gate, cutaway };
-
 struct Shot {
   std::string name;     // of the file, without extension
   std::string caption;  // one sentence
   const FilmFrame* frame = nullptr;
-  std::string camera;  // see camera()
-  Cabin cabin = Cabin::closed;
+  std::string camera;  // see camera(); how far the cabin is laid open: cabin_seen_from()
 };
 
 // In the order of the drive: the cabin, each gear as it comes, the hand pushing through a wall, the gearbox in the middle of

@@ -1,4 +1,3 @@
-// The picture is drawn in millimetres of the gate with y down, as SVG has it: forward is up.
 #include "app/draw/gate_svg.h"
 
 #include <algorithm>
@@ -8,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "app/draw/gate_colours.h"
+#include "app/draw/gate_outline.h"
 #include "app/draw/lockout_words.h"
 #include "app/draw/slot_plot.h"
 #include "app/draw/svg.h"
@@ -17,98 +17,19 @@ namespace {
 
 // Sizes on the page. [mm] of the gate
 constexpr double kPixelsPerMillimetre = 7.0;
-constexpr double kPlateRim = 9.0;  // of the plate beyond the outermost wall
 constexpr double kMargin = 6.0;
 constexpr double kTitleHeight = 9.0;
 constexpr double kScaleHeight = 6.0;
 constexpr double kSideWidth = 70.0;  // plot and legend
 constexpr double kSideGap = 11.0;
 constexpr double kLegendLine = 5.0;
-constexpr double kWallWidth = 0.7;
-constexpr double kStopWidth = 1.1;
 constexpr const char* kLongDash = "1.6 1.6";
-
-double mm(double metres) {
-  return metres * 1e3;
-}
-glm::dvec2 on_page(glm::dvec2 metres) {
-  return {mm(metres.x), -mm(metres.y)};
-}
-
-// A point of a slot's branch: x across, depth along. [m]
-glm::dvec2 in_slot(const Slot& slot, double x, double depth) {
-  return on_page({x, static_cast<int>(slot.side) * depth});
-}
-
-// A line across a slot from wall to wall.
-void across_slot(Svg& svg, const Gate& gate, const Slot& slot, double depth, const Pen& pen) {
-  const Column& column = column_of(gate, slot.column);
-  const double left = column.center - column.half_width;
-  const double right = column.center + column.half_width;
-  svg.line(in_slot(slot, left, depth), in_slot(slot, right, depth), pen);
-}
-
-// Extent of the gate's walls on the page.
-Rect gate_box(const Gate& gate) {
-  double forward = gate.half_aisle;
-  double back = gate.half_aisle;
-  for (const Slot& slot : slots(gate)) {
-    double& reach = slot.side == Side::forward ? forward : back;
-    reach = std::max(reach, slot.end);
-  }
-  return {mm(gate.select_min), -mm(forward), mm(gate.select_max - gate.select_min), mm(forward + back)};
-}
-
-void draw_free_space(Svg& svg, const GateDescription& list) {
-  for (const AisleInfo& a : list.aisles) {
-    svg.rect({mm(a.min.x), -mm(a.max.y), mm(a.max.x - a.min.x), mm(a.max.y - a.min.y)}, kFreeColour);
-  }
-  for (const WallInfo& wall : list.walls) {
-    if (wall.role != WallRole::chamfer) continue;  // the triangle that the corner opens
-    svg.polygon({on_page(wall.from), on_page(wall.to), on_page({wall.to.x, wall.from.y})}, kFreeColour);
-  }
-}
 
 void draw_buffers(Svg& svg, const Gate& gate) {
   for (const Buffer& b : buffers(gate)) {
     const Rect box{mm(std::min(b.wall, b.inner)), -mm(gate.half_aisle), mm(std::abs(b.wall - b.inner)),
                    mm(2.0 * gate.half_aisle)};
     svg.frame(box, "url(#buffer)", {kBufferColour, 0.25});
-  }
-}
-
-Pen wall_pen(WallRole role) {
-  switch (role) {
-    case WallRole::end_stop:
-      return {kInk, kStopWidth};
-    case WallRole::closed_side:
-      return {kClosedColour, kStopWidth};
-    case WallRole::aisle:
-    case WallRole::chamfer:
-      return {kInk, kWallWidth};
-  }
-  return {};
-}
-
-// Closed sides last: where one meets a slot's wall it is the closed side that must be seen.
-void draw_walls(Svg& svg, const GateDescription& list) {
-  for (const bool closed : {false, true}) {
-    for (const WallInfo& wall : list.walls) {
-      if ((wall.role == WallRole::closed_side) != closed) continue;
-      svg.line(on_page(wall.from), on_page(wall.to), wall_pen(wall.role));
-    }
-  }
-}
-
-void draw_gears(Svg& svg, const Gate& gate) {
-  for (const Slot& slot : slots(gate)) {
-    const double x = column_of(gate, slot.column).center;
-    across_slot(svg, gate, slot, slot.engage_depth, {kGearColour, 0.25});
-    across_slot(svg, gate, slot, slot.release_depth, {kGearColour, 0.25, kShortDash});
-    svg.dot(in_slot(slot, x, slot.rest), 0.7, kGearColour);
-    // Digits are about 0.73 of their size high: half of that brings them to the middle of the rim.
-    const glm::dvec2 label = in_slot(slot, x, slot.end + 0.5e-3 * kPlateRim) + glm::dvec2(0.0, 1.95);
-    svg.text(label, {5.4, kGearColour, "middle", true}, gear_name(slot.gear));
   }
 }
 
@@ -212,9 +133,7 @@ void draw_scale(Svg& svg, glm::dvec2 at) {
 }  // namespace
 
 std::string gate_svg(const Gate& gate, const GateDescription& description, std::string_view title) {
-  const Rect walls = gate_box(gate);
-  const Rect plate{walls.x - kPlateRim, walls.y - kPlateRim, walls.width + 2.0 * kPlateRim,
-                   walls.height + 2.0 * kPlateRim};
+  const Rect plate = gate_plate(gate);
   const Rect plot{plate.right() + kSideGap, plate.y + 6.0, kSideWidth, 40.0};
   const glm::dvec2 legend{plot.x, plot.bottom() + 11.0};
   const double bottom = std::max(plate.bottom() + kScaleHeight, legend.y + legend_height(gate));
@@ -225,11 +144,10 @@ std::string gate_svg(const Gate& gate, const GateDescription& description, std::
   svg.stripes("buffer", kBufferGround, kBufferColour);
   const double title_size = std::min(5.0, 1.4 * page.width / static_cast<double>(title.size() + 1));
   svg.text({plate.x, plate.y - 4.5}, {title_size, kInk, "start", true}, title);
-  svg.rect(plate, kPlateColour, 4.0);
-  draw_free_space(svg, description);
+  draw_gate_ground(svg, gate, description);
   draw_buffers(svg, gate);
   draw_lockouts(svg, gate);
-  draw_walls(svg, description);
+  draw_gate_walls(svg, description);
   draw_gears(svg, gate);
   draw_junctions(svg, gate, description);
   draw_scale(svg, {plate.x, plate.bottom() + kScaleHeight});

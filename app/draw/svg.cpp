@@ -83,9 +83,10 @@ void Svg::frame(const Rect& r, std::string_view fill, const Pen& pen) {
   body_ += fmt::format("<rect {} fill=\"{}\" {}/>\n", box(r), fill, stroke(pen));
 }
 
-void Svg::dot(glm::dvec2 center, double radius, std::string_view fill) {
+void Svg::dot(glm::dvec2 center, double radius, std::string_view fill, std::string_view tip) {
   body_ +=
-      fmt::format("<circle cx=\"{:.3f}\" cy=\"{:.3f}\" r=\"{:.2f}\" fill=\"{}\"/>\n", center.x, center.y, radius, fill);
+      fmt::format("<circle cx=\"{:.3f}\" cy=\"{:.3f}\" r=\"{:.2f}\" fill=\"{}\"", center.x, center.y, radius, fill);
+  body_ += tip.empty() ? "/>\n" : fmt::format("><title>{}</title></circle>\n", escaped(tip));
 }
 
 void Svg::ring(glm::dvec2 center, double radius, const Pen& pen) {

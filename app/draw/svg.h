@@ -40,7 +40,7 @@ class Svg {
   void line(glm::dvec2 from, glm::dvec2 to, const Pen& pen);
   void rect(const Rect& r, std::string_view fill, double corner = 0.0);
   void frame(const Rect& r, std::string_view fill, const Pen& pen);
-  void dot(glm::dvec2 center, double radius, std::string_view fill);
+  void dot(glm::dvec2 center, double radius, std::string_view fill, std::string_view tip = {});  // tip: under a pointer
   void ring(glm::dvec2 center, double radius, const Pen& pen);
   void polygon(const std::vector<glm::dvec2>& points, std::string_view fill);
   void polyline(const std::vector<glm::dvec2>& points, const Pen& pen);

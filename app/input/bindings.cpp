@@ -139,7 +139,7 @@ Bindings read_bindings(const std::filesystem::path& file) {
 std::string help_text(const Bindings& bindings) {
   std::string text;
   const auto line = [&text](const std::string& what, std::string_view does) {
-    text += fmt::format("{:<22}{}\n", what, does);
+    text += fmt::format("{}\t{}\n", what, does);
   };
   for (const ActionInfo& action : all_actions())
     if (const auto keys = bindings.keys.find(action.action); keys != bindings.keys.end())

@@ -69,7 +69,8 @@ struct Bindings {
 // Throws FileError: file, line, key, value, allowed range. A key, button or axis that does two things is refused.
 Bindings read_bindings(const std::filesystem::path& file);
 
-// What F1 shows: a line for each action that has a key, then mouse and pad.
+// What F1 shows: a line for each action that has a key, then mouse and pad; what is pressed and what it does apart by a
+// tab.
 std::string help_text(const Bindings& bindings);
 
 }  // namespace gearshift

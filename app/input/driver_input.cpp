@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
 #include <glm/common.hpp>
 
 #include "app/input/key_names.h"
@@ -73,10 +76,23 @@ void DriverInput::take_keys(const WindowInput& input, bool ui_has_keys) {
   for (const KeyEvent& key : input.keys) {
     const Source source{false, key.key};
     if (key.down)
-      press(source, ui_has_keys);
+      press(source, ui_has_keys, is_chord(key));
     else
       let_go(source);
   }
+}
+
+// Ctrl and Alt make another key of it, unless they are bound themselves.
+bool DriverInput::is_chord(const KeyEvent& key) const {
+  const auto binds = [this](int left, int right) {
+    return std::any_of(config_.bindings.keys.begin(), config_.bindings.keys.end(), [&](const auto& binding) {
+      const std::vector<int>& codes = binding.second;
+      return std::find(codes.begin(), codes.end(), left) != codes.end() ||
+             std::find(codes.begin(), codes.end(), right) != codes.end();
+    });
+  };
+  return (key.control && !binds(GLFW_KEY_LEFT_CONTROL, GLFW_KEY_RIGHT_CONTROL)) ||
+         (key.alt && !binds(GLFW_KEY_LEFT_ALT, GLFW_KEY_RIGHT_ALT));
 }
 
 void DriverInput::take_buttons(const WindowInput& input) {
@@ -88,23 +104,23 @@ void DriverInput::take_buttons(const WindowInput& input) {
       });
       const Source source{true, button};
       if (down)
-        press(source, false);
+        press(source, false, false);
       else
         let_go(source);
     }
   }
 }
 
-void DriverInput::press(Source source, bool ui_has_keys) {
+void DriverInput::press(Source source, bool ui_has_keys, bool chord) {
   const auto& bound = source.pad ? config_.bindings.pad_buttons : config_.bindings.keys;
   const auto found = std::find_if(bound.begin(), bound.end(), [&](const auto& binding) {
     return std::find(binding.second.begin(), binding.second.end(), source.code) != binding.second.end();
   });
   if (found == bound.end()) return;
   const Action action = found->first;
-  const bool stops = action == Action::stop && !types_text(source.code);
+  const bool stops = action == Action::stop && (!ui_has_keys || !types_text(source.code));
   const bool frees = action == Action::grab_mouse && mouse_leads_;
-  if (ui_has_keys && !stops && !frees) return;
+  if ((ui_has_keys || chord) && !stops && !frees) return;
   const bool was_down = down_.contains(source) && !released_.contains(source);
   down_.insert(source);
   released_.erase(source);

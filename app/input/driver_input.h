@@ -8,12 +8,15 @@
 //   mouse   leads the lever after a click beside the panel or by grab_mouse, until grab_mouse or the focus is lost
 //   panel   what it uses is not the driver's: no key goes down and no click counts. Two things pass: a key that types
 //           no text for `stop`, and grab_mouse while the mouse leads
+//   chords  a key that goes down with Ctrl or Alt held is none of these, but for `stop`, and grab_mouse while the mouse
+//           leads; where Ctrl or Alt is bound itself it is a key as any other
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <optional>
 #include <set>
+#include <tuple>
 #include <vector>
 
 #include "app/input/bindings.h"
@@ -49,7 +52,6 @@ class DriverInput {
 
   void recentre(glm::dvec2 lever);   // the hand is where the lever is now, and does not push
   void set_reach(glm::dvec2 reach);  // [m] of another gate or device
-  void set_mouse_leads(bool on) { mouse_leads_ = on; }
 
  private:
   // An axis as it was: it counts from its first movement on.
@@ -60,13 +62,14 @@ class DriverInput {
   struct Source {  // what can be held down
     bool pad = false;
     int code = 0;
-    auto operator<=>(const Source&) const = default;
+    bool operator<(const Source& other) const { return std::tie(pad, code) < std::tie(other.pad, other.code); }
   };
 
   void take_keys(const WindowInput& input, bool ui_has_keys);
+  bool is_chord(const KeyEvent& key) const;
   void take_buttons(const WindowInput& input);
   void take_mouse(const WindowInput& input, bool ui_has_mouse);
-  void press(Source source, bool ui_has_keys);
+  void press(Source source, bool ui_has_keys, bool chord);
   void let_go(Source source) { released_.insert(source); }
   void let_go_all() { released_ = down_; }
   void happen(Action action);

@@ -12,6 +12,10 @@
 namespace gearshift {
 namespace {
 
+// [em] wide
+constexpr float kCar = 13.8f, kLamps = 7.0f, kState = 7.0f, kArm = 5.5f, kRecording = 7.4f, kStop = 9.0f;
+constexpr float kLeastMessage = 9.0f;
+
 // The bar from left to right; each part takes its width and leaves the cursor at its right.
 class Parts {
  public:
@@ -19,8 +23,9 @@ class Parts {
 
   ImVec2 low() const { return low_; }
   float height() const { return height_; }
-  void next(float width) {
-    low_.x += width + ui_em();
+  void next(float width) { go_to(low_.x + width + ui_em()); }
+  void go_to(float x) {
+    low_.x = x;
     ImGui::SetCursorScreenPos(low_);
   }
 
@@ -40,7 +45,7 @@ void pedal(const char* name, double pressed, ImVec2 low, ImVec2 size, ImU32 colo
   list.AddText(font, font->FontSize, {low.x + 0.5f * (size.x - width), foot}, ink::kSoft, name);
 }
 
-float draw_car(const Parts& parts, const PanelInput& input) {
+void draw_car(const Parts& parts, const PanelInput& input) {
   const float em = ui_em(), gear_width = 2.9f * em, text_width = 5.6f * em, pedal_width = 1.5f * em;
   const VehicleState& car = input.car;
   ImFont* digits = ui_font(UiFont::digits);
@@ -62,8 +67,7 @@ float draw_car(const Parts& parts, const PanelInput& input) {
   const ImVec2 size(pedal_width, parts.height());
   pedal("C", car.clutch, {x, low.y}, size, ink::kAccent);
   pedal("B", car.brake, {x += pedal_width + 0.4f * em, low.y}, size, ink::kBad);
-  pedal("T", car.throttle, {x += pedal_width + 0.4f * em, low.y}, size, ink::kGood);
-  return x + pedal_width - low.x;
+  pedal("T", car.throttle, {x + pedal_width + 0.4f * em, low.y}, size, ink::kGood);
 }
 
 void lamp(ImVec2 at, const char* text, bool on, ImU32 colour) {
@@ -75,22 +79,23 @@ void lamp(ImVec2 at, const char* text, bool on, ImU32 colour) {
   list.AddText({at.x + 1.3f * em, at.y}, on ? colour : with_alpha(ink::kSoft, 0.75f), text);
 }
 
-float draw_lamps(const Parts& parts, const PanelInput& input) {
-  const float em = ui_em(), column = 7.0f * em, line = 1.75f * em;
+// In columns of two, the more important ones first.
+void draw_lamps(const Parts& parts, int columns, const PanelInput& input) {
+  const float em = ui_em(), column = kLamps * em, line = 1.75f * em;
   const ImVec2 low(parts.low().x, parts.low().y + 0.5f * (parts.height() - line - ImGui::GetTextLineHeight()));
   const HapticSnapshot& now = input.now;
   const bool softened = now.wall_stiffness > 0.0 && now.wall_stiffness < 0.999 * input.admitted.tuning.wall_stiffness;
   lamp(low, "Over-push", (now.flags & kFlagOverPush) != 0, ink::kBad);
   lamp({low.x, low.y + line}, "Saturated", (now.flags & kFlagSaturated) != 0, ink::kWarn);
+  if (columns < 2) return;
   lamp({low.x + column, low.y}, "Ghost hand", (now.flags & kFlagGhost) != 0, ink::kWarn);
   lamp({low.x + column, low.y + line}, "Softened", softened, ink::kWarn);
-  return 2.0f * column;
 }
 
 std::string loop_line(const PanelInput& input) {
   const LoopHealth& health = input.health;
   return fmt::format("{:.0f} Hz · p99 late {:.0f} µs · {} missed · {:.0f} ms a frame", health.rate,
-                     1e6 * health.late_p99, health.overruns, input.frame_ms);
+                     1e6 * health.late_p99, health.skipped, input.frame_ms);
 }
 
 // The message takes what is left; where it is longer than two lines of that, it is there to be hovered.
@@ -165,29 +170,69 @@ void draw_recording(Controls& controls, const Parts& parts, float width, bool re
   out.replay = controls.button("replay", "Replay", size);
 }
 
+// When it goes down, wherever the mouse goes from there.
 void draw_stop(Controls& controls, const Parts& parts, float width, PanelRequests& out) {
   const WithFont large(UiFont::digits);
-  out.stop = controls.button("stop", "STOP", {width, parts.height()}, ink::kBadDeep);
+  controls.button("stop", "STOP", {width, parts.height()}, ink::kBadDeep);
+  out.stop = ImGui::IsItemActivated();
+}
+
+// What there is room for: the less important parts give way.
+struct Shown {
+  bool state, arm, car, recording;
+  int lamps;      // columns
+  float message;  // [em] wide; 0: none
+};
+
+Shown what_fits(float room) {
+  const auto fits = [&room](float width) {
+    const bool does = room >= width + 1.0f;
+    if (does) room -= width + 1.0f;
+    return does;
+  };
+  Shown shown{};
+  room -= kStop;
+  shown.arm = fits(kArm);
+  shown.state = fits(kState);
+  shown.car = fits(kCar);
+  shown.recording = fits(kRecording);
+  while (shown.lamps < 2 && fits(kLamps)) ++shown.lamps;
+  if (room >= kLeastMessage + 1.0f) shown.message = room - 1.0f;
+  return shown;
 }
 
 }  // namespace
 
 void draw_control_bar(Controls& controls, const PanelInput& input, PanelRequests& out) {
-  const float em = ui_em(), right_edge = ImGui::GetCursorScreenPos().x + ImGui::GetContentRegionAvail().x;
-  constexpr float kState = 7.0f, kArm = 5.5f, kRecording = 7.4f, kStop = 9.0f;  // [em] wide
+  const float em = ui_em(), all = ImGui::GetContentRegionAvail().x;
+  const float stop = std::min(kStop * em, all), right_group = ImGui::GetCursorScreenPos().x + all;
+  const Shown shown = what_fits(all / em);
   Parts parts;
-  parts.next(draw_car(parts, input));
-  parts.next(draw_lamps(parts, input));
-  const float message = right_edge - parts.low().x - (kState + kArm + kRecording + kStop + 4.0f) * em;
-  draw_message(controls, parts, message, input);
-  parts.next(message);
-  draw_state(parts, kState * em, input.now);
-  parts.next(kState * em);
-  draw_arm(controls, parts, kArm * em, input.now.guard, out);
-  parts.next(kArm * em);
-  draw_recording(controls, parts, kRecording * em, input.recording, out);
-  parts.next(kRecording * em);
-  draw_stop(controls, parts, kStop * em, out);
+  if (shown.car) {
+    draw_car(parts, input);
+    parts.next(kCar * em);
+  }
+  if (shown.lamps > 0) {
+    draw_lamps(parts, shown.lamps, input);
+    parts.next(static_cast<float>(shown.lamps) * (kLamps + 1.0f) * em - em);
+  }
+  if (shown.message > 0.0f) draw_message(controls, parts, shown.message * em, input);
+  const float group = (shown.state ? kState + 1.0f : 0.0f) + (shown.arm ? kArm + 1.0f : 0.0f) +
+                      (shown.recording ? kRecording + 1.0f : 0.0f);
+  parts.go_to(right_group - stop - group * em);
+  if (shown.state) {
+    draw_state(parts, kState * em, input.now);
+    parts.next(kState * em);
+  }
+  if (shown.arm) {
+    draw_arm(controls, parts, kArm * em, input.now.guard, out);
+    parts.next(kArm * em);
+  }
+  if (shown.recording) {
+    draw_recording(controls, parts, kRecording * em, input.recording, out);
+    parts.next(kRecording * em);
+  }
+  draw_stop(controls, parts, stop, out);
 }
 
 }  // namespace gearshift

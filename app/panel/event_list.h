@@ -3,14 +3,10 @@
 
 #include <deque>
 #include <span>
-#include <string>
 
 #include "haptics/loop/haptic_snapshot.h"
 
 namespace gearshift {
-
-// "2 engaged", "wall hit at 0.31 m/s", ...
-std::string event_words(const HapticEvent& event);
 
 class EventList {
  public:

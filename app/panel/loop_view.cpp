@@ -34,7 +34,8 @@ void draw_timing(const PanelInput& input) {
   row("Late, median", microseconds(health.late_p50));
   row("Late, 99 of 100", microseconds(health.late_p99), health.late_p99 > period ? ink::kWarn : ink::kText);
   row("Late, worst", microseconds(health.late_worst), health.late_worst > period ? ink::kWarn : ink::kText);
-  row("Deadlines missed", fmt::format("{}", health.overruns), health.overruns > 0 ? ink::kWarn : ink::kText);
+  row("Deadlines missed", fmt::format("{}", health.skipped), health.skipped > 0 ? ink::kWarn : ink::kText);
+  row("Cycles too long", fmt::format("{}", health.overruns), health.overruns > 0 ? ink::kWarn : ink::kText);
   row("Thread", health.realtime ? "real-time" : "not real-time", health.realtime ? ink::kGood : ink::kWarn);
   row("Cycle", fmt::format("{:.2f} µs, {:.2f} % of it", 1e-3 * health.cycle_ns,
                            period > 0.0 ? 1e-7 * health.cycle_ns / period : 0.0));
@@ -42,7 +43,7 @@ void draw_timing(const PanelInput& input) {
   row("Stiffness in use", fmt::format("{:.0f} N/m", input.now.wall_stiffness),
       input.now.wall_stiffness < 0.999 * input.admitted.tuning.wall_stiffness ? ink::kWarn : ink::kText);
   ImGui::EndTable();
-  if (!health.realtime && !health.why_not.empty()) ImGui::TextWrapped("%s", health.why_not.c_str());
+  if (!health.why_not.empty()) ImGui::TextWrapped("%s", health.why_not.c_str());
 }
 
 void draw_stages(const LoopHealth& health) {

@@ -1,6 +1,7 @@
 #include "app/panel/panel.h"
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "app/panel/clip_meter.h"
@@ -12,6 +13,7 @@
 #include "app/panel/loop_view.h"
 #include "app/panel/palette.h"
 #include "app/panel/panel_keys.h"
+#include "app/panel/panel_mouse.h"
 #include "app/panel/preset_view.h"
 #include "app/panel/setup_view.h"
 #include "app/panel/tuning_view.h"
@@ -19,17 +21,20 @@
 namespace gearshift {
 namespace {
 
-// Two columns and a bar; the middle is the cabin's.
+// Two columns and a bar; the middle is the cabin's. Where that would be too narrow the left column gives way.
 struct Layout {
-  float bar, side;  // [px]
+  float bar, left, right;  // [px] 0: not there
   ImVec2 screen;
 };
+
+constexpr float kLeastMiddle = 14.0f;  // [em]
 
 Layout make_layout() {
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   const float em = ui_em();
   const float side = std::clamp(0.25f * screen.x, 20.5f * em, 30.0f * em);
-  return {4.6f * em, std::min(side, 0.5f * screen.x), screen};
+  const bool both = screen.x >= 2.0f * side + kLeastMiddle * em;
+  return {4.6f * em, both ? side : 0.0f, std::min(side, screen.x), screen};
 }
 
 constexpr const char* kBarName = "Drive";
@@ -48,6 +53,15 @@ void title(const char* text) {
   ImGui::TextUnformatted(text);
 }
 
+// At the right end of the line.
+void draw_view_reset(Controls& controls, PanelRequests& out) {
+  const WithFont small(UiFont::small);
+  constexpr const char* kLabel = "reset view";
+  const float width = ImGui::CalcTextSize(kLabel).x + 2.0f * ImGui::GetStyle().FramePadding.x;
+  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - width);
+  out.reset_view = controls.button("reset_view", kLabel);
+}
+
 }  // namespace
 
 struct Panel::State {
@@ -63,11 +77,13 @@ struct Panel::State {
   SetupView setup;
   PresetView presets;
   EventList events;
-  std::int64_t last_ns = -1;  // [ns] of the newest snapshot that was taken
+  std::int64_t last_ns = -1;  // [ns] of the newest snapshot that was taken in this run
+  std::uint64_t run = 0;
+  ControlRect middle;
 
   void take(const PanelInput& input);
   void take(const HapticSnapshot& snapshot);
-  void draw_left(const Layout& layout, const PanelInput& input);
+  void draw_left(const Layout& layout, const PanelInput& input, PanelRequests& out);
   void draw_right(const Layout& layout, const PanelInput& input, PanelRequests& out);
   void draw_choices(const PanelInput& input, PanelRequests& out);
   void draw_tabs(const PanelInput& input, PanelRequests& out);
@@ -75,6 +91,7 @@ struct Panel::State {
 };
 
 void Panel::State::take(const HapticSnapshot& snapshot) {
+  if (snapshot.time_ns <= last_ns) return;
   trail.push(snapshot);
   plots.push(snapshot);
   clip.push(snapshot);
@@ -83,15 +100,21 @@ void Panel::State::take(const HapticSnapshot& snapshot) {
 
 // Also while it is hidden: what is seen when it comes back is whole.
 void Panel::State::take(const PanelInput& input) {
+  if (std::exchange(run, input.run) != input.run) {
+    trail = Trail();
+    last_ns = -1;
+  }
+  // `now` may be newer than the history: what lies between comes with the next frame.
   for (const HapticSnapshot& snapshot : input.history) take(snapshot);
-  if (input.now.time_ns != last_ns) take(input.now);
+  if (input.history.empty()) take(input.now);
   events.take(input.events);
 }
 
-void Panel::State::draw_left(const Layout& layout, const PanelInput& input) {
-  if (begin_part("Lever", {0.0f, 0.0f}, {layout.side, layout.screen.y - layout.bar})) {
+void Panel::State::draw_left(const Layout& layout, const PanelInput& input, PanelRequests& out) {
+  if (begin_part("Lever", {0.0f, 0.0f}, {layout.left, layout.screen.y - layout.bar})) {
     title("Lever");
     plots.draw_axis_choice(controls);
+    draw_view_reset(controls, out);
     const float spacing = ImGui::GetStyle().ItemSpacing.y;
     const float height = ImGui::GetContentRegionAvail().y - ClipMeter::height() - spacing;
     const float gate_height = 0.38f * height;
@@ -115,7 +138,9 @@ void Panel::State::draw_choices(const PanelInput& input, PanelRequests& out) {
   row("gate", "Gate", input.gate_name, input.gates, out.gate);
   row("preset", "Preset", input.preset_name, input.presets, out.preset);
   row("hand", "Hand", input.hand_name, input.hands, out.hand);
-  row("device", "Device", input.device_name, input.devices, out.device);
+  ImGui::TextDisabled("Device");
+  ImGui::SameLine(label);
+  controls.line(input.device_name, ImGui::GetContentRegionAvail().x, ink::kText);
 }
 
 void Panel::State::draw_tabs(const PanelInput& input, PanelRequests& out) {
@@ -140,7 +165,7 @@ void Panel::State::draw_tabs(const PanelInput& input, PanelRequests& out) {
 }
 
 void Panel::State::draw_right(const Layout& layout, const PanelInput& input, PanelRequests& out) {
-  if (begin_part("Haptics", {layout.screen.x - layout.side, 0.0f}, {layout.side, layout.screen.y - layout.bar})) {
+  if (begin_part("Haptics", {layout.screen.x - layout.right, 0.0f}, {layout.right, layout.screen.y - layout.bar})) {
     draw_choices(input, out);
     ImGui::Spacing();
     draw_tabs(input, out);
@@ -161,14 +186,17 @@ PanelRequests Panel::draw(const PanelInput& input) {
   State& s = *state_;
   PanelRequests out;
   s.controls.begin_frame();
-  share_keyboard(kBarName);
+  share_keyboard(kBarName, s.visible);
   s.take(input);
   s.tuning.follow(input);
   for (const TuningView::Step step : s.steps) s.tuning.take(step, input, out);
   s.steps.clear();
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  s.middle = {{0.0, 0.0}, {screen.x, screen.y}};
   if (s.visible) {
     const Layout layout = make_layout();
-    s.draw_left(layout, input);
+    s.middle = {{layout.left, 0.0}, {screen.x - layout.right, screen.y - layout.bar}};
+    if (layout.left > 0.0f) s.draw_left(layout, input, out);
     s.draw_right(layout, input, out);
     s.draw_bar(layout, input, out);
   }
@@ -181,6 +209,15 @@ void Panel::undo() {
 }
 void Panel::redo() {
   state_->steps.push_back(TuningView::Step::redo);
+}
+ControlRect Panel::middle() const noexcept {
+  return state_->middle;
+}
+bool Panel::covers(glm::dvec2 mouse) const {
+  return panel_covers(mouse);
+}
+bool Panel::has_keyboard() const {
+  return panel_has_keyboard();
 }
 bool Panel::visible() const noexcept {
   return state_->visible;

@@ -20,13 +20,13 @@ void enter(ImGuiWindow* window) {
 
 }  // namespace
 
-void share_keyboard(const char* first_window) {
+void share_keyboard(const char* first_window, bool shown) {
   const ImGuiContext& ui = *ImGui::GetCurrentContext();
   const bool busy = ImGui::IsAnyItemActive() || ui.NavWindowingTarget != nullptr ||
                     ImGui::IsPopupOpen(nullptr, ImGuiPopupFlags_AnyPopupId | ImGuiPopupFlags_AnyPopupLevel);
   if (busy) return;
   if (ui.NavWindow == nullptr) {
-    if (pressed(ImGuiKey_Tab) && !ui.IO.KeyCtrl) enter(ImGui::FindWindowByName(first_window));
+    if (shown && pressed(ImGuiKey_Tab) && !ui.IO.KeyCtrl) enter(ImGui::FindWindowByName(first_window));
     return;
   }
   const bool by_mouse = ui.NavDisableHighlight, nowhere = ui.NavId == 0;
@@ -35,6 +35,13 @@ void share_keyboard(const char* first_window) {
   } else if (nowhere) {
     enter(ui.NavWindow);  // by Ctrl+Tab
   }
+}
+
+// Asked of the context and not of its wish to capture keys, which is as old as the last NewFrame.
+bool panel_has_keyboard() {
+  const ImGuiContext& ui = *ImGui::GetCurrentContext();
+  return ui.IO.WantTextInput || ui.NavWindowingTarget != nullptr ||
+         (ui.NavWindow != nullptr && !ui.NavDisableHighlight);
 }
 
 }  // namespace gearshift

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "app/energy_words.h"
+#include "app/hold_words.h"
 #include "app/panel/palette.h"
 #include "app/panel/setup_fields.h"
 #include "app/panel/tuning_fields.h"
@@ -32,14 +34,6 @@ class Difference {
   int same_ = 0, different_ = 0;
 };
 
-const char* hold_name(ContactHold hold) {
-  static constexpr const char* kNames[] = {"automatic", "zero-order", "half-sample", "observer"};
-  return kNames[static_cast<int>(hold)];
-}
-const char* energy_name(EnergyControl control) {
-  static constexpr const char* kNames[] = {"none", "bounding", "controller"};
-  return kNames[static_cast<int>(control)];
-}
 const char* yes_or_no(bool yes) {
   return yes ? "yes" : "no";
 }
@@ -51,8 +45,8 @@ void draw_rows(Difference& rows, const HapticConfig& here, const HapticConfig& t
     rows.row(f.label, value_text(f.factor * f.get(here), f.unit, f.decimals),
              value_text(f.factor * f.get(there), f.unit, f.decimals));
   }
-  rows.row("Hold", hold_name(here.contact.hold), hold_name(there.contact.hold));
-  rows.row("Energy control", energy_name(here.contact.energy_control), energy_name(there.contact.energy_control));
+  rows.row("Hold", hold_words(here.contact.hold), hold_words(there.contact.hold));
+  rows.row("Energy control", energy_words(here.contact.energy_control), energy_words(there.contact.energy_control));
   rows.row("Reversal limiter", yes_or_no(here.contact.reversal_limiter), yes_or_no(there.contact.reversal_limiter));
   rows.row("Study", yes_or_no(here.contact.study), yes_or_no(there.contact.study));
 }

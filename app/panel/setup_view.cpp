@@ -2,40 +2,50 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <stdexcept>
+#include <string>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include "app/energy_words.h"
+#include "app/hold_words.h"
 #include "app/panel/palette.h"
 #include "app/panel/tuning_answer.h"
 
 namespace gearshift {
 namespace {
 
-const std::vector<std::string>& hold_names() {
-  static const std::vector<std::string> names{"automatic", "zero-order", "half-sample", "observer"};
-  return names;
-}
-const std::vector<std::string>& energy_names() {
-  static const std::vector<std::string> names{"none", "energy bounding", "passivity controller"};
-  return names;
-}
+constexpr ContactHold kHolds[] = {ContactHold::automatic, ContactHold::zero_order, ContactHold::half_sample,
+                                  ContactHold::observer};
+constexpr EnergyControl kEnergyControls[] = {EnergyControl::none, EnergyControl::energy_bounding,
+                                             EnergyControl::passivity_controller};
 
-template <class Word>
-void choose(Controls& controls, const char* name, const char* label, Word& value, const std::vector<std::string>& names,
-            float label_width) {
+template <class Kind>
+void choose(Controls& controls, const char* name, const char* label, Kind& value, std::span<const Kind> kinds,
+            const char* (*words)(Kind) noexcept, float label_width) {
+  std::vector<std::string> names;
+  for (const Kind kind : kinds) names.emplace_back(words(kind));
   ImGui::AlignTextToFramePadding();
   ImGui::TextUnformatted(label);
   ImGui::SameLine(label_width);
-  const auto chosen =
-      controls.choice(name, names[static_cast<std::size_t>(value)], names, ImGui::GetContentRegionAvail().x);
-  if (!chosen) return;
-  value = static_cast<Word>(std::find(names.begin(), names.end(), *chosen) - names.begin());
+  const auto chosen = controls.choice(name, words(value), names, ImGui::GetContentRegionAvail().x);
+  if (chosen) value = kinds[static_cast<std::size_t>(std::find(names.begin(), names.end(), *chosen) - names.begin())];
 }
 
 float label_width() {
   return 9.3f * ui_em();
+}
+
+void tick(Controls& controls, const char* name, const char* label, bool& on) {
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(label);
+  ImGui::SameLine();
+  ImGui::PushID(name);
+  ImGui::Checkbox("##on", &on);
+  ImGui::PopID();
+  controls.mark(name);
 }
 
 }  // namespace
@@ -45,6 +55,8 @@ SetupView::Values SetupView::values_of(const HapticConfig& config) {
   for (std::size_t i = 0; i < kSetupFields.size(); ++i) values[i] = kSetupFields[i].get(config);
   values[kSetupFields.size()] = static_cast<double>(config.contact.hold);
   values[kSetupFields.size() + 1] = static_cast<double>(config.contact.energy_control);
+  values[kSetupFields.size() + 2] = config.contact.reversal_limiter ? 1.0 : 0.0;
+  values[kSetupFields.size() + 3] = config.contact.study ? 1.0 : 0.0;
   return values;
 }
 
@@ -57,8 +69,6 @@ void SetupView::follow(const HapticConfig& runs) {
     known_ = true;
   }
   staged_.tuning = runs.tuning;
-  staged_.contact.study = runs.contact.study;
-  staged_.contact.reversal_limiter = runs.contact.reversal_limiter;
 }
 
 void SetupView::draw_fields(Controls& controls) {
@@ -80,8 +90,12 @@ void SetupView::draw_fields(Controls& controls) {
 }
 
 void SetupView::draw_choices(Controls& controls) {
-  choose(controls, "hold", "Hold", staged_.contact.hold, hold_names(), label_width());
-  choose(controls, "energy_control", "Energy control", staged_.contact.energy_control, energy_names(), label_width());
+  choose<ContactHold>(controls, "hold", "Hold", staged_.contact.hold, kHolds, hold_words, label_width());
+  choose<EnergyControl>(controls, "energy_control", "Energy control", staged_.contact.energy_control, kEnergyControls,
+                        energy_words, label_width());
+  tick(controls, "reversal_limiter", "Reversal limiter", staged_.contact.reversal_limiter);
+  ImGui::SameLine(0.0f, 1.2f * ui_em());
+  tick(controls, "study", "Study", staged_.contact.study);
 }
 
 // Asked only where something is another: it costs up to milliseconds.
@@ -102,9 +116,23 @@ void SetupView::judge(const PanelInput& input) {
 
 void SetupView::draw(Controls& controls, const PanelInput& input, PanelRequests& out) {
   follow(input.haptics);
-  ImGui::TextDisabled("Taken when the loop starts anew.");
-  draw_choices(controls);
-  draw_fields(controls);
+  const float verdict = 3.0f * ui_font(UiFont::small)->FontSize + 2.0f * ImGui::GetStyle().ItemSpacing.y;
+  ImGui::BeginChild("values", {0.0f, -ImGui::GetFrameHeightWithSpacing() - verdict}, false,
+                    ImGuiWindowFlags_NavFlattened);
+  {
+    const WithFont small(UiFont::small);
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemSpacing, {ImGui::GetStyle().ItemSpacing.x, 0.15f * ui_em()});
+    ImGui::TextDisabled("Taken when the loop starts anew.");
+    draw_choices(controls);
+    draw_fields(controls);
+    ImGui::PopStyleVar();
+  }
+  ImGui::EndChild();
+  draw_restart(controls, input, out);
+}
+
+// Below what is set, and always in sight.
+void SetupView::draw_restart(Controls& controls, const PanelInput& input, PanelRequests& out) {
   const bool changed = values_of(staged_) != running_;
   if (changed) judge(input);
   ImGui::BeginDisabled(!changed || !refused_.empty());
@@ -114,10 +142,13 @@ void SetupView::draw(Controls& controls, const PanelInput& input, PanelRequests&
   ImGui::BeginDisabled(!changed);
   if (controls.button("setup_back", "Back")) known_ = false;
   ImGui::EndDisabled();
-  if (!changed) return;
+  const bool study = staged_.contact.study;
+  if (!changed && !study) return;
+  const std::string words = !refused_.empty() && changed ? refused_ : changed ? told_ : std::string{};
   const WithFont small(UiFont::small);
-  ImGui::PushStyleColor(ImGuiCol_Text, refused_.empty() ? ink::kWarn : ink::kBad);
-  ImGui::TextWrapped("%s", refused_.empty() ? told_.c_str() : refused_.c_str());
+  ImGui::PushStyleColor(ImGuiCol_Text, changed && !refused_.empty() ? ink::kBad : ink::kWarn);
+  ImGui::TextWrapped("%s",
+                     words.empty() && study ? "A study: all is used as it is set, stable or not." : words.c_str());
   ImGui::PopStyleColor();
 }
 

@@ -17,9 +17,10 @@ class SetupView {
   void follow(const HapticConfig& runs);
   void draw_fields(Controls& controls);
   void draw_choices(Controls& controls);
+  void draw_restart(Controls& controls, const PanelInput& input, PanelRequests& out);
   void judge(const PanelInput& input);
 
-  using Values = std::array<double, kSetupFields.size() + 2>;  // the fields, hold and energy control
+  using Values = std::array<double, kSetupFields.size() + 4>;  // the fields, hold, energy control, limiter and study
   static Values values_of(const HapticConfig& config);
 
   HapticConfig staged_;

@@ -5,16 +5,12 @@
 
 #include <fmt/format.h>
 
+#include "app/hold_words.h"
 #include "app/panel/palette.h"
 #include "app/panel/value_text.h"
 
 namespace gearshift {
 namespace {
-
-const char* hold_text(ContactHold hold) {
-  static constexpr const char* kTexts[] = {"automatic", "zero-order hold", "half-sample hold", "observed hold"};
-  return kTexts[static_cast<int>(hold)];
-}
 
 void put_right(const std::string& text, ImU32 colour) {
   const WithFont small(UiFont::small);
@@ -184,7 +180,7 @@ void TuningView::draw_verdict(Controls& controls, const PanelInput& input, Panel
     put_wrapped("Study: nothing is limited to what is stable. No person may touch this lever.", ink::kBad);
     for (const Limited& limited : judged(input).admitted.limited) put_wrapped(limited_sentence(limited), ink::kWarn);
   } else {
-    put_wrapped(fmt::format("Stable as it is, with every listed hand: {}.", hold_text(input.admitted.hold)),
+    put_wrapped(fmt::format("Stable as it is, with every listed hand: {}.", hold_words(input.admitted.hold)),
                 ink::kGood);
     for (const Limited& limited : input.admitted.limited)
       put_wrapped("Wanted at the start: " + limited_sentence(limited), ink::kWarn);

@@ -40,21 +40,26 @@ std::optional<std::array<glm::dvec3, 2>> two_points(std::string_view text) {
   return std::array<glm::dvec3, 2>{{{number[0], number[1], number[2]}, {number[3], number[4], number[5]}}};
 }
 
-EyePose chosen_eye(const RenderFileSetup& setup, const Model& model) {
-  const ViewConfig& view = setup.view;
-  if (setup.camera == "fit") {
-    const double aspect = static_cast<double>(view.width) / (view.stereo ? 2 : 1) / view.height;
-    return fitting_eye(model, view.vertical_fov * std::numbers::pi / 180.0, aspect);
-  }
-  if (setup.camera.find(':') == std::string::npos) return camera(setup.camera);
-  const auto points = two_points(setup.camera);
+constexpr double kField = 58.0;  // [deg]
+
+bool is_named(const std::string& camera) {
+  return camera != kFittingCamera && camera.find(':') == std::string::npos;
+}
+
+EyePose chosen_eye(const std::string& text) {
+  if (is_named(text)) return camera(text);
+  const auto points = two_points(text);
   if (!points || glm::distance((*points)[0], (*points)[1]) < 1e-6)
-    throw std::invalid_argument(fmt::format(
-        "--camera {}: must be X,Y,Z:X,Y,Z, an eye and another point that it looks at, in metres", setup.camera));
+    throw std::invalid_argument(
+        fmt::format("--camera {}: must be X,Y,Z:X,Y,Z, an eye and another point that it looks at, in metres", text));
   return look_at((*points)[0], (*points)[1]);
 }
 
 }  // namespace
+
+void check_camera(const std::string& text) {
+  if (text != kFittingCamera) (void)chosen_eye(text);
+}
 
 RenderFileResult render_file(const RenderFileSetup& setup) {
   const Clock::time_point start = Clock::now();
@@ -67,10 +72,19 @@ RenderFileResult render_file(const RenderFileSetup& setup) {
   FrameScene scene = still_scene(model);
   const int mirror = model.node("InteriorMirrorSurface");
   if (mirror != kNone && model.nodes[static_cast<std::size_t>(mirror)].mesh != kNone) scene.mirror = mirror;
-  const EyePose eye = chosen_eye(setup, model);
-  CabinView view(setup.view, nullptr, nullptr);
+  const double field = setup.field.value_or(is_named(setup.camera) ? camera_field(setup.camera) : kField);
+  ViewConfig config = setup.view;
+  EyePose eye;
+  if (setup.camera == kFittingCamera) {
+    const FittingView fitting = fitting_view(model, field * std::numbers::pi / 180.0);
+    eye = fitting.eye;
+    config.near_plane = std::min(config.near_plane, fitting.nearest / 2.0);
+  } else {
+    eye = chosen_eye(setup.camera);
+  }
+  CabinView view(config, nullptr, nullptr);
   view.set_model(model);
-  view.draw(scene, eye);
+  view.draw(scene, eye, field);
   const Image picture = view.picture();
   result.first_frame_ms = ms_since(start);
   result.draws = view.renderer().draws();

@@ -2,17 +2,21 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "app/view/cabin_view.h"
 
 namespace gearshift {
 
+inline constexpr const char* kFittingCamera = "fit";  // all of the model is seen
+
 struct RenderFileSetup {
   std::filesystem::path file;
   std::filesystem::path out;  // PNG
   ViewConfig view;
-  std::string camera = "fit";  // "fit", a camera of the cabin, or "X,Y,Z:X,Y,Z" eye and target [m]
+  std::optional<double> field;          // [deg] across the shorter side; empty: the camera's own
+  std::string camera = kFittingCamera;  // or a camera of the cabin, or "X,Y,Z:X,Y,Z" eye and target [m]
 };
 
 struct RenderFileResult {
@@ -22,6 +26,8 @@ struct RenderFileResult {
   std::vector<std::string> skipped;            // see Model::skipped
   std::string device;
 };
+
+void check_camera(const std::string& text);  // throws std::invalid_argument with one sentence
 
 // Throws GltfError, GpuError, std::invalid_argument (camera), std::runtime_error (out).
 RenderFileResult render_file(const RenderFileSetup& setup);

@@ -13,7 +13,26 @@ namespace {
 
 struct Box {
   glm::vec3 low{std::numeric_limits<float>::max()}, high{-std::numeric_limits<float>::max()};
+  void add(glm::vec3 point) {
+    low = glm::min(low, point);
+    high = glm::max(high, point);
+  }
 };
+
+// A skinned mesh is where its joints put it, which its own box does not tell.
+void add_posed(const Model& model, std::size_t node, const std::vector<glm::mat4>& world, Box& box) {
+  std::vector<Vertex> posed;
+  skin_vertices(model, static_cast<int>(node), world, posed);
+  for (const Vertex& vertex : posed) box.add(vertex.position);
+}
+
+void add_corners(const Primitive& primitive, const glm::mat4& world, Box& box) {
+  for (int corner = 0; corner < 8; ++corner) {
+    const glm::vec3 at(corner & 1 ? primitive.high.x : primitive.low.x, corner & 2 ? primitive.high.y : primitive.low.y,
+                       corner & 4 ? primitive.high.z : primitive.low.z);
+    box.add(world * glm::vec4(at, 1.0f));
+  }
+}
 
 Box bounds(const Model& model) {
   Box box;
@@ -21,16 +40,12 @@ Box bounds(const Model& model) {
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     const Node& node = model.nodes[i];
     if (node.mesh == kNone) continue;
-    for (const Primitive& primitive : model.meshes[static_cast<std::size_t>(node.mesh)].primitives) {
-      for (int corner = 0; corner < 8; ++corner) {
-        const glm::vec3 at(corner & 1 ? primitive.high.x : primitive.low.x,
-                           corner & 2 ? primitive.high.y : primitive.low.y,
-                           corner & 4 ? primitive.high.z : primitive.low.z);
-        const glm::vec3 placed = world[i] * glm::vec4(at, 1.0f);
-        box.low = glm::min(box.low, placed);
-        box.high = glm::max(box.high, placed);
-      }
+    if (node.skin != kNone) {
+      add_posed(model, i, world, box);
+      continue;
     }
+    for (const Primitive& primitive : model.meshes[static_cast<std::size_t>(node.mesh)].primitives)
+      add_corners(primitive, world[i], box);
   }
   if (box.low.x > box.high.x) box.low = box.high = glm::vec3(0.0f);
   return box;
@@ -40,7 +55,6 @@ Box bounds(const Model& model) {
 
 FrameScene still_scene(const Model& model) {
   FrameScene scene;
-  scene.shadow_reach = std::numeric_limits<float>::max();  // all of it
   const std::vector<glm::mat4> world = rest_pose(model);
   scene.nodes.resize(model.nodes.size());
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
@@ -55,13 +69,13 @@ FrameScene still_scene(const Model& model) {
   return scene;
 }
 
-EyePose fitting_eye(const Model& model, double vertical_fov, double aspect) {
+FittingView fitting_view(const Model& model, double field) {
   const Box box = bounds(model);
   const glm::dvec3 centre = 0.5f * (box.low + box.high);
   const double radius = std::max(1e-3, 0.5 * static_cast<double>(glm::length(box.high - box.low)));
-  const double half = std::min(vertical_fov / 2.0, std::atan(std::tan(vertical_fov / 2.0) * aspect));
   const glm::dvec3 from = glm::normalize(glm::dvec3(0.7, 0.5, 1.0));
-  return look_at(centre + from * (radius / std::sin(half)), centre);
+  const double distance = radius / std::sin(field / 2.0);
+  return {look_at(centre + from * distance, centre), distance - radius};
 }
 
 }  // namespace gearshift

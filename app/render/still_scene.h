@@ -9,7 +9,12 @@ namespace gearshift {
 
 FrameScene still_scene(const Model& model);
 
-// From the front, the right and above, so far away that all of it is seen. vertical fov [rad]
-EyePose fitting_eye(const Model& model, double vertical_fov, double aspect);
+struct FittingView {
+  EyePose eye;
+  double nearest = 0.0;  // [m] > 0, no part of the model is nearer to the eye
+};
+
+// From the front, the right and above, so far away that all of it is seen. field: across the shorter side. [rad]
+FittingView fitting_view(const Model& model, double field);
 
 }  // namespace gearshift

@@ -9,6 +9,7 @@
 #include "app/draw/html.h"
 #include "app/hold_words.h"
 #include "app/limited_words.h"
+#include "app/program_name.h"
 #include "haptics/files/file_error.h"
 
 namespace gearshift {
@@ -118,7 +119,7 @@ void write_page(const Study& study, const std::vector<Section>& sections) {
       << html_style() << "</style>\n</head>\n<body>\n<h1>The paper, reproduced</h1>\n<p>" << kIntroduction << "</p>\n"
       << configuration(study) << contents(sections);
   for (const Section& section : sections) out << section_text(study, section);
-  out << "<p>gearshift " << GEARSHIFT_VERSION << "</p>\n</body>\n</html>\n";
+  out << "<p>" << program_name() << "</p>\n</body>\n</html>\n";
   if (!out.flush()) throw FileError(file.string(), 0, "cannot be written");
 }
 

@@ -5,6 +5,7 @@
 
 #include <glm/geometric.hpp>
 
+#include "app/program_name.h"
 #include "haptics/device/scripted_hand.h"
 #include "haptics/files/file_error.h"
 #include "haptics/loop/simulated_run.h"
@@ -20,7 +21,7 @@ constexpr int kPumpEvery = 1000;     // [cycles] between two drains of the trace
 
 TraceHeader header_of(const TourSetup& setup, const DeviceSpec& spec) {
   TraceHeader header;
-  header.program = GEARSHIFT_VERSION;
+  header.program = program_name();
   header.config = setup.haptics;
   header.device = spec;
   header.gate_file = setup.layout.file;

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/train/gear_time.h"
 #include "haptics/device/simulated_lever.h"
 #include "haptics/gate/gate.h"
 #include "haptics/gate/gate_layout.h"
@@ -25,11 +26,6 @@ struct TourSetup {
   std::uint64_t seed = 1;  // of the hand's aims
   ShiftStyle style;
   std::filesystem::path folder;  // exists; receives tour.trace and tour.csv
-};
-
-struct GearTime {
-  int gear = kNeutralGear;
-  double time = 0.0;  // [s]
 };
 
 struct TourResult {

@@ -31,6 +31,10 @@ void LookAround::recentre() {
   yaw_ = pitch_ = 0.0;
 }
 
+double LookAround::field() const {
+  return camera_field(kPlaces[place_]);
+}
+
 EyePose LookAround::pose() const {
   EyePose eye = camera(kPlaces[place_]);
   // Turned about the world's vertical first: the horizon stays level.

@@ -17,10 +17,12 @@ class LookAround {
   void next();
   void turn(glm::dvec2 moved_px);  // right +, down +; 0.2 deg a pixel, up to 80 deg to the side and 60 up or down
   void recentre();
+  std::string_view place() const { return kPlaces[place_]; }
   EyePose pose() const;
+  double field() const;  // [deg] see camera_field()
 
  private:
-  static constexpr std::array<std::string_view, 5> kPlaces{"driver", "lever", "gate", "cluster", "gearbox"};
+  static constexpr std::array<std::string_view, 6> kPlaces{"driver", "ahead", "lever", "gate", "cluster", "gearbox"};
   std::size_t place_ = 0;
   double yaw_ = 0.0, pitch_ = 0.0;  // [rad] left and up +
 };

@@ -1,7 +1,7 @@
 #include "app/train/session.h"
 
-#include <algorithm>
-#include <ctime>
+#include <chrono>
+#include <cmath>
 #include <stdexcept>
 #include <utility>
 
@@ -10,6 +10,10 @@
 #include "app/assets_path.h"
 #include "app/limited_words.h"
 #include "app/output_folder.h"
+#include "app/program_name.h"
+#include "app/train/preset_shelf.h"
+#include "app/train/recording_file.h"
+#include "app/trainer/history.h"
 #include "app/trainer/user_folder.h"
 #include "haptics/files/file_error.h"
 #include "haptics/gate/gate_compiler.h"
@@ -23,22 +27,6 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostHistory = 200;  // [snapshots] a frame
 
-std::vector<std::string> user_presets() {
-  std::vector<std::string> names;
-  std::error_code error;
-  for (fs::directory_iterator entry(user_presets_folder(), error), end; !error && entry != end; entry.increment(error))
-    if (entry->path().extension() == ".toml") names.push_back(entry->path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
-
-// The user's own before the shipped one of that name.
-fs::path preset_file(const std::string& name) {
-  std::error_code error;
-  const fs::path own = user_presets_folder() / (name + ".toml");
-  return fs::exists(own, error) ? own : find_asset("presets", name);
-}
-
 Preset chosen_preset(const SessionChoice& choice) {
   Preset preset = read_preset(preset_file(choice.preset).string());
   if (choice.hand.empty() || choice.hand == kTouringHand) return preset;
@@ -51,20 +39,11 @@ Preset chosen_preset(const SessionChoice& choice) {
   return preset;
 }
 
-std::unique_ptr<Stage> make_stage(const TrainerConfig& config, const Gate& gate) {
-  StageConfig stage;
-  stage.gate = gate;
-  stage.gate_title = config.layout.name;
-  stage.yoke = config.preset.lever.yoke;
-  return std::make_unique<Stage>(stage, assets_folder() / "models");
-}
-
-std::string recording_name() {
-  const std::time_t now = std::time(nullptr);
-  std::tm local{};
-  localtime_r(&now, &local);
-  return fmt::format("drive-{:04}{:02}{:02}-{:02}{:02}{:02}.trace", local.tm_year + 1900, local.tm_mon + 1,
-                     local.tm_mday, local.tm_hour, local.tm_min, local.tm_sec);
+// By itself the hand is too quick for the car to move off: it rolls already.
+RollingCar car_for(const SessionChoice& choice) {
+  RollingCarConfig config;
+  if (choice.hand == kTouringHand) config.start_speed = 30.0 / kKmhPerMps;
+  return RollingCar(config);
 }
 
 std::string first_limit(const AdmittedTuning& admitted) {
@@ -74,13 +53,21 @@ std::string first_limit(const AdmittedTuning& admitted) {
 }  // namespace
 
 Session::Session(const SessionChoice& choice)
-    : choice_(choice), sound_(choice.sound), cabin_sound_(sound_, CabinSoundConfig{}) {
+    : choice_(choice),
+      cabin_(cabin_seen_from(choice.camera)),
+      car_(car_for(choice)),
+      sound_(choice.sound),
+      cabin_sound_(sound_, CabinSoundConfig{}) {
   controls_.ignition = true;
+  if (choice.clock == TrainerClock::real_time)
+    start_ns_ = std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
   change_to(choice);
   if (!sound_.why_silent().empty()) message_ = sound_.why_silent();
+  panel_.gates = shipped_names("gates");
+  panel_.presets = preset_names();
+  panel_.hands = {"light", "grip", "arm", std::string(kTouringHand)};
+  panel_.device_name = kSimulatedDevice;
 }
-
-Session::~Session() = default;
 
 TrainerConfig Session::trainer_config(const SessionChoice& choice) const {
   TrainerConfig config;
@@ -90,30 +77,69 @@ TrainerConfig Session::trainer_config(const SessionChoice& choice) const {
   config.hand = choice.hand == kTouringHand ? HandKind::touring : HandKind::led;
   config.clock = choice.clock;
   config.seed = choice.seed;
-  config.program = "gearshift " GEARSHIFT_VERSION;
+  config.program = program_name();
   return config;
+}
+
+std::unique_ptr<Stage> Session::make_stage(const Trainer& trainer, Cabin cabin) const {
+  return std::make_unique<Stage>(stage_config(trainer.gate(), trainer.config().preset.lever.yoke, cabin),
+                                 assets_folder() / "models");
+}
+
+// Its plate is cut for the gate, and its lever turns as the device's does.
+bool Session::fits_stage(const SessionChoice& choice, const YokeGeometry& yoke) const {
+  if (!stage_ || choice.gate != choice_.gate) return false;
+  const YokeGeometry& now = trainer_->config().preset.lever.yoke;
+  return yoke.radius == now.radius && yoke.theta_limit == now.theta_limit && yoke.phi_limit == now.phi_limit;
+}
+
+// What a person or a fault has taken, only a person gives back.
+bool Session::keeps_forces() {
+  if (!trainer_) return true;
+  const GuardState guard = trainer_->snapshot().guard;
+  return wants_forces_ && guard != GuardState::released && guard != GuardState::damped;
 }
 
 // All of it or nothing: what runs goes on until the new one stands.
 void Session::change_to(const SessionChoice& choice) {
   const TrainerConfig config = trainer_config(choice);
   auto trainer = std::make_unique<Trainer>(config);
-  if (!stage_ || choice.gate != choice_.gate) {
-    stage_ = make_stage(config, trainer->gate());
+  if (!fits_stage(choice, config.preset.lever.yoke)) {
+    stage_ = make_stage(*trainer, cabin_);
     new_model_ = true;
   }
+  message_.clear();
+  const bool armed = keeps_forces();
+  if (trainer_ && trainer_->recording()) end_recording();
+  player_.reset();
   trainer_ = std::move(trainer);
   new_trainer_ = true;
+  ++run_;
   trainer_->set_controls(controls_);
-  trainer_->arm();
+  if (armed) trainer_->arm();
+  feet_.reset();
+  if (choice.hand == kTouringHand) feet_.emplace(trainer_->gate());
+  if (choice.clock == TrainerClock::virtual_time) start_ns_ = -std::llround(1e9 * time_);
   choice_ = choice;
-  message_ = first_limit(trainer_->admitted());
+  const std::string limit = first_limit(trainer_->admitted());
+  if (!limit.empty()) message_ += (message_.empty() ? "" : "; ") + limit;
+}
+
+void Session::look_from(std::string_view camera) {
+  const Cabin cabin = cabin_seen_from(camera);
+  if (cabin == cabin_) return;
+  try {
+    stage_ = make_stage(*trainer_, cabin);
+    cabin_ = cabin;
+    new_model_ = true;
+  } catch (const std::exception& refused) {
+    message_ = refused.what();
+  }
 }
 
 void Session::lead(const HandTarget& hand, const DriverControls& controls) {
   trainer_->set_hand(hand);
   controls_ = controls;
-  trainer_->set_controls(controls);
 }
 
 void Session::obey(const PanelRequests& requests) {
@@ -121,50 +147,86 @@ void Session::obey(const PanelRequests& requests) {
     if (requests.stop) trainer_->stop();
     if (requests.disarm) trainer_->disarm();
     if (requests.arm) trainer_->arm();
+    if (requests.stop || requests.disarm || requests.arm) wants_forces_ = requests.arm;
     if (requests.tuning) message_ = first_limit(trainer_->change_tuning(*requests.tuning));
-    if (requests.record) toggle_recording();
+    if (requests.record && recording()) {
+      end_recording();
+    } else if (requests.record) {
+      start_recording();
+    }
     if (requests.replay) start_replay();
     if (requests.save_preset) save_preset(*requests.save_preset);
-    SessionChoice wanted = choice_;
-    if (requests.gate) wanted.gate = *requests.gate;
-    if (requests.hand) wanted.hand = *requests.hand;
-    if (requests.restart) wanted.haptics = *requests.restart;
-    if (requests.preset) {
-      wanted.preset = *requests.preset;
-      wanted.haptics.reset();
+    change_by(requests);
+    if (requests.compare) {
+      panel_.compared.reset();
+      panel_.compared = read_preset(preset_file(*requests.compare).string());
     }
-    if (requests.gate || requests.preset || requests.hand || requests.restart) change_to(wanted);
-    if (requests.compare) panel_.compared = read_preset(preset_file(*requests.compare).string());
   } catch (const std::exception& refused) {
     message_ = refused.what();
   }
 }
 
+// What was tuned stays, unless a preset was asked for.
+void Session::change_by(const PanelRequests& requests) {
+  if (!requests.gate && !requests.preset && !requests.hand && !requests.restart) return;
+  SessionChoice wanted = choice_;
+  wanted.haptics = trainer_->config().preset.haptics;
+  if (requests.gate) wanted.gate = *requests.gate;
+  if (requests.hand) wanted.hand = *requests.hand;
+  if (requests.restart) wanted.haptics = *requests.restart;
+  if (requests.preset) {
+    wanted.preset = *requests.preset;
+    wanted.haptics.reset();
+  }
+  change_to(wanted);
+}
+
+DriverControls Session::driven() const {
+  return feet_ ? deeper(feet_->at(trainer_->time(), car_.state()), controls_) : controls_;
+}
+
 void Session::advance(double seconds) {
   time_ += seconds;
+  trainer_->set_controls(driven());
   if (choice_.clock == TrainerClock::virtual_time) trainer_->advance(seconds);
+  if (const std::optional<std::string> problem = trainer_->take_recording_problem()) {
+    (void)trainer_->stop_recording();
+    message_ = *problem;
+  }
   events_ = trainer_->take_events();
-  shown_ = trainer_->snapshot();
-  DriverControls controls = controls_;
+  for (HapticEvent& event : events_) event.time_ns -= start_ns_;
+  history_ = trainer_->take_history(kMostHistory);
+  shown_ = trainer_->snapshot();  // last: no older than the history
+  const DriverControls controls = player_ ? replay(seconds) : driven();
+  car_.step(controls, shown_.gear, seconds);
+}
+
+// What is shown is of the trace then, but for the guard: its state is that of the lever that runs.
+DriverControls Session::replay(double seconds) {
   try {
-    if (player_ && player_->advance(seconds)) {
+    if (player_->advance(seconds)) {
+      const GuardState guard = shown_.guard;
+      const GuardFault fault = shown_.fault;
       shown_ = player_->snapshot();
-      controls = player_->controls();
-    } else if (player_) {
-      player_.reset();
-      message_ = "replay done";
+      shown_.guard = guard;
+      shown_.fault = fault;
+      history_ = thinned(player_->passed(), kMostHistory);
+      return player_->controls();
     }
+    message_ = "replay done";
   } catch (const FileError& damaged) {
-    player_.reset();
     message_ = damaged.what();
   }
-  car_.step(controls, shown_.gear, seconds);
+  player_.reset();
+  ++run_;
+  return driven();
 }
 
 void Session::place() {
   stage_->place({shown_, car_.state(), time_});
   const glm::vec3 knob = stage_->knob();
-  for (const HapticEvent& event : events_) cabin_sound_.hear(event, knob);
+  if (!player_)
+    for (const HapticEvent& event : events_) cabin_sound_.hear(event, knob);
   cabin_sound_.update(shown_, car_.state(), ears_, knob, time_);
 }
 
@@ -176,34 +238,44 @@ bool Session::take_new_model() {
   return std::exchange(new_model_, false);
 }
 
-void Session::toggle_recording() {
-  if (trainer_->recording()) {
-    const std::optional<std::string> problem = trainer_->stop_recording();
-    message_ = problem ? *problem : fmt::format("recorded: {}", last_recording_.string());
-    return;
-  }
+void Session::start_recording() {
   const fs::path folder = user_data_folder() / "recordings";
   make_folder(folder);
-  last_recording_ = folder / recording_name();
-  trainer_->start_recording(last_recording_);
-  message_ = fmt::format("recording to {}", last_recording_.string());
+  const fs::path file = free_trace(folder, drive_name());
+  trainer_->start_recording(file);
+  last_recording_ = file;
+  message_ = fmt::format("recording to {}", file.string());
+}
+
+bool Session::end_recording() {
+  const std::optional<std::string> problem = trainer_->stop_recording();
+  message_ = problem ? *problem : fmt::format("recorded: {}", last_recording_.string());
+  return !problem;
 }
 
 void Session::start_replay() {
-  if (trainer_->recording()) toggle_recording();
+  if (recording() && !end_recording()) return;
   if (last_recording_.empty()) throw std::runtime_error("nothing has been recorded yet");
   player_.emplace(last_recording_);
+  const TraceHeader& header = player_->header();
+  const bool same_lever = header.device.yoke_radius == trainer_->device().yoke_radius &&
+                          header.device.workspace == trainer_->device().workspace;
+  if (header.gate_text != trainer_->config().layout.text || !same_lever) {
+    player_.reset();
+    throw std::runtime_error(fmt::format("{}: recorded in another gate or with another lever ({}): choose that first",
+                                         last_recording_.string(), header.gate_file));
+  }
+  ++run_;
   message_ = fmt::format("replaying {}", last_recording_.string());
 }
 
 void Session::save_preset(const std::string& name) {
+  const fs::path file = own_preset_file(name);
   Preset preset = trainer_->config().preset;
   preset.name = name;
-  const fs::path folder = user_presets_folder();
-  make_folder(folder);
-  const fs::path file = folder / (name + ".toml");
   write_preset(preset, file);
   choice_.preset = name;
+  panel_.presets = preset_names();
   message_ = fmt::format("saved as {}", file.string());
 }
 
@@ -213,23 +285,17 @@ const PanelInput& Session::panel_input() {
   panel_.haptics = trainer_->config().preset.haptics;
   panel_.admitted = trainer_->admitted();
   panel_.now = shown_;
-  panel_.history = trainer_->take_history(kMostHistory);
-  panel_.events = events_;
+  panel_.run = run_;
+  panel_.history = history_;
+  panel_.events = player_ ? std::vector<HapticEvent>{} : events_;
   panel_.health = trainer_->health();
   panel_.car = car_.state();
   panel_.gate_name = choice_.gate;
   panel_.preset_name = choice_.preset;
   panel_.hand_name = choice_.hand.empty() ? "preset's" : choice_.hand;
-  panel_.device_name = kSimulatedDevice;
-  panel_.gates = shipped_names("gates");
-  panel_.presets = shipped_names("presets");
-  for (std::string& own : user_presets()) panel_.presets.push_back(std::move(own));
-  panel_.hands = {"light", "grip", "arm", std::string(kTouringHand)};
-  panel_.devices = {std::string(kSimulatedDevice)};
   panel_.recording = trainer_->recording();
   panel_.message = message_;
   panel_.frame_ms = frame_ms_;
-  panel_.time = time_;
   return panel_;
 }
 

@@ -5,16 +5,19 @@ namespace gearshift {
 TracePlayer::TracePlayer(const std::filesystem::path& file) : reader_(file, TornTrace::salvage) {}
 
 bool TracePlayer::advance(double seconds) {
+  passed_.clear();
   if (!begun_) {
     begun_ = true;
-    if (!reader_.next(sample_)) return false;
-    first_ns_ = sample_.deadline_ns;
+    more_ = reader_.next(next_);
+    first_ns_ = next_.deadline_ns;
   }
   time_ += seconds;
-  while (1e-9 * static_cast<double>(nanoseconds_between(first_ns_, sample_.deadline_ns)) < time_) {
-    if (!reader_.next(sample_)) return false;
+  while (more_ && 1e-9 * static_cast<double>(nanoseconds_between(first_ns_, next_.deadline_ns)) <= time_) {
+    sample_ = next_;
+    passed_.push_back(sample_.out);
+    more_ = reader_.next(next_);
   }
-  return true;
+  return more_ || !passed_.empty();
 }
 
 }  // namespace gearshift

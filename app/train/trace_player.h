@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <vector>
 
 #include "haptics/loop/trace_reader.h"
 
@@ -12,19 +13,21 @@ class TracePlayer {
   // Throws FileError.
   explicit TracePlayer(const std::filesystem::path& file);
 
-  // Moves on by `seconds`; false at the end. Throws FileError where the trace is damaged.
+  // Moves on by `seconds`; false when all had passed before. Throws FileError where the trace is damaged.
   bool advance(double seconds);
+  // Of the cycles that the last advance() went by.
+  const std::vector<HapticSnapshot>& passed() const { return passed_; }
   const HapticSnapshot& snapshot() const { return sample_.out; }
   const DriverControls& controls() const { return sample_.controls; }
   const TraceHeader& header() const { return reader_.header(); }
-  double time() const { return time_; }  // [s] since the first cycle
 
  private:
   TraceReader reader_;
-  TraceSample sample_;
-  std::int64_t first_ns_ = 0;  // [ns]
-  double time_ = 0.0;
-  bool begun_ = false;
+  TraceSample sample_, next_;
+  std::vector<HapticSnapshot> passed_;
+  std::int64_t first_ns_ = 0;          // [ns]
+  double time_ = 0.0;                  // [s] since the first cycle
+  bool begun_ = false, more_ = false;  // next_ is one
 };
 
 }  // namespace gearshift

@@ -6,10 +6,11 @@
 
 #include <fmt/core.h>
 
-#include "app/input/driver_input.h"
 #include "app/output_folder.h"
 #include "app/train/gear_lines.h"
 #include "app/train/look_around.h"
+#include "app/train/shared_input.h"
+#include "app/train/ui_scale.h"
 #include "engine/ui/ui.h"
 
 namespace gearshift {
@@ -20,27 +21,11 @@ using Clock = std::chrono::steady_clock;
 constexpr double kOffscreenRate = 30.0;      // [1/s] frames of simulated time
 constexpr double kFastestFrame = 1.0 / 144;  // [s] where the display does not hold the frames back
 constexpr double kLongestFrame = 0.25;       // [s] a frame that took longer moves car and pedals on by this
-constexpr float kPanelLines = 1080.0f;       // [px] a picture of this height has the panel at scale 1
 
-float ui_scale(int height, float content_scale) {
-  return std::max(content_scale, static_cast<float>(height) / kPanelLines);
-}
-
-UiEvents ui_events(const WindowInput& input, bool mouse_here) {
-  UiEvents events;
-  events.mouse = input.mouse;
-  events.mouse_here = mouse_here;
-  events.mouse_down = input.mouse_down;
-  events.scroll = input.scroll;
-  for (const KeyEvent& key : input.keys) {
-    events.keys.push_back({key.key, key.down});
-    events.shift = key.shift;
-    events.control = key.control;
-    events.alt = key.alt;
-  }
-  events.text = input.text;
-  events.focused = input.focused;
-  return events;
+// What the panel leaves of a picture of that size.
+SeenPart seen_beside(const Panel& panel, glm::dvec2 size) {
+  const ControlRect middle = panel.middle();
+  return {middle.min / size, middle.max / size};
 }
 
 // One frame after another in a window: poll, lead, read, panel, place, show.
@@ -51,13 +36,22 @@ class WindowTrainer {
         window_(setup.view.width, setup.view.height, "gearshift"),
         view_(std::make_unique<CabinView>(setup.view, &window_, &ui_)),
         session_(setup.choice),
-        input_({setup.bindings}),
-        look_(setup.camera),
+        shared_(setup.bindings),
+        input_(shared_.driver()),
+        look_(setup.choice.camera),
         last_frame_(Clock::now()) {
     panel_.set_visible(setup.panel);
   }
 
   bool done() const { return quit_ || window_.wants_close(); }
+
+  // What was being recorded is closed, and what came of it is told. Returns the exit code.
+  int finish() {
+    if (!session_.recording()) return 0;
+    const bool whole = session_.end_recording();
+    fmt::print(whole ? stdout : stderr, "{}{}\n", whole ? "" : "gearshift: ", session_.message());
+    return whole ? 0 : 1;
+  }
 
   void frame() {
     pace();
@@ -65,7 +59,7 @@ class WindowTrainer {
     act();
     lead();
     session_.advance(seconds_);
-    print_events(session_.events(), session_.time());
+    print_events(session_.events());
     draw_panel();
     session_.set_ears(look_.pose());
     session_.place();
@@ -73,6 +67,8 @@ class WindowTrainer {
   }
 
  private:
+  glm::ivec2 eye_size() const { return gearshift::eye_size(setup_.view, window_.framebuffer()); }
+
   // Sleeps before input is read, not after: what is seen is as new as can be.
   void pace() {
     const auto next =
@@ -86,12 +82,8 @@ class WindowTrainer {
   }
 
   void poll() {
-    const WindowInput& input = window_.poll();
-    const bool ui_has_mouse = panel_.visible() && ui_.wants_mouse();
-    const bool ui_has_keys = panel_.visible() && ui_.wants_keys();
-    ui_.feed(ui_events(input, !input_.mouse_leads()));
-    input_.update(input, seconds_, ui_has_mouse, ui_has_keys);
-    if (input.mouse_down[1] && !ui_has_mouse) look_.turn(input.mouse_moved);
+    shared_.update(window_.poll(), seconds_, eye_size().x, panel_, ui_);
+    look_.turn(shared_.turned());
   }
 
   // Another gate, hand or device: the person's hand is where the lever is.
@@ -137,6 +129,7 @@ class WindowTrainer {
         break;
       case Action::next_camera:
         look_.next();
+        session_.look_from(look_.place());
         break;
       case Action::undo:
         panel_.undo();
@@ -154,12 +147,13 @@ class WindowTrainer {
   }
 
   void draw_panel() {
-    const glm::ivec2 size = window_.framebuffer();
-    ui_.begin({static_cast<float>(std::max(size.x, 1)), static_cast<float>(std::max(size.y, 1)),
-               static_cast<float>(std::max(seconds_, 1e-4)), ui_scale(size.y, window_.content_scale())});
+    const glm::ivec2 size = eye_size();
+    ui_.begin({static_cast<float>(size.x), static_cast<float>(size.y), static_cast<float>(std::max(seconds_, 1e-4)),
+               ui_scale_.follow(window_.framebuffer().y, window_.content_scale())});
     const PanelRequests requests = panel_.draw(session_.panel_input());
     ui_.end();
     help_ = panel_.shows_help();
+    if (requests.reset_view) look_.recentre();
     session_.obey(requests);
   }
 
@@ -167,7 +161,8 @@ class WindowTrainer {
     try {
       if (session_.take_new_model() || fresh_view_) view_->set_model(session_.stage().model());
       fresh_view_ = false;
-      if (view_->begin()) view_->draw(session_.stage().scene(), look_.pose());
+      if (view_->begin())
+        view_->draw(session_.stage().scene(), look_.pose(), look_.field(), seen_beside(panel_, eye_size()));
     } catch (const GpuLost& lost) {
       fmt::print(stderr, "gearshift: {}; the picture is made anew, the lever goes on\n", lost.what());
       view_.reset();
@@ -179,10 +174,12 @@ class WindowTrainer {
   TrainSetup setup_;
   Window window_;
   UiContext ui_;
+  UiScale ui_scale_;
   Panel panel_;
   std::unique_ptr<CabinView> view_;
   Session session_;
-  DriverInput input_;
+  SharedInput shared_;
+  DriverInput& input_;
   LookAround look_;
   Clock::time_point last_frame_;
   double seconds_ = 1.0 / 60.0;  // [s] that this frame stands for
@@ -196,30 +193,31 @@ class WindowTrainer {
 int train_in_window(const TrainSetup& setup) {
   WindowTrainer trainer(setup);
   while (!trainer.done()) trainer.frame();
-  return 0;
+  return trainer.finish();
 }
 
 int train_offscreen(const TrainSetup& setup, const OffscreenSetup& offscreen) {
   Session session(setup.choice);
-  const LookAround look(setup.camera);
+  const LookAround look(setup.choice.camera);
   UiContext ui;
   Panel panel;
   panel.set_visible(setup.panel);
   CabinView view(setup.view, nullptr, &ui);
   make_folder(offscreen.folder);
   const double seconds = 1.0 / kOffscreenRate;
+  const glm::ivec2 eye = eye_size(setup.view, {setup.view.width, setup.view.height});
   view.set_model(session.stage().model());
   while (session.time() < offscreen.seconds) {
     session.advance(seconds);
-    print_events(session.events(), session.time());
-    ui.begin({static_cast<float>(setup.view.width), static_cast<float>(setup.view.height), static_cast<float>(seconds),
-              ui_scale(setup.view.height, 1.0f)});
+    print_events(session.events());
+    ui.begin({static_cast<float>(eye.x), static_cast<float>(eye.y), static_cast<float>(seconds),
+              UiScale().follow(eye.y, 1.0f)});
     session.obey(panel.draw(session.panel_input()));
     ui.end();
     session.place();
     if (session.take_new_model()) view.set_model(session.stage().model());
     view.begin();
-    view.draw(session.stage().scene(), look.pose());
+    view.draw(session.stage().scene(), look.pose(), look.field(), seen_beside(panel, eye));
   }
   const std::filesystem::path picture = offscreen.folder / "train.png";
   write_png(picture, view.picture());

@@ -15,10 +15,9 @@ struct TrainSetup {
   ViewConfig view;
   Bindings bindings;
   bool panel = true;
-  std::string camera = "driver";
 };
 
-// Until the window is closed. Prints a line for each gear. Returns the exit code.
+// Until the window is closed. Prints a line for each gear. Returns the exit code: 1 where the last recording failed.
 int train_in_window(const TrainSetup& setup);
 
 // Frames in memory, on the virtual clock: 30 a second of it. Writes train.png, the last one, into the folder.

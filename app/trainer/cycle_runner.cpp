@@ -28,6 +28,7 @@ void CycleRunner::cycle(const CycleCall& call, const CycleStatistics* statistics
 std::int64_t CycleRunner::lateness(const CycleCall& call, const CycleStatistics& statistics) noexcept {
   const bool was_at_work = statistics.overruns != overruns_;
   overruns_ = statistics.overruns;
+  skipped_ = statistics.skipped;
   const std::int64_t slept_for = was_at_work ? 0 : call.skipped * period_ns_;
   return std::max<std::int64_t>(0, clock_ns() - call.deadline_ns) + slept_for;
 }
@@ -50,6 +51,7 @@ void CycleRunner::add_stamps(const StageStamps& stamps) noexcept {
   const double count = static_cast<double>(std::min(stamps_, kStamps));
   LoopFigures told;
   told.overruns = overruns_;
+  told.skipped = skipped_;
   for (const auto& stages : stage_ns_) {
     for (std::size_t i = 0; i < stages.size(); ++i) told.stage_ns[i] += static_cast<double>(stages[i]) / count;
   }

@@ -21,7 +21,8 @@ struct CycleRecord {
 };
 
 struct LoopFigures {
-  std::uint64_t overruns = 0;
+  std::uint64_t overruns = 0;        // as CycleStatistics counts them
+  std::uint64_t skipped = 0;         // the same
   std::array<double, 8> stage_ns{};  // [ns] read .. write, mean of the last stamps
   double cycle_ns = 0.0;             // [ns] of these
 };
@@ -56,7 +57,7 @@ class CycleRunner {
   std::atomic<LoopRun*> ran_{nullptr};
   std::atomic<std::int64_t> now_ns_{0};
   LoopRun* run_ = nullptr;
-  std::uint64_t overruns_ = 0;
+  std::uint64_t overruns_ = 0, skipped_ = 0;
   std::array<std::array<std::int64_t, 8>, kStamps> stage_ns_{};  // the last ones, in a ring
   std::size_t stamps_ = 0;                                       // so far
 };

@@ -298,6 +298,7 @@ LoopHealth Trainer::health() {
   health.late_worst = 1e-9 * static_cast<double>(s.lateness.max());
   s.lateness = {};
   health.overruns = figures.overruns;
+  health.skipped = figures.skipped;
   health.events_lost = s.events_lost + s.run->channels.events_lost.load();
   health.stage_ns = figures.stage_ns;
   health.cycle_ns = figures.cycle_ns;

@@ -44,7 +44,8 @@ struct TrainerConfig {
 struct LoopHealth {
   double rate = 0.0;                                        // [Hz] as configured
   double late_p50 = 0.0, late_p99 = 0.0, late_worst = 0.0;  // [s]
-  std::uint64_t overruns = 0;                               // deadlines missed since the start
+  std::uint64_t overruns = 0;                               // cycles that took too long, since the start
+  std::uint64_t skipped = 0;                                // deadlines missed: these, and woken a period late or more
   std::uint64_t events_lost = 0;                            // since the start; 0 in health
   std::array<double, 8>
       stage_ns{};         // [ns] read, estimate, proxy, couple, feel, world, guard, write: mean of the last stamps

@@ -32,7 +32,7 @@ int run(const DemoArguments& arguments) {
   DemoSetup setup;
   setup.tour = make_tour_setup(arguments.tour);
   setup.tour.style.dwell_gear = kDriveInGear;
-  const PictureSize size = picture_size(arguments.size);
+  const PictureSize size = picture_size(arguments.size, arguments.stereo);
   setup.view.width = size.width;
   setup.view.height = size.height;
   setup.view.samples = arguments.samples;
@@ -53,6 +53,12 @@ int run(const DemoArguments& arguments) {
 }
 
 }  // namespace
+
+int run_demo(const TourArguments& tour) {
+  DemoArguments arguments;
+  arguments.tour = tour;
+  return run(arguments);
+}
 
 void add_demo_verb(CLI::App& app, VerbAction& action) {
   auto arguments = std::make_shared<DemoArguments>();

@@ -18,10 +18,10 @@
 namespace gearshift {
 namespace {
 
-constexpr const char* kHelp =
+constexpr const char* kGateHelp =
     "What the gate compiler makes of a layout: aisles, junctions, gears, wall pairs and lockouts, as a table "
     "or JSON, and drawn.";
-constexpr const char* kExamples =
+constexpr const char* kGateExamples =
     "\nExamples:\n"
     "  gearshift gate paper                      the gate of the paper, as a table\n"
     "  gearshift gate dog_leg_five --svg out.svg draw it as well\n"
@@ -73,8 +73,8 @@ std::string join_names() {
 
 void add_gate_verb(CLI::App& app, VerbAction& action) {
   const auto options = std::make_shared<GateOptions>();
-  CLI::App* verb = app.add_subcommand("gate", kHelp);
-  verb->footer(kExamples);
+  CLI::App* verb = app.add_subcommand("gate", kGateHelp);
+  verb->footer(kGateExamples);
   verb->add_option("LAYOUT", options->layout, "a layout file, or a shipped one: " + join_names())->required();
   verb->add_flag("--json", options->json, "print JSON instead of the table");
   verb->add_option("--svg", options->svg, "draw the gate into this file, in true proportion")->type_name("FILE");

@@ -15,8 +15,8 @@ struct PictureSize {
   int width = 0, height = 0;  // [px]
 };
 
-// Throws CLI::ValidationError.
-inline PictureSize picture_size(const std::string& text) {
+// Throws CLI::ValidationError. stereo: two eyes of the same whole number of pixels stand side by side.
+inline PictureSize picture_size(const std::string& text, bool stereo) {
   PictureSize size;
   const char* const end = text.data() + text.size();
   const auto width = std::from_chars(text.data(), end, size.width);
@@ -26,6 +26,8 @@ inline PictureSize picture_size(const std::string& text) {
   if (!crossed || height.ec != std::errc{} || height.ptr != end || !fits(size.width) || !fits(size.height))
     throw CLI::ValidationError(fmt::format("--size {}: must be WIDTHxHEIGHT, each {} to {} pixels", text,
                                            kLeastPictureSide, kMostPictureSide));
+  if (stereo && size.width % 2 != 0)
+    throw CLI::ValidationError(fmt::format("--size {}: must be of even width for two eyes side by side", text));
   return size;
 }
 

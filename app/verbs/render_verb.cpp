@@ -1,5 +1,6 @@
 // gearshift render: any glTF file as a picture, mono or stereo.
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -16,32 +17,32 @@ namespace {
 struct RenderArguments {
   std::string file, out, size = "1280x720", camera = "fit";
   int samples = 4;
-  double fov = 58.0;  // [deg]
+  std::optional<double> fov;  // [deg]
   bool stereo = false;
 };
 
 RenderFileSetup make_setup(const RenderArguments& arguments) {
+  try {
+    check_camera(arguments.camera);
+  } catch (const std::invalid_argument& refused) {
+    throw CLI::ValidationError(refused.what());
+  }
   RenderFileSetup setup;
   setup.file = arguments.file;
   setup.out = arguments.out;
   setup.camera = arguments.camera;
-  const PictureSize size = picture_size(arguments.size);
+  const PictureSize size = picture_size(arguments.size, arguments.stereo);
   setup.view.width = size.width;
   setup.view.height = size.height;
   setup.view.samples = arguments.samples;
   setup.view.stereo = arguments.stereo;
-  setup.view.vertical_fov = arguments.fov;
+  setup.field = arguments.fov;
   return setup;
 }
 
 int run_render(const RenderArguments& arguments) {
   const RenderFileSetup setup = make_setup(arguments);
-  RenderFileResult result;
-  try {
-    result = render_file(setup);
-  } catch (const std::invalid_argument& refused) {
-    throw CLI::ValidationError(refused.what());
-  }
+  const RenderFileResult result = render_file(setup);
   for (const std::string& skipped : result.skipped) fmt::print(stderr, "gearshift: not drawn: {}\n", skipped);
   fmt::print("{}: {} triangles in {} draws, read in {:.0f} ms, drawn {:.0f} ms after the start on {}\n",
              setup.out.string(), result.triangles, result.draws, result.load_ms, result.first_frame_ms, result.device);
@@ -60,11 +61,11 @@ void add_render_verb(CLI::App& app, VerbAction& action) {
       ->check(CLI::IsMember({1, 4}))
       ->capture_default_str();
   verb->add_option("--camera", arguments->camera,
-                   "fit, driver, lever, gate, cluster, gearbox, or X,Y,Z:X,Y,Z: an eye and what it looks at [m]")
+                   "fit, driver, ahead, lever, gate, cluster, gearbox, or X,Y,Z:X,Y,Z: an eye and what it looks at [m]")
       ->capture_default_str();
-  verb->add_option("--fov", arguments->fov, "vertical field of view [deg]")
-      ->check(number_between(5.0, 150.0))
-      ->capture_default_str();
+  verb->add_option("--fov", arguments->fov,
+                   "field of view across the shorter side [deg]: 58, or the named camera's own")
+      ->check(number_between(5.0, 150.0));
   verb->add_flag("--stereo", arguments->stereo, "both eyes, side by side");
   verb->callback([arguments, &action] { action = [arguments] { return run_render(*arguments); }; });
 }

@@ -5,10 +5,13 @@
 #include <optional>
 #include <string>
 #include <system_error>
+#include <utility>
 
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
+#include "app/learner/lesson_drive.h"
+#include "app/program_name.h"
 #include "app/verbs/progress_bar.h"
 #include "app/verbs/verbs.h"
 #include "haptics/loop/replay.h"
@@ -62,15 +65,20 @@ int say(const ReplayResult& result, const TraceReader& reader) {
   }
   fmt::print("differs first in cycle {}: {} is {}, recorded was {}\n", result.first->cycle, result.first->field,
              result.first->replayed, result.first->recorded);
-  if (reader.header().program != GEARSHIFT_VERSION)
-    fmt::print("it was recorded by gearshift {}, this is {}\n", reader.header().program, GEARSHIFT_VERSION);
+  if (reader.header().program != program_name())
+    fmt::print("it was recorded by {}, this is {}\n", reader.header().program, program_name());
   return 1;
+}
+
+std::unique_ptr<LeverWorld> make_world(const std::string& name, const Gate& gate) {
+  std::unique_ptr<LeverWorld> nothing = make_null_world(name, gate);
+  return nothing ? std::move(nothing) : make_lesson_world(name, gate);
 }
 
 // Goes through the file once: exports every cycle, and replays up to the first difference.
 int replay_file(const ReplayOptions& options) {
   TraceReader reader(options.trace);
-  Replayer replayer(reader.header(), options.trace.string());
+  Replayer replayer(reader.header(), options.trace.string(), make_world);
   std::optional<TraceCsvFile> csv = open_csv(options);
   ProgressBar progress;
   std::uint64_t cycles = 0;

@@ -23,10 +23,10 @@
 namespace gearshift {
 namespace {
 
-constexpr const char* kHelp =
+constexpr const char* kStabilityHelp =
     "May a wall of K, B be used at this rate on this device? The exact limit of the sampled loop and the passive one, "
     "and the map of both.";
-constexpr const char* kExamples =
+constexpr const char* kStabilityExamples =
     "\nExamples:\n"
     "  gearshift stability                                       5000 N/m at 1 kHz on the paper's X axis\n"
     "  gearshift stability --rate 100 --hand all                 as the paper has it, and in which hand\n"
@@ -175,8 +175,8 @@ void add_wall_options(CLI::App& verb, StabilityArguments& arguments) {
 
 void add_stability_verb(CLI::App& app, VerbAction& action) {
   const auto arguments = std::make_shared<StabilityArguments>();
-  CLI::App* verb = app.add_subcommand("stability", kHelp);
-  verb->footer(kExamples);
+  CLI::App* verb = app.add_subcommand("stability", kStabilityHelp);
+  verb->footer(kStabilityExamples);
   add_device_options(*verb, *arguments);
   add_wall_options(*verb, *arguments);
   verb->add_flag("--json", arguments->json, "JSON on stdout; an infinite limit is null");

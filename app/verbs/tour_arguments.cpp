@@ -23,6 +23,14 @@ void check_on_lever(const HandImpedance& hand) {
   const SimulatedLever lever(config, kAnyPeriod, nobody);
 }
 
+// CLI alone takes -1, as 2^64 - 1.
+std::string refuse_no_seed(const std::string& text) {
+  const bool whole = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
+  return whole ? std::string{} : fmt::format("\"{}\" is not a whole number from 0", text);
+}
+
+}  // namespace
+
 HandImpedance driving_hand(const std::string& text) {
   const std::optional<HandImpedance> hand = hand_from_text(text);
   if (!hand)
@@ -38,14 +46,6 @@ HandImpedance driving_hand(const std::string& text) {
   }
   return *hand;
 }
-
-// CLI alone takes -1, as 2^64 - 1.
-std::string refuse_no_seed(const std::string& text) {
-  const bool whole = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
-  return whole ? std::string{} : fmt::format("\"{}\" is not a whole number from 0", text);
-}
-
-}  // namespace
 
 TourSetup make_tour_setup(const TourArguments& arguments) {
   TourSetup setup;

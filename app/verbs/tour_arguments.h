@@ -20,6 +20,8 @@ struct TourArguments {
   std::uint64_t seed = 1;
 };
 
+HandImpedance driving_hand(const std::string& text);  // one that can lead a lever. Throws CLI::ValidationError
+
 void add_tour_options(CLI::App& verb, TourArguments& arguments);
 
 // Throws FileError, CLI::ValidationError.

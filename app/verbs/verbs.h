@@ -11,15 +11,20 @@ namespace gearshift {
 // bad usage, a CLI::ParseError, exits 2; anything else, a FileError included, exits 1.
 using VerbAction = std::function<int()>;
 
+struct TourArguments;
+int run_demo(const TourArguments& tour);  // as `demo` does with nothing but these
+
 void add_train_verb(CLI::App& app, VerbAction& action);
 void add_demo_verb(CLI::App& app, VerbAction& action);
 void add_render_verb(CLI::App& app, VerbAction& action);
 void add_gate_verb(CLI::App& app, VerbAction& action);
+void add_lesson_verb(CLI::App& app, VerbAction& action);
 void add_tour_verb(CLI::App& app, VerbAction& action);
 void add_identify_verb(CLI::App& app, VerbAction& action);
 void add_stability_verb(CLI::App& app, VerbAction& action);
 void add_reproduce_verb(CLI::App& app, VerbAction& action);
 void add_replay_verb(CLI::App& app, VerbAction& action);
+void add_report_verb(CLI::App& app, VerbAction& action);
 void add_bench_verb(CLI::App& app, VerbAction& action);
 
 }  // namespace gearshift

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdlib>
 #include <numbers>
 #include <vector>
@@ -16,16 +17,15 @@ namespace {
 
 RenderConfig render_config(const ViewConfig& config, int width, int height) {
   RenderConfig render;
+  const glm::ivec2 eye = eye_size(config, {width, height});
   render.eyes = config.stereo ? 2 : 1;
-  render.width = std::max(1, width / render.eyes);
-  render.height = std::max(1, height);
+  render.width = eye.x;
+  render.height = eye.y;
   render.samples = config.samples;
   return render;
 }
 
-std::vector<View> views_of(const ViewConfig& config, const RenderConfig& render, const EyePose& head) {
-  const double vertical = config.vertical_fov * std::numbers::pi / 180.0;
-  const Fov centre = symmetric_fov(vertical, static_cast<double>(render.width) / render.height);
+std::vector<View> views_of(const ViewConfig& config, const EyePose& head, const Fov& centre) {
   if (!config.stereo) return {view_from(head, centre, config.near_plane)};
   const StereoEyes eyes = stereo_eyes(head, centre, config.eye_distance, config.screen_distance);
   return {view_from(eyes.pose[0], eyes.fov[0], config.near_plane),
@@ -55,6 +55,20 @@ class Show final : public Renderer::Finish {
 };
 
 }  // namespace
+
+glm::ivec2 eye_size(const ViewConfig& config, glm::ivec2 whole) {
+  return {std::max(1, whole.x / (config.stereo ? 2 : 1)), std::max(1, whole.y)};
+}
+
+Fov fov_around(double field, glm::dvec2 size, const SeenPart& part) {
+  constexpr double kLeastPart = 0.2;
+  const glm::dvec2 share = part.high - part.low;
+  const SeenPart seen = std::min(share.x, share.y) < kLeastPart ? SeenPart{} : part;
+  const glm::dvec2 low = seen.low * size, high = seen.high * size, middle = 0.5 * (low + high);
+  const double per_px = 2.0 * std::tan(field / 2.0) / std::min(high.x - low.x, high.y - low.y);
+  return {-std::atan(middle.x * per_px), std::atan((size.x - middle.x) * per_px),
+          -std::atan((size.y - middle.y) * per_px), std::atan(middle.y * per_px)};
+}
 
 GpuConfig gpu_config(bool with_window) {
   GpuConfig config;
@@ -115,9 +129,11 @@ bool CabinView::begin() {
   return true;
 }
 
-void CabinView::draw(const FrameScene& scene, const EyePose& head) {
+void CabinView::draw(const FrameScene& scene, const EyePose& head, double field, const SeenPart& seen) {
   State& s = *state_;
-  const std::vector<View> views = views_of(s.config, s.renderer.config(), head);
+  const RenderConfig& now = s.renderer.config();
+  const Fov centre = fov_around(field * std::numbers::pi / 180.0, {now.width, now.height}, seen);
+  const std::vector<View> views = views_of(s.config, head, centre);
   std::vector<Overlay*> overlays;
   if (s.overlay) overlays.push_back(&*s.overlay);
   if (!s.swapchain) {

@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include <glm/vec2.hpp>
+
 #include "engine/model/model.h"
 #include "engine/render/renderer.h"
 #include "engine/scene/frame_scene.h"
@@ -21,9 +23,20 @@ struct ViewConfig {
   bool stereo = false;             // both eyes side by side
   double eye_distance = 0.063;     // [m] between the eyes
   double screen_distance = 2.0;    // [m] at which both eyes see the same
-  double vertical_fov = 58.0;      // [deg]
   double near_plane = 0.05;        // [m]
 };
+
+// [px] of the picture that one eye sees of a whole picture of that size: at least 1 x 1. The panel is drawn into it.
+glm::ivec2 eye_size(const ViewConfig& config, glm::ivec2 whole);
+
+// The part of an eye's picture that nothing lies before, in shares of it from the upper left corner. [1]
+struct SeenPart {
+  glm::dvec2 low{0.0}, high{1.0};
+};
+
+// A frustum through a picture of that size whose middle is the part's: the field lies across the part's shorter side.
+// [rad] A part narrower than a fifth of the picture is none: then the whole picture's.
+Fov fov_around(double field, glm::dvec2 size, const SeenPart& part);
 
 // How a GpuConfig is made here: validation where GEARSHIFT_VALIDATION is set, each message one line on stderr; the
 // pipeline cache lies in the user's cache folder.
@@ -39,8 +52,9 @@ class CabinView {
 
   // False where nothing can be shown now: minimised, being resized.
   bool begin();
-  // Between begin() and the end of the frame: draws, and shows it in the window. Throws GpuLost.
-  void draw(const FrameScene& scene, const EyePose& head);
+  // Between begin() and the end of the frame: draws, and shows it in the window. field: across the shorter side of what
+  // an eye sees of its picture. [deg] Throws GpuLost.
+  void draw(const FrameScene& scene, const EyePose& head, double field, const SeenPart& seen = {});
 
   Image picture();  // of the last frame: both eyes side by side where stereo. Waits
   const Renderer& renderer() const;

@@ -34,6 +34,10 @@ check "the same again" demo two
 for file in cabin.png driver.png clamp.png gearbox.png demo.wav tour.trace; do
   check "$file is the same twice" same "one/$file" "two/$file"
 done
+stale() { DISPLAY=:987 WAYLAND_DISPLAY=wayland-0 "$gearshift" train --or-demo stale >stale.txt 2>stale.err; }
+check "train beside a display that is gone: the demo" stale
+check "and it says so" grep -q "^No display" stale.txt
+check "its page is there" [ -s stale/index.html ]
 different() { ! same "$1" "$2"; }
 check "first and fifth gear do not look the same" different one/gear_1.png one/gear_5.png
 check "another gate" demo six --gate six_speed_r_left_up

@@ -33,10 +33,12 @@ refuse() { # exit code, part of the sentence, arguments ...
 unset DISPLAY WAYLAND_DISPLAY
 refuse 1 "no display"
 refuse 1 "no display" train
+DISPLAY=:987 WAYLAND_DISPLAY=wayland-0 refuse 1 "no display" train
 refuse 1 "neither a file nor one of the shipped gates" train --offscreen t --gate nonesuch
 refuse 1 "neither a file nor one of the shipped presets" train --offscreen t --preset nonesuch
 refuse 1 "neither a file nor one of the shipped bindings" train --offscreen t --bindings nonesuch
-refuse 1 "hand strong" train --offscreen t --hand strong
+refuse 2 "--hand strong" train --offscreen t --hand strong
+refuse 2 "--hand bare" train --offscreen t --hand bare
 refuse 2 "--camera" train --offscreen t --camera nowhere
 refuse 2 "--size" train --offscreen t --size 10x10
 refuse 2 "--seconds" train --offscreen t --seconds 0
@@ -51,6 +53,13 @@ refuse 2 "--fov" render nothing.glb --out t.png --fov 179
 refuse 1 "nothing.glb" render nothing.glb --out t.png
 refuse 2 "fly" fly
 refuse 2 "--speed" --speed 3
+refuse 2 "lesson is required" lesson
+refuse 1 "neither a file nor one of the shipped lessons" lesson nonesuch
+refuse 2 "--fault" lesson hill_start --fault nothing
+refuse 2 "--skill-error" lesson hill_start --skill-error 2
+refuse 2 "--guidance" lesson hill_start --guidance nan
+refuse 1 "which this gate lacks" lesson up_through_the_gears --gate four_speed
+refuse 1 "no/such.trace" lesson hill_start --trace no/such.trace
 refuse 2 "--out" tour
 refuse 2 "--rate" tour --out t --rate 99
 refuse 2 "--rate" tour --out t --rate 4001

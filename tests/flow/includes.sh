@@ -5,6 +5,8 @@ set -u
 cd "$1" || exit 1
 
 haptics="haptics/files haptics/rt haptics/joystick haptics/gate haptics/device haptics/contact haptics/analysis haptics/safety haptics/loop"
+shared="app/assets_path app/energy_words app/event_words app/hold_words app/limited_words app/output_folder app/program_name app/user_cache"
+pictures="engine/gpu engine/image engine/model engine/render engine/scene engine/ui engine/window"
 declare -A sees=(
   [haptics/files]="" [haptics/rt]="" [haptics/joystick]=""
   [haptics/gate]="haptics/files" [haptics/device]="haptics/joystick haptics/rt"
@@ -15,10 +17,16 @@ declare -A sees=(
   [engine/light]="engine/image" [engine/gpu]="engine/image"
   [engine/render]="engine/gpu engine/scene engine/light engine/model engine/image"
   [engine/ui]="engine/gpu engine/image" [engine/window]="engine/gpu engine/image" [engine/sound]=""
-  [app/vehicle]="$haptics" [app/trainer]="$haptics" [app/input]="$haptics engine/window engine/gpu engine/image"
+  [app/vehicle]="$haptics" [app/training]="$haptics app/vehicle"
+  [app/history]="$haptics app/training app/vehicle"
+  [app/draw]="$haptics" [app/report]="$haptics $shared app/history app/training app/vehicle app/draw"
+  [app/learner]="$haptics app/training app/vehicle"
+  [app/trainer]="$haptics app/vehicle" [app/input]="$haptics engine/window engine/gpu engine/image"
   [app/stage]="$haptics app/vehicle engine/scene engine/model engine/image"
   [app/cabin_sound]="$haptics app/vehicle engine/scene engine/model engine/image engine/sound"
-  [app/panel]="$haptics app/trainer app/vehicle engine/ui engine/gpu engine/image"
+  [app/panel]="$haptics $shared app/trainer app/vehicle engine/ui engine/gpu engine/image"
+  [app/view]="$haptics $shared app/stage app/vehicle $pictures"
+  [app/train]="$haptics $shared app/input app/trainer app/vehicle app/stage app/cabin_sound app/panel app/view engine/sound $pictures"
 )
 failed=0
 passed=0

@@ -31,16 +31,17 @@ struct Cabin {
   HapticSnapshot lever;
   VehicleState car;
   EyePose ears = look_at({0.0, 0.65, 0.0}, {0.0, 0.65, -1.0});
+  glm::vec3 knob = kKnob;
   double time = 0.0;
 
   explicit Cabin(const CabinSoundConfig& config = {}) : sound(world, config) {}
 
-  void hear(EventKind kind, double value = 0.0) { sound.hear({kind, 0, 0, value}, kKnob); }
+  void hear(EventKind kind, double value = 0.0) { sound.hear({kind, 0, 0, value}, knob); }
 
   std::vector<float> run(double seconds) {
     std::vector<float> all;
     for (int frame = 0; frame < static_cast<int>(std::lround(seconds / kFrame)); ++frame) {
-      sound.update(lever, car, ears, kKnob, time);
+      sound.update(lever, car, ears, knob, time);
       const std::vector<float> some = listen(world, kFrame);
       all.insert(all.end(), some.begin(), some.end());
       time += kFrame;
@@ -270,6 +271,36 @@ TEST_CASE("lever, knock and warnings come from the lever's side, the engine from
   const double engine = balance(engine_sound(cabin, 3000.0, 1.0));
   CHECK(engine > 0.0);  // the car's middle is to the right of the driver
   CHECK(engine < 4.0);
+}
+
+TEST_CASE(
+    "clicks of the detent and grind are heard from the lever: its side, its distance, and ahead of who faces it") {
+  struct Heard {
+    double left, right;  // [1] RMS
+    double balance() const { return decibels(right / left); }
+    double both() const { return std::hypot(left, right); }
+  };
+  // With the lever there, and ears at the origin that look ahead. The volume keeps the nearest below full scale.
+  const auto heard = [](int what, glm::vec3 lever) {
+    Cabin cabin({.volume = 0.1f, .engine = false});
+    cabin.knob = lever;
+    cabin.ears = look_at({0.0, 0.0, 0.0}, {0.0, 0.0, -1.0});
+    cabin.car.grinding = what == 2;
+    cabin.run(0.1);
+    if (what < 2) cabin.hear(what == 0 ? EventKind::gear_engaged : EventKind::gear_left, 3.0);
+    const std::vector<float> stereo = cabin.run(0.5);
+    return Heard{rms(channel(stereo, Ear::left)), rms(channel(stereo, Ear::right))};
+  };
+  for (const int what : {0, 1, 2}) {  // gear in, gear out, grind
+    CAPTURE(what);
+    const Heard ahead = heard(what, {0.0f, 0.0f, -1.0f});
+    CHECK(ahead.balance() == doctest::Approx(0.0).epsilon(1e-3));
+    const Heard right = heard(what, {0.5f, 0.0f, -0.8f}), left = heard(what, {-0.5f, 0.0f, -0.8f});
+    CHECK(right.balance() > 6.0);
+    CHECK(left.balance() == doctest::Approx(-right.balance()).epsilon(1e-3));
+    for (const float metres : {2.0f, 4.0f})  // as 1 / distance, from the reference distance of half a metre on
+      CHECK(heard(what, {0.0f, 0.0f, -metres}).both() / ahead.both() == doctest::Approx(1.0 / metres).epsilon(1e-3));
+  }
 }
 
 TEST_CASE("both ears hear a warning, wherever the driver looks: neither 20 dB less than the other") {

@@ -162,8 +162,9 @@ TEST_CASE("without a key that stops the motors there are no bindings") {
 TEST_CASE("the help names every bound key with what it does") {
   const Bindings bindings = read_bindings(shipped);
   const std::string help = help_text(bindings);
-  CHECK(help.find("F11                   full screen or window\n") != std::string::npos);
-  CHECK(help.find("Space, F12            stop: motors off\n") != std::string::npos);
-  CHECK(help.find("Pad axis 5            throttle\n") != std::string::npos);
-  CHECK(help_text({}).find("F1 ") == std::string::npos);
+  CHECK(help.find("F11\tfull screen or window\n") != std::string::npos);
+  CHECK(help.find("Space, F12\tstop: motors off\n") != std::string::npos);
+  CHECK(help.find("Pad axis 5\tthrottle\n") != std::string::npos);
+  CHECK(help_text({}).find("F1\t") == std::string::npos);
+  CHECK(std::count(help.begin(), help.end(), '\t') == std::count(help.begin(), help.end(), '\n'));
 }

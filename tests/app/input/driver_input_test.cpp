@@ -9,6 +9,7 @@
 #include <GLFW/glfw3.h>
 
 #include <doctest/doctest.h>
+#include <glm/geometric.hpp>
 
 #include "tests/support/gates.h"
 
@@ -281,6 +282,53 @@ TEST_CASE("a pedal's axis counts from its first movement on: a pad tells 0 of a 
   d.frame(0.0);
   d.frame(1.0);
   CHECK(d.driver.controls().throttle == 0.0);
+}
+
+TEST_CASE("each pedal follows its own axis and no other") {
+  Bindings own = bindings();
+  own.throttle = AxisBinding{0, 0, -1.0, 1.0, 0.0};
+  own.brake = AxisBinding{0, 1, -1.0, 1.0, 0.0};
+  own.clutch = AxisBinding{0, 2, -1.0, 1.0, 0.0};
+  own.lever_select = own.lever_shift = std::nullopt;
+  for (const std::size_t axis : {0u, 1u, 2u}) {
+    CAPTURE(axis);
+    DriverInput driver({own, {0.06, 0.05}});
+    WindowInput input;
+    input.pads = {{"pad", {-1.0f, -1.0f, -1.0f}, {}}};
+    driver.update(input, kFrame, false, false);
+    input.pads[0].axes[axis] = 0.5f;  // three quarters of the way down
+    driver.update(input, kFrame, false, false);
+    const double pedals[] = {driver.controls().throttle, driver.controls().brake, driver.controls().clutch};
+    for (const std::size_t pedal : {0u, 1u, 2u}) CHECK(pedals[pedal] == (pedal == axis ? 0.75 : 0.0));
+  }
+}
+
+TEST_CASE("the brake is pressed by its key as by its axis") {
+  Bindings own = bindings();
+  own.keys[Action::brake] = {GLFW_KEY_S};
+  DriverInput driver({own, {0.06, 0.05}});
+  WindowInput input;
+  input.keys = {{GLFW_KEY_S, true, false, false, false}};
+  driver.update(input, 0.1, false, false);
+  CHECK(driver.controls().brake == doctest::Approx(0.1 / 0.25));
+  CHECK(driver.controls().throttle == 0.0);
+}
+
+TEST_CASE("a hand that is put where a lever stands beyond its reach ends at the reach and does not push") {
+  for (const glm::dvec2 lever : {glm::dvec2(0.08, 0.0), {-0.08, 0.0}, {0.0, 0.07}, {0.0, -0.07}}) {
+    CAPTURE(lever.x);
+    Driver d;
+    d.click();
+    d.driver.recentre(lever);
+    CHECK(d.driver.hand().push == glm::dvec2(0.0));
+    d.frame();
+    CHECK(d.driver.hand().push == glm::dvec2(0.0));
+    const glm::dvec2 before = d.at();
+    const glm::dvec2 back = -0.01 * lever / glm::length(lever);  // [m] a centimetre towards the middle
+    d.input.mouse_moved = glm::dvec2{back.x, -back.y} / 0.12e-3;
+    d.frame();
+    CHECK(near(d.at(), before + back));  // moves the hand at once
+  }
 }
 
 TEST_CASE("a stick puts the hand where it is, from its dead zone on, and lets go where it rests") {

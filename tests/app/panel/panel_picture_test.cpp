@@ -1,4 +1,5 @@
 // What the panel looks like: drawn at the sizes that people have, without a GPU.
+#include <algorithm>
 #include <cstdlib>
 #include <filesystem>
 #include <string>
@@ -6,6 +7,7 @@
 
 #include <doctest/doctest.h>
 
+#include "app/input/bindings.h"
 #include "engine/image/image.h"
 #include "engine/ui/ui_style.h"
 #include "tests/app/panel/panel_rig.h"
@@ -96,7 +98,7 @@ TEST_CASE("on every screen all texts have room, the middle is free and the contr
     show(rig, name_of(screen, "tuning"));
     CHECK(rig.panel.shortened_texts() == 0);
     CHECK(middle_is_free(screen));
-    for (const char* name : {"stop", "arm", "record", "replay", "gate", "device", "undo", "reset", "slot_b",
+    for (const char* name : {"stop", "arm", "record", "replay", "gate", "reset_view", "undo", "reset", "slot_b",
                              "wall_stiffness_n_per_m", "limit_damping_n_s_per_m", "tab_presets"}) {
       const ControlRect r = rig.rect(name);
       CHECK(r.min.x >= 0.0);
@@ -136,6 +138,26 @@ TEST_CASE("an unsafe wish is seen in red where it is made") {
   rig.drag("wall_stiffness_n_per_m", 0.25, 0.9);
   CHECK(red_pixels() > 50);
   show(rig, "refused.png");
-  rig.panel.show_help(true, "W A S D\tlever\nSpace\tlarge red stop\nF1\tthis help\nF11\tfull screen\n");
-  show(rig, "help.png");
+}
+
+TEST_CASE("the help of the shipped bindings stands in two columns: keys, and what they do") {
+  // In the middle of the screen, where the second column is; a column of keys alone does not reach so far.
+  const auto bright_pixels = [](const std::string& help, const std::string& name) {
+    PanelRig rig;
+    rig.panel.show_help(true, help);
+    show(rig, name);
+    const Image picture = picture_of(rig);
+    int bright = 0;
+    for (int y = picture.height / 4; y < picture.height / 2; ++y) {
+      for (int x = picture.width / 2; x < picture.width / 2 + 100; ++x) {
+        const std::uint8_t* p = picture.pixel(x, y);
+        bright += p[0] > 160 && p[1] > 160 && p[2] > 160;
+      }
+    }
+    return bright;
+  };
+  std::string help = help_text(read_bindings(GEARSHIFT_ASSETS "/bindings/default.toml"));
+  CHECK(bright_pixels(help, "help.png") > 300);
+  std::replace(help.begin(), help.end(), '\t', ' ');
+  CHECK(bright_pixels(help, "help_without_tabs.png") == 0);
 }

@@ -58,7 +58,6 @@ struct PanelRig {
     input.hand_name = "mouse and keys";
     input.hands = {"mouse and keys", "touring"};
     input.device_name = "simulated lever";
-    input.devices = {"simulated lever"};
     input.health.rate = 1000.0;
     input.message = "Ready.";
     frame();
@@ -144,6 +143,7 @@ struct PanelRig {
     all.stop |= next.stop;
     all.record |= next.record;
     all.replay |= next.replay;
+    all.reset_view |= next.reset_view;
     const auto take = [](auto& to, const auto& from) {
       if (from) to = from;
     };
@@ -152,7 +152,6 @@ struct PanelRig {
     take(all.gate, next.gate);
     take(all.preset, next.preset);
     take(all.hand, next.hand);
-    take(all.device, next.device);
     take(all.save_preset, next.save_preset);
     take(all.compare, next.compare);
   }

@@ -1,5 +1,5 @@
-// What the trainer's judgement is worth, on simulated learners: does the grade tell who can drive, is a fault named, what
-// does the guidance policy do to learning; and what a headless lesson costs.
+// What the trainer's judgement is worth, on simulated learners: does the grade tell who can drive, is a fault named,
+// what does the guidance policy do to learning; and what a headless lesson costs.
 #include <chrono>
 #include <filesystem>
 #include <string>
@@ -83,7 +83,10 @@ BenchRow separation_row(const LessonDriveConfig& drive, int each) {
           true,
           std::to_string(each) + " of each",
           true,
-          {{"median grade, skilled", quantile(s.skilled, 0.5), ""}, {"unskilled", quantile(s.unskilled, 0.5), ""}}};
+          {{"median grade, skilled", quantile(s.skilled, 0.5), ""},
+           {"unskilled", quantile(s.unskilled, 0.5), ""},
+           {"passed, skilled", 100.0 * s.skilled_passed / each, "%"},
+           {"unskilled", 100.0 * s.unskilled_passed / each, "%"}}};
 }
 
 BenchRow fault_row(const LessonDriveConfig& drive, FaultKind kind, int each) {

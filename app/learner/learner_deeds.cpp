@@ -1,0 +1,101 @@
+// What is done wrong on purpose, apart from what spoils a shift.
+#include <algorithm>
+#include <cmath>
+
+#include "app/learner/learner_habits.h"
+#include "app/learner/simulated_learner.h"
+
+namespace gearshift {
+
+// Something that spoils a launch is still to be done.
+bool SimulatedLearner::means_ill(const DriveSample& now) const noexcept {
+  if (now.car.gear == kNeutralGear) return false;
+  const bool hill = std::abs(lesson_.start.slope) > kHill;
+  return (hill && is_due(FaultKind::rollback)) || is_due(FaultKind::stall) || is_due(FaultKind::clutch_dump) ||
+         is_due(FaultKind::jerk);
+}
+
+// At a launch: true while the deed is being done.
+bool SimulatedLearner::spoils_launch(const DriveSample& now) {
+  if (!means_ill(now)) return false;
+  if (feet_.hand_brake.value() > 0.05) {
+    hold_revs(launch_speed_);
+    feet_.clutch.go(0.5 * (car_.clutch.bite + kClutchDown), kToBite);
+    rolls_since_ = now.time();
+    return true;
+  }
+  if (is_due(FaultKind::rollback)) {
+    hold_revs(launch_speed_);
+    const bool rolls = now.time() - rolls_since_ < 0.8 * faults_.of(FaultKind::rollback);
+    if (!rolls) once(FaultKind::rollback);
+    return rolls;
+  }
+  if (is_due(FaultKind::stall)) {
+    feet_.throttle.go(0.0, kLiftRate);
+    feet_.clutch.go(0.0, 3.0);
+    if (now.car.engine_speed < 1.1 * car_.engine.stall) once(FaultKind::stall);
+    return true;
+  }
+  const bool dumps = is_due(FaultKind::clutch_dump);
+  const double revs = dumps ? kDumpSpeed : kJerkSpeed;
+  feet_.throttle.go(kHurry, 4.0);
+  const bool comes_up = feet_.clutch.goal() == 0.0 && feet_.clutch.value() < car_.clutch.bite;
+  if (now.car.engine_speed >= revs || comes_up) feet_.clutch.go(0.0, dumps ? kFootOff : kAbrupt);
+  if (feet_.clutch.value() == 0.0) once(dumps ? FaultKind::clutch_dump : FaultKind::jerk);
+  return true;
+}
+
+bool SimulatedLearner::over_revs(const DriveSample& now) {
+  if (!is_due(FaultKind::over_rev) || !now.car.running) return false;
+  const bool coupled = feet_.clutch.value() == 0.0 && now.car.clutch_locked;
+  const bool late = over_rev_late_ && coupled && now.car.gear >= 1 && now.car.gear <= 2;
+  const bool stands = std::abs(now.car.road_speed) < kStill;
+  const bool howls = !over_rev_late_ && clutch_is_down_ && (stands || feet_.brake.goal() < 0.5);
+  if (!late && !howls) return false;
+  feet_.throttle.go(1.0, 8.0);
+  if (now.car.engine_speed > 1.01 * car_.engine.red_line) once(FaultKind::over_rev);
+  return true;
+}
+
+// The highest gear in which the engine would labour at this speed, if it is none lower.
+int SimulatedLearner::lugging_gear(const DriveSample& now) const noexcept {
+  for (int gear = kMaxGear; gear >= std::max(1, now.car.gear); --gear) {
+    if (slot_of_gear(gate_, gear) == kNoSlot) continue;
+    const double speed = asked(now, gear);
+    if (speed < 0.95 * car_.engine.lug_below && speed > 1.25 * car_.engine.stall) return gear;
+  }
+  return kNeutralGear;
+}
+
+bool SimulatedLearner::lugs(const DriveSample& now) {
+  if (!is_due(FaultKind::lugging)) return false;
+  const bool coupled = feet_.clutch.value() == 0.0 && now.car.clutch_locked && now.car.gear >= 1;
+  if (lug_gear_ == kNeutralGear) {
+    if (coupled && now.car.road_speed > 2.0) lug_gear_ = lugging_gear(now);
+    lug_since_ = now.time();
+    return false;
+  }
+  feet_.brake.go(0.0, kBrakeRate);
+  if (!coupled) {
+    release(now);
+    return true;
+  }
+  feet_.throttle.go(1.0, 4.0);
+  if (now.car.engine_speed < car_.engine.lug_below && now.car.engine_load > 0.7) lugged_ += period_;
+  if (lugged_ > 1.4 || now.time() - lug_since_ > 8.0) {
+    once(FaultKind::lugging);
+    lug_gear_ = kNeutralGear;
+  }
+  return true;
+}
+
+bool SimulatedLearner::stalls_by_brake(const DriveSample& now) {
+  if (!is_due(FaultKind::stall) || lesson_.start.speed <= 0.0 || now.car.gear == kNeutralGear) return false;
+  feet_.throttle.go(0.0, kLiftRate);
+  feet_.clutch.go(0.0, kToBite);
+  feet_.brake.go(0.6, kBrakeRate);
+  if (now.car.engine_speed < 1.1 * car_.engine.stall) once(FaultKind::stall);
+  return true;
+}
+
+}  // namespace gearshift

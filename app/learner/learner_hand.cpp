@@ -1,0 +1,76 @@
+#include "app/learner/learner_hand.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+namespace gearshift {
+namespace {
+
+// As the touring hand has them (shift_script.h).
+constexpr double kEffortGain = 4000.0;     // [N/(m s)]
+constexpr double kEffortMost = 28.0;       // [N]
+constexpr double kArrived = 0.001;         // [m]
+constexpr double kRelaxationTime = 0.050;  // [s]
+constexpr double kNear = 0.005;            // [m] a turn may be cut: half a slot's width
+
+}  // namespace
+
+LearnerHand::LearnerHand(double period) noexcept
+    : period_(period), effort_decay_(std::exp(-period / kRelaxationTime)) {}
+
+void LearnerHand::go(std::vector<HandStroke> strokes, glm::dvec2 from, double time) {
+  strokes_ = std::move(strokes);
+  current_ = 0;
+  from_ = from;
+  begin_ = time;
+  effort_ = {0.0, 0.0};
+}
+
+HandTarget LearnerHand::next(double time, glm::dvec2 lever) noexcept {
+  HandTarget target;
+  target.position = lever;
+  target.push = lean_;
+  if (strokes_.empty()) return target;
+  const HandStroke& stroke = strokes_[current_];
+  const double t = time - begin_;
+  const bool arrived = t >= stroke.duration + stroke.dwell && glm::distance(lever, stroke.to) < kNear;
+  if (arrived && !in_last_stroke()) {
+    from_ = stroke.to;
+    begin_ = time;
+    ++current_;
+    return next(time, lever);
+  }
+  target = minimum_jerk(from_, stroke.to, t, stroke.duration);
+  target.pressed_down = stroke.pressed_down;
+  target.lifted = stroke.lifted;
+  target.push = stroke.push + effort(target.position - lever) + extra_;
+  if (feeble_ > 0.0) {
+    target.position = lever;
+    target.push = {0.0, std::copysign(feeble_, stroke.to.y)};
+  }
+  return target;
+}
+
+bool LearnerHand::is_at_end(double time) const noexcept {
+  return in_last_stroke() && time - begin_ >= strokes_.back().duration;
+}
+
+double LearnerHand::waited(double time) const noexcept {
+  if (strokes_.empty()) return 0.0;
+  return std::max(0.0, time - begin_ - strokes_[current_].duration);
+}
+
+glm::dvec2 LearnerHand::effort(glm::dvec2 lag) noexcept {
+  for (int axis = 0; axis < 2; ++axis) {
+    const bool behind = std::abs(lag[axis]) > kArrived;
+    if (!behind || lag[axis] * effort_[axis] < 0.0) effort_[axis] *= effort_decay_;
+    if (behind) effort_[axis] += kEffortGain * lag[axis] * period_;
+    effort_[axis] = std::clamp(effort_[axis], -kEffortMost, kEffortMost);
+  }
+  return effort_;
+}
+
+}  // namespace gearshift

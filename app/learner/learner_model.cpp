@@ -1,0 +1,143 @@
+#include "app/learner/learner_model.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include "app/training/grade.h"
+#include "app/training/guidance.h"
+#include "haptics/device/gaussian_noise.h"
+
+namespace gearshift {
+namespace {
+
+constexpr int kRetentionTrials = 2;
+
+// The standard fixes this engine's numbers, but not std::uniform_real_distribution's.
+class Chance {
+ public:
+  explicit Chance(std::uint64_t seed) : engine_(seed), noise_(seed + 1) {}
+  double between(double low, double high) noexcept {
+    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1.0p-53;
+  }
+  double normal() noexcept { return noise_.next(); }
+  std::uint64_t seed() noexcept { return engine_(); }
+
+ private:
+  std::mt19937_64 engine_;
+  GaussianNoise noise_;
+};
+
+LessonResult drive_as(LessonDriveConfig drive, double error, double guidance, std::uint64_t seed) {
+  drive.skill = skill_of(error);
+  drive.guidance = guidance;
+  drive.seed = seed;
+  return drive_lesson(drive);
+}
+
+bool is_named(const LessonResult& result, FaultKind kind) {
+  return std::any_of(result.faults.begin(), result.faults.end(),
+                     [&](const DriveFault& fault) { return fault.kind == kind && fault.severity != Severity::note; });
+}
+
+double mean(std::span<const double> values) noexcept {
+  if (values.empty()) return 0.0;
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+// One learner on his way through the trials.
+struct Apprentice {
+  double error, rate;
+  GuidancePolicy policy;
+  int guided = 0;
+
+  double guidance(Practice practice) {
+    const TrialPlan plan = policy.next();
+    if (practice == Practice::alone) return 0.0;
+    return practice == Practice::led ? 1.0 : plan.guidance;
+  }
+
+  void learn(const LearningModel& model, const LessonResult& result, double gain) {
+    const double failed = run_error(result);
+    error *= 1.0 - rate * (1.0 - model.guided_loss * gain) * (1.0 - model.failed_loss * failed);
+    policy.learn(failed);
+    if (gain > 0.0) ++guided;
+  }
+};
+
+}  // namespace
+
+double roc_auc(std::span<const double> skilled, std::span<const double> unskilled) noexcept {
+  if (skilled.empty() || unskilled.empty()) return 0.5;
+  double wins = 0.0;
+  for (const double good : skilled) {
+    for (const double bad : unskilled) wins += good > bad ? 1.0 : good == bad ? 0.5 : 0.0;
+  }
+  return wins / static_cast<double>(skilled.size() * unskilled.size());
+}
+
+Separation separate(const LessonDriveConfig& drive, int each, std::uint64_t seed, const SkillClasses& classes) {
+  Chance chance(seed);
+  Separation result;
+  for (int i = 0; i < each; ++i) {
+    const double good = chance.between(0.0, classes.skilled_most), bad = chance.between(classes.unskilled_least, 1.0);
+    const LessonResult one = drive_as(drive, good, 0.0, chance.seed());
+    const LessonResult other = drive_as(drive, bad, 0.0, chance.seed());
+    result.skilled.push_back(one.grade);
+    result.unskilled.push_back(other.grade);
+    result.skilled_passed += one.passed ? 1 : 0;
+    result.unskilled_passed += other.passed ? 1 : 0;
+  }
+  result.auc = roc_auc(result.skilled, result.unskilled);
+  return result;
+}
+
+FaultSeparation separate_fault(const LessonDriveConfig& drive, FaultKind kind, int each, std::uint64_t seed,
+                               const SkillClasses& classes) {
+  Chance chance(seed);
+  FaultSeparation result;
+  std::vector<double> without, with;
+  LessonDriveConfig faulty = drive;
+  for (int i = 0; i < each; ++i) {
+    const double error = chance.between(0.0, classes.skilled_most);
+    faulty.faults = only(kind, chance.between(0.6, 1.4));
+    const LessonResult good = drive_as(drive, error, 0.0, chance.seed());
+    const LessonResult bad = drive_as(faulty, error, 0.0, chance.seed());
+    without.push_back(good.grade);
+    with.push_back(bad.grade);
+    result.named += is_named(bad, kind) ? 1 : 0;
+    result.false_named += is_named(good, kind) ? 1 : 0;
+  }
+  result.driven = each;
+  result.auc = roc_auc(without, with);
+  return result;
+}
+
+PracticeOutcome practise(const LessonDriveConfig& drive, Practice practice, const LearningModel& model, int learners,
+                         int trials, std::uint64_t seed) {
+  PracticeOutcome outcome;
+  outcome.error.assign(static_cast<std::size_t>(trials) + 1, 0.0);
+  std::vector<double> retained;
+  int guided = 0;
+  for (int i = 0; i < learners; ++i) {
+    Chance chance(seed + static_cast<std::uint64_t>(i));  // the same learners whatever the practice
+    const double start = chance.between(model.start_least, 1.0);
+    const double rate = std::min(1.0, model.rate * std::exp(model.rate_spread * chance.normal()));
+    Apprentice apprentice{start, rate, GuidancePolicy(chance.seed())};
+    outcome.error[0] += apprentice.error / learners;
+    for (int trial = 1; trial <= trials; ++trial) {
+      const double gain = apprentice.guidance(practice);
+      apprentice.learn(model, drive_as(drive, apprentice.error, gain, chance.seed()), gain);
+      outcome.error[static_cast<std::size_t>(trial)] += apprentice.error / learners;
+    }
+    for (int test = 0; test < kRetentionTrials; ++test)
+      retained.push_back(drive_as(drive, apprentice.error, 0.0, chance.seed()).grade);
+    guided += apprentice.guided;
+  }
+  outcome.retention_grade = mean(retained);
+  outcome.guided_share = static_cast<double>(guided) / (static_cast<double>(learners) * trials);
+  return outcome;
+}
+
+}  // namespace gearshift

@@ -1,0 +1,141 @@
+#include "app/learner/lesson_drive.h"
+
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include "app/learner/simulated_learner.h"
+#include "app/training/guided_world.h"
+#include "app/training/lesson_run.h"
+#include "app/vehicle/car_world.h"
+#include "haptics/gate/gate_compiler.h"
+#include "haptics/loop/simulated_run.h"
+#include "haptics/loop/trace_recorder.h"
+
+namespace gearshift {
+namespace {
+
+constexpr std::string_view kGuided = "guided ";
+constexpr const char* kProgram = "lesson drive";
+constexpr std::uint64_t kPumpEvery = 4096;  // [cycles] half of what the loop's queue holds
+
+// The hand at the device's end: what the learner decided after the cycle before.
+class GivenHand final : public HandDriver {
+ public:
+  HandTarget next(double, glm::dvec2) noexcept override { return target; }
+  HandTarget target;
+};
+
+CarStart car_start(const LessonStart& start) {
+  CarStart from;
+  from.road_speed = start.speed;
+  from.gear = start.gear;
+  from.running = start.running;
+  return from;
+}
+
+DeviceSpec paper_lever() {
+  RestingHand nobody;
+  return SimulatedLever(SimulatedLeverConfig{}, 1'000'000, nobody).spec();
+}
+
+SimulatedRunConfig run_config(const LessonDriveConfig& config, const Gate& gate) {
+  SimulatedRunConfig run;
+  run.haptics.rate = config.rate;
+  run.haptics.guard.ramp_time = 0.01;
+  run.gate = gate;
+  run.start = rest_position(gate, config.lesson.start.gear);
+  run.lever.hand = kGripHand;
+  return run;
+}
+
+// The car and, over it, the teacher's hand where there is one.
+struct GuidedCar final : LeverWorld {
+  GuidedCar(std::unique_ptr<LeverWorld> the_car, const Gate& gate) : car(std::move(the_car)), guided(*car, gate) {}
+  LeverOutput step(const LeverInput& in, double period) noexcept override { return guided.step(in, period); }
+  const char* name() const noexcept override { return guided.name(); }
+
+  std::unique_ptr<LeverWorld> car;
+  GuidedWorld guided;
+};
+
+class Drive {
+ public:
+  explicit Drive(const LessonDriveConfig& config)
+      : config_(config),
+        device_(paper_lever()),
+        gate_(compile_gate(config.gate, device_.workspace, device_.yoke_radius)),
+        setup_(run_config(config, gate_)),
+        car_(config.car, gate_, device_.max_force.y, car_start(config.lesson.start), config.seed),
+        guided_(car_, gate_),
+        run_(setup_, hand_, config.guidance > 0.0 ? static_cast<LeverWorld*>(&guided_) : &car_),
+        lesson_(config.lesson, config.car, gate_, {config.mode, config.guidance, config.hints}),
+        learner_(config.lesson, config.car, gate_, config.skill, config.faults, config.seed, run_.period()) {
+    hand_.target.position = setup_.start;
+    sample_.controls.ignition = config.lesson.start.running;
+    sample_.controls.hand_brake = config.lesson.start.hand_brake;
+    sample_.controls.slope = config.lesson.start.slope;
+    if (config.trace.empty()) return;
+    const TraceHeader header{kProgram,
+                             setup_.haptics,
+                             device_,
+                             config.gate.file,
+                             config.gate.text,
+                             config.guidance > 0.0 ? guided_.name() : car_.name(),
+                             true};
+    recorder_.emplace(config.trace, header, run_.channels(), TracePump::by_caller);
+  }
+
+  LessonResult to_the_end() {
+    while (!lesson_.is_over()) cycle();
+    if (recorder_) recorder_->finish();
+    return lesson_.result();
+  }
+
+ private:
+  void cycle() {
+    run_.channels().controls.write(sample_.controls);
+    sample_.lever = run_.step();
+    sample_.car = car_.state();
+    lesson_.add(sample_);
+    if (config_.watch) config_.watch(sample_);
+    const LessonView& view = lesson_.view();
+    const LearnerAction action = learner_.act(sample_, view.step);
+    hand_.target = action.hand;
+    sample_.controls = action.controls;
+    if (config_.guidance > 0.0) {
+      sample_.controls.guidance = config_.guidance;
+      sample_.controls.guided_gear = view.guided_gear;
+    }
+    if (learner_.gives_up()) lesson_.leave();
+    if (recorder_ && sample_.lever.cycle % kPumpEvery == 0) recorder_->pump();
+  }
+
+  const LessonDriveConfig& config_;
+  DeviceSpec device_;
+  Gate gate_;
+  SimulatedRunConfig setup_;
+  CarWorld car_;
+  GuidedWorld guided_;
+  GivenHand hand_;
+  SimulatedRun run_;
+  LessonRun lesson_;
+  SimulatedLearner learner_;
+  DriveSample sample_;
+  std::optional<TraceRecorder> recorder_;
+};
+
+}  // namespace
+
+LessonResult drive_lesson(const LessonDriveConfig& config) {
+  return Drive(config).to_the_end();
+}
+
+std::unique_ptr<LeverWorld> make_lesson_world(const std::string& name, const Gate& gate) {
+  if (!std::string_view(name).starts_with(kGuided)) return make_car_world(name, gate);
+  std::unique_ptr<LeverWorld> car = make_car_world(name.substr(kGuided.size()), gate);
+  if (!car) return nullptr;
+  return std::make_unique<GuidedCar>(std::move(car), gate);
+}
+
+}  // namespace gearshift

@@ -1,0 +1,43 @@
+// Drives a lesson with a simulated learner: hand, lever, loop, car and teacher on a virtual clock, as fast as it goes.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "app/learner/learner_skill.h"
+#include "app/training/drive_sample.h"
+#include "app/training/hint_style.h"
+#include "app/training/lesson.h"
+#include "app/training/lesson_result.h"
+#include "app/vehicle/car_spec.h"
+#include "haptics/gate/gate_layout.h"
+#include "haptics/loop/lever_world.h"
+
+namespace gearshift {
+
+struct LessonDriveConfig {
+  Lesson lesson;
+  CarSpec car;
+  GateLayout gate;
+  LearnerSkill skill;
+  LearnerFaults faults;
+  LessonMode mode = LessonMode::by_yourself;
+  HintStyle hints = HintStyle::prescriptive;
+  double guidance = 0.0;                          // [1] 0 to 1
+  std::uint64_t seed = 1;                         // of learner and tooth phases
+  double rate = 1000.0;                           // [Hz] 100 to 4000
+  std::filesystem::path trace;                    // empty: none
+  std::function<void(const DriveSample&)> watch;  // every cycle; may be empty
+};
+
+// Deterministic to the bit. Throws std::invalid_argument where lesson, car and gate do not go together, FileError where
+// the trace cannot be written.
+LessonResult drive_lesson(const LessonDriveConfig& config);
+
+// For replay(): the world of a drive with guidance or without.
+std::unique_ptr<LeverWorld> make_lesson_world(const std::string& name, const Gate& gate);
+
+}  // namespace gearshift

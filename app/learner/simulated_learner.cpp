@@ -1,0 +1,115 @@
+#include "app/learner/simulated_learner.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/learner/learner_habits.h"
+
+namespace gearshift {
+
+SimulatedLearner::SimulatedLearner(const Lesson& lesson, const CarSpec& car, const Gate& gate,
+                                   const LearnerSkill& skill, const LearnerFaults& faults, std::uint64_t seed,
+                                   double period)
+    : lesson_(lesson),
+      car_(car),
+      gate_(gate),
+      skill_(skill),
+      faults_(faults),
+      chance_(seed),
+      period_(period),
+      feet_{Foot(skill.pedal_noise, seed + 1), Foot(skill.pedal_noise, seed + 2), Foot(skill.pedal_noise, seed + 3),
+            Foot(0.0, seed + 4)},
+      hand_(period),
+      ignition_(lesson.start.running),
+      has_run_(lesson.start.running) {
+  for (std::size_t i = 0; i < lesson.steps.size(); ++i) intents_.push_back(intent_of(lesson, i));
+  feet_.hand_brake.place(lesson.start.hand_brake);
+  release_rate_ = kThroughBite;
+  launch_speed_ = kLaunchSpeed;
+  for (std::size_t i = 0; i + 1 < intents_.size(); ++i) {
+    const int gear = intents_[i].gear.value_or(kNeutralGear);
+    const bool low = gear == 1 || gear == 2;
+    over_rev_late_ = over_rev_late_ || (low && intents_[i].accelerates && intents_[i + 1].next_gear);
+  }
+}
+
+LearnerAction SimulatedLearner::act(const DriveSample& now, std::size_t step) {
+  notice(std::min(step, intents_.size() - 1), now.time());
+  has_run_ = has_run_ || now.car.running;
+  heard_ += (now.car.engine_speed - heard_) * std::min(1.0, period_ / skill_.hearing);
+  const bool is_down = now.car.clutch >= car_.clutch.bite;
+  if (is_down && !clutch_is_down_) clutch_down_at_ = now.time();
+  clutch_is_down_ = is_down;
+  if (!restarts(now)) {
+    const std::optional<int> gear = wanted_gear(now);
+    const bool begins = !shifting_ && gear && now.time() >= pause_until_;
+    const bool spins = begins && spins_shaft(now);
+    if (begins && !spins) begin_shift(now, *gear);
+    if (spins) {
+      feet_.clutch.go(0.0, kToBite);
+    } else if (shifting_) {
+      follow_shift(now);
+    } else {
+      drive(now);
+    }
+  }
+  rest_hand(now);
+
+  LearnerAction action;
+  action.hand = hand_.next(now.time(), now.lever.lever);
+  action.controls.throttle = feet_.throttle.step(period_);
+  action.controls.brake = feet_.brake.step(period_);
+  action.controls.clutch = feet_.clutch.step(period_);
+  action.controls.hand_brake = feet_.hand_brake.step(period_);
+  action.controls.ignition = ignition_;
+  action.controls.starter = starter_;
+  action.controls.slope = lesson_.start.slope;
+  return action;
+}
+
+// A step is acted upon once it is seen, and that takes a person's time.
+void SimulatedLearner::notice(std::size_t step, double time) {
+  if (seen_at_ < 0.0) seen_at_ = progress_at_ = time;
+  if (step != seen_) {
+    seen_ = step;
+    seen_at_ = progress_at_ = time;
+    reaction_ = std::max(0.1, skill_.reaction + noise(skill_.timing_spread));
+  }
+  gives_up_ = time - progress_at_ > kGivesUp;
+  if (time - seen_at_ >= reaction_) known_ = seen_;
+}
+
+bool SimulatedLearner::is_due(FaultKind kind) const noexcept {
+  return faults_.of(kind) >= 0.5 && !done_[static_cast<std::size_t>(kind)];
+}
+
+bool SimulatedLearner::once(FaultKind kind) noexcept {
+  if (!is_due(kind)) return false;
+  done_[static_cast<std::size_t>(kind)] = true;
+  return true;
+}
+
+// [rad/s] of the clutch shaft in that gear, at this speed.
+double SimulatedLearner::asked(const DriveSample& now, int gear) const noexcept {
+  return shaft_per_road(car_, gear) * now.car.road_speed;
+}
+
+// The key, where the lesson asks for it and after a stall.
+bool SimulatedLearner::restarts(const DriveSample& now) {
+  if (intent().ignition == false) ignition_ = false;
+  const bool wanted = intent().start || (has_run_ && intent().ignition != false);
+  if (now.car.running || !wanted) {
+    if (starter_ && (!wanted || now.car.engine_speed > 0.8 * car_.engine.idle)) starter_ = false;
+    return starter_;
+  }
+  shifting_ = false;
+  feet_.throttle.go(0.0, kLiftRate);
+  press_clutch();
+  if (std::abs(now.car.road_speed) > kStill && feet_.brake.goal() < kStandBrake)
+    feet_.brake.go(kStandBrake, kBrakeRate);
+  ignition_ = true;
+  starter_ = clutch_is_down_;
+  return true;
+}
+
+}  // namespace gearshift

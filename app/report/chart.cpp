@@ -1,0 +1,67 @@
+#include "app/report/chart.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "app/draw/gate_colours.h"
+
+namespace gearshift {
+namespace {
+
+constexpr double kTextSize = 12.0;  // [px]
+constexpr double kRounding = 1e-9;  // [1] of a step
+
+std::string tick_words(double value) {
+  return (value < 0.0 ? "−" : "") + fmt::format("{:.6g}", std::abs(value));
+}
+
+template <class Visit>
+void each_multiple(Range range, double step, const Visit& visit) {
+  const double last = std::floor(range.to / step + kRounding);
+  for (double i = std::ceil(range.from / step - kRounding); i <= last; ++i) visit(i * step + 0.0);  // no -0
+}
+
+}  // namespace
+
+glm::dvec2 Chart::at(double x, double y) const noexcept {
+  return {box_.x + box_.width * (x - x_.from) / (x_.to - x_.from),
+          box_.bottom() - box_.height * (y - y_.from) / (y_.to - y_.from)};
+}
+
+void Chart::x_lines(double step) const {
+  each_multiple(x_, step, [&](double x) { svg_.line(at(x, y_.from), at(x, y_.to), {kGridInk, 1.0}); });
+}
+
+void Chart::x_grid(double step) const {
+  x_lines(step);
+  each_multiple(x_, step, [&](double x) {
+    svg_.text(at(x, y_.from) + glm::dvec2(0.0, 16.0), {kTextSize, kSoftInk, "middle"}, tick_words(x));
+  });
+}
+
+void Chart::y_grid(double step) const {
+  each_multiple(y_, step, [&](double y) {
+    svg_.line(at(x_.from, y), at(x_.to, y), {kGridInk, 1.0});
+    svg_.text(at(x_.from, y) + glm::dvec2(-8.0, 4.0), {kTextSize, kSoftInk, "end"}, tick_words(y));
+  });
+}
+
+void Chart::x_name(std::string_view words) const {
+  svg_.text({box_.x + 0.5 * box_.width, box_.bottom() + 34.0}, {kTextSize, kSoftInk, "middle"}, words);
+}
+
+void Chart::y_name(std::string_view words) const {
+  svg_.text({box_.x, box_.y - 9.0}, {kTextSize, kSoftInk}, words);
+}
+
+double grid_step(double span, int most) noexcept {
+  const double least = span / most;
+  const double power = std::pow(10.0, std::floor(std::log10(least)));
+  for (const double step : {1.0, 2.0, 5.0}) {
+    if (step * power >= least * (1.0 - kRounding)) return step * power;
+  }
+  return 10.0 * power;
+}
+
+}  // namespace gearshift

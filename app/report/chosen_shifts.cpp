@@ -1,0 +1,68 @@
+#include "app/report/chosen_shifts.h"
+
+#include <algorithm>
+#include <tuple>
+
+#include "app/report/progress.h"
+
+namespace gearshift {
+namespace {
+
+ChosenShift with_its_faults(const RunRow& run, const ShiftRecord& shift) {
+  ChosenShift chosen{run.id, run.result.lesson, run.recording, shift, {}, 0.0};
+  const std::vector<DriveFault>& faults = run.result.faults;
+  for (const DriveFault& fault : faults) {
+    if (fault.shift == shift.number) chosen.faults.push_back(fault);
+  }
+  for (const Deduction& deduction : run.result.deductions) {
+    if (deduction.fault < faults.size() && faults[deduction.fault].shift == shift.number)
+      chosen.points += deduction.points;
+  }
+  return chosen;
+}
+
+bool is_bad(const ChosenShift& chosen) {
+  return chosen.points > 0.0 || chosen.shift.missed || !chosen.faults.empty();
+}
+
+bool is_good(const ChosenShift& chosen) {
+  return !is_bad(chosen) && chosen.shift.from != kNeutralGear && chosen.shift.to != kNeutralGear;
+}
+
+bool is_worse(const ChosenShift& a, const ChosenShift& b) {
+  const auto badness = [](const ChosenShift& c) {
+    return std::tuple(c.points, c.shift.missed, c.faults.size(), c.run, c.shift.number);
+  };
+  return badness(a) > badness(b);
+}
+
+bool is_better(const ChosenShift& a, const ChosenShift& b) {
+  return a.shift.end - a.shift.begin < b.shift.end - b.shift.begin;
+}
+
+template <class Order>
+void keep_first(std::vector<ChosenShift>& shifts, Order order) {
+  std::stable_sort(shifts.begin(), shifts.end(), order);
+  if (shifts.size() > kMostChosen) shifts.resize(kMostChosen);
+}
+
+}  // namespace
+
+ChosenShifts choose_shifts(const LearnerHistory& history) {
+  ChosenShifts chosen;
+  for (const ReportedRun& run : history.runs) {
+    if (!is_graded(run.row.result)) continue;
+    for (const ShiftRecord& shift : run.row.result.shifts) {
+      ChosenShift one = with_its_faults(run.row, shift);
+      if (is_bad(one))
+        chosen.worst.push_back(std::move(one));
+      else if (is_good(one))
+        chosen.best.push_back(std::move(one));
+    }
+  }
+  keep_first(chosen.worst, is_worse);
+  keep_first(chosen.best, is_better);
+  return chosen;
+}
+
+}  // namespace gearshift

@@ -1,0 +1,61 @@
+#include "app/report/delete_learner.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <system_error>
+
+#include "haptics/loop/trace_format.h"
+
+namespace gearshift {
+namespace {
+
+namespace fs = std::filesystem;
+
+bool is_trace(const fs::path& file) {
+  std::error_code error;
+  if (!fs::is_regular_file(fs::symlink_status(file, error))) return false;
+  std::ifstream stream(file, std::ios::binary);
+  std::array<char, kTraceMagic.size()> magic{};
+  stream.read(magic.data(), magic.size());
+  return stream && magic == kTraceMagic;
+}
+
+Deleted count(History& history, const LearnerRow& learner) {
+  Deleted sum;
+  std::vector<std::int64_t> sessions;
+  for (const RunRow& run : history.runs(learner.id)) {
+    sessions.push_back(run.session);
+    ++sum.runs;
+    sum.shifts += run.result.shifts.size();
+    sum.faults += run.result.faults.size();
+    sum.comments += history.comments(run.id).size();
+  }
+  std::sort(sessions.begin(), sessions.end());
+  sum.sessions = static_cast<std::size_t>(std::unique(sessions.begin(), sessions.end()) - sessions.begin());
+  return sum;
+}
+
+}  // namespace
+
+Deleted delete_learner(History& history, const LearnerRow& learner) {
+  Deleted gone = count(history, learner);
+  const fs::path folder = history.file().parent_path();
+  for (const std::string& recording : history.erase_learner(learner.id)) {
+    const fs::path file = folder / recording;  // an absolute path replaces the folder
+    std::error_code error;
+    if (fs::exists(fs::symlink_status(file, error)) && !is_trace(file)) {
+      gone.kept.push_back(file.string() + ": it is no recording");
+      continue;
+    }
+    fs::remove(file, error);
+    if (error) {
+      gone.kept.push_back(file.string() + ": " + error.message());
+    } else {
+      gone.recordings.push_back(file.string());
+    }
+  }
+  return gone;
+}
+
+}  // namespace gearshift

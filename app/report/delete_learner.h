@@ -1,0 +1,24 @@
+// A learner gone for good: rows and recordings.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "app/history/history.h"
+
+namespace gearshift {
+
+struct Deleted {
+  std::size_t sessions = 0, runs = 0, shifts = 0, faults = 0, comments = 0;
+  std::vector<std::string> recordings;  // removed, or gone before
+  std::vector<std::string> kept;        // named by the history, and not removed: "FILE: why"
+};
+
+// A recording that another learner's run names stays. So does a file that is no trace: a history that somebody else
+// wrote must not name what is removed. A recording's relative path is one from the history's folder. Throws
+// HistoryError; then nothing is gone.
+Deleted delete_learner(History& history, const LearnerRow& learner);
+
+}  // namespace gearshift

@@ -1,0 +1,49 @@
+#include "app/report/learner_table.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "app/report/progress.h"
+#include "app/report/words.h"
+#include "haptics/files/printable.h"
+
+namespace gearshift {
+namespace {
+
+std::string next_lesson(const LearnerHistory& history, std::span<const Lesson> lessons) {
+  if (!history.learner.next_lesson.empty()) return printable(history.learner.next_lesson) + " (the instructor's)";
+  const std::optional<Suggestion> suggestion = suggest_lesson(lessons, past_results(history));
+  return suggestion ? printable(suggestion->lesson) : "-";
+}
+
+}  // namespace
+
+std::string learner_table(std::span<const LearnerHistory> learners, std::span<const Lesson> lessons) {
+  std::size_t width = 7;
+  for (const LearnerHistory& history : learners) width = std::max(width, history.learner.name.size());
+  std::string table = fmt::format("{:<{}}  sessions  runs  last day    next lesson\n", "learner", width);
+  for (const LearnerHistory& history : learners) {
+    const Totals sum = totals(history);
+    table += fmt::format("{:<{}}  {:>8}  {:>4}  {:<10}  {}\n", printable(history.learner.name), width, sum.sessions,
+                         sum.runs, sum.last_day.empty() ? "-" : printable(sum.last_day), next_lesson(history, lessons));
+  }
+  return table;
+}
+
+std::string run_table(const LearnerHistory& history) {
+  std::string table =
+      fmt::format("{:>5}  {:<10}  {:<24}  {:<11}  {:>5}  result\n", "run", "day", "lesson", "mode", "grade");
+  for (auto run = history.runs.rbegin(); run != history.runs.rend(); ++run) {
+    const LessonResult& result = run->row.result;
+    table += fmt::format("{:>5}  {:<10}  {:<24}  {:<11}  {:>5}  {}\n", run->row.id,
+                         printable(day_of(run->row.begun_at)), printable(result.lesson), lesson_mode_key(result.mode),
+                         is_graded(result) ? fmt::format("{:.1f}", result.grade) : "-",
+                         result.passed       ? "passed"
+                         : is_graded(result) ? "not passed"
+                                             : "not graded");
+  }
+  return table;
+}
+
+}  // namespace gearshift

@@ -1,0 +1,93 @@
+#include "app/report/learning_svg.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "app/draw/gate_colours.h"
+#include "app/report/chart.h"
+#include "app/report/curve_band.h"
+
+namespace gearshift {
+namespace {
+
+// Sizes on the page. [px]
+constexpr Rect kPage{0.0, 0.0, 480.0, 280.0};
+constexpr Rect kBox{40.0, 28.0, 426.0, 206.0};
+
+constexpr const char* kBandColour = "#dce8f5";
+constexpr double kSureness = 2.0;  // standard deviations: about 95 %
+constexpr double kBestGrade = 10.0;
+constexpr std::size_t kFewest = 6;  // trials that the axis has room for
+constexpr int kCurveSteps = 160;
+
+class LearningPlot {
+ public:
+  LearningPlot(Svg& svg, const TaskProgress& task)
+      : task_(task),
+        svg_(svg),
+        last_(static_cast<double>(std::max(kFewest, task.trials.size()))),
+        chart_(svg, kBox, {0.5, last_ + 0.5}, {0.0, kBestGrade}) {}
+
+  void axes() {
+    chart_.y_grid(2.0);
+    chart_.x_grid(std::max(1.0, grid_step(last_, 10)));
+    chart_.y_name("grade");
+    chart_.x_name("graded run");
+  }
+
+  void band() {
+    std::vector<glm::dvec2> edge, lower;
+    for (int i = 0; i <= kCurveSteps; ++i) {
+      const double width = kSureness * curve_deviation(*task_.curve, task_.trials.size(), trial_at(i));
+      edge.push_back(at(trial_at(i), task_.curve->at(trial_at(i)) + width));
+      lower.push_back(at(trial_at(i), task_.curve->at(trial_at(i)) - width));
+    }
+    edge.insert(edge.end(), lower.rbegin(), lower.rend());
+    svg_.polygon(edge, kBandColour);
+  }
+
+  void curve() {
+    std::vector<glm::dvec2> points;
+    for (int i = 0; i <= kCurveSteps; ++i) points.push_back(at(trial_at(i), task_.curve->at(trial_at(i))));
+    svg_.polyline(points, {kGearColour, 2.0});
+  }
+
+  void trials() {
+    const double radius = task_.trials.size() > 60 ? 2.0 : 4.0;
+    for (std::size_t i = 0; i < task_.trials.size(); ++i) {
+      const GradedTrial& trial = task_.trials[i];
+      const glm::dvec2 place = at(static_cast<double>(i), trial.grade);
+      const std::string tip = fmt::format("Run {}, {}: {:.1f}", trial.run, trial.day, trial.grade);
+      svg_.dot(place, radius, trial.passed ? kGearColour : "#ffffff", tip);
+      if (!trial.passed) svg_.ring(place, radius, {kLockoutColour, 0.4 * radius});
+    }
+  }
+
+ private:
+  // From the first trial, 0, to the last.
+  double trial_at(int step) const { return static_cast<double>(task_.trials.size() - 1) * step / kCurveSteps; }
+  // n from 0, as the curve counts; people count from 1. Beyond the scale it is drawn at its edge.
+  glm::dvec2 at(double n, double grade) const { return chart_.at(n + 1.0, std::clamp(grade, 0.0, kBestGrade)); }
+
+  const TaskProgress& task_;
+  Svg& svg_;
+  double last_;
+  Chart chart_;
+};
+
+}  // namespace
+
+std::string learning_svg(const TaskProgress& task) {
+  Svg svg(kPage, 1.0);
+  LearningPlot plot(svg, task);
+  if (task.curve) plot.band();
+  plot.axes();
+  if (task.curve) plot.curve();
+  plot.trials();
+  return std::move(svg).finish();
+}
+
+}  // namespace gearshift

@@ -1,0 +1,70 @@
+#include "app/report/progress.h"
+
+#include <algorithm>
+#include <set>
+
+namespace gearshift {
+namespace {
+
+std::vector<double> grades_of(const std::vector<GradedTrial>& trials) {
+  std::vector<double> grades;
+  for (const GradedTrial& trial : trials) grades.push_back(trial.grade);
+  return grades;
+}
+
+TaskProgress& progress_of(std::vector<TaskProgress>& tasks, const std::string& task) {
+  const auto found = std::find_if(tasks.begin(), tasks.end(), [&](const TaskProgress& t) { return t.task == task; });
+  if (found != tasks.end()) return *found;
+  tasks.push_back({task, {}, {}});
+  return tasks.back();
+}
+
+}  // namespace
+
+bool is_graded(const LessonResult& result) noexcept {
+  return !result.guided && result.whole && result.end != LessonEnd::running;
+}
+
+std::string day_of(std::string_view time) {
+  return std::string(time.substr(0, 10));
+}
+
+Totals totals(const LearnerHistory& history) {
+  Totals sum;
+  std::set<std::string> days;
+  std::set<std::int64_t> sessions;
+  for (const ReportedRun& run : history.runs) {
+    days.insert(day_of(run.row.begun_at));
+    sessions.insert(run.row.session);
+    sum.shifts += run.row.result.shifts.size();
+    sum.driven += run.row.result.duration;
+  }
+  sum.runs = history.runs.size();
+  sum.days = days.size();
+  sum.sessions = sessions.size();
+  if (!days.empty()) sum.first_day = *days.begin(), sum.last_day = *days.rbegin();
+  return sum;
+}
+
+std::vector<TaskProgress> task_progress(const LearnerHistory& history) {
+  std::vector<TaskProgress> tasks;
+  for (const ReportedRun& run : history.runs) {
+    const LessonResult& result = run.row.result;
+    if (!is_graded(result)) continue;
+    progress_of(tasks, result.task)
+        .trials.push_back({run.row.id, day_of(run.row.begun_at), result.grade, result.passed});
+  }
+  for (TaskProgress& task : tasks) task.curve = fit_learning_curve(grades_of(task.trials));
+  return tasks;
+}
+
+std::vector<PastResult> past_results(const LearnerHistory& history) {
+  std::vector<PastResult> past;
+  for (const ReportedRun& run : history.runs) {
+    const LessonResult& result = run.row.result;
+    if (is_graded(result)) past.push_back({result.lesson, result.task, result.grade, result.passed});
+  }
+  return past;
+}
+
+}  // namespace gearshift

@@ -1,0 +1,79 @@
+#include <algorithm>
+#include <span>
+
+#include <fmt/format.h>
+
+#include "app/draw/html.h"
+#include "app/report/learning_svg.h"
+#include "app/report/progress.h"
+#include "app/report/sections.h"
+#include "app/report/words.h"
+
+namespace gearshift {
+namespace {
+
+constexpr std::size_t kFewestForCurve = 5;  // as fit_learning_curve has it
+
+std::string estimate(const Estimate& e) {
+  return number_words(e.value, 2) + " ± " + number_words(e.deviation, 2);
+}
+
+std::string fit_words(const TaskProgress& task) {
+  if (task.curve) {
+    return fmt::format("A = {}, B = {}, τ = {} runs; a run scatters by {:.2f} about the curve.",
+                       estimate(task.curve->level), estimate(task.curve->gain), estimate(task.curve->trials),
+                       task.curve->noise);
+  }
+  if (task.trials.size() < kFewestForCurve)
+    return fmt::format("No curve yet: it takes {} graded runs, there are {}.", kFewestForCurve, task.trials.size());
+  return fmt::format("No curve: in these {} grades no learning stands out from their scatter.", task.trials.size());
+}
+
+std::string task_row(const TaskProgress& task, std::span<const PastResult> past) {
+  const auto best = std::max_element(task.trials.begin(), task.trials.end(),
+                                     [](const GradedTrial& a, const GradedTrial& b) { return a.grade < b.grade; });
+  const auto passed =
+      std::count_if(task.trials.begin(), task.trials.end(), [](const GradedTrial& t) { return t.passed; });
+  std::string row = fmt::format("<tr><td>{}</td>", html_text(plain_words(task.task)));
+  const auto number = [&](const std::string& text) { row += "<td class=\"number\">" + text + "</td>"; };
+  number(std::to_string(task.trials.size()));
+  number(std::to_string(passed));
+  number(fmt::format("{:.1f}", task.trials.front().grade));
+  number(fmt::format("{:.1f}", best->grade));
+  number(fmt::format("{:.1f}", task.trials.back().grade));
+  number(fmt::format("{:.1f}", task_grade(past, task.task).value_or(0.0)));
+  return row + "</tr>\n";
+}
+
+std::string task_table(const std::vector<TaskProgress>& tasks, std::span<const PastResult> past) {
+  std::string table =
+      "<table class=\"tasks\">\n<thead><tr><th>Task</th><th class=\"number\">Graded runs</th><th "
+      "class=\"number\">Passed</th>"
+      "<th class=\"number\">First</th><th class=\"number\">Best</th><th class=\"number\">Last</th>"
+      "<th class=\"number\">Mean of the last three</th></tr></thead>\n<tbody>\n";
+  for (const TaskProgress& task : tasks) table += task_row(task, past);
+  return table + "</tbody></table>\n";
+}
+
+std::string curve_figure(const TaskProgress& task) {
+  return fmt::format("<figure class=\"curve\">\n<h3>{}</h3>\n{}<figcaption>{}</figcaption></figure>\n",
+                     html_text(plain_words(task.task)), learning_svg(task), html_text(fit_words(task)));
+}
+
+constexpr const char* kHowToRead =
+    "A dot is a graded run, hollow where it was not passed; guided runs are left out. The line is the fit "
+    "grade(n) = A + B exp(−n/τ), n = 0 for the first run: A is where practice leads, B how far the first run was from "
+    "it (negative below), τ how many runs it takes until all but 37 % is learnt. Pale: where the curve is with about "
+    "95 % confidence. After ± stands one standard deviation.";
+
+}  // namespace
+
+std::string progress_section(const LearnerHistory& history) {
+  const std::vector<TaskProgress> tasks = task_progress(history);
+  if (tasks.empty()) return section("learning", "Learning", paragraph("There is no graded run yet."));
+  std::string html = task_table(tasks, past_results(history)) + "<div class=\"curves\">\n";
+  for (const TaskProgress& task : tasks) html += curve_figure(task);
+  return section("learning", "Learning", html + "</div>\n<p class=\"soft\">" + kHowToRead + "</p>\n");
+}
+
+}  // namespace gearshift

@@ -1,0 +1,19 @@
+// A learner's history as tables for other programs: RFC 4180, one header line, units in the names, any locale.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "app/report/learner_history.h"
+
+namespace gearshift {
+
+// One field: in quotes where it holds a comma, a quote or a line end, quotes doubled.
+std::string csv_field(std::string_view text);
+
+// Numbers so that they read back as what they were. grade is empty where a run has none.
+std::string runs_csv(const LearnerHistory& history);
+std::string shifts_csv(const LearnerHistory& history);
+std::string faults_csv(const LearnerHistory& history);
+
+}  // namespace gearshift

@@ -1,0 +1,82 @@
+#include <fmt/format.h>
+
+#include "app/draw/html.h"
+#include "app/report/progress.h"
+#include "app/report/sections.h"
+#include "app/report/words.h"
+
+namespace gearshift {
+namespace {
+
+double points_of_fault(const LessonResult& result, std::size_t fault) {
+  double points = 0.0;
+  for (const Deduction& deduction : result.deductions) {
+    if (deduction.fault == fault) points += deduction.points;
+  }
+  return points;
+}
+
+// "−2.0 The engine stalled, from 350 rpm. (12.4 s into the run, shift 3)"
+std::string fault_item(const LessonResult& result, std::size_t i) {
+  const DriveFault& fault = result.faults[i];
+  const double points = points_of_fault(result, i);
+  const std::string cost = points > 0.0 ? fmt::format("<strong>−{:.1f}</strong>", points) : std::string("Note:");
+  const std::string shift = fault.shift >= 0 ? fmt::format(", shift {}", fault.shift + 1) : std::string();
+  return fmt::format("<li>{} {} <span class=\"soft\">({:.1f} s into the run{})</span></li>", cost,
+                     html_text(fault_sentence(fault)), fault.time - result.begin, shift);
+}
+
+std::string faults_list(const LessonResult& result) {
+  if (result.faults.empty()) return {};
+  std::string list = "<ul>";
+  for (std::size_t i = 0; i < result.faults.size(); ++i) list += fault_item(result, i);
+  return list + "</ul>";
+}
+
+std::string outcome(const LessonResult& result) {
+  if (result.passed) return "<span class=\"passed\">passed</span>";
+  if (result.end == LessonEnd::running) return "never ended";
+  const std::string why = result.why.empty() ? std::string() : "<br>" + html_text(result.why);
+  return (is_graded(result) ? "<span class=\"failed\">not passed</span>" : "not graded") + why;
+}
+
+std::string comments_list(const std::vector<CommentRow>& comments) {
+  std::string list;
+  for (const CommentRow& comment : comments) {
+    list += fmt::format("<blockquote>{} <span class=\"soft\">{}, {}</span></blockquote>", html_text(comment.text),
+                        html_text(comment.author), html_text(day_of(comment.at)));
+  }
+  return list;
+}
+
+std::string time_words(const std::string& begun_at) {  // "2026-01-02<br>10:00"
+  return fmt::format("{}<br><span class=\"soft\">{}</span>", html_text(day_of(begun_at)),
+                     html_text(begun_at.size() >= 16 ? begun_at.substr(11, 5) : std::string()));
+}
+
+std::string run_row(const ReportedRun& run, std::span<const Lesson> lessons) {
+  const LessonResult& result = run.row.result;
+  const std::string mode = result.mode == LessonMode::follow_me ? "follow me" : "by yourself";
+  return fmt::format(
+      "<tr id=\"run-{0}\"><td class=\"number\">{0}</td><td class=\"day\">{1}</td><td>{2}<br><span "
+      "class=\"soft\">{3}{4}</span></td><td class=\"number\">{5}</td><td class=\"number\"><strong>{6}</strong></td>"
+      "<td>{7}</td><td>{8}</td><td>{9}</td></tr>\n",
+      run.row.id, time_words(run.row.begun_at), html_text(lesson_title(lessons, result.lesson)), mode,
+      result.guided ? ", guided" : "", result.shifts.size(),
+      is_graded(result) ? fmt::format("{:.1f}", result.grade) : std::string("–"), outcome(result), faults_list(result),
+      comments_list(run.comments));
+}
+
+}  // namespace
+
+std::string runs_section(const LearnerHistory& history, std::span<const Lesson> lessons) {
+  if (history.runs.empty()) return section("runs", "Runs", paragraph("There is none yet."));
+  std::string table =
+      "<table class=\"runs\">\n<thead><tr><th class=\"number\">Run</th><th>Day</th><th>Lesson</th>"
+      "<th class=\"number\">Shifts</th><th class=\"number\">Grade</th><th>Result</th><th>What was seen</th>"
+      "<th>The instructor says</th></tr></thead>\n<tbody>\n";
+  for (auto run = history.runs.rbegin(); run != history.runs.rend(); ++run) table += run_row(*run, lessons);
+  return section("runs", "Runs, newest first", table + "</tbody></table>\n");
+}
+
+}  // namespace gearshift

@@ -1,0 +1,25 @@
+#include "app/train/recording_file.h"
+
+#include <ctime>
+
+#include <fmt/core.h>
+
+namespace gearshift {
+
+std::filesystem::path free_trace(const std::filesystem::path& folder, const std::string& name) {
+  std::filesystem::path file = folder / (name + ".trace");
+  std::error_code error;
+  for (int number = 2; std::filesystem::exists(file, error); ++number)
+    file = folder / fmt::format("{}-{}.trace", name, number);
+  return file;
+}
+
+std::string drive_name() {
+  const std::time_t now = std::time(nullptr);
+  std::tm local{};
+  localtime_r(&now, &local);
+  return fmt::format("drive-{:04}{:02}{:02}-{:02}{:02}{:02}", local.tm_year + 1900, local.tm_mon + 1, local.tm_mday,
+                     local.tm_hour, local.tm_min, local.tm_sec);
+}
+
+}  // namespace gearshift

@@ -1,0 +1,204 @@
+// gearshift report: what is remembered of learners, as a table, a page, CSV; comments, the next lesson, deletion.
+#include <cstdint>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "app/assets_path.h"
+#include "app/history/history.h"
+#include "app/output_folder.h"
+#include "app/report/delete_learner.h"
+#include "app/report/learner_table.h"
+#include "app/report/report_csv.h"
+#include "app/report/report_page.h"
+#include "app/trainer/user_folder.h"
+#include "app/training/suggest.h"
+#include "app/verbs/verbs.h"
+#include "haptics/files/part_file.h"
+#include "haptics/files/printable.h"
+
+namespace gearshift {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kReportHelp =
+    "What is remembered of learners: a table; of one learner a page with curves, weaknesses, shifts and runs, and CSV.";
+constexpr const char* kReportExamples =
+    "\nExamples:\n"
+    "  gearshift report                                      all learners\n"
+    "  gearshift report --learner Ada                        Ada's runs\n"
+    "  gearshift report --learner Ada --out ada --csv        ada/index.html, runs.csv, shifts.csv, faults.csv\n"
+    "  gearshift report --learner Ada --comment 12 \"Much calmer.\" --by Bo\n"
+    "  gearshift report --learner Ada --next hill_start      instead of what the grades suggest; \"\" gives it back\n"
+    "  gearshift report --learner Ada --delete               for good, with the recordings\n";
+
+struct ReportArguments {
+  std::string learner, database, out, by, next;
+  std::pair<std::int64_t, std::string> comment;
+  bool csv = false, sets_next = false, comments = false, deletes = false, yes = false;
+};
+
+// The shipped lessons, as they build on each other.
+std::vector<Lesson> shipped_lessons() {
+  std::vector<Lesson> lessons;
+  for (const std::string_view name : kTeachingOrder)
+    lessons.push_back(read_lesson(find_asset("lessons", std::string(name))));
+  return lessons;
+}
+
+fs::path history_file(const ReportArguments& arguments) {
+  return arguments.database.empty() ? user_data_folder() / "history.db" : fs::path(arguments.database);
+}
+
+std::string known_names(History& history) {
+  std::string names;
+  for (const LearnerRow& row : history.learners()) names += (names.empty() ? "" : ", ") + printable(row.name);
+  return names.empty() ? "nobody yet" : names;
+}
+
+LearnerRow find_learner(History& history, const std::string& name) {
+  if (std::optional<LearnerRow> row = history.find_learner(name)) return *row;
+  throw std::runtime_error(
+      fmt::format("\"{}\" is no learner of this history; known: {}", printable(name), known_names(history)));
+}
+
+int list_learners(History& history) {
+  std::vector<LearnerHistory> all;
+  for (const LearnerRow& row : history.learners()) all.push_back(read_learner(history, row));
+  fmt::print("{}", learner_table(all, shipped_lessons()));
+  return 0;
+}
+
+void write_report(const ReportArguments& arguments, History& history, const LearnerRow& learner) {
+  const fs::path folder = arguments.out;
+  const LearnerHistory all = read_learner(history, learner);
+  const std::string page = report_page(all, show_shifts(all, history.file().parent_path()), shipped_lessons());
+  make_folder(folder);
+  const auto write = [&](const char* name, const std::string& text) {
+    write_text_file(folder / name, text);
+    fmt::print("{}\n", (folder / name).string());
+  };
+  write("index.html", page);
+  if (!arguments.csv) return;
+  write("runs.csv", runs_csv(all));
+  write("shifts.csv", shifts_csv(all));
+  write("faults.csv", faults_csv(all));
+}
+
+void add_comment(const ReportArguments& arguments, History& history, const LearnerRow& learner) {
+  const auto& [number, text] = arguments.comment;
+  std::string known;
+  for (const RunRow& run : history.runs(learner.id)) {
+    if (run.id == number) {
+      history.add_comment(number, arguments.by, text);
+      fmt::print("run {}: {}, {}\n", number, printable(text), printable(arguments.by));
+      return;
+    }
+    known += fmt::format("{}{}", known.empty() ? "" : ", ", run.id);
+  }
+  throw std::runtime_error(fmt::format("run {} is none of {}'s; known: {}", number, printable(learner.name),
+                                       known.empty() ? "none yet" : known));
+}
+
+void set_next(const ReportArguments& arguments, History& history, const LearnerRow& learner) {
+  if (!arguments.next.empty()) (void)read_lesson(find_asset("lessons", arguments.next));  // refuses
+  history.set_next_lesson(learner.id, arguments.next);
+  fmt::print("{}: next lesson {}\n", printable(learner.name),
+             arguments.next.empty() ? "as suggested" : printable(arguments.next));
+}
+
+bool is_confirmed(const ReportArguments& arguments, const LearnerRow& learner) {
+  if (arguments.yes) return true;
+  fmt::print(stderr,
+             "All that is remembered of {} goes, recordings too, for good. The name again: ", printable(learner.name));
+  std::string again;
+  std::getline(std::cin, again);
+  return again == learner.name;
+}
+
+int erase(const ReportArguments& arguments, History& history, const LearnerRow& learner) {
+  if (!is_confirmed(arguments, learner))
+    throw std::runtime_error(fmt::format("{} was not deleted: that is another name", printable(learner.name)));
+  const Deleted gone = delete_learner(history, learner);
+  fmt::print("{} is gone: {} sessions, {} runs, {} shifts, {} faults, {} comments, {} recordings\n",
+             printable(learner.name), gone.sessions, gone.runs, gone.shifts, gone.faults, gone.comments,
+             gone.recordings.size());
+  for (const std::string& file : gone.recordings) fmt::print("  {}\n", printable(file));
+  for (const std::string& kept : gone.kept) fmt::print(stderr, "gearshift: not removed: {}\n", printable(kept));
+  return gone.kept.empty() ? 0 : 1;
+}
+
+// A report makes no history: where there is none, that is said.
+int run_report(const ReportArguments& arguments) {
+  const fs::path file = history_file(arguments);
+  std::error_code error;
+  if (!fs::exists(file, error)) {
+    if (!arguments.database.empty() || !arguments.learner.empty())
+      throw std::runtime_error(fmt::format("{}: there is no such history", printable(file.string())));
+    fmt::print("Nobody has driven a lesson yet.\n");
+    return 0;
+  }
+  History history(file);
+  if (arguments.learner.empty()) return list_learners(history);
+  const LearnerRow learner = find_learner(history, arguments.learner);
+  if (arguments.deletes) return erase(arguments, history, learner);
+  if (arguments.comments) add_comment(arguments, history, learner);
+  if (arguments.sets_next) set_next(arguments, history, learner);
+  if (!arguments.out.empty()) write_report(arguments, history, learner);
+  if (arguments.out.empty() && !arguments.comments && !arguments.sets_next)
+    fmt::print("{}", run_table(read_learner(history, learner)));
+  return 0;
+}
+
+std::string not_empty(const std::string& value) {
+  return value.empty() ? "must not be empty" : std::string();
+}
+
+}  // namespace
+
+void add_report_verb(CLI::App& app, VerbAction& action) {
+  auto arguments = std::make_shared<ReportArguments>();
+  CLI::App* verb = app.add_subcommand("report", kReportHelp);
+  verb->footer(kReportExamples);
+  CLI::Option* learner =
+      verb->add_option("--learner", arguments->learner, "whose history")->type_name("NAME")->check(not_empty);
+  verb->add_option("--database", arguments->database, "another file than the user's own")
+      ->type_name("FILE")
+      ->check(not_empty);
+  CLI::Option* out = verb->add_option("--out", arguments->out, "write the page into this folder")
+                         ->type_name("FOLDER")
+                         ->check(not_empty)
+                         ->needs(learner);
+  verb->add_flag("--csv", arguments->csv, "and runs, shifts and faults as CSV")->needs(out);
+  CLI::Option* comment = verb->add_option("--comment", arguments->comment, "stands beside the run's grade from now on")
+                             ->type_name("RUN TEXT")
+                             ->needs(learner);
+  CLI::Option* by =
+      verb->add_option("--by", arguments->by, "who says so")->type_name("NAME")->check(not_empty)->needs(comment);
+  comment->needs(by);
+  CLI::Option* next = verb->add_option("--next", arguments->next, "the next lesson; empty: as the grades suggest")
+                          ->type_name("LESSON")
+                          ->needs(learner);
+  CLI::Option* erases = verb->add_flag("--delete", arguments->deletes, "all of it, recordings too, for good")
+                            ->needs(learner)
+                            ->excludes(out)
+                            ->excludes(comment)
+                            ->excludes(next);
+  verb->add_flag("--yes", arguments->yes, "delete without the name being asked for again")->needs(erases);
+  verb->callback([=, &action] {
+    arguments->comments = comment->count() > 0;
+    if (arguments->comments && arguments->comment.second.empty())
+      throw CLI::ValidationError("--comment", "the text must not be empty");
+    arguments->sets_next = next->count() > 0;
+    action = [arguments] { return run_report(*arguments); };
+  });
+}
+
+}  // namespace gearshift

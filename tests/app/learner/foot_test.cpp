@@ -1,0 +1,80 @@
+// Foot and hand by themselves.
+#include "app/learner/foot.h"
+
+#include <cmath>
+
+#include <doctest/doctest.h>
+
+#include "app/learner/learner_hand.h"
+#include "app/learner/learner_skill.h"
+
+using namespace gearshift;
+
+TEST_CASE("a foot goes to its goal in the time that its rate asks for, and never beyond the pedal's way") {
+  Foot foot(0.0, 1);
+  foot.go(1.0, 5.0);
+  int cycles = 0;
+  while (foot.step(0.001) < 1.0) ++cycles;
+  CHECK(cycles == doctest::Approx(200).epsilon(0.01));
+  foot.go(7.0, 5.0);
+  CHECK(foot.step(0.1) == 1.0);
+  foot.go(-3.0, 50.0);
+  CHECK(foot.step(0.1) == 0.0);
+}
+
+TEST_CASE("the wandering of a held pedal has the spread that is asked for at any rate, and none at rest") {
+  for (const double dt : {0.0005, 0.001, 0.004}) {
+    Foot foot(0.02, 42);
+    foot.place(0.5);
+    double sum = 0.0, squares = 0.0;
+    const int n = static_cast<int>(400.0 / dt);
+    for (int i = 0; i < n; ++i) {
+      const double off = foot.step(dt) - 0.5;
+      sum += off, squares += off * off;
+    }
+    CAPTURE(dt);
+    CHECK(std::sqrt(squares / n) == doctest::Approx(0.02).epsilon(0.06));
+    CHECK(std::abs(sum / n) < 0.003);
+    foot.place(0.0);
+    CHECK(foot.step(dt) == 0.0);
+    foot.place(1.0);
+    CHECK(foot.step(dt) == 1.0);
+  }
+}
+
+TEST_CASE("a hand waits for a lever that is held up, pushes harder up to its most, and has let go without strokes") {
+  LearnerHand hand(0.001);
+  const glm::dvec2 lever{0.0, 0.01};
+  CHECK(hand.next(0.0, lever).position == lever);
+  CHECK(hand.next(0.0, lever).push == glm::dvec2(0.0));
+  hand.go({{{0.0, 0.0}, 0.2, 0.0, {}, false, false}, {{0.03, 0.0}, 0.2, 0.0, {}, false, false}}, lever, 0.0);
+  double push = 0.0, before = 0.0;
+  for (int i = 0; i < 2000; ++i) {
+    push = hand.next(0.001 * i, lever).push.y;  // the lever does not move
+    CHECK(push <= before + 1e-12);
+    before = push;
+  }
+  CHECK(push == doctest::Approx(-28.0));
+  CHECK_FALSE(hand.in_last_stroke());
+  CHECK(hand.waited(1.2) == doctest::Approx(1.0));
+  hand.next(2.0, {0.0, 0.001});  // now it has come
+  CHECK(hand.in_last_stroke());
+}
+
+TEST_CASE("skill lies between the practised and the beginner, worse in everything with the error") {
+  CHECK(skill_of(0.0) == LearnerSkill{});
+  CHECK(skill_of(-1.0) == skill_of(0.0));
+  CHECK(skill_of(2.0) == skill_of(1.0));
+  for (double e = 0.0; e < 0.95; e += 0.1) {
+    const LearnerSkill good = skill_of(e), worse = skill_of(e + 0.1);
+    CHECK(worse.reaction > good.reaction);
+    CHECK(worse.timing_spread > good.timing_spread);
+    CHECK(worse.aim_noise > good.aim_noise);
+    CHECK(worse.pedal_noise > good.pedal_noise);
+    CHECK(worse.rev_spread > good.rev_spread);
+    CHECK(worse.release_spread > good.release_spread);
+    CHECK(worse.haste > good.haste);
+    CHECK(worse.hearing > good.hearing);
+    CHECK(worse.pace < good.pace);
+  }
+}

@@ -1,0 +1,99 @@
+// Populations: what a grade is worth, and the stated model of learning.
+#include "app/learner/learner_model.h"
+
+#include <cmath>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "tests/app/learner/lessons.h"
+
+using namespace gearshift;
+
+namespace {
+
+// Area under the ROC curve by walking the threshold down and adding trapezoids.
+double area_by_threshold(std::vector<double> good, std::vector<double> bad) {
+  std::vector<double> thresholds(good);
+  thresholds.insert(thresholds.end(), bad.begin(), bad.end());
+  std::sort(thresholds.rbegin(), thresholds.rend());
+  const auto share = [](const std::vector<double>& values, double least) {
+    return static_cast<double>(std::count_if(values.begin(), values.end(), [&](double v) { return v >= least; })) /
+           static_cast<double>(values.size());
+  };
+  double area = 0.0, x = 0.0, y = 0.0;
+  for (const double t : thresholds) {
+    area += 0.5 * (share(good, t) + y) * (share(bad, t) - x);
+    x = share(bad, t), y = share(good, t);
+  }
+  return area;
+}
+
+// A lesson that is over at once and asks nothing: what is learnt in it is the model's alone.
+LessonDriveConfig nothing_to_do() {
+  LessonDriveConfig drive = shipped_drive("moving_off");
+  drive.lesson.steps.resize(1);
+  return drive;
+}
+
+}  // namespace
+
+TEST_CASE("the AUC is the area under the ROC curve, ties included") {
+  const std::vector<double> good{10, 9.5, 9.5, 8, 10}, bad{9.5, 6, 8, 10};
+  CHECK(roc_auc(good, bad) == doctest::Approx(area_by_threshold(good, bad)));
+  CHECK(roc_auc(bad, good) == doctest::Approx(1.0 - roc_auc(good, bad)));
+  CHECK(roc_auc(std::vector{2.0, 3.0}, std::vector{0.0, 1.0}) == 1.0);
+  CHECK(roc_auc(good, good) == doctest::Approx(0.5));
+  CHECK(roc_auc({}, bad) == 0.5);
+}
+
+TEST_CASE("the grade separates skilled from unskilled learners, and does not separate equals") {
+  const LessonDriveConfig drive = shipped_drive("skip_shifts");
+  const Separation apart = separate(drive, 12, 7);
+  CAPTURE(apart.auc);
+  CHECK(apart.auc > 0.8);
+  const Separation same = separate(drive, 12, 7, {1.0, 0.0});
+  CAPTURE(same.auc);
+  CHECK(std::abs(same.auc - 0.5) < 0.3);
+}
+
+TEST_CASE("a fault on purpose is named and lowers the grade, and is not named without it") {
+  for (const FaultKind kind : {FaultKind::clutch_late, FaultKind::wrong_column, FaultKind::over_rev}) {
+    const FaultSeparation s = separate_fault(shipped_drive("skip_shifts"), kind, 5, 3);
+    CAPTURE(fault_key(kind));
+    CHECK(s.named == s.driven);
+    CHECK(s.false_named <= 1);
+    CHECK(s.auc > 0.7);
+  }
+}
+
+TEST_CASE("practice alone follows e (1 - rate)^n where nothing fails, guidance slows it by its loss") {
+  LearningModel model;
+  model.rate_spread = 0.0;
+  model.start_least = 1.0;
+  const LessonDriveConfig drive = nothing_to_do();
+  const PracticeOutcome alone = practise(drive, Practice::alone, model, 2, 10, 1);
+  const PracticeOutcome led = practise(drive, Practice::led, model, 2, 10, 1);
+  const PracticeOutcome faded = practise(drive, Practice::faded, model, 2, 10, 1);
+  CHECK(alone.error[0] == 1.0);
+  CHECK(alone.error[10] == doctest::Approx(std::pow(1.0 - model.rate, 10)));
+  CHECK(led.error[10] == doctest::Approx(std::pow(1.0 - model.rate * (1.0 - model.guided_loss), 10)));
+  CHECK(alone.guided_share == 0.0);
+  CHECK(led.guided_share == 1.0);
+  CHECK(faded.guided_share > 0.2);
+  CHECK(faded.guided_share <= 0.6);
+  CHECK(faded.error[10] > alone.error[10]);
+  CHECK(faded.error[10] < led.error[10]);
+}
+
+TEST_CASE("a trial that went wrong all through teaches less by the model's loss") {
+  LearningModel model;
+  model.rate_spread = 0.0;
+  model.start_least = 1.0;
+  LessonDriveConfig drive = nothing_to_do();
+  drive.lesson.steps[0].until.speed_above = 100.0;
+  drive.lesson.steps[0].until.clutch_above.reset();
+  drive.lesson.time_limit = 1.0;
+  const PracticeOutcome outcome = practise(drive, Practice::alone, model, 1, 5, 1);
+  CHECK(outcome.error[5] == doctest::Approx(std::pow(1.0 - model.rate * (1.0 - model.failed_loss), 5)));
+}

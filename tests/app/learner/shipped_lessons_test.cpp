@@ -1,0 +1,113 @@
+// Each shipped lesson by someone who can, and by someone who does wrong what it looks at.
+#include <algorithm>
+#include <cmath>
+
+#include <doctest/doctest.h>
+
+#include "app/training/suggest.h"
+#include "tests/app/learner/lessons.h"
+
+using namespace gearshift;
+
+namespace {
+
+bool asks_for_reverse(const Lesson& lesson) {
+  return std::any_of(lesson.steps.begin(), lesson.steps.end(),
+                     [](const LessonStep& step) { return step.gear == kReverseGear; });
+}
+
+// In a sound box the rings keep every forward gear from grinding, however it is pushed.
+void wear_out(CarSpec& car) {
+  car.synchro.friction = 0.07;
+}
+
+}  // namespace
+
+TEST_CASE(
+    "each shipped lesson is passed by a practised learner, prompted or by himself, without a fault that fails it") {
+  for (const std::string_view key : kTeachingOrder) {
+    for (const LessonMode mode : {LessonMode::follow_me, LessonMode::by_yourself}) {
+      LessonDriveConfig config = shipped_drive(key);
+      config.mode = mode;
+      const LessonResult result = drive_lesson(config);
+      CAPTURE(key);
+      CAPTURE(fault_list(result));
+      CAPTURE(result.why);
+      CHECK(result.end == LessonEnd::done);
+      CHECK(result.passed);
+      CHECK(result.grade >= 9.0);
+      CHECK(result.duration < config.lesson.time_limit);
+    }
+  }
+}
+
+TEST_CASE(
+    "each fault that a shipped lesson looks at is made by its learner, named, and fails the lesson where it says so") {
+  for (const std::string_view key : kTeachingOrder) {
+    for (const FaultKind kind : shipped_drive(key).lesson.catches) {
+      LessonDriveConfig config = shipped_drive(key);
+      config.faults = only(kind);
+      if (kind == FaultKind::grind && !asks_for_reverse(config.lesson)) wear_out(config.car);
+      const LessonResult result = drive_lesson(config);
+      CAPTURE(key);
+      CAPTURE(fault_key(kind));
+      CAPTURE(fault_list(result));
+      CAPTURE(result.why);
+      CHECK(names(result, kind));
+      CHECK(result.grade < 10.0);
+      const std::vector<FaultKind>& fails = config.lesson.fails_on;
+      if (std::find(fails.begin(), fails.end(), kind) != fails.end()) CHECK_FALSE(result.passed);
+    }
+  }
+}
+
+TEST_CASE("a practised learner makes no fault of a kind that the lesson does not forgive, whatever the seed") {
+  for (const std::string_view key : {"moving_off", "hill_start", "reverse", "rev_matching"}) {
+    for (std::uint64_t seed = 2; seed < 8; ++seed) {
+      const LessonDriveConfig config = shipped_drive(key, seed);
+      const LessonResult result = drive_lesson(config);
+      CAPTURE(key);
+      CAPTURE(seed);
+      CAPTURE(fault_list(result));
+      CHECK(result.passed);
+      for (const FaultKind kind : config.lesson.fails_on) CHECK_FALSE(names(result, kind));
+    }
+  }
+}
+
+TEST_CASE("in a sound box no forward gear grinds, in a worn one it does: it is the car, not the learner") {
+  for (const bool worn : {false, true}) {
+    LessonDriveConfig config = shipped_drive("up_through_the_gears");
+    config.faults = only(FaultKind::grind);
+    if (worn) wear_out(config.car);
+    CHECK(names(drive_lesson(config), FaultKind::grind) == worn);
+  }
+}
+
+TEST_CASE("the other car is driven by the same learner, in its own gate") {
+  for (const std::string_view key : {"start_and_stop", "moving_off", "up_through_the_gears", "down_through_the_gears",
+                                     "reverse", "hill_start", "skip_shifts"}) {
+    LessonDriveConfig config = shipped_drive(key);
+    config.car = read_car(GEARSHIFT_ASSETS "/cars/diesel.toml");
+    config.gate = read_gate_layout(GEARSHIFT_ASSETS "/gates/" + config.car.gate + ".toml");
+    const LessonResult result = drive_lesson(config);
+    CAPTURE(key);
+    CAPTURE(fault_list(result));
+    CAPTURE(result.why);
+    CHECK(result.passed);
+  }
+}
+
+TEST_CASE("what has an amount is measured as that amount") {
+  for (const double amount : {0.5, 1.0}) {
+    LessonDriveConfig config = shipped_drive("up_through_the_gears");
+    config.faults = only(FaultKind::too_slow, amount);
+    const LessonResult slow = drive_lesson(config);
+    double longest = 0.0;
+    for (const ShiftRecord& shift : slow.shifts) longest = std::max(longest, shift.clutch_time);
+    CAPTURE(longest);
+    CHECK(longest > 3.0 * amount);        // the pause
+    CHECK(longest < 3.0 * amount + 1.5);  // and an ordinary shift
+    CHECK(names(slow, FaultKind::too_slow) == (longest >= 2.5));
+  }
+}

@@ -1,0 +1,112 @@
+// What the panel says in words and lamps of the loop, the warnings and a preset.
+#include <set>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "app/panel/palette.h"
+#include "tests/app/panel/drawn.h"
+#include "tests/app/panel/panel_rig.h"
+
+using namespace gearshift;
+
+namespace {
+
+void settle(PanelRig& rig) {
+  for (int i = 0; i < 4; ++i) rig.frame();
+}
+
+// Names of the warning lamps that are lit.
+std::set<std::string> lit(PanelRig& rig, std::uint32_t flags) {
+  rig.input.now.flags = flags;
+  settle(rig);
+  std::set<std::string> names;
+  const std::vector<DrawnText> texts = drawn_texts();
+  for (const char* name : {"Over-push", "Saturated", "Ghost hand", "Softened"}) {
+    const DrawnText& text = the_text(texts, name);
+    if (text.colour == ink::kBad || text.colour == ink::kWarn) names.insert(name);
+  }
+  return names;
+}
+
+}  // namespace
+
+TEST_CASE("each warning lamp is lit by its own flag and by no other") {
+  PanelRig rig;
+  using Names = std::set<std::string>;
+  CHECK(lit(rig, 0).empty());
+  CHECK(lit(rig, kFlagOverPush) == Names{"Over-push"});
+  CHECK(lit(rig, kFlagSaturated) == Names{"Saturated"});
+  CHECK(lit(rig, kFlagGhost) == Names{"Ghost hand"});
+  CHECK(lit(rig, kFlagContact | kFlagPushEstimated | kFlagFresh).empty());
+  rig.input.now.wall_stiffness = 0.5 * rig.input.admitted.tuning.wall_stiffness;
+  CHECK(lit(rig, kFlagContact) == Names{"Softened"});
+}
+
+TEST_CASE("the over-push lamp is a red disc beside its name, which no contact alone lights") {
+  PanelRig rig;
+  const auto red_discs = [&](std::uint32_t flags) {
+    lit(rig, flags);
+    const PixelBox name = the_text(drawn_texts(), "Over-push").box;
+    std::size_t corners = 0;
+    for (const glm::dvec2 at : drawn_in(ink::kBad))
+      corners += at.x < name.min.x && at.x > name.min.x - 20.0 && at.y > name.min.y - 8.0 && at.y < name.max.y + 8.0;
+    return corners;
+  };
+  CHECK(red_discs(kFlagOverPush) > 8);
+  CHECK(red_discs(kFlagContact) == 0);
+}
+
+TEST_CASE("the loop's figures stand beside their names") {
+  PanelRig rig;
+  rig.input.health.rate = 2000.0;
+  rig.input.health.late_p50 = 11e-6;
+  rig.input.health.late_p99 = 77e-6;
+  rig.input.health.late_worst = 333e-6;
+  rig.input.health.skipped = 5;
+  rig.input.health.overruns = 2;
+  rig.input.health.cycle_ns = 2500.0;
+  rig.input.health.stage_ns = {101, 202, 303, 404, 505, 606, 707, 808};
+  rig.input.now.wall_stiffness = 4321.0;
+  rig.input.frame_ms = 16.7;
+  rig.click("tab_loop");
+  settle(rig);
+  using Line = std::vector<std::string>;
+  CHECK(right_of("Rate") == Line{without_blanks("2000 Hz, period 500 µs")});
+  CHECK(right_of("Late, median") == Line{"11µs"});
+  CHECK(right_of("Late, 99 of 100") == Line{"77µs"});
+  CHECK(right_of("Late, worst") == Line{"333µs"});
+  CHECK(right_of("Deadlines missed") == Line{"5"});
+  CHECK(right_of("Cycles too long") == Line{"2"});
+  CHECK(right_of("Cycle") == Line{without_blanks("2.50 µs, 0.50 % of it")});
+  CHECK(right_of("Frame") == Line{"16.7ms"});
+  CHECK(right_of("Stiffness in use") == Line{"4321N/m"});
+  const char* stages[] = {"read", "estimate", "proxy", "couple", "feel", "world", "guard", "write"};
+  for (int i = 0; i < 8; ++i) CHECK(right_of(stages[i]) == Line{std::to_string(101 * (i + 1)) + "ns"});
+}
+
+TEST_CASE("a preset is compared with what runs, not with what was wanted") {
+  PanelRig rig(1);  // a sample of delay: what is wanted is beyond the law
+  rig.input.haptics.tuning.wall_stiffness = 20000.0;
+  rig.input.admitted = admit_tuning(rig.input.haptics, rig.device, rig.gate);
+  const HapticTuning runs = rig.input.admitted.tuning;
+  REQUIRE(runs.wall_stiffness < 10000.0);
+  rig.click("tab_presets");
+  rig.click("compare");
+  rig.click("compare: paper");
+  rig.input.compared.emplace();
+  rig.input.compared->haptics = rig.input.haptics;
+  rig.input.compared->haptics.tuning = runs;
+  settle(rig);
+  const auto counted = [] {
+    for (const DrawnText& text : drawn_texts())
+      if (text.text.ends_with("arethesame")) return text.text.substr(0, text.text.find("differ"));
+    return std::string("nothing");
+  };
+  CHECK(counted() == "0");
+  rig.input.compared->haptics.tuning.wall_stiffness = 1234.0;
+  settle(rig);
+  CHECK(counted() == "1");
+  const std::string here = std::to_string(std::lround(runs.wall_stiffness)) + "N/m";
+  CHECK(right_of("Wall stiffness") == std::vector<std::string>{here, "1234N/m"});
+}

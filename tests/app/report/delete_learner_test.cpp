@@ -1,0 +1,85 @@
+// Gone is gone: rows, recordings and the name's bytes; what is another's, or no recording, stays.
+#include "app/report/delete_learner.h"
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <doctest/doctest.h>
+
+#include "app/report/learner_history.h"
+#include "haptics/loop/trace_format.h"
+#include "tests/app/history/some_result.h"
+#include "tests/support/temp_folder.h"
+
+using namespace gearshift;
+
+namespace {
+
+void write(const std::filesystem::path& file, const std::string& bytes) {
+  std::ofstream(file, std::ios::binary) << bytes;
+}
+
+std::string trace_bytes() {
+  return std::string(kTraceMagic.begin(), kTraceMagic.end()) + "anything";
+}
+
+std::string file_bytes(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+void drive(History& history, const std::string& name, const std::vector<std::string>& recordings) {
+  const std::int64_t session = history.begin_session(history.learner(name), "1.0");
+  for (const std::string& recording : recordings) {
+    const std::int64_t run = history.begin_run(session, some_result(0), recording);
+    history.end_run(run, some_result(2));
+    history.add_comment(run, "Bo", "Remarkable Xylophone");
+  }
+}
+
+}  // namespace
+
+TEST_CASE("deleted: rows, comments and recordings go, and what went is told; others keep theirs") {
+  const TempFolder folder;
+  const std::string own = (folder / "own.trace").string(), shared = (folder / "shared.trace").string(),
+                    letter = (folder / "letter.txt").string(), away = (folder / "away.trace").string();
+  write(own, trace_bytes());
+  write(shared, trace_bytes());
+  write(folder / "near.trace", trace_bytes());
+  write(letter, "Dear Ada");
+  std::filesystem::create_symlink(letter, folder / "link.trace");
+  {
+    History history(folder / "history.db");
+    drive(history, "Zebediah", {own, shared, letter, away, "near.trace", "link.trace", ""});
+    drive(history, "Bob", {shared});
+    const Deleted gone = delete_learner(history, *history.find_learner("Zebediah"));
+    CHECK(gone.sessions == 1);
+    CHECK(gone.runs == 7);
+    CHECK(gone.shifts == 14);
+    CHECK(gone.faults == 21);
+    CHECK(gone.comments == 7);
+    CHECK(gone.recordings.size() == 3);  // own, near and the one that was gone before
+    REQUIRE(gone.kept.size() == 2);
+    CHECK_FALSE(history.find_learner("Zebediah").has_value());
+    CHECK(read_learner(history, *history.find_learner("Bob")).runs.size() == 1);
+  }
+  CHECK_FALSE(std::filesystem::exists(own));
+  CHECK_FALSE(std::filesystem::exists(folder / "near.trace"));
+  CHECK(std::filesystem::exists(shared));
+  CHECK(file_bytes(letter) == "Dear Ada");
+  CHECK(std::filesystem::is_symlink(folder / "link.trace"));
+  CHECK(file_bytes(folder / "history.db").find("Zebediah") == std::string::npos);
+}
+
+TEST_CASE("a learner read back has the runs with their comments") {
+  const TempFolder folder;
+  History history(folder / "history.db");
+  drive(history, "Ada", {"a", "b"});
+  const LearnerHistory all = read_learner(history, *history.find_learner("Ada"));
+  CHECK(all.learner.name == "Ada");
+  REQUIRE(all.runs.size() == 2);
+  CHECK(all.runs[1].row.recording == "b");
+  REQUIRE(all.runs[1].comments.size() == 1);
+  CHECK(all.runs[1].comments[0].text == "Remarkable Xylophone");
+}

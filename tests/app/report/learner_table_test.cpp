@@ -1,0 +1,26 @@
+#include "app/report/learner_table.h"
+
+#include <doctest/doctest.h>
+
+#include "tests/app/report/constructed_history.h"
+
+using namespace gearshift;
+
+TEST_CASE("learners: sessions, runs, last day and what comes next, one line each") {
+  std::vector<LearnerHistory> learners(2);
+  learners[0].learner.name = "Ada";
+  for (int i = 0; i < 3; ++i) learners[0].runs.push_back(run_with(i + 1, 1, 9.0));
+  learners[0].runs[2].row.session = 2;
+  learners[1].learner.name = "Bo\n\x1b[31mred";
+  learners[1].learner.next_lesson = "reverse";
+  std::vector<Lesson> lessons(1);
+  lessons[0].key = "drill";
+  lessons[0].task = "upshift";
+  const std::string table = learner_table(learners, lessons);
+  CHECK(table ==
+        "learner      sessions  runs  last day    next lesson\n"
+        "Ada                 2     3  2026-01-04  drill\n"
+        "Bo ?[31mred         0     0  -           reverse (the instructor's)\n");
+  CHECK(run_table(learners[0]).find("    3  2026-01-04  drill                     by_yourself    9.0  passed\n") !=
+        std::string::npos);
+}

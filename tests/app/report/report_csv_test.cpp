@@ -1,0 +1,168 @@
+// Read back by a reader of its own, the tables are what was put in.
+#include "app/report/report_csv.h"
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <stdexcept>
+
+#include <doctest/doctest.h>
+
+#include "app/report/progress.h"
+#include "app/training/shift_fields.h"
+#include "tests/app/history/some_result.h"
+#include "tests/app/report/constructed_history.h"
+
+using namespace gearshift;
+
+namespace {
+
+// RFC 4180 section 2, to the letter: records end with CRLF, all have as many fields, a quote only in a quoted field.
+std::vector<std::vector<std::string>> parse(const std::string& text) {
+  std::vector<std::vector<std::string>> records(1);
+  std::size_t at = 0;
+  while (at < text.size()) {
+    std::string field;
+    if (text[at] == '"') {
+      for (++at;; ++at) {
+        if (at >= text.size()) throw std::runtime_error("a quote is open");
+        if (text[at] != '"')
+          field += text[at];
+        else if (at + 1 < text.size() && text[at + 1] == '"')
+          field += text[++at];
+        else
+          break;
+      }
+      ++at;
+    } else {
+      for (; at < text.size() && text[at] != ',' && text[at] != '\r'; ++at) {
+        if (text[at] == '"' || text[at] == '\n') throw std::runtime_error("not quoted");
+        field += text[at];
+      }
+    }
+    records.back().push_back(field);
+    if (text[at] == ',') {
+      ++at;
+    } else {
+      if (text.substr(at, 2) != "\r\n") throw std::runtime_error("no CRLF");
+      at += 2;
+      if (at < text.size()) records.emplace_back();
+    }
+  }
+  for (const auto& record : records)
+    if (record.size() != records.front().size()) throw std::runtime_error("another number of fields");
+  return records;
+}
+
+// Record i, by the header's names.
+std::map<std::string, std::string> row(const std::vector<std::vector<std::string>>& records, std::size_t i) {
+  std::map<std::string, std::string> fields;
+  for (std::size_t c = 0; c < records[0].size(); ++c) fields[records[0][c]] = records[i + 1][c];
+  REQUIRE(fields.size() == records[0].size());
+  return fields;
+}
+
+const std::string kNasty = "a,\"b\"\r\n'c';\t=1+1\n\"";
+
+LearnerHistory history_with_everything() {
+  LearnerHistory history;
+  history.learner.name = kNasty;
+  ReportedRun run;
+  run.row = {12, 3, "2026-01-02T03:04:05Z", "a \"trace\".trace", some_result(5)};
+  run.comments = {{"2026-01-03T00:00:00Z", "Bo", kNasty}, {"2026-01-04T00:00:00Z", "Di", "Fine."}};
+  history.runs.push_back(run);
+  history.runs.push_back(run_with(13, 0, 5.5));
+  history.runs[1].row.result.guided = true;
+  return history;
+}
+
+}  // namespace
+
+TEST_CASE("a field is quoted where it must be, and only there") {
+  CHECK(csv_field("plain words") == "plain words");
+  CHECK(csv_field("") == "");
+  CHECK(csv_field("a,b") == "\"a,b\"");
+  CHECK(csv_field("say \"no\"") == "\"say \"\"no\"\"\"");
+  CHECK(csv_field("a\nb") == "\"a\nb\"");
+  CHECK(csv_field("a\rb") == "\"a\rb\"");
+  CHECK(csv_field("\"") == "\"\"\"\"");
+}
+
+TEST_CASE("runs come back from the table") {
+  const auto records = parse(runs_csv(history_with_everything()));
+  REQUIRE(records.size() == 3);
+  auto fields = row(records, 0);
+  CHECK(fields["run"] == "12");
+  CHECK(fields["session"] == "3");
+  CHECK(fields["learner"] == kNasty);
+  CHECK(fields["begun_at_utc"] == "2026-01-02T03:04:05Z");
+  CHECK(fields["lesson"] == "hill_start");
+  CHECK(fields["task"] == "moving_off");
+  CHECK(fields["mode"] == "by_yourself");
+  CHECK(fields["ended"] == "done");
+  CHECK(fields["guided"] == "0");
+  CHECK(fields["whole"] == "1");
+  CHECK(fields["begin_s"] == "12.5");
+  CHECK(fields["duration_s"] == "34.25");
+  CHECK(fields["grade"] == "7.5");
+  CHECK(fields["points_off"] == "2.5");
+  CHECK(fields["passed"] == "1");
+  CHECK(fields["why"] == some_result(0).why);
+  CHECK(fields["slip_energy_j"] == "2020.5");
+  CHECK(fields["shifts"] == "5");
+  CHECK(fields["faults"] == "3");
+  CHECK(fields["recording"] == "a \"trace\".trace");
+  CHECK(fields["comments"] == "Bo, 2026-01-03T00:00:00Z: " + kNasty + "\nDi, 2026-01-04T00:00:00Z: Fine.");
+  CHECK(row(records, 1)["grade"].empty());  // guided: no grade, not a nought
+}
+
+TEST_CASE("shifts come back from the table, every figure to its last bit") {
+  LearnerHistory history = history_with_everything();
+  history.runs[0].row.result.shifts[2].jerk_peak = std::nextafter(0.1, 1.0);
+  const auto records = parse(shifts_csv(history));
+  REQUIRE(records.size() == 6);
+  for (std::size_t i = 0; i < 5; ++i) {
+    auto fields = row(records, i);
+    const ShiftRecord& shift = history.runs[0].row.result.shifts[i];
+    CHECK(fields["run"] == "12");
+    CHECK(fields["shift"] == std::to_string(i));
+    CHECK(fields["from_gear"] == gear_name(shift.from));
+    CHECK(fields["to_gear"] == gear_name(shift.to));
+    CHECK(fields["guided"] == (shift.guided ? "1" : "0"));
+    CHECK(fields["missed"] == (shift.missed ? "1" : "0"));
+    CHECK(fields["steps"] == "clutch_down throttle_off gear clutch_up");
+    each_figure(shift, [&](const char* name, const auto& value) {
+      CAPTURE(name);
+      CHECK(std::stod(fields.at(name)) == static_cast<double>(value));
+    });
+  }
+}
+
+TEST_CASE("faults come back from the table, with unit and points") {
+  const auto records = parse(faults_csv(history_with_everything()));
+  REQUIRE(records.size() == 4);
+  auto stall = row(records, 0), rollback = row(records, 1), jerk = row(records, 2);
+  CHECK(stall["kind"] == "stall");
+  CHECK(stall["severity"] == "severe");
+  CHECK(stall["time_s"] == "13.5");
+  CHECK(stall["value"] == "36.6");
+  CHECK(stall["unit"] == "rad/s");
+  CHECK(stall["shift"].empty());
+  CHECK(stall["points"] == "2");
+  CHECK(rollback["unit"] == "m");
+  CHECK(rollback["shift"] == "0");
+  CHECK(rollback["points"] == "0.5");
+  CHECK(jerk["unit"] == "m/s^3");
+  CHECK(jerk["points"] == "0");
+}
+
+TEST_CASE("no runs: the header alone") {
+  for (const std::string& text : {runs_csv({}), shifts_csv({}), faults_csv({})}) CHECK(parse(text).size() == 1);
+}
+
+TEST_CASE("500 runs: 500 records") {
+  LearnerHistory history;
+  for (int i = 0; i < 500; ++i) history.runs.push_back(run_with(i + 1, 8, 7.0));
+  CHECK(parse(runs_csv(history)).size() == 501);
+  CHECK(parse(shifts_csv(history)).size() == 4001);
+}

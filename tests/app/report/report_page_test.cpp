@@ -1,0 +1,298 @@
+// What was put in is what the page says: its tables and drawings are read back. What people typed stays text.
+#include "app/report/report_page.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <set>
+
+#include <doctest/doctest.h>
+
+#include "app/training/learning_curve.h"
+#include "tests/app/report/constructed_history.h"
+#include "tests/app/report/page_parts.h"
+
+using namespace gearshift;
+
+namespace {
+
+std::vector<Lesson> two_lessons() {
+  std::vector<Lesson> lessons(2);
+  lessons[0].key = "drill";
+  lessons[0].title = "The drill";
+  lessons[0].task = "upshift";
+  lessons[1].key = "reverse";
+  lessons[1].title = "Reverse";
+  lessons[1].task = "reverse";
+  return lessons;
+}
+
+std::string page_of(const LearnerHistory& history) {
+  return report_page(history, show_shifts(history, "/nowhere"), two_lessons());
+}
+
+LearnerHistory learner(int runs) {
+  LearnerHistory history;
+  history.learner.name = "Ada";
+  // An exponential with a little scatter that is known: 8 - 5 exp(-n / 4) +- 0.1
+  for (int i = 0; i < runs; ++i)
+    history.runs.push_back(run_with(i + 1, 4, 8.0 - 5.0 * std::exp(-i / 4.0) + (i % 2 == 0 ? 0.1 : -0.1)));
+  return history;
+}
+
+bool has(std::string_view page, std::string_view words) {
+  return page.find(words) != std::string_view::npos;
+}
+
+// Centres of the dots of a drawing.
+std::vector<std::pair<double, double>> dots_of(std::string_view svg) {
+  std::vector<std::pair<double, double>> dots;
+  for (std::size_t at = 0;;) {
+    const std::string_view dot = between(svg, "<circle ", ">", at);
+    if (at == std::string_view::npos) return dots;
+    if (has(dot, "fill=\"none\"")) continue;
+    dots.emplace_back(std::stod(std::string(between(dot, "cx=\"", "\""))),
+                      std::stod(std::string(between(dot, "cy=\"", "\""))));
+  }
+}
+
+}  // namespace
+
+TEST_CASE("totals: days, sessions, runs, shifts and minutes are those of the rows") {
+  LearnerHistory history = learner(5);
+  history.runs[1].row.begun_at = "2026-01-02T19:00:00Z";  // with the first
+  history.runs[0].row.begun_at = "2026-01-02T09:00:00Z";
+  history.runs[1].row.session = history.runs[0].row.session;
+  history.runs[4].row.result.duration = 90.0;
+  const std::string page = page_of(history);
+  CHECK(text_of_id(page, "days") == "4");
+  CHECK(text_of_id(page, "sessions") == "4");
+  CHECK(text_of_id(page, "lesson-runs") == "5");
+  CHECK(text_of_id(page, "shift-count") == "20");
+  CHECK(text_of_id(page, "minutes") == "5.5");
+  CHECK(has(page, "2026-01-02 to 2026-01-06"));
+}
+
+TEST_CASE("the next lesson is the instructor's, else the one that the grades suggest, with the reason") {
+  LearnerHistory history = learner(1);
+  history.runs[0].row.result.passed = true;
+  history.runs[0].row.result.grade = 9.0;
+  CHECK(has(page_of(history), "Next lesson: <strong>Reverse</strong>. Reverse was not yet passed."));
+  history.learner.next_lesson = "drill";
+  const std::string page = page_of(history);
+  CHECK(has(page, "Next lesson: <strong>The drill</strong>, chosen by the instructor."));
+  CHECK(has(page, "The grades suggest Reverse: Reverse was not yet passed."));
+}
+
+TEST_CASE("runs: day, lesson, mode, grade, result, every fault with its points, comments; newest first") {
+  LearnerHistory history = learner(2);
+  LessonResult& result = history.runs[1].row.result;
+  result.grade = 3.5;
+  result.passed = false;
+  result.why = "Grade 3.5 is below 6.0.";
+  result.begin = 100.0;
+  result.faults = {{FaultKind::clutch_early, Severity::severe, 112.4, 0.12, 2},
+                   {FaultKind::stall, Severity::very_severe, 130.0, 40.0, -1},
+                   {FaultKind::jerk, Severity::note, 131.0, 12.5, -1}};
+  result.deductions = {{0, 2.0}, {1, 4.0}, {1, 0.5}};
+  history.runs[1].comments = {{"2026-01-09T10:00:00Z", "Bo", "Calmer at the bite point."}};
+  const std::string page = page_of(history);
+  const auto rows = table_of(page, "runs");
+  REQUIRE(rows.size() == 2);
+  REQUIRE(rows[0].size() == 8);
+  CHECK(rows[0][0] == "2");
+  CHECK(has(rows[0][1], "2026-01-03"));
+  CHECK(has(rows[0][1], "10:00"));
+  CHECK(has(rows[0][2], "The drill"));
+  CHECK(has(rows[0][2], "by yourself"));
+  CHECK(rows[0][3] == "4");
+  CHECK(rows[0][4] == "3.5");
+  CHECK(has(rows[0][5], "not passed"));
+  CHECK(has(rows[0][5], "Grade 3.5 is below 6.0."));
+  CHECK(has(rows[0][6], "−2.0  The clutch came up 0.12 s before the gear was in.  (12.4 s into the run, shift 3)"));
+  CHECK(has(rows[0][6], "−4.5  The engine stalled, from 382 rpm.  (30.0 s into the run)"));
+  CHECK(has(rows[0][6], "Note: The car jerked, 12.5 m/s3."));
+  CHECK(has(rows[0][7], "Calmer at the bite point."));
+  CHECK(has(rows[0][7], "Bo, 2026-01-09"));
+  CHECK(rows[1][0] == "1");
+  CHECK(rows[1][4] == "3.1");
+  CHECK(rows[1][6].empty());
+  CHECK(rows[1][7].empty());
+}
+
+TEST_CASE("a run that is guided, torn or never ended has no grade on the page, in no table and no curve") {
+  LearnerHistory history = learner(8);
+  const std::string before(section_of(page_of(history), "learning"));
+  const auto add = [&](auto&& change) {
+    history.runs.push_back(run_with(static_cast<std::int64_t>(history.runs.size()) + 1, 3, 9.9));
+    change(history.runs.back().row.result);
+    history.runs.back().row.result.passed = false;
+  };
+  add([](LessonResult& r) { r.guided = true; });
+  add([](LessonResult& r) { r.whole = false; });
+  add([](LessonResult& r) { r.end = LessonEnd::running; });
+  const std::string page = page_of(history);
+  CHECK(section_of(page, "learning") == before);
+  const auto rows = table_of(page, "runs");
+  REQUIRE(rows.size() == 11);
+  for (std::size_t i = 0; i < 3; ++i) CHECK(rows[i][4] == "–");
+  CHECK_FALSE(has(page, "<strong>9.9"));
+  // Control: a graded one does change it.
+  add([](LessonResult&) {});
+  CHECK(section_of(page_of(history), "learning") != before);
+}
+
+TEST_CASE("the learning curve's dots stand at the grades, its figures are the fit's") {
+  const LearnerHistory history = learner(12);
+  const std::string page = page_of(history);
+  const std::string_view learning = section_of(page, "learning");
+  const auto dots = dots_of(learning);
+  REQUIRE(dots.size() == 12);
+  // Grade over height is one straight line, and the dots are evenly apart.
+  const auto grade = [&](std::size_t i) { return history.runs[i].row.result.grade; };
+  const double per_point = (dots[11].second - dots[0].second) / (grade(11) - grade(0));
+  CHECK(per_point < 0.0);
+  for (std::size_t i = 1; i < 12; ++i) {
+    CHECK(dots[i].second - dots[0].second == doctest::Approx(per_point * (grade(i) - grade(0))).epsilon(1e-3));
+    CHECK(dots[i].first - dots[i - 1].first == doctest::Approx(dots[1].first - dots[0].first).epsilon(1e-3));
+  }
+  const auto fit =
+      fit_learning_curve(std::vector<double>{grade(0), grade(1), grade(2), grade(3), grade(4), grade(5), grade(6),
+                                             grade(7), grade(8), grade(9), grade(10), grade(11)});
+  REQUIRE(fit.has_value());
+  const std::string said = without_markup(between(learning, "<figcaption>", "</figcaption>"));
+  double level = 0.0, level_off = 0.0, gain = 0.0, gain_off = 0.0, trials = 0.0, trials_off = 0.0, noise = 0.0;
+  REQUIRE(std::sscanf(said.c_str(), "A = %lf ± %lf, B = −%lf ± %lf, τ = %lf ± %lf runs; a run scatters by %lf", &level,
+                      &level_off, &gain, &gain_off, &trials, &trials_off, &noise) == 7);
+  CHECK(std::abs(level - fit->level.value) <= 0.005);
+  CHECK(std::abs(level_off - fit->level.deviation) <= 0.005);
+  CHECK(std::abs(-gain - fit->gain.value) <= 0.005);
+  CHECK(std::abs(gain_off - fit->gain.deviation) <= 0.005);
+  CHECK(std::abs(trials - fit->trials.value) <= 0.005);
+  CHECK(std::abs(trials_off - fit->trials.deviation) <= 0.005);
+  CHECK(std::abs(noise - fit->noise) <= 0.005);
+  CHECK(level == doctest::Approx(8.0).epsilon(0.02));
+  const auto rows = table_of(page, "tasks");
+  REQUIRE(rows.size() == 1);
+  CHECK(rows[0] == std::vector<std::string>{"Upshift", "12", "8", "3.1", "7.7", "7.6", "7.5"});
+}
+
+TEST_CASE("where there is no curve, it is said why") {
+  CHECK(has(page_of(learner(1)), "No curve yet: it takes 5 graded runs, there are 1."));
+  CHECK(has(page_of(learner(4)), "No curve yet: it takes 5 graded runs, there are 4."));
+  LearnerHistory flat = learner(8);
+  for (ReportedRun& run : flat.runs) run.row.result.grade = 7.0;
+  CHECK(has(page_of(flat), "No curve: in these 8 grades no learning stands out from their scatter."));
+}
+
+TEST_CASE("weaknesses: counts, points and rates are those of the rows") {
+  LearnerHistory history = learner(4);  // 16 shifts
+  LessonResult& result = history.runs[0].row.result;
+  result.faults = {{FaultKind::grind, Severity::minor, 1.0, 1.0, 0}, {FaultKind::grind, Severity::severe, 1.0, 1.0, 1}};
+  result.deductions = {{0, 0.5}, {1, 2.0}};
+  const auto rows = table_of(page_of(history), "weaknesses");
+  REQUIRE(rows.size() == 1);
+  CHECK(std::vector<std::string>(rows[0].begin(), rows[0].begin() + 7) ==
+        std::vector<std::string>{"Grind", "", "1", "1", "", "2.5", "1.2"});  // 2 in 16 is 1.25
+  CHECK(rows[0][7].find("2.5") != std::string::npos);                        // 2 in 8
+  CHECK(rows[0][8] == "no clear change");
+}
+
+TEST_CASE("shifts: the worst by points, the best by time; their figures are the records'") {
+  LearnerHistory history = learner(3);
+  LessonResult& bad = history.runs[1].row.result;
+  bad.shifts[2].clutch_lag = -0.12;
+  bad.shifts[2].force_peak = 71.5;
+  bad.faults = {{FaultKind::over_push, Severity::minor, 14.0, 71.5, 1},
+                {FaultKind::clutch_early, Severity::severe, 18.0, 0.12, 2}};
+  bad.deductions = {{0, 0.5}, {1, 2.0}};
+  history.runs[2].row.result.shifts[3].end -= 0.2;
+  const std::string page = page_of(history);
+  const std::string_view shifts = section_of(page, "shifts");
+  const auto worst = table_of(shifts, "shifts");
+  REQUIRE(worst.size() == 2);
+  CHECK(worst[0][0] == "Run 2 , shift 3");
+  CHECK(worst[0][1] == "2 → 3");
+  CHECK(worst[0][3] == "2.0");
+  CHECK(worst[0][4] == "0.10");
+  CHECK(worst[0][5] == "−0.12");
+  CHECK(worst[0][6] == "0.45");
+  CHECK(worst[0][7] == "850");
+  CHECK(worst[0][9] == "71.5");
+  CHECK(worst[1][0] == "Run 2 , shift 2");
+  const auto best = table_of(shifts.substr(shifts.find("What was done best")), "shifts");
+  REQUIRE(best.size() == 3);
+  CHECK(best[0][0] == "Run 3 , shift 4");
+}
+
+TEST_CASE("names, comments and reasons with markup in them are text: the page's tags do not change") {
+  LearnerHistory plain = learner(3), hostile = learner(3);
+  const std::string attack = "</title><script>alert(1)</script>\"'><img src=x onerror=alert(1)>&lt;b&gt;<!--";
+  const auto fill = [](LearnerHistory& history, const std::string& text) {
+    history.learner.name = text;
+    history.learner.next_lesson = text;
+    LessonResult& result = history.runs[1].row.result;
+    result.lesson = text;
+    result.task = text;
+    result.why = text;
+    result.passed = false;
+    history.runs[1].row.recording = text;
+    history.runs[2].row.begun_at = text;
+    result.faults = {{FaultKind::stall, Severity::minor, 1.0, 1.0, 0}};
+    history.runs[1].comments = {{text, text, text}};
+  };
+  fill(plain, "word");
+  fill(hostile, attack);
+  const std::string page = page_of(hostile);
+  CHECK(tags_of(page) == tags_of(page_of(plain)));
+  const auto rows = table_of(page, "runs");
+  CHECK(has(rows[1][7], attack));  // and nothing of it is lost
+  CHECK(has(rows[1][5], attack));
+}
+
+TEST_CASE("a page is whole: every tag that is opened is closed, nothing is fetched and nothing runs") {
+  for (const int runs : {0, 1, 30}) {
+    const std::string page = page_of(learner(runs));
+    std::vector<std::string> open;
+    const std::set<std::string> single{"!DOCTYPE", "meta", "br", "rect", "line", "circle", "polygon", "polyline"};
+    for (std::size_t at = 0; (at = page.find('<', at)) != std::string::npos; ++at) {
+      const std::size_t end = page.find('>', at);
+      const std::string tag = page.substr(at + 1, page.find_first_of(" >\n", at) - at - 1);
+      if (page[end - 1] == '/' || (single.contains(tag) && tag != "circle")) continue;
+      if (tag[0] != '/') {
+        open.push_back(tag);
+        continue;
+      }
+      REQUIRE(!open.empty());
+      CHECK(open.back() == tag.substr(1));
+      open.pop_back();
+    }
+    CHECK(open.empty());
+    CHECK_FALSE(has(page, "<script"));
+    CHECK_FALSE(has(page, " src="));
+    CHECK_FALSE(has(page, "url("));
+    CHECK_FALSE(has(page, "nan"));
+    CHECK_FALSE(has(page, "inf"));
+  }
+}
+
+TEST_CASE("an empty history is a page that says so") {
+  const std::string page = page_of(learner(0));
+  CHECK(has(page, "No lesson was driven yet."));
+  CHECK(has(page, "There is no graded run yet."));
+  CHECK(has(page, "No shift of a graded run had a fault."));
+  CHECK(has(page, "Next lesson: <strong>The drill</strong>. The drill was not yet passed."));
+  CHECK(text_of_id(page, "minutes") == "0.0");
+}
+
+TEST_CASE("500 runs are all there") {
+  const LearnerHistory history = learner(500);
+  const std::string page = page_of(history);
+  const auto rows = table_of(page, "runs");
+  REQUIRE(rows.size() == 500);
+  CHECK(rows[0][0] == "500");
+  CHECK(rows[499][0] == "1");
+  CHECK(text_of_id(page, "minutes") == "500.0");
+  CHECK(dots_of(section_of(page, "learning")).size() == 500);
+  CHECK(page.size() < 2'000'000);
+}

@@ -1,0 +1,103 @@
+// A shift found in a trace, and drawn: force and way are those that were recorded.
+#include "app/report/shift_recording.h"
+
+#include <cmath>
+
+#include <doctest/doctest.h>
+
+#include "app/report/recorded_svg.h"
+#include "haptics/files/file_error.h"
+#include "haptics/gate/gate_layout.h"
+#include "haptics/loop/trace_reader.h"
+#include "tests/app/report/constructed_history.h"
+#include "tests/app/report/page_parts.h"
+#include "tests/support/gates.h"
+#include "tests/support/temp_folder.h"
+
+using namespace gearshift;
+
+namespace {
+
+// 10 s from 100 s on: the hand pushes with a sawtooth of 1 N/s, one cycle with 44 N; the lever goes forward at 1 mm/s.
+void write_sawtooth(const std::filesystem::path& file) {
+  TraceHeader header;
+  const GateLayout layout = read_gate_layout(GEARSHIFT_ASSETS "/gates/paper.toml");
+  header.gate_file = "paper.toml";
+  header.gate_text = layout.text;
+  header.device.workspace = kPaperWorkspace;
+  header.device.yoke_radius = kPaperYokeRadius;
+  std::vector<TraceSample> samples(10000);
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    const double t = 1e-3 * static_cast<double>(i);
+    TraceSample& s = samples[i];
+    s.deadline_ns = s.out.time_ns = 100'000'000'000 + static_cast<std::int64_t>(i) * 1'000'000;
+    s.out.cycle = i;
+    s.out.f_h = {0.6 * std::fmod(t, 1.0), 0.8 * std::fmod(t, 1.0)};
+    if (i == 4321) s.out.f_h = {0.0, -44.0};
+    s.out.lever = s.out.proxy = {0.0, 1e-3 * t};
+    s.controls.clutch = t > 4.1 && t < 4.6 ? 1.0 : 0.0;
+  }
+  write_trace(file, header, samples);
+}
+
+ShiftRecord shift_at(double begin) {
+  ShiftRecord shift = good_shift(0, begin);
+  return shift;
+}
+
+std::string refusal(const std::filesystem::path& file, const ShiftRecord& shift) {
+  try {
+    (void)read_shift(file, shift);
+  } catch (const FileError& problem) {
+    return problem.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("the cycles of a shift and 0.3 s around it, on the shift's own clock") {
+  const TempFolder folder;
+  write_sawtooth(folder / "a.trace");
+  const RecordedShift shift = read_shift(folder / "a.trace", shift_at(104.1));
+  CHECK(shift.end == doctest::Approx(0.6));
+  CHECK(shift.alarm == HapticConfig{}.over_push.warn_above);
+  CHECK(shift.gate.slot_count == paper_gate().slot_count);
+  REQUIRE(shift.cycles.size() > 1190);
+  CHECK(shift.cycles.front().time == doctest::Approx(-0.3).epsilon(0.01));
+  CHECK(shift.cycles.back().time == doctest::Approx(0.9).epsilon(0.01));
+  for (const RecordedCycle& cycle : shift.cycles) {
+    const double t = cycle.time + 4.1;
+    if (cycle.force < 40.0) CHECK(std::abs(cycle.force - std::fmod(t, 1.0)) < 1e-6);
+    CHECK(std::abs(cycle.lever.y - 1e-3 * t) < 1e-9);
+  }
+}
+
+TEST_CASE("the drawing keeps the one cycle that pushed hardest") {
+  const TempFolder folder;
+  write_sawtooth(folder / "a.trace");
+  RecordedShift shift = read_shift(folder / "a.trace", shift_at(104.1));
+  const auto highest = [&] {
+    const std::string svg = force_svg(shift);
+    const std::string_view line = between(svg, "<polyline points=\"", "\"");
+    double top = 1e9;
+    for (std::size_t at = 0; (at = line.find(',', at)) != std::string_view::npos; ++at)
+      top = std::min(top, std::stod(std::string(line.substr(at + 1, 12))));
+    return top;
+  };
+  const double with = highest();
+  // 44 N of a scale up to 50: 12 % of the box below its top.
+  CHECK(with == doctest::Approx(28.0 + 170.0 * 6.0 / 50.0).epsilon(1e-3));
+  for (RecordedCycle& cycle : shift.cycles) cycle.force = std::min(cycle.force, 1.0);
+  CHECK(highest() > with + 50.0);
+  CHECK(path_svg(shift).find("</svg>") != std::string::npos);
+}
+
+TEST_CASE("what is not there is told in one sentence") {
+  const TempFolder folder;
+  write_sawtooth(folder / "a.trace");
+  CHECK(refusal(folder / "a.trace", shift_at(104.0)).empty());
+  CHECK(refusal(folder / "a.trace", shift_at(3.0)).find("does not hold this shift") != std::string::npos);
+  CHECK(refusal(folder / "a.trace", shift_at(200.0)).find("does not hold this shift") != std::string::npos);
+  CHECK(refusal(folder / "gone.trace", shift_at(104.0)).find("gone.trace") != std::string::npos);
+}

@@ -1,0 +1,80 @@
+#include "app/train/look_around.h"
+
+#include <cmath>
+#include <numbers>
+#include <stdexcept>
+#include <string>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include "app/stage/stage.h"
+
+using namespace gearshift;
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+glm::dvec3 ahead(const LookAround& look) {
+  return look.pose().orientation * glm::dvec3(0.0, 0.0, -1.0);
+}
+double heading(const LookAround& look) {  // [deg] right of the car's way, which is -Z
+  return std::atan2(ahead(look).x, -ahead(look).z) / kDegree;
+}
+double height(const LookAround& look) {  // [deg] above the horizon
+  return std::asin(ahead(look).y) / kDegree;
+}
+
+}  // namespace
+
+TEST_CASE("a mouse that goes right looks right and one that goes down looks down, a fifth of a degree a pixel") {
+  for (const char* place : {"driver", "ahead"}) {
+    CAPTURE(place);
+    LookAround look(place);
+    const double heading_at_rest = heading(look), height_at_rest = height(look);
+    look.turn({50.0, 0.0});
+    CHECK(heading(look) == doctest::Approx(heading_at_rest + 10.0));
+    CHECK(height(look) == doctest::Approx(height_at_rest));
+    look.turn({-100.0, 0.0});
+    CHECK(heading(look) == doctest::Approx(heading_at_rest - 10.0));
+    look.recentre();
+    look.turn({0.0, 50.0});
+    CHECK(height(look) == doctest::Approx(height_at_rest - 10.0));
+    CHECK(heading(look) == doctest::Approx(heading_at_rest));
+    look.turn({0.0, -100.0});
+    CHECK(height(look) == doctest::Approx(height_at_rest + 10.0));
+    look.recentre();
+    CHECK(height(look) == doctest::Approx(height_at_rest));
+  }
+}
+
+TEST_CASE(
+    "the horizon stays level and the eye where it is, however the head turns; 80 deg aside and 60 up are the most") {
+  LookAround look("ahead");
+  const glm::dvec3 eye = look.pose().position;
+  const double heading_at_rest = heading(look), height_at_rest = height(look);
+  for (const glm::dvec2 moved : {glm::dvec2(120.0, 70.0), {-300.0, -90.0}, {33.0, 250.0}, {1e4, -1e4}, {-1e5, 0.0}}) {
+    look.turn(moved);
+    CHECK(std::abs((look.pose().orientation * glm::dvec3(1.0, 0.0, 0.0)).y) < 1e-9);
+    CHECK(look.pose().position == eye);
+  }
+  CHECK(heading(look) == doctest::Approx(heading_at_rest - 80.0));
+  CHECK(height(look) == doctest::Approx(height_at_rest + 60.0));
+}
+
+TEST_CASE("the next place begins straight, and after the last comes the first") {
+  LookAround look("lever");
+  std::string places;
+  for (int i = 0; i < 6; ++i) {
+    look.turn({200.0, 100.0});
+    look.next();
+    places += std::string(look.place()) + " ";
+    const EyePose place = camera(look.place());
+    CHECK(look.pose().position == place.position);
+    CHECK(std::abs(glm::dot(look.pose().orientation, place.orientation)) == doctest::Approx(1.0));
+    CHECK(look.field() == camera_field(look.place()));
+  }
+  CHECK(places == "gate cluster gearbox driver ahead lever ");
+  CHECK_THROWS_AS(LookAround("roof"), std::invalid_argument);
+}

@@ -1,0 +1,40 @@
+// What the panel is told to be another run, on the virtual clock.
+#include <cstdint>
+#include <functional>
+
+#include <doctest/doctest.h>
+
+#include "app/train/session.h"
+#include "tests/support/temp_folder.h"
+#include "tests/support/variable.h"
+
+using namespace gearshift;
+
+TEST_CASE("another lever and a replay are other runs to the panel, begin and end; tuning and recording are not") {
+  const TempFolder folder;
+  const Variable config{"XDG_CONFIG_HOME", folder.path().c_str()}, data{"XDG_DATA_HOME", folder.path().c_str()};
+  SessionChoice choice;
+  choice.hand = kTouringHand;
+  choice.clock = TrainerClock::virtual_time;
+  choice.sound = SoundOutput::none;
+  Session session(choice);
+  const auto changes = [&](const std::function<void(PanelRequests&)>& what, int frames = 30) {
+    PanelRequests requests;
+    what(requests);
+    const std::uint64_t before = session.panel_input().run;
+    session.obey(requests);
+    for (int i = 0; i < frames; ++i) session.advance(1.0 / 60.0);
+    return session.panel_input().run != before;
+  };
+  CHECK_FALSE(changes([](PanelRequests&) {}));
+  CHECK_FALSE(changes([](PanelRequests& r) { r.tuning = HapticTuning{.wall_stiffness = 4000.0}; }));
+  CHECK_FALSE(changes([](PanelRequests& r) { r.record = true; }));
+  CHECK_FALSE(changes([](PanelRequests& r) { r.record = true; }));
+  CHECK(changes([](PanelRequests& r) { r.replay = true; }, 1));
+  CHECK(changes([](PanelRequests&) {}, 60));  // the half second that was recorded is over
+  CHECK(session.message() == "replay done");
+  CHECK(changes([](PanelRequests& r) { r.gate = "four_speed"; }));
+  CHECK(changes([](PanelRequests& r) { r.preset = "measured"; }));
+  CHECK(changes([](PanelRequests& r) { r.hand = "grip"; }));
+  CHECK_FALSE(changes([](PanelRequests& r) { r.gate = "no_such_gate"; }));
+}

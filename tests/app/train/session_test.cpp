@@ -1,0 +1,278 @@
+// What a person at the panel may ask for, on the virtual clock and without window, GPU and sound card.
+#include "app/train/session.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "app/program_name.h"
+#include "haptics/loop/replay.h"
+#include "haptics/loop/trace_reader.h"
+#include "tests/support/small_files.h"
+#include "tests/support/temp_folder.h"
+#include "tests/support/variable.h"
+
+using namespace gearshift;
+namespace fs = std::filesystem;
+
+namespace {
+
+// A user of its own, and the session that goes by itself through the paper's gate.
+struct Rig {
+  TempFolder folder;
+  Variable config{"XDG_CONFIG_HOME", folder.path().c_str()};
+  Variable data{"XDG_DATA_HOME", folder.path().c_str()};
+  Session session;
+
+  explicit Rig(const SessionChoice& choice = choice_by_itself()) : session(choice) {}
+
+  static SessionChoice choice_by_itself() {
+    SessionChoice choice;
+    choice.hand = kTouringHand;
+    choice.clock = TrainerClock::virtual_time;
+    choice.sound = SoundOutput::none;
+    return choice;
+  }
+
+  void go(double seconds) {
+    for (double time = 0.0; time < seconds; time += 1.0 / 60.0) session.advance(1.0 / 60.0);
+  }
+  void ask(std::optional<std::string> PanelRequests::*what, const std::string& name) {
+    PanelRequests requests;
+    requests.*what = name;
+    session.obey(requests);
+  }
+  void ask(bool PanelRequests::*what) {
+    PanelRequests requests;
+    requests.*what = true;
+    session.obey(requests);
+  }
+  bool says(const std::string& words) const { return session.message().find(words) != std::string::npos; }
+  HapticTuning tuning() { return session.trainer().config().preset.haptics.tuning; }
+
+  std::set<fs::path> traces() const {
+    std::set<fs::path> files;
+    std::error_code error;
+    for (fs::directory_iterator entry(folder / "gearshift/recordings", error), end; entry != end; ++entry)
+      files.insert(entry->path());
+    return files;
+  }
+  fs::path own_preset(const std::string& name) const { return folder / ("gearshift/presets/" + name + ".toml"); }
+};
+
+HapticTuning softer(HapticTuning tuning) {
+  tuning.wall_stiffness = 4321.0;
+  return tuning;
+}
+
+bool has_node(const Session& session, const std::string& name) {
+  return session.stage().model().node(name) != kNone;
+}
+
+}  // namespace
+
+TEST_CASE("what was tuned stays when gate or hand change; a preset that is asked for brings its own") {
+  Rig rig;
+  PanelRequests requests;
+  requests.tuning = softer(rig.tuning());
+  rig.session.obey(requests);
+  rig.ask(&PanelRequests::gate, "four_speed");
+  CHECK(rig.tuning().wall_stiffness == 4321.0);
+  rig.ask(&PanelRequests::hand, "grip");
+  CHECK(rig.tuning().wall_stiffness == 4321.0);
+  rig.ask(&PanelRequests::preset, "measured");
+  CHECK(rig.tuning() == read_preset(GEARSHIFT_ASSETS "/presets/measured.toml").haptics.tuning);
+}
+
+TEST_CASE("a restart's configuration stays, too, and what is tuned after it") {
+  Rig rig;
+  PanelRequests restart;
+  restart.restart = rig.session.trainer().config().preset.haptics;
+  restart.restart->guard.ramp_time = 0.25;
+  rig.session.obey(restart);
+  PanelRequests tune;
+  tune.tuning = softer(rig.tuning());
+  rig.session.obey(tune);
+  rig.ask(&PanelRequests::hand, "arm");
+  CHECK(rig.session.trainer().config().preset.haptics.guard.ramp_time == 0.25);
+  CHECK(rig.tuning().wall_stiffness == 4321.0);
+}
+
+TEST_CASE("a recording that dies is told in the frame in which it is known, and is over") {
+  Rig rig;
+  {
+    const SmallFiles small(300'000);  // [bytes] less than a second
+    rig.ask(&PanelRequests::record);
+    CHECK(rig.says("recording to"));
+    rig.go(3.0);
+  }
+  CHECK(rig.says("the recording failed after"));
+  CHECK_FALSE(rig.session.recording());
+  CHECK_FALSE(rig.session.panel_input().recording);
+}
+
+TEST_CASE("another gate ends the recording and says where it is, or what became of it") {
+  Rig rig;
+  rig.ask(&PanelRequests::record);
+  rig.go(0.5);
+  rig.ask(&PanelRequests::gate, "four_speed");
+  CHECK_FALSE(rig.session.recording());
+  CHECK(rig.says("recorded: "));
+  REQUIRE(rig.traces().size() == 1);
+  const Trace trace = read_trace(*rig.traces().begin());
+  CHECK(replay(trace).bit_for_bit());
+  CHECK(trace.header.program == program_name());
+  {
+    const SmallFiles small(20'000);  // [bytes] more than the header, less than a block: known only when it is closed
+    rig.ask(&PanelRequests::record);
+    rig.go(0.1);
+    rig.ask(&PanelRequests::gate, "paper");
+  }
+  CHECK(rig.says("the recording failed after"));
+}
+
+TEST_CASE("two recordings within a second are two files, both whole") {
+  Rig rig;
+  for (int i = 0; i < 4; ++i) {
+    rig.ask(&PanelRequests::record);
+    rig.go(0.1);
+  }
+  REQUIRE(rig.traces().size() == 2);
+  for (const fs::path& file : rig.traces()) CHECK(replay(read_trace(file)).bit_for_bit());
+}
+
+TEST_CASE("a replay shows the trace: its history without gaps, none of the running lever's, whose guard stays seen") {
+  Rig rig;
+  rig.go(1.0);
+  rig.ask(&PanelRequests::record);
+  rig.go(2.0);
+  rig.ask(&PanelRequests::record);
+  const Trace trace = read_trace(*rig.traces().begin());
+  rig.go(1.0);
+  rig.ask(&PanelRequests::replay);
+  REQUIRE(rig.says("replaying"));
+  rig.ask(&PanelRequests::stop);
+  std::vector<std::uint64_t> cycles;
+  std::size_t events = 0;
+  for (int i = 0; i < 60; ++i) {
+    rig.session.advance(1.0 / 60.0);
+    const PanelInput& input = rig.session.panel_input();
+    for (const HapticSnapshot& snapshot : input.history) {
+      cycles.push_back(snapshot.cycle);
+      REQUIRE(snapshot.time_ns <= trace.samples.back().out.time_ns);
+    }
+    REQUIRE_FALSE(input.history.empty());
+    CHECK(input.now.time_ns == input.history.back().time_ns);
+    CHECK(input.now.guard == GuardState::released);
+    events += input.events.size();
+  }
+  REQUIRE(cycles.size() > 950);
+  for (std::size_t i = 0; i < cycles.size(); ++i) REQUIRE(cycles[i] == i);
+  CHECK(events == 0);
+  rig.go(1.5);
+  CHECK(rig.says("replay done"));
+  rig.go(0.1);
+  CHECK(rig.session.panel_input().now.time_ns > trace.samples.back().out.time_ns);
+  for (const HapticSnapshot& snapshot : rig.session.panel_input().history)
+    CHECK(snapshot.time_ns > trace.samples.back().out.time_ns);
+}
+
+TEST_CASE("a trace of another gate is not shown in this one, and another gate ends a replay") {
+  Rig rig;
+  rig.ask(&PanelRequests::record);
+  rig.go(1.0);
+  rig.ask(&PanelRequests::record);
+  rig.ask(&PanelRequests::replay);
+  rig.go(0.1);
+  const glm::dvec2 shown = rig.session.shown().lever;
+  rig.ask(&PanelRequests::gate, "four_speed");
+  rig.session.advance(1.0 / 60.0);
+  CHECK_FALSE(rig.session.panel_input().events.empty());  // the running lever's: armed
+  rig.ask(&PanelRequests::replay);
+  CHECK(rig.says("recorded in another gate"));
+  rig.ask(&PanelRequests::gate, "paper");
+  rig.ask(&PanelRequests::replay);
+  CHECK(rig.says("replaying"));
+  rig.go(0.1);
+  CHECK(rig.session.shown().lever == shown);
+}
+
+TEST_CASE("a preset that cannot be read is not compared under its name") {
+  Rig rig;
+  rig.ask(&PanelRequests::compare, "measured");
+  CHECK(rig.session.panel_input().compared.has_value());
+  rig.ask(&PanelRequests::compare, "no_such_preset");
+  CHECK_FALSE(rig.session.panel_input().compared.has_value());
+  CHECK(rig.says("no_such_preset"));
+}
+
+TEST_CASE("a preset is saved under a name of one's own, is in the list at once, and once") {
+  Rig rig;
+  for (const char* name : {"", ".", "..", ".hidden", "a/b", "../x", "default", "paper"}) {
+    CAPTURE(name);
+    rig.ask(&PanelRequests::save_preset, name);
+    CHECK(rig.says("cannot be a preset's name"));
+  }
+  CHECK_FALSE(fs::exists(rig.folder / "gearshift/presets"));
+  rig.ask(&PanelRequests::save_preset, (rig.folder / "x").string());
+  CHECK_FALSE(fs::exists(rig.folder / "x.toml"));
+  rig.ask(&PanelRequests::save_preset, "heavy");
+  rig.ask(&PanelRequests::save_preset, "heavy");
+  CHECK(fs::exists(rig.own_preset("heavy")));
+  const std::vector<std::string> presets = rig.session.panel_input().presets;
+  CHECK(presets == std::vector<std::string>{"default", "measured", "paper", "heavy"});
+}
+
+TEST_CASE("a file called as a shipped preset neither stands for it nor is in the list twice") {
+  Rig rig;
+  PanelRequests requests;
+  requests.tuning = softer(rig.tuning());
+  rig.session.obey(requests);
+  rig.ask(&PanelRequests::save_preset, "heavy");
+  fs::rename(rig.own_preset("heavy"), rig.own_preset("measured"));
+  Session other(Rig::choice_by_itself());
+  const std::vector<std::string> presets = other.panel_input().presets;
+  CHECK(std::count(presets.begin(), presets.end(), "measured") == 1);
+  rig.ask(&PanelRequests::preset, "measured");
+  CHECK(rig.tuning().wall_stiffness != 4321.0);
+}
+
+TEST_CASE("the stage is made anew for another gate or another yoke, and for nothing else") {
+  Rig rig;
+  CHECK(rig.session.take_new_model());
+  rig.ask(&PanelRequests::hand, "grip");
+  rig.ask(&PanelRequests::preset, "measured");
+  CHECK_FALSE(rig.session.take_new_model());
+  rig.ask(&PanelRequests::gate, "four_speed");
+  CHECK(rig.session.take_new_model());
+  const fs::path wide = rig.folder / "wide.toml";
+  std::ofstream(wide) << "name = \"wide\"\n[lever.yoke]\nradius_m = 0.15\n[lever]\nhand = \"grip\"\n";
+  rig.ask(&PanelRequests::preset, wide.string());
+  CHECK(rig.session.trainer().device().yoke_radius == 0.15);
+  CHECK(rig.session.take_new_model());
+}
+
+TEST_CASE("the cabin is laid open for the cameras that look into it") {
+  SessionChoice choice = Rig::choice_by_itself();
+  choice.camera = "gearbox";
+  Rig rig(choice);
+  CHECK(has_node(rig.session, "GearboxSigns"));
+  rig.session.take_new_model();
+  rig.session.look_from("driver");
+  CHECK(rig.session.take_new_model());
+  CHECK_FALSE(has_node(rig.session, "GearboxSigns"));
+  rig.session.look_from("lever");
+  CHECK_FALSE(rig.session.take_new_model());
+  const std::uint64_t closed = rig.session.stage().model().triangle_count();
+  rig.session.look_from("gate");
+  CHECK(rig.session.take_new_model());
+  CHECK(rig.session.stage().model().triangle_count() != closed);
+  rig.ask(&PanelRequests::gate, "four_speed");  // still open
+  rig.session.look_from("gate");
+  CHECK(rig.session.take_new_model());
+  CHECK_FALSE(rig.session.take_new_model());
+}

@@ -1,0 +1,36 @@
+// What a thread that is late tells the frame: deadlines missed by sleeping are missed, too.
+#include <doctest/doctest.h>
+
+#include "app/trainer/cycle_runner.h"
+#include "haptics/device/led_hand.h"
+#include "haptics/device/simulated_lever.h"
+#include "tests/support/gates.h"
+
+using namespace gearshift;
+
+TEST_CASE("every skipped deadline is told, and apart from them the cycles that took too long") {
+  const HapticConfig config;
+  const Gate gate = paper_gate();
+  LatestValue<HandTarget> person{HandTarget{}};
+  LedHand hand(person, period_s(config));
+  SimulatedLever lever(SimulatedLeverConfig{}, period_ns(config), hand);
+  LoopRun run(config, gate, lever);
+  CycleRunner runner(period_ns(config));
+  runner.hand_over(run);
+  CycleStatistics statistics;
+  std::int64_t deadline = 0;
+  std::uint64_t skipped = 0, overruns = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const std::int64_t missed = i % 500 == 0 ? 3 : 0;
+    const bool too_long = i % 1000 == 0;
+    skipped += static_cast<std::uint64_t>(missed);
+    overruns += too_long ? 1u : 0u;
+    statistics.skipped = skipped;
+    statistics.overruns = overruns;
+    deadline += (1 + missed) * period_ns(config);
+    runner.cycle({deadline, missed}, &statistics);
+  }
+  runner.figures.update();
+  CHECK(runner.figures.value().skipped == 12);
+  CHECK(runner.figures.value().overruns == 2);
+}

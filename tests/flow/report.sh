@@ -1,0 +1,103 @@
+#!/usr/bin/env bash
+# What is remembered of learners, as an instructor asks for it: table, page, CSV, comment, next lesson, deletion.
+# Usage: report.sh GEARSHIFT SOURCE_FOLDER FILL_HISTORY
+set -u
+gearshift=$1
+fill=$3
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
+export XDG_DATA_HOME=$work/data
+
+report() { # arguments ...
+  "$gearshift" report "$@" >out 2>err </dev/null
+}
+says() { grep -qF -- "$1" out; }
+refuse() { # exit code, part of the sentence, arguments ...
+  local code=$1 part=$2
+  shift 2
+  "$gearshift" report "$@" >out 2>err </dev/null
+  local got=$?
+  check "report $*: exit $got (wanted $code), wanted one line with \"$part\", got: $(cat err out)" \
+    test $got -eq "$code" -a "$(wc -l <err)" -eq 1 -a ! -s out -a -n "$(grep -F -- "$part" err)"
+}
+
+ada="Ada <i>Löwe</i>"
+check "no history yet: said, and none is made" report
+check "in words" says "Nobody has driven a lesson yet."
+check "nothing was made" test ! -e data
+refuse 1 "there is no such history" --learner Ada
+refuse 1 "nowhere.db" --database nowhere.db
+
+check "a drive is recorded" "$gearshift" tour --out tour
+mkdir -p data/gearshift
+cp tour/tour.trace data/gearshift/near.trace
+check "a history" "$fill" data/gearshift/history.db near.trace
+
+check "learners are listed" report
+check "with runs and what comes next" grep -Eq "^Ada <i>Löwe</i> +1 +12 +20[0-9-]+ +start_and_stop$" out
+check "and those who have not driven" grep -Eq "^Bob +0 +0 +- " out
+report --learner "$ada"
+check "a learner's runs" test "$(grep -c up_through_the_gears out)" -eq 12
+
+check "a comment is taken" report --learner "$ada" --comment 3 'Calmer, "much" <calmer>' --by "Bo & Di"
+check "the next lesson is set" report --learner "$ada" --next hill_start
+report
+check "and listed" says "hill_start (the instructor's)"
+
+check "the page and tables" report --learner "$ada" --out "a folder/ä" --csv
+page="a folder/ä/index.html"
+check "what was written is told" says "$page"
+check "the page is whole" grep -q "</html>" "$page"
+check "the name is text" grep -qF "<h1>Ada &lt;i&gt;Löwe&lt;/i&gt;</h1>" "$page"
+check "the comment stands beside the grade" grep -qF "Calmer, &quot;much&quot; &lt;calmer&gt;" "$page"
+check "the next lesson" grep -qF "Next lesson: <strong>Hill start</strong>, chosen by the instructor." "$page"
+check "a curve was fitted" grep -q "A = 9\.0. ± " "$page"
+check "force and way of recorded shifts" test "$(grep -c 'class="path"' "$page")" -eq 6
+check "nothing runs and nothing is fetched" test "$(grep -cE '<script|src=|https?://[^w]' "$page")" -eq 0
+check "12 runs, 36 shifts, 12 faults" \
+  test "$(cat "a folder/ä/"{runs,shifts,faults}.csv | grep -c $'\r$')" -eq $((13 + 37 + 13))
+check "a comment in the table is quoted" grep -qF '""much"" <calmer>' "a folder/ä/runs.csv"
+cp "$page" first.html
+report --learner "$ada" --out "a folder/ä"
+check "the same history, the same page" cmp -s first.html "$page"
+check "empty gives the next lesson back" report --learner "$ada" --next ""
+report
+check "as suggested again" grep -Eq "start_and_stop$" out
+
+refuse 1 "known: Ada <i>Löwe</i>, Bob" --learner Eve
+refuse 1 "known: 1, 2, 3" --learner "$ada" --comment 99 text --by Bo
+refuse 1 "known: none yet" --learner Bob --comment 1 text --by Bo
+refuse 2 "--by" --learner "$ada" --comment 1 text
+refuse 2 "--comment" --learner "$ada" --by Bo
+refuse 2 "--comment" --learner "$ada" --comment one text --by Bo
+refuse 1 "shipped lessons" --learner "$ada" --next flying
+refuse 2 "--learner" --out t
+refuse 2 "--learner: must not be empty" --learner "" --delete --yes
+refuse 2 "--out: must not be empty" --learner "$ada" --out ""
+refuse 2 "--comment" --learner "$ada" --comment 1 "" --by Bo
+refuse 2 "--by: must not be empty" --learner "$ada" --comment 1 text --by ""
+refuse 2 "--out" --learner "$ada" --csv
+refuse 2 "--delete" --learner "$ada" --yes
+refuse 2 "--delete" --learner "$ada" --delete --out t
+refuse 1 "/proc" --learner "$ada" --out /proc/nowhere
+head -c 4096 /dev/urandom >noise.db
+cp noise.db noise.before
+refuse 1 "it is no history of this program; it is left as it is" --database noise.db
+check "and it is" cmp -s noise.db noise.before
+
+# Deleted: with the name, once more; not with another one, not without one.
+deletes() { # name that is typed
+  printf '%s\n' "$1" | "$gearshift" report --learner "$ada" --delete >out 2>err
+}
+check "another name deletes nothing" test "$(deletes Bob; echo $?)" -eq 1
+check "nor does no name" test "$(report --learner "$ada" --delete; echo $?)" -eq 1
+report --learner "$ada"
+check "all runs are there" test "$(grep -c up_through_the_gears out)" -eq 12
+check "the name deletes" deletes "$ada"
+check "and it is told what went" says "1 sessions, 12 runs, 36 shifts, 12 faults, 1 comments, 1 recordings"
+check "the recording went" test ! -e data/gearshift/near.trace
+check "no byte of the name is left" test "$(cat data/gearshift/* | grep -ac Löwe)" -eq 0
+report
+check "the other one is there" says Bob
+check "without a question" report --learner Bob --delete --yes
+
+finish
