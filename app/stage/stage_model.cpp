@@ -23,9 +23,9 @@ namespace {
 
 constexpr glm::vec3 kCapGround{0.012f}, kCapInk{0.75f}, kCapReverse{0.62f, 0.035f, 0.025f};  // linear
 constexpr int kCapSide = 256;                                                                // [px]
-constexpr float kModelRod = 0.006f;      // [m] radius of the cabin's LeverRod
-constexpr glm::dvec2 kLamp{0.0, 0.061};  // [m] on the boot's frame, ahead of the lever
-constexpr double kLampRadius = 0.0032;   // [m]
+constexpr float kModelRod = 0.006f;         // [m] radius of the cabin's LeverRod
+constexpr glm::dvec2 kLamp{-0.052, 0.059};  // [m] on the boot's frame, front left: no hand hides it from the driver
+constexpr double kLampRadius = 0.0040;      // [m]
 constexpr const char* kBodywork = "Bodywork";
 
 Node& node_of(Model& model, std::string_view name) {
