@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "app/training/fault_rules.h"
 
@@ -32,6 +33,10 @@ std::optional<DriveFault> ClutchRelease::add(const DriveSample& sample, double d
   if (!is_over(sample)) return std::nullopt;
   open_ = false;
   return judge();
+}
+
+std::optional<DriveFault> ClutchRelease::finish() noexcept {
+  return std::exchange(open_, false) ? judge() : std::nullopt;
 }
 
 bool ClutchRelease::is_over(const DriveSample& sample) noexcept {

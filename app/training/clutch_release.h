@@ -17,6 +17,7 @@ class ClutchRelease {
 
   // Every cycle. The fault of the release that is over, if there is one: a dump, or else a jerk; no jerk beside a stall.
   std::optional<DriveFault> add(const DriveSample& sample, double dt);
+  std::optional<DriveFault> finish() noexcept;  // the drive ends: what the release in progress has shown so far
 
  private:
   bool is_over(const DriveSample& sample) noexcept;

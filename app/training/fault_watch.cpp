@@ -182,6 +182,7 @@ void FaultWatch::finish() {
   }
   tell_rollback(last_.time());
   highest_ = last_.car.distance;
+  if (const auto fault = release_.finish()) faults_.push_back(*fault);
 }
 
 void FaultWatch::judge(const ShiftRecord& record) {

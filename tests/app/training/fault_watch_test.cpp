@@ -369,6 +369,18 @@ TEST_CASE("rolling back when the lesson is over is told all the same") {
   CHECK(only(faults, FaultKind::rollback).value == doctest::Approx(1.0).epsilon(0.01));
 }
 
+TEST_CASE("a clutch dumped as the lesson ends is told all the same") {
+  const auto faults = in_second(
+      [](DriveSample& s, double t) {
+        s.car.road_speed = 0.0;
+        s.car.clutch = ConstructedShift::line(t, 1.0, 1.0, 1.1, 0.0);
+        s.car.clutch_locked = false;
+        s.car.slip_power = t > 1.0 ? 20e3 : 0.0;
+      },
+      1.15);
+  CHECK(only(faults, FaultKind::clutch_dump).value == doctest::Approx(20e3));
+}
+
 TEST_CASE("early and late shift: an upshift outside the lesson's band") {
   const double engine = ConstructedShift().engine(2);
   const auto plain = [](DriveSample&, double) {};
