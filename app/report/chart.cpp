@@ -18,8 +18,9 @@ std::string tick_words(double value) {
 
 template <class Visit>
 void each_multiple(Range range, double step, const Visit& visit) {
-  const double last = std::floor(range.to / step + kRounding);
-  for (double i = std::ceil(range.from / step - kRounding); i <= last; ++i) visit(i * step + 0.0);  // no -0
+  const auto last = static_cast<long>(std::floor(range.to / step + kRounding));
+  for (auto i = static_cast<long>(std::ceil(range.from / step - kRounding)); i <= last; ++i)
+    visit(static_cast<double>(i) * step);
 }
 
 }  // namespace

@@ -8,6 +8,7 @@ namespace {
 
 std::vector<double> grades_of(const std::vector<GradedTrial>& trials) {
   std::vector<double> grades;
+  grades.reserve(trials.size());
   for (const GradedTrial& trial : trials) grades.push_back(trial.grade);
   return grades;
 }

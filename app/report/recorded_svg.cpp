@@ -47,6 +47,7 @@ std::vector<RecordedCycle> thinned(const std::vector<RecordedCycle>& cycles) {
 template <class Value>
 std::vector<glm::dvec2> line_of(const Chart& chart, const std::vector<RecordedCycle>& cycles, const Value& value) {
   std::vector<glm::dvec2> points;
+  points.reserve(cycles.size());
   for (const RecordedCycle& cycle : cycles) points.push_back(chart.at(cycle.time, value(cycle)));
   return points;
 }
@@ -54,6 +55,7 @@ std::vector<glm::dvec2> line_of(const Chart& chart, const std::vector<RecordedCy
 template <class Place>
 std::vector<glm::dvec2> way_of(const std::vector<RecordedCycle>& cycles, const Place& place) {
   std::vector<glm::dvec2> points;
+  points.reserve(cycles.size());
   for (const RecordedCycle& cycle : cycles) points.push_back(on_page(place(cycle)));
   return points;
 }

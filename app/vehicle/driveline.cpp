@@ -37,9 +37,9 @@ void Driveline::place(double engine_speed, double shaft_speed, double road_speed
   now_ = {};
   energy_ = {};
   fresh_ = true;
-  state_.engine_speed = speed_[kEngineBody];
-  state_.shaft_speed = speed_[kShaftBody];
-  state_.road_speed = speed_[kCarBody];
+  state_.engine_speed = speed_[engine_body];
+  state_.shaft_speed = speed_[shaft_body];
+  state_.road_speed = speed_[car_body];
   state_.running = running;
 }
 
@@ -62,7 +62,7 @@ void Driveline::step(const DrivelineInput& in, double seconds) noexcept {
 
 void Driveline::take(const DrivelineInput& in) noexcept {
   engine_.turn_key(in.ignition, in.starter);
-  engine_.update(speed_[kEngineBody]);
+  engine_.update(speed_[engine_body]);
   const bool same_cone = in.cone_gear == cone_gear_;
   mesh(in.meshed, in.cone_gear);
   state_.throttle = pedal(in.throttle);
@@ -98,7 +98,7 @@ void Driveline::mesh(int gear, int cone_gear) noexcept {
   } else if (gear != meshed_) {
     chain_.link = GearLink::dogs;
     chain_.per_road = per_road;
-    if (speed_[kShaftBody] != per_road * speed_[kCarBody]) {
+    if (speed_[shaft_body] != per_road * speed_[car_body]) {
       const double before = kinetic_energy();
       speed_ = collide(chain_, speed_, {1, 0, {1, 1, 1}});
       energy_.mesh += before - kinetic_energy();
@@ -121,7 +121,7 @@ double Driveline::next_kink(double after) const noexcept {
 
 void Driveline::show(double capacity) noexcept {
   const ChainMotion& motion = now_.motion;
-  const double engine = speed_[kEngineBody];
+  const double engine = speed_[engine_body];
   state_.engine_speed = engine;
   state_.engine_load = engine_.load(engine, state_.throttle);
   state_.engine_torque = engine_.torque(engine, state_.throttle) - friction_torque(car_.engine, engine);
@@ -131,14 +131,14 @@ void Driveline::show(double capacity) noexcept {
 
   state_.clutch_capacity = capacity;
   state_.clutch_torque = motion.clutch;
-  state_.shaft_speed = speed_[kShaftBody];
+  state_.shaft_speed = speed_[shaft_body];
   state_.slip_power = motion.clutch * (engine - state_.shaft_speed);
   state_.slip_energy = energy_.clutch;
   state_.clutch_locked = now_.mode.clutch == 0 && capacity > 0.0;
   state_.gear = meshed_;
 
-  state_.road_speed = speed_[kCarBody];
-  state_.acceleration = motion.rate[kCarBody];
+  state_.road_speed = speed_[car_body];
+  state_.acceleration = motion.rate[car_body];
   state_.drive_torque = motion.drive * car_.body.wheel_radius;
 }
 

@@ -19,8 +19,8 @@ PerBody moved(const GripChain& chain, const GripMode& mode, const PerBody& from,
               double seconds) noexcept {
   PerBody to;
   for (std::size_t b = 0; b < 3; ++b) to[b] = from[b] + seconds * rate[b];
-  if (gear_holds(chain, mode)) to[kShaftBody] = chain.per_road * to[kCarBody];
-  if (mode.clutch == 0) to[kEngineBody] = to[kShaftBody];
+  if (gear_holds(chain, mode)) to[shaft_body] = chain.per_road * to[car_body];
+  if (mode.clutch == 0) to[engine_body] = to[shaft_body];
   return to;
 }
 
@@ -28,18 +28,18 @@ PerBody moved(const GripChain& chain, const GripMode& mode, const PerBody& from,
 
 Driveline::Loads Driveline::loads_at(const PerBody& speed, double time) const noexcept {
   const double share = length_ > 0.0 ? time / length_ : 1.0;
-  const double shaft = speed[kShaftBody], road = speed[kCarBody];
+  const double shaft = speed[shaft_body], road = speed[car_body];
   const BodySpec& body = car_.body;
   Loads loads;
   loads.lift = lift_.at(share);
   loads.brakes = brakes_.at(share);
   ChainLoads& chain = loads.chain;
-  chain.push[kEngineBody] = engine_.torque(speed[kEngineBody], throttle_.at(share));
-  chain.push[kShaftBody] = -car_.gearbox.drag_slope * shaft;
-  chain.push[kCarBody] = -(body.resistance_slope + body.resistance_square * std::abs(road)) * road - loads.lift;
-  chain.ground[kEngineBody] = friction_torque(car_.engine, speed[kEngineBody]);
-  chain.ground[kShaftBody] = car_.gearbox.drag;
-  chain.ground[kCarBody] = body.resistance + loads.brakes;
+  chain.push[engine_body] = engine_.torque(speed[engine_body], throttle_.at(share));
+  chain.push[shaft_body] = -car_.gearbox.drag_slope * shaft;
+  chain.push[car_body] = -(body.resistance_slope + body.resistance_square * std::abs(road)) * road - loads.lift;
+  chain.ground[engine_body] = friction_torque(car_.engine, speed[engine_body]);
+  chain.ground[shaft_body] = car_.gearbox.drag;
+  chain.ground[car_body] = body.resistance + loads.brakes;
   chain.clutch = clutch_capacity(car_.clutch, pedal_.at(share));
   chain.cone = cone_.at(share);
   return loads;
@@ -72,7 +72,7 @@ void Driveline::advance(double seconds) noexcept {
     time_ = trial.changes ? time_ + left : end;
     if (trial.changes) {
       snap(reversed(speed_, trial.loads));
-      engine_.update(speed_[kEngineBody]);
+      engine_.update(speed_[engine_body]);
       settle_here();
     }
   }
@@ -85,7 +85,7 @@ Driveline::Trial Driveline::tried(double seconds) const noexcept {
   trial.loads = loads_at(half, time_ + 0.5 * seconds);
   trial.motion = move(chain_, trial.loads.chain, now_.mode);
   trial.speed = moved(chain_, now_.mode, speed_, trial.motion.rate, seconds);
-  trial.changes = reversed(trial.speed, trial.loads).any() || engine_.would_change(trial.speed[kEngineBody]);
+  trial.changes = reversed(trial.speed, trial.loads).any() || engine_.would_change(trial.speed[engine_body]);
   if (trial.changes) return trial;
   const Loads at_end = loads_at(trial.speed, time_ + seconds);
   trial.end = {now_.mode, move(chain_, at_end.chain, now_.mode)};
@@ -98,10 +98,10 @@ Driveline::Reversed Driveline::reversed(const PerBody& speed, const Loads& loads
   const GripMode& mode = now_.mode;
   const ChainLoads& most = loads.chain;
   Reversed is;
-  is.clutch = mode.clutch * (speed[kEngineBody] - speed[kShaftBody]) < 0.0 && most.clutch > 0.0;
+  is.clutch = mode.clutch * (speed[engine_body] - speed[shaft_body]) < 0.0 && most.clutch > 0.0;
   is.cone = mode.cone * cone_slip(chain_, speed) < 0.0 && most.cone > 0.0;
   for (std::size_t b = 0; b < 3; ++b)
-    is.turn[b] = mode.turn[b] * speed[b] < 0.0 && (b == kEngineBody || most.ground[b] > 0.0);
+    is.turn[b] = mode.turn[b] * speed[b] < 0.0 && (b == engine_body || most.ground[b] > 0.0);
   return is;
 }
 
@@ -126,7 +126,7 @@ void Driveline::snap(const Reversed& is) noexcept {
 // Which grips hold from here on. One that slips is known by its sign, the others must be found.
 void Driveline::settle_here() noexcept {
   GripMode known;
-  known.clutch = sign(speed_[kEngineBody] - speed_[kShaftBody]);
+  known.clutch = sign(speed_[engine_body] - speed_[shaft_body]);
   known.cone = sign(cone_slip(chain_, speed_));
   for (std::size_t b = 0; b < 3; ++b) known.turn[b] = sign(speed_[b]);
   now_ = settle(chain_, loads_at(speed_, time_).chain, known, now_.mode);
@@ -145,7 +145,7 @@ void Driveline::advance_by_impulses(double seconds) noexcept {
   book(loads, now_.motion, to, seconds);
   speed_ = to;
   time_ += seconds;
-  engine_.update(speed_[kEngineBody]);
+  engine_.update(speed_[engine_body]);
   settle_here();
 }
 
@@ -154,18 +154,18 @@ void Driveline::book(const Loads& loads, const ChainMotion& motion, const PerBod
   PerBody way;
   for (std::size_t b = 0; b < 3; ++b) way[b] = 0.5 * seconds * (speed_[b] + to[b]);
   const ChainLoads& chain = loads.chain;
-  const double held = motion.ground[kCarBody] * way[kCarBody];
-  const double by_brakes = chain.ground[kCarBody] > 0.0 ? loads.brakes / chain.ground[kCarBody] : 0.0;
-  energy_.engine += chain.push[kEngineBody] * way[kEngineBody];
-  energy_.friction -= motion.ground[kEngineBody] * way[kEngineBody];
-  energy_.clutch += motion.clutch * (way[kEngineBody] - way[kShaftBody]);
-  const double in_gear = motion.gear * way[kShaftBody] - motion.drive * way[kCarBody];
+  const double held = motion.ground[car_body] * way[car_body];
+  const double by_brakes = chain.ground[car_body] > 0.0 ? loads.brakes / chain.ground[car_body] : 0.0;
+  energy_.engine += chain.push[engine_body] * way[engine_body];
+  energy_.friction -= motion.ground[engine_body] * way[engine_body];
+  energy_.clutch += motion.clutch * (way[engine_body] - way[shaft_body]);
+  const double in_gear = motion.gear * way[shaft_body] - motion.drive * way[car_body];
   (chain_.link == GearLink::cone ? energy_.cone : energy_.teeth) += in_gear;
-  energy_.shaft_drag -= (chain.push[kShaftBody] + motion.ground[kShaftBody]) * way[kShaftBody];
-  energy_.rolling -= (chain.push[kCarBody] + loads.lift) * way[kCarBody] + (1.0 - by_brakes) * held;
+  energy_.shaft_drag -= (chain.push[shaft_body] + motion.ground[shaft_body]) * way[shaft_body];
+  energy_.rolling -= (chain.push[car_body] + loads.lift) * way[car_body] + (1.0 - by_brakes) * held;
   energy_.brakes -= by_brakes * held;
-  energy_.slope += loads.lift * way[kCarBody];
-  state_.distance += way[kCarBody];
+  energy_.slope += loads.lift * way[car_body];
+  state_.distance += way[car_body];
 }
 
 }  // namespace gearshift

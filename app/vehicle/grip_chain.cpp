@@ -49,7 +49,7 @@ double drive(const GripChain& chain, const ChainLoads& loads, const GripMode& mo
   double inertia = 0.0, force = -run.leaves, seen = 1.0, share = 1.0;
   for (std::size_t b = run.last + 1; b-- > run.first;) {
     if (b < run.last) seen *= links.ratio[b];
-    if (b == kShaftBody && run.last == kCarBody) share = passes;
+    if (b == shaft_body && run.last == car_body) share = passes;
     out.rate[b] = seen;
     out.ground[b] = -mode.turn[b] * loads.ground[b];
     inertia += share * seen * seen * chain.inertia[b];
@@ -73,13 +73,13 @@ void drive_through_teeth(const GripChain& chain, const ChainLoads& loads, const 
                          Links& links, ChainMotion& out) noexcept {
   double lacks = drive(chain, loads, mode, run, 1.0, links, out);
   double passes = 1.0;
-  if (chain.efficiency != 1.0 && chain.link == GearLink::dogs && run.last == kCarBody) {
-    const bool forward = links.carries[1] * mode.turn[kShaftBody] >= 0.0;
+  if (chain.efficiency != 1.0 && chain.link == GearLink::dogs && run.last == car_body) {
+    const bool forward = links.carries[1] * mode.turn[shaft_body] >= 0.0;
     passes = forward ? chain.efficiency : 1.0 / chain.efficiency;
     lacks = drive(chain, loads, mode, run, passes, links, out);
   }
   out.lacks += lacks;
-  if (run.last == kCarBody) out.drive = passes * links.ratio[1] * links.carries[1];
+  if (run.last == car_body) out.drive = passes * links.ratio[1] * links.carries[1];
 }
 
 // At rest on the ground. What each link carries is not determined then, only its range: ranges go from left to right,
@@ -90,7 +90,7 @@ void hold(const GripChain& chain, const ChainLoads& loads, const Run& run, Links
   for (std::size_t b = run.first; b <= run.last; ++b) {
     out.rate[b] = 0.0;
     from += loads.push[b] - loads.ground[b];
-    to += b == kEngineBody ? kNoLimit : loads.push[b] + loads.ground[b];
+    to += b == engine_body ? kNoLimit : loads.push[b] + loads.ground[b];
     if (b == run.last) break;
     const double most = links.most[b];
     out.lacks += outside(std::clamp(0.0, from, to), -most, most);
@@ -98,7 +98,7 @@ void hold(const GripChain& chain, const ChainLoads& loads, const Run& run, Links
     high[b] = std::clamp(to, -most, most);
     from = std::min(links.ratio[b] * low[b], links.ratio[b] * high[b]);
     to = std::max(links.ratio[b] * low[b], links.ratio[b] * high[b]);
-    if (b == kShaftBody && chain.link == GearLink::dogs) {  // the teeth help to hold
+    if (b == shaft_body && chain.link == GearLink::dogs) {  // the teeth help to hold
       from *= from > 0.0 ? chain.efficiency : 1.0 / chain.efficiency;
       to *= to > 0.0 ? 1.0 / chain.efficiency : chain.efficiency;
     }
@@ -113,15 +113,15 @@ void hold(const GripChain& chain, const ChainLoads& loads, const Run& run, Links
     out.ground[b] = needs - ratio * links.carries[b - 1];
     leaves = links.carries[b - 1];
   }
-  if (run.last == kCarBody) out.drive = links.ratio[1] * links.carries[1];
+  if (run.last == car_body) out.drive = links.ratio[1] * links.carries[1];
   out.ground[run.first] = leaves - loads.push[run.first] - run.enters;
 }
 
 // Bodies that hold each other must turn together, and the engine does not turn backwards.
 bool fits(const GripChain& chain, const GripMode& mode) noexcept {
-  if (mode.turn[kEngineBody] < 0) return false;
-  if (mode.clutch == 0 && mode.turn[kEngineBody] != mode.turn[kShaftBody]) return false;
-  return !gear_holds(chain, mode) || mode.turn[kShaftBody] == mode.turn[kCarBody] * sign(chain.per_road);
+  if (mode.turn[engine_body] < 0) return false;
+  if (mode.clutch == 0 && mode.turn[engine_body] != mode.turn[shaft_body]) return false;
+  return !gear_holds(chain, mode) || mode.turn[shaft_body] == mode.turn[car_body] * sign(chain.per_road);
 }
 
 double wrong_way(int known, int chosen, double rate, double scale) noexcept {
@@ -132,7 +132,7 @@ double wrong_way(int known, int chosen, double rate, double scale) noexcept {
 Settled tried(const GripChain& chain, const ChainLoads& loads, const GripMode& known, const GripMode& mode) noexcept {
   Settled s{mode, move(chain, loads, mode)};
   const PerBody& rate = s.motion.rate;
-  const double engine = rate[kEngineBody], shaft = rate[kShaftBody], gear = chain.per_road * rate[kCarBody];
+  const double engine = rate[engine_body], shaft = rate[shaft_body], gear = chain.per_road * rate[car_body];
   s.motion.lacks += wrong_way(known.clutch, mode.clutch, engine - shaft, std::abs(engine) + std::abs(shaft));
   if (chain.link == GearLink::cone)
     s.motion.lacks += wrong_way(known.cone, mode.cone, shaft - gear, std::abs(shaft) + std::abs(gear));
@@ -154,7 +154,7 @@ constexpr int kModes = 3 * 3 * 3 * 3 * 3;
 // All that holds first, for that is the commonest where something changes.
 GripMode mode_of(int number) noexcept {
   GripMode mode;
-  for (int* grip : {&mode.clutch, &mode.cone, &mode.turn[kEngineBody], &mode.turn[kShaftBody], &mode.turn[kCarBody]}) {
+  for (int* grip : {&mode.clutch, &mode.cone, &mode.turn[engine_body], &mode.turn[shaft_body], &mode.turn[car_body]}) {
     *grip = number % 3 == 2 ? -1 : number % 3;
     number /= 3;
   }

@@ -12,7 +12,7 @@
 
 namespace gearshift {
 
-enum Body : int { kEngineBody, kShaftBody, kCarBody };
+enum Body : int { engine_body, shaft_body, car_body };
 using PerBody = std::array<double, 3>;  // rad/s, rad/s, m/s and what belongs to them
 
 enum class GearLink { open, cone, dogs };
@@ -70,7 +70,7 @@ inline bool gear_holds(const GripChain& chain, const GripMode& mode) noexcept {
 }
 // [rad/s] between shaft and gear, as seen at the shaft.
 inline double cone_slip(const GripChain& chain, const PerBody& speed) noexcept {
-  return chain.link == GearLink::cone ? speed[kShaftBody] - chain.per_road * speed[kCarBody] : 0.0;
+  return chain.link == GearLink::cone ? speed[shaft_body] - chain.per_road * speed[car_body] : 0.0;
 }
 
 }  // namespace gearshift

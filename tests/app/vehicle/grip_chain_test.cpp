@@ -52,7 +52,7 @@ TEST_CASE("bodies at rest begin to move so that Gauss' constraint with the grips
     const Draw d = draw(random);
     const Settled s = settle(d.chain, d.loads, {}, {});
     REQUIRE(s.motion.lacks == 0.0);
-    CHECK(s.motion.rate[kEngineBody] >= 0.0);
+    CHECK(s.motion.rate[engine_body] >= 0.0);
     const double least = cost(d.chain, d.loads, s.motion.rate);
     (s.motion.rate == PerBody{} ? held : moved) += 1;
     for (const double size : {1.0, 1e-3}) {
