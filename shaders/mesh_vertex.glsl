@@ -33,15 +33,16 @@ void main() {
   gl_Layer = gl_InstanceIndex;
 #endif
   to_eye = pass.eye[eye].xyz - world.xyz;
-  normal = mat3(object.normal[0].xyz, object.normal[1].xyz, object.normal[2].xyz) * in_normal;
+  // Unit vectors, whatever the node's scale: the normal map's slopes are measured by them.
+  normal = normalize(mat3(object.normal[0].xyz, object.normal[1].xyz, object.normal[2].xyz) * in_normal);
   uv = vec4(in_uv0 + object.uv_shift.xy, in_uv1);
   if ((features & (kHasMap << kMapNormal)) != 0u)
-    tangent = vec4(mat3(object.world) * in_tangent.xyz, in_tangent.w * object.normal[0].w);
+    tangent = vec4(normalize(mat3(object.world) * in_tangent.xyz), in_tangent.w * object.normal[0].w);
   if ((features & kVertexColour) != 0u) colour = in_colour;
   if ((features & kShowsMirror) != 0u) {
     place = vec3(dot(pass.mirror_u, world), dot(pass.mirror_v, world), float(eye));
   } else if ((features & kShadowed) != 0u) {
-    vec3 off = normalize(normal) * (kNormalOffset * pass.shadow_texel.x);
+    vec3 off = normal * (kNormalOffset * pass.shadow_texel.x);
     place = (pass.shadow_from_world * vec4(world.xyz + off, 1.0)).xyz;
   }
 }

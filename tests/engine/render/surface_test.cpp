@@ -210,3 +210,31 @@ TEST_CASE("a normal map turns the light; without it the picture is another one")
   without.renderer.set_environment(constant_sky(vec3(0.05f)));
   CHECK(difference(bumpy, without.photograph(model, scene)).share_beyond > 0.5);
 }
+
+// Law: a normal map is about directions. The same wall, modelled small and scaled up, or large and scaled down, is lit
+// the same.
+TEST_CASE("a normal map is as strong on a node of any scale") {
+  const auto wall = [](float scale) {
+    Model model;
+    model.textures.push_back({.pixels = {2, 1, {218, 128, 218, 255, 38, 128, 218, 255}}, .linear = false});
+    Material material = paint(vec3(0.6f));
+    material.normal_map = {.texture = 0};
+    add_rectangle(model, "Wall", {3.0f / scale, 3.0f / scale}, add_material(model, material), {});
+    model.nodes[0].scale = vec3(scale);
+    return model;
+  };
+  Studio studio;
+  studio.renderer.set_environment(constant_sky(vec3(0.05f)));
+  const auto lit = [&](float scale) {
+    const Model model = wall(scale);
+    FrameScene scene = still(model);
+    scene.sun = {{1.0f, 0.0f, 1.0f}, vec3(3.0f)};
+    return studio.photograph(model, scene);
+  };
+  const Image as_modelled = lit(1.0f);
+  CHECK(as_modelled.pixel(40, 60)[0] > as_modelled.pixel(120, 60)[0] + 60);
+  for (const float scale : {0.01f, 0.5f, 100.0f}) {
+    CAPTURE(scale);
+    CHECK(difference(lit(scale), as_modelled).worst <= 1);
+  }
+}
