@@ -8,7 +8,9 @@ layout(push_constant) uniform Draw { DrawData draw; };
 layout(location = 0) in vec3 in_position;
 layout(location = 3) in vec2 in_uv0;
 layout(location = 4) in vec2 in_uv1;
+layout(location = 5) in vec4 in_colour;
 layout(location = 0) out vec2 uv;
+layout(location = 1) out float alpha;  // of the vertex' colour
 invariant gl_Position;
 
 void main() {
@@ -20,4 +22,5 @@ void main() {
 #endif
   if ((features & kMasked) != 0u)
     uv = (features & (kMapOnUv1 << kMapBaseColour)) != 0u ? in_uv1 : in_uv0 + object.uv_shift.xy;
+  if ((features & kVertexColour) != 0u) alpha = in_colour.a;
 }

@@ -43,6 +43,7 @@ void main() {
     place = vec3(dot(pass.mirror_u, world), dot(pass.mirror_v, world), float(eye));
   } else if ((features & kShadowed) != 0u) {
     vec3 off = normal * (kNormalOffset * pass.shadow_texel.x);
+    if (draw.thin > 0.0 && dot(normal, to_eye) < 0.0) off = -off;  // to the side that is seen
     place = (pass.shadow_from_world * vec4(world.xyz + off, 1.0)).xyz;
   }
 }

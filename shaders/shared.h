@@ -17,8 +17,6 @@ using uint = std::uint32_t;
 #define SHARED const
 #endif
 
-SHARED uint kEyes = 2u;
-
 // Set 0, one a pass and frame.
 SHARED uint kBindPass = 0u;         // PassData
 SHARED uint kBindObjects = 1u;      // ObjectData, one a node
@@ -91,7 +89,7 @@ struct DrawData {
   uint object;
   float emission;  // factor on the material's
   float opacity;
-  float unused;
+  float thin;  // 1: both faces are shown, else 0
 };
 
 #ifdef __cplusplus

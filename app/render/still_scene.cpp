@@ -61,8 +61,9 @@ FrameScene still_scene(const Model& model) {
     const Node& node = model.nodes[i];
     scene.nodes[i].world = world[i];
     if (node.mesh == kNone || node.skin == kNone) continue;
-    DeformedMesh posed{node.mesh, {}};
-    skin_vertices(model, static_cast<int>(i), world, posed.vertices);
+    DeformedMesh posed{node.mesh, {}, static_cast<int>(i)};
+    skin_vertices(model, posed.node, world, posed.vertices);
+    if (posed.vertices.empty()) continue;  // lines or points alone, which are not drawn
     scene.deformed.push_back(std::move(posed));
     scene.nodes[i].world = glm::mat4(1.0f);  // skinned vertices are in the world
   }

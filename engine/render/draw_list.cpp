@@ -11,8 +11,9 @@ namespace gearshift {
 
 namespace {
 
-const DeformedPlace* place_of(std::span<const DeformedPlace> deformed, int mesh) {
-  const auto found = std::find_if(deformed.begin(), deformed.end(), [&](const auto& d) { return d.mesh == mesh; });
+const DeformedPlace* place_of(std::span<const DeformedPlace> deformed, int mesh, int node) {
+  const auto found = std::find_if(deformed.begin(), deformed.end(),
+                                  [&](const auto& d) { return d.mesh == mesh && (d.node == node || d.node == kNone); });
   return found == deformed.end() ? nullptr : &*found;
 }
 
@@ -44,7 +45,7 @@ std::vector<DrawItem> list_items(const GpuModel& model, const FrameScene& scene,
     const int mesh_index = model.mesh_of_node[node];
     if (mesh_index == kNone || !state.visible || state.opacity <= 0.0f) continue;
     const GpuMesh& mesh = model.meshes[static_cast<std::size_t>(mesh_index)];
-    const DeformedPlace* place = place_of(deformed, mesh_index);
+    const DeformedPlace* place = place_of(deformed, mesh_index, static_cast<int>(node));
     for (std::uint32_t i = 0; i < mesh.part_count; ++i) {
       DrawItem item;
       item.part = &model.parts[mesh.first_part + i];
@@ -84,8 +85,9 @@ std::uint32_t features_in(PassKind pass, const DrawItem& item, const FeatureChoi
   using namespace shader;
   std::uint32_t features = item.material->features;
   if (pass == PassKind::shadow || pass == PassKind::depth) {
-    constexpr std::uint32_t kHole = kMasked | kHasMap << kMapBaseColour;
-    return (features & kHole) == kHole ? features & (kHole | kMapOnUv1 << kMapBaseColour) : 0u;
+    constexpr std::uint32_t kOfHoles =
+        kMasked | kVertexColour | kHasMap << kMapBaseColour | kMapOnUv1 << kMapBaseColour;
+    return (features & kMasked) != 0 ? features & kOfHoles : 0u;
   }
   if (item.blended) features |= kBlended;
   if (item.indoors) features |= kIndoors;

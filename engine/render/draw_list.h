@@ -14,6 +14,7 @@ namespace gearshift {
 // A mesh whose vertices of this frame lie in the frame's own buffer.
 struct DeformedPlace {
   int mesh = kNone;
+  int node = kNone;                // kNone: all that carry the mesh
   std::uint32_t first_vertex = 0;  // in that buffer
   Box box;
 };

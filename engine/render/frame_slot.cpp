@@ -78,7 +78,7 @@ std::vector<DeformedPlace> FrameSlot::write_deformed(Gpu& gpu, const GpuModel& m
     if (mesh.mesh < 0 || index >= model.meshes.size() || mesh.vertices.size() != model.meshes[index].vertex_count ||
         mesh.vertices.empty())
       throw std::invalid_argument("A deformed mesh is none of the model's, or has another number of vertices.");
-    places.push_back({mesh.mesh, count, box_of(mesh.vertices)});
+    places.push_back({mesh.mesh, mesh.node, count, box_of(mesh.vertices)});
     count += static_cast<std::uint32_t>(mesh.vertices.size());
   }
   if (count == 0) return places;

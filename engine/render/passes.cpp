@@ -323,7 +323,7 @@ void Renderer::State::bind_item(const Frame& frame, PassKind pass, const DrawIte
   const bool both = item.material->double_sided || pass == PassKind::shadow;
   vkCmdSetCullMode(frame.commands, both ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
   vkCmdSetFrontFace(frame.commands, item.mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
-  const shader::DrawData data{item.node, item.emission, item.opacity, 0.0f};
+  const shader::DrawData data{item.node, item.emission, item.opacity, item.material->double_sided ? 1.0f : 0.0f};
   vkCmdPushConstants(frame.commands, layouts.pipeline.get(), VK_SHADER_STAGE_VERTEX_BIT | VK_SHADER_STAGE_FRAGMENT_BIT,
                      0, sizeof data, &data);
 }

@@ -27,10 +27,11 @@ struct Sun {
   glm::vec3 irradiance{3.2f, 3.0f, 2.7f};   // on a surface that faces it, in units of the sky's radiance
 };
 
-// A deformed mesh: new vertices for a mesh of the model, from its first_vertex on.
+// A deformed mesh: new vertices for a mesh of the model, from its first_vertex on, on one node or on all that carry it.
 struct DeformedMesh {
   int mesh = kNone;
   std::vector<Vertex> vertices;  // Mesh::vertex_count of them
+  int node = kNone;              // kNone: all
 };
 
 // A box outside of which nothing is in shadow: the smaller, the sharper the shadows in it. [m] world

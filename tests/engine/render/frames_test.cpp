@@ -82,6 +82,28 @@ TEST_CASE("frames in flight: every one shows its own deformed mesh, also far fro
   }
 }
 
+TEST_CASE("two nodes of one mesh show each its own vertices, and a third one those of the model") {
+  GpuFixture fixture;
+  const RenderConfig config = small_picture();
+  Renderer renderer(fixture.gpu(), config);
+  renderer.set_environment(constant_sky(vec3(0.0f)));
+  Model model = patch();
+  for (const char* name : {"Second", "Third"}) add_node(model, name, 0, {});
+  renderer.set_model(model);
+  FrameScene scene = still(model);
+  scene.deformed = {moved_patch(-1.0f), moved_patch(1.0f)};
+  scene.deformed[0].node = 0;
+  scene.deformed[1].node = 1;
+  const View view = view_at(config, look_at({0, 0, 3}, {0, 0, 0}));
+  renderer.draw(scene, {&view, 1});
+  const Image picture = renderer.read_eye(0);
+  for (const double x : {-1.0, 0.0, 1.0}) {
+    const glm::dvec3 at = project(view, {x, 0.0, 0.0}, {160, 120});
+    CAPTURE(x);
+    CHECK(picture.pixel(int(at.x), int(at.y))[0] > 100);
+  }
+}
+
 TEST_CASE("a deformed mesh of another size, a scene of another model, a wrong number of views are refused whole") {
   GpuFixture fixture;
   Renderer renderer(fixture.gpu(), small_picture());

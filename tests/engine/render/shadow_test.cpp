@@ -106,6 +106,28 @@ TEST_CASE("a shadow follows its caster, from frame to frame, and goes with it") 
   CHECK(ghost.pixel(int(shade.x), int(shade.y))[1] > 120);
 }
 
+TEST_CASE("the back of a double-sided face, where the sun is on that side, does not shadow itself") {
+  GpuFixture fixture;
+  Model model;
+  Material thin = paint(vec3(0.6f));
+  thin.double_sided = true;
+  add_floor(model, "Floor", 1.5f, add_material(model, thin), 0.0f);
+  FrameScene scene = still(model);
+  scene.sun = {kSun, vec3(3.0f)};
+  scene.nodes[0].world = glm::rotate(glm::mat4(1.0f), 3.14159265f, vec3(1.0f, 0.0f, 0.0f));
+  std::array<Image, 2> pictures;
+  for (std::size_t i = 0; i < 2; ++i) {
+    Renderer renderer(fixture.gpu(), shadowed(i == 0 ? 256 : 0));
+    renderer.set_environment(constant_sky(vec3(0.02f)));
+    renderer.set_model(model);
+    const View view = view_at(renderer.config(), look_at({0, 3.0, 1.8}, {0, 0, 0}));
+    renderer.draw(scene, {&view, 1});
+    pictures[i] = renderer.read_eye(0);
+  }
+  CHECK(pictures[1].pixel(200, 150)[1] > 120);  // it is lit
+  CHECK(difference(pictures[0], pictures[1]).worst <= 1);
+}
+
 TEST_CASE("light falls through a mask's holes") {
   GpuFixture fixture;
   Model model;

@@ -238,3 +238,34 @@ TEST_CASE("a normal map is as strong on a node of any scale") {
     CHECK(difference(lit(scale), as_modelled).worst <= 1);
   }
 }
+
+// A hole is a hole in every pass: where the colour's alpha of the vertices is below the cutoff, what is behind is seen,
+// at one sample (depth first) as at four, and the sun shines through.
+TEST_CASE("a mask's holes by the vertices' alpha are holes at one sample, at four, and for the sun") {
+  Model model;
+  std::vector<Vertex> fading = rectangle(1.0f, 1.0f);  // alpha 1 on the left edge, 0 on the right one
+  for (Vertex& vertex : fading) vertex.colour = vertex.position.x < 0.0f ? 0xffffffffu : 0x00ffffffu;
+  Material mask = paint(vec3(0.0f));
+  mask.alpha_mode = AlphaMode::mask;
+  mask.alpha_cutoff = 0.5f;
+  add_node(model, "Mask", add_mesh(model, fading, kRectangle, add_material(model, mask)), {0, 0, 0.5f});
+  add_rectangle(model, "Wall", {3, 3}, add_material(model, paint(vec3(0.6f))), {});
+  FrameScene scene = still(model);
+  scene.sun = {{0.0f, 0.0f, 1.0f}, vec3(3.0f)};
+  for (const int samples : {1, 4}) {
+    CAPTURE(samples);
+    RenderConfig config = small_picture();
+    config.samples = samples;
+    config.shadow_side = 512;
+    Studio studio(config);
+    studio.renderer.set_environment(constant_sky(vec3(0.0f)));
+    const Image picture = studio.photograph(model, scene, {0, 0, 3});
+    const View view = view_at(config, look_at({0, 0, 3}, {0, 0, 0}));
+    const auto light = [&](double x) {
+      const dvec3 at = project(view, {x, 0.0, 0.5}, {160, 120});
+      return int(picture.pixel(int(at.x), int(at.y))[1]);
+    };
+    CHECK(light(-0.5) < 40);  // the mask, black
+    CHECK(light(0.5) > 120);  // the wall behind it, in the sun
+  }
+}
