@@ -21,7 +21,6 @@ namespace gearshift {
 
 struct StageConfig {
   Gate gate;
-  std::string gate_title;
   YokeGeometry yoke;       // the drawn lever turns about the same centre as the device's yoke
   bool cutaway = false;    // the gearbox is seen beside the console
   bool open_gate = false;  // a slotted plate of the loaded gate in place of the boot

@@ -87,6 +87,9 @@ print(json.dumps(model))
 END
 check "a skinned cube" render skinned.png skinned.gltf --size 96x96
 check "it fits where its joint has put it" alike skinned.png cube_1.png 0.01
+sed 's/"primitives": \[{/"primitives": [{"mode": 1, /' skinned.gltf >skinned_lines.gltf
+lines_alone() { "$gearshift" render skinned_lines.gltf --size 96x96 --out lines.png 2>&1 | grep -q "not drawn: lines" && is_png lines.png; }
+check "lines alone on a skin are named and drawn as nothing" lines_alone
 check "two eyes of half a pixel more each are refused" refused 2 "even width" cube_1.gltf --out x.png --stereo --size 161x91
 
 printf 'glTF' >short.glb

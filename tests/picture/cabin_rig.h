@@ -14,7 +14,6 @@ namespace gearshift {
 inline StageConfig open_gate_cabin() {
   StageConfig config;
   config.gate = shipped_gate("paper");
-  config.gate_title = "paper";
   config.open_gate = true;
   config.hand = false;
   return config;

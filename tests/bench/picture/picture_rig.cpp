@@ -10,7 +10,6 @@ StageConfig paper_cabin(const BenchOptions& options) {
   StageConfig config;
   const GateLayout layout = read_gate_layout(options.gate_folder + "/paper.toml");
   config.gate = compile_gate(layout, workspace_half_extent(config.yoke), config.yoke.radius);
-  config.gate_title = layout.name;
   return config;
 }
 
