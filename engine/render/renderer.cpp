@@ -4,6 +4,7 @@
 #include <cmath>
 #include <future>
 #include <stdexcept>
+#include <utility>
 
 #include "engine/light/enclosure.h"
 #include "engine/render/renderer_state.h"
@@ -77,18 +78,22 @@ Renderer::State::State(Gpu& device, const RenderConfig& wanted)
   }
   no_mirror = MirrorTarget(gpu, {1, 1}, 1);
   run_once(gpu, [&](VkCommandBuffer commands) { transition(commands, no_mirror.colour.image, ImageUse::sampled); });
-  make_targets();
+  make_picture();
+  make_shadow();
+  drop_mirror();
   model = upload_model(gpu, Model{}, layouts.material.get());
   set_light(maps.get());
 }
 
-// Images and pipelines for the configuration. No frame is in flight.
-void Renderer::State::make_targets() {
+// These make images and pipelines for the configuration. No frame is in flight.
+void Renderer::State::make_picture() {
   const auto eyes = static_cast<std::uint32_t>(config.eyes);
   const VkExtent2D extent{static_cast<std::uint32_t>(config.width), static_cast<std::uint32_t>(config.height)};
   layered = config.eyes == 2 && config.eye_passes != EyePasses::one_by_one && gpu.traits().layered_vertex;
   picture = PictureTarget(gpu, extent, eyes, sample_count(config));
-  make_pipelines();
+}
+
+void Renderer::State::make_shadow() {
   still_casters.forget();
   shadow = ShadowTarget(gpu, static_cast<std::uint32_t>(std::max(1, config.shadow_side)));
   run_once(gpu, [&](VkCommandBuffer commands) { transition(commands, shadow.depth, ImageUse::sampled); });
@@ -96,8 +101,22 @@ void Renderer::State::make_targets() {
     for (const PassKind pass : kPasses)
       bind_texture(gpu, slot.set(pass), shader::kBindShadow, shadow.view.get(), shadow_compare.get());
   }
+}
+
+// It is made again when it is seen.
+void Renderer::State::drop_mirror() {
   mirror = MirrorTarget();
   bind_mirror();
+}
+
+// A window that is dragged compiles nothing: only what the change touches is made anew.
+void Renderer::State::resize(const RenderConfig& wanted) {
+  const RenderConfig before = std::exchange(config, wanted);
+  const bool was_layered = layered;
+  make_picture();
+  if (config.samples != before.samples || layered != was_layered) make_pipelines();
+  if (config.shadow_side != before.shadow_side) make_shadow();
+  if (config.eyes != before.eyes || config.mirror_height != before.mirror_height) drop_mirror();
 }
 
 void Renderer::State::make_pipelines() {
@@ -164,8 +183,7 @@ void Renderer::set_environment(const Radiance& open, const Radiance& indoors) {
 void Renderer::resize(const RenderConfig& config) {
   check_config(state_->gpu, config);
   state_->ring.wait();
-  state_->config = config;
-  state_->make_targets();
+  state_->resize(config);
 }
 
 const RenderConfig& Renderer::config() const noexcept {

@@ -48,8 +48,11 @@ struct Renderer::State {
   ~State() { gpu.wait_idle(); }  // nothing dies while a frame uses it
 
   // renderer.cpp
-  void make_targets();
+  void make_picture();
+  void make_shadow();
+  void drop_mirror();
   void make_pipelines();
+  void resize(const RenderConfig& wanted);
   void set_light(const LightMaps& maps);
   void set_model(const Model& content);
   void fit_mirror(const MirrorWindow& window);

@@ -141,37 +141,6 @@ TEST_CASE("a configuration out of range is refused, and the renderer stays what 
   CHECK(renderer.config().width == 160);
 }
 
-TEST_CASE("after any resizing the picture is what a new renderer draws") {
-  GpuFixture fixture;
-  Model model;
-  add_floor(model, "Floor", 3.0f, add_material(model, paint(vec3(0.5f))), -0.5f);
-  add_cube(model, "Cube", 0.4f, add_material(model, paint({0.8f, 0.2f, 0.1f}, 0.4f)), {});
-  FrameScene scene = still(model);
-  scene.sun = Sun{};
-  RenderConfig config = small_picture();
-  config.shadow_side = 128;
-  Renderer renderer(fixture.gpu(), config);
-  renderer.set_model(model);
-  const auto picture = [&](Renderer& from) {
-    const View view = view_at(from.config(), look_at({1, 1, 2}, {0, 0, 0}));
-    const std::vector<View> views(static_cast<std::size_t>(from.config().eyes), view);
-    from.draw(scene, views);
-    return from.read_eye(from.config().eyes - 1);
-  };
-  for (const auto [width, height, eyes, samples] :
-       {std::array{160, 120, 1, 1}, std::array{33, 257, 1, 4}, std::array{64, 64, 2, 1}, std::array{160, 120, 2, 4},
-        std::array{1, 1, 1, 1}, std::array{160, 120, 1, 1}}) {
-    config.width = width;
-    config.height = height;
-    config.eyes = eyes;
-    config.samples = samples;
-    renderer.resize(config);
-    Renderer fresh(fixture.gpu(), config);
-    fresh.set_model(model);
-    CHECK(difference(picture(renderer), picture(fresh)).worst == 0);
-  }
-}
-
 TEST_CASE("another model replaces the one before, also while frames are in flight") {
   GpuFixture fixture;
   Renderer renderer(fixture.gpu(), small_picture());
