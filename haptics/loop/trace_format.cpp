@@ -1,10 +1,11 @@
 #include "haptics/loop/trace_format.h"
 
+#include "haptics/loop/block_codec.h"
+
 namespace gearshift {
 namespace {
 
 constexpr std::uint32_t kMaxHeaderBytes = 4u << 20;  // a layout file is a few kilobytes
-constexpr std::uint32_t kMaxDataBytes = static_cast<std::uint32_t>(kSamplesPerBlock * kSampleBytes);
 
 template <class T>
 void append(std::vector<std::byte>& bytes, const T& value) {
@@ -20,11 +21,12 @@ void append_text(std::vector<std::byte>& bytes, const std::string& text) {
 }
 
 bool plausible(const BlockFrame& frame) noexcept {
+  if (frame.kind != BlockKind::data && frame.samples != 0) return false;
   switch (frame.kind) {
     case BlockKind::header:
       return frame.size <= kMaxHeaderBytes;
     case BlockKind::data:
-      return frame.size > 0 && frame.size <= kMaxDataBytes && frame.size % kSampleBytes == 0;
+      return frame.size <= kMostCodedBytes && frame.samples > 0 && frame.samples <= kSamplesPerBlock;
     case BlockKind::end:
       return frame.size == kEndBytes;
   }
@@ -98,11 +100,13 @@ RunHash begin_hash(const TraceHeader& header) {
   return hash;
 }
 
-std::array<std::byte, kFrameBytes> encode_frame(BlockKind kind, std::span<const std::byte> payload) noexcept {
+std::array<std::byte, kFrameBytes> encode_frame(BlockKind kind, std::span<const std::byte> payload,
+                                                std::size_t samples) noexcept {
   std::array<std::byte, kFrameBytes> bytes;
   FieldWriter writer(bytes.data());
   writer.put(static_cast<std::uint32_t>(kind));
   writer.put(static_cast<std::uint32_t>(payload.size()));
+  writer.put(static_cast<std::uint32_t>(samples));
   writer.put(crc32(payload));
   const std::uint32_t crc = crc32(std::span(bytes).first<kFrameBytes - sizeof(std::uint32_t)>());
   writer.put(crc);
@@ -115,6 +119,7 @@ std::optional<BlockFrame> decode_frame(std::span<const std::byte, kFrameBytes> b
   FieldReader reader(bytes);
   reader.take(kind);
   reader.take(frame.size);
+  reader.take(frame.samples);
   reader.take(frame.payload_crc);
   reader.take(crc);
   frame.kind = static_cast<BlockKind>(kind);

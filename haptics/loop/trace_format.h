@@ -1,9 +1,9 @@
 // The trace file: everything that is needed to run a recorded drive again, and all of what came out.
 //
 //   magic 8 bytes | version u32 | header block | data blocks | end block
-//   block = frame (kind, size, CRC of the payload, CRC of these three: u32 each) | payload
+//   block = frame (kind, size, samples, CRC of the payload, CRC of these four: u32 each) | payload
 //
-// All numbers little-endian.
+// All numbers little-endian. The payload of a data block is coded (block_codec.h), and its CRC is of what is stored.
 // The version stands before the first block: a newer file is recognised whatever its blocks look like.
 // Each frame has its own CRC: a damaged length is told from a file cut short.
 #pragma once
@@ -23,7 +23,7 @@ namespace gearshift {
 
 // Not text, and spoilt by a transfer that rewrites line ends.
 inline constexpr std::array<char, 8> kTraceMagic = {'\x89', 'G', 'S', 'T', 'R', 'C', '\r', '\n'};
-inline constexpr std::uint32_t kTraceVersion = 4;
+inline constexpr std::uint32_t kTraceVersion = 5;
 
 // What must be known before the first cycle. The run must start with it: no tuning is written to the channels
 // before the first cycle (put it into the config), and the recording starts before the first cycle.
@@ -75,14 +75,16 @@ enum class BlockKind : std::uint32_t {
 
 struct BlockFrame {
   BlockKind kind = BlockKind::data;
-  std::uint32_t size = 0;  // [bytes] of the payload
+  std::uint32_t size = 0;     // [bytes] of the payload
+  std::uint32_t samples = 0;  // that are coded in it: of data alone
   std::uint32_t payload_crc = 0;
 };
-inline constexpr std::size_t kFrameBytes = 16;
+inline constexpr std::size_t kFrameBytes = 20;
 inline constexpr std::size_t kPreambleBytes = kTraceMagic.size() + sizeof kTraceVersion;
 
-std::array<std::byte, kFrameBytes> encode_frame(BlockKind kind, std::span<const std::byte> payload) noexcept;
-// Nothing when damaged, of unknown kind, or larger than any block of that kind is.
+std::array<std::byte, kFrameBytes> encode_frame(BlockKind kind, std::span<const std::byte> payload,
+                                                std::size_t samples = 0) noexcept;
+// Nothing when damaged, of unknown kind, or with more bytes or samples than any block of that kind has.
 std::optional<BlockFrame> decode_frame(std::span<const std::byte, kFrameBytes> bytes) noexcept;
 
 }  // namespace gearshift

@@ -105,7 +105,7 @@ bool TraceReader::scan_block(std::uint64_t& at) {
   at = block.at + frame->size;
   if (frame->kind == BlockKind::data) {
     blocks_.push_back(block);
-    cycles_ += frame->size / kSampleBytes;
+    cycles_ += frame->samples;
     return true;
   }
   const std::vector<std::byte> payload = read_payload(block);
@@ -140,18 +140,22 @@ bool TraceReader::load_block() {
   payload_.resize(block.frame.size);
   used_ = 0;
   read(block.at, payload_);
-  if (crc32(payload_) == block.frame.payload_crc) return true;
-  payload_.clear();
+  const bool intact = crc32(payload_) == block.frame.payload_crc;
+  if (intact && codec_.decode(payload_, block.frame.samples, samples_)) return true;
+  samples_.clear();
   next_block_ = blocks_.size();
-  return stop_or_fail("is damaged: the checksum of the block " + at_byte(block.at) + " does not fit");
+  const std::string where = "the block " + at_byte(block.at);
+  if (!intact) return stop_or_fail("is damaged: the checksum of " + where + " does not fit");
+  return stop_or_fail("is damaged: " + where + " does not hold the " + std::to_string(block.frame.samples) +
+                      " cycles that it claims");
 }
 
 bool TraceReader::next(TraceSample& sample) {
-  if (used_ == payload_.size() && !load_block()) {
+  if (used_ == samples_.size() && !load_block()) {
     check_end();
     return false;
   }
-  const auto bytes = std::span(payload_).subspan(used_).first<kSampleBytes>();
+  const auto bytes = std::span(samples_).subspan(used_).first<kSampleBytes>();
   used_ += kSampleBytes;
   FieldReader reader(bytes);
   reader.take(sample);

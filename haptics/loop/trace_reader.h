@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "haptics/loop/block_codec.h"
 #include "haptics/loop/trace_format.h"
 
 namespace gearshift {
@@ -66,7 +67,9 @@ class TraceReader {
 
   std::size_t next_block_ = 0;
   std::vector<std::byte> payload_;
-  std::size_t used_ = 0;  // [bytes] of payload_
+  BlockCodec codec_;
+  std::vector<std::byte> samples_;  // of that block
+  std::size_t used_ = 0;            // [bytes] of samples_
   std::uint64_t taken_ = 0;
   std::uint64_t last_cycle_ = 0;
   RunHash hash_;

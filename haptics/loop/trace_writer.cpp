@@ -13,6 +13,7 @@ TraceWriter::TraceWriter(const std::filesystem::path& file, const TraceHeader& h
   // Blocks are large: without a buffer, a failure shows at the block that failed.
   std::setvbuf(file_.get(), nullptr, _IONBF, 0);
   block_.reserve(kSamplesPerBlock * kSampleBytes);
+  coded_.reserve(kMostCodedBytes);
 
   write(std::as_bytes(std::span(kTraceMagic)));
   write(std::as_bytes(std::span(&kTraceVersion, 1)));
@@ -38,12 +39,14 @@ void TraceWriter::finish(bool torn) noexcept {
 }
 
 void TraceWriter::flush() noexcept {
-  if (!block_.empty()) write_block(BlockKind::data, block_);
+  if (block_.empty()) return;
+  codec_.encode(block_, coded_);
+  write_block(BlockKind::data, coded_, block_.size() / kSampleBytes);
   block_.clear();
 }
 
-void TraceWriter::write_block(BlockKind kind, std::span<const std::byte> payload) noexcept {
-  write(encode_frame(kind, payload));
+void TraceWriter::write_block(BlockKind kind, std::span<const std::byte> payload, std::size_t samples) noexcept {
+  write(encode_frame(kind, payload, samples));
   write(payload);
 }
 

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "haptics/loop/block_codec.h"
 #include "haptics/loop/trace_format.h"
 
 namespace gearshift {
@@ -36,12 +37,14 @@ class TraceWriter {
 
   void flush() noexcept;
   void write(std::span<const std::byte> bytes) noexcept;
-  void write_block(BlockKind kind, std::span<const std::byte> payload) noexcept;
+  void write_block(BlockKind kind, std::span<const std::byte> payload, std::size_t samples = 0) noexcept;
   void fail(int error) noexcept;
 
   std::string name_;
   std::unique_ptr<std::FILE, Close> file_;
+  BlockCodec codec_;
   std::vector<std::byte> block_;  // samples not yet written
+  std::vector<std::byte> coded_;
   std::uint64_t cycles_ = 0;
   RunHash hash_;
   std::string problem_;

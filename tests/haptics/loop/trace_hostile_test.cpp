@@ -2,12 +2,14 @@
 #include <cstdint>
 #include <cstring>
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include <doctest/doctest.h>
 
 #include "haptics/files/file_error.h"
+#include "haptics/loop/block_codec.h"
 #include "haptics/loop/trace_csv.h"
 #include "haptics/loop/trace_reader.h"
 #include "tests/haptics/loop/trace_bench.h"
@@ -15,7 +17,7 @@
 namespace gearshift {
 namespace {
 
-constexpr std::size_t kFrame = 16, kPreamble = 12;  // [bytes] as documented, not as the code says
+constexpr std::size_t kFrame = 20, kPreamble = 12;  // [bytes] as documented, not as the code says
 constexpr std::size_t kSample = 391;                // [bytes] per cycle
 constexpr std::size_t kCycles = 600;                // two full blocks and a part of one
 
@@ -46,10 +48,10 @@ std::vector<std::size_t> borders(const Bytes& file) {
 }
 
 void seal_frame(Bytes& file, std::size_t at) {
-  put(file, at + 12, slow_crc(&file[at], 12));
+  put(file, at + 16, slow_crc(&file[at], 16));
 }
 void seal_payload(Bytes& file, std::size_t at) {
-  put(file, at + 8, slow_crc(&file[at + kFrame], get(file, at + 4)));
+  put(file, at + 12, slow_crc(&file[at + kFrame], get(file, at + 4)));
   seal_frame(file, at);
 }
 
@@ -58,6 +60,35 @@ Bytes slice(const Bytes& file, std::size_t from, std::size_t to) {
 }
 void append(Bytes& to, const Bytes& more) {
   to.insert(to.end(), more.begin(), more.end());
+}
+
+// Another payload for the block of data at `at`, claiming that many samples, sealed.
+void put_payload(Bytes& file, std::size_t at, const Bytes& payload, std::uint32_t samples) {
+  const std::size_t end = at + kFrame + get(file, at + 4);
+  Bytes with = slice(file, 0, at + kFrame);
+  append(with, payload);
+  append(with, slice(file, end, file.size()));
+  file = with;
+  put(file, at + 4, static_cast<std::uint32_t>(payload.size()));
+  put(file, at + 8, samples);
+  seal_payload(file, at);
+}
+
+Bytes payload_of(const Bytes& file, std::size_t at) {
+  return slice(file, at + kFrame, at + kFrame + get(file, at + 4));
+}
+
+// Its samples changed by somebody who knows the code.
+void forge(Bytes& file, std::size_t at, const std::function<void(std::byte* samples)>& change) {
+  const Bytes payload = payload_of(file, at);
+  BlockCodec codec;
+  std::vector<std::byte> samples, coded;
+  REQUIRE(codec.decode(std::as_bytes(std::span(payload)), get(file, at + 8), samples));
+  change(samples.data());
+  codec.encode(samples, coded);
+  Bytes again(coded.size());
+  std::memcpy(again.data(), coded.data(), coded.size());
+  put_payload(file, at, again, get(file, at + 8));
 }
 
 // What reading all of it says; empty when nothing is wrong.
@@ -86,10 +117,10 @@ const std::vector<Hostile> hostile_traces = {
     {"another magic", [](B& f, At&) { f[1] ^= 1; }, "is not a gearshift trace"},
     {"line ends rewritten", [](B& f, At&) { f.erase(f.begin() + 6); }, "is not a gearshift trace"},
     {"cut inside the magic", [](B& f, At&) { f.resize(5); }, "is not a gearshift trace"},
-    {"a newer format", [](B& f, At&) { put(f, 8, 5); }, "format 5, made by a newer gearshift; this one reads format 4"},
+    {"a newer format", [](B& f, At&) { put(f, 8, 6); }, "format 6, made by a newer gearshift; this one reads format 5"},
     {"a far newer format", [](B& f, At&) { put(f, 8, 0xFFFFFFFF); }, "made by a newer gearshift"},
-    {"an older format", [](B& f, At&) { put(f, 8, 1); },
-     "format 1, made by an older gearshift; this one reads format 4"},
+    {"an older format", [](B& f, At&) { put(f, 8, 4); },
+     "format 4, made by an older gearshift; this one reads format 5"},
     {"cut after the version", [](B& f, At& at) { f.resize(at[0]); }, "is torn: it ends inside its header"},
     {"cut inside the header's frame", [](B& f, At& at) { f.resize(at[0] + 7); }, "is torn: it ends inside its header"},
     {"cut inside the header", [](B& f, At& at) { f.resize(at[1] - 1); }, "is torn: it ends inside its header"},
@@ -104,7 +135,7 @@ const std::vector<Hostile> hostile_traces = {
      "is damaged: the checksum of the block"},
     {"data frame flipped", [](B& f, At& at) { f[at[2] + 5] ^= 1; }, "is damaged: there is no block at byte"},
     {"end byte flipped", [](B& f, At& at) { f[at[4] + kFrame] ^= 1; }, "is damaged: its end block does not fit"},
-    {"end frame flipped", [](B& f, At& at) { f[at[4] + 9] ^= 1; }, "is damaged: there is no block at byte"},
+    {"end frame flipped", [](B& f, At& at) { f[at[4] + 13] ^= 1; }, "is damaged: there is no block at byte"},
     {"a block that claims 4 GB", [](B& f, At& at) { put(f, at[1] + 4, 0xFFFFFFF0), seal_frame(f, at[1]); },
      "is damaged: there is no block at byte"},
     {"a header that claims 4 GB", [](B& f, At& at) { put(f, at[0] + 4, 0xFFFFFFFF), seal_frame(f, at[0]); },
@@ -113,8 +144,55 @@ const std::vector<Hostile> hostile_traces = {
      "is damaged: its header does not hold what it must"},
     {"a block of no known kind", [](B& f, At& at) { put(f, at[2], 0x21212121), seal_frame(f, at[2]); },
      "is damaged: there is no block at byte"},
-    {"a block that is no whole cycles", [](B& f, At& at) { put(f, at[3] + 4, 100), seal_frame(f, at[3]); },
+    {"a block without samples", [](B& f, At& at) { put(f, at[3] + 8, 0), seal_frame(f, at[3]); },
      "is damaged: there is no block at byte"},
+    {"a block of more samples than any has", [](B& f, At& at) { put(f, at[1] + 8, 257), seal_frame(f, at[1]); },
+     "is damaged: there is no block at byte"},
+    {"a block that claims four thousand million samples",
+     [](B& f, At& at) { put(f, at[1] + 8, 0xFFFFFFFF), seal_frame(f, at[1]); },
+     "is damaged: there is no block at byte"},
+    {"an end with samples", [](B& f, At& at) { put(f, at[4] + 8, 1), seal_frame(f, at[4]); },
+     "is damaged: there is no block at byte"},
+    {"a block larger than any can be",
+     [](B& f, At& at) { put(f, at[1] + 4, 256 * kSample + 17), seal_frame(f, at[1]); },
+     "is damaged: there is no block at byte"},
+    {"a block of fewer samples than it claims, the end block told the same lie",
+     [](B& f, At& at) {
+       put(f, at[3] + 8, 89), seal_frame(f, at[3]);
+       f[at[4] + kFrame] ^= 600 ^ 601, seal_payload(f, at[4]);
+     },
+     "does not hold the 89 cycles that it claims"},
+    {"a block of more samples than it claims",
+     [](B& f, At& at) {
+       put(f, at[1] + 8, 255), seal_frame(f, at[1]);
+       put(f, at[3] + 8, 89), seal_frame(f, at[3]);
+     },
+     "does not hold the 255 cycles that it claims"},
+    {"a coded block that ends early",
+     [](B& f, At& at) {
+       Bytes less = payload_of(f, at[2]);
+       less.pop_back();
+       put_payload(f, at[2], less, 256);
+     },
+     "does not hold the 256 cycles that it claims"},
+    {"a coded block with bytes behind its end",
+     [](B& f, At& at) {
+       Bytes more = payload_of(f, at[2]);
+       more.push_back(0);
+       put_payload(f, at[2], more, 256);
+     },
+     "does not hold the 256 cycles that it claims"},
+    {"a coded block that expands beyond all samples",
+     [](B& f, At& at) {
+       put_payload(f, at[1], {0xFF, 0xFF, 0x7F, 0}, 256);
+     },
+     "does not hold the 256 cycles that it claims"},
+    {"a coded block of endless nothing", [](B& f, At& at) { put_payload(f, at[1], Bytes(100'000, 0), 256); },
+     "does not hold the 256 cycles that it claims"},
+    {"a coded block with a number that does not end", [](B& f, At& at) { put_payload(f, at[1], Bytes(64, 0x80), 256); },
+     "does not hold the 256 cycles that it claims"},
+    {"a coded block that is empty", [](B& f, At& at) { put_payload(f, at[1], {}, 256); },
+     "does not hold the 256 cycles that it claims"},
     {"a second header",
      [](B& f, At& at) {
        Bytes twice = slice(f, 0, at[1]);
@@ -147,17 +225,17 @@ const std::vector<Hostile> hostile_traces = {
      "is damaged: cycle 0 follows cycle 511"},
     {"bytes after the end", [](B& f, At&) { f.push_back(0); }, "is damaged: 1 bytes follow its end"},
     {"two traces in one file", [](B& f, At&) { append(f, Bytes(f)); }, "bytes follow its end"},
-    {"a command that does not exist", [](B& f, At& at) { f[at[1] + kFrame + 184] = 77, seal_payload(f, at[1]); },
+    {"a command that does not exist",
+     [](B& f, At& at) { forge(f, at[1], [](std::byte* samples) { samples[184] = std::byte{77}; }); },
      "is damaged: cycle 0 holds a value that does not exist"},
     {"fewer deadlines skipped than none",
      [](B& f, At& at) {
        const std::int64_t skipped = -3;
-       std::memcpy(&f[at[1] + kFrame + kSample + 8], &skipped, sizeof skipped);
-       seal_payload(f, at[1]);
+       forge(f, at[1], [&](std::byte* samples) { std::memcpy(samples + kSample + 8, &skipped, sizeof skipped); });
      },
      "is damaged: cycle 1 skipped -3 deadlines"},
     {"an output forged, its block sealed again",
-     [](B& f, At& at) { f[at[1] + kFrame + 220] ^= 1, seal_payload(f, at[1]); },
+     [](B& f, At& at) { forge(f, at[1], [](std::byte* samples) { samples[220] ^= std::byte{1}; }); },
      "is damaged: its parameters and outputs are not those"},
     {"the hash forged", [](B& f, At& at) { f[at[4] + kFrame + 9] ^= 1, seal_payload(f, at[4]); },
      "is damaged: its parameters and outputs are not those"},
@@ -241,6 +319,18 @@ TEST_CASE("a torn trace gives up its intact cycles when asked to, and says that 
   damaged = good;
   damaged[at[3] + 1] ^= 1;
   CHECK(salvaged(damaged) == 512);
+}
+
+TEST_CASE("what is salvaged ends before a coded block that lies") {
+  const TempFolder folder;
+  Bytes lying = file_bytes(put_trace(folder / "t.trace", kCycles));
+  put_payload(lying, borders(lying)[2], {0xFF, 0xFF, 0x7F, 0}, 256);
+  put_file(folder / "t.trace", lying);
+  TraceReader reader(folder / "t.trace", TornTrace::salvage);
+  std::size_t cycles = 0;
+  for (TraceSample sample; reader.next(sample);) ++cycles;
+  CHECK(cycles == 256);
+  CHECK(reader.torn());
 }
 
 TEST_CASE("a whole trace is not called torn because one was ready to salvage it") {

@@ -1,0 +1,180 @@
+// A coded block gives back every bit, whatever it holds, and shrinks what a lever does. It believes no byte.
+#include <cmath>
+#include <cstring>
+#include <random>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "haptics/loop/block_codec.h"
+#include "tests/haptics/loop/recorded_drive.h"
+#include "tests/haptics/loop/trace_bench.h"
+
+namespace gearshift {
+namespace {
+
+using Block = std::vector<std::byte>;
+
+constexpr std::size_t kSample = 391;  // [bytes] per cycle
+
+Block encoded(const std::vector<TraceSample>& samples) {
+  Block bytes;
+  for (const TraceSample& sample : samples) {
+    const EncodedSample one = encode_sample(sample);
+    bytes.insert(bytes.end(), one.begin(), one.end());
+  }
+  return bytes;
+}
+
+Block coded(const Block& samples) {
+  BlockCodec codec;
+  Block out;
+  codec.encode(samples, out);
+  return out;
+}
+
+Block any_bytes(std::size_t size, std::mt19937_64& random) {
+  Block bytes(size);
+  for (std::byte& byte : bytes) byte = static_cast<std::byte>(random());
+  return bytes;
+}
+
+Block text(std::initializer_list<int> bytes) {
+  Block out;
+  for (const int byte : bytes) out.push_back(static_cast<std::byte>(byte));
+  return out;
+}
+
+void check_comes_back(const Block& samples) {
+  BlockCodec codec;
+  Block back;
+  const Block small = coded(samples);
+  REQUIRE(small.size() <= kMostCodedBytes);
+  REQUIRE(codec.decode(small, samples.size() / kSample, back));
+  REQUIRE(back == samples);
+}
+
+}  // namespace
+
+TEST_CASE("block codec: any bits come back, in blocks of any size") {
+  for (const std::size_t count : {1u, 2u, 3u, 17u, 255u, 256u}) {
+    check_comes_back(encoded(any_samples(count, count)));
+    std::mt19937_64 random(count);
+    check_comes_back(any_bytes(count * kSample, random));  // not even samples
+    check_comes_back(Block(count * kSample));
+    check_comes_back(Block(count * kSample, std::byte{0xFF}));
+  }
+}
+
+TEST_CASE("block codec: bytes that are zero by chance, as often as can be worst, hardly grow") {
+  std::mt19937_64 random(5);
+  for (const unsigned in : {2u, 3u, 4u, 8u, 130u, 1000u}) {
+    Block samples = any_bytes(256 * kSample, random);
+    for (std::byte& byte : samples)
+      if (random() % in == 0) byte = std::byte{0};
+    check_comes_back(samples);
+  }
+}
+
+// By hand, from the format's description. Fields: reading.sequence from byte 16, f_a from 329. f_a is expected to be
+// the actuators' force turned round: where both are +0 the sign bits are left over, in bytes 336 and 344.
+TEST_CASE("block codec: the bytes of small blocks") {
+  // 336 = 2 x 128 + 80 zeros, one byte; 7 zeros, one byte; 46 zeros, none.
+  CHECK(coded(Block(kSample)) == text({128 + 80, 2, 1, 0x80, 7, 1, 0x80, 46, 0}));
+
+  Block samples(2 * kSample);  // planes of two bytes; the second sequence is as the first
+  samples[23] = samples[kSample + 23] = std::byte{0x40};
+  const int between = 2 * 336 - (2 * 23 + 1);
+  CHECK(coded(samples) ==
+        text({2 * 23, 1, 0x40, 128 + between % 128, between / 128, 2, 0x80, 0x80, 2 * 7, 2, 0x80, 0x80, 2 * 46, 0}));
+}
+
+TEST_CASE("block codec: a lever at rest costs less than three bytes a cycle") {
+  std::vector<TraceSample> rest(256);
+  for (std::size_t i = 0; i < rest.size(); ++i) {
+    TraceSample& now = rest[i];
+    now.deadline_ns = 5'000'000'000 + 1'000'000 * static_cast<std::int64_t>(i);
+    now.reading.time_ns = now.out.time_ns = now.deadline_ns;
+    now.reading.sequence = 77 + i;
+    now.out.cycle = i;
+    now.out.lever = now.reading.position = {0.0123456, -0.0345678};
+  }
+  CHECK(coded(encoded(rest)).size() < 3 * 256);
+}
+
+// Noise in all that is free, everything else by the cycle's own laws: what is left is the noise. Every law is worth
+// some bytes a cycle, so that one that is lost shows.
+TEST_CASE("block codec: fields that follow from others cost nothing") {
+  std::vector<TraceSample> samples = any_samples(256);
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> newtons(-50.0, 50.0);
+  glm::dvec2 commanded{0.0};
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    TraceSample& now = samples[i];
+    HapticSnapshot& out = now.out;
+    for (glm::dvec2* force : {&now.reading.hand_force, &out.wall_force, &out.feel_force, &out.world_force})
+      *force = {newtons(random), newtons(random)};
+    now.deadline_ns = out.time_ns = 7'000'000'000 + 1'000'000 * static_cast<std::int64_t>(i);
+    now.reading.time_ns = now.deadline_ns - 40'000;
+    now.reading.sequence = 5 + 2 * i;
+    out.cycle = i;
+    out.lever = now.reading.position;
+    now.reading.actuator_force = commanded;
+    out.commanded = commanded = out.wall_force + out.feel_force + out.world_force;
+    out.f_h = now.reading.hand_force;
+    out.f_a = -now.reading.actuator_force;
+    out.f_j = out.f_h - out.f_a;
+  }
+  constexpr std::size_t kFollow = 5 * 8 + 6 * 16;  // times, numbers; vectors
+  constexpr std::size_t kZero = 8 + 4 + 8;         // slope, guided gear, guidance
+  constexpr std::size_t kFewValues = 7;            // bool, enumerations
+  CHECK(coded(encoded(samples)).size() < samples.size() * (kSample - kFollow - kZero - kFewValues));
+}
+
+TEST_CASE("block codec: a drive with all that can happen takes less than a quarter of its bytes") {
+  const TempFolder folder;
+  RecordedDrive drive;
+  REQUIRE(drive.record(folder / "t.trace").problem.empty());
+  const double bytes = static_cast<double>(std::filesystem::file_size(folder / "t.trace"));
+  const double per_cycle = bytes / static_cast<double>(RecordedDrive::kCycles);
+  INFO(per_cycle);
+  CHECK(per_cycle < kSample / 4.0);
+}
+
+TEST_CASE("block codec: what is cut, or claimed to be more or less, is refused") {
+  BlockCodec codec;
+  Block back;
+  std::mt19937_64 random(8);
+  std::vector<TraceSample> calm(20);
+  for (std::size_t i = 0; i < calm.size(); ++i)
+    calm[i].reading.position.x = 1e-4 * std::sin(0.1 * static_cast<double>(i));
+  for (const Block& samples : {encoded(any_samples(5)), encoded(calm)}) {
+    const std::size_t count = samples.size() / kSample;
+    const Block good = coded(samples);
+    for (std::size_t size = 0; size < good.size(); ++size)
+      REQUIRE_FALSE(codec.decode(std::span(good).first(size), count, back));
+    for (std::size_t claimed = 0; claimed < 300; ++claimed)
+      REQUIRE(codec.decode(good, claimed, back) == (claimed == count));
+    REQUIRE_FALSE(codec.decode(good, ~std::size_t{0}, back));
+  }
+}
+
+TEST_CASE("block codec: bytes of chance and good blocks spoilt give samples, or are refused; nothing else") {
+  BlockCodec codec;
+  Block back;
+  std::mt19937_64 random(9);
+  int taken = 0;
+  for (int trial = 0; trial < 20'000; ++trial) {
+    const std::size_t count = 1 + random() % 4;
+    Block bytes = trial % 2 == 0 ? any_bytes(random() % 40, random) : coded(Block(count * kSample));
+    for (std::byte& byte : bytes)
+      if (random() % 4 == 0) byte = static_cast<std::byte>(random() % 8 == 0 ? random() : random() % 4);
+    if (!codec.decode(bytes, count, back)) continue;
+    ++taken;
+    REQUIRE(back.size() == count * kSample);
+    check_comes_back(back);  // other bytes may say the same, but they say something that can be said
+  }
+  CHECK(taken > 10);
+}
+
+}  // namespace gearshift
