@@ -105,6 +105,7 @@ void read_pace(const TomlTable& root, Bindings& bindings) {
   bindings.mouse_mm_per_px = pace.number_or("mouse_mm_per_px", bindings.mouse_mm_per_px, {0.005, 5.0});
   bindings.key_speed = pace.number_or("lever_key_m_per_s", bindings.key_speed, {0.01, 2.0});
   bindings.pedal_time = pace.number_or("pedal_key_s", bindings.pedal_time, {0.01, 5.0});
+  bindings.clutch_slip_time = pace.number_or("clutch_key_slip_s", bindings.clutch_slip_time, {0.01, 10.0});
   pace.refuse_unknown_keys();
 }
 

@@ -22,8 +22,10 @@ enum class Action {
   lift,
   // held: the car
   throttle,
+  throttle_light,
   brake,
   clutch,
+  clutch_hold,
   starter,
   // once
   hand_brake,
@@ -64,6 +66,7 @@ struct Bindings {
   double mouse_mm_per_px = 0.12;  // [mm] of the hand in the lever plane per pixel of the mouse
   double key_speed = 0.25;        // [m/s] of the hand while a lever key is held
   double pedal_time = 0.25;       // [s] from up to down by key
+  double clutch_slip_time = 1.2;  // [s] the clutch by key, on its way up, through the part where it takes hold
 };
 
 // Throws FileError: file, line, key, value, allowed range. A key, button or axis that does two things is refused.

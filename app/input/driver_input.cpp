@@ -36,10 +36,24 @@ double beyond(double dead_zone, double value) {
   return std::max(0.0, value - dead_zone) / (1.0 - dead_zone);
 }
 
-// Towards 1 or 0, the whole way in `time`.
-double ramped(double pedal, bool down, double seconds, double time) {
+constexpr double kLightThrottle = 0.2;  // [1] what moves a car off
+
+// Towards there, as fast as the whole way in `time`.
+double ramped(double pedal, double to, double seconds, double time) {
   const double step = seconds / time;
-  return std::clamp(pedal + (down ? step : -step), 0.0, 1.0);
+  return std::clamp(to, pedal - step, pedal + step);
+}
+
+// A pedal let up for so long: quickly, but from `bite` to `closed` in `slip_time`.
+double let_up(double pedal, double seconds, double closed, double bite, double time, double slip_time) {
+  const double edges[] = {bite, closed, 0.0};
+  const double speeds[] = {1.0 / time, (bite - closed) / slip_time, 1.0 / time};
+  for (int part = 0; part < 3; ++part) {
+    const double way = std::min(std::max(pedal - edges[part], 0.0), speeds[part] * seconds);
+    pedal -= way;
+    seconds -= way / speeds[part];
+  }
+  return pedal;
 }
 
 }  // namespace
@@ -204,6 +218,16 @@ void DriverInput::set_reach(glm::dvec2 reach) {
   recentre(aim_);
 }
 
+void DriverInput::set_clutch(double closed, double bite) {
+  clutch_closed_ = closed;
+  clutch_bite_ = bite;
+}
+
+void DriverInput::set_car(bool ignition, double hand_brake) {
+  controls_.ignition = ignition;
+  controls_.hand_brake = hand_brake;
+}
+
 // Raw value, once the axis has moved.
 std::optional<double> DriverInput::raw_axis(const WindowInput& input, const std::optional<AxisBinding>& axis,
                                             std::size_t watch) {
@@ -236,9 +260,13 @@ double DriverInput::pedal_axis(const WindowInput& input, const std::optional<Axi
 void DriverInput::move_feet(const WindowInput& input, double seconds) {
   const Bindings& bindings = config_.bindings;
   const double time = bindings.pedal_time;
-  throttle_key_ = ramped(throttle_key_, is_held(Action::throttle), seconds, time);
-  brake_key_ = ramped(brake_key_, is_held(Action::brake), seconds, time);
-  clutch_key_ = ramped(clutch_key_, is_held(Action::clutch), seconds, time);
+  const double wanted = is_held(Action::throttle) ? 1.0 : is_held(Action::throttle_light) ? kLightThrottle : 0.0;
+  throttle_key_ = ramped(throttle_key_, wanted, seconds, time);
+  brake_key_ = ramped(brake_key_, is_held(Action::brake) ? 1.0 : 0.0, seconds, time);
+  if (is_held(Action::clutch))
+    clutch_key_ = ramped(clutch_key_, 1.0, seconds, time);
+  else if (!is_held(Action::clutch_hold))
+    clutch_key_ = let_up(clutch_key_, seconds, clutch_closed_, clutch_bite_, time, bindings.clutch_slip_time);
   controls_.throttle = std::max(throttle_key_, pedal_axis(input, bindings.throttle, kThrottle));
   controls_.brake = std::max(brake_key_, pedal_axis(input, bindings.brake, kBrake));
   controls_.clutch = std::max(clutch_key_, pedal_axis(input, bindings.clutch, kClutch));

@@ -4,7 +4,9 @@
 //           stick is, from when it leaves its rest until it is back there. It stays within reach; a mouse that goes on
 //           pushes instead, against whatever holds the lever
 //   feet    a pedal's key moves it down in pedal_time and up again when released; an axis puts it where the axis is,
-//           once that has moved: a pad tells nothing of an axis before. The pedal is where it is deepest
+//           once that has moved: a pad tells nothing of an axis before. The pedal is where it is deepest. A key has no
+//           fine feeling, so it is given some: throttle_light presses a fifth, the clutch comes up slowly where it takes
+//           hold, and stays where it is while clutch_hold is down
 //   mouse   leads the lever after a click beside the panel or by grab_mouse, until grab_mouse or the focus is lost
 //   panel   what it uses is not the driver's: no key goes down and no click counts. Two things pass: a key that types
 //           no text for `stop`, and grab_mouse while the mouse leads
@@ -52,6 +54,9 @@ class DriverInput {
 
   void recentre(glm::dvec2 lever);   // the hand is where the lever is now, and does not push
   void set_reach(glm::dvec2 reach);  // [m] of another gate or device
+  void set_clutch(double closed,
+                  double bite);  // [1] pedal of another car: it takes hold between these, 0 <= closed < bite
+  void set_car(bool ignition, double hand_brake);  // as a lesson begins; hand_brake 0 to 1
 
  private:
   // An axis as it was: it counts from its first movement on.
@@ -95,8 +100,9 @@ class DriverInput {
   bool focused_ = false;       // in the frame before
   std::set<Source> down_;      // in this frame, if only for a part of it
   std::set<Source> released_;  // of these, at its end
-  std::array<AxisWatch, 5> watch_;     // lever_select, lever_shift, throttle, brake, clutch
-  std::array<bool, 2> stick_leads_{};  // select, shift
+  std::array<AxisWatch, 5> watch_;                    // lever_select, lever_shift, throttle, brake, clutch
+  std::array<bool, 2> stick_leads_{};                 // select, shift
+  double clutch_closed_ = 0.15, clutch_bite_ = 0.75;  // [1]
   double throttle_key_ = 0.0, brake_key_ = 0.0, clutch_key_ = 0.0;  // [1] pedals by key
 };
 

@@ -61,6 +61,7 @@ TEST_CASE("the shipped bindings: every action has a key, pedals and lever have a
   CHECK(bindings.mouse_mm_per_px == Bindings{}.mouse_mm_per_px);
   CHECK(bindings.key_speed == Bindings{}.key_speed);
   CHECK(bindings.pedal_time == Bindings{}.pedal_time);
+  CHECK(bindings.clutch_slip_time == Bindings{}.clutch_slip_time);
 }
 
 TEST_CASE("the stop can be reached while the panel has the keyboard: one of its shipped keys types nothing") {

@@ -25,6 +25,7 @@ Bindings bindings() {
             {Action::lever_forward, {GLFW_KEY_UP}}, {Action::lever_back, {GLFW_KEY_DOWN}},
             {Action::push_down, {GLFW_KEY_X}},      {Action::lift, {GLFW_KEY_Y}},
             {Action::throttle, {GLFW_KEY_D}},       {Action::clutch, {GLFW_KEY_A}},
+            {Action::throttle_light, {GLFW_KEY_F}}, {Action::clutch_hold, {GLFW_KEY_Q}},
             {Action::starter, {GLFW_KEY_E}},        {Action::hand_brake, {GLFW_KEY_H}},
             {Action::ignition, {GLFW_KEY_I}},       {Action::stop, {GLFW_KEY_SPACE, GLFW_KEY_F12}},
             {Action::recentre, {GLFW_KEY_R}},       {Action::grab_mouse, {GLFW_KEY_ESCAPE}},
@@ -242,6 +243,59 @@ TEST_CASE("pedals ramp down and up by key in the pedal's time") {
   CHECK(d.driver.controls().throttle == doctest::Approx(1.0 - 0.1 / 0.25));
   for (int i = 0; i < 20; ++i) d.frame();
   CHECK(d.driver.controls().throttle == 0.0);
+}
+
+TEST_CASE("the clutch by key comes up slowly where it takes hold, in as long as it shall, at any frame rate") {
+  for (const int parts : {1, 7}) {  // of a frame of 10 ms
+    Driver d;
+    d.driver.set_clutch(0.2, 0.8);
+    const auto hold = [&d, parts](int key, double seconds) {
+      d.key(key, true);
+      for (int i = 0; i < std::lround(100.0 * parts * seconds); ++i) d.frame(0.01 / parts);
+    };
+    hold(GLFW_KEY_A, 0.3);
+    CHECK(d.driver.controls().clutch == 1.0);
+    d.key(GLFW_KEY_A, false);
+    d.frame(1e-9);  // a key is down to the end of its frame
+    double slips = 0.0;
+    for (int i = 0; i < 300 * parts; ++i) {
+      d.frame(0.01 / parts);
+      const double pedal = d.driver.controls().clutch;
+      if (pedal < 0.8 - 1e-9 && pedal > 0.2 + 1e-9) slips += 0.01 / parts;
+    }
+    CHECK(slips == doctest::Approx(Bindings{}.clutch_slip_time).epsilon(0.02));
+    CHECK(d.driver.controls().clutch == 0.0);
+  }
+}
+
+TEST_CASE("the clutch stays at the bite point while it is held there, and goes on when it is let go") {
+  Driver d;
+  d.key(GLFW_KEY_A, true);
+  for (int i = 0; i < 30; ++i) d.frame();
+  d.key(GLFW_KEY_A, false);
+  for (int i = 0; i < 20; ++i) d.frame();
+  d.key(GLFW_KEY_Q, true);
+  d.frame();
+  const double bite = d.driver.controls().clutch;
+  CHECK((bite > 0.5 && bite < 0.75));
+  for (int i = 0; i < 300; ++i) d.frame();
+  CHECK(d.driver.controls().clutch == bite);
+  d.key(GLFW_KEY_Q, false);
+  for (int i = 0; i < 300; ++i) d.frame();
+  CHECK(d.driver.controls().clutch == 0.0);
+}
+
+TEST_CASE("a little throttle is a fifth, and the whole goes before it") {
+  Driver d;
+  d.key(GLFW_KEY_F, true);
+  for (int i = 0; i < 30; ++i) d.frame();
+  CHECK(d.driver.controls().throttle == 0.2);
+  d.key(GLFW_KEY_D, true);
+  for (int i = 0; i < 30; ++i) d.frame();
+  CHECK(d.driver.controls().throttle == 1.0);
+  d.key(GLFW_KEY_D, false);
+  for (int i = 0; i < 30; ++i) d.frame();
+  CHECK(d.driver.controls().throttle == 0.2);
 }
 
 TEST_CASE("ignition is on at first; ignition and hand brake change with each press, the starter is held") {
