@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "app/cabin_sound/car_synth.h"
 #include "app/cabin_sound/synth.h"
 
 namespace gearshift {
@@ -11,7 +12,8 @@ namespace {
 
 // Ahead of the dash. The engine stands in the car's middle, 0.37 m to the right, but the whole bulkhead sounds.
 constexpr glm::vec3 kEnginePlace{0.2f, 0.2f, -1.5f};  // [m]
-constexpr float kWarningGain = 0.55f, kGrindGain = 0.6f;
+constexpr glm::vec3 kCluster{0.0f, 0.37f, -0.70f};    // [m]
+constexpr float kWarningGain = 0.55f, kOverRevGain = 0.45f;
 constexpr float kWarningRadius = 0.5f;  // [m] so wide that both ears hear it, wherever the driver looks
 
 VoiceId silent_loop(SoundWorld& world, const std::vector<float>& samples) {
@@ -26,9 +28,10 @@ CabinSound::CabinSound(SoundWorld& world, const CabinSoundConfig& config)
       knock_(world.add_clip(wall_knock())),
       gear_in_(world.add_clip(gear_in_click())),
       gear_out_(world.add_clip(gear_out_click())),
-      grind_(silent_loop(world, grind_loop())),
+      car_(world),
       over_push_{silent_loop(world, over_push_loop()), {kWarningLength, 0.0}},
-      saturation_{silent_loop(world, saturation_loop()), {kWarningLength, kSaturationHold}} {
+      saturation_{silent_loop(world, saturation_loop()), {kWarningLength, kSaturationHold}},
+      over_rev_{silent_loop(world, over_rev_loop()), {kWarningLength, kSaturationHold}} {
   set_config(config);
 }
 
@@ -64,9 +67,10 @@ void CabinSound::update(const HapticSnapshot& lever, const VehicleState& car, co
                         double time) {
   listen(ears);
   sound_engine(car);
-  world_.set(grind_, {knob, car.grinding ? kGrindGain : 0.0f});
-  sound_warning(over_push_, (lever.flags & kFlagOverPush) != 0, knob, time);
-  sound_warning(saturation_, (lever.flags & kFlagSaturated) != 0, knob, time);
+  car_.set(world_, car, config_.engine, config_.dog_teeth, {kEnginePlace, knob, kCluster}, time);
+  sound_warning(over_push_, (lever.flags & kFlagOverPush) != 0, {knob, kWarningGain}, time);
+  sound_warning(saturation_, (lever.flags & kFlagSaturated) != 0, {knob, kWarningGain}, time);
+  sound_warning(over_rev_, car.over_revved, {kCluster, kOverRevGain}, time);
   world_.update(time);
 }
 
@@ -86,10 +90,12 @@ void CabinSound::sound_engine(const VehicleState& car) {
   engine_voices().set(world_, speed, car.engine_load, 1.0, kEnginePlace);
 }
 
-void CabinSound::sound_warning(Warning& warning, bool lasts, glm::vec3 knob, double time) {
+void CabinSound::sound_warning(Warning& warning, bool lasts, Voice as, double time) {
   const WarningHold::Now now = warning.hold.update(lasts, time);
   if (now.starts) world_.restart(warning.voice);
-  world_.set(warning.voice, {.position = knob, .gain = now.heard ? kWarningGain : 0.0f, .radius = kWarningRadius});
+  if (!now.heard) as.gain = 0.0f;
+  as.radius = kWarningRadius;
+  world_.set(warning.voice, as);
 }
 
 }  // namespace gearshift

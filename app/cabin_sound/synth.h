@@ -1,5 +1,5 @@
-// Every sound of the cabin, made from formulas: mono samples in [-1, 1] at kSoundRate. Pure functions: the same samples
-// at every call. What loops does so without a click.
+// What the lever sounds like, and its warnings, made from formulas: mono samples in [-1, 1] at kSoundRate. Pure
+// functions: the same samples at every call. What loops does so without a click.
 #pragma once
 
 #include <vector>
@@ -12,7 +12,6 @@ std::vector<float> gear_in_click();  // the detent falls in, then the sleeve mee
 std::vector<float> gear_out_click();
 
 // Loops.
-std::vector<float> grind_loop();       // dog teeth that pass each other
 std::vector<float> over_push_loop();   // two tones in turn, 2.5 times a second, without a pause
 std::vector<float> saturation_loop();  // three short beeps of one higher tone, then a pause
 

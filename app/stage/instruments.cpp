@@ -14,7 +14,6 @@ constexpr double kRpm = 60.0 / (2.0 * std::numbers::pi);
 constexpr double kPedalTravel = 20.0 * kDegree;
 constexpr double kHandBrakeTravel = 30.0 * kDegree;
 constexpr double kStanding = 300.0;  // [1/min] below this no oil pressure and no charge
-constexpr double kHot = 6800.0;      // [1/min] beyond the red line the engine lamp warns
 
 bool blinks_now(double time) noexcept {
   const double phase = time * kBlinkRate;
@@ -30,7 +29,7 @@ bool is_lit(Lamp lamp, const VehicleState& car, const HapticSnapshot& lever, dou
     case Lamp::hand_brake:
       return car.ignition && car.hand_brake > 0.05;
     case Lamp::engine:
-      return car.ignition && (rpm > kHot || rpm < kStanding);
+      return car.ignition && (car.over_revved || !car.running || rpm < kStanding);
     case Lamp::stall:
       return car.ignition && (car.stalled || car.grinding);
     case Lamp::turn_left:
@@ -55,6 +54,12 @@ double tach_angle(const VehicleState& car) noexcept {
 
 double speed_angle(const VehicleState& car) noexcept {
   return needle_angle(kKmhPerMps * std::abs(car.road_speed), kSpeedTop);
+}
+
+double tremble(const VehicleState& car, double time) noexcept {
+  if (!(car.shudder > 0.0)) return 0.0;
+  const double turn = 2.0 * std::numbers::pi * time;
+  return std::min(car.shudder, 1.0) * (0.6 * std::sin(13.0 * turn) + 0.4 * std::sin(17.0 * turn));
 }
 
 glm::vec2 gear_field(int gear) noexcept {

@@ -19,6 +19,12 @@ double needle_angle(double value, double top) noexcept;  // [rad] counter-clockw
 double tach_angle(const VehicleState& car) noexcept;   // [rad]
 double speed_angle(const VehicleState& car) noexcept;  // [rad] the dial knows no direction
 
+// What shakes with an engine that labours or dies: a swing between -1 and 1 times its shudder, the same at the same
+// time [s], 0 without shudder. 13 and 17 Hz: fast, and slow enough for a picture's frames.
+double tremble(const VehicleState& car, double time) noexcept;
+inline constexpr double kNeedleTremble = 0.035;  // [rad] of a whole shudder
+inline constexpr double kLeverTremble = 0.0007;  // [m] at the knob
+
 // The display shows "N" at rest; its atlas has the fields R N 1 ... 9 side by side. Shift of uv0 to a gear's field.
 glm::vec2 gear_field(int gear) noexcept;
 

@@ -6,6 +6,7 @@
 
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_transform.hpp>
+#include <glm/gtc/quaternion.hpp>
 #include <glm/mat3x3.hpp>
 
 #include "app/stage/pieces.h"
@@ -125,6 +126,16 @@ void add_node(Model& model, std::string name, std::vector<Piece> pieces, int fir
   set_pieces(model, static_cast<int>(model.nodes.size()) - 1, pieces);
 }
 
+// The hills stay level where the fields tilt: their feet reach so deep that no gap opens between the two.
+void sink_feet(std::vector<Piece>& hills) {
+  constexpr float kBelowFields = -1.0f, kFoot = -100.0f;  // [m]
+  for (Piece& piece : hills) {
+    for (Vertex& vertex : piece.patch.vertices) {
+      if (vertex.position.y < kBelowFields) vertex.position.y = kFoot;
+    }
+  }
+}
+
 std::string block_name(int block) {
   return "RoadBlock" + std::to_string(block);
 }
@@ -140,8 +151,11 @@ void Roadside::add_to(Model& model, const Model& road_model) {
   add_node(model, "RoadStrip", strip_of_tiles(road_model), first_material);
   std::vector<Piece> land;
   stamp(road_model, "Fields", glm::mat4(1.0f), land);
-  stamp(road_model, "Hills", glm::mat4(1.0f), land);
   add_node(model, "Land", std::move(land), first_material);
+  std::vector<Piece> hills;
+  stamp(road_model, "Hills", glm::mat4(1.0f), hills);
+  sink_feet(hills);
+  add_node(model, "Hills", std::move(hills), first_material);
   // Leaves and all else are on one picture: what stands beside leaves is drawn with them, masked.
   const int masked = needed_material(road_model, "Leaves"), opaque = needed_material(road_model, "Roadside");
   for (int block = 0; block < kBlocks; ++block) {
@@ -155,24 +169,28 @@ void Roadside::add_to(Model& model, const Model& road_model) {
 }
 
 std::vector<std::string> Roadside::moving_names() {
-  std::vector<std::string> names{"RoadStrip", "Land"};  // the land stands still, but lies in no part of the cabin
+  std::vector<std::string> names{"RoadStrip", "Land", "Hills"};  // they stand still, but lie in no part of the cabin
   for (int block = 0; block < kBlocks; ++block) names.push_back(block_name(block));
   return names;
 }
 
-Roadside::Roadside(const Model& model) : strip_(needed_node(model, "RoadStrip")) {
+Roadside::Roadside(const Model& model) : strip_(needed_node(model, "RoadStrip")), land_(needed_node(model, "Land")) {
   for (int block = 0; block < kBlocks; ++block) {
     block_[static_cast<std::size_t>(block)] = needed_node(model, block_name(block));
   }
 }
 
-void Roadside::place(double distance, std::vector<Node>& pose) const {
-  pose[static_cast<std::size_t>(strip_)].translation =
-      kRoadPlace + glm::vec3(0.0f, 0.0f, static_cast<float>(tile_shift(distance)));
+void Roadside::place(double distance, double slope, std::vector<Node>& pose) const {
+  const glm::quat tilt = glm::angleAxis(static_cast<float>(slope), glm::vec3(1.0f, 0.0f, 0.0f));
+  const auto put = [&](int node, glm::dvec3 from_car) {
+    pose[static_cast<std::size_t>(node)].rotation = tilt;
+    pose[static_cast<std::size_t>(node)].translation = kRoadPlace + tilt * glm::vec3(from_car);
+  };
+  put(land_, glm::dvec3(0.0));
+  put(strip_, {0.0, 0.0, tile_shift(distance)});
   for (int block = 0; block < kBlocks; ++block) {
     const BlockPlace at = block_place(block, distance);
-    pose[static_cast<std::size_t>(block_[static_cast<std::size_t>(block)])].translation =
-        kRoadPlace + glm::vec3(glm::dvec3(0.0, at.height, -at.ahead));
+    put(block_[static_cast<std::size_t>(block)], {0.0, at.height, -at.ahead});
   }
 }
 

@@ -12,19 +12,20 @@ namespace gearshift {
 
 class Roadside {
  public:
-  // Adds nodes "RoadStrip", "Land" and "RoadBlock0" ... to the model, made of road.glb's things. Which thing stands
-  // where is thrown with road_dice(). Throws std::runtime_error where a thing is missing.
+  // Adds nodes "RoadStrip", "Land", "Hills" and "RoadBlock0" ... to the model, made of road.glb's things. Which thing
+  // stands where is thrown with road_dice(). Throws std::runtime_error where a thing is missing.
   static void add_to(Model& model, const Model& road_model);
 
   static std::vector<std::string> moving_names();
 
   explicit Roadside(const Model& model);  // finds what add_to() made
 
-  // Moves the world back by the distance that the car has gone. [m]
-  void place(double distance, std::vector<Node>& pose) const;
+  // Moves the world back by the distance that the car has gone [m], and tilts road and fields about the car by the
+  // slope [rad, uphill +]: cabin and hills stay level, the way ahead rises.
+  void place(double distance, double slope, std::vector<Node>& pose) const;
 
  private:
-  int strip_ = kNone;
+  int strip_ = kNone, land_ = kNone;
   std::array<int, kBlocks> block_{};
 };
 

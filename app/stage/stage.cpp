@@ -14,14 +14,17 @@
 #include "app/stage/lever_pose.h"
 #include "app/stage/pieces.h"
 #include "app/stage/roadside.h"
+#include "app/stage/shift_light.h"
 #include "app/stage/stage_model.h"
+#include "app/stage/way.h"
 #include "engine/model/skin.h"
 
 namespace gearshift {
 namespace {
 
 constexpr float kGhostOpacity = 0.4f;
-constexpr float kExposure = 3.0f;  // for eyes inside: the cabin is darker than the road
+constexpr float kGlassHand = 0.25f;  // opacity of a hand with ways to see below it
+constexpr float kExposure = 3.0f;    // for eyes inside: the cabin is darker than the road
 constexpr ShadowRoom kCabin{{-0.45f, -0.31f, -1.25f}, {1.12f, 0.96f, 1.45f}};  // [m]
 constexpr glm::vec3 kX{1.0f, 0.0f, 0.0f}, kZ{0.0f, 0.0f, 1.0f};
 
@@ -38,6 +41,7 @@ struct Stage::State {
   FrameScene scene;
   std::vector<Vertex> boot_at_rest;
   std::size_t hand_mesh = 0;     // of scene.deformed
+  std::size_t first_way = 0;     // of scene.deformed: those that are shown in this frame
   std::vector<glm::mat4> world;  // of the nodes, in this frame
   Roadside road;
   std::optional<Hand> hand;
@@ -45,6 +49,7 @@ struct Stage::State {
   std::array<int, kLampCount> lamp{};
   int lever = kNone, ghost = kNone, boot = kNone, wheel = kNone, tach = kNone, speed = kNone, gear_panel = kNone;
   int clutch = kNone, brake = kNone, throttle = kNone, hand_brake = kNone;
+  int shift_up = kNone, shift_down = kNone, driven_way = kNone, ideal_way = kNone;
   glm::dvec3 pivot{0.0};  // [m] world
   glm::dvec3 knob{0.0}, ghost_knob{0.0};
 
@@ -65,6 +70,7 @@ struct Stage::State {
     pivot = glm::dvec3(rest_pose(model)[static_cast<std::size_t>(lever)][3]);
     if (!config.open_gate) take_boot();
     if (config.hand) take_hand();
+    first_way = scene.deformed.size();
     if (config.cutaway) gearbox.emplace(model, config.gate);
   }
 
@@ -80,6 +86,10 @@ struct Stage::State {
     brake = needed_node(model, "PedalBrake");
     throttle = needed_node(model, "PedalThrottle");
     hand_brake = needed_node(model, "Handbrake");
+    shift_up = needed_node(model, kShiftUp);
+    shift_down = needed_node(model, kShiftDown);
+    driven_way = needed_node(model, kDrivenWay);
+    ideal_way = needed_node(model, kIdealWay);
     for (std::size_t i = 0; i < lamp.size(); ++i) lamp[i] = needed_node(model, kLampNodes[i]);
   }
 
@@ -100,11 +110,18 @@ struct Stage::State {
   const Node& node(int index) const { return model.nodes[static_cast<std::size_t>(index)]; }
   void turn(int index, glm::quat rotation) { pose[static_cast<std::size_t>(index)].rotation = rotation; }
 
-  void place_lever(const HapticSnapshot& lever_state) {
-    const glm::dquat rotation = lever_rotation(config.yoke, lever_state.proxy);
+  // What the hand holds shakes with the engine, sidewise and along.
+  static glm::dvec2 shaken(glm::dvec2 plane, const VehicleState& car, double time) {
+    return plane + kLeverTremble * glm::dvec2(tremble(car, time + 0.3), tremble(car, time));
+  }
+
+  void place_lever(const StageInput& input) {
+    const HapticSnapshot& lever_state = input.lever;
+    const glm::dvec2 drawn = shaken(lever_state.proxy, input.car, input.time);
+    const glm::dquat rotation = lever_rotation(config.yoke, drawn);
     turn(lever, glm::quat(rotation));
     turn(ghost, glm::quat(lever_rotation(config.yoke, lever_state.lever)));
-    knob = pivot + kDrawnLever * lever_direction(config.yoke, lever_state.proxy);
+    knob = pivot + kDrawnLever * lever_direction(config.yoke, drawn);
     ghost_knob = pivot + kDrawnLever * lever_direction(config.yoke, lever_state.lever);
     const bool is_apart = (lever_state.flags & kFlagGhost) != 0;
     show_below(ghost, is_apart, kGhostOpacity);
@@ -131,8 +148,11 @@ struct Stage::State {
 
   void place_instruments(const StageInput& input) {
     const VehicleState& car = input.car;
-    turn(tach, about(kZ, tach_angle(car)));
-    turn(speed, about(kZ, speed_angle(car)));
+    const double swing = kNeedleTremble * tremble(car, input.time);
+    turn(tach, about(kZ, tach_angle(car) + swing));
+    turn(speed, about(kZ, speed_angle(car) + swing));
+    scene.nodes[static_cast<std::size_t>(shift_up)].visible = car.shift_advice > 0;
+    scene.nodes[static_cast<std::size_t>(shift_down)].visible = car.shift_advice < 0;
     turn(wheel, about(kZ, car.steering));
     turn(clutch, about(kX, pedal_angle(car.clutch)));
     turn(brake, about(kX, pedal_angle(car.brake)));
@@ -143,6 +163,27 @@ struct Stage::State {
       const auto at = static_cast<std::size_t>(lamp[static_cast<std::size_t>(i)]);
       scene.nodes[at].emissive = lamp_light(static_cast<Lamp>(i), car, input.lever, input.time);
     }
+  }
+
+  void place_ways(const StageInput& input) {
+    scene.deformed.resize(first_way);
+    const bool is_driven = show_way(driven_way, input.driven_way, kDrivenLook);
+    const bool is_ideal = show_way(ideal_way, input.ideal_way, kIdealLook);
+    if (hand) look_through_hand(is_driven || is_ideal);
+  }
+
+  // What is of glass has no ghost.
+  void look_through_hand(bool is_glass) {
+    scene.nodes[static_cast<std::size_t>(hand->skin_node())].opacity = is_glass ? kGlassHand : 1.0f;
+    if (is_glass) scene.nodes[static_cast<std::size_t>(hand->ghost_node())].visible = false;
+  }
+
+  bool show_way(int index, std::span<const glm::dvec2> way, const WayLook& look) {
+    DeformedMesh shape{node(index).mesh, {}};
+    const bool is_shown = shape_way(way, config.yoke, look, shape.vertices);
+    scene.nodes[static_cast<std::size_t>(index)].visible = is_shown;
+    if (is_shown) scene.deformed.push_back(std::move(shape));
+    return is_shown;
   }
 
   void resolve() {
@@ -169,9 +210,10 @@ const Model& Stage::model() const noexcept {
 }
 
 void Stage::place(const StageInput& input) {
-  state_->place_lever(input.lever);
+  state_->place_lever(input);
   state_->place_instruments(input);
-  state_->road.place(input.car.distance, state_->pose);
+  state_->place_ways(input);
+  state_->road.place(input.car.distance, input.car.slope, state_->pose);
   if (state_->gearbox)
     state_->gearbox->place(state_->config.gate, input.lever.proxy, input.car, input.time, state_->pose);
   state_->resolve();

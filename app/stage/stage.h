@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -31,6 +32,9 @@ struct StageInput {
   HapticSnapshot lever;
   VehicleState car;
   double time = 0.0;  // [s] for what blinks
+  // Of a shift that is looked at again, drawn just above the knob: the way that it took, and the shortest. In the gate
+  // plane [m]; empty: none. The hand is of glass then.
+  std::span<const glm::dvec2> driven_way{}, ideal_way{};
 };
 
 class Stage {

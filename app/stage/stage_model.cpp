@@ -14,7 +14,9 @@
 #include "app/stage/lever_pose.h"
 #include "app/stage/pieces.h"
 #include "app/stage/roadside.h"
+#include "app/stage/shift_light.h"
 #include "app/stage/strokes.h"
+#include "app/stage/way.h"
 #include "engine/model/assemble.h"
 #include "engine/model/gltf.h"
 
@@ -149,9 +151,12 @@ void add_ghost(Model& model) {
   add_twin(model, needed_node(model, "KnobCap"), "GhostCap", knob);
 }
 
+glm::vec3 pivot_at_rest(const Model& model) {
+  return glm::vec3(rest_pose(model)[static_cast<std::size_t>(needed_node(model, "LeverPivot"))][3]);
+}
+
 glm::vec3 knob_at_rest(const Model& model) {
-  const glm::mat4 pivot = rest_pose(model)[static_cast<std::size_t>(needed_node(model, "LeverPivot"))];
-  return glm::vec3(pivot[3]) + glm::vec3(0.0f, static_cast<float>(kDrawnLever), 0.0f);
+  return pivot_at_rest(model) + glm::vec3(0.0f, static_cast<float>(kDrawnLever), 0.0f);
 }
 
 std::vector<std::string> moving_names(const StageConfig& config) {
@@ -159,6 +164,7 @@ std::vector<std::string> moving_names(const StageConfig& config) {
       "LeverPivot", "Boot",          "TachNeedle", "SpeedNeedle", "SteeringWheel",         "PedalClutch", "PedalBrake",
       "GearPanel",  "PedalThrottle", "Handbrake",  "GhostPivot",  "InteriorMirrorSurface", kBodywork};
   names.insert(names.end(), kLampNodes.begin(), kLampNodes.end());
+  names.insert(names.end(), {kShiftUp, kShiftDown, kDrivenWay, kIdealWay});
   if (config.hand) names.insert(names.end(), {"HandRoot", "GhostHand"});
   for (std::string& name : Roadside::moving_names()) names.push_back(std::move(name));
   if (config.cutaway) {
@@ -186,6 +192,9 @@ Model make_stage_model(const StageConfig& config, const std::filesystem::path& f
     add_lever_lamp(model, Node(node_of(model, "GatePlate")), above(kLamp, 0.0));
   }
   join_lever(model);
+  add_shift_light(model);
+  add_way(model, kDrivenWay, pivot_at_rest(model), kDrivenLook);
+  add_way(model, kIdealWay, pivot_at_rest(model), kIdealLook);
   add_ghost(model);
   if (config.hand) Hand::add_to(model, read_gltf(folder / "hand.glb"), knob_at_rest(model));
   Roadside::add_to(model, read_gltf(folder / "road.glb"));

@@ -25,6 +25,7 @@ constexpr Range kEngineInertia{0.01, 10.0};
 constexpr Range kIdleThrottle{0.1, 100.0};
 constexpr Range kLimiterBandRpm{1.0, 1000.0};
 constexpr Range kStarterNm{1.0, 1000.0};
+constexpr Range kShudderN{0.0, 10.0};
 
 constexpr Range kCapacityNm{1.0, 10000.0};
 constexpr Range kPedal{0.0, 1.0};
@@ -107,6 +108,7 @@ EngineSpec read_engine(const TomlTable& table) {
   engine.shift_low = speed("shift_from_rpm");
   engine.shift_high = speed("shift_to_rpm");
   engine.lug_below = speed("lug_below_rpm");
+  engine.shudder = table.number("shudder_n", kShudderN);
   check_engine(table, engine);
   table.refuse_unknown_keys();
   return engine;

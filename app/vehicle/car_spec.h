@@ -36,6 +36,7 @@ struct EngineSpec {
   double shift_low = 210.0;      // [rad/s] economical shift, from here
   double shift_high = 262.0;     // [rad/s] to here
   double lug_below = 120.0;      // [rad/s] full load harms below
+  double shudder = 3.0;          // [N] at a real knob, amplitude of the lever's shaking as the engine dies
 };
 
 struct ClutchSpec {

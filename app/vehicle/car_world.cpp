@@ -68,7 +68,8 @@ CarWorld::CarWorld(const CarSpec& car, const Gate& gate, double force_limit, con
       start_(whole_start(car, start)),
       name_(make_name(car, force_limit, start_, seed)),
       driveline_(car),
-      synchroniser_(car.synchro, gate, force_scale(force_limit), start.gear, seed) {
+      synchroniser_(car.synchro, gate, force_scale(force_limit), start.gear, seed),
+      shake_(car.engine.shudder * force_scale(force_limit)) {
   check_car_fits(car, gate);
   for (std::size_t i = 0; i < slots(gate).size(); ++i) {
     const Slot& slot = gate.slot[i];
@@ -104,11 +105,13 @@ LeverOutput CarWorld::step(const LeverInput& in, double period) noexcept {
 
   LeverOutput out;
   out.road_speed = state_.road_speed;
-  if (lever.slot == kNoSlot) return out;
-  out.force.y = gear_of_slot_[static_cast<std::size_t>(lever.slot)].side * sleeve.force;
-  out.limited_slot = lever.slot;
-  out.depth_min = sleeve.depth_min;
-  out.depth_max = sleeve.depth_max;
+  if (lever.slot != kNoSlot) {
+    out.force.y = gear_of_slot_[static_cast<std::size_t>(lever.slot)].side * sleeve.force;
+    out.limited_slot = lever.slot;
+    out.depth_min = sleeve.depth_min;
+    out.depth_max = sleeve.depth_max;
+  }
+  out.force.y += shake_.step(state_.shudder, state_.engine_speed, period);
   return out;
 }
 
@@ -148,7 +151,7 @@ void CarWorld::take_state(const DriverControls& controls, const SleeveInput& lev
   state_.slope = controls.slope;
 }
 
-std::unique_ptr<LeverWorld> make_car_world(const std::string& name, const Gate& gate) {
+std::unique_ptr<CarWorld> make_car_world(const std::string& name, const Gate& gate) {
   std::istringstream stream(name);
   stream.imbue(std::locale::classic());
   std::string kind, file;

@@ -9,6 +9,7 @@
 
 #include "app/vehicle/car_spec.h"
 #include "app/vehicle/driveline.h"
+#include "app/vehicle/shudder.h"
 #include "app/vehicle/synchroniser.h"
 #include "app/vehicle/vehicle_state.h"
 #include "haptics/gate/gate.h"
@@ -42,6 +43,7 @@ class CarWorld final : public LeverWorld {
   LeverOutput step(const LeverInput& in, double period) noexcept override;
   // "car", everything above by its exact value, and the car's whole file: make_car_world() makes the same again.
   const char* name() const noexcept override { return name_.c_str(); }
+  const CarSpec& spec() const noexcept { return car_; }
   const VehicleState& state() const noexcept { return state_; }
   const Driveline& driveline() const noexcept { return driveline_; }
 
@@ -64,11 +66,12 @@ class CarWorld final : public LeverWorld {
   std::array<SlotGear, kMaxSlots> gear_of_slot_{};
   Driveline driveline_;
   Synchroniser synchroniser_;
+  LeverShake shake_;
   VehicleState state_;
 };
 
 // The world of that name, or nothing where it names no car. Throws FileError where the car in it is refused,
 // std::invalid_argument where it does not fit the gate.
-std::unique_ptr<LeverWorld> make_car_world(const std::string& name, const Gate& gate);
+std::unique_ptr<CarWorld> make_car_world(const std::string& name, const Gate& gate);
 
 }  // namespace gearshift

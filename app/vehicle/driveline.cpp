@@ -4,6 +4,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "app/vehicle/shift_advice.h"
+#include "app/vehicle/shudder.h"
+
 namespace gearshift {
 namespace {
 
@@ -41,6 +44,9 @@ void Driveline::place(double engine_speed, double shaft_speed, double road_speed
   state_.shaft_speed = speed_[shaft_body];
   state_.road_speed = speed_[car_body];
   state_.running = running;
+  state_.fuel_cut = state_.cranking = false;
+  state_.shudder = 0.0;
+  state_.shift_advice = 0;
 }
 
 double Driveline::kinetic_energy() const noexcept {
@@ -128,6 +134,8 @@ void Driveline::show(double capacity) noexcept {
   state_.running = engine_.running();
   state_.stalled = engine_.ignition() && !engine_.running();
   state_.over_revved = engine > car_.engine.red_line;
+  state_.fuel_cut = engine_.fuel_cut();
+  state_.cranking = engine_.cranks(engine);
 
   state_.clutch_capacity = capacity;
   state_.clutch_torque = motion.clutch;
@@ -140,6 +148,9 @@ void Driveline::show(double capacity) noexcept {
   state_.road_speed = speed_[car_body];
   state_.acceleration = motion.rate[car_body];
   state_.drive_torque = motion.drive * car_.body.wheel_radius;
+
+  state_.shudder = engine_shudder(car_.engine, state_);
+  state_.shift_advice = shift_advice(car_, state_, state_.shift_advice);
 }
 
 }  // namespace gearshift

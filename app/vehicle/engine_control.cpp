@@ -38,7 +38,7 @@ double EngineControl::torque(double speed, double pedal) const noexcept {
   double torque = 0.0;
   const double opened = load(speed, pedal);
   if (opened > 0.0) torque += opened * full(speed);
-  if (starter_ && speed < spec_.starter_speed) torque += spec_.starter_torque * (1.0 - speed / spec_.starter_speed);
+  if (cranks(speed)) torque += spec_.starter_torque * (1.0 - speed / spec_.starter_speed);
   return torque;
 }
 

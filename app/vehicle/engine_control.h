@@ -18,6 +18,8 @@ class EngineControl {
 
   bool running() const noexcept { return fires_.running; }
   bool ignition() const noexcept { return ignition_; }
+  bool fuel_cut() const noexcept { return fires_.cut; }
+  bool cranks(double speed) const noexcept { return starter_ && speed < spec_.starter_speed; }
   // [1] 0 to 1: share of the torque that it could give, at that speed [rad/s] and pedal [1]; 0 where the fuel is cut.
   double load(double speed, double pedal) const noexcept;
   // [N m] of combustion and starter, friction not taken off.

@@ -25,6 +25,10 @@ struct VehicleState {
   bool running = true;         // it fires
   bool stalled = false;        // it does not, and the ignition is on
   bool over_revved = false;    // above its red line
+  bool fuel_cut = false;       // by the limiter
+  bool cranking = false;       // the starter turns it
+  double shudder = 0.0;        // [1] 0 to 1: it labours or dies, and shakes the car
+  int shift_advice = 0;        // +1: the next gear up would do with less fuel; -1: it labours, one down; 0: as it is
 
   // Clutch and gearbox
   double clutch_capacity = 0.0;  // [N m] the most that it can carry now

@@ -1,5 +1,6 @@
 #include "app/stage/instruments.h"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -47,7 +48,9 @@ TEST_CASE("lamps of the engine burn while it stands with ignition, and go out wh
     off.ignition = false;
     CHECK(light(lamp, off) == 0.0f);
   }
-  CHECK(light(Lamp::engine, running(7200.0)) == 1.0f);
+  VehicleState dying = running(600.0);
+  dying.running = false;
+  CHECK(light(Lamp::engine, dying) == 1.0f);
   VehicleState car = running(0.0);
   CHECK(light(Lamp::stall, car) == 0.0f);
   car.stalled = true;
@@ -55,6 +58,34 @@ TEST_CASE("lamps of the engine burn while it stands with ignition, and go out wh
   CHECK(light(Lamp::hand_brake, car) == 0.0f);
   car.hand_brake = 1.0;
   CHECK(light(Lamp::hand_brake, car) == 1.0f);
+}
+
+TEST_CASE("the engine lamp warns beyond the car's own red line, whatever that is") {
+  for (const double rpm : {4800.0, 7200.0}) {  // a diesel's, a petrol engine's
+    VehicleState car = running(rpm);
+    CHECK(light(Lamp::engine, car) == 0.0f);
+    car.over_revved = true;
+    CHECK(light(Lamp::engine, car) == 1.0f);
+    car.ignition = false;
+    CHECK(light(Lamp::engine, car) == 0.0f);
+  }
+}
+
+TEST_CASE("nothing trembles without a shudder; with one it swings about nothing, as far as the shudder goes") {
+  VehicleState car = running(400.0);
+  for (int i = 0; i < 100; ++i) CHECK(tremble(car, 0.013 * i) == 0.0);
+  for (const double shudder : {0.2, 1.0, 7.0}) {
+    car.shudder = shudder;
+    double most = 0.0, mean = 0.0;
+    for (int i = 0; i < 10000; ++i) {
+      most = std::max(most, std::abs(tremble(car, 1e-3 * i)));
+      mean += 1e-4 * tremble(car, 1e-3 * i);
+    }
+    CHECK(most <= std::min(shudder, 1.0));
+    CHECK(most > 0.9 * std::min(shudder, 1.0));
+    CHECK(std::abs(mean) < 1e-3);
+    CHECK(tremble(car, 12.34) == tremble(car, 12.34));
+  }
 }
 
 TEST_CASE("indicators blink at 1.5 Hz, half of the time on, each side for itself") {

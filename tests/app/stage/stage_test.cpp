@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 #include <string>
+#include <vector>
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
@@ -150,6 +151,34 @@ TEST_CASE("the display steps one field of its atlas a gear") {
   }
 }
 
+TEST_CASE("a stall shakes needles and lever by a few degrees and a millimetre at most, and no camera") {
+  Stage stage(config_of("paper"), kModels);
+  StageInput input;
+  input.lever.proxy = {-0.035, 0.038};
+  stage.place(input);
+  const glm::mat4 needle = world_of(stage, "TachNeedle"), still = world_of(stage, "SteeringWheel");
+  double furthest = 0.0, turned = 0.0;
+  input.car.shudder = 1.0;
+  for (int i = 0; i < 200; ++i) {
+    input.time = i / 60.0;
+    stage.place(input);
+    furthest = std::max(furthest, glm::distance(place_of(stage, "Knob"), knob_above(input.lever.proxy)));
+    const glm::vec4 up{0.0f, 1.0f, 0.0f, 0.0f};
+    turned = std::max(turned, static_cast<double>(glm::distance(world_of(stage, "TachNeedle") * up, needle * up)));
+    REQUIRE(world_of(stage, "SteeringWheel") == still);
+    REQUIRE(glm::distance(place_of(stage, "Knob"), stage.knob()) < 1e-6);
+    REQUIRE(stage.driver_eye().position == camera("driver").position);
+  }
+  MESSAGE("knob " << 1e3 * furthest << " mm, needle " << turned * 180.0 / std::numbers::pi << " deg");
+  CHECK(furthest > 0.0003);
+  CHECK(furthest < 0.0012);
+  CHECK(turned > 0.02);
+  CHECK(turned < 0.04);
+  input.car.shudder = 0.0;
+  stage.place(input);
+  CHECK(glm::distance(place_of(stage, "Knob"), knob_above(input.lever.proxy)) < 1e-6);
+}
+
 TEST_CASE("a lamp's light is its node's emission") {
   Stage stage(config_of("paper"), kModels);
   StageInput input;
@@ -173,11 +202,17 @@ TEST_CASE("the stage is drawn in at most 64 draws, whatever it shows but the gea
     const int alone = visible_draws(stage);
     StageInput pushed;
     pushed.lever.flags = kFlagGhost;
+    pushed.car.shift_advice = 1;
+    stage.place(pushed);
+    const int with_ghost = visible_draws(stage);
+    const std::vector<glm::dvec2> way{{0.0, -0.03}, {0.0, 0.03}};
+    pushed.driven_way = pushed.ideal_way = way;
     stage.place(pushed);
     MESSAGE(std::string(open_gate ? "open gate: " : "boot: ")
-            << alone << " draws, with the ghost " << visible_draws(stage) << ", " << stage.model().triangle_count()
-            << " triangles");
-    CHECK(visible_draws(stage) > alone);
+            << alone << " draws, with ghost and shift light " << with_ghost << ", with the ways too "
+            << visible_draws(stage) << ", " << stage.model().triangle_count() << " triangles");
+    CHECK(with_ghost > alone);
+    CHECK(with_ghost <= 64);
     CHECK(visible_draws(stage) <= 64);
   }
   StageConfig config = config_of("six_speed_r_left_up");

@@ -1,0 +1,47 @@
+// What the driveline tells sound and instruments of its engine.
+#include <algorithm>
+
+#include <doctest/doctest.h>
+
+#include "tests/app/vehicle/cars.h"
+#include "tests/app/vehicle/driveline_rig.h"
+
+using namespace gearshift;
+
+TEST_CASE("the fuel is cut from the limiter down to its band, 6500 to 6400 rpm, and told so; never below") {
+  Driveline line(shipped_car("hatchback"));
+  int cuts = 0;
+  bool before = false;
+  for (int i = 0; i < 4000; ++i) {
+    line.step(pedals(kNeutralGear, 1.0, 1.0), 1e-3);
+    const VehicleState& car = line.state();
+    const double rpm = car.engine_speed / kRpm;
+    if (rpm < 6399.9) REQUIRE_FALSE(car.fuel_cut);
+    if (rpm > 6500.1) REQUIRE(car.fuel_cut);
+    if (car.fuel_cut) REQUIRE(car.engine_load == 0.0);
+    cuts += car.fuel_cut && !before ? 1 : 0;
+    before = car.fuel_cut;
+  }
+  MESSAGE("cut " << cuts << " times in 4 s");
+  CHECK(cuts > 10);
+}
+
+TEST_CASE("it cranks while the starter turns it, and no longer once it runs, though the key is held") {
+  const CarSpec car = shipped_car("hatchback");
+  Driveline line(car);
+  line.place(0.0, 0.0, 0.0, false);
+  DrivelineInput in = pedals(kNeutralGear, 0.0, 1.0);
+  line.step(in, 1e-3);
+  CHECK_FALSE(line.state().cranking);
+  in.starter = true;
+  line.step(in, 1e-3);
+  CHECK(line.state().cranking);
+  drive(line, in, 3.0);
+  CHECK(line.state().running);
+  CHECK_FALSE(line.state().cranking);
+  in.starter = in.ignition = false;
+  drive(line, in, 5.0);
+  in.starter = true;
+  line.step(in, 1e-3);
+  CHECK_FALSE(line.state().cranking);  // without ignition
+}
