@@ -3,15 +3,20 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <optional>
+#include <utility>
 
 #include <fmt/core.h>
 
 #include "app/assets_path.h"
 #include "app/cabin_sound/cabin_sound.h"
 #include "app/demo/contact_sheet.h"
+#include "app/demo/demo_lessons.h"
 #include "app/demo/demo_page.h"
 #include "app/demo/film.h"
+#include "app/demo/filmed_drive.h"
 #include "app/demo/shots.h"
+#include "app/learner/auto_driver.h"
 #include "app/output_folder.h"
 #include "app/view/cabin_kind.h"
 #include "engine/sound/wav.h"
@@ -91,28 +96,73 @@ void record_sound(const DemoSetup& setup, std::span<const FilmFrame> film, const
   write_wav(setup.tour.folder / "demo.wav", stereo, kSoundRate);
 }
 
+LessonDriveConfig tour_drive(const DemoSetup& setup, const CarSpec& car) {
+  LessonDriveConfig config;
+  config.lesson = tour_lesson(car, setup.tour.gate);
+  config.car = car;
+  config.gate = setup.tour.layout;
+  config.seed = setup.tour.seed;
+  return config;
+}
+
+DemoChapter tour_chapter(const FilmedDrive& tour, const std::optional<CarSpec>& car) {
+  if (!car) return {"Through every gear", {"No shipped car has all gears of this gate: it stands."}, {}, {}};
+  DemoChapter chapter{"Through every gear", {car->title + "."}, {}, {}};
+  for (std::string& words : result_words(tour)) chapter.text.push_back(std::move(words));
+  return chapter;
+}
+
+void show(const std::vector<Shot>& shots, DemoChapter& chapter) {
+  for (const Shot& shot : shots) chapter.pictures.push_back({shot.name + ".png", shot.caption});
+}
+
 }  // namespace
+
+std::size_t DemoResult::pictures() const {
+  std::size_t count = 0;
+  for (const DemoChapter& chapter : chapters) count += chapter.pictures.size();
+  return count;
+}
 
 DemoResult run_demo(const DemoSetup& setup, const TourProgress& progress) {
   DemoResult result;
-  std::vector<FilmFrame> film;
+  std::vector<FilmFrame> by_hand;  // the scripted tour, which has no car
   result.tour = drive_tour(setup.tour, progress, [&](const HapticSnapshot& now, std::span<const HapticEvent> events) {
-    film.push_back({static_cast<double>(film.size()) * kWatchPeriod, now, {events.begin(), events.end()}, {}});
+    by_hand.push_back({static_cast<double>(by_hand.size()) * kWatchPeriod, now, {events.begin(), events.end()}, {}});
   });
   draw_tour(setup.tour, result.tour, progress);
-  drive_car(film, result.tour.engaged);
-  record_sound(setup, film, progress);
+
+  const std::optional<CarSpec> car = fitting_car(setup.tour.gate);
+  FilmedDrive tour;
+  std::vector<DemoLesson> lessons;
+  if (car) {
+    tour = film_drive(tour_drive(setup, *car));
+    lessons = drive_demo_lessons(setup, *car, progress);
+  } else {
+    tour.film = std::move(by_hand);
+  }
+  record_sound(setup, tour.film, progress);
+
+  std::vector<Shot> shots = tour_shots(tour.film);
+  result.chapters.push_back(tour_chapter(tour, car));
+  show(shots, result.chapters.back());
+  for (const DemoLesson& lesson : lessons) {
+    const std::vector<Shot> more = lesson_shots(lesson.last.film, lesson.last.lesson.key);
+    result.chapters.push_back({lesson.last.lesson.title, result_words(lesson.last), lesson.trace, {}});
+    show(more, result.chapters.back());
+    shots.insert(shots.end(), more.begin(), more.end());
+    result.passed = result.passed && lesson.last.result.passed;
+  }
 
   CabinView view(setup.view, nullptr, nullptr);
-  const std::vector<Shot> shots = key_shots(film, result.tour);
   const std::vector<Image> pictures = take_pictures(view, setup, shots, progress, result);
   const int shrink = std::max(1, pictures[0].width / kSheetWidth);
   write_png(setup.tour.folder / "contact_sheet.png", contact_sheet(pictures, kSheetColumns, shrink));
-  shoot_film(view, setup, film, progress, result);
-
-  for (const Shot& shot : shots) result.pictures.push_back({shot.name + ".png", shot.caption});
+  shoot_film(view, setup, tour.film, progress, result);
   result.device = view.gpu().name;
   result.validation_messages = view.validation_messages();
+  result.has_report = !lessons.empty();
+  if (result.has_report) write_demo_report(setup, lessons);
   write_demo_page(setup, result);
   return result;
 }

@@ -42,12 +42,22 @@ std::string gear_table(const TourResult& tour) {
   return table + "</table>\n";
 }
 
+std::string chapter_html(const DemoChapter& chapter) {
+  std::string html = fmt::format("<h2>{}</h2>\n<p>", html_text(chapter.title));
+  for (const std::string& sentence : chapter.text) html += html_text(sentence) + "<br>\n";
+  if (!chapter.trace.empty()) html += fmt::format("<a href=\"{0}\">Trace</a>", html_text(chapter.trace));
+  html += "</p>\n";
+  for (const DemoPicture& picture : chapter.pictures) html += figure(picture.file, picture.caption);
+  return html;
+}
+
+constexpr const char* kDriven =
+    "A simulated learner drives through every gear of the gate, then lessons; a car's driveline is behind the lever. ";
 constexpr const char* kIntroduction =
-    "A simulated hand shifts through every gear of the gate. The lever that is drawn is the proxy, which never leaves "
-    "the "
-    "slots; the hand pushes through the walls and is held by the force that is plotted below. Everything on this page "
-    "came "
-    "from one deterministic run: the trace replays bit for bit.";
+    "The lever that is drawn is the proxy, which never leaves the slots. Below, a scripted hand shifts through the "
+    "gate "
+    "without a car: it pushes through the walls and is held by the force that is plotted. Everything on this page is "
+    "deterministic: the traces replay bit for bit.";
 
 }  // namespace
 
@@ -57,11 +67,15 @@ void write_demo_page(const DemoSetup& setup, const DemoResult& result) {
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>gearshift: a drive</title>\n"
          "<style>"
       << html_style() << "</style>\n</head>\n<body>\n<h1>" << html_text(setup.tour.layout.name) << ", driven</h1>\n<p>"
-      << kIntroduction << "</p>\n<p>Sound: <audio controls src=\"demo.wav\"></audio></p>\n"
-      << facts(setup, result) << "<h2>Gears</h2>\n"
-      << gear_table(result.tour) << "<h2>Pictures</h2>\n";
-  for (const DemoPicture& picture : result.pictures) out << figure(picture.file, picture.caption);
-  out << "<h2>Lever and force</h2>\n"
+      << (result.has_report ? kDriven : "") << kIntroduction
+      << "</p>\n<p>Sound of the drive through every gear: <audio controls src=\"demo.wav\"></audio></p>\n";
+  if (result.has_report) {
+    out << "<p>The learner drove each lesson several times, ever better; the last time is shown here: "
+           "<a href=\"report.html\">the learner's report</a>.</p>\n";
+  }
+  for (const DemoChapter& chapter : result.chapters) out << chapter_html(chapter);
+  out << "<h2>Lever and force, by a scripted hand</h2>\n"
+      << facts(setup, result) << gear_table(result.tour)
       << figure("trajectory.svg", "The hand's lever point and the drawn lever in the gate (Fig. 9 a of the paper)")
       << figure("force.svg", "Position and force against time (Fig. 9 b of the paper)")
       << "<p><a href=\"tour.csv\">Table</a>, <a href=\"tour.trace\">trace</a>, <a href=\"contact_sheet.png\">contact "

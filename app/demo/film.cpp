@@ -3,23 +3,16 @@
 #include <algorithm>
 #include <cmath>
 
-#include "app/train/feet.h"
-#include "app/vehicle/rolling_car.h"
-
 namespace gearshift {
 
-namespace {
-constexpr double kStartSpeed = 30.0 / kKmhPerMps;  // [m/s] a tour is too quick to move off in
-}
-
-void drive_car(std::vector<FilmFrame>& film, std::span<const GearTime> engaged) {
-  RollingCarConfig config;
-  config.start_speed = kStartSpeed;
-  RollingCar car(config);
-  for (FilmFrame& frame : film) {
-    car.step(feet_at(frame.time, engaged, car.state()), frame.lever.gear, kWatchPeriod);
-    frame.car = car.state();
+std::vector<GearTime> gears_of(std::span<const FilmFrame> film) {
+  std::vector<GearTime> gears;
+  int gear = kNeutralGear;
+  for (const FilmFrame& frame : film) {
+    if (frame.lever.gear != gear && frame.lever.gear != kNeutralGear) gears.push_back({frame.lever.gear, frame.time});
+    gear = frame.lever.gear;
   }
+  return gears;
 }
 
 const FilmFrame& frame_at(std::span<const FilmFrame> film, double time) {

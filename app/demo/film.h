@@ -1,11 +1,11 @@
-// The drive as the cabin sees it: one frame every 1/60 s, lever, feet and car together.
+// A drive as the cabin sees it: one frame every 1/60 s, lever and car together.
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "app/stage/stage.h"
 #include "app/tour/tour.h"
+#include "app/vehicle/vehicle_state.h"
 
 namespace gearshift {
 
@@ -16,8 +16,8 @@ struct FilmFrame {
   VehicleState car;
 };
 
-// The car follows the gears of the drive and the feet of feet_at().
-void drive_car(std::vector<FilmFrame>& film, std::span<const GearTime> engaged);
+// Each change of the gear that the lever is in, neutral left out.
+std::vector<GearTime> gears_of(std::span<const FilmFrame> film);
 
 // The frame nearest to that time. The film is not empty.
 const FilmFrame& frame_at(std::span<const FilmFrame> film, double time);

@@ -4,28 +4,24 @@
 #include <sqlite3.h>
 
 #include <algorithm>
-#include <ctime>
 #include <map>
 #include <system_error>
+#include <utility>
 
-#include <fmt/chrono.h>
 #include <fmt/core.h>
 
 #include "app/history/schema.h"
 #include "app/training/shift_fields.h"
+#include "haptics/files/printable.h"
 
 namespace gearshift {
 namespace {
 
 constexpr int kPatience = 3000;            // [ms] for another program that writes
+constexpr int kNap = 10;                   // [ms]
 constexpr std::size_t kLongestName = 100;  // [bytes]
 
-std::string now_text() {
-  const std::time_t now = std::time(nullptr);
-  std::tm utc{};
-  gmtime_r(&now, &utc);
-  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", utc);
-}
+constexpr const char* kDeleted = "what this belongs to was deleted by another program";
 
 std::string reason_of(const SQLite::Exception& problem) {
   switch (problem.getErrorCode()) {
@@ -43,6 +39,8 @@ std::string reason_of(const SQLite::Exception& problem) {
       return "another program holds it";
     case SQLITE_CANTOPEN:
       return "it cannot be opened";
+    case SQLITE_CONSTRAINT:
+      return kDeleted;
     case SQLITE_IOERR:
       return "the disk does not answer";
     default:
@@ -86,15 +84,18 @@ Enum within(int value, Enum last) {
 }  // namespace
 
 struct History::State {
-  explicit State(const std::filesystem::path& path) : file(path) {}
+  State(const std::filesystem::path& path, Clock clock) : file(path), now(std::move(clock)) {}
 
   void open();
+  int admitted_version();
   void bring_up_to_date();
+  void keep_log();
   void insert_shift(std::int64_t run, const ShiftRecord& shift);
   void replace_faults(std::int64_t run, const LessonResult& result);
   std::vector<ShiftRecord> shifts(std::int64_t run);
   void read_faults(std::int64_t run, LessonResult& result);
 
+  std::string date() const { return date_text(now()); }
   SQLite::Statement query(const std::string& text) { return {*database, text}; }
 
   // One sentence whatever goes wrong; `work` is one transaction, seen whole or not at all.
@@ -125,6 +126,7 @@ struct History::State {
   }
 
   std::filesystem::path file;
+  Clock now;
   std::unique_ptr<SQLite::Database> database;
 };
 
@@ -132,25 +134,34 @@ void History::State::open() {
   std::error_code problem;
   if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), problem);
   if (problem) refuse(fmt::format("its folder cannot be made: {}", problem.message()));
+  const bool has_log = std::filesystem::exists(file.string() + "-wal", problem);
   said([&] {
     database =
         std::make_unique<SQLite::Database>(file.string(), SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE, kPatience);
+    // What is refused is left to the byte: the log of a killed program is not worked in.
+    if (has_log) sqlite3_db_config(database->getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+    const int version = admitted_version();
+    if (version != kSchemaVersion) bring_up_to_date();
+    keep_log();
+    sqlite3_db_config(database->getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 0, nullptr);
     database->exec("PRAGMA foreign_keys = ON");
     database->exec("PRAGMA secure_delete = ON");
-    bring_up_to_date();
   });
 }
 
-void History::State::bring_up_to_date() {
+// One look at the file, whatever another program does to it meanwhile: that may be making it.
+int History::State::admitted_version() {
+  SQLite::Transaction look(*database);
   const int application = database->execAndGet("PRAGMA application_id").getInt();
   const int version = database->execAndGet("PRAGMA user_version").getInt();
   const bool is_empty = database->execAndGet("SELECT count(*) FROM sqlite_master").getInt() == 0;
   if (!is_empty && application != kApplicationId) refuse("it is no history of this program; it is left as it is");
   if (version > kSchemaVersion) refuse("a newer program made it; it is left as it is");
   if (database->execAndGet("PRAGMA quick_check(1)").getString() != "ok") refuse("it is damaged; it is left as it is");
-  database->exec("PRAGMA journal_mode = WAL");
-  database->exec("PRAGMA synchronous = NORMAL");  // a killed process loses nothing; a dead machine the last seconds
-  if (version == kSchemaVersion) return;
+  return version;
+}
+
+void History::State::bring_up_to_date() {
   SQLite::Transaction transaction(*database, SQLite::TransactionBehavior::IMMEDIATE);
   // Another program may have been faster.
   for (int from = database->execAndGet("PRAGMA user_version").getInt(); from < kSchemaVersion; ++from) {
@@ -159,6 +170,20 @@ void History::State::bring_up_to_date() {
   }
   database->exec(fmt::format("PRAGMA application_id = {}", kApplicationId));
   transaction.commit();
+}
+
+// Writing ahead needs the file alone for a moment, and SQLite does not wait for it by itself.
+void History::State::keep_log() {
+  for (int waited = 0;; waited += kNap) {
+    try {
+      database->exec("PRAGMA journal_mode = WAL");
+      break;
+    } catch (const SQLite::Exception& problem) {
+      if (problem.getErrorCode() != SQLITE_BUSY || waited >= kPatience) throw;
+      sqlite3_sleep(kNap);
+    }
+  }
+  database->exec("PRAGMA synchronous = NORMAL");  // a killed process loses nothing; a dead machine the last seconds
 }
 
 void History::State::insert_shift(std::int64_t run, const ShiftRecord& shift) {
@@ -185,7 +210,7 @@ void History::State::replace_faults(std::int64_t run, const LessonResult& result
   forget.exec();
   std::map<std::size_t, double> points;
   for (const Deduction& deduction : result.deductions) points[deduction.fault] += deduction.points;
-  SQLite::Statement insert = query("INSERT INTO fault VALUES (" + marks(8) + ")");
+  SQLite::Statement insert = query("INSERT INTO fault VALUES (" + marks(10) + ")");
   for (std::size_t i = 0; i < result.faults.size(); ++i) {
     const DriveFault& fault = result.faults[i];
     insert.bind(1, run);
@@ -196,6 +221,8 @@ void History::State::replace_faults(std::int64_t run, const LessonResult& result
     insert.bind(6, fault.value);
     insert.bind(7, fault.shift);
     insert.bind(8, points.count(i) != 0 ? points.at(i) : 0.0);
+    insert.bind(9, fault.step);
+    insert.bind(10, fault.wanted);
     insert.exec();
     insert.reset();
   }
@@ -224,8 +251,8 @@ std::vector<ShiftRecord> History::State::shifts(std::int64_t run) {
 }
 
 void History::State::read_faults(std::int64_t run, LessonResult& result) {
-  SQLite::Statement rows =
-      query("SELECT kind, severity, time_s, value, shift, points FROM fault WHERE run = ? ORDER BY number");
+  SQLite::Statement rows = query(
+      "SELECT kind, severity, time_s, value, shift, points, step, wanted_s FROM fault WHERE run = ? ORDER BY number");
   rows.bind(1, run);
   while (rows.executeStep()) {
     const std::optional<FaultKind> kind = fault_of(rows.getColumn(0).getString());
@@ -233,12 +260,18 @@ void History::State::read_faults(std::int64_t run, LessonResult& result) {
     const double points = rows.getColumn(5).getDouble();
     if (points != 0.0) result.deductions.push_back({result.faults.size(), points});
     result.faults.push_back({*kind, within(rows.getColumn(1).getInt(), Severity::very_severe),
-                             rows.getColumn(2).getDouble(), rows.getColumn(3).getDouble(),
-                             rows.getColumn(4).getInt64()});
+                             rows.getColumn(2).getDouble(), rows.getColumn(3).getDouble(), rows.getColumn(4).getInt64(),
+                             rows.getColumn(6).getString(), rows.getColumn(7).getDouble()});
   }
 }
 
-History::History(const std::filesystem::path& file) : state_(std::make_unique<State>(file)) {
+void check_learner_name(std::string_view name) {
+  if (name.empty() || name.size() > kLongestName)
+    throw std::invalid_argument(fmt::format("a learner's name has 1 to {} bytes", kLongestName));
+  if (!is_printable(name)) throw std::invalid_argument("a learner's name has no control characters");
+}
+
+History::History(const std::filesystem::path& file, Clock now) : state_(std::make_unique<State>(file, std::move(now))) {
   state_->open();
 }
 
@@ -249,12 +282,11 @@ const std::filesystem::path& History::file() const noexcept {
 }
 
 std::int64_t History::learner(std::string_view name) {
-  if (name.empty() || name.size() > kLongestName)
-    throw std::invalid_argument(fmt::format("a learner's name has 1 to {} bytes", kLongestName));
+  check_learner_name(name);
   return state_->write([&] {
     SQLite::Statement insert = state_->query("INSERT OR IGNORE INTO learner (name, made_at) VALUES (?, ?)");
     insert.bind(1, std::string(name));
-    insert.bind(2, now_text());
+    insert.bind(2, state_->date());
     insert.exec();
     SQLite::Statement find = state_->query("SELECT id FROM learner WHERE name = ?");
     find.bind(1, std::string(name));
@@ -295,7 +327,7 @@ std::int64_t History::begin_session(std::int64_t learner, std::string_view progr
   return state_->write([&] {
     SQLite::Statement insert = state_->query("INSERT INTO session (learner, begun_at, program) VALUES (?, ?, ?)");
     insert.bind(1, learner);
-    insert.bind(2, now_text());
+    insert.bind(2, state_->date());
     insert.bind(3, std::string(program));
     insert.exec();
     return static_cast<std::int64_t>(state_->database->getLastInsertRowid());
@@ -306,7 +338,7 @@ void History::add_settings(std::int64_t session, std::string_view text) {
   state_->write([&] {
     SQLite::Statement insert = state_->query("INSERT INTO settings (session, set_at, text) VALUES (?, ?, ?)");
     insert.bind(1, session);
-    insert.bind(2, now_text());
+    insert.bind(2, state_->date());
     insert.bind(3, std::string(text));
     insert.exec();
   });
@@ -319,7 +351,7 @@ std::int64_t History::begin_run(std::int64_t session, const LessonResult& result
         "begin_s, duration_s, grade, passed, why, slip_energy_j, engine_work_j) VALUES (" +
         marks(16) + ")");
     insert.bind(1, session);
-    insert.bind(2, now_text());
+    insert.bind(2, state_->date());
     insert.bind(3, std::string(recording));
     insert.bind(4, result.lesson);
     insert.bind(5, result.task);
@@ -355,7 +387,7 @@ void History::end_run(std::int64_t run, const LessonResult& result) {
     update.bind(9, result.slip_energy);
     update.bind(10, result.fuel);
     update.bind(11, run);
-    update.exec();
+    if (update.exec() == 0) state_->refuse(kDeleted);
     for (const ShiftRecord& shift : result.shifts) state_->insert_shift(run, shift);
     state_->replace_faults(run, result);
   });
@@ -365,7 +397,7 @@ void History::add_comment(std::int64_t run, std::string_view author, std::string
   state_->write([&] {
     SQLite::Statement insert = state_->query("INSERT INTO comment (run, made_at, author, text) VALUES (?, ?, ?, ?)");
     insert.bind(1, run);
-    insert.bind(2, now_text());
+    insert.bind(2, state_->date());
     insert.bind(3, std::string(author));
     insert.bind(4, std::string(text));
     insert.exec();
@@ -430,6 +462,10 @@ std::vector<std::string> History::settings(std::int64_t session) {
     while (rows.executeStep()) all.push_back(rows.getColumn(0).getString());
     return all;
   });
+}
+
+std::int64_t History::changes() {
+  return state_->said([&] { return state_->database->execAndGet("PRAGMA data_version").getInt64(); });
 }
 
 std::vector<std::string> History::erase_learner(std::int64_t learner) {

@@ -14,6 +14,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/history/date_text.h"
 #include "app/training/lesson_result.h"
 
 namespace gearshift {
@@ -43,15 +44,18 @@ struct CommentRow {
   std::string author, text;
 };
 
+// Throws std::invalid_argument, one sentence, for a name that is empty, longer than 100 bytes or not to be shown.
+void check_learner_name(std::string_view name);
+
 class History {
  public:
-  // Opens or makes it, with its folder. Throws HistoryError, as every other call does.
-  explicit History(const std::filesystem::path& file);
+  // Opens or makes it, with its folder; the clock dates what is written. Throws HistoryError, as every other call does.
+  explicit History(const std::filesystem::path& file, Clock now = system_seconds);
   ~History();
   History(const History&) = delete;
   History& operator=(const History&) = delete;
 
-  // Known or made. Throws std::invalid_argument for an empty name, or one of more than 100 bytes.
+  // Known or made. Throws std::invalid_argument for what is no name.
   std::int64_t learner(std::string_view name);
   std::optional<LearnerRow> find_learner(std::string_view name);
   std::vector<LearnerRow> learners();
@@ -71,6 +75,9 @@ class History {
   std::vector<RunRow> runs(std::int64_t learner);  // oldest first
   std::vector<CommentRow> comments(std::int64_t run);
   std::vector<std::string> settings(std::int64_t session);
+
+  // Another number than before: another program, or another History, has written since.
+  std::int64_t changes();
 
   // Gone for good, from the file's free pages, too. Returns the recordings that nobody names any more.
   std::vector<std::string> erase_learner(std::int64_t learner);

@@ -7,8 +7,11 @@ namespace gearshift {
 
 inline constexpr int kApplicationId = 0x47534849;  // "GSHI", in the file's header
 
-// Script i makes version i + 1 of version i: a file is brought up to the newest, in one transaction.
-inline constexpr std::array kMigrations{R"sql(
+// Script i makes version i + 1 of version i: a file is brought up to the newest, in one transaction, with foreign keys
+// off: a table that is made anew takes nothing with it.
+inline constexpr std::array kMigrations{
+    // 1
+    R"sql(
 CREATE TABLE learner (
   id INTEGER PRIMARY KEY,
   name TEXT NOT NULL UNIQUE,
@@ -94,6 +97,55 @@ CREATE TABLE comment (
   text TEXT NOT NULL);
 CREATE INDEX session_of_learner ON session (learner);
 CREATE INDEX run_of_session ON lesson_run (session);
+)sql",
+    // 2: no number is given twice (AUTOINCREMENT). Another program that still drives for a learner who was erased would
+    // else write into the next one's rows.
+    R"sql(
+CREATE TABLE new_learner (
+  id INTEGER PRIMARY KEY AUTOINCREMENT,
+  name TEXT NOT NULL UNIQUE,
+  made_at TEXT NOT NULL,
+  next_lesson TEXT NOT NULL DEFAULT '');
+INSERT INTO new_learner SELECT id, name, made_at, next_lesson FROM learner;
+DROP TABLE learner;
+ALTER TABLE new_learner RENAME TO learner;
+CREATE TABLE new_session (
+  id INTEGER PRIMARY KEY AUTOINCREMENT,
+  learner INTEGER NOT NULL REFERENCES learner ON DELETE CASCADE,
+  begun_at TEXT NOT NULL,
+  program TEXT NOT NULL);
+INSERT INTO new_session SELECT id, learner, begun_at, program FROM session;
+DROP TABLE session;
+ALTER TABLE new_session RENAME TO session;
+CREATE TABLE new_run (
+  id INTEGER PRIMARY KEY AUTOINCREMENT,
+  session INTEGER NOT NULL REFERENCES session ON DELETE CASCADE,
+  begun_at TEXT NOT NULL,
+  recording TEXT NOT NULL,
+  lesson TEXT NOT NULL,
+  task TEXT NOT NULL,
+  mode INTEGER NOT NULL,
+  ended INTEGER NOT NULL,
+  guided INTEGER NOT NULL,
+  whole INTEGER NOT NULL,
+  begin_s REAL NOT NULL,
+  duration_s REAL NOT NULL,
+  grade REAL NOT NULL,
+  passed INTEGER NOT NULL,
+  why TEXT NOT NULL,
+  slip_energy_j REAL NOT NULL,
+  engine_work_j REAL NOT NULL);
+INSERT INTO new_run SELECT id, session, begun_at, recording, lesson, task, mode, ended, guided, whole, begin_s,
+  duration_s, grade, passed, why, slip_energy_j, engine_work_j FROM lesson_run;
+DROP TABLE lesson_run;
+ALTER TABLE new_run RENAME TO lesson_run;
+CREATE INDEX session_of_learner ON session (learner);
+CREATE INDEX run_of_session ON lesson_run (session);
+)sql",
+    // 3: which step was slow, and within what it should have been done.
+    R"sql(
+ALTER TABLE fault ADD COLUMN step TEXT NOT NULL DEFAULT '';
+ALTER TABLE fault ADD COLUMN wanted_s REAL NOT NULL DEFAULT 0;
 )sql"};
 inline constexpr int kSchemaVersion = static_cast<int>(kMigrations.size());
 

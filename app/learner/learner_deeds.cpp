@@ -77,6 +77,7 @@ bool SimulatedLearner::lugs(const DriveSample& now) {
   }
   feet_.brake.go(0.0, kBrakeRate);
   if (!coupled) {
+    launching_ = false;
     release(now);
     return true;
   }

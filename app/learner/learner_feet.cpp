@@ -50,7 +50,8 @@ void SimulatedLearner::drive(const DriveSample& now) {
 
 void SimulatedLearner::go_on(const DriveSample& now) {
   feet_.brake.go(0.0, kBrakeRate);
-  const double rest = now.car.road_speed > kRolls ? std::min(0.13, 0.12 * faults_.of(FaultKind::riding_clutch)) : 0.0;
+  const double rides = faults_.of(FaultKind::riding_clutch);
+  const double rest = rides > 0.0 && now.car.road_speed > kRolls ? kFootWeighs + kFootWeighsMore * rides : 0.0;
   const bool is_up = feet_.clutch.value() <= rest && now.car.clutch_locked;
   const bool dies = now.car.clutch_locked && heard_ < kSaves * car_.engine.idle && now.car.running;
   if (dies || (saves_ && now.car.engine_speed < car_.engine.idle)) {

@@ -33,6 +33,7 @@ inline constexpr double kClutchLag = 0.06;      // [s] clutch after the gear
 inline constexpr double kHandLeaves = 0.15;     // [s] the knob after the gear is in
 inline constexpr double kShaftRest = 2.0;       // [s] with the clutch down before reverse
 inline constexpr double kStuck = 1.2;           // [s] pushed in vain, before it is tried anew
+inline constexpr double kBeside = 0.2;          // [s] and a reaction: pushed beside a slot
 inline constexpr double kSyncPatience = 4.0;    // [s] against a ring that blocks
 inline constexpr double kGivesUp = 45.0;        // [s] without a step done
 inline constexpr double kRestsAfterMiss = 3.8;  // [s]
@@ -41,10 +42,11 @@ inline constexpr double kHill = 0.02;           // [rad]
 inline constexpr double kStill = 0.3;           // [m/s]
 inline constexpr double kRolls = 1.0;           // [m/s]
 inline constexpr double kDriving = 4.5;         // [m/s] above what the teacher calls driving
-inline constexpr double kAtRing = 0.12;         // [1] of the way from the detent to the gear: not through the ring
-inline constexpr double kStrokeBegin = 0.06;    // [s] of each stroke, beside its way over its pace
-inline constexpr double kBehindMouth = 0.006;   // [m] into a wrong slot
-inline constexpr double kPeep = 0.2;            // [s] of that stroke
+inline constexpr double kCoasts = 5.0;        // [m/s] from here it still drives after some seconds with the clutch down
+inline constexpr double kAtRing = 0.12;       // [1] of the way from the detent to the gear: not through the ring
+inline constexpr double kStrokeBegin = 0.06;  // [s] of each stroke, beside its way over its pace
+inline constexpr double kBehindMouth = 0.006;  // [m] into a wrong slot
+inline constexpr double kPeep = 0.2;           // [s] of that stroke
 
 // And of one who means to do wrong.
 inline constexpr double kFootOff = 25.0;          // [1/s] the foot leaves the clutch
@@ -52,6 +54,12 @@ inline constexpr double kAbrupt = 3.2;            // [1/s] or not quite
 inline constexpr double kDumpSpeed = 419.0;       // [rad/s] 4000 rpm, at a launch
 inline constexpr double kJerkSpeed = 272.0;       // [rad/s] 2600 rpm
 inline constexpr double kHurry = 0.6;             // [1] throttle
+inline constexpr double kPushLeast = 55.0;        // [N] of an impatient hand
+inline constexpr double kPushMore = 35.0;         // [N] times the amount
+inline constexpr double kFootWeighs = 0.09;       // [1] pedal under a foot that rests on it
+inline constexpr double kFootWeighsMore = 0.03;   // [1] times the amount
+inline constexpr double kDawdles = 4.0;           // [s] with the clutch down, times the amount
+inline constexpr double kLate = 1.5;              // [1] of a step's time, times the amount
 inline constexpr double kThrottleTooSoon = 0.15;  // [1] before the clutch is up
 
 }  // namespace gearshift

@@ -119,7 +119,7 @@ PracticeOutcome practise(const LessonDriveConfig& drive, Practice practice, cons
   PracticeOutcome outcome;
   outcome.error.assign(static_cast<std::size_t>(trials) + 1, 0.0);
   std::vector<double> retained;
-  int guided = 0;
+  int guided = 0, early = 0;
   for (int i = 0; i < learners; ++i) {
     Chance chance(seed + static_cast<std::uint64_t>(i));  // the same learners whatever the practice
     const double start = chance.between(model.start_least, 1.0);
@@ -129,6 +129,7 @@ PracticeOutcome practise(const LessonDriveConfig& drive, Practice practice, cons
     for (int trial = 1; trial <= trials; ++trial) {
       const double gain = apprentice.guidance(practice);
       apprentice.learn(model, drive_as(drive, apprentice.error, gain, chance.seed()), gain);
+      if (2 * trial <= trials && gain > 0.0) ++early;
       outcome.error[static_cast<std::size_t>(trial)] += apprentice.error / learners;
     }
     for (int test = 0; test < kRetentionTrials; ++test)
@@ -137,6 +138,7 @@ PracticeOutcome practise(const LessonDriveConfig& drive, Practice practice, cons
   }
   outcome.retention_grade = mean(retained);
   outcome.guided_share = static_cast<double>(guided) / (static_cast<double>(learners) * trials);
+  outcome.guided_early = static_cast<double>(early) / (static_cast<double>(learners) * (trials / 2));
   return outcome;
 }
 

@@ -61,6 +61,7 @@ struct PracticeOutcome {
   std::vector<double> error;     // [1] mean skill error after each trial, from before the first
   double retention_grade = 0.0;  // [1] mean of unguided trials at the end: what a person can without help
   double guided_share = 0.0;     // [1] of the trials
+  double guided_early = 0.0;     // [1] of their first half
 };
 
 // Each learner drives `trials` trials of the lesson, then two that are not guided, and learns from the former alone.

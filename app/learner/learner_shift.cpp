@@ -92,7 +92,8 @@ void SimulatedLearner::begin_shift(const DriveSample& now, int gear) {
   const double late = faults_.of(FaultKind::clutch_late);
   if (late > 0.0) shift_.press_at = now.time() + 0.35 * late, shift_.hand_lead = -10.0;
   const double lag = kClutchLag + noise(skill_.timing_spread);
-  shift_.clutch_early = lag < 0.0 || faults_.of(FaultKind::clutch_early) > 0.0;
+  const bool dawdles = faults_.of(FaultKind::too_slow) > 0.0;
+  shift_.clutch_early = (lag < 0.0 && !dawdles) || faults_.of(FaultKind::clutch_early) > 0.0;
   release_at_ = std::max(0.0, lag);  // from the gear on
   if (is_due(FaultKind::wrong_direction) && now.car.road_speed < -kRolls) once(FaultKind::wrong_direction);
 }
@@ -153,13 +154,15 @@ void SimulatedLearner::shift_hand(const DriveSample& now) {
   const bool in_slot = hand_.in_last_stroke() && now.car.sync != SyncPhase::free;
   if (shift_.errand == Errand::blocked) hand_.set_feeble(pushes ? 4.0 : 0.0);
   if (faults_.of(FaultKind::over_push) > 0.0 && in_slot)
-    hand_.set_extra({0.0, 90.0 * faults_.of(FaultKind::over_push) * side_of(gate_, shift_.gear)});
+    hand_.set_extra({0.0, (kPushLeast + kPushMore * faults_.of(FaultKind::over_push)) * side_of(gate_, shift_.gear)});
   const double waited = hand_.waited(time);
   const bool at_ring = shift_.errand == Errand::missed && hand_.is_at_end(time) && is_behind_detent(now);
   const bool tired = shift_.errand == Errand::blocked && hand_.is_at_end(time) && waited > 2.0;
   const bool no_use = !shift_.uses_clutch && !shift_.between_gears && waited > 0.5;
   if (at_ring || tired || no_use) return draw_back(now);
-  if (waited > (pushes ? kSyncPatience : kStuck)) {
+  const bool beside = now.lever.slot == kNoSlot;  // a wall where a slot was meant
+  const double patience = pushes ? kSyncPatience : beside ? kBeside + skill_.reaction : kStuck;
+  if (waited > patience) {
     if (!shift_.uses_clutch) return draw_back(now);
     reach(now, shift_.gear);
   }
@@ -229,8 +232,8 @@ void SimulatedLearner::end_shift(const DriveSample& now) {
   hand_.set_feeble(0.0);
   gear_in_at_ = now.time();
   release_at_ += now.time();
-  if (shift_.between_gears && std::abs(now.car.road_speed) > kDriving && once(FaultKind::too_slow))
-    release_at_ = now.time() + 3.0 * faults_.of(FaultKind::too_slow);
+  if (shift_.between_gears && std::abs(now.car.road_speed) > kCoasts && once(FaultKind::too_slow))
+    release_at_ = now.time() + kDawdles * faults_.of(FaultKind::too_slow);
   release_rate_ = kThroughBite * skill_.haste * std::exp(noise(skill_.release_spread));
   launch_speed_ = kLaunchSpeed * std::exp(noise(skill_.rev_spread));
   blip_since_ = -1.0;

@@ -6,7 +6,7 @@ namespace gearshift {
 namespace {
 
 // [engineering value]s: about what separates the first hour from routine.
-constexpr LearnerSkill kBeginner{0.45, 0.18, 0.007, 0.05, 0.30, 0.50, 0.18, 2.0, 0.25};
+constexpr LearnerSkill kBeginner{0.45, 0.18, 0.007, 0.05, 0.30, 0.50, 0.18, 2.0, 0.25, 0.50};
 
 }  // namespace
 
@@ -18,7 +18,7 @@ LearnerSkill skill_of(double error) noexcept {
           between(&LearnerSkill::aim_noise),  between(&LearnerSkill::pedal_noise),
           between(&LearnerSkill::rev_spread), between(&LearnerSkill::release_spread),
           between(&LearnerSkill::pace),       between(&LearnerSkill::haste),
-          between(&LearnerSkill::hearing)};
+          between(&LearnerSkill::hearing),    between(&LearnerSkill::foot_change)};
 }
 
 LearnerFaults only(FaultKind kind, double amount) noexcept {

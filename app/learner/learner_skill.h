@@ -19,6 +19,7 @@ struct LearnerSkill {
   double pace = 0.35;            // [m/s] mean speed of a stroke of the lever
   double haste = 1.0;            // [1] how much faster than it should the clutch comes up, on the whole
   double hearing = 0.08;         // [s] by which the engine's sound is late in what the feet do
+  double foot_change = 0.20;     // [s] of the right foot, from the throttle to the brake
   bool operator==(const LearnerSkill&) const = default;
 };
 
@@ -45,13 +46,14 @@ LearnerSkill skill_of(double error) noexcept;
 //   blocked            pushes feebly to first at speed
 //   missed_shift       draws back before the gear is in and gives up for a while
 //   wrong_gear, wrong_column   a wrong gear, a wrong slot's mouth, first
-//   over_push          impatient with the synchroniser and the end stop: 90 N
+//   over_push          impatient with the synchroniser and the end stop: 55 N and 35 N more
 //   step_order         throttle before the clutch
 //   rollback           lets the hand brake off before the bite point
 //   jerk               clutch up abruptly at high revs
 //   early_shift, late_shift    outside the lesson's band
-//   too_slow           3 s with the clutch down
+//   too_slow           4 s with the clutch down
 //   wrong_direction    shifts before the car stands
+//   slow_step          begins a step that has a time once 1.5 times that has gone
 struct LearnerFaults {
   std::array<double, kFaultKinds> amount{};  // [1] >= 0
   double of(FaultKind kind) const noexcept { return amount[static_cast<std::size_t>(kind)]; }

@@ -1,13 +1,14 @@
 #include "app/learner/lesson_drive.h"
 
 #include <optional>
-#include <string_view>
 #include <utility>
 
 #include "app/learner/simulated_learner.h"
 #include "app/training/guided_world.h"
 #include "app/training/lesson_run.h"
+#include "app/training/lesson_world.h"
 #include "app/vehicle/car_world.h"
+#include "haptics/files/file_error.h"
 #include "haptics/gate/gate_compiler.h"
 #include "haptics/loop/simulated_run.h"
 #include "haptics/loop/trace_recorder.h"
@@ -15,7 +16,6 @@
 namespace gearshift {
 namespace {
 
-constexpr std::string_view kGuided = "guided ";
 constexpr const char* kProgram = "lesson drive";
 constexpr std::uint64_t kPumpEvery = 4096;  // [cycles] half of what the loop's queue holds
 
@@ -25,14 +25,6 @@ class GivenHand final : public HandDriver {
   HandTarget next(double, glm::dvec2) noexcept override { return target; }
   HandTarget target;
 };
-
-CarStart car_start(const LessonStart& start) {
-  CarStart from;
-  from.road_speed = start.speed;
-  from.gear = start.gear;
-  from.running = start.running;
-  return from;
-}
 
 DeviceSpec paper_lever() {
   RestingHand nobody;
@@ -49,22 +41,12 @@ SimulatedRunConfig run_config(const LessonDriveConfig& config, const Gate& gate)
   return run;
 }
 
-// The car and, over it, the teacher's hand where there is one.
-struct GuidedCar final : LeverWorld {
-  GuidedCar(std::unique_ptr<LeverWorld> the_car, const Gate& gate) : car(std::move(the_car)), guided(*car, gate) {}
-  LeverOutput step(const LeverInput& in, double period) noexcept override { return guided.step(in, period); }
-  const char* name() const noexcept override { return guided.name(); }
-
-  std::unique_ptr<LeverWorld> car;
-  GuidedWorld guided;
-};
-
 class Drive {
  public:
   explicit Drive(const LessonDriveConfig& config)
       : config_(config),
         device_(paper_lever()),
-        gate_(compile_gate(config.gate, device_.workspace, device_.yoke_radius)),
+        gate_(driven_gate(config.gate)),
         setup_(run_config(config, gate_)),
         car_(config.car, gate_, device_.max_force.y, car_start(config.lesson.start), config.seed),
         guided_(car_, gate_),
@@ -88,7 +70,8 @@ class Drive {
 
   LessonResult to_the_end() {
     while (!lesson_.is_over()) cycle();
-    if (recorder_) recorder_->finish();
+    const RecordingResult recorded = recorder_ ? recorder_->finish() : RecordingResult{};
+    if (!recorded.problem.empty()) throw FileError(config_.trace.string(), 0, recorded.problem);
     return lesson_.result();
   }
 
@@ -98,9 +81,12 @@ class Drive {
     sample_.lever = run_.step();
     sample_.car = car_.state();
     lesson_.add(sample_);
+    for (HapticEvent event; run_.channels().events.pop(event);) {
+      if (config_.hear) config_.hear(event);
+    }
     if (config_.watch) config_.watch(sample_);
     const LessonView& view = lesson_.view();
-    const LearnerAction action = learner_.act(sample_, view.step);
+    const DriverAction action = learner_.act(sample_, view.step);
     hand_.target = action.hand;
     sample_.controls = action.controls;
     if (config_.guidance > 0.0) {
@@ -127,15 +113,13 @@ class Drive {
 
 }  // namespace
 
-LessonResult drive_lesson(const LessonDriveConfig& config) {
-  return Drive(config).to_the_end();
+Gate driven_gate(const GateLayout& layout) {
+  const DeviceSpec device = paper_lever();
+  return compile_gate(layout, device.workspace, device.yoke_radius);
 }
 
-std::unique_ptr<LeverWorld> make_lesson_world(const std::string& name, const Gate& gate) {
-  if (!std::string_view(name).starts_with(kGuided)) return make_car_world(name, gate);
-  std::unique_ptr<LeverWorld> car = make_car_world(name.substr(kGuided.size()), gate);
-  if (!car) return nullptr;
-  return std::make_unique<GuidedCar>(std::move(car), gate);
+LessonResult drive_lesson(const LessonDriveConfig& config) {
+  return Drive(config).to_the_end();
 }
 
 }  // namespace gearshift

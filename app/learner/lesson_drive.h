@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <string>
 
 #include "app/learner/learner_skill.h"
@@ -13,8 +12,8 @@
 #include "app/training/lesson.h"
 #include "app/training/lesson_result.h"
 #include "app/vehicle/car_spec.h"
+#include "haptics/gate/gate.h"
 #include "haptics/gate/gate_layout.h"
-#include "haptics/loop/lever_world.h"
 
 namespace gearshift {
 
@@ -31,13 +30,14 @@ struct LessonDriveConfig {
   double rate = 1000.0;                           // [Hz] 100 to 4000
   std::filesystem::path trace;                    // empty: none
   std::function<void(const DriveSample&)> watch;  // every cycle; may be empty
+  std::function<void(const HapticEvent&)> hear;   // what happened in a cycle, before it is watched; may be empty
 };
 
-// Deterministic to the bit. Throws std::invalid_argument where lesson, car and gate do not go together, FileError where
-// the trace cannot be written.
-LessonResult drive_lesson(const LessonDriveConfig& config);
+// The gate as the drive's lever has it. Throws as compile_gate() does.
+Gate driven_gate(const GateLayout& layout);
 
-// For replay(): the world of a drive with guidance or without.
-std::unique_ptr<LeverWorld> make_lesson_world(const std::string& name, const Gate& gate);
+// Deterministic to the bit. Throws std::invalid_argument where lesson, car and gate do not go together, FileError where
+// the trace cannot be written: before the first cycle, or, where the disk got full, after the last one.
+LessonResult drive_lesson(const LessonDriveConfig& config);
 
 }  // namespace gearshift

@@ -33,7 +33,15 @@ SimulatedLearner::SimulatedLearner(const Lesson& lesson, const CarSpec& car, con
   }
 }
 
-LearnerAction SimulatedLearner::act(const DriveSample& now, std::size_t step) {
+void SimulatedLearner::take_over(const DriverControls& controls) noexcept {
+  feet_.throttle.place(controls.throttle);
+  feet_.brake.place(controls.brake);
+  feet_.clutch.place(controls.clutch);
+  feet_.hand_brake.place(controls.hand_brake);
+  ignition_ = controls.ignition;
+}
+
+DriverAction SimulatedLearner::act(const DriveSample& now, std::size_t step) {
   notice(std::min(step, intents_.size() - 1), now.time());
   has_run_ = has_run_ || now.car.running;
   heard_ += (now.car.engine_speed - heard_) * std::min(1.0, period_ / skill_.hearing);
@@ -55,10 +63,10 @@ LearnerAction SimulatedLearner::act(const DriveSample& now, std::size_t step) {
   }
   rest_hand(now);
 
-  LearnerAction action;
+  DriverAction action;
   action.hand = hand_.next(now.time(), now.lever.lever);
   action.controls.throttle = feet_.throttle.step(period_);
-  action.controls.brake = feet_.brake.step(period_);
+  action.controls.brake = foot_is_free(now.time()) ? feet_.brake.step(period_) : 0.0;
   action.controls.clutch = feet_.clutch.step(period_);
   action.controls.hand_brake = feet_.hand_brake.step(period_);
   action.controls.ignition = ignition_;
@@ -67,13 +75,20 @@ LearnerAction SimulatedLearner::act(const DriveSample& now, std::size_t step) {
   return action;
 }
 
+// One foot has both pedals: on the throttle, it is at the brake only a moment later.
+bool SimulatedLearner::foot_is_free(double time) noexcept {
+  if (feet_.throttle.value() > 0.0) on_throttle_at_ = time;
+  return feet_.brake.value() > 0.0 || time - on_throttle_at_ >= skill_.foot_change;
+}
+
 // A step is acted upon once it is seen, and that takes a person's time.
 void SimulatedLearner::notice(std::size_t step, double time) {
   if (seen_at_ < 0.0) seen_at_ = progress_at_ = time;
   if (step != seen_) {
     seen_ = step;
     seen_at_ = progress_at_ = time;
-    reaction_ = std::max(0.1, skill_.reaction + noise(skill_.timing_spread));
+    reaction_ = std::max(0.1, skill_.reaction + noise(skill_.timing_spread)) +
+                kLate * faults_.of(FaultKind::slow_step) * lesson_.steps[step].within.value_or(0.0);
   }
   gives_up_ = time - progress_at_ > kGivesUp;
   if (time - seen_at_ >= reaction_) known_ = seen_;
@@ -103,6 +118,7 @@ bool SimulatedLearner::restarts(const DriveSample& now) {
     return starter_;
   }
   shifting_ = false;
+  lug_gear_ = kNeutralGear;
   feet_.throttle.go(0.0, kLiftRate);
   press_clutch();
   if (std::abs(now.car.road_speed) > kStill && feet_.brake.goal() < kStandBrake)

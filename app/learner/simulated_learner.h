@@ -21,19 +21,18 @@
 
 namespace gearshift {
 
-struct LearnerAction {
-  HandTarget hand;
-  DriverControls controls;  // without the teacher's guidance
-};
-
 class SimulatedLearner {
  public:
   // lesson, car and gate must outlive the learner. period: of the calls to act() [s], > 0. Seeded.
   SimulatedLearner(const Lesson& lesson, const CarSpec& car, const Gate& gate, const LearnerSkill& skill,
                    const LearnerFaults& faults, std::uint64_t seed, double period);
 
-  // Once a cycle: the cycle that was and the step that the lesson is at, to what is done in the next. Allocates.
-  LearnerAction act(const DriveSample& now, std::size_t step);
+  // Before the first act(): feet and key are where these are, not at rest.
+  void take_over(const DriverControls& controls) noexcept;
+
+  // Once a cycle: the cycle that was and the step that the lesson is at, to what is done in the next, without the
+  // teacher's guidance. Allocates.
+  DriverAction act(const DriveSample& now, std::size_t step);
 
   // Nothing goes on any more: a person would ask for help.
   bool gives_up() const noexcept { return gives_up_; }
@@ -66,6 +65,7 @@ class SimulatedLearner {
   double noise(double spread) noexcept { return spread * chance_.next(); }
   double asked(const DriveSample& now, int gear) const noexcept;
 
+  bool foot_is_free(double time) noexcept;
   bool restarts(const DriveSample& now);
   std::optional<int> wanted_gear(const DriveSample& now) const;
   bool spins_shaft(const DriveSample& now) const noexcept;
@@ -121,8 +121,9 @@ class SimulatedLearner {
   std::array<bool, kFaultKinds> done_{};  // deeds that are done once
 
   std::size_t known_ = 0, seen_ = 0;
-  double seen_at_ = -1.0;  // [s]
-  double reaction_ = 0.0;  // [s] to the step that was seen last
+  double seen_at_ = -1.0;          // [s]
+  double reaction_ = 0.0;          // [s] to the step that was seen last
+  double on_throttle_at_ = -10.0;  // [s] the right foot
   double progress_at_ = 0.0;
   bool gives_up_ = false;
   bool ignition_ = false, starter_ = false;

@@ -2,19 +2,20 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <string>
 
 #include <fmt/format.h>
 
+#include "app/panel/lesson_words.h"
 #include "app/panel/palette.h"
 
 namespace gearshift {
 namespace {
 
 // [em] wide
-constexpr float kCar = 13.8f, kLamps = 7.0f, kState = 7.0f, kArm = 5.5f, kRecording = 7.4f, kStop = 9.0f;
+constexpr float kCar = 14.6f, kLamps = 6.2f, kState = 7.0f, kArm = 5.5f, kRecording = 7.4f, kStop = 9.0f;
 constexpr float kLeastMessage = 9.0f;
+constexpr int kLampColumns = 2;
 
 // The bar from left to right; each part takes its width and leaves the cursor at its right.
 class Parts {
@@ -45,8 +46,20 @@ void pedal(const char* name, double pressed, ImVec2 low, ImVec2 size, ImU32 colo
   list.AddText(font, font->FontSize, {low.x + 0.5f * (size.x - width), foot}, ink::kSoft, name);
 }
 
+// An arrow beside the gear: the next one up would do with less fuel, or the engine labours and wants the one below.
+void draw_advice(ImVec2 at, int advice) {
+  if (advice == 0) return;
+  const float em = ui_em(), up = advice > 0 ? -1.0f : 1.0f;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImU32 colour = advice > 0 ? ink::kGood : ink::kWarn;
+  const ImVec2 tip(at.x, at.y + up * 0.75f * em), neck(at.x, at.y + up * 0.1f * em);
+  list.AddTriangleFilled(tip, {neck.x - 0.5f * em, neck.y}, {neck.x + 0.5f * em, neck.y}, colour);
+  list.AddRectFilled({at.x - 0.18f * em, std::min(neck.y, at.y - up * 0.6f * em)},
+                     {at.x + 0.18f * em, std::max(neck.y, at.y - up * 0.6f * em)}, colour);
+}
+
 void draw_car(const Parts& parts, const PanelInput& input) {
-  const float em = ui_em(), gear_width = 2.9f * em, text_width = 5.6f * em, pedal_width = 1.5f * em;
+  const float em = ui_em(), gear_width = 2.9f * em, text_width = 6.4f * em, pedal_width = 1.4f * em;
   const VehicleState& car = input.car;
   ImFont* digits = ui_font(UiFont::digits);
   ImDrawList& list = *ImGui::GetWindowDrawList();
@@ -56,13 +69,15 @@ void draw_car(const Parts& parts, const PanelInput& input) {
   list.AddText(digits, digits->FontSize,
                {low.x + 0.5f * (gear_width - width), low.y + 0.5f * (parts.height() - digits->FontSize)},
                car.grinding ? ink::kBad : ink::kText, gear);
-  const float line = ImGui::GetTextLineHeightWithSpacing();
+  draw_advice({low.x + gear_width + 0.5f * em, low.y + 0.5f * parts.height()}, car.shift_advice);
+  const float line = ImGui::GetTextLineHeightWithSpacing(), at = low.x + gear_width + 1.3f * em;
   const float top = low.y + 0.5f * (parts.height() - 2.0f * line) + 0.1f * em;
-  const double rpm = car.engine_speed * 60.0 / (2.0 * std::numbers::pi);
-  list.AddText({low.x + gear_width + 0.4f * em, top}, car.stalled ? ink::kBad : ink::kText,
-               (car.stalled ? std::string("stalled") : fmt::format("{:.0f} rpm", rpm)).c_str());
-  list.AddText({low.x + gear_width + 0.4f * em, top + line}, ink::kText,
-               fmt::format("{:.0f} km/h", kKmhPerMps * car.road_speed).c_str());
+  list.AddText({at, top}, car.stalled || car.over_revved ? ink::kBad : ink::kText,
+               (car.stalled ? std::string("stalled") : rpm_words(car.engine_speed)).c_str());
+  if (car.stalled)
+    list.AddRectFilled({at - 0.3f * em, top}, {at + 4.6f * em, top + ImGui::GetTextLineHeight()},
+                       with_alpha(ink::kBad, 0.25f), 3.0f);
+  list.AddText({at, top + line}, ink::kText, fmt::format("{:.0f} km/h", kKmhPerMps * car.road_speed).c_str());
   float x = low.x + gear_width + text_width;
   const ImVec2 size(pedal_width, parts.height());
   pedal("C", car.clutch, {x, low.y}, size, ink::kAccent);
@@ -72,24 +87,39 @@ void draw_car(const Parts& parts, const PanelInput& input) {
 
 void lamp(ImVec2 at, const char* text, bool on, ImU32 colour) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
-  const float em = ui_em(), height = ImGui::GetTextLineHeight();
-  const ImVec2 middle(at.x + 0.5f * em, at.y + 0.5f * height);
-  if (on) list.AddCircleFilled(middle, 0.62f * em, with_alpha(colour, 0.3f));
-  list.AddCircleFilled(middle, 0.36f * em, on ? colour : ink::kRaised);
-  list.AddText({at.x + 1.3f * em, at.y}, on ? colour : with_alpha(ink::kSoft, 0.75f), text);
+  ImFont* font = ui_font(UiFont::small);
+  const float em = ui_em();
+  const ImVec2 middle(at.x + 0.5f * em, at.y + 0.5f * font->FontSize);
+  if (on) list.AddCircleFilled(middle, 0.55f * em, with_alpha(colour, 0.3f));
+  list.AddCircleFilled(middle, 0.32f * em, on ? colour : ink::kRaised);
+  list.AddText(font, font->FontSize, {at.x + 1.2f * em, at.y}, on ? colour : with_alpha(ink::kSoft, 0.75f), text);
 }
 
-// In columns of two, the more important ones first.
+struct Lamp {
+  const char* name;
+  bool on;
+  ImU32 colour;
+};
+
+// In columns of three, the more important ones first.
 void draw_lamps(const Parts& parts, int columns, const PanelInput& input) {
-  const float em = ui_em(), column = kLamps * em, line = 1.75f * em;
-  const ImVec2 low(parts.low().x, parts.low().y + 0.5f * (parts.height() - line - ImGui::GetTextLineHeight()));
   const HapticSnapshot& now = input.now;
   const bool softened = now.wall_stiffness > 0.0 && now.wall_stiffness < 0.999 * input.admitted.tuning.wall_stiffness;
-  lamp(low, "Over-push", (now.flags & kFlagOverPush) != 0, ink::kBad);
-  lamp({low.x, low.y + line}, "Saturated", (now.flags & kFlagSaturated) != 0, ink::kWarn);
-  if (columns < 2) return;
-  lamp({low.x + column, low.y}, "Ghost hand", (now.flags & kFlagGhost) != 0, ink::kWarn);
-  lamp({low.x + column, low.y + line}, "Softened", softened, ink::kWarn);
+  const Lamp lamps[kLampColumns][3] = {{{"Over-push", (now.flags & kFlagOverPush) != 0, ink::kBad},
+                                        {"Saturated", (now.flags & kFlagSaturated) != 0, ink::kWarn},
+                                        {"Ghost hand", (now.flags & kFlagGhost) != 0, ink::kWarn}},
+                                       {{"Grinding", input.car.grinding, ink::kBad},
+                                        {"Over-rev", input.car.over_revved, ink::kBad},
+                                        {"Softened", softened, ink::kWarn}}};
+  const float em = ui_em(), line = parts.height() / 3.0f;
+  const float above = 0.5f * (line - ui_font(UiFont::small)->FontSize);
+  for (int column = 0; column < columns; ++column) {
+    const float x = parts.low().x + static_cast<float>(column) * kLamps * em;
+    for (int row = 0; row < 3; ++row) {
+      const Lamp& l = lamps[column][row];
+      lamp({x, parts.low().y + static_cast<float>(row) * line + above}, l.name, l.on, l.colour);
+    }
+  }
 }
 
 std::string loop_line(const PanelInput& input) {
@@ -196,7 +226,8 @@ Shown what_fits(float room) {
   shown.state = fits(kState);
   shown.car = fits(kCar);
   shown.recording = fits(kRecording);
-  while (shown.lamps < 2 && fits(kLamps)) ++shown.lamps;
+  if (fits(kLamps)) shown.lamps = 1;
+  while (shown.lamps > 0 && shown.lamps < kLampColumns && fits(kLamps - 1.0f)) ++shown.lamps;
   if (room >= kLeastMessage + 1.0f) shown.message = room - 1.0f;
   return shown;
 }
@@ -214,7 +245,7 @@ void draw_control_bar(Controls& controls, const PanelInput& input, PanelRequests
   }
   if (shown.lamps > 0) {
     draw_lamps(parts, shown.lamps, input);
-    parts.next(static_cast<float>(shown.lamps) * (kLamps + 1.0f) * em - em);
+    parts.next(static_cast<float>(shown.lamps) * kLamps * em);
   }
   if (shown.message > 0.0f) draw_message(controls, parts, shown.message * em, input);
   const float group = (shown.state ? kState + 1.0f : 0.0f) + (shown.arm ? kArm + 1.0f : 0.0f) +

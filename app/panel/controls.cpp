@@ -1,19 +1,10 @@
 #include "app/panel/controls.h"
 
+#include "app/panel/text_lines.h"
 #include "engine/ui/ui_style.h"
 
 namespace gearshift {
 namespace {
-
-float width_of(std::string_view text) {
-  return ImGui::CalcTextSize(text.data(), text.data() + text.size()).x;
-}
-
-void put(std::string_view text, ImU32 colour) {
-  ImGui::PushStyleColor(ImGuiCol_Text, colour);
-  ImGui::TextUnformatted(text.data(), text.data() + text.size());
-  ImGui::PopStyleColor();
-}
 
 // The last one, of however many bytes in UTF-8.
 void drop_letter(std::string_view& text) {

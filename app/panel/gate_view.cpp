@@ -132,6 +132,26 @@ void draw_trail(const Canvas& c, const Trail& trail) {
   }
 }
 
+void draw_driven(const Canvas& c, std::span<const glm::dvec2> way) {
+  for (std::size_t i = 1; i < way.size(); ++i)
+    c.list.AddLine(c.frame.at(way[i - 1]), c.frame.at(way[i]), ink::kDriven, 0.16f * c.em);
+}
+
+// Dashes go on around the corners.
+void draw_ideal(const Canvas& c, std::span<const glm::dvec2> way) {
+  const double dash = 0.5 * static_cast<double>(c.em) / c.frame.px_per_m, period = 1.7 * dash;
+  double along = 0.0;  // [m] since the last dash began
+  for (std::size_t i = 1; i < way.size(); ++i) {
+    const double length = glm::distance(way[i - 1], way[i]);
+    const auto place = [&](double at) { return c.frame.at(way[i - 1] + (way[i] - way[i - 1]) * (at / length)); };
+    for (double at = -along; at < length; at += period) {
+      const double from = std::max(at, 0.0), to = std::min(at + dash, length);
+      if (to > from) c.list.AddLine(place(from), place(to), ink::kIdeal, 0.22f * c.em);
+    }
+    along = std::fmod(along + length, period);
+  }
+}
+
 void draw_arrow(const Canvas& c, ImVec2 from, glm::dvec2 force, double px_per_n, ImU32 colour) {
   const glm::dvec2 way = force * px_per_n * glm::dvec2(1.0, -1.0);
   const double length = glm::length(way);
@@ -180,7 +200,8 @@ void draw_scales(const Canvas& c, ImVec2 low, ImVec2 size, double px_per_n) {
 
 }  // namespace
 
-void draw_gate_view(ImVec2 size, const Gate& gate, const HapticSnapshot& now, const Trail& trail, double most_force) {
+void draw_gate_view(ImVec2 size, const Gate& gate, const HapticSnapshot& now, const Trail& trail, double most_force,
+                    const SeenWays& ways) {
   const GateDescription description = describe_gate(gate);
   const ImVec2 low = ImGui::GetCursorScreenPos();
   ImGui::Dummy(size);
@@ -197,6 +218,8 @@ void draw_gate_view(ImVec2 size, const Gate& gate, const HapticSnapshot& now, co
   draw_walls(c, description);
   draw_gears(c, gate, now.gear);
   draw_trail(c, trail);
+  draw_driven(c, ways.driven);
+  draw_ideal(c, ways.ideal);
   draw_lever(c, now, px_per_n);
   draw_scales(c, low, size, px_per_n);
   c.list.PopClipRect();

@@ -14,5 +14,10 @@ inline constexpr ImU32 kPlate = IM_COL32(38, 45, 54, 255);
 inline constexpr ImU32 kFree = IM_COL32(11, 13, 17, 255);
 inline constexpr ImU32 kWall = IM_COL32(148, 160, 174, 255);
 inline constexpr ImU32 kBuffer = IM_COL32(238, 170, 66, 46);
+inline constexpr ImU32 kEngine = IM_COL32(240, 214, 110, 255);  // its speed
+inline constexpr ImU32 kShaft = IM_COL32(176, 188, 202, 255);   // the gearbox's input, its speed
+inline constexpr ImU32 kIdeal = IM_COL32(170, 222, 92, 255);    // the shortest way of a shift
+inline constexpr ImU32 kDriven = IM_COL32(240, 122, 184, 255);  // the way that it took
+inline constexpr ImU32 kPrimary = IM_COL32(46, 120, 166, 255);  // the button that goes on
 
 }  // namespace gearshift::ink

@@ -10,12 +10,17 @@
 #include "app/panel/force_plots.h"
 #include "app/panel/gate_view.h"
 #include "app/panel/help_view.h"
+#include "app/panel/history_view.h"
+#include "app/panel/lesson_card.h"
+#include "app/panel/lessons_view.h"
 #include "app/panel/loop_view.h"
 #include "app/panel/palette.h"
 #include "app/panel/panel_keys.h"
 #include "app/panel/panel_mouse.h"
 #include "app/panel/preset_view.h"
+#include "app/panel/replay_bar.h"
 #include "app/panel/setup_view.h"
+#include "app/panel/text_lines.h"
 #include "app/panel/tuning_view.h"
 
 namespace gearshift {
@@ -62,6 +67,53 @@ void draw_view_reset(Controls& controls, PanelRequests& out) {
   out.reset_view = controls.button("reset_view", kLabel);
 }
 
+struct Tab {
+  const char* name;
+  const char* label;
+};
+// The learner's first, then the engineer's.
+constexpr Tab kTabs[] = {{"tab_lesson", "Lessons"}, {"tab_history", "History"}, {"tab_tuning", "Tuning"},
+                         {"tab_setup", "Setup"},    {"tab_loop", "Loop"},       {"tab_presets", "Presets"}};
+
+bool tabs_fit() {
+  float room = ImGui::GetContentRegionAvail().x;
+  for (const Tab& tab : kTabs) room -= button_width(tab.label) + ImGui::GetStyle().ItemInnerSpacing.x + 1.0f;
+  return room > 0.0f;
+}
+
+// Of the tabs where the column is narrow: small and close together.
+class TabStyle {
+ public:
+  explicit TabStyle(bool dense) : dense_(dense) {
+    if (!dense_) return;
+    const ImGuiStyle& style = ImGui::GetStyle();
+    ImGui::PushFont(ui_font(UiFont::small));
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0.5f * style.FramePadding.x, 1.3f * style.FramePadding.y});
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemInnerSpacing, {2.0f, style.ItemInnerSpacing.y});
+  }
+  ~TabStyle() {
+    if (!dense_) return;
+    ImGui::PopStyleVar(2);
+    ImGui::PopFont();
+  }
+  TabStyle(const TabStyle&) = delete;
+  TabStyle& operator=(const TabStyle&) = delete;
+
+ private:
+  bool dense_;
+};
+
+// Of what is looked at again, where something is.
+const Gate& seen_gate(const PanelInput& input) {
+  return input.replay == nullptr ? *input.gate : input.replay->drive().gate();
+}
+
+SeenWays seen_ways(const PanelInput& input) {
+  if (input.replay == nullptr || !input.replay->shift()) return {};
+  const RecordedShift& shift = input.replay->drive().shifts()[*input.replay->shift()];
+  return {shift.driven, shift.ideal};
+}
+
 }  // namespace
 
 struct Panel::State {
@@ -76,6 +128,10 @@ struct Panel::State {
   TuningView tuning;
   SetupView setup;
   PresetView presets;
+  LessonsView lessons;
+  HistoryView runs;
+  LessonCard card;
+  ReplayBar replay;
   EventList events;
   std::int64_t last_ns = -1;  // [ns] of the newest snapshot that was taken in this run
   std::uint64_t run = 0;
@@ -87,6 +143,7 @@ struct Panel::State {
   void draw_right(const Layout& layout, const PanelInput& input, PanelRequests& out);
   void draw_choices(const PanelInput& input, PanelRequests& out);
   void draw_tabs(const PanelInput& input, PanelRequests& out);
+  void draw_over_cabin(const PanelInput& input, PanelRequests& out);
   void draw_bar(const Layout& layout, const PanelInput& input, PanelRequests& out);
 };
 
@@ -119,8 +176,9 @@ void Panel::State::draw_left(const Layout& layout, const PanelInput& input, Pane
     const float height = ImGui::GetContentRegionAvail().y - ClipMeter::height() - spacing;
     const float gate_height = 0.38f * height;
     const double most = std::max(input.device->max_force.x, input.device->max_force.y);
-    draw_gate_view({ImGui::GetContentRegionAvail().x, gate_height}, *input.gate, input.now, trail, most);
-    plots.draw(controls, height - gate_height - spacing, *input.gate, input.now, trail);
+    const Gate& gate = seen_gate(input);
+    draw_gate_view({ImGui::GetContentRegionAvail().x, gate_height}, gate, input.now, trail, most, seen_ways(input));
+    plots.draw(controls, height - gate_height - spacing, gate, input.now, trail);
     clip.draw(controls, input.now, *input.device);
   }
   ImGui::End();
@@ -135,6 +193,7 @@ void Panel::State::draw_choices(const PanelInput& input, PanelRequests& out) {
     ImGui::SameLine(label);
     asked = controls.choice(name, current, options, ImGui::GetContentRegionAvail().x);
   };
+  if (!input.cars.empty()) row("car", "Car", input.car_name, input.cars, out.car);
   row("gate", "Gate", input.gate_name, input.gates, out.gate);
   row("preset", "Preset", input.preset_name, input.presets, out.preset);
   row("hand", "Hand", input.hand_name, input.hands, out.hand);
@@ -144,23 +203,34 @@ void Panel::State::draw_choices(const PanelInput& input, PanelRequests& out) {
 }
 
 void Panel::State::draw_tabs(const PanelInput& input, PanelRequests& out) {
-  if (!ImGui::BeginTabBar("parts")) return;
-  const auto tab = [&](const char* name, const char* label, const auto& draw_it) {
-    const bool open = ImGui::BeginTabItem(label);
-    controls.mark(name);
+  const bool dense = !tabs_fit();
+  const auto bar = [&] {
+    const TabStyle style(dense);
+    return ImGui::BeginTabBar("parts");
+  };
+  const auto item = [&](const char* label) {
+    const TabStyle style(dense);
+    return ImGui::BeginTabItem(label);
+  };
+  const auto tab = [&](const Tab& which, const auto& draw_it) {
+    const bool open = item(which.label);
+    controls.mark(which.name);
     if (!open) return;
-    ImGui::BeginChild(name, {0.0f, 0.0f}, false, ImGuiWindowFlags_NavFlattened);
+    ImGui::BeginChild(which.name, {0.0f, 0.0f}, false, ImGuiWindowFlags_NavFlattened);
     draw_it();
     ImGui::EndChild();
     ImGui::EndTabItem();
   };
-  tab("tab_tuning", "Tuning", [&] {
+  if (!bar()) return;
+  tab(kTabs[0], [&] { lessons.draw(controls, input.coach, out.lesson); });
+  tab(kTabs[1], [&] { runs.draw(controls, input.coach, out); });
+  tab(kTabs[2], [&] {
     tuning.draw(controls, input, out);
     events.draw();
   });
-  tab("tab_setup", "Setup", [&] { setup.draw(controls, input, out); });
-  tab("tab_loop", "Loop", [&] { draw_loop_view(input); });
-  tab("tab_presets", "Presets", [&] { presets.draw(controls, input, out); });
+  tab(kTabs[3], [&] { setup.draw(controls, input, out); });
+  tab(kTabs[4], [&] { draw_loop_view(input); });
+  tab(kTabs[5], [&] { presets.draw(controls, input, out); });
   ImGui::EndTabBar();
 }
 
@@ -171,6 +241,14 @@ void Panel::State::draw_right(const Layout& layout, const PanelInput& input, Pan
     draw_tabs(input, out);
   }
   ImGui::End();
+}
+
+// What a learner needs who has hidden the panel, too. The card tells of now and gives way to what is looked at again.
+void Panel::State::draw_over_cabin(const PanelInput& input, PanelRequests& out) {
+  const ControlRect room = middle;
+  middle.max.y = replay.draw(controls, input.replay, room, out.look);
+  if (input.replay == nullptr || input.coach.phase == LessonPhase::driving)
+    card.draw(controls, input.coach, middle, out.lesson);
 }
 
 void Panel::State::draw_bar(const Layout& layout, const PanelInput& input, PanelRequests& out) {
@@ -200,6 +278,7 @@ PanelRequests Panel::draw(const PanelInput& input) {
     s.draw_right(layout, input, out);
     s.draw_bar(layout, input, out);
   }
+  s.draw_over_cabin(input, out);
   draw_help(s.help, s.bindings);
   return out;
 }

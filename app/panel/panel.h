@@ -8,7 +8,9 @@
 #include <string_view>
 #include <vector>
 
+#include "app/coach/coach_view.h"
 #include "app/panel/controls.h"
+#include "app/replay/player.h"
 #include "app/trainer/trainer.h"
 #include "app/vehicle/vehicle_state.h"
 
@@ -31,6 +33,39 @@ struct PanelInput {
   bool recording = false;
   std::string message;  // the last refusal or news, one sentence
   double frame_ms = 0.0;
+  std::string car_name;
+  std::vector<std::string> cars;  // to choose from
+  CoachView coach;
+  const Player* replay = nullptr;  // while one is looked at; then `now` and `car` are its
+};
+
+struct LessonRequests {
+  std::optional<std::string> offer;  // a lesson's key
+  bool begin = false;                // the one that is offered, or the one that is over again
+  bool leave = false, put_away = false;
+  std::optional<LessonMode> mode;
+  std::optional<bool> help;
+  std::optional<std::string> learner;  // another one, known or new; empty: nobody
+  std::optional<std::string> next;     // the instructor's choice of the next lesson; empty: as suggested
+  struct Comment {
+    std::int64_t run = 0;
+    std::string author, text;
+  };
+  std::optional<Comment> comment;
+};
+
+struct ReplayRequests {
+  struct Shift {
+    std::string recording;
+    double begin = 0.0;  // [s] on the loop's clock
+  };
+  std::optional<Shift> open;         // a shift of the history
+  std::optional<std::size_t> shift;  // of the drive that is looked at: only that
+  bool whole = false;                // all of it
+  std::optional<double> seek;        // [s]
+  std::optional<bool> play;
+  std::optional<double> pace;
+  bool close = false;  // back to the lever that runs
 };
 
 // What was asked for in this frame. The caller does it and shows refusals in PanelInput::message.
@@ -41,6 +76,9 @@ struct PanelRequests {
   std::optional<std::string> gate, preset, hand;  // to change to
   std::optional<std::string> save_preset;         // a name
   std::optional<std::string> compare;             // a preset, to be read into PanelInput::compared
+  std::optional<std::string> car;                 // to change to; its gate comes with it
+  LessonRequests lesson;
+  ReplayRequests look;
 };
 
 class Panel {
@@ -58,7 +96,8 @@ class Panel {
   bool covers(glm::dvec2 mouse) const;
   bool has_keyboard() const;
 
-  ControlRect middle() const noexcept;  // [px] of the last draw(): what the panel leaves to the cabin
+  // [px] of the last draw(): what columns, bar and a replay leave to the cabin; a lesson's card lies over it.
+  ControlRect middle() const noexcept;
 
   void undo();  // with the next draw()
   void redo();
@@ -69,8 +108,17 @@ class Panel {
   void show_help(bool on, const std::string& bindings_text);
 
   // Of the last draw(): where a control stands, for a test or a script; and how many texts had too little room.
-  // "stop", "arm", "disarm", "record", "replay", "gate", "gate: NAME", "reset_view", "undo", "redo", "reset", "slot_b", "tab_loop",
-  // "wall_stiffness_n_per_m" and the other keys of the tuning, "use_stable", "keep_running", "restart", ...
+  // The bar: "stop", "arm", "disarm", "record", "replay". The left column: "reset_view", "axis_shift", "axis_select".
+  // The right one: "car", "gate", "preset", "hand", each with "gate: NAME" once it is open; "tab_lesson", "tab_history",
+  // "tab_tuning", "tab_setup", "tab_loop", "tab_presets".
+  // Lessons: "learner" (Enter takes the name), "learner_known" with "learner: NAME" (none: nobody), "lesson_suggested",
+  // "lesson: KEY", "next: KEY", "next_as_suggested". History: "run: ID" opens it; then "look: ID SHIFT",
+  // "comment_author", "comment", "comment_add".
+  // The card: "lesson_begin", "mode", "help", "lesson_put_away"; "lesson_leave"; "lesson_again", "lesson_next".
+  // A replay: "replay_shift: INDEX", "replay_time", "replay_play", "replay_pace: 0.1" (0.25, 0.5, 1, 2),
+  // "replay_whole", "replay_close".
+  // Tuning, setup: "wall_stiffness_n_per_m" and the other keys, "slot_a", "slot_b", "undo", "redo", "reset",
+  // "use_stable", "keep_running", "restart", ...
   std::optional<ControlRect> control_rect(std::string_view name) const;
   int shortened_texts() const noexcept;
 

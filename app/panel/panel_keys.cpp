@@ -40,7 +40,7 @@ void share_keyboard(const char* first_window, bool shown) {
 // Asked of the context and not of its wish to capture keys, which is as old as the last NewFrame.
 bool panel_has_keyboard() {
   const ImGuiContext& ui = *ImGui::GetCurrentContext();
-  return ui.IO.WantTextInput || ui.NavWindowingTarget != nullptr ||
+  return ui.IO.WantTextInput || ui.WantTextInputNextFrame == 1 || ui.NavWindowingTarget != nullptr ||
          (ui.NavWindow != nullptr && !ui.NavDisableHighlight);
 }
 

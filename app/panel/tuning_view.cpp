@@ -7,26 +7,11 @@
 
 #include "app/hold_words.h"
 #include "app/panel/palette.h"
+#include "app/panel/text_lines.h"
 #include "app/panel/value_text.h"
 
 namespace gearshift {
 namespace {
-
-void put_right(const std::string& text, ImU32 colour) {
-  const WithFont small(UiFont::small);
-  const float width = ImGui::CalcTextSize(text.c_str()).x;
-  ImGui::SameLine(std::max(0.0f, ImGui::GetWindowContentRegionMax().x - width));
-  ImGui::PushStyleColor(ImGuiCol_Text, colour);
-  ImGui::TextUnformatted(text.c_str());
-  ImGui::PopStyleColor();
-}
-
-void put_wrapped(const std::string& text, ImU32 colour) {
-  const WithFont small(UiFont::small);
-  ImGui::PushStyleColor(ImGuiCol_Text, colour);
-  ImGui::TextWrapped("%s", text.c_str());
-  ImGui::PopStyleColor();
-}
 
 std::string stable_text(const TuningField& field, const StableRange& stable) {
   const bool from_least = stable.least <= field.least, to_most = stable.most >= field.most;

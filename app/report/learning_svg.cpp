@@ -9,6 +9,7 @@
 #include "app/draw/gate_colours.h"
 #include "app/report/chart.h"
 #include "app/report/curve_band.h"
+#include "app/report/retention.h"
 
 namespace gearshift {
 namespace {
@@ -60,7 +61,9 @@ class LearningPlot {
     for (std::size_t i = 0; i < task_.trials.size(); ++i) {
       const GradedTrial& trial = task_.trials[i];
       const glm::dvec2 place = at(static_cast<double>(i), trial.grade);
-      const std::string tip = fmt::format("Run {}, {}: {:.1f}", trial.run, trial.day, trial.grade);
+      const std::string kept = trial.pause > 0.0 ? ", after " + pause_words(trial.pause) : std::string();
+      const std::string tip = fmt::format("Run {}, {}: {:.1f}{}", trial.run, trial.day, trial.grade, kept);
+      if (trial.pause > 0.0) svg_.ring(place, radius + 3.0, {kInk, 1.2});
       svg_.dot(place, radius, trial.passed ? kGearColour : "#ffffff", tip);
       if (!trial.passed) svg_.ring(place, radius, {kLockoutColour, 0.4 * radius});
     }

@@ -1,7 +1,11 @@
 #include "app/report/progress.h"
 
 #include <algorithm>
+#include <map>
 #include <set>
+#include <utility>
+
+#include "app/report/retention.h"
 
 namespace gearshift {
 namespace {
@@ -21,10 +25,6 @@ TaskProgress& progress_of(std::vector<TaskProgress>& tasks, const std::string& t
 }
 
 }  // namespace
-
-bool is_graded(const LessonResult& result) noexcept {
-  return !result.guided && result.whole && result.end != LessonEnd::running;
-}
 
 std::string day_of(std::string_view time) {
   return std::string(time.substr(0, 10));
@@ -49,11 +49,14 @@ Totals totals(const LearnerHistory& history) {
 
 std::vector<TaskProgress> task_progress(const LearnerHistory& history) {
   std::vector<TaskProgress> tasks;
+  const std::map<std::int64_t, double> pauses = retention_pauses(history);
   for (const ReportedRun& run : history.runs) {
     const LessonResult& result = run.row.result;
     if (!is_graded(result)) continue;
+    const auto pause = pauses.find(run.row.id);
     progress_of(tasks, result.task)
-        .trials.push_back({run.row.id, day_of(run.row.begun_at), result.grade, result.passed});
+        .trials.push_back({run.row.id, day_of(run.row.begun_at), result.grade, result.passed,
+                           pause == pauses.end() ? 0.0 : pause->second});
   }
   for (TaskProgress& task : tasks) task.curve = fit_learning_curve(grades_of(task.trials));
   return tasks;
@@ -62,8 +65,7 @@ std::vector<TaskProgress> task_progress(const LearnerHistory& history) {
 std::vector<PastResult> past_results(const LearnerHistory& history) {
   std::vector<PastResult> past;
   for (const ReportedRun& run : history.runs) {
-    const LessonResult& result = run.row.result;
-    if (is_graded(result)) past.push_back({result.lesson, result.task, result.grade, result.passed});
+    if (std::optional<PastResult> result = past_result(run.row.result)) past.push_back(std::move(*result));
   }
   return past;
 }

@@ -9,13 +9,11 @@
 #include <vector>
 
 #include "app/report/learner_history.h"
+#include "app/training/grade.h"
 #include "app/training/learning_curve.h"
 #include "app/training/suggest.h"
 
 namespace gearshift {
-
-// Its grade says something of the learner: no guidance, nothing lost, over.
-bool is_graded(const LessonResult& result) noexcept;
 
 std::string day_of(std::string_view time);  // "2026-01-02" of ISO 8601
 
@@ -31,6 +29,7 @@ struct GradedTrial {
   std::string day;
   double grade = 0.0;  // [1] of 10
   bool passed = false;
+  double pause = 0.0;  // [s] before it, where it shows what was kept (retention.h); else 0
 };
 struct TaskProgress {
   std::string task;

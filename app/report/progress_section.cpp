@@ -1,11 +1,15 @@
 #include <algorithm>
+#include <optional>
 #include <span>
+#include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "app/draw/html.h"
 #include "app/report/learning_svg.h"
 #include "app/report/progress.h"
+#include "app/report/retention.h"
 #include "app/report/sections.h"
 #include "app/report/words.h"
 
@@ -64,16 +68,63 @@ constexpr const char* kHowToRead =
     "A dot is a graded run, hollow where it was not passed; guided runs are left out. The line is the fit "
     "grade(n) = A + B exp(−n/τ), n = 0 for the first run: A is where practice leads, B how far the first run was from "
     "it (negative below), τ how many runs it takes until all but 37 % is learnt. Pale: where the curve is with about "
-    "95 % confidence. After ± stands one standard deviation.";
+    "95 % confidence. After ± stands one standard deviation. A ring about a dot: the first run of its lesson after a "
+    "day or "
+    "more without it.";
+
+// The newest of a lesson after a day, and after a week.
+struct Kept {
+  std::string lesson;  // key
+  std::optional<RetentionTrial> day, week;
+};
+
+std::vector<Kept> kept_lessons(const LearnerHistory& history) {
+  std::vector<Kept> kept;
+  for (const RetentionTrial& trial : retention_trials(history)) {
+    auto found = std::find_if(kept.begin(), kept.end(), [&](const Kept& k) { return k.lesson == trial.lesson; });
+    if (found == kept.end()) found = kept.insert(kept.end(), Kept{trial.lesson, {}, {}});
+    (trial.pause < kWeekAfter ? found->day : found->week) = trial;
+  }
+  return kept;
+}
+
+std::string kept_cells(const std::optional<RetentionTrial>& trial) {
+  if (!trial) return "<td class=\"number\">–</td><td class=\"number\"></td><td></td>";
+  return fmt::format("<td class=\"number\">{}</td><td class=\"number\"><strong>{}</strong></td><td>{}, {}</td>",
+                     trial->before ? number_words(trial->before->grade, 1) : "–", number_words(trial->grade, 1),
+                     run_link(trial->run), pause_words(trial->pause));
+}
+
+constexpr const char* kWhatIsKept =
+    "Grades of the last graded run before a pause, and of the first run after it: what is left of a lesson after 20 "
+    "hours "
+    "or more without it, and after six days or more. The newest of each.";
+
+std::string kept_part(const LearnerHistory& history, std::span<const Lesson> lessons) {
+  const std::vector<Kept> kept = kept_lessons(history);
+  const std::string head = "<h3>What was kept</h3>\n";
+  if (kept.empty()) return head + paragraph("No lesson was driven again after a day without it yet.");
+  std::string table = fmt::format(
+      "<table class=\"kept\">\n<caption>{}</caption>\n<thead><tr><th>Lesson</th><th class=\"number\">Before</th>"
+      "<th class=\"number\">After a day</th><th></th><th class=\"number\">Before</th>"
+      "<th class=\"number\">After a week</th><th></th></tr></thead>\n<tbody>\n",
+      kWhatIsKept);
+  for (const Kept& k : kept) {
+    table += fmt::format("<tr><td>{}</td>{}{}</tr>\n", html_text(lesson_title(lessons, k.lesson)), kept_cells(k.day),
+                         kept_cells(k.week));
+  }
+  return head + table + "</tbody></table>\n";
+}
 
 }  // namespace
 
-std::string progress_section(const LearnerHistory& history) {
+std::string progress_section(const LearnerHistory& history, std::span<const Lesson> lessons) {
   const std::vector<TaskProgress> tasks = task_progress(history);
   if (tasks.empty()) return section("learning", "Learning", paragraph("There is no graded run yet."));
   std::string html = task_table(tasks, past_results(history)) + "<div class=\"curves\">\n";
   for (const TaskProgress& task : tasks) html += curve_figure(task);
-  return section("learning", "Learning", html + "</div>\n<p class=\"soft\">" + kHowToRead + "</p>\n");
+  return section("learning", "Learning",
+                 html + "</div>\n<p class=\"soft\">" + kHowToRead + "</p>\n" + kept_part(history, lessons));
 }
 
 }  // namespace gearshift

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <numbers>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -17,16 +19,23 @@ namespace gearshift {
 namespace {
 
 // Sizes on the page. [px]
-constexpr Rect kPage{0.0, 0.0, 560.0, 340.0};
-constexpr Rect kForceBox{44.0, 28.0, 502.0, 170.0};
-constexpr Rect kPedalBox{44.0, 232.0, 502.0, 60.0};
+constexpr double kWidth = 560.0, kLeft = 44.0, kInner = 502.0;
+constexpr Rect kForceBox{kLeft, 28.0, kInner, 150.0};
+constexpr double kSpeedHeight = 110.0, kPedalHeight = 50.0, kGearHeight = 16.0;
+constexpr double kGap = 30.0;   // above each chart, for its name
+constexpr double kAxis = 44.0;  // below the last one
 constexpr double kPixelsPerMillimetre = 3.0;
 
 constexpr double kLeastForce = 20.0;  // [N] of the scale
+constexpr double kLeastSpan = 500.0;  // [1/min] of the scale
+constexpr double kPerMinute = 30.0 / std::numbers::pi;
 constexpr std::size_t kMostParts = 400;
 constexpr const char* kClutchColour = "#8d99a6";
 constexpr const char* kThrottleColour = "#2e7d4f";
 constexpr const char* kLeverColour = "#8a2f87";
+constexpr const char* kGearGround = "#cfe0f2";
+constexpr const char* kShaftColour = "#d9822b";
+constexpr const char* kIdealColour = "#2e7d4f";
 
 // Even parts of the recording, the lowest and highest force of each kept: no peak is lost.
 std::vector<RecordedCycle> thinned(const std::vector<RecordedCycle>& cycles) {
@@ -60,47 +69,123 @@ std::vector<glm::dvec2> way_of(const std::vector<RecordedCycle>& cycles, const P
   return points;
 }
 
-void draw_force(Svg& svg, const RecordedShift& shift, const std::vector<RecordedCycle>& cycles, Range time) {
-  double most = kLeastForce;
-  for (const RecordedCycle& cycle : cycles) most = std::max(most, 1.1 * cycle.force);
-  const double step = grid_step(most, 5);
-  const double top = step * std::ceil(most / step);
-  const Chart chart(svg, kForceBox, time, {0.0, top});
-  svg.rect({chart.at(0.0, 0.0).x, kForceBox.y, chart.at(shift.end, 0.0).x - chart.at(0.0, 0.0).x, kForceBox.height},
-           kMouthShade);
-  chart.y_grid(step);
-  chart.x_lines(grid_step(time.to - time.from, 8));
-  chart.y_name("force of the hand [N]");
-  if (shift.alarm <= top)
-    svg.line(chart.at(time.from, shift.alarm), chart.at(time.to, shift.alarm), {kLockoutColour, 1.5, "6 4"});
-  svg.polyline(line_of(chart, cycles, [](const RecordedCycle& c) { return c.force; }), {kInk, 1.6});
+// The charts of one shift, one below the other on one time axis.
+class ShiftCharts {
+ public:
+  ShiftCharts(Svg& svg, const ShiftRecording& shift)
+      : svg_(svg), shift_(shift), cycles_(thinned(shift.cycles)), time_{-kAround, shift.end + kAround} {}
+
+  void force() {
+    double most = kLeastForce;
+    for (const RecordedCycle& cycle : cycles_) most = std::max(most, 1.1 * cycle.force);
+    const double step = grid_step(most, 5);
+    const double top = step * std::ceil(most / step);
+    const Chart chart = begin(kForceBox, {0.0, top}, step);
+    chart.y_name("force of the hand [N]");
+    if (shift_.alarm <= top)
+      svg_.line(chart.at(time_.from, shift_.alarm), chart.at(time_.to, shift_.alarm), {kLockoutColour, 1.5, "6 4"});
+    draw(chart, {kInk, 1.6}, [](const RecordedCycle& c) { return c.force; });
+  }
+
+  // Not from nought: where the two meet is to be seen.
+  void speeds(const Rect& box) {
+    double least = 1e9, most = 0.0;
+    for (const RecordedCycle& c : cycles_) {
+      least = std::min({least, kPerMinute * c.engine_speed, kPerMinute * c.shaft_speed});
+      most = std::max({most, kPerMinute * c.engine_speed, kPerMinute * c.shaft_speed});
+    }
+    most = std::max(most, least + kLeastSpan);
+    const double step = grid_step(most - least, 4);
+    const Chart chart = begin(box, {step * std::floor(least / step), step * std::ceil(most / step)}, step);
+    name(box, 0.0, kGearColour, "engine [1/min]");
+    name(box, 110.0, kShaftColour, "gearbox shaft [1/min]");
+    draw(chart, {kShaftColour, 2.2}, [](const RecordedCycle& c) { return kPerMinute * c.shaft_speed; });
+    draw(chart, {kGearColour, 1.6}, [](const RecordedCycle& c) { return kPerMinute * c.engine_speed; });
+  }
+
+  void pedals(const Rect& box) {
+    const Chart chart = begin(box, {0.0, 1.0}, 1.0);
+    name(box, 0.0, kClutchColour, "clutch pedal");
+    name(box, 100.0, kThrottleColour, "throttle");
+    draw(chart, {kClutchColour, 2.2}, [](const RecordedCycle& c) { return std::clamp(c.clutch, 0.0, 1.0); });
+    draw(chart, {kThrottleColour, 1.6}, [](const RecordedCycle& c) { return std::clamp(c.throttle, 0.0, 1.0); });
+  }
+
+  // A strip: a box a gear, none in neutral.
+  void gears(const Rect& box) {
+    const Chart chart(svg_, box, time_, {0.0, 1.0});
+    svg_.text({box.x - 8.0, box.bottom() - 4.0}, {12.0, kSoftInk, "end"}, "gear");
+    chart.x_grid(grid_step(time_.to - time_.from, 8));
+    chart.x_name("s since the shift began");
+    svg_.rect(box, kAisleShade, 2.0);
+    for (std::size_t i = 0; i < cycles_.size();) {
+      const std::size_t first = i;
+      while (i < cycles_.size() && cycles_[i].gear == cycles_[first].gear) ++i;
+      const double from = chart.at(cycles_[first].time, 0.0).x;
+      const double to = i < cycles_.size() ? chart.at(cycles_[i].time, 0.0).x : chart.at(cycles_.back().time, 0.0).x;
+      gear({from, box.y, to - from, box.height}, cycles_[first].gear);
+    }
+  }
+
+ private:
+  // Shaded where the shift is.
+  Chart begin(const Rect& box, Range values, double step) {
+    const Chart chart(svg_, box, time_, values);
+    const double from = chart.at(0.0, 0.0).x;
+    svg_.rect({from, box.y, chart.at(shift_.end, 0.0).x - from, box.height}, kMouthShade);
+    chart.y_grid(step);
+    chart.x_lines(grid_step(time_.to - time_.from, 8));
+    return chart;
+  }
+
+  void name(const Rect& box, double x, const char* colour, std::string_view words) {
+    svg_.text({box.x + x, box.y - 7.0}, {12.0, colour, "start", true}, words);
+  }
+
+  template <class Value>
+  void draw(const Chart& chart, const Pen& pen, const Value& value) {
+    svg_.polyline(line_of(chart, cycles_, value), pen);
+  }
+
+  void gear(const Rect& box, int gear) {
+    if (gear != kNeutralGear) svg_.rect(box, kGearGround, 2.0);
+    if (box.width < kGearHeight) return;
+    svg_.text({box.x + 0.5 * box.width, box.bottom() - 4.0}, {12.0, gear == kNeutralGear ? kSoftInk : kInk, "middle"},
+              gear_name(gear));
+  }
+
+  Svg& svg_;
+  const ShiftRecording& shift_;
+  std::vector<RecordedCycle> cycles_;
+  Range time_;
+};
+
+Rect below(const Rect& box, double gap, double height) {
+  return {box.x, box.bottom() + gap, box.width, height};
 }
 
-void draw_pedals(Svg& svg, const std::vector<RecordedCycle>& cycles, Range time) {
-  const Chart chart(svg, kPedalBox, time, {0.0, 1.0});
-  chart.y_grid(1.0);
-  chart.x_grid(grid_step(time.to - time.from, 8));
-  chart.x_name("s since the shift began");
-  svg.text({kPedalBox.x, kPedalBox.y - 7.0}, {12.0, kClutchColour, "start", true}, "clutch pedal");
-  svg.text({kPedalBox.x + 100.0, kPedalBox.y - 7.0}, {12.0, kThrottleColour, "start", true}, "throttle");
-  svg.polyline(line_of(chart, cycles, [](const RecordedCycle& c) { return std::clamp(c.clutch, 0.0, 1.0); }),
-               {kClutchColour, 2.2});
-  svg.polyline(line_of(chart, cycles, [](const RecordedCycle& c) { return std::clamp(c.throttle, 0.0, 1.0); }),
-               {kThrottleColour, 1.6});
+std::vector<glm::dvec2> line_on_page(const std::vector<glm::dvec2>& way) {
+  std::vector<glm::dvec2> points;
+  for (const glm::dvec2 place : way) points.push_back(on_page(place));
+  return points;
 }
 
 }  // namespace
 
-std::string force_svg(const RecordedShift& shift) {
-  Svg svg(kPage, 1.0);
-  const std::vector<RecordedCycle> cycles = thinned(shift.cycles);
-  const Range time{-kAround, shift.end + kAround};
-  draw_force(svg, shift, cycles, time);
-  draw_pedals(svg, cycles, time);
+std::string force_svg(const ShiftRecording& shift) {
+  const Rect speeds = below(kForceBox, kGap, kSpeedHeight);
+  const Rect pedals = below(shift.has_car ? speeds : kForceBox, kGap, kPedalHeight);
+  const Rect gears = below(pedals, 6.0, kGearHeight);
+  Svg svg({0.0, 0.0, kWidth, gears.bottom() + kAxis}, 1.0);
+  ShiftCharts charts(svg, shift);
+  charts.force();
+  if (shift.has_car) charts.speeds(speeds);
+  charts.pedals(pedals);
+  charts.gears(gears);
   return std::move(svg).finish();
 }
 
-std::string path_svg(const RecordedShift& shift) {
+std::string path_svg(const ShiftRecording& shift) {
   const Rect plate = gate_plate(shift.gate);
   Svg svg({plate.x - 1.0, plate.y - 1.0, plate.width + 2.0, plate.height + 2.0}, kPixelsPerMillimetre);
   const GateDescription description = describe_gate(shift.gate);
@@ -110,6 +195,7 @@ std::string path_svg(const RecordedShift& shift) {
   const std::vector<RecordedCycle> cycles = thinned(shift.cycles);
   svg.polyline(way_of(cycles, [](const RecordedCycle& c) { return c.hand; }), {kBufferColour, 0.6});
   svg.polyline(way_of(cycles, [](const RecordedCycle& c) { return c.lever; }), {kLeverColour, 1.0});
+  svg.polyline(line_on_page(shift.ideal), {kIdealColour, 0.7, "1.6 1.4"});
   svg.ring(on_page(cycles.front().lever), 1.8, {kLeverColour, 0.7});
   svg.dot(on_page(cycles.back().lever), 1.8, kLeverColour);
   return std::move(svg).finish();

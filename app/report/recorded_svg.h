@@ -7,7 +7,8 @@
 
 namespace gearshift {
 
-std::string force_svg(const RecordedShift& shift);  // the hand's force against time, the pedals below
-std::string path_svg(const RecordedShift& shift);   // hand and drawn lever in the gate
+// Against time: the hand's force, where there is a car engine and gearbox shaft below it, the pedals and the gear.
+std::string force_svg(const ShiftRecording& shift);
+std::string path_svg(const ShiftRecording& shift);  // hand and drawn lever in the gate, the shortest way over them
 
 }  // namespace gearshift

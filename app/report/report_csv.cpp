@@ -18,8 +18,8 @@ namespace {
 
 // Of a fault's value, in the order of FaultKind.
 constexpr std::array<std::string_view, kFaultKinds> kUnits{
-    "rad/s", "rad/s", "s",    "W", "s", "s", "rad/s", "s",     "s",     "rad/s", "rad/s", "J",
-    "s",     "gear",  "gear", "1", "N", "1", "m",     "m/s^3", "rad/s", "rad/s", "s",     "m/s"};
+    "rad/s", "rad/s", "s", "W", "s", "s", "rad/s", "s",     "s",     "rad/s", "rad/s", "J", "s",
+    "gear",  "gear",  "1", "N", "1", "m", "m/s^3", "rad/s", "rad/s", "s",     "m/s",   "s"};
 
 // Line by line; the first one names the columns.
 class Table {
@@ -127,7 +127,7 @@ std::string shifts_csv(const LearnerHistory& history) {
 
 std::string faults_csv(const LearnerHistory& history) {
   Table table;
-  table.texts({"run", "fault", "kind", "severity", "time_s", "value", "unit", "shift", "points"});
+  table.texts({"run", "fault", "kind", "severity", "time_s", "value", "unit", "shift", "points", "step", "wanted_s"});
   table.end();
   for (const ReportedRun& run : history.runs) {
     const LessonResult& result = run.row.result;
@@ -138,7 +138,9 @@ std::string faults_csv(const LearnerHistory& history) {
       table.number(run.row.id).number(i).text(fault_key(fault.kind)).text(severity_key(fault.severity));
       table.number(fault.time).number(fault.value).text(kUnits[static_cast<std::size_t>(fault.kind)]);
       fault.shift >= 0 ? table.number(fault.shift) : table.text("");
-      table.number(points[i]).end();
+      table.number(points[i]).text(fault.step);
+      fault.step.empty() ? table.text("") : table.number(fault.wanted);
+      table.end();
     }
   }
   return std::move(table).take();

@@ -33,8 +33,9 @@ p.next { border-left: 0.35rem solid #1f5fa8; background: #eef4fa; padding: 0.8re
 th { vertical-align: bottom; }
 th.number, td.number { text-align: right; font-variant-numeric: tabular-nums; }
 td.number, td.shift, td.day, td.bars { white-space: nowrap; }
-table.tasks { width: auto; }
-table.tasks th, table.tasks td, table.weaknesses th, table.weaknesses td { padding-right: 1.4rem; }
+table.tasks, table.kept { width: auto; }
+table.kept th, table.kept td, table.tasks th, table.tasks td { padding-right: 1.4rem; }
+table.weaknesses th, table.weaknesses td { padding-right: 1.4rem; }
 table.shifts { font-size: 0.85rem; }
 td ul { margin: 0; padding-left: 0; list-style: none; }
 td blockquote { margin: 0 0 0.3rem; }
@@ -43,9 +44,10 @@ td blockquote { margin: 0 0 0.3rem; }
 .bar { display: inline-block; height: 0.6rem; background: #1f5fa8; border-radius: 1px; }
 .bar.earlier { background: #b9cbe0; }
 table.runs { font-size: 0.85rem; }
+table.runs th:nth-child(3) { width: 18%; }
 table.runs th:nth-child(6) { width: 15%; }
-table.runs th:nth-child(7) { width: 33%; }
-table.runs th:nth-child(8) { width: 19%; }
+table.runs th:nth-child(7) { width: 31%; }
+table.runs th:nth-child(8) { width: 17%; }
 table.runs tr:target { background: #fdf3e1; }
 @media screen and (max-width: 50rem) { .curves figure, .recording figure.force, .recording figure.path { width: 100%; } }
 @media print {
@@ -54,7 +56,7 @@ table.runs tr:target { background: #fdf3e1; }
   table, table.shifts, table.runs { font-size: 8pt; }
   td, th { padding: 0.25rem 0.5rem 0.25rem 0; }
   table.weaknesses th, table.weaknesses td { padding-right: 0.7rem; }
-  table.tasks, table.weaknesses, table.shifts { break-inside: avoid; }
+  table.tasks, table.kept, table.weaknesses, table.shifts { break-inside: avoid; }
   figcaption { font-size: 8pt; }
   h2 { margin-top: 1.6rem; }
   a { color: inherit; text-decoration: none; }
@@ -103,7 +105,7 @@ std::string report_page(const LearnerHistory& history, const ShownShifts& shifts
       "<style>{}{}</style>\n</head>\n<body>\n",
       name, html_style(), kStyle);
   page += head_section(history, lessons);
-  page += progress_section(history) + weakness_section(history) + shifts_section(shifts, lessons) +
+  page += progress_section(history, lessons) + weakness_section(history) + shifts_section(shifts, lessons) +
           runs_section(history, lessons);
   page += fmt::format("<p class=\"soft\">{}. Days and times are UTC. Grades are 0 to 10; a guided run has none.</p>\n",
                       html_text(program_name()));

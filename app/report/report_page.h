@@ -15,7 +15,7 @@ namespace gearshift {
 
 struct ShownShift {
   ChosenShift chosen;
-  std::optional<RecordedShift> recorded;
+  std::optional<ShiftRecording> recorded;
   std::string problem;  // why the recording is not shown; empty: there is none, or it is shown
 };
 struct ShownShifts {

@@ -1,7 +1,11 @@
+#include <cstdint>
+#include <map>
+
 #include <fmt/format.h>
 
 #include "app/draw/html.h"
 #include "app/report/progress.h"
+#include "app/report/retention.h"
 #include "app/report/sections.h"
 #include "app/report/words.h"
 
@@ -54,15 +58,21 @@ std::string time_words(const std::string& begun_at) {  // "2026-01-02<br>10:00"
                      html_text(begun_at.size() >= 16 ? begun_at.substr(11, 5) : std::string()));
 }
 
-std::string run_row(const ReportedRun& run, std::span<const Lesson> lessons) {
+// pause: [s] before a run that shows what was kept; else 0.
+std::string mode_words(const LessonResult& result, double pause) {
+  std::string words = result.mode == LessonMode::follow_me ? "follow me" : "by yourself";
+  if (result.guided) words += ", guided";
+  return pause > 0.0 ? words + fmt::format("<br>after a pause of {}", pause_words(pause)) : words;
+}
+
+std::string run_row(const ReportedRun& run, std::span<const Lesson> lessons, double pause) {
   const LessonResult& result = run.row.result;
-  const std::string mode = result.mode == LessonMode::follow_me ? "follow me" : "by yourself";
   return fmt::format(
       "<tr id=\"run-{0}\"><td class=\"number\">{0}</td><td class=\"day\">{1}</td><td>{2}<br><span "
-      "class=\"soft\">{3}{4}</span></td><td class=\"number\">{5}</td><td class=\"number\"><strong>{6}</strong></td>"
-      "<td>{7}</td><td>{8}</td><td>{9}</td></tr>\n",
-      run.row.id, time_words(run.row.begun_at), html_text(lesson_title(lessons, result.lesson)), mode,
-      result.guided ? ", guided" : "", result.shifts.size(),
+      "class=\"soft\">{3}</span></td><td class=\"number\">{4}</td><td class=\"number\"><strong>{5}</strong></td>"
+      "<td>{6}</td><td>{7}</td><td>{8}</td></tr>\n",
+      run.row.id, time_words(run.row.begun_at), html_text(lesson_title(lessons, result.lesson)),
+      mode_words(result, pause), result.shifts.size(),
       is_graded(result) ? fmt::format("{:.1f}", result.grade) : std::string("–"), outcome(result), faults_list(result),
       comments_list(run.comments));
 }
@@ -75,7 +85,9 @@ std::string runs_section(const LearnerHistory& history, std::span<const Lesson> 
       "<table class=\"runs\">\n<thead><tr><th class=\"number\">Run</th><th>Day</th><th>Lesson</th>"
       "<th class=\"number\">Shifts</th><th class=\"number\">Grade</th><th>Result</th><th>What was seen</th>"
       "<th>The instructor says</th></tr></thead>\n<tbody>\n";
-  for (auto run = history.runs.rbegin(); run != history.runs.rend(); ++run) table += run_row(*run, lessons);
+  std::map<std::int64_t, double> pauses = retention_pauses(history);
+  for (auto run = history.runs.rbegin(); run != history.runs.rend(); ++run)
+    table += run_row(*run, lessons, pauses[run->row.id]);
   return section("runs", "Runs, newest first", table + "</tbody></table>\n");
 }
 

@@ -10,7 +10,7 @@
 namespace gearshift {
 
 std::string head_section(const LearnerHistory& history, std::span<const Lesson> lessons);
-std::string progress_section(const LearnerHistory& history);
+std::string progress_section(const LearnerHistory& history, std::span<const Lesson> lessons);
 std::string weakness_section(const LearnerHistory& history);
 std::string shifts_section(const ShownShifts& shifts, std::span<const Lesson> lessons);
 std::string runs_section(const LearnerHistory& history, std::span<const Lesson> lessons);

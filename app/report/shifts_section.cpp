@@ -50,6 +50,8 @@ std::string timeline(std::span<const ShownShift> shifts) {
   return "<figure class=\"timeline\">\n" + timeline_svg(chosen) + "</figure>\n";
 }
 
+constexpr const char* kMeeting = "engine and gearbox, which the clutch brings together; ";
+
 std::string recording(const ShownShift& shown) {
   const std::string name = fmt::format("{}, shift {}, {}", run_link(shown.chosen.run), shown.chosen.shift.number + 1,
                                        gear_change(shown.chosen.shift));
@@ -57,11 +59,10 @@ std::string recording(const ShownShift& shown) {
     return fmt::format("<p class=\"soft\">{}: no recording is shown. {}</p>\n", name, html_text(shown.problem));
   if (!shown.recorded) return {};
   return fmt::format(
-      "<div class=\"recording\">\n<figure class=\"force\">\n{}<figcaption>{}: what the hand pushed; the shift itself "
-      "is "
-      "shaded</figcaption></figure>\n<figure class=\"path\">\n{}<figcaption>From the ring to the dot: the lever "
-      "purple as drawn, orange as the hand pushed it</figcaption></figure>\n</div>\n",
-      force_svg(*shown.recorded), name, path_svg(*shown.recorded));
+      "<div class=\"recording\">\n<figure class=\"force\">\n{}<figcaption>{}: what the hand pushed; {}the shift itself "
+      "is shaded</figcaption></figure>\n<figure class=\"path\">\n{}<figcaption>From the ring to the dot: the lever "
+      "purple as drawn, orange as the hand pushed it; green, dashed: the shortest way</figcaption></figure>\n</div>\n",
+      force_svg(*shown.recorded), name, shown.recorded->has_car ? kMeeting : "", path_svg(*shown.recorded));
 }
 
 std::string group(std::string_view title, std::span<const ShownShift> shifts, std::span<const Lesson> lessons,

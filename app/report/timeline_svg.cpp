@@ -6,8 +6,8 @@
 #include <fmt/format.h>
 
 #include "app/draw/gate_colours.h"
+#include "app/replay/shift_times.h"
 #include "app/report/chart.h"
-#include "app/report/shift_times.h"
 #include "app/report/words.h"
 
 namespace gearshift {

@@ -8,7 +8,6 @@
 #include <string_view>
 #include <vector>
 
-#include "app/train/gear_time.h"
 #include "haptics/device/simulated_lever.h"
 #include "haptics/gate/gate.h"
 #include "haptics/gate/gate_layout.h"
@@ -26,6 +25,12 @@ struct TourSetup {
   std::uint64_t seed = 1;  // of the hand's aims
   ShiftStyle style;
   std::filesystem::path folder;  // exists; receives tour.trace and tour.csv
+};
+
+// When a gear came.
+struct GearTime {
+  int gear = kNeutralGear;
+  double time = 0.0;  // [s]
 };
 
 struct TourResult {

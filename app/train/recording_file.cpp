@@ -1,5 +1,7 @@
 #include "app/train/recording_file.h"
 
+#include <unistd.h>
+
 #include <ctime>
 
 #include <fmt/core.h>
@@ -14,12 +16,12 @@ std::filesystem::path free_trace(const std::filesystem::path& folder, const std:
   return file;
 }
 
-std::string drive_name() {
+std::string drive_name(const std::string& what) {
   const std::time_t now = std::time(nullptr);
   std::tm local{};
   localtime_r(&now, &local);
-  return fmt::format("drive-{:04}{:02}{:02}-{:02}{:02}{:02}", local.tm_year + 1900, local.tm_mon + 1, local.tm_mday,
-                     local.tm_hour, local.tm_min, local.tm_sec);
+  return fmt::format("{}-{:04}{:02}{:02}-{:02}{:02}{:02}-{}", what, local.tm_year + 1900, local.tm_mon + 1,
+                     local.tm_mday, local.tm_hour, local.tm_min, local.tm_sec, getpid());
 }
 
 }  // namespace gearshift

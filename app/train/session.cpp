@@ -2,12 +2,15 @@
 
 #include <chrono>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 #include <utility>
 
 #include <fmt/core.h>
 
 #include "app/assets_path.h"
+#include "app/coach/shipped_lessons.h"
+#include "app/learner/auto_driver.h"
 #include "app/limited_words.h"
 #include "app/output_folder.h"
 #include "app/program_name.h"
@@ -15,6 +18,7 @@
 #include "app/train/recording_file.h"
 #include "app/trainer/history.h"
 #include "app/trainer/user_folder.h"
+#include "app/training/lesson_world.h"
 #include "haptics/files/file_error.h"
 #include "haptics/gate/gate_compiler.h"
 #include "haptics/joystick/kinematics.h"
@@ -27,27 +31,62 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kMostHistory = 200;  // [snapshots] a frame
 
-Preset chosen_preset(const SessionChoice& choice) {
-  Preset preset = read_preset(preset_file(choice.preset).string());
-  if (choice.hand.empty() || choice.hand == kTouringHand) return preset;
-  const std::optional<HandImpedance> hand = hand_from_text(choice.hand);
-  if (!hand || hand->stiffness < kLeastLeadingStiffness)
-    throw std::invalid_argument(
-        fmt::format("hand {}: must be light, grip, arm, \"{}\" or M,B,K in kg, N s/m and N/m, with at least {:g} N/m",
-                    choice.hand, kTouringHand, kLeastLeadingStiffness));
-  preset.lever.hand = *hand;
-  return preset;
-}
-
-// By itself the hand is too quick for the car to move off: it rolls already.
-RollingCar car_for(const SessionChoice& choice) {
-  RollingCarConfig config;
-  if (choice.hand == kTouringHand) config.start_speed = 30.0 / kKmhPerMps;
-  return RollingCar(config);
-}
-
 std::string first_limit(const AdmittedTuning& admitted) {
   return admitted.limited.empty() ? std::string{} : limited_words(admitted.limited.front());
+}
+
+CoachConfig coach_config(const SessionChoice& choice) {
+  CoachConfig config;
+  config.lessons = shipped_lessons();
+  config.history = choice.history;
+  config.learner = choice.learner;
+  config.program = program_name();
+  return config;
+}
+
+SelfDriver self_driver(const TrainerConfig& trainer, const CarSpec& car, const Lesson* lesson) {
+  const YokeGeometry& yoke = trainer.preset.lever.yoke;
+  AutoDriverConfig config;
+  config.gate = compile_gate(trainer.layout, workspace_half_extent(yoke), yoke.radius);
+  config.car = car;
+  config.lesson = lesson ? *lesson : tour_lesson(car, config.gate);
+  config.again = lesson == nullptr;
+  config.seed = trainer.seed;
+  config.period = period_s(trainer.preset.haptics);
+  const auto driver = std::make_shared<AutoDriver>(config);
+  return [driver](const DriveSample& sample) { return driver->act(sample); };
+}
+
+std::vector<HapticSnapshot> levers_of(std::span<const DriveSample> cycles) {
+  std::vector<HapticSnapshot> levers;
+  levers.reserve(cycles.size());
+  for (const DriveSample& cycle : cycles) levers.push_back(cycle.lever);
+  return levers;
+}
+
+bool same_turn(const YokeGeometry& a, const YokeGeometry& b) {
+  return a.radius == b.radius && a.theta_limit == b.theta_limit && a.phi_limit == b.phi_limit;
+}
+
+// Nothing behind the lever: pedals and gear, as the driver has them.
+VehicleState standing_car(const DriverControls& controls, int gear) {
+  VehicleState car;
+  car.running = false;
+  car.gear = gear;
+  car.throttle = controls.throttle;
+  car.brake = controls.brake;
+  car.clutch = controls.clutch;
+  car.hand_brake = controls.hand_brake;
+  car.ignition = controls.ignition;
+  return car;
+}
+
+// What the history keeps beside a lesson.
+std::string settings_text(const SessionChoice& choice, const HapticTuning& tuning) {
+  return fmt::format(
+      "car = \"{}\"\ngate = \"{}\"\npreset = \"{}\"\nhand = \"{}\"\nwall_stiffness_n_per_m = "
+      "{}\nwall_damping_n_s_per_m = {}\n",
+      choice.car, choice.gate, choice.preset, choice.hand, tuning.wall_stiffness, tuning.wall_damping);
 }
 
 }  // namespace
@@ -55,86 +94,112 @@ std::string first_limit(const AdmittedTuning& admitted) {
 Session::Session(const SessionChoice& choice)
     : choice_(choice),
       cabin_(cabin_seen_from(choice.camera)),
-      car_(car_for(choice)),
+      coach_(coach_config(choice)),
       sound_(choice.sound),
       cabin_sound_(sound_, CabinSoundConfig{}) {
   controls_.ignition = true;
   if (choice.clock == TrainerClock::real_time)
     start_ns_ = std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
-  change_to(choice);
-  if (!sound_.why_silent().empty()) message_ = sound_.why_silent();
+  offer_first(choice);
+  if (choice.hand == kByItself && coach_.lesson())
+    begin_lesson();
+  else
+    change_to(coach_.lesson() ? with_lesson(choice, *coach_.lesson()) : choice);
+  if (const std::optional<std::string> problem = coach_.take_problem()) message_ = *problem;
+  if (!sound_.why_silent().empty() && message_.empty()) message_ = sound_.why_silent();
   panel_.gates = shipped_names("gates");
   panel_.presets = preset_names();
-  panel_.hands = {"light", "grip", "arm", std::string(kTouringHand)};
+  panel_.cars = shipped_names("cars");
+  panel_.cars.emplace_back(kNoCar);
+  panel_.hands = {"light", "grip", "arm", std::string(kByItself)};
   panel_.device_name = kSimulatedDevice;
 }
 
-TrainerConfig Session::trainer_config(const SessionChoice& choice) const {
+TrainerConfig Session::trainer_config(const SessionChoice& choice, const ChosenCar& chosen,
+                                      const Lesson* lesson) const {
   TrainerConfig config;
-  config.preset = chosen_preset(choice);
-  if (choice.haptics) config.preset.haptics = *choice.haptics;
-  config.layout = read_gate_layout(find_asset("gates", choice.gate));
-  config.hand = choice.hand == kTouringHand ? HandKind::touring : HandKind::led;
+  config.preset = read_chosen_preset(choice);
+  config.layout = chosen.layout;
+  config.car = chosen.spec;
   config.clock = choice.clock;
   config.seed = choice.seed;
   config.program = program_name();
+  if (lesson) {
+    config.start = car_start(lesson->start);
+    config.hand_brake = lesson->start.hand_brake;
+  }
+  if (choice.hand != kByItself) return config;
+  if (!config.car) throw std::invalid_argument("a hand by itself drives a car: without one a person leads the lever");
+  config.driver = self_driver(config, *config.car, lesson);
   return config;
-}
-
-std::unique_ptr<Stage> Session::make_stage(const Trainer& trainer, Cabin cabin) const {
-  return std::make_unique<Stage>(stage_config(trainer.gate(), trainer.config().preset.lever.yoke, cabin),
-                                 assets_folder() / "models");
-}
-
-// Its plate is cut for the gate, and its lever turns as the device's does.
-bool Session::fits_stage(const SessionChoice& choice, const YokeGeometry& yoke) const {
-  if (!stage_ || choice.gate != choice_.gate) return false;
-  const YokeGeometry& now = trainer_->config().preset.lever.yoke;
-  return yoke.radius == now.radius && yoke.theta_limit == now.theta_limit && yoke.phi_limit == now.phi_limit;
 }
 
 // What a person or a fault has taken, only a person gives back.
 bool Session::keeps_forces() {
   if (!trainer_) return true;
   const GuardState guard = trainer_->snapshot().guard;
-  return wants_forces_ && guard != GuardState::released && guard != GuardState::damped;
+  return wants_forces_ && (armed_now_ || (guard != GuardState::released && guard != GuardState::damped));
 }
 
-// All of it or nothing: what runs goes on until the new one stands.
-void Session::change_to(const SessionChoice& choice) {
-  const TrainerConfig config = trainer_config(choice);
+// All of it or nothing: what runs goes on until the new one stands. Its plate is cut for the gate, and its lever turns as
+// the device's does.
+void Session::change_to(const SessionChoice& choice, const Lesson* lesson) {
+  ChosenCar chosen = read_chosen_car(choice);
+  const TrainerConfig config = trainer_config(choice, chosen, lesson);
   auto trainer = std::make_unique<Trainer>(config);
-  if (!fits_stage(choice, config.preset.lever.yoke)) {
-    stage_ = make_stage(*trainer, cabin_);
-    new_model_ = true;
-  }
+  if (!stage_ || stage_gate_ != chosen.layout.text || !same_turn(stage_yoke_, config.preset.lever.yoke))
+    show(trainer->gate(), chosen.layout.text, config.preset.lever.yoke, cabin_);
   message_.clear();
   const bool armed = keeps_forces();
-  if (trainer_ && trainer_->recording()) end_recording();
+  if (coach_.view().phase == LessonPhase::driving) coach_.leave();
+  if (recording()) end_recording();
   player_.reset();
   trainer_ = std::move(trainer);
   new_trainer_ = true;
+  if (chosen.spec) sound_car(*chosen.spec);
   ++run_;
-  trainer_->set_controls(controls_);
+  slope_ = lesson ? lesson->start.slope : 0.0;
+  if (lesson) switches_ = CarSwitches{lesson->start.running, lesson->start.hand_brake};
+  if (switches_) {
+    controls_.ignition = switches_->ignition;
+    controls_.hand_brake = switches_->hand_brake;
+  }
+  trainer_->set_controls(led());
   if (armed) trainer_->arm();
-  feet_.reset();
-  if (choice.hand == kTouringHand) feet_.emplace(trainer_->gate());
   if (choice.clock == TrainerClock::virtual_time) start_ns_ = -std::llround(1e9 * time_);
   choice_ = choice;
+  choice_.car = chosen.car;
+  choice_.gate = chosen.gate;
   const std::string limit = first_limit(trainer_->admitted());
   if (!limit.empty()) message_ += (message_.empty() ? "" : "; ") + limit;
+}
+
+void Session::show(const Gate& gate, const std::string& text, const YokeGeometry& yoke, Cabin cabin) {
+  stage_ = std::make_unique<Stage>(stage_config(gate, yoke, cabin), assets_folder() / "models");
+  stage_gate_ = text;
+  stage_yoke_ = yoke;
+  cabin_ = cabin;
+  new_model_ = true;
+}
+
+void Session::sound_car(const CarSpec& car) {
+  CabinSoundConfig config = cabin_sound_.config();
+  config.dog_teeth = car.synchro.teeth;
+  cabin_sound_.set_config(config);
 }
 
 void Session::look_from(std::string_view camera) {
   const Cabin cabin = cabin_seen_from(camera);
   if (cabin == cabin_) return;
   try {
-    stage_ = make_stage(*trainer_, cabin);
-    cabin_ = cabin;
-    new_model_ = true;
+    show(shown_gate(), stage_gate_, stage_yoke_, cabin);
   } catch (const std::exception& refused) {
     message_ = refused.what();
   }
+}
+
+const Gate& Session::shown_gate() const {
+  return player_ ? player_->drive().gate() : trainer_->gate();
 }
 
 void Session::lead(const HandTarget& hand, const DriverControls& controls) {
@@ -147,16 +212,14 @@ void Session::obey(const PanelRequests& requests) {
     if (requests.stop) trainer_->stop();
     if (requests.disarm) trainer_->disarm();
     if (requests.arm) trainer_->arm();
-    if (requests.stop || requests.disarm || requests.arm) wants_forces_ = requests.arm;
+    if (requests.stop || requests.disarm || requests.arm) wants_forces_ = armed_now_ = requests.arm;
     if (requests.tuning) message_ = first_limit(trainer_->change_tuning(*requests.tuning));
-    if (requests.record && recording()) {
-      end_recording();
-    } else if (requests.record) {
-      start_recording();
-    }
-    if (requests.replay) start_replay();
+    if (requests.record) toggle_recording();
+    if (requests.replay) look_at_last();
     if (requests.save_preset) save_preset(*requests.save_preset);
+    obey_viewer(requests.look);
     change_by(requests);
+    obey_instructor(requests.lesson);
     if (requests.compare) {
       panel_.compared.reset();
       panel_.compared = read_preset(preset_file(*requests.compare).string());
@@ -168,10 +231,14 @@ void Session::obey(const PanelRequests& requests) {
 
 // What was tuned stays, unless a preset was asked for.
 void Session::change_by(const PanelRequests& requests) {
-  if (!requests.gate && !requests.preset && !requests.hand && !requests.restart) return;
+  if (!requests.gate && !requests.car && !requests.preset && !requests.hand && !requests.restart) return;
   SessionChoice wanted = choice_;
   wanted.haptics = trainer_->config().preset.haptics;
-  if (requests.gate) wanted.gate = *requests.gate;
+  if (requests.gate) wanted = with_gate(wanted, *requests.gate);
+  if (requests.car) {
+    wanted.car = *requests.car;
+    if (wanted.car != kNoCar) wanted.gate.clear();
+  }
   if (requests.hand) wanted.hand = *requests.hand;
   if (requests.restart) wanted.haptics = *requests.restart;
   if (requests.preset) {
@@ -181,13 +248,79 @@ void Session::change_by(const PanelRequests& requests) {
   change_to(wanted);
 }
 
-DriverControls Session::driven() const {
-  return feet_ ? deeper(feet_->at(trainer_->time(), car_.state()), controls_) : controls_;
+// The first that is named, else the one that is suggested; a hand that needs nobody drives what is named alone.
+void Session::offer_first(const SessionChoice& choice) {
+  std::string name = choice.lesson;
+  const bool suggested = name.empty();
+  if (suggested && choice.hand != kByItself && choice.car != kNoCar) name = coach_.view().next;
+  if (name.empty() || name == kNoLesson) return;
+  coach_.offer(read_lesson(find_asset("lessons", name)));
+  coach_.want_help(choice.help);
+  if (choice.mode) coach_.set_mode(*choice.mode);
+}
+
+void Session::obey_instructor(const LessonRequests& requests) {
+  if (requests.learner) {
+    coach_.set_learner(*requests.learner);
+    choice_.learner = *requests.learner;
+  }
+  if (requests.next) coach_.set_next(*requests.next);
+  if (requests.comment) coach_.comment(requests.comment->run, requests.comment->author, requests.comment->text);
+  if (requests.offer) coach_.offer(read_lesson(find_asset("lessons", *requests.offer)));
+  if (requests.mode) coach_.set_mode(*requests.mode);
+  if (requests.help) coach_.want_help(*requests.help);
+  if (requests.leave) coach_.leave();
+  if (requests.put_away) coach_.put_away();
+  if (requests.begin && coach_.lesson()) begin_lesson();
+  if (recording() && records_lesson_ && coach_.view().phase != LessonPhase::driving) end_recording();
+}
+
+// What lay before the trial's first cycle is not the coach's.
+void Session::begin_lesson() {
+  const Lesson lesson = *coach_.lesson();
+  if (coach_.view().phase == LessonPhase::over) coach_.offer(lesson);
+  change_to(with_lesson(choice_, lesson), &lesson);
+  const CoachView& view = coach_.view();
+  fs::path recording;
+  if (view.remembers && !view.learner.empty()) recording = record_lesson(lesson);
+  (void)trainer_->take_cycles();
+  coach_.begin(*trainer_->config().car, trainer_->gate(),
+               settings_text(choice_, trainer_->config().preset.haptics.tuning), recording);
+  trainer_->set_controls(led());
+}
+
+// A lesson can be driven without.
+fs::path Session::record_lesson(const Lesson& lesson) {
+  try {
+    start_recording(drive_name(lesson.key));
+    records_lesson_ = true;
+    return fs::absolute(last_recording_);
+  } catch (const std::exception& refused) {
+    message_ = refused.what();
+    return {};
+  }
+}
+
+void Session::follow_lesson(std::span<const DriveSample> cycles) {
+  const bool driving = coach_.view().phase == LessonPhase::driving;
+  coach_.add(cycles);
+  if (driving && coach_.view().phase == LessonPhase::over && recording() && records_lesson_) end_recording();
+  if (const std::optional<std::string> problem = coach_.take_problem()) message_ = *problem;
+}
+
+// The person's, on the lesson's road, with the teacher's hand.
+DriverControls Session::led() const {
+  DriverControls controls = controls_;
+  controls.slope = slope_;
+  controls.guidance = coach_.guidance();
+  controls.guided_gear = coach_.guided_gear();
+  return controls;
 }
 
 void Session::advance(double seconds) {
   time_ += seconds;
-  trainer_->set_controls(driven());
+  armed_now_ = false;
+  trainer_->set_controls(led());
   if (choice_.clock == TrainerClock::virtual_time) trainer_->advance(seconds);
   if (const std::optional<std::string> problem = trainer_->take_recording_problem()) {
     (void)trainer_->stop_recording();
@@ -195,39 +328,40 @@ void Session::advance(double seconds) {
   }
   events_ = trainer_->take_events();
   for (HapticEvent& event : events_) event.time_ns -= start_ns_;
-  history_ = trainer_->take_history(kMostHistory);
+  const std::vector<DriveSample> cycles = trainer_->take_cycles();
+  follow_lesson(cycles);
+  history_ = thinned(levers_of(cycles), kMostHistory);
   shown_ = trainer_->snapshot();  // last: no older than the history
-  const DriverControls controls = player_ ? replay(seconds) : driven();
-  car_.step(controls, shown_.gear, seconds);
+  newest_ns_ = shown_.time_ns;
+  car_ = trainer_->config().car ? trainer_->car() : standing_car(controls_, shown_.gear);
+  if (player_) show_replay(seconds);
 }
 
 // What is shown is of the trace then, but for the guard: its state is that of the lever that runs.
-DriverControls Session::replay(double seconds) {
-  try {
-    if (player_->advance(seconds)) {
-      const GuardState guard = shown_.guard;
-      const GuardFault fault = shown_.fault;
-      shown_ = player_->snapshot();
-      shown_.guard = guard;
-      shown_.fault = fault;
-      history_ = thinned(player_->passed(), kMostHistory);
-      return player_->controls();
-    }
-    message_ = "replay done";
-  } catch (const FileError& damaged) {
-    message_ = damaged.what();
-  }
-  player_.reset();
-  ++run_;
-  return driven();
+void Session::show_replay(double seconds) {
+  if (player_->jumped()) ++run_;
+  (void)player_->advance(seconds);
+  const GuardState guard = shown_.guard;
+  const GuardFault fault = shown_.fault;
+  shown_ = player_->now().lever;
+  shown_.guard = guard;
+  shown_.fault = fault;
+  car_ = player_->now().car;
+  history_ = thinned(levers_of(player_->passed()), kMostHistory);
 }
 
 void Session::place() {
-  stage_->place({shown_, car_.state(), time_});
+  StageInput input{shown_, car_, time_};
+  if (player_ && player_->shift()) {
+    const RecordedShift& shift = player_->drive().shifts()[*player_->shift()];
+    input.driven_way = shift.driven;
+    input.ideal_way = shift.ideal;
+  }
+  stage_->place(input);
   const glm::vec3 knob = stage_->knob();
   if (!player_)
     for (const HapticEvent& event : events_) cabin_sound_.hear(event, knob);
-  cabin_sound_.update(shown_, car_.state(), ears_, knob, time_);
+  cabin_sound_.update(shown_, car_, ears_, knob, time_);
 }
 
 bool Session::take_new_trainer() {
@@ -238,12 +372,26 @@ bool Session::take_new_model() {
   return std::exchange(new_model_, false);
 }
 
-void Session::start_recording() {
+std::optional<CarSwitches> Session::take_switches() {
+  return std::exchange(switches_, std::nullopt);
+}
+
+void Session::toggle_recording() {
+  if (coach_.view().phase == LessonPhase::driving && !recording())
+    throw std::runtime_error("a lesson is recorded from its begin or not at all");
+  if (recording())
+    end_recording();
+  else
+    start_recording(drive_name("drive"));
+}
+
+void Session::start_recording(const std::string& name) {
   const fs::path folder = user_data_folder() / "recordings";
   make_folder(folder);
-  const fs::path file = free_trace(folder, drive_name());
+  const fs::path file = free_trace(folder, name);
   trainer_->start_recording(file);
   last_recording_ = file;
+  records_lesson_ = false;
   message_ = fmt::format("recording to {}", file.string());
 }
 
@@ -253,20 +401,49 @@ bool Session::end_recording() {
   return !problem;
 }
 
-void Session::start_replay() {
+void Session::look_at_last() {
   if (recording() && !end_recording()) return;
   if (last_recording_.empty()) throw std::runtime_error("nothing has been recorded yet");
-  player_.emplace(last_recording_);
-  const TraceHeader& header = player_->header();
+  look_at(last_recording_);
+}
+
+void Session::obey_viewer(const ReplayRequests& requests) {
+  if (requests.open) {
+    look_at(requests.open->recording);
+    player_->look_near(requests.open->begin);
+  }
+  if (!player_) return;
+  if (requests.shift) player_->look_at(requests.shift);
+  if (requests.whole) player_->look_at(std::nullopt);
+  if (requests.seek) player_->seek(*requests.seek);
+  if (requests.pace) player_->set_pace(*requests.pace);
+  if (requests.play) player_->play(*requests.play);
+  if (requests.close) end_replay();
+}
+
+// In the cabin of its own gate.
+void Session::look_at(const fs::path& recording, std::optional<std::size_t> shift) {
+  if (coach_.view().phase == LessonPhase::driving)
+    throw std::runtime_error("a lesson is being driven: leave it before looking at a recording");
+  Player player(recording);
+  if (shift) player.look_at(shift);
+  const TraceHeader& header = player.drive().header();
   const bool same_lever = header.device.yoke_radius == trainer_->device().yoke_radius &&
                           header.device.workspace == trainer_->device().workspace;
-  if (header.gate_text != trainer_->config().layout.text || !same_lever) {
-    player_.reset();
-    throw std::runtime_error(fmt::format("{}: recorded in another gate or with another lever ({}): choose that first",
-                                         last_recording_.string(), header.gate_file));
-  }
+  if (!same_lever)
+    throw std::runtime_error(
+        fmt::format("{}: recorded with another lever: choose its preset first", recording.string()));
+  if (header.gate_text != stage_gate_) show(player.drive().gate(), header.gate_text, stage_yoke_, cabin_);
+  player_ = std::move(player);
+  message_ = fmt::format("replaying {}", recording.string());
+}
+
+void Session::end_replay() {
+  player_.reset();
   ++run_;
-  message_ = fmt::format("replaying {}", last_recording_.string());
+  message_.clear();
+  const TrainerConfig& config = trainer_->config();
+  if (stage_gate_ != config.layout.text) show(trainer_->gate(), config.layout.text, stage_yoke_, cabin_);
 }
 
 void Session::save_preset(const std::string& name) {
@@ -280,7 +457,7 @@ void Session::save_preset(const std::string& name) {
 }
 
 const PanelInput& Session::panel_input() {
-  panel_.gate = &trainer_->gate();
+  panel_.gate = &shown_gate();
   panel_.device = &trainer_->device();
   panel_.haptics = trainer_->config().preset.haptics;
   panel_.admitted = trainer_->admitted();
@@ -289,8 +466,11 @@ const PanelInput& Session::panel_input() {
   panel_.history = history_;
   panel_.events = player_ ? std::vector<HapticEvent>{} : events_;
   panel_.health = trainer_->health();
-  panel_.car = car_.state();
+  panel_.car = car_;
+  panel_.coach = coach_.view();
+  panel_.replay = player_ ? &*player_ : nullptr;
   panel_.gate_name = choice_.gate;
+  panel_.car_name = choice_.car;
   panel_.preset_name = choice_.preset;
   panel_.hand_name = choice_.hand.empty() ? "preset's" : choice_.hand;
   panel_.recording = trainer_->recording();

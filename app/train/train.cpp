@@ -8,6 +8,7 @@
 
 #include "app/output_folder.h"
 #include "app/train/gear_lines.h"
+#include "app/train/lesson_lines.h"
 #include "app/train/look_around.h"
 #include "app/train/shared_input.h"
 #include "app/train/ui_scale.h"
@@ -41,6 +42,7 @@ class WindowTrainer {
         look_(setup.choice.camera),
         last_frame_(Clock::now()) {
     panel_.set_visible(setup.panel);
+    if (!setup.replay.empty()) session_.look_at(setup.replay, setup.shift);
   }
 
   bool done() const { return quit_ || window_.wants_close(); }
@@ -60,6 +62,7 @@ class WindowTrainer {
     lead();
     session_.advance(seconds_);
     print_events(session_.events());
+    lines_.print(session_.coach().view(), session_.lever_time());
     draw_panel();
     session_.set_ears(look_.pose());
     session_.place();
@@ -92,7 +95,10 @@ class WindowTrainer {
       Trainer& trainer = session_.trainer();
       input_.set_reach(hand_reach(trainer.gate(), trainer.device()));
       input_.recentre(trainer.snapshot().lever);
+      if (const std::optional<CarSpec>& car = session_.car_spec())
+        input_.set_clutch(car->clutch.closed, car->clutch.bite);
     }
+    if (const std::optional<CarSwitches> car = session_.take_switches()) input_.set_car(car->ignition, car->hand_brake);
     session_.lead(input_.hand(), input_.controls());
   }
 
@@ -109,6 +115,7 @@ class WindowTrainer {
         break;
       case Action::arm:
         requests.arm = true;
+        go_on(requests.lesson);
         break;
       case Action::record:
         requests.record = true;
@@ -146,6 +153,13 @@ class WindowTrainer {
     session_.obey(requests);
   }
 
+  // The lesson that is offered begins; after one comes the next.
+  void go_on(LessonRequests& lesson) const {
+    const CoachView& coach = session_.coach().view();
+    if (coach.phase == LessonPhase::offered) lesson.begin = true;
+    if (coach.phase == LessonPhase::over && !coach.next.empty()) lesson.offer = coach.next;
+  }
+
   void draw_panel() {
     const glm::ivec2 size = eye_size();
     ui_.begin({static_cast<float>(size.x), static_cast<float>(size.y), static_cast<float>(std::max(seconds_, 1e-4)),
@@ -181,12 +195,18 @@ class WindowTrainer {
   SharedInput shared_;
   DriverInput& input_;
   LookAround look_;
+  LessonLines lines_;
   Clock::time_point last_frame_;
   double seconds_ = 1.0 / 60.0;  // [s] that this frame stands for
   bool help_ = false;
   bool quit_ = false;
   bool fresh_view_ = true;
 };
+
+// A hand that drives a lesson by itself has nothing to do after it.
+bool is_done(const Session& session) {
+  return session.coach().view().phase == LessonPhase::over;
+}
 
 }  // namespace
 
@@ -202,14 +222,17 @@ int train_offscreen(const TrainSetup& setup, const OffscreenSetup& offscreen) {
   UiContext ui;
   Panel panel;
   panel.set_visible(setup.panel);
+  if (!setup.replay.empty()) session.look_at(setup.replay, setup.shift);
   CabinView view(setup.view, nullptr, &ui);
   make_folder(offscreen.folder);
   const double seconds = 1.0 / kOffscreenRate;
   const glm::ivec2 eye = eye_size(setup.view, {setup.view.width, setup.view.height});
   view.set_model(session.stage().model());
-  while (session.time() < offscreen.seconds) {
+  LessonLines lines;
+  while (session.time() < offscreen.seconds && !is_done(session)) {
     session.advance(seconds);
     print_events(session.events());
+    lines.print(session.coach().view(), session.lever_time());
     ui.begin({static_cast<float>(eye.x), static_cast<float>(eye.y), static_cast<float>(seconds),
               UiScale().follow(eye.y, 1.0f)});
     session.obey(panel.draw(session.panel_input()));

@@ -15,6 +15,8 @@ struct TrainSetup {
   ViewConfig view;
   Bindings bindings;
   bool panel = true;
+  std::filesystem::path replay;      // a recorded drive to be looked at; empty: none
+  std::optional<std::size_t> shift;  // of it, from 0; none: all of it
 };
 
 // Until the window is closed. Prints a line for each gear. Returns the exit code: 1 where the last recording failed.

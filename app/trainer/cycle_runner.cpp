@@ -34,15 +34,19 @@ std::int64_t CycleRunner::lateness(const CycleCall& call, const CycleStatistics&
 }
 
 void CycleRunner::publish(std::int64_t late_ns) noexcept {
-  CycleRecord record{run_->loop.snapshot(), {}, late_ns};
-  --record.snapshot.cycle;  // the loop counts the next one already
-  if (run_->car) {
-    record.car = run_->car->state();
-    car.write(record.car);
+  DriveSample& now = record_.sample;
+  now.lever = run_->loop.snapshot();
+  --now.lever.cycle;  // the loop counts the next one already
+  now.controls = run_->loop.controls();
+  if (const CarWorld* behind = run_->car()) {
+    now.car = behind->state();
+    car.write(now.car);
   }
-  (void)records.push(record);
+  record_.late_ns = late_ns;
+  (void)records.push(record_);
+  if (for_driver) (void)for_driver->push(now);
   const StageStamps& stamps = run_->loop.stamps();
-  if (stamps.cycle == record.snapshot.cycle) add_stamps(stamps);
+  if (stamps.cycle == now.lever.cycle) add_stamps(stamps);
 }
 
 void CycleRunner::add_stamps(const StageStamps& stamps) noexcept {

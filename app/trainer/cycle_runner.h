@@ -5,8 +5,10 @@
 #include <atomic>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 
 #include "app/trainer/loop_run.h"
+#include "app/training/drive_sample.h"
 #include "app/vehicle/vehicle_state.h"
 #include "haptics/rt/latest_value.h"
 #include "haptics/rt/realtime_thread.h"
@@ -15,8 +17,7 @@
 namespace gearshift {
 
 struct CycleRecord {
-  HapticSnapshot snapshot;
-  VehicleState car;          // as at the start where there is none
+  DriveSample sample;        // its car as at the start where there is none
   std::int64_t late_ns = 0;  // [ns] woken behind the deadline
 };
 
@@ -29,19 +30,24 @@ struct LoopFigures {
 
 class CycleRunner {
  public:
-  static constexpr std::size_t kMostRecords = 8192;  // 8 s at 1 kHz, 2 s at 4 kHz
+  static constexpr std::size_t kMostRecords = 8192;    // 8 s at 1 kHz, 2 s at 4 kHz
+  static constexpr std::size_t kMostForDriver = 4096;  // who is further behind drives no more
 
   explicit CycleRunner(std::int64_t period_ns) noexcept : period_ns_(period_ns) {}  // [ns] of the thread
 
   // One cycle: real-time safe. statistics: of the thread that calls; null on a virtual clock, which is never late.
   void cycle(const CycleCall& call, const CycleStatistics* statistics) noexcept;
 
+  // On the thread of the cycles: the last one.
+  const DriveSample& newest() const noexcept { return record_.sample; }
+
   // Frame side. The next cycle is that of `next`, and has_run() from its end on; the one before may go then.
   void hand_over(LoopRun& next) noexcept { next_.store(&next, std::memory_order_release); }
   bool has_run(const LoopRun& run) const noexcept { return ran_.load(std::memory_order_acquire) == &run; }
   std::int64_t now_ns() const noexcept { return now_ns_.load(std::memory_order_relaxed); }  // newest deadline
 
-  SpscQueue<CycleRecord> records{kMostRecords};  // full: the newest are left out
+  SpscQueue<CycleRecord> records{kMostRecords};        // full: the newest are left out
+  std::unique_ptr<SpscQueue<DriveSample>> for_driver;  // set before the first cycle; null: nobody. Full: the same
   LatestValue<LoopFigures> figures;
   LatestValue<VehicleState> car;
 
@@ -57,6 +63,7 @@ class CycleRunner {
   std::atomic<LoopRun*> ran_{nullptr};
   std::atomic<std::int64_t> now_ns_{0};
   LoopRun* run_ = nullptr;
+  CycleRecord record_;
   std::uint64_t overruns_ = 0, skipped_ = 0;
   std::array<std::array<std::int64_t, 8>, kStamps> stage_ns_{};  // the last ones, in a ring
   std::size_t stamps_ = 0;                                       // so far

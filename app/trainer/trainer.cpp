@@ -8,9 +8,10 @@
 #include <utility>
 
 #include "app/trainer/cycle_runner.h"
-#include "app/trainer/history.h"
+#include "app/trainer/driver_seat.h"
+#include "app/trainer/driver_thread.h"
+#include "app/trainer/given_hand.h"
 #include "app/trainer/loop_run.h"
-#include "app/trainer/touring_hand.h"
 #include "haptics/device/led_hand.h"
 #include "haptics/device/simulated_lever.h"
 #include "haptics/gate/gate_compiler.h"
@@ -22,7 +23,6 @@ namespace gearshift {
 namespace {
 
 constexpr std::uint64_t kServeEvery = 1000;  // [cycles] of the virtual clock; the queues hold eight times that
-constexpr std::size_t kMostHistory = 16384;  // [snapshots] kept for a frame that does not ask for them
 constexpr std::chrono::microseconds kLookEvery{
     100};  // for the next cycle of a thread that has a period of 250 us or more
 
@@ -40,6 +40,7 @@ struct Trainer::State {
   ~State();
 
   std::unique_ptr<HandDriver> make_hand();
+  DriverAction at_rest() const;
   std::unique_ptr<CarWorld> make_car(const CarStart& from) const;
   std::unique_ptr<LoopRun> make_run();
   glm::dvec2 start_position() const { return rest_position(gate, config.start.gear); }
@@ -56,28 +57,30 @@ struct Trainer::State {
   void send(LoopCommand command);
 
   bool is_virtual() const { return config.clock == TrainerClock::virtual_time; }
+  std::int64_t now_ns() const { return is_virtual() ? virtual_ns : runner.now_ns(); }
 
   TrainerConfig config;
+  SelfDriver driver;  // that acts on the virtual clock
   std::int64_t period_ns;
   Gate gate;
-  LatestValue<HandTarget> person;
+  DriverSeat seat;
   std::unique_ptr<HandDriver> hand;
   SimulatedLever lever;
   std::unique_ptr<LoopRun> run;
   AdmittedTuning admitted;
   CycleRunner runner;
+  std::optional<DriverThread> driver_thread;  // of the real clock
   std::unique_ptr<TraceRecorder> recorder;
   RealtimeThread thread;
 
   // The frame's own.
   HapticSnapshot newest;
-  std::vector<HapticSnapshot> history;
+  std::vector<DriveSample> cycles;  // not taken yet
   std::vector<HapticEvent> events;
   DurationHistogram lateness;
-  DriverControls controls;
   std::uint64_t events_lost = 0;      // in the loops before this one
   bool wants_forces = false;          // the last of arm, disarm and stop
-  std::int64_t start_ns = 0;          // [ns] on the loop's clock
+  std::int64_t start_ns = 0;          // [ns] on the loop's clock, a period before the first cycle
   std::int64_t virtual_ns = 0;        // [ns] of the last cycle
   double owed = 0.0;                  // [s] asked for by advance() and less than a period
   std::uint64_t unserved_cycles = 0;  // of the virtual clock
@@ -85,10 +88,11 @@ struct Trainer::State {
 
 Trainer::State::State(const TrainerConfig& wanted)
     : config(checked(wanted)),
+      driver(config.driver),
       period_ns(gearshift::period_ns(config.preset.haptics)),
       gate(compile_gate(config.layout, workspace_half_extent(config.preset.lever.yoke),
                         config.preset.lever.yoke.radius)),
-      person(HandTarget{start_position(), {}, {}, false, false}),
+      seat(static_cast<bool>(config.driver), at_rest()),
       hand(make_hand()),
       lever(config.preset.lever, period_ns, *hand),
       run(std::make_unique<LoopRun>(config.preset.haptics, gate, lever, make_car(config.start))),
@@ -98,9 +102,8 @@ Trainer::State::State(const TrainerConfig& wanted)
   lever.place(start);
   newest.lever = newest.proxy = start;
   newest.wall_stiffness = admitted.tuning.wall_stiffness;
-  if (run->car) runner.car.write(run->car->state());
-  controls.ignition = config.car && config.start.running;
-  run->channels.controls.write(controls);
+  if (run->car() != nullptr) runner.car.write(run->car()->state());
+  seat.connect(run->channels);
   begin();
 }
 
@@ -110,9 +113,17 @@ Trainer::State::~State() {
 }
 
 std::unique_ptr<HandDriver> Trainer::State::make_hand() {
-  const double period = period_s(config.preset.haptics);
-  if (config.hand == HandKind::touring) return std::make_unique<TouringHand>(gate, config.seed, period);
-  return std::make_unique<LedHand>(person, period);
+  if (driver) return std::make_unique<GivenHand>(seat.hand());
+  return std::make_unique<LedHand>(seat.hand(), period_s(config.preset.haptics));
+}
+
+// Until somebody leads and drives.
+DriverAction Trainer::State::at_rest() const {
+  DriverAction action;
+  action.hand.position = start_position();
+  action.controls.ignition = config.car && config.start.running;
+  action.controls.hand_brake = config.hand_brake;
+  return action;
 }
 
 std::unique_ptr<CarWorld> Trainer::State::make_car(const CarStart& from) const {
@@ -128,7 +139,14 @@ std::unique_ptr<LoopRun> Trainer::State::make_run() {
 
 void Trainer::State::begin() {
   runner.hand_over(*run);
-  if (is_virtual()) return;
+  if (is_virtual()) {
+    start_ns = virtual_ns = -period_ns;
+    return;
+  }
+  if (driver) {
+    runner.for_driver = std::make_unique<SpscQueue<DriveSample>>(CycleRunner::kMostForDriver);
+    driver_thread.emplace(driver, *runner.for_driver, seat);
+  }
   RealtimeConfig realtime;
   realtime.period_ns = period_ns;
   thread.start(realtime, [this](const CycleCall& call) { runner.cycle(call, &thread.statistics()); });
@@ -157,7 +175,7 @@ bool Trainer::State::waits_for_person() const {
 // Returns when the next loop has run its first cycle: what is sent from then on goes to it, and its recording is whole.
 // A fault of the old loop after the next one was made ends that one's forces, too: they have hardly begun to ramp up.
 void Trainer::State::hand_over(std::unique_ptr<LoopRun> next) {
-  next->channels.controls.write(controls);
+  seat.connect(next->channels);
   runner.hand_over(*next);
   if (is_virtual()) {
     cycle_once();
@@ -176,6 +194,7 @@ void Trainer::State::hand_over(std::unique_ptr<LoopRun> next) {
 void Trainer::State::cycle_once() {
   virtual_ns += period_ns;
   runner.cycle({virtual_ns, 0}, nullptr);
+  if (driver) seat.act(driver(runner.newest()));
   if (++unserved_cycles >= kServeEvery) serve();
 }
 
@@ -193,10 +212,9 @@ void Trainer::State::take_snapshot() {
 
 void Trainer::State::take_records() {
   for (CycleRecord record; runner.records.pop(record);) {
-    history.push_back(record.snapshot);
+    if (cycles.size() < CycleRunner::kMostRecords) cycles.push_back(record.sample);
     lateness.add(record.late_ns);
   }
-  if (history.size() > kMostHistory) history = thinned(history, kMostHistory / 2);
 }
 
 void Trainer::State::take_events() {
@@ -249,20 +267,17 @@ std::vector<HapticEvent> Trainer::take_events() {
   return std::exchange(state_->events, {});
 }
 
-std::vector<HapticSnapshot> Trainer::take_history(std::size_t most) {
+std::vector<DriveSample> Trainer::take_cycles() {
   state_->take_records();
-  std::vector<HapticSnapshot> taken = thinned(state_->history, most);
-  state_->history.clear();
-  return taken;
+  return std::exchange(state_->cycles, {});
 }
 
 void Trainer::set_hand(const HandTarget& target) {
-  state_->person.write(target);
+  state_->seat.set_hand(target);
 }
 
 void Trainer::set_controls(const DriverControls& controls) {
-  state_->controls = controls;
-  state_->run->channels.controls.write(controls);
+  state_->seat.set_controls(controls);
 }
 
 AdmittedTuning Trainer::change_tuning(const HapticTuning& wanted) {
@@ -348,7 +363,7 @@ void Trainer::advance(double seconds) {
 }
 
 double Trainer::time() const noexcept {
-  return 1e-9 * static_cast<double>(std::max<std::int64_t>(0, state_->runner.now_ns() - state_->start_ns));
+  return 1e-9 * static_cast<double>(std::max<std::int64_t>(0, state_->now_ns() - state_->start_ns));
 }
 
 }  // namespace gearshift

@@ -1,17 +1,19 @@
 // The running lever: device, hand, loop, thread, recorder. What window, demo and tests share.
 //
-// Two clocks: a real-time thread for people, a virtual clock moved by advance() for films and tests. Another gate, preset
-// or hand is another Trainer. The frame may stop calling for seconds: the lever goes on.
+// Two clocks: a real-time thread for people, a virtual clock moved by advance() for films and tests. Another gate,
+// preset or driver is another Trainer. The frame may stop calling for seconds: the lever goes on.
 #pragma once
 
 #include <array>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <string>
 #include <vector>
 
+#include "app/training/drive_sample.h"
 #include "app/vehicle/car_world.h"
 #include "haptics/device/hand.h"
 #include "haptics/gate/gate.h"
@@ -24,19 +26,21 @@ namespace gearshift {
 
 enum class TrainerClock { real_time, virtual_time };
 
-enum class HandKind {
-  led,     // by set_hand(): mouse, keys, pad
-  touring  // by itself through every gear of the gate, over and over
-};
+// In place of a person: the cycle that was, to what is done next; the hand is led as it says, velocity included. On the
+// virtual clock it is called once a cycle, within advance() and start_recording(); on the real clock, in order, by a
+// thread of its own that may be some milliseconds behind: it may allocate, and must not throw. Where it is seconds
+// behind, cycles are left out.
+using SelfDriver = std::function<DriverAction(const DriveSample&)>;
 
 struct TrainerConfig {
   GateLayout layout;
   std::optional<CarSpec> car;  // behind the lever; none: nothing
   CarStart start;              // of the car, and the gear that the lever stands in
+  double hand_brake = 0.0;     // [1] 0 to 1, until set_controls() or the driver says otherwise
   Preset preset;               // a hand that cannot lead is replaced by leading_hand()
-  HandKind hand = HandKind::led;
+  SelfDriver driver;           // none: set_hand() and set_controls() lead
   TrainerClock clock = TrainerClock::real_time;
-  std::uint64_t seed = 1;             // of the touring hand's aims and the car's chance
+  std::uint64_t seed = 1;             // of the car's chance
   std::string program = "gearshift";  // that records: its name and version, for the trace
 };
 
@@ -57,8 +61,8 @@ struct LoopHealth {
 class Trainer {
  public:
   // Starts the loop with the lever in the gear of the start, disarmed; a running engine's ignition is on until
-  // set_controls() says otherwise. Throws FileError (the layout is impossible on this device), std::invalid_argument (the
-  // car does not fit the gate, too) or std::runtime_error with one sentence.
+  // set_controls() says otherwise. Throws FileError (the layout is impossible on this device), std::invalid_argument
+  // (the car does not fit the gate, too) or std::runtime_error with one sentence.
   explicit Trainer(const TrainerConfig& config);
   ~Trainer();  // releases the motors, closes the recording
   Trainer(const Trainer&) = delete;
@@ -73,16 +77,17 @@ class Trainer {
   HapticSnapshot snapshot();               // newest
   VehicleState car();                      // newest; a default one where there is no car
   std::vector<HapticEvent> take_events();  // since the last call, in order
-  // Snapshots of the cycles since the last call, in order, for plots. More than `most` are thinned evenly, the strongest
-  // and the weakest push of each part kept. Of a pause of more than 8192 cycles the first 8192.
-  std::vector<HapticSnapshot> take_history(std::size_t most);
-  void set_hand(const HandTarget& target);  // led hand only: position and push are used
+  // The cycles since the last call, in order, every one. Of a pause of more than 8192 cycles the first 8192: the gap
+  // shows in HapticSnapshot::cycle.
+  std::vector<DriveSample> take_cycles();
+  void set_hand(const HandTarget& target);  // position and push are used; not where there is a driver
+  // Where there is a driver: slope, guidance and guided gear alone, his own are not used. Guidance takes a car.
   void set_controls(const DriverControls& controls);
   AdmittedTuning change_tuning(const HapticTuning& wanted);  // see HapticLoop::change_tuning
   // Forces are allowed and ramp up from zero; they are no more; motors off at once, the large red button. Taken in the
-  // next cycle; what the guard makes of it stands in the snapshot: idle, armed, ramping, running, or, by a fault, damped
-  // or released. From damped a simulated lever comes back by itself after 50 ms of health, unless it chattered whatever
-  // its wall did (GuardFault::chatter): then, and from idle and released, by arm() alone.
+  // next cycle; what the guard makes of it stands in the snapshot: idle, armed, ramping, running, or, by a fault,
+  // damped or released. From damped a simulated lever comes back by itself after 50 ms of health, unless it chattered
+  // whatever its wall did (GuardFault::chatter): then, and from idle and released, by arm() alone.
   void arm();
   void disarm();
   void stop();
@@ -90,9 +95,10 @@ class Trainer {
 
   // A trace can be run again only from a loop's first cycle on. So a recording starts a new loop at the lever as it
   // stands, between two cycles: armed if the old one was to its end, and then its forces ramp up from zero, as after
-  // arm(). The lever, the hand and the clock go on; cycles count from 0 again and the gear that is in is engaged anew (a
-  // second event, no gear_left before it). The car goes on from where it is when this is called. Throws FileError where the file cannot be made, std::logic_error while
-  // recording: nothing has changed then.
+  // arm(). The lever, the hand and the clock go on; cycles count from 0 again and the gear that is in is engaged anew
+  // (a second event, no gear_left before it). The car goes on from where it is when this is called; guidance grows anew
+  // from none. Throws FileError where the file cannot be made, std::logic_error while recording: nothing has changed
+  // then.
   void start_recording(const std::filesystem::path& file);
   std::optional<std::string> take_recording_problem();  // that ended the running recording, once, when it happens
   std::optional<std::string> stop_recording();          // a problem, if there was one

@@ -13,6 +13,8 @@ namespace {
 
 constexpr double kRpm = 60.0 / 6.283185307179586;  // per rad/s
 
+constexpr double kShortStep = 3.0;  // [s] told to a hundredth
+
 struct FaultWords {
   std::string_view key;
   std::string_view says;  // {}: the value, scaled
@@ -37,15 +39,16 @@ constexpr std::array<FaultWords, kFaultKinds> kWords{{
     {"blocked", "The lever was pushed against the synchroniser for {} s.", 1.0, 2},
     {"missed_shift", "Gear {} was not reached.", 1.0, 0},
     {"wrong_gear", "That was gear {}, another one was meant.", 1.0, 0},
-    {"wrong_column", "The lever entered {} wrong slots.", 1.0, 0},
+    {"wrong_column", "The lever entered wrong slots: {}.", 1.0, 0},
     {"over_push", "The lever was pushed with {} N.", 1.0, 0},
-    {"step_order", "{} steps of the shift were out of order.", 1.0, 0},
+    {"step_order", "Steps of the shift out of order: {}.", 1.0, 0},
     {"rollback", "The car rolled back {} m.", 1.0, 2},
-    {"jerk", "The car jerked, {} m/s3.", 1.0, 1},
+    {"jerk", "The car jerked, {} m/s³.", 1.0, 0},
     {"early_shift", "Shifted at {} rpm: too early.", kRpm, 0},
     {"late_shift", "Shifted at {} rpm: too late.", kRpm, 0},
     {"too_slow", "The shift took {} s.", 1.0, 1},
     {"wrong_direction", "That gear was chosen at {} km/h the other way.", kKmhPerMps, 0},
+    {"slow_step", "A step took {} s: too long.", 1.0, 1},
 }};
 
 constexpr std::array<std::string_view, 4> kSeverities{"note", "minor", "severe", "very_severe"};
@@ -73,6 +76,9 @@ std::string_view severity_key(Severity severity) noexcept {
 
 std::string fault_sentence(const DriveFault& fault) {
   const FaultWords& words = words_of(fault.kind);
+  if (!fault.step.empty())
+    return fmt::format("\"{0}\" took {1:.{3}f} s; {2:.{3}f} s is wanted.", fault.step, fault.value, fault.wanted,
+                       fault.wanted < kShortStep ? 2 : 1);
   if (fault.kind == FaultKind::missed_shift || fault.kind == FaultKind::wrong_gear)
     return fmt::format(fmt::runtime(words.says), gear_name(static_cast<int>(fault.value)));
   return fmt::format(fmt::runtime(words.says), fmt::format("{:.{}f}", words.scale * fault.value, words.digits));

@@ -33,8 +33,9 @@ enum class FaultKind : std::uint8_t {
   late_shift,         // above it; value: engine speed [rad/s]
   too_slow,           // the shift took too long; value: [s]
   wrong_direction,    // reverse at forward speed, or the like; value: road speed [m/s]
+  slow_step,          // a step of the lesson took longer than it may; value: [s]
 };
-inline constexpr int kFaultKinds = 24;
+inline constexpr int kFaultKinds = 25;
 
 enum class Severity : std::uint8_t { note, minor, severe, very_severe };
 
@@ -44,6 +45,8 @@ struct DriveFault {
   double time = 0.0;        // [s] on the loop's clock
   double value = 0.0;       // in the kind's unit
   std::int64_t shift = -1;  // number of the shift record that it belongs to, or -1
+  std::string step{};       // slow_step: the step's prompt; else empty
+  double wanted = 0.0;      // slow_step: within which it should be done [s]; else 0
 };
 
 // As files and databases write it: "stall", "over_rev", ...

@@ -38,6 +38,7 @@ constexpr std::array<FaultRule, kFaultKinds> kRules{{
     {FaultKind::late_shift, -kNever, 0.0, kNever, Severity::minor},   // above it
     {FaultKind::too_slow, 2.5, 0.0, 6.0, Severity::minor},            // E
     {FaultKind::wrong_direction, 1.0, 0.0, 5.0, Severity::severe},    // E
+    {FaultKind::slow_step, 1.0, 0.0, 2.0, Severity::minor},           // shares of the step's time: E
 }};
 
 constexpr bool in_order() {

@@ -13,7 +13,8 @@ struct FaultRule {
   Severity severity = Severity::minor;
 };
 
-// raise, clear and grave are in the kind's unit, but: over_rev in shares of the car's red line.
+// raise, clear and grave are in the kind's unit, but: over_rev in shares of the car's red line, slow_step in shares of the
+// time that the step gives.
 const FaultRule& fault_rule(FaultKind kind) noexcept;
 
 // Of a fault with that value, in the unit of the rule.

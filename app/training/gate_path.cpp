@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
+#include <utility>
 #include <vector>
 
 #include <glm/geometric.hpp>
@@ -33,31 +34,55 @@ std::vector<dvec2> corners(const Gate& gate, dvec2 point, double x) {
   return {deep, shallow};
 }
 
+double length_of(const std::vector<dvec2>& path) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) length += glm::distance(path[i - 1], path[i]);
+  return length;
+}
+
+bool is_free(const Gate& gate, const std::vector<dvec2>& path) {
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    if (!is_free(gate, path[i - 1], path[i])) return false;
+  }
+  return true;
+}
+
+// From end to end over those bends whose bit is set.
+std::vector<dvec2> path_over(dvec2 from, const std::vector<dvec2>& bends, std::size_t chosen, dvec2 to) {
+  std::vector<dvec2> path{from};
+  const auto go = [&](dvec2 next) {
+    if (next != path.back()) path.push_back(next);
+  };
+  for (std::size_t i = 0; i < bends.size(); ++i) {
+    if ((chosen >> i & 1u) != 0) go(bends[i]);
+  }
+  go(to);
+  return path;
+}
+
 }  // namespace
 
-double shortest_way(const Gate& gate, dvec2 from, dvec2 to) {
-  if (is_free(gate, from, to)) return glm::distance(from, to);
+std::vector<dvec2> shortest_path(const Gate& gate, dvec2 from, dvec2 to) {
+  std::vector<dvec2> straight = path_over(from, {}, 0, to);
+  if (is_free(gate, straight)) return straight;
   std::vector<dvec2> bends = corners(gate, from, to.x);
   const std::vector<dvec2> last = corners(gate, to, from.x);
   bends.insert(bends.end(), last.rbegin(), last.rend());
 
+  std::vector<dvec2> best = std::move(straight);
   double shortest = std::numeric_limits<double>::max();
-  for (std::size_t chosen = 0; chosen < (std::size_t{1} << bends.size()); ++chosen) {
-    double length = 0.0;
-    dvec2 at = from;
-    bool free = true;
-    const auto go = [&](dvec2 next) {
-      free = free && is_free(gate, at, next);
-      length += glm::distance(at, next);
-      at = next;
-    };
-    for (std::size_t i = 0; i < bends.size(); ++i) {
-      if ((chosen >> i & 1u) != 0) go(bends[i]);
-    }
-    go(to);
-    if (free && length < shortest) shortest = length;
+  for (std::size_t chosen = 1; chosen < (std::size_t{1} << bends.size()); ++chosen) {
+    std::vector<dvec2> path = path_over(from, bends, chosen, to);
+    const double length = length_of(path);
+    if (length >= shortest || !is_free(gate, path)) continue;
+    shortest = length;
+    best = std::move(path);
   }
-  return shortest;
+  return best;
+}
+
+double shortest_way(const Gate& gate, dvec2 from, dvec2 to) {
+  return length_of(shortest_path(gate, from, to));
 }
 
 }  // namespace gearshift

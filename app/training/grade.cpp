@@ -59,10 +59,16 @@ void grade_result(const Lesson& lesson, LessonResult& result) {
       const double points = points_of(result.faults[i].severity);
       if (points > 0.0) result.deductions.push_back({i, points});
     }
-    result.grade = std::max(0.0, kBestGrade - points_of_all(result.faults));
+    const bool fell_short = result.end == LessonEnd::aborted || result.end == LessonEnd::out_of_time;
+    result.grade = fell_short ? 0.0 : std::max(0.0, kBestGrade - points_of_all(result.faults));
   }
   result.why = reason(lesson, result);
   result.passed = result.why.empty();
+}
+
+bool is_graded(const LessonResult& result) noexcept {
+  const bool judged = result.end != LessonEnd::running && result.end != LessonEnd::left;
+  return !result.guided && result.whole && judged;
 }
 
 double run_error(const LessonResult& result) noexcept {

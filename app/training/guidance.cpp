@@ -34,7 +34,7 @@ TrialPlan GuidancePolicy::retention() const noexcept {
 
 void GuidancePolicy::learn(double error) noexcept {
   if (!(error >= 0.0)) return;  // what is no number teaches nothing
-  error = std::min(error, 1.0);
+  error = std::min(error / config_.full_error, 1.0);
   const double forget = config_.forget + skill_ * (config_.forget_skilled - config_.forget);
   gain_ = std::clamp(forget * gain_ + config_.per_error * error, 0.0, 1.0);
   skill_ = config_.skill_memory * skill_ + (1.0 - config_.skill_memory) * (1.0 - error);

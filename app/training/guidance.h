@@ -20,20 +20,24 @@ struct GuidanceConfig {
   double start = 1.0;           // [1] gain of a beginner
   double forget = 0.9;          // [1] f of a beginner: share of the gain that is left after a trial
   double forget_skilled = 0.6;  // [1] and of a skilled learner, in whom guidance does more harm
-  double per_error = 0.2;       // [1] k: gain for an error of 1
+  double full_error = 0.4;      // [1] run_error from which a trial is as bad as can be: what a pass grade of 6 forgives
+  double per_error = 0.2;       // [1] k: gain for such a trial
   double least = 0.05;          // [1] less is none
   double skill_memory = 0.7;    // [1] share of the old estimate of skill that is kept after a trial
   double bandwidth_from = 0.4;  // [1] skill, from here on only faults are said
   double summary_from = 0.75;   // [1] and from here on at the end
 };
 
+// From so long a pause on a trial shows what was kept: a night lies between. [engineering value]
+inline constexpr std::int64_t kRetentionPause = 20 * 3600;  // [s]
+
 struct TrialPlan {
   double guidance = 0.0;  // [1] 0 to 1 for DriverControls and LessonRunConfig; 0: the trial is graded
   HintStyle hints = HintStyle::prescriptive;
 };
 
-// After each trial, guided or not, g <- clamp(f g + k error, 0, 1), f falling from forget to forget_skilled as skill
-// grows. In each four trials two are unguided, in an order drawn from the seed. Pure: the same seed and errors give the
+// After each trial, guided or not, g <- clamp(f g + k e, 0, 1), e = min(1, error / full_error), f falling from forget to
+// forget_skilled as skill grows. In each four trials two are unguided, in an order drawn from the seed. Pure: the same seed and errors give the
 // same plans.
 class GuidancePolicy {
  public:
@@ -44,7 +48,7 @@ class GuidancePolicy {
   void learn(double error) noexcept;     // [1] 0 to 1 of the trial that was driven: run_error
 
   double gain() const noexcept { return gain_; }    // [1]
-  double skill() const noexcept { return skill_; }  // [1] running mean of 1 - error
+  double skill() const noexcept { return skill_; }  // [1] running mean of 1 - e
 
  private:
   void shuffle() noexcept;

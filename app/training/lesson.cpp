@@ -22,6 +22,7 @@ constexpr Range kDistanceM{0.0, 5000.0};
 constexpr Range kRolledBackM{0.0, 50.0};
 constexpr Range kHeldS{0.0, 60.0};
 constexpr Range kPatienceS{1.0, 60.0};
+constexpr Range kWithinS{0.1, 120.0};
 constexpr Range kSlopePercent{-30.0, 30.0};
 constexpr Range kPassGrade{1.0, 10.0};
 constexpr Range kTimeLimitS{10.0, 1800.0};
@@ -105,7 +106,12 @@ LessonStep read_step(const TomlTable& table) {
   step.prompt = table.text("prompt");
   step.hint = text_or_none(table, "hint");
   step.patience = table.number_or("patience_s", step.patience, kPatienceS);
+  step.call = table.flag_or("call", false);
+  read_limit(table, "within_s", kWithinS, 1.0, step.within);
   step.until = read_condition(table.table("until"));
+  if (step.within && *step.within <= step.until.held) {
+    table.fail("within_s", "can never be kept: it must be longer than the step's held_s");
+  }
   step.gear = step.until.gear.value_or(kNeutralGear);
   if (table.has("guide_to")) step.gear = read_gear(table, "guide_to");
   if (step.until.gear && *step.until.gear != kNeutralGear && step.gear != *step.until.gear) {
@@ -166,6 +172,16 @@ void check_wrong_gear(const TomlTable& faults, const Lesson& lesson) {
   faults.fail(key, "no step asks for a gear, so that none could be wrong");
 }
 
+// A step can be slow only where one has a time; and such a time is there to be judged.
+void check_slow_step(const TomlTable& root, const Lesson& lesson) {
+  const auto timed = [](const LessonStep& step) { return step.within.has_value(); };
+  const bool has = std::any_of(lesson.steps.begin(), lesson.steps.end(), timed);
+  const std::string_view key = fault_key(FaultKind::slow_step);
+  const TomlTable faults = root.table("faults");
+  if (faults.has(key) && !has) faults.fail(key, "no step says within_s, so that none could be slow");
+  if (has && !faults.has(key)) faults.fail(key, "is missing: a step says within_s");
+}
+
 // No step may wait longer than the lesson lasts.
 void check_times(const TomlTable& root, const Lesson& lesson) {
   double held = 0.0;
@@ -196,6 +212,7 @@ Lesson parse_lesson(std::string_view text, const std::string& file_name) {
   read_steps(root, lesson);
   read_faults(root.table("faults"), lesson);
   check_wrong_gear(root.table("faults"), lesson);
+  check_slow_step(root, lesson);
   read_shift_band(root, lesson);
   root.refuse_unknown_keys();
   check_times(root, lesson);

@@ -31,8 +31,10 @@ struct LessonStep {
   std::string prompt;  // "Press the clutch all the way down."
   std::string hint;    // what is said when it takes too long; may be empty
   DriveCondition until;
-  int gear = kNeutralGear;  // where the guidance leads; kNeutralGear: nowhere
-  double patience = 8.0;    // [s] before the hint
+  int gear = kNeutralGear;         // where the guidance leads; kNeutralGear: nowhere
+  double patience = 8.0;           // [s] before the hint
+  std::optional<double> within{};  // [s] longer is slow_step
+  bool call = false;               // prompted in both modes: nobody can know by himself when to do it
 };
 
 struct LessonAbort {

@@ -28,7 +28,7 @@ struct LessonResult {
   bool whole = true;      // no sample was lost; else there is no grade
   double begin = 0.0;     // [s] on the loop's clock
   double duration = 0.0;  // [s]
-  double grade = 0.0;     // [1] 0 to 10; 10 less the deductions
+  double grade = 0.0;     // [1] 0 to 10; 10 less the deductions; 0 where it was not done
   bool passed = false;
   std::string why;  // it was not passed: one sentence
   std::vector<DriveFault> faults;

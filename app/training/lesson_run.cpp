@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "app/training/drive_condition.h"
+#include "app/training/fault_rules.h"
 #include "app/training/fault_watch.h"
 #include "app/training/grade.h"
 #include "app/training/shift_meter.h"
@@ -46,6 +47,7 @@ struct LessonRun::State {
   void attribute(DriveFault& fault) const;
   bool aborts(const DriveSample& sample);
   void follow_steps(const DriveSample& sample);
+  void judge_time(double time);
   void go_to(std::size_t step);
   void say_hint(double time);
   void end(LessonEnd how);
@@ -170,10 +172,22 @@ void LessonRun::State::follow_steps(const DriveSample& sample) {
     const bool next =
         has_next && next_held.update(lesson.steps[view.step + 1].until, sample, progress()) && next_held.began_false();
     if (!done && !next) return;
+    judge_time(sample.time());
     step_began = steps_done = sample.time();
     highest = sample.car.distance;
     go_to(view.step + (done ? 1 : 2));
   }
+}
+
+// Of the step that is done, or was passed over: then it took until the next one was; or of the one that the lesson ended in.
+void LessonRun::State::judge_time(double time) {
+  const LessonStep& step = lesson.steps[view.step];
+  const double took = time - step_began;
+  if (!step.within || took < fault_rule(FaultKind::slow_step).raise * *step.within) return;
+  DriveFault fault{FaultKind::slow_step, fault_severity(FaultKind::slow_step, took / *step.within), time, took};
+  fault.step = step.prompt;
+  fault.wanted = *step.within;
+  judge({fault});
 }
 
 void LessonRun::State::go_to(std::size_t step) {
@@ -182,7 +196,7 @@ void LessonRun::State::go_to(std::size_t step) {
   held.reset();
   next_held.reset();
   view.guided_gear = all_done() ? kNeutralGear : lesson.steps[step].gear;
-  const bool prompted = config.mode == LessonMode::follow_me && !all_done();
+  const bool prompted = !all_done() && (config.mode == LessonMode::follow_me || lesson.steps[step].call);
   view.prompt = prompted ? lesson.steps[step].prompt : lesson.goal;
 }
 
@@ -194,6 +208,7 @@ void LessonRun::State::say_hint(double time) {
 
 void LessonRun::State::end(LessonEnd how) {
   result.end = how;
+  if (!all_done()) judge_time(last.time());
   watch.finish();
   judge(watch.take());
   grade_result(lesson, result);

@@ -5,6 +5,8 @@
 
 #include <fmt/core.h>
 
+#include "app/training/grade.h"
+
 namespace gearshift {
 namespace {
 
@@ -30,6 +32,11 @@ const Lesson* weakest(std::span<const Lesson> lessons, std::span<const PastResul
 }
 
 }  // namespace
+
+std::optional<PastResult> past_result(const LessonResult& result) {
+  if (!is_graded(result)) return std::nullopt;
+  return PastResult{result.lesson, result.task, result.grade, result.passed};
+}
 
 std::optional<double> task_grade(std::span<const PastResult> past, std::string_view task) {
   double sum = 0.0;

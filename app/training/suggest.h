@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "app/training/lesson.h"
+#include "app/training/lesson_result.h"
 
 namespace gearshift {
 
@@ -18,6 +19,7 @@ struct PastResult {
   double grade = 0.0;  // [1] of 10
   bool passed = false;
 };
+std::optional<PastResult> past_result(const LessonResult& result);  // nothing where it was not graded
 
 struct Suggestion {
   std::string lesson;  // key

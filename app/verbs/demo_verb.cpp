@@ -1,4 +1,4 @@
-// gearshift demo: the tour in the cabin, offscreen: pictures, sound, trace, plots, a page.
+// gearshift demo: the tour and two lessons in the cabin, offscreen: pictures, sound, traces, plots, a page.
 #include <memory>
 #include <string>
 #include <string_view>
@@ -17,8 +17,6 @@
 namespace gearshift {
 namespace {
 
-constexpr double kDriveInGear = 2.0;  // [s] the car shall move, not only the lever
-
 struct DemoArguments {
   TourArguments tour;
   std::string size = "1280x720";
@@ -31,7 +29,6 @@ struct DemoArguments {
 int run(const DemoArguments& arguments) {
   DemoSetup setup;
   setup.tour = make_tour_setup(arguments.tour);
-  setup.tour.style.dwell_gear = kDriveInGear;
   const PictureSize size = picture_size(arguments.size, arguments.stereo);
   setup.view.width = size.width;
   setup.view.height = size.height;
@@ -43,13 +40,18 @@ int run(const DemoArguments& arguments) {
   const DemoResult result = run_demo(setup, [&](std::string_view what, double share) { bar.show(what, share); });
   bar.clear();
   print_tour(setup.tour, result.tour);
-  fmt::print("{} pictures of {} by {}, {:.0f} ms each\n", result.pictures.size(), arguments.size, result.device,
+  fmt::print("{} pictures of {} by {}, {:.0f} ms each\n", result.pictures(), arguments.size, result.device,
              result.picture_ms);
-  fmt::print("{0}/index.html shows pictures, sound, trace and plots; {0}/contact_sheet.png all pictures on one\n",
+  fmt::print("{0}/index.html shows pictures, sound, traces and plots; {0}/contact_sheet.png all pictures on one\n",
              setup.tour.folder.string());
-  if (result.tour.complete()) return 0;
-  fmt::print(stderr, "gearshift: the hand did not engage every gear in order\n");
-  return 1;
+  for (const DemoChapter& chapter : result.chapters) {
+    fmt::print("{}\n", chapter.title);
+    for (const std::string& sentence : chapter.text) fmt::print("  {}\n", sentence);
+  }
+  if (result.has_report) fmt::print("{}/report.html is the learner's report\n", setup.tour.folder.string());
+  if (!result.tour.complete()) fmt::print(stderr, "gearshift: the hand did not engage every gear in order\n");
+  if (!result.passed) fmt::print(stderr, "gearshift: the simulated learner did not pass every lesson\n");
+  return result.tour.complete() && result.passed ? 0 : 1;
 }
 
 }  // namespace
@@ -62,8 +64,8 @@ int run_demo(const TourArguments& tour) {
 
 void add_demo_verb(CLI::App& app, VerbAction& action) {
   auto arguments = std::make_shared<DemoArguments>();
-  CLI::App* verb =
-      app.add_subcommand("demo", "A simulated hand through every gear in the cabin, offscreen: pictures, sound, page");
+  CLI::App* verb = app.add_subcommand(
+      "demo", "Simulated drives in the cabin, offscreen: every gear, two lessons; pictures, sound, report, page");
   add_tour_options(*verb, arguments->tour);
   verb->add_option("--size", arguments->size, "of a picture [px]")->type_name("WxH")->capture_default_str();
   verb->add_option("--samples", arguments->samples, "a pixel: 1 or 4")

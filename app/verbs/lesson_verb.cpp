@@ -1,39 +1,62 @@
 // gearshift lesson: a simulated learner drives a lesson, no graphics, and the coach says what it was.
+#include <filesystem>
 #include <memory>
+#include <stdexcept>
 #include <string>
 #include <vector>
 
 #include <fmt/core.h>
 
 #include "app/assets_path.h"
-#include "app/learner/lesson_drive.h"
+#include "app/history/history.h"
+#include "app/trainer/user_folder.h"
+#include "app/verbs/lesson_mode.h"
+#include "app/verbs/lesson_trials.h"
 #include "app/verbs/number_between.h"
 #include "app/verbs/verbs.h"
 
 namespace gearshift {
 namespace {
 
+namespace fs = std::filesystem;
+
 constexpr const char* kLessonHelp =
-    "A simulated learner drives a lesson, as fast as it goes: what the coach says, the grade. Nothing is remembered.";
+    "A simulated learner drives a lesson, as fast as it goes: what the coach says, the grade. With --learner it is "
+    "remembered and recorded, as a person's.";
 constexpr const char* kLessonExamples =
-    "\nExit code: 0 passed, 1 not passed or a bad file, 2 bad usage.\n"
+    "\nExit code: 0 passed (of several runs: the last), 1 not passed or a bad file, 2 bad usage.\n"
+    "A history that cannot be used is told in one sentence, and the lesson is driven without it.\n"
     "\nExamples:\n"
     "  gearshift lesson hill_start                               by someone who can\n"
     "  gearshift lesson hill_start --skill-error 1 --seed 4      by someone who begins\n"
     "  gearshift lesson hill_start --fault rollback              by someone who can, but for that\n"
-    "  gearshift lesson skip_shifts --trace drive.trace          for gearshift replay\n";
+    "  gearshift lesson skip_shifts --trace drive.trace          for gearshift replay\n"
+    "  gearshift lesson reverse --learner Kim --runs 8 --guided  for gearshift report, and for the trainer\n";
 
 struct LessonArguments {
   std::string lesson, car, gate, trace;
   std::vector<std::string> faults;
   double skill_error = 0.0, amount = 1.0, guidance = 0.0;
   std::uint64_t seed = 1;
+  std::string learner, database;
+  std::optional<LessonMode> mode;
+  int runs = 1;
+  bool guided = false, verbose = false;
 };
 
 // An option goes before the lesson's own words, these before what is usual.
 std::string first_of(const std::string& option, const std::string& lesson, const std::string& usual) {
   if (!option.empty()) return option;
   return lesson.empty() ? usual : lesson;
+}
+
+// Of gate and car their files, of the learner what a person could not be asked for.
+std::string settings_of(const LessonDriveConfig& drive, const LessonArguments& arguments) {
+  std::string text = fmt::format("gate = \"{}\"\ncar = \"{}\"\nsimulated_skill_error = {:g}\n", drive.gate.file,
+                                 drive.car.file, arguments.skill_error);
+  for (const std::string& key : arguments.faults)
+    text += fmt::format("simulated_fault = \"{}\"  # {:g}\n", key, arguments.amount);
+  return text;
 }
 
 LessonDriveConfig make_drive(const LessonArguments& arguments) {
@@ -50,27 +73,34 @@ LessonDriveConfig make_drive(const LessonArguments& arguments) {
   return config;
 }
 
-void print_result(const Lesson& lesson, const LessonResult& result) {
-  fmt::print("{}: {}\n", lesson.title, lesson.goal);
-  std::size_t next = 0;
-  for (std::size_t i = 0; i < result.faults.size(); ++i) {
-    const bool costs = next < result.deductions.size() && result.deductions[next].fault == i;
-    const double points = costs ? result.deductions[next++].points : 0.0;
-    const DriveFault& fault = result.faults[i];
-    if (fault.severity == Severity::note) continue;
-    fmt::print("  {:6.1f} s  {:<11}  -{:.1f}  {}\n", fault.time, severity_key(fault.severity), points,
-               fault_sentence(fault));
-  }
-  fmt::print("{} shifts in {:.1f} s. ", result.shifts.size(), result.duration);
-  if (!result.guided) fmt::print("Grade {:.1f} of 10. ", result.grade);
-  fmt::print("{}\n", result.passed ? "Passed." : "Not passed: " + result.why);
+fs::path history_file(const LessonArguments& arguments) {
+  return arguments.database.empty() ? user_data_folder() / "history.db" : fs::path(arguments.database);
+}
+
+LessonTrials make_trials(const LessonArguments& arguments) {
+  LessonTrials trials;
+  trials.drive = make_drive(arguments);
+  trials.runs = arguments.runs;
+  trials.help = arguments.guided;
+  trials.mode = arguments.mode;
+  trials.learner = arguments.learner;
+  if (!arguments.learner.empty()) trials.history = history_file(arguments);
+  trials.settings = settings_of(trials.drive, arguments);
+  trials.tells_shifts = arguments.verbose;
+  return trials;
 }
 
 int run_lesson(const LessonArguments& arguments) {
-  const LessonDriveConfig config = make_drive(arguments);
-  const LessonResult result = drive_lesson(config);
-  print_result(config.lesson, result);
-  return result.passed ? 0 : 1;
+  return drive_trials(make_trials(arguments)) ? 0 : 1;
+}
+
+std::string learner_name(const std::string& name) {
+  try {
+    check_learner_name(name);
+    return {};
+  } catch (const std::invalid_argument& problem) {
+    return problem.what();
+  }
 }
 
 std::vector<std::string> fault_keys() {
@@ -96,11 +126,27 @@ void add_lesson_verb(CLI::App& app, VerbAction& action) {
   verb->add_option("--fault-amount", arguments->amount, "of these; 1: nobody would overlook it")
       ->check(number_between(0.0, 3.0))
       ->capture_default_str();
-  verb->add_option("--guidance", arguments->guidance, "strength of the teacher's hand; such a drive is not graded")
-      ->check(number_between(0.0, 1.0))
-      ->capture_default_str();
-  verb->add_option("--seed", arguments->seed, "of the learner")->capture_default_str();
-  verb->add_option("--trace", arguments->trace, "record the drive into this file")->type_name("FILE");
+  CLI::Option* guidance =
+      verb->add_option("--guidance", arguments->guidance, "strength of the teacher's hand; such a drive is not graded")
+          ->check(number_between(0.0, 1.0))
+          ->capture_default_str();
+  verb->add_option("--seed", arguments->seed, "of the learner; each next run has the next one")->capture_default_str();
+  CLI::Option* trace =
+      verb->add_option("--trace", arguments->trace, "record the drive into this file")->type_name("FILE");
+  CLI::Option* learner = verb->add_option("--learner", arguments->learner, "who drives: remembered and recorded")
+                             ->type_name("NAME")
+                             ->check(learner_name);
+  verb->add_option("--database", arguments->database, "another history than the user's own; recordings/ lies beside it")
+      ->type_name("FILE")
+      ->needs(learner);
+  verb->add_option("--runs", arguments->runs, "one after another")
+      ->check(CLI::Range(1, 1'000'000))
+      ->capture_default_str()
+      ->excludes(trace);
+  add_mode_option(*verb, arguments->mode);
+  verb->add_flag("--guided", arguments->guided, "the coach helps as this learner's past runs ask for")
+      ->excludes(guidance);
+  verb->add_flag("--verbose", arguments->verbose, "a line for each shift, when it is written");
   verb->callback([arguments, &action] { action = [arguments] { return run_lesson(*arguments); }; });
 }
 

@@ -1,4 +1,4 @@
-// gearshift replay: runs a recorded drive again and says whether it came out the same, or exports it.
+// gearshift replay: runs a recorded drive again and says whether it came out the same, lists its shifts, or exports it.
 #include <cstdint>
 #include <filesystem>
 #include <memory>
@@ -10,8 +10,9 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
-#include "app/learner/lesson_drive.h"
 #include "app/program_name.h"
+#include "app/replay/recorded_drive.h"
+#include "app/training/lesson_world.h"
 #include "app/verbs/progress_bar.h"
 #include "app/verbs/verbs.h"
 #include "haptics/loop/replay.h"
@@ -25,16 +26,20 @@ constexpr const char* kFooter =
     "A trace holds everything that came into each haptic cycle, the configuration and the gate.\n"
     "replay feeds the inputs to the same cycle again and compares every output by its exact bits.\n"
     "\n"
-    "Exit code: 0 bit for bit (or exported, with --torn), 1 a difference or a bad file, 2 bad usage.\n"
+    "Exit code: 0 bit for bit (or exported, with --torn; or listed, with --shifts), 1 a difference or a bad file, 2 "
+    "bad "
+    "usage.\n"
     "\n"
     "  gearshift replay tour.trace\n"
     "  gearshift replay tour.trace --csv tour.csv\n"
+    "  gearshift replay lesson.trace --shifts\n"
     "  gearshift replay killed.trace --torn --csv rescued.csv";
 
 struct ReplayOptions {
   std::filesystem::path trace;
   std::filesystem::path csv;
   bool torn = false;
+  bool shifts = false;
 };
 
 // Opening the CSV file empties it: it must not be the trace that is being read.
@@ -104,11 +109,35 @@ int export_torn(const ReplayOptions& options) {
   return 0;
 }
 
+void print_shift(const ShiftRecord& shift, double begin) {
+  const std::string change = fmt::format("{} -> {}", gear_name(shift.from), gear_name(shift.to));
+  fmt::print("{:>5}  {:>8.2f}  {:<7}  {:>8.2f} {:>8.2f} {:>8.2f}  {}\n", shift.number + 1, shift.begin - begin, change,
+             shift.clutch_time, shift.lever_time, shift.end - shift.begin, shift.missed ? "missed" : "");
+}
+
+// Of what is whole. A second run that differs ends the list.
+int list_shifts(const ReplayOptions& options) {
+  const RecordedDrive drive(options.trace);
+  if (!drive.has_car()) fmt::print("a drive without a car: it has no shifts\n");
+  if (!drive.shifts().empty()) fmt::print("shift   begin s  gears    clutch s  lever s  whole s\n");
+  for (const RecordedShift& shift : drive.shifts()) print_shift(shift.record, drive.begin());
+  if (drive.has_car()) fmt::print("{} shifts in {:.1f} s\n", drive.shifts().size(), drive.end() - drive.begin());
+  if (!drive.differs()) return 0;
+  fmt::print("it differs from the recording: gearshift replay without --shifts says where\n");
+  return 1;
+}
+
+int run_replay(const ReplayOptions& options) {
+  if (options.shifts) return list_shifts(options);
+  return options.torn ? export_torn(options) : replay_file(options);
+}
+
 }  // namespace
 
 void add_replay_verb(CLI::App& app, VerbAction& action) {
   auto options = std::make_shared<ReplayOptions>();
-  CLI::App* verb = app.add_subcommand("replay", "run a recorded trace again, bit for bit, or export it");
+  CLI::App* verb =
+      app.add_subcommand("replay", "run a recorded trace again, bit for bit; list its shifts, or export it");
   verb->footer(kFooter);
   verb->add_option("trace", options->trace, "trace file to run again")->required()->type_name("TRACE");
   CLI::Option* csv =
@@ -116,9 +145,11 @@ void add_replay_verb(CLI::App& app, VerbAction& action) {
   csv->type_name("FILE");
   verb->add_flag("--torn", options->torn, "export the intact cycles of a torn or damaged trace; replays nothing")
       ->needs(csv);
+  verb->add_flag("--shifts", options->shifts, "list the shifts of the drive: when, which gears, how long")
+      ->excludes(csv);
   verb->callback([options, &action] {
     check_paths(*options);
-    action = [options] { return options->torn ? export_torn(*options) : replay_file(*options); };
+    action = [options] { return run_replay(*options); };
   });
 }
 

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "app/assets_path.h"
+#include "app/coach/shipped_lessons.h"
 #include "app/history/history.h"
 #include "app/output_folder.h"
 #include "app/report/delete_learner.h"
@@ -18,7 +19,6 @@
 #include "app/report/report_csv.h"
 #include "app/report/report_page.h"
 #include "app/trainer/user_folder.h"
-#include "app/training/suggest.h"
 #include "app/verbs/verbs.h"
 #include "haptics/files/part_file.h"
 #include "haptics/files/printable.h"
@@ -44,14 +44,6 @@ struct ReportArguments {
   std::pair<std::int64_t, std::string> comment;
   bool csv = false, sets_next = false, comments = false, deletes = false, yes = false;
 };
-
-// The shipped lessons, as they build on each other.
-std::vector<Lesson> shipped_lessons() {
-  std::vector<Lesson> lessons;
-  for (const std::string_view name : kTeachingOrder)
-    lessons.push_back(read_lesson(find_asset("lessons", std::string(name))));
-  return lessons;
-}
 
 fs::path history_file(const ReportArguments& arguments) {
   return arguments.database.empty() ? user_data_folder() / "history.db" : fs::path(arguments.database);

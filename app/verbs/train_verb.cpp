@@ -1,6 +1,7 @@
 // gearshift train: the trainer, in a window or offscreen.
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 
@@ -8,6 +9,8 @@
 
 #include "app/assets_path.h"
 #include "app/train/train.h"
+#include "app/trainer/user_folder.h"
+#include "app/verbs/lesson_mode.h"
 #include "app/verbs/number_between.h"
 #include "app/verbs/picture_size.h"
 #include "app/verbs/tour_arguments.h"
@@ -20,15 +23,29 @@ struct TrainArguments {
   SessionChoice choice;
   std::string bindings = "default", size = "1280x720", offscreen, or_demo;
   int samples = 0;  // 0: 4 on a GPU, 1 on a software driver
+  std::string database, replay;
+  std::optional<std::size_t> shift;
   bool stereo = false, no_panel = false, silent = false;
+  bool no_help = false;
   double seconds = 5.0;  // [s]
 };
 
+// Without a home folder there is no history.
+std::filesystem::path history_file() {
+  try {
+    return user_data_folder() / "history.db";
+  } catch (const std::runtime_error&) {
+    return {};
+  }
+}
+
 TrainSetup make_setup(const TrainArguments& arguments) {
   const std::string& hand = arguments.choice.hand;
-  if (!hand.empty() && hand != kTouringHand) (void)driving_hand(hand);  // refuses
+  if (!hand.empty() && hand != kByItself) (void)driving_hand(hand);  // refuses
   TrainSetup setup;
   setup.choice = arguments.choice;
+  setup.choice.help = !arguments.no_help;
+  setup.choice.history = arguments.database.empty() ? history_file() : std::filesystem::path(arguments.database);
   if (arguments.silent) setup.choice.sound = SoundOutput::none;
   const PictureSize size = picture_size(arguments.size, arguments.stereo);
   setup.view.width = size.width;
@@ -37,6 +54,9 @@ TrainSetup make_setup(const TrainArguments& arguments) {
   setup.view.stereo = arguments.stereo;
   setup.bindings = read_bindings(find_asset("bindings", arguments.bindings));
   setup.panel = !arguments.no_panel;
+  setup.replay = arguments.replay;
+  if (!setup.replay.empty() && setup.choice.lesson.empty()) setup.choice.lesson = kNoLesson;
+  if (arguments.shift) setup.shift = *arguments.shift - 1;
   return setup;
 }
 
@@ -47,7 +67,7 @@ int run_demo_instead(const TrainArguments& arguments) {
   fmt::print("No display: a simulated hand drives the gate in the cabin instead.\n");
   TourArguments tour;
   tour.folder = arguments.or_demo;
-  tour.gate = arguments.choice.gate;
+  if (!arguments.choice.gate.empty()) tour.gate = arguments.choice.gate;
   tour.preset = arguments.choice.preset;
   return run_demo(tour);
 }
@@ -57,7 +77,7 @@ int run_train(const TrainArguments& arguments) {
   if (!arguments.offscreen.empty()) {
     setup.choice.clock = TrainerClock::virtual_time;
     setup.choice.sound = SoundOutput::none;
-    if (setup.choice.hand.empty()) setup.choice.hand = kTouringHand;
+    if (setup.choice.hand.empty()) setup.choice.hand = kByItself;
     return train_offscreen(setup, {arguments.offscreen, arguments.seconds});
   }
   if (!has_display()) return run_demo_instead(arguments);
@@ -69,15 +89,28 @@ int run_train(const TrainArguments& arguments) {
 void add_train_verb(CLI::App& app, VerbAction& action) {
   auto arguments = std::make_shared<TrainArguments>();
   CLI::App* verb = app.add_subcommand("train", "The trainer: a hand at mouse, keys or pad, or the simulated one");
-  verb->add_option("--gate", arguments->choice.gate, "shipped gate or layout file")->capture_default_str();
+  verb->add_option("--lesson", arguments->choice.lesson,
+                   "shipped lesson or file, or none; else the one that is suggested");
+  verb->add_option("--learner", arguments->choice.learner, "who learns: remembered; else nothing is")
+      ->type_name("NAME");
+  verb->add_option("--database", arguments->database, "another history than the user's own")->type_name("FILE");
+  add_mode_option(*verb, arguments->choice.mode);
+  verb->add_flag("--no-help", arguments->no_help, "no force leads the lever to a gear: each trial is graded");
+  verb->add_option("--car", arguments->choice.car, "shipped car or file, or none; else the lesson's, or hatchback");
+  verb->add_option("--gate", arguments->choice.gate, "shipped gate or layout file; else the lesson's or the car's");
   verb->add_option("--preset", arguments->choice.preset, "shipped or saved preset, or a file")->capture_default_str();
   verb->add_option("--hand", arguments->choice.hand,
-                   "light, grip, arm, M,B,K in kg, N s/m, N/m, or \"by itself\": through every gear without a person");
+                   "light, grip, arm, M,B,K in kg, N s/m, N/m, or \"by itself\": drives without a person");
   verb->add_option("--bindings", arguments->bindings, "shipped bindings of keys, mouse and pad, or a file")
       ->capture_default_str();
   verb->add_option("--size", arguments->size, "of the window [px]")->type_name("WxH")->capture_default_str();
   verb->add_option("--samples", arguments->samples, "a pixel: 1 or 4; 4 where the GPU is one")
       ->check(CLI::IsMember({1, 4}));
+  CLI::Option* replay =
+      verb->add_option("--replay", arguments->replay, "a recorded drive to be looked at")->type_name("TRACE");
+  verb->add_option("--shift", arguments->shift, "of the recorded drive: from 1, as replay --shifts lists them")
+      ->check(CLI::PositiveNumber)
+      ->needs(replay);
   verb->add_option("--camera", arguments->choice.camera, "driver, ahead, lever, gate, cluster or gearbox")
       ->check(CLI::IsMember({"driver", "ahead", "lever", "gate", "cluster", "gearbox"}))
       ->capture_default_str();

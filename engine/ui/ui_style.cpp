@@ -19,7 +19,7 @@ struct FontFile {
   const char* path;
   float size;  // [px] at scale 1
 };
-constexpr FontFile kFonts[] = {{kRegular, 15.0f}, {kRegular, 13.0f}, {kBold, 16.0f}, {kBold, 42.0f}};
+constexpr FontFile kFonts[] = {{kRegular, 15.0f}, {kRegular, 13.0f}, {kBold, 16.0f}, {kBold, 22.0f}, {kBold, 42.0f}};
 
 void load_font(const FontFile& font, float scale) {
   ImFontAtlas& atlas = *ImGui::GetIO().Fonts;

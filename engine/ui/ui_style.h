@@ -6,7 +6,7 @@
 namespace gearshift {
 
 // In this order in the atlas. Sizes in pixels at scale 1, line height included.
-enum class UiFont : int { body, small, title, digits };
+enum class UiFont : int { body, small, title, prompt, digits };
 
 ImFont* ui_font(UiFont font);  // of the current context
 float ui_em();                 // [px] size of the body font: what everything is measured in

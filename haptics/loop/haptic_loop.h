@@ -68,6 +68,7 @@ class HapticLoop {
   void cycle(std::int64_t deadline_ns, std::int64_t skipped) noexcept;
 
   const HapticSnapshot& snapshot() const noexcept { return out_; }       // on the loop's own thread
+  const DriverControls& controls() const noexcept { return controls_; }  // of the last cycle, on the same thread
   const AdmittedTuning& admitted() const noexcept { return admitted_; }  // at the start
 
   // Allows forces, ramped up from zero. Before the first cycle, or by LoopCommand::arm while it runs.

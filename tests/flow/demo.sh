@@ -1,11 +1,11 @@
 #!/usr/bin/env bash
-# The demo as a user without a display runs it: pictures, sound, trace and page are there, whole, the same twice, and
-# validation has nothing to say. Usage: demo.sh GEARSHIFT SOURCE_FOLDER
+# The demo as a user without a display runs it: pictures, sound, traces, report and page are there, whole, the same twice,
+# and validation has nothing to say. Usage: demo.sh GEARSHIFT SOURCE_FOLDER
 set -u
 gearshift=$1
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 unset DISPLAY WAYLAND_DISPLAY
-export GEARSHIFT_VALIDATION=1 XDG_CACHE_HOME=$work/cache XDG_RUNTIME_DIR=$work/runtime
+export GEARSHIFT_VALIDATION=1 XDG_CACHE_HOME=$work/cache XDG_RUNTIME_DIR=$work/runtime XDG_DATA_HOME=$work/data
 mkdir -m 700 runtime
 
 demo() { # name of the result, arguments ...
@@ -24,14 +24,20 @@ shown_files_exist() {
 check "demo of the paper's gate" demo one
 check "nothing on stderr, validation included" [ ! -s one.err ]
 check "six gears in the order of Fig. 9" [ "$(awk '/engaged/{print $1}' one.txt | tr '\n' ' ')" = "1 2 3 4 5 R " ]
-for picture in cabin driver clamp gearbox cluster gear_1 gear_R contact_sheet; do
+for picture in cabin driver clamp gearbox cluster gear_1 gear_R hill_start_bite up_through_the_gears_ring contact_sheet; do
   check "$picture.png is a picture" is_png "one/$picture.png"
 done
 check "everything that the page shows is there" shown_files_exist
 check "sound is a WAV file" grep -q WAVE <(head -c 16 one/demo.wav)
 check "its trace replays" "$gearshift" replay one/tour.trace
+for lesson in hill_start up_through_the_gears; do
+  check "the trace of $lesson replays" "$gearshift" replay "one/$lesson.trace"
+done
+check "both lessons and the drive through every gear are passed" [ "$(grep -c "^  Passed with grade" one.txt)" = 3 ]
+check "the learner's report has both lessons" [ "$(grep -oE "Hill start|Up through the gears" one/report.html | sort -u | wc -l)" = 2 ]
+check "nothing is remembered for the user" [ -z "$(find data -name history.db 2>/dev/null)" ]
 check "the same again" demo two
-for file in cabin.png driver.png clamp.png gearbox.png demo.wav tour.trace; do
+for file in cabin.png driver.png clamp.png gearbox.png hill_start_bite.png demo.wav tour.trace hill_start.trace report.html; do
   check "$file is the same twice" same "one/$file" "two/$file"
 done
 stale() { DISPLAY=:987 WAYLAND_DISPLAY=wayland-0 "$gearshift" train --or-demo stale >stale.txt 2>stale.err; }

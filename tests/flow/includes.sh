@@ -19,14 +19,16 @@ declare -A sees=(
   [engine/ui]="engine/gpu engine/image" [engine/window]="engine/gpu engine/image" [engine/sound]=""
   [app/vehicle]="$haptics" [app/training]="$haptics app/vehicle"
   [app/history]="$haptics app/training app/vehicle"
-  [app/draw]="$haptics" [app/report]="$haptics $shared app/history app/training app/vehicle app/draw"
+  [app/replay]="$haptics app/training app/vehicle"
+  [app/coach]="$haptics $shared app/training app/history app/vehicle"
+  [app/draw]="$haptics" [app/report]="$haptics $shared app/history app/training app/vehicle app/draw app/replay"
   [app/learner]="$haptics app/training app/vehicle"
-  [app/trainer]="$haptics app/vehicle" [app/input]="$haptics engine/window engine/gpu engine/image"
+  [app/trainer]="$haptics app/vehicle app/training" [app/input]="$haptics engine/window engine/gpu engine/image"
   [app/stage]="$haptics app/vehicle engine/scene engine/model engine/image"
   [app/cabin_sound]="$haptics app/vehicle engine/scene engine/model engine/image engine/sound"
-  [app/panel]="$haptics $shared app/trainer app/vehicle engine/ui engine/gpu engine/image"
+  [app/panel]="$haptics $shared app/trainer app/vehicle app/training app/history app/coach app/replay engine/ui engine/gpu engine/image"
   [app/view]="$haptics $shared app/stage app/vehicle $pictures"
-  [app/train]="$haptics $shared app/input app/trainer app/vehicle app/stage app/cabin_sound app/panel app/view engine/sound $pictures"
+  [app/train]="$haptics $shared app/input app/trainer app/vehicle app/training app/history app/coach app/replay app/learner app/stage app/cabin_sound app/panel app/view engine/sound $pictures"
 )
 failed=0
 passed=0

@@ -12,8 +12,8 @@
 #include <doctest/doctest.h>
 
 #include "app/history/schema.h"
-#include "tests/app/history/full_disk.h"
 #include "tests/app/history/some_result.h"
+#include "tests/support/full_disk.h"
 #include "tests/support/temp_folder.h"
 
 using namespace gearshift;
@@ -65,6 +65,8 @@ void check_same(const LessonResult& a, const LessonResult& b) {
     CHECK(a.faults[i].time == b.faults[i].time);
     CHECK(a.faults[i].value == b.faults[i].value);
     CHECK(a.faults[i].shift == b.faults[i].shift);
+    CHECK(a.faults[i].step == b.faults[i].step);
+    CHECK(a.faults[i].wanted == b.faults[i].wanted);
   }
   REQUIRE(a.deductions.size() == b.deductions.size());
   for (std::size_t i = 0; i < a.deductions.size(); ++i) {

@@ -36,7 +36,8 @@ inline LessonResult some_result(int shifts) {
   result.fuel = 4321.0;
   result.faults = {{FaultKind::stall, Severity::severe, 13.5, 36.6, -1},
                    {FaultKind::rollback, Severity::minor, 14.5, 0.3, 0},
-                   {FaultKind::jerk, Severity::note, 15.5, 9.0, 0}};
+                   {FaultKind::jerk, Severity::note, 15.5, 9.0, 0},
+                   {FaultKind::slow_step, Severity::note, 16.5, 4.0, 0, "Let the \"hand\" brake off.", 2.5}};
   result.deductions = {{0, 2.0}, {1, 0.5}};
   for (int i = 0; i < shifts; ++i) result.shifts.push_back(some_shift(i));
   return result;

@@ -75,6 +75,7 @@ TEST_CASE("skill lies between the practised and the beginner, worse in everythin
     CHECK(worse.release_spread > good.release_spread);
     CHECK(worse.haste > good.haste);
     CHECK(worse.hearing > good.hearing);
+    CHECK(worse.foot_change > good.foot_change);
     CHECK(worse.pace < good.pace);
   }
 }

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include "app/training/lesson_world.h"
 #include "haptics/files/file_error.h"
 #include "haptics/loop/replay.h"
 #include "tests/app/learner/lessons.h"

@@ -106,8 +106,8 @@ TEST_CASE("what has an amount is measured as that amount") {
     double longest = 0.0;
     for (const ShiftRecord& shift : slow.shifts) longest = std::max(longest, shift.clutch_time);
     CAPTURE(longest);
-    CHECK(longest > 3.0 * amount);        // the pause
-    CHECK(longest < 3.0 * amount + 1.5);  // and an ordinary shift
+    CHECK(longest > 4.0 * amount);        // the pause
+    CHECK(longest < 4.0 * amount + 1.5);  // and an ordinary shift
     CHECK(names(slow, FaultKind::too_slow) == (longest >= 2.5));
   }
 }

@@ -46,7 +46,7 @@ TEST_CASE("at any width STOP is there, Arm from 300 pixels on, and nothing in th
 }
 
 TEST_CASE("where both columns leave no middle, the plots give way; the tuning stays in full") {
-  PanelRig rig;
+  TuningRig rig;
   for (const float width : {640.0f, 800.0f, 1000.0f, 1280.0f}) {
     CAPTURE(width);
     rig.screen.width = width;

@@ -1,27 +1,17 @@
 // What the panel looks like: drawn at the sizes that people have, without a GPU.
 #include <algorithm>
-#include <cstdlib>
-#include <filesystem>
 #include <string>
 #include <string_view>
 
 #include <doctest/doctest.h>
 
 #include "app/input/bindings.h"
-#include "engine/image/image.h"
 #include "engine/ui/ui_style.h"
-#include "tests/app/panel/panel_rig.h"
-#include "tests/engine/ui/ui_raster.h"
+#include "tests/app/panel/panel_pictures.h"
 
 using namespace gearshift;
 
 namespace {
-
-struct Screen {
-  int width, height;
-  float scale;
-};
-constexpr Screen kScreens[] = {{1280, 720, 1.0f}, {1920, 1080, 1.0f}, {3840, 2160, 2.0f}, {3840, 2160, 3.0f}};
 
 // A lever that is pushed through a wall while the loop is late: all that the panel has to say at once.
 void make_busy(PanelRig& rig) {
@@ -43,6 +33,8 @@ void make_busy(PanelRig& rig) {
   rig.input.car.road_speed = 13.4;
   rig.input.car.clutch = 0.7;
   rig.input.car.throttle = 0.3;
+  rig.input.car.shift_advice = 1;
+  rig.input.car.grinding = true;
   rig.input.events = {{EventKind::gear_engaged, 1200, 1'200'000'000, 1.0},
                       {EventKind::wall_contact, 2310, 2'310'000'000, 0.31},
                       {EventKind::gear_left, 2900, 2'900'000'000, 1.0},
@@ -50,22 +42,6 @@ void make_busy(PanelRig& rig) {
                       {EventKind::guard_changed, 3200, 3'200'000'000, 5.0}};
   rig.input.message = "assets/presets/heavy.toml:4: wall_stiffness_n_per_m = 70000: must be between 0 and 20000";
   rig.input.frame_ms = 16.7;
-}
-
-void settle(PanelRig& rig) {
-  for (int i = 0; i < 6; ++i) rig.frame();  // tables and windows find their size in some frames
-}
-
-Image picture_of(PanelRig& rig) {
-  settle(rig);
-  return UiRaster(*ImGui::GetDrawData(), {92, 110, 124}).draw();
-}
-
-// Into the folder that GEARSHIFT_PICTURES names, for eyes.
-void show(PanelRig& rig, const std::string& name) {
-  settle(rig);
-  if (const char* folder = std::getenv("GEARSHIFT_PICTURES"))
-    write_png(std::filesystem::path(folder) / name, picture_of(rig));
 }
 
 // Between the columns and above the bar: nothing is drawn there.
@@ -79,11 +55,6 @@ bool middle_is_free(const Screen& screen) {
   return true;
 }
 
-std::string name_of(const Screen& screen, std::string_view what) {
-  return std::string(what) + "_" + std::to_string(screen.width) + "_" + std::to_string(static_cast<int>(screen.scale)) +
-         ".png";
-}
-
 }  // namespace
 
 TEST_CASE("on every screen all texts have room, the middle is free and the controls lie on the screen") {
@@ -91,10 +62,9 @@ TEST_CASE("on every screen all texts have room, the middle is free and the contr
     CAPTURE(screen.width);
     CAPTURE(screen.scale);
     PanelRig rig(1);
-    rig.screen.width = static_cast<float>(screen.width);
-    rig.screen.height = static_cast<float>(screen.height);
-    rig.screen.scale = screen.scale;
+    show_on(rig, screen);
     make_busy(rig);
+    rig.click("tab_tuning");
     show(rig, name_of(screen, "tuning"));
     CHECK(rig.panel.shortened_texts() == 0);
     CHECK(middle_is_free(screen));
@@ -122,6 +92,7 @@ TEST_CASE("on every screen all texts have room, the middle is free and the contr
 TEST_CASE("an unsafe wish is seen in red where it is made") {
   PanelRig rig(1);
   make_busy(rig);
+  rig.click("tab_tuning");
   const auto red_pixels = [&] {
     const Image picture = picture_of(rig);
     const ControlRect r = rig.rect("wall_stiffness_n_per_m");

@@ -58,6 +58,8 @@ struct PanelRig {
     input.hand_name = "mouse and keys";
     input.hands = {"mouse and keys", "touring"};
     input.device_name = "simulated lever";
+    input.car_name = "hatchback";
+    input.cars = {"hatchback", "diesel"};
     input.health.rate = 1000.0;
     input.message = "Ready.";
     frame();
@@ -154,7 +156,29 @@ struct PanelRig {
     take(all.hand, next.hand);
     take(all.save_preset, next.save_preset);
     take(all.compare, next.compare);
+    take(all.car, next.car);
+    all.lesson.begin |= next.lesson.begin;
+    all.lesson.leave |= next.lesson.leave;
+    all.lesson.put_away |= next.lesson.put_away;
+    take(all.lesson.offer, next.lesson.offer);
+    take(all.lesson.mode, next.lesson.mode);
+    take(all.lesson.help, next.lesson.help);
+    take(all.lesson.learner, next.lesson.learner);
+    take(all.lesson.next, next.lesson.next);
+    take(all.lesson.comment, next.lesson.comment);
+    all.look.whole |= next.look.whole;
+    all.look.close |= next.look.close;
+    take(all.look.open, next.look.open);
+    take(all.look.shift, next.look.shift);
+    take(all.look.seek, next.look.seek);
+    take(all.look.play, next.look.play);
+    take(all.look.pace, next.look.pace);
   }
+};
+
+// With the tuning in sight.
+struct TuningRig : PanelRig {
+  explicit TuningRig(int delay = 0) : PanelRig(delay) { click("tab_tuning"); }
 };
 
 }  // namespace gearshift

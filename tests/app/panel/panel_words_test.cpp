@@ -1,6 +1,9 @@
 // What the panel says in words and lamps of the loop, the warnings and a preset.
+#include <algorithm>
+#include <cmath>
 #include <set>
 #include <string>
+#include <vector>
 
 #include <doctest/doctest.h>
 
@@ -22,7 +25,7 @@ std::set<std::string> lit(PanelRig& rig, std::uint32_t flags) {
   settle(rig);
   std::set<std::string> names;
   const std::vector<DrawnText> texts = drawn_texts();
-  for (const char* name : {"Over-push", "Saturated", "Ghost hand", "Softened"}) {
+  for (const char* name : {"Over-push", "Saturated", "Ghost hand", "Softened", "Grinding", "Over-rev"}) {
     const DrawnText& text = the_text(texts, name);
     if (text.colour == ink::kBad || text.colour == ink::kWarn) names.insert(name);
   }
@@ -41,6 +44,54 @@ TEST_CASE("each warning lamp is lit by its own flag and by no other") {
   CHECK(lit(rig, kFlagContact | kFlagPushEstimated | kFlagFresh).empty());
   rig.input.now.wall_stiffness = 0.5 * rig.input.admitted.tuning.wall_stiffness;
   CHECK(lit(rig, kFlagContact) == Names{"Softened"});
+  rig.input.now.wall_stiffness = 0.0;
+  rig.input.car.grinding = true;
+  CHECK(lit(rig, 0) == Names{"Grinding"});
+  rig.input.car = {};
+  rig.input.car.over_revved = true;
+  CHECK(lit(rig, 0) == Names{"Over-rev"});
+}
+
+TEST_CASE("an engine that stalled is told in red in place of its speed") {
+  PanelRig rig;
+  rig.input.car.engine_speed = 240.0;
+  settle(rig);
+  CHECK(is_drawn("2292 rpm"));
+  CHECK_FALSE(is_drawn("stalled"));
+  rig.input.car.stalled = true;
+  settle(rig);
+  CHECK(the_text(drawn_texts(), "stalled").colour == ink::kBad);
+  CHECK_FALSE(is_drawn("2292 rpm"));
+}
+
+TEST_CASE("the shift light points up for the next gear, down for the one below, and is dark for the one that is in") {
+  PanelRig rig;
+  const auto arrow = [&](int advice) {
+    rig.input.car.shift_advice = advice;
+    settle(rig);
+    std::vector<glm::dvec2> corners = drawn_in(advice < 0 ? ink::kWarn : ink::kGood);
+    std::erase_if(corners, [&](glm::dvec2 at) { return at.y < rig.panel.middle().max.y || at.x > 100.0; });
+    return corners;
+  };
+  CHECK(arrow(0).empty());
+  const auto width_at = [](const std::vector<glm::dvec2>& corners, double y) {
+    double low = 1e9, high = -1e9;
+    for (const glm::dvec2 at : corners) {
+      if (std::abs(at.y - y) > 1.0) continue;
+      low = std::min(low, at.x);
+      high = std::max(high, at.x);
+    }
+    return high - low;
+  };
+  for (const int advice : {1, -1}) {
+    const std::vector<glm::dvec2> corners = arrow(advice);
+    const PixelBox box = box_of(corners);
+    const double head = width_at(corners, advice > 0 ? box.min.y : box.max.y);
+    const double stem = width_at(corners, advice > 0 ? box.max.y : box.min.y);
+    CHECK(head < 1.0);  // a point
+    CHECK(stem > 3.0);
+    CHECK(box.max.x - box.min.x > 2.0 * stem);
+  }
 }
 
 TEST_CASE("the over-push lamp is a red disc beside its name, which no contact alone lights") {

@@ -5,30 +5,9 @@
 #include <string>
 
 #include "app/report/learner_history.h"
+#include "tests/app/replay/constructed_record.h"
 
 namespace gearshift {
-
-// A good shift from 2 to 3 that begins `at` [s]: clutch down 0.10 s before the lever leaves, gear in 0.25 s later,
-// clutch up 0.15 s after it.
-inline ShiftRecord good_shift(std::int64_t number, double at) {
-  ShiftRecord shift;
-  shift.number = number;
-  shift.begin = at;
-  shift.end = at + 0.6;
-  shift.from = 2;
-  shift.to = 3;
-  shift.clutch_time = 0.5;
-  shift.lever_time = 0.25;
-  shift.clutch_lead = 0.1;
-  shift.clutch_lag = 0.15;
-  shift.torque_gap = 0.45;
-  shift.engine_speed = 230.0;
-  shift.slip_energy = 850.0;
-  shift.force_peak = 18.0;
-  shift.steps = {ShiftStep::throttle_off, ShiftStep::clutch_down, ShiftStep::neutral,
-                 ShiftStep::gear,         ShiftStep::clutch_up,   ShiftStep::throttle_on};
-  return shift;
-}
 
 inline std::string two_digits(std::int64_t number) {
   return (number < 10 ? "0" : "") + std::to_string(number);

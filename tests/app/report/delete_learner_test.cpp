@@ -57,7 +57,7 @@ TEST_CASE("deleted: rows, comments and recordings go, and what went is told; oth
     CHECK(gone.sessions == 1);
     CHECK(gone.runs == 7);
     CHECK(gone.shifts == 14);
-    CHECK(gone.faults == 21);
+    CHECK(gone.faults == 28);
     CHECK(gone.comments == 7);
     CHECK(gone.recordings.size() == 3);  // own, near and the one that was gone before
     REQUIRE(gone.kept.size() == 2);

@@ -110,7 +110,7 @@ TEST_CASE("runs come back from the table") {
   CHECK(fields["why"] == some_result(0).why);
   CHECK(fields["slip_energy_j"] == "2020.5");
   CHECK(fields["shifts"] == "5");
-  CHECK(fields["faults"] == "3");
+  CHECK(fields["faults"] == "4");
   CHECK(fields["recording"] == "a \"trace\".trace");
   CHECK(fields["comments"] == "Bo, 2026-01-03T00:00:00Z: " + kNasty + "\nDi, 2026-01-04T00:00:00Z: Fine.");
   CHECK(row(records, 1)["grade"].empty());  // guided: no grade, not a nought
@@ -140,8 +140,8 @@ TEST_CASE("shifts come back from the table, every figure to its last bit") {
 
 TEST_CASE("faults come back from the table, with unit and points") {
   const auto records = parse(faults_csv(history_with_everything()));
-  REQUIRE(records.size() == 4);
-  auto stall = row(records, 0), rollback = row(records, 1), jerk = row(records, 2);
+  REQUIRE(records.size() == 5);
+  auto stall = row(records, 0), rollback = row(records, 1), jerk = row(records, 2), slow = row(records, 3);
   CHECK(stall["kind"] == "stall");
   CHECK(stall["severity"] == "severe");
   CHECK(stall["time_s"] == "13.5");
@@ -154,6 +154,12 @@ TEST_CASE("faults come back from the table, with unit and points") {
   CHECK(rollback["points"] == "0.5");
   CHECK(jerk["unit"] == "m/s^3");
   CHECK(jerk["points"] == "0");
+  CHECK(jerk["step"].empty());
+  CHECK(jerk["wanted_s"].empty());
+  CHECK(slow["unit"] == "s");
+  CHECK(slow["value"] == "4");
+  CHECK(slow["step"] == "Let the \"hand\" brake off.");
+  CHECK(slow["wanted_s"] == "2.5");
 }
 
 TEST_CASE("no runs: the header alone") {

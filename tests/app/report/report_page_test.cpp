@@ -111,7 +111,7 @@ TEST_CASE("runs: day, lesson, mode, grade, result, every fault with its points, 
   CHECK(has(rows[0][5], "Grade 3.5 is below 6.0."));
   CHECK(has(rows[0][6], "−2.0  The clutch came up 0.12 s before the gear was in.  (12.4 s into the run, shift 3)"));
   CHECK(has(rows[0][6], "−4.5  The engine stalled, from 382 rpm.  (30.0 s into the run)"));
-  CHECK(has(rows[0][6], "Note: The car jerked, 12.5 m/s3."));
+  CHECK(has(rows[0][6], "Note: The car jerked, 12 m/s³."));
   CHECK(has(rows[0][7], "Calmer at the bite point."));
   CHECK(has(rows[0][7], "Bo, 2026-01-09"));
   CHECK(rows[1][0] == "1");
@@ -223,6 +223,36 @@ TEST_CASE("shifts: the worst by points, the best by time; their figures are the 
   const auto best = table_of(shifts.substr(shifts.find("What was done best")), "shifts");
   REQUIRE(best.size() == 3);
   CHECK(best[0][0] == "Run 3 , shift 4");
+}
+
+TEST_CASE("what was kept: grades before and after a day and a week; marked at its run and about its dot") {
+  LearnerHistory history = learner(4);
+  const char* times[] = {"2026-03-01T10:00:00Z", "2026-03-01T10:20:00Z", "2026-03-02T10:20:00Z",
+                         "2026-03-12T10:20:00Z"};
+  const double grades[] = {4.0, 6.5, 6.2, 7.0};
+  for (std::size_t i = 0; i < 4; ++i) {
+    history.runs[i].row.begun_at = times[i];
+    history.runs[i].row.result.grade = grades[i];
+  }
+  const std::string page = page_of(history);
+  const std::string_view learning = section_of(page, "learning");
+  const auto kept = table_of(learning, "kept");
+  REQUIRE(kept.size() == 1);
+  CHECK(kept[0] ==
+        std::vector<std::string>{"The drill", "6.5", "6.2", "Run 3 , 24 hours", "6.2", "7.0", "Run 4 , 10 days"});
+  const auto runs = table_of(page, "runs");
+  CHECK(has(runs[0][2], "after a pause of 10 days"));
+  CHECK(has(runs[1][2], "after a pause of 24 hours"));
+  CHECK_FALSE(has(runs[2][2], "pause"));
+  std::size_t rings = 0;
+  for (std::size_t at = 0; (at = learning.find("<circle", at)) != std::string_view::npos; ++at)
+    if (has(learning.substr(at, learning.find('>', at) - at), "r=\"7.00\" fill=\"none\"")) ++rings;
+  CHECK(rings == 2);
+  CHECK(has(learning, "Run 4, 2026-03-12: 7.0, after 10 days"));
+
+  for (ReportedRun& run : history.runs) run.row.begun_at = times[0];
+  CHECK(has(page_of(history), "No lesson was driven again after a day without it yet."));
+  CHECK_FALSE(has(page_of(history), "<table class=\"kept\">"));
 }
 
 TEST_CASE("names, comments and reasons with markup in them are text: the page's tags do not change") {

@@ -5,10 +5,12 @@
 
 #include <doctest/doctest.h>
 
+#include "app/replay/recorded_drive.h"
 #include "app/report/recorded_svg.h"
 #include "haptics/files/file_error.h"
 #include "haptics/gate/gate_layout.h"
 #include "haptics/loop/trace_reader.h"
+#include "tests/app/replay/lesson_trace.h"
 #include "tests/app/report/constructed_history.h"
 #include "tests/app/report/page_parts.h"
 #include "tests/support/gates.h"
@@ -59,7 +61,7 @@ std::string refusal(const std::filesystem::path& file, const ShiftRecord& shift)
 TEST_CASE("the cycles of a shift and 0.3 s around it, on the shift's own clock") {
   const TempFolder folder;
   write_sawtooth(folder / "a.trace");
-  const RecordedShift shift = read_shift(folder / "a.trace", shift_at(104.1));
+  const ShiftRecording shift = read_shift(folder / "a.trace", shift_at(104.1));
   CHECK(shift.end == doctest::Approx(0.6));
   CHECK(shift.alarm == HapticConfig{}.over_push.warn_above);
   CHECK(shift.gate.slot_count == paper_gate().slot_count);
@@ -73,10 +75,50 @@ TEST_CASE("the cycles of a shift and 0.3 s around it, on the shift's own clock")
   }
 }
 
+TEST_CASE("engine, shaft and gear are those of the drive, in every cycle; the ideal way is the whole drive's") {
+  const LessonTrace& trace = upshifts();
+  const RecordedDrive drive(trace.file);
+  REQUIRE(trace.result.shifts.size() == drive.shifts().size());
+  for (std::size_t i = 0; i < drive.shifts().size(); ++i) {
+    const ShiftRecord& record = trace.result.shifts[i];
+    const ShiftRecording shift = read_shift(trace.file, record);
+    CHECK(shift.has_car);
+    CHECK(shift.ideal == drive.shifts()[i].ideal);
+    std::size_t next = 0;
+    for (const DriveSample& sample : trace.live) {
+      const double time = sample.time() - record.begin;
+      if (time < -kAround || time > shift.end + kAround) continue;
+      REQUIRE(next < shift.cycles.size());
+      const RecordedCycle& cycle = shift.cycles[next++];
+      CHECK(cycle.time == time);
+      CHECK(cycle.engine_speed == sample.car.engine_speed);
+      CHECK(cycle.shaft_speed == std::abs(sample.car.shaft_speed));
+      CHECK(cycle.gear == sample.car.gear);
+      CHECK(cycle.lever == sample.lever.proxy);
+      CHECK(cycle.clutch == sample.controls.clutch);
+    }
+    CHECK(next == shift.cycles.size());
+  }
+}
+
+TEST_CASE("with a car there are speeds to see, and a box for each gear; without one there are none") {
+  const LessonTrace& trace = upshifts();
+  ShiftRecording shift = read_shift(trace.file, trace.result.shifts[1]);
+  const std::string with = force_svg(shift);
+  for (const char* words : {"engine [1/min]", "gearbox shaft [1/min]", ">1</text>", ">2</text>"})
+    CHECK(with.find(words) != std::string::npos);
+  CHECK(path_svg(shift).find("stroke-dasharray=\"1.6 1.4\"") != std::string::npos);
+  const TempFolder folder;
+  write_sawtooth(folder / "a.trace");
+  const std::string without = force_svg(read_shift(folder / "a.trace", shift_at(104.1)));
+  CHECK(without.find("engine") == std::string::npos);
+  CHECK(without.find("clutch pedal") != std::string::npos);
+}
+
 TEST_CASE("the drawing keeps the one cycle that pushed hardest") {
   const TempFolder folder;
   write_sawtooth(folder / "a.trace");
-  RecordedShift shift = read_shift(folder / "a.trace", shift_at(104.1));
+  ShiftRecording shift = read_shift(folder / "a.trace", shift_at(104.1));
   const auto highest = [&] {
     const std::string svg = force_svg(shift);
     const std::string_view line = between(svg, "<polyline points=\"", "\"");
@@ -87,7 +129,7 @@ TEST_CASE("the drawing keeps the one cycle that pushed hardest") {
   };
   const double with = highest();
   // 44 N of a scale up to 50: 12 % of the box below its top.
-  CHECK(with == doctest::Approx(28.0 + 170.0 * 6.0 / 50.0).epsilon(1e-3));
+  CHECK(with == doctest::Approx(28.0 + 150.0 * 6.0 / 50.0).epsilon(1e-3));
   for (RecordedCycle& cycle : shift.cycles) cycle.force = std::min(cycle.force, 1.0);
   CHECK(highest() > with + 50.0);
   CHECK(path_svg(shift).find("</svg>") != std::string::npos);

@@ -14,7 +14,7 @@ TEST_CASE("another lever and a replay are other runs to the panel, begin and end
   const TempFolder folder;
   const Variable config{"XDG_CONFIG_HOME", folder.path().c_str()}, data{"XDG_DATA_HOME", folder.path().c_str()};
   SessionChoice choice;
-  choice.hand = kTouringHand;
+  choice.hand = kByItself;
   choice.clock = TrainerClock::virtual_time;
   choice.sound = SoundOutput::none;
   Session session(choice);
@@ -31,8 +31,9 @@ TEST_CASE("another lever and a replay are other runs to the panel, begin and end
   CHECK_FALSE(changes([](PanelRequests& r) { r.record = true; }));
   CHECK_FALSE(changes([](PanelRequests& r) { r.record = true; }));
   CHECK(changes([](PanelRequests& r) { r.replay = true; }, 1));
-  CHECK(changes([](PanelRequests&) {}, 60));  // the half second that was recorded is over
-  CHECK(session.message() == "replay done");
+  CHECK_FALSE(changes([](PanelRequests&) {}, 60));  // the half second that was recorded is over
+  CHECK(changes([](PanelRequests& r) { r.look.seek = 0.0; }, 1));
+  CHECK(changes([](PanelRequests& r) { r.look.close = true; }));
   CHECK(changes([](PanelRequests& r) { r.gate = "four_speed"; }));
   CHECK(changes([](PanelRequests& r) { r.preset = "measured"; }));
   CHECK(changes([](PanelRequests& r) { r.hand = "grip"; }));

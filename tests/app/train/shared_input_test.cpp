@@ -23,6 +23,8 @@ struct Desk {
   Desk() {
     rig.input.now.guard = GuardState::running;
     frame();
+    rig.click("tab_tuning");
+    frame();
   }
 
   const PanelRequests& frame() {

@@ -6,17 +6,21 @@
 #include <doctest/doctest.h>
 
 #include "app/trainer/cycle_runner.h"
-#include "app/trainer/touring_hand.h"
+#include "app/trainer/given_hand.h"
+#include "haptics/device/led_hand.h"
 #include "haptics/device/simulated_lever.h"
-#include "tests/support/gates.h"
+#include "tests/app/trainer/trainer_bench.h"
 
 using namespace gearshift;
 
-TEST_CASE(
-    "the callback is real-time safe: queues full, late, recorded, handed over to another loop with a car, touring") {
-  constexpr std::int64_t kPeriod = 1'000'000;
+namespace {
+
+constexpr std::int64_t kPeriod = 1'000'000;  // [ns]
+
+// Without a car, then with one that is guided on and off and recorded; all queues, the driver's too, run full.
+void prove(LatestValue<HandTarget>& led, HandDriver& hand) {
   const Gate gate = paper_gate();
-  TouringHand hand(gate, 1, 0.001);
+  ScriptedHand script = tour_of(gate);
   SimulatedLeverConfig config;
   config.hand = kGripHand;
   SimulatedLever lever(config, kPeriod, hand);
@@ -27,7 +31,10 @@ TEST_CASE(
   second->loop.arm();
   second->channels.recording.store(true);
   auto runner = std::make_unique<CycleRunner>(kPeriod);
+  runner->for_driver = std::make_unique<SpscQueue<DriveSample>>(CycleRunner::kMostForDriver);
   auto statistics = std::make_unique<CycleStatistics>();
+  DriverControls controls;
+  controls.ignition = true;
 
   const RealtimeProof proof = prove_realtime([&] {
     std::int64_t now = 0;
@@ -38,6 +45,11 @@ TEST_CASE(
       now += kPeriod * (1 + skipped);
       if (i % 1000 == 0) ++statistics->overruns;
       if (i == 5'000) runner->hand_over(*second);
+      controls.guidance = i % 2000 < 1000 ? 0.0 : 0.7;
+      controls.guided_gear = 1 + i / 4000;
+      controls.clutch = i % 3000 < 1500 ? 1.0 : 0.0;
+      second->channels.controls.write(controls);
+      led.write(script.next(1e-9 * static_cast<double>(now), runner->newest().lever.lever));
       runner->cycle({now, skipped}, statistics.get());
     }
     (void)runner->figures.update();
@@ -46,8 +58,21 @@ TEST_CASE(
   CHECK(proof.clean());
 }
 
-TEST_CASE("a lap of the touring hand is longer than the proof's first second, and shorter than all of it") {
-  const TouringHand hand(paper_gate(), 1, 0.001);
-  CHECK(hand.lap() > 1.0);
-  CHECK(hand.lap() < 20.0);
+}  // namespace
+
+TEST_CASE("the callback is real-time safe: queues full, late, recorded, handed over to a guided car, led by a person") {
+  LatestValue<HandTarget> led;
+  LedHand hand(led, 1e-9 * static_cast<double>(kPeriod));
+  prove(led, hand);
+}
+
+TEST_CASE("the same with the hand that a driver gives") {
+  LatestValue<HandTarget> led;
+  GivenHand hand(led);
+  prove(led, hand);
+}
+
+TEST_CASE("the tour of the proof goes on after its hand-over, and ends before the proof does") {
+  CHECK(tour_of(paper_gate()).duration() > 6.0);
+  CHECK(tour_of(paper_gate()).duration() < 20.0);
 }

@@ -236,8 +236,11 @@ TEST_CASE("a disk that fills up is told once while the recording runs, and again
   Trainer trainer(trainer_config(TrainerClock::virtual_time));
   trainer.arm();
   std::optional<std::string> problem;
+  trainer.start_recording(folder / "second.trace");
+  trainer.advance(1.0);
+  CHECK_FALSE(trainer.stop_recording());
   {
-    const SmallFiles small(300'000);  // [bytes] less than a second
+    const SmallFiles small(std::filesystem::file_size(folder / "second.trace"));
     trainer.start_recording(folder / "drive.trace");
     CHECK_FALSE(trainer.take_recording_problem());
     trainer.advance(3.0);

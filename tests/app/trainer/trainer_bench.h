@@ -1,12 +1,16 @@
 // A trainer for tests, and a person who leads it through gears.
 #pragma once
 
+#include <chrono>
 #include <cmath>
 #include <functional>
+#include <memory>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "app/trainer/trainer.h"
+#include "haptics/loop/shift_script.h"
 #include "tests/support/gates.h"
 
 namespace gearshift {
@@ -20,8 +24,8 @@ inline TrainerConfig trainer_config(TrainerClock clock, const std::string& gate 
 
 inline const std::vector<int> kPaperTour{1, 2, 3, 4, 5, kReverseGear};
 
-// A hand at 60 frames a second: from wherever it is straight to the neutral line, along it by way of the neutral column,
-// and into the slot, 20 mm beyond the gear's rest. Knob and ring are held for reverse.
+// A hand at 60 frames a second: from wherever it is straight to the neutral line, along it by way of the neutral
+// column, and into the slot, 20 mm beyond the gear's rest. Knob and ring are held for reverse.
 // `frame` lets a frame pass.
 class LeadingPerson {
  public:
@@ -72,6 +76,32 @@ class LeadingPerson {
   glm::dvec2 at_;
   bool holds_ = false;
 };
+
+// In a person's place: through every gear of the gate, from neutral.
+inline ScriptedHand tour_of(const Gate& gate, double period = 1e-3) {
+  const glm::dvec2 start = rest_position(gate, kNeutralGear);
+  return {touring_hand(start), shift_strokes(gate, start, tour_order(gate)), period};
+}
+inline SelfDriver touring_driver(const Gate& gate, double period = 1e-3) {
+  const auto hand = std::make_shared<ScriptedHand>(tour_of(gate, period));
+  return [hand, began = std::make_shared<double>(-1.0)](const DriveSample& now) {
+    if (*began < 0.0) *began = now.time();
+    DriverAction action;
+    action.hand = hand->next(now.time() - *began, now.lever.lever);
+    return action;
+  };
+}
+
+inline void sleep_ms(int ms) {
+  std::this_thread::sleep_for(std::chrono::milliseconds(ms));
+}
+
+// Until it holds, at most ten seconds.
+template <class Condition>
+bool comes_true(const Condition& condition) {
+  for (int i = 0; i < 2000 && !condition(); ++i) sleep_ms(5);
+  return condition();
+}
 
 // The gears among the events, in order.
 inline void add_gears(const std::vector<HapticEvent>& events, std::vector<int>& gears) {

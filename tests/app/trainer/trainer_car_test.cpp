@@ -2,10 +2,13 @@
 #include <algorithm>
 #include <chrono>
 #include <stdexcept>
+#include <string>
 #include <thread>
 
 #include <doctest/doctest.h>
 
+#include "app/training/lesson_world.h"
+#include "haptics/files/file_error.h"
 #include "haptics/loop/replay.h"
 #include "haptics/loop/trace_reader.h"
 #include "tests/app/trainer/trainer_bench.h"
@@ -85,9 +88,53 @@ TEST_CASE("a recording begun while it drives: the car goes on, and the trace rep
   CHECK_FALSE(trainer.stop_recording());
   CHECK(trainer.car().gear == 3);
   const Trace trace = read_trace(folder / "drive.trace");
-  const ReplayResult result = replay(trace, make_car_world);
+  const ReplayResult result = replay(trace, make_lesson_world);
   CHECK(result.bit_for_bit());
   CHECK(result.cycles > 1500);
+  // Without guidance it is the bare car's drive, to the bit.
+  const auto bare = [](const std::string& name, const Gate& gate) {
+    return make_car_world(name.substr(std::string("guided ").size()), gate);
+  };
+  CHECK(replay(trace, bare).bit_for_bit());
+}
+
+TEST_CASE("guided on and off, to one gear and another: it is felt, and what was recorded of it replays bit for bit") {
+  const TempFolder folder;
+  Trainer trainer(hatchback(TrainerClock::virtual_time));
+  trainer.arm();
+  LeadingPerson person(trainer, [&] { trainer.advance(LeadingPerson::kFrame); });
+  move_off(trainer, person);
+  const auto guide = [&](double strength, int gear) {
+    DriverControls controls;
+    controls.ignition = true;
+    controls.clutch = 1.0;
+    controls.guidance = strength;
+    controls.guided_gear = gear;
+    trainer.set_controls(controls);
+  };
+  guide(0.8, 3);
+  person.wait(30);
+  trainer.start_recording(folder / "drive.trace");
+  person.shift_to(3);
+  guide(0.0, 3);
+  person.wait(60);
+  guide(1.0, 4);
+  person.shift_to(4);
+  guide(0.3, 5);
+  person.shift_to(5);
+  guide(0.0, kNeutralGear);
+  person.wait(30);
+  CHECK_FALSE(trainer.stop_recording());
+  const Trace trace = read_trace(folder / "drive.trace");
+  CHECK(trace.samples[0].controls.guidance == 0.8);  // a lesson goes on where its recording begins
+  const ReplayResult result = replay(trace, make_lesson_world);
+  CHECK(result.bit_for_bit());
+  CHECK(result.cycles == trace.samples.size());
+  CHECK_THROWS_AS(replay(trace, make_car_world), FileError);
+  const auto unguided = [](const std::string& name, const Gate& gate) {
+    return make_car_world(name.substr(std::string("guided ").size()), gate);
+  };
+  CHECK_FALSE(replay(trace, unguided).bit_for_bit());
 }
 
 TEST_CASE("it starts in gear at speed; on the real clock, too") {

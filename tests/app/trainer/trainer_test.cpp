@@ -151,21 +151,6 @@ TEST_CASE("a changed tuning is admitted, used and kept; what is out of range cha
   CHECK((trainer.config().preset.haptics.tuning == soft));
 }
 
-TEST_CASE("the touring hand goes through every gear of the gate, lap after lap") {
-  TrainerConfig config = trainer_config(TrainerClock::virtual_time);
-  config.hand = HandKind::touring;
-  config.seed = 3;
-  Trainer trainer(config);
-  trainer.arm();
-  std::vector<int> gears;
-  for (int i = 0; i < 60 * 40; ++i) {
-    trainer.advance(1.0 / 60.0);
-    add_gears(trainer.take_events(), gears);
-  }
-  REQUIRE(gears.size() >= 12);
-  for (std::size_t i = 0; i < gears.size(); ++i) CHECK(gears[i] == kPaperTour[i % kPaperTour.size()]);
-}
-
 TEST_CASE("a hand too soft to lead is replaced by a grip, and the configuration says so") {
   TrainerConfig config = trainer_config(TrainerClock::virtual_time);
   config.preset.lever.hand = kBareHand;
@@ -185,24 +170,45 @@ TEST_CASE("the virtual clock moves by whole cycles and owes the rest") {
   trainer.advance(std::numeric_limits<double>::quiet_NaN());
   trainer.advance(std::numeric_limits<double>::infinity());
   CHECK(trainer.time() == doctest::Approx(1.001).epsilon(1e-12));
-  CHECK(trainer.take_history(5000).size() == 1001);
+  CHECK(trainer.take_cycles().size() == 1001);
 }
 
-TEST_CASE("the history holds every cycle since the last look, in order, each once") {
+TEST_CASE("every cycle since the last look is handed out, in order, each once") {
   Trainer trainer(trainer_config(TrainerClock::virtual_time));
   trainer.advance(0.25);
-  const std::vector<HapticSnapshot> first = trainer.take_history(10000);
+  const std::vector<DriveSample> first = trainer.take_cycles();
+  (void)trainer.health();  // looks, and takes none
+  DriverControls controls;
+  controls.clutch = 0.25;
+  trainer.set_controls(controls);
   trainer.advance(3.0);
-  const std::vector<HapticSnapshot> second = trainer.take_history(10000);
+  (void)trainer.health();
+  const std::vector<DriveSample> second = trainer.take_cycles();
   CHECK(first.size() == 250);
   CHECK(second.size() == 3000);
   std::uint64_t next = 0;
   for (const auto* part : {&first, &second})
-    for (const HapticSnapshot& snapshot : *part) CHECK(snapshot.cycle == next++);
-  CHECK(second.back().time_ns == trainer.snapshot().time_ns);
-  CHECK(trainer.take_history(10000).empty());
-  trainer.advance(2.0);
-  CHECK(trainer.take_history(100).size() <= 100);
+    for (const DriveSample& sample : *part) {
+      CHECK(sample.lever.cycle == next++);
+      CHECK(sample.controls.clutch == (part == &first ? 0.0 : 0.25));
+    }
+  CHECK(second.back().lever.time_ns == trainer.snapshot().time_ns);
+  CHECK(trainer.take_cycles().empty());
+}
+
+TEST_CASE("a pause that is too long keeps its first 8192 cycles, and the gap shows") {
+  Trainer trainer(trainer_config(TrainerClock::virtual_time));
+  trainer.advance(0.5);
+  CHECK(trainer.take_cycles().size() == 500);
+  trainer.advance(20.0);
+  const std::vector<DriveSample> cycles = trainer.take_cycles();
+  REQUIRE(cycles.size() == 8192);
+  CHECK(cycles.front().lever.cycle == 500);
+  CHECK(cycles.back().lever.cycle == 500 + 8191);
+  trainer.advance(0.001);
+  const std::vector<DriveSample> next = trainer.take_cycles();
+  REQUIRE(next.size() == 1);
+  CHECK(next[0].lever.cycle == 20'500);
 }
 
 TEST_CASE("health tells the rate, and each stage's share of a cycle") {

@@ -8,21 +8,6 @@
 
 using namespace gearshift;
 
-namespace {
-
-void sleep_ms(int ms) {
-  std::this_thread::sleep_for(std::chrono::milliseconds(ms));
-}
-
-// Until it holds, at most ten seconds.
-template <class Condition>
-bool comes_true(const Condition& condition) {
-  for (int i = 0; i < 2000 && !condition(); ++i) sleep_ms(5);
-  return condition();
-}
-
-}  // namespace
-
 TEST_CASE("in real time, led through the paper's gate, the gears engage in order") {
   Trainer trainer(trainer_config(TrainerClock::real_time));
   trainer.arm();
@@ -30,7 +15,7 @@ TEST_CASE("in real time, led through the paper's gate, the gears engage in order
   LeadingPerson person(trainer, [&] {
     sleep_ms(8);
     add_gears(trainer.take_events(), gears);
-    (void)trainer.take_history(200);
+    (void)trainer.take_cycles();
     (void)trainer.health();
   });
   for (const int gear : kPaperTour) {
@@ -44,21 +29,22 @@ TEST_CASE("in real time, led through the paper's gate, the gears engage in order
 
 TEST_CASE("a frame that hangs for a second: the lever goes on, its wall holds, and no event is lost") {
   TrainerConfig config = trainer_config(TrainerClock::real_time);
-  config.hand = HandKind::touring;
   config.preset.haptics.rate = 4000.0;  // the fullest queues
+  config.driver = touring_driver(paper_gate(), 1.0 / 4000.0);
   Trainer trainer(config);
   trainer.arm();
   REQUIRE(comes_true([&] { return trainer.snapshot().guard == GuardState::running; }));
   const HapticSnapshot before = trainer.snapshot();
-  (void)trainer.take_history(0);
+  (void)trainer.take_cycles();
   sleep_ms(1000);
   const HapticSnapshot after = trainer.snapshot();
-  const std::vector<HapticSnapshot> history = trainer.take_history(1'000'000);
+  const std::vector<DriveSample> cycles = trainer.take_cycles();
   CHECK(after.time_ns - before.time_ns > 500'000'000);
   CHECK(after.cycle > before.cycle + 100);
-  REQUIRE(history.size() > 100);
-  for (std::size_t i = 1; i < history.size(); ++i) CHECK(history[i].cycle == history[i - 1].cycle + 1);  // all of them
-  CHECK(history.back().cycle >= after.cycle);
+  REQUIRE(cycles.size() > 100);
+  for (std::size_t i = 1; i < cycles.size(); ++i)
+    CHECK(cycles[i].lever.cycle == cycles[i - 1].lever.cycle + 1);  // all of them
+  CHECK(cycles.back().lever.cycle >= after.cycle);
   CHECK(trainer.health().events_lost == 0);
   // In control: it still obeys.
   trainer.stop();

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <queue>
 #include <random>
 #include <utility>
@@ -58,6 +59,71 @@ double grid_way(const Gate& gate, dvec2 from, dvec2 to) {
   return 1e9;
 }
 
+// All corners that a string could bend at, and between which of them one can see. Looks at each sight line every 0.1 mm.
+class VisibilityGraph {
+ public:
+  explicit VisibilityGraph(const Gate& gate) : gate_(gate) {
+    for (const Column& column : columns(gate)) {
+      for (const double side : {-1.0, 1.0}) {
+        for (const double up : {-1.0, 1.0}) {
+          corners_.push_back({column.center + side * column.half_width, up * (gate.half_aisle + gate.chamfer)});
+          corners_.push_back({column.center + side * (column.half_width + gate.chamfer), up * gate.half_aisle});
+        }
+      }
+    }
+    std::erase_if(corners_, [&](dvec2 p) { return !in_free_space(gate, p, kTouch); });
+    for (const dvec2 a : corners_) {
+      sight_.emplace_back();
+      for (const dvec2 b : corners_) sight_.back().push_back(leg(a, b));
+    }
+  }
+
+  // Bellman and Ford: as many rounds as a way can have bends.
+  double way(dvec2 from, dvec2 to) const {
+    std::vector<double> best;
+    double shortest = leg(from, to);
+    for (const dvec2 corner : corners_) best.push_back(leg(from, corner));
+    for (std::size_t round = 0; round < 6; ++round) {
+      for (std::size_t i = 0; i < best.size(); ++i)
+        for (std::size_t j = 0; j < best.size(); ++j) best[j] = std::min(best[j], best[i] + sight_[i][j]);
+    }
+    for (std::size_t i = 0; i < best.size(); ++i) shortest = std::min(shortest, best[i] + leg(corners_[i], to));
+    return shortest;
+  }
+
+ private:
+  static constexpr double kTouch = 1e-6;  // [m]
+
+  double leg(dvec2 a, dvec2 b) const {
+    const int parts = 1 + static_cast<int>(glm::distance(a, b) / 1e-4);
+    for (int i = 0; i <= parts; ++i) {
+      if (!in_free_space(gate_, a + (b - a) * (static_cast<double>(i) / parts), kTouch)) return 1e9;
+    }
+    return glm::distance(a, b);
+  }
+
+  const Gate& gate_;
+  std::vector<dvec2> corners_;
+  std::vector<std::vector<double>> sight_;
+};
+
+std::vector<dvec2> random_points(const Gate& gate, std::size_t count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> x(-0.07, 0.07), y(-0.05, 0.05);
+  std::vector<dvec2> points;
+  while (points.size() < count) {
+    const dvec2 p{x(random), y(random)};
+    if (in_free_space(gate, p)) points.push_back(p);
+  }
+  return points;
+}
+
+double length_of(const std::vector<dvec2>& path) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < path.size(); ++i) length += glm::distance(path[i - 1], path[i]);
+  return length;
+}
+
 }  // namespace
 
 TEST_CASE("within a column the way is straight, round a wall it touches the corners") {
@@ -84,21 +150,57 @@ TEST_CASE("the shortest way is as a search over a grid finds it, in every gate")
   }
 }
 
-TEST_CASE("there is a way between any two points, not shorter than the straight line and the same both ways") {
-  std::mt19937 random(7);
+TEST_CASE("between any two points the string is as short as over all corners that can be seen from each other") {
   for (const std::string& name : shipped_names()) {
+    CAPTURE(name);
     const Gate gate = shipped_gate(name);
-    std::uniform_real_distribution<double> x(-0.07, 0.07), y(-0.05, 0.05);
-    std::vector<dvec2> points;
-    while (points.size() < 40) {
-      const dvec2 p{x(random), y(random)};
-      if (in_free_space(gate, p)) points.push_back(p);
-    }
+    const VisibilityGraph graph(gate);
+    std::vector<dvec2> points = random_points(gate, 60, 7);
+    for (const Slot& slot : slots(gate)) points.push_back(rest_position(gate, slot.gear));
     for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-      const double way = shortest_way(gate, points[i], points[i + 1]);
-      CHECK(way >= glm::distance(points[i], points[i + 1]) - 1e-12);
-      CHECK(way < 0.3);
-      CHECK(way == doctest::Approx(shortest_way(gate, points[i + 1], points[i])).epsilon(1e-9));
+      const dvec2 from = points[i], to = points[i + 1];
+      CAPTURE(from.x);
+      CAPTURE(from.y);
+      CAPTURE(to.x);
+      CAPTURE(to.y);
+      const double way = shortest_way(gate, from, to), seen = graph.way(from, to);
+      CHECK(way <= seen + 1e-6);
+      CHECK(way >= seen - 1e-4);  // it may touch a wall by that
+      CHECK(way >= glm::distance(from, to) - 1e-12);
+      CHECK(way == doctest::Approx(shortest_way(gate, to, from)).epsilon(1e-9));
     }
   }
+}
+
+TEST_CASE("the string's points: its ends and at most four bends, every leg free, as long as the way") {
+  for (const std::string& name : shipped_names()) {
+    CAPTURE(name);
+    const Gate gate = shipped_gate(name);
+    const std::vector<dvec2> points = random_points(gate, 60, 11);
+    for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+      const std::vector<dvec2> path = shortest_path(gate, points[i], points[i + 1]);
+      REQUIRE(path.size() >= 2);
+      CHECK(path.size() <= 6);
+      CHECK(path.front() == points[i]);
+      CHECK(path.back() == points[i + 1]);
+      CHECK(length_of(path) == shortest_way(gate, points[i], points[i + 1]));
+      for (std::size_t k = 1; k < path.size(); ++k) {
+        CHECK(path[k] != path[k - 1]);
+        for (double share = 0.0; share <= 1.0; share += 0.01)
+          CHECK(in_free_space(gate, path[k - 1] + (path[k] - path[k - 1]) * share, 2e-4));
+      }
+    }
+  }
+}
+
+TEST_CASE("a string of no length is one point; round a wall its points are the corners") {
+  const Gate gate = paper_gate();
+  CHECK(shortest_path(gate, {0.01, 0.0}, {0.01, 0.0}) == std::vector<dvec2>{{0.01, 0.0}});
+  CHECK(shortest_way(gate, {0.01, 0.0}, {0.01, 0.0}) == 0.0);
+  const std::vector<dvec2> path = shortest_path(gate, {-0.03, 0.03}, {0.0, 0.03});
+  const std::vector<dvec2> corners{{-0.03, 0.03},   {-0.025, 0.01}, {-0.021, 0.006},
+                                   {-0.009, 0.006}, {-0.005, 0.01}, {0.0, 0.03}};
+  REQUIRE(path.size() == corners.size());
+  for (std::size_t i = 0; i < path.size(); ++i) CHECK(glm::distance(path[i], corners[i]) < 1e-12);
+  CHECK(shortest_path(gate, {0.5, 0.5}, {0.0, 0.0}) == std::vector<dvec2>{{0.5, 0.5}, {0.0, 0.0}});  // not in the gate
 }

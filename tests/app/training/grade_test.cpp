@@ -50,6 +50,22 @@ TEST_CASE("every deduction names its fault, and together they are what is missin
   CHECK(result.grade == 10.0 - sum);
 }
 
+TEST_CASE("a lesson that was not done has grade 0 without a fault, and one that was left has none at all") {
+  for (const LessonEnd end : {LessonEnd::aborted, LessonEnd::out_of_time}) {
+    LessonResult lost = done_with({});
+    lost.end = end;
+    lost = graded(lost);
+    CHECK(lost.grade == 0.0);
+    CHECK_FALSE(lost.passed);
+    CHECK(is_graded(lost));
+  }
+  LessonResult left = done_with({});
+  left.end = LessonEnd::left;
+  CHECK_FALSE(is_graded(graded(left)));
+  CHECK_FALSE(graded(left).passed);
+  CHECK(is_graded(graded(done_with({}))));
+}
+
 TEST_CASE("no grade is below nought") {
   CHECK(graded(done_with(std::vector<Severity>(5, Severity::very_severe))).grade == 0.0);
 }

@@ -16,9 +16,10 @@ TEST_CASE("the gain follows g <- clamp(f g + k error), with f falling as skill g
   double g = config.start, skill = 0.0;
   for (int n = 0; n < 60; ++n) {
     const double error = std::exp(-n / 12.0);
+    const double e = std::min(1.0, error / 0.4);
     const double f = config.forget * (1.0 - skill) + config.forget_skilled * skill;
-    g = std::clamp(f * g + config.per_error * error, 0.0, 1.0);
-    skill = config.skill_memory * skill + (1.0 - config.skill_memory) * (1.0 - error);
+    g = std::clamp(f * g + config.per_error * e, 0.0, 1.0);
+    skill = config.skill_memory * skill + (1.0 - config.skill_memory) * (1.0 - e);
     policy.learn(error);
     CHECK(policy.gain() == doctest::Approx(g).epsilon(1e-12));
     CHECK(policy.skill() == doctest::Approx(skill).epsilon(1e-12));
@@ -33,17 +34,19 @@ TEST_CASE("a learner without error is left alone by and by: (product of f) of th
   CHECK(policy.gain() == doctest::Approx(std::pow(config.forget, 20)).epsilon(1e-12));
 }
 
-TEST_CASE("steady error keeps the gain at k e / (1 - f)") {
+TEST_CASE("steady error keeps the gain at k e / (1 - f), and an error that no pass grade forgives at its most") {
   GuidanceConfig config;
   config.skill_memory = 1.0;
   GuidancePolicy policy(1, config);
-  for (int n = 0; n < 400; ++n) policy.learn(0.3);
-  CHECK(policy.gain() == doctest::Approx(config.per_error * 0.3 / (1.0 - config.forget)).epsilon(1e-9));
+  for (int n = 0; n < 400; ++n) policy.learn(0.1);
+  CHECK(policy.gain() == doctest::Approx(config.per_error * 0.25 / (1.0 - config.forget)).epsilon(1e-9));
+  for (int n = 0; n < 400; ++n) policy.learn(0.4);
+  CHECK(policy.gain() == 1.0);
 }
 
 TEST_CASE("guidance fades faster for the skilled") {
   GuidancePolicy skilled(1), novice(1);
-  for (int n = 0; n < 10; ++n) skilled.learn(0.05), novice.learn(0.9);
+  for (int n = 0; n < 10; ++n) skilled.learn(0.02), novice.learn(0.35);
   CHECK(skilled.skill() > 0.8);
   CHECK(novice.skill() < 0.2);
   CHECK(skilled.gain() < 0.1);
@@ -66,6 +69,25 @@ TEST_CASE("half of the trials are unguided, of every four, in an order that the 
     for (int& count : first) count += policy.next().guidance > 0.0 ? 1 : 0;
   }
   for (const int count : first) CHECK(count == doctest::Approx(2000).epsilon(0.06));  // 4 standard deviations
+}
+
+TEST_CASE("who loses a point in every trial has half of them guided for long; who loses none any more is left alone") {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    GuidancePolicy policy(seed);
+    int guided = 0;
+    const auto drive = [&](int trials, double error) {
+      guided = 0;
+      for (int n = 0; n < trials; ++n) {
+        guided += policy.next().guidance > 0.0 ? 1 : 0;
+        policy.learn(error);
+      }
+    };
+    drive(24, 0.1);
+    CHECK(guided == 12);
+    drive(8, 0.0);
+    drive(8, 0.0);
+    CHECK(guided == 0);
+  }
 }
 
 TEST_CASE("the same seed and errors give the same plans, another seed others") {

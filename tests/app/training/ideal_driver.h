@@ -30,12 +30,14 @@ class IdealDriver {
 
   std::function<void(DriveSample&)> spoil = [](DriveSample&) {};
   double pause = 0.0;  // [s] between gear and clutch
+  bool late = false;   // begins a step only once its time is over
 
   void drive(LessonRun& run) {
     run_ = &run;
     wait(0.5);
     for (std::size_t step = 0; step < lesson_.steps.size() && !run.is_over(); ++step) {
       if (run.view().step > step) continue;  // passed over
+      if (late) wait(lesson_.steps[step].within.value_or(0.0));
       act(step);
       const DriveCondition& c = lesson_.steps[step].until;
       const bool travels = c.speed_above || c.speed_below || c.engine_above || c.rolled_back_above;

@@ -272,6 +272,70 @@ TEST_CASE("out of time, left, torn: no pass, and nothing counts after the end") 
   CHECK(lost.result().deductions.empty());
 }
 
+TEST_CASE("a step that took longer than it may is a fault, named in its own words, with the seconds that it took") {
+  const auto within = [](double seconds, std::size_t step = 1) {
+    Driven driven;
+    driven.lesson.catches.push_back(FaultKind::slow_step);
+    driven.lesson.steps[step].within = seconds;
+    return driven.run();
+  };
+  // The constructed shift: clutch past 0.8 at 0.081 s, third in at 0.491 s, clutch up at 0.761 s; the lesson began at -1 s.
+  CHECK(within(0.42).result().faults.empty());
+  const Outcome slow = within(0.40);
+  REQUIRE(slow.result().faults.size() == 1);
+  const DriveFault& fault = slow.result().faults[0];
+  CHECK(fault.kind == FaultKind::slow_step);
+  CHECK(fault.severity == Severity::minor);
+  CHECK(fault.value == doctest::Approx(0.41).epsilon(0.01));
+  CHECK(fault.time == doctest::Approx(100.491).epsilon(1e-5));
+  CHECK(fault.shift == 0);  // in whose time it was
+  CHECK(fault_sentence(fault) == "\"Lever to 3.\" took 0.41 s; 0.40 s is wanted.");
+  CHECK(slow.result().grade == 9.5);
+  REQUIRE(slow.view().said.size() == 1);
+  CHECK(within(0.20).result().faults[0].severity == Severity::severe);  // twice as long and more
+  CHECK(within(1.0, 0).result().faults[0].value == doctest::Approx(1.081).epsilon(0.01));
+}
+
+TEST_CASE("a step that was passed over took until the next one was done, which took no time of its own") {
+  Driven driven;
+  driven.lesson.catches.push_back(FaultKind::slow_step);
+  driven.lesson.steps[1].until.throttle_above = 0.99;  // never
+  driven.lesson.steps[1].within = 0.6;
+  driven.lesson.steps[2].within = 0.1;
+  const Outcome run = driven.run();
+  CHECK(run.result().end == LessonEnd::done);
+  REQUIRE(run.result().faults.size() == 1);
+  CHECK(run.result().faults[0].step == "Lever to 3.");
+  CHECK(run.result().faults[0].value == doctest::Approx(0.68).epsilon(0.02));
+}
+
+TEST_CASE("a lesson that ends in a step whose time is over has that fault too, and none before it is over") {
+  for (const double left_at : {0.2, 0.4}) {
+    Driven driven;
+    driven.lesson.catches.push_back(FaultKind::slow_step);
+    driven.lesson.steps[1].within = 0.2;  // it begins at 0.081 s
+    driven.each = [=](LessonRun& r, double t) {
+      if (t >= left_at) r.leave();
+    };
+    const LessonResult result = driven.run().result();
+    CHECK(result.end == LessonEnd::left);
+    REQUIRE(result.faults.size() == (left_at > 0.3 ? 1 : 0));
+    if (left_at > 0.3) CHECK(result.faults[0].value == doctest::Approx(0.32).epsilon(0.02));
+  }
+}
+
+TEST_CASE("by oneself the goal is all there is, but for a step that is a call") {
+  Driven driven;
+  driven.config.mode = LessonMode::by_yourself;
+  driven.lesson.steps[1].call = true;
+  std::vector<std::string> prompts;
+  driven.each = [&](LessonRun& r, double) {
+    if (prompts.empty() || prompts.back() != r.view().prompt) prompts.push_back(r.view().prompt);
+  };
+  driven.run();
+  CHECK(prompts == std::vector<std::string>{"Shift to third.", "Lever to 3.", "Shift to third."});
+}
+
 TEST_CASE("what fails the lesson fails it") {
   Driven driven;
   driven.shift.spoil = [](DriveSample& s, double t) { s.car.running = t < 0.3 || t > 0.31; };

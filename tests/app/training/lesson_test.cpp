@@ -62,6 +62,10 @@ constexpr Hostile kHostile[] = {
     {"unknown_fault", ":19: tyre_blown is not a known key: known here are stall"},
     {"unknown_key", ":4: difficulty is not a known key: known here are title"},
     {"unknown_table", ":18: music is not a known key: known here are title"},
+    {"slow_step_of_none", ":19: slow_step = \"counts\": no step says within_s, so that none could be slow"},
+    {"within_its_own_hold", ":12: within_s = 2: can never be kept: it must be longer than the step's held_s"},
+    {"within_no_time", ":12: within_s = 0: must be between 0.1 and 120"},
+    {"within_that_nobody_judges", ":19: slow_step is missing: a step says within_s"},
     {"wrong_gear_of_none", ":19: wrong_gear = \"counts\": no step asks for a gear, so that none could be wrong"},
 };
 
@@ -98,6 +102,8 @@ running = true
 prompt = "Do it."
 hint = "Like this."
 patience_s = 3
+within_s = 2.5
+call = true
 guide_to = "4"
 [step.until]
 ignition = true
@@ -130,6 +136,7 @@ when = { distance_above_m = 100 }
 [faults]
 stall = "fails"
 jerk = "counts"
+slow_step = "counts"
 )";
 
 }  // namespace
@@ -151,13 +158,17 @@ TEST_CASE("every key is read, in SI units") {
   CHECK(lesson.start.speed == doctest::Approx(10.0));
   CHECK(std::tan(lesson.start.slope) == doctest::Approx(0.1));
   CHECK(lesson.start.hand_brake == 0.5);
-  CHECK(lesson.catches == std::vector<FaultKind>{FaultKind::stall, FaultKind::jerk});
+  CHECK(lesson.catches == std::vector<FaultKind>{FaultKind::stall, FaultKind::jerk, FaultKind::slow_step});
   CHECK(lesson.fails_on == std::vector<FaultKind>{FaultKind::stall});
   CHECK(lesson.text == kWhole);
   REQUIRE(lesson.steps.size() == 2);
   CHECK(lesson.steps[0].prompt == "Do it.");
   CHECK(lesson.steps[0].hint == "Like this.");
   CHECK(lesson.steps[0].patience == 3.0);
+  CHECK(lesson.steps[0].within == 2.5);
+  CHECK_FALSE(lesson.steps[1].within.has_value());
+  CHECK(lesson.steps[0].call);
+  CHECK_FALSE(lesson.steps[1].call);
   CHECK(lesson.steps[0].gear == 4);
   CHECK(lesson.steps[1].gear == kReverseGear);  // where it waits for a gear it guides there
   CHECK(lesson.steps[1].patience == 8.0);

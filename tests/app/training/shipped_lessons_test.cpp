@@ -29,13 +29,20 @@ Gate gate_of(const Lesson& lesson) {
 
 using Spoil = std::function<void(DriveSample&)>;
 
-LessonResult driven(const Lesson& lesson, Spoil spoil, double pause = 0.0, LessonMode mode = LessonMode::follow_me) {
+struct Manner {
+  double pause = 0.0;  // [s]
+  bool late = false;
+  LessonMode mode = LessonMode::follow_me;
+};
+
+LessonResult driven(const Lesson& lesson, Spoil spoil, const Manner& manner = {}) {
   const Gate gate = gate_of(lesson);
   const CarSpec car = test_car();
-  LessonRun run(lesson, car, gate, {mode, 0.0, HintStyle::prescriptive});
+  LessonRun run(lesson, car, gate, {manner.mode, 0.0, HintStyle::prescriptive});
   IdealDriver driver(lesson, car, gate);
   driver.spoil = std::move(spoil);
-  driver.pause = pause;
+  driver.pause = manner.pause;
+  driver.late = manner.late;
   driver.drive(run);
   return run.result();
 }
@@ -180,6 +187,7 @@ Spoil spoil_of(FaultKind kind, const Gate& gate) {
         if (s.car.clutch == 1.0) s.car.sync = SyncPhase::synchronising, s.lever.f_h = {0.0, 10.0};
       };
     case FaultKind::too_slow:
+    case FaultKind::slow_step:
       return [](DriveSample&) {};
     case FaultKind::missed_shift:
       return nullptr;
@@ -214,8 +222,7 @@ TEST_CASE("each shipped lesson, driven as it is meant, is passed with the best g
     for (const LessonMode mode : {LessonMode::follow_me, LessonMode::by_yourself}) {
       CAPTURE(key);
       const Lesson lesson = shipped_lesson(key);
-      const LessonResult result = driven(
-          lesson, [](DriveSample&) {}, 0.0, mode);
+      const LessonResult result = driven(lesson, [](DriveSample&) {}, {0.0, false, mode});
       CAPTURE(fault_list(result));
       CAPTURE(result.why);
       CHECK(result.end == LessonEnd::done);
@@ -236,7 +243,7 @@ TEST_CASE("each shipped lesson sees every fault that it looks at, and is failed 
       const Spoil spoil = spoil_of(kind, gate);
       if (!spoil) continue;
       const bool waits = kind == FaultKind::too_slow || kind == FaultKind::blocked;
-      const LessonResult result = driven(lesson, spoil, waits ? 3.0 : 0.0);
+      const LessonResult result = driven(lesson, spoil, {waits ? 3.0 : 0.0, kind == FaultKind::slow_step});
       CAPTURE(key);
       CAPTURE(fault_key(kind));
       CAPTURE(fault_list(result));

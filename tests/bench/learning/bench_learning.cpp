@@ -128,16 +128,17 @@ std::vector<BenchRow> practice_rows(const LessonDriveConfig& drive, bool quick) 
                                          std::pair{Practice::faded, "by the policy"}}) {
       const PracticeOutcome outcome = practise(drive, practice, model, learners, trials, 1);
       const std::string what = failed_loss > 0.0 ? "" : ", failures teach as much";
-      rows.push_back(
-          {"learning",
-           drive.lesson.key + ", " + name + what,
-           outcome.error.back(),
-           "skill error left of " + std::to_string(outcome.error.front()).substr(0, 4),
-           {},
-           false,
-           std::to_string(learners) + " learners, " + std::to_string(trials) + " trials, model assumed",
-           true,
-           {{"retention grade", outcome.retention_grade, ""}, {"guided", 100.0 * outcome.guided_share, "%"}}});
+      rows.push_back({"learning",
+                      drive.lesson.key + ", " + name + what,
+                      outcome.error.back(),
+                      "skill error left of " + std::to_string(outcome.error.front()).substr(0, 4),
+                      {},
+                      false,
+                      std::to_string(learners) + " learners, " + std::to_string(trials) + " trials, model assumed",
+                      true,
+                      {{"retention grade", outcome.retention_grade, ""},
+                       {"guided", 100.0 * outcome.guided_share, "%"},
+                       {"of the first half", 100.0 * outcome.guided_early, "%"}}});
     }
   }
   return rows;

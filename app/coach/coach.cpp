@@ -1,0 +1,308 @@
+#include "app/coach/coach.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "app/coach/learner_memory.h"
+#include "app/coach/planned_trial.h"
+#include "app/training/grade.h"
+#include "app/training/suggest.h"
+
+namespace gearshift {
+namespace {
+
+std::vector<PastResult> past_results(const std::vector<RunRow>& runs) {
+  std::vector<PastResult> past;
+  for (const RunRow& run : runs) {
+    if (std::optional<PastResult> result = past_result(run.result)) past.push_back(std::move(*result));
+  }
+  return past;
+}
+
+LessonStanding standing_in(const Lesson& lesson, const std::vector<PastResult>& past) {
+  LessonStanding standing{lesson.key, lesson.title, lesson.task, 0, std::nullopt, false};
+  for (const PastResult& result : past) {
+    if (result.lesson != lesson.key) continue;
+    ++standing.trials;
+    standing.grade = result.grade;
+    standing.passed = standing.passed || result.passed;
+  }
+  return standing;
+}
+
+}  // namespace
+
+struct Coach::State {
+  explicit State(const CoachConfig& a_config) : config(a_config), memory(config.history, config.program, config.now) {}
+
+  void look_at_learner();
+  void stand();
+  void suggest();
+  void show_runs();
+  void offer();
+  void plan();
+  LessonMode usual_mode() const;
+  void show_mode();
+  void begin(const CarSpec& car, const Gate& gate);
+  bool take(std::span<const DriveSample> samples);
+  void check_cycle(const DriveSample& sample);
+  void remember();
+  void leave();
+  void finish();
+  bool is_driving() const noexcept { return view.phase == LessonPhase::driving; }
+
+  CoachConfig config;
+  LearnerMemory memory;
+  CoachView view;
+  std::optional<Lesson> lesson;
+  std::optional<LessonMode> chosen_mode;  // by the person, for this lesson
+  std::unique_ptr<LessonRun> run;         // the trial that is driven or over
+  std::optional<std::uint64_t> cycle;     // of the trial's last sample
+  std::string settings, recording;
+};
+
+Coach::Coach(const CoachConfig& config) : state_(std::make_unique<State>(config)) {
+  if (!config.learner.empty()) check_learner_name(config.learner);
+  state_->memory.set_learner(config.learner);
+  state_->look_at_learner();
+}
+
+Coach::~Coach() {
+  state_->leave();
+}
+
+const CoachView& Coach::view() const noexcept {
+  return state_->view;
+}
+
+const Lesson* Coach::lesson() const noexcept {
+  return state_->lesson ? &*state_->lesson : nullptr;
+}
+
+std::optional<std::string> Coach::take_problem() {
+  return state_->memory.take_problem();
+}
+
+void Coach::set_learner(const std::string& name) {
+  if (!name.empty()) check_learner_name(name);
+  if (name == state_->memory.learner()) return;
+  state_->leave();
+  state_->memory.set_learner(name);
+  state_->chosen_mode.reset();
+  state_->look_at_learner();
+  if (state_->lesson) state_->offer();
+}
+
+void Coach::set_mode(LessonMode mode) {
+  state_->chosen_mode = mode;
+  state_->show_mode();
+}
+
+void Coach::want_help(bool on) {
+  state_->view.help_wanted = on;
+  if (state_->view.phase == LessonPhase::offered) state_->plan();
+}
+
+void Coach::offer(const Lesson& lesson) {
+  state_->leave();
+  if (!state_->lesson || state_->lesson->key != lesson.key) state_->chosen_mode.reset();
+  state_->lesson = lesson;  // may be the same object
+  state_->memory.look_again();
+  state_->look_at_learner();
+  state_->offer();
+}
+
+void Coach::put_away() {
+  State& state = *state_;
+  state.leave();
+  state.run.reset();
+  state.lesson.reset();
+  state.chosen_mode.reset();
+  CoachView& view = state.view;
+  view.phase = LessonPhase::none;
+  view.lesson = view.title = view.goal = "";
+  view.now = {};
+  view.result = {};
+  view.run = 0;
+  view.guidance = 0.0;
+  view.retention = false;
+}
+
+void Coach::begin(const CarSpec& car, const Gate& gate, const std::string& settings,
+                  const std::filesystem::path& recording) {
+  State& state = *state_;
+  if (!state.lesson) throw std::logic_error("no lesson is offered");
+  state.leave();
+  state.memory.look_again();
+  state.look_at_learner();
+  state.begin(car, gate);
+  state.settings = settings;
+  state.recording = recording.string();
+}
+
+void Coach::add(std::span<const DriveSample> samples) {
+  State& state = *state_;
+  if (!state.is_driving() || samples.empty()) return;
+  const bool over = state.take(samples);
+  state.remember();
+  if (over) state.finish();
+}
+
+void Coach::leave() {
+  state_->leave();
+}
+
+double Coach::guidance() const noexcept {
+  return state_->is_driving() ? state_->view.guidance : 0.0;
+}
+
+int Coach::guided_gear() const noexcept {
+  return state_->is_driving() ? state_->view.now.guided_gear : kNeutralGear;
+}
+
+void Coach::set_next(std::string_view lesson) {
+  const std::vector<Lesson>& lessons = state_->config.lessons;
+  const bool known = std::any_of(lessons.begin(), lessons.end(), [&](const Lesson& l) { return l.key == lesson; });
+  if (!lesson.empty() && !known) throw std::invalid_argument("\"" + std::string(lesson) + "\" is no lesson here");
+  state_->memory.set_next_lesson(std::string(lesson));
+  state_->look_at_learner();
+}
+
+void Coach::comment(std::int64_t run, const std::string& author, const std::string& text) {
+  const std::vector<RunRow>& runs = state_->memory.runs();
+  const bool known = std::any_of(runs.begin(), runs.end(), [&](const RunRow& row) { return row.id == run; });
+  if (!known) throw std::invalid_argument("run " + std::to_string(run) + " is none of this learner's");
+  state_->memory.add_comment(run, author, text);
+  state_->look_at_learner();
+}
+
+void Coach::State::look_at_learner() {
+  view.learner = memory.learner();
+  view.learners = memory.learners();
+  stand();
+  suggest();
+  show_runs();
+  view.remembers = memory.works();
+}
+
+void Coach::State::stand() {
+  const std::vector<PastResult> past = past_results(memory.runs());
+  view.lessons.clear();
+  for (const Lesson& each : config.lessons) view.lessons.push_back(standing_in(each, past));
+}
+
+// The instructor's lesson goes before what the grades say, where it is one of these.
+void Coach::State::suggest() {
+  const std::string& wanted = memory.next_lesson();
+  const auto is_wanted = [&](const Lesson& each) { return each.key == wanted; };
+  view.next_by_instructor = std::any_of(config.lessons.begin(), config.lessons.end(), is_wanted);
+  if (view.next_by_instructor) {
+    view.next = wanted;
+    view.next_why = "The instructor chose it.";
+    return;
+  }
+  const Suggestion next = suggest_lesson(config.lessons, past_results(memory.runs())).value_or(Suggestion{});
+  view.next = next.lesson;
+  view.next_why = next.why;
+}
+
+void Coach::State::show_runs() {
+  const std::vector<RunRow>& runs = memory.runs();
+  const auto count = static_cast<std::ptrdiff_t>(std::min(runs.size(), kMostRunsShown));
+  view.runs.assign(runs.rbegin(), runs.rbegin() + count);
+  view.comments.clear();
+  for (const RunRow& row : view.runs) view.comments.push_back(memory.comments(row.id));
+}
+
+void Coach::State::offer() {
+  run.reset();
+  view.phase = LessonPhase::offered;
+  view.lesson = lesson->key;
+  view.title = lesson->title;
+  view.goal = lesson->goal;
+  view.now = {};
+  view.result = {};
+  view.run = 0;
+  show_mode();
+  plan();
+}
+
+void Coach::State::plan() {
+  const PlannedTrial planned = plan_trial(memory.learner(), lesson->key, memory.runs(), config.now());
+  view.guidance = view.help_wanted ? planned.plan.guidance : 0.0;
+  view.hints = planned.plan.hints;
+  view.retention = planned.retention;
+}
+
+// Once it was passed, it is driven alone.
+LessonMode Coach::State::usual_mode() const {
+  const std::vector<RunRow>& runs = memory.runs();
+  const bool passed = std::any_of(runs.begin(), runs.end(), [&](const RunRow& row) {
+    return row.result.lesson == lesson->key && is_graded(row.result) && row.result.passed;
+  });
+  return passed ? LessonMode::by_yourself : LessonMode::follow_me;
+}
+
+void Coach::State::show_mode() {
+  if (chosen_mode) view.mode = *chosen_mode;
+  if (!chosen_mode && lesson) view.mode = usual_mode();
+}
+
+void Coach::State::begin(const CarSpec& car, const Gate& gate) {
+  show_mode();
+  plan();
+  run = std::make_unique<LessonRun>(*lesson, car, gate, LessonRunConfig{view.mode, view.guidance, view.hints});
+  cycle.reset();
+  view.phase = LessonPhase::driving;
+  view.now = run->view();
+  view.result = run->result();
+  view.run = 0;
+}
+
+// True when the trial is over: what comes after does not belong to it.
+bool Coach::State::take(std::span<const DriveSample> samples) {
+  for (const DriveSample& sample : samples) {
+    check_cycle(sample);
+    run->add(sample);
+    if (run->is_over()) return true;
+  }
+  return false;
+}
+
+// One that was lost, or that is of another loop, whose cycles begin again.
+void Coach::State::check_cycle(const DriveSample& sample) {
+  if (cycle && sample.lever.cycle != *cycle + 1) run->mark_torn();
+  cycle = sample.lever.cycle;
+}
+
+void Coach::State::remember() {
+  if (!memory.in_run()) memory.begin_run(run->result(), settings, recording);
+  for (const ShiftRecord& shift : run->take_shifts()) memory.add_shift(shift);
+  view.now = run->view();
+  view.result = run->result();
+  view.run = memory.run_number();
+  view.remembers = memory.works();
+}
+
+void Coach::State::leave() {
+  if (!is_driving()) return;
+  run->leave();
+  finish();
+}
+
+// A trial without a sample never was.
+void Coach::State::finish() {
+  view.phase = LessonPhase::over;
+  view.now = run->view();
+  view.result = run->result();
+  view.run = memory.in_run() ? memory.end_run(run->result()) : 0;
+  memory.look_again();  // the instructor may have chosen anew
+  const LessonResult& result = run->result();
+  const bool finished = is_graded(result) && result.end != LessonEnd::left;
+  if (finished && memory.next_lesson() == result.lesson) memory.set_next_lesson("");
+  look_at_learner();
+  show_mode();
+}
+
+}  // namespace gearshift

@@ -1,0 +1,41 @@
+// This work is based on:
+// Glenn Fowler, Landon Curt Noll, Kiem-Phong Vo, Donald Eastlake. The FNV Non-Cryptographic Hash Algorithm. 2019
+#include "app/coach/planned_trial.h"
+
+#include <optional>
+#include <string>
+
+#include "app/training/grade.h"
+
+namespace gearshift {
+namespace {
+
+// FNV-1a. The name tells learners apart, with a history or without; no name has a zero in it.
+std::uint64_t seed_of(std::string_view learner, std::string_view lesson) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const char c : std::string(learner) + '\0' + std::string(lesson))
+    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  return hash;
+}
+
+bool is_after_pause(const std::optional<std::int64_t>& last, std::int64_t now) {
+  return last && now - *last >= kRetentionPause;
+}
+
+}  // namespace
+
+PlannedTrial plan_trial(std::string_view learner, std::string_view lesson, std::span<const RunRow> runs,
+                        std::int64_t now) {
+  GuidancePolicy policy(seed_of(learner, lesson));
+  std::optional<std::int64_t> last;
+  for (const RunRow& run : runs) {
+    if (run.result.lesson != lesson || run.result.end == LessonEnd::running) continue;
+    (void)policy.next();
+    policy.learn(run_error(run.result));
+    last = seconds_of(run.begun_at);
+  }
+  if (is_after_pause(last, now)) return {policy.retention(), true};
+  return {policy.next(), false};
+}
+
+}  // namespace gearshift

@@ -1,0 +1,35 @@
+#include "app/history/date_text.h"
+
+#include <chrono>
+#include <ctime>
+
+#include <fmt/chrono.h>
+
+namespace gearshift {
+namespace {
+
+constexpr const char* kFormat = "%Y-%m-%dT%H:%M:%SZ";
+
+}  // namespace
+
+std::int64_t system_seconds() {
+  return std::chrono::duration_cast<std::chrono::seconds>(std::chrono::system_clock::now().time_since_epoch()).count();
+}
+
+std::string date_text(std::int64_t seconds) {
+  const std::time_t time = seconds;
+  std::tm utc{};
+  gmtime_r(&time, &utc);
+  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", utc);
+}
+
+std::optional<std::int64_t> seconds_of(std::string_view date) {
+  const std::string text(date);
+  std::tm utc{};
+  if (strptime(text.c_str(), kFormat, &utc) == nullptr) return std::nullopt;
+  const std::int64_t seconds = timegm(&utc);
+  if (date_text(seconds) != text) return std::nullopt;
+  return seconds;
+}
+
+}  // namespace gearshift

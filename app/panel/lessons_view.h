@@ -1,0 +1,22 @@
+// Who learns, all lessons and how this learner stands in them, and which one comes next.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "app/panel/panel.h"
+
+namespace gearshift {
+
+class LessonsView {
+ public:
+  void draw(Controls& controls, const CoachView& coach, LessonRequests& out);
+
+ private:
+  void draw_learner(Controls& controls, const CoachView& coach, LessonRequests& out);
+
+  std::array<char, 101> name_{};  // as it is written: as long as a name may be
+  std::string shown_;             // the learner that it was filled with
+};
+
+}  // namespace gearshift

@@ -1,0 +1,246 @@
+#include "app/panel/replay_bar.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <span>
+#include <string>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+
+#include "app/panel/lesson_words.h"
+#include "app/panel/palette.h"
+#include "app/panel/plot_area.h"
+#include "app/panel/text_lines.h"
+
+namespace gearshift {
+namespace {
+
+constexpr float kMostWidth = 80.0f, kLeastWidth = 10.0f, kMargin = 0.8f;        // [em]
+constexpr float kPedalHeight = 1.9f, kSpeedHeight = 2.5f, kForceHeight = 1.9f;  // [em]
+constexpr float kOpaque = 0.86f;
+constexpr std::array<double, 5> kPaces{0.1, 0.25, 0.5, 1.0, 2.0};
+constexpr double kRpm = 60.0 / (2.0 * std::numbers::pi);  // per rad/s
+constexpr double kLeastSpan = 1e-3;                       // [s]
+
+bool begin_bar(const ControlRect& room, float width) {
+  constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
+                                      ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_AlwaysAutoResize;
+  const float em = ui_em();
+  const ImVec2 foot(0.5f * static_cast<float>(room.min.x + room.max.x),
+                    static_cast<float>(room.max.y) - 0.5f * kMargin * em);
+  ImGui::SetNextWindowPos(foot, ImGuiCond_Always, {0.5f, 1.0f});
+  ImGui::SetNextWindowSizeConstraints({width, 0.0f},
+                                      {width, std::max(em, static_cast<float>(room.max.y - room.min.y))});
+  ImGui::SetNextWindowBgAlpha(kOpaque);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.5f * em);
+  const bool open = ImGui::Begin("Replay", nullptr, kFlags);
+  ImGui::PopStyleVar();
+  return open;
+}
+
+// The whole drive from left to right, and where in it what is looked at lies.
+struct Overview {
+  ImVec2 low, size;    // [px]
+  double begin, span;  // [s]
+  float at(double time) const { return low.x + size.x * static_cast<float>((time - begin) / span); }
+};
+
+// Of one shift: as long as it took, or as its name where there is room to the next one's; the last one's may lie before
+// it. [px]
+struct Mark {
+  float from, width;
+  bool named;
+};
+
+Mark mark_of(const Overview& view, std::span<const RecordedShift> shifts, std::size_t index, float name) {
+  const float least = 0.5f * ui_em(), gap = 2.0f, high = view.low.x + view.size.x;
+  const ShiftRecord& shift = shifts[index].record;
+  const float from = std::min(view.at(shift.begin), high - least), took = std::max(least, view.at(shift.end) - from);
+  const bool is_last = index + 1 == shifts.size();
+  const float room = (is_last ? high : view.at(shifts[index + 1].record.begin) - gap) - from;
+  if (std::max(took, room) >= name) return {from, std::max(took, name), true};
+  const float before = index == 0 ? view.low.x : view.at(shifts[index - 1].record.begin) + name + gap;
+  if (is_last && high - name >= before) return {high - name, name, true};
+  return {from, took, false};
+}
+
+void draw_shift_mark(Controls& controls, const Overview& view, const RecordedDrive& drive, std::size_t index, bool on,
+                     ReplayRequests& out) {
+  const WithFont small(UiFont::small);
+  const ShiftRecord& shift = drive.shifts()[index].record;
+  const std::string words = gears_words(shift), name = fmt::format("replay_shift: {}", index);
+  const Mark mark = mark_of(view, drive.shifts(), index, width_of(words) + 0.5f * ui_em());
+  ImGui::SetCursorScreenPos({mark.from, view.low.y});
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0.0f, 0.0f});
+  if (controls.button(name.c_str(), mark.named ? words.c_str() : "", {mark.width, view.size.y},
+                      on ? ink::kAccentDeep : ink::kRaisedHover))
+    out.shift = index;
+  ImGui::PopStyleVar();
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s, %.2f s", words.c_str(), shift.end - shift.begin);
+}
+
+void draw_shift_marks(Controls& controls, const Player& replay, ReplayRequests& out) {
+  const RecordedDrive& drive = replay.drive();
+  const float em = ui_em();
+  const ImVec2 low = ImGui::GetCursorScreenPos(), size(ImGui::GetContentRegionAvail().x, 1.25f * em);
+  const Overview view{low, size, drive.begin(), std::max(kLeastSpan, drive.end() - drive.begin())};
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled(low, {low.x + size.x, low.y + size.y}, ink::kWell, 3.0f);
+  list.AddRectFilled({view.at(replay.from()), low.y}, {view.at(replay.to()), low.y + size.y},
+                     with_alpha(ink::kAccent, 0.16f), 3.0f);
+  for (std::size_t i = 0; i < drive.shifts().size(); ++i)
+    draw_shift_mark(controls, view, drive, i, replay.shift() == i, out);
+  const float now = view.at(replay.time());
+  list.AddLine({now, low.y}, {now, low.y + size.y}, ink::kText, 0.12f * em);
+  ImGui::SetCursorScreenPos(low);
+  ImGui::Dummy(size);
+}
+
+// One of the legend, as wide as its widest value: what follows does not dance.
+void entry(Controls& controls, ImU32 colour, const std::string& text, const char* widest, bool first = false) {
+  const float em = ui_em(), width = width_of(widest, UiFont::small) + 1.4f * em;
+  if (!first) beside(width);
+  const float begin = ImGui::GetCursorPosX();
+  controls.legend(colour, text);
+  ImGui::SameLine(begin + width, 0.0f);
+  ImGui::Dummy({0.0f, ui_font(UiFont::small)->FontSize});
+}
+
+double most_of(const Strip& one, const Strip& other) {
+  return std::max({0.0, one.extent().most, other.extent().most});
+}
+
+void draw_time(Controls& controls, const Player& replay, ReplayRequests& out) {
+  const double begin = replay.drive().begin();
+  double time = replay.time() - begin;
+  const double from = replay.from() - begin, to = replay.to() - begin;
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
+  if (ImGui::SliderScalar("##time", ImGuiDataType_Double, &time, &from, &to, "", ImGuiSliderFlags_AlwaysClamp))
+    out.seek = begin + time;
+  controls.mark("replay_time");
+}
+
+void draw_paces(Controls& controls, const Player& replay, ReplayRequests& out) {
+  for (const double pace : kPaces) {
+    const std::string label = fmt::format("{:g}\u00d7", pace);
+    if (pace != kPaces.front()) ImGui::SameLine(0.0f, 2.0f);
+    const bool on = std::abs(replay.pace() - pace) < 1e-9;
+    if (controls.button(fmt::format("replay_pace: {:g}", pace).c_str(), label.c_str(), {0.0f, 0.0f},
+                        on ? ink::kAccentDeep : ink::kRaised))
+      out.pace = pace;
+  }
+}
+
+float paces_width() {
+  float width = 0.0f;
+  for (const double pace : kPaces) width += button_width(fmt::format("{:g}\u00d7", pace)) + 2.0f;
+  return width;
+}
+
+void draw_buttons(Controls& controls, const Player& replay, ReplayRequests& out) {
+  const float play = std::max(button_width("Play"), button_width("Pause"));
+  if (controls.button("replay_play", replay.plays() ? "Pause" : "Play", {play, 0.0f}, ink::kPrimary))
+    out.play = !replay.plays();
+  const std::string time = fmt::format("{:.2f} s", replay.time() - replay.drive().begin());
+  const float widest = width_of("888.88 s");
+  beside(widest);
+  const float begin = ImGui::GetCursorPosX();
+  ImGui::AlignTextToFramePadding();
+  put(time, ink::kText);
+  ImGui::SameLine(begin + widest);
+  if (ImGui::GetContentRegionAvail().x < paces_width()) ImGui::NewLine();
+  draw_paces(controls, replay, out);
+  beside(button_width("Whole drive"));
+  if (controls.button("replay_whole", "Whole drive", {0.0f, 0.0f}, replay.shift() ? ink::kRaised : ink::kAccentDeep))
+    out.whole = true;
+  at_right(button_width("Close"));
+  if (controls.button("replay_close", "Close")) out.close = true;
+}
+
+}  // namespace
+
+ReplayBar::Curves::Curves(double span)
+    : clutch(span, 1), throttle(span, 1), engine(span, 1), shaft(span, 1), force(span, 1) {}
+
+void ReplayBar::Curves::push(const DriveSample& sample) {
+  const double time = sample.time();
+  clutch.push(time, sample.car.clutch);
+  throttle.push(time, sample.car.throttle);
+  engine.push(time, sample.car.engine_speed);
+  shaft.push(time, std::abs(sample.car.shaft_speed));
+  force.push(time, glm::length(sample.lever.f_h));
+}
+
+void ReplayBar::follow(const Player& replay) {
+  const DriveSample* samples = replay.drive().samples().data();
+  if (curves_ && samples == samples_ && replay.from() == from_ && replay.to() == to_) return;
+  samples_ = samples;
+  from_ = replay.from();
+  to_ = replay.to();
+  curves_.emplace(std::max(kLeastSpan, to_ - from_));
+  for (const DriveSample& sample : replay.drive().between(from_, to_)) curves_->push(sample);
+}
+
+double ReplayBar::draw(Controls& controls, const Player* replay, const ControlRect& room, ReplayRequests& out) {
+  const float em = ui_em(), all = static_cast<float>(room.max.x - room.min.x);
+  const float width = std::min(kMostWidth * em, all - 2.0f * kMargin * em);
+  if (replay == nullptr || width < kLeastWidth * em) {
+    curves_.reset();
+    return room.max.y;
+  }
+  follow(*replay);
+  if (begin_bar(room, width)) {
+    draw_shift_marks(controls, *replay, out);
+    if (replay->drive().differs())
+      put_wrapped("Run again, this drive goes another way than it was recorded: from there on it has no shifts.",
+                  ink::kWarn);
+    draw_legend(controls, replay->now());
+    draw_curves(*replay);
+    draw_time(controls, *replay, out);
+    draw_buttons(controls, *replay, out);
+  }
+  const double top = static_cast<double>(ImGui::GetWindowPos().y);
+  ImGui::End();
+  return std::clamp(top, room.min.y, room.max.y);
+}
+
+void ReplayBar::draw_legend(Controls& controls, const DriveSample& now) {
+  entry(controls, ink::kAccent, fmt::format("clutch {:.0f} %", 100.0 * now.car.clutch), "clutch 100 %", true);
+  entry(controls, ink::kGood, fmt::format("throttle {:.0f} %", 100.0 * now.car.throttle), "throttle 100 %");
+  entry(controls, ink::kEngine, "engine " + rpm_words(now.car.engine_speed), "engine 8888 rpm");
+  entry(controls, ink::kShaft, "shaft " + rpm_words(std::abs(now.car.shaft_speed)), "shaft 8888 rpm");
+  entry(controls, ink::kHand, fmt::format("f_h {:.1f} N", glm::length(now.lever.f_h)), "f_h 88.8 N");
+}
+
+// Pedals, speeds and force one below the other, over the same time as the slider.
+void ReplayBar::draw_curves(const Player& replay) {
+  const float em = ui_em(), width = ImGui::GetContentRegionAvail().x;
+  const double begin = replay.drive().begin();
+  const PlotRange time{replay.from() - begin, std::max(replay.from() + kLeastSpan, replay.to()) - begin};
+  const auto lane = [&](float height, double most, double factor, Strip* one, ImU32 colour, Strip* other,
+                        ImU32 other_colour) {
+    PlotArea plot({width, height * em}, time, {0.0, most}, nullptr);
+    for (const RecordedShift& shift : replay.drive().shifts())
+      plot.list().AddRectFilled(plot.at(shift.record.begin - begin, most), plot.at(shift.record.end - begin, 0.0),
+                                with_alpha(ink::kAccent, 0.1f));
+    for (const auto& [strip, shade] : {std::pair(other, other_colour), std::pair(one, colour)}) {
+      if (strip == nullptr) continue;
+      strip->set_columns(std::max(1, plot.columns()));
+      plot.strip(*strip, factor, shade);
+    }
+    const double now = replay.time() - begin;
+    plot.list().AddLine(plot.at(now, 0.0), plot.at(now, most), ink::kText, 0.1f * em);
+  };
+  Curves& c = *curves_;
+  const double rpm = 1000.0 * std::max(1.0, std::ceil(kRpm * most_of(c.engine, c.shaft) / 1000.0));
+  lane(kPedalHeight, 105.0, 100.0, &c.clutch, ink::kAccent, &c.throttle, ink::kGood);
+  lane(kSpeedHeight, rpm, kRpm, &c.engine, ink::kEngine, &c.shaft, ink::kShaft);
+  lane(kForceHeight, nice_above(std::max(1.0, 1.05 * most_of(c.force, c.force)), 10.0), 1.0, &c.force, ink::kHand,
+       nullptr, 0);
+}
+
+}  // namespace gearshift

@@ -1,0 +1,26 @@
+#include "app/trainer/driver_thread.h"
+
+#include <chrono>
+#include <stop_token>
+#include <utility>
+
+namespace gearshift {
+namespace {
+
+// For the next cycle: the haptic thread cannot wake anybody, that would be a system call.
+constexpr std::chrono::microseconds kLookEvery{250};
+
+}  // namespace
+
+DriverThread::DriverThread(SelfDriver driver, SpscQueue<DriveSample>& cycles, DriverSeat& seat)
+    : thread_([act = std::move(driver), &cycles, &seat](const std::stop_token& stop) {
+        while (!stop.stop_requested()) {
+          DriveSample cycle;
+          if (cycles.pop(cycle))
+            seat.act(act(cycle));
+          else
+            std::this_thread::sleep_for(kLookEvery);
+        }
+      }) {}
+
+}  // namespace gearshift

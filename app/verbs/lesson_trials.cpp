@@ -1,0 +1,187 @@
+#include "app/verbs/lesson_trials.h"
+
+#include <cstdio>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "app/coach/coach.h"
+#include "app/coach/shipped_lessons.h"
+#include "app/output_folder.h"
+#include "app/program_name.h"
+#include "app/train/recording_file.h"
+#include "haptics/files/file_error.h"
+#include "haptics/files/printable.h"
+
+namespace gearshift {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::size_t kLot = 256;  // [cycles] that the coach gets at once: what it shows is made once a lot
+
+void print_faults(const LessonResult& result) {
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < result.faults.size(); ++i) {
+    const bool costs = next < result.deductions.size() && result.deductions[next].fault == i;
+    const double points = costs ? result.deductions[next++].points : 0.0;
+    const DriveFault& fault = result.faults[i];
+    if (fault.severity == Severity::note) continue;
+    fmt::print("  {:6.1f} s  {:<11}  -{:.1f}  {}\n", fault.time, severity_key(fault.severity), points,
+               fault_sentence(fault));
+  }
+}
+
+void print_result(const LessonResult& result, std::int64_t run) {
+  print_faults(result);
+  if (run > 0) fmt::print("Run {}: ", run);
+  fmt::print("{} shifts in {:.1f} s. ", result.shifts.size(), result.duration);
+  if (!result.guided) fmt::print("Grade {:.1f} of 10. ", result.grade);
+  fmt::print("{}\n", result.passed ? "Passed." : "Not passed: " + result.why);
+}
+
+void print_shift(const ShiftRecord& shift, std::int64_t run) {
+  if (run > 0) fmt::print("  run {}, shift {} written: ", run, shift.number);
+  if (run == 0) fmt::print("  shift {}: ", shift.number);
+  fmt::print("{} to {} in {:.2f} s\n", gear_name(shift.from), gear_name(shift.to), shift.end - shift.begin);
+  std::fflush(stdout);
+}
+
+class Trials {
+ public:
+  explicit Trials(const LessonTrials& trials)
+      : trials_(trials), gate_(driven_gate(trials.drive.gate)), coach_(coach_config()) {
+    coach_.want_help(trials_.help);
+    tell_problem();
+  }
+
+  bool to_the_end() {
+    for (int number = 0; number < trials_.runs; ++number) drive(number);
+    return coach_.view().result.passed;
+  }
+
+ private:
+  CoachConfig coach_config() const {
+    CoachConfig config;
+    config.lessons = shipped_lessons();
+    config.history = trials_.learner.empty() ? fs::path() : trials_.history;
+    config.learner = trials_.learner;
+    config.program = program_name();
+    return config;
+  }
+
+  void drive(int number) {
+    coach_.offer(trials_.drive.lesson);
+    if (trials_.mode) coach_.set_mode(*trials_.mode);
+    LessonDriveConfig drive = trials_.drive;
+    drive.seed += static_cast<std::uint64_t>(number);
+    drive.watch = [this](const DriveSample& sample) { see(sample); };
+    const bool own_recording = drive.trace.empty();
+    if (own_recording) drive.trace = recording();
+    coach_.begin(drive.car, gate_, trials_.settings, drive.trace.empty() ? fs::path() : fs::absolute(drive.trace));
+    if (trials_.help) drive.guidance = coach_.guidance();
+    drive.hints = coach_.view().hints;
+    drive.mode = coach_.view().mode;
+    told_ = 0;
+    told_help_ = false;
+    run(drive, own_recording);
+    hand_over();
+    coach_.leave();  // where the learner has given up
+    tell_shifts();
+    tell_problem();
+    print_result(coach_.view().result, coach_.view().run);
+    if (own_recording && coach_.view().run == 0) remove(drive.trace);
+  }
+
+  // With the first cycles: what cannot begin is told alone.
+  void tell_begin() {
+    if (!std::exchange(told_goal_, true)) fmt::print("{}: {}\n", trials_.drive.lesson.title, trials_.drive.lesson.goal);
+    if (!std::exchange(told_help_, true)) say_help();
+  }
+
+  void say_help() const {
+    if (!trials_.help) return;
+    const CoachView& view = coach_.view();
+    if (view.retention) fmt::print("A test after a day: without help.\n");
+    if (!view.retention && view.guidance == 0.0) fmt::print("Without help.\n");
+    if (view.guidance > 0.0) fmt::print("With help, {:.2f}.\n", view.guidance);
+  }
+
+  // A recording that nobody asked for must not cost the lesson: where it cannot begin, there is none.
+  void run(LessonDriveConfig& drive, bool own_recording) {
+    try {
+      (void)drive_lesson(drive);
+    } catch (const FileError& problem) {
+      hand_over();
+      if (!own_recording) throw;
+      tell(problem.what());
+      if (coach_.view().phase != LessonPhase::driving || coach_.view().result.duration > 0.0) return;
+      drive.trace.clear();
+      (void)drive_lesson(drive);
+    }
+  }
+
+  // In the history's folder, or nowhere.
+  fs::path recording() {
+    if (!coach_.view().remembers || trials_.learner.empty()) return {};
+    try {
+      const fs::path folder = fs::absolute(trials_.history).parent_path() / "recordings";
+      make_folder(folder);
+      return free_trace(folder, drive_name(trials_.drive.lesson.key));
+    } catch (const std::runtime_error& problem) {
+      tell(problem.what());
+      return {};
+    }
+  }
+
+  void see(const DriveSample& sample) {
+    lot_.push_back(sample);
+    if (lot_.size() == kLot) hand_over();
+  }
+
+  void hand_over() {
+    if (!lot_.empty()) tell_begin();
+    coach_.add(lot_);
+    lot_.clear();
+    tell_shifts();
+    tell_problem();
+  }
+
+  // Only now are they written.
+  void tell_shifts() {
+    const std::vector<ShiftRecord>& shifts = coach_.view().result.shifts;
+    for (; trials_.tells_shifts && told_ < shifts.size(); ++told_) print_shift(shifts[told_], coach_.view().run);
+  }
+
+  void tell_problem() {
+    if (const std::optional<std::string> problem = coach_.take_problem()) tell(*problem);
+  }
+
+  // The disk that has no room for the history has none for the recording: one sentence is enough.
+  void tell(const std::string& problem) {
+    if (!told_problem_) fmt::print(stderr, "gearshift: {}\n", printable(problem));
+    told_problem_ = true;
+  }
+
+  static void remove(const fs::path& file) {
+    std::error_code ignored;
+    if (!file.empty()) fs::remove(file, ignored);
+  }
+
+  const LessonTrials& trials_;
+  Gate gate_;
+  Coach coach_;
+  std::vector<DriveSample> lot_;
+  std::size_t told_ = 0;  // shifts of the trial
+  bool told_problem_ = false, told_goal_ = false, told_help_ = false;
+};
+
+}  // namespace
+
+bool drive_trials(const LessonTrials& trials) {
+  return Trials(trials).to_the_end();
+}
+
+}  // namespace gearshift

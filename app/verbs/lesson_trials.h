@@ -1,0 +1,28 @@
+// Trials of a lesson by a simulated learner, one after another, through the same coach as a person's.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "app/learner/lesson_drive.h"
+
+namespace gearshift {
+
+struct LessonTrials {
+  LessonDriveConfig drive;         // of the first; each next one has the next seed
+  int runs = 1;                    // > 0
+  bool help = false;               // guided as the coach's policy says, in place of drive.guidance
+  std::optional<LessonMode> mode;  // else the coach's
+  std::string learner;             // empty: nobody, nothing is remembered
+  std::filesystem::path history;   // empty: nothing is remembered
+  std::string settings;            // for the history
+  bool tells_shifts = false;       // a line for each, when it is written
+};
+
+// Prints what the coach says, and problems of the history as one sentence on stderr; the trials go on. What is
+// remembered is recorded in the history's folder, below recordings/. Returns whether the last one was passed. Throws as
+// drive_lesson() does, but not for a recording that nobody asked for.
+bool drive_trials(const LessonTrials& trials);
+
+}  // namespace gearshift

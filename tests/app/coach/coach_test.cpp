@@ -1,0 +1,220 @@
+// A lesson through the coach: phases, the same judgement as without, torn drives, mode, standing, what comes next.
+#include "app/coach/coach.h"
+
+#include <random>
+#include <stdexcept>
+
+#include <doctest/doctest.h>
+
+#include "tests/app/coach/coach_bench.h"
+#include "tests/support/gates.h"
+
+using namespace gearshift;
+
+namespace {
+
+const LessonStanding& standing(const Coach& coach, const std::string& lesson) {
+  for (const LessonStanding& each : coach.view().lessons) {
+    if (each.key == lesson) return each;
+  }
+  throw std::logic_error("no such lesson");
+}
+
+}  // namespace
+
+TEST_CASE("a lesson is offered, driven and over, and only what is driven counts") {
+  const CoachBench bench;
+  Coach coach(bench.config);
+  CHECK(coach.view().phase == LessonPhase::none);
+  CHECK(coach.lesson() == nullptr);
+  CHECK_THROWS_AS(bench.begin(coach), std::logic_error);
+  coach.add(bench_drive(Drive::good));
+  coach.leave();
+  CHECK(coach.view().phase == LessonPhase::none);
+
+  coach.offer(bench.config.lessons[0]);
+  CHECK(coach.view().phase == LessonPhase::offered);
+  CHECK(coach.view().goal == "Shift to third.");
+  coach.add(bench_drive(Drive::good));
+  CHECK(coach.view().phase == LessonPhase::offered);
+  CHECK(coach.guidance() == 0.0);
+
+  bench.begin(coach);
+  CHECK(coach.view().phase == LessonPhase::driving);
+  CHECK(coach.view().now.prompt == "Clutch down.");
+  const std::vector<DriveSample> drive = bench_drive(Drive::good);
+  coach.add(std::span(drive).first(1500));  // until the gear is in
+  CHECK(coach.view().now.prompt == "Clutch up.");
+  CHECK(coach.guided_gear() == 3);
+  coach.add(std::span(drive).subspan(1500));
+  CHECK(coach.view().phase == LessonPhase::over);
+  CHECK(coach.view().result.end == LessonEnd::done);
+  CHECK(coach.guided_gear() == kNeutralGear);
+
+  coach.put_away();
+  CHECK(coach.view().phase == LessonPhase::none);
+  CHECK(coach.view().lesson.empty());
+  CHECK(coach.lesson() == nullptr);
+}
+
+// The independent answer: LessonRun alone, with the same samples.
+TEST_CASE("in lots of any size a drive is judged as it is without a coach, to the bit") {
+  const CoachBench bench;
+  std::mt19937 chance(3);
+  for (const Drive how : {Drive::good, Drive::pushed}) {
+    Coach coach(bench.config);
+    coach.offer(bench.config.lessons[0]);
+    bench.begin(coach);
+    const std::vector<DriveSample> drive = bench_drive(how, coach.guidance());
+    LessonRun alone(bench.config.lessons[0], test_car(), known_gate(),
+                    {coach.view().mode, coach.guidance(), coach.view().hints});
+    for (const DriveSample& sample : drive) alone.add(sample);
+    for (std::size_t at = 0; at < drive.size();) {
+      const std::size_t lot = std::min<std::size_t>(chance() % 50, drive.size() - at);
+      coach.add(std::span(drive).subspan(at, lot));
+      at += lot;
+    }
+    const LessonResult &mine = coach.view().result, &expected = alone.result();
+    CHECK(mine.end == expected.end);
+    CHECK(mine.why == expected.why);
+    CHECK(mine.grade == expected.grade);
+    CHECK(mine.passed == expected.passed);
+    CHECK(mine.begin == expected.begin);
+    CHECK(mine.duration == expected.duration);
+    CHECK(mine.fuel == expected.fuel);
+    CHECK(mine.slip_energy == expected.slip_energy);
+    REQUIRE(mine.faults.size() == expected.faults.size());
+    for (std::size_t i = 0; i < mine.faults.size(); ++i) {
+      CHECK(mine.faults[i].kind == expected.faults[i].kind);
+      CHECK(mine.faults[i].time == expected.faults[i].time);
+      CHECK(mine.faults[i].shift == expected.faults[i].shift);
+    }
+    REQUIRE(mine.shifts.size() == 1);
+    CHECK(mine.shifts[0].path_length == expected.shifts[0].path_length);
+    CHECK(mine.shifts[0].end == expected.shifts[0].end);
+    CHECK(coach.view().now.said == alone.view().said);
+  }
+}
+
+TEST_CASE(
+    "a drive with a hole, a cycle twice or another loop in it is torn and has no grade; from where it begins is free") {
+  const CoachBench bench;
+  const auto driven = [&](const std::vector<DriveSample>& samples) {
+    Coach coach(bench.config);
+    coach.want_help(false);
+    coach.offer(bench.config.lessons[0]);
+    bench.begin(coach);
+    coach.add(samples);
+    return coach.view().result;
+  };
+  for (const std::uint64_t from : {0u, 1u, 123456u}) {
+    const LessonResult whole = driven(bench_drive(Drive::good, 0.0, from));
+    CHECK(whole.whole);
+    CHECK(whole.passed);
+  }
+  const auto torn = [&](std::vector<DriveSample> samples) {
+    const LessonResult result = driven(samples);
+    CHECK_FALSE(result.passed);
+    CHECK(result.grade == 0.0);
+    CHECK(result.end == LessonEnd::done);
+    return !result.whole;
+  };
+  std::vector<DriveSample> hole = bench_drive(Drive::good);
+  hole.erase(hole.begin() + 700);
+  CHECK(torn(hole));
+  std::vector<DriveSample> twice = bench_drive(Drive::good);
+  twice.insert(twice.begin() + 700, twice[700]);
+  CHECK(torn(twice));
+  for (const std::uint64_t again : {0u, 1u}) {
+    std::vector<DriveSample> other = bench_drive(Drive::good);
+    for (std::size_t i = 700; i < other.size(); ++i) other[i].lever.cycle = i - 700 + again;
+    CHECK(torn(other));
+  }
+  // What comes after the end tears nothing.
+  std::vector<DriveSample> longer = bench_drive(Drive::good);
+  longer.push_back(longer.back());
+  CHECK(driven(longer).whole);
+}
+
+TEST_CASE("a lesson is followed step by step until it was passed, then driven alone; the person may choose") {
+  const CoachBench bench;
+  Coach coach(bench.config);
+  coach.want_help(false);
+  CHECK(bench.trial(coach, "one").mode == LessonMode::follow_me);
+  coach.offer(bench.config.lessons[0]);
+  CHECK(coach.view().mode == LessonMode::by_yourself);
+  coach.set_mode(LessonMode::follow_me);
+  CHECK(bench.trial(coach, "one").mode == LessonMode::follow_me);
+  CHECK(bench.trial(coach, "one").mode == LessonMode::follow_me);  // the choice holds for this lesson
+  CHECK(bench.trial(coach, "two").mode == LessonMode::follow_me);
+  CHECK(bench.trial(coach, "one").mode == LessonMode::by_yourself);
+
+  // While it is driven, a choice waits for the next trial.
+  bench.begin(coach);
+  coach.set_mode(LessonMode::follow_me);
+  coach.add(bench_drive(Drive::good));
+  CHECK(coach.view().result.mode == LessonMode::by_yourself);
+  bench.begin(coach);
+  CHECK(coach.view().result.mode == LessonMode::follow_me);
+}
+
+TEST_CASE("the standing in a lesson: graded trials, the last grade, whether one was passed") {
+  const CoachBench bench;
+  Coach coach(bench.config);
+  coach.want_help(false);
+  CHECK(coach.view().next == "one");
+  CHECK(standing(coach, "one").trials == 0);
+  CHECK_FALSE(standing(coach, "one").grade.has_value());
+  bench.trial(coach, "one");
+  CHECK(standing(coach, "one").grade == 10.0);
+  CHECK(standing(coach, "one").passed);
+  CHECK(coach.view().next == "two");
+  CHECK(coach.view().next_why == "Lesson two was not yet passed.");
+  bench.trial(coach, "one", Drive::pushed);
+  CHECK(standing(coach, "one").trials == 2);
+  CHECK(*standing(coach, "one").grade < 10.0);
+  CHECK(standing(coach, "one").passed);
+  CHECK(standing(coach, "two").trials == 0);
+  CHECK(coach.view().runs.size() == 2);
+  CHECK(coach.view().runs[0].result.grade == *standing(coach, "one").grade);  // the newest first
+}
+
+TEST_CASE("a lesson that the gate cannot give is refused, and stays offered") {
+  CoachBench bench;
+  bench.config.lessons[0].steps[1].gear = 9;
+  Coach coach(bench.config);
+  coach.offer(bench.config.lessons[0]);
+  CHECK_THROWS_AS(bench.begin(coach), std::invalid_argument);
+  CHECK(coach.view().phase == LessonPhase::offered);
+  coach.add(bench_drive(Drive::good));
+  CHECK(coach.view().runs.empty());
+}
+
+TEST_CASE("begun again, it is left and another trial; the lesson of one's own is offered again") {
+  const CoachBench bench;
+  Coach coach(bench.config);
+  coach.offer(bench.config.lessons[0]);
+  bench.begin(coach);
+  const std::vector<DriveSample> drive = bench_drive(Drive::good);
+  coach.add(std::span(drive).first(100));
+  bench.begin(coach);
+  CHECK(coach.view().phase == LessonPhase::driving);
+  REQUIRE(coach.view().runs.size() == 1);
+  CHECK(coach.view().runs[0].result.end == LessonEnd::left);
+  coach.offer(*coach.lesson());
+  CHECK(coach.view().lesson == "one");
+  CHECK(coach.view().runs.size() == 1);  // the second had no sample: it never was
+}
+
+TEST_CASE("what is no name is refused; nobody is a name") {
+  CoachBench bench;
+  Coach coach(bench.config);
+  for (const std::string& none : {std::string(101, 'x'), std::string("a\nb")})
+    CHECK_THROWS_AS(coach.set_learner(none), std::invalid_argument);
+  CHECK(coach.view().learner == "Ada");
+  coach.set_learner("");
+  CHECK(coach.view().learner.empty());
+  CHECK(coach.view().learners.empty());
+  CHECK_THROWS_AS(coach.set_next("three"), std::invalid_argument);
+  CHECK_THROWS_AS(coach.comment(1, "Bo", "None."), std::invalid_argument);
+}

@@ -1,0 +1,367 @@
+// What a coach leaves in the history, and what becomes of the lesson where there is none to be had.
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <optional>
+
+#include <doctest/doctest.h>
+
+#include "app/history/schema.h"
+#include "tests/app/coach/coach_bench.h"
+#include "tests/support/full_disk.h"
+#include "tests/support/temp_folder.h"
+
+using namespace gearshift;
+
+namespace {
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+std::vector<RunRow> runs_in(const std::filesystem::path& file, const std::string& learner = "Ada") {
+  History history(file);
+  const auto row = history.find_learner(learner);
+  return row ? history.runs(row->id) : std::vector<RunRow>{};
+}
+
+bool is_one_sentence(const std::optional<std::string>& problem) {
+  return problem && !problem->empty() && problem->find('\n') == std::string::npos;
+}
+
+// A history with a run in it, whole and closed.
+std::string good_history(const std::filesystem::path& file) {
+  const CoachBench bench(file);
+  {
+    Coach coach(bench.config);
+    bench.trial(coach, "one");
+  }
+  return bytes_of(file);
+}
+
+// Two trials, the second one passed for sure.
+void lesson_goes_on(CoachBench& bench, Coach& coach) {
+  CHECK(bench.trial(coach, "one").end == LessonEnd::done);
+  coach.want_help(false);
+  CHECK(bench.trial(coach, "one").passed);
+  CHECK(coach.view().lessons[0].passed);
+  CHECK(coach.view().next == "two");
+  CHECK(coach.view().runs.size() == 2);
+}
+
+}  // namespace
+
+TEST_CASE("a trial is a run with its settings, recording and shifts; settings are told when they change") {
+  const TempFolder folder;
+  const CoachBench bench(folder / "history.db");
+  {
+    Coach coach(bench.config);
+    CHECK(coach.view().remembers);
+    CHECK(runs_in(bench.config.history).empty());
+    coach.offer(bench.config.lessons[0]);
+    for (const char* settings : {"gate = paper", "gate = paper", "gate = dog_leg"}) {
+      bench.begin(coach, settings, "/a/drive.trace");
+      coach.add(bench_drive(Drive::good, coach.guidance()));
+    }
+    CHECK_FALSE(coach.take_problem().has_value());
+  }
+  const std::vector<RunRow> runs = runs_in(bench.config.history);
+  REQUIRE(runs.size() == 3);
+  CHECK(runs[0].recording == "/a/drive.trace");
+  CHECK(runs[0].begun_at == date_text(kSomeDay));
+  CHECK(runs[0].result.begin == doctest::Approx(99.0));  // on the clock of the recording
+  CHECK(runs[0].result.shifts.size() == 1);
+  CHECK(runs[2].session == runs[0].session);
+  History history(bench.config.history);
+  CHECK(history.settings(runs[0].session) == std::vector<std::string>{"gate = paper", "gate = dog_leg"});
+}
+
+TEST_CASE(
+    "a coach that goes while a lesson is driven leaves it as left; one that is killed, with the shift that ended") {
+  const TempFolder folder;
+  const CoachBench bench(folder / "history.db");
+  const std::vector<DriveSample> drive = bench_drive(Drive::good);
+  {
+    Coach coach(bench.config);
+    coach.offer(bench.config.lessons[0]);
+    bench.begin(coach);
+    coach.add(std::span(drive).first(500));
+  }
+  REQUIRE(runs_in(bench.config.history).size() == 1);
+  CHECK(runs_in(bench.config.history)[0].result.end == LessonEnd::left);
+  const pid_t child = fork();
+  if (child == 0) {
+    Lesson longer = bench.config.lessons[0];
+    longer.steps.push_back({"Stop.", "", {}, kNeutralGear, 8.0});
+    longer.steps.back().until.speed_below = 1.0;
+    Coach coach(bench.config);
+    coach.offer(longer);
+    bench.begin(coach);
+    coach.add(drive);
+    _exit(coach.view().phase == LessonPhase::driving ? 0 : 1);
+  }
+  int status = -1;
+  waitpid(child, &status, 0);
+  REQUIRE(status == 0);
+  const std::vector<RunRow> runs = runs_in(bench.config.history);
+  REQUIRE(runs.size() == 2);
+  CHECK(runs[1].result.end == LessonEnd::running);
+  CHECK(runs[1].result.shifts.size() == 1);
+}
+
+TEST_CASE("another learner in the middle: the trial is left by who drove it, the lesson waits for who comes") {
+  const TempFolder folder;
+  const CoachBench bench(folder / "history.db");
+  Coach coach(bench.config);
+  bench.trial(coach, "one");
+  bench.begin(coach);
+  const std::vector<DriveSample> drive = bench_drive(Drive::good);
+  coach.add(std::span(drive).first(500));
+  coach.set_learner("Ada");  // it is she already
+  CHECK(coach.view().phase == LessonPhase::driving);
+  coach.set_learner("Bob");
+  CHECK(coach.view().phase == LessonPhase::offered);
+  CHECK(coach.view().learner == "Bob");
+  CHECK(coach.view().runs.empty());
+  coach.add(std::span(drive).subspan(500));
+  bench.trial(coach, "one");
+  CHECK(coach.view().learners == std::vector<std::string>{"Ada", "Bob"});
+  coach.set_learner("");
+  bench.trial(coach, "one");
+  CHECK(coach.view().runs.size() == 1);
+  coach.set_learner("Ada");
+  CHECK(coach.view().runs.size() == 2);
+  CHECK(coach.view().runs[0].result.end == LessonEnd::left);
+
+  const std::vector<RunRow> ada = runs_in(bench.config.history, "Ada"), bob = runs_in(bench.config.history, "Bob");
+  CHECK(ada.size() == 2);
+  REQUIRE(bob.size() == 1);
+  CHECK(bob[0].session != ada[0].session);
+  CHECK(History(bench.config.history).learners().size() == 2);  // nobody is nobody there
+}
+
+TEST_CASE("the instructor's lesson goes before what the grades say, until a run of it was graded") {
+  const TempFolder folder;
+  const CoachBench bench(folder / "history.db");
+  Coach coach(bench.config);
+  Coach instructor(bench.config);  // another program
+  instructor.set_next("two");
+  coach.offer(bench.config.lessons[0]);
+  CHECK(coach.view().next == "two");
+  CHECK(coach.view().next_by_instructor);
+  const auto wanted = [&] { return History(bench.config.history).find_learner("Ada")->next_lesson; };
+
+  coach.want_help(false);
+  bench.trial(coach, "one");
+  CHECK(wanted() == "two");  // another lesson
+  coach.offer(bench.config.lessons[1]);
+  bench.begin(coach);
+  coach.add(bench_drive(Drive::good, 0.5));
+  CHECK(coach.view().result.guided);
+  CHECK(wanted() == "two");  // no grade
+  bench.begin(coach);
+  const std::vector<DriveSample> drive = bench_drive(Drive::good);
+  coach.add(std::span(drive).first(500));
+  coach.leave();
+  CHECK(wanted() == "two");  // not finished
+  bench.trial(coach, "two", Drive::pushed);
+  CHECK(wanted().empty());
+  CHECK_FALSE(coach.view().next_by_instructor);
+
+  coach.set_next("two");
+  coach.offer(bench.config.lessons[1]);
+  bench.begin(coach);
+  instructor.set_next("one");  // while "two" is driven
+  coach.add(bench_drive(Drive::good));
+  CHECK(wanted() == "one");
+  CHECK(coach.view().next == "one");
+  coach.set_next("");
+  CHECK(wanted().empty());
+}
+
+TEST_CASE("a comment stands with its run, with a history and without") {
+  const TempFolder folder;
+  for (const std::filesystem::path& file : {folder / "history.db", std::filesystem::path()}) {
+    const CoachBench bench(file);
+    Coach coach(bench.config);
+    bench.trial(coach, "one");
+    bench.trial(coach, "one");
+    coach.comment(coach.view().runs[1].id, "Bo", "Calmer.");
+    REQUIRE(coach.view().comments.size() == 2);
+    CHECK(coach.view().comments[0].empty());
+    REQUIRE(coach.view().comments[1].size() == 1);
+    CHECK(coach.view().comments[1][0].text == "Calmer.");
+  }
+}
+
+TEST_CASE("two coaches on one file: all runs are there, and each sees the other's with the next lesson") {
+  const TempFolder folder;
+  const CoachBench bench(folder / "history.db");
+  Coach one(bench.config), other(bench.config);
+  one.offer(bench.config.lessons[0]);
+  other.offer(bench.config.lessons[0]);
+  bench.begin(one);
+  bench.begin(other);
+  const std::vector<DriveSample> drive = bench_drive(Drive::good);
+  for (std::size_t at = 0; at < drive.size(); at += 100) {
+    const std::size_t lot = std::min<std::size_t>(100, drive.size() - at);
+    one.add(std::span(drive).subspan(at, lot));
+    other.add(std::span(drive).subspan(at, lot));
+  }
+  CHECK_FALSE(one.take_problem().has_value());
+  CHECK_FALSE(other.take_problem().has_value());
+  CHECK(runs_in(bench.config.history).size() == 2);
+  one.offer(bench.config.lessons[0]);
+  other.offer(bench.config.lessons[0]);
+  CHECK(one.view().runs.size() == 2);
+  CHECK(other.view().runs.size() == 2);
+  CHECK(one.view().guidance == other.view().guidance);
+}
+
+TEST_CASE("damaged, foreign, newer or no place for it: one sentence, once, the lesson goes on, the file is as it was") {
+  const TempFolder folder;
+  const std::string whole = good_history(folder / "good.db");
+  REQUIRE(whole.size() > 20000);
+  std::string newer = whole, foreign = whole, torn = whole;
+  newer[63] = kSchemaVersion + 1;  // sqlite.org/fileformat2.html, 1.3
+  foreign[71] ^= 1;
+  std::fill(torn.begin() + 8192, torn.begin() + 12288, 'x');
+  const std::string damaged = whole.substr(0, whole.size() / 2);
+  for (const std::string& bytes : {newer, foreign, torn, damaged, std::string(5000, ' ')}) {
+    const auto file = folder / "history.db";
+    std::ofstream(file, std::ios::binary) << bytes;
+    CoachBench bench(file);
+    {
+      Coach coach(bench.config);
+      CHECK_FALSE(coach.view().remembers);
+      CHECK(is_one_sentence(coach.take_problem()));
+      lesson_goes_on(bench, coach);
+      CHECK_FALSE(coach.take_problem().has_value());
+    }
+    CHECK(bytes_of(file) == bytes);
+    for (const char* beside : {"history.db-wal", "history.db-shm"})
+      CHECK_FALSE(std::filesystem::exists(folder / beside));
+  }
+  std::ofstream(folder / "plain") << "no folder";
+  CoachBench bench(folder / "plain/history.db");
+  Coach coach(bench.config);
+  CHECK(is_one_sentence(coach.take_problem()));
+  lesson_goes_on(bench, coach);
+  CHECK_FALSE(coach.take_problem().has_value());
+}
+
+// As a user without the right to write, which root never is.
+TEST_CASE("a history that may not be written is told once, and left as it is") {
+  const TempFolder folder;
+  const auto file = folder / "history.db";
+  const std::string whole = good_history(file);
+  std::filesystem::permissions(file, std::filesystem::perms(0444));
+  std::filesystem::permissions(folder / "", std::filesystem::perms(0555));
+  const pid_t child = fork();
+  if (child == 0) {
+    if (geteuid() == 0 && setuid(65534) != 0) _exit(2);
+    CoachBench bench(file);
+    Coach coach(bench.config);
+    const std::optional<std::string> first = coach.take_problem();
+    bench.trial(coach, "one");
+    const std::optional<std::string> second = coach.take_problem();
+    coach.want_help(false);
+    if (!bench.trial(coach, "one").passed || coach.view().remembers) _exit(3);
+    if (first.has_value() == second.has_value() || coach.take_problem()) _exit(4);
+    _exit(0);
+  }
+  int status = -1;
+  waitpid(child, &status, 0);
+  CHECK(WEXITSTATUS(status) == 0);
+  std::filesystem::permissions(folder / "", std::filesystem::perms(0755));
+  CHECK(bytes_of(file) == whole);
+}
+
+TEST_CASE(
+    "a disk that fills up in the middle is told once; the lesson counts, and is in the history if there is room "
+    "again") {
+  const TempFolder folder;
+  CoachBench bench(folder / "history.db");
+  std::optional<Coach> coach(std::in_place, bench.config);
+  coach->want_help(false);
+  bench.trial(*coach, "one");
+  coach->offer(bench.config.lessons[0]);
+  bench.begin(*coach);
+  const std::vector<DriveSample> drive = bench_drive(Drive::good);
+  coach->add(std::span(drive).first(500));
+  disk_is_full = true;
+  coach->add(std::span(drive).subspan(500));
+  CHECK(is_one_sentence(coach->take_problem()));
+  CHECK_FALSE(coach->view().remembers);
+  CHECK(coach->view().result.passed);
+  CHECK(coach->view().runs.size() == 2);
+  CHECK(coach->view().lessons[0].trials == 2);
+  CHECK(bench.trial(*coach, "one").passed);
+  CHECK_FALSE(coach->take_problem().has_value());
+  CHECK(coach->view().lessons[0].trials == 3);
+
+  CHECK(coach->view().runs[0].id < 0);  // the history has nothing of it
+
+  // Full when the shift ends, room again when the lesson does.
+  disk_is_full = false;
+  Lesson longer = bench.config.lessons[0];
+  longer.steps.push_back(longer.steps.back());
+  longer.steps.back().until.held = 0.5;
+  const auto cut = std::find_if(drive.begin(), drive.end(), [](const DriveSample& s) { return s.time() > 101.0; });
+  coach->offer(longer);
+  bench.begin(*coach);
+  coach->add(std::span(drive).first(500));
+  CHECK(coach->view().remembers);
+  disk_is_full = true;
+  coach->add(std::span(drive.begin() + 500, cut));
+  REQUIRE(coach->view().result.shifts.size() == 1);
+  CHECK(coach->view().phase == LessonPhase::driving);
+  CHECK(is_one_sentence(coach->take_problem()));  // it had worked again
+  CHECK(coach->view().run == 0);
+  disk_is_full = false;
+  coach->add(std::span(cut, drive.end()));
+  CHECK(coach->view().phase == LessonPhase::over);
+  CHECK(coach->view().remembers);
+  CHECK(coach->view().run > 0);
+  CHECK_FALSE(coach->take_problem().has_value());
+  CHECK(coach->view().lessons[0].trials == 4);
+  coach.reset();
+  const std::vector<RunRow> runs = runs_in(bench.config.history);
+  REQUIRE(runs.size() == 3);
+  CHECK(runs[0].result.end == LessonEnd::done);
+  CHECK(runs[1].result.end == LessonEnd::running);
+  CHECK(runs[2].result.end == LessonEnd::done);
+  CHECK(runs[2].result.shifts.size() == 1);
+}
+
+TEST_CASE(
+    "a learner who is erased while the lesson is driven is told; what was driven counts here and lands with nobody") {
+  const TempFolder folder;
+  const CoachBench bench(folder / "history.db");
+  Coach coach(bench.config);
+  coach.want_help(false);
+  coach.offer(bench.config.lessons[0]);
+  bench.begin(coach);
+  const std::vector<DriveSample> drive = bench_drive(Drive::good);
+  coach.add(std::span(drive).first(500));
+  History other(bench.config.history);
+  other.erase_learner(other.find_learner("Ada")->id);
+  coach.add(std::span(drive).subspan(500));
+  CHECK(is_one_sentence(coach.take_problem()));
+  CHECK(coach.view().lessons[0].trials == 1);
+  CHECK(runs_in(bench.config.history).empty());
+  CHECK(bench.trial(coach, "one").passed);  // from now on she is known again
+  CHECK(coach.view().remembers);
+  CHECK(runs_in(bench.config.history).size() == 1);
+
+  // Erased and known again between two trials: nothing to be told.
+  other.erase_learner(other.find_learner("Ada")->id);
+  other.learner("Ada");
+  CHECK(bench.trial(coach, "one").passed);
+  CHECK_FALSE(coach.take_problem().has_value());
+  CHECK(runs_in(bench.config.history).size() == 1);
+}

@@ -1,0 +1,174 @@
+// Openings at the worst moment: many at once on a file that is not there yet, and files that a killed program left.
+#include <sqlite3.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "app/history/history.h"
+#include "app/history/schema.h"
+#include "tests/app/history/some_result.h"
+#include "tests/support/temp_folder.h"
+
+using namespace gearshift;
+
+namespace {
+
+std::string bytes_of(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+// Another process that does this and dies without closing anything. True where it threw nothing.
+template <class Work>
+pid_t in_another_program(const Work& work) {
+  const pid_t child = fork();
+  if (child != 0) return child;
+  try {
+    work();
+    _exit(0);
+  } catch (const std::exception& problem) {
+    (void)!write(2, problem.what(), std::string(problem.what()).size());
+    _exit(1);
+  }
+}
+
+bool ends_well(pid_t program) {
+  int status = -1;
+  waitpid(program, &status, 0);
+  return WIFEXITED(status) && WEXITSTATUS(status) == 0;
+}
+
+}  // namespace
+
+TEST_CASE("many programs make one file at the same moment, and all of them can use it") {
+  constexpr int kPrograms = 8;
+  for (int round = 0; round < 20; ++round) {
+    const TempFolder folder;
+    int start[2];
+    REQUIRE(pipe(start) == 0);
+    std::vector<pid_t> programs;
+    for (int i = 0; i < kPrograms; ++i) {
+      programs.push_back(in_another_program([&] {
+        close(start[1]);
+        char c = 0;
+        (void)!read(start[0], &c, 1);  // until the other end is closed
+        History history(folder / "history.db");
+        history.learner(std::to_string(i));
+      }));
+    }
+    close(start[0]);
+    close(start[1]);
+    int well = 0;
+    for (const pid_t program : programs) well += ends_well(program) ? 1 : 0;
+    CHECK(well == kPrograms);
+    CHECK(History(folder / "history.db").learners().size() == kPrograms);
+  }
+}
+
+TEST_CASE("a newer file that a killed program left with its log is refused, and neither changes") {
+  const TempFolder folder;
+  const auto file = folder / "history.db", log = folder / "history.db-wal";
+  REQUIRE(ends_well(in_another_program([&] {
+    auto* left_open = new History(file);
+    left_open->learner("Ada");
+    _exit(0);  // without closing it
+  })));
+  sqlite3* newer = nullptr;
+  REQUIRE(sqlite3_open(file.c_str(), &newer) == SQLITE_OK);
+  sqlite3_db_config(newer, SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, 1, nullptr);
+  const std::string set_version = "PRAGMA user_version = " + std::to_string(kSchemaVersion + 1);
+  REQUIRE(sqlite3_exec(newer, set_version.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK);
+  sqlite3_close(newer);
+  const std::string whole = bytes_of(file), logged = bytes_of(log);
+  REQUIRE(!logged.empty());
+  CHECK_THROWS_WITH_AS(History{file}, doctest::Contains("a newer program made it"), HistoryError);
+  CHECK(bytes_of(file) == whole);
+  CHECK(bytes_of(log) == logged);
+}
+
+TEST_CASE("a file of version 1 is brought up to date with all that is in it") {
+  const TempFolder folder;
+  const auto file = folder / "history.db";
+  sqlite3* old = nullptr;
+  REQUIRE(sqlite3_open(file.c_str(), &old) == SQLITE_OK);
+  const std::string fill =
+      std::string(kMigrations[0]) +
+      "PRAGMA user_version = 1; PRAGMA application_id = " + std::to_string(kApplicationId) +
+      ";INSERT INTO learner VALUES (3, 'Ada', '2026-01-02T03:04:05Z', 'reverse');"
+      "INSERT INTO session VALUES (5, 3, '2026-01-02T03:04:06Z', 'gearshift 0.1');"
+      "INSERT INTO settings VALUES (1, 5, '2026-01-02T03:04:06Z', 'gate = paper');"
+      "INSERT INTO lesson_run VALUES (7, 5, '2026-01-02T03:04:07Z', 'a.trace', 'hill_start', 'moving_off', 1, 1, 0, 1, "
+      "12.5, 34.25, 7.5, 1, '', 1.5, 2.5);"
+      "INSERT INTO fault VALUES (7, 0, 'stall', 2, 13.5, 36.6, -1, 2.0);"
+      "INSERT INTO comment VALUES (1, 7, '2026-01-03T03:04:07Z', 'Bo', 'Calmer.');";
+  REQUIRE(sqlite3_exec(old, fill.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK);
+  sqlite3_close(old);
+
+  History history(file);
+  const auto ada = history.find_learner("Ada");
+  REQUIRE(ada.has_value());
+  CHECK(ada->next_lesson == "reverse");
+  const std::vector<RunRow> runs = history.runs(ada->id);
+  REQUIRE(runs.size() == 1);
+  CHECK(runs[0].id == 7);
+  CHECK(runs[0].begun_at == "2026-01-02T03:04:07Z");
+  CHECK(runs[0].result.grade == 7.5);
+  REQUIRE(runs[0].result.faults.size() == 1);
+  CHECK(runs[0].result.deductions.size() == 1);
+  CHECK(history.comments(7).size() == 1);
+  CHECK(history.settings(5).size() == 1);
+  CHECK(history.begin_run(5, some_result(0), "") == 8);
+  CHECK(history.erase_learner(ada->id) == std::vector<std::string>{"a.trace"});
+  CHECK(history.comments(7).empty());  // what hung on a row still goes with it
+  CHECK(history.learner("Ada") == 4);
+}
+
+TEST_CASE("the clock that is given dates what is written") {
+  const TempFolder folder;
+  std::int64_t now = 0;
+  History history(folder / "history.db", [&] { return now; });
+  const std::int64_t ada = history.learner("Ada");
+  now = 1'000'000'000;  // the billennium: 2001-09-09 01:46:40 UTC
+  history.begin_run(history.begin_session(ada, "1.0"), some_result(0), "");
+  CHECK(history.learners().at(0).made_at == "1970-01-01T00:00:00Z");
+  CHECK(history.runs(ada).at(0).begun_at == "2001-09-09T01:46:40Z");
+  CHECK(seconds_of("2001-09-09T01:46:40Z") == now);
+  for (const char* none : {"", "2001-09-09", "2001-09-09T01:46:40", "2001-13-09T01:46:40Z", "2001-02-30T01:46:40Z"})
+    CHECK_FALSE(seconds_of(none).has_value());
+}
+
+TEST_CASE("another program's writing is seen, one's own is not") {
+  const TempFolder folder;
+  History one(folder / "history.db"), other(folder / "history.db");
+  const std::int64_t before = one.changes();
+  one.learner("Ada");
+  CHECK(one.changes() == before);
+  other.learner("Bob");
+  CHECK(one.changes() != before);
+}
+
+TEST_CASE("what belongs to a learner who was erased meanwhile is refused, and lands with nobody else") {
+  const TempFolder folder;
+  History driven(folder / "history.db"), instructor(folder / "history.db");
+  const std::int64_t bob = driven.learner("Bob"), ada = driven.learner("Ada");
+  const std::int64_t session = driven.begin_session(ada, "1.0");
+  const std::int64_t run = driven.begin_run(session, some_result(0), "");
+  instructor.erase_learner(ada);
+  const std::int64_t other = instructor.begin_run(instructor.begin_session(bob, "1.0"), some_result(0), "");
+  CHECK_THROWS_WITH_AS(driven.add_shift(run, some_shift(0)), doctest::Contains("deleted by another program"),
+                       HistoryError);
+  for (const LessonResult& result : {some_result(2), some_result(0), LessonResult{}})
+    CHECK_THROWS_WITH_AS(driven.end_run(run, result), doctest::Contains("deleted by another program"), HistoryError);
+  CHECK_THROWS_AS(driven.begin_run(session, some_result(0), ""), HistoryError);
+  REQUIRE(instructor.runs(bob).size() == 1);
+  CHECK(instructor.runs(bob)[0].id == other);
+  CHECK(instructor.runs(bob)[0].result.shifts.empty());
+  CHECK(instructor.runs(bob)[0].result.end == LessonEnd::running);
+}

@@ -1,0 +1,201 @@
+// The card over the cabin: what it says of a lesson, and what a click on it asks for.
+#include <algorithm>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "app/panel/palette.h"
+#include "tests/app/panel/coach_views.h"
+#include "tests/app/panel/drawn.h"
+#include "tests/app/panel/panel_rig.h"
+
+using namespace gearshift;
+
+namespace {
+
+struct CardRig : PanelRig {
+  explicit CardRig(const CoachView& coach, bool panel_shown = false) {
+    panel.set_visible(panel_shown);
+    show(coach);
+  }
+  void show(const CoachView& coach) {
+    input.coach = coach;
+    for (int i = 0; i < 6; ++i) frame();
+  }
+};
+
+double height_of(const std::string& sentence) {
+  const PixelBox box = the_text(drawn_texts(), sentence).box;
+  return box.max.y - box.min.y;
+}
+
+bool asks_nothing(const LessonRequests& asked) {
+  return !asked.begin && !asked.leave && !asked.put_away && !asked.offer && !asked.mode && !asked.help && !asked.next &&
+         !asked.learner && !asked.comment;
+}
+
+// Drawn on the card: the word or its line stands there.
+bool says(const std::string& words) {
+  const std::vector<DrawnText> texts = drawn_texts();
+  return std::any_of(texts.begin(), texts.end(),
+                     [&](const DrawnText& text) { return text.text.find(without_blanks(words)) != std::string::npos; });
+}
+
+}  // namespace
+
+TEST_CASE("a lesson on offer is begun, set and put away by a click each, and nothing is asked for without one") {
+  CardRig rig(offered());
+  CHECK(says("Hill start"));
+  CHECK(says("Move off on a slope of 10 % without rolling back."));
+  CHECK(asks_nothing(rig.frame().lesson));
+  CHECK(rig.click("lesson_begin").lesson.begin);
+  CHECK_FALSE(rig.frame().lesson.begin);
+  CHECK(rig.click("lesson_put_away").lesson.put_away);
+  CHECK(rig.click("mode").lesson.mode == LessonMode::by_yourself);
+  CHECK(rig.click("help").lesson.help == false);
+  CoachView other = offered();
+  other.mode = LessonMode::by_yourself;
+  other.help_wanted = false;
+  rig.show(other);
+  CHECK(rig.click("mode").lesson.mode == LessonMode::follow_me);
+  CHECK(rig.click("help").lesson.help == true);
+}
+
+TEST_CASE("the card stands where the panel is hidden, too, covers what lies behind it and nothing else") {
+  for (const bool panel_shown : {true, false}) {
+    CAPTURE(panel_shown);
+    CardRig rig(driven(), panel_shown);
+    const ControlRect leave = rig.rect("lesson_leave"), middle = rig.panel.middle();
+    CHECK(rig.panel.covers(0.5 * (leave.min + leave.max)));
+    CHECK_FALSE(rig.panel.covers({640.0, 400.0}));
+    CHECK(leave.min.x > middle.min.x);
+    CHECK(leave.max.x < middle.max.x);
+    CHECK(rig.click("lesson_leave").lesson.leave);
+    rig.show(half_way());
+    CHECK_FALSE(rig.panel.covers(0.5 * (leave.min + leave.max)));
+    CHECK_FALSE(rig.panel.control_rect("lesson_leave").has_value());
+  }
+}
+
+TEST_CASE("a card leaves the keys to the car, however it is clicked") {
+  CardRig rig(offered());
+  rig.click("mode");
+  rig.click("help");
+  rig.frame();
+  CHECK_FALSE(rig.panel.has_keyboard());
+}
+
+TEST_CASE("below its upper third a cabin of 1280 x 720 is free of a lesson that is driven") {
+  CardRig rig(driven(), true);
+  for (const std::string_view key : kTeachingOrder) {
+    const Lesson lesson = shipped_lesson(key);
+    for (std::size_t step = 0; step < lesson.steps.size(); ++step) {
+      CAPTURE(lesson.key);
+      CAPTURE(step);
+      CoachView coach = driven("hill_start");
+      coach.now.prompt = lesson.steps[step].prompt;
+      coach.now.hint = lesson.steps[step].hint;
+      rig.show(coach);
+      const glm::dvec2 below(640.0, 651.0 / 3.0);
+      CHECK_FALSE(rig.panel.covers(below));
+    }
+  }
+}
+
+TEST_CASE("whether a trial is guided is told while it is driven, not before, and a test says that it is one") {
+  CoachView coach = offered();
+  coach.guidance = 0.8;
+  CardRig rig(coach);
+  CHECK_FALSE(says("guided"));
+  coach = driven();
+  rig.show(coach);
+  CHECK_FALSE(says("guided"));
+  CHECK_FALSE(says("test: no help"));
+  coach.guidance = 0.8;
+  rig.show(coach);
+  CHECK(says("guided, not graded"));
+  coach.guidance = 0.0;
+  coach.retention = true;
+  rig.show(coach);
+  CHECK(says("test: no help"));
+  CHECK_FALSE(says("guided"));
+}
+
+TEST_CASE("prompt, hint and step are those of the coach, as many parts done as there are steps behind") {
+  CoachView coach = driven("reverse");
+  coach.now.said.clear();
+  CardRig rig(coach);
+  CHECK(says(coach.now.prompt));
+  CHECK(says("step 3 of 7"));
+  const auto parts = [](ImU32 colour) {  // by their left edges
+    std::vector<double> edges;
+    for (const glm::dvec2 at : drawn_in(colour)) edges.push_back(at.x);
+    return edges.empty() ? 0.0 : *std::max_element(edges.begin(), edges.end());
+  };
+  const double two_done = parts(ink::kGood);
+  coach.now.step = 5;
+  rig.show(coach);
+  CHECK(parts(ink::kGood) > two_done + 50.0);
+  CHECK(says("step 6 of 7"));
+}
+
+TEST_CASE("what was said last is large for some seconds, then as small as what was said before it") {
+  const std::string first = "The lever moved 0.12 s before the clutch was down.", second = "The engine stalled.";
+  CoachView coach = driven();
+  coach.now.hint.clear();
+  coach.now.said = {first};
+  CardRig rig(coach);
+  const double large = height_of(first);
+  rig.screen.seconds = 1.0f;
+  for (int i = 0; i < 8; ++i) rig.frame();
+  const double small = height_of(first);
+  CHECK(large > 1.15 * small);
+  coach.now.said = {first, second};
+  rig.input.coach = coach;
+  rig.frame();
+  rig.frame();
+  CHECK(height_of(first) == doctest::Approx(small));
+  CHECK(the_text(drawn_texts(), second).box.max.y < the_text(drawn_texts(), first).box.min.y);
+  const double said = height_of(second);
+  for (int i = 0; i < 8; ++i) rig.frame();
+  CHECK(said > 1.15 * height_of(second));
+}
+
+TEST_CASE("points that are taken off and the grade make ten, and each names its fault and its time") {
+  CardRig rig(over(result_of("hill_start", some_faults())));
+  double taken = 0.0;
+  int lines = 0;
+  for (const DrawnText& text : drawn_texts()) {
+    if (text.text.front() != '-' || text.text.size() != 4) continue;
+    taken -= std::atof(text.text.c_str());
+    ++lines;
+  }
+  CHECK(lines == 2);
+  CHECK(10.0 - taken == doctest::Approx(7.5));
+  const DrawnText grade = the_text(drawn_texts(), "7.5");
+  for (const DrawnText& text : drawn_texts())
+    CHECK(text.box.max.y - text.box.min.y <= grade.box.max.y - grade.box.min.y);
+  CHECK(right_of("7.9 s") == std::vector<std::string>{without_blanks("The gear ground, 12.4 J."), "-2.0"});
+  CHECK(says("Passed"));
+  CHECK_FALSE(says("wrong slot"));  // a note
+}
+
+TEST_CASE("after a lesson it is driven again or the next one offered, by a click; a guided one has no grade") {
+  CardRig rig(over(result_of("hill_start", some_faults())));
+  CHECK(rig.click("lesson_again").lesson.begin);
+  CHECK(rig.click("lesson_next").lesson.offer == "emergency_stop");
+  CHECK(rig.click("lesson_put_away").lesson.put_away);
+  CHECK(says("Emergency stop"));
+  rig.show(over(result_of("hill_start", failing_faults())));
+  CHECK(says("Not passed"));
+  CHECK(says("The engine stalled, from 592 rpm."));
+  CHECK_FALSE(rig.panel.control_rect("lesson_next").has_value());  // it is the same one
+  rig.show(over(result_of("hill_start", some_faults(), true)));
+  CHECK(says("graded"));
+  CHECK_FALSE(says("Passed"));
+  CHECK_FALSE(says("0.0"));
+  CHECK_FALSE(says("10.0"));
+  CHECK_FALSE(says("-2.0"));
+}

@@ -1,0 +1,177 @@
+// The tabs of the lessons and of what has been driven, worked by mouse and keyboard.
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "app/panel/palette.h"
+#include "tests/app/panel/coach_views.h"
+#include "tests/app/panel/drawn.h"
+#include "tests/app/panel/panel_rig.h"
+
+using namespace gearshift;
+
+namespace {
+
+constexpr int kEnter = 257, kEscape = 256;
+
+struct LessonsRig : PanelRig {
+  explicit LessonsRig(const CoachView& coach, const char* tab = "tab_lesson") {
+    input.coach = coach;
+    frame();
+    click(tab);
+    for (int i = 0; i < 3; ++i) frame();
+  }
+  PanelRequests write(const std::u32string& text) {
+    events.text = text;
+    PanelRequests all = frame();
+    merge(all, frame());
+    return all;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the lessons are the tab that is seen first, in the order of teaching, a disc for each that was passed") {
+  PanelRig rig;
+  rig.input.coach = half_way();
+  for (int i = 0; i < 3; ++i) rig.frame();
+  const std::vector<DrawnText> texts = drawn_texts();
+  double before = 0.0;
+  for (const std::string_view key : kTeachingOrder) {
+    const ControlRect at = rig.rect("lesson: " + std::string(key));
+    CHECK(at.min.y > before);
+    before = at.min.y;
+  }
+  CHECK(right_of("Up through the gears").front() == "6.5");
+  CHECK(right_of("Up through the gears").back() == "7");
+  CHECK(right_of("Reverse").empty());  // never tried
+  std::vector<glm::dvec2> discs = drawn_in(ink::kGood);
+  std::erase_if(discs, [&](glm::dvec2 at) { return at.x < rig.panel.middle().max.x; });  // plots, pedals
+  const PixelBox green = box_of(discs);
+  CHECK(green.min.y >= rig.rect("lesson: start_and_stop").min.y - 2.0);
+  CHECK(green.max.y <= rig.rect("lesson: up_through_the_gears").max.y + 2.0);  // the fourth is the last that was passed
+}
+
+TEST_CASE("a lesson is offered by a click, the suggested one by its button; none while one is driven") {
+  LessonsRig rig(half_way());
+  CHECK(rig.click("lesson: reverse").lesson.offer == "reverse");
+  CHECK(rig.click("lesson_suggested").lesson.offer == "hill_start");
+  CHECK(is_drawn(rig.input.coach.next_why));
+  CHECK_FALSE(rig.frame().lesson.offer.has_value());
+  rig.input.coach = driven();
+  rig.frame();
+  CHECK_FALSE(rig.click("lesson: reverse").lesson.offer.has_value());
+  CHECK_FALSE(rig.click("lesson_suggested").lesson.offer.has_value());
+}
+
+TEST_CASE("the instructor makes another lesson the next one, and gives that back to the suggestion") {
+  LessonsRig rig(half_way());
+  CHECK(rig.click("next: reverse").lesson.next == "reverse");
+  CHECK_FALSE(rig.panel.control_rect("next_as_suggested").has_value());
+  rig.input.coach.next_by_instructor = true;
+  rig.frame();
+  rig.frame();
+  CHECK(rig.click("next_as_suggested").lesson.next == std::string());
+}
+
+TEST_CASE("a learner is written and taken by Enter, chosen from those known, or nobody") {
+  LessonsRig rig(half_way());
+  rig.click("learner");
+  CHECK(rig.panel.has_keyboard());
+  CHECK_FALSE(rig.write(U"Dora").lesson.learner.has_value());  // not yet
+  CHECK(rig.press(kEnter).lesson.learner == "Dora");
+  rig.input.coach.learner = "Dora";
+  rig.frame();
+  rig.frame();
+  CHECK_FALSE(rig.panel.has_keyboard());
+  rig.click("learner");
+  CHECK_FALSE(rig.press(kEnter).lesson.learner.has_value());  // the same
+  rig.click("learner_known");
+  CHECK(rig.click("learner: Bert").lesson.learner == "Bert");
+  rig.click("learner_known");
+  CHECK(rig.click("learner: ").lesson.learner == std::string());
+}
+
+TEST_CASE("a field has the keyboard from the frame on in which it was clicked") {
+  LessonsRig rig(half_way());
+  rig.point("learner");
+  rig.frame();
+  CHECK_FALSE(rig.panel.has_keyboard());
+  rig.events.mouse_down[0] = true;
+  rig.frame();
+  CHECK(rig.panel.has_keyboard());
+}
+
+TEST_CASE("a name that is left without Enter is nobody's, and the field says again who learns") {
+  LessonsRig rig(half_way());
+  rig.click("learner");
+  rig.write(U"Dor");
+  CHECK(is_drawn("Dor"));
+  CHECK_FALSE(rig.click("stop").lesson.learner.has_value());
+  CHECK_FALSE(rig.panel.has_keyboard());
+  CHECK(is_drawn("Ada Example"));
+  CHECK_FALSE(is_drawn("Dor"));
+}
+
+TEST_CASE("that nothing is remembered is said") {
+  CoachView coach = half_way();
+  coach.remembers = false;
+  LessonsRig rig(coach);
+  CHECK(is_drawn("The history is not open: nothing is remembered."));
+  rig.input.coach.remembers = true;
+  rig.input.coach.learner.clear();
+  rig.frame();
+  CHECK(is_drawn("Without a name nothing is remembered."));
+}
+
+TEST_CASE("a run of the past is opened by a click, its shifts are looked at where it was recorded") {
+  LessonsRig rig(with_history(), "tab_history");
+  CHECK_FALSE(rig.panel.control_rect("look: 16 0").has_value());
+  rig.click("run: 16");
+  const PanelRequests asked = rig.click("look: 16 1");
+  REQUIRE(asked.look.open.has_value());
+  CHECK(asked.look.open->recording == "/tmp/hill.trace");
+  CHECK(asked.look.open->begin == 19.5);
+  CHECK(is_drawn("clutch up 0.08 s before the gear, 239 rpm apart"));
+  CHECK(is_drawn("blocked for 0.31 s"));
+  CHECK(is_drawn("The gear ground, 12.4 J. (-2.0)"));
+  CHECK(is_drawn("Wait for the synchroniser: push, do not hit."));
+  rig.click("run: 16");
+  CHECK_FALSE(rig.panel.control_rect("look: 16 0").has_value());
+  rig.click("run: 15");  // it was not recorded
+  CHECK_FALSE(rig.click("look: 15 0").look.open.has_value());
+  CHECK(is_drawn("No look at its shifts: this run was not recorded."));
+}
+
+TEST_CASE("each run says its grade, or why it has none") {
+  LessonsRig rig(with_history(), "tab_history");
+  const std::vector<DrawnText> texts = drawn_texts();
+  for (const char* words : {"7.5", "0.0", "guided", "left", "cut off", "lost"}) CHECK(is_drawn(words));
+  CHECK(the_text(texts, "7.5").box.min.y < the_text(texts, "0.0").box.min.y);  // as it comes: the newest first
+  CHECK(the_text(texts, "guided").box.min.y < the_text(texts, "left").box.min.y);
+}
+
+TEST_CASE("a comment has an author and words, and is asked for once") {
+  LessonsRig rig(with_history(), "tab_history");
+  rig.click("run: 16");
+  rig.click("comment");
+  rig.write(U"Well done");
+  CHECK_FALSE(rig.press(kEnter).lesson.comment.has_value());  // whose?
+  rig.click("comment_author");
+  CHECK(rig.panel.has_keyboard());
+  rig.write(U"Ms Torque");
+  rig.press(kEscape + 1);  // Enter leaves the field
+  const PanelRequests asked = rig.click("comment_add");
+  REQUIRE(asked.lesson.comment.has_value());
+  CHECK(asked.lesson.comment->run == 16);
+  CHECK(asked.lesson.comment->author == "Ms Torque");
+  CHECK(asked.lesson.comment->text == "Well done");
+  CHECK_FALSE(rig.click("comment_add").lesson.comment.has_value());
+}
+
+TEST_CASE("another car is chosen from its list") {
+  PanelRig rig;
+  rig.click("car");
+  CHECK(rig.click("car: diesel").car == "diesel");
+}

@@ -1,0 +1,189 @@
+// A recorded drive under the panel's hands: what a click on the bar asks for, and that the ways lie where they went.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include "app/panel/gate_view.h"
+#include "app/panel/palette.h"
+#include "tests/app/panel/coach_views.h"
+#include "tests/app/panel/drawn.h"
+#include "tests/app/panel/panel_rig.h"
+#include "tests/app/replay/lesson_trace.h"
+
+using namespace gearshift;
+
+namespace {
+
+struct ReplayRig : PanelRig {
+  Player player{upshifts().file};
+
+  explicit ReplayRig(bool panel_shown = false) {
+    panel.set_visible(panel_shown);
+    input.replay = &player;
+    settle();
+  }
+  void settle() {
+    for (int i = 0; i < 5; ++i) frame();
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a recorded drive is played, stopped, slowed, looked at in part and whole, and put away, by a click each") {
+  for (const bool panel_shown : {true, false}) {
+    CAPTURE(panel_shown);
+    ReplayRig rig(panel_shown);
+    CHECK(rig.click("replay_play").look.play == false);  // it plays
+    rig.player.play(false);
+    rig.frame();
+    CHECK(rig.click("replay_play").look.play == true);
+    CHECK(rig.click("replay_pace: 0.1").look.pace == 0.1);
+    CHECK(rig.click("replay_pace: 2").look.pace == 2.0);
+    CHECK(rig.click("replay_shift: 1").look.shift == 1);
+    CHECK(rig.click("replay_whole").look.whole);
+    CHECK(rig.click("replay_close").look.close);
+    const PanelRequests idle = rig.frame();
+    CHECK_FALSE(idle.look.close);
+    CHECK_FALSE(idle.look.seek.has_value());
+    CHECK_FALSE(idle.look.play.has_value());
+  }
+}
+
+TEST_CASE("the scrub bar seeks as far as it is drawn, within what is looked at") {
+  ReplayRig rig;
+  for (const bool whole : {true, false}) {
+    CAPTURE(whole);
+    rig.player.look_at(whole ? std::nullopt : std::optional<std::size_t>(1));
+    rig.settle();
+    const double from = rig.player.from(), to = rig.player.to();
+    for (const double share : {0.25, 0.5, 0.75}) {
+      rig.point("replay_time", share);
+      rig.frame();
+      rig.events.mouse_down[0] = true;
+      PanelRequests asked = rig.frame();
+      rig.events.mouse_down[0] = false;
+      PanelRig::merge(asked, rig.frame());
+      REQUIRE(asked.look.seek.has_value());
+      CHECK(std::abs(*asked.look.seek - (from + share * (to - from))) < 0.02 * (to - from));
+    }
+  }
+}
+
+TEST_CASE("every shift has a mark where it begins in the drive, whatever part is looked at") {
+  ReplayRig rig;
+  const RecordedDrive& drive = rig.player.drive();
+  REQUIRE(drive.shifts().size() > 2);
+  const ControlRect bar = rig.rect("replay_time");
+  for (const bool whole : {true, false}) {
+    rig.player.look_at(whole ? std::nullopt : std::optional<std::size_t>(0));
+    rig.settle();
+    for (std::size_t i = 0; i + 1 < drive.shifts().size(); ++i) {
+      const double share = (drive.shifts()[i].record.begin - drive.begin()) / (drive.end() - drive.begin());
+      const ControlRect mark = rig.rect("replay_shift: " + std::to_string(i));
+      CHECK(std::abs(mark.min.x - (bar.min.x + share * (bar.max.x - bar.min.x))) < 2.0);
+      CHECK(mark.max.x < rig.rect("replay_shift: " + std::to_string(i + 1)).min.x);
+    }
+  }
+}
+
+TEST_CASE("the bar covers what lies behind it, leaves the cabin what is above it, and hides the lesson's card") {
+  ReplayRig rig;
+  rig.input.coach = over(result_of("hill_start", some_faults()));
+  rig.settle();
+  const ControlRect close = rig.rect("replay_close"), middle = rig.panel.middle();
+  CHECK(rig.panel.covers(0.5 * (close.min + close.max)));
+  CHECK(middle.max.y < rig.rect("replay_shift: 0").min.y);
+  CHECK(middle.max.y > 360.0);
+  CHECK_FALSE(rig.panel.covers({640.0, middle.max.y - 2.0}));
+  CHECK_FALSE(rig.panel.control_rect("lesson_again").has_value());
+  rig.input.replay = nullptr;
+  rig.settle();
+  CHECK(rig.panel.middle().max == glm::dvec2(1280.0, 720.0));
+  CHECK(rig.panel.control_rect("lesson_again").has_value());
+}
+
+TEST_CASE("a clutch that goes down in a shift is a curve that goes up at that place") {
+  ReplayRig rig;
+  rig.player.look_at(1);
+  rig.settle();
+  // The clutch's curve is the accent's colour: its highest places lie where the samples have the pedal down.
+  double down_from = 1e9, down_to = 0.0;
+  for (const DriveSample& sample : rig.player.drive().between(rig.player.from(), rig.player.to())) {
+    if (sample.car.clutch < 0.93) continue;
+    down_from = std::min(down_from, sample.time());
+    down_to = std::max(down_to, sample.time());
+  }
+  REQUIRE(down_to > down_from);
+  const ControlRect bar = rig.rect("replay_time");
+  double below_legend = 0.0;
+  for (const DrawnText& text : drawn_texts())
+    if (text.text.starts_with("clutch")) below_legend = text.box.max.y;
+  REQUIRE(below_legend > 0.0);
+  std::vector<glm::dvec2> curve;
+  for (const glm::dvec2 at : drawn_in(ink::kAccent))
+    if (at.y < bar.min.y && at.y > below_legend && at.x >= bar.min.x) curve.push_back(at);
+  REQUIRE(curve.size() > 50);
+  const double top = box_of(curve).min.y;
+  double first = 1e9, last = 0.0;
+  for (const glm::dvec2 at : curve) {
+    if (at.y > top + 2.0) continue;  // 7 % of the lane's height
+    first = std::min(first, at.x);
+    last = std::max(last, at.x);
+  }
+  const auto time_at = [&](double x) {
+    return rig.player.from() + (x - bar.min.x) / (bar.max.x - bar.min.x) * (rig.player.to() - rig.player.from());
+  };
+  const double pixel = (rig.player.to() - rig.player.from()) / (bar.max.x - bar.min.x);
+  CHECK(std::abs(time_at(first) - down_from) < 6.0 * pixel);
+  CHECK(std::abs(time_at(last) - down_to) < 6.0 * pixel);
+}
+
+TEST_CASE("in the gate the driven way is a line through its points, the ideal one dashes of about its half") {
+  const std::vector<glm::dvec2> driven{{-0.03, 0.03}, {-0.03, 0.0}, {0.0, 0.0}, {0.0, -0.03}};
+  const std::vector<glm::dvec2> ideal{{-0.03, 0.03}, {-0.02, 0.0}, {0.0, -0.03}};
+  UiContext ui;
+  const Gate gate = paper_gate();
+  HapticSnapshot now;
+  const auto draw = [&](const SeenWays& ways) {
+    draw_alone(ui, {640.0f, 480.0f},
+               [&] { draw_gate_view(ImGui::GetContentRegionAvail(), gate, now, Trail(), 75.0, ways); });
+  };
+  draw({});
+  CHECK(drawn_in(ink::kDriven).empty());
+  CHECK(drawn_in(ink::kIdeal).empty());
+  const auto disc_at = [&](glm::dvec2 place) {
+    now.lever = now.proxy = place;
+    draw({driven, ideal});
+    return box_of(drawn_in(ink::kProxy)).middle();
+  };
+  const glm::dvec2 zero = disc_at({0.0, 0.0});
+  const double scale = disc_at({0.01, 0.0}).x - zero.x;  // [px] of 10 mm
+  const auto pixel = [&](glm::dvec2 p) { return zero + 100.0 * scale * glm::dvec2(p.x, -p.y); };
+  const auto distance_to = [&](const std::vector<glm::dvec2>& way, glm::dvec2 at) {
+    double least = 1e9;
+    for (std::size_t i = 1; i < way.size(); ++i) {
+      const glm::dvec2 a = pixel(way[i - 1]), b = pixel(way[i]);
+      const double share = std::clamp(glm::dot(at - a, b - a) / glm::dot(b - a, b - a), 0.0, 1.0);
+      least = std::min(least, glm::distance(at, a + share * (b - a)));
+    }
+    return least;
+  };
+  for (const glm::dvec2 at : drawn_in(ink::kDriven)) CHECK(distance_to(driven, at) < 3.0);
+  for (const glm::dvec2 at : drawn_in(ink::kIdeal)) CHECK(distance_to(ideal, at) < 3.0);
+  for (const glm::dvec2 corner : driven) {
+    const std::vector<glm::dvec2> line = drawn_in(ink::kDriven);
+    CHECK(std::any_of(line.begin(), line.end(), [&](glm::dvec2 at) { return glm::distance(at, pixel(corner)) < 3.0; }));
+  }
+  // A dash is four corners: as long as the farthest two are apart, but for its thickness.
+  const std::vector<glm::dvec2> dashes = drawn_in(ink::kIdeal);
+  REQUIRE(dashes.size() % 4 == 0);
+  double drawn = 0.0, way = 0.0;
+  for (std::size_t i = 0; i < dashes.size(); i += 4)
+    drawn += std::max(glm::distance(dashes[i], dashes[i + 1]), glm::distance(dashes[i], dashes[i + 2]));
+  for (std::size_t i = 1; i < ideal.size(); ++i) way += glm::distance(pixel(ideal[i - 1]), pixel(ideal[i]));
+  CHECK(drawn / way > 0.45);
+  CHECK(drawn / way < 0.75);
+}

@@ -1,0 +1,291 @@
+// What was recorded is what is seen again: lever and pedals out of the file, the car as it was while it was driven, the
+// shifts as the lesson had them.
+#include "app/replay/recorded_drive.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstddef>
+#include <string>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include "app/replay/shift_way.h"
+#include "app/training/gate_path.h"
+#include "haptics/files/file_error.h"
+#include "haptics/gate/gate_feel.h"
+#include "tests/app/replay/lesson_trace.h"
+#include "tests/support/gates.h"
+
+using namespace gearshift;
+using glm::dvec2;
+
+namespace {
+
+void check_same(const DriveSample& a, const DriveSample& b) {
+  CHECK(a.lever.time_ns == b.lever.time_ns);
+  CHECK(a.lever.proxy == b.lever.proxy);
+  CHECK(a.lever.f_h == b.lever.f_h);
+  CHECK(a.controls.clutch == b.controls.clutch);
+  CHECK(a.car.clutch == b.car.clutch);
+  CHECK(a.car.engine_speed == b.car.engine_speed);
+  CHECK(a.car.shaft_speed == b.car.shaft_speed);
+  CHECK(a.car.clutch_torque == b.car.clutch_torque);
+  CHECK(a.car.slip_energy == b.car.slip_energy);
+  CHECK(a.car.distance == b.car.distance);
+  CHECK(a.car.gear == b.car.gear);
+  CHECK(a.car.sync == b.car.sync);
+}
+
+void check_same(const ShiftRecord& a, const ShiftRecord& b) {
+  CHECK(a.number == b.number);
+  CHECK(a.begin == b.begin);
+  CHECK(a.end == b.end);
+  CHECK(a.from == b.from);
+  CHECK(a.to == b.to);
+  CHECK(a.guided == b.guided);
+  CHECK(a.jerk_peak == b.jerk_peak);
+  CHECK(a.slip_energy == b.slip_energy);
+  CHECK(a.impulse == b.impulse);
+  CHECK(a.path_length == b.path_length);
+  CHECK(a.steps == b.steps);
+}
+
+double length_of(const std::vector<dvec2>& way) {
+  double length = 0.0;
+  for (std::size_t i = 1; i < way.size(); ++i) length += glm::distance(way[i - 1], way[i]);
+  return length;
+}
+
+const DriveSample& live_at(const LessonTrace& trace, double time) {
+  const auto after = std::upper_bound(trace.live.begin(), trace.live.end(), time,
+                                      [](double t, const DriveSample& sample) { return t < sample.time(); });
+  return after == trace.live.begin() ? trace.live.front() : *(after - 1);
+}
+
+// A drive of a resting lever without a car: `count` cycles that say what they say of pedals and gear.
+void write_carless(const std::filesystem::path& file, std::size_t count, const std::string& world = "none",
+                   std::uint64_t first_cycle = 0) {
+  TraceHeader header;
+  const GateLayout layout = read_gate_layout(GEARSHIFT_ASSETS "/gates/paper.toml");
+  header.gate_file = "paper.toml";
+  header.gate_text = layout.text;
+  header.device.workspace = kPaperWorkspace;
+  header.device.yoke_radius = kPaperYokeRadius;
+  header.world = world;
+  std::vector<TraceSample> samples(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    TraceSample& sample = samples[i];
+    sample.deadline_ns = sample.out.time_ns = 5'000'000'000 + static_cast<std::int64_t>(i) * 1'000'000;
+    sample.out.cycle = first_cycle + i;
+    sample.out.gear = i < count / 2 ? 2 : 3;
+    sample.out.road_speed = 1e-3 * static_cast<double>(i);
+    sample.controls.clutch = i % 2 == 0 ? 0.25 : 0.75;
+    sample.controls.slope = 0.1;
+  }
+  write_trace(file, header, samples);
+}
+
+std::string refusal(const std::filesystem::path& file) {
+  try {
+    const RecordedDrive drive(file);
+  } catch (const FileError& problem) {
+    return problem.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("the car is as it was while it was driven, to the bit, in every sample; and that is quick") {
+  const LessonTrace& trace = upshifts();
+  const auto before = std::chrono::steady_clock::now();
+  const RecordedDrive drive(trace.file);
+  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - before;
+  MESSAGE(trace.result.duration << " s of a lesson at 1 kHz, " << drive.samples().size() << " samples, seen again in "
+                                << 1e3 * took.count() << " ms");
+  CHECK(took.count() < 0.1 * trace.result.duration);
+  CHECK(drive.has_car());
+  CHECK_FALSE(drive.differs());
+  REQUIRE(drive.samples().size() > 1000);
+  for (const DriveSample& sample : drive.samples()) check_same(sample, trace.live[sample.lever.cycle]);
+  CHECK(drive.header().program == "lesson drive");
+  CHECK(drive.gate().slot_count == shipped_gate("five_speed_r_right_down").slot_count);
+}
+
+TEST_CASE("its shifts are those that the lesson counted, in every number, from cycles that the samples leave out") {
+  for (const double guidance : {0.0, 0.8}) {
+    CAPTURE(guidance);
+    const LessonTrace trace("up_through_the_gears", 0.9, guidance);
+    const RecordedDrive drive(trace.file);
+    REQUIRE(drive.shifts().size() == trace.result.shifts.size());
+    REQUIRE(drive.shifts().size() >= 4);
+    for (std::size_t i = 0; i < drive.shifts().size(); ++i)
+      check_same(drive.shifts()[i].record, trace.result.shifts[i]);
+  }
+}
+
+TEST_CASE("a shift's way leads from the gear that was left to the one that came, and is no shorter than the ideal") {
+  const LessonTrace& trace = upshifts();
+  const RecordedDrive drive(trace.file);
+  REQUIRE(drive.shifts().size() >= 4);
+  for (const RecordedShift& shift : drive.shifts()) {
+    const ShiftRecord& record = shift.record;
+    CAPTURE(record.number);
+    const double left = record.from == kNeutralGear ? record.begin : record.begin + std::max(0.0, record.clutch_lead);
+    const double in = record.begin + std::max(0.0, record.clutch_lead) + record.lever_time;
+    REQUIRE(shift.driven.size() > 10);
+    CHECK(glm::distance(shift.driven.front(), live_at(trace, left).lever.proxy) < ShiftWay::kChord);
+    CHECK(glm::distance(shift.driven.back(), live_at(trace, in).lever.proxy) < ShiftWay::kChord);
+    CHECK(slot_of(drive.gate(), slot_at(drive.gate(), shift.driven.back())).gear == record.to);
+    for (std::size_t i = 1; i < shift.driven.size(); ++i)
+      CHECK(glm::distance(shift.driven[i - 1], shift.driven[i]) >= ShiftWay::kChord);
+    CHECK(shift.ideal == shortest_path(drive.gate(), shift.driven.front(), shift.driven.back()));
+    CHECK(length_of(shift.driven) > 0.99 * length_of(shift.ideal));
+    // The record measures the hand's way, from a little before: both speak of the same shift.
+    CHECK(length_of(shift.driven) == doctest::Approx(record.path_length).epsilon(0.25));
+  }
+}
+
+TEST_CASE("samples: the first cycle and the last, 4 ms apart; at() and between() as a search through all of them") {
+  const LessonTrace& trace = upshifts();
+  const RecordedDrive drive(trace.file);
+  const auto samples = drive.samples();
+  CHECK(drive.begin() == trace.live.front().time());
+  CHECK(drive.end() == trace.live.back().time());
+  for (std::size_t i = 1; i + 1 < samples.size(); ++i)
+    CHECK(samples[i].lever.time_ns - samples[i - 1].lever.time_ns == 4'000'000);
+  for (double time = drive.begin() - 1.0; time < drive.end() + 1.0; time += 0.0917) {
+    const DriveSample* last = &samples[0];
+    std::size_t within = 0;
+    for (const DriveSample& sample : samples) {
+      if (sample.time() <= time) last = &sample;
+      if (sample.time() > time && sample.time() <= time + 0.5) ++within;
+    }
+    CHECK(&drive.at(time) == last);
+    CHECK(drive.between(time, time + 0.5).size() == within);
+    CHECK(drive.between(time + 0.5, time).empty());
+  }
+  const DriveSample& third = samples[2];
+  CHECK(&drive.at(third.time()) == &third);
+  CHECK(drive.between(third.time(), samples[3].time()).size() == 1);
+}
+
+TEST_CASE("a drive of any length and rate keeps no more than there is room for, and nothing closer than 4 ms") {
+  for (const double rate : {100.0, 250.0, 333.0, 1000.0, 4000.0}) {
+    for (const std::uint64_t cycles : {1ull, 4ull, 149'998ull, 150'000ull, 600'000ull, 599'997ull, 123'456'789ull}) {
+      const std::uint64_t stride = RecordedDrive::stride(rate, cycles);
+      CAPTURE(rate);
+      CAPTURE(cycles);
+      CHECK(stride >= 1);
+      CHECK(static_cast<double>(stride) / rate >= 0.004 - 1e-9);
+      CHECK((cycles + stride - 1) / stride + 1 <= RecordedDrive::kMostSamples);
+    }
+  }
+  CHECK(RecordedDrive::stride(1000.0, 500'000) == 4);
+  CHECK(RecordedDrive::stride(1000.0, 0) == 4);
+}
+
+TEST_CASE("without a car: pedals, gear and speed are the recording's, there are no shifts") {
+  const TempFolder folder;
+  write_carless(folder / "a.trace", 1000);
+  const RecordedDrive drive(folder / "a.trace");
+  CHECK_FALSE(drive.has_car());
+  CHECK(drive.shifts().empty());
+  CHECK(drive.begin() == doctest::Approx(5.0));
+  CHECK(drive.at(5.2).car.gear == 2);
+  CHECK(drive.at(5.8).car.gear == 3);
+  CHECK(drive.at(5.8).car.road_speed == doctest::Approx(0.8).epsilon(0.01));
+  CHECK(drive.at(5.8).car.clutch == 0.25);
+  CHECK(drive.at(5.8).car.slope == 0.1);
+  CHECK(drive.at(5.8).car.engine_speed == VehicleState{}.engine_speed);
+}
+
+TEST_CASE("where the second run differs, that is told, the recording stands, and shifts end before it") {
+  const LessonTrace& lesson = upshifts();
+  const TempFolder folder;
+  Trace trace = read_trace(lesson.file);
+  const std::size_t differs_at = trace.samples.size() / 2;
+  trace.samples[differs_at].out.commanded.x += 1e-9;
+  write_trace(folder / "a.trace", trace.header, trace.samples);
+  const RecordedDrive drive(folder / "a.trace"), whole(lesson.file);
+  const double when = 1e-9 * static_cast<double>(trace.samples[differs_at].out.time_ns);
+  CHECK(drive.differs());
+  CHECK(drive.has_car());
+  REQUIRE(drive.samples().size() == whole.samples().size());
+  for (std::size_t i = 0; i < drive.samples().size(); ++i) {
+    const DriveSample& sample = drive.samples()[i];
+    CHECK(sample.lever.proxy == whole.samples()[i].lever.proxy);
+    CHECK(sample.car.clutch == whole.samples()[i].controls.clutch);
+    if (sample.time() < when) check_same(sample, whole.samples()[i]);
+    if (sample.time() >= when) CHECK(sample.car.road_speed == sample.lever.road_speed);
+  }
+  CHECK(drive.shifts().size() < whole.shifts().size());
+  CHECK(drive.shifts().size() >= 1);
+  for (const RecordedShift& shift : drive.shifts()) CHECK(shift.record.end < when);
+}
+
+TEST_CASE("a file that claims that time goes backwards has samples whose times rise all the same") {
+  const TempFolder folder;
+  write_carless(folder / "a.trace", 2000);
+  Trace trace = read_trace(folder / "a.trace");
+  for (std::size_t i = 700; i < 1000; ++i) trace.samples[i].out.time_ns = 5'000'000'000 - static_cast<std::int64_t>(i);
+  trace.samples[1999].out.time_ns = 0;
+  write_trace(folder / "b.trace", trace.header, trace.samples);
+  const RecordedDrive drive(folder / "b.trace");
+  CHECK(drive.samples().size() > 400);
+  for (std::size_t i = 1; i < drive.samples().size(); ++i)
+    CHECK(drive.samples()[i].time() > drive.samples()[i - 1].time());
+  CHECK(drive.end() == doctest::Approx(6.998));
+}
+
+TEST_CASE("what is whole of a torn drive is seen") {
+  const LessonTrace& lesson = upshifts();
+  const TempFolder folder;
+  std::filesystem::copy_file(lesson.file, folder / "torn.trace");
+  std::filesystem::resize_file(folder / "torn.trace", std::filesystem::file_size(lesson.file) * 6 / 10);
+  const RecordedDrive torn(folder / "torn.trace"), whole(lesson.file);
+  CHECK_FALSE(torn.differs());
+  CHECK(torn.end() > whole.begin() + 0.3 * (whole.end() - whole.begin()));
+  CHECK(torn.end() < whole.begin() + 0.9 * (whole.end() - whole.begin()));
+  for (std::size_t i = 0; i + 1 < torn.samples().size(); ++i) check_same(torn.samples()[i], whole.samples()[i]);
+  REQUIRE(torn.shifts().size() >= 1);
+  for (std::size_t i = 0; i < torn.shifts().size(); ++i) check_same(torn.shifts()[i].record, whole.shifts()[i].record);
+}
+
+TEST_CASE("what cannot be seen again is refused in one sentence that names the file") {
+  const TempFolder folder;
+  write_carless(folder / "other.trace", 10, "a spring\nof steel");
+  write_carless(folder / "late.trace", 10, "none", 77);
+  write_carless(folder / "car.trace", 10, "car 30 1 0 0 1 80 0 0 0\nbad.toml\nname = 3\n");
+  for (const char* name : {"gone.trace", "other.trace", "late.trace", "car.trace"}) {
+    CAPTURE(name);
+    const std::string words = refusal(folder / name);
+    CHECK(words.find(name) != std::string::npos);
+    CHECK(words.find('\n') == std::string::npos);
+  }
+  CHECK(refusal(folder / "other.trace").find("\"a spring\" is not known") != std::string::npos);
+  CHECK(refusal(folder / "car.trace").find("bad.toml") != std::string::npos);
+}
+
+TEST_CASE("a lever that is stirred for an hour has a way of bounded size, from its begin to its end") {
+  const Gate gate = shipped_gate("paper");
+  ShiftWay way;
+  double angle = 0.0;
+  dvec2 place;
+  for (int i = 0; i < 1'000'000; ++i) {
+    angle += 0.7;
+    place = {0.02 * std::cos(angle), 0.005 * std::sin(angle)};
+    way.add(1e-3 * i, place);
+  }
+  ShiftRecord record;
+  record.end = 1000.0;
+  const ShiftWays ways = way.ways(record, gate);
+  CHECK(ways.driven.size() < ShiftWay::kMostPoints);
+  CHECK(ways.driven.size() > 10);
+  CHECK(ways.driven.front() == dvec2{0.02 * std::cos(0.7), 0.005 * std::sin(0.7)});
+  way.clear();
+  CHECK(way.ways(record, gate).driven.empty());
+  CHECK(way.ways(record, gate).ideal.empty());
+}

@@ -1,0 +1,250 @@
+// A lesson in the running trainer, by a hand that needs nobody, on the virtual clock: driven, remembered, looked at again.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "app/train/session.h"
+#include "app/training/lesson_world.h"
+#include "haptics/loop/replay.h"
+#include "tests/support/small_files.h"
+#include "tests/support/temp_folder.h"
+#include "tests/support/variable.h"
+
+using namespace gearshift;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kFrame = 1.0 / 60.0;
+
+struct Rig {
+  TempFolder folder;
+  Variable config{"XDG_CONFIG_HOME", folder.path().c_str()};
+  Variable data{"XDG_DATA_HOME", folder.path().c_str()};
+  fs::path history = folder / "history.db";
+
+  SessionChoice choice(const std::string& lesson, std::string hand = std::string(kByItself)) const {
+    SessionChoice choice;
+    choice.lesson = lesson;
+    choice.learner = "Ada";
+    choice.history = history;
+    choice.help = false;
+    choice.hand = std::move(hand);
+    choice.clock = TrainerClock::virtual_time;
+    choice.sound = SoundOutput::none;
+    return choice;
+  }
+  std::string bytes_of_history() const {
+    std::ifstream file(history, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+};
+
+void ask(Session& session, const std::function<void(LessonRequests&)>& what) {
+  PanelRequests requests;
+  what(requests.lesson);
+  session.obey(requests);
+}
+
+void go(Session& session, double seconds) {
+  for (double time = 0.0; time < seconds; time += kFrame) {
+    session.advance(kFrame);
+    session.place();
+  }
+}
+
+const CoachView& drive_to_the_end(Session& session) {
+  for (int i = 0; i < 120 * 60 && session.coach().view().phase == LessonPhase::driving; ++i) go(session, kFrame);
+  REQUIRE(session.coach().view().phase == LessonPhase::over);
+  return session.coach().view();
+}
+
+}  // namespace
+
+TEST_CASE("who can drive passes a lesson in the running trainer; run, shifts and recording are remembered") {
+  Rig rig;
+  Session session(rig.choice("hill_start"));
+  const CoachView& coach = drive_to_the_end(session);
+  CHECK(coach.result.passed);
+  CHECK(coach.result.grade >= 9.0);
+  CHECK(session.car().slope == doctest::Approx(std::atan(0.1)));  // the lesson's road: 10 %
+  History history(rig.history);
+  const auto runs = history.runs(history.find_learner("Ada").value().id);
+  REQUIRE(runs.size() == 1);
+  CHECK(runs[0].result.passed);
+  CHECK(runs[0].result.shifts.size() == coach.result.shifts.size());
+  REQUIRE(fs::path(runs[0].recording).is_absolute());
+  CHECK_FALSE(session.recording());
+  const Trace trace = read_trace(runs[0].recording);
+  CHECK(replay(trace, make_lesson_world).bit_for_bit());
+  // The recording is the lesson's: every shift lies in it.
+  for (const ShiftRecord& shift : runs[0].result.shifts) {
+    CHECK(shift.begin > 1e-9 * static_cast<double>(trace.samples.front().out.time_ns));
+    CHECK(shift.end < 1e-9 * static_cast<double>(trace.samples.back().out.time_ns) + 0.5);
+  }
+}
+
+TEST_CASE("a lesson begins as its file says: gear, speed, engine, hand brake, and the person's switches with them") {
+  Rig rig;
+  Session session(rig.choice("emergency_stop", "grip"));
+  CHECK(session.coach().view().phase == LessonPhase::offered);
+  CHECK(session.car().road_speed == 0.0);
+  ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+  go(session, 0.1);
+  CHECK(session.coach().view().phase == LessonPhase::driving);
+  CHECK(session.shown().gear == 3);
+  CHECK(session.car().road_speed == doctest::Approx(40.0 / 3.6).epsilon(0.02));
+  ask(session, [](LessonRequests& lesson) { lesson.leave = true; });
+  CHECK(session.coach().view().result.end == LessonEnd::left);
+  ask(session, [](LessonRequests& lesson) { lesson.offer = "start_and_stop"; });
+  (void)session.take_switches();
+  ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+  const std::optional<CarSwitches> switches = session.take_switches();
+  REQUIRE(switches);
+  CHECK_FALSE(switches->ignition);
+  CHECK(switches->hand_brake == 1.0);
+  go(session, 0.1);
+  CHECK_FALSE(session.car().running);
+  CHECK(session.car().hand_brake == 1.0);
+}
+
+TEST_CASE("another gate or a replay does not go on under a lesson: one leaves it, the other waits") {
+  Rig rig;
+  Session session(rig.choice("moving_off", "grip"));
+  ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+  go(session, 1.0);
+  PanelRequests look;
+  look.look.open = ReplayRequests::Shift{"nowhere.trace", 0.0};
+  session.obey(look);
+  CHECK(session.message().find("leave it before") != std::string::npos);
+  CHECK(session.coach().view().phase == LessonPhase::driving);
+  PanelRequests gate;
+  gate.gate = "four_speed";
+  session.obey(gate);
+  CHECK(session.coach().view().phase == LessonPhase::over);
+  CHECK(session.coach().view().result.end == LessonEnd::left);
+  CHECK_FALSE(session.recording());
+}
+
+TEST_CASE("any shift of the history is looked at again in the cabin: what is shown is what was recorded then") {
+  Rig rig;
+  Session session(rig.choice("up_through_the_gears"));
+  const CoachView& coach = drive_to_the_end(session);
+  REQUIRE(coach.result.shifts.size() >= 3);
+  const RunRow run = coach.runs.front();
+  const ShiftRecord& wanted = coach.result.shifts[1];
+  PanelRequests look;
+  look.look.open = ReplayRequests::Shift{run.recording, wanted.begin};
+  look.look.play = false;
+  session.obey(look);
+  const Player* player = session.panel_input().replay;
+  REQUIRE(player);
+  REQUIRE(player->shift());
+  const RecordedShift& shift = player->drive().shifts()[*player->shift()];
+  CHECK(shift.record.begin == doctest::Approx(wanted.begin).epsilon(1e-6));
+  CHECK(shift.record.from == wanted.from);
+  CHECK(shift.record.to == wanted.to);
+  const Trace trace = read_trace(run.recording);
+  for (const double part : {0.1, 0.5, 0.9}) {
+    const double time = wanted.begin + part * (wanted.end - wanted.begin);
+    PanelRequests seek;
+    seek.look.seek = time;
+    session.obey(seek);
+    go(session, kFrame);
+    const auto then = std::find_if(trace.samples.begin(), trace.samples.end(), [time](const TraceSample& sample) {
+      return 1e-9 * static_cast<double>(sample.out.time_ns) > time - 4.1e-3;
+    });
+    CHECK(glm::length(session.shown().proxy - then->out.proxy) < 2e-3);  // a stroke of 0.5 m/s at most, 4 ms apart
+    CHECK(session.car().clutch == doctest::Approx(then->controls.clutch).epsilon(0.05));
+    CHECK(session.car().engine_speed > 50.0);
+  }
+}
+
+TEST_CASE("a car brings its gate, a gate that the car lacks gears for another car, none stands still") {
+  Rig rig;
+  Session session(rig.choice(std::string(kNoLesson), "grip"));
+  CHECK(session.panel_input().gate_name == "five_speed_r_right_down");
+  const auto ask_for = [&session](std::optional<std::string> PanelRequests::*what, const std::string& name) {
+    PanelRequests requests;
+    requests.*what = name;
+    session.obey(requests);
+    go(session, 0.05);
+    return session.panel_input();
+  };
+  CHECK(ask_for(&PanelRequests::gate, "six_speed_r_left_up").car_name == "diesel");
+  CHECK(ask_for(&PanelRequests::car, "hatchback").gate_name == "five_speed_r_right_down");
+  CHECK(session.car().engine_speed > 60.0);
+  CHECK(ask_for(&PanelRequests::car, "none").gate_name == "five_speed_r_right_down");
+  CHECK(session.car().engine_speed == 0.0);
+}
+
+TEST_CASE("without a learner nothing is remembered, and a lesson is driven all the same") {
+  Rig rig;
+  SessionChoice choice = rig.choice("moving_off");
+  choice.learner.clear();
+  Session session(choice);
+  CHECK(drive_to_the_end(session).result.passed);
+  CHECK_FALSE(fs::exists(rig.folder / "gearshift/recordings"));
+  if (fs::exists(rig.history)) CHECK(History(rig.history).learners().empty());
+}
+
+TEST_CASE("a history that is damaged is told in one sentence, left as it is, and the lesson goes on") {
+  Rig rig;
+  std::ofstream(rig.history) << "this is no database, and long enough to be taken for none";
+  const std::string before = rig.bytes_of_history();
+  Session session(rig.choice("moving_off"));
+  CHECK(session.message().find("history.db") != std::string::npos);
+  CHECK(drive_to_the_end(session).result.passed);
+  CHECK(rig.bytes_of_history() == before);
+}
+
+TEST_CASE("a lesson whose recording dies is judged and remembered all the same") {
+  Rig rig;
+  {
+    History history(rig.history);  // made before the files must stay small
+    (void)history.learner("Ada");
+  }
+  const SmallFiles small(200'000);  // [bytes]
+  Session session(rig.choice("moving_off"));
+  CHECK(drive_to_the_end(session).result.passed);
+}
+
+TEST_CASE(
+    "a trial that the coach guides has the teacher's hand in the lever and no grade; without help none is guided") {
+  Rig rig;
+  SessionChoice alone = rig.choice("up_through_the_gears", "grip");
+  for (int trial = 0; trial < 6; ++trial) {
+    Session session(alone);
+    ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+    CHECK(session.coach().guidance() == 0.0);
+    alone.learner += "a";
+  }
+  // The lever stands in 1; the first step that names a gear names 2: there it is led. Two of four trials are.
+  SessionChoice by_itself = rig.choice("up_through_the_gears");
+  by_itself.help = true;
+  by_itself.learner = "Bo";  // whose first trials are not Ada's
+  by_itself.seed = 3;
+  for (int trial = 0; trial < 4; ++trial) {
+    Session driven(by_itself);
+    if (driven.coach().guidance() == 0.0) {
+      (void)drive_to_the_end(driven);
+      continue;
+    }
+    const CoachView& coach = drive_to_the_end(driven);
+    CHECK(coach.result.guided);
+    CHECK_FALSE(coach.result.passed);
+    const Trace trace = read_trace(coach.runs.front().recording);
+    CHECK(std::any_of(trace.samples.begin(), trace.samples.end(), [](const TraceSample& sample) {
+      return sample.controls.guidance > 0.0 && sample.controls.guided_gear == 2;
+    }));
+    CHECK(replay(trace, make_lesson_world).bit_for_bit());
+    return;
+  }
+  FAIL("none of four trials was guided");
+}

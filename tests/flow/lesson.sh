@@ -1,0 +1,186 @@
+#!/usr/bin/env bash
+# A simulated learner's lessons, remembered: passed, in the report, replayed; killed at 50 moments and nothing that was
+# told is lost; two programs at once; a history that cannot be used costs one sentence and no lesson.
+# Usage: lesson.sh GEARSHIFT SOURCE_FOLDER
+set -u
+gearshift=$1
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
+export XDG_DATA_HOME=$work/data
+
+learn() { # name of the result, arguments ...: exit code of the lesson
+  local name=$1
+  shift
+  "$gearshift" lesson "$@" >"$name.txt" 2>"$name.err" </dev/null
+}
+report() { "$gearshift" report "$@" >report.txt 2>report.err </dev/null; }
+is_sound() { # database
+  [ "$(python3 -c '
+import sqlite3, sys
+print(sqlite3.connect(sys.argv[1]).execute("PRAGMA quick_check").fetchone()[0])' "$1")" = ok ]
+}
+rows() { tail -n +2 "$1" | wc -l; } # of a table
+exits() { # code, command ...
+  local code=$1
+  shift
+  "$@"
+  [ $? -eq "$code" ]
+}
+refuse() { # part of the sentence, arguments ...
+  local part=$1
+  shift
+  exits 2 learn refused "$@" && [ "$(wc -l <refused.err)" -eq 1 ] && grep -qF -- "$part" refused.err
+}
+
+# Passed, in the report, and the recording is what was driven.
+check "without a name nothing is remembered" learn nobody hill_start
+check "and no folder is made" test ! -e data
+check "a lesson is passed" learn kim hill_start --learner Kim --verbose
+check "and says so" grep -q '^Run 1: .*Grade 10.0 of 10. Passed.$' kim.txt
+check "each shift was told" grep -q '^  run 1, shift 0 written: ' kim.txt
+check "nothing is wrong" test ! -s kim.err
+check "the page" report --learner Kim --out page --csv
+check "knows the lesson" grep -q "hill_start" page/runs.csv
+bit_for_bit() { "$gearshift" replay "$1" 2>&1 | grep -q "^bit for bit"; }
+check "the recording replays" bit_for_bit "$(ls data/gearshift/recordings/*.trace)"
+check "a lesson is failed" exits 1 learn kim hill_start --learner Kim --fault rollback
+learn kim skip_shifts --learner Kim --runs 4 --guided
+check "the last of four with help decides the exit code" exits $? grep -q 'Passed\.$' <(tail -n 1 kim.txt)
+check "two of the first four are guided" test "$(grep -c '^With help' kim.txt)" -eq 2
+report --learner Kim --out page --csv
+check "shifts are drawn from the recordings" grep -q 'class="path"' page/index.html
+check "all of them are remembered" test "$(rows page/runs.csv)" -eq 6
+check "guided ones without a grade" test "$(grep -c ',skip_shifts,' page/runs.csv)" -eq 4
+check "the mode is chosen" learn kim skip_shifts --learner Kim --mode by-yourself
+for trace in data/gearshift/recordings/*; do check "$trace replays" bit_for_bit "$trace"; done
+rm -rf data/gearshift/recordings
+echo >data/gearshift/recordings
+check "no folder for recordings: the lesson is driven" learn nowhere hill_start --learner Kim
+check "and that is told" test "$(wc -l <nowhere.err)" -eq 1
+rm data/gearshift/recordings
+
+check "an empty name" refuse "a learner's name has" hill_start --learner ""
+check "a name of two lines" refuse "control characters" hill_start --learner $'a\nb'
+check "no number of runs" refuse "--runs" hill_start --runs 0
+check "a trace for many runs" refuse "--trace" hill_start --runs 2 --trace t
+check "two kinds of help" refuse "--guid" hill_start --guided --guidance 1
+check "a database for nobody" refuse "--database" hill_start --database t.db
+check "no mode" refuse "--mode" hill_start --mode both
+
+# Killed at 50 moments, on one and the same database.
+told() { # what the program had told, as run,shift
+  sed -n 's/^  run \([0-9]*\), shift \([0-9]*\) written: .*/\1,\2/p' "$@"
+}
+RANDOM=5
+: >all_told
+lost=0 unusable=0 most=0
+for round in $(seq 50); do
+  "$gearshift" lesson skip_shifts --runs 200 --learner K --database kill/h.db --verbose --seed "$round" \
+    >killed.txt 2>killed.err &
+  program=$!
+  sleep "0.$(printf %03d $((RANDOM % 281 + 20)))"
+  kill -9 $program
+  wait $program 2>/dev/null
+  told killed.txt >>all_told
+  [ -s killed.err ] && cat killed.err
+  [ -e kill/h.db ] || continue
+  if [ ! -s all_told ] && ! report --learner K --database kill/h.db; then continue; fi # killed before K was known
+  report --learner K --database kill/h.db --out killed --csv || unusable=$((unusable + 1))
+  [ $((round % 10)) -ne 0 ] || is_sound kill/h.db || unusable=$((unusable + 1)) # the report looks, too, each time
+  cut -d, -f1,2 killed/shifts.csv | sort >there
+  lost=$((lost + $(sort all_told | comm -23 - there | wc -l)))
+  rm -rf kill/recordings
+done
+check "after every kill the report works and the database is sound" test $unusable -eq 0
+check "nothing that was told is lost" test $lost -eq 0
+check "shifts were told" test "$(wc -l <all_told)" -gt 50
+check "most kills hit a lesson, or the moment between two" \
+  test "$(python3 -c '
+import sqlite3
+print(sqlite3.connect("kill/h.db").execute("SELECT count(*) FROM lesson_run WHERE ended = 0").fetchone()[0])')" -gt 20
+check "all others are over" learn after skip_shifts --learner K --database kill/h.db
+
+# Two programs at once on a database that is not there yet; the same learner and two.
+learn one skip_shifts --runs 12 --learner Ada --database both/h.db &
+one=$!
+learn two skip_shifts --runs 12 --learner Bob --database both/h.db --seed 100 &
+two=$!
+learn three skip_shifts --runs 12 --learner Bob --database both/h.db --seed 200
+check "the one that shares a learner ends" test $? -eq 0
+check "one ends" wait $one
+check "the other ends" wait $two
+check "nobody complains" test ! -s one.err -a ! -s two.err -a ! -s three.err
+for who in "Ada 12" "Bob 24"; do
+  set -- $who
+  report --learner "$1" --database both/h.db --out both --csv
+  check "all runs of $1" test "$(rows both/runs.csv)" -eq "$2"
+  check "all shifts of $1" test "$(rows both/shifts.csv)" -eq $((2 * $2))
+done
+check "each has a recording of its own" test "$(ls both/recordings | wc -l)" -eq 36
+check "that replays" bit_for_bit "$(ls both/recordings/*.trace | tail -n 1)"
+
+# A history that cannot be used: one sentence, the lesson's own exit code, the file as it was.
+cp data/gearshift/history.db good.db
+spoilt() { # what, part of the sentence, file
+  cp "$3" before.db
+  check "$1: passed" learn spoilt hill_start --runs 2 --learner Kim --database "$3"
+  check "$1: one sentence, got: $(cat spoilt.err)" test "$(wc -l <spoilt.err)" -eq 1
+  check "$1: in words" grep -qF -- "$2" spoilt.err
+  check "$1: not passed" exits 1 learn spoilt hill_start --learner Kim --database "$3" --fault rollback
+  check "$1: one sentence again" test "$(wc -l <spoilt.err)" -eq 1
+  check "$1: as it was" cmp -s "$3" before.db
+}
+set_byte() { printf "$3" | dd of="$1" bs=1 seek="$2" conv=notrunc 2>/dev/null; }
+mkdir spoilt
+head -c 10000 good.db >spoilt/half.db
+spoilt "damaged" "it is damaged; it is left as it is" spoilt/half.db
+echo "learner,grade" >spoilt/text.db
+spoilt "no history" "it is no history of this program" spoilt/text.db
+cp good.db spoilt/newer.db
+set_byte spoilt/newer.db 63 '\377' # the last byte of the version: sqlite.org/fileformat2.html, 1.3
+spoilt "newer" "a newer program made it" spoilt/newer.db
+check "nothing lies beside them" test "$(ls spoilt | wc -l)" -eq 3
+
+# Who may not write: root always may, so as nobody.
+mkdir read_only
+cp good.db read_only/h.db
+chmod 755 "$work"
+chmod 555 read_only
+chmod 444 read_only/h.db
+as_nobody=()
+[ "$(id -u)" -eq 0 ] && as_nobody=(setpriv --reuid=65534 --regid=65534 --clear-groups)
+check "read-only: passed" bash -c '"$@" >ro.txt 2>ro.err' - "${as_nobody[@]}" \
+  "$gearshift" lesson hill_start --runs 2 --learner Kim --database read_only/h.db
+check "read-only: one sentence, got: $(cat ro.err)" test "$(wc -l <ro.err)" -eq 1
+check "read-only: in words" grep -q "it may not be written\|it cannot be opened" ro.err
+check "read-only: as it was" cmp -s read_only/h.db good.db
+chmod 755 read_only
+
+# A disk that is full: of its own where one can be mounted, else a limit on the length of files.
+cat >on_full_disk.sh <<'END'
+mkdir full
+if mount -t tmpfs -o size=1m none full 2>/dev/null; then
+  cp good.db full/h.db
+  dd if=/dev/zero of=full/filler bs=4k 2>/dev/null
+else
+  cp good.db full/h.db
+  ulimit -f 8
+  trap '' XFSZ
+fi
+"$1" lesson hill_start --runs 3 --learner Kim --database full/h.db >full.txt 2>full.err
+code=$?
+cmp -s full/h.db good.db || code=9
+exit $code
+END
+if unshare -rm true 2>/dev/null; then
+  check "full: passed, and the file as it was" unshare -rm bash on_full_disk.sh "$gearshift"
+else
+  check "full: passed, and the file as it was" bash on_full_disk.sh "$gearshift"
+fi
+check "full: one sentence, got: $(cat full.err)" test "$(wc -l <full.err)" -eq 1
+check "full: three lessons" test "$(grep -c 'Passed\.$' full.txt)" -eq 3
+rm -rf full
+check "full by a limit: passed, and the file as it was" \
+  bash -c 'mount() { return 1; }; source on_full_disk.sh' - "$gearshift"
+check "full by a limit: one sentence, got: $(cat full.err)" test "$(wc -l <full.err)" -eq 1
+
+finish
