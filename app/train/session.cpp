@@ -167,9 +167,9 @@ void Session::change_to(const SessionChoice& choice, const Lesson* lesson) {
   trainer_->set_controls(led());
   if (armed) trainer_->arm();
   if (choice.clock == TrainerClock::virtual_time) start_ns_ = -std::llround(1e9 * time_);
-  choice_ = choice;
-  choice_.car = chosen.car;
-  choice_.gate = chosen.gate;
+  running_ = choice;
+  running_.car = chosen.car;
+  running_.gate = chosen.gate;
   const std::string limit = first_limit(trainer_->admitted());
   if (!limit.empty()) message_ += (message_.empty() ? "" : "; ") + limit;
 }
@@ -233,11 +233,12 @@ void Session::obey(const PanelRequests& requests) {
 void Session::change_by(const PanelRequests& requests) {
   if (!requests.gate && !requests.car && !requests.preset && !requests.hand && !requests.restart) return;
   SessionChoice wanted = choice_;
+  if (wanted.car.empty()) wanted.car = kUsualCar;
   wanted.haptics = trainer_->config().preset.haptics;
   if (requests.gate) wanted = with_gate(wanted, *requests.gate);
   if (requests.car) {
     wanted.car = *requests.car;
-    if (wanted.car != kNoCar) wanted.gate.clear();
+    wanted.gate = wanted.car == kNoCar ? running_.gate : std::string{};
   }
   if (requests.hand) wanted.hand = *requests.hand;
   if (requests.restart) wanted.haptics = *requests.restart;
@@ -246,6 +247,7 @@ void Session::change_by(const PanelRequests& requests) {
     wanted.haptics.reset();
   }
   change_to(wanted);
+  choice_ = wanted;
 }
 
 // The first that is named, else the one that is suggested; a hand that needs nobody drives what is named alone.
@@ -279,13 +281,15 @@ void Session::obey_instructor(const LessonRequests& requests) {
 void Session::begin_lesson() {
   const Lesson lesson = *coach_.lesson();
   if (coach_.view().phase == LessonPhase::over) coach_.offer(lesson);
-  change_to(with_lesson(choice_, lesson), &lesson);
+  SessionChoice wanted = with_lesson(choice_, lesson);
+  if (trainer_) wanted.haptics = trainer_->config().preset.haptics;
+  change_to(wanted, &lesson);
   const CoachView& view = coach_.view();
   fs::path recording;
   if (view.remembers && !view.learner.empty()) recording = record_lesson(lesson);
   (void)trainer_->take_cycles();
   coach_.begin(*trainer_->config().car, trainer_->gate(),
-               settings_text(choice_, trainer_->config().preset.haptics.tuning), recording);
+               settings_text(running_, trainer_->config().preset.haptics.tuning), recording);
   trainer_->set_controls(led());
 }
 
@@ -321,7 +325,7 @@ void Session::advance(double seconds) {
   time_ += seconds;
   armed_now_ = false;
   trainer_->set_controls(led());
-  if (choice_.clock == TrainerClock::virtual_time) trainer_->advance(seconds);
+  if (running_.clock == TrainerClock::virtual_time) trainer_->advance(seconds);
   if (const std::optional<std::string> problem = trainer_->take_recording_problem()) {
     (void)trainer_->stop_recording();
     message_ = *problem;
@@ -377,8 +381,8 @@ std::optional<CarSwitches> Session::take_switches() {
 }
 
 void Session::toggle_recording() {
-  if (coach_.view().phase == LessonPhase::driving && !recording())
-    throw std::runtime_error("a lesson is recorded from its begin or not at all");
+  if (coach_.view().phase == LessonPhase::driving)
+    throw std::runtime_error("a lesson is recorded by itself, from its begin to its end, where a learner is named");
   if (recording())
     end_recording();
   else
@@ -451,7 +455,7 @@ void Session::save_preset(const std::string& name) {
   Preset preset = trainer_->config().preset;
   preset.name = name;
   write_preset(preset, file);
-  choice_.preset = name;
+  choice_.preset = running_.preset = name;
   panel_.presets = preset_names();
   message_ = fmt::format("saved as {}", file.string());
 }
@@ -469,10 +473,10 @@ const PanelInput& Session::panel_input() {
   panel_.car = car_;
   panel_.coach = coach_.view();
   panel_.replay = player_ ? &*player_ : nullptr;
-  panel_.gate_name = choice_.gate;
-  panel_.car_name = choice_.car;
-  panel_.preset_name = choice_.preset;
-  panel_.hand_name = choice_.hand.empty() ? "preset's" : choice_.hand;
+  panel_.gate_name = running_.gate;
+  panel_.car_name = running_.car;
+  panel_.preset_name = running_.preset;
+  panel_.hand_name = running_.hand.empty() ? "preset's" : running_.hand;
   panel_.recording = trainer_->recording();
   panel_.message = message_;
   panel_.frame_ms = frame_ms_;

@@ -94,7 +94,8 @@ class Session {
   void start_recording(const std::string& name);
   void save_preset(const std::string& name);
 
-  SessionChoice choice_;
+  SessionChoice choice_;   // a person's
+  SessionChoice running_;  // the same, but for what a lesson brings; car and gate are never empty
   Cabin cabin_;
   Coach coach_;
   std::unique_ptr<Trainer> trainer_;

@@ -184,6 +184,41 @@ TEST_CASE("a car brings its gate, a gate that the car lacks gears for another ca
   CHECK(session.car().engine_speed == 0.0);
 }
 
+TEST_CASE("a lesson's own gate goes with the lesson: the next one is driven in the person's") {
+  Rig rig;
+  Session session(rig.choice("another_gate", "grip"));
+  ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+  CHECK(session.panel_input().gate_name == "dog_leg_five");
+  ask(session, [](LessonRequests& lesson) { lesson.leave = true; });
+  PanelRequests tune;
+  tune.tuning = HapticTuning{.wall_stiffness = 4321.0};
+  session.obey(tune);
+  ask(session, [](LessonRequests& lesson) { lesson.offer = "moving_off"; });
+  ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+  CHECK(session.trainer().config().preset.haptics.tuning.wall_stiffness == 4321.0);  // and what was tuned stays
+  CHECK(session.panel_input().gate_name == "five_speed_r_right_down");
+}
+
+TEST_CASE("a lesson's recording is not ended by a person, and none begins in its middle") {
+  Rig rig;
+  SessionChoice choice = rig.choice("moving_off", "grip");
+  for (const char* learner : {"Ada", ""}) {
+    choice.learner = learner;
+    Session session(choice);
+    ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+    go(session, 0.2);
+    const bool recording = session.recording();
+    CHECK(recording == (choice.learner == "Ada"));
+    PanelRequests record;
+    record.record = true;
+    session.obey(record);
+    go(session, 0.2);
+    CHECK(session.recording() == recording);
+    CHECK(session.message().find("recorded by itself") != std::string::npos);
+    CHECK(session.coach().view().result.whole);
+  }
+}
+
 TEST_CASE("without a learner nothing is remembered, and a lesson is driven all the same") {
   Rig rig;
   SessionChoice choice = rig.choice("moving_off");
