@@ -4,6 +4,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "app/coach/force_gap.h"
 #include "app/coach/learner_memory.h"
 #include "app/coach/planned_trial.h"
 #include "app/training/grade.h"
@@ -21,11 +22,15 @@ std::vector<PastResult> past_results(const std::vector<RunRow>& runs) {
 }
 
 LessonStanding standing_in(const Lesson& lesson, const std::vector<PastResult>& past) {
-  LessonStanding standing{lesson.key, lesson.title, lesson.task, 0, std::nullopt, false};
+  LessonStanding standing;
+  standing.key = lesson.key;
+  standing.title = lesson.title;
+  standing.task = lesson.task;
   for (const PastResult& result : past) {
     if (result.lesson != lesson.key) continue;
     ++standing.trials;
     standing.grade = result.grade;
+    standing.best = std::max(standing.best.value_or(0.0), result.grade);
     standing.passed = standing.passed || result.passed;
   }
   return standing;
@@ -34,7 +39,8 @@ LessonStanding standing_in(const Lesson& lesson, const std::vector<PastResult>& 
 }  // namespace
 
 struct Coach::State {
-  explicit State(const CoachConfig& a_config) : config(a_config), memory(config.history, config.program, config.now) {}
+  explicit State(const CoachConfig& a_config)
+      : config(a_config), memory(config.history, config.program, config.now, config.patience) {}
 
   void look_at_learner();
   void stand();
@@ -47,6 +53,7 @@ struct Coach::State {
   void begin(const CarSpec& car, const Gate& gate);
   bool take(std::span<const DriveSample> samples);
   void check_cycle(const DriveSample& sample);
+  void check_forces(const DriveSample& sample);
   void remember();
   void leave();
   void finish();
@@ -59,6 +66,8 @@ struct Coach::State {
   std::optional<LessonMode> chosen_mode;  // by the person, for this lesson
   std::unique_ptr<LessonRun> run;         // the trial that is driven or over
   std::optional<std::uint64_t> cycle;     // of the trial's last sample
+  ForceGap forces;                        // of the trial
+  bool is_remembered = false;             // the trial that is shown has a run
   std::string settings, recording;
 };
 
@@ -122,9 +131,11 @@ void Coach::put_away() {
   CoachView& view = state.view;
   view.phase = LessonPhase::none;
   view.lesson = view.title = view.goal = "";
+  view.time_limit = 0.0;
   view.now = {};
   view.result = {};
   view.run = 0;
+  state.is_remembered = false;
   view.guidance = 0.0;
   view.retention = false;
 }
@@ -143,6 +154,7 @@ void Coach::begin(const CarSpec& car, const Gate& gate, const std::string& setti
 
 void Coach::add(std::span<const DriveSample> samples) {
   State& state = *state_;
+  if (state.memory.try_again()) state.look_at_learner();
   if (!state.is_driving() || samples.empty()) return;
   const bool over = state.take(samples);
   state.remember();
@@ -151,6 +163,15 @@ void Coach::add(std::span<const DriveSample> samples) {
 
 void Coach::leave() {
   state_->leave();
+}
+
+void Coach::settle() {
+  state_->memory.settle();
+  state_->look_at_learner();
+}
+
+std::vector<std::string> Coach::forget_recordings() {
+  return state_->memory.forget_recordings();
 }
 
 double Coach::guidance() const noexcept {
@@ -183,6 +204,7 @@ void Coach::State::look_at_learner() {
   stand();
   suggest();
   show_runs();
+  if (is_remembered) view.run = memory.run_number();
   view.remembers = memory.works();
 }
 
@@ -221,9 +243,11 @@ void Coach::State::offer() {
   view.lesson = lesson->key;
   view.title = lesson->title;
   view.goal = lesson->goal;
+  view.time_limit = lesson->time_limit;
   view.now = {};
   view.result = {};
   view.run = 0;
+  is_remembered = false;
   show_mode();
   plan();
 }
@@ -254,10 +278,12 @@ void Coach::State::begin(const CarSpec& car, const Gate& gate) {
   plan();
   run = std::make_unique<LessonRun>(*lesson, car, gate, LessonRunConfig{view.mode, view.guidance, view.hints});
   cycle.reset();
+  forces = {};
   view.phase = LessonPhase::driving;
   view.now = run->view();
   view.result = run->result();
   view.run = 0;
+  is_remembered = false;
 }
 
 // True when the trial is over: what comes after does not belong to it.
@@ -265,6 +291,7 @@ bool Coach::State::take(std::span<const DriveSample> samples) {
   for (const DriveSample& sample : samples) {
     check_cycle(sample);
     run->add(sample);
+    check_forces(sample);
     if (run->is_over()) return true;
   }
   return false;
@@ -276,8 +303,16 @@ void Coach::State::check_cycle(const DriveSample& sample) {
   cycle = sample.lever.cycle;
 }
 
+// Without them a trial says nothing of what was learnt: walls, gates and synchronisers are not felt.
+void Coach::State::check_forces(const DriveSample& sample) {
+  const bool was_long = forces.is_long();
+  forces.add(sample, run->is_in_shift());
+  if (forces.is_long() && !was_long) run->mark_forceless();
+}
+
 void Coach::State::remember() {
   if (!memory.in_run()) memory.begin_run(run->result(), settings, recording);
+  is_remembered = true;
   for (const ShiftRecord& shift : run->take_shifts()) memory.add_shift(shift);
   view.now = run->view();
   view.result = run->result();
@@ -296,7 +331,8 @@ void Coach::State::finish() {
   view.phase = LessonPhase::over;
   view.now = run->view();
   view.result = run->result();
-  view.run = memory.in_run() ? memory.end_run(run->result()) : 0;
+  is_remembered = memory.in_run();
+  if (is_remembered) memory.end_run(run->result());
   memory.look_again();  // the instructor may have chosen anew
   const LessonResult& result = run->result();
   const bool finished = is_graded(result) && result.end != LessonEnd::left;

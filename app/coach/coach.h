@@ -1,9 +1,10 @@
 // One learner's lessons in a trainer that runs: which lesson, with how much help, what is said, what is remembered.
 //
 // Knows no window and no thread, and of time the samples' and the date. A history that cannot be used is told once, in
-// one sentence, and the lessons go on without it. One thread.
+// one sentence, and the lessons go on without it; what it did not take is kept and offered again. One thread.
 #pragma once
 
+#include <chrono>
 #include <filesystem>
 #include <memory>
 #include <optional>
@@ -22,18 +23,19 @@
 namespace gearshift {
 
 struct CoachConfig {
-  std::vector<Lesson> lessons;    // in the order of teaching: what is suggested
-  std::filesystem::path history;  // empty: nothing is remembered
-  std::string learner;            // empty: nobody
-  std::string program;            // its name and version, for the history
-  Clock now = system_seconds;     // [s] since 1970: when a day has passed, and the dates of what is remembered
+  std::vector<Lesson> lessons;             // in the order of teaching: what is suggested
+  std::filesystem::path history;           // empty: nothing is remembered
+  std::string learner;                     // empty: nobody
+  std::string program;                     // its name and version, for the history
+  Clock now = system_seconds;              // [s] since 1970: when a day has passed, and the dates of what is remembered
+  std::chrono::milliseconds patience{50};  // of a call, with another program that holds the history
 };
 
 class Coach {
  public:
   // Throws nothing for the history: take_problem(). std::invalid_argument for what is no name.
   explicit Coach(const CoachConfig& config);
-  ~Coach();  // a lesson that is driven counts as left
+  ~Coach();  // a lesson that is driven counts as left; settles
   Coach(const Coach&) = delete;
   Coach& operator=(const Coach&) = delete;
 
@@ -55,8 +57,15 @@ class Coach {
   // recording: absolute, or empty. Throws std::invalid_argument (the gate lacks a gear), std::logic_error (nothing is
   // offered).
   void begin(const CarSpec& car, const Gate& gate, const std::string& settings, const std::filesystem::path& recording);
-  void add(std::span<const DriveSample> samples);  // in order; a gap in the cycles tears the run
-  void leave();                                    // the learner gives up: phase over
+  // In order; a gap in the cycles tears the run. To be called in each frame, samples or none: what the history did not
+  // take is offered again.
+  void add(std::span<const DriveSample> samples);
+  void leave();  // the learner gives up: phase over
+
+  // For who goes: what waits for the history is written, with a patience of 3 s.
+  void settle();
+  // Of runs that the history has heard nothing of, and will not name any more.
+  std::vector<std::string> forget_recordings();
 
   // For DriverControls while it is driven; else none.
   double guidance() const noexcept;

@@ -23,9 +23,10 @@ enum class LessonPhase {
 // One lesson of the list, and how this learner stands in it.
 struct LessonStanding {
   std::string key, title, task;
-  int trials = 0;               // graded
-  std::optional<double> grade;  // [1] of 10, of the last graded trial
-  bool passed = false;          // in one of them
+  int trials = 0;                // graded
+  std::optional<double> grade;   // [1] of 10, of the last graded trial
+  bool passed = false;           // in one of them
+  std::optional<double> best{};  // [1] of 10, of all graded trials
 };
 
 struct CoachView {
@@ -46,10 +47,11 @@ struct CoachView {
   bool help_wanted = true;  // by the person: else no trial is guided
   double guidance = 0.0;    // [1] gain of this trial; 0: it is graded
   HintStyle hints = HintStyle::prescriptive;
-  bool retention = false;  // the first trial after a day: unguided and silent
-  LessonView now;          // driving and over
-  LessonResult result;     // so far, or whole
-  std::int64_t run = 0;    // its number in the history; 0: it is in none
+  bool retention = false;   // the first trial after a day: unguided and silent
+  LessonView now;           // driving and over
+  LessonResult result;      // so far, or whole
+  double time_limit = 0.0;  // [s] of the lesson; 0: not known
+  std::int64_t run = 0;     // its number in the history; 0: it is in none
 
   // Before
   std::vector<RunRow> runs;                       // of this learner, the newest first, at most kMostRunsShown

@@ -15,8 +15,8 @@ struct PlannedTrial {
   bool retention = false;  // the first trial after the pause: unguided and silent
 };
 
-// The policy goes through every run of the lesson that is over, retention tests too: the same runs, the same plan, in
-// this program or the next. runs: of this learner, oldest first; now: [s] since 1970.
+// The policy goes through every run of the lesson that is over, retention tests too, but for those that were left: the
+// same runs, the same plan, in this program or the next. runs: of this learner, oldest first; now: [s] since 1970.
 PlannedTrial plan_trial(std::string_view learner, std::string_view lesson, std::span<const RunRow> runs,
                         std::int64_t now);
 

@@ -5,8 +5,10 @@
 // One thread.
 #pragma once
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -24,6 +26,13 @@ struct HistoryError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
+struct HistoryBusy : HistoryError {  // another program holds it: it may be free in a moment
+  using HistoryError::HistoryError;
+};
+struct HistoryGone : HistoryError {  // what this belongs to was erased: it is never taken
+  using HistoryError::HistoryError;
+};
+
 struct LearnerRow {
   std::int64_t id = 0;
   std::string name;
@@ -36,7 +45,7 @@ struct RunRow {
   std::int64_t session = 0;
   std::string begun_at;   // ISO 8601, UTC
   std::string recording;  // trace file, or empty
-  LessonResult result;    // with faults, deductions and shifts
+  LessonResult result;    // with faults, deductions and shifts; figures are finite, whoever wrote them
 };
 
 struct CommentRow {
@@ -44,16 +53,24 @@ struct CommentRow {
   std::string author, text;
 };
 
+using RecordingRemover = std::function<void(const std::vector<std::string>&)>;  // must not throw
+
+inline constexpr std::chrono::milliseconds kHistoryPatience{3000};  // for another program that writes
+
 // Throws std::invalid_argument, one sentence, for a name that is empty, longer than 100 bytes or not to be shown.
 void check_learner_name(std::string_view name);
 
 class History {
  public:
-  // Opens or makes it, with its folder; the clock dates what is written. Throws HistoryError, as every other call does.
-  explicit History(const std::filesystem::path& file, Clock now = system_seconds);
+  // Opens or makes it, with its folder; the clock dates what is written. Throws HistoryError, as every other call does;
+  // HistoryBusy where it was held for longer than the patience.
+  explicit History(const std::filesystem::path& file, Clock now = system_seconds,
+                   std::chrono::milliseconds patience = kHistoryPatience);
   ~History();
   History(const History&) = delete;
   History& operator=(const History&) = delete;
+
+  void set_patience(std::chrono::milliseconds patience);  // of each call; 0: none
 
   // Known or made. Throws std::invalid_argument for what is no name.
   std::int64_t learner(std::string_view name);
@@ -79,8 +96,12 @@ class History {
   // Another number than before: another program, or another History, has written since.
   std::int64_t changes();
 
-  // Gone for good, from the file's free pages, too. Returns the recordings that nobody names any more.
-  std::vector<std::string> erase_learner(std::int64_t learner);
+  // Rows, and by `remove` the recordings that nobody else names, in one transaction: killed within it, the learner is
+  // still there to be erased. Returns empty when all of it is out of the file and its log for good; else, in one
+  // sentence, what keeps it there: that is pending until finish_erasure(), which returns the same.
+  [[nodiscard]] std::string erase_learner(std::int64_t learner, const RecordingRemover& remove);
+  bool erasure_is_pending();
+  [[nodiscard]] std::string finish_erasure();
 
   const std::filesystem::path& file() const noexcept;
 

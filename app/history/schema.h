@@ -146,6 +146,11 @@ CREATE INDEX run_of_session ON lesson_run (session);
     R"sql(
 ALTER TABLE fault ADD COLUMN step TEXT NOT NULL DEFAULT '';
 ALTER TABLE fault ADD COLUMN wanted_s REAL NOT NULL DEFAULT 0;
+)sql",
+    // 4: a row in it: what was erased may still stand in the log or in free pages.
+    R"sql(
+CREATE TABLE pending_erasure (
+  since TEXT NOT NULL);
 )sql"};
 inline constexpr int kSchemaVersion = static_cast<int>(kMigrations.size());
 

@@ -36,25 +36,29 @@ Deleted count(History& history, const LearnerRow& learner) {
   return sum;
 }
 
+void remove_recording(const fs::path& file, Deleted& gone) {
+  std::error_code error;
+  if (fs::exists(fs::symlink_status(file, error)) && !is_trace(file)) {
+    gone.kept.push_back(file.string() + ": it is no recording");
+    return;
+  }
+  fs::remove(file, error);
+  if (error) {
+    gone.kept.push_back(file.string() + ": " + error.message());
+  } else {
+    gone.recordings.push_back(file.string());
+  }
+}
+
 }  // namespace
 
 Deleted delete_learner(History& history, const LearnerRow& learner) {
   Deleted gone = count(history, learner);
   const fs::path folder = history.file().parent_path();
-  for (const std::string& recording : history.erase_learner(learner.id)) {
-    const fs::path file = folder / recording;  // an absolute path replaces the folder
-    std::error_code error;
-    if (fs::exists(fs::symlink_status(file, error)) && !is_trace(file)) {
-      gone.kept.push_back(file.string() + ": it is no recording");
-      continue;
-    }
-    fs::remove(file, error);
-    if (error) {
-      gone.kept.push_back(file.string() + ": " + error.message());
-    } else {
-      gone.recordings.push_back(file.string());
-    }
-  }
+  gone.left = history.erase_learner(learner.id, [&](const std::vector<std::string>& recordings) {
+    for (const std::string& recording : recordings)
+      remove_recording(folder / recording, gone);  // an absolute path replaces the folder
+  });
   return gone;
 }
 

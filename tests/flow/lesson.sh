@@ -43,6 +43,10 @@ check "knows the lesson" grep -q "hill_start" page/runs.csv
 bit_for_bit() { "$gearshift" replay "$1" 2>&1 | grep -q "^bit for bit"; }
 check "the recording replays" bit_for_bit "$(ls data/gearshift/recordings/*.trace)"
 check "a lesson is failed" exits 1 learn kim hill_start --learner Kim --fault rollback
+check "points are taken off" grep -q "  -[0-9.]*  The car rolled back" kim.txt
+check "with a hand's help it is not passed" exits 1 learn guided hill_start --guidance 1 --fault rollback
+check "there is no grade" exits 1 grep -q "Grade" guided.txt
+check "and no points that were taken off it" exits 1 grep -q "  -[0-9]" guided.txt
 learn kim skip_shifts --learner Kim --runs 4 --guided
 check "the last of four with help decides the exit code" exits $? grep -q 'Passed\.$' <(tail -n 1 kim.txt)
 check "two of the first four are guided" test "$(grep -c '^With help' kim.txt)" -eq 2
@@ -182,5 +186,46 @@ rm -rf full
 check "full by a limit: passed, and the file as it was" \
   bash -c 'mount() { return 1; }; source on_full_disk.sh' - "$gearshift"
 check "full by a limit: one sentence, got: $(cat full.err)" test "$(wc -l <full.err)" -eq 1
+
+# The recording itself fills the disk: no file that the history names is removed.
+cat >on_small_disk.sh <<'END'
+mkdir small && mount -t tmpfs -o size=300k none small || exit 9
+"$1" lesson moving_off --learner Kim --database small/h.db >small.txt 2>small.err
+code=$?
+python3 -c '
+import os, sqlite3, sys
+rows = sqlite3.connect("small/h.db").execute("SELECT recording FROM lesson_run WHERE recording != ?", ("",)).fetchall()
+sys.exit(0 if all(os.path.exists(row[0]) for row in rows) else 8)' || code=8
+exit $code
+END
+if unshare -rm true 2>/dev/null; then
+  check "a small disk: passed, and what the history names is there" unshare -rm bash on_small_disk.sh "$gearshift"
+  check "a small disk: one sentence, got: $(cat small.err)" test "$(wc -l <small.err)" -eq 1
+fi
+
+# Names that mean something to SQLite are names of files.
+for name in :memory: file:name.db?mode=memory; do
+  check "$name: passed" learn named hill_start --learner Kim --database "$name"
+  check "$name: it is a file" test -s "$name"
+  check "$name: Kim is in it" report --learner Kim --database "$name"
+done
+
+# Held by another program for all of the lesson, and released a second after its end.
+learn held hill_start --learner Kim --database held.db
+python3 -c '
+import os, sqlite3, sys, time
+held = sqlite3.connect("held.db", isolation_level=None)
+held.execute("BEGIN IMMEDIATE")
+print("held", flush=True)
+time.sleep(5)' >held.out &
+holder=$!
+until grep -qs held held.out; do sleep 0.05; done
+check "held by another program: passed" learn held hill_start --learner Kim --database held.db
+wait $holder
+check "held: told, got: $(cat held.err)" test "$(wc -l <held.err)" -eq 1
+report --learner Kim --database held.db --out held --csv
+check "held: both runs are there" test "$(rows held/runs.csv)" -eq 2
+check "held: and over" test "$(grep -c running held/runs.csv)" -eq 0
+check "held: with their recordings" bit_for_bit "$(ls recordings/*.trace | tail -n 1)"
 
 finish

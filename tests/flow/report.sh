@@ -98,6 +98,26 @@ check "the recording went" test ! -e data/gearshift/near.trace
 check "no byte of the name is left" test "$(cat data/gearshift/* | grep -ac Löwe)" -eq 0
 report
 check "the other one is there" says Bob
-check "without a question" report --learner Bob --delete --yes
+
+# While another program reads, deleted rows are still in the log: said, and done by a second deletion.
+python3 -c '
+import sqlite3, time
+reader = sqlite3.connect("data/gearshift/history.db", isolation_level=None)
+reader.execute("BEGIN")
+reader.execute("SELECT count(*) FROM learner").fetchone()
+print("reads", flush=True)
+time.sleep(60)' >reads.out &
+reader=$!
+until grep -qs reads reads.out; do sleep 0.05; done
+report --learner Bob --delete --yes
+check "without a question, while another one reads: exit 1" test $? -eq 1
+check "it is told what went" says "Bob is gone: 0 sessions"
+check "and what did not, got: $(cat err)" test "$(wc -l <err)" -eq 1 -a -n "$(grep -F "not yet out of the file" err)"
+kill $reader
+wait $reader 2>/dev/null
+check "the second deletion ends it" report --learner Bob --delete --yes
+check "and says so" says "what an earlier deletion had left is gone"
+check "no byte of the name is left" test "$(cat data/gearshift/history.db* | grep -ac Bob)" -eq 0
+refuse 1 "\"Bob\" is no learner of this history" --learner Bob --delete --yes
 
 finish

@@ -47,6 +47,7 @@ inline std::vector<DriveSample> bench_drive(Drive how, double guidance = 0.0, st
   std::vector<DriveSample> samples = shift.samples();
   for (DriveSample& sample : samples) {
     sample.lever.cycle = from++;
+    sample.lever.guard = GuardState::running;
     sample.controls.guidance = guidance;
   }
   return samples;

@@ -136,6 +136,50 @@ TEST_CASE(
   CHECK(driven(longer).whole);
 }
 
+TEST_CASE(
+    "a trial without forces has no grade: a second of shifts is enough, three seconds of anything; a ramp is none") {
+  const CoachBench bench;
+  const auto driven = [&](GuardState state, double from, double to) {
+    Coach coach(bench.config);
+    coach.want_help(false);
+    Lesson slower = bench.config.lessons[0];
+    slower.steps.push_back(slower.steps.back());
+    slower.steps.back().until.held = 5.0;
+    coach.offer(slower);
+    bench.begin(coach);
+    std::vector<DriveSample> drive = bench_drive(Drive::good);
+    for (DriveSample& sample : drive) sample.lever.time_ns *= 2;  // at half the pace
+    const DriveSample last = drive.back();
+    for (int i = 1; i < 8000; ++i) {  // rolls on in gear
+      drive.push_back(last);
+      drive.back().lever.cycle += static_cast<std::uint64_t>(i);
+      drive.back().lever.time_ns += std::int64_t{1'000'000} * i;
+    }
+    for (DriveSample& sample : drive) {
+      if (sample.time() >= from && sample.time() < to) sample.lever.guard = state;
+    }
+    coach.add(drive);
+    REQUIRE(coach.view().result.end == LessonEnd::done);
+    REQUIRE(coach.view().result.shifts.size() == 1);
+    REQUIRE(coach.view().result.shifts[0].end - coach.view().result.shifts[0].begin > 1.05);
+    return coach.view().result;
+  };
+  const LessonResult whole = driven(GuardState::running, 0.0, 0.0);
+  REQUIRE(whole.passed);
+  const double shift = whole.shifts[0].begin, after = whole.shifts[0].end;
+  for (const GuardState off : {GuardState::idle, GuardState::armed, GuardState::damped, GuardState::released}) {
+    CHECK(driven(off, shift, shift + 0.95).passed);
+    CHECK(driven(off, after + 0.1, after + 3.0).passed);
+    for (const LessonResult& none : {driven(off, shift, shift + 1.05), driven(off, after + 0.1, after + 3.2)}) {
+      CHECK_FALSE(none.passed);
+      CHECK_FALSE(none.whole);
+      CHECK(none.grade == 0.0);
+      CHECK(none.why == "The lever was without forces: it is not graded.");
+    }
+  }
+  CHECK(driven(GuardState::ramping, 0.0, 1000.0).passed);
+}
+
 TEST_CASE("a lesson is followed step by step until it was passed, then driven alone; the person may choose") {
   const CoachBench bench;
   Coach coach(bench.config);
@@ -173,6 +217,7 @@ TEST_CASE("the standing in a lesson: graded trials, the last grade, whether one 
   bench.trial(coach, "one", Drive::pushed);
   CHECK(standing(coach, "one").trials == 2);
   CHECK(*standing(coach, "one").grade < 10.0);
+  CHECK(standing(coach, "one").best == 10.0);
   CHECK(standing(coach, "one").passed);
   CHECK(standing(coach, "two").trials == 0);
   CHECK(coach.view().runs.size() == 2);

@@ -87,9 +87,9 @@ TEST_CASE("learners and lessons have their own order of guided trials") {
     std::vector<RunRow> runs;
     for (int trial = 0; trial < 40; ++trial) {
       orders[i].push_back(plan_trial(who[i].first, who[i].second, runs, kSomeDay).plan.guidance > 0.0);
-      RunRow run;  // left at once: an error of 1 keeps the gain up
+      RunRow run;  // lost at once: an error of 1 keeps the gain up
       run.result.lesson = who[i].second;
-      run.result.end = LessonEnd::left;
+      run.result.end = LessonEnd::aborted;
       run.begun_at = date_text(kSomeDay);
       runs.push_back(run);
     }
@@ -148,15 +148,34 @@ TEST_CASE("the first trial after 20 hours is a test: no help, nothing said on th
   CHECK_FALSE(coach.view().retention);
 }
 
-TEST_CASE("a run that never ended is no trial: neither pause nor policy know it") {
-  RunRow run;
-  run.result.lesson = "one";
-  run.begun_at = date_text(kSomeDay);
-  const std::vector<RunRow> killed{run};
-  for (const std::int64_t later : {0, 50 * 3600}) {
-    const PlannedTrial plan = plan_trial("Ada", "one", killed, kSomeDay + later);
-    const PlannedTrial first = plan_trial("Ada", "one", {}, kSomeDay + later);
-    CHECK_FALSE(plan.retention);
-    CHECK(plan.plan.guidance == first.plan.guidance);
+TEST_CASE("a run that never ended, or was left, is no trial: neither pause nor policy know it") {
+  for (const LessonEnd end : {LessonEnd::running, LessonEnd::left}) {
+    RunRow run;
+    run.result.lesson = "one";
+    run.result.end = end;
+    run.begun_at = date_text(kSomeDay);
+    const std::vector<RunRow> none{run, run, run};
+    for (const std::int64_t later : {0, 50 * 3600}) {
+      const PlannedTrial plan = plan_trial("Ada", "one", none, kSomeDay + later);
+      const PlannedTrial first = plan_trial("Ada", "one", {}, kSomeDay + later);
+      CHECK_FALSE(plan.retention);
+      CHECK(plan.plan.guidance == first.plan.guidance);
+    }
   }
+}
+
+TEST_CASE("who passed and then left a trial is as far as before, and does the same trial again") {
+  std::vector<RunRow> runs(4);
+  for (RunRow& run : runs) {
+    run.result.lesson = "one";
+    run.result.end = LessonEnd::done;
+    run.begun_at = date_text(kSomeDay);
+  }
+  const PlannedTrial before = plan_trial("Ada", "one", runs, kSomeDay);
+  runs.push_back(runs.back());
+  runs.back().result.end = LessonEnd::left;
+  const PlannedTrial after = plan_trial("Ada", "one", runs, kSomeDay);
+  CHECK(after.plan.guidance == before.plan.guidance);
+  CHECK(after.plan.hints == before.plan.hints);
+  CHECK(before.plan.hints != HintStyle::prescriptive);
 }

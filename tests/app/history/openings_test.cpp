@@ -1,8 +1,10 @@
-// Openings at the worst moment: many at once on a file that is not there yet, and files that a killed program left.
+// Openings at the worst moment: many at once on a file that is not there yet, files that a killed program left, files
+// that claim what cannot be.
 #include <sqlite3.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -125,7 +127,10 @@ TEST_CASE("a file of version 1 is brought up to date with all that is in it") {
   CHECK(history.comments(7).size() == 1);
   CHECK(history.settings(5).size() == 1);
   CHECK(history.begin_run(5, some_result(0), "") == 8);
-  CHECK(history.erase_learner(ada->id) == std::vector<std::string>{"a.trace"});
+  CHECK(history
+            .erase_learner(ada->id,
+                           [](const auto& recordings) { CHECK(recordings == std::vector<std::string>{"a.trace"}); })
+            .empty());
   CHECK(history.comments(7).empty());  // what hung on a row still goes with it
   CHECK(history.learner("Ada") == 4);
 }
@@ -160,7 +165,7 @@ TEST_CASE("what belongs to a learner who was erased meanwhile is refused, and la
   const std::int64_t bob = driven.learner("Bob"), ada = driven.learner("Ada");
   const std::int64_t session = driven.begin_session(ada, "1.0");
   const std::int64_t run = driven.begin_run(session, some_result(0), "");
-  instructor.erase_learner(ada);
+  CHECK(instructor.erase_learner(ada, [](const auto&) {}).empty());
   const std::int64_t other = instructor.begin_run(instructor.begin_session(bob, "1.0"), some_result(0), "");
   CHECK_THROWS_WITH_AS(driven.add_shift(run, some_shift(0)), doctest::Contains("deleted by another program"),
                        HistoryError);
@@ -171,4 +176,78 @@ TEST_CASE("what belongs to a learner who was erased meanwhile is refused, and la
   CHECK(instructor.runs(bob)[0].id == other);
   CHECK(instructor.runs(bob)[0].result.shifts.empty());
   CHECK(instructor.runs(bob)[0].result.end == LessonEnd::running);
+}
+
+// Law: a history is what this program has made, of a version that it knows. All else is left to the byte.
+TEST_CASE(
+    "any version but those that there were, and any other program's file, empty or not, is refused and not touched") {
+  const TempFolder folder;
+  const auto good = folder / "good.db", file = folder / "history.db";
+  History(good).learner("Ada");
+  const std::string whole = bytes_of(good);
+  const auto refused = [&](const std::string& bytes) {
+    std::ofstream(file, std::ios::binary) << bytes;
+    try {
+      History history(file);
+      return false;
+    } catch (const HistoryError& problem) {
+      const std::string said = problem.what();
+      CAPTURE(said);
+      CHECK(said.find("left as it is") != std::string::npos);
+      CHECK(said.find('\n') == std::string::npos);
+      return bytes_of(file) == bytes;
+    }
+  };
+  const auto with_version = [](std::string bytes, std::int32_t version) {  // sqlite.org/fileformat2.html, 1.3: at 60
+    for (int i = 0; i < 4; ++i) bytes[60 + i] = static_cast<char>(static_cast<std::uint32_t>(version) >> (24 - 8 * i));
+    return bytes;
+  };
+  for (const std::int32_t version : {-2'000'000'000, -65, -1, 0, kSchemaVersion + 1, 2'000'000'000})
+    CHECK(refused(with_version(whole, version)));
+  CHECK_FALSE(refused(with_version(whole, kSchemaVersion)));
+  for (const char* name : {"history.db-wal", "history.db-shm"}) std::filesystem::remove(folder / name);
+
+  const auto empty = [&](const std::string& mark) {
+    const auto made = folder / "empty.db";
+    std::filesystem::remove(made);
+    sqlite3* database = nullptr;
+    REQUIRE(sqlite3_open(made.c_str(), &database) == SQLITE_OK);
+    REQUIRE(sqlite3_exec(database, mark.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK);
+    sqlite3_close(database);
+    return bytes_of(made);
+  };
+  CHECK(refused(empty("PRAGMA application_id = 1")));
+  CHECK(refused(empty("PRAGMA user_version = 2")));
+  CHECK(refused(empty("PRAGMA user_version = -2")));
+  CHECK_FALSE(refused(""));  // a file, and nothing more
+}
+
+TEST_CASE("a file is a file, whatever its name is to SQLite") {
+  const TempFolder folder;
+  const auto before = std::filesystem::current_path();
+  std::filesystem::current_path(folder.path());
+  for (const char* name : {":memory:", "file:x?mode=memory", "plain.db"}) {
+    History(name).learner("Ada");
+    CHECK(std::filesystem::is_regular_file(folder / name));
+    CHECK(History(name).find_learner("Ada").has_value());
+  }
+  std::filesystem::current_path(before);
+}
+
+TEST_CASE("a file that another program holds is waited for as long as the patience is, and no longer") {
+  const TempFolder folder;
+  History history(folder / "history.db");
+  sqlite3* other = nullptr;
+  REQUIRE(sqlite3_open((folder / "history.db").c_str(), &other) == SQLITE_OK);
+  REQUIRE(sqlite3_exec(other, "BEGIN IMMEDIATE", nullptr, nullptr, nullptr) == SQLITE_OK);
+  for (const int patience : {0, 50}) {
+    history.set_patience(std::chrono::milliseconds(patience));
+    const auto begin = std::chrono::steady_clock::now();
+    CHECK_THROWS_AS(history.learner("Ada"), HistoryBusy);
+    const auto waited = std::chrono::steady_clock::now() - begin;
+    CHECK(waited >= std::chrono::milliseconds(patience / 2));
+    CHECK(waited < std::chrono::milliseconds(patience + 500));
+  }
+  sqlite3_close(other);
+  CHECK(history.learner("Ada") > 0);
 }

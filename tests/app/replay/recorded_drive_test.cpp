@@ -6,11 +6,14 @@
 #include <chrono>
 #include <cmath>
 #include <cstddef>
+#include <functional>
+#include <limits>
 #include <string>
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include "app/replay/drive_reader.h"
 #include "app/replay/shift_way.h"
 #include "app/training/gate_path.h"
 #include "haptics/files/file_error.h"
@@ -267,6 +270,49 @@ TEST_CASE("what cannot be seen again is refused in one sentence that names the f
   }
   CHECK(refusal(folder / "other.trace").find("\"a spring\" is not known") != std::string::npos);
   CHECK(refusal(folder / "car.trace").find("bad.toml") != std::string::npos);
+}
+
+// What the loop made of a reading, and what a person did, is a number; what a device has read may be none.
+TEST_CASE("a number that cannot be in an output or a pedal is damage, told with its cycle; in a reading it is seen") {
+  const LessonTrace& lesson = upshifts();
+  const TempFolder folder;
+  const Trace whole = read_trace(lesson.file);
+  const auto refusal_of = [&](const std::function<void(TraceSample&, double)>& spoil, double value) {
+    Trace trace = whole;
+    trace.samples.resize(600);
+    spoil(trace.samples[500], value);
+    write_trace(folder / "a.trace", trace.header, trace.samples);
+    return refusal(folder / "a.trace");
+  };
+  const std::vector<std::function<void(TraceSample&, double)>> outputs{[](TraceSample& s, double v) { s.out.proxy.x = v; },
+                                                                       [](TraceSample& s, double v) { s.out.lever.y = v; },
+                                                                       [](TraceSample& s, double v) { s.out.f_h.x = v; },
+                                                                       [](TraceSample& s, double v) { s.out.road_speed = v; },
+                                                                       [](TraceSample& s, double v) { s.controls.slope = v; },
+                                                                       [](TraceSample& s, double v) { s.controls.clutch = v; },
+                                                                       [](TraceSample& s, double v) { s.out.wall_stiffness = v; }};
+  const double infinity = std::numeric_limits<double>::infinity();
+  for (const auto& spoil : outputs) {
+    for (const double value : {std::numeric_limits<double>::quiet_NaN(), infinity, -infinity, 1e300}) {
+      const std::string words = refusal_of(spoil, value);
+      CHECK(words.find("is damaged: cycle 500 ") != std::string::npos);
+      CHECK(words.find('\n') == std::string::npos);
+      CHECK(refusal_of([](TraceSample& s, double v) { s.reading.position.x = v; }, value).empty());
+    }
+  }
+}
+
+TEST_CASE("of a drive that claims more cycles than anybody looks at, the rest is not seen") {
+  const TempFolder folder;
+  write_carless(folder / "a.trace", 1000);
+  DriveSample sample;
+  for (const std::uint64_t most : {1u, 700u, 1000u, 2000u}) {
+    DriveReader reader(folder / "a.trace", most);
+    CHECK(reader.cycles() == std::min<std::uint64_t>(most, 1000));
+    std::uint64_t seen = 0;
+    while (reader.next(sample)) ++seen;
+    CHECK(seen == reader.cycles());
+  }
 }
 
 TEST_CASE("a lever that is stirred for an hour has a way of bounded size, from its begin to its end") {
