@@ -19,6 +19,7 @@ bool SimulatedLearner::means_ill(const DriveSample& now) const noexcept {
 bool SimulatedLearner::spoils_launch(const DriveSample& now) {
   if (!means_ill(now)) return false;
   if (feet_.hand_brake.value() > 0.05) {
+    if (intent().motion == Motion::bite) feet_.hand_brake.go(0.0, kHandBrakeRate);  // it is not waited for
     hold_revs(launch_speed_);
     feet_.clutch.go(0.5 * (car_.clutch.bite + kClutchDown), kToBite);
     rolls_since_ = now.time();
@@ -33,7 +34,6 @@ bool SimulatedLearner::spoils_launch(const DriveSample& now) {
   if (is_due(FaultKind::stall)) {
     feet_.throttle.go(0.0, kLiftRate);
     feet_.clutch.go(0.0, 3.0);
-    if (now.car.engine_speed < 1.1 * car_.engine.stall) once(FaultKind::stall);
     return true;
   }
   const bool dumps = is_due(FaultKind::clutch_dump);
@@ -67,6 +67,36 @@ int SimulatedLearner::lugging_gear(const DriveSample& now) const noexcept {
   return kNeutralGear;
 }
 
+// Rolls on with the clutch down, where nothing asks for it.
+bool SimulatedLearner::coasts(const DriveSample& now) {
+  if (!is_due(FaultKind::coasting)) return false;
+  const bool coupled = feet_.clutch.value() == 0.0 && now.car.clutch_locked && now.car.gear >= 2;
+  if (coasts_until_ == 0.0 && coupled && now.car.road_speed > kCoasts)
+    coasts_until_ = pause_until_ = now.time() + kRollsOn * faults_.of(FaultKind::coasting);
+  if (coasts_until_ == 0.0 || (now.time() >= coasts_until_ && once(FaultKind::coasting))) return false;
+  feet_.throttle.go(0.0, kLiftRate);
+  feet_.brake.go(0.0, kBrakeRate);
+  press_clutch();
+  return true;
+}
+
+// Reverse, while the car still rolls forward.
+std::optional<int> SimulatedLearner::reverse_too_soon(const DriveSample& now) const {
+  const bool rolls = now.car.road_speed > kRolls && now.car.road_speed < kCoasts;
+  const bool is_next = known_ + 1 < intents_.size() && intents_[known_ + 1].gear == kReverseGear;
+  if (!is_due(FaultKind::wrong_direction) || !rolls || !is_next) return std::nullopt;
+  return clutch_is_down_ ? intents_[known_ + 1].gear : std::nullopt;
+}
+
+// The lower gear at once, instead of slowing down for it first.
+std::optional<int> SimulatedLearner::too_low_a_gear(const DriveSample& now) const {
+  const bool coupled = feet_.clutch.value() == 0.0 && now.car.clutch_locked && now.car.gear > 1;
+  if (!is_due(FaultKind::early_downshift) || intent().motion != Motion::slow || !coupled) return std::nullopt;
+  const auto is_lower = [&](const LessonIntent& later) { return later.gear && *later.gear < now.car.gear; };
+  const auto next = std::find_if(intents_.begin() + static_cast<std::ptrdiff_t>(known_), intents_.end(), is_lower);
+  return next != intents_.end() && *next->gear >= 1 ? next->gear : std::nullopt;
+}
+
 bool SimulatedLearner::lugs(const DriveSample& now) {
   if (!is_due(FaultKind::lugging)) return false;
   const bool coupled = feet_.clutch.value() == 0.0 && now.car.clutch_locked && now.car.gear >= 1;
@@ -95,7 +125,6 @@ bool SimulatedLearner::stalls_by_brake(const DriveSample& now) {
   feet_.throttle.go(0.0, kLiftRate);
   feet_.clutch.go(0.0, kToBite);
   feet_.brake.go(0.6, kBrakeRate);
-  if (now.car.engine_speed < 1.1 * car_.engine.stall) once(FaultKind::stall);
   return true;
 }
 

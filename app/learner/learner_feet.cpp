@@ -4,14 +4,14 @@
 
 #include "app/learner/learner_habits.h"
 #include "app/learner/simulated_learner.h"
-#include "app/training/fault_rules.h"
 
 namespace gearshift {
 
 void SimulatedLearner::set_brakes(const DriveSample& now) {
   const LessonIntent& wants = intent();
   if (wants.brake) feet_.brake.go(*wants.brake, 2.0 * kBrakeRate);
-  if (!wants.hand_brake) return;
+  const bool has_no_patience = wants.motion == Motion::bite && means_ill(now);
+  if (!wants.hand_brake || has_no_patience) return;
   const bool hill = std::abs(lesson_.start.slope) > kHill && !means_ill(now);
   const bool may = *wants.hand_brake > 0.0 || wants.motion == Motion::stay || !hill || feels_bite(now);
   if (may) feet_.hand_brake.go(*wants.hand_brake, kHandBrakeRate);
@@ -23,7 +23,7 @@ void SimulatedLearner::drive(const DriveSample& now) {
     feet_.clutch.go(0.0, kToBite);
     return;
   }
-  if (over_revs(now) || lugs(now) || stalls_by_brake(now)) return;
+  if (over_revs(now) || coasts(now) || lugs(now) || stalls_by_brake(now)) return;
   switch (intent().motion) {
     case Motion::stay:
       if (shifts_late(now)) return go_on(now);
@@ -119,16 +119,10 @@ void SimulatedLearner::release_rolling(const DriveSample& now, double turns) {
   }
   const double bite = car_.clutch.bite, pedal = feet_.clutch.value();
   const bool carries_nothing = pedal > bite + 0.01, holds = !slips && pedal < 0.5 * bite;
-  if (carries_nothing) abrupt_ = abrupt_rate(now.car.engine_speed - turns);
   if (pedal == 0.0) once(FaultKind::clutch_dump);
+  if (carries_nothing) abrupt_ = std::abs(now.car.engine_speed - turns) < kSoundsNear ? kFootOff : kAbrupt;
   if (dumps) return feet_.clutch.go(0.0, kFootOff);
   feet_.clutch.go(0.0, carries_nothing || holds ? kToBite : jerks ? abrupt_ : release_rate_);
-}
-
-// A foot off the pedal jerks; where that burnt much, it would be a dump, and a little slower jerks too.
-double SimulatedLearner::abrupt_rate(double slip) const noexcept {
-  const bool burns = -slip * car_.clutch.capacity > 1.15 * fault_rule(FaultKind::clutch_dump).raise;
-  return burns ? 0.95 * (car_.clutch.bite - car_.clutch.closed) / kFastRelease : kFootOff;
 }
 
 // Brings the engine there and keeps it there; true once it is, or after a while in which it would not come.
@@ -145,8 +139,7 @@ bool SimulatedLearner::revs_fit(const DriveSample& now, double speed) {
 // From a stand: throttle first, the pedal quickly to where it begins to carry, then slowly until the clutch holds.
 void SimulatedLearner::launch(const DriveSample& now) {
   if (spoils_launch(now)) return;
-  const double target =
-      intent().motion == Motion::bite ? std::max(launch_speed_, intent().revs + kBiteDrop + 10.0) : launch_speed_;
+  const double target = launch_speed_;
   if (intent().no_throttle) {
     feet_.throttle.go(0.0, kLiftRate);
   } else {
@@ -172,7 +165,7 @@ void SimulatedLearner::creep(const DriveSample& now) {
   if (feet_.clutch.value() > bite + 0.01) {
     feet_.clutch.go(0.0, kToBite);
   } else if (speed > 1.15 * intent().speed) {
-    feet_.clutch.go(bite + 0.01, 0.4);
+    feet_.clutch.go(bite - kHardlyBites, 0.4);
   } else if (speed < 0.9 * intent().speed && heard_ > 0.85 * car_.engine.idle) {
     feet_.clutch.go(0.0, kCreepRate);
   } else {

@@ -16,6 +16,7 @@ inline constexpr double kDumpSlip = 160.0;      // [rad/s] between engine and sh
 inline constexpr double kFits = 8.0;            // [rad/s] an ear's tolerance of revs
 inline constexpr double kFitsFor = 0.12;        // [s] in which they do not run away
 inline constexpr double kBlipMost = 1.5;        // [s] that a blip is tried
+inline constexpr double kHardlyBites = 0.03;    // [1] of the pedal above the bite point: it carries next to nothing
 inline constexpr double kCreepRate = 0.12;      // [1/s] to find the bite point without throttle
 inline constexpr double kLaunchSpeed = 167.6;   // [rad/s] 1600 rpm
 inline constexpr double kLaunchLeast = 0.82;    // [1] of it: slower, and the pedal waits for the car
@@ -30,6 +31,7 @@ inline constexpr double kSlowBrake = 0.2;       // [1]
 inline constexpr double kStandBrake = 0.3;      // [1]
 inline constexpr double kHandLead = 0.06;       // [s] lever after the clutch
 inline constexpr double kClutchLag = 0.06;      // [s] clutch after the gear
+inline constexpr double kFeelsRing = 0.06;      // [s] clutch before the gear: the hand still keeps the foot from it
 inline constexpr double kHandLeaves = 0.15;     // [s] the knob after the gear is in
 inline constexpr double kShaftRest = 2.0;       // [s] with the clutch down before reverse
 inline constexpr double kStuck = 1.2;           // [s] pushed in vain, before it is tried anew
@@ -50,7 +52,8 @@ inline constexpr double kPeep = 0.2;           // [s] of that stroke
 
 // And of one who means to do wrong.
 inline constexpr double kFootOff = 25.0;          // [1/s] the foot leaves the clutch
-inline constexpr double kAbrupt = 3.2;            // [1/s] or not quite
+inline constexpr double kAbrupt = 3.8;            // [1/s] or is in a hurry: 0.26 s for the whole way
+inline constexpr double kSoundsNear = 60.0;       // [rad/s] revs so near seem to need no care
 inline constexpr double kDumpSpeed = 419.0;       // [rad/s] 4000 rpm, at a launch
 inline constexpr double kJerkSpeed = 272.0;       // [rad/s] 2600 rpm
 inline constexpr double kHurry = 0.6;             // [1] throttle
@@ -59,6 +62,7 @@ inline constexpr double kPushMore = 35.0;         // [N] times the amount
 inline constexpr double kFootWeighs = 0.09;       // [1] pedal under a foot that rests on it
 inline constexpr double kFootWeighsMore = 0.03;   // [1] times the amount
 inline constexpr double kDawdles = 4.0;           // [s] with the clutch down, times the amount
+inline constexpr double kRollsOn = 5.0;           // [s] with the clutch down, driving, times the amount
 inline constexpr double kLate = 1.5;              // [1] of a step's time, times the amount
 inline constexpr double kThrottleTooSoon = 0.15;  // [1] before the clutch is up
 

@@ -93,7 +93,8 @@ void SimulatedLearner::begin_shift(const DriveSample& now, int gear) {
   if (late > 0.0) shift_.press_at = now.time() + 0.35 * late, shift_.hand_lead = -10.0;
   const double lag = kClutchLag + noise(skill_.timing_spread);
   const bool dawdles = faults_.of(FaultKind::too_slow) > 0.0;
-  shift_.clutch_early = (lag < 0.0 && !dawdles) || faults_.of(FaultKind::clutch_early) > 0.0;
+  // Who is a little too soon feels through the knob that the ring still holds, and the foot waits for it.
+  shift_.clutch_early = (lag < -kFeelsRing && !dawdles) || faults_.of(FaultKind::clutch_early) > 0.0;
   release_at_ = std::max(0.0, lag);  // from the gear on
   if (is_due(FaultKind::wrong_direction) && now.car.road_speed < -kRolls) once(FaultKind::wrong_direction);
 }

@@ -54,6 +54,8 @@ LearnerSkill skill_of(double error) noexcept;
 //   too_slow           4 s with the clutch down
 //   wrong_direction    shifts before the car stands
 //   slow_step          begins a step that has a time once 1.5 times that has gone
+//   coasting           rolls on for 5 s with the clutch down
+//   early_downshift    the lower gear at once, instead of slowing down for it first
 struct LearnerFaults {
   std::array<double, kFaultKinds> amount{};  // [1] >= 0
   double of(FaultKind kind) const noexcept { return amount[static_cast<std::size_t>(kind)]; }

@@ -13,9 +13,10 @@ Motion motion_of(const DriveCondition& c) {
   if (c.speed_below && *c.speed_below < kStands) return Motion::stand;
   if ((c.speed_above && c.speed_below) || c.rolled_back_above) return Motion::creep;
   if (c.speed_below) return Motion::slow;
-  if (c.engine_above && c.hand_brake_above) return Motion::bite;
+  if (c.clutch_torque_above && c.hand_brake_above) return Motion::bite;
   const bool up = c.clutch_below || c.clutch_locked == true;
-  if (up || c.engine_above || c.distance_above || (c.speed_above && *c.speed_above > 0.0)) return Motion::go;
+  if (up || c.shift_light == true || c.engine_above || c.distance_above || (c.speed_above && *c.speed_above > 0.0))
+    return Motion::go;
   return Motion::stay;
 }
 
@@ -31,13 +32,14 @@ LessonIntent intent_of(const Lesson& lesson, std::size_t step) {
   LessonIntent intent;
   intent.motion = motion_of(c);
   intent.speed = creep_speed(c);
-  intent.revs = c.engine_above.value_or(0.0);
   intent.no_throttle = c.throttle_below.has_value();
   intent.clutch_down = c.clutch_above && intent.motion == Motion::stay;
   intent.blip = c.engine_above && c.clutch_locked == true && c.gear;
-  intent.accelerates = intent.motion == Motion::go && !intent.blip &&
-                       (c.engine_above || c.distance_above || (c.speed_above && *c.speed_above > 0.0));
-  if (c.brake_above) intent.brake = 1.0;
+  intent.accelerates =
+      intent.motion == Motion::go && !intent.blip &&
+      (c.engine_above || c.shift_light == true || c.distance_above || (c.speed_above && *c.speed_above > 0.0));
+  const bool must_stop_at_once = lesson.steps[step].call && intent.motion == Motion::stand;
+  if (c.brake_above || must_stop_at_once) intent.brake = 1.0;
   if (c.hand_brake_above) intent.hand_brake = 1.0;
   if (c.hand_brake_below) intent.hand_brake = 0.0;
   intent.ignition = c.ignition;

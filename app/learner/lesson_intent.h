@@ -20,12 +20,11 @@ enum class Motion {
 struct LessonIntent {
   Motion motion = Motion::stay;
   double speed = 0.0;                // [m/s] to creep at, >= 0
-  double revs = 0.0;                 // [rad/s] that the engine must pass; 0: none
   bool accelerates = false;          // go: faster, until the step is done
   bool no_throttle = false;          // the step forbids it
   bool clutch_down = false;          // and nothing else
   bool blip = false;                 // revs, and the clutch up then
-  std::optional<double> brake;       // [1]
+  std::optional<double> brake;       // [1] all of it, where it is a call
   std::optional<double> hand_brake;  // [1]
   std::optional<bool> ignition;
   bool start = false;            // the engine must run

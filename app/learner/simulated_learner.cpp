@@ -10,7 +10,7 @@ namespace gearshift {
 SimulatedLearner::SimulatedLearner(const Lesson& lesson, const CarSpec& car, const Gate& gate,
                                    const LearnerSkill& skill, const LearnerFaults& faults, std::uint64_t seed,
                                    double period)
-    : lesson_(lesson),
+    : lesson_(lesson_in_car(lesson, car)),
       car_(car),
       gate_(gate),
       skill_(skill),
@@ -49,7 +49,9 @@ DriverAction SimulatedLearner::act(const DriveSample& now, std::size_t step) {
   if (is_down && !clutch_is_down_) clutch_down_at_ = now.time();
   clutch_is_down_ = is_down;
   if (!restarts(now)) {
-    const std::optional<int> gear = wanted_gear(now);
+    std::optional<int> gear = wanted_gear(now);
+    if (!gear) gear = too_low_a_gear(now);
+    if (!gear) gear = reverse_too_soon(now);
     const bool begins = !shifting_ && gear && now.time() >= pause_until_;
     const bool spins = begins && spins_shaft(now);
     if (begins && !spins) begin_shift(now, *gear);
@@ -117,6 +119,7 @@ bool SimulatedLearner::restarts(const DriveSample& now) {
     if (starter_ && (!wanted || now.car.engine_speed > 0.8 * car_.engine.idle)) starter_ = false;
     return starter_;
   }
+  if (has_run_) once(FaultKind::stall);
   shifting_ = false;
   lug_gear_ = kNeutralGear;
   feet_.throttle.go(0.0, kLiftRate);

@@ -23,7 +23,7 @@ namespace gearshift {
 
 class SimulatedLearner {
  public:
-  // lesson, car and gate must outlive the learner. period: of the calls to act() [s], > 0. Seeded.
+  // car and gate must outlive the learner. period: of the calls to act() [s], > 0. Seeded.
   SimulatedLearner(const Lesson& lesson, const CarSpec& car, const Gate& gate, const LearnerSkill& skill,
                    const LearnerFaults& faults, std::uint64_t seed, double period);
 
@@ -94,7 +94,6 @@ class SimulatedLearner {
   void stand(const DriveSample& now);
   void release(const DriveSample& now);
   void release_rolling(const DriveSample& now, double turns);
-  double abrupt_rate(double slip) const noexcept;
   bool revs_fit(const DriveSample& now, double speed);
   void launch(const DriveSample& now);
   bool means_ill(const DriveSample& now) const noexcept;
@@ -104,11 +103,14 @@ class SimulatedLearner {
   void press_clutch();
 
   bool over_revs(const DriveSample& now);
+  bool coasts(const DriveSample& now);
+  std::optional<int> reverse_too_soon(const DriveSample& now) const;
+  std::optional<int> too_low_a_gear(const DriveSample& now) const;
   bool lugs(const DriveSample& now);
   int lugging_gear(const DriveSample& now) const noexcept;
   bool stalls_by_brake(const DriveSample& now);
 
-  const Lesson& lesson_;
+  Lesson lesson_;  // as it is driven in this car
   const CarSpec& car_;
   const Gate& gate_;
   LearnerSkill skill_;
@@ -149,6 +151,7 @@ class SimulatedLearner {
   double lugged_ = 0.0;         // [s]
   double lug_since_ = 0.0;      // [s]
   double rolls_since_ = 0.0;    // [s]
+  double coasts_until_ = 0.0;   // [s] 0: not yet
   bool over_rev_late_ = false;  // the lesson drives a low gear out: shifted too late; else howls
 };
 

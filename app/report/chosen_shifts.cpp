@@ -4,6 +4,7 @@
 #include <tuple>
 
 #include "app/report/progress.h"
+#include "app/training/fault_rules.h"
 
 namespace gearshift {
 namespace {
@@ -25,8 +26,17 @@ bool is_bad(const ChosenShift& chosen) {
   return chosen.points > 0.0 || chosen.shift.missed || !chosen.faults.empty();
 }
 
+// By the record itself, below what the rules call a fault: what is shown as the best is looked at closely. Only a block
+// has to be as long as a fault's, because every synchroniser takes its time.
+bool is_clean(const ShiftRecord& shift) {
+  const bool in_order = shift.steps_out_of_place == 0 && shift.clutch_lead >= 0.0 && shift.clutch_lag >= 0.0;
+  const bool went_in = shift.block_time < fault_rule(FaultKind::blocked).raise && shift.grind_time == 0.0;
+  return in_order && went_in && shift.wrong_columns == 0;
+}
+
 bool is_good(const ChosenShift& chosen) {
-  return !is_bad(chosen) && chosen.shift.from != kNeutralGear && chosen.shift.to != kNeutralGear;
+  const bool between_gears = chosen.shift.from != kNeutralGear && chosen.shift.to != kNeutralGear;
+  return between_gears && !is_bad(chosen) && is_clean(chosen.shift);
 }
 
 bool is_worse(const ChosenShift& a, const ChosenShift& b) {

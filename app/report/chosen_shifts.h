@@ -22,10 +22,12 @@ struct ChosenShift {
 
 struct ChosenShifts {
   std::vector<ChosenShift> worst;  // the most points first; then missed, then the most faults, then the latest
-  std::vector<ChosenShift> best;   // no fault, from gear to gear, the quickest first
+  std::vector<ChosenShift> best;   // from gear to gear, nothing wrong in it, the quickest first
 };
 
-// Of graded runs alone. A shift that cost nothing, missed nothing and has no fault is not among the worst.
+// Of graded runs alone. A shift that cost nothing, missed nothing and has no fault is not among the worst. Among the best
+// is none with a fault or a note, a step out of place, a lever before the clutch, a clutch before the gear, a block, a
+// grind or a wrong slot.
 ChosenShifts choose_shifts(const LearnerHistory& history);
 
 }  // namespace gearshift

@@ -13,13 +13,14 @@ namespace {
 glm::dvec3 slope_at(const LearningCurve& curve, double n) noexcept {
   const double trials = curve.trials.value;
   const double decay = std::exp(-n / trials);
-  return {1.0, decay, curve.gain.value * decay * n / (trials * trials)};
+  return {curve.at_bound ? 0.0 : 1.0, decay, curve.gain.value * decay * n / (trials * trials)};
 }
 
 }  // namespace
 
 double curve_deviation(const LearningCurve& curve, std::size_t trials, double n) noexcept {
   glm::dmat3 information(0.0);
+  if (curve.at_bound) information[0][0] = 1.0;  // of no weight: the level's slope is nought
   for (std::size_t i = 0; i < trials; ++i) {
     const glm::dvec3 slope = slope_at(curve, static_cast<double>(i));
     information += glm::outerProduct(slope, slope);

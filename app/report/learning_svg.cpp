@@ -19,8 +19,7 @@ constexpr Rect kPage{0.0, 0.0, 480.0, 280.0};
 constexpr Rect kBox{40.0, 28.0, 426.0, 206.0};
 
 constexpr const char* kBandColour = "#dce8f5";
-constexpr double kSureness = 2.0;  // standard deviations: about 95 %
-constexpr double kBestGrade = 10.0;
+constexpr double kSureness = 2.0;   // standard deviations: about 95 %
 constexpr std::size_t kFewest = 6;  // trials that the axis has room for
 constexpr int kCurveSteps = 160;
 

@@ -58,7 +58,7 @@ std::vector<TaskProgress> task_progress(const LearnerHistory& history) {
         .trials.push_back({run.row.id, day_of(run.row.begun_at), result.grade, result.passed,
                            pause == pauses.end() ? 0.0 : pause->second});
   }
-  for (TaskProgress& task : tasks) task.curve = fit_learning_curve(grades_of(task.trials));
+  for (TaskProgress& task : tasks) task.curve = fit_learning_curve(grades_of(task.trials), kGrades);
   return tasks;
 }
 

@@ -15,6 +15,8 @@
 
 namespace gearshift {
 
+inline constexpr LevelBounds kGrades{0.0, kBestGrade};
+
 std::string day_of(std::string_view time);  // "2026-01-02" of ISO 8601
 
 struct Totals {

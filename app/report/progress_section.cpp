@@ -17,15 +17,20 @@ namespace gearshift {
 namespace {
 
 constexpr std::size_t kFewestForCurve = 5;  // as fit_learning_curve has it
+constexpr std::size_t kFewestForChart = 3;
 
 std::string estimate(const Estimate& e) {
   return number_words(e.value, 2) + " ± " + number_words(e.deviation, 2);
 }
 
+std::string level_words(const LearningCurve& curve) {
+  return curve.at_bound ? number_words(curve.level.value, 0) + " (the level is at its bound)" : estimate(curve.level);
+}
+
 std::string fit_words(const TaskProgress& task) {
   if (task.curve) {
     return fmt::format("A = {}, B = {}, τ = {} runs; a run scatters by {:.2f} about the curve.",
-                       estimate(task.curve->level), estimate(task.curve->gain), estimate(task.curve->trials),
+                       level_words(*task.curve), estimate(task.curve->gain), estimate(task.curve->trials),
                        task.curve->noise);
   }
   if (task.trials.size() < kFewestForCurve)
@@ -64,13 +69,47 @@ std::string curve_figure(const TaskProgress& task) {
                      html_text(plain_words(task.task)), learning_svg(task), html_text(fit_words(task)));
 }
 
+bool has_chart(const TaskProgress& task) {
+  return task.trials.size() >= kFewestForChart;
+}
+
+std::string charts(const std::vector<TaskProgress>& tasks) {
+  std::string figures;
+  for (const TaskProgress& task : tasks) {
+    if (has_chart(task)) figures += curve_figure(task);
+  }
+  return figures.empty() ? figures : "<div class=\"curves\">\n" + figures + "</div>\n";
+}
+
+// "Reverse: 8.0 (Run 3), 8.5 (Run 7)"
+std::string grades_item(const TaskProgress& task) {
+  std::string grades;
+  for (const GradedTrial& trial : task.trials) {
+    const std::string grade = fmt::format("{:.1f} ({})", trial.grade, run_link(trial.run));
+    grades += (grades.empty() ? "" : ", ") + grade;
+  }
+  return fmt::format("<li>{}: {}</li>", html_text(plain_words(task.task)), grades);
+}
+
+// The tasks that a chart would be empty for, all in one row.
+std::string few_runs(const std::vector<TaskProgress>& tasks) {
+  std::string items;
+  for (const TaskProgress& task : tasks) {
+    if (!has_chart(task)) items += grades_item(task);
+  }
+  if (items.empty()) return {};
+  return fmt::format(
+      "<table class=\"few\">\n<tbody><tr><th>Fewer than {} graded runs</th><td><ul>{}</ul></td></tr></tbody></table>\n",
+      kFewestForChart, items);
+}
+
 constexpr const char* kHowToRead =
     "A dot is a graded run, hollow where it was not passed; guided runs are left out. The line is the fit "
     "grade(n) = A + B exp(−n/τ), n = 0 for the first run: A is where practice leads, B how far the first run was from "
     "it (negative below), τ how many runs it takes until all but 37 % is learnt. Pale: where the curve is with about "
-    "95 % confidence. After ± stands one standard deviation. A ring about a dot: the first run of its lesson after a "
-    "day or "
-    "more without it.";
+    "95 % confidence. After ± stands one standard deviation. A grade is 10 at most and 0 at least, and so is A: where "
+    "the grades alone would lead beyond, A is at its bound, and what is said of B and τ holds for that A. A ring about "
+    "a dot: the first run of its lesson after a day or more without it.";
 
 // The newest of a lesson after a day, and after a week.
 struct Kept {
@@ -121,10 +160,12 @@ std::string kept_part(const LearnerHistory& history, std::span<const Lesson> les
 std::string progress_section(const LearnerHistory& history, std::span<const Lesson> lessons) {
   const std::vector<TaskProgress> tasks = task_progress(history);
   if (tasks.empty()) return section("learning", "Learning", paragraph("There is no graded run yet."));
-  std::string html = task_table(tasks, past_results(history)) + "<div class=\"curves\">\n";
-  for (const TaskProgress& task : tasks) html += curve_figure(task);
-  return section("learning", "Learning",
-                 html + "</div>\n<p class=\"soft\">" + kHowToRead + "</p>\n" + kept_part(history, lessons));
+  std::string html = task_table(tasks, past_results(history));
+  if (const std::string figures = charts(tasks); !figures.empty())
+    html += figures + few_runs(tasks) + "<p class=\"soft\">" + kHowToRead + "</p>\n";
+  else
+    html += few_runs(tasks);
+  return section("learning", "Learning", html + kept_part(history, lessons));
 }
 
 }  // namespace gearshift

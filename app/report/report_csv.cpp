@@ -2,9 +2,11 @@
 // Y. Shafranovich. RFC 4180, Common Format and MIME Type for Comma-Separated Values (CSV) Files. 2005
 #include "app/report/report_csv.h"
 
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <initializer_list>
+#include <iterator>
 #include <map>
 
 #include <fmt/format.h>
@@ -16,10 +18,28 @@
 namespace gearshift {
 namespace {
 
-// Of a fault's value, in the order of FaultKind.
-constexpr std::array<std::string_view, kFaultKinds> kUnits{
-    "rad/s", "rad/s", "s", "W", "s", "s", "rad/s", "s",     "s",     "rad/s", "rad/s", "J", "s",
-    "gear",  "gear",  "1", "N", "1", "m", "m/s^3", "rad/s", "rad/s", "s",     "m/s",   "s"};
+struct FaultUnit {
+  std::string_view key, unit;
+};
+
+// Of a fault's value. By its key, so that a new kind moves no other one's.
+constexpr FaultUnit kUnits[] = {
+    {"stall", "rad/s"},        {"over_rev", "rad/s"},    {"lugging", "s"},
+    {"clutch_dump", "W"},      {"clutch_early", "s"},    {"clutch_late", "s"},
+    {"no_clutch", "rad/s"},    {"riding_clutch", "s"},   {"riding_lever", "s"},
+    {"rev_mismatch", "rad/s"}, {"grind", "J"},           {"throttle_in_shift", "rad/s"},
+    {"blocked", "s"},          {"missed_shift", "gear"}, {"wrong_gear", "gear"},
+    {"wrong_column", "1"},     {"over_push", "N"},       {"step_order", "1"},
+    {"rollback", "m"},         {"jerk", "m/s^3"},        {"early_shift", "rad/s"},
+    {"late_shift", "rad/s"},   {"too_slow", "s"},        {"wrong_direction", "m/s"},
+    {"slow_step", "s"},        {"coasting", "s"},        {"early_downshift", "rad/s"},
+};
+
+std::string_view unit_of(FaultKind kind) noexcept {
+  const auto found = std::find_if(std::begin(kUnits), std::end(kUnits),
+                                  [key = fault_key(kind)](const FaultUnit& of) { return of.key == key; });
+  return found != std::end(kUnits) ? found->unit : std::string_view();
+}
 
 // Line by line; the first one names the columns.
 class Table {
@@ -136,7 +156,7 @@ std::string faults_csv(const LearnerHistory& history) {
     for (std::size_t i = 0; i < result.faults.size(); ++i) {
       const DriveFault& fault = result.faults[i];
       table.number(run.row.id).number(i).text(fault_key(fault.kind)).text(severity_key(fault.severity));
-      table.number(fault.time).number(fault.value).text(kUnits[static_cast<std::size_t>(fault.kind)]);
+      table.number(fault.time).number(fault.value).text(unit_of(fault.kind));
       fault.shift >= 0 ? table.number(fault.shift) : table.text("");
       table.number(points[i]).text(fault.step);
       fault.step.empty() ? table.text("") : table.number(fault.wanted);

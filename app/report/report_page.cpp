@@ -14,6 +14,8 @@ namespace {
 
 constexpr const char* kStyle = R"css(
 html { -webkit-print-color-adjust: exact; print-color-adjust: exact; }
+body { overflow-wrap: anywhere; }
+th, dd, dt { overflow-wrap: normal; }
 h1 { margin-bottom: 0; }
 h3 { font-size: 1.05rem; margin: 1.8rem 0 0.4rem; }
 svg { display: block; width: 100%; height: auto; }
@@ -37,6 +39,9 @@ table.tasks, table.kept { width: auto; }
 table.kept th, table.kept td, table.tasks th, table.tasks td { padding-right: 1.4rem; }
 table.weaknesses th, table.weaknesses td { padding-right: 1.4rem; }
 table.shifts { font-size: 0.85rem; }
+table.few th { font-weight: normal; color: #6b7785; white-space: nowrap; }
+table.few td { width: 100%; }
+table.few li { display: inline-block; margin-right: 1.6rem; }
 td ul { margin: 0; padding-left: 0; list-style: none; }
 td blockquote { margin: 0 0 0.3rem; }
 .passed { color: #2e7d4f; font-weight: bold; }
@@ -56,7 +61,7 @@ table.runs tr:target { background: #fdf3e1; }
   table, table.shifts, table.runs { font-size: 8pt; }
   td, th { padding: 0.25rem 0.5rem 0.25rem 0; }
   table.weaknesses th, table.weaknesses td { padding-right: 0.7rem; }
-  table.tasks, table.kept, table.weaknesses, table.shifts { break-inside: avoid; }
+  .recording, table.tasks, table.few, table.kept, table.weaknesses, table.shifts { break-inside: avoid; }
   figcaption { font-size: 8pt; }
   h2 { margin-top: 1.6rem; }
   a { color: inherit; text-decoration: none; }

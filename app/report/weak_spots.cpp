@@ -60,7 +60,9 @@ WeakSpot spot_of(FaultKind kind, std::span<const LessonResult* const> results) {
   spot.kind = kind;
   for (const LessonResult* result : results) {
     for (const DriveFault& fault : result->faults) {
-      if (fault.kind == kind) ++spot.by_severity[static_cast<std::size_t>(fault.severity)], ++spot.count;
+      if (fault.kind != kind) continue;
+      ++spot.by_severity[static_cast<std::size_t>(fault.severity)], ++spot.count;
+      if (!fault.step.empty()) spot.newest_step = fault;
     }
     for (const Deduction& deduction : result->deductions) {
       if (deduction.fault < result->faults.size() && result->faults[deduction.fault].kind == kind)

@@ -6,6 +6,7 @@
 
 #include <array>
 #include <cstddef>
+#include <optional>
 #include <vector>
 
 #include "app/report/learner_history.h"
@@ -22,6 +23,7 @@ struct WeakSpot {
   double earlier = 0.0, lately = 0.0;  // per 10 shifts, in the earlier and in the later half of the shifts
   double per_ten = 0.0;                // per 10 shifts, in all; 0 where there are none
   Trend trend = Trend::unknown;
+  std::optional<DriveFault> newest_step;  // the newest of them that names a step of the lesson
 };
 
 struct Weaknesses {

@@ -35,8 +35,15 @@ std::string bars(const WeakSpot& spot, double most) {
   return bar("earlier", spot.earlier) + "<br>" + bar("lately", spot.lately);
 }
 
+// "Slow step" alone says nothing: the newest one is told in full.
+std::string name_words(const WeakSpot& spot) {
+  const std::string name = html_text(plain_words(fault_key(spot.kind)));
+  if (!spot.newest_step) return name;
+  return name + "<br><span class=\"soft\">" + html_text(fault_sentence(*spot.newest_step)) + "</span>";
+}
+
 std::string spot_row(const WeakSpot& spot, double most) {
-  std::string row = fmt::format("<tr><td>{}</td>", html_text(plain_words(fault_key(spot.kind))));
+  std::string row = fmt::format("<tr><td>{}</td>", name_words(spot));
   for (std::size_t severity = spot.by_severity.size(); severity-- > 0;) {
     const std::size_t count = spot.by_severity[severity];
     row += fmt::format("<td class=\"number\">{}</td>", count == 0 ? std::string() : std::to_string(count));

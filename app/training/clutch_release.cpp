@@ -14,7 +14,14 @@ constexpr double kBraking = 0.05;  // [1] pedal: then it is the brake that jerks
 
 }  // namespace
 
-ClutchRelease::ClutchRelease(const CarSpec& car) noexcept : closed_(car.clutch.closed), pedal_(car.clutch.bite) {}
+double jerk_limit(const CarSpec& car, int gear) noexcept {
+  const double per_road = shaft_per_road(car, gear);
+  const double mass = car.body.mass + car.body.rotating + car.clutch.disc_inertia * per_road * per_road;
+  const double acceleration = car.clutch.capacity * std::abs(per_road) * car.gearbox.efficiency / mass;
+  return std::max(kLeastJerk, kJerkShare * kJerkOfStep * acceleration);
+}
+
+ClutchRelease::ClutchRelease(const CarSpec& car) : car_(car), pedal_(car.clutch.bite) {}
 
 std::optional<DriveFault> ClutchRelease::add(const DriveSample& sample, double dt) {
   pedal_.update(sample.car.clutch, sample.time());
@@ -22,6 +29,7 @@ std::optional<DriveFault> ClutchRelease::add(const DriveSample& sample, double d
   if (!open_ && pedal_.went_up() && sample.car.gear != kNeutralGear) {
     open_ = true;
     stalled_ = false;
+    gear_ = sample.car.gear;
     begin_ = pedal_.up_at();
     closed_at_ = locked_at_ = slip_peak_ = jerk_peak_ = 0.0;
   }
@@ -29,7 +37,7 @@ std::optional<DriveFault> ClutchRelease::add(const DriveSample& sample, double d
   stalled_ = stalled_ || !sample.car.running;
   slip_peak_ = std::max(slip_peak_, sample.car.slip_power);
   if (sample.car.brake < kBraking) jerk_peak_ = std::max(jerk_peak_, jerk);
-  if (closed_at_ == 0.0 && sample.car.clutch <= closed_) closed_at_ = sample.time();
+  if (closed_at_ == 0.0 && sample.car.clutch <= car_.clutch.closed) closed_at_ = sample.time();
   if (!is_over(sample)) return std::nullopt;
   open_ = false;
   return judge();
@@ -51,8 +59,9 @@ std::optional<DriveFault> ClutchRelease::judge() const noexcept {
   if (fast && slip_peak_ >= fault_rule(FaultKind::clutch_dump).raise) {
     return DriveFault{FaultKind::clutch_dump, fault_severity(FaultKind::clutch_dump, slip_peak_), begin_, slip_peak_};
   }
-  if (!stalled_ && jerk_peak_ >= fault_rule(FaultKind::jerk).raise) {
-    return DriveFault{FaultKind::jerk, fault_severity(FaultKind::jerk, jerk_peak_), begin_, jerk_peak_};
+  const double share = jerk_peak_ / jerk_limit(car_, gear_);
+  if (!stalled_ && share >= fault_rule(FaultKind::jerk).raise) {
+    return DriveFault{FaultKind::jerk, fault_severity(FaultKind::jerk, share), begin_, jerk_peak_};
   }
   return std::nullopt;
 }

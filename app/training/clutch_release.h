@@ -11,9 +11,17 @@
 
 namespace gearshift {
 
+inline constexpr double kLeastJerk = 110.0;  // [m/s^3] less is none in any gear: as measured, see README.md
+inline constexpr double kJerkShare = 0.5;    // [1] of what that clutch gives at once [engineering value]
+
+// From what jerk on letting the clutch up in that gear is a fault [m/s^3]: half of the jerk that the whole clutch taking
+// hold at once gives, C i eta / m behind the filter, but at least kLeastJerk. A launch has a jerk however well it is
+// done, and the more the stronger clutch and gear are; a shift need have none.
+double jerk_limit(const CarSpec& car, int gear) noexcept;
+
 class ClutchRelease {
  public:
-  explicit ClutchRelease(const CarSpec& car) noexcept;
+  explicit ClutchRelease(const CarSpec& car);
 
   // Every cycle. The fault of the release that is over, if there is one: a dump, or else a jerk; no jerk beside a stall.
   std::optional<DriveFault> add(const DriveSample& sample, double dt);
@@ -23,16 +31,17 @@ class ClutchRelease {
   bool is_over(const DriveSample& sample) noexcept;
   std::optional<DriveFault> judge() const noexcept;
 
-  double closed_;  // [1] pedal
+  CarSpec car_;
   PedalEdge pedal_;
   JerkFilter filter_;
   bool open_ = false;
   bool stalled_ = false;
-  double begin_ = 0.0;      // [s]
-  double closed_at_ = 0.0;  // [s]; 0: not yet
-  double locked_at_ = 0.0;  // [s]; 0: not yet
-  double slip_peak_ = 0.0;  // [W]
-  double jerk_peak_ = 0.0;  // [m/s^3]
+  int gear_ = kNeutralGear;  // as it began
+  double begin_ = 0.0;       // [s]
+  double closed_at_ = 0.0;   // [s]; 0: not yet
+  double locked_at_ = 0.0;   // [s]; 0: not yet
+  double slip_peak_ = 0.0;   // [W]
+  double jerk_peak_ = 0.0;   // [m/s^3]
 };
 
 }  // namespace gearshift

@@ -16,7 +16,8 @@ bool between(const std::optional<double>& above, const std::optional<double>& be
 bool holds(const DriveCondition& c, const DriveSample& sample, const DriveProgress& progress) noexcept {
   const VehicleState& car = sample.car;
   return (!c.gear || *c.gear == car.gear) && same(c.ignition, car.ignition) && same(c.running, car.running) &&
-         same(c.clutch_locked, car.clutch_locked) && between(c.clutch_above, c.clutch_below, car.clutch) &&
+         same(c.clutch_locked, car.clutch_locked) && same(c.shift_light, car.shift_advice > 0) &&
+         between(c.clutch_above, c.clutch_below, car.clutch) && between(c.clutch_torque_above, {}, car.clutch_torque) &&
          between(c.throttle_above, c.throttle_below, car.throttle) &&
          between(c.brake_above, c.brake_below, car.brake) &&
          between(c.hand_brake_above, c.hand_brake_below, car.hand_brake) &&
@@ -26,10 +27,10 @@ bool holds(const DriveCondition& c, const DriveSample& sample, const DriveProgre
 }
 
 bool is_empty(const DriveCondition& c) noexcept {
-  return !c.gear && !c.ignition && !c.running && !c.clutch_locked && !c.clutch_above && !c.clutch_below &&
-         !c.throttle_above && !c.throttle_below && !c.brake_above && !c.brake_below && !c.hand_brake_above &&
-         !c.hand_brake_below && !c.engine_above && !c.engine_below && !c.speed_above && !c.speed_below &&
-         !c.distance_above && !c.rolled_back_above;
+  return !c.gear && !c.ignition && !c.running && !c.clutch_locked && !c.shift_light && !c.clutch_above &&
+         !c.clutch_below && !c.clutch_torque_above && !c.throttle_above && !c.throttle_below && !c.brake_above &&
+         !c.brake_below && !c.hand_brake_above && !c.hand_brake_below && !c.engine_above && !c.engine_below &&
+         !c.speed_above && !c.speed_below && !c.distance_above && !c.rolled_back_above;
 }
 
 bool HeldCondition::update(const DriveCondition& condition, const DriveSample& sample,

@@ -49,6 +49,8 @@ constexpr std::array<FaultWords, kFaultKinds> kWords{{
     {"too_slow", "The shift took {} s.", 1.0, 1},
     {"wrong_direction", "That gear was chosen at {} km/h the other way.", kKmhPerMps, 0},
     {"slow_step", "A step took {} s: too long.", 1.0, 1},
+    {"coasting", "The car rolled without drive for {} s: out of gear, or with the clutch down.", 1.0, 1},
+    {"early_downshift", "Shifted down too early: at that speed the gear asks for {} rpm.", kRpm, 0},
 }};
 
 constexpr std::array<std::string_view, 4> kSeverities{"note", "minor", "severe", "very_severe"};

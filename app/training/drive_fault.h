@@ -34,8 +34,10 @@ enum class FaultKind : std::uint8_t {
   too_slow,           // the shift took too long; value: [s]
   wrong_direction,    // reverse at forward speed, or the like; value: road speed [m/s]
   slow_step,          // a step of the lesson took longer than it may; value: [s]
+  coasting,           // rolled in neutral or with the clutch down, neither shifting nor stopping; value: how long [s]
+  early_downshift,    // a lower gear at a speed that is too high for it; value: engine speed that it asks for [rad/s]
 };
-inline constexpr int kFaultKinds = 25;
+inline constexpr int kFaultKinds = 27;
 
 enum class Severity : std::uint8_t { note, minor, severe, very_severe };
 

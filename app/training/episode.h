@@ -2,6 +2,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 
 #include "app/training/fault_rules.h"
 
@@ -12,7 +13,7 @@ class Episode {
   // least: shorter ones are not told. most: told at the latest after this, though it goes on. [s]
   explicit Episode(double least, double most = 1e9) noexcept : least_(least), most_(most) {}
 
-  // True in the one update in which it is told.
+  // True in the one update in which it is told. A value that is no number counts as none.
   bool update(bool on, double value, double time, double dt) noexcept {
     gap_ = on ? 0.0 : gap_ + dt;
     if (on && !open_) {
@@ -20,8 +21,8 @@ class Episode {
       open_ = true;
       begin_ = time;
     }
-    if (on) {
-      length_ += dt;
+    if (on) length_ += dt;
+    if (on && std::isfinite(value)) {
       sum_ += value * dt;
       peak_ = std::max(peak_, value);
     }

@@ -33,12 +33,14 @@ constexpr std::array<FaultRule, kFaultKinds> kRules{{
      Severity::minor},  // the paper's alarm, cleared as by HapticConfig; 100: E
     {FaultKind::step_order, 1.0, 0.0, 4.0, Severity::minor},
     {FaultKind::rollback, 0.10, 0.0, 0.5, Severity::minor},           // E
-    {FaultKind::jerk, 110.0, 0.0, 220.0, Severity::minor},            // E: as measured, see README.md
+    {FaultKind::jerk, 1.0, 0.0, 2.0, Severity::minor},                // shares of jerk_limit: see README.md
     {FaultKind::early_shift, -kNever, 0.0, kNever, Severity::minor},  // below the lesson's band
     {FaultKind::late_shift, -kNever, 0.0, kNever, Severity::minor},   // above it
     {FaultKind::too_slow, 2.5, 0.0, 6.0, Severity::minor},            // E
     {FaultKind::wrong_direction, 1.0, 0.0, 5.0, Severity::severe},    // E
     {FaultKind::slow_step, 1.0, 0.0, 2.0, Severity::minor},           // shares of the step's time: E
+    {FaultKind::coasting, 3.0, 0.0, 10.0, Severity::minor},           // E: three times a usual shift
+    {FaultKind::early_downshift, 1.0, 0.0, 1.5, Severity::minor},     // shares of what suits: fault_watch.h; 1.5: E
 }};
 
 constexpr bool in_order() {

@@ -20,6 +20,9 @@ constexpr double kFootRests = 0.08;     // [1] pedal
 constexpr double kHandLeans = 3.0;      // [N]
 constexpr double kDriving = 4.0;        // [m/s] below that a driver may want the clutch to stop, or to creep
 constexpr double kBraking = 0.05;       // [1] pedal
+constexpr double kBrakingHard = 0.5;    // [1] pedal: it is to stand, from any speed
+constexpr double kStillShifts = 6.0;    // [s] longer is no shift any more, though the clutch is down
+constexpr double kReachesUp = 1.2;      // [1] of the car's shift_high
 constexpr double kPushes = 3.0;         // [N] against a synchroniser
 constexpr double kStands = 0.01;        // [m/s]
 constexpr double kLongestPeriod = 0.1;  // [s]
@@ -36,7 +39,36 @@ double least(FaultKind kind) noexcept {
   return fault_rule(kind).raise;
 }
 
+bool has(const std::vector<int>& gears, int gear) {
+  return std::find(gears.begin(), gears.end(), gear) != gears.end();
+}
+
+void note(std::vector<int>& gears, int gear) {
+  std::erase(gears, gear);
+  gears.push_back(gear);
+}
+
+bool is_between_gears(const ShiftRecord& record) noexcept {
+  return record.from != kNeutralGear && record.to != kNeutralGear && !record.missed;
+}
+
+bool is_down(const ShiftRecord& record) noexcept {
+  return is_between_gears(record) && record.to >= 1 && record.to < record.from;
+}
+
+// The foot was off the throttle before the clutch went down: what flares then is a blip.
+bool lifted_first(const ShiftRecord& record) {
+  const auto first = std::find_if(record.steps.begin(), record.steps.end(), [](ShiftStep step) {
+    return step == ShiftStep::throttle_off || step == ShiftStep::clutch_down;
+  });
+  return first != record.steps.end() && *first == ShiftStep::throttle_off;
+}
+
 }  // namespace
+
+double suits_up_to(const CarSpec& car, const ShiftBand& band) noexcept {
+  return band.to < car.engine.limiter ? band.to : kReachesUp * car.engine.shift_high;
+}
 
 FaultWatch::FaultWatch(const CarSpec& car, const Gate& gate, ShiftBand band)
     : car_(car),
@@ -50,20 +82,22 @@ FaultWatch::FaultWatch(const CarSpec& car, const Gate& gate, ShiftBand band)
       riding_lever_{FaultKind::riding_lever, Measure::length, Episode(least(FaultKind::riding_lever), kTellRiding)},
       over_push_{FaultKind::over_push, Measure::peak, Episode(0.0)},
       grind_{FaultKind::grind, Measure::sum, Episode(0.0)},
-      block_{FaultKind::blocked, Measure::length, Episode(least(FaultKind::blocked))} {}
+      block_{FaultKind::blocked, Measure::length, Episode(least(FaultKind::blocked))},
+      coasting_{FaultKind::coasting, Measure::length, Episode(least(FaultKind::coasting), kTellRiding)} {}
 
 void FaultWatch::add(const DriveSample& sample, int wanted_gear, bool shifting) {
   if (first_) {
     last_ = sample;
-    last_gear_ = sample.car.gear;
+    last_gear_ = driven_gear_ = sample.car.gear;
     highest_ = sample.car.distance;
   }
   first_ = false;
   wanted_gear_ = wanted_gear;
   const double dt = std::clamp(sample.time() - last_.time(), 0.0, kLongestPeriod);
   watch_engine(sample, dt);
-  shift_moved_ = shifting && (shift_moved_ || sample.car.gear != last_.car.gear);
+  follow_shift(sample, shifting, dt);
   watch_feet(sample, dt);
+  watch_drive(sample, dt);
   watch_hand(sample, shifting, dt);
   watch_dogs(sample, dt);
   watch_direction(sample);
@@ -72,9 +106,25 @@ void FaultWatch::add(const DriveSample& sample, int wanted_gear, bool shifting) 
   last_ = sample;
 }
 
+void FaultWatch::follow_shift(const DriveSample& now, bool shifting, double dt) noexcept {
+  const bool moves = shifting && now.car.gear != last_.car.gear;
+  if (moves && !shift_moved_) shift_moved_at_ = now.time();
+  shift_moved_ = shifting && (shift_moved_ || moves);
+  if (shifting && !shifting_) {
+    rolled_before_ = std::exchange(rolled_, 0.0);
+    shift_began_ = now.time();
+  }
+  shifting_ = shifting;
+  if (shifting && is_moving(now.car.road_speed)) rolled_ += dt;
+}
+
 void FaultWatch::watch_engine(const DriveSample& now, double dt) {
   const double speed = now.car.engine_speed;
-  if (last_.car.running && !now.car.running && now.car.ignition) tell_if(FaultKind::stall, now.time(), engine_.value());
+  // An engine that fires under the starter and dies as the key is let go has not started yet.
+  has_run_ = has_run_ || (now.car.running && speed >= car_.engine.stall);
+  const bool died = last_.car.running && !now.car.running && now.car.ignition;
+  if (died && has_run_) tell_if(FaultKind::stall, now.time(), engine_.value());
+  has_run_ = has_run_ && now.car.running;
   engine_.add(speed, dt);
   const FaultRule& red = fault_rule(FaultKind::over_rev);
   const double limit = car_.engine.red_line * (over_rev_.episode.is_open() ? red.clear : red.raise);
@@ -84,17 +134,32 @@ void FaultWatch::watch_engine(const DriveSample& now, double dt) {
   goes_on(lugging_, labours, 0.0, now.time(), dt);
 }
 
-// A foot that slows nothing and shifts nothing: the lever at rest in its gear, the clutch open or closed, not slipping.
-// After a shift an open clutch makes the shift slow: that is said.
+// A foot that slows nothing and shifts nothing: the lever at rest in its gear, the clutch not slipping. Open it coasts,
+// and after a shift an open clutch makes the shift slow: that is said.
 void FaultWatch::watch_feet(const DriveSample& now, double dt) {
   if (const auto fault = release_.add(now, dt)) faults_.push_back(*fault);
   const int slot = now.lever.slot;
   const bool at_rest = slot != kNoSlot && slot_of(gate_, slot).gear == now.car.gear &&
                        std::abs(now.lever.proxy.y) >= slot_of(gate_, slot).engage_depth;
   const bool needs_none = at_rest && is_moving(now.car.road_speed) && now.car.brake < kBraking;
-  const bool slips = !now.car.clutch_locked && now.car.clutch < car_.clutch.bite;
-  const bool rides = now.car.clutch > kFootRests && needs_none && !slips && !shift_moved_;
+  const bool rests = now.car.clutch > kFootRests && now.car.clutch < car_.clutch.bite && now.car.clutch_locked;
+  const bool rides = rests && needs_none && !shift_moved_;
   goes_on(riding_clutch_, rides, 0.0, now.time(), dt);
+}
+
+// Braked hard, or braked in a gear that could no longer be driven so slowly.
+bool FaultWatch::comes_to_stand(const DriveSample& now) const noexcept {
+  const double turns = std::abs(shaft_per_road(car_, driven_gear_) * now.car.road_speed);
+  return now.car.brake > kBrakingHard || (now.car.brake > kBraking && turns < car_.engine.lug_below);
+}
+
+// Rolls with nothing between engine and wheels, for nothing.
+void FaultWatch::watch_drive(const DriveSample& now, double dt) {
+  if (now.car.gear != kNeutralGear && now.car.clutch_locked) driven_gear_ = now.car.gear;
+  const bool open = now.car.gear == kNeutralGear || now.car.clutch >= car_.clutch.bite;
+  const bool shifts = shift_moved_ && now.time() - shift_moved_at_ < kStillShifts;
+  const bool coasts = open && !shifts && now.car.running && is_moving(now.car.road_speed) && !comes_to_stand(now);
+  goes_on(coasting_, coasts, 0.0, now.time(), dt);
 }
 
 void FaultWatch::watch_hand(const DriveSample& now, bool shifting, double dt) {
@@ -118,7 +183,7 @@ void FaultWatch::watch_dogs(const DriveSample& now, double dt) {
   const bool open = now.car.clutch >= car_.clutch.bite;
   const bool touching = touches_dogs(now);
   const int gear = gear_reached_for(now);
-  if (gear != kNeutralGear && gear != now.car.gear) tried_gear_ = gear;
+  if (gear != kNeutralGear && gear != now.car.gear) note(tried_, gear);
   if (touching && !touching_ && !open && gear != kNeutralGear) {
     const double error = now.car.engine_speed - shaft_per_road(car_, gear) * now.car.road_speed;
     if (std::abs(error) > std::abs(touch_error_)) touch_error_ = error;
@@ -144,6 +209,10 @@ void FaultWatch::watch_gear(const DriveSample& now, int wanted_gear) {
   const bool engaged = gear != last_.car.gear && gear != kNeutralGear;
   if (engaged && wanted_gear != kNeutralGear && gear != wanted_gear && gear != last_gear_) {
     tell_if(FaultKind::wrong_gear, now.time(), gear);
+  }
+  if (engaged) {
+    note(engaged_, gear);
+    asked_ = shaft_per_road(car_, gear) * now.car.road_speed;
   }
   if (gear != kNeutralGear) last_gear_ = gear;
 }
@@ -177,7 +246,8 @@ void FaultWatch::tell_lasting(const Lasting& lasting) {
 }
 
 void FaultWatch::finish() {
-  for (Lasting* lasting : {&over_rev_, &lugging_, &riding_clutch_, &riding_lever_, &over_push_, &grind_, &block_}) {
+  for (Lasting* lasting :
+       {&over_rev_, &lugging_, &riding_clutch_, &riding_lever_, &over_push_, &grind_, &block_, &coasting_}) {
     if (lasting->episode.finish()) tell_lasting(*lasting);
   }
   tell_rollback(last_.time());
@@ -189,15 +259,27 @@ void FaultWatch::judge(const ShiftRecord& record) {
   const std::size_t before = faults_.size();
   const bool without_clutch = judge_clutch(record);
   // Not reached for want of a clutch: that was said.
-  const int missed = tried_gear_ != kNeutralGear ? tried_gear_ : wanted_gear_;
+  const int missed = missed_gear(record);
   if (record.missed && !without_clutch && missed != kNeutralGear) {
     tell_if(FaultKind::missed_shift, record.end, missed, record.number);
   }
   tell_if(FaultKind::wrong_column, record.end, record.wrong_columns, record.number);
   judge_engine(record);
+  judge_gear(record);
   judge_order(record, before);
-  tried_gear_ = kNeutralGear;
+  if (record.end >= shift_began_) rolled_ = 0.0;
+  tried_.clear();
+  engaged_.clear();
   touch_error_ = 0.0;
+}
+
+// The last that was tried and never in; without one, what the lesson wants. Not the gear that was left: on its way out
+// the lever passes there too.
+int FaultWatch::missed_gear(const ShiftRecord& record) const noexcept {
+  const auto missed = [&](int gear) { return gear != record.from && gear != record.to && !has(engaged_, gear); };
+  const auto tried = std::find_if(tried_.rbegin(), tried_.rend(), missed);
+  if (tried != tried_.rend()) return *tried;
+  return missed(wanted_gear_) ? wanted_gear_ : kNeutralGear;
 }
 
 // True where it was shifted without the clutch and without matched revs.
@@ -218,27 +300,43 @@ double FaultWatch::flare_needed(const ShiftRecord& record) const noexcept {
 }
 
 void FaultWatch::judge_engine(const ShiftRecord& record) {
-  const bool between_gears = record.from != kNeutralGear && record.to != kNeutralGear && !record.missed;
-  if (!between_gears || !is_moving(last_.car.road_speed)) return;
-  const bool flared =
-      tell_if(FaultKind::throttle_in_shift, record.begin, record.flare - flare_needed(record), record.number);
-  // Below idle the clutch has to slip, and revs that flared do not match either: that was said.
-  const double asked = shaft_per_road(car_, record.to) * last_.car.road_speed;
-  if (!flared && record.clutch_time > 0.0 && asked > car_.engine.idle) {
-    tell_if(FaultKind::rev_mismatch, record.end, std::abs(record.rev_error), record.number);
-  }
-  tell_if(FaultKind::too_slow, record.end, std::max(record.clutch_time, record.lever_time), record.number);
+  if (!is_between_gears(record)) return;
+  // At a stand there is time: who has chosen a gear for later may wait in it with the clutch down.
+  const double rolled = record.end < shift_began_ ? rolled_before_ : rolled_;
+  const double took = std::min(rolled, std::max(record.clutch_time, record.lever_time));
+  tell_if(FaultKind::too_slow, record.end, took, record.number);
+  if (!is_moving(last_.car.road_speed)) return;
+  judge_revs(record);
   if (record.to <= record.from || record.from == kReverseGear) return;
   const double speed = record.engine_speed;
   if (speed < band_.from) tell_if(FaultKind::early_shift, record.begin, speed, record.number);
   if (speed > band_.to) tell_if(FaultKind::late_shift, record.begin, speed, record.number);
 }
 
+// A throttle that is still open and revs that do not match are two deeds. A blip into a lower gear is wanted: whether it
+// was right, the revs tell.
+void FaultWatch::judge_revs(const ShiftRecord& record) {
+  const bool blips = is_down(record) && lifted_first(record);
+  if (!blips) tell_if(FaultKind::throttle_in_shift, record.begin, record.flare - flare_needed(record), record.number);
+  const double asked = shaft_per_road(car_, record.to) * last_.car.road_speed;
+  // Below idle the clutch has to slip.
+  if (record.clutch_time > 0.0 && asked > car_.engine.idle) {
+    tell_if(FaultKind::rev_mismatch, record.end, std::abs(record.rev_error), record.number);
+  }
+}
+
+// By the speed at which it was chosen.
+void FaultWatch::judge_gear(const ShiftRecord& record) {
+  const double share = asked_ / suits_up_to(car_, band_);
+  if (!is_down(record) || share < least(FaultKind::early_downshift)) return;
+  const Severity severity = fault_severity(FaultKind::early_downshift, share);
+  faults_.push_back({FaultKind::early_downshift, severity, record.end, asked_, record.number});
+}
+
 // Only between gears and driving: pulling away wants the throttle before the clutch. Clutch and throttle out of time
 // are out of order too: that was said.
 void FaultWatch::judge_order(const ShiftRecord& record, std::size_t faults_before) {
-  const bool between_gears = record.from != kNeutralGear && record.to != kNeutralGear && !record.missed;
-  if (!between_gears || !is_moving(last_.car.road_speed)) return;
+  if (!is_between_gears(record) || !is_moving(last_.car.road_speed)) return;
   const auto said = [](const DriveFault& fault) {
     return fault.kind == FaultKind::no_clutch || fault.kind == FaultKind::clutch_early ||
            fault.kind == FaultKind::clutch_late || fault.kind == FaultKind::throttle_in_shift;

@@ -20,6 +20,11 @@ struct ShiftBand {
   double from = 0.0, to = 1e9;  // [rad/s] engine speed at an upshift
 };
 
+// An engine speed up to which a lower gear suits: the band's upper end where the lesson has one, for from there on one
+// shifts up again; else 1.2 times the car's own, which is 3000 rpm in the hatchback: up to there people drive who do not
+// hurry (UDRIVE: advice 2000 to 2500, really 1400 to 3000). [rad/s]
+double suits_up_to(const CarSpec& car, const ShiftBand& band) noexcept;
+
 // A cause is told and not its consequences: fault_watch.cpp says which at the places where one is left out.
 class FaultWatch {
  public:
@@ -52,14 +57,20 @@ class FaultWatch {
   void watch_dogs(const DriveSample& now, double dt);
   void watch_direction(const DriveSample& now);
   void watch_gear(const DriveSample& now, int wanted_gear);
+  void watch_drive(const DriveSample& now, double dt);
+  bool comes_to_stand(const DriveSample& now) const noexcept;
+  void follow_shift(const DriveSample& now, bool shifting, double dt) noexcept;
   void watch_rollback(const DriveSample& now);
   void tell_rollback(double time);
   void goes_on(Lasting& lasting, bool on, double value, double time, double dt);
   void tell_lasting(const Lasting& lasting);
   void judge_order(const ShiftRecord& record, std::size_t faults_before);
   void judge_engine(const ShiftRecord& record);
+  void judge_revs(const ShiftRecord& record);
+  void judge_gear(const ShiftRecord& record);
   bool judge_clutch(const ShiftRecord& record);
   double flare_needed(const ShiftRecord& record) const noexcept;
+  int missed_gear(const ShiftRecord& record) const noexcept;
   // Where the value is one.
   bool tell_if(FaultKind kind, double time, double value, std::int64_t shift = -1);
   int gear_reached_for(const DriveSample& now) const noexcept;
@@ -69,13 +80,21 @@ class FaultWatch {
   ShiftBand band_;
   ClutchRelease release_;
   RecentPeak engine_;
-  Lasting over_rev_, lugging_, riding_clutch_, riding_lever_, over_push_, grind_, block_;
+  Lasting over_rev_, lugging_, riding_clutch_, riding_lever_, over_push_, grind_, block_, coasting_;
   DriveSample last_;
   bool first_ = true;
-  bool shift_moved_ = false;       // the gear was left in the shift that is open
-  bool wrong_way_ = false;         // told for this visit to the slot
-  int last_gear_ = kNeutralGear;   // in which it was driven last
-  int tried_gear_ = kNeutralGear;  // that the lever was pushed to since the last record
+  bool has_run_ = false;         // by itself, since it was dead
+  bool shift_moved_ = false;     // the gear was left in the shift that is open
+  double shift_moved_at_ = 0.0;  // [s]
+  bool shifting_ = false;
+  double shift_began_ = 0.0;                   // [s]
+  double rolled_ = 0.0, rolled_before_ = 0.0;  // [s] at speed, of the shift that is open or was last; of the one before
+  bool wrong_way_ = false;                     // told for this visit to the slot
+  int last_gear_ = kNeutralGear;               // in which it was driven last
+  int driven_gear_ = kNeutralGear;             // with the clutch locked, last
+  std::vector<int> tried_;    // gears that the lever was pushed to since the last record, the newest last
+  std::vector<int> engaged_;  // and those that were in
+  double asked_ = 0.0;        // [rad/s] by the gear that was engaged last, as it was
   int wanted_gear_ = kNeutralGear;
   bool touching_ = false;
   double touch_error_ = 0.0;  // [rad/s] engine less the gear's demand, at the dogs' first touch without clutch

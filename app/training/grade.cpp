@@ -17,9 +17,16 @@ double points_of_all(std::span<const DriveFault> faults) noexcept {
   return points;
 }
 
+bool is_far_too_slow(const Lesson& lesson, const DriveFault& fault) {
+  return std::any_of(lesson.steps.begin(), lesson.steps.end(), [&](const LessonStep& step) {
+    return step.fails_after && step.prompt == fault.step && fault.value >= *step.fails_after;
+  });
+}
+
 const DriveFault* failing_fault(const Lesson& lesson, const LessonResult& result) {
   const auto fails = [&](const DriveFault& fault) {
-    return std::find(lesson.fails_on.begin(), lesson.fails_on.end(), fault.kind) != lesson.fails_on.end();
+    const bool of_kind = std::find(lesson.fails_on.begin(), lesson.fails_on.end(), fault.kind) != lesson.fails_on.end();
+    return of_kind || (fault.kind == FaultKind::slow_step && is_far_too_slow(lesson, fault));
   };
   const auto found = std::find_if(result.faults.begin(), result.faults.end(), fails);
   return found == result.faults.end() ? nullptr : &*found;
@@ -28,6 +35,7 @@ const DriveFault* failing_fault(const Lesson& lesson, const LessonResult& result
 // Why it was not passed; empty: it was. An abort's own words are kept.
 std::string reason(const Lesson& lesson, const LessonResult& result) {
   if (result.guided) return "The lever was guided: such a trial is not graded.";
+  if (!result.had_forces) return "The lever was without forces: it is not graded.";
   if (!result.whole) return "A part of the drive was lost: it is not graded.";
   if (result.end == LessonEnd::aborted && !result.why.empty()) return result.why;
   if (const DriveFault* fault = failing_fault(lesson, result)) return fault_sentence(*fault);

@@ -14,6 +14,7 @@ namespace gearshift {
 
 inline constexpr double kGuidancePull = 3.0;  // [N] along the way, at full strength: as the gate's own centring
 inline constexpr double kGuidanceRate = 2.0;  // [1/s] at which the strength follows what is asked for
+inline constexpr double kGuidanceFades = 1.0 / kGuidanceRate;  // [s] after which none is left of it
 
 // Force on a lever drawn at this point of free space, at full strength, and its potential. Zero where the gate has no
 // such gear, and at the gear's rest. [N], [J]

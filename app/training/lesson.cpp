@@ -23,10 +23,21 @@ constexpr Range kRolledBackM{0.0, 50.0};
 constexpr Range kHeldS{0.0, 60.0};
 constexpr Range kPatienceS{1.0, 60.0};
 constexpr Range kWithinS{0.1, 120.0};
+constexpr Range kTorqueNm{0.0, 2000.0};
 constexpr Range kSlopePercent{-30.0, 30.0};
 constexpr Range kPassGrade{1.0, 10.0};
 constexpr Range kTimeLimitS{10.0, 1800.0};
 constexpr std::size_t kMostSteps = 64;
+
+// What shift_to asks for. [engineering value]s
+constexpr double kClutchDown = 0.8;     // [1] below the bite point of every car
+constexpr double kClutchUp = 0.2;       // [1]
+constexpr double kThrottleOff = 0.05;   // [1]
+constexpr double kPedalPatience = 6.0;  // [s]
+
+// Of the car's band: who waits for the shift light, which comes at its upper end, and then reacts as people do, is in
+// it; and 3000 rpm in a petrol engine is where UDRIVE's drivers shift who save nothing. [engineering value]s
+constexpr double kBandFrom = 0.9, kBandTo = 1.2;  // [1] of its ends
 
 // "R", "N", "1", "2", ...
 const std::vector<std::string>& gear_words() {
@@ -73,7 +84,9 @@ DriveCondition read_condition(const TomlTable& table) {
   read_flag(table, "ignition", c.ignition);
   read_flag(table, "running", c.running);
   read_flag(table, "clutch_locked", c.clutch_locked);
+  read_flag(table, "shift_light", c.shift_light);
   read_limits(table, "clutch", "", kPedal, 1.0, c.clutch_above, c.clutch_below);
+  read_limit(table, "clutch_torque_above_nm", kTorqueNm, 1.0, c.clutch_torque_above);
   read_limits(table, "throttle", "", kPedal, 1.0, c.throttle_above, c.throttle_below);
   read_limits(table, "brake", "", kPedal, 1.0, c.brake_above, c.brake_below);
   read_limits(table, "hand_brake", "", kPedal, 1.0, c.hand_brake_above, c.hand_brake_below);
@@ -107,10 +120,15 @@ LessonStep read_step(const TomlTable& table) {
   step.hint = text_or_none(table, "hint");
   step.patience = table.number_or("patience_s", step.patience, kPatienceS);
   step.call = table.flag_or("call", false);
+  step.may_be_skipped = table.flag_or("may_be_skipped", false);
   read_limit(table, "within_s", kWithinS, 1.0, step.within);
+  read_limit(table, "fails_after_s", kWithinS, 1.0, step.fails_after);
   step.until = read_condition(table.table("until"));
   if (step.within && *step.within <= step.until.held) {
     table.fail("within_s", "can never be kept: it must be longer than the step's held_s");
+  }
+  if (step.fails_after && (!step.within || *step.fails_after < *step.within)) {
+    table.fail("fails_after_s", "must be at least within_s, which this step must say too");
   }
   step.gear = step.until.gear.value_or(kNeutralGear);
   if (table.has("guide_to")) step.gear = read_gear(table, "guide_to");
@@ -120,6 +138,30 @@ LessonStep read_step(const TomlTable& table) {
   }
   table.refuse_unknown_keys();
   return step;
+}
+
+// shift_to = "3": pedal, lever, pedal. The first prepares the second; the shift itself is not passed over.
+void add_shift(const TomlTable& table, std::vector<LessonStep>& steps) {
+  const int gear = read_gear(table, "shift_to");
+  if (gear == kNeutralGear) table.fail("shift_to", "must be a gear: for N write a step that waits for it");
+  LessonStep down, lever, up;
+  down.prompt = "Off the throttle, clutch down.";
+  down.hint = "Clutch pedal all the way down, past the point where it takes hold.";
+  down.patience = kPedalPatience;
+  down.until.throttle_below = kThrottleOff;
+  down.until.clutch_above = kClutchDown;
+  down.may_be_skipped = true;
+  lever.prompt = std::string("Lever to ") + gear_name(gear) + ".";
+  lever.hint = text_or_none(table, "hint");
+  lever.until.gear = gear;
+  up.prompt = "Clutch up, then throttle.";
+  up.hint = "Let the clutch up evenly through the point where it takes hold, then give throttle.";
+  up.until.gear = gear;
+  up.until.clutch_below = kClutchUp;
+  up.until.clutch_locked = true;
+  lever.gear = up.gear = gear;
+  table.refuse_unknown_keys();
+  steps.insert(steps.end(), {down, lever, up});
 }
 
 LessonAbort read_abort(const TomlTable& table) {
@@ -143,6 +185,13 @@ void read_faults(const TomlTable& table, Lesson& lesson) {
 }
 
 void read_shift_band(const TomlTable& root, Lesson& lesson) {
+  if (root.has("shift_band")) {
+    lesson.band_of_car = root.choice("shift_band", {"car"}) == "car";
+    for (const std::string_view key : {"shift_from_rpm", "shift_to_rpm"}) {
+      if (root.has(key)) root.fail(key, "contradicts shift_band: the car has its own");
+    }
+    return;
+  }
   lesson.shift_from = root.number_or("shift_from_rpm", 0.0, kEngineRpm) * kRadPerSecond;
   if (root.has("shift_to_rpm")) lesson.shift_to = root.number("shift_to_rpm", kEngineRpm) * kRadPerSecond;
   if (lesson.shift_from >= lesson.shift_to) root.fail("shift_from_rpm", "must be smaller than shift_to_rpm");
@@ -158,9 +207,16 @@ void read_shift_band(const TomlTable& root, Lesson& lesson) {
 }
 
 void read_steps(const TomlTable& root, Lesson& lesson) {
-  for (const TomlTable& table : root.tables("step")) lesson.steps.push_back(read_step(table));
+  for (const TomlTable& table : root.tables("step")) {
+    if (table.has("shift_to")) {
+      add_shift(table, lesson.steps);
+    } else {
+      lesson.steps.push_back(read_step(table));
+    }
+  }
   if (lesson.steps.empty()) root.fail("step", "is missing: write one [[step]] for everything that is to be done");
-  if (lesson.steps.size() > kMostSteps) root.fail("step", "is written more than 64 times: make two lessons of it");
+  if (lesson.steps.size() > kMostSteps)
+    root.fail("step", "is more than 64 steps, three for each shift_to: make two lessons of it");
   for (const TomlTable& table : root.tables("abort")) lesson.aborts.push_back(read_abort(table));
 }
 
@@ -190,6 +246,14 @@ void check_times(const TomlTable& root, const Lesson& lesson) {
 }
 
 }  // namespace
+
+Lesson lesson_in_car(const Lesson& lesson, const CarSpec& car) {
+  Lesson driven = lesson;
+  if (!lesson.band_of_car) return driven;
+  driven.shift_from = kBandFrom * car.engine.shift_low;
+  driven.shift_to = kBandTo * car.engine.shift_high;
+  return driven;
+}
 
 Lesson read_lesson(const std::filesystem::path& file) {
   return parse_lesson(read_text_file(file), file.string());

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "app/training/drive_fault.h"
+#include "app/vehicle/car_spec.h"
 #include "haptics/gate/gate.h"
 
 namespace gearshift {
@@ -16,7 +17,9 @@ namespace gearshift {
 struct DriveCondition {
   std::optional<int> gear;
   std::optional<bool> ignition, running, clutch_locked;
+  std::optional<bool> shift_light;                           // it asks for a higher gear
   std::optional<double> clutch_above, clutch_below;          // [1] pedal
+  std::optional<double> clutch_torque_above;                 // [N m] that it carries into the gearbox
   std::optional<double> throttle_above, throttle_below;      // [1]
   std::optional<double> brake_above, brake_below;            // [1]
   std::optional<double> hand_brake_above, hand_brake_below;  // [1]
@@ -31,10 +34,12 @@ struct LessonStep {
   std::string prompt;  // "Press the clutch all the way down."
   std::string hint;    // what is said when it takes too long; may be empty
   DriveCondition until;
-  int gear = kNeutralGear;         // where the guidance leads; kNeutralGear: nowhere
-  double patience = 8.0;           // [s] before the hint
-  std::optional<double> within{};  // [s] longer is slow_step
-  bool call = false;               // prompted in both modes: nobody can know by himself when to do it
+  int gear = kNeutralGear;              // where the guidance leads; kNeutralGear: nowhere
+  double patience = 8.0;                // [s] before the hint
+  std::optional<double> within{};       // [s] longer is slow_step
+  std::optional<double> fails_after{};  // [s] longer fails the lesson; >= within
+  bool call = false;                    // prompted in both modes: nobody can know by himself when to do it
+  bool may_be_skipped = false;          // it prepares the next one and is done with it
 };
 
 struct LessonAbort {
@@ -63,6 +68,7 @@ struct Lesson {
   std::vector<FaultKind> catches;           // what this lesson looks at; the others are notes
   std::vector<FaultKind> fails_on;          // one of these and it is not passed
   double shift_from = 0.0, shift_to = 1e9;  // [rad/s] band of engine speed for an upshift
+  bool band_of_car = false;                 // that band is the car's: lesson_in_car
   double pass_grade = 6.0;                  // [1] of 10
   double time_limit = 120.0;                // [s]
   std::string text;                         // the whole file as read
@@ -72,5 +78,8 @@ struct Lesson {
 // Throws FileError with file, line, key, value and allowed range.
 Lesson read_lesson(const std::filesystem::path& file);
 Lesson parse_lesson(std::string_view text, const std::string& file_name);
+
+// The lesson as it is driven in that car: with its band for the upshifts, where the lesson leaves it to the car.
+Lesson lesson_in_car(const Lesson& lesson, const CarSpec& car);
 
 }  // namespace gearshift

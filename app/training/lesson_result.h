@@ -24,11 +24,12 @@ struct LessonResult {
   std::string task;
   LessonMode mode = LessonMode::follow_me;
   LessonEnd end = LessonEnd::running;
-  bool guided = false;    // a guidance force was on: there is no grade
-  bool whole = true;      // no sample was lost; else there is no grade
-  double begin = 0.0;     // [s] on the loop's clock
-  double duration = 0.0;  // [s]
-  double grade = 0.0;     // [1] 0 to 10; 10 less the deductions; 0 where it was not done
+  bool guided = false;     // a guidance force was on: there is no grade
+  bool whole = true;       // nothing of the drive was lost, no sample and no force; else there is no grade
+  bool had_forces = true;  // where that is why it is not whole: false
+  double begin = 0.0;      // [s] on the loop's clock
+  double duration = 0.0;   // [s]
+  double grade = 0.0;      // [1] 0 to 10; 10 less the deductions; 0 where it was not done
   bool passed = false;
   std::string why;  // it was not passed: one sentence
   std::vector<DriveFault> faults;

@@ -5,10 +5,13 @@
 #include <stdexcept>
 #include <utility>
 
+#include <fmt/core.h>
+
 #include "app/training/drive_condition.h"
 #include "app/training/fault_rules.h"
 #include "app/training/fault_watch.h"
 #include "app/training/grade.h"
+#include "app/training/lever_way.h"
 #include "app/training/shift_meter.h"
 
 namespace gearshift {
@@ -16,6 +19,7 @@ namespace {
 
 constexpr double kShiftEnds = 3.0;      // [s] that a shift in progress gets once all steps are done [engineering value]
 constexpr double kLongestPeriod = 0.1;  // [s] between samples
+constexpr double kAstray = 3.0;         // [s] in a gear that the step is not about [engineering value]
 
 void check_gear(const Lesson& lesson, const Gate& gate, int gear) {
   if (gear == kNeutralGear || slot_of_gear(gate, gear) != kNoSlot) return;
@@ -34,31 +38,40 @@ void check_gears(const Lesson& lesson, const Gate& gate) {
 }  // namespace
 
 struct LessonRun::State {
-  State(const Lesson& a_lesson, const CarSpec& car, const Gate& gate, const LessonRunConfig& a_config)
-      : lesson(a_lesson),
+  State(const Lesson& a_lesson, const CarSpec& car, const Gate& a_gate, const LessonRunConfig& a_config)
+      : lesson(lesson_in_car(a_lesson, car)),
+        gate(a_gate),
         config(a_config),
         meter(car, gate),
-        watch(car, gate, {a_lesson.shift_from, a_lesson.shift_to}),
+        watch(car, gate, {lesson.shift_from, lesson.shift_to}),
         abort_held(a_lesson.aborts.size()) {}
 
   void begin(const DriveSample& sample);
   void measure(const DriveSample& sample, double dt);
+  void keep(const std::optional<ShiftRecord>& ended);
   void judge(std::vector<DriveFault> faults);
   void attribute(DriveFault& fault) const;
+  int gear_wanted(int gear) const noexcept;
   bool aborts(const DriveSample& sample);
   void follow_steps(const DriveSample& sample);
+  std::size_t steps_ahead(const DriveSample& sample);
   void judge_time(double time);
   void go_to(std::size_t step);
-  void say_hint(double time);
+  void say_hint(const DriveSample& sample);
+  bool goes_astray(const DriveSample& sample);
+  int gear_before(std::size_t step) const noexcept;
+  std::string hint_of(std::size_t step) const;
   void end(LessonEnd how);
   DriveProgress progress() const { return {last.car.distance - start_distance, highest - last.car.distance}; }
   bool all_done() const { return view.step >= lesson.steps.size(); }
 
   Lesson lesson;
+  Gate gate;
   LessonRunConfig config;
   ShiftMeter meter;
   FaultWatch watch;
-  HeldCondition held, next_held;
+  HeldCondition held;
+  std::vector<HeldCondition> ahead;  // of the steps that may be reached by passing over
   std::vector<HeldCondition> abort_held;
   LessonView view;
   LessonResult result;
@@ -70,6 +83,7 @@ struct LessonRun::State {
   double highest = 0.0;         // [m] of the distance since the step began
   double step_began = 0.0;      // [s]
   double steps_done = 0.0;      // [s] when the last step was
+  double on_course = 0.0;       // [s] when the gear last was one that the step may mean
 };
 
 LessonRun::LessonRun(const Lesson& lesson, const CarSpec& car, const Gate& gate, const LessonRunConfig& config) {
@@ -103,14 +117,14 @@ void LessonRun::add(const DriveSample& sample) {
   } else if (state.result.duration >= state.lesson.time_limit) {
     state.end(LessonEnd::out_of_time);
   } else {
-    state.say_hint(time);
+    state.say_hint(sample);
   }
 }
 
 void LessonRun::State::begin(const DriveSample& sample) {
   began = true;
   last = sample;
-  result.begin = step_began = sample.time();
+  result.begin = step_began = on_course = sample.time();
   start_distance = highest = sample.car.distance;
   start_slip = sample.car.slip_energy;
 }
@@ -124,14 +138,17 @@ void LessonRun::State::measure(const DriveSample& sample, double dt) {
   highest = std::max(highest, sample.car.distance);
 
   const std::optional<ShiftRecord> ended = meter.add(sample);
-  watch.add(sample, all_done() ? kNeutralGear : lesson.steps[view.step].gear, meter.is_open());
-  if (ended) watch.judge(*ended);
-  if (ended) {
-    result.shifts.push_back(*ended);
-    fresh.push_back(*ended);
-    for (DriveFault& fault : result.faults) attribute(fault);
-  }
+  watch.add(sample, gear_wanted(sample.car.gear), meter.is_open());
+  keep(ended);
   judge(watch.take());
+}
+
+void LessonRun::State::keep(const std::optional<ShiftRecord>& ended) {
+  if (!ended) return;
+  watch.judge(*ended);
+  result.shifts.push_back(*ended);
+  fresh.push_back(*ended);
+  for (DriveFault& fault : result.faults) attribute(fault);
 }
 
 // What this lesson does not look at is a note.
@@ -153,6 +170,16 @@ void LessonRun::State::attribute(DriveFault& fault) const {
   }
 }
 
+// That gear, where this step or one that may be reached by passing over means it; else the one that they lead to.
+int LessonRun::State::gear_wanted(int gear) const noexcept {
+  int wanted = kNeutralGear;
+  for (std::size_t i = view.step; !all_done() && i <= view.step + ahead.size(); ++i) {
+    const int meant = lesson.steps[i].gear;
+    if (meant != kNeutralGear && wanted != gear) wanted = meant;
+  }
+  return wanted;
+}
+
 bool LessonRun::State::aborts(const DriveSample& sample) {
   for (std::size_t i = 0; i < lesson.aborts.size(); ++i) {
     if (!abort_held[i].update(lesson.aborts[i].when, sample, progress())) continue;
@@ -163,20 +190,28 @@ bool LessonRun::State::aborts(const DriveSample& sample) {
   return false;
 }
 
-// A step that was passed over is done when the next one is: a learner who goes on is not kept waiting. But only by what
+// A step that may be skipped is done when one behind it is: a learner who goes on is not kept waiting. But only by what
 // was not so already when this step began.
 void LessonRun::State::follow_steps(const DriveSample& sample) {
   while (!all_done()) {
     const bool done = held.update(lesson.steps[view.step].until, sample, progress());
-    const bool has_next = view.step + 1 < lesson.steps.size();
-    const bool next =
-        has_next && next_held.update(lesson.steps[view.step + 1].until, sample, progress()) && next_held.began_false();
-    if (!done && !next) return;
+    const std::size_t skipped = steps_ahead(sample);
+    if (!done && skipped == 0) return;
     judge_time(sample.time());
-    step_began = steps_done = sample.time();
+    step_began = steps_done = on_course = sample.time();
     highest = sample.car.distance;
-    go_to(view.step + (done ? 1 : 2));
+    go_to(view.step + (done ? 1 : skipped + 1));
   }
+}
+
+// How many steps, this one first, are passed over now; 0: none.
+std::size_t LessonRun::State::steps_ahead(const DriveSample& sample) {
+  std::size_t skipped = 0;
+  for (std::size_t i = 0; i < ahead.size(); ++i) {
+    const DriveCondition& until = lesson.steps[view.step + 1 + i].until;
+    if (ahead[i].update(until, sample, progress()) && ahead[i].began_false()) skipped = i + 1;
+  }
+  return skipped;
 }
 
 // Of the step that is done, or was passed over: then it took until the next one was; or of the one that the lesson ended in.
@@ -194,21 +229,54 @@ void LessonRun::State::go_to(std::size_t step) {
   view.step = step;
   view.hint.clear();
   held.reset();
-  next_held.reset();
+  ahead.clear();
+  for (std::size_t i = step; i + 1 < lesson.steps.size() && lesson.steps[i].may_be_skipped; ++i) ahead.emplace_back();
   view.guided_gear = all_done() ? kNeutralGear : lesson.steps[step].gear;
   const bool prompted = !all_done() && (config.mode == LessonMode::follow_me || lesson.steps[step].call);
   view.prompt = prompted ? lesson.steps[step].prompt : lesson.goal;
 }
 
-void LessonRun::State::say_hint(double time) {
-  if (all_done() || config.hints != HintStyle::prescriptive || !view.hint.empty()) return;
+// Who is in a gear that the step does not mean would wait for ever: he is told, whatever the style of the hints.
+void LessonRun::State::say_hint(const DriveSample& sample) {
+  if (all_done()) return;
   const LessonStep& step = lesson.steps[view.step];
-  if (time - step_began >= step.patience) view.hint = step.hint;
+  if (goes_astray(sample)) {
+    view.hint = fmt::format("The lesson goes on in gear {}.", gear_name(*step.until.gear));
+  } else if (config.hints == HintStyle::prescriptive && sample.time() - step_began >= step.patience) {
+    view.hint = hint_of(view.step);
+  } else {
+    view.hint.clear();
+  }
+}
+
+// That the steps before this one left the car in.
+int LessonRun::State::gear_before(std::size_t index) const noexcept {
+  int gear = lesson.start.gear;
+  for (std::size_t i = 0; i < index; ++i) gear = lesson.steps[i].until.gear.value_or(gear);
+  return gear;
+}
+
+// The file's, or else for the lever its way in this gate.
+std::string LessonRun::State::hint_of(std::size_t index) const {
+  const LessonStep& step = lesson.steps[index];
+  if (!step.hint.empty() || !step.until.gear) return step.hint;
+  const int from = gear_before(index);
+  return from == *step.until.gear ? std::string() : lever_way(gate, from, *step.until.gear);
+}
+
+bool LessonRun::State::goes_astray(const DriveSample& sample) {
+  const int wanted = lesson.steps[view.step].until.gear.value_or(kNeutralGear);
+  const int gear = sample.car.gear;
+  const bool astray =
+      wanted != kNeutralGear && gear != kNeutralGear && gear != wanted && gear != gear_before(view.step);
+  if (!astray) on_course = sample.time();
+  return sample.time() - on_course >= kAstray;
 }
 
 void LessonRun::State::end(LessonEnd how) {
   result.end = how;
   if (!all_done()) judge_time(last.time());
+  keep(meter.finish());
   watch.finish();
   judge(watch.take());
   grade_result(lesson, result);
@@ -223,12 +291,21 @@ void LessonRun::mark_torn() {
   grade_result(state_->lesson, state_->result);
 }
 
+void LessonRun::mark_forceless() {
+  state_->result.had_forces = false;
+  mark_torn();
+}
+
 void LessonRun::leave() {
   if (!is_over()) state_->end(LessonEnd::left);
 }
 
 const LessonView& LessonRun::view() const noexcept {
   return state_->view;
+}
+
+bool LessonRun::is_in_shift() const noexcept {
+  return state_->meter.is_open();
 }
 
 bool LessonRun::is_over() const noexcept {

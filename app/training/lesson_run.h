@@ -40,10 +40,12 @@ class LessonRun {
 
   void add(const DriveSample& sample);  // every cycle, in order
   void mark_torn();                     // samples were lost: no grade
+  void mark_forceless();                // the lever had no forces: no grade
   void leave();                         // the learner gives up
 
   const LessonView& view() const noexcept;
   bool is_over() const noexcept;
+  bool is_in_shift() const noexcept;
   // So far, or whole once it is over.
   const LessonResult& result() const noexcept;
   // Shifts that have ended since the last call, for the history.

@@ -8,12 +8,13 @@
 namespace gearshift {
 
 // Keeps the value of largest magnitude, sign included, of each of ten parts of the window: what it answers is the peak
-// over the last 0.9 to 1 windows.
+// over the last 0.9 to 1 windows. What is no number is left out.
 class RecentPeak {
  public:
   explicit RecentPeak(double window) noexcept : part_(window / kParts) {}  // [s]
 
   void add(double value, double dt) noexcept {
+    if (!std::isfinite(value)) return;
     age_ += dt;
     if (age_ >= part_) {
       age_ = 0.0;

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/training/gate_path.h"
+#include "app/training/guided_world.h"
 #include "app/training/step_order.h"
 #include "haptics/gate/gate_feel.h"
 
@@ -17,7 +18,9 @@ constexpr double kTorqueWindow = 0.5;  // [s] before a shift: long enough to hol
 constexpr double kTorqueGapShare = 0.05;
 constexpr double kLeastTorque = 5.0;    // [N m] at the wheels; without drive before there is no gap
 constexpr double kFirstTorque = 1.0;    // [N m] of the clutch: above the drag of an open one
-constexpr double kGivesUp = 2.0;        // [s] in neutral
+constexpr double kGivesUp = 2.0;        // [s] with the clutch up and nothing done
+constexpr double kPushes = 3.0;         // [N] against ring or dogs: still tried
+constexpr double kStirs = 0.002;        // [m] that a lever must move to be taken up again
 constexpr double kSlipsForEver = 5.0;   // [s] gear and clutch in without locking: the shift is over all the same
 constexpr double kThrottleOn = 0.08;    // [1]
 constexpr double kThrottleOff = 0.04;   // [1]
@@ -67,6 +70,8 @@ std::optional<ShiftRecord> ShiftMeter::add(const DriveSample& sample) {
     end(last_);
     ended = close();
   }
+  if (sample.controls.guidance > 0.0) guided_at_ = time;
+  if (!stays(sample)) left_slot_ = kNoSlot;
   if (stage_ == Stage::idle && begins(sample)) {
     begin(sample, throttle_was_on);
     follow(sample, 0.0, throttle_was_on);
@@ -92,8 +97,26 @@ int ShiftMeter::slot_proper(const DriveSample& now) const noexcept {
   return behind ? slot_at(gate_, now.lever.proxy) : kNoSlot;
 }
 
+// The lever is at ring or dogs of a gear that it did not come from.
+bool ShiftMeter::tries_another(const DriveSample& now) const noexcept {
+  const int slot = slot_proper(now);
+  return touches_dogs(now) && slot != kNoSlot && slot_of(gate_, slot).gear != open_.record.from;
+}
+
+// Pressed against ring or dogs.
+bool ShiftMeter::pushes_on(const DriveSample& now) const noexcept {
+  return touches_dogs(now) && glm::length(now.lever.f_h) > kPushes;
+}
+
+// The lever is where it was left when the last shift was given up.
+bool ShiftMeter::stays(const DriveSample& now) const noexcept {
+  return left_slot_ != kNoSlot && slot_at(gate_, now.lever.proxy) == left_slot_ &&
+         std::abs(std::abs(now.lever.proxy.y) - left_depth_) < kStirs;
+}
+
 bool ShiftMeter::begins(const DriveSample& now) const noexcept {
   if (pedal_.went_down()) return true;
+  if (stays(now)) return now.car.gear != gear_ || pushes_on(now);
   if (gear_ != kNeutralGear) return !rests_in(now, gear_);
   return slot_proper(now) != kNoSlot || now.car.gear != kNeutralGear;
 }
@@ -112,6 +135,8 @@ void ShiftMeter::begin(const DriveSample& now, bool throttle_was_on) {
   open_.torque_before = torque_.value();
   open_.slip_before = last_.car.slip_energy;
   open_.way = {now.lever.proxy, now.lever.lever, 0.0};
+  // The force fades for a while after it was asked for.
+  open_.record.guided = now.time() - guided_at_ <= kGuidanceFades;
   if (!throttle_was_on) open_.record.steps.push_back(ShiftStep::throttle_off);
   stage_ = Stage::open;
 }
@@ -125,12 +150,15 @@ void ShiftMeter::follow(const DriveSample& now, double dt, bool throttle_was_on)
   integrate(now, dt);
   feel(now, dt);
   walk(now);
-  if (is_taken_back()) {
-    stage_ = Stage::idle;
-  } else if (has_ended(now)) {
-    end(now);
-    stage_ = Stage::settling;
+  follow_rest(now);
+  if (is_taken_back()) stage_ = Stage::idle;
+  if (stage_ == Stage::idle || !has_ended(now)) return;
+  if (open_.rest == Rest::given_up) {
+    left_slot_ = slot_at(gate_, now.lever.proxy);
+    left_depth_ = std::abs(now.lever.proxy.y);
   }
+  if (is_shift()) end(now);
+  stage_ = is_shift() ? Stage::settling : Stage::idle;
 }
 
 void ShiftMeter::follow_clutch(const DriveSample& now) {
@@ -142,6 +170,7 @@ void ShiftMeter::follow_clutch(const DriveSample& now) {
   if (pedal_.is_down()) {
     open_.record.flare = std::max(open_.record.flare, now.car.engine_speed - open_.flare_base);
   }
+  if (pedal_.went_up() && open_.early_up_at == 0.0 && tries_another(now)) open_.early_up_at = pedal_.up_at();
   open_.record.guided = open_.record.guided || now.controls.guidance > 0.0;
 }
 
@@ -184,6 +213,8 @@ void ShiftMeter::follow_gear(const DriveSample& now) {
     open_.took_torque = false;
     if (open_.gear_in) {
       open_.gear_in_at = now.time();
+      const int slot = slot_of_gear(gate_, gear);
+      if (slot != kNoSlot) open_.engaged[static_cast<std::size_t>(slot)] = true;
       arrive(now);
     }
   }
@@ -245,32 +276,54 @@ bool ShiftMeter::is_taken_back() const noexcept {
   return !pedal_.is_down() && !open_.left && !open_.dogs_out && !open_.tried;
 }
 
-bool ShiftMeter::has_ended(const DriveSample& now) {
-  const bool in_aisle = open_.record.to == kNeutralGear && slot_proper(now) == kNoSlot;
-  Rest rest = Rest::busy;
-  if (open_.coupled) rest = Rest::coupled;
-  if (in_aisle && !pedal_.is_down()) rest = Rest::neutral;
-  if (rest != open_.rest) open_.rest_since = now.time();
-  open_.rest = rest;
-  const double rested = now.time() - open_.rest_since;
-  if (rest == Rest::coupled) return now.car.clutch_locked || rested > kSlipsForEver;
-  return rest == Rest::neutral && rested > kGivesUp;
+bool ShiftMeter::is_shift() const noexcept {
+  return open_.dogs_out || open_.tried;
 }
 
-void ShiftMeter::end(const DriveSample& at) {
+// Wherever the lever is: also in a mouth, or off the rest of a gear that is still in.
+void ShiftMeter::follow_rest(const DriveSample& now) {
+  Rest rest = pedal_.is_down() || pushes_on(now) ? Rest::busy : Rest::given_up;
+  if (open_.coupled) rest = Rest::coupled;
+  if (rest != open_.rest) open_.rest_since = now.time();
+  open_.rest = rest;
+}
+
+bool ShiftMeter::has_ended(const DriveSample& now) const noexcept {
+  const double rested = now.time() - open_.rest_since;
+  if (open_.rest == Rest::coupled) return now.car.clutch_locked || rested > kSlipsForEver;
+  return open_.rest == Rest::given_up && rested > kGivesUp;
+}
+
+// whole: false where the drive ends before the shift does.
+void ShiftMeter::end(const DriveSample& at, bool whole) {
   ShiftRecord& record = open_.record;
   record.end = at.time();
-  record.missed = record.to == kNeutralGear ? open_.tried : record.to == record.from;
+  const auto was_in = [this](int gear) {
+    const int slot = slot_of_gear(gate_, gear);
+    return slot != kNoSlot && open_.engaged[static_cast<std::size_t>(slot)];
+  };
+  record.missed = record.to == kNeutralGear ? open_.tried && !was_in(open_.tried_gear) : record.to == record.from;
   if (open_.gear_in) record.lever_time = open_.gear_in_at - open_.left_at;
   if (open_.clutch_used && open_.left) record.clutch_lead = open_.left_at - open_.clutch_down_at;
-  if (open_.clutch_used && open_.gear_in) record.clutch_lag = pedal_.up_at() - open_.gear_in_at;
+  // Who presses it again, because the gear would not go in, was early all the same.
+  const double last_up = !whole && pedal_.is_down() ? at.time() : pedal_.up_at();
+  const double up_at = open_.early_up_at > 0.0 ? open_.early_up_at : last_up;
+  if (open_.clutch_used && open_.gear_in) record.clutch_lag = up_at - open_.gear_in_at;
   if (!open_.gear_in) arrive(at);
-  record.steps_out_of_place = steps_out_of_place(record.steps, record.from, record.to);
-  const int goal = record.to == kNeutralGear ? open_.tried_gear : record.to;
+  record.steps_out_of_place = steps_out_of_place(record.steps, record.from, record.to, whole);
+  const int goal = record.to == kNeutralGear || record.missed ? open_.tried_gear : record.to;
   for (std::size_t i = 0; i < open_.entered.size(); ++i) {
     const int gear = gate_.slot[i].gear;
-    if (gear != record.from && gear != goal) record.wrong_columns += open_.entered[i];
+    if (gear != record.from && gear != goal && !open_.engaged[i]) record.wrong_columns += open_.entered[i];
   }
+}
+
+std::optional<ShiftRecord> ShiftMeter::finish() {
+  const bool in_progress = stage_ == Stage::open && is_shift();
+  if (in_progress) end(last_, false);
+  if (in_progress || stage_ == Stage::settling) return close();
+  stage_ = Stage::idle;
+  return std::nullopt;
 }
 
 ShiftRecord ShiftMeter::close() {

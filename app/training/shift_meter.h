@@ -28,12 +28,16 @@ class ShiftMeter {
   // begins. What was begun and taken back before the gear was left is no shift and leaves no record.
   std::optional<ShiftRecord> add(const DriveSample& sample);
 
+  // The drive is over: the shift that is in progress or still settles, if it is one (a gear was lost or another one
+  // tried). What was still to come does not count against it.
+  std::optional<ShiftRecord> finish();
+
   bool is_open() const noexcept { return stage_ == Stage::open; }         // a shift has begun and not ended
   bool is_pending() const noexcept { return stage_ == Stage::settling; }  // ended, its record is still to come
 
  private:
   enum class Stage { idle, open, settling };
-  enum class Rest { busy, coupled, neutral };  // gear and clutch in; no gear, clutch in and the lever in the aisle
+  enum class Rest { busy, coupled, given_up };  // gear and clutch in; clutch in, no new gear, and nothing done about it
 
   struct Way {               // of the lever, by chords
     glm::dvec2 begin{0.0};   // [m] of the drawn lever
@@ -47,6 +51,7 @@ class ShiftMeter {
     double slip_before = 0.0;     // [J]
     double flare_base = 0.0;      // [rad/s]
     double clutch_down_at = 0.0;  // [s]
+    double early_up_at = 0.0;     // [s] the clutch came up against ring or dogs, the first time; 0: it did not
     double left_at = 0.0;         // [s]
     double gear_in_at = 0.0;      // [s]
     double rest_since = 0.0;      // [s]
@@ -61,7 +66,8 @@ class ShiftMeter {
     bool clutch_is_down = false;
     bool took_torque = false;
     int tried_gear = kNeutralGear;
-    int last_slot = kNoSlot;  // that the lever is properly in
+    std::array<bool, kMaxSlots> engaged{};  // gears that were in on the way
+    int last_slot = kNoSlot;                // that the lever is properly in
     std::array<int, kMaxSlots> entered{};
     Way way;
   };
@@ -79,13 +85,18 @@ class ShiftMeter {
   void walk(const DriveSample& now);
   void arrive(const DriveSample& now);
   bool is_taken_back() const noexcept;
-  bool has_ended(const DriveSample& now);
+  void follow_rest(const DriveSample& now);
+  bool has_ended(const DriveSample& now) const noexcept;
+  bool is_shift() const noexcept;
   bool begins_anew(const DriveSample& now) const noexcept;
-  void end(const DriveSample& at);
+  void end(const DriveSample& at, bool whole = true);
   ShiftRecord close();
 
   bool rests_in(const DriveSample& now, int gear) const noexcept;
   int slot_proper(const DriveSample& now) const noexcept;
+  bool tries_another(const DriveSample& now) const noexcept;
+  bool pushes_on(const DriveSample& now) const noexcept;
+  bool stays(const DriveSample& now) const noexcept;
 
   CarSpec car_;
   Gate gate_;
@@ -98,6 +109,9 @@ class ShiftMeter {
   bool first_ = true;
   bool throttle_on_ = false;
   int gear_ = kNeutralGear;  // the last that was at rest
+  int left_slot_ = kNoSlot;  // where the lever was left when the last shift was given up
+  double left_depth_ = 0.0;  // [m]
+  double guided_at_ = -1e9;  // [s] guidance was asked for, the last time
   std::int64_t number_ = 0;
 };
 

@@ -1,7 +1,7 @@
 // One shift, measured: what facts of scoring and coaching stand on.
 //
 // A shift begins when the clutch pedal passes its bite point downwards or the lever leaves the gear's rest, whichever is
-// first, and ends when gear and clutch are in again (or the driver gives up: 2 s in neutral with the clutch up).
+// first, and ends when gear and clutch are in again (or the driver gives up: 2 s without a gear, the clutch up).
 #pragma once
 
 #include <cstdint>
@@ -20,7 +20,7 @@ struct ShiftRecord {
   double end = 0.0;         // [s]
   int from = kNeutralGear;
   int to = kNeutralGear;  // what was engaged at the end
-  bool guided = false;    // a guidance force was on: never graded
+  bool guided = false;    // a guidance force was on, or still fading: never graded
 
   // Time
   double clutch_time = 0.0;  // [s] pedal past the bite point on its way down until past it on its way up
@@ -34,7 +34,7 @@ struct ShiftRecord {
   double rev_error = 0.0;        // [rad/s] engine less shaft at the first clutch torque after the gear was in
   double flare = 0.0;            // [rad/s] rise of the engine's speed while the clutch was down
   double clutch_lead = 0.0;      // [s] gear left after the clutch was down; negative: before
-  double clutch_lag = 0.0;       // [s] clutch up after the gear was in; negative: before
+  double clutch_lag = 0.0;       // [s] clutch up after the gear was in; negative: before, though it was pressed again
 
   // Comfort
   double jerk_peak = 0.0;       // [m/s^3] of the acceleration after a 15 Hz second-order low-pass
@@ -47,14 +47,14 @@ struct ShiftRecord {
   double path_length = 0.0;      // [m] of the lever
   double path_efficiency = 1.0;  // [1] path length over the shortest way through the gate, >= 1
   double overshoot = 0.0;        // [m] the lever's deepest place beyond the drawn lever
-  int wrong_columns = 0;         // mouths entered off the shortest way
+  int wrong_columns = 0;         // mouths entered off the way, but those of gears that were in
   double block_time = 0.0;       // [s] pushed against a blocking synchroniser
   double grind_time = 0.0;       // [s]
   double grind_energy = 0.0;     // [J]
   bool missed = false;           // gave up, or came back to the gear it left
 
   std::vector<ShiftStep> steps;  // as they happened
-  int steps_out_of_place = 0;    // edit distance to the taught order
+  int steps_out_of_place = 0;    // edit distance to the nearest of the orders that are taught
 };
 
 }  // namespace gearshift

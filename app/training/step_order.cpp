@@ -4,12 +4,16 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <limits>
 #include <numeric>
 
 namespace gearshift {
 namespace {
 
-int edit_distance(std::span<const ShiftStep> a, std::span<const ShiftStep> b) {
+using Steps = std::vector<ShiftStep>;
+
+// Of a to the first j of b, for each j.
+std::vector<int> edit_distances(std::span<const ShiftStep> a, std::span<const ShiftStep> b) {
   std::vector<int> row(b.size() + 1);  // distances of the first i of a to the first j of b
   std::iota(row.begin(), row.end(), 0);
   for (std::size_t i = 0; i < a.size(); ++i) {
@@ -20,7 +24,41 @@ int edit_distance(std::span<const ShiftStep> a, std::span<const ShiftStep> b) {
       row[j + 1] = std::min({replaced, row[j] + 1, row[j + 1] + 1});
     }
   }
-  return row.back();
+  return row;
+}
+
+// Up and down again in neutral.
+Steps double_declutched() {
+  using enum ShiftStep;
+  return {throttle_off, clutch_down, neutral, clutch_up, clutch_down, gear, clutch_up, throttle_on};
+}
+
+// `order` with a blip between its first clutch down and its last clutch up, in every place where it can be.
+std::vector<Steps> with_blip(const Steps& order) {
+  const auto first = std::find(order.begin(), order.end(), ShiftStep::clutch_down) - order.begin() + 1;
+  const auto last = order.rend() - std::find(order.rbegin(), order.rend(), ShiftStep::clutch_up) - 1;
+  std::vector<Steps> orders;
+  for (auto on = first; on <= last; ++on) {
+    for (auto off = on; off <= last; ++off) {
+      Steps blip = order;
+      blip.insert(blip.begin() + off, ShiftStep::throttle_off);
+      blip.insert(blip.begin() + on, ShiftStep::throttle_on);
+      orders.push_back(blip);
+    }
+  }
+  return orders;
+}
+
+std::vector<Steps> taught_orders(int from, int to) {
+  std::vector<Steps> orders{taught_steps(from, to)};
+  if (from == kNeutralGear || to == kNeutralGear) return orders;
+  orders.push_back(double_declutched());
+  if (to < 1 || to >= from) return orders;
+  for (const Steps& order : {orders[0], orders[1]}) {
+    const std::vector<Steps> blips = with_blip(order);
+    orders.insert(orders.end(), blips.begin(), blips.end());
+  }
+  return orders;
 }
 
 }  // namespace
@@ -33,10 +71,13 @@ std::vector<ShiftStep> taught_steps(int from, int to) {
   return steps;
 }
 
-int steps_out_of_place(std::span<const ShiftStep> steps, int from, int to) {
-  const std::vector<ShiftStep> taught = taught_steps(from, to);
-  const std::span<const ShiftStep> whole(taught);
-  return std::min(edit_distance(steps, whole), edit_distance(steps, whole.first(whole.size() - 1)));
+int steps_out_of_place(std::span<const ShiftStep> steps, int from, int to, bool whole) {
+  int least = std::numeric_limits<int>::max();
+  for (const Steps& order : taught_orders(from, to)) {
+    const std::vector<int> distances = edit_distances(steps, order);
+    least = std::min(least, *std::min_element(whole ? distances.end() - 2 : distances.begin(), distances.end()));
+  }
+  return least;
 }
 
 }  // namespace gearshift

@@ -27,10 +27,10 @@ struct Suggestion {
 };
 
 // The shipped lessons as they build on each other: to start and to stop before any gear is changed, as Carnetsoft does.
-inline constexpr std::array<std::string_view, 12> kTeachingOrder{
-    "start_and_stop", "bite_point",  "moving_off",     "up_through_the_gears", "down_through_the_gears",
-    "reverse",        "hill_start",  "emergency_stop", "skip_shifts",          "eco_driving",
-    "rev_matching",   "another_gate"};
+inline constexpr std::array<std::string_view, 13> kTeachingOrder{
+    "start_and_stop", "bite_point",   "moving_off",     "up_through_the_gears", "down_through_the_gears",
+    "reverse",        "hill_start",   "emergency_stop", "skip_shifts",          "eco_driving",
+    "rev_matching",   "another_gate", "six_speed"};
 
 // Mean grade of a task's last three results; none where it has none. [1] of 10
 std::optional<double> task_grade(std::span<const PastResult> past, std::string_view task);

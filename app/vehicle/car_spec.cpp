@@ -42,7 +42,6 @@ constexpr Range kCones{1.0, 4.0};
 constexpr Range kPointingDeg{30.0, 70.0};
 constexpr Range kTeeth{6.0, 120.0};
 constexpr Range kDogRpm{0.5, 100.0};
-constexpr Range kSleeveMm{2.0, 40.0};
 constexpr Range kLeverRatio{1.0, 30.0};
 
 constexpr Range kMassKg{100.0, 60000.0};
@@ -162,7 +161,6 @@ SynchroSpec read_synchro(const TomlTable& table) {
   synchro.index_friction = table.number("index_friction", kFriction);
   synchro.teeth = table.number("teeth", kTeeth);
   synchro.dog_speed = table.number("dog_rpm", kDogRpm) * kPerRpm;
-  synchro.sleeve_travel = table.number("sleeve_travel_mm", kSleeveMm) * kMetresPerMillimetre;
   synchro.lever_ratio = table.number("lever_ratio", kLeverRatio);
   synchro.efficiency = table.number("efficiency", kEfficiency);
   table.refuse_unknown_keys();

@@ -66,7 +66,6 @@ struct SynchroSpec {
   double index_friction = 0.09;  // [1]
   double teeth = 36.0;           // [1] of the dogs
   double dog_speed = 1.0;        // [rad/s] difference up to which dogs go in
-  double sleeve_travel = 0.009;  // [m] neutral to home
   double lever_ratio = 9.0;      // [1] knob to sleeve
   double efficiency = 0.8;       // [1] of the linkage
 };

@@ -58,11 +58,13 @@ void Driveline::step(const DrivelineInput& in, double seconds) noexcept {
   length_ = seconds > 0.0 ? std::min(seconds, kLongestStep) : 0.0;
   take(in);
   if (!(length_ > 0.0)) settle_here();
+  const double before = speed_[engine_body];
   while (time_ < length_) {
     const double next = std::min({length_, time_ + kLongestPiece, next_kink(time_)});
     advance(next - time_);
     time_ = next;
   }
+  engine_.turn(0.5 * length_ * (before + speed_[engine_body]));
   show(clutch_capacity(car_.clutch, pedal_.to));
 }
 
@@ -127,7 +129,7 @@ double Driveline::next_kink(double after) const noexcept {
 
 void Driveline::show(double capacity) noexcept {
   const ChainMotion& motion = now_.motion;
-  const double engine = speed_[engine_body];
+  const double engine = std::max(0.0, speed_[engine_body]);  // nor -0, where it was stopped from behind
   state_.engine_speed = engine;
   state_.engine_load = engine_.load(engine, state_.throttle);
   state_.engine_torque = engine_.torque(engine, state_.throttle) - friction_torque(car_.engine, engine);

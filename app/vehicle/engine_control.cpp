@@ -4,17 +4,26 @@
 
 namespace gearshift {
 namespace {
-constexpr double kFiresAt = 0.5;  // [1] of the starter's speed: turned that fast, a dead engine fires
-}
+// A dead engine fires once the starter has turned it so fast, and so far: a four-stroke's control knows after two turns
+// at the latest which cylinder is next. [engineering value]s
+constexpr double kFiresAt = 0.5;        // [1] of the starter's speed
+constexpr double kFindsItself = 12.57;  // [rad]
+}  // namespace
 
 EngineControl::EngineControl(const EngineSpec& spec) noexcept : spec_(spec) {
   const double most = full(spec.idle);
   idle_load_ = most > 0.0 ? std::min(1.0, friction_torque(spec, spec.idle) / most) : 0.0;
 }
 
+void EngineControl::turn_key(bool ignition, bool starter) noexcept {
+  ignition_ = ignition;
+  starter_ = ignition && starter;
+  if (!starter_) cranked_ = 0.0;
+}
+
 EngineControl::Fires EngineControl::next(double speed) const noexcept {
   if (!ignition_) return {false, false};
-  const bool turned = starter_ && speed >= kFiresAt * spec_.starter_speed;
+  const bool turned = starter_ && cranked_ >= kFindsItself && speed >= kFiresAt * spec_.starter_speed;
   const bool survives = fires_.running && speed >= spec_.stall;
   const bool running = turned || survives;
   const bool cut = speed > spec_.limiter || (fires_.cut && speed >= spec_.limiter - spec_.limiter_band);

@@ -9,10 +9,12 @@ class EngineControl {
  public:
   explicit EngineControl(const EngineSpec& spec) noexcept;
 
-  void turn_key(bool ignition, bool starter) noexcept { ignition_ = ignition, starter_ = ignition && starter; }
+  void turn_key(bool ignition, bool starter) noexcept;
+  // It has turned so far [rad]. What it turns under the starter counts: an engine must first find its cylinders.
+  void turn(double angle) noexcept { cranked_ += starter_ ? angle : 0.0; }
   void set_running(bool running) noexcept { fires_ = {running, false}; }
-  // What speed [rad/s] and key change: it dies below its stall speed and stays dead until the starter has turned it fast
-  // enough; the limiter cuts the fuel until the speed has fallen by its band.
+  // What speed [rad/s] and key change: it dies below its stall speed and stays dead until the starter has turned it far
+  // and fast enough; let go before it runs by itself, it dies again; the limiter cuts the fuel until the speed has fallen by its band.
   void update(double speed) noexcept { fires_ = next(speed); }
   bool would_change(double speed) const noexcept { return !(next(speed) == fires_); }
 
@@ -36,6 +38,7 @@ class EngineControl {
   EngineSpec spec_;
   double idle_load_;  // [1] that gives back the friction at idle
   bool ignition_ = true, starter_ = false;
+  double cranked_ = 0.0;  // [rad] since the starter began
   Fires fires_;
 };
 

@@ -1,5 +1,3 @@
-// This work is based on:
-// Commission Regulation (EU) No 65/2012 as regards gear shift indicators, Annex I. 2012
 #include "app/vehicle/shift_advice.h"
 
 namespace gearshift {

@@ -1,5 +1,9 @@
-// The shift light: which gear would do with less fuel, or with less harm, as a gear shift indicator says it (Regulation
-// (EU) 65/2012, Annex I: the driver is told visually, by the gear in which the car would use less).
+// The shift light: two limits of engine speed, above which the next gear up is advised, and below which the next one
+// down.
+//
+// Less than the gear shift indicator of Regulation (EU) 65/2012, Annex I, which it stands for: that one estimates in
+// which gear the car would burn less. Here no fuel is estimated, and nothing is asked of the torque that is left in the
+// higher gear: who drives uphill with the throttle open is told to shift up too.
 #pragma once
 
 #include "app/vehicle/car_spec.h"

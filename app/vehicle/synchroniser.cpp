@@ -116,8 +116,8 @@ void Synchroniser::follow(const SleeveInput& in) noexcept {
     if (in.depth >= at_.home) bump_ = 0.0;
     passed_ = true;
   }
-  if (in.depth > at_.block + kTouch) passed_ = true;
   if (in.depth < at_.block) passed_ = false;
+  if (in.depth > at_.block + kTouch && !ring_blocks(in)) passed_ = true;
   effort_ = in.depth < at_.crest ? 0.0 : std::max(effort_, push_);
   if (!is_meshed() && in.depth >= at_.dogs - kTouch && matches(in)) mesh(in.depth);
 }
@@ -148,14 +148,14 @@ bool Synchroniser::matches(const SleeveInput& in) const noexcept {
   return std::abs(in.difference) <= synchro_.dog_speed;
 }
 
-// The cone's torque keeps the ring turned into the sleeve's way as long as there is a difference of speeds. Reverse has
-// no ring.
+// The cone's torque keeps the ring turned into the sleeve's way as long as there is a difference of speeds. A lever that
+// is past it within one cycle was not let through: it is held where it is. Reverse has no ring.
 bool Synchroniser::ring_blocks(const SleeveInput& in) const noexcept {
   return ring_holds_ && !passed_ && !matches(in) && slot_of(gate_, slot_).gear != kReverseGear;
 }
 
 bool Synchroniser::clashes(const SleeveInput& in) const noexcept {
-  return slot_ != kNoSlot && !is_meshed() && in.depth >= at_.dogs - kTouch;
+  return slot_ != kNoSlot && !is_meshed() && in.depth >= at_.dogs - kTouch && !ring_blocks(in);
 }
 
 SyncPhase Synchroniser::phase(const SleeveInput& in) const noexcept {

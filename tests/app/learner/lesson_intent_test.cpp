@@ -46,7 +46,7 @@ TEST_CASE("a condition's speeds, revs and pedals say what to do with the car") {
   CHECK_FALSE(intent_for(faster).accelerates);
 
   DriveCondition held;
-  held.engine_above = 150.0;
+  held.clutch_torque_above = 45.0;
   held.hand_brake_above = 0.5;
   CHECK(intent_for(held).motion == Motion::bite);
 }

@@ -84,6 +84,48 @@ TEST_CASE("in a sound box no forward gear grinds, in a worn one it does: it is t
   }
 }
 
+TEST_CASE("who is practised waits for the ring with the left foot: no clutch too early, and no forward gear grinds") {
+  struct Drive {
+    const char* lesson;
+    double error;
+    std::uint64_t seed;
+  };
+  std::vector<Drive> drives{{"skip_shifts", 0.071, 16457714044703236328u},  // these three did
+                            {"rev_matching", 0.137, 17042378558995876589u},
+                            {"another_gate", 0.131, 14678223327695899131u}};
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) drives.push_back({"skip_shifts", 0.15, seed});
+  for (const Drive& drive : drives) {
+    LessonDriveConfig config = shipped_drive(drive.lesson, drive.seed);
+    config.skill = skill_of(drive.error);
+    bool ground = false;
+    config.watch = [&](const DriveSample& now) { ground = ground || now.car.grinding; };
+    const LessonResult result = drive_lesson(config);
+    CAPTURE(drive.lesson);
+    CAPTURE(drive.seed);
+    CAPTURE(fault_list(result));
+    CHECK_FALSE(ground);
+    CHECK_FALSE(names(result, FaultKind::clutch_early));
+  }
+}
+
+TEST_CASE("a clutch that comes up between the ring and the dogs grinds a sound box too, and is named as the cause") {
+  int ground = 0;
+  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+    LessonDriveConfig config = shipped_drive("skip_shifts", seed);
+    config.skill = skill_of(0.9);
+    bool grinds = false;
+    config.watch = [&](const DriveSample& now) { grinds = grinds || now.car.grinding; };
+    const LessonResult result = drive_lesson(config);
+    CAPTURE(seed);
+    CAPTURE(fault_list(result));
+    if (!grinds) continue;
+    ++ground;
+    CHECK((names(result, FaultKind::clutch_early) || names(result, FaultKind::clutch_late)));
+  }
+  CHECK(ground > 0);
+  CHECK(ground < 15);
+}
+
 TEST_CASE("the other car is driven by the same learner, in its own gate") {
   for (const std::string_view key : {"start_and_stop", "moving_off", "up_through_the_gears", "down_through_the_gears",
                                      "reverse", "hill_start", "skip_shifts"}) {

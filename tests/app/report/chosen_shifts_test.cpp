@@ -1,6 +1,10 @@
 // Which shifts are worth looking at.
 #include "app/report/chosen_shifts.h"
 
+#include <functional>
+#include <utility>
+#include <vector>
+
 #include <doctest/doctest.h>
 
 #include "tests/app/report/constructed_history.h"
@@ -37,4 +41,35 @@ TEST_CASE("chosen: at most three of each, graded runs alone, the worst by points
   CHECK(chosen.best[0].shift.number == 1);
   for (const ChosenShift& best : chosen.best) CHECK(best.run != 5);
   CHECK(choose_shifts({}).worst.empty());
+}
+
+TEST_CASE("the best: the quickest of those in which nothing was wrong, whatever it cost") {
+  using Spoil = std::function<void(LessonResult&)>;
+  const auto fault = [](FaultKind kind, Severity severity) {
+    return [=](LessonResult& result) { result.faults = {{kind, severity, 5.2, 1.0, 0}}; };
+  };
+  const std::vector<std::pair<const char*, Spoil>> wrong{
+      {"a step out of place", [](LessonResult& r) { r.shifts[0].steps_out_of_place = 1; }},
+      {"clutch up before the gear was in", [](LessonResult& r) { r.shifts[0].clutch_lag = -0.01; }},
+      {"lever before the clutch", [](LessonResult& r) { r.shifts[0].clutch_lead = -0.01; }},
+      {"a block", [](LessonResult& r) { r.shifts[0].block_time = 1.2; }},
+      {"a grind", [](LessonResult& r) { r.shifts[0].grind_time = 0.001; }},
+      {"a wrong slot", [](LessonResult& r) { r.shifts[0].wrong_columns = 1; }},
+      {"a fault that cost nothing", fault(FaultKind::over_push, Severity::minor)},
+      {"a note", fault(FaultKind::jerk, Severity::note)},
+  };
+  for (const auto& [name, spoil] : wrong) {
+    CAPTURE(name);
+    LearnerHistory history;
+    history.runs = {run_with(1, 1, 10.0), run_with(2, 1, 10.0)};
+    LessonResult& quick = history.runs[1].row.result;
+    quick.shifts[0].end -= 0.2;
+    quick.shifts[0].block_time = 0.3;  // a synchroniser's ordinary work is no block
+    REQUIRE(choose_shifts(history).best.size() == 2);
+    CHECK(choose_shifts(history).best[0].run == 2);
+    spoil(quick);
+    const ChosenShifts chosen = choose_shifts(history);
+    REQUIRE(chosen.best.size() == 1);
+    CHECK(chosen.best[0].run == 1);
+  }
 }

@@ -62,3 +62,13 @@ TEST_CASE("two deviations hold the truth in about 95 of 100 fits") {
     CHECK(within_half[i] > 0.60 * fits);
   }
 }
+
+TEST_CASE("a level at its bound is given: the first trial is known as well as the gain, far out all is known") {
+  std::vector<double> grades;  // towards 11, with a little scatter
+  for (int n = 0; n < 12; ++n) grades.push_back(11.0 - 8.0 * std::exp(-n / 8.0) + (n % 2 == 0 ? 0.2 : -0.2));
+  const auto curve = fit_learning_curve(grades, {0.0, 10.0});
+  REQUIRE(curve.has_value());
+  REQUIRE(curve->at_bound);
+  CHECK(curve_deviation(*curve, 12, 0.0) == doctest::Approx(curve->gain.deviation).epsilon(1e-6));
+  CHECK(curve_deviation(*curve, 12, 1e4) < 1e-9);
+}

@@ -1,6 +1,9 @@
 // Gone is gone: rows, recordings and the name's bytes; what is another's, or no recording, stays.
 #include "app/report/delete_learner.h"
 
+#include <sqlite3.h>
+
+#include <chrono>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
@@ -59,6 +62,7 @@ TEST_CASE("deleted: rows, comments and recordings go, and what went is told; oth
     CHECK(gone.shifts == 14);
     CHECK(gone.faults == 28);
     CHECK(gone.comments == 7);
+    CHECK(gone.left.empty());
     CHECK(gone.recordings.size() == 3);  // own, near and the one that was gone before
     REQUIRE(gone.kept.size() == 2);
     CHECK_FALSE(history.find_learner("Zebediah").has_value());
@@ -70,6 +74,23 @@ TEST_CASE("deleted: rows, comments and recordings go, and what went is told; oth
   CHECK(file_bytes(letter) == "Dear Ada");
   CHECK(std::filesystem::is_symlink(folder / "link.trace"));
   CHECK(file_bytes(folder / "history.db").find("Zebediah") == std::string::npos);
+}
+
+TEST_CASE("where deleted rows cannot leave the file, the recordings are gone all the same, and that is said") {
+  const TempFolder folder;
+  write(folder / "own.trace", trace_bytes());
+  History history(folder / "history.db");
+  drive(history, "Zebediah", {"own.trace"});
+  history.set_patience(std::chrono::milliseconds(10));
+  sqlite3* reader = nullptr;
+  REQUIRE(sqlite3_open((folder / "history.db").c_str(), &reader) == SQLITE_OK);
+  REQUIRE(sqlite3_exec(reader, "BEGIN; SELECT count(*) FROM learner", nullptr, nullptr, nullptr) == SQLITE_OK);
+  const Deleted gone = delete_learner(history, *history.find_learner("Zebediah"));
+  CHECK(gone.recordings.size() == 1);
+  CHECK_FALSE(std::filesystem::exists(folder / "own.trace"));
+  CHECK(gone.left.find("another program reads it") != std::string::npos);
+  sqlite3_close(reader);
+  CHECK(history.finish_erasure().empty());
 }
 
 TEST_CASE("a learner read back has the runs with their comments") {

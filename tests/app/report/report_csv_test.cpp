@@ -162,6 +162,31 @@ TEST_CASE("faults come back from the table, with unit and points") {
   CHECK(slow["wanted_s"] == "2.5");
 }
 
+TEST_CASE("every kind of fault has a unit, by its own name") {
+  LearnerHistory history;
+  history.runs.push_back(run_with(1, 1, 5.0));
+  for (int i = 0; i < kFaultKinds; ++i)
+    history.runs[0].row.result.faults.push_back({static_cast<FaultKind>(i), Severity::minor, 1.0, 1.0, -1});
+  const auto records = parse(faults_csv(history));
+  REQUIRE(records.size() == kFaultKinds + 1);
+  std::map<std::string, std::string> units;
+  for (std::size_t i = 0; i < kFaultKinds; ++i) {
+    auto fields = row(records, i);
+    CAPTURE(fields["kind"]);
+    CHECK_FALSE(fields["unit"].empty());
+    units[fields["kind"]] = fields["unit"];
+  }
+  CHECK(units["clutch_dump"] == "W");
+  CHECK(units["throttle_in_shift"] == "rad/s");
+  CHECK(units["grind"] == "J");
+  CHECK(units["missed_shift"] == "gear");
+  CHECK(units["over_push"] == "N");
+  CHECK(units["rollback"] == "m");
+  CHECK(units["wrong_direction"] == "m/s");
+  CHECK(units["coasting"] == "s");
+  CHECK(units["early_downshift"] == "rad/s");
+}
+
 TEST_CASE("no runs: the header alone") {
   for (const std::string& text : {runs_csv({}), shifts_csv({}), faults_csv({})}) CHECK(parse(text).size() == 1);
 }

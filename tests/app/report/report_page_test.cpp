@@ -8,6 +8,7 @@
 
 #include <doctest/doctest.h>
 
+#include "app/report/words.h"
 #include "app/training/learning_curve.h"
 #include "tests/app/report/constructed_history.h"
 #include "tests/app/report/page_parts.h"
@@ -178,11 +179,108 @@ TEST_CASE("the learning curve's dots stand at the grades, its figures are the fi
 }
 
 TEST_CASE("where there is no curve, it is said why") {
-  CHECK(has(page_of(learner(1)), "No curve yet: it takes 5 graded runs, there are 1."));
+  CHECK(has(page_of(learner(3)), "No curve yet: it takes 5 graded runs, there are 3."));
   CHECK(has(page_of(learner(4)), "No curve yet: it takes 5 graded runs, there are 4."));
   LearnerHistory flat = learner(8);
   for (ReportedRun& run : flat.runs) run.row.result.grade = 7.0;
   CHECK(has(page_of(flat), "No curve: in these 8 grades no learning stands out from their scatter."));
+}
+
+TEST_CASE("a level at its bound is said to be there, and has no deviation; without the bound it would be beyond") {
+  LearnerHistory history = learner(12);
+  std::vector<double> grades;
+  for (int i = 0; i < 12; ++i) {
+    grades.push_back(std::min(10.0, 11.0 - 8.0 * std::exp(-i / 8.0) + (i % 2 == 0 ? 0.2 : -0.2)));
+    history.runs[static_cast<std::size_t>(i)].row.result.grade = grades.back();
+  }
+  const auto free = fit_learning_curve(grades), held = fit_learning_curve(grades, {0.0, 10.0});
+  REQUIRE(free.has_value());
+  REQUIRE(held.has_value());
+  REQUIRE(free->level.value > 10.0);
+  const std::string page = page_of(history);
+  const std::string said = without_markup(between(section_of(page, "learning"), "<figcaption>", "</figcaption>"));
+  double gain = 0.0, gain_off = 0.0;
+  REQUIRE(std::sscanf(said.c_str(), "A = 10 (the level is at its bound), B = −%lf ± %lf, τ = ", &gain, &gain_off) == 2);
+  CHECK(std::abs(-gain - held->gain.value) <= 0.005);
+  CHECK(std::abs(gain_off - held->gain.deviation) <= 0.005);
+}
+
+TEST_CASE("tasks with fewer than three graded runs share one row in the place of a chart") {
+  LearnerHistory history = learner(3);
+  const auto add = [&](const char* task, double grade) {
+    history.runs.push_back(run_with(static_cast<std::int64_t>(history.runs.size()) + 1, 1, grade));
+    history.runs.back().row.result.task = task;
+  };
+  add("reverse", 8.0);
+  add("hill_start", 4.5);
+  add("reverse", 8.5);
+  const std::string page = page_of(history);
+  const std::string_view learning = section_of(page, "learning");
+  const auto charts = [](std::string_view html) {
+    std::size_t count = 0;
+    for (std::size_t at = 0; (at = html.find("<figure class=\"curve\">", at)) != std::string_view::npos; ++at) ++count;
+    return count;
+  };
+  CHECK(charts(learning) == 1);
+  CHECK(table_of(learning, "tasks").size() == 3);  // the figures of all
+  const auto few = table_of(learning, "few");
+  REQUIRE(few.size() == 1);
+  REQUIRE(few[0].size() == 1);
+  CHECK(has(few[0][0], "Reverse: 8.0 ( Run 4 ), 8.5 ( Run 6 )"));
+  CHECK(has(few[0][0], "Hill start: 4.5 ( Run 5 )"));
+  CHECK_FALSE(has(few[0][0], "Upshift"));
+  CHECK(has(learning, "Fewer than 3 graded runs"));
+  add("reverse", 9.0);  // the third
+  const std::string later = page_of(history);
+  CHECK(charts(section_of(later, "learning")) == 2);
+  CHECK_FALSE(has(table_of(later, "few")[0][0], "Reverse"));
+  // None but such: no chart, and no words on how to read one.
+  const std::string first = page_of(learner(1));
+  CHECK(charts(first) == 0);
+  CHECK_FALSE(has(first, "A dot is a graded run"));
+  CHECK_FALSE(has(page_of(learner(3)), "<table class=\"few\">"));
+}
+
+TEST_CASE("a step that took too long is told by its name, where the runs and where the weaknesses are listed") {
+  LearnerHistory history = learner(2);
+  const auto slow = [](const char* step, double took) {
+    return DriveFault{FaultKind::slow_step, Severity::severe, 9.0, took, -1, step, 0.8};
+  };
+  history.runs[0].row.result.faults = {slow("Start the engine.", 1.2)};
+  history.runs[1].row.result.faults = {slow("Brake <hard>.", 1.78)};
+  const std::string page = page_of(history);
+  CHECK(has(table_of(page, "runs")[1][6], "\"Start the engine.\" took 1.20 s; 0.80 s is wanted."));
+  CHECK(has(table_of(page, "runs")[0][6], "\"Brake <hard>.\" took 1.78 s; 0.80 s is wanted."));
+  const auto weak = table_of(page, "weaknesses");
+  REQUIRE(weak.size() == 1);
+  CHECK(has(weak[0][0], "Slow step"));
+  CHECK(has(weak[0][0], "\"Brake <hard>.\" took 1.78 s; 0.80 s is wanted."));  // the newest
+}
+
+TEST_CASE("a fault of any kind has its name and its sentence on the page") {
+  LearnerHistory history = learner(1);
+  std::vector<DriveFault>& faults = history.runs[0].row.result.faults;
+  for (int i = 0; i < kFaultKinds; ++i) faults.push_back({static_cast<FaultKind>(i), Severity::minor, 1.0, 3.0, -1});
+  const std::string page = page_of(history);
+  const auto weak = table_of(page, "weaknesses");
+  REQUIRE(weak.size() == kFaultKinds);
+  std::set<std::string> names;
+  for (const auto& row : weak) names.insert(row[0]);
+  for (const DriveFault& fault : faults) {
+    CHECK(names.contains(plain_words(fault_key(fault.kind))));
+    CHECK(has(table_of(page, "runs")[0][6], fault_sentence(fault)));
+  }
+}
+
+// What a browser makes of them is looked at; that they are there is kept here.
+TEST_CASE("the style: a long word is broken, a printed shift is not") {
+  const std::string page = page_of(learner(1));
+  const std::string_view style = between(page, "<style>", "</style>");
+  CHECK(has(style, "body { overflow-wrap: anywhere; }"));
+  const std::string_view print = style.substr(style.rfind("@media print"));
+  const std::size_t avoid = print.find("{ break-inside: avoid; }");
+  REQUIRE(avoid != std::string_view::npos);
+  CHECK(has(print.substr(0, avoid), ".recording,"));
 }
 
 TEST_CASE("weaknesses: counts, points and rates are those of the rows") {

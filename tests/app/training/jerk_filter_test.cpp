@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <doctest/doctest.h>
 
@@ -26,6 +27,7 @@ double peak_of_step(double height, double period) {
 TEST_CASE("a step of acceleration gives the jerk of a second-order Butterworth low-pass") {
   const double expected = kOmega * std::exp(-0.25 * 3.14159265358979);
   CHECK(expected == doctest::Approx(42.97).epsilon(0.001));
+  CHECK(kJerkOfStep == doctest::Approx(expected).epsilon(1e-12));
   CHECK(peak_of_step(1.0, 1e-5) == doctest::Approx(expected).epsilon(1e-6));
   CHECK(peak_of_step(2.0, 1e-5) == doctest::Approx(2.0 * expected).epsilon(1e-6));
   CHECK(peak_of_step(1.0, 1e-3) == doctest::Approx(expected).epsilon(0.002));
@@ -60,4 +62,19 @@ TEST_CASE("what is left after the settling time is a thousandth") {
   filter.update(0.0, 0.0);
   for (int i = 0; i < 100; ++i) filter.update(1.0, 1e-3);
   CHECK(std::abs(filter.jerk()) < 0.003 * 42.97);
+}
+
+TEST_CASE("an acceleration that is no number, or a period, is left out and spoils nothing after it") {
+  for (const double none : {std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()}) {
+    JerkFilter clean, spoilt;
+    spoilt.update(none, 0.0);  // nor does it fill the filter
+    for (int i = 0; i < 100; ++i) {
+      const double a = i < 50 ? 0.0 : 3.0;
+      clean.update(a, 1e-3);
+      if (i == 20) CHECK(spoilt.update(none, 1e-3) == 0.0);
+      if (i == 70) CHECK(spoilt.update(a, none) == spoilt.jerk());
+      spoilt.update(a, 1e-3);
+      CHECK(spoilt.jerk() == clean.jerk());
+    }
+  }
 }

@@ -10,7 +10,9 @@
 
 #include <doctest/doctest.h>
 
+#include "app/training/drive_condition.h"
 #include "app/training/grade.h"
+#include "app/training/lever_way.h"
 #include "tests/app/training/constructed_shift.h"
 
 using namespace gearshift;
@@ -136,6 +138,31 @@ TEST_CASE("a hint comes after the step's patience, and goes with the step; bandw
   }
 }
 
+TEST_CASE("who drives on in a gear that the step does not mean is told so, by oneself and in every style of hints") {
+  Driven driven;
+  driven.lesson.steps[1] = {"Lever to 4.", "", in_gear(4), 4, 2.0};
+  driven.lesson.steps[2].until.gear = 4;
+  driven.config = {LessonMode::by_yourself, 0.0, HintStyle::summary};
+  driven.shift.to = 6.0;
+  driven.each = [](LessonRun& run, double t) {  // third is in from 0.49 s on
+    if (t < 3.48) CHECK(run.view().hint.empty());
+    if (t > 3.50) CHECK(run.view().hint == "The lesson goes on in gear 4.");
+  };
+  driven.run();
+}
+
+TEST_CASE("a step for the lever that has no hint of its own tells the lever's way in this gate") {
+  Driven driven;
+  driven.lesson.start.gear = 2;
+  driven.lesson.steps.erase(driven.lesson.steps.begin());
+  driven.lesson.steps[0].hint.clear();
+  driven.shift.from = -4.0;
+  driven.each = [](LessonRun& run, double t) {
+    if (t > -1.9 && t < 0.0) CHECK(run.view().hint == lever_way(known_gate(), 2, 3));
+  };
+  driven.run();
+}
+
 TEST_CASE("faults are said as they happen; at the end in summary; what is not looked at is a note and not said") {
   const auto spoil = [](DriveSample& s, double t) {
     if (t > 0.3 && t < 0.35) s.lever.f_h = {70.0, 0.0};
@@ -191,12 +218,22 @@ TEST_CASE("a gear that was not asked for is told at once") {
   CHECK(run.view().step == 1);
 }
 
-TEST_CASE("a step that was passed over is done when the next one is, but not by what was so before") {
+TEST_CASE("a step that may be skipped is done when one behind it is, but not by what was so before; no other is") {
   Driven driven;
   driven.lesson.steps[0].until = DriveCondition();
   driven.lesson.steps[0].until.throttle_above = 0.9;  // nobody does
+  CHECK(driven.run().view().step == 0);
+  driven.lesson.steps[0].may_be_skipped = true;
   CHECK(driven.run().result().end == LessonEnd::done);
+  Driven two;  // and one behind the next, where that may be skipped too
+  two.lesson.steps[0].until = driven.lesson.steps[0].until;
+  two.lesson.steps[1].until = driven.lesson.steps[0].until;
+  two.lesson.steps[0].may_be_skipped = true;
+  CHECK(two.run().view().step == 0);
+  two.lesson.steps[1].may_be_skipped = true;
+  CHECK(two.run().result().end == LessonEnd::done);
   Driven stays;
+  stays.lesson.steps[0].may_be_skipped = true;
   stays.lesson.steps[0].until.clutch_above = {};
   stays.lesson.steps[0].until.throttle_above = 0.9;
   stays.lesson.steps[1].until = DriveCondition();
@@ -296,10 +333,40 @@ TEST_CASE("a step that took longer than it may is a fault, named in its own word
   CHECK(within(1.0, 0).result().faults[0].value == doctest::Approx(1.081).epsilon(0.01));
 }
 
+TEST_CASE("a step that took much too long fails the lesson, whatever the grade") {
+  for (const double fails_after : {0.42, 0.40}) {
+    Driven driven;
+    driven.lesson.catches.push_back(FaultKind::slow_step);
+    driven.lesson.steps[1].within = 0.3;  // it takes 0.41 s
+    driven.lesson.steps[1].fails_after = fails_after;
+    const LessonResult result = driven.run().result();
+    CHECK(result.grade == 9.5);
+    CHECK(result.passed == (fails_after > 0.41));
+    if (!result.passed) CHECK(result.why == "\"Lever to 3.\" took 0.41 s; 0.30 s is wanted.");
+  }
+}
+
+TEST_CASE("a condition may ask for torque in the clutch and for the shift light") {
+  DriveSample sample;
+  sample.car.clutch_torque = 40.0;
+  DriveCondition carries, lit;
+  carries.clutch_torque_above = 39.0;
+  lit.shift_light = true;
+  CHECK(holds(carries, sample, {}));
+  CHECK_FALSE(holds(lit, sample, {}));
+  sample.car.clutch_torque = -40.0;  // it brakes
+  sample.car.shift_advice = -1;      // that is for a gear down
+  CHECK_FALSE(holds(carries, sample, {}));
+  CHECK_FALSE(holds(lit, sample, {}));
+  sample.car.shift_advice = 1;
+  CHECK(holds(lit, sample, {}));
+}
+
 TEST_CASE("a step that was passed over took until the next one was done, which took no time of its own") {
   Driven driven;
   driven.lesson.catches.push_back(FaultKind::slow_step);
   driven.lesson.steps[1].until.throttle_above = 0.99;  // never
+  driven.lesson.steps[1].may_be_skipped = true;
   driven.lesson.steps[1].within = 0.6;
   driven.lesson.steps[2].within = 0.1;
   const Outcome run = driven.run();
@@ -380,8 +447,10 @@ TEST_CASE("a shift in progress at the last step gets its end, and no more than t
   never.shift.spoil = [](DriveSample& s, double t) { s.car.clutch = t > 0.1 ? 1.0 : s.car.clutch; };
   const Outcome run = never.run();
   CHECK(run.result().end == LessonEnd::done);
-  CHECK(run.result().shifts.empty());
   CHECK(run.result().duration == doctest::Approx(1.0 + 0.491 + 3.0).epsilon(0.01));
+  REQUIRE(run.result().shifts.size() == 1);  // as far as it went
+  CHECK(run.result().shifts[0].to == 3);
+  CHECK(run.result().shifts[0].clutch_time > 3.0);
 }
 
 TEST_CASE("the same drive gives the same result") {

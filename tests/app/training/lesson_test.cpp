@@ -29,6 +29,8 @@ constexpr Hostile kHostile[] = {
     {"empty_goal", ":2: goal = \"\": must not be empty"},
     {"engine_never", ":12: engine_above_rpm = 3000: can never hold: it must be smaller than engine_below_rpm"},
     {"fault_forgiven", ":19: stall = \"forgiven\": must be one of counts, fails"},
+    {"fails_before_it_is_slow", ":13: fails_after_s = 4: must be at least within_s, which this step must say too"},
+    {"fails_without_a_time", ":12: fails_after_s = 4: must be at least within_s, which this step must say too"},
     {"flag_as_text", ":12: running = \"yes\": must be true or false"},
     {"gear_as_a_number", ":12: gear = 2: must be a text in quotes"},
     {"gear_ten", ":12: gear = \"10\": must be one of R, N, 1, 2, 3, 4, 5, 6, 7, 8, 9"},
@@ -46,7 +48,10 @@ constexpr Hostile kHostile[] = {
     {"pedal_beyond", ":12: clutch_above = 1.5: must be between 0 and 1"},
     {"reverse_at_speed", ":8: speed_km_per_h = 10: must be 0 in gear R"},
     {"rolling_engine_off", ":8: speed_km_per_h = 10: must be 0 where the engine stands"},
+    {"shift_band_of_nobody", ":5: shift_band = \"tractor\": must be one of car"},
     {"shift_band_upside_down", ":4: shift_from_rpm = 3000: must be smaller than shift_to_rpm"},
+    {"shift_to_neutral", ":11: shift_to = \"N\": must be a gear: for N write a step that waits for it"},
+    {"shift_to_with_a_prompt", ":12: prompt is not a known key: known here are shift_to"},
     {"slope_of_a_wall", ":7: slope_percent = 100: must be between -30 and 30"},
     {"speed_never", ":12: speed_above_km_per_h = 30: can never hold: it must be smaller than speed_below_km_per_h"},
     {"speed_without_unit", ":12: speed_above is not a known key: known here are gear"},
@@ -58,7 +63,8 @@ constexpr Hostile kHostile[] = {
     {"time_limit_nan", ":4: time_limit_s = nan: must be between 10 and 1800"},
     {"time_limit_zero", ":4: time_limit_s = 0: must be between 10 and 1800"},
     {"title_with_escape", ":1: title = \"?[2JHostile\": must be one line without control characters"},
-    {"too_many_steps", ":10: step = (a list): is written more than 64 times: make two lessons of it"},
+    {"too_many_steps", ":10: step = (a list): is more than 64 steps, three for each shift_to: make two lessons of it"},
+    {"two_shift_bands", ":5: shift_from_rpm = 1500: contradicts shift_band: the car has its own"},
     {"unknown_fault", ":19: tyre_blown is not a known key: known here are stall"},
     {"unknown_key", ":4: difficulty is not a known key: known here are title"},
     {"unknown_table", ":18: music is not a known key: known here are title"},
@@ -103,12 +109,16 @@ prompt = "Do it."
 hint = "Like this."
 patience_s = 3
 within_s = 2.5
+fails_after_s = 4
 call = true
+may_be_skipped = true
 guide_to = "4"
 [step.until]
 ignition = true
 running = false
 clutch_locked = true
+shift_light = false
+clutch_torque_above_nm = 30
 clutch_above = 0.1
 clutch_below = 0.9
 throttle_above = 0.2
@@ -167,6 +177,9 @@ TEST_CASE("every key is read, in SI units") {
   CHECK(lesson.steps[0].patience == 3.0);
   CHECK(lesson.steps[0].within == 2.5);
   CHECK_FALSE(lesson.steps[1].within.has_value());
+  CHECK(lesson.steps[0].fails_after == 4.0);
+  CHECK(lesson.steps[0].may_be_skipped);
+  CHECK_FALSE(lesson.steps[1].may_be_skipped);
   CHECK(lesson.steps[0].call);
   CHECK_FALSE(lesson.steps[1].call);
   CHECK(lesson.steps[0].gear == 4);
@@ -179,6 +192,8 @@ TEST_CASE("every key is read, in SI units") {
   CHECK(c.ignition == true);
   CHECK(c.running == false);
   CHECK(c.clutch_locked == true);
+  CHECK(c.shift_light == false);
+  CHECK(c.clutch_torque_above == 30.0);
   CHECK(c.clutch_above == 0.1);
   CHECK(c.clutch_below == 0.9);
   CHECK(c.throttle_above == 0.2);
@@ -195,6 +210,37 @@ TEST_CASE("every key is read, in SI units") {
   CHECK(c.rolled_back_above == 2.0);
   CHECK(c.held == 1.5);
   CHECK_FALSE(c.gear.has_value());
+}
+
+TEST_CASE("shift_to is pedal, lever, pedal: the pedal before the lever may be skipped, the shift may not") {
+  const std::string head = "title = 'T'\ngoal = 'G'\ntask = 't'\n";
+  const Lesson lesson =
+      parse_lesson(head + "[[step]]\nshift_to = '3'\nhint = 'Up.'\n[faults]\nstall = 'fails'\n", "l.toml");
+  REQUIRE(lesson.steps.size() == 3);
+  CHECK(lesson.steps[0].may_be_skipped);
+  CHECK(lesson.steps[0].until.clutch_above.has_value());
+  CHECK_FALSE(lesson.steps[0].until.gear.has_value());
+  CHECK(lesson.steps[1].hint == "Up.");
+  for (const std::size_t i : {1u, 2u}) {
+    CHECK_FALSE(lesson.steps[i].may_be_skipped);
+    CHECK(lesson.steps[i].gear == 3);
+    CHECK(lesson.steps[i].until.gear == 3);
+  }
+  CHECK(lesson.steps[2].until.clutch_locked == true);
+  CHECK(lesson.steps[2].until.clutch_below.has_value());
+}
+
+TEST_CASE("a band that is the car's holds its own, from a tenth below to where UDRIVE's drivers end") {
+  CarSpec car;
+  car.engine.shift_low = 200.0;
+  car.engine.shift_high = 250.0;
+  Lesson lesson;
+  lesson.shift_from = 150.0;
+  lesson.shift_to = 400.0;
+  CHECK(lesson_in_car(lesson, car).shift_to == 400.0);
+  lesson.band_of_car = true;
+  CHECK(lesson_in_car(lesson, car).shift_from == doctest::Approx(180.0));
+  CHECK(lesson_in_car(lesson, car).shift_to == doctest::Approx(300.0));
 }
 
 TEST_CASE("every hostile lesson is refused in one sentence with file, line and reason") {

@@ -3,6 +3,7 @@
 
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -179,6 +180,21 @@ TEST_CASE(
   CHECK(record.clutch_lag < 0.0);
 }
 
+TEST_CASE("a clutch that came up against the ring was early, though it was pressed again before the gear was in") {
+  for (const SyncPhase phase : {SyncPhase::synchronising, SyncPhase::passing, SyncPhase::clashing, SyncPhase::free}) {
+    ConstructedShift shift;
+    shift.spoil = [&](DriveSample& s, double t) {
+      if (within(t, 0.42, 0.47)) s.car.sync = phase;
+      if (within(t, 0.43, 0.45)) s.car.clutch = ConstructedShift::line(t, 0.43, 1.0, 0.44, 0.5);  // bite point: 0.435
+    };
+    const ShiftRecord record = only_record(shift);
+    const Slot& slot = slot_of(shift.gate, slot_of_gear(shift.gate, 2));
+    const double in = 0.4 + 0.1 * slot.engage_depth / slot.rest;
+    const double up = phase == SyncPhase::free ? 0.65 : 0.435;
+    CHECK(record.clutch_lag == doctest::Approx(up - in).epsilon(1e-9).scale(1e9 * 1.01e-3));
+  }
+}
+
 TEST_CASE("steps are noted as they happen and measured against the taught order") {
   CHECK(only_record(ConstructedShift()).steps == std::vector<ShiftStep>{ShiftStep::throttle_off, ShiftStep::clutch_down,
                                                                         ShiftStep::neutral, ShiftStep::gear,
@@ -187,7 +203,8 @@ TEST_CASE("steps are noted as they happen and measured against the taught order"
   const ShiftRecord late = spoilt([](DriveSample& s, double t) { s.car.throttle = t < 0.15 ? 0.3 : 0.0; });
   CHECK(late.steps.front() == ShiftStep::clutch_down);
   CHECK(late.steps_out_of_place == 2);
-  // Between clutch and gear a blip: two steps too many.
+  // Between clutch and gear a blip: into a higher gear two steps too many. (Into a lower one it is taught:
+  // step_order_test.cpp.)
   CHECK(spoilt([](DriveSample& s, double t) {
           s.car.throttle = within(t, 0.3, 0.35) ? 0.5 : 0.0;
         }).steps_out_of_place == 2);
@@ -203,6 +220,98 @@ TEST_CASE("a mouth entered off the way is a wrong column") {
   };
   CHECK(only_record(shift).wrong_columns == 1);
   CHECK(only_record(ConstructedShift()).wrong_columns == 0);
+  // Had 4 been in on the way, that would be a gear and no wrong mouth.
+  shift.spoil = [&](DriveSample& s, double t) {
+    const double rest = rest_position(shift.gate, 4).y;
+    if (within(t, 0.35, 0.4)) shift.place(s, {0.0, within(t, 0.36, 0.39) ? rest : 0.0});
+    if (within(t, 0.37, 0.38)) s.car.gear = 4;
+  };
+  CHECK(only_record(shift).wrong_columns == 0);
+}
+
+TEST_CASE("who gives up with the lever in a mouth ends his shift too, once, and begins the next one when he goes on") {
+  // Out of 2 and 1 mm behind 3's mouth from 0.45 s on, the clutch up since 0.65 s; at 6 s pressed again, and 3 is in.
+  ConstructedShift shift;
+  shift.to = 8.0;
+  const double mouth = shift.gate.half_aisle + shift.gate.chamfer + 0.001;
+  shift.spoil = [&](DriveSample& s, double t) {
+    if (t < 0.45) return;
+    const double rest = rest_position(shift.gate, 3).y;
+    shift.place(s, {0.0, ConstructedShift::line(t, 6.2, mouth, 6.4, rest)});
+    s.car.gear = s.lever.proxy.y > 0.9 * rest ? 3 : kNeutralGear;
+    s.car.clutch = t < 6.0 ? s.car.clutch : t < 6.6 ? 1.0 : 0.0;
+    s.car.clutch_locked = t > 6.7;
+  };
+  const std::vector<ShiftRecord> records = shift.records();
+  REQUIRE(records.size() == 2);
+  CHECK(records[0].from == 2);
+  CHECK(records[0].to == kNeutralGear);
+  CHECK_FALSE(records[0].missed);  // a mouth is no try
+  CHECK(records[0].end == doctest::Approx(100.66 + 2.0).epsilon(1e-4));
+  CHECK(records[1].from == kNeutralGear);
+  CHECK(records[1].to == 3);
+  CHECK(records[1].begin == doctest::Approx(106.0).epsilon(1e-5));
+  CHECK(records[1].lever_time < 0.4);
+}
+
+TEST_CASE("a lever that is off the rest of a gear that is still in leaves no shift open") {
+  ConstructedShift shift;
+  shift.to = 8.0;
+  shift.spoil = [&](DriveSample& s, double) {
+    const Slot& two = slot_of(shift.gate, slot_of_gear(shift.gate, 2));
+    shift.place(s, {rest_position(shift.gate, 2).x, 0.001 - two.engage_depth});
+    s.car.gear = 2;
+    s.car.clutch = 0.0;
+    s.car.clutch_locked = true;
+  };
+  ShiftMeter meter(shift.car, shift.gate);
+  for (const DriveSample& s : shift.samples()) CHECK_FALSE(meter.add(s).has_value());
+  CHECK_FALSE(meter.is_open());
+  CHECK_FALSE(meter.finish().has_value());
+}
+
+TEST_CASE("who pushes on against the ring with the clutch up has not given up") {
+  ConstructedShift shift;
+  shift.to = 6.0;
+  shift.spoil = [&](DriveSample& s, double t) {
+    if (t < 0.45) return;
+    shift.place(s, {0.0, 0.020});
+    s.car.gear = kNeutralGear;
+    s.car.sync = SyncPhase::synchronising;
+    s.lever.f_h = {0.0, t < 3.0 ? 10.0 : 1.0};
+  };
+  const ShiftRecord record = only_record(shift);
+  CHECK(record.missed);
+  CHECK(record.end == doctest::Approx(103.0 + 2.0).epsilon(1e-4));
+}
+
+TEST_CASE("the drive ends in the middle of a shift: what was left or tried by then is told, a pedal alone is not") {
+  const auto cut = [](double at) {
+    ConstructedShift shift;
+    shift.to = at;
+    ShiftMeter meter(shift.car, shift.gate);
+    for (const DriveSample& s : shift.samples()) CHECK_FALSE(meter.add(s).has_value());
+    const std::optional<ShiftRecord> record = meter.finish();
+    CHECK_FALSE(meter.is_open());
+    CHECK_FALSE(meter.finish().has_value());
+    return record;
+  };
+  CHECK_FALSE(cut(0.15).has_value());  // the pedal is down
+  const auto out = cut(0.35);          // in the aisle
+  REQUIRE(out.has_value());
+  CHECK(out->from == 2);
+  CHECK(out->to == kNeutralGear);
+  CHECK_FALSE(out->missed);
+  CHECK(out->clutch_time == doctest::Approx(0.35 - 0.075).epsilon(0.01));
+  const auto in = cut(0.55);  // 3 is in, the clutch still down
+  REQUIRE(in.has_value());
+  CHECK(in->to == 3);
+  CHECK(in->end == doctest::Approx(100.55));
+  CHECK(in->clutch_lag > 0.0);  // not early: it is down
+  CHECK(in->steps_out_of_place == 0);
+  const auto settles = cut(0.80);  // over, its jerk still settles
+  REQUIRE(settles.has_value());
+  CHECK(settles->end == doctest::Approx(100.75).epsilon(1e-4));
 }
 
 TEST_CASE(
@@ -276,7 +385,9 @@ TEST_CASE("without the clutch the revs are those just before the dogs were in") 
 TEST_CASE("guidance at any time makes the shift a guided one") {
   CHECK_FALSE(only_record(ConstructedShift()).guided);
   CHECK(spoilt([](DriveSample& s, double t) { s.controls.guidance = within(t, 0.3, 0.301) ? 0.2 : 0.0; }).guided);
-  CHECK_FALSE(spoilt([](DriveSample& s, double t) { s.controls.guidance = t < 0.0 ? 0.2 : 0.0; }).guided);
+  // The force fades for half a second after it was asked for; the shift begins at 0.075 s.
+  CHECK(spoilt([](DriveSample& s, double t) { s.controls.guidance = t < -0.4 ? 0.2 : 0.0; }).guided);
+  CHECK_FALSE(spoilt([](DriveSample& s, double t) { s.controls.guidance = t < -0.45 ? 0.2 : 0.0; }).guided);
 }
 
 TEST_CASE("a next shift before the clutch holds ends the one before it") {
@@ -313,4 +424,17 @@ TEST_CASE("samples that are not finite do no worse than spoil their own numbers"
   const ShiftRecord record = only_record(shift);
   CHECK(record.to == 3);
   CHECK(std::isfinite(record.lever_time));
+  // Before it began: the filters go on as if it had not been.
+  const auto drives = [](double none) {
+    return spoilt([none](DriveSample& s, double t) {
+      s.car.acceleration = t > 0.3 ? 1.5 : 0.0;
+      s.car.drive_torque = t < -0.2 ? 400.0 : 0.0;
+      if (within(t, -0.5, -0.499)) s.car.acceleration = s.car.drive_torque = none;
+    });
+  };
+  const ShiftRecord clean = drives(0.0), spoilt_before = drives(std::numeric_limits<double>::quiet_NaN());
+  CHECK(spoilt_before.jerk_peak == doctest::Approx(clean.jerk_peak).epsilon(1e-9));
+  CHECK(spoilt_before.torque_gap == clean.torque_gap);
+  CHECK(clean.jerk_peak > 10.0);
+  CHECK(clean.torque_gap > 0.1);
 }

@@ -73,14 +73,19 @@ TEST_CASE("the engine idles at its idle speed: combustion there is friction") {
   CHECK(control.torque(250.0, 1.0) == Approx(full_torque(engine, 250.0) + friction_torque(engine, 250.0)));
 }
 
-TEST_CASE("an engine dies below its stall speed and stays dead, until the starter has turned it") {
+TEST_CASE("an engine dies below its stall speed and stays dead, until the starter has turned it fast and far enough") {
   EngineControl control(small_engine());
   control.update(89.0);
   CHECK_FALSE(control.running());
   control.update(300.0);
   CHECK_FALSE(control.running());
   CHECK(control.torque(300.0, 1.0) == 0.0);
+  control.turn(100.0);  // not by the starter
   control.turn_key(true, true);
+  control.turn(12.5);
+  control.update(15.0);
+  CHECK_FALSE(control.running());
+  control.turn(0.1);  // two turns: 12.566
   control.update(14.0);
   CHECK_FALSE(control.running());
   CHECK(control.torque(0.0, 0.0) == 60.0);
@@ -88,6 +93,9 @@ TEST_CASE("an engine dies below its stall speed and stays dead, until the starte
   control.update(15.0);
   CHECK(control.running());
   control.turn_key(true, false);
+  control.update(15.0);
+  CHECK_FALSE(control.running());
+  control.turn_key(true, true);  // from the beginning
   control.update(15.0);
   CHECK_FALSE(control.running());
 }

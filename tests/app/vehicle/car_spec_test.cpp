@@ -29,7 +29,7 @@ constexpr Hostile kHostile[] = {
     {"capacity_missing", ":32: capacity_nm is missing: it must be a number between 1 and 10000"},
     {"closed_above_bite", ":35: closed_pedal = 0.8: must be less than bite_pedal"},
     {"cone_in_radians", ":51: cone_half_angle_deg = 0.113: must be between 3 and 20"},
-    {"efficiency_above_one", ":60: efficiency = 1.1: must be between 0.5 and 1"},
+    {"efficiency_above_one", ":59: efficiency = 1.1: must be between 0.5 and 1"},
     {"empty", ":1: title is missing: it must be a text in quotes"},
     {"friction_below_zero", ":16: friction_nm = -1: must be between 0 and 5000"},
     {"gate_is_a_number", ":2: gate = 5: must be a text in quotes"},
@@ -39,7 +39,7 @@ constexpr Hostile kHostile[] = {
     {"inertia_nan", ":19: inertia_kgm2 = nan: must be between 0.01 and 10"},
     {"limiter_band_to_idle", ":25: limiter_band_rpm = 1000: must not reach from limiter_rpm down to idle_rpm"},
     {"lug_above_shift", ":30: lug_below_rpm = 2500: must be less than shift_to_rpm"},
-    {"massless", ":62: mass_kg = 0: must be between 100 and 60000"},
+    {"massless", ":61: mass_kg = 0: must be between 100 and 60000"},
     {"negative_reverse", ":43: ratio_r = -3.17: must be between 0.1 and 20"},
     {"no_engine", ":1: engine is missing: it must be a table, [engine]"},
     {"no_first_gear", ":37: ratio_1 is missing: it must be a number between 0.1 and 20"},
@@ -68,10 +68,10 @@ constexpr Hostile kHostile[] = {
      ":4: full_load = (a list): must reach from idle_rpm or below to limiter_rpm or above, this has 1500 to 7000"},
     {"torque_stops_short",
      ":4: full_load = (a list): must reach from idle_rpm or below to limiter_rpm or above, this has 600 to 6000"},
-    {"unknown_key", ":69: abs is not a known key: known here are mass_kg"},
+    {"unknown_key", ":68: abs is not a known key: known here are mass_kg"},
     {"unknown_table",
-     ":70: turbo is not a known key: known here are title, gate, engine, clutch, gearbox, synchro, body"},
-    {"wheel_in_metres", ":64: wheel_radius_mm = 0.303: must be between 100 and 1000"},
+     ":69: turbo is not a known key: known here are title, gate, engine, clutch, gearbox, synchro, body"},
+    {"wheel_in_metres", ":63: wheel_radius_mm = 0.303: must be between 100 and 1000"},
 };
 
 constexpr const char* kFolder = GEARSHIFT_TEST_DATA "/hostile_cars";

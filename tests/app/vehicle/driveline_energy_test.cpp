@@ -43,7 +43,8 @@ class Fool {
     if (random_() % 100 == 0) in_.cone_torque = number(0.0, 40.0);
     if (random_() % 3000 == 0) in_.ignition = !in_.ignition;
     if (!in_.ignition && random_() % 200 == 0) in_.ignition = true;
-    in_.starter = random_() % 400 == 0 ? !in_.starter : in_.starter;
+    // It takes half a second and more to start.
+    in_.starter = random_() % (in_.starter ? 1500 : 400) == 0 ? !in_.starter : in_.starter;
     return in_;
   }
   double number(double from, double to) { return std::uniform_real_distribution<double>(from, to)(random_); }

@@ -4,6 +4,7 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/app/vehicle/cars.h"
 #include "tests/bench/driveline/methods.h"
 
 using namespace gearshift;
@@ -35,7 +36,10 @@ Off off(const Drive& drive, const DriveOutcome& has, const DriveOutcome& should,
 }  // namespace
 
 TEST_CASE("every hard drive follows the reference: at 1 ms to 0.01 rad/s and 0.005 % of the heat, at 4 ms to 0.06") {
-  for (const Drive& drive : all_drives()) {
+  std::vector<Drive> drives = all_drives();
+  drives.push_back(launch_of(shipped_car("hatchback")));  // teeth that take their share
+  drives.push_back(launch_of(shipped_car("diesel")));
+  for (const Drive& drive : drives) {
     CAPTURE(drive.name);
     const DriveOutcome should = reference_of(drive);
     for (const double step : {0.001, 0.004}) {
@@ -67,6 +71,15 @@ TEST_CASE("impulses without any event come to the reference as the step shrinks"
 }
 
 TEST_CASE("the drives do what they are called") {
+  for (const Drive& drive : {launch(), launch_of(shipped_car("hatchback"))}) {
+    const DriveOutcome runs = reference_of(drive);
+    CHECK(runs.running);
+    CHECK(runs.samples.back().road > 1.0);
+    CHECK(runs.samples.back().engine == runs.samples.back().shaft);  // locked
+  }
+  Drive hard = launch_of(shipped_car("hatchback"));
+  hard.input = launch().input;
+  CHECK_FALSE(reference_of(hard).running);
   const DriveOutcome stalls = reference_of(dump_at_idle());
   CHECK_FALSE(stalls.running);
   const DriveOutcome over = reference_of(money_shift());
@@ -78,6 +91,15 @@ TEST_CASE("the drives do what they are called") {
   CHECK(hill.samples.back().road > 0.5);
   CHECK(reference_of(reverse_ahead()).samples.back().road < -1.0);
   CHECK(reference_of(first_backwards()).samples.back().road > 1.0);
+}
+
+// training.md section 3: 2.02 kJ, locked after 1.303 s, by a Runge-Kutta of its own.
+TEST_CASE("the launch is that of the facts") {
+  const DriveOutcome runs = reference_of(launch());
+  CHECK(runs.slip_energy == doctest::Approx(2020.0).epsilon(0.003));
+  const auto locks = std::find_if(runs.samples.begin() + 1, runs.samples.end(),
+                                  [](const DriveSample& s) { return s.engine == s.shaft; });
+  CHECK(static_cast<double>(locks - runs.samples.begin()) == doctest::Approx(1303.0).epsilon(0.001));
 }
 
 // Negative control: the usual tanh clutch is off by what these tests would see.

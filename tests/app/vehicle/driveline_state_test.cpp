@@ -1,5 +1,6 @@
 // What the driveline tells sound and instruments of its engine.
 #include <algorithm>
+#include <cmath>
 
 #include <doctest/doctest.h>
 
@@ -44,4 +45,46 @@ TEST_CASE("it cranks while the starter turns it, and no longer once it runs, tho
   in.starter = true;
   line.step(in, 1e-3);
   CHECK_FALSE(line.state().cranking);  // without ignition
+}
+
+TEST_CASE(
+    "the starter is held for two turns of the engine, half a second and more; let go before, the engine stays dead") {
+  for (const char* name : {"hatchback", "diesel"}) {
+    CAPTURE(name);
+    const CarSpec car = shipped_car(name);
+    Driveline line(car);
+    line.place(0.0, 0.0, 0.0, false);
+    DrivelineInput in = pedals(kNeutralGear, 0.0, 1.0);
+    in.starter = true;
+    double turned = 0.0, time = 0.0;
+    while (!line.state().running && time < 5.0) {
+      const double before = line.state().engine_speed;
+      line.step(in, 1e-3);
+      turned += 0.5e-3 * (before + line.state().engine_speed);
+      time += 1e-3;
+    }
+    CHECK(turned == doctest::Approx(12.566).epsilon(0.004));
+    CHECK(time > 0.5);
+    CHECK(time < 1.2);
+    Driveline early(car);
+    early.place(0.0, 0.0, 0.0, false);
+    drive(early, in, time - 0.01);
+    in.starter = false;
+    drive(early, in, 3.0);
+    CHECK_FALSE(early.state().running);
+    CHECK(early.state().engine_speed == 0.0);
+  }
+}
+
+TEST_CASE("an engine that is stopped from behind stands at 0 and not at -0: reverse in at 5 m/s ahead") {
+  const CarSpec car = shipped_car("hatchback");
+  Driveline line(car);
+  line.place(car.engine.idle, shaft_per_road(car, kReverseGear) * 5.0, 5.0, true);
+  bool stood = false;
+  for (int i = 0; i < 4000; ++i) {
+    line.step(pedals(kReverseGear, 0.4, std::max(0.0, 1.0 - i / 1500.0)), 1e-3);
+    REQUIRE_FALSE(std::signbit(line.state().engine_speed));
+    stood = stood || line.state().engine_speed == 0.0;
+  }
+  CHECK(stood);
 }

@@ -168,6 +168,39 @@ TEST_CASE("the ring is a hard wall: no push opens it while the speeds differ") {
   }
 }
 
+TEST_CASE("a lever that is past the ring within one cycle is held there: what lets it through is equal speeds alone") {
+  CarSpec car = shipped_car("hatchback");
+  const Gate gate = gate_of(car);
+  for (const bool worn : {false, true}) {
+    if (worn) car.synchro.friction = 0.9 * critical_friction(car.synchro);
+    for (const double before : {50.0, 0.9 * car.synchro.dog_speed}) {  // on the way to the ring
+      Synchroniser sleeve(car.synchro, gate, kScale, kNeutralGear, 1);
+      SleeveInput in;
+      in.slot = slot_of_gear(gate, 3);
+      in.clutch_open = true;
+      in.push = 10.0;
+      const SleeveStations at = sleeve_stations(slot_of(gate, in.slot));
+      in.depth = 0.5 * (at.crest + at.block);
+      in.difference = before;
+      sleeve.step(in, kT);
+      in.depth = at.dogs + 0.001;
+      in.difference = 1.1 * car.synchro.dog_speed;
+      SleeveOutput out = sleeve.step(in, kT);
+      CAPTURE(worn);
+      CAPTURE(before);
+      CHECK(out.phase == (worn ? SyncPhase::clashing : SyncPhase::synchronising));
+      CHECK((out.grind_power > 0.0) == worn);
+      CHECK(out.depth_max == (worn ? at.dogs : at.block));
+      const double full = 10.0 / kScale * 9.0 * 0.8 * cone_gain(car.synchro);  // [N m] of the whole push
+      if (!worn) CHECK(out.cone_torque == doctest::Approx(full));
+      CHECK(out.meshed == kNeutralGear);
+      in.difference = 0.9 * car.synchro.dog_speed;
+      out = sleeve.step(in, kT);
+      CHECK(out.meshed == 3);
+    }
+  }
+}
+
 TEST_CASE("with the clutch up the cone would have to turn the engine: 60 N do not, for 2.5 s") {
   const CarSpec car = shipped_car("hatchback");
   for (const double throttle : {0.0, 0.3}) {

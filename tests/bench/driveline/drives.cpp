@@ -49,7 +49,14 @@ CarSpec hatchback() {
 
 Drive launch() {
   Drive drive = drive_of("launch", 84.0, 0.0, 1, 2.5);
-  drive.input = [](double t) { return pedals(1, ramp(t, 0.0, 0.5, 0.0, 0.25), ramp(t, 0.25, 1.75, 1.0, 0.0)); };
+  drive.input = [](double t) { return pedals(1, ramp(t, 0.0, 0.5, 0.0, 0.25), ramp(t, 0.3, 1.8, 1.0, 0.0)); };
+  return drive;
+}
+
+Drive launch_of(const CarSpec& car) {
+  Drive drive = drive_of("launch, the shipped car", car.engine.idle, 0.0, 1, 2.5);
+  drive.car = car;
+  drive.input = [](double t) { return pedals(1, ramp(t, 0.0, 0.5, 0.0, 0.35), ramp(t, 0.3, 1.8, 1.0, 0.0)); };
   return drive;
 }
 

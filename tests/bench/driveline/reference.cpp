@@ -75,6 +75,19 @@ class Reference {
     return f;
   }
 
+  // [m/s^2] of the car and what turns with it: `inertia` at the shaft, driven by `torque`, through teeth that take their
+  // share of what they pass on, in the direction in which it goes.
+  double through_teeth(double force, double torque, double inertia) const {
+    const double M = car_.body.mass + car_.body.rotating;
+    const auto solved = [&](double passed) {
+      return (force + passed * G_ * torque) / (M + passed * G_ * G_ * inertia);
+    };
+    const double driven = solved(teeth());
+    const bool drives = (torque - inertia * G_ * driven) * G_ * road_ >= 0.0;
+    return drives ? driven : solved(1.0 / teeth());
+  }
+  double teeth() const { return dogs_ ? car_.gearbox.efficiency : 1.0; }
+
   // What clutch and gear carry goes to carried_.
   Y slope(const Y& y, double t) {
     const Forces f = forces(y, t);
@@ -94,7 +107,7 @@ class Reference {
       d.road = car_rests_ ? 0.0 : (Fr + G_ * Tk) / M;
     } else if (!locked_) {
       d.engine = engine_rests_ ? 0.0 : (Te - Tc) / Je;
-      d.road = (Fr + G_ * (Ts + Tc)) / (M + G_ * G_ * Js);
+      d.road = through_teeth(Fr, Ts + Tc, Js);
       d.shaft = G_ * d.road;
       Tk = Ts + Tc - Js * d.shaft;
     } else if (!geared_) {
@@ -102,7 +115,7 @@ class Reference {
       d.road = car_rests_ ? 0.0 : (Fr + G_ * Tk) / M;
       Tc = Te - Je * d.engine;
     } else {
-      d.road = (Fr + G_ * (Ts + Te)) / (M + G_ * G_ * (Js + Je));
+      d.road = through_teeth(Fr, Ts + Te, Js + Je);
       d.engine = d.shaft = G_ * d.road;
       Tc = Te - Je * d.engine;
       Tk = Ts + Tc - Js * d.shaft;
@@ -160,8 +173,10 @@ class Reference {
   }
 
   // On the standing car, and what holds it.
-  double pull(const Forces& f) const { return f.air + (geared_ ? G_ * clutch_ * f.capacity : G_ * cone_ * f.cone); }
-  double grip(const Forces& f) const { return f.hold + (geared_ ? std::abs(G_) * car_.gearbox.drag : 0.0); }
+  double pull(const Forces& f) const {
+    return f.air + G_ * (geared_ ? teeth() * clutch_ * f.capacity : cone_ * f.cone);
+  }
+  double grip(const Forces& f) const { return f.hold + (geared_ ? teeth() * std::abs(G_) * car_.gearbox.drag : 0.0); }
 
   void apply(What what, double t) {
     const double Je = car_.engine.inertia, Js = car_.clutch.disc_inertia, M = car_.body.mass + car_.body.rotating;

@@ -1,0 +1,124 @@
+// Who does right what the goal asks for passes with the best grade: in the real car, on its slope, prompted or not.
+#include "tests/app/training/honest_drives.h"
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <doctest/doctest.h>
+
+using namespace gearshift;
+
+namespace {
+
+void check_best(const honest::Honest& each, LessonMode mode, const std::string& car) {
+  ScriptedDrive drive(each.lesson, mode, car);
+  const bool any_car = drive.lesson.car.empty() && drive.lesson.gate.empty();
+  if (!any_car && car == "diesel") return;
+  each.drive(drive);
+  const LessonResult& result = drive.finish();
+  CAPTURE(std::string(each.lesson));
+  CAPTURE(car);
+  CAPTURE(drive.run.view().prompt);
+  CAPTURE(faults_of(result));
+  CAPTURE(result.why);
+  CHECK(result.end == LessonEnd::done);
+  CHECK(result.passed);
+  CHECK(result.grade == 10.0);
+}
+
+void check_all(std::span<const honest::Honest> drives) {
+  for (const honest::Honest& each : drives) {
+    for (const LessonMode mode : {LessonMode::follow_me, LessonMode::by_yourself}) {
+      for (const char* car : {"hatchback", "diesel"}) check_best(each, mode, car);
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("who does right what a goal says passes with the best grade, in the real car, prompted and by himself") {
+  check_all(honest::kHonest);
+}
+
+TEST_CASE("who does it in another way than the prompts have it gets no less, and does not get stuck") {
+  check_all(honest::kOwnWays);
+}
+
+TEST_CASE("who took a wrong gear is told where the lesson goes on, and can finish it") {
+  ScriptedDrive d("up_through_the_gears", LessonMode::by_yourself);
+  Able a{d};
+  a.accelerate_to_rpm(2400.0);
+  a.shift(2);
+  a.accelerate_to_rpm(2400.0);
+  a.shift(4);
+  d.wait(3.5);
+  CHECK(d.run.view().hint == "The lesson goes on in gear 3.");
+  for (int gear = 3; gear <= 5; ++gear) {
+    a.shift(gear);
+    CHECK(d.run.view().hint.empty());
+    a.accelerate_to_rpm(2200.0);
+  }
+  const LessonResult& result = d.finish();
+  CAPTURE(faults_of(result));
+  CHECK(result.end == LessonEnd::done);
+  CHECK(result.grade == 9.5);
+  CHECK(faults_of(result) == "That was gear 4, another one was meant. ");
+}
+
+TEST_CASE("on the hill the hand brake is told to go once the clutch carries what the weight asks for, not before") {
+  for (const char* car : {"hatchback", "diesel"}) {
+    ScriptedDrive d("hill_start", LessonMode::follow_me, car);
+    Able a{d};
+    d.clutch_down();
+    d.lever(1);
+    d.press(d.feet.throttle, 0.1, 0.3);
+    d.until([&] {
+      a.hold_revs(1600.0);
+      d.feet.clutch = std::max(0.0, d.feet.clutch - 0.1e-3);
+      return d.run.view().step == 3;
+    });
+    CAPTURE(std::string(car));
+    REQUIRE(d.run.view().step == 3);
+    CHECK(d.now().clutch_torque > honest::hill_torque(d));
+    CHECK(d.now().clutch_torque < 2.0 * honest::hill_torque(d));  // nor does it strain at the brake
+    CHECK(d.rpm() > 1000.0);
+  }
+}
+
+// Green 2000: 0.70 to 0.75 s for an expected signal, 1.25 s for an unexpected common one; the driving school reckons
+// with one. Two thirds of the brake after 1.5 s are no emergency stop.
+TEST_CASE(
+    "an emergency stop is judged by the time from the call to standing: people have theirs, rolling out has none") {
+  struct Stop {
+    double reaction, brake;
+    bool best, passed;
+  };
+  for (const Stop& stop : {Stop{0.7, 1.0, true, true},
+                           {1.0, 1.0, true, true},
+                           {1.25, 1.0, true, true},
+                           {1.0, 0.8, true, true},
+                           {1.0, 0.6, false, true},
+                           {1.7, 1.0, false, true},
+                           {1.5, 0.6, false, false},
+                           {0.7, 0.4, false, false}}) {
+    ScriptedDrive d("emergency_stop");
+    Able{d}.accelerate_to(50.05);
+    d.wait(stop.reaction);
+    d.feet.throttle = 0.0;
+    d.press(d.feet.brake, stop.brake, 0.2);
+    d.until([&] { return d.km_per_h() < 18.0; });
+    d.clutch_down();
+    d.until([&] { return d.stands(); });
+    d.wait(0.5);
+    d.lever(kNeutralGear);
+    d.press(d.feet.hand_brake, 1.0, 0.3);
+    const LessonResult& result = d.finish();
+    CAPTURE(stop.reaction);
+    CAPTURE(stop.brake);
+    CAPTURE(faults_of(result));
+    CHECK(result.end == LessonEnd::done);
+    CHECK((result.grade == 10.0) == stop.best);
+    CHECK(result.passed == stop.passed);
+  }
+}

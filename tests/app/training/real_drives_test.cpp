@@ -1,0 +1,213 @@
+// What is said of drives in the real car, by hand and feet that know nothing of the judge.
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "tests/app/training/scripted_drive.h"
+
+using namespace gearshift;
+
+namespace {
+
+// Notes too: what a lesson looks at is another matter.
+int told(const LessonResult& result, FaultKind kind) {
+  return static_cast<int>(std::count_if(result.faults.begin(), result.faults.end(),
+                                        [kind](const DriveFault& fault) { return fault.kind == kind; }));
+}
+
+std::string all_told(const LessonResult& result) {
+  std::string list;
+  for (const DriveFault& fault : result.faults) list += fault_sentence(fault) + " ";
+  return list;
+}
+
+void out_of_gear(ScriptedDrive& d) {
+  d.set_off_for(kNeutralGear);
+  d.until([&] { return d.in_aisle(); });
+}
+
+void blip(ScriptedDrive& d, double rpm) {
+  d.feet.throttle = 0.5;
+  d.until([&] { return d.rpm() > rpm; }, 2.0);
+  d.feet.throttle = 0.0;
+}
+
+// From 4 at 55 km/h into 3, the engine brought to `share` of what it asks for.
+LessonResult down_with_blip(double share) {
+  ScriptedDrive d("rev_matching");
+  d.clutch_down();
+  d.lever(3);
+  blip(d, share * d.rpm_in(3));
+  d.press(d.feet.clutch, 0.0, 0.5);
+  d.wait(0.5);
+  return d.leave();
+}
+
+// At a stand in first: a fifth of the throttle for `lead` seconds, then from the bite point to closed in `zone` seconds.
+LessonResult launch(const std::string& car, double lead, double zone) {
+  ScriptedDrive d("moving_off", LessonMode::follow_me, car);
+  d.clutch_down();
+  d.lever(1);
+  d.press(d.feet.hand_brake, 0.0, 0.2);
+  d.feet.throttle = 0.2;
+  d.wait(lead);
+  d.press(d.feet.clutch, d.car.clutch.bite, 0.1);
+  d.press(d.feet.clutch, d.car.clutch.closed, zone);
+  d.press(d.feet.clutch, 0.0, 0.1);
+  d.wait(1.0);
+  return d.leave();
+}
+
+}  // namespace
+
+TEST_CASE("a starter that is let go too early leaves a dead engine and no fault; held until it runs, it runs") {
+  bool ran = false;
+  for (int ms = 10; ms <= 1500; ms += ms < 200 ? 10 : 100) {
+    CAPTURE(ms);
+    ScriptedDrive d("start_and_stop");
+    d.clutch_down();
+    d.feet.ignition = d.feet.starter = true;
+    d.wait(1e-3 * ms);
+    d.feet.starter = false;
+    d.wait(2.0);
+    CHECK(d.now().running == (d.now().engine_speed > 0.5 * d.car.engine.idle));
+    if (!d.now().running) CHECK(d.now().engine_speed == 0.0);
+    CHECK_FALSE(std::exchange(ran, d.now().running) > d.now().running);  // longer is never worse
+    CHECK(told(d.leave(), FaultKind::stall) == 0);
+  }
+  CHECK(ran);
+}
+
+TEST_CASE("a blip into a lower gear is in order; one that overshoots is told, and by the revs alone") {
+  const LessonResult right = down_with_blip(1.0);
+  CAPTURE(all_told(right));
+  REQUIRE(right.shifts.size() == 1);
+  CHECK(right.shifts[0].steps_out_of_place == 0);
+  CHECK(right.faults.empty());
+  const LessonResult over = down_with_blip(1.7);
+  CAPTURE(all_told(over));
+  CHECK(told(over, FaultKind::rev_mismatch) == 1);
+  CHECK(told(over, FaultKind::throttle_in_shift) == 0);
+  CHECK(told(over, FaultKind::step_order) == 0);
+}
+
+TEST_CASE("double declutching with a blip is in order") {
+  ScriptedDrive d("rev_matching");
+  d.clutch_down();
+  out_of_gear(d);
+  d.press(d.feet.clutch, 0.0, 0.15);
+  blip(d, d.rpm_in(3));
+  d.clutch_down();
+  d.lever(3);
+  d.press(d.feet.clutch, 0.0, 0.5);
+  d.wait(0.5);
+  const LessonResult result = d.leave();
+  CAPTURE(all_told(result));
+  REQUIRE(result.shifts.size() == 1);
+  CHECK(result.shifts[0].steps_out_of_place == 0);
+  CHECK(told(result, FaultKind::step_order) == 0);
+  CHECK(told(result, FaultKind::throttle_in_shift) == 0);
+}
+
+TEST_CASE("a gear that was put back in is not one that was not reached") {
+  ScriptedDrive d("down_through_the_gears");
+  d.clutch_down();
+  out_of_gear(d);
+  d.wait(0.1);
+  d.lever(5);
+  d.press(d.feet.clutch, 0.0, 0.5);
+  d.wait(0.5);
+  const LessonResult result = d.leave();
+  REQUIRE(result.shifts.size() == 1);
+  CHECK(result.shifts[0].missed);
+  CHECK(all_told(result).find("Gear 5") == std::string::npos);
+}
+
+TEST_CASE("the lever left in a mouth with the clutch up: the shift is over after 2 s, and then it coasts") {
+  ScriptedDrive d("rev_matching");
+  d.clutch_down();
+  out_of_gear(d);
+  d.set_off_for(3);
+  d.until([&] { return !d.in_aisle(); });
+  d.wait((d.gate.half_aisle + d.gate.chamfer) / d.speed);  // and that millimetre
+  d.speed = 0.0;
+  d.press(d.feet.clutch, 0.0, 0.3);
+  d.wait(8.0);
+  const LessonResult result = d.leave();
+  REQUIRE(result.shifts.size() == 1);
+  CHECK(result.shifts[0].from == 4);
+  CHECK(result.shifts[0].to == kNeutralGear);
+  CHECK(result.shifts[0].end - result.shifts[0].begin < 3.5);
+  CHECK(told(result, FaultKind::coasting) == 1);
+}
+
+TEST_CASE("down through all gears at 75 km/h is too early in third and second; each at its speed is not") {
+  const auto down = [](double share) {
+    ScriptedDrive d("down_through_the_gears");
+    for (const auto& [gear, km_per_h] : {std::pair{4, 55.0}, {3, 40.0}, {2, 25.0}}) {
+      const double at = share > 0.0 ? share * km_per_h : 75.0;
+      d.feet.brake = 0.2;
+      d.until([&] { return d.km_per_h() < at; });
+      d.feet.brake = 0.0;
+      d.clutch_down();
+      d.lever(gear);
+      d.press(d.feet.clutch, 0.0, 0.8);
+      d.wait(0.3);
+    }
+    return d.leave();
+  };
+  const LessonResult early = down(0.0), fit = down(1.0);
+  CAPTURE(all_told(early));
+  CAPTURE(all_told(fit));
+  CHECK(told(early, FaultKind::early_downshift) == 2);
+  CHECK(told(fit, FaultKind::early_downshift) == 0);
+  CHECK(told(fit, FaultKind::coasting) == 0);
+}
+
+TEST_CASE("down through the gears on one press of the clutch is a shift that took too long; a gear for later is not") {
+  ScriptedDrive d("down_through_the_gears");
+  d.feet.brake = 0.2;
+  d.until([&] { return d.km_per_h() < 54.0; });
+  d.clutch_down();
+  for (const auto& [gear, km_per_h] : {std::pair{4, 39.0}, {3, 24.0}, {2, 0.05}}) {
+    d.lever(gear);
+    d.until([&] { return d.km_per_h() < km_per_h; });
+  }
+  const LessonResult cheat = d.leave();
+  CAPTURE(all_told(cheat));
+  CHECK(told(cheat, FaultKind::too_slow) == 1);
+
+  ScriptedDrive ready("down_through_the_gears");
+  ready.feet.brake = 0.3;
+  ready.until([&] { return ready.km_per_h() < 32.0; });
+  ready.clutch_down();
+  ready.lever(1);
+  ready.until([&] { return ready.stands(); });
+  ready.wait(5.0);
+  const LessonResult waits = ready.leave();
+  CAPTURE(all_told(waits));
+  CHECK(told(waits, FaultKind::too_slow) + told(waits, FaultKind::coasting) == 0);
+}
+
+TEST_CASE("a launch as people do it does not jerk, one in 0.3 s does: a fifth of the throttle, up to 2200 rpm") {
+  struct Launch {
+    std::string car;
+    double lead;
+  };
+  for (const Launch& of : {Launch{"hatchback", 1.0}, {"hatchback", 1.5}, {"diesel", 1.0}}) {
+    CAPTURE(of.car);
+    CAPTURE(of.lead);
+    for (const double zone : {1.2, 1.6, 2.0}) {
+      const LessonResult result = launch(of.car, of.lead, zone);
+      CAPTURE(all_told(result));
+      CHECK(told(result, FaultKind::jerk) + told(result, FaultKind::stall) == 0);
+    }
+    const LessonResult result = launch(of.car, of.lead, 0.3);
+    CAPTURE(all_told(result));
+    CHECK(told(result, FaultKind::jerk) + told(result, FaultKind::stall) == 1);
+  }
+}

@@ -1,0 +1,314 @@
+// Cone and lever coupled: hand, haptic loop and car as they ship, against the same laws in continuous time.
+#include "tests/app/vehicle/cone_lever_reference.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "tests/app/vehicle/car_run.h"
+
+using namespace gearshift;
+using glm::dvec2;
+
+namespace {
+
+constexpr double kReady = 0.05;    // [s] until the hand sets out: the guard has ramped up
+constexpr double kHeld = 2000.0;   // [N/m] of the hand until then, and across the slot for ever
+constexpr double kStart = 0.012;   // [m] of the lever: in the slot, past its mouth
+constexpr double kStraight = 1.0;  // [m] of the straight lever's yoke
+
+// The feel of the hatchback's gate as its layout file and the README of haptics/gate say.
+RingSlot ring_slot(const Slot& slot) {
+  RingSlot ring;
+  ring.mouth = 0.010;
+  const double length = slot.end - ring.mouth;
+  ring.bump = ring.mouth + 0.14 * length;
+  ring.low = ring.mouth + 0.28 * length;
+  ring.crest = ring.mouth + 0.42 * length;
+  ring.lock = ring.mouth + 0.66 * length;
+  ring.aisle = 1.0;
+  ring.resist = 4.0;
+  ring.detent = 6.5;
+  ring.pull = 12.0;
+  const double engage = ring.crest + 0.75 * (0.86 - 0.42) * length;
+  ring.block = ring.crest + 0.20 * (engage - ring.crest);
+  return ring;
+}
+
+// The same hand for the product: asked once a period, for its middle.
+class InSlot final : public HandDriver {
+ public:
+  InSlot(const SlotHand& hand, double way, double across, double period)
+      : hand_(hand), way_(way), across_(across), period_(period) {}
+  HandTarget next(double time, dvec2 lever) noexcept override {
+    HandTarget target;
+    target.position = lever;
+    target.push = {kHeld * (across_ - lever.x), 0.0};
+    const double since = time - kReady, middle = since + 0.5 * period_;
+    if (since < -1e-9) {
+      target.push.y = kHeld * (way_ * kStart - lever.y);
+    } else if (hand_.speed == 0.0) {
+      target.push.y = way_ * hand_.push;
+    } else {
+      target.position.y = way_ * hand_.place(middle);
+      target.velocity.y = hand_.place(middle) < hand_.to ? way_ * hand_.speed : 0.0;
+    }
+    return target;
+  }
+
+ private:
+  SlotHand hand_;
+  double way_, across_, period_;
+};
+
+struct Shift {
+  std::string name;
+  int from, to;
+  double shaft;  // [rad/s] in `from`, at the start
+  SlotHand hand;
+  bool clutch_closed = false;
+  double road = 0.0;  // [m/s] where from is neutral
+};
+
+SlotHand pushing(double real) {
+  SlotHand hand;
+  hand.push = real * kPaperForce / 60.0;
+  return hand;
+}
+
+SlotHand moving(double speed) {
+  SlotHand hand;
+  hand.speed = speed;
+  hand.from = kStart;
+  hand.to = 0.060;
+  return hand;
+}
+
+LeverArc arc_of(bool straight, double across) {
+  if (straight) return {};
+  const double radius = YokeGeometry{}.radius;
+  return {radius, std::sqrt(radius * radius - across * across)};
+}
+
+struct Seen {
+  ConeLeverStart start;
+  ConeLeverOutcome out;
+  std::vector<double> push;  // [N] in each cycle
+  double imbalance = 0.0;    // [1] of what the ledger turned over
+  bool ground = false, locked = true;
+};
+
+// A lever whose arcs are nearly straight lines and whose force sensor has no steps; or the lever that ships.
+SimulatedLeverConfig lever_of(bool straight) {
+  SimulatedLeverConfig lever;
+  lever.hand = kGripHand;
+  if (!straight) return lever;
+  lever.encoder_counts *= kStraight / lever.yoke.radius;
+  lever.yoke.theta_limit *= lever.yoke.radius / kStraight;
+  lever.yoke.phi_limit *= lever.yoke.radius / kStraight;
+  lever.yoke.radius = kStraight;
+  lever.force_sensor.resolution_gw = 0.0;
+  return lever;
+}
+
+CarStart car_start(const CarSpec& car, const Shift& shift) {
+  CarStart start = shift.from == kNeutralGear ? CarStart{} : rolling_in(car, shift.from, shift.shaft);
+  if (shift.from == kNeutralGear) start.road_speed = shift.road;
+  start.gear = kNeutralGear;
+  start.engine_speed = start.shaft_speed = shift.shaft;
+  return start;
+}
+
+double turned_over(const EnergyLedger& e) {
+  return std::abs(e.engine) + e.friction + e.clutch + e.cone + e.shaft_drag + e.rolling + e.brakes;
+}
+double out_of(const EnergyLedger& e) {
+  return e.friction + e.clutch + e.cone + e.shaft_drag + e.rolling + e.brakes + e.slope + e.teeth + e.mesh;
+}
+
+Seen product(const CarSpec& car, const Shift& shift, double rate, bool straight) {
+  const Gate gate = gate_of(car);
+  const Slot& slot = slot_of(gate, slot_of_gear(gate, shift.to));
+  const double way = static_cast<double>(static_cast<int>(slot.side)), across = rest_position(gate, shift.to).x;
+  SimulatedRunConfig config = gripped(gate, kNeutralGear);
+  config.haptics.rate = rate;
+  config.lever = lever_of(straight);
+  config.start = {across, way * kStart};
+  InSlot hand(shift.hand, way, across, 1.0 / rate);
+  CarWorld world(car, gate, kPaperForce, car_start(car, shift));
+  SimulatedRun run(config, hand, &world);
+  run.channels().controls.write(shift.clutch_closed ? clutch_up() : clutch_down());
+  Seen seen;
+  const double before = world.driveline().kinetic_energy();
+  const auto sample_of = [&](const HapticSnapshot& lever) {
+    const VehicleState& car_now = world.state();
+    return ConeLeverSample{way * run.lever().true_position().y, way * lever.f_h.y, car_now.shaft_speed,
+                           car_now.road_speed, world.driveline().energy().cone};
+  };
+  const int each = static_cast<int>(std::lround(0.001 * rate)), ready = static_cast<int>(std::lround(kReady * rate));
+  for (int i = 0; i < 4.0 * rate && seen.out.open < 0.0; ++i) {
+    const HapticSnapshot& lever = run.step();
+    if (i < ready) continue;
+    const double time = (i - ready) / rate;
+    const VehicleState& now = world.state();
+    if (i == ready)
+      seen.start = {way * run.lever().true_position().y, way * run.lever().true_velocity().y, now.engine_speed,
+                    now.shaft_speed, now.road_speed};
+    if ((i - ready) % each == 0) seen.out.samples.push_back(sample_of(lever));
+    if (shift.clutch_closed) seen.locked = seen.locked && now.clutch_locked;
+    if (seen.out.touch < 0.0 && now.sync == SyncPhase::synchronising) seen.out.touch = time;
+    if (now.sync == SyncPhase::passing) seen.out.open = time;
+    if (now.sync == SyncPhase::passing) seen.out.heat = world.driveline().energy().cone;
+    seen.push.push_back(way * lever.f_h.y);
+    seen.ground = seen.ground || now.grinding;
+  }
+  const EnergyLedger& went = world.driveline().energy();
+  seen.imbalance =
+      std::abs(before + went.engine - out_of(went) - world.driveline().kinetic_energy()) / (before + turned_over(went));
+  return seen;
+}
+
+std::vector<Shift> shifts() {
+  const double up = 2500.0 * kRpm;
+  return {{"1-2, 30 N", 1, 2, up, pushing(30.0)},
+          {"1-2, 60 N", 1, 2, up, pushing(60.0)},
+          {"2-1, 60 N", 2, 1, up, pushing(60.0)},
+          {"1-2, hand of 0.3 m/s", 1, 2, up, moving(0.3)},
+          {"2-1, hand of 0.3 m/s", 2, 1, up, moving(0.3)},
+          {"N-1 rolling back at 2 m/s, 30 N", kNeutralGear, 1, 84.0, pushing(30.0), false, -2.0},
+          {"1-2, 60 N, clutch up", 1, 2, up, pushing(60.0), true}};
+}
+
+ConeLeverCase case_of(const CarSpec& car, const Shift& shift, bool straight) {
+  const Gate gate = gate_of(car);
+  ConeLeverCase what{car};
+  what.slot = ring_slot(slot_of(gate, slot_of_gear(gate, shift.to)));
+  what.lever = arc_of(straight, rest_position(gate, shift.to).x);
+  what.hand = shift.hand;
+  what.gear = shift.to;
+  what.force_scale = kPaperForce / 60.0;
+  what.clutch_closed = shift.clutch_closed;
+  return what;
+}
+
+// [N] over the second half of the time at the ring
+double plateau(const std::vector<double>& push, double rate, const ConeLeverOutcome& out) {
+  const double middle = 0.5 * (out.touch + out.open);
+  double total = 0.0, count = 0.0;
+  for (std::size_t i = 0; i < push.size(); ++i) {
+    const double time = static_cast<double>(i) / rate;
+    if (time > middle && time < out.open) total += push[i], ++count;
+  }
+  return total / count;
+}
+
+std::vector<double> push_of(const ConeLeverOutcome& out) {
+  std::vector<double> push;
+  for (const ConeLeverSample& sample : out.samples) push.push_back(sample.push);
+  return push;
+}
+
+// [rad/s] between the two shafts, the most.
+double shaft_off(const ConeLeverOutcome& seen, const ConeLeverOutcome& truth) {
+  double most = 0.0;
+  for (std::size_t i = 0; i < std::min(seen.samples.size(), truth.samples.size()); ++i)
+    most = std::max(most, std::abs(seen.samples[i].shaft - truth.samples[i].shaft));
+  return most;
+}
+
+double steepest(const ConeLeverOutcome& truth) {
+  double most = 0.0;  // [rad/s^2]
+  for (std::size_t i = 1; i < truth.samples.size(); ++i)
+    most = std::max(most, 1000.0 * std::abs(truth.samples[i].shaft - truth.samples[i - 1].shaft));
+  return most;
+}
+
+// Shares of what is compared, and of the force sensor's steps.
+struct Within {
+  double share, force;  // [1], [N]
+};
+
+void compare(const CarSpec& car, const Shift& shift, bool straight, const Within& within) {
+  ConeLeverOutcome truth;
+  for (const double rate : {1000.0, 4000.0}) {
+    CAPTURE(rate);
+    const Seen seen = product(car, shift, rate, straight);
+    if (truth.open < 0.0) truth = cone_lever_reference(case_of(car, shift, straight), seen.start);
+    REQUIRE(truth.open > truth.touch);
+    REQUIRE(seen.out.open > seen.out.touch);
+    CHECK(seen.locked);
+    CHECK_FALSE(seen.ground);
+    const double period = 1.0 / rate;
+    const double late = seen.out.open - truth.open, touched = seen.out.touch - truth.touch;
+    CHECK(std::abs(touched) < 2.0 * period);
+    CHECK(late < 3.0 * period + within.share * truth.open);
+    CHECK(late > -within.share * truth.open);
+    CHECK(shaft_off(seen.out, truth) < 1.5 * period * steepest(truth) + within.share * truth.samples[0].shaft);
+    CHECK(seen.out.heat == doctest::Approx(truth.heat).epsilon(0.003));
+    const double felt = plateau(seen.push, rate, seen.out), pushed = plateau(push_of(truth), 1000.0, truth);
+    CHECK(std::abs(felt - pushed) < 0.005 * pushed + within.force);
+    CHECK(seen.imbalance < 1e-13);
+  }
+}
+
+}  // namespace
+
+// The ring hears of speeds one period old, the cone of a push one period old, which rises in a straight line over the
+// next; and all is seen at whole periods. That makes up to three periods, and nothing else. The share is for the
+// encoder's counts, which the damping of wall and aisles hears.
+TEST_CASE("cone and moving lever against the reference: when the ring opens, shaft, heat and the hand's force") {
+  const CarSpec car = shipped_car("hatchback");
+  for (const Shift& shift : shifts()) {
+    CAPTURE(shift.name);
+    compare(car, shift, true, {0.002, 0.0});
+  }
+}
+
+// 44 gram-weight are a step of the sensor: half of that is 1.4 % of a push of 16 N, and the cone follows it.
+TEST_CASE("the same with the yoke and the force sensor that ship: as near as half a step of the sensor is") {
+  const CarSpec car = shipped_car("hatchback");
+  const double half_step = 0.5 * 44.0 * kNewtonPerGramWeight;
+  for (const Shift& shift : shifts()) {
+    CAPTURE(shift.name);
+    compare(car, shift, false, {half_step / 15.85, half_step});
+  }
+}
+
+TEST_CASE("the reference itself: converged, closed form on the plateau, heat from the speeds that it shows") {
+  const CarSpec car = shipped_car("hatchback");
+  const Shift shift = shifts()[0];
+  ConeLeverCase what = case_of(car, shift, true);
+  const double road = road_speed_at(car, 1, shift.shaft);
+  const ConeLeverStart start{kStart, 0.0, shift.shaft, shift.shaft, road};
+  const ConeLeverOutcome fine = cone_lever_reference(what, start);
+  what.step = 5e-6;
+  const ConeLeverOutcome coarse = cone_lever_reference(what, start);
+  CHECK(coarse.open == doctest::Approx(fine.open).epsilon(1e-8));
+  CHECK(coarse.touch == doctest::Approx(fine.touch).epsilon(1e-8));
+  CHECK(coarse.heat == doctest::Approx(fine.heat).epsilon(1e-8));
+
+  // t = J dw / (T + drag), T = n F mu R / sin a through the lever, over the ratio: facts, section 4.
+  const double inertia = car.clutch.disc_inertia, drag = car.gearbox.drag, ratio = ratio_of(car, 2);
+  const double torque = 30.0 * 9.0 * 0.8 * 0.10 * 0.030 / std::sin(6.5 * std::numbers::pi / 180.0) / ratio;
+  const ConeLeverSample& still = fine.samples[160];
+  const double slip = still.shaft - shaft_per_road(car, 2) * still.road;
+  CHECK(still.push == doctest::Approx(30.0 * what.force_scale).epsilon(1e-3));
+  CHECK(fine.open - 0.160 ==
+        doctest::Approx(inertia * (slip - car.synchro.dog_speed * ratio) / (torque + drag)).epsilon(0.01));
+
+  // What the shaft lost, less what its drag took, went through the cone: heat there, the rest into the car.
+  double dragged = 0.0, pushed = 0.0;
+  for (std::size_t i = 1; i < fine.samples.size(); ++i) {
+    const ConeLeverSample &a = fine.samples[i - 1], &b = fine.samples[i];
+    const double passed = inertia * (a.shaft - b.shaft) - 0.001 * drag;  // [N m s]
+    dragged += 0.001 * drag * 0.5 * (a.shaft + b.shaft);
+    pushed += passed * shaft_per_road(car, 2) * 0.5 * (a.road + b.road);
+  }
+  const double first = fine.samples.front().shaft, last = fine.samples.back().shaft;
+  CHECK(fine.samples.back().heat ==
+        doctest::Approx(0.5 * inertia * (first * first - last * last) - dragged - pushed).epsilon(1e-5));
+}

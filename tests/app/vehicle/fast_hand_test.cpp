@@ -1,0 +1,132 @@
+// Hands quicker and stronger than any person's: a sound ring lets none of them grind a forward gear, a worn one all.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "tests/app/vehicle/car_run.h"
+
+using namespace gearshift;
+using glm::dvec2;
+
+namespace {
+
+constexpr double kReady = 0.05;  // [s] until the hand sets out: the guard has ramped up
+
+struct Rush {
+  double speed, push, rate;  // [m/s] of the hand, [N] the most that it pushes, [Hz]
+};
+
+struct Shifted {
+  bool in = false;
+  double ground = 0.0;      // [J]
+  double difference = 0.0;  // [rad/s] that the sleeve was let through the ring with, the most
+};
+
+// Follows a place that moves into the slot, with whatever force it takes.
+PushingHand rushing_hand(const Slot& slot, double across, const Rush& rush) {
+  const double way = static_cast<double>(static_cast<int>(slot.side)), end = slot.end + 0.01;
+  return PushingHand([=](double time, dvec2 lever) {
+    const double goal = std::clamp((time - kReady) * rush.speed, 0.0, end);
+    const double force = std::clamp(2e4 * (goal - way * lever.y), -rush.push, rush.push);
+    return dvec2{2000.0 * (across - lever.x), time < kReady ? 0.0 : way * force};
+  });
+}
+
+// Out of neutral into that gear, clutch down, shaft and car as the other gear left them.
+Shifted shift(const CarSpec& car, const Gate& gate, int from, int to, const Rush& rush, double brake) {
+  const Slot& slot = slot_of(gate, slot_of_gear(gate, to));
+  SimulatedRunConfig config = gripped(gate, kNeutralGear);
+  config.haptics.rate = rush.rate;
+  config.lever.hand = kBareHand;
+  config.start = {rest_position(gate, to).x, 0.0};
+  CarStart start = rolling_in(car, from, 2500.0 * kRpm);
+  start.gear = kNeutralGear;
+  start.shaft_speed = start.engine_speed = 2500.0 * kRpm;
+  PushingHand hand = rushing_hand(slot, config.start.x, rush);
+  CarWorld world(car, gate, kPaperForce, start);
+  SimulatedRun run(config, hand, &world);
+  DriverControls feet = clutch_down();
+  feet.brake = brake;
+  run.channels().controls.write(feet);
+  Shifted shifted;
+  bool was_through = false;
+  while (run.time() < 2.5 && !shifted.in) {
+    const VehicleState seen = world.state();  // what the ring goes by
+    const double difference = std::abs(seen.shaft_speed - shaft_per_road(car, to) * seen.road_speed);
+    shifted.in = run.step().gear == to;
+    const VehicleState& now = world.state();
+    shifted.ground += now.grind_power / rush.rate;
+    const bool through =
+        now.sync != SyncPhase::free && now.sync != SyncPhase::indexing && now.sync != SyncPhase::synchronising;
+    if (through && !was_through) shifted.difference = std::max(shifted.difference, difference / ratio_of(car, to));
+    was_through = through;
+  }
+  return shifted;
+}
+
+bool fits(const CarSpec& car, const Gate& gate) {
+  return std::all_of(slots(gate).begin(), slots(gate).end(),
+                     [&](const Slot& slot) { return shaft_per_road(car, slot.gear) != 0.0; });
+}
+
+// Every shift between forward gears that keeps the engine whole, in every shipped gate. f(gate, from, to)
+template <class F>
+void each_shift(const CarSpec& car, F f) {
+  for (const std::string& name : shipped_names()) {
+    const Gate gate = shipped_gate(name);
+    if (!fits(car, gate)) continue;
+    CAPTURE(name);
+    for (const Slot& out_of : slots(gate)) {
+      for (const Slot& into : slots(gate)) {
+        if (out_of.gear < 1 || into.gear < 1 || out_of.gear == into.gear) continue;
+        if (ratio_of(car, into.gear) / ratio_of(car, out_of.gear) * 2500.0 * kRpm > car.engine.limiter) continue;
+        f(gate, out_of.gear, into.gear);
+      }
+    }
+  }
+}
+
+constexpr Rush kRushes[] = {{0.2, 20.0, 4000.0}, {0.2, 120.0, 500.0},  {0.7, 60.0, 1000.0},
+                            {2.0, 20.0, 2000.0}, {2.0, 120.0, 1000.0}, {2.0, 120.0, 500.0}};
+
+}  // namespace
+
+TEST_CASE("a sound ring: no forward gear grinds with the clutch down, from 0.2 to 2 m/s, to 120 N, at 500 to 4000 Hz") {
+  for (const std::string model : {"hatchback", "diesel"}) {
+    const CarSpec car = shipped_car(model);
+    CAPTURE(model);
+    int shifts = 0;
+    each_shift(car, [&](const Gate& gate, int from, int to) {
+      for (const Rush& rush : kRushes) {
+        for (const double brake : {0.0, 1.0}) {
+          CAPTURE(from);
+          CAPTURE(to);
+          CAPTURE(rush.speed);
+          CAPTURE(rush.push);
+          CAPTURE(rush.rate);
+          CAPTURE(brake);
+          const Shifted shifted = shift(car, gate, from, to, rush, brake);
+          ++shifts;
+          CHECK(shifted.in);
+          CHECK(shifted.ground == 0.0);
+          CHECK(shifted.difference <= car.synchro.dog_speed);
+        }
+      }
+    });
+    CHECK(shifts > 500);
+  }
+}
+
+TEST_CASE("a worn ring: every such shift grinds") {
+  CarSpec car = shipped_car("hatchback");
+  car.synchro.friction = 0.07;
+  each_shift(car, [&](const Gate& gate, int from, int to) {
+    CAPTURE(from);
+    CAPTURE(to);
+    const Shifted shifted = shift(car, gate, from, to, {0.7, 60.0, 1000.0}, 0.0);
+    CHECK(shifted.ground > 0.5);
+    CHECK(shifted.difference > car.synchro.dog_speed);
+  });
+}
