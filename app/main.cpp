@@ -1,4 +1,5 @@
 // gearshift: one program, plain verbs.
+#include <cstdio>
 #include <exception>
 
 #include <CLI/CLI.hpp>
@@ -51,11 +52,18 @@ int run(int argc, char** argv) {
   }
 }
 
+// What was printed has arrived: a script must not take a cut table for a whole one.
+int with_output(int code) {
+  if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return code;
+  fmt::print(stderr, "gearshift: standard output cannot be written\n");
+  return code == 0 ? kFailed : code;
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
   try {
-    return run(argc, argv);
+    return with_output(run(argc, argv));
   } catch (const std::exception& error) {
     fmt::print(stderr, "gearshift: {}\n", error.what());
     return kFailed;

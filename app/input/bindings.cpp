@@ -137,6 +137,19 @@ Bindings read_bindings(const std::filesystem::path& file) {
   return bindings;
 }
 
+std::vector<DrivingKey> driving_keys(const Bindings& bindings) {
+  constexpr Action kInOrder[] = {Action::clutch,      Action::brake,      Action::throttle, Action::throttle_light,
+                                 Action::clutch_hold, Action::hand_brake, Action::ignition, Action::starter,
+                                 Action::push_down,   Action::lift};
+  constexpr std::string_view kShort[] = {"clutch",     "brake",    "throttle", "a little throttle", "hold the clutch",
+                                         "hand brake", "ignition", "starter",  "knob down",         "lift ring"};
+  std::vector<DrivingKey> keys;
+  for (std::size_t i = 0; i < std::size(kInOrder); ++i)
+    if (const auto bound = bindings.keys.find(kInOrder[i]); bound != bindings.keys.end() && !bound->second.empty())
+      keys.push_back({kShort[i], key_name(bound->second.front())});
+  return keys;
+}
+
 std::string help_text(const Bindings& bindings) {
   std::string text;
   const auto line = [&text](const std::string& what, std::string_view does) {

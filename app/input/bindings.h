@@ -76,4 +76,11 @@ Bindings read_bindings(const std::filesystem::path& file);
 // tab.
 std::string help_text(const Bindings& bindings);
 
+// The first key of what drives the car, in the order of use: "clutch", "A". What has no key is left out.
+struct DrivingKey {
+  std::string_view does;
+  std::string key;
+};
+std::vector<DrivingKey> driving_keys(const Bindings& bindings);
+
 }  // namespace gearshift

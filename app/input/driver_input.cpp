@@ -37,6 +37,11 @@ double beyond(double dead_zone, double value) {
 }
 
 constexpr double kLightThrottle = 0.2;  // [1] what moves a car off
+constexpr double kFreeSpeed = 180.0;    // [rad/s] 1700 rpm: light throttle holds a free engine below this ...
+constexpr double kFreeBand = 50.0;      // [rad/s] ... and is whole this much lower
+constexpr double kKeyLead = 0.05;       // [m] of the hand before the lever, by keys: 25 N of a grip
+constexpr double kWaits = 0.3;          // [s] after the keys the lever has come as far as it comes ...
+constexpr double kRests = 0.005;        // [m] ... and the hand rests so near to it: 2.5 N hold it against its centring
 
 // Towards there, as fast as the whole way in `time`.
 double ramped(double pedal, double to, double seconds, double time) {
@@ -167,7 +172,7 @@ void DriverInput::take_mouse(const WindowInput& input, bool ui_has_mouse) {
 void DriverInput::move_hand(const WindowInput& input, double seconds) {
   if (led_ && mouse_leads_) aim_by_mouse(input.mouse_moved);
   led_ = mouse_leads_;
-  aim_by_keys(config_.bindings.key_speed * seconds);
+  aim_by_keys(config_.bindings.key_speed * seconds, seconds);
   lead_by_stick(input);
   set_hand();
   hand_.pressed_down = is_held(Action::push_down);
@@ -181,15 +186,23 @@ void DriverInput::aim_by_mouse(glm::dvec2 moved_px) {
   if (!std::isfinite(aim.x) || !std::isfinite(aim.y)) return;
   const glm::dvec2 farthest = config_.reach + kPushTravel;
   aim_ = glm::clamp(aim, -farthest, farthest);
+  if (moved_px != glm::dvec2(0.0)) keys_rest_ = kWaits;
 }
 
-// A key that is held a little long must not push: keys end at the reach.
-void DriverInput::aim_by_keys(double way) {
+// A key that is held a little long must not push: keys end at the reach, and not far before a lever that is held up.
+void DriverInput::aim_by_keys(double way, double seconds) {
   const auto direction = [this](Action plus, Action minus) { return double(is_held(plus)) - double(is_held(minus)); };
   const glm::dvec2 step{direction(Action::lever_right, Action::lever_left),
                         direction(Action::lever_forward, Action::lever_back)};
-  const glm::dvec2 farthest = glm::max(config_.reach, glm::abs(aim_));
-  aim_ = glm::clamp(aim_ + way * step, -farthest, farthest);
+  const bool moves = step != glm::dvec2(0.0);
+  if (moves) {
+    keys_rest_ = 0.0;
+    const glm::dvec2 near = glm::clamp(aim_ + way * step, lever_ - kKeyLead, lever_ + kKeyLead);
+    aim_ = glm::clamp(near, -config_.reach, config_.reach);
+  } else if (keys_rest_ < kWaits) {
+    keys_rest_ += seconds;
+    if (keys_rest_ >= kWaits) aim_ = glm::clamp(aim_, lever_ - kRests, lever_ + kRests);
+  }
 }
 
 void DriverInput::lead_by_stick(const WindowInput& input) {
@@ -199,6 +212,7 @@ void DriverInput::lead_by_stick(const WindowInput& input) {
     const int i = static_cast<int>(axis);
     const bool deflected = at[i] != 0.0;
     if (deflected || stick_leads_[axis]) aim_[i] = at[i] * config_.reach[i];
+    if (deflected) keys_rest_ = kWaits;
     stick_leads_[axis] = deflected;
   }
 }
@@ -216,6 +230,18 @@ void DriverInput::recentre(glm::dvec2 lever) {
 void DriverInput::set_reach(glm::dvec2 reach) {
   config_.reach = reach;
   recentre(aim_);
+}
+
+void DriverInput::feel(glm::dvec2 lever, double engine_speed, bool coupled) {
+  lever_ = lever;
+  engine_speed_ = engine_speed;
+  coupled_ = coupled;
+}
+
+// A foot holds the revs of an engine that turns freely: a fifth of the throttle would make it howl.
+double DriverInput::light_throttle() const noexcept {
+  if (coupled_) return kLightThrottle;
+  return kLightThrottle * std::clamp((kFreeSpeed - engine_speed_) / kFreeBand, 0.0, 1.0);
 }
 
 void DriverInput::set_clutch(double closed, double bite) {
@@ -260,7 +286,7 @@ double DriverInput::pedal_axis(const WindowInput& input, const std::optional<Axi
 void DriverInput::move_feet(const WindowInput& input, double seconds) {
   const Bindings& bindings = config_.bindings;
   const double time = bindings.pedal_time;
-  const double wanted = is_held(Action::throttle) ? 1.0 : is_held(Action::throttle_light) ? kLightThrottle : 0.0;
+  const double wanted = is_held(Action::throttle) ? 1.0 : is_held(Action::throttle_light) ? light_throttle() : 0.0;
   throttle_key_ = ramped(throttle_key_, wanted, seconds, time);
   brake_key_ = ramped(brake_key_, is_held(Action::brake) ? 1.0 : 0.0, seconds, time);
   if (is_held(Action::clutch))

@@ -2,10 +2,12 @@
 //
 //   hand    the mouse leads it while it leads the lever; lever keys move it at their speed; a stick puts it where the
 //           stick is, from when it leaves its rest until it is back there. It stays within reach; a mouse that goes on
-//           pushes instead, against whatever holds the lever
+//           pushes instead, against whatever holds the lever. Keys lead it at most 5 cm before the lever, and when they
+//           are let go it rests 5 mm before it at most: nobody leans on a lever for good
 //   feet    a pedal's key moves it down in pedal_time and up again when released; an axis puts it where the axis is,
 //           once that has moved: a pad tells nothing of an axis before. The pedal is where it is deepest. A key has no
-//           fine feeling, so it is given some: throttle_light presses a fifth, the clutch comes up slowly where it takes
+//           fine feeling, so it is given some: throttle_light presses a fifth, less of it
+//           where the engine turns freely and fast, the clutch comes up slowly where it takes
 //           hold, and stays where it is while clutch_hold is down
 //   mouse   leads the lever after a click beside the panel or by grab_mouse, until grab_mouse or the focus is lost
 //   panel   what it uses is not the driver's: no key goes down and no click counts. Two things pass: a key that types
@@ -56,6 +58,9 @@ class DriverInput {
   void set_reach(glm::dvec2 reach);  // [m] of another gate or device
   void set_clutch(double closed,
                   double bite);  // [1] pedal of another car: it takes hold between these, 0 <= closed < bite
+  // Before update(), once a frame: what the driver feels and hears of. Lever [m], engine [rad/s]; coupled: to the wheels.
+  void feel(glm::dvec2 lever, double engine_speed, bool coupled);
+  void free_mouse() noexcept { mouse_leads_ = led_ = false; }
   void set_car(bool ignition, double hand_brake);  // as a lesson begins; hand_brake 0 to 1
 
  private:
@@ -83,14 +88,19 @@ class DriverInput {
   void lead_by_stick(const WindowInput& input);
   void move_feet(const WindowInput& input, double seconds);
   void aim_by_mouse(glm::dvec2 moved_px);
-  void aim_by_keys(double way);
+  void aim_by_keys(double way, double seconds);
+  double light_throttle() const noexcept;
   void set_hand();
   std::optional<double> raw_axis(const WindowInput& input, const std::optional<AxisBinding>& axis, std::size_t watch);
   double stick(const WindowInput& input, const std::optional<AxisBinding>& axis, std::size_t watch);
   double pedal_axis(const WindowInput& input, const std::optional<AxisBinding>& axis, std::size_t watch);
 
   InputConfig config_;
-  glm::dvec2 aim_{0.0};  // [m] where the hand wants to be: beyond reach it pushes
+  glm::dvec2 aim_{0.0};        // [m] where the hand wants to be: beyond reach it pushes
+  glm::dvec2 lever_{0.0};      // [m] where it is
+  double engine_speed_ = 0.0;  // [rad/s]
+  bool coupled_ = false;
+  double keys_rest_ = 1.0;  // [s] since keys moved the hand; 1: something else has moved it since
   HandTarget hand_;
   DriverControls controls_;
   std::vector<Action> pressed_;

@@ -34,12 +34,12 @@ float ClipMeter::height() {
   return ui_font(UiFont::small)->FontSize + bar_height() + 2.0f * ImGui::GetStyle().ItemSpacing.y;
 }
 
-// A bar of one and a half times what the device can: commanded filled, wanted as a mark, its peak as a thin line.
+// A bar of one and a half times what the device can: given filled, wanted as a mark, its peak as a thin line.
 void ClipMeter::draw(Controls& controls, const HapticSnapshot& now, const DeviceSpec& device) const {
   const double most = std::max(1.0, greater(device.max_force)), range = 1.5 * most;
-  const double wanted = greater(wanted_force(now)), commanded = greater(now.commanded);
+  const double wanted = greater(wanted_force(now)), given = greater(now.f_a);
   const bool clipped = (now.flags & kFlagSaturated) != 0;
-  controls.legend(ink::kActuator, fmt::format("given {:.1f} N", commanded));
+  controls.legend(ink::kActuator, fmt::format("given {:.1f} N", given));
   ImGui::SameLine(0.0f, 0.8f * ui_em());
   controls.legend(ink::kText, fmt::format("wanted {:.1f} N", wanted));
   ImGui::SameLine(0.0f, 0.8f * ui_em());
@@ -56,7 +56,7 @@ void ClipMeter::draw(Controls& controls, const HapticSnapshot& now, const Device
   const float bottom = low.y + size.y, thick = std::max(1.0f, 0.13f * ui_em());
   list.AddRectFilled(low, {low.x + size.x, bottom}, ink::kWell, 2.0f);
   list.AddRectFilled({x(most), low.y}, {low.x + size.x, bottom}, with_alpha(ink::kBad, 0.25f), 2.0f);
-  list.AddRectFilled(low, {x(commanded), bottom}, clipped ? ink::kBad : ink::kActuator, 2.0f);
+  list.AddRectFilled(low, {x(given), bottom}, clipped ? ink::kBad : ink::kActuator, 2.0f);
   list.AddLine({x(wanted), low.y}, {x(wanted), bottom}, ink::kText, thick);
   list.AddLine({x(record_.peak()), low.y}, {x(record_.peak()), bottom}, ink::kWarn, 0.5f * thick);
 }

@@ -1,4 +1,4 @@
-// Commanded against wanted force: what the device could not give.
+// Given (f_a) against wanted force: what the device could not give.
 #pragma once
 
 #include <imgui.h>

@@ -6,8 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "app/panel/car_strip.h"
 #include "app/panel/lesson_words.h"
 #include "app/panel/palette.h"
+#include "app/panel/text_lines.h"
+#include "app/panel/value_text.h"
 
 namespace gearshift {
 namespace {
@@ -15,7 +18,7 @@ namespace {
 // [em] wide
 constexpr float kCar = 14.6f, kLamps = 6.2f, kState = 7.0f, kArm = 5.5f, kRecording = 7.4f, kStop = 9.0f;
 constexpr float kLeastMessage = 9.0f;
-constexpr int kLampColumns = 2;
+constexpr int kLampColumns = 3;
 
 // The bar from left to right; each part takes its width and leaves the cursor at its right.
 class Parts {
@@ -77,7 +80,7 @@ void draw_car(const Parts& parts, const PanelInput& input) {
   if (car.stalled)
     list.AddRectFilled({at - 0.3f * em, top}, {at + 4.6f * em, top + ImGui::GetTextLineHeight()},
                        with_alpha(ink::kBad, 0.25f), 3.0f);
-  list.AddText({at, top + line}, ink::kText, fmt::format("{:.0f} km/h", kKmhPerMps * car.road_speed).c_str());
+  list.AddText({at, top + line}, ink::kText, value_text(kKmhPerMps * car.road_speed, "km/h", 0).c_str());
   float x = low.x + gear_width + text_width;
   const ImVec2 size(pedal_width, parts.height());
   pedal("C", car.clutch, {x, low.y}, size, ink::kAccent);
@@ -96,36 +99,62 @@ void lamp(ImVec2 at, const char* text, bool on, ImU32 colour) {
 }
 
 struct Lamp {
-  const char* name;
+  std::string name;
   bool on;
   ImU32 colour;
+  const char* means;
 };
+
+// Of the road, where it is none; else nothing.
+Lamp slope_lamp(const VehicleState& car) {
+  const double slope = slope_percent(car);
+  if (slope == 0.0) return {{}, false, 0, ""};
+  return {fmt::format("Slope {:+.0f} %", slope), true, ink::kText, "How steep the road is: uphill is more than zero."};
+}
 
 // In columns of three, the more important ones first.
 void draw_lamps(const Parts& parts, int columns, const PanelInput& input) {
   const HapticSnapshot& now = input.now;
   const bool softened = now.wall_stiffness > 0.0 && now.wall_stiffness < 0.999 * input.admitted.tuning.wall_stiffness;
-  const Lamp lamps[kLampColumns][3] = {{{"Over-push", (now.flags & kFlagOverPush) != 0, ink::kBad},
-                                        {"Saturated", (now.flags & kFlagSaturated) != 0, ink::kWarn},
-                                        {"Ghost hand", (now.flags & kFlagGhost) != 0, ink::kWarn}},
-                                       {{"Grinding", input.car.grinding, ink::kBad},
-                                        {"Over-rev", input.car.over_revved, ink::kBad},
-                                        {"Softened", softened, ink::kWarn}}};
+  const VehicleState& car = input.car;
+  const Lamp lamps[kLampColumns][3] = {
+      {{"Over-push", (now.flags & kFlagOverPush) != 0, ink::kBad, "The hand pushes harder than the device can hold."},
+       {"Saturated", (now.flags & kFlagSaturated) != 0, ink::kWarn, "More force is wanted than the device can give."},
+       {"Ghost hand", (now.flags & kFlagGhost) != 0, ink::kWarn,
+        "The drawn lever stays in the gate; the hand has pushed the real one through a wall."}},
+      {{"Grinding", car.grinding, ink::kBad, "Teeth on teeth: the clutch is not down."},
+       {"Over-rev", car.over_revved, ink::kBad, "The engine is above its red line: off the throttle."},
+       {"Softened", softened, ink::kWarn, "The walls are softer than wanted, for the lever chattered on one."}},
+      {{"Hand brake", car.hand_brake > kHandBrakeOn, ink::kBad, "It is on."},
+       {"Ignition", car.ignition, ink::kGood, "It is on."},
+       slope_lamp(car)}};
   const float em = ui_em(), line = parts.height() / 3.0f;
   const float above = 0.5f * (line - ui_font(UiFont::small)->FontSize);
   for (int column = 0; column < columns; ++column) {
     const float x = parts.low().x + static_cast<float>(column) * kLamps * em;
     for (int row = 0; row < 3; ++row) {
       const Lamp& l = lamps[column][row];
-      lamp({x, parts.low().y + static_cast<float>(row) * line + above}, l.name, l.on, l.colour);
+      if (l.name.empty()) continue;
+      const float y = parts.low().y + static_cast<float>(row) * line;
+      lamp({x, y + above}, l.name.c_str(), l.on, l.colour);
+      if (ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect({x, y}, {x + kLamps * em, y + line}))
+        ImGui::SetTooltip("%s", l.means);
     }
   }
 }
 
-std::string loop_line(const PanelInput& input) {
+// As much of it as has room [px].
+std::string loop_line(const PanelInput& input, float width) {
   const LoopHealth& health = input.health;
-  return fmt::format("{:.0f} Hz · p99 late {:.0f} µs · {} missed · {:.0f} ms a frame", health.rate,
-                     1e6 * health.late_p99, health.skipped, input.frame_ms);
+  const std::string rate = fmt::format("{:.0f} Hz", health.rate),
+                    late = fmt::format("p99 late {:.0f} µs", 1e6 * health.late_p99),
+                    missed = fmt::format("{} missed", health.skipped),
+                    frame = fmt::format("{:.0f} ms a frame", input.frame_ms);
+  const std::string lines[] = {fmt::format("{} · {} · {} · {}", rate, late, missed, frame),
+                               fmt::format("{} · {} · {}", rate, missed, frame), fmt::format("{} · {}", rate, missed)};
+  for (const std::string& line : lines)
+    if (width_of(line) <= width) return line;
+  return rate;
 }
 
 // The message takes what is left; where it is longer than two lines of that, it is there to be hovered.
@@ -134,15 +163,16 @@ void draw_message(Controls& controls, const Parts& parts, float width, const Pan
   const ImVec2 low = parts.low();
   const float line = ImGui::GetTextLineHeight();
   const ImVec2 room(width, parts.height() - line - 2.0f);
+  const std::string message = with_short_paths(input.message, width);
   ImGui::PushClipRect(low, {low.x + room.x, low.y + room.y}, true);
   ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width);
-  ImGui::TextUnformatted(input.message.c_str());
+  ImGui::TextUnformatted(message.c_str());
   ImGui::PopTextWrapPos();
   ImGui::PopClipRect();
-  const bool is_long = ImGui::GetItemRectSize().y > room.y;
-  if (is_long && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", input.message.c_str());
+  const bool is_cut = ImGui::GetItemRectSize().y > room.y || message != input.message;
+  if (is_cut && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", input.message.c_str());
   ImGui::SetCursorScreenPos({low.x, low.y + parts.height() - line});
-  controls.line(loop_line(input), width, ink::kSoft);
+  controls.line(loop_line(input, width), width, ink::kSoft);
 }
 
 ImU32 state_colour(GuardState state) {
@@ -191,11 +221,20 @@ void draw_arm(Controls& controls, const Parts& parts, float width, GuardState st
   }
 }
 
-void draw_recording(Controls& controls, const Parts& parts, float width, bool recording, PanelRequests& out) {
+// What a lesson records of itself ends with it and not before.
+void draw_recording(Controls& controls, const Parts& parts, float width, const PanelInput& input, PanelRequests& out) {
   const float gap = 0.25f * ui_em();
   const ImVec2 size(width, 0.5f * (parts.height() - gap));
-  out.record = recording ? controls.button("record", "End recording", size, ink::kBadDeep)
-                         : controls.button("record", "Record", size);
+  const bool of_lesson = input.recording && input.coach.phase == LessonPhase::driving;
+  if (of_lesson) {
+    const WithFont small(UiFont::small);
+    ImGui::BeginDisabled();
+    controls.button("record", "lesson recorded", size);
+    ImGui::EndDisabled();
+  } else {
+    out.record = input.recording ? controls.button("record", "End recording", size, ink::kBadDeep)
+                                 : controls.button("record", "Record", size);
+  }
   ImGui::SetCursorScreenPos({parts.low().x, parts.low().y + size.y + gap});
   out.replay = controls.button("replay", "Replay", size);
 }
@@ -260,7 +299,7 @@ void draw_control_bar(Controls& controls, const PanelInput& input, PanelRequests
     parts.next(kArm * em);
   }
   if (shown.recording) {
-    draw_recording(controls, parts, kRecording * em, input.recording, out);
+    draw_recording(controls, parts, kRecording * em, input, out);
     parts.next(kRecording * em);
   }
   draw_stop(controls, parts, stop, out);

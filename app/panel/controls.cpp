@@ -59,20 +59,25 @@ bool Controls::button(const char* name, const char* label, ImVec2 size, ImU32 co
 }
 
 std::optional<std::string> Controls::choice(const char* name, const std::string& current,
-                                            std::span<const std::string> options, float width) {
+                                            std::span<const std::string> options, float width,
+                                            std::string (*words)(const std::string&)) {
   std::optional<std::string> chosen;
+  const auto read = [words](const std::string& option) { return words == nullptr ? option : words(option); };
+  const std::string said = read(current);
   const float room = width - ImGui::GetFrameHeight() - ImGui::GetStyle().FramePadding.x;
-  const bool fits = width_of(current) <= room;
+  const bool fits = width_of(said) <= room;
   if (!fits) ++shortened_;
-  const std::string shown = fits ? current : with_ellipsis(current, room);
+  const std::string shown = fits ? said : with_ellipsis(said, room);
   ImGui::PushID(name);
   ImGui::SetNextItemWidth(width);
   const bool open = ImGui::BeginCombo("##choice", shown.c_str());
   mark(name);
-  if (!open && !fits && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", current.c_str());
+  if (!open && !fits && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", said.c_str());
   if (open) {
     for (const std::string& option : options) {
-      if (ImGui::Selectable(option.c_str(), option == current) && option != current) chosen = option;
+      ImGui::PushID(option.c_str());
+      if (ImGui::Selectable(read(option).c_str(), option == current) && option != current) chosen = option;
+      ImGui::PopID();
       mark(std::string(name) + ": " + option);
     }
     ImGui::EndCombo();

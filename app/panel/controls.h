@@ -30,9 +30,10 @@ class Controls {
 
   bool button(const char* name, const char* label, ImVec2 size = {0.0f, 0.0f});
   bool button(const char* name, const char* label, ImVec2 size, ImU32 colour);  // in that colour
-  // A choice of several; what was chosen, where it is another one. width [px]
+  // A choice of several; what was chosen, where it is another one. width [px]; words: how an option is shown, else as
+  // it is.
   std::optional<std::string> choice(const char* name, const std::string& current, std::span<const std::string> options,
-                                    float width);
+                                    float width, std::string (*words)(const std::string&) = nullptr);
   // "f_h 12.3 N" after a dash in the colour of its curve, in the small font.
   void legend(ImU32 colour, std::string_view text);
   // One line in at most that width [px]: in the small font where need be, and with an ellipsis as a last resort.

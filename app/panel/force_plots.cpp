@@ -7,6 +7,7 @@
 
 #include "app/panel/palette.h"
 #include "app/panel/plot_area.h"
+#include "app/panel/value_text.h"
 #include "haptics/gate/gate_feel.h"
 
 namespace gearshift {
@@ -40,7 +41,7 @@ void header(const char* text) {
 
 void entry(Controls& controls, ImU32 colour, const char* name, double value, const char* unit) {
   ImGui::SameLine(0.0f, 0.8f * ui_em());
-  controls.legend(colour, fmt::format("{} {:.1f} {}", name, value, unit));
+  controls.legend(colour, fmt::format("{} {}", name, value_text(value, unit, 1)));
 }
 
 PlotRange force_range(double greatest) {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <string>
 
 #include <fmt/format.h>
@@ -81,6 +82,7 @@ void HistoryView::draw(Controls& controls, const CoachView& coach, PanelRequests
     return;
   }
   ImGui::Spacing();
+  put(fmt::format("Times are local: {}.", time_zone_words(std::time(nullptr))), ink::kSoft, UiFont::small);
   for (std::size_t i = 0; i < coach.runs.size(); ++i) {
     const RunRow& run = coach.runs[i];
     draw_run(controls, coach, run);

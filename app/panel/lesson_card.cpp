@@ -1,10 +1,14 @@
 #include "app/panel/lesson_card.h"
 
 #include <algorithm>
+#include <cmath>
 #include <string>
 
 #include <fmt/format.h>
 
+#include "app/panel/car_strip.h"
+#include "app/panel/key_legend.h"
+#include "app/panel/lesson_end.h"
 #include "app/panel/lesson_words.h"
 #include "app/panel/palette.h"
 #include "app/panel/text_lines.h"
@@ -12,24 +16,25 @@
 namespace gearshift {
 namespace {
 
-constexpr float kMostWidth = 42.0f, kLeastWidth = 10.0f, kMargin = 0.8f;  // [em]
-constexpr double kFresh = 5.0;                                            // [s] that a new sentence is large
-constexpr std::size_t kOlder = 2;                                         // sentences that are kept in sight after it
-constexpr float kOpaque = 0.76f;
+constexpr float kMostWidth = 52.0f, kLeastWidth = 10.0f, kMargin = 0.8f;   // [em]
+constexpr float kShare = 0.25f, kMostShare = 0.62f, kLeastHeight = 10.8f;  // [1] of the room; [em]
+constexpr double kFresh = 5.0;                                             // [s] that a new sentence is large
+constexpr std::size_t kOlder = 2;                                          // sentences that are kept in sight after it
+constexpr double kTimeIsShort = 20.0;                                      // [s] left
+constexpr float kOpaque = 0.86f;
 
-bool begin_card(const ControlRect& room, float width) {
+bool begin_card(const ControlRect& room, ImVec2 size) {
   constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
                                       ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
-                                      ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_AlwaysAutoResize;
+                                      ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoScrollWithMouse;
   const float em = ui_em();
-  const auto height = static_cast<float>(room.max.y - room.min.y);
-  const ImVec2 top(0.5f * static_cast<float>(room.min.x + room.max.x),
-                   static_cast<float>(room.min.y) + 0.5f * kMargin * em);
-  ImGui::SetNextWindowPos(top, ImGuiCond_Always, {0.5f, 0.0f});
-  ImGui::SetNextWindowSizeConstraints({width, 0.0f}, {width, std::max(em, height - kMargin * em)});
+  const ImVec2 foot(0.5f * static_cast<float>(room.min.x + room.max.x),
+                    static_cast<float>(room.max.y) - 0.5f * kMargin * em);
+  ImGui::SetNextWindowPos(foot, ImGuiCond_Always, {0.5f, 1.0f});
+  ImGui::SetNextWindowSize(size);
   ImGui::SetNextWindowBgAlpha(kOpaque);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.5f * em);
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.9f * em, 0.6f * em});
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.9f * em, 0.5f * em});
   const bool open = ImGui::Begin("Lesson", nullptr, kFlags);
   ImGui::PopStyleVar(2);
   return open;
@@ -107,75 +112,70 @@ std::string step_words(const LessonView& view) {
   return fmt::format("step {} of {}", view.step + 1, view.steps);
 }
 
-const char* outcome_words(const LessonResult& result) {
-  if (shows_grade(result)) return result.passed ? "Passed" : "Not passed";
-  if (result.end == LessonEnd::left) return "Left";
-  return result.end == LessonEnd::done ? "Done" : "Not done";
+// "1:05 left"
+std::string left_words(double seconds) {
+  const int left = std::max(0, static_cast<int>(std::ceil(seconds)));
+  return fmt::format("{}:{:02} left", left / 60, left % 60);
 }
 
-// The grade, or that there is none; as wide as the grade is in any case.
-void draw_grade(const LessonResult& result) {
-  const float em = ui_em(), begin = ImGui::GetCursorPosX();
-  ImGui::BeginGroup();
-  if (shows_grade(result)) {
-    put(verdict_words(result), verdict_colour(result), UiFont::digits);
-    ImGui::SameLine(0.0f, 0.3f * em);
-    ImGui::SetCursorPosY(ImGui::GetCursorPosY() + ui_font(UiFont::digits)->FontSize - 1.5f * em);
-    put("of 10", ink::kSoft, UiFont::small);
-  } else {
-    ImGui::Dummy({0.0f, 0.3f * em});
-    put("not", ink::kSoft, UiFont::prompt);
-    ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 0.35f * em);
-    put("graded", ink::kSoft, UiFont::prompt);
-  }
-  ImGui::EndGroup();
-  const float wanted = begin + std::max(9.2f * em, ImGui::GetItemRectSize().x + em);
-  ImGui::SameLine(wanted);
-  if (ImGui::GetContentRegionAvail().x < 9.0f * em) ImGui::NewLine();
+void draw_time_left(const CoachView& coach) {
+  if (coach.time_limit <= 0.0) return;
+  const double left = coach.time_limit - coach.result.duration;
+  const std::string words = left_words(left);
+  beside(width_of(words, UiFont::small));
+  put(words, left <= kTimeIsShort ? ink::kWarn : ink::kSoft, UiFont::small);
 }
 
-void draw_outcome(const CoachView& coach) {
-  const LessonResult& result = coach.result;
-  ImGui::BeginGroup();
-  put_wrapped(coach.title, ink::kSoft, UiFont::small);
-  put(outcome_words(result), shows_grade(result) ? verdict_colour(result) : ink::kText, UiFont::prompt);
-  if (!result.why.empty()) put_wrapped(result.why, ink::kText, UiFont::body);
-  ImGui::EndGroup();
+// What is looked at again says nothing of the forces now.
+bool are_forces_off(const PanelInput& input) {
+  const GuardState guard = input.now.guard;
+  return input.replay == nullptr && guard != GuardState::running && guard != GuardState::ramping;
 }
 
-// What cost points; where nothing did because there is no grade, what would have.
-bool is_told(const LessonResult& result, std::size_t fault) {
-  return points_of_fault(result, fault) > 0.0 ||
-         (!shows_grade(result) && result.faults[fault].severity != Severity::note);
+void draw_title(const CoachView& coach) {
+  ImGui::AlignTextToFramePadding();
+  put(coach.title, ink::kAccent, UiFont::title);
 }
 
-void draw_fault(const LessonResult& result, std::size_t index) {
-  const DriveFault& fault = result.faults[index];
-  ImGui::TableNextRow();
-  ImGui::TableNextColumn();
-  put(fmt::format("{:.1f} s", fault.time - result.begin), ink::kSoft, UiFont::small);
-  ImGui::TableNextColumn();
-  put_wrapped(fault_sentence(fault), ink::kText, UiFont::small);
-  ImGui::TableNextColumn();
-  const double points = points_of_fault(result, index);
-  if (points > 0.0 && shows_grade(result))
-    put(fmt::format("-{:.1f}", points), severity_colour(fault.severity), UiFont::small);
+void draw_next(const CoachView& coach, bool has_next) {
+  if (coach.next.empty()) return;
+  put(has_next ? "Next" : "Once more", ink::kSoft, UiFont::small);
+  const std::string title = lesson_title(coach, coach.next);
+  beside(width_of(title, UiFont::small));
+  put(title, ink::kAccent, UiFont::small);
+  beside(width_of(coach.next_why, UiFont::small));
+  put_wrapped(coach.next_why, ink::kSoft);
 }
 
 }  // namespace
 
-void LessonCard::draw(Controls& controls, const CoachView& coach, const ControlRect& room, LessonRequests& out) {
+double LessonCard::draw(Controls& controls, const PanelInput& input, bool panel_shown, const ControlRect& room,
+                        PanelRequests& out) {
+  const CoachView& coach = input.coach;
   listen(coach);
   const float em = ui_em(), all = static_cast<float>(room.max.x - room.min.x);
+  const auto height = static_cast<float>(room.max.y - room.min.y);
   const float width = std::min(kMostWidth * em, all - 2.0f * kMargin * em);
-  if (coach.phase == LessonPhase::none || width < kLeastWidth * em) return;
-  most_list_ = std::max(3.0f * em, 0.24f * static_cast<float>(room.max.y - room.min.y));
-  if (begin_card(room, width)) {
-    if (coach.phase == LessonPhase::offered) draw_offered(controls, coach, out);
-    if (coach.phase == LessonPhase::driving) draw_driving(controls, coach, out);
-    if (coach.phase == LessonPhase::over) draw_over(controls, coach, out);
+  const ImVec2 least(width, std::min(std::max(kShare * height, kLeastHeight * em), kMostShare * height));
+  follow(coach, least);
+  if (coach.phase == LessonPhase::none || width < kLeastWidth * em) return room.max.y;
+  const ImVec2 size(width, std::floor(std::max(least.y, std::min(needed_, kMostShare * height))));
+  Now now{controls, input, coach, panel_shown, are_forces_off(input), out};
+  if (begin_card(room, size)) {
+    if (coach.phase == LessonPhase::offered) draw_offered(now);
+    if (coach.phase == LessonPhase::driving) draw_driving(now);
+    if (coach.phase == LessonPhase::over) draw_over(now);
   }
   ImGui::End();
+  return room.max.y - static_cast<double>(size.y + kMargin * em);
+}
+
+// Another lesson, another screen: its height is found anew.
+void LessonCard::follow(const CoachView& coach, ImVec2 size) {
+  if (coach.lesson == lesson_ && size.x == size_.x && size.y == size_.y) return;
+  lesson_ = coach.lesson;
+  size_ = size;
+  needed_ = 0.0f;
 }
 
 // Also while it is not seen: what is fresh is so by the clock.
@@ -185,24 +185,66 @@ void LessonCard::listen(const CoachView& coach) {
   said_ = said;
 }
 
-void LessonCard::draw_offered(Controls& controls, const CoachView& coach, LessonRequests& out) {
-  put_wrapped(coach.title, ink::kAccent, UiFont::title);
-  put_wrapped(coach.goal, ink::kText, UiFont::prompt);
-  ImGui::Spacing();
-  const bool alone = coach.mode == LessonMode::by_yourself;
-  out.begin = primary(controls, "lesson_begin", "Enter begins") || out.begin;
-  beside(button_width(kFollow) + button_width(kAlone));
-  if (draw_switch(controls, "mode", kFollow, kAlone, alone))
-    out.mode = alone ? LessonMode::follow_me : LessonMode::by_yourself;
-  beside(ImGui::GetFrameHeight() + button_width("Help"));
-  bool help = coach.help_wanted;
-  if (ImGui::Checkbox("Help", &help)) out.help = help;
-  controls.mark("help");
-  if (quiet_button(controls, "lesson_put_away", "Not now")) out.put_away = true;
-  put_wrapped(trial_words(coach), ink::kSoft);
+// The texts, which scroll where they must, and what stands below them at the card's foot. body: returns how much of it
+// must be seen [px].
+template <class Body, class Foot>
+void LessonCard::draw_parts(LessonPhase phase, const Body& body, const Foot& foot) {
+  float& foot_height = foot_[static_cast<std::size_t>(phase)];
+  const float top = ImGui::GetCursorPosY();
+  const float height = std::max(ui_em(), ImGui::GetContentRegionAvail().y - foot_height);
+  // No bar beside a prompt: it would come and go, and break its lines anew.
+  const int bar = phase == LessonPhase::driving ? ImGuiWindowFlags_NoScrollbar : 0;
+  ImGui::BeginChild("texts", {0.0f, height}, false, ImGuiWindowFlags_NavFlattened | bar);
+  const float must = body();
+  ImGui::EndChild();
+  const float begin = ImGui::GetCursorPosY();
+  foot();
+  foot_height = ImGui::GetCursorPosY() - begin;
+  needed_ = std::max(needed_, top + must + foot_height + 0.5f * ui_em());
 }
 
-void LessonCard::draw_driving(Controls& controls, const CoachView& coach, LessonRequests& out) {
+// What a hand needs to know besides: keys, who leads the lever, and the car where no bar tells of it.
+void LessonCard::draw_helps(const Now& now) {
+  if (!now.input.keys.empty()) {
+    draw_keys(now.input.keys);
+    const char* mouse = mouse_words(now.input.mouse_leads);
+    ImGui::SameLine(0.0f, 0.8f * ui_em());
+    if (ImGui::GetContentRegionAvail().x < width_of(mouse, UiFont::small)) ImGui::NewLine();
+    put(mouse, now.input.mouse_leads ? ink::kAccent : ink::kSoft, UiFont::small);
+  }
+  if (!now.panel_shown) draw_car_strip(now.input.car, now.input.now.gear);
+}
+
+void LessonCard::draw_offered(Now& now) {
+  const CoachView& coach = now.coach;
+  LessonRequests& out = now.out.lesson;
+  draw_title(coach);
+  if (quiet_button(now.controls, "lesson_put_away", "Not now")) out.put_away = true;
+  const auto body = [&] {
+    put_wrapped(coach.goal, ink::kText, UiFont::prompt);
+    put_wrapped(trial_words(coach), ink::kSoft);
+    return ImGui::GetCursorPosY();
+  };
+  const auto foot = [&] {
+    if (primary(now.controls, "lesson_begin", now.forces_off ? "Enter: motors on, and begin" : "Enter begins")) {
+      out.begin = true;
+      now.out.arm = now.out.arm || now.forces_off;
+    }
+    const bool alone = coach.mode == LessonMode::by_yourself;
+    beside(button_width(kFollow) + button_width(kAlone));
+    if (draw_switch(now.controls, "mode", kFollow, kAlone, alone))
+      out.mode = alone ? LessonMode::follow_me : LessonMode::by_yourself;
+    beside(ImGui::GetFrameHeight() + button_width("Help"));
+    bool help = coach.help_wanted;
+    if (ImGui::Checkbox("Help", &help)) out.help = help;
+    now.controls.mark("help");
+    draw_helps(now);
+  };
+  draw_parts(LessonPhase::offered, body, foot);
+}
+
+void LessonCard::draw_driving(Now& now) {
+  const CoachView& coach = now.coach;
   ImGui::AlignTextToFramePadding();
   put(coach.title, ink::kSoft, UiFont::small);
   if (coach.now.steps > 0) {
@@ -210,70 +252,67 @@ void LessonCard::draw_driving(Controls& controls, const CoachView& coach, Lesson
     beside(width_of(words, UiFont::small));
     put(words, ink::kAccent, UiFont::small);
   }
+  draw_time_left(coach);
   if (coach.guidance > 0.0) draw_mark("guided, not graded", ink::kAccent);
   if (coach.retention) draw_mark("test: no help", ink::kText);
-  if (quiet_button(controls, "lesson_leave", "Leave")) out.leave = true;
+  if (quiet_button(now.controls, "lesson_leave", "Leave")) now.out.lesson.leave = true;
   draw_progress(coach.now.step, coach.now.steps);
-  ImGui::Spacing();
+  draw_parts(
+      LessonPhase::driving, [&] { return draw_prompts(now); }, [&] { draw_helps(now); });
+}
+
+// Returns the height that must be seen [px]: all but the older sentences.
+float LessonCard::draw_prompts(Now& now) {
+  const CoachView& coach = now.coach;
   put_wrapped(coach.now.prompt, ink::kText, UiFont::prompt);
+  if (now.forces_off) put_wrapped("Motors off. Enter gives them back.", ink::kBad, UiFont::title);
+  if (now.input.car.stalled) draw_restart_words(now.input.keys);
   if (!coach.now.hint.empty()) put_wrapped(coach.now.hint, ink::kAccent, UiFont::body);
-  draw_said(coach.now.said);
+  float must = ImGui::GetCursorPosY();
+  draw_said(coach.now.said, must);
+  return must;
 }
 
 // The newest large as long as it is new, then small like those before it.
-void LessonCard::draw_said(const std::vector<std::string>& said) {
+void LessonCard::draw_said(const std::vector<std::string>& said, float& must) {
+  const float line = ui_font(UiFont::title)->FontSize + ImGui::GetStyle().ItemSpacing.y;
+  const float begin = ImGui::GetCursorPosY();
+  must = begin + line;  // a place for one is kept
   if (said.empty()) return;
   const bool fresh = ImGui::GetTime() - said_at_ < kFresh;
   std::size_t left = kOlder + (fresh ? 1 : 0);
   for (std::size_t i = said.size(); i-- > 0 && left > 0; --left) {
-    if (fresh && i + 1 == said.size()) {
+    const bool newest = i + 1 == said.size();
+    if (fresh && newest) {
       put_wrapped(said[i], ink::kWarn, UiFont::title);
     } else {
       put_wrapped(said[i], with_alpha(ink::kWarn, 0.7f), UiFont::small);
     }
+    if (newest) must = std::max(must, ImGui::GetCursorPosY());
   }
 }
 
-void LessonCard::draw_over(Controls& controls, const CoachView& coach, LessonRequests& out) {
-  draw_grade(coach.result);
-  draw_outcome(coach);
-  draw_faults(coach.result);
-  ImGui::Separator();
-  const bool has_next = !coach.next.empty() && coach.next != coach.lesson, passed = coach.result.passed;
-  if (!coach.next.empty()) {
-    put(has_next ? "Next" : "Once more", ink::kSoft, UiFont::small);
-    const std::string title = lesson_title(coach, coach.next);
-    beside(width_of(title, UiFont::title));
-    put(title, ink::kAccent, UiFont::title);
-    put_wrapped(coach.next_why, ink::kSoft);
-    ImGui::Spacing();
-  }
-  if (primary(controls, "lesson_again", "Again", !passed || !has_next)) out.begin = true;
-  if (has_next) {
-    beside(button_width("Next lesson"));
-    if (primary(controls, "lesson_next", "Next lesson", passed)) out.offer = coach.next;
-  }
-  if (quiet_button(controls, "lesson_put_away", "Close")) out.put_away = true;
-}
-
-// In the order of the drive.
-void LessonCard::draw_faults(const LessonResult& result) {
-  std::vector<std::size_t> told;
-  for (std::size_t i = 0; i < result.faults.size(); ++i)
-    if (is_told(result, i)) told.push_back(i);
-  if (told.empty()) return;
-  ImGui::Spacing();
-  const float height = faults_height_ > 0.0f ? std::min(faults_height_, most_list_) : most_list_;
-  ImGui::BeginChild("faults", {0.0f, height}, false, ImGuiWindowFlags_NavFlattened);
-  if (ImGui::BeginTable("fault", 3, ImGuiTableFlags_SizingFixedFit)) {
-    ImGui::TableSetupColumn("time", ImGuiTableColumnFlags_WidthFixed, 3.4f * ui_em());
-    ImGui::TableSetupColumn("says", ImGuiTableColumnFlags_WidthStretch);
-    ImGui::TableSetupColumn("points", ImGuiTableColumnFlags_WidthFixed, 2.2f * ui_em());
-    for (const std::size_t fault : told) draw_fault(result, fault);
-    ImGui::EndTable();
-  }
-  faults_height_ = ImGui::GetCursorPosY();
-  ImGui::EndChild();
+// Enter does what the coloured button does, and that button says so.
+void LessonCard::draw_over(Now& now) {
+  const CoachView& coach = now.coach;
+  LessonRequests& out = now.out.lesson;
+  const bool has_next = !coach.next.empty() && coach.next != coach.lesson, goes_on = coach.result.passed && has_next;
+  const auto foot = [&] {
+    draw_next(coach, has_next);
+    const char* again = goes_on ? "Again" : now.forces_off ? "Enter: motors on, and again" : "Enter: again";
+    if (primary(now.controls, "lesson_again", again, !goes_on)) {
+      out.begin = true;
+      now.out.arm = now.out.arm || now.forces_off;
+    }
+    const char* next = goes_on ? "Enter: next lesson" : "Next lesson";
+    if (has_next) {
+      beside(button_width(next));
+      if (primary(now.controls, "lesson_next", next, goes_on)) out.offer = coach.next;
+    }
+    if (quiet_button(now.controls, "lesson_put_away", "Close")) out.put_away = true;
+  };
+  draw_parts(
+      LessonPhase::over, [&] { return draw_lesson_end(coach); }, foot);
 }
 
 }  // namespace gearshift

@@ -1,6 +1,8 @@
 #include "app/panel/lesson_words.h"
 
 #include <algorithm>
+#include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
@@ -9,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "app/panel/palette.h"
+#include "app/panel/value_text.h"
 #include "app/training/grade.h"
 
 namespace gearshift {
@@ -60,7 +63,7 @@ std::string gears_words(const ShiftRecord& shift) {
 }
 
 std::string rpm_words(double speed) {
-  return fmt::format("{:.0f} rpm", speed * 60.0 / (2.0 * std::numbers::pi));
+  return value_text(speed * 60.0 / (2.0 * std::numbers::pi), "rpm", 0);
 }
 
 std::string local_time_words(const std::string& utc) {
@@ -75,6 +78,21 @@ std::string local_time_words(const std::string& utc) {
   if (localtime_r(&time, &here) == nullptr) return utc;
   return fmt::format("{:04}-{:02}-{:02} {:02}:{:02}", here.tm_year + 1900, here.tm_mon + 1, here.tm_mday, here.tm_hour,
                      here.tm_min);
+}
+
+std::string time_zone_words(std::time_t now) {
+  std::tm here{};
+  std::array<char, 64> text{};
+  if (localtime_r(&now, &here) == nullptr || std::strftime(text.data(), text.size(), "%z", &here) != 5) return "UTC";
+  const std::string offset(text.data());
+  return fmt::format("UTC{}:{}", offset.substr(0, 3), offset.substr(3));
+}
+
+std::string readable_name(const std::string& key) {
+  std::string words = key;
+  std::replace(words.begin(), words.end(), '_', ' ');
+  if (!words.empty()) words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
+  return words;
 }
 
 }  // namespace gearshift

@@ -3,6 +3,7 @@
 
 #include <imgui.h>
 
+#include <ctime>
 #include <string>
 
 #include "app/coach/coach_view.h"
@@ -23,5 +24,9 @@ std::string rpm_words(double speed);                // [rad/s]
 
 // "2026-01-02T10:00:00Z" as the wall clock here says it, "2026-01-02 11:00"; what is no such time as it is.
 std::string local_time_words(const std::string& utc);
+std::string time_zone_words(std::time_t now);  // of those times: "UTC+01:00"
+
+// A file's name as people read it: "dog_leg_five" is "Dog leg five".
+std::string readable_name(const std::string& key);
 
 }  // namespace gearshift

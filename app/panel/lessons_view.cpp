@@ -30,8 +30,13 @@ bool is_known(const CoachView& coach, const std::string& name) {
   return std::find(coach.learners.begin(), coach.learners.end(), name) != coach.learners.end();
 }
 
-// The known ones behind an arrow.
-void draw_known(Controls& controls, const CoachView& coach, LessonRequests& out) {
+bool is_pressed(ImGuiKey_ key) {
+  return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false);
+}
+
+// The known ones behind an arrow, in a list as wide as the field before it [px].
+void draw_known(Controls& controls, const CoachView& coach, float width, LessonRequests& out) {
+  ImGui::SetNextWindowSizeConstraints({width, 0.0f}, {width, 24.0f * ui_em()});
   const bool open = ImGui::BeginCombo("##known", "", ImGuiComboFlags_NoPreview | ImGuiComboFlags_PopupAlignLeft);
   controls.mark("learner_known");
   if (!open) return;
@@ -44,9 +49,14 @@ void draw_known(Controls& controls, const CoachView& coach, LessonRequests& out)
   ImGui::EndCombo();
 }
 
-void draw_memory(const CoachView& coach) {
+// One line below the name, which keeps its place where there is nothing to say.
+void draw_note(const CoachView& coach, const std::string& name, bool writes) {
+  if (writes && name != coach.learner)
+    return put_wrapped(
+        name.empty() || is_known(coach, name) ? "Enter: this learner from now on." : "Enter: a new learner.",
+        ink::kAccent);
   if (!coach.remembers) return put_wrapped("The history is not open: nothing is remembered.", ink::kWarn);
-  if (coach.learner.empty()) put_wrapped("Without a name nothing is remembered.", ink::kSoft);
+  put_wrapped(coach.learner.empty() ? "Without a name nothing is remembered." : " ", ink::kSoft);
 }
 
 // With a bar at its left, which says that it is the one.
@@ -105,6 +115,18 @@ void draw_next_choice(Controls& controls, const CoachView& coach, const std::str
   if (on) list.AddCircleFilled(c, 0.2f * ui_em(), ink::kAccent);
 }
 
+std::string grade_words(double grade) {
+  return fmt::format("{:>4.1f}", grade);
+}
+
+// "7 trials, best 8.5; last 5.5, passed"
+std::string standing_words(const LessonStanding& lesson) {
+  std::string words = fmt::format("{} trial{}", lesson.trials, lesson.trials == 1 ? "" : "s");
+  if (lesson.best) words += fmt::format(", best {:.1f}", *lesson.best);
+  if (lesson.grade) words += fmt::format("; last {:.1f}", *lesson.grade);
+  return words + (lesson.passed ? ", passed" : ", not passed yet");
+}
+
 void draw_lesson(Controls& controls, const CoachView& coach, const LessonStanding& lesson, bool can_offer,
                  LessonRequests& out) {
   ImGui::PushID(lesson.key.c_str());
@@ -118,13 +140,15 @@ void draw_lesson(Controls& controls, const CoachView& coach, const LessonStandin
   ImGui::BeginDisabled(!can_offer);
   if (ImGui::Selectable("##lesson", is_here)) out.offer = lesson.key;
   controls.mark("lesson: " + lesson.key);
+  if (lesson.trials > 0 && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+    ImGui::SetTooltip("%s", standing_words(lesson).c_str());
   ImGui::SetCursorPos(begin);
   controls.line(lesson.title, room, coach.next == lesson.key ? ink::kAccent : ink::kText);
   ImGui::EndDisabled();
   ImGui::TableNextColumn();
-  if (lesson.grade) put(fmt::format("{:>4.1f}", *lesson.grade), ink::kText);
+  if (lesson.passed && lesson.best) put(grade_words(*lesson.best), ink::kText);
   ImGui::TableNextColumn();
-  if (lesson.trials > 0) put(fmt::format("{:>3}", lesson.trials), ink::kSoft);
+  if (lesson.grade) put(grade_words(*lesson.grade), ink::kSoft);
   ImGui::TableNextColumn();
   draw_next_choice(controls, coach, lesson.key, out);
   ImGui::PopID();
@@ -139,11 +163,11 @@ void draw_list(Controls& controls, const CoachView& coach, bool can_offer, Lesso
   const float em = ui_em();
   ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, 0.9f * em);
   ImGui::TableSetupColumn("lesson", ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn("grade", ImGuiTableColumnFlags_WidthFixed, width_of("grade", UiFont::small));
-  ImGui::TableSetupColumn("trials", ImGuiTableColumnFlags_WidthFixed, width_of("trials", UiFont::small));
+  ImGui::TableSetupColumn("best", ImGuiTableColumnFlags_WidthFixed, width_of("10.0", UiFont::body));
+  ImGui::TableSetupColumn("last", ImGuiTableColumnFlags_WidthFixed, width_of("10.0", UiFont::body));
   ImGui::TableSetupColumn("next", ImGuiTableColumnFlags_WidthFixed, width_of("next", UiFont::small));
   ImGui::TableNextRow();
-  for (const char* head : {"", "Lesson", "grade", "trials", "next"}) {
+  for (const char* head : {"", "Lesson", "best", "last", "next"}) {
     ImGui::TableNextColumn();
     put(head, ink::kSoft, UiFont::small);
   }
@@ -155,7 +179,6 @@ void draw_list(Controls& controls, const CoachView& coach, bool can_offer, Lesso
 
 void LessonsView::draw(Controls& controls, const CoachView& coach, LessonRequests& out) {
   draw_learner(controls, coach, out);
-  draw_memory(coach);
   ImGui::Spacing();
   // A lesson that is driven is not lost by a click on another one.
   const bool can_offer = coach.phase != LessonPhase::driving;
@@ -164,26 +187,26 @@ void LessonsView::draw(Controls& controls, const CoachView& coach, LessonRequest
   draw_list(controls, coach, can_offer, out);
 }
 
-// A name that is written counts when Enter says so; else it is what it was.
+// A name that is written counts when Enter says so or the field is left; Escape takes it back.
 void LessonsView::draw_learner(Controls& controls, const CoachView& coach, LessonRequests& out) {
   if (coach.learner != shown_) fill(name_, shown_ = coach.learner);
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("Learner");
   ImGui::SameLine(4.6f * ui_em() - ImGui::GetStyle().WindowPadding.x);  // as the choices above
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - ImGui::GetFrameHeight());
+  const float width = ImGui::GetContentRegionAvail().x;
+  ImGui::SetNextItemWidth(width - ImGui::GetFrameHeight());
   const bool entered =
       ImGui::InputTextWithHint("##learner", kNobody, name_.data(), name_.size(),
                                ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
   controls.mark("learner");
   const bool writes = ImGui::IsItemActive(), left = ImGui::IsItemDeactivated();
+  const bool given_up = left && is_pressed(ImGuiKey_Escape), leaves = left || (writes && is_pressed(ImGuiKey_Tab));
   const std::string name = trimmed(name_.data());
-  if (entered && name != coach.learner) out.learner = name;
-  if (left && !entered) fill(name_, coach.learner);
+  if ((entered || leaves) && !given_up && name != coach.learner) out.learner = name;
+  if (left) fill(name_, given_up ? coach.learner : name);
   ImGui::SameLine(0.0f, 0.0f);
-  draw_known(controls, coach, out);
-  if (writes && name != coach.learner)
-    put_wrapped(name.empty() || is_known(coach, name) ? "Enter: this learner from now on." : "Enter: a new learner.",
-                ink::kAccent);
+  draw_known(controls, coach, width, out);
+  draw_note(coach, name, writes);
 }
 
 }  // namespace gearshift

@@ -12,6 +12,7 @@
 #include "app/panel/help_view.h"
 #include "app/panel/history_view.h"
 #include "app/panel/lesson_card.h"
+#include "app/panel/lesson_words.h"
 #include "app/panel/lessons_view.h"
 #include "app/panel/loop_view.h"
 #include "app/panel/palette.h"
@@ -187,14 +188,15 @@ void Panel::State::draw_left(const Layout& layout, const PanelInput& input, Pane
 void Panel::State::draw_choices(const PanelInput& input, PanelRequests& out) {
   const float label = 4.6f * ui_em();
   const auto row = [&](const char* name, const char* words, const std::string& current,
-                       const std::vector<std::string>& options, std::optional<std::string>& asked) {
+                       const std::vector<std::string>& options, std::optional<std::string>& asked,
+                       std::string (*read)(const std::string&) = nullptr) {
     ImGui::AlignTextToFramePadding();
     ImGui::TextDisabled("%s", words);
     ImGui::SameLine(label);
-    asked = controls.choice(name, current, options, ImGui::GetContentRegionAvail().x);
+    asked = controls.choice(name, current, options, ImGui::GetContentRegionAvail().x, read);
   };
-  if (!input.cars.empty()) row("car", "Car", input.car_name, input.cars, out.car);
-  row("gate", "Gate", input.gate_name, input.gates, out.gate);
+  if (!input.cars.empty()) row("car", "Car", input.car_name, input.cars, out.car, readable_name);
+  row("gate", "Gate", input.gate_name, input.gates, out.gate, readable_name);
   row("preset", "Preset", input.preset_name, input.presets, out.preset);
   row("hand", "Hand", input.hand_name, input.hands, out.hand);
   ImGui::TextDisabled("Device");
@@ -243,12 +245,13 @@ void Panel::State::draw_right(const Layout& layout, const PanelInput& input, Pan
   ImGui::End();
 }
 
-// What a learner needs who has hidden the panel, too. The card tells of now and gives way to what is looked at again.
+// What a learner needs who has hidden the panel, too. The card tells of now and gives way to what is looked at again;
+// both take their room from the cabin.
 void Panel::State::draw_over_cabin(const PanelInput& input, PanelRequests& out) {
   const ControlRect room = middle;
   middle.max.y = replay.draw(controls, input.replay, room, out.look);
   if (input.replay == nullptr || input.coach.phase == LessonPhase::driving)
-    card.draw(controls, input.coach, middle, out.lesson);
+    middle.max.y = card.draw(controls, input, visible, middle, out);
 }
 
 void Panel::State::draw_bar(const Layout& layout, const PanelInput& input, PanelRequests& out) {

@@ -16,6 +16,10 @@
 
 namespace gearshift {
 
+struct KeyHint {
+  std::string does, key;  // "clutch", "A"
+};
+
 struct PanelInput {
   const Gate* gate = nullptr;          // never null in draw()
   const DeviceSpec* device = nullptr;  // never null in draw()
@@ -37,6 +41,8 @@ struct PanelInput {
   std::vector<std::string> cars;  // to choose from
   CoachView coach;
   const Player* replay = nullptr;  // while one is looked at; then `now` and `car` are its
+  std::vector<KeyHint> keys;       // what drives the car, in the order of use; empty: no keys
+  bool mouse_leads = false;        // the lever: the cursor is not free
 };
 
 struct LessonRequests {
@@ -96,7 +102,7 @@ class Panel {
   bool covers(glm::dvec2 mouse) const;
   bool has_keyboard() const;
 
-  // [px] of the last draw(): what columns, bar and a replay leave to the cabin; a lesson's card lies over it.
+  // [px] of the last draw(): what columns, bar, a replay and a lesson's card leave to the cabin.
   ControlRect middle() const noexcept;
 
   void undo();  // with the next draw()

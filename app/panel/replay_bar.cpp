@@ -114,14 +114,29 @@ double most_of(const Strip& one, const Strip& other) {
   return std::max({0.0, one.extent().most, other.extent().most});
 }
 
+// Of the slider: exactly below the line that is in the curves.
+void draw_handle(double from, double to, double now) {
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  const double share = std::clamp((now - from) / std::max(kLeastSpan, to - from), 0.0, 1.0);
+  const float x = low.x + (high.x - low.x) * static_cast<float>(share), half = 0.3f * ui_em();
+  const ImU32 colour = ImGui::IsItemActive() ? ink::kText : ink::kAccent;
+  ImGui::GetWindowDrawList()->AddRectFilled({x - half, low.y + 2.0f}, {x + half, high.y - 2.0f}, colour, 0.4f * half);
+}
+
 void draw_time(Controls& controls, const Player& replay, ReplayRequests& out) {
   const double begin = replay.drive().begin();
   double time = replay.time() - begin;
   const double from = replay.from() - begin, to = replay.to() - begin;
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
+  ImGui::PushStyleVar(ImGuiStyleVar_GrabMinSize, 1.0f);
+  ImGui::PushStyleColor(ImGuiCol_SliderGrab, with_alpha(ink::kAccent, 0.0f));
+  ImGui::PushStyleColor(ImGuiCol_SliderGrabActive, with_alpha(ink::kAccent, 0.0f));
   if (ImGui::SliderScalar("##time", ImGuiDataType_Double, &time, &from, &to, "", ImGuiSliderFlags_AlwaysClamp))
     out.seek = begin + time;
+  ImGui::PopStyleColor(2);
+  ImGui::PopStyleVar();
   controls.mark("replay_time");
+  draw_handle(from, to, replay.time() - begin);
 }
 
 void draw_paces(Controls& controls, const Player& replay, ReplayRequests& out) {
@@ -161,6 +176,13 @@ void draw_buttons(Controls& controls, const Player& replay, ReplayRequests& out)
   if (controls.button("replay_close", "Close")) out.close = true;
 }
 
+// In the upper right corner of a lane.
+void write_unit(ImDrawList& list, ImVec2 corner, const char* unit) {
+  ImFont* font = ui_font(UiFont::small);
+  const float width = width_of(unit, UiFont::small) + 0.3f * ui_em();
+  list.AddText(font, font->FontSize, {corner.x - width, corner.y}, ink::kSoft, unit);
+}
+
 }  // namespace
 
 ReplayBar::Curves::Curves(double span)
@@ -198,7 +220,7 @@ double ReplayBar::draw(Controls& controls, const Player* replay, const ControlRe
     if (replay->drive().differs())
       put_wrapped("Run again, this drive goes another way than it was recorded: from there on it has no shifts.",
                   ink::kWarn);
-    draw_legend(controls, replay->now());
+    draw_legend(controls, *replay);
     draw_curves(*replay);
     draw_time(controls, *replay, out);
     draw_buttons(controls, *replay, out);
@@ -208,12 +230,16 @@ double ReplayBar::draw(Controls& controls, const Player* replay, const ControlRe
   return std::clamp(top, room.min.y, room.max.y);
 }
 
-void ReplayBar::draw_legend(Controls& controls, const DriveSample& now) {
+void ReplayBar::draw_legend(Controls& controls, const Player& replay) {
+  const DriveSample& now = replay.now();
   entry(controls, ink::kAccent, fmt::format("clutch {:.0f} %", 100.0 * now.car.clutch), "clutch 100 %", true);
   entry(controls, ink::kGood, fmt::format("throttle {:.0f} %", 100.0 * now.car.throttle), "throttle 100 %");
   entry(controls, ink::kEngine, "engine " + rpm_words(now.car.engine_speed), "engine 8888 rpm");
   entry(controls, ink::kShaft, "shaft " + rpm_words(std::abs(now.car.shaft_speed)), "shaft 8888 rpm");
-  entry(controls, ink::kHand, fmt::format("f_h {:.1f} N", glm::length(now.lever.f_h)), "f_h 88.8 N");
+  entry(controls, ink::kHand, fmt::format("hand {:.1f} N", glm::length(now.lever.f_h)), "hand 88.8 N");
+  if (!replay.shift()) return;
+  entry(controls, ink::kDriven, "driven way", "driven way");
+  entry(controls, ink::kIdeal, "shortest way", "shortest way");
 }
 
 // Pedals, speeds and force one below the other, over the same time as the slider.
@@ -221,8 +247,8 @@ void ReplayBar::draw_curves(const Player& replay) {
   const float em = ui_em(), width = ImGui::GetContentRegionAvail().x;
   const double begin = replay.drive().begin();
   const PlotRange time{replay.from() - begin, std::max(replay.from() + kLeastSpan, replay.to()) - begin};
-  const auto lane = [&](float height, double most, double factor, Strip* one, ImU32 colour, Strip* other,
-                        ImU32 other_colour) {
+  const auto lane = [&](const char* unit, float height, double most, double factor, Strip* one, ImU32 colour,
+                        Strip* other, ImU32 other_colour) {
     PlotArea plot({width, height * em}, time, {0.0, most}, nullptr);
     for (const RecordedShift& shift : replay.drive().shifts())
       plot.list().AddRectFilled(plot.at(shift.record.begin - begin, most), plot.at(shift.record.end - begin, 0.0),
@@ -232,14 +258,15 @@ void ReplayBar::draw_curves(const Player& replay) {
       strip->set_columns(std::max(1, plot.columns()));
       plot.strip(*strip, factor, shade);
     }
+    write_unit(plot.list(), plot.at(time.high, most), unit);
     const double now = replay.time() - begin;
     plot.list().AddLine(plot.at(now, 0.0), plot.at(now, most), ink::kText, 0.1f * em);
   };
   Curves& c = *curves_;
   const double rpm = 1000.0 * std::max(1.0, std::ceil(kRpm * most_of(c.engine, c.shaft) / 1000.0));
-  lane(kPedalHeight, 105.0, 100.0, &c.clutch, ink::kAccent, &c.throttle, ink::kGood);
-  lane(kSpeedHeight, rpm, kRpm, &c.engine, ink::kEngine, &c.shaft, ink::kShaft);
-  lane(kForceHeight, nice_above(std::max(1.0, 1.05 * most_of(c.force, c.force)), 10.0), 1.0, &c.force, ink::kHand,
+  lane("%", kPedalHeight, 105.0, 100.0, &c.clutch, ink::kAccent, &c.throttle, ink::kGood);
+  lane("rpm", kSpeedHeight, rpm, kRpm, &c.engine, ink::kEngine, &c.shaft, ink::kShaft);
+  lane("N", kForceHeight, nice_above(std::max(1.0, 1.05 * most_of(c.force, c.force)), 10.0), 1.0, &c.force, ink::kHand,
        nullptr, 0);
 }
 

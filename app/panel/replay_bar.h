@@ -25,7 +25,7 @@ class ReplayBar {
     Strip force;             // [N] of the hand
   };
   void follow(const Player& replay);
-  void draw_legend(Controls& controls, const DriveSample& now);
+  void draw_legend(Controls& controls, const Player& replay);
   void draw_curves(const Player& replay);
 
   std::optional<Curves> curves_;

@@ -39,6 +39,35 @@ float button_width(std::string_view label) {
   return width_of(label) + 2.0f * ImGui::GetStyle().FramePadding.x;
 }
 
+// Letters of several bytes are kept whole or left out.
+std::string without_middle(std::string_view text, float width) {
+  const auto goes_on = [](char c) { return (static_cast<unsigned char>(c) & 0xc0u) == 0x80u; };
+  constexpr std::string_view kEllipsis = "\u2026";
+  constexpr float kHead = 0.2f;  // [1] of the room: a path's end says more than its begin
+  const float room = width - width_of(kEllipsis);
+  if (width_of(text) <= width) return std::string(text);
+  std::size_t end = 0;
+  while (end < text.size() && width_of(text.substr(0, end + 1)) <= kHead * room) ++end;
+  std::size_t begin = end;
+  const auto left = [&] { return std::string(text.substr(0, end)) + std::string(text.substr(begin)); };
+  while (begin < text.size() && width_of(left()) > room) ++begin;
+  while (begin < text.size() && goes_on(text[begin])) ++begin;
+  while (end > 0 && goes_on(text[end])) --end;
+  return std::string(text.substr(0, end)) + std::string(kEllipsis) + std::string(text.substr(begin));
+}
+
+std::string with_short_paths(std::string_view words, float width) {
+  std::string all;
+  while (!words.empty()) {
+    const std::size_t end = std::min(words.find(' '), words.size());
+    const std::string_view word = words.substr(0, end);
+    all += word.find('/') == std::string_view::npos ? std::string(word) : without_middle(word, width);
+    if (end < words.size()) all += ' ';
+    words.remove_prefix(std::min(words.size(), end + 1));
+  }
+  return all;
+}
+
 void beside(float width) {
   ImGui::SameLine();
   if (ImGui::GetContentRegionAvail().x < width) ImGui::NewLine();

@@ -1,52 +1,60 @@
 #include "app/train/lesson_lines.h"
 
 #include <cstdio>
-#include <string>
 #include <utility>
 
 #include <fmt/core.h>
 
+#include "app/training/grade.h"
+
 namespace gearshift {
 namespace {
 
-void line(double time, const std::string& words) {
-  fmt::print("{:8.3f} s  {}\n", time, words);
-  std::fflush(stdout);
-}
-
 std::string result_words(const LessonResult& result) {
-  if (result.guided) return "guided, not graded";
-  const std::string grade = fmt::format("grade {:.1f} of 10, ", result.grade);
+  const std::string grade = is_graded(result) ? fmt::format("grade {:.1f} of 10, ", result.grade) : "not graded, ";
   return grade + (result.passed ? "passed" : "not passed: " + result.why);
 }
 
 }  // namespace
 
-void LessonLines::print(const CoachView& coach, double time) {
+// A trial is known by when it began, with its first cycle: the next one may follow within a frame.
+std::vector<std::string> LessonLines::news(const CoachView& coach) {
+  lines_.clear();
   const LessonPhase before = std::exchange(phase_, coach.phase);
-  const bool begins = phase_ == LessonPhase::driving && (before != phase_ || coach.now.step < step_);
   if (phase_ == LessonPhase::offered && before != phase_)
-    line(time, fmt::format("lesson {} is offered: {}", coach.lesson, coach.goal));
-  if (begins) {
-    step_ = said_ = 0;
-    line(time, fmt::format("lesson {} begins", coach.lesson));
-    print_step(coach, time);
-  }
-  if (phase_ != LessonPhase::driving && phase_ != LessonPhase::over) return;
-  if (coach.now.step != step_) print_step(coach, time);
-  print_said(coach, time);
-  if (phase_ == LessonPhase::over && before != phase_)
-    line(time, fmt::format("lesson {} is over: {}", coach.lesson, result_words(coach.result)));
+    lines_.push_back(fmt::format("lesson {} is offered: {}", coach.lesson, coach.goal));
+  const bool has_trial = phase_ == LessonPhase::driving || phase_ == LessonPhase::over;
+  if (!has_trial || coach.result.begin == 0.0) return lines_;
+  if (coach.result.begin != begin_) begin(coach);
+  if (coach.now.step != step_) tell_step(coach);
+  tell_said(coach);
+  if (phase_ == LessonPhase::over && std::exchange(driven_, false))
+    lines_.push_back(fmt::format("lesson {} is over: {}", coach.lesson, result_words(coach.result)));
+  return lines_;
 }
 
-void LessonLines::print_step(const CoachView& coach, double time) {
+void LessonLines::begin(const CoachView& coach) {
+  if (driven_) lines_.emplace_back("that trial was left");
+  begin_ = coach.result.begin;
+  driven_ = true;
+  said_ = 0;
+  lines_.push_back(fmt::format("lesson {} begins", coach.lesson));
+  tell_step(coach);
+}
+
+void LessonLines::tell_step(const CoachView& coach) {
   step_ = coach.now.step;
   if (step_ < coach.now.steps)
-    line(time, fmt::format("step {} of {}: {}", step_ + 1, coach.now.steps, coach.now.prompt));
+    lines_.push_back(fmt::format("step {} of {}: {}", step_ + 1, coach.now.steps, coach.now.prompt));
 }
 
-void LessonLines::print_said(const CoachView& coach, double time) {
-  for (; said_ < coach.now.said.size(); ++said_) line(time, coach.now.said[said_]);
+void LessonLines::tell_said(const CoachView& coach) {
+  for (; said_ < coach.now.said.size(); ++said_) lines_.push_back(coach.now.said[said_]);
+}
+
+void print_lines(const std::vector<std::string>& lines, double time) {
+  for (const std::string& line : lines) fmt::print("{:8.3f} s  {}\n", time, line);
+  if (!lines.empty()) std::fflush(stdout);
 }
 
 }  // namespace gearshift

@@ -1,7 +1,9 @@
-// Lines on stdout of what the coach tells: for people and scripts that watch.
+// What the coach tells, as lines on stdout: for people and scripts that watch.
 #pragma once
 
 #include <cstddef>
+#include <string>
+#include <vector>
 
 #include "app/coach/coach_view.h"
 
@@ -9,14 +11,21 @@ namespace gearshift {
 
 class LessonLines {
  public:
-  void print(const CoachView& coach, double time);  // once a frame; [s] since the start of the session
+  // Once a frame: what is new.
+  std::vector<std::string> news(const CoachView& coach);
 
  private:
-  void print_step(const CoachView& coach, double time);
-  void print_said(const CoachView& coach, double time);
+  void begin(const CoachView& coach);
+  void tell_step(const CoachView& coach);
+  void tell_said(const CoachView& coach);
 
+  std::vector<std::string> lines_;
   LessonPhase phase_ = LessonPhase::none;
+  double begin_ = 0.0;               // [s] of the trial that is told
+  bool driven_ = false;              // it is not over
   std::size_t step_ = 0, said_ = 0;  // that have been told
 };
+
+void print_lines(const std::vector<std::string>& lines, double time);  // [s] since the start of the session
 
 }  // namespace gearshift

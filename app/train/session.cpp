@@ -1,5 +1,6 @@
 #include "app/train/session.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <memory>
@@ -35,11 +36,16 @@ std::string first_limit(const AdmittedTuning& admitted) {
   return admitted.limited.empty() ? std::string{} : limited_words(admitted.limited.front());
 }
 
+// Who learns: what a hand shows by itself is nobody's.
+std::string learner_of(const SessionChoice& choice) {
+  return choice.hand == kByItself ? std::string{} : choice.learner;
+}
+
 CoachConfig coach_config(const SessionChoice& choice) {
   CoachConfig config;
   config.lessons = shipped_lessons();
   config.history = choice.history;
-  config.learner = choice.learner;
+  config.learner = learner_of(choice);
   config.program = program_name();
   return config;
 }
@@ -152,6 +158,7 @@ void Session::change_to(const SessionChoice& choice, const Lesson* lesson) {
   message_.clear();
   const bool armed = keeps_forces();
   if (coach_.view().phase == LessonPhase::driving) coach_.leave();
+  end_lesson_recording();
   if (recording()) end_recording();
   player_.reset();
   trainer_ = std::move(trainer);
@@ -159,12 +166,14 @@ void Session::change_to(const SessionChoice& choice, const Lesson* lesson) {
   if (chosen.spec) sound_car(*chosen.spec);
   ++run_;
   slope_ = lesson ? lesson->start.slope : 0.0;
+  held_ = false;
   if (lesson) switches_ = CarSwitches{lesson->start.running, lesson->start.hand_brake};
   if (switches_) {
     controls_.ignition = switches_->ignition;
     controls_.hand_brake = switches_->hand_brake;
   }
   trainer_->set_controls(led());
+  wants_forces_ = armed;  // what a fault has taken now is not given back by the next change either
   if (armed) trainer_->arm();
   if (choice.clock == TrainerClock::virtual_time) start_ns_ = -std::llround(1e9 * time_);
   running_ = choice;
@@ -248,6 +257,7 @@ void Session::change_by(const PanelRequests& requests) {
   }
   change_to(wanted);
   choice_ = wanted;
+  if (coach_.view().learner != learner_of(choice_)) coach_.set_learner(learner_of(choice_));
 }
 
 // The first that is named, else the one that is suggested; a hand that needs nobody drives what is named alone.
@@ -263,8 +273,9 @@ void Session::offer_first(const SessionChoice& choice) {
 
 void Session::obey_instructor(const LessonRequests& requests) {
   if (requests.learner) {
-    coach_.set_learner(*requests.learner);
     choice_.learner = *requests.learner;
+    coach_.set_learner(learner_of(choice_));
+    if (choice_.hand == kByItself) message_ = "the hand drives by itself: nothing is remembered of it";
   }
   if (requests.next) coach_.set_next(*requests.next);
   if (requests.comment) coach_.comment(requests.comment->run, requests.comment->author, requests.comment->text);
@@ -272,9 +283,13 @@ void Session::obey_instructor(const LessonRequests& requests) {
   if (requests.mode) coach_.set_mode(*requests.mode);
   if (requests.help) coach_.want_help(*requests.help);
   if (requests.leave) coach_.leave();
-  if (requests.put_away) coach_.put_away();
+  if (requests.put_away) {
+    coach_.put_away();
+    slope_ = 0.0;
+    held_ = false;
+  }
   if (requests.begin && coach_.lesson()) begin_lesson();
-  if (recording() && records_lesson_ && coach_.view().phase != LessonPhase::driving) end_recording();
+  if (coach_.view().phase != LessonPhase::driving) end_lesson_recording();
 }
 
 // What lay before the trial's first cycle is not the coach's.
@@ -295,9 +310,11 @@ void Session::begin_lesson() {
 
 // A lesson can be driven without.
 fs::path Session::record_lesson(const Lesson& lesson) {
+  const std::string news = message_;
   try {
     start_recording(drive_name(lesson.key));
     records_lesson_ = true;
+    message_ = news;  // nobody asked for it
     return fs::absolute(last_recording_);
   } catch (const std::exception& refused) {
     message_ = refused.what();
@@ -308,13 +325,19 @@ fs::path Session::record_lesson(const Lesson& lesson) {
 void Session::follow_lesson(std::span<const DriveSample> cycles) {
   const bool driving = coach_.view().phase == LessonPhase::driving;
   coach_.add(cycles);
-  if (driving && coach_.view().phase == LessonPhase::over && recording() && records_lesson_) end_recording();
+  held_ = held_ || coach_.view().phase == LessonPhase::over;
+  if (driving && coach_.view().phase == LessonPhase::over) end_lesson_recording();
   if (const std::optional<std::string> problem = coach_.take_problem()) message_ = *problem;
 }
 
-// The person's, on the lesson's road, with the teacher's hand.
+// The person's, on the lesson's road, with the teacher's hand; after it with the teacher's feet, to a stand.
 DriverControls Session::led() const {
   DriverControls controls = controls_;
+  if (held_) {
+    controls.throttle = 0.0;
+    controls.clutch = 1.0;
+    controls.brake = std::max(controls.brake, 0.5);
+  }
   controls.slope = slope_;
   controls.guidance = coach_.guidance();
   controls.guided_gear = coach_.guided_gear();
@@ -389,8 +412,14 @@ void Session::toggle_recording() {
     start_recording(drive_name("drive"));
 }
 
+// Beside the history that names them.
+fs::path Session::recordings_folder() const {
+  const fs::path data = choice_.history.empty() ? user_data_folder() : fs::absolute(choice_.history).parent_path();
+  return data / "recordings";
+}
+
 void Session::start_recording(const std::string& name) {
-  const fs::path folder = user_data_folder() / "recordings";
+  const fs::path folder = recordings_folder();
   make_folder(folder);
   const fs::path file = free_trace(folder, name);
   trainer_->start_recording(file);
@@ -405,7 +434,14 @@ bool Session::end_recording() {
   return !problem;
 }
 
+// It is found in the history.
+void Session::end_lesson_recording() {
+  if (!recording() || !records_lesson_) return;
+  if (const std::optional<std::string> problem = trainer_->stop_recording()) message_ = *problem;
+}
+
 void Session::look_at_last() {
+  check_free_to_look();
   if (recording() && !end_recording()) return;
   if (last_recording_.empty()) throw std::runtime_error("nothing has been recorded yet");
   look_at(last_recording_);
@@ -425,10 +461,14 @@ void Session::obey_viewer(const ReplayRequests& requests) {
   if (requests.close) end_replay();
 }
 
-// In the cabin of its own gate.
-void Session::look_at(const fs::path& recording, std::optional<std::size_t> shift) {
+void Session::check_free_to_look() const {
   if (coach_.view().phase == LessonPhase::driving)
     throw std::runtime_error("a lesson is being driven: leave it before looking at a recording");
+}
+
+// In the cabin of its own gate.
+void Session::look_at(const fs::path& recording, std::optional<std::size_t> shift) {
+  check_free_to_look();
   Player player(recording);
   if (shift) player.look_at(shift);
   const TraceHeader& header = player.drive().header();

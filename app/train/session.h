@@ -9,6 +9,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include "app/cabin_sound/cabin_sound.h"
@@ -68,6 +69,9 @@ class Session {
   bool end_recording();  // false where it failed; what came of it is in message()
   void set_ears(const EyePose& ears) { ears_ = ears; }
   void set_frame_ms(double ms) { frame_ms_ = ms; }
+  void set_keys(std::vector<KeyHint> keys) { panel_.keys = std::move(keys); }
+  void set_mouse_leads(bool leads) { panel_.mouse_leads = leads; }
+  bool replays() const { return player_.has_value(); }
 
  private:
   TrainerConfig trainer_config(const SessionChoice& choice, const ChosenCar& chosen, const Lesson* lesson) const;
@@ -86,10 +90,13 @@ class Session {
   void follow_lesson(std::span<const DriveSample> cycles);
 
   void obey_viewer(const ReplayRequests& requests);
+  void end_lesson_recording();
   void look_at_last();
   void end_replay();
   void show_replay(double seconds);
 
+  void check_free_to_look() const;
+  std::filesystem::path recordings_folder() const;
   void toggle_recording();
   void start_recording(const std::string& name);
   void save_preset(const std::string& name);
@@ -107,6 +114,7 @@ class Session {
   std::optional<Player> player_;  // while it replays
   DriverControls controls_;       // a person's
   double slope_ = 0.0;            // [rad] of the lesson's road
+  bool held_ = false;             // a lesson is over: the teacher holds the car until the next, or none
   std::optional<CarSwitches> switches_;
   EyePose ears_;
   HapticSnapshot shown_;

@@ -33,7 +33,7 @@ struct SessionChoice {
   std::string lesson;              // shipped, a file, or kNoLesson; empty: the one that is suggested
   std::optional<LessonMode> mode;  // none: as the coach thinks
   bool help = true;                // guidance as needed; else no trial is guided
-  std::string learner;             // empty: nobody, nothing is remembered
+  std::string learner;             // empty: nobody, nothing is remembered; nor of a hand by itself
   std::filesystem::path history;   // where it is remembered; empty: nowhere
 };
 

@@ -29,6 +29,12 @@ SeenPart seen_beside(const Panel& panel, glm::dvec2 size) {
   return {middle.min / size, middle.max / size};
 }
 
+std::vector<KeyHint> key_hints(const Bindings& bindings) {
+  std::vector<KeyHint> hints;
+  for (const DrivingKey& key : driving_keys(bindings)) hints.push_back({std::string(key.does), key.key});
+  return hints;
+}
+
 // One frame after another in a window: poll, lead, read, panel, place, show.
 class WindowTrainer {
  public:
@@ -42,6 +48,7 @@ class WindowTrainer {
         look_(setup.choice.camera),
         last_frame_(Clock::now()) {
     panel_.set_visible(setup.panel);
+    session_.set_keys(key_hints(setup.bindings));
     if (!setup.replay.empty()) session_.look_at(setup.replay, setup.shift);
   }
 
@@ -62,7 +69,7 @@ class WindowTrainer {
     lead();
     session_.advance(seconds_);
     print_events(session_.events());
-    lines_.print(session_.coach().view(), session_.lever_time());
+    print_lines(lines_.news(session_.coach().view()), session_.lever_time());
     draw_panel();
     session_.set_ears(look_.pose());
     session_.place();
@@ -85,8 +92,16 @@ class WindowTrainer {
   }
 
   void poll() {
+    feel();
     shared_.update(window_.poll(), seconds_, eye_size().x, panel_, ui_);
     look_.turn(shared_.turned());
+  }
+
+  void feel() {
+    const VehicleState& car = session_.car();
+    const bool coupled = car.gear != kNeutralGear && car.clutch_capacity > 0.0;
+    input_.feel(session_.trainer().snapshot().lever, car.engine_speed, coupled);
+    session_.set_mouse_leads(input_.mouse_leads());
   }
 
   // Another gate, hand or device: the person's hand is where the lever is.
@@ -144,6 +159,11 @@ class WindowTrainer {
       case Action::redo:
         panel_.redo();
         break;
+      case Action::grab_mouse:
+        if (!session_.replays()) break;
+        requests.look.close = true;
+        input_.free_mouse();
+        break;
       case Action::quit:
         quit_ = true;
         break;
@@ -153,11 +173,17 @@ class WindowTrainer {
     session_.obey(requests);
   }
 
-  // The lesson that is offered begins; after one comes the next.
+  // The lesson that is offered begins; after one that was passed comes the next, else the same again.
   void go_on(LessonRequests& lesson) const {
     const CoachView& coach = session_.coach().view();
+    if (session_.replays()) return;
+    const bool goes_further = coach.result.passed && !coach.next.empty() && coach.next != coach.lesson;
     if (coach.phase == LessonPhase::offered) lesson.begin = true;
-    if (coach.phase == LessonPhase::over && !coach.next.empty()) lesson.offer = coach.next;
+    if (coach.phase != LessonPhase::over) return;
+    if (goes_further)
+      lesson.offer = coach.next;
+    else
+      lesson.begin = true;
   }
 
   void draw_panel() {
@@ -218,6 +244,7 @@ int train_in_window(const TrainSetup& setup) {
 
 int train_offscreen(const TrainSetup& setup, const OffscreenSetup& offscreen) {
   Session session(setup.choice);
+  if (!session.message().empty()) fmt::print(stderr, "gearshift: {}\n", session.message());
   const LookAround look(setup.choice.camera);
   UiContext ui;
   Panel panel;
@@ -227,21 +254,20 @@ int train_offscreen(const TrainSetup& setup, const OffscreenSetup& offscreen) {
   make_folder(offscreen.folder);
   const double seconds = 1.0 / kOffscreenRate;
   const glm::ivec2 eye = eye_size(setup.view, {setup.view.width, setup.view.height});
-  view.set_model(session.stage().model());
   LessonLines lines;
   while (session.time() < offscreen.seconds && !is_done(session)) {
     session.advance(seconds);
     print_events(session.events());
-    lines.print(session.coach().view(), session.lever_time());
+    print_lines(lines.news(session.coach().view()), session.lever_time());
     ui.begin({static_cast<float>(eye.x), static_cast<float>(eye.y), static_cast<float>(seconds),
               UiScale().follow(eye.y, 1.0f)});
     session.obey(panel.draw(session.panel_input()));
     ui.end();
     session.place();
-    if (session.take_new_model()) view.set_model(session.stage().model());
-    view.begin();
-    view.draw(session.stage().scene(), look.pose(), look.field(), seen_beside(panel, eye));
   }
+  view.set_model(session.stage().model());  // nobody sees the frames before the last
+  view.begin();
+  view.draw(session.stage().scene(), look.pose(), look.field(), seen_beside(panel, eye));
   const std::filesystem::path picture = offscreen.folder / "train.png";
   write_png(picture, view.picture());
   fmt::print("{}\n", picture.string());

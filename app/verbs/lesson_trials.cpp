@@ -1,6 +1,8 @@
 #include "app/verbs/lesson_trials.h"
 
 #include <cstdio>
+#include <set>
+#include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -12,6 +14,7 @@
 #include "app/output_folder.h"
 #include "app/program_name.h"
 #include "app/train/recording_file.h"
+#include "app/training/grade.h"
 #include "haptics/files/file_error.h"
 #include "haptics/files/printable.h"
 
@@ -22,6 +25,11 @@ namespace fs = std::filesystem;
 
 constexpr std::size_t kLot = 256;  // [cycles] that the coach gets at once: what it shows is made once a lot
 
+// "  -2.0", or nothing where there is no grade to take it from.
+std::string points_words(const LessonResult& result, double points) {
+  return is_graded(result) ? fmt::format("-{:.1f}", points) : "";
+}
+
 void print_faults(const LessonResult& result) {
   std::size_t next = 0;
   for (std::size_t i = 0; i < result.faults.size(); ++i) {
@@ -29,8 +37,8 @@ void print_faults(const LessonResult& result) {
     const double points = costs ? result.deductions[next++].points : 0.0;
     const DriveFault& fault = result.faults[i];
     if (fault.severity == Severity::note) continue;
-    fmt::print("  {:6.1f} s  {:<11}  -{:.1f}  {}\n", fault.time, severity_key(fault.severity), points,
-               fault_sentence(fault));
+    fmt::print("  {:6.1f} s  {:<11}  {:4}  {}\n", fault.time, severity_key(fault.severity),
+               points_words(result, points), fault_sentence(fault));
   }
 }
 
@@ -38,7 +46,7 @@ void print_result(const LessonResult& result, std::int64_t run) {
   print_faults(result);
   if (run > 0) fmt::print("Run {}: ", run);
   fmt::print("{} shifts in {:.1f} s. ", result.shifts.size(), result.duration);
-  if (!result.guided) fmt::print("Grade {:.1f} of 10. ", result.grade);
+  if (is_graded(result)) fmt::print("Grade {:.1f} of 10. ", result.grade);
   fmt::print("{}\n", result.passed ? "Passed." : "Not passed: " + result.why);
 }
 
@@ -59,6 +67,10 @@ class Trials {
 
   bool to_the_end() {
     for (int number = 0; number < trials_.runs; ++number) drive(number);
+    coach_.settle();
+    for (const std::string& file : coach_.forget_recordings())
+      if (own_recordings_.contains(file)) remove(file);  // what was asked for stays
+    tell_problem();
     return coach_.view().result.passed;
   }
 
@@ -69,6 +81,7 @@ class Trials {
     config.history = trials_.learner.empty() ? fs::path() : trials_.history;
     config.learner = trials_.learner;
     config.program = program_name();
+    config.patience = kHistoryPatience;  // nobody waits for a frame
     return config;
   }
 
@@ -79,7 +92,10 @@ class Trials {
     drive.seed += static_cast<std::uint64_t>(number);
     drive.watch = [this](const DriveSample& sample) { see(sample); };
     const bool own_recording = drive.trace.empty();
-    if (own_recording) drive.trace = recording();
+    if (own_recording) {
+      drive.trace = recording();
+      own_recordings_.insert(fs::absolute(drive.trace).string());
+    }
     coach_.begin(drive.car, gate_, trials_.settings, drive.trace.empty() ? fs::path() : fs::absolute(drive.trace));
     if (trials_.help) drive.guidance = coach_.guidance();
     drive.hints = coach_.view().hints;
@@ -92,7 +108,6 @@ class Trials {
     tell_shifts();
     tell_problem();
     print_result(coach_.view().result, coach_.view().run);
-    if (own_recording && coach_.view().run == 0) remove(drive.trace);
   }
 
   // With the first cycles: what cannot begin is told alone.
@@ -175,6 +190,7 @@ class Trials {
   Coach coach_;
   std::vector<DriveSample> lot_;
   std::size_t told_ = 0;  // shifts of the trial
+  std::set<std::string> own_recordings_;
   bool told_problem_ = false, told_goal_ = false, told_help_ = false;
 };
 

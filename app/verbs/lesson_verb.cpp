@@ -10,7 +10,7 @@
 #include "app/assets_path.h"
 #include "app/history/history.h"
 #include "app/trainer/user_folder.h"
-#include "app/verbs/lesson_mode.h"
+#include "app/verbs/lesson_options.h"
 #include "app/verbs/lesson_trials.h"
 #include "app/verbs/number_between.h"
 #include "app/verbs/verbs.h"
@@ -92,15 +92,6 @@ LessonTrials make_trials(const LessonArguments& arguments) {
 
 int run_lesson(const LessonArguments& arguments) {
   return drive_trials(make_trials(arguments)) ? 0 : 1;
-}
-
-std::string learner_name(const std::string& name) {
-  try {
-    check_learner_name(name);
-    return {};
-  } catch (const std::invalid_argument& problem) {
-    return problem.what();
-  }
 }
 
 std::vector<std::string> fault_keys() {

@@ -55,7 +55,7 @@ std::string known_names(History& history) {
   return names.empty() ? "nobody yet" : names;
 }
 
-LearnerRow find_learner(History& history, const std::string& name) {
+LearnerRow known_learner(History& history, const std::string& name) {
   if (std::optional<LearnerRow> row = history.find_learner(name)) return *row;
   throw std::runtime_error(
       fmt::format("\"{}\" is no learner of this history; known: {}", printable(name), known_names(history)));
@@ -115,7 +115,21 @@ bool is_confirmed(const ReportArguments& arguments, const LearnerRow& learner) {
   return again == learner.name;
 }
 
-int erase(const ReportArguments& arguments, History& history, const LearnerRow& learner) {
+// What keeps deleted rows in the file, where anything does.
+int tell_left(const std::string& left) {
+  if (!left.empty()) fmt::print(stderr, "gearshift: {}\n", printable(left));
+  return left.empty() ? 0 : 1;
+}
+
+// Of a learner who is not there (any more), what an earlier deletion could not do.
+int erase(const ReportArguments& arguments, History& history) {
+  if (!history.find_learner(arguments.learner) && history.erasure_is_pending()) {
+    const std::string left = history.finish_erasure();
+    if (left.empty())
+      fmt::print("nobody here is called {}; what an earlier deletion had left is gone\n", printable(arguments.learner));
+    return tell_left(left);
+  }
+  const LearnerRow learner = known_learner(history, arguments.learner);
   if (!is_confirmed(arguments, learner))
     throw std::runtime_error(fmt::format("{} was not deleted: that is another name", printable(learner.name)));
   const Deleted gone = delete_learner(history, learner);
@@ -124,7 +138,8 @@ int erase(const ReportArguments& arguments, History& history, const LearnerRow& 
              gone.recordings.size());
   for (const std::string& file : gone.recordings) fmt::print("  {}\n", printable(file));
   for (const std::string& kept : gone.kept) fmt::print(stderr, "gearshift: not removed: {}\n", printable(kept));
-  return gone.kept.empty() ? 0 : 1;
+  const int code = tell_left(gone.left);
+  return gone.kept.empty() ? code : 1;
 }
 
 // A report makes no history: where there is none, that is said.
@@ -139,8 +154,8 @@ int run_report(const ReportArguments& arguments) {
   }
   History history(file);
   if (arguments.learner.empty()) return list_learners(history);
-  const LearnerRow learner = find_learner(history, arguments.learner);
-  if (arguments.deletes) return erase(arguments, history, learner);
+  if (arguments.deletes) return erase(arguments, history);
+  const LearnerRow learner = known_learner(history, arguments.learner);
   if (arguments.comments) add_comment(arguments, history, learner);
   if (arguments.sets_next) set_next(arguments, history, learner);
   if (!arguments.out.empty()) write_report(arguments, history, learner);

@@ -10,7 +10,7 @@
 #include "app/assets_path.h"
 #include "app/train/train.h"
 #include "app/trainer/user_folder.h"
-#include "app/verbs/lesson_mode.h"
+#include "app/verbs/lesson_options.h"
 #include "app/verbs/number_between.h"
 #include "app/verbs/picture_size.h"
 #include "app/verbs/tour_arguments.h"
@@ -53,7 +53,7 @@ TrainSetup make_setup(const TrainArguments& arguments) {
   setup.view.samples = arguments.samples;
   setup.view.stereo = arguments.stereo;
   setup.bindings = read_bindings(find_asset("bindings", arguments.bindings));
-  setup.panel = !arguments.no_panel;
+  setup.panel = !arguments.no_panel && !arguments.stereo;  // an eye has little room: F2 shows it
   setup.replay = arguments.replay;
   if (!setup.replay.empty() && setup.choice.lesson.empty()) setup.choice.lesson = kNoLesson;
   if (arguments.shift) setup.shift = *arguments.shift - 1;
@@ -92,7 +92,8 @@ void add_train_verb(CLI::App& app, VerbAction& action) {
   verb->add_option("--lesson", arguments->choice.lesson,
                    "shipped lesson or file, or none; else the one that is suggested");
   verb->add_option("--learner", arguments->choice.learner, "who learns: remembered; else nothing is")
-      ->type_name("NAME");
+      ->type_name("NAME")
+      ->check(learner_name);
   verb->add_option("--database", arguments->database, "another history than the user's own")->type_name("FILE");
   add_mode_option(*verb, arguments->choice.mode);
   verb->add_flag("--no-help", arguments->no_help, "no force leads the lever to a gear: each trial is graded");

@@ -25,7 +25,8 @@ UiContext::~UiContext() {
 
 void UiContext::feed(const UiEvents& events) {
   ImGui::SetCurrentContext(state_->context);
-  feed_imgui(events);
+  feed_mouse(events);
+  state_->keys.push(events);
 }
 
 void UiContext::begin(const UiInput& input) {
@@ -40,6 +41,7 @@ void UiContext::begin(const UiInput& input) {
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = {input.width, input.height};
   io.DeltaTime = std::max(input.seconds, 1e-5f);
+  state_->keys.deal();
   ImGui::NewFrame();
 }
 

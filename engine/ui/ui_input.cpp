@@ -21,7 +21,99 @@ constexpr KeyPair kKeys[] = {
     {ImGuiKey_A, 65},          {ImGuiKey_C, 67},          {ImGuiKey_V, 86},           {ImGuiKey_X, 88},
     {ImGuiKey_Y, 89},          {ImGuiKey_Z, 90}};
 
-void feed_mouse(ImGuiIO& io, const UiEvents& events) {
+constexpr int kSpace = 32, kLastPrintable = 96;  // GLFW_KEY_SPACE, GLFW_KEY_GRAVE_ACCENT
+constexpr int kLeftShift = 340, kRightShift = 344;
+
+// Shift, control, alt: 0, 1, 2; nothing for other keys.
+int modifier_of(int key) {
+  const int side = key >= kRightShift ? kRightShift : kLeftShift;
+  return key >= side && key < side + 3 ? key - side : -1;
+}
+
+bool writes(int key) {
+  return key >= kSpace && key <= kLastPrintable;
+}
+
+// Would it be missed if it were down between two frames only? Letters come as text of their own.
+bool is_looked_at(int key, bool control) {
+  if (writes(key) && !control && (key != kSpace || ImGui::GetIO().WantTextInput)) return false;
+  return std::any_of(std::begin(kKeys), std::end(kKeys), [&](const KeyPair& pair) { return pair.glfw == key; });
+}
+
+bool is_key_of_imgui(int key) {
+  return key >= 0 && key < static_cast<int>(std::size(ImGui::GetIO().KeysDown));
+}
+
+}  // namespace
+
+// A letter comes after the key that wrote it where there are as many of both, else before all keys.
+void UiKeyQueue::push(const UiEvents& events) {
+  if (!events.focused) {
+    items_.clear();
+    std::fill(std::begin(ImGui::GetIO().KeysDown), std::end(ImGui::GetIO().KeysDown), false);
+  }
+  bool held[3] = {shift_, control_, alt_};
+  const bool tells =
+      std::any_of(events.keys.begin(), events.keys.end(), [](const UiKey& key) { return modifier_of(key.key) >= 0; });
+  if (!tells) {  // they are as they are at the end
+    held[0] = events.shift;
+    held[1] = events.control;
+    held[2] = events.alt;
+  }
+  const auto item = [&](UiKey key, char32_t letter) { items_.push_back({key, letter, held[0], held[1], held[2]}); };
+  std::size_t writing = 0, next = 0;
+  bool control = held[1];
+  for (const UiKey& key : events.keys) {
+    if (modifier_of(key.key) == 1) control = key.down;
+    writing += key.down && writes(key.key) && !control;
+  }
+  const bool in_order = writing == events.text.size();
+  if (!in_order)
+    for (const char32_t letter : events.text) item({}, letter);
+  for (const UiKey& key : events.keys) {
+    if (const int modifier = modifier_of(key.key); modifier >= 0) held[modifier] = key.down;
+    item(key, 0);
+    if (in_order && key.down && writes(key.key) && !held[1]) item({}, events.text[next++]);
+  }
+  shift_ = events.shift;
+  control_ = events.control;
+  alt_ = events.alt;
+}
+
+// A frame has one state of each key and of the modifiers, and takes its letters before its keys.
+bool UiKeyQueue::starts_frame(const Item& item) const {
+  if (changed_.empty()) return false;
+  const ImGuiIO& io = ImGui::GetIO();
+  if (item.letter != 0) return true;
+  if (item.control != io.KeyCtrl || item.shift != io.KeyShift || item.alt != io.KeyAlt) return true;
+  return std::find(changed_.begin(), changed_.end(), item.key.key) != changed_.end();
+}
+
+void UiKeyQueue::deal() {
+  ImGuiIO& io = ImGui::GetIO();
+  changed_.clear();
+  for (; !items_.empty() && !starts_frame(items_.front()); items_.pop_front()) {
+    const Item& item = items_.front();
+    io.KeyShift = item.shift;
+    io.KeyCtrl = item.control;
+    io.KeyAlt = item.alt;
+    if (item.letter != 0) {
+      io.AddInputCharacter(static_cast<unsigned>(item.letter));
+    } else if (is_key_of_imgui(item.key.key)) {
+      if (is_looked_at(item.key.key, item.control)) changed_.push_back(item.key.key);
+      io.KeysDown[item.key.key] = item.key.down;
+    }
+  }
+  if (!items_.empty()) return;
+  const bool same = io.KeyShift == shift_ && io.KeyCtrl == control_ && io.KeyAlt == alt_;
+  if (!changed_.empty() && !same) return;  // with the next frame
+  io.KeyShift = shift_;
+  io.KeyCtrl = control_;
+  io.KeyAlt = alt_;
+}
+
+void feed_mouse(const UiEvents& events) {
+  ImGuiIO& io = ImGui::GetIO();
   constexpr float kNowhere = -3.4e38f;  // Dear ImGui's own "no mouse": -FLT_MAX
   const ImVec2 place(static_cast<float>(events.mouse.x), static_cast<float>(events.mouse.y));
   io.MousePos = events.mouse_here ? place : ImVec2(kNowhere, kNowhere);
@@ -30,27 +122,8 @@ void feed_mouse(ImGuiIO& io, const UiEvents& events) {
   io.MouseWheelH += static_cast<float>(events.scroll.x);
 }
 
-void feed_keys(ImGuiIO& io, const UiEvents& events) {
-  for (const UiKey& key : events.keys) {
-    if (key.key >= 0 && key.key < static_cast<int>(std::size(io.KeysDown))) io.KeysDown[key.key] = key.down;
-  }
-  if (!events.focused) std::fill(std::begin(io.KeysDown), std::end(io.KeysDown), false);
-  io.KeyShift = events.shift;
-  io.KeyCtrl = events.control;
-  io.KeyAlt = events.alt;
-}
-
-}  // namespace
-
 void map_imgui_keys() {
   for (const KeyPair& pair : kKeys) ImGui::GetIO().KeyMap[pair.imgui] = pair.glfw;
-}
-
-void feed_imgui(const UiEvents& events) {
-  ImGuiIO& io = ImGui::GetIO();
-  feed_mouse(io, events);
-  feed_keys(io, events);
-  for (const char32_t letter : events.text) io.AddInputCharacter(static_cast<unsigned>(letter));
 }
 
 }  // namespace gearshift

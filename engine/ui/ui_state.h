@@ -17,6 +17,7 @@ inline ImTextureID font_texture() {
 
 struct UiContext::State {
   ImGuiContext* context = nullptr;
+  UiKeyQueue keys;
   float scale = 0.0f;              // that style and font were made for
   std::uint64_t font_version = 0;  // counts the builds of the atlas
 };

@@ -30,6 +30,17 @@ refuse() { # exit code, part of the sentence, arguments ...
   fi
 }
 
+# A script that reads a cut table must be told.
+for verb in "gate paper" "lesson hill_start" "tour --help"; do
+  "$gearshift" $verb >/dev/full 2>err
+  if [ $? -ne 1 ] || ! grep -q "standard output" err; then
+    echo "FAILED: gearshift $verb >/dev/full"
+    failed=$((failed + 1))
+  else
+    passed=$((passed + 1))
+  fi
+done
+
 unset DISPLAY WAYLAND_DISPLAY
 refuse 1 "no display"
 refuse 1 "no display" train

@@ -122,6 +122,7 @@ TEST_CASE("lever keys move the hand at their speed, by time and not by frames") 
   slow.key(GLFW_KEY_DOWN, true);  // up and down together: nothing
   slow.frame(0.001);              // the frame in which it is released still counts
   const glm::dvec2 stays = slow.at();
+  slow.driver.feel(stays, 0.0, false);
   slow.frame(0.5);
   CHECK(near(slow.at(), stays));
 }
@@ -463,4 +464,53 @@ TEST_CASE("the same input gives the same driver, to the bit") {
   CHECK(a.at() == b.at());
   CHECK(a.driver.controls().throttle == b.driver.controls().throttle);
   CHECK(a.driver.pressed() == b.driver.pressed());
+}
+
+TEST_CASE(
+    "keys lead the hand at most 5 cm before a lever that is held up, and let go it leans on it with 2.5 N at most") {
+  Driver d;
+  const glm::dvec2 held{-0.01, 0.005};
+  d.key(GLFW_KEY_LEFT, true);
+  for (int i = 0; i < 100; ++i) {
+    d.driver.feel(held, 0.0, false);
+    d.frame();
+  }
+  CHECK(d.at().x == doctest::Approx(held.x - 0.05));
+  d.key(GLFW_KEY_LEFT, false);
+  for (int i = 0; i < 20; ++i) d.frame();
+  CHECK(d.at().x == doctest::Approx(held.x - 0.05));  // the lever may still come
+  for (int i = 0; i < 40; ++i) d.frame();
+  CHECK(d.at().x == doctest::Approx(held.x - 0.005));
+  d.driver.feel({0.0, 0.0}, 0.0, false);  // the lever that is drawn back does not draw the hand with it
+  for (int i = 0; i < 40; ++i) d.frame();
+  CHECK(d.at().x == doctest::Approx(held.x - 0.005));
+}
+
+TEST_CASE("a mouse after keys is not drawn back to the lever") {
+  Driver d;
+  d.click();
+  d.key(GLFW_KEY_RIGHT, true);
+  d.frame();
+  d.key(GLFW_KEY_RIGHT, false);
+  d.frame();
+  d.input.mouse_moved = {200.0, 0.0};
+  d.frame();
+  const glm::dvec2 there = d.at();
+  CHECK(there.x > 0.02);
+  for (int i = 0; i < 100; ++i) d.frame();
+  CHECK(near(d.at(), there));
+}
+
+TEST_CASE("a little throttle lets a free engine turn below 1700 rpm and no faster; coupled it is a fifth") {
+  Driver d;
+  const auto throttle = [&d](double speed, bool coupled) {
+    d.driver.feel({}, speed, coupled);
+    for (int i = 0; i < 60; ++i) d.frame();
+    return d.driver.controls().throttle;
+  };
+  d.key(GLFW_KEY_F, true);
+  CHECK(throttle(84.0, false) == doctest::Approx(0.2));
+  CHECK(throttle(155.0, false) == doctest::Approx(0.1));
+  CHECK(throttle(200.0, false) == 0.0);
+  CHECK(throttle(200.0, true) == doctest::Approx(0.2));
 }

@@ -1,6 +1,7 @@
 // What a coach has to say at each point of a lesson, made by hand: the shipped lessons, a learner who is half through.
 #pragma once
 
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -29,6 +30,7 @@ inline CoachView half_way() {
       standing.trials = 2 * static_cast<int>(i) + 1;
       standing.grade = kGrades[i];
       standing.passed = kGrades[i] >= 6.0;
+      standing.best = std::max(kGrades[i], i == 3 ? 9.0 : 0.0);
     }
     coach.lessons.push_back(standing);
   }

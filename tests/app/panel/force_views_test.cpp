@@ -159,7 +159,7 @@ TEST_CASE("the peak's mark stands where a bar of that force ends") {
   Meter rig;
   rig.meter.push(wanting({0.0, 9.0}, {0.0, 14.0}, {0.0, 8.0}));
   HapticSnapshot now;
-  now.commanded = {0.0, -31.0};
+  now.f_a = {0.0, -31.0};
   rig.draw(now);
   CHECK(is_drawn("given 31.0 N"));
   const PixelBox peak = box_of(drawn_in(ink::kWarn));

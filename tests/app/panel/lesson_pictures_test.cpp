@@ -50,6 +50,11 @@ std::vector<Moment> moments() {
   alone.help_wanted = false;
   guided.guidance = 0.7;
   guided.now.said.clear();
+  guided.time_limit = 90.0;
+  guided.result.duration = 78.0;
+  LessonResult late = result_of("hill_start", failing_faults());
+  late.end = LessonEnd::out_of_time;
+  grade_result(shipped_lesson("hill_start"), late);
   test.retention = true;
   test.now.hint.clear();
   test.now.said.clear();
@@ -63,26 +68,36 @@ std::vector<Moment> moments() {
           {"over_passed", over(result_of("hill_start", some_faults())), {"lesson_again", "lesson_next"}},
           {"over_best", over(result_of("hill_start", {})), end},
           {"over_failed", over(result_of("hill_start", failing_faults())), end},
+          {"over_late", over(late), end},
           {"over_guided", over(result_of("hill_start", some_faults(), true)), end}};
 }
 
 }  // namespace
 
-TEST_CASE("a lesson's card has room on every screen, hangs in the middle's upper half and leaves the bar alone") {
+TEST_CASE("a lesson's card has room on every screen, stands below the cabin and leaves the bar alone") {
   for (const Screen& screen : all_screens()) {
     CAPTURE(screen.width);
     CAPTURE(screen.scale);
     PanelRig rig;
     show_on(rig, screen);
+    rig.input.keys = {{"clutch", "A"},  {"brake", "S"},      {"throttle", "D"},  {"a little throttle", "F"},
+                      {"starter", "E"}, {"hand brake", "H"}, {"lever", "arrows"}};
+    rig.input.car.slope = 0.0997;
+    rig.input.car.hand_brake = 1.0;
+    rig.input.car.clutch = 0.6;
     for (const Moment& moment : moments()) {
       CAPTURE(moment.name);
       rig.input.coach = moment.coach;
       show(rig, name_of(screen, moment.name));
       CHECK(rig.panel.shortened_texts() == 0);
-      ControlRect room = rig.panel.middle();
-      if (screen.width > 800) room.max.y = 0.5 * (room.min.y + room.max.y);
-      check_inside(rig, room, moment.controls);
+      const ControlRect middle = rig.panel.middle();
+      check_inside(rig, {{middle.min.x, middle.max.y}, {middle.max.x, rig.rect("stop").min.y}}, moment.controls);
+      if (screen.width > 800) CHECK(middle.max.y > 0.55 * rig.rect("stop").min.y);
     }
+    rig.panel.set_visible(false);
+    rig.input.coach = moments()[2].coach;
+    show(rig, name_of(screen, "driving_hidden"));
+    CHECK(rig.panel.shortened_texts() == 0);
   }
 }
 

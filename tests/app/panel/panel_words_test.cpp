@@ -108,6 +108,78 @@ TEST_CASE("the over-push lamp is a red disc beside its name, which no contact al
   CHECK(red_discs(kFlagContact) == 0);
 }
 
+TEST_CASE("hand brake and ignition have lamps, and a slope is told in per cent where there is one") {
+  PanelRig rig;
+  settle(rig);
+  const auto colour = [](const char* name) { return the_text(drawn_texts(), name).colour; };
+  CHECK(colour("Ignition") == ink::kGood);
+  CHECK(colour("Hand brake") != ink::kBad);
+  for (const DrawnText& text : drawn_texts()) CHECK_FALSE(text.text.starts_with("Slope"));
+  rig.input.car.ignition = false;
+  rig.input.car.hand_brake = 1.0;
+  rig.input.car.slope = -std::atan(0.08);
+  settle(rig);
+  CHECK(colour("Ignition") != ink::kGood);
+  CHECK(colour("Hand brake") == ink::kBad);
+  CHECK(is_drawn("Slope -8 %"));
+}
+
+TEST_CASE("given is what the actuators give, wanted what was asked of them, and no zero has a minus") {
+  PanelRig rig;
+  rig.input.now.f_a = {-12.0, 3.0};
+  rig.input.now.commanded = {-20.0, 0.0};
+  rig.input.now.wall_force = {-31.7, 0.0};
+  rig.input.now.f_j = {0.0, -0.01};
+  rig.input.car.road_speed = -0.01;
+  settle(rig);
+  CHECK(is_drawn("given 12.0 N"));
+  CHECK(is_drawn("wanted 31.7 N"));
+  CHECK(is_drawn("0 km/h"));
+  for (const DrawnText& text : drawn_texts()) {
+    CHECK(text.text.find("-0.0") == std::string::npos);
+    CHECK_FALSE(text.text.starts_with("-0km/h"));
+  }
+}
+
+TEST_CASE("a lesson's own recording is not ended by its button") {
+  PanelRig rig;
+  rig.input.recording = true;
+  rig.input.coach.phase = LessonPhase::driving;
+  settle(rig);
+  CHECK(is_drawn("lesson recorded"));
+  CHECK_FALSE(rig.click("record").record);
+  rig.input.coach.phase = LessonPhase::none;
+  settle(rig);
+  CHECK(is_drawn("End recording"));
+  CHECK(rig.click("record").record);
+}
+
+TEST_CASE("of a path that is too long for its line the middle is left out, its begin and its end are there") {
+  PanelRig rig;
+  rig.input.message =
+      "recorded: /home/somebody/with/a/long/name/.local/share/gearshift/recordings/reverse-20261121.trace";
+  settle(rig);
+  bool found = false;
+  for (const DrawnText& text : drawn_texts()) {
+    if (text.text.find("\u2026") == std::string::npos) continue;
+    found = true;
+    CAPTURE(text.text);
+    CHECK(text.text.starts_with("/home/"));
+    CHECK(text.text.ends_with("reverse-20261121.trace"));
+  }
+  CHECK(found);
+  CHECK(rig.panel.shortened_texts() == 0);
+}
+
+TEST_CASE("gates and cars are shown by readable names and asked for by their own") {
+  PanelRig rig;
+  settle(rig);
+  CHECK(is_drawn("Hatchback"));
+  rig.click("gate");
+  CHECK(is_drawn("Dog leg five"));
+  CHECK(rig.click("gate: dog_leg_five").gate == "dog_leg_five");
+}
+
 TEST_CASE("the loop's figures stand beside their names") {
   PanelRig rig;
   rig.input.health.rate = 2000.0;

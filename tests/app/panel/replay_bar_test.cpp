@@ -72,6 +72,25 @@ TEST_CASE("the scrub bar seeks as far as it is drawn, within what is looked at")
   }
 }
 
+TEST_CASE("the slider's handle stands below the line in the curves; units and, of a shift, both ways have a legend") {
+  ReplayRig rig;
+  rig.player.look_at(std::nullopt);
+  for (const double share : {0.0, 0.3, 1.0}) {
+    rig.player.seek(rig.player.from() + share * (rig.player.to() - rig.player.from()));
+    rig.settle();
+    const ControlRect bar = rig.rect("replay_time");
+    std::vector<glm::dvec2> handle = drawn_in(ink::kAccent);
+    std::erase_if(handle, [&](glm::dvec2 at) { return at.y < bar.min.y || at.y > bar.max.y; });
+    CHECK(std::abs(box_of(handle).middle().x - (bar.min.x + share * (bar.max.x - bar.min.x))) < 1.0);
+  }
+  for (const char* unit : {"%", "rpm", "N"}) CHECK(is_drawn(unit));
+  CHECK_FALSE(is_drawn("shortest way"));
+  rig.player.look_at(1);
+  rig.settle();
+  CHECK(is_drawn("shortest way"));
+  CHECK(is_drawn("driven way"));
+}
+
 TEST_CASE("every shift has a mark where it begins in the drive, whatever part is looked at") {
   ReplayRig rig;
   const RecordedDrive& drive = rig.player.drive();
@@ -101,8 +120,10 @@ TEST_CASE("the bar covers what lies behind it, leaves the cabin what is above it
   CHECK_FALSE(rig.panel.control_rect("lesson_again").has_value());
   rig.input.replay = nullptr;
   rig.settle();
+  CHECK(rig.rect("lesson_again").min.y > rig.panel.middle().max.y);
+  rig.input.coach = half_way();
+  rig.settle();
   CHECK(rig.panel.middle().max == glm::dvec2(1280.0, 720.0));
-  CHECK(rig.panel.control_rect("lesson_again").has_value());
 }
 
 TEST_CASE("a clutch that goes down in a shift is a curve that goes up at that place") {

@@ -111,3 +111,40 @@ TEST_CASE("events tell the time since the session's start, over every change of 
     CHECK(events > 3);
   }
 }
+
+TEST_CASE("what a fault has taken neither two changes nor the begin of a lesson give back; Arm does") {
+  for (const bool lesson : {false, true}) {
+    Rig rig;
+    // A position margin of nothing and a hand at the device's end: the limit is broken.
+    PanelRequests restart;
+    restart.restart = rig.session.trainer().config().preset.haptics;
+    restart.restart->guard.position_margin = 0.0;
+    rig.session.obey(restart);
+    rig.go(2.0);
+    HandTarget hand;
+    for (int i = 0; i < 3000 && rig.session.trainer().snapshot().guard != GuardState::released; ++i) {
+      hand.position = {i % 2 ? 0.09 : -0.09, i % 2 ? 0.09 : -0.09};
+      hand.push = {0.0, i % 2 ? 75.0 : -75.0};
+      rig.session.lead(hand, {});
+      rig.session.advance(0.1);
+    }
+    REQUIRE(rig.session.trainer().snapshot().guard == GuardState::released);
+    rig.session.lead({}, {});
+    rig.change(2);
+    rig.go(1.0);
+    CHECK_FALSE(rig.has_forces());
+    if (lesson) {
+      PanelRequests begin;
+      begin.lesson.begin = true;
+      rig.session.obey(begin);
+      CHECK(rig.session.coach().view().phase == LessonPhase::driving);
+    } else {
+      rig.change(1);
+    }
+    rig.go(1.0);
+    CHECK_FALSE(rig.has_forces());
+    rig.ask(&PanelRequests::arm);
+    rig.go(2.0);
+    CHECK(rig.has_forces());
+  }
+}

@@ -9,6 +9,7 @@
 
 #include <doctest/doctest.h>
 
+#include "app/learner/auto_driver.h"
 #include "app/train/session.h"
 #include "app/training/lesson_world.h"
 #include "haptics/loop/replay.h"
@@ -59,6 +60,30 @@ void go(Session& session, double seconds) {
   }
 }
 
+// A person who can, at mouse and pedals: frame by frame, a millisecond each.
+const CoachView& drive_as_person(Session& session) {
+  if (session.coach().view().phase == LessonPhase::offered)
+    ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+  AutoDriverConfig config;
+  config.lesson = *session.coach().lesson();
+  config.car = *session.car_spec();
+  config.gate = session.trainer().gate();
+  AutoDriver driver(config);
+  DriveSample sample;
+  sample.controls.ignition = config.lesson.start.running;
+  sample.controls.hand_brake = config.lesson.start.hand_brake;
+  for (int i = 0; i < 120'000 && session.coach().view().phase == LessonPhase::driving; ++i) {
+    session.advance(1e-3);
+    sample.lever = session.shown();
+    sample.car = session.car();
+    const DriverAction action = driver.act(sample);
+    sample.controls = action.controls;
+    session.lead(action.hand, action.controls);
+  }
+  REQUIRE(session.coach().view().phase == LessonPhase::over);
+  return session.coach().view();
+}
+
 const CoachView& drive_to_the_end(Session& session) {
   for (int i = 0; i < 120 * 60 && session.coach().view().phase == LessonPhase::driving; ++i) go(session, kFrame);
   REQUIRE(session.coach().view().phase == LessonPhase::over);
@@ -69,8 +94,8 @@ const CoachView& drive_to_the_end(Session& session) {
 
 TEST_CASE("who can drive passes a lesson in the running trainer; run, shifts and recording are remembered") {
   Rig rig;
-  Session session(rig.choice("hill_start"));
-  const CoachView& coach = drive_to_the_end(session);
+  Session session(rig.choice("hill_start", "grip"));
+  const CoachView& coach = drive_as_person(session);
   CHECK(coach.result.passed);
   CHECK(coach.result.grade >= 9.0);
   CHECK(session.car().slope == doctest::Approx(std::atan(0.1)));  // the lesson's road: 10 %
@@ -134,8 +159,8 @@ TEST_CASE("another gate or a replay does not go on under a lesson: one leaves it
 
 TEST_CASE("any shift of the history is looked at again in the cabin: what is shown is what was recorded then") {
   Rig rig;
-  Session session(rig.choice("up_through_the_gears"));
-  const CoachView& coach = drive_to_the_end(session);
+  Session session(rig.choice("up_through_the_gears", "grip"));
+  const CoachView& coach = drive_as_person(session);
   REQUIRE(coach.result.shifts.size() >= 3);
   const RunRow run = coach.runs.front();
   const ShiftRecord& wanted = coach.result.shifts[1];
@@ -219,6 +244,20 @@ TEST_CASE("a lesson's recording is not ended by a person, and none begins in its
   }
 }
 
+TEST_CASE("what the hand shows by itself is nobody's, and a person who takes over is remembered again") {
+  Rig rig;
+  Session session(rig.choice("moving_off"));
+  CHECK(drive_to_the_end(session).result.passed);
+  PanelRequests person;
+  person.hand = "grip";
+  session.obey(person);
+  CHECK(session.coach().view().learner == "Ada");
+  CHECK(History(rig.history).learners().empty());
+  ask(session, [](LessonRequests& lesson) { lesson.offer = "moving_off"; });
+  (void)drive_as_person(session);
+  CHECK(History(rig.history).runs(History(rig.history).find_learner("Ada").value().id).size() == 1);
+}
+
 TEST_CASE("without a learner nothing is remembered, and a lesson is driven all the same") {
   Rig rig;
   SessionChoice choice = rig.choice("moving_off");
@@ -261,17 +300,13 @@ TEST_CASE(
     alone.learner += "a";
   }
   // The lever stands in 1; the first step that names a gear names 2: there it is led. Two of four trials are.
-  SessionChoice by_itself = rig.choice("up_through_the_gears");
-  by_itself.help = true;
-  by_itself.learner = "Bo";  // whose first trials are not Ada's
-  by_itself.seed = 3;
+  SessionChoice person = rig.choice("up_through_the_gears", "grip");
+  person.help = true;
+  person.learner = "Bo";  // whose first trials are not Ada's
   for (int trial = 0; trial < 4; ++trial) {
-    Session driven(by_itself);
-    if (driven.coach().guidance() == 0.0) {
-      (void)drive_to_the_end(driven);
-      continue;
-    }
-    const CoachView& coach = drive_to_the_end(driven);
+    Session driven(person);
+    const CoachView& coach = drive_as_person(driven);
+    if (coach.guidance == 0.0) continue;
     CHECK(coach.result.guided);
     CHECK_FALSE(coach.result.passed);
     const Trace trace = read_trace(coach.runs.front().recording);
@@ -282,4 +317,53 @@ TEST_CASE(
     return;
   }
   FAIL("none of four trials was guided");
+}
+
+TEST_CASE("Replay in the middle of a lesson neither ends its recording nor shows anything") {
+  Rig rig;
+  Session session(rig.choice("moving_off", "grip"));
+  ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+  go(session, 0.3);
+  PanelRequests replay;
+  replay.replay = true;
+  session.obey(replay);
+  CHECK(session.message().find("leave it before") != std::string::npos);
+  CHECK(session.recording());
+  CHECK(session.panel_input().replay == nullptr);
+}
+
+TEST_CASE("a lesson that is put away takes its hill with it, and recordings lie beside the history that names them") {
+  Rig rig;
+  rig.history = rig.folder / "elsewhere" / "history.db";
+  fs::create_directories(rig.history.parent_path());
+  Session session(rig.choice("hill_start", "grip"));
+  ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+  go(session, 0.3);
+  CHECK(session.car().slope > 0.09);
+  ask(session, [](LessonRequests& lesson) { lesson.leave = true; });
+  ask(session, [](LessonRequests& lesson) { lesson.put_away = true; });
+  go(session, 0.3);
+  CHECK(session.car().slope == 0.0);
+  CHECK(fs::exists(rig.folder / "elsewhere/recordings"));
+  CHECK_FALSE(fs::exists(rig.folder / "gearshift/recordings"));
+}
+
+TEST_CASE("after a lesson the teacher holds the car, on a hill, too, until the next one begins or none is wanted") {
+  Rig rig;
+  Session session(rig.choice("hill_start", "grip"));
+  ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+  DriverControls rolls;
+  rolls.ignition = true;
+  rolls.clutch = 1.0;
+  session.lead({}, rolls);
+  for (int i = 0; i < 20 * 60 && session.coach().view().phase == LessonPhase::driving; ++i) go(session, kFrame);
+  REQUIRE(session.coach().view().phase == LessonPhase::over);  // a metre back
+  CHECK(session.car().road_speed < -0.5);
+  go(session, 2.0);
+  CHECK(session.car().road_speed == 0.0);
+  CHECK(session.car().running);
+  ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+  session.lead({}, rolls);
+  go(session, 1.0);
+  CHECK(session.car().road_speed < -0.1);
 }

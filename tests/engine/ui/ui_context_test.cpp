@@ -114,6 +114,45 @@ TEST_CASE("keys move and press: GLFW's numbers are known") {
   form.frame();
 }
 
+TEST_CASE(
+    "a key that went down and up between two frames was pressed, as was the letter with Ctrl that came before it") {
+  constexpr int kControl = 341, kEnter = 257, kB = 66, kC = 67;
+  Form form;
+  form.frame();
+  form.click(form.button);  // pressed, and where the navigation begins
+  form.events.keys = {{kKeyDown, true}, {kKeyDown, false}, {kKeyUp, true}, {kKeyUp, false}};
+  for (int i = 0; i < 5; ++i) form.frame();
+  form.events.keys = {{kKeySpace, true}, {kKeySpace, false}};
+  for (int i = 0; i < 3; ++i) form.frame();
+  CHECK(form.presses == 2);
+  form.click(form.field);
+  // "Bb", all of it chosen, "Cc" written over it, and one letter taken back: in one poll of a slow frame.
+  constexpr int kBackspace = 259;
+  form.events.text = U"BbCcc";
+  form.events.keys = {{kB, true},       {kB, false},   {kB, true},         {kB, false},
+                      {kControl, true}, {kKeyA, true}, {kKeyA, false},     {kControl, false},
+                      {kC, true},       {kC, false},   {kC, true},         {kC, false},
+                      {kC, true},       {kC, false},   {kBackspace, true}, {kBackspace, false}};
+  for (int i = 0; i < 8; ++i) form.frame();
+  CHECK(std::string(form.text) == "Cc");
+  form.events.keys = {{kEnter, true}, {kEnter, false}};
+  form.frame();
+  CHECK(ImGui::IsKeyDown(kEnter));
+  form.frame();
+  CHECK_FALSE(ImGui::IsKeyDown(kEnter));
+}
+
+TEST_CASE("what waits for its frame is forgotten where the window lost the focus") {
+  Form form;
+  form.events.keys = {{kKeySpace, true}, {kKeySpace, false}, {kKeySpace, true}};
+  form.frame();
+  form.events.focused = false;
+  for (int i = 0; i < 3; ++i) {
+    form.frame();
+    CHECK_FALSE(ImGui::IsKeyDown(kKeySpace));
+  }
+}
+
 TEST_CASE("keys that were down are up when the window lost the focus") {
   Form form;
   form.events.keys = {{kKeySpace, true}};
