@@ -31,7 +31,7 @@ struct LoopFigures {
 class CycleRunner {
  public:
   static constexpr std::size_t kMostRecords = 8192;    // 8 s at 1 kHz, 2 s at 4 kHz
-  static constexpr std::size_t kMostForDriver = 4096;  // who is further behind drives no more
+  static constexpr std::size_t kMostForDriver = 4096;  // further behind, cycles are left out
 
   explicit CycleRunner(std::int64_t period_ns) noexcept : period_ns_(period_ns) {}  // [ns] of the thread
 

@@ -84,7 +84,9 @@ constexpr std::array kGuesses = {
 };
 
 constexpr bool looks_back(const Guess& guess) {
-  return guess.law == Law::as_before || std::max({guess.from, guess.and_from, guess.and_also}) <= guess.at;
+  const bool uses_none = guess.law == Law::steps || guess.law == Law::as_before;  // of its own sample
+  const std::size_t last = std::max({guess.from, guess.and_from, guess.and_also});
+  return uses_none || last + sizeof(Word) <= guess.at;
 }
 constexpr bool in_order(const Guess& a, const Guess& b) {
   return a.at + sizeof(Word) <= b.at;

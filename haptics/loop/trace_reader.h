@@ -1,4 +1,5 @@
-// Reads a trace file block by block, in constant memory, and believes nothing in it.
+// Reads a trace file block by block and believes nothing in it. In memory are one block, and of the others where they
+// lie: 24 bytes each, 1/10 of a byte a cycle.
 #pragma once
 
 #include <cstdint>
