@@ -112,7 +112,8 @@ Session::Session(const SessionChoice& choice)
   else
     change_to(coach_.lesson() ? with_lesson(choice, *coach_.lesson()) : choice);
   if (const std::optional<std::string> problem = coach_.take_problem()) message_ = *problem;
-  if (!sound_.why_silent().empty() && message_.empty()) message_ = sound_.why_silent();
+  const bool missed = choice.sound == SoundOutput::card && !sound_.why_silent().empty();
+  if (missed && message_.empty()) message_ = sound_.why_silent();
   panel_.gates = shipped_names("gates");
   panel_.presets = preset_names();
   panel_.cars = shipped_names("cars");
