@@ -94,7 +94,7 @@ class Trials {
     const bool own_recording = drive.trace.empty();
     if (own_recording) {
       drive.trace = recording();
-      own_recordings_.insert(fs::absolute(drive.trace).string());
+      if (!drive.trace.empty()) own_recordings_.insert(fs::absolute(drive.trace).string());
     }
     coach_.begin(drive.car, gate_, trials_.settings, drive.trace.empty() ? fs::path() : fs::absolute(drive.trace));
     if (trials_.help) drive.guidance = coach_.guidance();
