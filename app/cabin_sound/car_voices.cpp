@@ -64,11 +64,11 @@ void CarVoices::sound_engine(SoundWorld& world, const VehicleState& car, bool en
   world.set(limiter_, {place, gain(cuts, kLimiterGain), 1.0f});
 }
 
-// An engine that stands already when the key is turned has not stalled.
+// Once. What had stalled when this began, nobody heard die.
 void CarVoices::announce_stall(SoundWorld& world, const VehicleState& car, glm::vec3 place) {
-  if (could_die_ && car.stalled)
+  if (car.stalled && !stalled_)
     world.play(chime_, {.position = place, .gain = static_cast<float>(kChimeGain), .radius = kChimeRadius});
-  could_die_ = car.running && car.ignition;
+  stalled_ = car.stalled;
 }
 
 }  // namespace gearshift

@@ -30,8 +30,8 @@ class CarVoices {
 
   VoiceId grind_, starter_, judder_, limiter_;
   ClipId chime_;
-  WarningHold cut_;         // fuel comes and goes with the limiter's band: one stutter
-  bool could_die_ = false;  // it ran, with the key on, in the frame before
+  WarningHold cut_;      // fuel comes and goes with the limiter's band: one stutter
+  bool stalled_ = true;  // in the frame before
 };
 
 }  // namespace gearshift

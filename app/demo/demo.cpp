@@ -31,6 +31,12 @@ Stage make_stage(const DemoSetup& setup, Cabin cabin) {
   return {stage_config(setup.tour.gate, setup.tour.lever.yoke, cabin), assets_folder() / "models"};
 }
 
+// Once: every drive of a demo has the same car, and so the same red line on its dial.
+void show_cabin(CabinView& view, Stage& stage, const FilmFrame& frame) {
+  stage.place({frame.lever, frame.car, frame.time});
+  view.set_model(stage.model());
+}
+
 Image take_picture(CabinView& view, Stage& stage, const FilmFrame& frame, const std::string& from) {
   stage.place({frame.lever, frame.car, frame.time});
   view.begin();
@@ -49,7 +55,7 @@ std::vector<Image> take_pictures(CabinView& view, const DemoSetup& setup, const 
   std::vector<double> times;
   for (const Cabin cabin : {Cabin::closed, Cabin::open_gate, Cabin::cutaway}) {
     Stage stage = make_stage(setup, cabin);
-    view.set_model(stage.model());
+    show_cabin(view, stage, *shots.front().frame);
     for (std::size_t i = 0; i < shots.size(); ++i) {
       if (cabin_seen_from(shots[i].camera) != cabin) continue;
       const auto start = std::chrono::steady_clock::now();
@@ -70,7 +76,7 @@ void shoot_film(CabinView& view, const DemoSetup& setup, std::span<const FilmFra
   const std::filesystem::path folder = setup.tour.folder / "film";
   make_folder(folder);
   Stage stage = make_stage(setup, Cabin::closed);
-  view.set_model(stage.model());
+  show_cabin(view, stage, film.front());
   for (; result.film_frames / setup.film_rate < film.back().time; ++result.film_frames) {
     const FilmFrame& frame = frame_at(film, result.film_frames / setup.film_rate);
     write_png(folder / fmt::format("{:05}.png", result.film_frames), take_picture(view, stage, frame, "driver"));

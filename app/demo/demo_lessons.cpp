@@ -68,8 +68,8 @@ std::vector<std::string> result_words(const FilmedDrive& drive) {
   std::vector<std::string> words{drive.lesson.goal};
   words.push_back(result.passed ? fmt::format("Passed with grade {:.1f} in {:.1f} s.", result.grade, result.duration)
                                 : fmt::format("Not passed: {}", result.why));
-  words.push_back(
-      fmt::format("{} shifts, {:.1f} kJ of heat in the clutch.", result.shifts.size(), 1e-3 * result.slip_energy));
+  words.push_back(fmt::format("{} shift{}, {:.1f} kJ of heat in the clutch.", result.shifts.size(),
+                              result.shifts.size() == 1 ? "" : "s", 1e-3 * result.slip_energy));
   for (const DriveFault& fault : result.faults) {
     if (points_of(fault.severity) > 0.0) words.push_back(fault_sentence(fault));
   }

@@ -12,6 +12,24 @@
 namespace gearshift {
 namespace {
 
+// What this page has beyond the look of all pages: pictures side by side, as many as fit, and two beside each other on
+// paper.
+constexpr const char* kStyle = R"css(
+.sentences { margin: 0 0 1rem; padding: 0; list-style: none; max-width: 52rem; }
+.pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(18rem, 1fr)); gap: 1.4rem 1.2rem; }
+.plots { display: grid; grid-template-columns: repeat(auto-fit, minmax(26rem, 1fr)); gap: 1.2rem 2rem;
+         align-items: start; }
+.pictures figure, .plots figure { margin: 0; }
+.pictures img, .plots img { display: block; width: 100%; border-radius: 4px; }
+.pictures figcaption, .plots figcaption { margin-top: 0.4rem; line-height: 1.35; }
+audio { width: 100%; max-width: 32rem; vertical-align: middle; }
+@media print {
+  .pictures, .plots { grid-template-columns: 1fr 1fr; gap: 5mm; }
+  .sound { display: none; }
+  .sentences { max-width: none; break-after: avoid; }
+}
+)css";
+
 std::string figure(const std::string& file, const std::string& caption) {
   return fmt::format(
       "<figure><a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\"></a>\n<figcaption>{1}</figcaption></figure>\n",
@@ -31,7 +49,7 @@ std::string facts(const DemoSetup& setup, const DemoResult& result) {
   table += row("Deepest beyond a wall", fmt::format("{:.2f} mm", 1e3 * tour.deepest));
   table += row("Strongest push", fmt::format("{:.1f} N", tour.strongest));
   for (const Limited& limited : tour.limited) table += row("Limited", limited_words(limited));
-  table += row("Drawn by", fmt::format("{}, {:.0f} ms a picture", result.device, result.picture_ms));
+  table += row("Drawn by", result.device);
   return table + "</table>\n";
 }
 
@@ -43,21 +61,20 @@ std::string gear_table(const TourResult& tour) {
 }
 
 std::string chapter_html(const DemoChapter& chapter) {
-  std::string html = fmt::format("<h2>{}</h2>\n<p>", html_text(chapter.title));
-  for (const std::string& sentence : chapter.text) html += html_text(sentence) + "<br>\n";
-  if (!chapter.trace.empty()) html += fmt::format("<a href=\"{0}\">Trace</a>", html_text(chapter.trace));
-  html += "</p>\n";
+  std::string html = fmt::format("<section>\n<h2>{}</h2>\n<ul class=\"sentences\">\n", html_text(chapter.title));
+  for (const std::string& sentence : chapter.text) html += fmt::format("<li>{}</li>\n", html_text(sentence));
+  if (!chapter.trace.empty()) html += fmt::format("<li><a href=\"{}\">Trace</a></li>\n", html_text(chapter.trace));
+  html += "</ul>\n<div class=\"pictures\">\n";
   for (const DemoPicture& picture : chapter.pictures) html += figure(picture.file, picture.caption);
-  return html;
+  return html + "</div>\n</section>\n";
 }
 
 constexpr const char* kDriven =
     "A simulated learner drives through every gear of the gate, then lessons; a car's driveline is behind the lever. ";
 constexpr const char* kIntroduction =
-    "The lever that is drawn is the proxy, which never leaves the slots. Below, a scripted hand shifts through the "
-    "gate "
-    "without a car: it pushes through the walls and is held by the force that is plotted. Everything on this page is "
-    "deterministic: the traces replay bit for bit.";
+    "The lever that is drawn is the proxy, which never leaves the slots. At the end, a scripted hand shifts through "
+    "the same gate without a car: it pushes through the walls and is held by the force that is plotted. Everything on "
+    "this page is deterministic: the traces replay bit for bit.";
 
 }  // namespace
 
@@ -66,20 +83,21 @@ void write_demo_page(const DemoSetup& setup, const DemoResult& result) {
   out << "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>gearshift: a drive</title>\n"
          "<style>"
-      << html_style() << "</style>\n</head>\n<body>\n<h1>" << html_text(setup.tour.layout.name) << ", driven</h1>\n<p>"
-      << (result.has_report ? kDriven : "") << kIntroduction
-      << "</p>\n<p>Sound of the drive through every gear: <audio controls src=\"demo.wav\"></audio></p>\n";
+      << html_style() << kStyle << "</style>\n</head>\n<body>\n<h1>" << html_text(setup.tour.layout.name)
+      << ", driven</h1>\n<p>" << (result.has_report ? kDriven : "") << kIntroduction
+      << "</p>\n<p class=\"sound\">Sound of the drive through every gear:<br><audio controls "
+         "src=\"demo.wav\"></audio></p>\n";
   if (result.has_report) {
     out << "<p>The learner drove each lesson several times, ever better; the last time is shown here: "
            "<a href=\"report.html\">the learner's report</a>.</p>\n";
   }
   for (const DemoChapter& chapter : result.chapters) out << chapter_html(chapter);
-  out << "<h2>Lever and force, by a scripted hand</h2>\n"
-      << facts(setup, result) << gear_table(result.tour)
+  out << "<section>\n<h2>Lever and force, by a scripted hand</h2>\n<div class=\"plots\">\n"
+      << facts(setup, result) << gear_table(result.tour) << "</div>\n<div class=\"plots\">\n"
       << figure("trajectory.svg", "The hand's lever point and the drawn lever in the gate (Fig. 9 a of the paper)")
       << figure("force.svg", "Position and force against time (Fig. 9 b of the paper)")
-      << "<p><a href=\"tour.csv\">Table</a>, <a href=\"tour.trace\">trace</a>, <a href=\"contact_sheet.png\">contact "
-         "sheet</a></p>\n<p>"
+      << "</div>\n<p><a href=\"tour.csv\">Table</a>, <a href=\"tour.trace\">trace</a>, "
+         "<a href=\"contact_sheet.png\">contact sheet</a></p>\n</section>\n<p>"
       << program_name() << "</p>\n</body>\n</html>\n";
   write_text_file(setup.tour.folder / "index.html", out.str());
 }

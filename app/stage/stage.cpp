@@ -3,11 +3,13 @@
 #include <array>
 #include <optional>
 #include <span>
+#include <utility>
 
 #include <glm/gtc/matrix_transform.hpp>
 #include <glm/gtc/quaternion.hpp>
 
 #include "app/stage/boot.h"
+#include "app/stage/dial_print.h"
 #include "app/stage/gearbox.h"
 #include "app/stage/hand.h"
 #include "app/stage/instruments.h"
@@ -43,6 +45,8 @@ struct Stage::State {
   std::size_t hand_mesh = 0;     // of scene.deformed
   std::size_t first_way = 0;     // of scene.deformed: those that are shown in this frame
   std::vector<glm::mat4> world;  // of the nodes, in this frame
+  DialPrint dial;
+  bool new_print = false;
   Roadside road;
   std::optional<Hand> hand;
   std::optional<Gearbox> gearbox;
@@ -58,6 +62,7 @@ struct Stage::State {
         model(make_stage_model(config, folder)),
         pose(model.nodes),
         world(model.nodes.size()),
+        dial(model),
         road(model) {
     find_nodes();
     scene.nodes.resize(model.nodes.size());
@@ -148,6 +153,7 @@ struct Stage::State {
 
   void place_instruments(const StageInput& input) {
     const VehicleState& car = input.car;
+    new_print = dial.print(model, car.red_line) || new_print;
     const double swing = kNeedleTremble * tremble(car, input.time);
     turn(tach, about(kZ, tach_angle(car) + swing));
     turn(speed, about(kZ, speed_angle(car) + swing));
@@ -207,6 +213,10 @@ Stage::~Stage() = default;
 
 const Model& Stage::model() const noexcept {
   return state_->model;
+}
+
+bool Stage::take_new_print() noexcept {
+  return std::exchange(state_->new_print, false);
 }
 
 void Stage::place(const StageInput& input) {

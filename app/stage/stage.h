@@ -44,6 +44,8 @@ class Stage {
   ~Stage();
 
   const Model& model() const noexcept;  // static parts merged, gate plate and gearbox made for the gate
+  // Once true after place() was given a car with another red line than the one before: model()'s dial is printed anew.
+  bool take_new_print() noexcept;
 
   // Places everything. The drawn lever is the proxy, through the exact kinematics; past the offset at which the loop
   // raises kFlagGhost the ghost stands where the lever point is.

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "app/stage/door_mirror.h"
 #include "app/stage/gate_plate.h"
 #include "app/stage/gearbox.h"
 #include "app/stage/hand.h"
@@ -61,8 +62,10 @@ void gather_bodywork(Model& cabin) {
   for (const char* name : {"Bonnet", "Wipers", "DoorMirrorLeftHousing", "DoorMirrorLeftSurface",
                            "DoorMirrorRightHousing", "DoorMirrorRightSurface"}) {
     const int node = needed_node(cabin, name);
-    for (Piece& piece : placed_pieces(cabin, node, world[static_cast<std::size_t>(node)]))
+    for (Piece& piece : placed_pieces(cabin, node, world[static_cast<std::size_t>(node)])) {
+      if (std::string_view(name).ends_with("Surface")) make_convex(piece.patch);
       pieces.push_back(std::move(piece));
+    }
     hide(cabin, name);
   }
   Node bodywork;

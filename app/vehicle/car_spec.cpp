@@ -1,5 +1,6 @@
 #include "app/vehicle/car_spec.h"
 
+#include <cmath>
 #include <numbers>
 #include <vector>
 
@@ -150,16 +151,23 @@ GearboxSpec read_gearbox(const TomlTable& table) {
   return gearbox;
 }
 
+// Of things that are counted.
+double whole_number(const TomlTable& table, const char* key, Range range) {
+  const double value = table.number(key, range);
+  if (value != std::floor(value)) table.fail(key, "must be a whole number");
+  return value;
+}
+
 SynchroSpec read_synchro(const TomlTable& table) {
   SynchroSpec synchro;
   synchro.friction = table.number("friction", kFriction);
   synchro.radius = table.number("radius_mm", kRadiusMm) * kMetresPerMillimetre;
   synchro.cone_angle = table.number("cone_half_angle_deg", kConeDeg) * kPerDegree;
-  synchro.cones = table.number("cones", kCones);
+  synchro.cones = whole_number(table, "cones", kCones);
   synchro.index_radius = table.number("index_radius_mm", kRadiusMm) * kMetresPerMillimetre;
   synchro.pointing_angle = table.number("pointing_half_angle_deg", kPointingDeg) * kPerDegree;
   synchro.index_friction = table.number("index_friction", kFriction);
-  synchro.teeth = table.number("teeth", kTeeth);
+  synchro.teeth = whole_number(table, "teeth", kTeeth);
   synchro.dog_speed = table.number("dog_rpm", kDogRpm) * kPerRpm;
   synchro.lever_ratio = table.number("lever_ratio", kLeverRatio);
   synchro.efficiency = table.number("efficiency", kEfficiency);

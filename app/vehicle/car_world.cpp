@@ -15,10 +15,16 @@ namespace gearshift {
 namespace {
 
 constexpr const char* kName = "car";
+constexpr int kStands = 0, kRuns = 1, kStalled = 2;  // the engine, in a world's name
 
 double force_scale(double force_limit) {
   if (!(force_limit > 0.0)) throw std::invalid_argument("CarWorld: a device without force has no lever to drive");
   return std::min(1.0, force_limit / kHandMost);
+}
+
+int engine_of(const CarStart& start) noexcept {
+  if (start.running) return kRuns;
+  return start.stalled ? kStalled : kStands;
 }
 
 double finite_or_zero(double value) noexcept {
@@ -36,7 +42,7 @@ CarStart whole_start(const CarSpec& car, CarStart start) {
 // Two lines of values, then the car's file. Doubles are written so that they read back to the bit.
 std::string make_name(const CarSpec& car, double force_limit, const CarStart& start, std::uint64_t seed) {
   return fmt::format("{} {} {} {} {} {} {} {} {} {}\n{}\n{}", kName, force_limit, seed, start.road_speed, start.gear,
-                     start.running ? 1 : 0, *start.engine_speed, *start.shaft_speed, start.distance, start.slip_energy,
+                     engine_of(start), *start.engine_speed, *start.shaft_speed, start.distance, start.slip_energy,
                      car.name + ".toml", car.text);
 }
 
@@ -47,6 +53,7 @@ CarStart start_from(const VehicleState& state) noexcept {
   start.road_speed = state.road_speed;
   start.gear = state.gear;
   start.running = state.running;
+  start.stalled = state.stalled;
   start.engine_speed = state.engine_speed;
   start.shaft_speed = state.shaft_speed;
   start.distance = state.distance;
@@ -77,7 +84,7 @@ CarWorld::CarWorld(const CarSpec& car, const Gate& gate, double force_limit, con
     const double ratio = std::abs(per_road) * car.body.wheel_radius / car.gearbox.final_drive;
     gear_of_slot_[i] = {slot.gear, static_cast<double>(static_cast<int>(slot.side)), per_road, ratio};
   }
-  driveline_.place(*start_.engine_speed, *start_.shaft_speed, start_.road_speed, start_.running);
+  driveline_.place(*start_.engine_speed, *start_.shaft_speed, start_.road_speed, start_.running, start_.stalled);
   state_ = driveline_.state();
   state_.distance = start_.distance;
   state_.slip_energy = start_.slip_energy;
@@ -157,10 +164,14 @@ std::unique_ptr<CarWorld> make_car_world(const std::string& name, const Gate& ga
   std::string kind, file;
   double force_limit = 0.0, engine_speed = 0.0, shaft_speed = 0.0;
   std::uint64_t seed = 0;
+  int engine = kStands;
   CarStart start;
-  stream >> kind >> force_limit >> seed >> start.road_speed >> start.gear >> start.running >> engine_speed >>
-      shaft_speed >> start.distance >> start.slip_energy;
+  stream >> kind >> force_limit >> seed >> start.road_speed >> start.gear >> engine >> engine_speed >> shaft_speed >>
+      start.distance >> start.slip_energy;
   if (!stream || kind != kName || stream.get() != '\n' || !std::getline(stream, file)) return nullptr;
+  if (engine < kStands || engine > kStalled) return nullptr;
+  start.running = engine == kRuns;
+  start.stalled = engine == kStalled;
   start.engine_speed = engine_speed;
   start.shaft_speed = shaft_speed;
   const std::string text(std::istreambuf_iterator<char>(stream), {});

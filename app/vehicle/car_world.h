@@ -21,6 +21,7 @@ struct CarStart {
   double road_speed = 0.0;  // [m/s]
   int gear = kNeutralGear;  // that the lever stands in
   bool running = true;
+  bool stalled = false;                // it does not run, but did, and the key is on
   std::optional<double> engine_speed;  // [rad/s] else idle, or what gear and road speed ask for where that is more
   std::optional<double> shaft_speed;   // [rad/s] else the gear's, in neutral the engine's
   double distance = 0.0;               // [m] driven before

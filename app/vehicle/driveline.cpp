@@ -29,12 +29,15 @@ Driveline::Driveline(const CarSpec& car) : car_(car), engine_(car.engine) {
   car_.clutch.capacity = std::min(car.clutch.capacity, kMostTorque);
   chain_.inertia = {car.engine.inertia, car.clutch.disc_inertia, car.body.mass + car.body.rotating};
   chain_.efficiency = car.gearbox.efficiency;
+  state_.red_line = car.engine.red_line;
+  state_.clutch_bite = car.clutch.bite;
+  state_.clutch_closed = car.clutch.closed;
   place(car.engine.idle, 0.0, 0.0, true);
 }
 
-void Driveline::place(double engine_speed, double shaft_speed, double road_speed, bool running) noexcept {
+void Driveline::place(double engine_speed, double shaft_speed, double road_speed, bool running, bool stalled) noexcept {
   speed_ = {std::max(0.0, finite(engine_speed)), finite(shaft_speed), finite(road_speed)};
-  engine_.set_running(running);
+  engine_.set(running, stalled);
   meshed_ = cone_gear_ = kNeutralGear;
   chain_.link = GearLink::open;
   now_ = {};
@@ -44,6 +47,7 @@ void Driveline::place(double engine_speed, double shaft_speed, double road_speed
   state_.shaft_speed = speed_[shaft_body];
   state_.road_speed = speed_[car_body];
   state_.running = running;
+  state_.stalled = engine_.stalled();
   state_.fuel_cut = state_.cranking = false;
   state_.shudder = 0.0;
   state_.shift_advice = 0;
@@ -134,7 +138,7 @@ void Driveline::show(double capacity) noexcept {
   state_.engine_load = engine_.load(engine, state_.throttle);
   state_.engine_torque = engine_.torque(engine, state_.throttle) - friction_torque(car_.engine, engine);
   state_.running = engine_.running();
-  state_.stalled = engine_.ignition() && !engine_.running();
+  state_.stalled = engine_.stalled();
   state_.over_revved = engine > car_.engine.red_line;
   state_.fuel_cut = engine_.fuel_cut();
   state_.cranking = engine_.cranks(engine);

@@ -51,7 +51,8 @@ class Driveline {
   void step(const DrivelineInput& in, double seconds) noexcept;
 
   // Puts the car there at once, in neutral, and begins the ledger anew: for the start of a lesson and for tests.
-  void place(double engine_speed, double shaft_speed, double road_speed, bool running) noexcept;
+  // stalled: of an engine that does not run, that it did.
+  void place(double engine_speed, double shaft_speed, double road_speed, bool running, bool stalled = false) noexcept;
 
   const VehicleState& state() const noexcept { return state_; }  // engine, clutch, car; the lever's part is untouched
   const EnergyLedger& energy() const noexcept { return energy_; }

@@ -21,6 +21,25 @@ void EngineControl::turn_key(bool ignition, bool starter) noexcept {
   if (!starter_) cranked_ = 0.0;
 }
 
+void EngineControl::set(bool running, bool stalled) noexcept {
+  fires_ = {running, false};
+  stalled_ = stalled && !running;
+  has_run_ = running || stalled;
+}
+
+// One that fires under the starter has not run by itself: it may die as the key is let go.
+void EngineControl::update(double speed) noexcept {
+  fires_ = next(speed);
+  if (!ignition_) {
+    has_run_ = stalled_ = false;
+  } else if (!fires_.running) {
+    stalled_ = has_run_;
+  } else if (speed >= spec_.stall) {
+    has_run_ = true;
+    stalled_ = false;
+  }
+}
+
 EngineControl::Fires EngineControl::next(double speed) const noexcept {
   if (!ignition_) return {false, false};
   const bool turned = starter_ && cranked_ >= kFindsItself && speed >= kFiresAt * spec_.starter_speed;

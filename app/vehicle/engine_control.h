@@ -12,13 +12,17 @@ class EngineControl {
   void turn_key(bool ignition, bool starter) noexcept;
   // It has turned so far [rad]. What it turns under the starter counts: an engine must first find its cylinders.
   void turn(double angle) noexcept { cranked_ += starter_ ? angle : 0.0; }
-  void set_running(bool running) noexcept { fires_ = {running, false}; }
+  // At once. One that does not run may have stalled: it ran before, and the key is on.
+  void set(bool running, bool stalled) noexcept;
   // What speed [rad/s] and key change: it dies below its stall speed and stays dead until the starter has turned it far
-  // and fast enough; let go before it runs by itself, it dies again; the limiter cuts the fuel until the speed has fallen by its band.
-  void update(double speed) noexcept { fires_ = next(speed); }
+  // and fast enough; let go before it runs by itself, it dies again; the limiter cuts the fuel until the speed has
+  // fallen by its band.
+  void update(double speed) noexcept;
   bool would_change(double speed) const noexcept { return !(next(speed) == fires_); }
 
   bool running() const noexcept { return fires_.running; }
+  // It ran by itself, died with the key on, and has not run by itself since.
+  bool stalled() const noexcept { return stalled_; }
   bool ignition() const noexcept { return ignition_; }
   bool fuel_cut() const noexcept { return fires_.cut; }
   bool cranks(double speed) const noexcept { return starter_ && speed < spec_.starter_speed; }
@@ -40,6 +44,7 @@ class EngineControl {
   bool ignition_ = true, starter_ = false;
   double cranked_ = 0.0;  // [rad] since the starter began
   Fires fires_;
+  bool has_run_ = true, stalled_ = false;  // since the key was turned on
 };
 
 }  // namespace gearshift

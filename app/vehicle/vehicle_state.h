@@ -23,14 +23,17 @@ struct VehicleState {
   double engine_load = 0.0;    // [1] 0 to 1: share of the torque that the engine could give now
   double engine_torque = 0.0;  // [N m] at the flywheel, friction taken off
   bool running = true;         // it fires
-  bool stalled = false;        // it does not, and the ignition is on
-  bool over_revved = false;    // above its red line
+  bool stalled = false;        // it ran, died with the ignition on, and has not run by itself since
+  double red_line = 0.0;       // [rad/s] of the car; 0: there is none
+  bool over_revved = false;    // above it
   bool fuel_cut = false;       // by the limiter
   bool cranking = false;       // the starter turns it
   double shudder = 0.0;        // [1] 0 to 1: it labours or dies, and shakes the car
   int shift_advice = 0;        // +1: the next gear up would do with less fuel; -1: it labours, one down; 0: as it is
 
   // Clutch and gearbox
+  double clutch_bite = 0.0;      // [1] pedal: it begins to carry as it comes up through here
+  double clutch_closed = 0.0;    // [1] pedal: it carries all from here up. Both 0: there is no car
   double clutch_capacity = 0.0;  // [N m] the most that it can carry now
   double clutch_torque = 0.0;    // [N m] that it carries, from engine to gearbox +
   double shaft_speed = 0.0;      // [rad/s] gearbox input shaft = clutch disc, backwards -

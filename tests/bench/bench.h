@@ -57,13 +57,13 @@ std::vector<BenchRow> bench_boundary(const BenchOptions& options);   // predicte
 std::vector<BenchRow> bench_methods(const BenchOptions& options);    // holds, estimators, energy control side by side
 std::vector<BenchRow> bench_hard(const BenchOptions& options);       // rates, delays, pushes, jitter, quantisation
 std::vector<BenchRow> bench_driveline(const BenchOptions& options);  // launch, dumps, money shift against a reference
-std::vector<BenchRow> bench_learning(const BenchOptions& options);  // simulated learners: grade, faults, guidance, cost
-std::vector<BenchRow> bench_faults(const BenchOptions& options);    // time from a fault to no force
-std::vector<BenchRow> bench_picture(const BenchOptions& options);   // the cabin, pass by pass; the first frame
-std::vector<BenchRow> bench_quality(const BenchOptions& options);   // anti-aliasing, shadow, mirror, projected points
-std::vector<BenchRow> bench_light(const BenchOptions& options);     // what is baked at the start
-std::vector<BenchRow> bench_jitter(const BenchOptions& options);    // wake-up lateness beside cyclictest's
-std::vector<BenchRow> bench_beside(const BenchOptions& options);    // the same while the renderer draws flat out
+std::vector<BenchRow> bench_learning(const BenchOptions& options);   // simulated learners: grade, faults, guidance
+std::vector<BenchRow> bench_faults(const BenchOptions& options);     // time from a fault to no force
+std::vector<BenchRow> bench_picture(const BenchOptions& options);    // the cabin, pass by pass; the first frame
+std::vector<BenchRow> bench_quality(const BenchOptions& options);    // anti-aliasing, shadow, mirror, projected points
+std::vector<BenchRow> bench_light(const BenchOptions& options);      // what is baked at the start
+std::vector<BenchRow> bench_jitter(const BenchOptions& options);     // wake-up lateness beside cyclictest's
+std::vector<BenchRow> bench_beside(const BenchOptions& options);     // the same while the renderer draws flat out
 
 // Value at quantile q in [0, 1] of an unsorted sample; sorts it. Empty: 0.
 double quantile(std::vector<double>& sample, double q);

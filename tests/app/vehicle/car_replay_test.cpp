@@ -99,6 +99,22 @@ TEST_CASE("a world's name makes the same world; what is no car is none, and a ba
   for (const char* name : {"none", "", "car", "car 31.7 1", "car 31.7 1 0 0 1 0 0 0 0", "car nan 1 0 0 1 0 0 0 0\nx\n"})
     CHECK(make_car_world(name, gate) == nullptr);
 
+  for (const auto& [running, stalled] : {std::pair(true, false), std::pair(false, true), std::pair(false, false)}) {
+    CarStart stands;
+    stands.running = running;
+    stands.stalled = stalled;
+    const CarWorld engine(car, gate, 31.7, stands);
+    const std::unique_ptr<CarWorld> same = make_car_world(engine.name(), gate);
+    REQUIRE(same);
+    CHECK(same->state().running == running);
+    CHECK(same->state().stalled == stalled);
+    LeverInput in;
+    in.controls.ignition = true;
+    same->step(in, 0.001);
+    CHECK(same->state().stalled == stalled);  // the key is on
+    CHECK(start_from(same->state()).stalled == stalled);
+  }
+
   Trace trace = recorded(car);
   trace.header.world.replace(trace.header.world.find("ratio_2 = 1.94"), 14, "ratio_2 = 9.94");
   CHECK(refusal(trace).find("cannot be run again: its world is refused: hatchback.toml:") != std::string::npos);

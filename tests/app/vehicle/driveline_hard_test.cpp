@@ -142,6 +142,45 @@ TEST_CASE("a dumped clutch stalls the engine for good; the starter brings it bac
   }
 }
 
+TEST_CASE("an engine stalls that had run by itself: not one that was never started, nor one that the key stopped") {
+  const CarSpec car = hatchback();
+  Driveline line(car);
+  line.place(0.0, 0.0, 0.0, false);
+  const DrivelineInput on = pedals(0, 0.0, 1.0);
+  DrivelineInput cranks = on, off = on;
+  cranks.starter = true;
+  off.ignition = false;
+  // Until it fires, not until it runs by itself: let go, it dies again.
+  const auto start_badly = [&] {
+    for (int i = 0; i < 5000 && !line.state().running; ++i) line.step(cranks, 0.001);
+    REQUIRE(line.state().engine_speed < car.engine.stall);
+    drive(line, on, 2.0);
+    REQUIRE_FALSE(line.state().running);
+  };
+  CHECK_FALSE(line.state().stalled);
+  drive(line, on, 1.0);
+  CHECK_FALSE(line.state().stalled);
+  start_badly();
+  CHECK_FALSE(line.state().stalled);
+  drive(line, cranks, 2.0);
+  drive(line, on, 1.0);
+  CHECK(line.state().running);
+  CHECK_FALSE(line.state().stalled);
+  drive(line, pedals(1, 0.0, 0.0), 2.0);
+  CHECK(line.state().stalled);
+  start_badly();
+  CHECK(line.state().stalled);
+  drive(line, off, 0.01);
+  CHECK_FALSE(line.state().stalled);
+  drive(line, on, 1.0);
+  CHECK_FALSE(line.state().stalled);
+  drive(line, cranks, 2.0);
+  drive(line, off, 0.01);  // switched off as it runs
+  CHECK_FALSE(line.state().running);
+  drive(line, on, 3.0);
+  CHECK_FALSE(line.state().stalled);
+}
+
 TEST_CASE("the starter alone drives the car in gear with the clutch up, when the engine cannot fire") {
   CarSpec car = hatchback();
   car.engine.starter_torque = 10.0;  // against a friction of 8: it turns, and not fast enough to fire

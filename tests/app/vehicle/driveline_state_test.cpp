@@ -27,6 +27,25 @@ TEST_CASE("the fuel is cut from the limiter down to its band, 6500 to 6400 rpm, 
   CHECK(cuts > 10);
 }
 
+TEST_CASE("where the clutch is said to bite it begins to carry, and where it is said to be closed it carries all") {
+  for (const char* name : {"hatchback", "diesel"}) {
+    CAPTURE(name);
+    const CarSpec car = shipped_car(name);
+    Driveline line(car);
+    const VehicleState said = line.state();  // before the first step
+    CHECK(said.clutch_bite > said.clutch_closed);
+    const auto carries = [&](double pedal) {
+      line.step(pedals(kNeutralGear, 0.0, pedal), 1e-3);
+      return line.state().clutch_capacity;
+    };
+    CHECK(carries(said.clutch_bite + 1e-6) == 0.0);
+    CHECK(carries(said.clutch_bite - 1e-6) > 0.0);
+    CHECK(carries(said.clutch_closed + 1e-6) < car.clutch.capacity);
+    CHECK(carries(said.clutch_closed - 1e-6) == car.clutch.capacity);
+    CHECK(line.state().clutch_bite == said.clutch_bite);
+  }
+}
+
 TEST_CASE("it cranks while the starter turns it, and no longer once it runs, though the key is held") {
   const CarSpec car = shipped_car("hatchback");
   Driveline line(car);

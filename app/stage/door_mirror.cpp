@@ -1,0 +1,23 @@
+#include "app/stage/door_mirror.h"
+
+#include <glm/geometric.hpp>
+
+namespace gearshift {
+namespace {
+
+constexpr float kRadius = 1.2f;  // [m] the least that UN Regulation 46 allows a door mirror
+constexpr float kTilt = 0.035f;  // [rad] to the ground
+
+}  // namespace
+
+void make_convex(Patch& glass) {
+  glm::vec3 middle(0.0f);
+  for (const Vertex& vertex : glass.vertices) middle += vertex.position / static_cast<float>(glass.vertices.size());
+  for (Vertex& vertex : glass.vertices) {
+    const glm::vec3 off = vertex.position - middle;
+    const glm::vec3 aside = off - glm::dot(off, vertex.normal) * vertex.normal;
+    vertex.normal = glm::normalize(vertex.normal + aside / kRadius - glm::vec3(0.0f, kTilt, 0.0f));
+  }
+}
+
+}  // namespace gearshift
