@@ -109,7 +109,7 @@ Lesson tour_lesson(const CarSpec& car, const Gate& gate) {
   lesson.time_limit = kTourLimit;
   for (int kind = 0; kind < kFaultKinds; ++kind) {
     // A way down without blips: that is a lesson of its own.
-    if (static_cast<FaultKind>(kind) != FaultKind::rev_mismatch) lesson.catches.push_back(static_cast<FaultKind>(kind));
+    if (static_cast<FaultKind>(kind) != FaultKind::rev_mismatch) lesson.counts.push_back(static_cast<FaultKind>(kind));
   }
 
   const std::vector<int> gears = forward_gears(car, gate);

@@ -9,7 +9,7 @@ namespace gearshift {
 
 void SimulatedLearner::set_brakes(const DriveSample& now) {
   const LessonIntent& wants = intent();
-  if (wants.brake) feet_.brake.go(*wants.brake, 2.0 * kBrakeRate);
+  if (wants.brake) feet_.brake.go(wants.at_once ? brake_effort_ : *wants.brake, 2.0 * kBrakeRate);
   const bool has_no_patience = wants.motion == Motion::bite && means_ill(now);
   if (!wants.hand_brake || has_no_patience) return;
   const bool hill = std::abs(lesson_.start.slope) > kHill && !means_ill(now);
@@ -76,8 +76,10 @@ void SimulatedLearner::slow_down(const DriveSample& now) {
 void SimulatedLearner::stand(const DriveSample& now) {
   feet_.throttle.go(0.0, kLiftRate);
   feet_.brake.go(std::max(feet_.brake.goal(), kStandBrake), kBrakeRate);
-  const bool slow = now.car.engine_speed < 1.5 * car_.engine.idle || !now.car.clutch_locked;
-  if (slow || now.car.gear == kNeutralGear) press_clutch();
+  const bool slow = heard_ < 1.5 * car_.engine.idle && now.car.clutch_locked;
+  if (!slow) slow_since_ = now.time();
+  const bool due = slow && now.time() - slow_since_ >= skill_.reaction;
+  if (due || !now.car.clutch_locked || now.car.gear == kNeutralGear) press_clutch();
 }
 
 // Keeps the engine at a speed, by ear: proportional, as far as the foot is quick enough.
@@ -128,7 +130,7 @@ void SimulatedLearner::release_rolling(const DriveSample& now, double turns) {
 // Brings the engine there and keeps it there; true once it is, or after a while in which it would not come.
 bool SimulatedLearner::revs_fit(const DriveSample& now, double speed) {
   if (blip_since_ < 0.0) blip_since_ = now.time();
-  const double meant = speed * launch_speed_ / kLaunchSpeed;
+  const double meant = speed * ear_;
   hold_revs(meant);
   const bool fits = std::abs(heard_ - meant) < kFits + skill_.rev_spread * speed;
   if (!fits && !revs_fit_) fit_since_ = now.time();
@@ -139,14 +141,14 @@ bool SimulatedLearner::revs_fit(const DriveSample& now, double speed) {
 // From a stand: throttle first, the pedal quickly to where it begins to carry, then slowly until the clutch holds.
 void SimulatedLearner::launch(const DriveSample& now) {
   if (spoils_launch(now)) return;
-  const double target = launch_speed_;
+  const double target = launch_speed_ * (1.0 + kHowl * faults_.of(FaultKind::clutch_burn));
   if (intent().no_throttle) {
     feet_.throttle.go(0.0, kLiftRate);
   } else {
     hold_revs(target);
   }
   const bool held = feet_.hand_brake.value() > 0.05;
-  const bool labours = !intent().no_throttle && heard_ < kLaunchLeast * target && !held;
+  const bool labours = !intent().no_throttle && heard_ < (1.0 - skill_.bite_fall) * target && !held;
   if ((held && feels_bite(now)) || (labours && now.car.gear != kNeutralGear)) return feet_.clutch.hold();
   if (held && intent().motion == Motion::go && !intent().hand_brake) feet_.hand_brake.go(0.0, kHandBrakeRate);
   const bool idle_stroke = feet_.clutch.value() > car_.clutch.bite + 0.01;

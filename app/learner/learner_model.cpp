@@ -41,6 +41,11 @@ bool is_named(const LessonResult& result, FaultKind kind) {
                      [&](const DriveFault& fault) { return fault.kind == kind && fault.severity != Severity::note; });
 }
 
+// Who gave up has not driven the lesson, however clean the part was that he did.
+double score(const LessonResult& result) noexcept {
+  return result.end == LessonEnd::done ? result.grade : 0.0;
+}
+
 double mean(std::span<const double> values) noexcept {
   if (values.empty()) return 0.0;
   return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
@@ -84,8 +89,8 @@ Separation separate(const LessonDriveConfig& drive, int each, std::uint64_t seed
     const double good = chance.between(0.0, classes.skilled_most), bad = chance.between(classes.unskilled_least, 1.0);
     const LessonResult one = drive_as(drive, good, 0.0, chance.seed());
     const LessonResult other = drive_as(drive, bad, 0.0, chance.seed());
-    result.skilled.push_back(one.grade);
-    result.unskilled.push_back(other.grade);
+    result.skilled.push_back(score(one));
+    result.unskilled.push_back(score(other));
     result.skilled_passed += one.passed ? 1 : 0;
     result.unskilled_passed += other.passed ? 1 : 0;
   }
@@ -104,8 +109,8 @@ FaultSeparation separate_fault(const LessonDriveConfig& drive, FaultKind kind, i
     faulty.faults = only(kind, chance.between(0.6, 1.4));
     const LessonResult good = drive_as(drive, error, 0.0, chance.seed());
     const LessonResult bad = drive_as(faulty, error, 0.0, chance.seed());
-    without.push_back(good.grade);
-    with.push_back(bad.grade);
+    without.push_back(score(good));
+    with.push_back(score(bad));
     result.named += is_named(bad, kind) ? 1 : 0;
     result.false_named += is_named(good, kind) ? 1 : 0;
   }
@@ -133,7 +138,7 @@ PracticeOutcome practise(const LessonDriveConfig& drive, Practice practice, cons
       outcome.error[static_cast<std::size_t>(trial)] += apprentice.error / learners;
     }
     for (int test = 0; test < kRetentionTrials; ++test)
-      retained.push_back(drive_as(drive, apprentice.error, 0.0, chance.seed()).grade);
+      retained.push_back(score(drive_as(drive, apprentice.error, 0.0, chance.seed())));
     guided += apprentice.guided;
   }
   outcome.retention_grade = mean(retained);

@@ -23,7 +23,7 @@ struct SkillClasses {
 };
 
 struct Separation {
-  std::vector<double> skilled, unskilled;  // grades
+  std::vector<double> skilled, unskilled;  // grades; 0 for a lesson that was not done, also where it was given up
   int skilled_passed = 0, unskilled_passed = 0;
   double auc = 0.5;
 };

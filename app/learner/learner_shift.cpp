@@ -236,7 +236,8 @@ void SimulatedLearner::end_shift(const DriveSample& now) {
   if (shift_.between_gears && std::abs(now.car.road_speed) > kCoasts && once(FaultKind::too_slow))
     release_at_ = now.time() + kDawdles * faults_.of(FaultKind::too_slow);
   release_rate_ = kThroughBite * skill_.haste * std::exp(noise(skill_.release_spread));
-  launch_speed_ = kLaunchSpeed * std::exp(noise(skill_.rev_spread));
+  ear_ = std::exp(noise(skill_.rev_spread));
+  launch_speed_ = skill_.gas * kLaunchSpeed * ear_;
   blip_since_ = -1.0;
   revs_fit_ = false;
 }

@@ -15,11 +15,14 @@ struct LearnerSkill {
   double aim_noise = 0.001;      // [m] standard deviation of where a stroke ends, each axis
   double pedal_noise = 0.004;    // [1] standard deviation of a pedal that is held in between
   double rev_spread = 0.03;      // [1] relative, of the engine speed that is meant
-  double release_spread = 0.08;  // [1] relative, of how fast the clutch comes up
+  double release_spread = 0.08;  // [1] relative, of how fast the clutch comes up, and of how hard the brake is pressed
   double pace = 0.35;            // [m/s] mean speed of a stroke of the lever
   double haste = 1.0;            // [1] how much faster than it should the clutch comes up, on the whole
   double hearing = 0.08;         // [s] by which the engine's sound is late in what the feet do
   double foot_change = 0.20;     // [s] of the right foot, from the throttle to the brake
+  double brake_effort = 1.0;     // [1] of the brake, where it should be all of it at once
+  double gas = 1.0;              // [1] of the engine speed that a launch needs, that is meant
+  double bite_fall = 0.18;       // [1] by which the engine falls at the bite point until the left foot waits for it
   bool operator==(const LearnerSkill&) const = default;
 };
 
@@ -55,6 +58,7 @@ LearnerSkill skill_of(double error) noexcept;
 //   wrong_direction    shifts before the car stands
 //   slow_step          begins a step that has a time once 1.5 times that has gone
 //   coasting           rolls on for 5 s with the clutch down
+//   clutch_burn        twice the throttle that a launch needs
 //   early_downshift    the lower gear at once, instead of slowing down for it first
 struct LearnerFaults {
   std::array<double, kFaultKinds> amount{};  // [1] >= 0

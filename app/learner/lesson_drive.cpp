@@ -43,15 +43,15 @@ SimulatedRunConfig run_config(const LessonDriveConfig& config, const Gate& gate)
 
 class Drive {
  public:
-  explicit Drive(const LessonDriveConfig& config)
+  Drive(const LessonDriveConfig& config, const LessonJudge& judge)
       : config_(config),
+        judge_(judge),
         device_(paper_lever()),
         gate_(driven_gate(config.gate)),
         setup_(run_config(config, gate_)),
         car_(config.car, gate_, device_.max_force.y, car_start(config.lesson.start), config.seed),
         guided_(car_, gate_),
         run_(setup_, hand_, config.guidance > 0.0 ? static_cast<LeverWorld*>(&guided_) : &car_),
-        lesson_(config.lesson, config.car, gate_, {config.mode, config.guidance, config.hints}),
         learner_(config.lesson, config.car, gate_, config.skill, config.faults, config.seed, run_.period()) {
     hand_.target.position = setup_.start;
     sample_.controls.ignition = config.lesson.start.running;
@@ -68,11 +68,10 @@ class Drive {
     recorder_.emplace(config.trace, header, run_.channels(), TracePump::by_caller);
   }
 
-  LessonResult to_the_end() {
-    while (!lesson_.is_over()) cycle();
+  void to_the_end() {
+    while (!stand_.over && !learner_.gives_up()) cycle();
     const RecordingResult recorded = recorder_ ? recorder_->finish() : RecordingResult{};
     if (!recorded.problem.empty()) throw FileError(config_.trace.string(), 0, recorded.problem);
-    return lesson_.result();
   }
 
  private:
@@ -80,24 +79,24 @@ class Drive {
     run_.channels().controls.write(sample_.controls);
     sample_.lever = run_.step();
     sample_.car = car_.state();
-    lesson_.add(sample_);
+    stand_ = judge_(sample_);
     for (HapticEvent event; run_.channels().events.pop(event);) {
       if (config_.hear) config_.hear(event);
     }
     if (config_.watch) config_.watch(sample_);
-    const LessonView& view = lesson_.view();
-    const DriverAction action = learner_.act(sample_, view.step);
+    const DriverAction action = learner_.act(sample_, stand_.step);
     hand_.target = action.hand;
     sample_.controls = action.controls;
     if (config_.guidance > 0.0) {
       sample_.controls.guidance = config_.guidance;
-      sample_.controls.guided_gear = view.guided_gear;
+      sample_.controls.guided_gear = stand_.guided_gear;
     }
-    if (learner_.gives_up()) lesson_.leave();
     if (recorder_ && sample_.lever.cycle % kPumpEvery == 0) recorder_->pump();
   }
 
   const LessonDriveConfig& config_;
+  const LessonJudge& judge_;
+  LessonStand stand_;
   DeviceSpec device_;
   Gate gate_;
   SimulatedRunConfig setup_;
@@ -105,7 +104,6 @@ class Drive {
   GuidedWorld guided_;
   GivenHand hand_;
   SimulatedRun run_;
-  LessonRun lesson_;
   SimulatedLearner learner_;
   DriveSample sample_;
   std::optional<TraceRecorder> recorder_;
@@ -118,8 +116,18 @@ Gate driven_gate(const GateLayout& layout) {
   return compile_gate(layout, device.workspace, device.yoke_radius);
 }
 
+void drive_lesson(const LessonDriveConfig& config, const LessonJudge& judge) {
+  Drive(config, judge).to_the_end();
+}
+
 LessonResult drive_lesson(const LessonDriveConfig& config) {
-  return Drive(config).to_the_end();
+  LessonRun run(config.lesson, config.car, driven_gate(config.gate), {config.mode, config.guidance, config.hints});
+  drive_lesson(config, [&run](const DriveSample& sample) {
+    run.add(sample);
+    return LessonStand{run.view().step, run.view().guided_gear, run.is_over()};
+  });
+  run.leave();  // where the learner has given up
+  return run.result();
 }
 
 }  // namespace gearshift

@@ -36,7 +36,18 @@ struct LessonDriveConfig {
 // The gate as the drive's lever has it. Throws as compile_gate() does.
 Gate driven_gate(const GateLayout& layout);
 
-// Deterministic to the bit. Throws std::invalid_argument where lesson, car and gate do not go together, FileError where
+// Who judges a drive, told of every cycle: what the learner does next hangs on it.
+struct LessonStand {
+  std::size_t step = 0;
+  int guided_gear = kNeutralGear;
+  bool over = false;
+};
+using LessonJudge = std::function<LessonStand(const DriveSample&)>;
+
+// Until the judge says that it is over, or the learner gives up; mode and hints are the judge's. Throws as below.
+void drive_lesson(const LessonDriveConfig& config, const LessonJudge& judge);
+
+// The same, judged by a LessonRun. Deterministic to the bit. Throws std::invalid_argument where lesson, car and gate do not go together, FileError where
 // the trace cannot be written: before the first cycle, or, where the disk got full, after the last one.
 LessonResult drive_lesson(const LessonDriveConfig& config);
 

@@ -38,8 +38,8 @@ LessonIntent intent_of(const Lesson& lesson, std::size_t step) {
   intent.accelerates =
       intent.motion == Motion::go && !intent.blip &&
       (c.engine_above || c.shift_light == true || c.distance_above || (c.speed_above && *c.speed_above > 0.0));
-  const bool must_stop_at_once = lesson.steps[step].call && intent.motion == Motion::stand;
-  if (c.brake_above || must_stop_at_once) intent.brake = 1.0;
+  intent.at_once = lesson.steps[step].call && intent.motion == Motion::stand;
+  if (c.brake_above || intent.at_once) intent.brake = 1.0;
   if (c.hand_brake_above) intent.hand_brake = 1.0;
   if (c.hand_brake_below) intent.hand_brake = 0.0;
   intent.ignition = c.ignition;

@@ -25,6 +25,7 @@ struct LessonIntent {
   bool clutch_down = false;          // and nothing else
   bool blip = false;                 // revs, and the clutch up then
   std::optional<double> brake;       // [1] all of it, where it is a call
+  bool at_once = false;              // it is a call, and nobody knew when
   std::optional<double> hand_brake;  // [1]
   std::optional<bool> ignition;
   bool start = false;            // the engine must run

@@ -26,6 +26,7 @@ SimulatedLearner::SimulatedLearner(const Lesson& lesson, const CarSpec& car, con
   feet_.hand_brake.place(lesson.start.hand_brake);
   release_rate_ = kThroughBite;
   launch_speed_ = kLaunchSpeed;
+  brake_effort_ = std::min(1.0, skill_.brake_effort * std::exp(skill_.release_spread * GaussianNoise(seed + 5).next()));
   for (std::size_t i = 0; i + 1 < intents_.size(); ++i) {
     const int gear = intents_[i].gear.value_or(kNeutralGear);
     const bool low = gear == 1 || gear == 2;
@@ -44,6 +45,9 @@ void SimulatedLearner::take_over(const DriverControls& controls) noexcept {
 DriverAction SimulatedLearner::act(const DriveSample& now, std::size_t step) {
   notice(std::min(step, intents_.size() - 1), now.time());
   has_run_ = has_run_ || now.car.running;
+  const bool stalls = ran_ && !now.car.running && ignition_;
+  if (stalls && launch_speed_ < kLaunchSpeed) launch_speed_ = std::min(kLaunchSpeed, kGasAfterStall * launch_speed_);
+  ran_ = now.car.running;
   heard_ += (now.car.engine_speed - heard_) * std::min(1.0, period_ / skill_.hearing);
   const bool is_down = now.car.clutch >= car_.clutch.bite;
   if (is_down && !clutch_is_down_) clutch_down_at_ = now.time();

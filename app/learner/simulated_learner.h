@@ -129,7 +129,7 @@ class SimulatedLearner {
   double progress_at_ = 0.0;
   bool gives_up_ = false;
   bool ignition_ = false, starter_ = false;
-  bool has_run_ = false;
+  bool has_run_ = false, ran_ = false;  // the engine, ever and in the cycle before
 
   bool shifting_ = false;
   Shift shift_;
@@ -140,7 +140,9 @@ class SimulatedLearner {
   bool clutch_is_down_ = false;
   double release_rate_ = 1.0;  // [1/s] of this release
   double abrupt_ = 1.0;        // [1/s] the same, where it shall jerk
+  double ear_ = 1.0;           // [1] engine speed that is meant, over the right one
   double launch_speed_ = 0.0;  // [rad/s] that this launch is meant with
+  double brake_effort_ = 1.0;  // [1] of the brake, at a call
   double blip_since_ = -1.0;   // [s]
   double heard_ = 0.0;         // [rad/s] of the engine
   double fit_since_ = 0.0;     // [s]
@@ -151,6 +153,7 @@ class SimulatedLearner {
   double lugged_ = 0.0;         // [s]
   double lug_since_ = 0.0;      // [s]
   double rolls_since_ = 0.0;    // [s]
+  double slow_since_ = 0.0;     // [s] the engine is heard to fall to where the clutch must go down
   double coasts_until_ = 0.0;   // [s] 0: not yet
   bool over_rev_late_ = false;  // the lesson drives a low gear out: shifted too late; else howls
 };

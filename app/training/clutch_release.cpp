@@ -14,11 +14,26 @@ constexpr double kBraking = 0.05;  // [1] pedal: then it is the brake that jerks
 
 }  // namespace
 
+namespace {
+
+// [kg] that the car has on the road, the parts behind the clutch with it
+double mass_in(const CarSpec& car, double per_road) noexcept {
+  return car.body.mass + car.body.rotating + car.clutch.disc_inertia * per_road * per_road;
+}
+
+}  // namespace
+
 double jerk_limit(const CarSpec& car, int gear) noexcept {
   const double per_road = shaft_per_road(car, gear);
-  const double mass = car.body.mass + car.body.rotating + car.clutch.disc_inertia * per_road * per_road;
-  const double acceleration = car.clutch.capacity * std::abs(per_road) * car.gearbox.efficiency / mass;
+  const double acceleration =
+      car.clutch.capacity * std::abs(per_road) * car.gearbox.efficiency / mass_in(car, per_road);
   return std::max(kLeastJerk, kJerkShare * kJerkOfStep * acceleration);
+}
+
+double burn_limit(const CarSpec& car, int gear) noexcept {
+  const double per_road = shaft_per_road(car, gear);
+  const double road_speed = car.engine.shift_high / per_road;
+  return 0.5 * mass_in(car, per_road) * road_speed * road_speed;
 }
 
 ClutchRelease::ClutchRelease(const CarSpec& car) : car_(car), pedal_(car.clutch.bite) {}
@@ -31,11 +46,12 @@ std::optional<DriveFault> ClutchRelease::add(const DriveSample& sample, double d
     stalled_ = false;
     gear_ = sample.car.gear;
     begin_ = pedal_.up_at();
-    closed_at_ = locked_at_ = slip_peak_ = jerk_peak_ = 0.0;
+    closed_at_ = locked_at_ = slip_peak_ = heat_ = jerk_peak_ = 0.0;
   }
   if (!open_) return std::nullopt;
   stalled_ = stalled_ || !sample.car.running;
   slip_peak_ = std::max(slip_peak_, sample.car.slip_power);
+  heat_ += sample.car.slip_power * dt;
   if (sample.car.brake < kBraking) jerk_peak_ = std::max(jerk_peak_, jerk);
   if (closed_at_ == 0.0 && sample.car.clutch <= car_.clutch.closed) closed_at_ = sample.time();
   if (!is_over(sample)) return std::nullopt;
@@ -58,6 +74,10 @@ std::optional<DriveFault> ClutchRelease::judge() const noexcept {
   const bool fast = closed_at_ > 0.0 && closed_at_ - begin_ < kFastRelease;
   if (fast && slip_peak_ >= fault_rule(FaultKind::clutch_dump).raise) {
     return DriveFault{FaultKind::clutch_dump, fault_severity(FaultKind::clutch_dump, slip_peak_), begin_, slip_peak_};
+  }
+  const double burnt = heat_ / burn_limit(car_, gear_);
+  if (!stalled_ && burnt >= fault_rule(FaultKind::clutch_burn).raise) {
+    return DriveFault{FaultKind::clutch_burn, fault_severity(FaultKind::clutch_burn, burnt), begin_, heat_};
   }
   const double share = jerk_peak_ / jerk_limit(car_, gear_);
   if (!stalled_ && share >= fault_rule(FaultKind::jerk).raise) {

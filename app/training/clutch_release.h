@@ -1,4 +1,4 @@
-// One letting up of the clutch in gear, from its bite point until it holds: was it dumped, did the car jerk?
+// One letting up of the clutch in gear, from its bite point until it holds: was it dumped, did it burn, did it jerk?
 #pragma once
 
 #include <optional>
@@ -19,11 +19,18 @@ inline constexpr double kJerkShare = 0.5;    // [1] of what that clutch gives at
 // done, and the more the stronger clutch and gear are; a shift need have none.
 double jerk_limit(const CarSpec& car, int gear) noexcept;
 
+// From what heat on letting the clutch up in that gear is a fault [J]: what a launch on the flat burns with the engine
+// held at shift_high, from which on one shifts up and which no launch needs. An engine held at w brings a car that weighs
+// J at the clutch from a stand up to w; of the work that it does for that, J w^2, half is the car's speed and half is
+// heat, however long it takes.
+double burn_limit(const CarSpec& car, int gear) noexcept;
+
 class ClutchRelease {
  public:
   explicit ClutchRelease(const CarSpec& car);
 
-  // Every cycle. The fault of the release that is over, if there is one: a dump, or else a jerk; no jerk beside a stall.
+  // Every cycle. The fault of the release that is over, if there is one: a dump, or else a burn, or else a jerk; no burn
+  // and no jerk beside a stall.
   std::optional<DriveFault> add(const DriveSample& sample, double dt);
   std::optional<DriveFault> finish() noexcept;  // the drive ends: what the release in progress has shown so far
 
@@ -41,6 +48,7 @@ class ClutchRelease {
   double closed_at_ = 0.0;   // [s]; 0: not yet
   double locked_at_ = 0.0;   // [s]; 0: not yet
   double slip_peak_ = 0.0;   // [W]
+  double heat_ = 0.0;        // [J]
   double jerk_peak_ = 0.0;   // [m/s^3]
 };
 

@@ -36,8 +36,9 @@ enum class FaultKind : std::uint8_t {
   slow_step,          // a step of the lesson took longer than it may; value: [s]
   coasting,           // rolled in neutral or with the clutch down, neither shifting nor stopping; value: how long [s]
   early_downshift,    // a lower gear at a speed that is too high for it; value: engine speed that it asks for [rad/s]
+  clutch_burn,        // the engine howls, or the clutch slips for long, until it holds; value: heat in the clutch [J]
 };
-inline constexpr int kFaultKinds = 27;
+inline constexpr int kFaultKinds = 28;
 
 enum class Severity : std::uint8_t { note, minor, severe, very_severe };
 
@@ -48,7 +49,7 @@ struct DriveFault {
   double value = 0.0;       // in the kind's unit
   std::int64_t shift = -1;  // number of the shift record that it belongs to, or -1
   std::string step{};       // slow_step: the step's prompt; else empty
-  double wanted = 0.0;      // slow_step: within which it should be done [s]; else 0
+  double wanted = 0.0;  // slow_step: within which it should be done [s]; wrong_gear: the gear that was meant; else 0
 };
 
 // As files and databases write it: "stall", "over_rev", ...
@@ -58,5 +59,8 @@ std::string_view severity_key(Severity severity) noexcept;
 
 // What the coach says: "The clutch came up 0.12 s before the gear was in."
 std::string fault_sentence(const DriveFault& fault);
+
+// And what to do about it: "Let the clutch up only once the gear is in." One short sentence.
+std::string_view fault_advice(FaultKind kind) noexcept;
 
 }  // namespace gearshift

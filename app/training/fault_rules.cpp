@@ -41,6 +41,7 @@ constexpr std::array<FaultRule, kFaultKinds> kRules{{
     {FaultKind::slow_step, 1.0, 0.0, 2.0, Severity::minor},           // shares of the step's time: E
     {FaultKind::coasting, 3.0, 0.0, 10.0, Severity::minor},           // E: three times a usual shift
     {FaultKind::early_downshift, 1.0, 0.0, 1.5, Severity::minor},     // shares of what suits: fault_watch.h; 1.5: E
+    {FaultKind::clutch_burn, 1.0, 0.0, 2.0, Severity::minor},         // shares of burn_limit: clutch_release.h; 2: E
 }};
 
 constexpr bool in_order() {

@@ -14,7 +14,8 @@ struct FaultRule {
 };
 
 // raise, clear and grave are in the kind's unit, but in shares of the car's red line for over_rev, of the time that the
-// step gives for slow_step, of jerk_limit (clutch_release.h) for jerk, of what suits (fault_watch.h) for early_downshift.
+// step gives for slow_step, of jerk_limit and burn_limit (clutch_release.h) for jerk and clutch_burn, of what suits
+// (fault_watch.h) for early_downshift.
 const FaultRule& fault_rule(FaultKind kind) noexcept;
 
 // Of a fault with that value, in the unit of the rule.

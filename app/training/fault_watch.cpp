@@ -108,14 +108,25 @@ void FaultWatch::add(const DriveSample& sample, int wanted_gear, bool shifting) 
 
 void FaultWatch::follow_shift(const DriveSample& now, bool shifting, double dt) noexcept {
   const bool moves = shifting && now.car.gear != last_.car.gear;
-  if (moves && !shift_moved_) shift_moved_at_ = now.time();
-  shift_moved_ = shifting && (shift_moved_ || moves);
   if (shifting && !shifting_) {
-    rolled_before_ = std::exchange(rolled_, 0.0);
+    rolled_before_ = std::exchange(rolled_, {});
     shift_began_ = now.time();
   }
+  if (shifting) follow_roll(now, moves, dt);
+  if (moves && !shift_moved_) shift_moved_at_ = now.time();
+  shift_moved_ = shifting && (shift_moved_ || moves);
   shifting_ = shifting;
-  if (shifting && is_moving(now.car.road_speed)) rolled_ += dt;
+}
+
+void FaultWatch::follow_roll(const DriveSample& now, bool moves, double dt) noexcept {
+  if (is_moving(now.car.road_speed)) {
+    rolled_.all += dt;
+  } else {
+    const bool stops = now.car.brake > kBraking && now.car.clutch >= car_.clutch.bite;
+    rolled_.to_a_stand = rolled_.to_a_stand || stops;
+  }
+  if (moves && !shift_moved_) rolled_.left = rolled_.all;
+  if (moves) rolled_.in = rolled_.all;
 }
 
 void FaultWatch::watch_engine(const DriveSample& now, double dt) {
@@ -209,6 +220,7 @@ void FaultWatch::watch_gear(const DriveSample& now, int wanted_gear) {
   const bool engaged = gear != last_.car.gear && gear != kNeutralGear;
   if (engaged && wanted_gear != kNeutralGear && gear != wanted_gear && gear != last_gear_) {
     tell_if(FaultKind::wrong_gear, now.time(), gear);
+    faults_.back().wanted = wanted_gear;
   }
   if (engaged) {
     note(engaged_, gear);
@@ -267,7 +279,7 @@ void FaultWatch::judge(const ShiftRecord& record) {
   judge_engine(record);
   judge_gear(record);
   judge_order(record, before);
-  if (record.end >= shift_began_) rolled_ = 0.0;
+  if (record.end >= shift_began_) rolled_ = {};
   tried_.clear();
   engaged_.clear();
   touch_error_ = 0.0;
@@ -301,9 +313,9 @@ double FaultWatch::flare_needed(const ShiftRecord& record) const noexcept {
 
 void FaultWatch::judge_engine(const ShiftRecord& record) {
   if (!is_between_gears(record)) return;
-  // At a stand there is time: who has chosen a gear for later may wait in it with the clutch down.
-  const double rolled = record.end < shift_began_ ? rolled_before_ : rolled_;
-  const double took = std::min(rolled, std::max(record.clutch_time, record.lever_time));
+  // At a stand there is time, and on the way there the clutch is down to stop: of that the lever's way alone counts.
+  const Rolled& rolled = record.end < shift_began_ ? rolled_before_ : rolled_;
+  const double took = std::min(rolled.counts(), std::max(record.clutch_time, record.lever_time));
   tell_if(FaultKind::too_slow, record.end, took, record.number);
   if (!is_moving(last_.car.road_speed)) return;
   judge_revs(record);

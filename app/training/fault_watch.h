@@ -51,6 +51,14 @@ class FaultWatch {
     Episode episode;
   };
 
+  // How long a shift rolled at speed.
+  struct Rolled {
+    double all = 0.0;             // [s]
+    double left = 0.0, in = 0.0;  // [s] of it, as the first gear was left and as the last one was in
+    bool to_a_stand = false;      // it was braked out of that speed with the clutch down
+    double counts() const noexcept { return to_a_stand ? in - left : all; }
+  };
+
   void watch_engine(const DriveSample& now, double dt);
   void watch_feet(const DriveSample& now, double dt);
   void watch_hand(const DriveSample& now, bool shifting, double dt);
@@ -60,6 +68,7 @@ class FaultWatch {
   void watch_drive(const DriveSample& now, double dt);
   bool comes_to_stand(const DriveSample& now) const noexcept;
   void follow_shift(const DriveSample& now, bool shifting, double dt) noexcept;
+  void follow_roll(const DriveSample& now, bool moves, double dt) noexcept;
   void watch_rollback(const DriveSample& now);
   void tell_rollback(double time);
   void goes_on(Lasting& lasting, bool on, double value, double time, double dt);
@@ -87,14 +96,14 @@ class FaultWatch {
   bool shift_moved_ = false;     // the gear was left in the shift that is open
   double shift_moved_at_ = 0.0;  // [s]
   bool shifting_ = false;
-  double shift_began_ = 0.0;                   // [s]
-  double rolled_ = 0.0, rolled_before_ = 0.0;  // [s] at speed, of the shift that is open or was last; of the one before
-  bool wrong_way_ = false;                     // told for this visit to the slot
-  int last_gear_ = kNeutralGear;               // in which it was driven last
-  int driven_gear_ = kNeutralGear;             // with the clutch locked, last
-  std::vector<int> tried_;    // gears that the lever was pushed to since the last record, the newest last
-  std::vector<int> engaged_;  // and those that were in
-  double asked_ = 0.0;        // [rad/s] by the gear that was engaged last, as it was
+  double shift_began_ = 0.0;        // [s]
+  Rolled rolled_, rolled_before_;   // of the shift that is open or was last; of the one before
+  bool wrong_way_ = false;          // told for this visit to the slot
+  int last_gear_ = kNeutralGear;    // in which it was driven last
+  int driven_gear_ = kNeutralGear;  // with the clutch locked, last
+  std::vector<int> tried_;          // gears that the lever was pushed to since the last record, the newest last
+  std::vector<int> engaged_;        // and those that were in
+  double asked_ = 0.0;              // [rad/s] by the gear that was engaged last, as it was
   int wanted_gear_ = kNeutralGear;
   bool touching_ = false;
   double touch_error_ = 0.0;  // [rad/s] engine less the gear's demand, at the dogs' first touch without clutch

@@ -17,16 +17,17 @@ double points_of_all(std::span<const DriveFault> faults) noexcept {
   return points;
 }
 
-bool is_far_too_slow(const Lesson& lesson, const DriveFault& fault) {
+// Slower than within_s, but not yet so slow that the step fails.
+bool is_still_forgiven(const Lesson& lesson, const DriveFault& fault) {
   return std::any_of(lesson.steps.begin(), lesson.steps.end(), [&](const LessonStep& step) {
-    return step.fails_after && step.prompt == fault.step && fault.value >= *step.fails_after;
+    return step.fails_after && step.prompt == fault.step && fault.value < *step.fails_after;
   });
 }
 
+// Minor or severe: its threshold is the tolerance.
 const DriveFault* failing_fault(const Lesson& lesson, const LessonResult& result) {
   const auto fails = [&](const DriveFault& fault) {
-    const bool of_kind = std::find(lesson.fails_on.begin(), lesson.fails_on.end(), fault.kind) != lesson.fails_on.end();
-    return of_kind || (fault.kind == FaultKind::slow_step && is_far_too_slow(lesson, fault));
+    return catches(lesson, fault.kind) && !is_still_forgiven(lesson, fault);
   };
   const auto found = std::find_if(result.faults.begin(), result.faults.end(), fails);
   return found == result.faults.end() ? nullptr : &*found;

@@ -172,16 +172,21 @@ LessonAbort read_abort(const TomlTable& table) {
   return abort;
 }
 
+bool has(const std::vector<FaultKind>& kinds, FaultKind kind) noexcept {
+  return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
+}
+
 // [faults]: each kind that this lesson looks at, "counts" or "fails".
 void read_faults(const TomlTable& table, Lesson& lesson) {
   for (int i = 0; i < kFaultKinds; ++i) {
     const auto kind = static_cast<FaultKind>(i);
     if (!table.has(fault_key(kind))) continue;
-    lesson.catches.push_back(kind);
-    if (table.choice(fault_key(kind), {"counts", "fails"}) == "fails") lesson.fails_on.push_back(kind);
+    const bool fails = table.choice(fault_key(kind), {"counts", "fails"}) == "fails";
+    (fails ? lesson.catches : lesson.counts).push_back(kind);
   }
   table.refuse_unknown_keys();
-  if (lesson.catches.empty()) table.fail({}, "names no fault: nothing could be learnt from such a lesson's grade");
+  if (lesson.catches.empty() && lesson.counts.empty())
+    table.fail({}, "names no fault: nothing could be learnt from such a lesson's grade");
 }
 
 void read_shift_band(const TomlTable& root, Lesson& lesson) {
@@ -195,14 +200,11 @@ void read_shift_band(const TomlTable& root, Lesson& lesson) {
   lesson.shift_from = root.number_or("shift_from_rpm", 0.0, kEngineRpm) * kRadPerSecond;
   if (root.has("shift_to_rpm")) lesson.shift_to = root.number("shift_to_rpm", kEngineRpm) * kRadPerSecond;
   if (lesson.shift_from >= lesson.shift_to) root.fail("shift_from_rpm", "must be smaller than shift_to_rpm");
-  const auto counts = [&](FaultKind kind) {
-    return std::find(lesson.catches.begin(), lesson.catches.end(), kind) != lesson.catches.end();
-  };
-  if (counts(FaultKind::early_shift) && !root.has("shift_from_rpm")) {
-    root.fail("shift_from_rpm", "is missing: this lesson counts early_shift");
+  if (looks_at(lesson, FaultKind::early_shift) && !root.has("shift_from_rpm")) {
+    root.fail("shift_from_rpm", "is missing: this lesson looks at early_shift");
   }
-  if (counts(FaultKind::late_shift) && !root.has("shift_to_rpm")) {
-    root.fail("shift_to_rpm", "is missing: this lesson counts late_shift");
+  if (looks_at(lesson, FaultKind::late_shift) && !root.has("shift_to_rpm")) {
+    root.fail("shift_to_rpm", "is missing: this lesson looks at late_shift");
   }
 }
 
@@ -236,6 +238,9 @@ void check_slow_step(const TomlTable& root, const Lesson& lesson) {
   const TomlTable faults = root.table("faults");
   if (faults.has(key) && !has) faults.fail(key, "no step says within_s, so that none could be slow");
   if (has && !faults.has(key)) faults.fail(key, "is missing: a step says within_s");
+  const auto fails = [](const LessonStep& step) { return step.fails_after.has_value(); };
+  const bool may_fail = std::any_of(lesson.steps.begin(), lesson.steps.end(), fails);
+  if (may_fail && !catches(lesson, FaultKind::slow_step)) faults.fail(key, "must fail: a step says fails_after_s");
 }
 
 // No step may wait longer than the lesson lasts.
@@ -246,6 +251,14 @@ void check_times(const TomlTable& root, const Lesson& lesson) {
 }
 
 }  // namespace
+
+bool catches(const Lesson& lesson, FaultKind kind) noexcept {
+  return has(lesson.catches, kind);
+}
+
+bool looks_at(const Lesson& lesson, FaultKind kind) noexcept {
+  return has(lesson.catches, kind) || has(lesson.counts, kind);
+}
 
 Lesson lesson_in_car(const Lesson& lesson, const CarSpec& car) {
   Lesson driven = lesson;

@@ -37,7 +37,7 @@ struct LessonStep {
   int gear = kNeutralGear;              // where the guidance leads; kNeutralGear: nowhere
   double patience = 8.0;                // [s] before the hint
   std::optional<double> within{};       // [s] longer is slow_step
-  std::optional<double> fails_after{};  // [s] longer fails the lesson; >= within
+  std::optional<double> fails_after{};  // [s] longer fails the lesson that catches slow_step; >= within; none: within
   bool call = false;                    // prompted in both modes: nobody can know by himself when to do it
   bool may_be_skipped = false;          // it prepares the next one and is done with it
 };
@@ -65,8 +65,8 @@ struct Lesson {
   LessonStart start;
   std::vector<LessonStep> steps;
   std::vector<LessonAbort> aborts;
-  std::vector<FaultKind> catches;           // what this lesson looks at; the others are notes
-  std::vector<FaultKind> fails_on;          // one of these and it is not passed
+  std::vector<FaultKind> catches;           // "fails": it claims to catch these; one of them and it is not passed
+  std::vector<FaultKind> counts;            // "counts": they cost points; what is in neither list is a note
   double shift_from = 0.0, shift_to = 1e9;  // [rad/s] band of engine speed for an upshift
   bool band_of_car = false;                 // that band is the car's: lesson_in_car
   double pass_grade = 6.0;                  // [1] of 10
@@ -78,6 +78,12 @@ struct Lesson {
 // Throws FileError with file, line, key, value and allowed range.
 Lesson read_lesson(const std::filesystem::path& file);
 Lesson parse_lesson(std::string_view text, const std::string& file_name);
+
+// The lesson claims to catch that kind: a drive in which it was done is not passed.
+bool catches(const Lesson& lesson, FaultKind kind) noexcept;
+
+// It looks at that kind: catches it, or counts it.
+bool looks_at(const Lesson& lesson, FaultKind kind) noexcept;
 
 // The lesson as it is driven in that car: with its band for the upshifts, where the lesson leaves it to the car.
 Lesson lesson_in_car(const Lesson& lesson, const CarSpec& car);

@@ -154,7 +154,7 @@ void LessonRun::State::keep(const std::optional<ShiftRecord>& ended) {
 // What this lesson does not look at is a note.
 void LessonRun::State::judge(std::vector<DriveFault> faults) {
   for (DriveFault& fault : faults) {
-    const bool counts = std::find(lesson.catches.begin(), lesson.catches.end(), fault.kind) != lesson.catches.end();
+    const bool counts = looks_at(lesson, fault.kind);
     if (!counts) fault.severity = Severity::note;
     attribute(fault);
     result.faults.push_back(fault);

@@ -33,18 +33,22 @@ Steps double_declutched() {
   return {throttle_off, clutch_down, neutral, clutch_up, clutch_down, gear, clutch_up, throttle_on};
 }
 
-// `order` with a blip between its first clutch down and its last clutch up, in every place where it can be.
+// `order` with a blip that begins between its first clutch down and its last clutch up, in every place where it can be.
+// It ends there, or right after the clutch is up, or is held on into the drive: the throttle that ends the order.
 std::vector<Steps> with_blip(const Steps& order) {
   const auto first = std::find(order.begin(), order.end(), ShiftStep::clutch_down) - order.begin() + 1;
   const auto last = order.rend() - std::find(order.rbegin(), order.rend(), ShiftStep::clutch_up) - 1;
   std::vector<Steps> orders;
   for (auto on = first; on <= last; ++on) {
-    for (auto off = on; off <= last; ++off) {
+    for (auto off = on; off <= last + 1; ++off) {
       Steps blip = order;
       blip.insert(blip.begin() + off, ShiftStep::throttle_off);
       blip.insert(blip.begin() + on, ShiftStep::throttle_on);
       orders.push_back(blip);
     }
+    Steps held = order;
+    held.insert(held.begin() + on, ShiftStep::throttle_on);
+    orders.push_back(held);
   }
   return orders;
 }

@@ -14,9 +14,10 @@ std::vector<ShiftStep> taught_steps(int from, int to);
 
 // Least number of steps to add, leave out or replace that makes `steps` one of the orders that are taught (Levenshtein
 // distance): 2 for two that were exchanged. Taught are: the plain one above; between two gears double declutching, up and
-// down again in neutral; and into a lower gear either of them with a blip, the throttle on and off again anywhere between
-// the first clutch down and the last clutch up. Whether the throttle was taken up again before the shift ended does not
-// count. whole: false where the shift was cut short, and what was still to come does not count.
+// down again in neutral; and into a lower gear either of them with a blip, the throttle on anywhere between the first
+// clutch down and the last clutch up, and off again there or after it, or held on into the drive. Whether the throttle
+// was taken up again before the shift ended does not count. whole: false where the shift was cut short, and what was
+// still to come does not count.
 int steps_out_of_place(std::span<const ShiftStep> steps, int from, int to, bool whole = true);
 
 }  // namespace gearshift

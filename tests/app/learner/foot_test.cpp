@@ -76,6 +76,9 @@ TEST_CASE("skill lies between the practised and the beginner, worse in everythin
     CHECK(worse.haste > good.haste);
     CHECK(worse.hearing > good.hearing);
     CHECK(worse.foot_change > good.foot_change);
+    CHECK(worse.bite_fall > good.bite_fall);
     CHECK(worse.pace < good.pace);
+    CHECK(worse.brake_effort < good.brake_effort);
+    CHECK(worse.gas < good.gas);
   }
 }

@@ -57,6 +57,16 @@ TEST_CASE("the grade separates skilled from unskilled learners, and does not sep
   CHECK(std::abs(same.auc - 0.5) < 0.3);
 }
 
+TEST_CASE("who gives a lesson up has not driven it: that counts as nought, however clean the part was that he did") {
+  LessonDriveConfig drive = shipped_drive("moving_off");
+  drive.lesson.steps[3].until.speed_above = 60.0;  // 216 km/h in first
+  drive.lesson.time_limit = 600.0;
+  const Separation none = separate(drive, 1, 5);
+  CHECK(none.skilled == std::vector<double>{0.0});
+  CHECK(none.unskilled == std::vector<double>{0.0});
+  CHECK(none.skilled_passed + none.unskilled_passed == 0);
+}
+
 TEST_CASE("a fault on purpose is named and lowers the grade, and is not named without it") {
   for (const FaultKind kind : {FaultKind::clutch_late, FaultKind::wrong_column, FaultKind::over_rev}) {
     const FaultSeparation s = separate_fault(shipped_drive("skip_shifts"), kind, 5, 3);

@@ -117,6 +117,43 @@ TEST_CASE("a lesson whose gear the gate lacks is refused in words") {
                        std::invalid_argument);
 }
 
+// Loeb and others 2015: in the same emergency novices decelerated half as much as experienced drivers.
+TEST_CASE("called to stop, a beginner brakes half as hard as a practised one") {
+  const auto hardest = [](double error) {
+    double sum = 0.0;
+    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+      LessonDriveConfig config = shipped_drive("emergency_stop", seed);
+      config.skill = skill_of(error);
+      double most = 0.0;
+      config.watch = [&](const DriveSample& now) {
+        if (now.car.road_speed > 1.0) most = std::max(most, now.car.brake);
+      };
+      drive_lesson(config);
+      sum += most / 20.0;
+    }
+    return sum;
+  };
+  const double practised = hardest(0.0), beginner = hardest(1.0);
+  CAPTURE(practised);
+  CAPTURE(beginner);
+  CHECK(practised > 0.9);
+  CHECK(beginner / practised == doctest::Approx(0.5).epsilon(0.25));
+}
+
+TEST_CASE("beginners stall as they move off, give more gas then, and get away in the end") {
+  int stalled = 0;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    LessonDriveConfig config = shipped_drive("moving_off", seed);
+    config.skill = skill_of(1.0);
+    const LessonResult result = drive_lesson(config);
+    CAPTURE(seed);
+    CAPTURE(fault_list(result));
+    CHECK(result.end == LessonEnd::done);
+    stalled += names(result, FaultKind::stall) ? 1 : 0;
+  }
+  CHECK(stalled > 10);
+}
+
 TEST_CASE("it drives at other rates of the loop too") {
   for (const double rate : {500.0, 2000.0}) {
     LessonDriveConfig config = shipped_drive("start_and_stop");

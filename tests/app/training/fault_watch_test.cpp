@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <optional>
+#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -161,6 +162,36 @@ TEST_CASE("clutch dump: up at once and much heat; a slow one with the same heat,
   CHECK(only(launch(0.1, 90e3), FaultKind::clutch_dump).severity == Severity::very_severe);
   CHECK(launch(1.5, 20e3).empty());
   CHECK(launch(0.1, 8e3).empty());
+}
+
+// The car here weighs 1238.8 kg and its engine turns 45.5 rad per metre in first: at shift_high, 262 rad/s, it does
+// 5.76 m/s.
+TEST_CASE(
+    "clutch burn: from the heat of a launch at shift_high on, however it is spread; not beside the dump or the stall") {
+  const auto launch = [](double power, double seconds, bool stalls = false) {
+    return in_second([=](DriveSample& s, double t) {
+      const ConstructedShift plain;
+      plain.place(s, rest_position(plain.gate, 1));
+      s.car.gear = 1;
+      s.car.road_speed = 1.0;
+      s.car.engine_speed = 200.0;
+      s.car.clutch = t < 1.0 ? 1.0 : ConstructedShift::line(t, 1.0, 0.75, 1.0 + seconds, 0.0);
+      s.car.clutch_locked = t > 1.0 + seconds;
+      s.car.slip_power = within(t, 1.0, 1.0 + seconds) ? power : 0.0;
+      s.car.running = !stalls || t < 1.5;
+    });
+  };
+  CHECK(burn_limit(test_car(), 1) == doctest::Approx(0.5 * 1251.2 * 5.76 * 5.76).epsilon(0.005));
+  CHECK(burn_limit(test_car(), kReverseGear) > burn_limit(test_car(), 1));
+  const double limit = burn_limit(test_car(), 1);
+  CHECK(launch(0.95 * limit / 2.0, 2.0).empty());
+  const DriveFault burn = only(launch(1.05 * limit / 2.0, 2.0), FaultKind::clutch_burn);
+  CHECK(burn.value == doctest::Approx(1.05 * limit).epsilon(0.04));  // the pedal's first hundredths are no release yet
+  CHECK(burn.severity == Severity::minor);
+  only(launch(1.05 * limit, 1.0), FaultKind::clutch_burn);
+  CHECK(only(launch(2.1 * limit / 3.0, 3.0), FaultKind::clutch_burn).severity == Severity::severe);
+  only(launch(2.0 * limit / 0.1, 0.1), FaultKind::clutch_dump);
+  only(launch(1.05 * limit / 2.0, 2.0, true), FaultKind::stall);
 }
 
 TEST_CASE("jerk: of a clutch that takes hold, not of the brake, and not beside the dump or the stall that made it") {
@@ -478,7 +509,10 @@ TEST_CASE("missed shift: never the gear that was left, nor one that was in") {
 }
 
 TEST_CASE("wrong gear: what was not asked for, as soon as it is in") {
-  CHECK(only(in_shift([](DriveSample&, double) {}, {4, {}}), FaultKind::wrong_gear).value == 3.0);
+  const DriveFault fault = only(in_shift([](DriveSample&, double) {}, {4, {}}), FaultKind::wrong_gear);
+  CHECK(fault.value == 3.0);
+  CHECK(fault.wanted == 4.0);
+  CHECK(fault_sentence(fault) == "Gear 3 instead of 4.");
   CHECK(in_shift([](DriveSample&, double) {}, {3, {}}).empty());
 }
 
@@ -572,6 +606,32 @@ TEST_CASE("too slow: a shift that takes longer than 2.5 s") {
   CHECK(held(2.0).empty());
 }
 
+// The road's speed falls from 12 m/s to a stand; the clutch is down from 0.05 s on, the lever on its way from 2 to 3
+// until `in` seconds.
+TEST_CASE("too slow: on the way to a stand the clutch is down to stop, and only the lever's own way counts") {
+  const auto stops = [](double in, double brake) {
+    ConstructedShift shift;
+    shift.to = 9.0;
+    shift.spoil = [=](DriveSample& s, double t) {
+      const ConstructedShift plain;
+      const double late = std::max(0.0, t - in + 0.5);
+      if (t > 0.4) plain.place(s, plain.at(t < in - 0.1 ? 0.4 : late, 0).lever.proxy);
+      s.car.gear = t < 0.24 ? 2 : t < in ? kNeutralGear : 3;
+      s.car.clutch = within(t, 0.05, 7.9) ? 1.0 : 0.0;
+      s.car.clutch_locked = t < 0.05 || t > 7.95;
+      s.car.brake = t > 0.0 ? brake : 0.0;
+      s.car.road_speed = std::max(0.0, 12.0 - 2.2 * std::max(0.0, t));  // 4 m/s at 3.6 s
+      s.car.engine_speed = 90.0;
+    };
+    std::vector<DriveFault> faults = faults_of(shift);
+    std::erase_if(faults, [](const DriveFault& f) { return f.kind != FaultKind::too_slow; });
+    return faults;
+  };
+  CHECK(stops(0.5, 0.2).empty());
+  CHECK(only(stops(3.4, 0.2), FaultKind::too_slow).value == doctest::Approx(3.4 - 0.24).epsilon(0.01));
+  CHECK(only(stops(0.5, 0.0), FaultKind::too_slow).value == doctest::Approx(3.6 - 0.05).epsilon(0.02));  // it rolls out
+}
+
 TEST_CASE("wrong direction: reverse at forward speed, once per visit to its slot") {
   const auto reverse = [](double speed) {
     ConstructedShift shift;
@@ -593,13 +653,20 @@ TEST_CASE("wrong direction: reverse at forward speed, once per visit to its slot
   CHECK(reverse(0.5).empty());
 }
 
-TEST_CASE("every kind of fault has its place in the table and in words") {
+TEST_CASE("every kind of fault has its place in the table, in words, and an advice of its own") {
+  std::set<std::string> said;
   for (int i = 0; i < kFaultKinds; ++i) {
     const auto kind = static_cast<FaultKind>(i);
     CHECK(fault_rule(kind).kind == kind);
     CHECK(fault_of(fault_key(kind)) == kind);
     CHECK(fault_rule(kind).clear <= std::max(0.0, fault_rule(kind).raise));
     CHECK(fault_sentence({kind, Severity::minor, 0.0, 1.0}).find('{') == std::string::npos);
+    const std::string advice(fault_advice(kind));
+    CAPTURE(advice);
+    CHECK(advice.ends_with("."));
+    CHECK(advice.find('{') == std::string::npos);
+    CHECK(advice.size() < 90);
+    CHECK(said.insert(advice).second);  // its own
   }
   CHECK_FALSE(fault_of("tyre_blown").has_value());
   CHECK(fault_severity(FaultKind::rollback, 0.2) == Severity::minor);

@@ -1,17 +1,19 @@
 // The arithmetic of grades, and that every point names its fault.
 #include "app/training/grade.h"
 
+#include <utility>
+
 #include <doctest/doctest.h>
 
 using namespace gearshift;
 
 namespace {
 
-Lesson lesson_that_fails_on(std::vector<FaultKind> kinds) {
+Lesson lesson_that_catches(std::vector<FaultKind> kinds) {
   Lesson lesson;
   lesson.pass_grade = 6.0;
   lesson.time_limit = 90.0;
-  lesson.fails_on = std::move(kinds);
+  lesson.catches = std::move(kinds);
   return lesson;
 }
 
@@ -22,7 +24,7 @@ LessonResult done_with(std::vector<Severity> severities) {
   return result;
 }
 
-LessonResult graded(LessonResult result, const Lesson& lesson = lesson_that_fails_on({})) {
+LessonResult graded(LessonResult result, const Lesson& lesson = lesson_that_catches({})) {
   grade_result(lesson, result);
   return result;
 }
@@ -82,11 +84,39 @@ TEST_CASE("passed at the pass grade and above, and why not in one sentence") {
 TEST_CASE("one fault that fails the lesson fails it at any grade, with its own sentence") {
   LessonResult stalled = done_with({});
   stalled.faults.push_back({FaultKind::stall, Severity::severe, 3.0, 90.0, -1});
-  const LessonResult result = graded(stalled, lesson_that_fails_on({FaultKind::stall}));
+  const LessonResult result = graded(stalled, lesson_that_catches({FaultKind::stall}));
   CHECK(result.grade == 8.0);
   CHECK_FALSE(result.passed);
   CHECK(result.why == "The engine stalled, from 859 rpm.");
   CHECK(graded(stalled).passed);
+}
+
+TEST_CASE("minor or severe: what the lesson catches is not passed, what it only counts costs its points") {
+  for (const Severity severity : {Severity::minor, Severity::severe}) {
+    Lesson lesson = lesson_that_catches({FaultKind::jerk});
+    CHECK_FALSE(graded(done_with({severity}), lesson).passed);
+    lesson.counts = std::exchange(lesson.catches, {});
+    const LessonResult result = graded(done_with({severity}), lesson);
+    CHECK(result.passed);
+    CHECK(result.grade == 10.0 - points_of(severity));
+  }
+}
+
+TEST_CASE("a slow step fails from its own limit on, and where it has none from within_s on") {
+  Lesson lesson = lesson_that_catches({FaultKind::slow_step});
+  LessonStep step;
+  step.prompt = "Stop!";
+  step.within = 4.0;
+  lesson.steps = {step};
+  LessonResult slow = done_with({});
+  slow.faults.push_back({FaultKind::slow_step, Severity::minor, 9.0, 4.5, -1, "Stop!", 4.0});
+  CHECK_FALSE(graded(slow, lesson).passed);
+  lesson.steps[0].fails_after = 4.6;
+  CHECK(graded(slow, lesson).passed);
+  CHECK(graded(slow, lesson).grade == 9.5);
+  slow.faults[0].value = 4.6;
+  CHECK_FALSE(graded(slow, lesson).passed);
+  CHECK(graded(slow, lesson).why == "\"Stop!\" took 4.6 s; 4.0 s is wanted.");
 }
 
 TEST_CASE("only what was done is passed") {

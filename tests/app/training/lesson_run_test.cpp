@@ -37,8 +37,8 @@ Lesson shift_lesson() {
   lesson.key = lesson.task = "shift";
   lesson.goal = "Shift to third.";
   lesson.time_limit = 20.0;
-  lesson.catches = {FaultKind::clutch_early, FaultKind::over_push, FaultKind::wrong_gear, FaultKind::stall};
-  lesson.fails_on = {FaultKind::stall};
+  lesson.catches = {FaultKind::stall};
+  lesson.counts = {FaultKind::clutch_early, FaultKind::over_push, FaultKind::wrong_gear};
   DriveCondition up = in_gear(3);
   up.clutch_below = 0.2;
   up.clutch_locked = true;
@@ -192,7 +192,7 @@ TEST_CASE("faults are said as they happen; at the end in summary; what is not lo
 
 TEST_CASE("a fault belongs to the shift in whose time it was, also where it is told after the shift's record") {
   Driven driven;
-  driven.lesson.catches = {FaultKind::clutch_dump};
+  driven.lesson.counts = {FaultKind::clutch_dump};
   driven.lesson.steps[2].until.held = 1.0;
   driven.shift.spoil = [](DriveSample& s, double t) {
     if (t > 0.6) s.car.clutch = ConstructedShift::line(t, 0.6, 1.0, 0.8, 0.0);
@@ -214,7 +214,7 @@ TEST_CASE("a gear that was not asked for is told at once") {
   const Outcome run = driven.run();
   REQUIRE(run.result().faults.size() == 1);
   CHECK(run.result().faults[0].kind == FaultKind::wrong_gear);
-  CHECK(run.view().said == std::vector<std::string>{"That was gear 3, another one was meant."});
+  CHECK(run.view().said == std::vector<std::string>{"Gear 3 instead of 4."});
   CHECK(run.view().step == 1);
 }
 
@@ -312,7 +312,7 @@ TEST_CASE("out of time, left, torn: no pass, and nothing counts after the end") 
 TEST_CASE("a step that took longer than it may is a fault, named in its own words, with the seconds that it took") {
   const auto within = [](double seconds, std::size_t step = 1) {
     Driven driven;
-    driven.lesson.catches.push_back(FaultKind::slow_step);
+    driven.lesson.counts.push_back(FaultKind::slow_step);
     driven.lesson.steps[step].within = seconds;
     return driven.run();
   };
@@ -333,7 +333,7 @@ TEST_CASE("a step that took longer than it may is a fault, named in its own word
   CHECK(within(1.0, 0).result().faults[0].value == doctest::Approx(1.081).epsilon(0.01));
 }
 
-TEST_CASE("a step that took much too long fails the lesson, whatever the grade") {
+TEST_CASE("a step that took much too long fails the lesson that catches it, whatever the grade") {
   for (const double fails_after : {0.42, 0.40}) {
     Driven driven;
     driven.lesson.catches.push_back(FaultKind::slow_step);
@@ -364,7 +364,7 @@ TEST_CASE("a condition may ask for torque in the clutch and for the shift light"
 
 TEST_CASE("a step that was passed over took until the next one was done, which took no time of its own") {
   Driven driven;
-  driven.lesson.catches.push_back(FaultKind::slow_step);
+  driven.lesson.counts.push_back(FaultKind::slow_step);
   driven.lesson.steps[1].until.throttle_above = 0.99;  // never
   driven.lesson.steps[1].may_be_skipped = true;
   driven.lesson.steps[1].within = 0.6;
@@ -379,7 +379,7 @@ TEST_CASE("a step that was passed over took until the next one was done, which t
 TEST_CASE("a lesson that ends in a step whose time is over has that fault too, and none before it is over") {
   for (const double left_at : {0.2, 0.4}) {
     Driven driven;
-    driven.lesson.catches.push_back(FaultKind::slow_step);
+    driven.lesson.counts.push_back(FaultKind::slow_step);
     driven.lesson.steps[1].within = 0.2;  // it begins at 0.081 s
     driven.each = [=](LessonRun& r, double t) {
       if (t >= left_at) r.leave();

@@ -23,7 +23,7 @@ struct Hostile {
 constexpr Hostile kHostile[] = {
     {"abort_at_once", ":16: names no condition: it would hold at once"},
     {"abort_without_words", ":14: says is missing: it must be a text in quotes"},
-    {"early_without_a_band", ":1: shift_from_rpm is missing: this lesson counts early_shift"},
+    {"early_without_a_band", ":1: shift_from_rpm is missing: this lesson looks at early_shift"},
     {"empty", ":1: title is missing: it must be a text in quotes"},
     {"empty_faults", ":18: names no fault: nothing could be learnt from such a lesson's grade"},
     {"empty_goal", ":2: goal = \"\": must not be empty"},
@@ -35,7 +35,7 @@ constexpr Hostile kHostile[] = {
     {"gear_as_a_number", ":12: gear = 2: must be a text in quotes"},
     {"gear_ten", ":12: gear = \"10\": must be one of R, N, 1, 2, 3, 4, 5, 6, 7, 8, 9"},
     {"guided_astray", ":12: guide_to = \"3\": leads away from gear 2, for which this step waits"},
-    {"late_without_a_band", ":1: shift_to_rpm is missing: this lesson counts late_shift"},
+    {"late_without_a_band", ":1: shift_to_rpm is missing: this lesson looks at late_shift"},
     {"no_faults", ":1: faults is missing: it must be a table, [faults]"},
     {"no_steps", ":1: step is missing: write one [[step]] for everything that is to be done"},
     {"no_task", ":1: task is missing: it must be a text in quotes"},
@@ -146,7 +146,7 @@ when = { distance_above_m = 100 }
 [faults]
 stall = "fails"
 jerk = "counts"
-slow_step = "counts"
+slow_step = "fails"
 )";
 
 }  // namespace
@@ -168,8 +168,8 @@ TEST_CASE("every key is read, in SI units") {
   CHECK(lesson.start.speed == doctest::Approx(10.0));
   CHECK(std::tan(lesson.start.slope) == doctest::Approx(0.1));
   CHECK(lesson.start.hand_brake == 0.5);
-  CHECK(lesson.catches == std::vector<FaultKind>{FaultKind::stall, FaultKind::jerk, FaultKind::slow_step});
-  CHECK(lesson.fails_on == std::vector<FaultKind>{FaultKind::stall});
+  CHECK(lesson.catches == std::vector<FaultKind>{FaultKind::stall, FaultKind::slow_step});
+  CHECK(lesson.counts == std::vector<FaultKind>{FaultKind::jerk});
   CHECK(lesson.text == kWhole);
   REQUIRE(lesson.steps.size() == 2);
   CHECK(lesson.steps[0].prompt == "Do it.");

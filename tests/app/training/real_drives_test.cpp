@@ -7,6 +7,7 @@
 
 #include <doctest/doctest.h>
 
+#include "app/training/clutch_release.h"
 #include "tests/app/training/scripted_drive.h"
 
 using namespace gearshift;
@@ -173,9 +174,9 @@ TEST_CASE("down through the gears on one press of the clutch is a shift that too
   d.feet.brake = 0.2;
   d.until([&] { return d.km_per_h() < 54.0; });
   d.clutch_down();
-  for (const auto& [gear, km_per_h] : {std::pair{4, 39.0}, {3, 24.0}, {2, 0.05}}) {
+  for (const auto& [gear, until_km_per_h] : {std::pair{4, 39.0}, {3, 24.0}, {2, 0.05}}) {
     d.lever(gear);
-    d.until([&] { return d.km_per_h() < km_per_h; });
+    d.until([&, below = until_km_per_h] { return d.km_per_h() < below; });
   }
   const LessonResult cheat = d.leave();
   CAPTURE(all_told(cheat));
@@ -209,5 +210,36 @@ TEST_CASE("a launch as people do it does not jerk, one in 0.3 s does: a fifth of
     const LessonResult result = launch(of.car, of.lead, 0.3);
     CAPTURE(all_told(result));
     CHECK(told(result, FaultKind::jerk) + told(result, FaultKind::stall) == 1);
+  }
+}
+
+// Both inertias are the car's, through first: half of what the engine gives at that speed is heat.
+TEST_CASE(
+    "a launch in the real car burns what the closed form says, and howls above the speed from which one shifts up") {
+  const auto held = [](double rpm) {
+    ScriptedDrive d("moving_off");
+    d.clutch_down();
+    d.lever(1);
+    d.press(d.feet.hand_brake, 0.0, 0.2);
+    const auto hold = [&] { d.feet.throttle = std::clamp(0.1 + 0.01 * (rpm - d.rpm()), 0.0, 1.0); };
+    d.until([&] { return hold(), d.rpm() > 0.97 * rpm; });
+    d.feet.clutch = d.car.clutch.bite;
+    d.until([&] {
+      hold();
+      d.feet.clutch = std::max(0.0, d.feet.clutch - 0.15e-3);
+      return d.now().clutch_locked;
+    });
+    d.press(d.feet.clutch, 0.0, 0.3);
+    d.wait(0.5);
+    return d.leave();
+  };
+  const CarSpec car = ScriptedDrive("moving_off").car;
+  const double high = car.engine.shift_high / 0.1047197551;  // [rpm]
+  for (const double share : {0.7, 0.85, 1.15, 1.3}) {
+    const LessonResult result = held(share * high);
+    CAPTURE(share);
+    CAPTURE(all_told(result));
+    CHECK(told(result, FaultKind::clutch_burn) == (share > 1.0 ? 1 : 0));
+    CHECK(result.slip_energy == doctest::Approx(share * share * burn_limit(car, 1)).epsilon(0.1));
   }
 }

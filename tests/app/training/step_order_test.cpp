@@ -2,6 +2,7 @@
 #include "app/training/step_order.h"
 
 #include <cstddef>
+#include <utility>
 #include <vector>
 
 #include <doctest/doctest.h>
@@ -36,13 +37,26 @@ TEST_CASE("a blip into a lower gear is taught wherever the foot finds the time, 
     steps.push_back(S::throttle_on);
     CHECK(steps_out_of_place(steps, 3, 2) == 0);
   }
-  // Two blips are one too many; a throttle that stays open while the clutch comes up lacks its end.
+  // Two blips are one too many.
   std::vector<S> two = blips[0];
   two.insert(two.end() - 1, {S::throttle_on, S::throttle_off});
   CHECK(steps_out_of_place(two, 3, 2) == 2);
-  CHECK(steps_out_of_place(
-            std::vector<S>{S::throttle_off, S::clutch_down, S::neutral, S::gear, S::throttle_on, S::clutch_up}, 3, 2) ==
-        1);
+}
+
+TEST_CASE(
+    "a blip into a lower gear may be held until the clutch is up, or on into the drive; the clutch is not left out") {
+  const std::vector<S> held{S::throttle_off, S::clutch_down, S::neutral, S::gear, S::throttle_on, S::clutch_up};
+  std::vector<S> ended = held, early = held;
+  ended.push_back(S::throttle_off);
+  std::swap(early[2], early[4]);  // on before the old gear is out
+  std::swap(early[3], early[4]);
+  for (std::vector<S> steps : {held, ended, early}) {
+    CHECK(steps_out_of_place(steps, 3, 2) == 0);
+    CHECK(steps_out_of_place(steps, 2, 3) > 0);  // into a higher gear it is the throttle too soon
+  }
+  CHECK(steps_out_of_place(std::span(held).first(5), 3, 2) == 1);
+  ended.push_back(S::throttle_on);
+  CHECK(steps_out_of_place(ended, 3, 2) == 0);
 }
 
 TEST_CASE("double declutching is taught up and down, with a blip on the way down") {
