@@ -57,6 +57,8 @@ struct Coach::State {
   void remember();
   void leave();
   void finish();
+  void check_run(std::int64_t number) const;
+  void check_comment(std::int64_t number, std::int64_t comment);
   bool is_driving() const noexcept { return view.phase == LessonPhase::driving; }
 
   CoachConfig config;
@@ -68,6 +70,7 @@ struct Coach::State {
   std::optional<std::uint64_t> cycle;     // of the trial's last sample
   ForceGap forces;                        // of the trial
   bool is_remembered = false;             // the trial that is shown has a run
+  bool judged = false;                    // cycles that are not seen yet
   std::string settings, recording;
 };
 
@@ -95,7 +98,7 @@ std::optional<std::string> Coach::take_problem() {
 
 void Coach::set_learner(const std::string& name) {
   if (!name.empty()) check_learner_name(name);
-  if (name == state_->memory.learner()) return;
+  if (name == state_->memory.learner() && !state_->memory.is_forgotten()) return;
   state_->leave();
   state_->memory.set_learner(name);
   state_->chosen_mode.reset();
@@ -155,19 +158,29 @@ void Coach::begin(const CarSpec& car, const Gate& gate, const std::string& setti
 void Coach::add(std::span<const DriveSample> samples) {
   State& state = *state_;
   if (state.memory.try_again()) state.look_at_learner();
-  if (!state.is_driving() || samples.empty()) return;
+  const bool judged = std::exchange(state.judged, false);
+  if (!state.is_driving() || (samples.empty() && !judged)) return;
   const bool over = state.take(samples);
   state.remember();
   if (over) state.finish();
+}
+
+const LessonRun& Coach::judge(const DriveSample& sample) {
+  if (!state_->is_driving()) throw std::logic_error("no lesson is driven");
+  state_->judged = true;
+  (void)state_->take({&sample, 1});
+  return *state_->run;
 }
 
 void Coach::leave() {
   state_->leave();
 }
 
-void Coach::settle() {
+std::string Coach::settle() {
+  state_->leave();
   state_->memory.settle();
   state_->look_at_learner();
+  return state_->memory.problem();
 }
 
 std::vector<std::string> Coach::forget_recordings() {
@@ -191,11 +204,38 @@ void Coach::set_next(std::string_view lesson) {
 }
 
 void Coach::comment(std::int64_t run, const std::string& author, const std::string& text) {
-  const std::vector<RunRow>& runs = state_->memory.runs();
-  const bool known = std::any_of(runs.begin(), runs.end(), [&](const RunRow& row) { return row.id == run; });
-  if (!known) throw std::invalid_argument("run " + std::to_string(run) + " is none of this learner's");
+  state_->check_run(run);
+  check_typed_text(TypedText::name, "an instructor's name", author);
+  check_typed_text(TypedText::comment, "a comment", text);
   state_->memory.add_comment(run, author, text);
   state_->look_at_learner();
+}
+
+void Coach::edit_comment(std::int64_t run, std::int64_t comment, const std::string& text) {
+  state_->check_comment(run, comment);
+  check_typed_text(TypedText::comment, "a comment", text);
+  state_->memory.edit_comment(run, comment, text);
+  state_->look_at_learner();
+}
+
+void Coach::delete_comment(std::int64_t run, std::int64_t comment) {
+  state_->check_comment(run, comment);
+  state_->memory.delete_comment(run, comment);
+  state_->look_at_learner();
+}
+
+void Coach::State::check_run(std::int64_t number) const {
+  const std::vector<RunRow>& runs = memory.runs();
+  const bool known = std::any_of(runs.begin(), runs.end(), [&](const RunRow& row) { return row.id == number; });
+  if (!known) throw std::invalid_argument("run " + std::to_string(number) + " is none of this learner's");
+}
+
+void Coach::State::check_comment(std::int64_t number, std::int64_t comment) {
+  check_run(number);
+  const std::vector<CommentRow> all = memory.comments(number);
+  const bool known = std::any_of(all.begin(), all.end(), [&](const CommentRow& row) { return row.id == comment; });
+  if (!known)
+    throw std::invalid_argument("comment " + std::to_string(comment) + " is none of run " + std::to_string(number));
 }
 
 void Coach::State::look_at_learner() {
@@ -206,6 +246,7 @@ void Coach::State::look_at_learner() {
   show_runs();
   if (is_remembered) view.run = memory.run_number();
   view.remembers = memory.works();
+  view.forgotten = memory.is_forgotten();
 }
 
 void Coach::State::stand() {
@@ -289,12 +330,12 @@ void Coach::State::begin(const CarSpec& car, const Gate& gate) {
 // True when the trial is over: what comes after does not belong to it.
 bool Coach::State::take(std::span<const DriveSample> samples) {
   for (const DriveSample& sample : samples) {
+    if (run->is_over()) break;
     check_cycle(sample);
     run->add(sample);
     check_forces(sample);
-    if (run->is_over()) return true;
   }
-  return false;
+  return run->is_over();
 }
 
 // One that was lost, or that is of another loop, whose cycles begin again.
@@ -318,6 +359,7 @@ void Coach::State::remember() {
   view.result = run->result();
   view.run = memory.run_number();
   view.remembers = memory.works();
+  if (memory.is_forgotten() && !view.forgotten) look_at_learner();
 }
 
 void Coach::State::leave() {

@@ -43,7 +43,9 @@ class Coach {
   const Lesson* lesson() const noexcept;      // offered, driven or over; null: none
   std::optional<std::string> take_problem();  // of the history, one sentence, once
 
-  // Who and how; while a lesson is driven they wait for the next trial, but for the learner: that trial is left.
+  // Who and how; while a lesson is driven they wait for the next trial, but for the learner: that trial is left. To be
+  // called where a person chooses, and only there: one whom another program deletes (CoachView::forgotten) is written
+  // again from then on, the same name included.
   void set_learner(const std::string& name);  // empty: nobody. Throws std::invalid_argument for what is no name
   void set_mode(LessonMode mode);
   void want_help(bool on);
@@ -60,11 +62,18 @@ class Coach {
   // In order; a gap in the cycles tears the run. To be called in each frame, samples or none: what the history did not
   // take is offered again.
   void add(std::span<const DriveSample> samples);
+  // One cycle of them, only judged: seen and remembered with the next add(), of none, too. For who drives by what the
+  // judge says in each cycle. Throws std::logic_error where no lesson is driven.
+  const LessonRun& judge(const DriveSample& sample);
   void leave();  // the learner gives up: phase over
 
-  // For who goes: what waits for the history is written, with a patience of 3 s.
-  void settle();
-  // Of runs that the history has heard nothing of, and will not name any more.
+  // For who goes, before the last problem is told: a lesson that is driven counts as left, and what waits for the
+  // history is written, with a patience of 3 s in all. Returns in one sentence what could not be kept, else a problem
+  // that nobody has taken yet; empty: all is well. take_problem() has the same sentence, for who asks there. What was
+  // tried in vain is not waited for again by the destructor.
+  std::string settle();
+  // Of runs that the history has heard nothing of, or knows no more, and will not name any more: whoever wrote these
+  // files removes them.
   std::vector<std::string> forget_recordings();
 
   // For DriverControls while it is driven; else none.
@@ -72,9 +81,11 @@ class Coach {
   int guided_gear() const noexcept;
 
   // The instructor's. Throw std::invalid_argument for a lesson that is none of the config's, for a run that is none of
-  // this learner's.
+  // this learner's, a comment that is none of the run's, and what is no name or no comment (app/history/typed_text.h).
   void set_next(std::string_view lesson);  // key; empty: as suggested
   void comment(std::int64_t run, const std::string& author, const std::string& text);
+  void edit_comment(std::int64_t run, std::int64_t comment, const std::string& text);  // by CommentRow::id
+  void delete_comment(std::int64_t run, std::int64_t comment);
 
  private:
   struct State;

@@ -33,7 +33,8 @@ struct CoachView {
   // Who
   std::string learner;                // empty: nobody; nothing is remembered
   std::vector<std::string> learners;  // known, by name
-  bool remembers = false;             // the history is open
+  bool remembers = false;             // the history is open, and the learner in it was not deleted
+  bool forgotten = false;             // another program deleted the learner: until a person chooses, nobody's
 
   // Which
   std::vector<LessonStanding> lessons;  // in the order of teaching

@@ -8,7 +8,6 @@
 #include <cstddef>
 #include <cstdint>
 #include <filesystem>
-#include <map>
 #include <memory>
 #include <optional>
 #include <string>
@@ -19,29 +18,36 @@
 namespace gearshift {
 
 // Throws nothing for the history: what goes wrong is told once, in one sentence. What it did not take is kept, in
-// order, and offered again with each next writing and by try_again().
+// order, and offered again with each next writing and by try_again(). A learner is who was chosen, by the number in the
+// history, not by the name: who was deleted there is told and forgotten, and never made anew by what is written here.
 class LearnerMemory {
  public:
   LearnerMemory(const std::filesystem::path& history, std::string program, Clock now,
                 std::chrono::milliseconds patience);
-  ~LearnerMemory();  // settles
+  ~LearnerMemory();  // settles, where settle() has not tried in vain
   LearnerMemory(const LearnerMemory&) = delete;
   LearnerMemory& operator=(const LearnerMemory&) = delete;
 
-  bool works() const noexcept { return history_ && works_; }  // one that is held for a moment does
+  bool works() const noexcept { return history_ && works_ && !is_forgotten(); }  // one that is held for a moment does
   std::optional<std::string> take_problem();
-  std::vector<std::string> learners();  // by name
+  std::string problem() const { return problem_.value_or(""); }  // that nobody has taken yet, or empty
+  std::vector<std::string> learners();                           // by name
 
-  void set_learner(const std::string& name);  // empty: nobody. Nothing is written yet
-  const std::string& learner() const noexcept { return learner_; }
+  // A person chooses: whoever has that name now, or somebody new. Empty: nobody. Nothing is written yet.
+  void set_learner(const std::string& name);
+  const std::string& learner() const noexcept { return person_->name; }
+  // Deleted by another program: nothing is written until the next set_learner(), the same name included.
+  bool is_forgotten() const noexcept { return person_->deleted; }
   // Reads anew where another program has written meanwhile; opens what could not be opened.
   void look_again();
 
   // Of this learner, oldest first: those of the history, and those that it has not taken, these with a negative number
   // until it knows of them.
   const std::vector<RunRow>& runs() const noexcept { return runs_; }
-  std::vector<CommentRow> comments(std::int64_t run);
+  std::vector<CommentRow> comments(std::int64_t run);  // numbers are negative until the history knows of them
   void add_comment(std::int64_t run, const std::string& author, const std::string& text);
+  void edit_comment(std::int64_t run, std::int64_t comment, const std::string& text);
+  void delete_comment(std::int64_t run, std::int64_t comment);
   const std::string& next_lesson() const noexcept { return next_; }  // key, or empty
   void set_next_lesson(const std::string& lesson);
 
@@ -53,70 +59,98 @@ class LearnerMemory {
   // Of the one that is driven, or of the last; 0: the history does not have all of it so far.
   std::int64_t run_number() const noexcept;
 
-  // What waits, some times a second however often it is called. True: some of it was taken.
+  // What waits, some times a second however often it is called. True: some of it was taken, or somebody forgotten.
   bool try_again();
-  void settle();  // the same, with patience: for who goes
-  // Of runs that the history has heard nothing of, and will not hear of these files.
+  // The same for who goes, with a patience of 3 s in all. What still waits then is a problem to be taken.
+  void settle();
+  // Of runs that the history has heard nothing of, and will not hear of these files, or is to know no more.
   std::vector<std::string> forget_recordings();
 
  private:
   using Moment = std::chrono::steady_clock::time_point;
 
-  enum class Given { taken, waits, lost };  // lost: it is never taken, the learner was erased
+  enum class Given { taken, waits, lost };  // lost: it is never taken, the learner was deleted
+
+  struct Person {
+    std::string name;     // empty: nobody
+    std::int64_t id = 0;  // in the history; 0: it knows of none
+    bool deleted = false;
+  };
+  using PersonHere = std::shared_ptr<Person>;  // of a choice, by all that it left
 
   struct KeptRun {
-    std::string learner, settings;
+    PersonHere of;
+    std::string settings;
     std::int64_t at = 0;  // [s] since 1970
     RunRow row;
     std::size_t shifts = 0;  // that the history has
-    bool over = false;
-    bool lost = false, written = false;
+    bool over = false, written = false;
   };
   struct KeptComment {
+    PersonHere of;
     std::int64_t run = 0;
     std::int64_t at = 0;  // [s] since 1970
-    CommentRow row;
-    bool lost = false, written = false;
+    CommentRow row;       // number below 0: a new one; else what that one is to become
+    bool taken_back = false, written = false;
   };
   struct KeptNext {
+    PersonHere of;
     std::int64_t at = 0;  // [s] since 1970
     std::string lesson;
+    bool written = false;
   };
   struct DrivingSession {
-    std::string learner;
-    std::int64_t learner_id = 0, id = 0;
+    PersonHere of;
+    std::int64_t id = 0;
     std::optional<std::string> settings;  // the last that were told
   };
 
+  static constexpr const char* kWaitsForRoom = "; what is to be remembered waits in this program until there is room";
+
   void open(std::chrono::milliseconds patience);
   void tell(const std::string& problem);
+  std::chrono::milliseconds patience_now() const;
   template <class Work>
   bool read(const Work& work);  // false: it failed, or there is no history
   template <class Work>
-  Given give(std::int64_t at, const Work& work);
+  Given give(Person& of, std::int64_t at, const Work& work);
+  PersonHere person_called(const std::string& name);
   void load();
-  static bool is_waiting(const KeptRun& run) noexcept;
-  static bool is_waiting(const KeptComment& comment) noexcept;
+  bool drop_deleted();
+  bool drop_what_is_of(const PersonHere& gone);
+  bool waits_for_history(const Person& of) const noexcept;
+  bool is_waiting(const KeptRun& run) const noexcept;
+  bool is_waiting(const KeptComment& comment) const noexcept;
+  bool is_waiting(const KeptNext& next) const noexcept;
   bool anything_waits() const noexcept;
+  std::string what_waits() const;
+  void write_now();
   bool write_kept(Moment until);
   Given write(KeptRun& run);
   Given write(KeptComment& comment);
-  Given write_next(const std::string& learner, const KeptNext& next);
+  Given write(KeptNext& next);
+  KeptComment* kept_comment(std::int64_t comment) noexcept;
   void begin(KeptRun& run);
+  void renumber(KeptRun& run, std::int64_t number);
   std::int64_t session_of(const KeptRun& run);
+  std::int64_t id_of(Person& person);
 
   std::filesystem::path file_;
   std::string program_;
   Clock now_;
   std::chrono::milliseconds patience_;
+  std::optional<Moment> settles_until_;
   std::optional<std::int64_t> writing_of_;  // [s] since 1970: what is written is dated so; else now
   std::unique_ptr<History> history_;
   bool works_ = true;                           // the last writing did
   bool is_held_ = false, cannot_read_ = false;  // by another program, at the last try
-  std::string told_;                            // the last problem
+  bool gave_up_ = false;                        // settling, and nothing has come since
+  std::string told_, why_;                      // the last problem; the last reason why something waits
   std::optional<std::string> problem_;
 
-  std::string learner_, next_;
+  PersonHere person_ = std::make_shared<Person>();  // who was chosen last
+  std::vector<PersonHere> people_;                  // who was chosen, and was not deleted since
+  std::string next_;
   std::vector<RunRow> runs_;
   std::optional<std::int64_t> changes_;  // of the history, when it was read; none: it was not
   std::optional<DrivingSession> session_;
@@ -124,7 +158,8 @@ class LearnerMemory {
   // What the history has not taken.
   std::vector<KeptRun> kept_;  // as they were driven: the one that is, is the last
   std::vector<KeptComment> kept_comments_;
-  std::map<std::string, KeptNext> kept_next_;  // by the learner's name
+  std::vector<KeptNext> kept_next_;  // one of each person
+  std::vector<std::string> forgotten_recordings_;
   bool in_run_ = false;
   std::int64_t last_run_ = 0;   // the last one's number
   std::int64_t last_kept_ = 0;  // the last number that was given here

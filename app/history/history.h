@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "app/history/date_text.h"
+#include "app/history/typed_text.h"
 #include "app/training/lesson_result.h"
 
 namespace gearshift {
@@ -29,7 +30,10 @@ struct HistoryError : std::runtime_error {
 struct HistoryBusy : HistoryError {  // another program holds it: it may be free in a moment
   using HistoryError::HistoryError;
 };
-struct HistoryGone : HistoryError {  // what this belongs to was erased: it is never taken
+struct HistoryGone : HistoryError {  // its learner was erased: it is never taken
+  using HistoryError::HistoryError;
+};
+struct HistoryFull : HistoryError {  // the disk: nothing of this call was written, all before it stays
   using HistoryError::HistoryError;
 };
 
@@ -51,21 +55,25 @@ struct RunRow {
 struct CommentRow {
   std::string at;  // ISO 8601, UTC
   std::string author, text;
+  std::int64_t id = 0;
+  std::string edited_at{};  // ISO 8601, UTC; empty: it is as it was first said
 };
 
 using RecordingRemover = std::function<void(const std::vector<std::string>&)>;  // must not throw
 
 inline constexpr std::chrono::milliseconds kHistoryPatience{3000};  // for another program that writes
 
-// Throws std::invalid_argument, one sentence, for a name that is empty, longer than 100 bytes or not to be shown.
-void check_learner_name(std::string_view name);
+enum class HistoryUse {
+  write,  // made where there is none, brought up to date where it is older
+  read    // a copy in memory, as it is now: neither file nor folder need be writable; what writes throws HistoryError
+};
 
 class History {
  public:
   // Opens or makes it, with its folder; the clock dates what is written. Throws HistoryError, as every other call does;
   // HistoryBusy where it was held for longer than the patience.
   explicit History(const std::filesystem::path& file, Clock now = system_seconds,
-                   std::chrono::milliseconds patience = kHistoryPatience);
+                   std::chrono::milliseconds patience = kHistoryPatience, HistoryUse use = HistoryUse::write);
   ~History();
   History(const History&) = delete;
   History& operator=(const History&) = delete;
@@ -87,7 +95,12 @@ class History {
   void add_shift(std::int64_t run, const ShiftRecord& shift);
   // The end of it; shifts that add_shift() has not seen are added.
   void end_run(std::int64_t run, const LessonResult& result);
-  void add_comment(std::int64_t run, std::string_view author, std::string_view text);
+
+  // The instructor's. Throw std::invalid_argument for what is no name, no comment (typed_text.h). False: there is no
+  // such comment (any more).
+  std::int64_t add_comment(std::int64_t run, std::string_view author, std::string_view text);  // its number
+  bool edit_comment(std::int64_t comment, std::string_view text);  // the last text is the one that counts
+  bool delete_comment(std::int64_t comment);
 
   std::vector<RunRow> runs(std::int64_t learner);  // oldest first
   std::vector<CommentRow> comments(std::int64_t run);

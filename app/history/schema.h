@@ -2,14 +2,36 @@
 #pragma once
 
 #include <array>
+#include <string>
+#include <tuple>
 
 namespace gearshift {
 
 inline constexpr int kApplicationId = 0x47534849;  // "GSHI", in the file's header
 
+// Of a run, behind its number.
+inline constexpr const char* kRunColumns = R"sql(
+  session INTEGER NOT NULL REFERENCES session ON DELETE CASCADE,
+  begun_at TEXT NOT NULL,
+  recording TEXT NOT NULL,
+  lesson TEXT NOT NULL,
+  task TEXT NOT NULL,
+  mode INTEGER NOT NULL,
+  ended INTEGER NOT NULL,
+  guided INTEGER NOT NULL,
+  whole INTEGER NOT NULL,
+  begin_s REAL NOT NULL,
+  duration_s REAL NOT NULL,
+  grade REAL NOT NULL,
+  passed INTEGER NOT NULL,
+  why TEXT NOT NULL,
+  slip_energy_j REAL NOT NULL,
+  engine_work_j REAL NOT NULL);
+)sql";
+
 // Script i makes version i + 1 of version i: a file is brought up to the newest, in one transaction, with foreign keys
 // off: a table that is made anew takes nothing with it.
-inline constexpr std::array kMigrations{
+inline const std::array<std::string, 5> kMigrations{
     // 1
     R"sql(
 CREATE TABLE learner (
@@ -29,23 +51,8 @@ CREATE TABLE settings (
   text TEXT NOT NULL);
 CREATE TABLE lesson_run (
   id INTEGER PRIMARY KEY,
-  session INTEGER NOT NULL REFERENCES session ON DELETE CASCADE,
-  begun_at TEXT NOT NULL,
-  recording TEXT NOT NULL,
-  lesson TEXT NOT NULL,
-  task TEXT NOT NULL,
-  mode INTEGER NOT NULL,
-  ended INTEGER NOT NULL,
-  guided INTEGER NOT NULL,
-  whole INTEGER NOT NULL,
-  begin_s REAL NOT NULL,
-  duration_s REAL NOT NULL,
-  grade REAL NOT NULL,
-  passed INTEGER NOT NULL,
-  why TEXT NOT NULL,
-  slip_energy_j REAL NOT NULL,
-  engine_work_j REAL NOT NULL);
-CREATE TABLE shift (
+)sql" + std::string(kRunColumns) +
+        R"sql(CREATE TABLE shift (
   run INTEGER NOT NULL REFERENCES lesson_run ON DELETE CASCADE,
   number INTEGER NOT NULL,
   from_gear INTEGER NOT NULL,
@@ -119,24 +126,9 @@ DROP TABLE session;
 ALTER TABLE new_session RENAME TO session;
 CREATE TABLE new_run (
   id INTEGER PRIMARY KEY AUTOINCREMENT,
-  session INTEGER NOT NULL REFERENCES session ON DELETE CASCADE,
-  begun_at TEXT NOT NULL,
-  recording TEXT NOT NULL,
-  lesson TEXT NOT NULL,
-  task TEXT NOT NULL,
-  mode INTEGER NOT NULL,
-  ended INTEGER NOT NULL,
-  guided INTEGER NOT NULL,
-  whole INTEGER NOT NULL,
-  begin_s REAL NOT NULL,
-  duration_s REAL NOT NULL,
-  grade REAL NOT NULL,
-  passed INTEGER NOT NULL,
-  why TEXT NOT NULL,
-  slip_energy_j REAL NOT NULL,
-  engine_work_j REAL NOT NULL);
-INSERT INTO new_run SELECT id, session, begun_at, recording, lesson, task, mode, ended, guided, whole, begin_s,
-  duration_s, grade, passed, why, slip_energy_j, engine_work_j FROM lesson_run;
+)sql" + std::string(kRunColumns) +
+        R"sql(INSERT INTO new_run SELECT id, session, begun_at, recording, lesson, task, mode, ended, guided, whole,
+  begin_s, duration_s, grade, passed, why, slip_energy_j, engine_work_j FROM lesson_run;
 DROP TABLE lesson_run;
 ALTER TABLE new_run RENAME TO lesson_run;
 CREATE INDEX session_of_learner ON session (learner);
@@ -151,7 +143,20 @@ ALTER TABLE fault ADD COLUMN wanted_s REAL NOT NULL DEFAULT 0;
     R"sql(
 CREATE TABLE pending_erasure (
   since TEXT NOT NULL);
+)sql",
+    // 5: a comment can be edited and deleted, so that its number is given once, too.
+    R"sql(
+CREATE TABLE new_comment (
+  id INTEGER PRIMARY KEY AUTOINCREMENT,
+  run INTEGER NOT NULL REFERENCES lesson_run ON DELETE CASCADE,
+  made_at TEXT NOT NULL,
+  author TEXT NOT NULL,
+  text TEXT NOT NULL,
+  edited_at TEXT NOT NULL DEFAULT '');
+INSERT INTO new_comment (id, run, made_at, author, text) SELECT id, run, made_at, author, text FROM comment;
+DROP TABLE comment;
+ALTER TABLE new_comment RENAME TO comment;
 )sql"};
-inline constexpr int kSchemaVersion = static_cast<int>(kMigrations.size());
+inline constexpr int kSchemaVersion = static_cast<int>(std::tuple_size_v<decltype(kMigrations)>);
 
 }  // namespace gearshift

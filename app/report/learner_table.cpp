@@ -17,6 +17,18 @@ std::string next_lesson(const LearnerHistory& history, std::span<const Lesson> l
   return suggestion ? printable(suggestion->lesson) : "-";
 }
 
+// By the numbers under which they can be changed; line breaks are blanks.
+std::string comment_lines(const LearnerHistory& history) {
+  std::string lines;
+  for (auto run = history.runs.rbegin(); run != history.runs.rend(); ++run) {
+    for (const CommentRow& comment : run->comments)
+      lines += fmt::format("{:>5}  comment {}, {}, {}{}: {}\n", run->row.id, comment.id, printable(comment.author),
+                           printable(day_of(comment.at)), comment.edited_at.empty() ? "" : ", changed",
+                           printable(comment.text));
+  }
+  return lines.empty() ? lines : "\n" + lines;
+}
+
 }  // namespace
 
 std::string learner_table(std::span<const LearnerHistory> learners, std::span<const Lesson> lessons) {
@@ -43,7 +55,7 @@ std::string run_table(const LearnerHistory& history) {
                          : is_graded(result) ? "not passed"
                                              : "not graded");
   }
-  return table;
+  return table + comment_lines(history);
 }
 
 }  // namespace gearshift

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <concepts>
 #include <cstddef>
 #include <initializer_list>
 #include <iterator>
@@ -33,6 +34,7 @@ constexpr FaultUnit kUnits[] = {
     {"rollback", "m"},         {"jerk", "m/s^3"},        {"early_shift", "rad/s"},
     {"late_shift", "rad/s"},   {"too_slow", "s"},        {"wrong_direction", "m/s"},
     {"slow_step", "s"},        {"coasting", "s"},        {"early_downshift", "rad/s"},
+    {"clutch_burn", "J"},
 };
 
 std::string_view unit_of(FaultKind kind) noexcept {
@@ -50,10 +52,9 @@ class Table {
     text_ += csv_field(field);
     return *this;
   }
-  template <class Number>
-  Table& number(Number value) {
-    return text(fmt::format("{}", value));
-  }
+  // A nought has no sign.
+  Table& number(std::floating_point auto value) { return text(fmt::format("{:.{}g}", value + 0.0, kCsvDigits)); }
+  Table& number(std::integral auto value) { return text(fmt::format("{}", value)); }
   Table& flag(bool on) { return text(on ? "1" : "0"); }
   Table& texts(std::initializer_list<std::string_view> fields) {
     for (const std::string_view field : fields) text(field);

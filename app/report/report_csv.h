@@ -11,7 +11,9 @@ namespace gearshift {
 // One field: in quotes where it holds a comma, a quote or a line end, quotes doubled.
 std::string csv_field(std::string_view text);
 
-// Numbers so that they read back as what they were. grade is empty where a run has none.
+inline constexpr int kCsvDigits = 12;  // of a number that is no count: 13.379, not 13.379000000000001
+
+// Numbers to kCsvDigits significant digits. grade is empty where a run has none.
 std::string runs_csv(const LearnerHistory& history);
 std::string shifts_csv(const LearnerHistory& history);
 std::string faults_csv(const LearnerHistory& history);

@@ -43,7 +43,7 @@ table.few th { font-weight: normal; color: #6b7785; white-space: nowrap; }
 table.few td { width: 100%; }
 table.few li { display: inline-block; margin-right: 1.6rem; }
 td ul { margin: 0; padding-left: 0; list-style: none; }
-td blockquote { margin: 0 0 0.3rem; }
+td blockquote { margin: 0 0 0.3rem; white-space: pre-line; }
 .passed { color: #2e7d4f; font-weight: bold; }
 .failed { color: #c5303b; font-weight: bold; }
 .bar { display: inline-block; height: 0.6rem; background: #1f5fa8; border-radius: 1px; }

@@ -1,5 +1,6 @@
 #include <cstdint>
 #include <map>
+#include <set>
 
 #include <fmt/format.h>
 
@@ -20,20 +21,27 @@ double points_of_fault(const LessonResult& result, std::size_t fault) {
   return points;
 }
 
-// "−2.0 The engine stalled, from 350 rpm. (12.4 s into the run, shift 3)"
-std::string fault_item(const LessonResult& result, std::size_t i) {
+// "−2.0 The engine stalled, from 350 rpm. (12.4 s into the run, shift 3)", and what to do about it.
+std::string fault_item(const LessonResult& result, std::size_t i, bool advised) {
   const DriveFault& fault = result.faults[i];
   const double points = points_of_fault(result, i);
   const std::string cost = points > 0.0 ? fmt::format("<strong>−{:.1f}</strong>", points) : std::string("Note:");
   const std::string shift = fault.shift >= 0 ? fmt::format(", shift {}", fault.shift + 1) : std::string();
-  return fmt::format("<li>{} {} <span class=\"soft\">({:.1f} s into the run{})</span></li>", cost,
-                     html_text(fault_sentence(fault)), fault.time - result.begin, shift);
+  const std::string advice =
+      advised ? fmt::format("<br><span class=\"soft\">{}</span>", html_text(fault_advice(fault.kind))) : std::string();
+  return fmt::format("<li>{} {} <span class=\"soft\">({:.1f} s into the run{})</span>{}</li>", cost,
+                     html_text(fault_sentence(fault)), fault.time - result.begin, shift, advice);
 }
 
+// What to do is said once of each kind that cost something.
 std::string faults_list(const LessonResult& result) {
   if (result.faults.empty()) return {};
   std::string list = "<ul>";
-  for (std::size_t i = 0; i < result.faults.size(); ++i) list += fault_item(result, i);
+  std::set<FaultKind> advised;
+  for (std::size_t i = 0; i < result.faults.size(); ++i) {
+    const bool costs = points_of_fault(result, i) > 0.0;
+    list += fault_item(result, i, costs && advised.insert(result.faults[i].kind).second);
+  }
   return list + "</ul>";
 }
 
@@ -47,8 +55,10 @@ std::string outcome(const LessonResult& result) {
 std::string comments_list(const std::vector<CommentRow>& comments) {
   std::string list;
   for (const CommentRow& comment : comments) {
-    list += fmt::format("<blockquote>{} <span class=\"soft\">{}, {}</span></blockquote>", html_text(comment.text),
-                        html_text(comment.author), html_text(day_of(comment.at)));
+    const std::string edited =
+        comment.edited_at.empty() ? std::string() : ", changed " + html_text(day_of(comment.edited_at));
+    list += fmt::format("<blockquote>{} <span class=\"soft\">{}, {}{}</span></blockquote>", html_text(comment.text),
+                        html_text(comment.author), html_text(day_of(comment.at)), edited);
   }
   return list;
 }

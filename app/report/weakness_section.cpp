@@ -35,11 +35,13 @@ std::string bars(const WeakSpot& spot, double most) {
   return bar("earlier", spot.earlier) + "<br>" + bar("lately", spot.lately);
 }
 
-// "Slow step" alone says nothing: the newest one is told in full.
+// "Slow step" alone says nothing: the newest one is told in full. And what to do about it.
 std::string name_words(const WeakSpot& spot) {
-  const std::string name = html_text(plain_words(fault_key(spot.kind)));
-  if (!spot.newest_step) return name;
-  return name + "<br><span class=\"soft\">" + html_text(fault_sentence(*spot.newest_step)) + "</span>";
+  std::string words = html_text(plain_words(fault_key(spot.kind)));
+  const auto add = [&](std::string_view line) { words += "<br><span class=\"soft\">" + html_text(line) + "</span>"; };
+  if (spot.newest_step) add(fault_sentence(*spot.newest_step));
+  add(fault_advice(spot.kind));
+  return words;
 }
 
 std::string spot_row(const WeakSpot& spot, double most) {

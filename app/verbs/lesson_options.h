@@ -2,24 +2,18 @@
 #pragma once
 
 #include <optional>
-#include <stdexcept>
 #include <string>
 
 #include <CLI/CLI.hpp>
 
-#include "app/history/history.h"
+#include "app/history/typed_text.h"
 #include "app/training/lesson_result.h"
 
 namespace gearshift {
 
 // A check: what is wrong with the name, or nothing.
 inline std::string learner_name(const std::string& name) {
-  try {
-    check_learner_name(name);
-    return {};
-  } catch (const std::invalid_argument& problem) {
-    return problem.what();
-  }
+  return typed_text_problem(TypedText::name, "a learner's name", name);
 }
 
 inline void add_mode_option(CLI::App& verb, std::optional<LessonMode>& mode) {

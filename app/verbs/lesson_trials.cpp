@@ -23,7 +23,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::size_t kLot = 256;  // [cycles] that the coach gets at once: what it shows is made once a lot
+constexpr std::size_t kLot = 256;  // [cycles] judged one by one; what the coach shows is made once a lot
 
 // "  -2.0", or nothing where there is no grade to take it from.
 std::string points_words(const LessonResult& result, double points) {
@@ -45,7 +45,8 @@ void print_faults(const LessonResult& result) {
 void print_result(const LessonResult& result, std::int64_t run) {
   print_faults(result);
   if (run > 0) fmt::print("Run {}: ", run);
-  fmt::print("{} shifts in {:.1f} s. ", result.shifts.size(), result.duration);
+  const std::size_t shifts = result.shifts.size();
+  fmt::print("{} {} in {:.1f} s. ", shifts, shifts == 1 ? "shift" : "shifts", result.duration);
   if (is_graded(result)) fmt::print("Grade {:.1f} of 10. ", result.grade);
   fmt::print("{}\n", result.passed ? "Passed." : "Not passed: " + result.why);
 }
@@ -90,7 +91,6 @@ class Trials {
     if (trials_.mode) coach_.set_mode(*trials_.mode);
     LessonDriveConfig drive = trials_.drive;
     drive.seed += static_cast<std::uint64_t>(number);
-    drive.watch = [this](const DriveSample& sample) { see(sample); };
     const bool own_recording = drive.trace.empty();
     if (own_recording) {
       drive.trace = recording();
@@ -98,8 +98,6 @@ class Trials {
     }
     coach_.begin(drive.car, gate_, trials_.settings, drive.trace.empty() ? fs::path() : fs::absolute(drive.trace));
     if (trials_.help) drive.guidance = coach_.guidance();
-    drive.hints = coach_.view().hints;
-    drive.mode = coach_.view().mode;
     told_ = 0;
     told_help_ = false;
     run(drive, own_recording);
@@ -127,14 +125,14 @@ class Trials {
   // A recording that nobody asked for must not cost the lesson: where it cannot begin, there is none.
   void run(LessonDriveConfig& drive, bool own_recording) {
     try {
-      (void)drive_lesson(drive);
+      drive_lesson(drive, judge());
     } catch (const FileError& problem) {
       hand_over();
       if (!own_recording) throw;
       tell(problem.what());
       if (coach_.view().phase != LessonPhase::driving || coach_.view().result.duration > 0.0) return;
       drive.trace.clear();
-      (void)drive_lesson(drive);
+      drive_lesson(drive, judge());
     }
   }
 
@@ -151,15 +149,20 @@ class Trials {
     }
   }
 
-  void see(const DriveSample& sample) {
-    lot_.push_back(sample);
-    if (lot_.size() == kLot) hand_over();
+  LessonJudge judge() {
+    return [this](const DriveSample& sample) {
+      const LessonRun& run = coach_.judge(sample);
+      const LessonStand stand{run.view().step, run.view().guided_gear, run.is_over()};
+      if (++unseen_ == kLot || stand.over) hand_over();
+      return stand;
+    };
   }
 
+  // What was judged is seen and remembered.
   void hand_over() {
-    if (!lot_.empty()) tell_begin();
-    coach_.add(lot_);
-    lot_.clear();
+    if (unseen_ > 0) tell_begin();
+    unseen_ = 0;
+    coach_.add({});
     tell_shifts();
     tell_problem();
   }
@@ -188,8 +191,8 @@ class Trials {
   const LessonTrials& trials_;
   Gate gate_;
   Coach coach_;
-  std::vector<DriveSample> lot_;
-  std::size_t told_ = 0;  // shifts of the trial
+  std::size_t unseen_ = 0;  // cycles that were judged since the last lot
+  std::size_t told_ = 0;    // shifts of the trial
   std::set<std::string> own_recordings_;
   bool told_problem_ = false, told_goal_ = false, told_help_ = false;
 };

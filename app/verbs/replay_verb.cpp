@@ -121,7 +121,9 @@ int list_shifts(const ReplayOptions& options) {
   if (!drive.has_car()) fmt::print("a drive without a car: it has no shifts\n");
   if (!drive.shifts().empty()) fmt::print("shift   begin s  gears    clutch s  lever s  whole s\n");
   for (const RecordedShift& shift : drive.shifts()) print_shift(shift.record, drive.begin());
-  if (drive.has_car()) fmt::print("{} shifts in {:.1f} s\n", drive.shifts().size(), drive.end() - drive.begin());
+  const std::size_t shifts = drive.shifts().size();
+  if (drive.has_car())
+    fmt::print("{} {} in {:.1f} s\n", shifts, shifts == 1 ? "shift" : "shifts", drive.end() - drive.begin());
   if (!drive.differs()) return 0;
   fmt::print("it differs from the recording: gearshift replay without --shifts says where\n");
   return 1;

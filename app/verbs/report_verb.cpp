@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -15,12 +16,13 @@
 #include "app/history/history.h"
 #include "app/output_folder.h"
 #include "app/report/delete_learner.h"
+#include "app/report/instructor.h"
 #include "app/report/learner_table.h"
 #include "app/report/report_csv.h"
+#include "app/report/report_files.h"
 #include "app/report/report_page.h"
 #include "app/trainer/user_folder.h"
 #include "app/verbs/verbs.h"
-#include "haptics/files/part_file.h"
 #include "haptics/files/printable.h"
 
 namespace gearshift {
@@ -36,14 +38,23 @@ constexpr const char* kReportExamples =
     "  gearshift report --learner Ada                        Ada's runs\n"
     "  gearshift report --learner Ada --out ada --csv        ada/index.html, runs.csv, shifts.csv, faults.csv\n"
     "  gearshift report --learner Ada --comment 12 \"Much calmer.\" --by Bo\n"
+    "  gearshift report --learner Ada --edit-comment 3 \"Calmer.\"   by the number that the table of runs shows\n"
+    "  gearshift report --learner Ada --delete-comment 3\n"
     "  gearshift report --learner Ada --next hill_start      instead of what the grades suggest; \"\" gives it back\n"
     "  gearshift report --learner Ada --delete               for good, with the recordings\n";
 
+using NumberedText = std::pair<std::int64_t, std::string>;
+
 struct ReportArguments {
   std::string learner, database, out, by, next;
-  std::pair<std::int64_t, std::string> comment;
-  bool csv = false, sets_next = false, comments = false, deletes = false, yes = false;
+  std::optional<NumberedText> comment, edit;  // by the number of the run, of the comment
+  std::optional<std::int64_t> taken_back;     // a comment's number
+  bool csv = false, sets_next = false, deletes = false, yes = false;
 };
+
+bool instructs(const ReportArguments& arguments) {
+  return arguments.comment || arguments.edit || arguments.taken_back || arguments.sets_next;
+}
 
 fs::path history_file(const ReportArguments& arguments) {
   return arguments.database.empty() ? user_data_folder() / "history.db" : fs::path(arguments.database);
@@ -69,41 +80,40 @@ int list_learners(History& history) {
 }
 
 void write_report(const ReportArguments& arguments, History& history, const LearnerRow& learner) {
-  const fs::path folder = arguments.out;
   const LearnerHistory all = read_learner(history, learner);
-  const std::string page = report_page(all, show_shifts(all, history.file().parent_path()), shipped_lessons());
-  make_folder(folder);
-  const auto write = [&](const char* name, const std::string& text) {
-    write_text_file(folder / name, text);
-    fmt::print("{}\n", (folder / name).string());
-  };
-  write("index.html", page);
-  if (!arguments.csv) return;
-  write("runs.csv", runs_csv(all));
-  write("shifts.csv", shifts_csv(all));
-  write("faults.csv", faults_csv(all));
-}
-
-void add_comment(const ReportArguments& arguments, History& history, const LearnerRow& learner) {
-  const auto& [number, text] = arguments.comment;
-  std::string known;
-  for (const RunRow& run : history.runs(learner.id)) {
-    if (run.id == number) {
-      history.add_comment(number, arguments.by, text);
-      fmt::print("run {}: {}, {}\n", number, printable(text), printable(arguments.by));
-      return;
-    }
-    known += fmt::format("{}{}", known.empty() ? "" : ", ", run.id);
+  std::vector<ReportFile> files{
+      {"index.html", report_page(all, show_shifts(all, history.file().parent_path()), shipped_lessons())}};
+  if (arguments.csv) {
+    files.push_back({"runs.csv", runs_csv(all)});
+    files.push_back({"shifts.csv", shifts_csv(all)});
+    files.push_back({"faults.csv", faults_csv(all)});
   }
-  throw std::runtime_error(fmt::format("run {} is none of {}'s; known: {}", number, printable(learner.name),
-                                       known.empty() ? "none yet" : known));
+  make_folder(arguments.out);
+  write_report_files(arguments.out, files, [](const fs::path& file) { fmt::print("{}\n", file.string()); });
 }
 
-void set_next(const ReportArguments& arguments, History& history, const LearnerRow& learner) {
-  if (!arguments.next.empty()) (void)read_lesson(find_asset("lessons", arguments.next));  // refuses
-  history.set_next_lesson(learner.id, arguments.next);
-  fmt::print("{}: next lesson {}\n", printable(learner.name),
-             arguments.next.empty() ? "as suggested" : printable(arguments.next));
+void set_next(const std::string& lesson, History& history, const LearnerRow& learner) {
+  if (!lesson.empty()) (void)read_lesson(find_asset("lessons", lesson));  // refuses
+  history.set_next_lesson(learner.id, lesson);
+  fmt::print("{}: next lesson {}\n", printable(learner.name), lesson.empty() ? "as suggested" : printable(lesson));
+}
+
+void obey_instructor(const ReportArguments& arguments, History& history, const LearnerRow& learner) {
+  if (arguments.comment) {
+    const auto& [run, text] = *arguments.comment;
+    const std::int64_t number = comment_on_run(history, learner, run, arguments.by, text);
+    fmt::print("run {}, comment {}: {}, {}\n", run, number, printable(text), printable(arguments.by));
+  }
+  if (arguments.edit) {
+    const auto& [number, text] = *arguments.edit;
+    edit_comment(history, learner, number, text);
+    fmt::print("comment {}: {}\n", number, printable(text));
+  }
+  if (arguments.taken_back) {
+    delete_comment(history, learner, *arguments.taken_back);
+    fmt::print("comment {} is gone\n", *arguments.taken_back);
+  }
+  if (arguments.sets_next) set_next(arguments.next, history, learner);
 }
 
 bool is_confirmed(const ReportArguments& arguments, const LearnerRow& learner) {
@@ -142,30 +152,42 @@ int erase(const ReportArguments& arguments, History& history) {
   return gone.kept.empty() ? code : 1;
 }
 
-// A report makes no history: where there is none, that is said.
+// Of one learner.
+int report_learner(const ReportArguments& arguments, History& history) {
+  const LearnerRow learner = known_learner(history, arguments.learner);
+  obey_instructor(arguments, history, learner);
+  if (!arguments.out.empty()) write_report(arguments, history, learner);
+  if (arguments.out.empty() && !instructs(arguments)) fmt::print("{}", run_table(read_learner(history, learner)));
+  return 0;
+}
+
+// A report makes no history: where there is none, that is said. What only reads needs no right to write.
 int run_report(const ReportArguments& arguments) {
   const fs::path file = history_file(arguments);
   std::error_code error;
-  if (!fs::exists(file, error)) {
+  if (!fs::exists(file, error) && !error) {
     if (!arguments.database.empty() || !arguments.learner.empty())
       throw std::runtime_error(fmt::format("{}: there is no such history", printable(file.string())));
     fmt::print("Nobody has driven a lesson yet.\n");
     return 0;
   }
-  History history(file);
+  const bool writes = arguments.deletes || instructs(arguments);
+  History history(file, system_seconds, kHistoryPatience, writes ? HistoryUse::write : HistoryUse::read);
   if (arguments.learner.empty()) return list_learners(history);
-  if (arguments.deletes) return erase(arguments, history);
-  const LearnerRow learner = known_learner(history, arguments.learner);
-  if (arguments.comments) add_comment(arguments, history, learner);
-  if (arguments.sets_next) set_next(arguments, history, learner);
-  if (!arguments.out.empty()) write_report(arguments, history, learner);
-  if (arguments.out.empty() && !arguments.comments && !arguments.sets_next)
-    fmt::print("{}", run_table(read_learner(history, learner)));
-  return 0;
+  return arguments.deletes ? erase(arguments, history) : report_learner(arguments, history);
 }
 
 std::string not_empty(const std::string& value) {
   return value.empty() ? "must not be empty" : std::string();
+}
+
+std::string author_name(const std::string& name) {
+  return typed_text_problem(TypedText::name, "an instructor's name", name);
+}
+
+void check_comment(const char* option, const std::optional<NumberedText>& said) {
+  const std::string problem = said ? typed_text_problem(TypedText::comment, "a comment", said->second) : std::string();
+  if (!problem.empty()) throw CLI::ValidationError(option, problem);
 }
 
 }  // namespace
@@ -188,8 +210,14 @@ void add_report_verb(CLI::App& app, VerbAction& action) {
                              ->type_name("RUN TEXT")
                              ->needs(learner);
   CLI::Option* by =
-      verb->add_option("--by", arguments->by, "who says so")->type_name("NAME")->check(not_empty)->needs(comment);
+      verb->add_option("--by", arguments->by, "who says so")->type_name("NAME")->check(author_name)->needs(comment);
   comment->needs(by);
+  CLI::Option* edit = verb->add_option("--edit-comment", arguments->edit, "another text in the place of that comment's")
+                          ->type_name("COMMENT TEXT")
+                          ->needs(learner);
+  CLI::Option* taken_back = verb->add_option("--delete-comment", arguments->taken_back, "that comment goes, for good")
+                                ->type_name("COMMENT")
+                                ->needs(learner);
   CLI::Option* next = verb->add_option("--next", arguments->next, "the next lesson; empty: as the grades suggest")
                           ->type_name("LESSON")
                           ->needs(learner);
@@ -197,12 +225,13 @@ void add_report_verb(CLI::App& app, VerbAction& action) {
                             ->needs(learner)
                             ->excludes(out)
                             ->excludes(comment)
+                            ->excludes(edit)
+                            ->excludes(taken_back)
                             ->excludes(next);
   verb->add_flag("--yes", arguments->yes, "delete without the name being asked for again")->needs(erases);
   verb->callback([=, &action] {
-    arguments->comments = comment->count() > 0;
-    if (arguments->comments && arguments->comment.second.empty())
-      throw CLI::ValidationError("--comment", "the text must not be empty");
+    check_comment("--comment", arguments->comment);
+    check_comment("--edit-comment", arguments->edit);
     arguments->sets_next = next->count() > 0;
     action = [arguments] { return run_report(*arguments); };
   });

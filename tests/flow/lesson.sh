@@ -62,7 +62,7 @@ check "no folder for recordings: the lesson is driven" learn nowhere hill_start 
 check "and that is told" test "$(wc -l <nowhere.err)" -eq 1
 rm data/gearshift/recordings
 
-check "an empty name" refuse "a learner's name has" hill_start --learner ""
+check "an empty name" refuse "a learner's name must not be empty" hill_start --learner ""
 check "a name of two lines" refuse "control characters" hill_start --learner $'a\nb'
 check "no number of runs" refuse "--runs" hill_start --runs 0
 check "a trace for many runs" refuse "--trace" hill_start --runs 2 --trace t
@@ -78,9 +78,12 @@ RANDOM=5
 : >all_told
 lost=0 unusable=0 most=0
 for round in $(seq 50); do
+  : >killed.txt
   "$gearshift" lesson skip_shifts --runs 200 --learner K --database kill/h.db --verbose --seed "$round" \
-    >killed.txt 2>killed.err &
+    >>killed.txt 2>killed.err &
   program=$!
+  # Every second one only after something was told, however slow the machine.
+  [ $((round % 2)) -eq 0 ] || timeout 20 sh -c 'until [ -s killed.txt ]; do sleep 0.005; done'
   sleep "0.$(printf %03d $((RANDOM % 281 + 20)))"
   kill -9 $program
   wait $program 2>/dev/null
@@ -96,7 +99,7 @@ for round in $(seq 50); do
 done
 check "after every kill the report works and the database is sound" test $unusable -eq 0
 check "nothing that was told is lost" test $lost -eq 0
-check "shifts were told" test "$(wc -l <all_told)" -gt 50
+check "shifts were told" test "$(wc -l <all_told)" -ge 25
 check "most kills hit a lesson, or the moment between two" \
   test "$(python3 -c '
 import sqlite3

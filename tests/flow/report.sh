@@ -74,7 +74,7 @@ refuse 2 "--learner" --out t
 refuse 2 "--learner: must not be empty" --learner "" --delete --yes
 refuse 2 "--out: must not be empty" --learner "$ada" --out ""
 refuse 2 "--comment" --learner "$ada" --comment 1 "" --by Bo
-refuse 2 "--by: must not be empty" --learner "$ada" --comment 1 text --by ""
+refuse 2 "--by: an instructor's name must not be empty" --learner "$ada" --comment 1 text --by ""
 refuse 2 "--out" --learner "$ada" --csv
 refuse 2 "--delete" --learner "$ada" --yes
 refuse 2 "--delete" --learner "$ada" --delete --out t

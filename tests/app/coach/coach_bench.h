@@ -21,8 +21,8 @@ inline Lesson bench_lesson(const std::string& key) {
   lesson.title = "Lesson " + key;
   lesson.goal = "Shift to third.";
   lesson.time_limit = 20.0;
-  lesson.catches = {FaultKind::clutch_early, FaultKind::over_push, FaultKind::wrong_gear, FaultKind::stall};
-  lesson.fails_on = {FaultKind::stall};
+  lesson.catches = {FaultKind::stall};
+  lesson.counts = {FaultKind::clutch_early, FaultKind::over_push, FaultKind::wrong_gear};
   DriveCondition down, in, up;
   down.clutch_above = 0.8;
   in.gear = up.gear = 3;

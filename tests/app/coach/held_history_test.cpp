@@ -4,6 +4,7 @@
 #include <chrono>
 #include <filesystem>
 #include <fstream>
+#include <optional>
 #include <thread>
 
 #include <doctest/doctest.h>
@@ -184,6 +185,84 @@ TEST_CASE("who goes while the history is held waits some seconds for it") {
   const std::vector<RunRow> runs = runs_in(bench.config.history);
   REQUIRE(runs.size() == 2);
   CHECK(runs[1].result.end == LessonEnd::left);
+}
+
+TEST_CASE("comments that were said otherwise or taken back while the history was held are so in it, too") {
+  const TempFolder folder;
+  const CoachBench bench(folder / "history.db");
+  std::int64_t run = 0;
+  {
+    Coach coach(bench.config);
+    bench.trial(coach, "one");
+    run = coach.view().run;
+    for (const char* text : {"one", "two", "three"}) coach.comment(run, "Bo", text);
+    const auto number = [&](std::size_t i) { return coach.view().comments[0].at(i).id; };
+    const Holder holder(bench.config.history);
+    in_a_frame([&] { coach.edit_comment(run, number(0), "One."); });
+    in_a_frame([&] { coach.delete_comment(run, number(1)); });
+    in_a_frame([&] { coach.comment(run, "Di", "four"); });
+    in_a_frame([&] { coach.comment(run, "Di", "five"); });
+    in_a_frame([&] { coach.edit_comment(run, number(2), "Four."); });
+    in_a_frame([&] { coach.delete_comment(run, number(3)); });
+    in_a_frame([&] { coach.edit_comment(run, number(0), "One!"); });
+    REQUIRE(coach.view().comments[0].size() == 3);
+    CHECK(coach.view().comments[0][0].text == "One!");
+    CHECK(coach.view().comments[0][2].text == "Four.");
+  }
+  const std::vector<CommentRow> comments = History(bench.config.history).comments(run);
+  REQUIRE(comments.size() == 3);
+  CHECK(comments[0].text == "One!");
+  CHECK(comments[0].edited_at == date_text(kSomeDay));
+  CHECK(comments[1].text == "three");
+  CHECK(comments[2].text == "Four.");
+}
+
+// Law: 3 s in all, however much waits.
+TEST_CASE("who settles in vain is told what is lost, once, after a bounded time; who goes does not wait again") {
+  const TempFolder folder;
+  const CoachBench bench(folder / "history.db");
+  std::optional<Coach> coach(std::in_place, bench.config);
+  coach->want_help(false);
+  bench.trial(*coach, "one");
+  CHECK(coach->settle().empty());
+  const Holder holder(bench.config.history);
+  bench.trial(*coach, "one");
+  coach->comment(coach->view().runs[1].id, "Bo", "Calmer.");
+  coach->offer(bench.config.lessons[0]);
+  bench.begin(*coach);
+  const std::vector<DriveSample> drive = bench_drive(Drive::good);
+  coach->add(std::span(drive).first(500));
+  (void)coach->take_problem();
+  const auto begin = steady_clock::now();
+  const std::string said = coach->settle();
+  const auto waited = steady_clock::now() - begin;
+  CHECK(coach->view().phase == LessonPhase::over);  // it was left
+  CHECK(waited > milliseconds(2000));
+  CHECK(waited < milliseconds(4000));
+  CHECK(said ==
+        bench.config.history.string() +
+            ": the history cannot be used: another program holds it; lost with this program: 2 runs, 1 comment");
+  CHECK(coach->take_problem() == said);
+  const auto again = steady_clock::now();
+  coach.reset();
+  CHECK(steady_clock::now() - again < milliseconds(1000));
+  CHECK(runs_in(bench.config.history).size() == 1);
+}
+
+TEST_CASE("settling takes what had no place before, and says what has none") {
+  const TempFolder folder;
+  std::ofstream(folder / "place") << "no folder";
+  const CoachBench bench(folder / "place/history.db");
+  Coach coach(bench.config);
+  bench.trial(coach, "one");
+  coach.set_next("two");
+  const std::string said = coach.settle();
+  CHECK(said.find(bench.config.history.string()) == 0);
+  CHECK(said.find("; lost with this program: 1 run, 1 choice of the next lesson") != std::string::npos);
+  std::filesystem::remove(folder / "place");
+  (void)coach.take_problem();
+  CHECK(coach.settle().empty());
+  CHECK(runs_in(bench.config.history).size() == 1);
 }
 
 TEST_CASE("recordings of runs that the history knows nothing of are named once, and never by it") {

@@ -183,7 +183,7 @@ TEST_CASE("the instructor's lesson goes before what the grades say, until a run 
   CHECK(wanted().empty());
 }
 
-TEST_CASE("a comment stands with its run, with a history and without") {
+TEST_CASE("a comment stands with its run, is said otherwise and taken back, with a history and without") {
   const TempFolder folder;
   for (const std::filesystem::path& file : {folder / "history.db", std::filesystem::path()}) {
     const CoachBench bench(file);
@@ -195,6 +195,26 @@ TEST_CASE("a comment stands with its run, with a history and without") {
     CHECK(coach.view().comments[0].empty());
     REQUIRE(coach.view().comments[1].size() == 1);
     CHECK(coach.view().comments[1][0].text == "Calmer.");
+
+    const std::int64_t run = coach.view().runs[1].id, calmer = coach.view().comments[1][0].id;
+    coach.comment(run, "Di", "Fine.");
+    coach.edit_comment(run, calmer, "Much calmer.");
+    REQUIRE(coach.view().comments[1].size() == 2);
+    CHECK(coach.view().comments[1][0].text == "Much calmer.");
+    CHECK(coach.view().comments[1][0].author == "Bo");
+    coach.delete_comment(run, calmer);
+    REQUIRE(coach.view().comments[1].size() == 1);
+    CHECK(coach.view().comments[1][0].text == "Fine.");
+    CHECK_THROWS_AS(coach.edit_comment(run, calmer, "Again."), std::invalid_argument);
+    CHECK_THROWS_AS(coach.delete_comment(coach.view().runs[0].id, coach.view().comments[1][0].id),
+                    std::invalid_argument);
+    CHECK_THROWS_AS(coach.comment(run, "Bo", "\t"), std::invalid_argument);
+    CHECK_THROWS_AS(coach.comment(run, " Bo", "Calmer."), std::invalid_argument);
+    CHECK_THROWS_AS(coach.edit_comment(run, coach.view().comments[1][0].id, ""), std::invalid_argument);
+    CHECK_FALSE(coach.take_problem().has_value());
+    if (file.empty()) continue;
+    REQUIRE(History(file).comments(run).size() == 1);
+    CHECK(History(file).comments(run)[0].text == "Fine.");
   }
 }
 
@@ -295,7 +315,10 @@ TEST_CASE(
   coach->add(std::span(drive).first(500));
   disk_is_full = true;
   coach->add(std::span(drive).subspan(500));
-  CHECK(is_one_sentence(coach->take_problem()));
+  CHECK(coach->take_problem() ==
+        bench.config.history.string() +
+            ": the disk is full: this was not written, what the history has stays; what is to be remembered waits in "
+            "this program until there is room");
   CHECK_FALSE(coach->view().remembers);
   CHECK(coach->view().result.passed);
   CHECK(coach->view().runs.size() == 2);
@@ -338,32 +361,4 @@ TEST_CASE(
     CHECK(run.result.passed);
     CHECK(run.result.shifts.size() == 1);
   }
-}
-
-TEST_CASE(
-    "a learner who is erased while the lesson is driven is told; what was driven counts here and lands with nobody") {
-  const TempFolder folder;
-  const CoachBench bench(folder / "history.db");
-  Coach coach(bench.config);
-  coach.want_help(false);
-  coach.offer(bench.config.lessons[0]);
-  bench.begin(coach);
-  const std::vector<DriveSample> drive = bench_drive(Drive::good);
-  coach.add(std::span(drive).first(500));
-  History other(bench.config.history);
-  CHECK(other.erase_learner(other.find_learner("Ada")->id, [](const auto&) {}).empty());
-  coach.add(std::span(drive).subspan(500));
-  CHECK(is_one_sentence(coach.take_problem()));
-  CHECK(coach.view().lessons[0].trials == 1);
-  CHECK(runs_in(bench.config.history).empty());
-  CHECK(bench.trial(coach, "one").passed);  // from now on she is known again
-  CHECK(coach.view().remembers);
-  CHECK(runs_in(bench.config.history).size() == 1);
-
-  // Erased and known again between two trials: nothing to be told.
-  CHECK(other.erase_learner(other.find_learner("Ada")->id, [](const auto&) {}).empty());
-  other.learner("Ada");
-  CHECK(bench.trial(coach, "one").passed);
-  CHECK_FALSE(coach.take_problem().has_value());
-  CHECK(runs_in(bench.config.history).size() == 1);
 }

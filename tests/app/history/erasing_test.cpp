@@ -90,13 +90,13 @@ TEST_CASE("on a disk that is full the learner stays, or all but the room goes, a
   {
     History history(erasing.file);
     disk_is_full = true;
-    CHECK_THROWS_AS((void)history.erase_learner(erasing.zeb, [](const auto&) {}), HistoryError);
+    CHECK_THROWS_WITH_AS((void)history.erase_learner(erasing.zeb, [](const auto&) {}),
+                         doctest::Contains("the disk is full: the recordings are gone, all else stays"), HistoryFull);
     disk_is_full = false;
     REQUIRE(history.find_learner("Zebediah").has_value());  // to be erased again
     // Another learner's 4 MB.
-    const std::int64_t run =
-        history.begin_run(history.begin_session(history.learner("Bob"), "1.0"), some_result(0), "");
-    for (int i = 0; i < 4; ++i) history.add_comment(run, "Bo", std::string(1'000'000, 'x'));
+    const std::int64_t session = history.begin_session(history.learner("Bob"), "1.0");
+    for (int i = 0; i < 4; ++i) history.add_settings(session, std::string(1'000'000, 'x'));
   }
   // Room for the transaction, but not for the file written anew: no file can be longer than 2 MB.
   const pid_t child = fork();

@@ -199,7 +199,8 @@ TEST_CASE(
     }
   };
   const auto with_version = [](std::string bytes, std::int32_t version) {  // sqlite.org/fileformat2.html, 1.3: at 60
-    for (int i = 0; i < 4; ++i) bytes[60 + i] = static_cast<char>(static_cast<std::uint32_t>(version) >> (24 - 8 * i));
+    for (std::size_t i = 0; i < 4; ++i)
+      bytes[60 + i] = static_cast<char>(static_cast<std::uint32_t>(version) >> (24 - 8 * i));
     return bytes;
   };
   for (const std::int32_t version : {-2'000'000'000, -65, -1, 0, kSchemaVersion + 1, 2'000'000'000})

@@ -23,4 +23,11 @@ TEST_CASE("learners: sessions, runs, last day and what comes next, one line each
         "Bo ?[31mred         0     0  -           reverse (the instructor's)\n");
   CHECK(run_table(learners[0]).find("    3  2026-01-04  drill                     by_yourself    9.0  passed\n") !=
         std::string::npos);
+  CHECK(run_table(learners[0]).find("comment") == std::string::npos);
+  learners[0].runs[1].comments = {{"2026-01-09T10:00:00Z", "Bo", "Calmer.\nSlower.", 7},
+                                  {"2026-01-10T10:00:00Z", "Di", "Fine.", 8, "2026-01-11T10:00:00Z"}};
+  const std::string runs = run_table(learners[0]);
+  CHECK(runs.substr(runs.find("\n\n")) ==
+        "\n\n    2  comment 7, Bo, 2026-01-09: Calmer. Slower.\n"
+        "    2  comment 8, Di, 2026-01-10, changed: Fine.\n");
 }

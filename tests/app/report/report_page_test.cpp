@@ -96,7 +96,8 @@ TEST_CASE("runs: day, lesson, mode, grade, result, every fault with its points, 
                    {FaultKind::stall, Severity::very_severe, 130.0, 40.0, -1},
                    {FaultKind::jerk, Severity::note, 131.0, 12.5, -1}};
   result.deductions = {{0, 2.0}, {1, 4.0}, {1, 0.5}};
-  history.runs[1].comments = {{"2026-01-09T10:00:00Z", "Bo", "Calmer at the bite point."}};
+  history.runs[1].comments = {{"2026-01-09T10:00:00Z", "Bo", "Calmer at the bite point."},
+                              {"2026-01-10T10:00:00Z", "Di", "Better.", 2, "2026-01-11T10:00:00Z"}};
   const std::string page = page_of(history);
   const auto rows = table_of(page, "runs");
   REQUIRE(rows.size() == 2);
@@ -114,7 +115,8 @@ TEST_CASE("runs: day, lesson, mode, grade, result, every fault with its points, 
   CHECK(has(rows[0][6], "−4.5  The engine stalled, from 382 rpm.  (30.0 s into the run)"));
   CHECK(has(rows[0][6], "Note: The car jerked, 12 m/s³."));
   CHECK(has(rows[0][7], "Calmer at the bite point."));
-  CHECK(has(rows[0][7], "Bo, 2026-01-09"));
+  CHECK(has(rows[0][7], "Bo, 2026-01-09 "));
+  CHECK(has(rows[0][7], "Di, 2026-01-10, changed 2026-01-11"));
   CHECK(rows[1][0] == "1");
   CHECK(rows[1][4] == "3.1");
   CHECK(rows[1][6].empty());
@@ -264,12 +266,32 @@ TEST_CASE("a fault of any kind has its name and its sentence on the page") {
   const std::string page = page_of(history);
   const auto weak = table_of(page, "weaknesses");
   REQUIRE(weak.size() == kFaultKinds);
-  std::set<std::string> names;
-  for (const auto& row : weak) names.insert(row[0]);
+  std::string names;
+  for (const auto& row : weak) names += "|" + row[0];
   for (const DriveFault& fault : faults) {
-    CHECK(names.contains(plain_words(fault_key(fault.kind))));
+    const std::string advice(fault_advice(fault.kind));
+    CHECK_FALSE(advice.empty());
+    CHECK(has(names, "|" + plain_words(fault_key(fault.kind)) + "  " + advice));
     CHECK(has(table_of(page, "runs")[0][6], fault_sentence(fault)));
   }
+}
+
+TEST_CASE("what to do about a fault is said once of each kind that cost points, with the run") {
+  LearnerHistory history = learner(1);
+  LessonResult& result = history.runs[0].row.result;
+  result.faults = {{FaultKind::grind, Severity::note, 1.0, 1.0, 0},
+                   {FaultKind::grind, Severity::minor, 2.0, 1.0, 0},
+                   {FaultKind::grind, Severity::minor, 3.0, 1.0, 0},
+                   {FaultKind::jerk, Severity::note, 4.0, 9.0, 0}};
+  result.deductions = {{1, 0.5}, {2, 0.5}};
+  const std::string seen = table_of(page_of(history), "runs")[0][6];
+  const std::string grind(fault_advice(FaultKind::grind));
+  const std::size_t said = seen.find(grind);
+  REQUIRE(said != std::string::npos);
+  CHECK(seen.find("(2.0 s into the run, shift 1)") < said);
+  CHECK(seen.find("(3.0 s into the run, shift 1)") > said);
+  CHECK(seen.find(grind, said + 1) == std::string::npos);
+  CHECK_FALSE(has(seen, fault_advice(FaultKind::jerk)));
 }
 
 // What a browser makes of them is looked at; that they are there is kept here.
@@ -291,8 +313,9 @@ TEST_CASE("weaknesses: counts, points and rates are those of the rows") {
   const auto rows = table_of(page_of(history), "weaknesses");
   REQUIRE(rows.size() == 1);
   CHECK(std::vector<std::string>(rows[0].begin(), rows[0].begin() + 7) ==
-        std::vector<std::string>{"Grind", "", "1", "1", "", "2.5", "1.2"});  // 2 in 16 is 1.25
-  CHECK(rows[0][7].find("2.5") != std::string::npos);                        // 2 in 8
+        std::vector<std::string>{"Grind  " + std::string(fault_advice(FaultKind::grind)), "", "1", "1", "", "2.5",
+                                 "1.2"});              // 2 in 16 is 1.25
+  CHECK(rows[0][7].find("2.5") != std::string::npos);  // 2 in 8
   CHECK(rows[0][8] == "no clear change");
 }
 

@@ -1,0 +1,83 @@
+#include <fmt/format.h>
+
+#include "app/history/history_state.h"
+
+namespace gearshift {
+namespace {
+
+// The recordings that no other learner's run names.
+std::vector<std::string> recordings_of(SQLite::Database& database, std::int64_t learner) {
+  SQLite::Statement rows(
+      database,
+      "SELECT DISTINCT recording FROM lesson_run WHERE recording != '' AND session IN (SELECT id FROM session WHERE "
+      "learner = ?1) AND recording NOT IN (SELECT recording FROM lesson_run WHERE session NOT IN (SELECT id FROM "
+      "session WHERE learner = ?1))");
+  rows.bind(1, learner);
+  std::vector<std::string> recordings;
+  while (rows.executeStep()) recordings.push_back(rows.getColumn(0).getString());
+  return recordings;
+}
+
+// Returns what keeps it, or nothing: a reader is no error to SQLite.
+std::string empty_log(SQLite::Database& database) {
+  const bool is_kept = database.execAndGet("PRAGMA wal_checkpoint(TRUNCATE)").getInt() != 0;
+  return is_kept ? "another program reads it" : "";
+}
+
+// Returns what went wrong, or what the work says.
+template <class Work>
+std::string try_to(SQLite::Database& database, const Work& work) {
+  try {
+    return work();
+  } catch (const SQLite::Exception& problem) {
+    return reason_of(problem, database.getHandle());
+  }
+}
+
+}  // namespace
+
+std::string History::erase_learner(std::int64_t learner, const RecordingRemover& remove) {
+  bool removed = false;
+  try {
+    state_->write([&] {
+      const std::vector<std::string> recordings = recordings_of(*state_->database, learner);
+      SQLite::Statement forget = state_->query("DELETE FROM learner WHERE id = ?");
+      forget.bind(1, learner);
+      forget.exec();
+      SQLite::Statement mark = state_->query("INSERT INTO pending_erasure VALUES (?)");
+      mark.bind(1, state_->date());
+      mark.exec();
+      remove(recordings);
+      removed = !recordings.empty();
+    });
+  } catch (const HistoryFull&) {
+    throw HistoryFull(fmt::format("{}: the disk is full: {}; delete again when there is room", file().string(),
+                                  removed ? "the recordings are gone, all else stays" : "nothing was deleted"));
+  }
+  return finish_erasure();
+}
+
+bool History::erasure_is_pending() {
+  return state_->said(
+      [&] { return state_->database->execAndGet("SELECT count(*) FROM pending_erasure").getInt64() > 0; });
+}
+
+// The deleted rows are overwritten already, in new pages of the log. The old ones go with it; VACUUM gives room back.
+std::string History::finish_erasure() {
+  SQLite::Database& database = *state_->database;
+  const auto exec = [&](const char* text) {
+    return try_to(database, [&] {
+      database.exec(text);
+      return std::string();
+    });
+  };
+  std::string left = exec("VACUUM");
+  const std::string log = try_to(database, [&] { return empty_log(database); });
+  if (left.empty()) left = log;
+  if (left.empty()) left = exec("DELETE FROM pending_erasure");
+  if (left.empty()) return {};
+  return fmt::format("{}: what was deleted is not yet out of the file for good: {}; delete again when that is over",
+                     file().string(), left);
+}
+
+}  // namespace gearshift
