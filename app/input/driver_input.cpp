@@ -36,30 +36,9 @@ double beyond(double dead_zone, double value) {
   return std::max(0.0, value - dead_zone) / (1.0 - dead_zone);
 }
 
-constexpr double kLightThrottle = 0.2;  // [1] what moves a car off
-constexpr double kFreeSpeed = 180.0;    // [rad/s] 1700 rpm: light throttle holds a free engine below this ...
-constexpr double kFreeBand = 50.0;      // [rad/s] ... and is whole this much lower
-constexpr double kKeyLead = 0.05;       // [m] of the hand before the lever, by keys: 25 N of a grip
-constexpr double kWaits = 0.3;          // [s] after the keys the lever has come as far as it comes ...
-constexpr double kRests = 0.005;        // [m] ... and the hand rests so near to it: 2.5 N hold it against its centring
-
-// Towards there, as fast as the whole way in `time`.
-double ramped(double pedal, double to, double seconds, double time) {
-  const double step = seconds / time;
-  return std::clamp(to, pedal - step, pedal + step);
-}
-
-// A pedal let up for so long: quickly, but from `bite` to `closed` in `slip_time`.
-double let_up(double pedal, double seconds, double closed, double bite, double time, double slip_time) {
-  const double edges[] = {bite, closed, 0.0};
-  const double speeds[] = {1.0 / time, (bite - closed) / slip_time, 1.0 / time};
-  for (int part = 0; part < 3; ++part) {
-    const double way = std::min(std::max(pedal - edges[part], 0.0), speeds[part] * seconds);
-    pedal -= way;
-    seconds -= way / speeds[part];
-  }
-  return pedal;
-}
+constexpr double kKeyLead = 0.05;  // [m] of the hand before the lever, by keys: 25 N of a grip
+constexpr double kWaits = 0.3;     // [s] after the keys the lever has come as far as it comes ...
+constexpr double kRests = 0.005;   // [m] ... and the hand rests so near to it: 2.5 N hold it against its centring
 
 }  // namespace
 
@@ -78,6 +57,7 @@ void DriverInput::update(const WindowInput& input, double seconds, bool ui_has_m
   pressed_.clear();
   for (const Source& source : released_) down_.erase(source);
   released_.clear();
+  fresh_.clear();
   if (focused_ && !input.focused) {
     let_go_all();
     mouse_leads_ = false;
@@ -87,7 +67,7 @@ void DriverInput::update(const WindowInput& input, double seconds, bool ui_has_m
   take_buttons(input);
   take_mouse(input, ui_has_mouse);
   move_hand(input, seconds);
-  move_feet(input, seconds);
+  read_pedals(input);
 }
 
 // A key that goes down and up between two frames is held for one.
@@ -143,6 +123,7 @@ void DriverInput::press(Source source, bool ui_has_keys, bool chord) {
   const bool was_down = down_.contains(source) && !released_.contains(source);
   down_.insert(source);
   released_.erase(source);
+  if (!was_down) fresh_.insert(source);
   if (!was_down && is_once(action)) happen(action);
 }
 
@@ -153,14 +134,32 @@ void DriverInput::happen(Action action) {
   if (action == Action::ignition) controls_.ignition = !controls_.ignition;
 }
 
-bool DriverInput::is_held(Action action) const {
-  const auto holds = [this, action](const std::map<Action, std::vector<int>>& bound, bool pad) {
+template <class Holds>
+bool DriverInput::any_source(Action action, const Holds& holds) const {
+  const auto any = [&](const std::map<Action, std::vector<int>>& bound, bool pad) {
     const auto found = bound.find(action);
     return found != bound.end() && std::any_of(found->second.begin(), found->second.end(), [&](int code) {
-             return down_.contains({pad, code});
+             return holds(Source{pad, code});
            });
   };
-  return holds(config_.bindings.keys, false) || holds(config_.bindings.pad_buttons, true);
+  return any(config_.bindings.keys, false) || any(config_.bindings.pad_buttons, true);
+}
+
+// For a part of this frame at least.
+bool DriverInput::is_held(Action action) const {
+  return any_source(action, [this](Source source) { return down_.contains(source); });
+}
+
+// At its end, or so shortly that nobody would know of it.
+bool DriverInput::stays_held(Action action) const {
+  return any_source(action, [this](Source source) {
+    return down_.contains(source) && (!released_.contains(source) || fresh_.contains(source));
+  });
+}
+
+FootKeys DriverInput::foot_keys() const {
+  return {stays_held(Action::throttle), stays_held(Action::throttle_light), stays_held(Action::brake),
+          stays_held(Action::clutch), stays_held(Action::clutch_hold)};
 }
 
 void DriverInput::take_mouse(const WindowInput& input, bool ui_has_mouse) {
@@ -232,23 +231,6 @@ void DriverInput::set_reach(glm::dvec2 reach) {
   recentre(aim_);
 }
 
-void DriverInput::feel(glm::dvec2 lever, double engine_speed, bool coupled) {
-  lever_ = lever;
-  engine_speed_ = engine_speed;
-  coupled_ = coupled;
-}
-
-// A foot holds the revs of an engine that turns freely: a fifth of the throttle would make it howl.
-double DriverInput::light_throttle() const noexcept {
-  if (coupled_) return kLightThrottle;
-  return kLightThrottle * std::clamp((kFreeSpeed - engine_speed_) / kFreeBand, 0.0, 1.0);
-}
-
-void DriverInput::set_clutch(double closed, double bite) {
-  clutch_closed_ = closed;
-  clutch_bite_ = bite;
-}
-
 void DriverInput::set_car(bool ignition, double hand_brake) {
   controls_.ignition = ignition;
   controls_.hand_brake = hand_brake;
@@ -283,19 +265,11 @@ double DriverInput::pedal_axis(const WindowInput& input, const std::optional<Axi
   return raw ? beyond(axis->dead_zone, share(*axis, *raw)) : 0.0;
 }
 
-void DriverInput::move_feet(const WindowInput& input, double seconds) {
+void DriverInput::read_pedals(const WindowInput& input) {
   const Bindings& bindings = config_.bindings;
-  const double time = bindings.pedal_time;
-  const double wanted = is_held(Action::throttle) ? 1.0 : is_held(Action::throttle_light) ? light_throttle() : 0.0;
-  throttle_key_ = ramped(throttle_key_, wanted, seconds, time);
-  brake_key_ = ramped(brake_key_, is_held(Action::brake) ? 1.0 : 0.0, seconds, time);
-  if (is_held(Action::clutch))
-    clutch_key_ = ramped(clutch_key_, 1.0, seconds, time);
-  else if (!is_held(Action::clutch_hold))
-    clutch_key_ = let_up(clutch_key_, seconds, clutch_closed_, clutch_bite_, time, bindings.clutch_slip_time);
-  controls_.throttle = std::max(throttle_key_, pedal_axis(input, bindings.throttle, kThrottle));
-  controls_.brake = std::max(brake_key_, pedal_axis(input, bindings.brake, kBrake));
-  controls_.clutch = std::max(clutch_key_, pedal_axis(input, bindings.clutch, kClutch));
+  controls_.throttle = pedal_axis(input, bindings.throttle, kThrottle);
+  controls_.brake = pedal_axis(input, bindings.brake, kBrake);
+  controls_.clutch = pedal_axis(input, bindings.clutch, kClutch);
   controls_.starter = is_held(Action::starter);
 }
 

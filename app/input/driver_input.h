@@ -4,11 +4,8 @@
 //           stick is, from when it leaves its rest until it is back there. It stays within reach; a mouse that goes on
 //           pushes instead, against whatever holds the lever. Keys lead it at most 5 cm before the lever, and when they
 //           are let go it rests 5 mm before it at most: nobody leans on a lever for good
-//   feet    a pedal's key moves it down in pedal_time and up again when released; an axis puts it where the axis is,
-//           once that has moved: a pad tells nothing of an axis before. The pedal is where it is deepest. A key has no
-//           fine feeling, so it is given some: throttle_light presses a fifth, less of it
-//           where the engine turns freely and fast, the clutch comes up slowly where it takes
-//           hold, and stays where it is while clutch_hold is down
+//   feet    which pedals' keys are held, for KeyFeet, which move the pedals on the car's clock; and where the axes are,
+//           once these have moved: a pad tells nothing of an axis before
 //   mouse   leads the lever after a click beside the panel or by grab_mouse, until grab_mouse or the focus is lost
 //   panel   what it uses is not the driver's: no key goes down and no click counts. Two things pass: a key that types
 //           no text for `stop`, and grab_mouse while the mouse leads
@@ -24,6 +21,7 @@
 #include <vector>
 
 #include "app/input/bindings.h"
+#include "app/input/key_feet.h"
 #include "engine/window/window.h"
 #include "haptics/device/hand.h"
 #include "haptics/device/haptic_device.h"
@@ -50,16 +48,15 @@ class DriverInput {
   void update(const WindowInput& input, double seconds, bool ui_has_mouse, bool ui_has_keys);
 
   const HandTarget& hand() const noexcept { return hand_; }
-  const DriverControls& controls() const noexcept { return controls_; }     // at first: the ignition is on
+  const DriverControls& controls() const noexcept { return controls_; }  // pedals: of axes; at first the ignition is on
+  // From now to the next update(): one that went down and up since the last one is held so long.
+  FootKeys foot_keys() const;
   const std::vector<Action>& pressed() const noexcept { return pressed_; }  // once-actions of this frame, in order
   bool mouse_leads() const noexcept { return mouse_leads_; }                // captured by the lever
 
-  void recentre(glm::dvec2 lever);   // the hand is where the lever is now, and does not push
-  void set_reach(glm::dvec2 reach);  // [m] of another gate or device
-  void set_clutch(double closed,
-                  double bite);  // [1] pedal of another car: it takes hold between these, 0 <= closed < bite
-  // Before update(), once a frame: what the driver feels and hears of. Lever [m], engine [rad/s]; coupled: to the wheels.
-  void feel(glm::dvec2 lever, double engine_speed, bool coupled);
+  void recentre(glm::dvec2 lever);                          // the hand is where the lever is now, and does not push
+  void set_reach(glm::dvec2 reach);                         // [m] of another gate or device
+  void feel(glm::dvec2 lever) noexcept { lever_ = lever; }  // [m] where it is; once a frame, before update()
   void free_mouse() noexcept { mouse_leads_ = led_ = false; }
   void set_car(bool ignition, double hand_brake);  // as a lesson begins; hand_brake 0 to 1
 
@@ -84,22 +81,22 @@ class DriverInput {
   void let_go_all() { released_ = down_; }
   void happen(Action action);
   bool is_held(Action action) const;
+  bool stays_held(Action action) const;
+  template <class Holds>
+  bool any_source(Action action, const Holds& holds) const;
   void move_hand(const WindowInput& input, double seconds);
   void lead_by_stick(const WindowInput& input);
-  void move_feet(const WindowInput& input, double seconds);
+  void read_pedals(const WindowInput& input);
   void aim_by_mouse(glm::dvec2 moved_px);
   void aim_by_keys(double way, double seconds);
-  double light_throttle() const noexcept;
   void set_hand();
   std::optional<double> raw_axis(const WindowInput& input, const std::optional<AxisBinding>& axis, std::size_t watch);
   double stick(const WindowInput& input, const std::optional<AxisBinding>& axis, std::size_t watch);
   double pedal_axis(const WindowInput& input, const std::optional<AxisBinding>& axis, std::size_t watch);
 
   InputConfig config_;
-  glm::dvec2 aim_{0.0};        // [m] where the hand wants to be: beyond reach it pushes
-  glm::dvec2 lever_{0.0};      // [m] where it is
-  double engine_speed_ = 0.0;  // [rad/s]
-  bool coupled_ = false;
+  glm::dvec2 aim_{0.0};     // [m] where the hand wants to be: beyond reach it pushes
+  glm::dvec2 lever_{0.0};   // [m] where it is
   double keys_rest_ = 1.0;  // [s] since keys moved the hand; 1: something else has moved it since
   HandTarget hand_;
   DriverControls controls_;
@@ -109,11 +106,10 @@ class DriverInput {
   bool click_ = false;         // the left button was down in the frame before
   bool focused_ = false;       // in the frame before
   std::set<Source> down_;      // in this frame, if only for a part of it
+  std::set<Source> fresh_;     // of these, from this frame on
   std::set<Source> released_;  // of these, at its end
-  std::array<AxisWatch, 5> watch_;                    // lever_select, lever_shift, throttle, brake, clutch
-  std::array<bool, 2> stick_leads_{};                 // select, shift
-  double clutch_closed_ = 0.15, clutch_bite_ = 0.75;  // [1]
-  double throttle_key_ = 0.0, brake_key_ = 0.0, clutch_key_ = 0.0;  // [1] pedals by key
+  std::array<AxisWatch, 5> watch_;     // lever_select, lever_shift, throttle, brake, clutch
+  std::array<bool, 2> stick_leads_{};  // select, shift
 };
 
 }  // namespace gearshift

@@ -15,7 +15,11 @@ namespace {
 constexpr float kBar = 3.2f;        // [em]
 constexpr double kBitesFrom = 5.0;  // [N m]
 
-void pedal(const char* name, double pressed, ImU32 colour, bool first = false) {
+struct Zone {  // [1] of the pedal, where it takes hold; empty: none
+  double from = 0.0, to = 0.0;
+};
+
+void pedal(const char* name, double pressed, ImU32 colour, bool first = false, Zone zone = {}) {
   const float em = ui_em(), text = width_of(name, UiFont::small), gap = 0.35f * em;
   const float height = ui_font(UiFont::small)->FontSize;
   if (!first) beside(text + gap + kBar * em);
@@ -26,7 +30,9 @@ void pedal(const char* name, double pressed, ImU32 colour, bool first = false) {
   const ImVec2 from(low.x + text + gap, low.y + 0.2f * height), to(from.x + kBar * em, low.y + 0.85f * height);
   list.AddRectFilled(from, to, ink::kWell, 2.0f);
   const auto share = static_cast<float>(std::clamp(pressed, 0.0, 1.0));
-  list.AddRectFilled(from, {from.x + share * (to.x - from.x), to.y}, colour, 2.0f);
+  if (share > 0.0f) list.AddRectFilled(from, {from.x + share * (to.x - from.x), to.y}, colour, 2.0f);
+  const auto at = [&](double part) { return from.x + static_cast<float>(part) * (to.x - from.x); };
+  if (zone.to > zone.from) list.AddRectFilled({at(zone.from), from.y}, {at(zone.to), to.y}, ink::kBiteZone);
 }
 
 void word(const std::string& text, ImU32 colour) {
@@ -42,7 +48,8 @@ double slope_percent(const VehicleState& car) {
 
 void draw_car_strip(const VehicleState& car, int gear) {
   const bool bites = !car.clutch_locked && std::abs(car.clutch_torque) > kBitesFrom;
-  pedal(bites ? "clutch, bites" : "clutch", car.clutch, bites ? ink::kWarn : ink::kAccent, true);
+  pedal(bites ? "clutch, bites" : "clutch", car.clutch, bites ? ink::kWarn : ink::kAccent, true,
+        {car.clutch_closed, car.clutch_bite});
   pedal("brake", car.brake, ink::kBad);
   pedal("throttle", car.throttle, ink::kGood);
   if (car.stalled) {

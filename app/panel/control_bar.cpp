@@ -38,13 +38,18 @@ class Parts {
   float height_;
 };
 
-void pedal(const char* name, double pressed, ImVec2 low, ImVec2 size, ImU32 colour) {
+// zone [1]: of the pedal, where it takes hold; none where it is empty.
+void pedal(const char* name, double pressed, ImVec2 low, ImVec2 size, ImU32 colour, double zone_from = 0.0,
+           double zone_to = 0.0) {
   ImDrawList& list = *ImGui::GetWindowDrawList();
   ImFont* font = ui_font(UiFont::small);
   const float foot = low.y + size.y - font->FontSize;
   const float top = foot - (foot - low.y) * static_cast<float>(std::clamp(pressed, 0.0, 1.0));
   list.AddRectFilled(low, {low.x + size.x, foot}, ink::kWell, 2.0f);
   list.AddRectFilled({low.x, top}, {low.x + size.x, foot}, colour, 2.0f);
+  const auto height_of = [&](double at) { return foot - (foot - low.y) * static_cast<float>(at); };
+  if (zone_to > zone_from)
+    list.AddRectFilled({low.x, height_of(zone_to)}, {low.x + size.x, height_of(zone_from)}, ink::kBiteZone);
   const float width = font->CalcTextSizeA(font->FontSize, 1e9f, 0.0f, name).x;
   list.AddText(font, font->FontSize, {low.x + 0.5f * (size.x - width), foot}, ink::kSoft, name);
 }
@@ -83,7 +88,7 @@ void draw_car(const Parts& parts, const PanelInput& input) {
   list.AddText({at, top + line}, ink::kText, value_text(kKmhPerMps * car.road_speed, "km/h", 0).c_str());
   float x = low.x + gear_width + text_width;
   const ImVec2 size(pedal_width, parts.height());
-  pedal("C", car.clutch, {x, low.y}, size, ink::kAccent);
+  pedal("C", car.clutch, {x, low.y}, size, ink::kAccent, car.clutch_closed, car.clutch_bite);
   pedal("B", car.brake, {x += pedal_width + 0.4f * em, low.y}, size, ink::kBad);
   pedal("T", car.throttle, {x + pedal_width + 0.4f * em, low.y}, size, ink::kGood);
 }
@@ -157,8 +162,9 @@ std::string loop_line(const PanelInput& input, float width) {
   return rate;
 }
 
-// The message takes what is left; where it is longer than two lines of that, it is there to be hovered.
-void draw_message(Controls& controls, const Parts& parts, float width, const PanelInput& input) {
+// The message takes what is left; where it is longer than two lines of that, it is there to be hovered. True where all
+// of it is seen.
+bool draw_message(Controls& controls, const Parts& parts, float width, const PanelInput& input) {
   const WithFont small(UiFont::small);
   const ImVec2 low = parts.low();
   const float line = ImGui::GetTextLineHeight();
@@ -169,10 +175,11 @@ void draw_message(Controls& controls, const Parts& parts, float width, const Pan
   ImGui::TextUnformatted(message.c_str());
   ImGui::PopTextWrapPos();
   ImGui::PopClipRect();
-  const bool is_cut = ImGui::GetItemRectSize().y > room.y || message != input.message;
-  if (is_cut && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", input.message.c_str());
+  const bool is_cut = ImGui::GetItemRectSize().y > room.y;
+  if ((is_cut || message != input.message) && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", input.message.c_str());
   ImGui::SetCursorScreenPos({low.x, low.y + parts.height() - line});
   controls.line(loop_line(input, width), width, ink::kSoft);
+  return !is_cut;
 }
 
 ImU32 state_colour(GuardState state) {
@@ -273,7 +280,7 @@ Shown what_fits(float room) {
 
 }  // namespace
 
-void draw_control_bar(Controls& controls, const PanelInput& input, PanelRequests& out) {
+bool draw_control_bar(Controls& controls, const PanelInput& input, PanelRequests& out) {
   const float em = ui_em(), all = ImGui::GetContentRegionAvail().x;
   const float stop = std::min(kStop * em, all), right_group = ImGui::GetCursorScreenPos().x + all;
   const Shown shown = what_fits(all / em);
@@ -286,7 +293,7 @@ void draw_control_bar(Controls& controls, const PanelInput& input, PanelRequests
     draw_lamps(parts, shown.lamps, input);
     parts.next(static_cast<float>(shown.lamps) * kLamps * em);
   }
-  if (shown.message > 0.0f) draw_message(controls, parts, shown.message * em, input);
+  const bool told = shown.message > 0.0f && draw_message(controls, parts, shown.message * em, input);
   const float group = (shown.state ? kState + 1.0f : 0.0f) + (shown.arm ? kArm + 1.0f : 0.0f) +
                       (shown.recording ? kRecording + 1.0f : 0.0f);
   parts.go_to(right_group - stop - group * em);
@@ -303,6 +310,7 @@ void draw_control_bar(Controls& controls, const PanelInput& input, PanelRequests
     parts.next(kRecording * em);
   }
   draw_stop(controls, parts, stop, out);
+  return told;
 }
 
 }  // namespace gearshift

@@ -5,6 +5,7 @@
 
 namespace gearshift {
 
-void draw_control_bar(Controls& controls, const PanelInput& input, PanelRequests& out);
+// True where all of the message has room.
+bool draw_control_bar(Controls& controls, const PanelInput& input, PanelRequests& out);
 
 }  // namespace gearshift

@@ -4,9 +4,11 @@
 #include <cmath>
 #include <ctime>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
+#include "app/panel/fault_lines.h"
 #include "app/panel/lesson_words.h"
 #include "app/panel/palette.h"
 #include "app/panel/text_lines.h"
@@ -41,8 +43,13 @@ void draw_fault(const LessonResult& result, std::size_t index) {
 }
 
 void draw_faults(const LessonResult& result, std::int64_t shift) {
-  for (std::size_t i = 0; i < result.faults.size(); ++i)
-    if (result.faults[i].shift == shift) draw_fault(result, i);
+  std::vector<std::size_t> told;
+  for (std::size_t i = 0; i < result.faults.size(); ++i) {
+    if (result.faults[i].shift != shift) continue;
+    draw_fault(result, i);
+    if (needs_advice(result, i, told)) put_advice(result.faults[i].kind);
+    told.push_back(i);
+  }
 }
 
 void draw_shift(Controls& controls, const RunRow& run, const ShiftRecord& shift, ReplayRequests& out) {
@@ -62,15 +69,6 @@ void draw_shift(Controls& controls, const RunRow& run, const ShiftRecord& shift,
   if (!resistance.empty()) put_wrapped(resistance, ink::kSoft);
   draw_faults(run.result, shift.number);
   ImGui::Spacing();
-}
-
-void draw_comments(const std::vector<CommentRow>& comments) {
-  for (const CommentRow& comment : comments) {
-    put(comment.author, ink::kAccent, UiFont::small);
-    beside(width_of(local_time_words(comment.at), UiFont::small));
-    put(local_time_words(comment.at), ink::kSoft, UiFont::small);
-    put_wrapped(comment.text, ink::kText);
-  }
 }
 
 }  // namespace
@@ -125,33 +123,13 @@ void HistoryView::draw_opened(Controls& controls, const RunRow& run, const std::
   if (!run.result.why.empty()) put_wrapped(run.result.why, ink::kText);
   draw_faults(run.result, -1);
   ImGui::Spacing();
-  for (const ShiftRecord& shift : run.result.shifts) draw_shift(controls, run, shift, out.look);
   if (run.recording.empty() && !run.result.shifts.empty())
     put_wrapped("No look at its shifts: this run was not recorded.", ink::kSoft);
-  draw_comments(comments);
-  draw_comment_field(controls, run, out.lesson);
+  for (const ShiftRecord& shift : run.result.shifts) draw_shift(controls, run, shift, out.look);
+  comments_.draw(controls, run.id, comments, out.lesson);
   ImGui::Unindent(0.7f * ui_em());
   ImGui::Spacing();
   ImGui::Separator();
-}
-
-void HistoryView::draw_comment_field(Controls& controls, const RunRow& run, LessonRequests& out) {
-  const float em = ui_em(), button = button_width("Add");
-  ImGui::SetNextItemWidth(std::min(9.0f * em, ImGui::GetContentRegionAvail().x));
-  ImGui::InputTextWithHint("##author", "your name", author_.data(), author_.size());
-  controls.mark("comment_author");
-  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - ImGui::GetStyle().ItemSpacing.x);
-  const bool entered = ImGui::InputTextWithHint("##comment", "a comment beside the grade", text_.data(), text_.size(),
-                                                ImGuiInputTextFlags_EnterReturnsTrue);
-  controls.mark("comment");
-  ImGui::SameLine();
-  const bool lacks = author_.front() == '\0' || text_.front() == '\0';
-  ImGui::BeginDisabled(lacks);
-  const bool pressed = controls.button("comment_add", "Add");
-  ImGui::EndDisabled();
-  if (!(entered || pressed) || lacks) return;
-  out.comment = {run.id, author_.data(), text_.data()};
-  text_.fill('\0');
 }
 
 }  // namespace gearshift

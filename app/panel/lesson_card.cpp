@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "app/panel/car_strip.h"
+#include "app/panel/foot_window.h"
 #include "app/panel/key_legend.h"
 #include "app/panel/lesson_end.h"
 #include "app/panel/lesson_words.h"
@@ -16,27 +17,18 @@
 namespace gearshift {
 namespace {
 
-constexpr float kMostWidth = 52.0f, kLeastWidth = 10.0f, kMargin = 0.8f;   // [em]
+constexpr float kMostWidth = 52.0f;                                        // [em]
 constexpr float kShare = 0.25f, kMostShare = 0.62f, kLeastHeight = 10.8f;  // [1] of the room; [em]
 constexpr double kFresh = 5.0;                                             // [s] that a new sentence is large
 constexpr std::size_t kOlder = 2;                                          // sentences that are kept in sight after it
 constexpr double kTimeIsShort = 20.0;                                      // [s] left
-constexpr float kOpaque = 0.86f;
 
 bool begin_card(const ControlRect& room, ImVec2 size) {
-  constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
-                                      ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoScrollWithMouse;
   const float em = ui_em();
-  const ImVec2 foot(0.5f * static_cast<float>(room.min.x + room.max.x),
-                    static_cast<float>(room.max.y) - 0.5f * kMargin * em);
-  ImGui::SetNextWindowPos(foot, ImGuiCond_Always, {0.5f, 1.0f});
   ImGui::SetNextWindowSize(size);
-  ImGui::SetNextWindowBgAlpha(kOpaque);
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.5f * em);
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.9f * em, 0.5f * em});
-  const bool open = ImGui::Begin("Lesson", nullptr, kFlags);
-  ImGui::PopStyleVar(2);
+  const bool open = begin_at_foot("Lesson", room, ImGuiWindowFlags_NoScrollWithMouse);
+  ImGui::PopStyleVar();
   return open;
 }
 
@@ -153,12 +145,11 @@ double LessonCard::draw(Controls& controls, const PanelInput& input, bool panel_
                         PanelRequests& out) {
   const CoachView& coach = input.coach;
   listen(coach);
-  const float em = ui_em(), all = static_cast<float>(room.max.x - room.min.x);
+  const float em = ui_em(), width = foot_width(room, kMostWidth);
   const auto height = static_cast<float>(room.max.y - room.min.y);
-  const float width = std::min(kMostWidth * em, all - 2.0f * kMargin * em);
   const ImVec2 least(width, std::min(std::max(kShare * height, kLeastHeight * em), kMostShare * height));
   follow(coach, least);
-  if (coach.phase == LessonPhase::none || width < kLeastWidth * em) return room.max.y;
+  if (coach.phase == LessonPhase::none || width < kLeastFootWidth * em) return room.max.y;
   const ImVec2 size(width, std::floor(std::max(least.y, std::min(needed_, kMostShare * height))));
   Now now{controls, input, coach, panel_shown, are_forces_off(input), out};
   if (begin_card(room, size)) {
@@ -167,7 +158,7 @@ double LessonCard::draw(Controls& controls, const PanelInput& input, bool panel_
     if (coach.phase == LessonPhase::over) draw_over(now);
   }
   ImGui::End();
-  return room.max.y - static_cast<double>(size.y + kMargin * em);
+  return room.max.y - static_cast<double>(size.y + kFootMargin * em);
 }
 
 // Another lesson, another screen: its height is found anew.

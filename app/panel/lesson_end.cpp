@@ -6,6 +6,7 @@
 
 #include <fmt/format.h>
 
+#include "app/panel/fault_lines.h"
 #include "app/panel/lesson_words.h"
 #include "app/panel/palette.h"
 #include "app/panel/text_lines.h"
@@ -58,13 +59,14 @@ bool is_told(const LessonResult& result, std::size_t fault) {
          (!shows_grade(result) && result.faults[fault].severity != Severity::note);
 }
 
-void draw_fault(const LessonResult& result, std::size_t index) {
+void draw_fault(const LessonResult& result, std::size_t index, bool advises) {
   const DriveFault& fault = result.faults[index];
   ImGui::TableNextRow();
   ImGui::TableNextColumn();
   put(fmt::format("{:.1f} s", fault.time - result.begin), ink::kSoft, UiFont::small);
   ImGui::TableNextColumn();
   put_wrapped(fault_sentence(fault), ink::kText, UiFont::small);
+  if (advises) put_advice(fault.kind);
   ImGui::TableNextColumn();
   const double points = points_of_fault(result, index);
   if (points > 0.0 && shows_grade(result))
@@ -100,7 +102,11 @@ void draw_faults(const LessonResult& result) {
   ImGui::TableSetupColumn("says", ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableSetupColumn("points", ImGuiTableColumnFlags_WidthFixed, 2.2f * ui_em());
   if (ended) draw_end(result);
-  for (const std::size_t fault : told) draw_fault(result, fault);
+  std::vector<std::size_t> above;
+  for (const std::size_t fault : told) {
+    draw_fault(result, fault, needs_advice(result, fault, above));
+    above.push_back(fault);
+  }
   ImGui::EndTable();
 }
 

@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 
+#include "app/history/typed_text.h"
 #include "app/panel/lesson_words.h"
 #include "app/panel/palette.h"
 #include "app/panel/text_lines.h"
@@ -50,11 +51,15 @@ void draw_known(Controls& controls, const CoachView& coach, float width, LessonR
 }
 
 // One line below the name, which keeps its place where there is nothing to say.
-void draw_note(const CoachView& coach, const std::string& name, bool writes) {
+void draw_note(const CoachView& coach, const std::string& name, const std::string& problem, bool writes) {
+  if (!problem.empty()) return put_wrapped(problem, ink::kWarn);
   if (writes && name != coach.learner)
     return put_wrapped(
         name.empty() || is_known(coach, name) ? "Enter: this learner from now on." : "Enter: a new learner.",
         ink::kAccent);
+  if (coach.forgotten)
+    return put_wrapped("Another program deleted this learner: nothing is remembered until Enter or another choice.",
+                       ink::kWarn);
   if (!coach.remembers) return put_wrapped("The history is not open: nothing is remembered.", ink::kWarn);
   put_wrapped(coach.learner.empty() ? "Without a name nothing is remembered." : " ", ink::kSoft);
 }
@@ -202,11 +207,14 @@ void LessonsView::draw_learner(Controls& controls, const CoachView& coach, Lesso
   const bool writes = ImGui::IsItemActive(), left = ImGui::IsItemDeactivated();
   const bool given_up = left && is_pressed(ImGuiKey_Escape), leaves = left || (writes && is_pressed(ImGuiKey_Tab));
   const std::string name = trimmed(name_.data());
-  if ((entered || leaves) && !given_up && name != coach.learner) out.learner = name;
+  const std::string problem =
+      name.empty() ? std::string() : typed_text_problem(TypedText::name, "a learner's name", name);
+  const bool is_another = name != coach.learner || (entered && coach.forgotten);
+  if ((entered || leaves) && !given_up && problem.empty() && is_another) out.learner = name;
   if (left) fill(name_, given_up ? coach.learner : name);
   ImGui::SameLine(0.0f, 0.0f);
   draw_known(controls, coach, width, out);
-  draw_note(coach, name, writes);
+  draw_note(coach, name, given_up ? std::string() : problem, writes);
 }
 
 }  // namespace gearshift

@@ -4,6 +4,7 @@
 #include <array>
 #include <string>
 
+#include "app/history/typed_text.h"
 #include "app/panel/panel.h"
 
 namespace gearshift {
@@ -15,8 +16,8 @@ class LessonsView {
  private:
   void draw_learner(Controls& controls, const CoachView& coach, LessonRequests& out);
 
-  std::array<char, 101> name_{};  // as it is written: as long as a name may be
-  std::string shown_;             // the learner that it was filled with
+  std::array<char, kLongestName + 1> name_{};  // as it is written
+  std::string shown_;                          // the learner that it was filled with
 };
 
 }  // namespace gearshift

@@ -18,6 +18,7 @@ inline constexpr ImU32 kEngine = IM_COL32(240, 214, 110, 255);  // its speed
 inline constexpr ImU32 kShaft = IM_COL32(176, 188, 202, 255);   // the gearbox's input, its speed
 inline constexpr ImU32 kIdeal = IM_COL32(170, 222, 92, 255);    // the shortest way of a shift
 inline constexpr ImU32 kDriven = IM_COL32(240, 122, 184, 255);  // the way that it took
+inline constexpr ImU32 kBiteZone = IM_COL32(240, 190, 80, 90);  // where a clutch takes hold, over its pedal
 inline constexpr ImU32 kPrimary = IM_COL32(46, 120, 166, 255);  // the button that goes on
 
 }  // namespace gearshift::ink

@@ -15,6 +15,7 @@
 #include "app/panel/lesson_words.h"
 #include "app/panel/lessons_view.h"
 #include "app/panel/loop_view.h"
+#include "app/panel/message_note.h"
 #include "app/panel/palette.h"
 #include "app/panel/panel_keys.h"
 #include "app/panel/panel_mouse.h"
@@ -134,6 +135,8 @@ struct Panel::State {
   LessonCard card;
   ReplayBar replay;
   EventList events;
+  MessageNote note;
+  bool message_told = false;  // by the bar, all of it, in this frame
   std::int64_t last_ns = -1;  // [ns] of the newest snapshot that was taken in this run
   std::uint64_t run = 0;
   ControlRect middle;
@@ -249,14 +252,15 @@ void Panel::State::draw_right(const Layout& layout, const PanelInput& input, Pan
 // both take their room from the cabin.
 void Panel::State::draw_over_cabin(const PanelInput& input, PanelRequests& out) {
   const ControlRect room = middle;
-  middle.max.y = replay.draw(controls, input.replay, room, out.look);
+  note.draw(input.message, message_told, room);
+  middle.max.y = replay.draw(controls, input.replay, input.opening, room, out.look);
   if (input.replay == nullptr || input.coach.phase == LessonPhase::driving)
     middle.max.y = card.draw(controls, input, visible, middle, out);
 }
 
 void Panel::State::draw_bar(const Layout& layout, const PanelInput& input, PanelRequests& out) {
   if (begin_part(kBarName, {0.0f, layout.screen.y - layout.bar}, {layout.screen.x, layout.bar}))
-    draw_control_bar(controls, input, out);
+    message_told = draw_control_bar(controls, input, out);
   ImGui::End();
 }
 
@@ -273,6 +277,7 @@ PanelRequests Panel::draw(const PanelInput& input) {
   for (const TuningView::Step step : s.steps) s.tuning.take(step, input, out);
   s.steps.clear();
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  s.message_told = false;
   s.middle = {{0.0, 0.0}, {screen.x, screen.y}};
   if (s.visible) {
     const Layout layout = make_layout();

@@ -41,6 +41,7 @@ struct PanelInput {
   std::vector<std::string> cars;  // to choose from
   CoachView coach;
   const Player* replay = nullptr;  // while one is looked at; then `now` and `car` are its
+  std::string opening;             // the file of a recorded drive that is still read; empty: none
   std::vector<KeyHint> keys;       // what drives the car, in the order of use; empty: no keys
   bool mouse_leads = false;        // the lever: the cursor is not free
 };
@@ -58,6 +59,11 @@ struct LessonRequests {
     std::string author, text;
   };
   std::optional<Comment> comment;
+  struct CommentChange {
+    std::int64_t run = 0, comment = 0;  // CommentRow::id
+    std::optional<std::string> text;    // none: it is deleted
+  };
+  std::optional<CommentChange> comment_change;
 };
 
 struct ReplayRequests {
@@ -119,7 +125,8 @@ class Panel {
   // "tab_tuning", "tab_setup", "tab_loop", "tab_presets".
   // Lessons: "learner" (Enter takes the name), "learner_known" with "learner: NAME" (none: nobody), "lesson_suggested",
   // "lesson: KEY", "next: KEY", "next_as_suggested". History: "run: ID" opens it; then "look: ID SHIFT",
-  // "comment_author", "comment", "comment_add".
+  // "comment_author", "comment", "comment_add"; of each comment "comment_edit: ID" ("comment_text", "comment_save",
+  // "comment_cancel"), "comment_delete: ID" (again: "comment_delete_sure").
   // The card: "lesson_begin", "mode", "help", "lesson_put_away"; "lesson_leave"; "lesson_again", "lesson_next".
   // A replay: "replay_shift: INDEX", "replay_time", "replay_play", "replay_pace: 0.1" (0.25, 0.5, 1, 2),
   // "replay_whole", "replay_close".

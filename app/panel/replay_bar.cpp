@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 #include <glm/geometric.hpp>
 
+#include "app/panel/foot_window.h"
 #include "app/panel/lesson_words.h"
 #include "app/panel/palette.h"
 #include "app/panel/plot_area.h"
@@ -18,28 +19,33 @@
 namespace gearshift {
 namespace {
 
-constexpr float kMostWidth = 80.0f, kLeastWidth = 10.0f, kMargin = 0.8f;        // [em]
+constexpr float kMostWidth = 80.0f, kOpeningWidth = 36.0f;                      // [em]
 constexpr float kPedalHeight = 1.9f, kSpeedHeight = 2.5f, kForceHeight = 1.9f;  // [em]
-constexpr float kOpaque = 0.86f;
 constexpr std::array<double, 5> kPaces{0.1, 0.25, 0.5, 1.0, 2.0};
 constexpr double kRpm = 60.0 / (2.0 * std::numbers::pi);  // per rad/s
 constexpr double kLeastSpan = 1e-3;                       // [s]
 
 bool begin_bar(const ControlRect& room, float width) {
-  constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
-                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus |
-                                      ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_AlwaysAutoResize;
-  const float em = ui_em();
-  const ImVec2 foot(0.5f * static_cast<float>(room.min.x + room.max.x),
-                    static_cast<float>(room.max.y) - 0.5f * kMargin * em);
-  ImGui::SetNextWindowPos(foot, ImGuiCond_Always, {0.5f, 1.0f});
-  ImGui::SetNextWindowSizeConstraints({width, 0.0f},
-                                      {width, std::max(em, static_cast<float>(room.max.y - room.min.y))});
-  ImGui::SetNextWindowBgAlpha(kOpaque);
-  ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.5f * em);
-  const bool open = ImGui::Begin("Replay", nullptr, kFlags);
-  ImGui::PopStyleVar();
-  return open;
+  const auto most = std::max(ui_em(), static_cast<float>(room.max.y - room.min.y));
+  ImGui::SetNextWindowSizeConstraints({width, 0.0f}, {width, most});
+  return begin_at_foot("Replay", room, ImGuiWindowFlags_AlwaysAutoResize);
+}
+
+// Of the bar that was begun; it ends here. [px]
+double end_bar(const ControlRect& room) {
+  const double top = static_cast<double>(ImGui::GetWindowPos().y);
+  ImGui::End();
+  return std::clamp(top, room.min.y, room.max.y);
+}
+
+// "Opening drive-20260131.trace ..."
+void draw_opening(Controls& controls, const std::string& file, ReplayRequests& out) {
+  const float close = button_width("Close") + ImGui::GetStyle().ItemSpacing.x;
+  const std::string words = fmt::format("Opening {} \u2026", file);
+  ImGui::AlignTextToFramePadding();
+  put(without_middle(words, ImGui::GetContentRegionAvail().x - close), ink::kText);
+  at_right(button_width("Close"));
+  if (controls.button("replay_close", "Close")) out.close = true;
 }
 
 // The whole drive from left to right, and where in it what is looked at lies.
@@ -207,12 +213,15 @@ void ReplayBar::follow(const Player& replay) {
   for (const DriveSample& sample : replay.drive().between(from_, to_)) curves_->push(sample);
 }
 
-double ReplayBar::draw(Controls& controls, const Player* replay, const ControlRect& room, ReplayRequests& out) {
-  const float em = ui_em(), all = static_cast<float>(room.max.x - room.min.x);
-  const float width = std::min(kMostWidth * em, all - 2.0f * kMargin * em);
-  if (replay == nullptr || width < kLeastWidth * em) {
-    curves_.reset();
-    return room.max.y;
+double ReplayBar::draw(Controls& controls, const Player* replay, const std::string& opening, const ControlRect& room,
+                       ReplayRequests& out) {
+  const bool opens = !opening.empty();
+  const float width = foot_width(room, opens ? kOpeningWidth : kMostWidth);
+  if (replay == nullptr || opens) curves_.reset();
+  if ((replay == nullptr && !opens) || width < kLeastFootWidth * ui_em()) return room.max.y;
+  if (opens) {
+    if (begin_bar(room, width)) draw_opening(controls, opening, out);
+    return end_bar(room);
   }
   follow(*replay);
   if (begin_bar(room, width)) {
@@ -225,9 +234,7 @@ double ReplayBar::draw(Controls& controls, const Player* replay, const ControlRe
     draw_time(controls, *replay, out);
     draw_buttons(controls, *replay, out);
   }
-  const double top = static_cast<double>(ImGui::GetWindowPos().y);
-  ImGui::End();
-  return std::clamp(top, room.min.y, room.max.y);
+  return end_bar(room);
 }
 
 void ReplayBar::draw_legend(Controls& controls, const Player& replay) {

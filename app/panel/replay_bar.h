@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "app/panel/panel.h"
@@ -13,7 +14,9 @@ namespace gearshift {
 class ReplayBar {
  public:
   // Along the lower edge of that room [px]; returns its upper edge: the room's lower one where there is no replay.
-  double draw(Controls& controls, const Player* replay, const ControlRect& room, ReplayRequests& out);
+  // opening: the file of one that is still read; empty: none.
+  double draw(Controls& controls, const Player* replay, const std::string& opening, const ControlRect& room,
+              ReplayRequests& out);
 
  private:
   // What is looked at, as curves. They are made anew when it is another part.

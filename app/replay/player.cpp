@@ -15,8 +15,8 @@ std::string refusal(std::size_t shift, std::size_t count) {
 
 }  // namespace
 
-Player::Player(const std::filesystem::path& file)
-    : file_(file), drive_(file), time_(drive_.begin()), from_(drive_.begin()), to_(drive_.end()) {}
+Player::Player(const std::filesystem::path& file, const std::stop_token& stop)
+    : file_(file), drive_(file, stop), time_(drive_.begin()), from_(drive_.begin()), to_(drive_.end()) {}
 
 bool Player::advance(double seconds) {
   jumped_ = false;

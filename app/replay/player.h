@@ -5,6 +5,7 @@
 #include <filesystem>
 #include <optional>
 #include <span>
+#include <stop_token>
 #include <string>
 
 #include "app/replay/recorded_drive.h"
@@ -16,7 +17,8 @@ inline constexpr double kShiftMargin = 0.5;               // [s]
 
 class Player {
  public:
-  explicit Player(const std::filesystem::path& file);  // stands at the begin, plays. Throws FileError
+  // Stands at the begin, plays. Throws FileError, as RecordedDrive does.
+  explicit Player(const std::filesystem::path& file, const std::stop_token& stop = {});
 
   const RecordedDrive& drive() const noexcept { return drive_; }
   const std::filesystem::path& file() const noexcept { return file_; }

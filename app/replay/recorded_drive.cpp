@@ -50,7 +50,7 @@ bool is_before(double time, const DriveSample& sample) noexcept {
 
 }  // namespace
 
-RecordedDrive::RecordedDrive(const std::filesystem::path& file) {
+RecordedDrive::RecordedDrive(const std::filesystem::path& file, const std::stop_token& stop) {
   DriveReader reader(file);
   header_ = reader.header();
   gate_ = reader.gate();
@@ -61,6 +61,7 @@ RecordedDrive::RecordedDrive(const std::filesystem::path& file) {
   samples_.reserve(reader.cycles() / every + 2);
   DriveSample sample;
   for (std::uint64_t cycle = 0; reader.next(sample); ++cycle) {
+    if (stop.stop_requested()) throw FileError(file.string(), 0, "was not read to its end");
     if (finder && !reader.differs()) finder->add(sample);
     if (cycle % every == 0) samples_.push_back(sample);
   }

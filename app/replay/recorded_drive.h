@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <span>
+#include <stop_token>
 #include <vector>
 
 #include <glm/vec2.hpp>
@@ -26,8 +27,9 @@ class RecordedDrive {
  public:
   // What is whole of a torn trace is taken. Samples 4 ms apart, or as far as kMostSamples need; the last cycle is
   // always one. Throws FileError: not there, damaged, of a car or gate that is refused. Where the second run differs from the
-  // recording, differs() says so, the recording's own values stand, and there are no shifts from there on.
-  explicit RecordedDrive(const std::filesystem::path& file);
+  // recording, differs() says so, the recording's own values stand, and there are no shifts from there on. FileError too
+  // where it is stopped.
+  explicit RecordedDrive(const std::filesystem::path& file, const std::stop_token& stop = {});
 
   const TraceHeader& header() const noexcept { return header_; }
   const Gate& gate() const noexcept { return gate_; }

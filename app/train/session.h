@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <memory>
 #include <optional>
+#include <set>
 #include <span>
 #include <string>
 #include <string_view>
@@ -14,8 +15,9 @@
 
 #include "app/cabin_sound/cabin_sound.h"
 #include "app/coach/coach.h"
+#include "app/input/key_feet.h"
 #include "app/panel/panel.h"
-#include "app/replay/player.h"
+#include "app/replay/opening_drive.h"
 #include "app/stage/stage.h"
 #include "app/train/chosen.h"
 #include "app/train/session_choice.h"
@@ -35,11 +37,14 @@ class Session {
   // Throws FileError, GltfError, std::invalid_argument or std::runtime_error with one sentence.
   explicit Session(const SessionChoice& choice);
 
-  // A frame, in this order. Nothing here throws: a refusal becomes message().
-  void lead(const HandTarget& hand, const DriverControls& controls);
+  // A frame, in this order. Nothing here throws: a refusal becomes message(). Keys move pedals on the car's clock from
+  // here to the next lead(); each is as deep as the deeper of keys and controls.
+  void lead(const HandTarget& hand, const DriverControls& controls, const FootKeys& keys = {});
   void obey(const PanelRequests& requests);
   void advance(double seconds);  // lever (on the virtual clock), events, lesson, replay
   void place();                  // cabin and sound
+
+  void set_foot_pace(const FootPace& pace) { feet_->set_pace(pace); }
 
   // Looks at a recorded drive, at one of its shifts or at all of it. Throws FileError, std::invalid_argument or
   // std::runtime_error with one sentence.
@@ -66,6 +71,9 @@ class Session {
   }                                                        // [s] of the lever that runs
   const std::string& message() const { return message_; }  // the last refusal or news, one sentence
   bool recording() const { return trainer_ && trainer_->recording(); }
+  // Before the session ends: a lesson that is driven counts as left, the history has what it takes, and recordings that it
+  // will not name are gone. Returns what could not be kept, one sentence; empty: all is.
+  std::string settle();
   bool end_recording();  // false where it failed; what came of it is in message()
   void set_ears(const EyePose& ears) { ears_ = ears; }
   void set_frame_ms(double ms) { frame_ms_ = ms; }
@@ -74,32 +82,49 @@ class Session {
   bool replays() const { return player_.has_value(); }
 
  private:
-  TrainerConfig trainer_config(const SessionChoice& choice, const ChosenCar& chosen, const Lesson* lesson) const;
-  void show(const Gate& gate, const std::string& text, const YokeGeometry& yoke, Cabin cabin);
-  const Gate& shown_gate() const;
+  // session.cpp: the lever that runs, its cabin, a frame
   void change_to(const SessionChoice& choice, const Lesson* lesson = nullptr);
   void change_by(const PanelRequests& requests);
-  void sound_car(const CarSpec& car);
+  void close_what_ran();
+  void take_over(std::unique_ptr<Trainer> trainer, const Lesson* lesson);
+  PersonFeet feet() const;
   bool keeps_forces();
-  DriverControls led() const;
+  void show(const Gate& gate, const std::string& text, const YokeGeometry& yoke, Cabin cabin);
+  const Gate& shown_gate() const;
+  void sound_car(const CarSpec& car);
+  void take_events();
+  void take_cycles();
+  void look();
+  void save_preset(const std::string& name);
 
+  // session_lessons.cpp
   void obey_instructor(const LessonRequests& requests);
   void offer_first(const SessionChoice& choice);
+  void change_comment(const LessonRequests::CommentChange& change);
   void begin_lesson();
   std::filesystem::path record_lesson(const Lesson& lesson);  // empty where it cannot be
   void follow_lesson(std::span<const DriveSample> cycles);
+  void hold();
+  DriverControls led() const;
 
+  // session_replay.cpp
   void obey_viewer(const ReplayRequests& requests);
-  void end_lesson_recording();
-  void look_at_last();
-  void end_replay();
+  void open_last();
+  void open(const std::filesystem::path& recording, std::optional<double> near);  // [s] where a shift begins
+  void end_opening();
+  void show_opened();
+  void give_up_opening();
+  void look_at(Player player);
   void show_replay(double seconds);
-
+  void end_replay();
   void check_free_to_look() const;
+
+  // session_recordings.cpp
   std::filesystem::path recordings_folder() const;
   void toggle_recording();
   void start_recording(const std::string& name);
-  void save_preset(const std::string& name);
+  void end_lesson_recording();
+  void tell_recording_problem();
 
   SessionChoice choice_;   // a person's
   SessionChoice running_;  // the same, but for what a lesson brings; car and gate are never empty
@@ -111,10 +136,14 @@ class Session {
   YokeGeometry stage_yoke_;  // the same
   SoundWorld sound_;
   CabinSound cabin_sound_;
-  std::optional<Player> player_;  // while it replays
-  DriverControls controls_;       // a person's
-  double slope_ = 0.0;            // [rad] of the lesson's road
-  bool held_ = false;             // a lesson is over: the teacher holds the car until the next, or none
+  std::unique_ptr<OpeningDrive> opening_;                        // while one is read
+  std::optional<double> opening_near_;                           // [s] the shift that is looked for in it
+  std::optional<Player> player_;                                 // while it replays
+  std::shared_ptr<KeyFeet> feet_ = std::make_shared<KeyFeet>();  // a person's; the lever's thread moves them
+  DriverControls controls_;                                      // a person's, but for these
+  DriverControls driven_;                                        // in the newest cycle
+  double slope_ = 0.0;                                           // [rad] of the lesson's road
+  bool held_ = false;  // a lesson is over: the teacher holds the car until the next, or none
   std::optional<CarSwitches> switches_;
   EyePose ears_;
   HapticSnapshot shown_;
@@ -123,6 +152,7 @@ class Session {
   std::vector<HapticEvent> events_;
   PanelInput panel_;
   std::filesystem::path last_recording_;
+  std::set<std::string> lesson_recordings_;  // files that lessons made by themselves
   std::string message_;
   bool wants_forces_ = true;     // the last of arm, release and stop
   bool armed_now_ = false;       // by a person, in this frame

@@ -37,4 +37,9 @@ struct SessionChoice {
   std::filesystem::path history;   // where it is remembered; empty: nowhere
 };
 
+// Who learns: what a hand shows by itself is nobody's.
+inline std::string learner_of(const SessionChoice& choice) {
+  return choice.hand == kByItself ? std::string{} : choice.learner;
+}
+
 }  // namespace gearshift

@@ -13,6 +13,7 @@
 #include "app/train/shared_input.h"
 #include "app/train/ui_scale.h"
 #include "engine/ui/ui.h"
+#include "haptics/files/printable.h"
 
 namespace gearshift {
 namespace {
@@ -35,6 +36,10 @@ std::vector<KeyHint> key_hints(const Bindings& bindings) {
   return hints;
 }
 
+void tell_unkept(const std::string& problem) {
+  if (!problem.empty()) fmt::print(stderr, "gearshift: {}\n", printable(problem));
+}
+
 // One frame after another in a window: poll, lead, read, panel, place, show.
 class WindowTrainer {
  public:
@@ -54,8 +59,9 @@ class WindowTrainer {
 
   bool done() const { return quit_ || window_.wants_close(); }
 
-  // What was being recorded is closed, and what came of it is told. Returns the exit code.
+  // The lesson is left, what was being recorded is closed, and what came of both is told. Returns the exit code.
   int finish() {
+    tell_unkept(session_.settle());
     if (!session_.recording()) return 0;
     const bool whole = session_.end_recording();
     fmt::print(whole ? stdout : stderr, "{}{}\n", whole ? "" : "gearshift: ", session_.message());
@@ -92,16 +98,10 @@ class WindowTrainer {
   }
 
   void poll() {
-    feel();
+    input_.feel(session_.trainer().snapshot().lever);
+    session_.set_mouse_leads(input_.mouse_leads());
     shared_.update(window_.poll(), seconds_, eye_size().x, panel_, ui_);
     look_.turn(shared_.turned());
-  }
-
-  void feel() {
-    const VehicleState& car = session_.car();
-    const bool coupled = car.gear != kNeutralGear && car.clutch_capacity > 0.0;
-    input_.feel(session_.trainer().snapshot().lever, car.engine_speed, coupled);
-    session_.set_mouse_leads(input_.mouse_leads());
   }
 
   // Another gate, hand or device: the person's hand is where the lever is.
@@ -110,11 +110,21 @@ class WindowTrainer {
       Trainer& trainer = session_.trainer();
       input_.set_reach(hand_reach(trainer.gate(), trainer.device()));
       input_.recentre(trainer.snapshot().lever);
-      if (const std::optional<CarSpec>& car = session_.car_spec())
-        input_.set_clutch(car->clutch.closed, car->clutch.bite);
+      session_.set_foot_pace(foot_pace());
     }
     if (const std::optional<CarSwitches> car = session_.take_switches()) input_.set_car(car->ignition, car->hand_brake);
-    session_.lead(input_.hand(), input_.controls());
+    session_.lead(input_.hand(), input_.controls(), input_.foot_keys());
+  }
+
+  FootPace foot_pace() const {
+    FootPace pace;
+    pace.pedal_time = setup_.bindings.pedal_time;
+    pace.slip_time = setup_.bindings.clutch_slip_time;
+    const std::optional<CarSpec>& car = session_.car_spec();
+    if (!car) return pace;
+    pace.clutch_closed = car->clutch.closed;
+    pace.clutch_bite = car->clutch.bite;
+    return pace;
   }
 
   void act() {
@@ -265,6 +275,7 @@ int train_offscreen(const TrainSetup& setup, const OffscreenSetup& offscreen) {
     ui.end();
     session.place();
   }
+  tell_unkept(session.settle());
   view.set_model(session.stage().model());  // nobody sees the frames before the last
   view.begin();
   view.draw(session.stage().scene(), look.pose(), look.field(), seen_beside(panel, eye));

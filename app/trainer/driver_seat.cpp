@@ -1,5 +1,7 @@
 #include "app/trainer/driver_seat.h"
 
+#include <algorithm>
+
 namespace gearshift {
 namespace {
 
@@ -12,12 +14,21 @@ DriverControls merged(const DriverControls& driver, const DriverControls& teache
   return both;
 }
 
+// A pedal is where it is deepest.
+DriverControls pressed(const DriverControls& person, const DriverControls& pedals) noexcept {
+  DriverControls both = person;
+  both.throttle = std::max(person.throttle, pedals.throttle);
+  both.brake = std::max(person.brake, pedals.brake);
+  both.clutch = std::max(person.clutch, pedals.clutch);
+  return both;
+}
+
 }  // namespace
 
 void DriverSeat::connect(LoopChannels& channels) {
   const std::lock_guard lock(mutex_);
   channels_ = &channels;
-  write(controls_);
+  write();
 }
 
 void DriverSeat::set_hand(const HandTarget& target) {
@@ -27,18 +38,25 @@ void DriverSeat::set_hand(const HandTarget& target) {
 
 void DriverSeat::set_controls(const DriverControls& controls) {
   const std::lock_guard lock(mutex_);
-  write(driven_ ? merged(controls_, controls) : controls);
+  controls_ = driven_ ? merged(controls_, controls) : controls;
+  write();
 }
 
 void DriverSeat::act(const DriverAction& action) {
   const std::lock_guard lock(mutex_);
   hand_.write(action.hand);
-  write(merged(action.controls, controls_));
+  controls_ = merged(action.controls, controls_);
+  write();
 }
 
-void DriverSeat::write(const DriverControls& controls) {
-  controls_ = controls;
-  if (channels_ != nullptr) channels_->controls.write(controls_);
+void DriverSeat::press(const DriverControls& pedals) {
+  const std::lock_guard lock(mutex_);
+  pedals_ = pedals;
+  write();
+}
+
+void DriverSeat::write() {
+  if (channels_ != nullptr) channels_->controls.write(pedals_ ? pressed(controls_, *pedals_) : controls_);
 }
 
 }  // namespace gearshift

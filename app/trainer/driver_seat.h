@@ -5,6 +5,7 @@
 #pragma once
 
 #include <mutex>
+#include <optional>
 
 #include "app/training/drive_sample.h"
 #include "haptics/loop/haptic_loop.h"
@@ -24,16 +25,18 @@ class DriverSeat {
   void set_hand(const HandTarget& target);            // of a person; nothing where one drives
   void set_controls(const DriverControls& controls);  // of a person, or of the teacher
   void act(const DriverAction& action);               // of the driver
+  void press(const DriverControls& pedals);           // of a person's feet: the deeper of these and set_controls()'s
 
   LatestValue<HandTarget>& hand() noexcept { return hand_; }  // for the device's hand to read
 
  private:
-  void write(const DriverControls& controls);
+  void write();
 
   const bool driven_;
   std::mutex mutex_;  // guards what stands below
   LoopChannels* channels_ = nullptr;
-  DriverControls controls_;  // as written last
+  DriverControls controls_;               // of the person or the driver
+  std::optional<DriverControls> pedals_;  // of a person's feet
   LatestValue<HandTarget> hand_;
 };
 

@@ -12,12 +12,12 @@ constexpr std::chrono::microseconds kLookEvery{250};
 
 }  // namespace
 
-DriverThread::DriverThread(SelfDriver driver, SpscQueue<DriveSample>& cycles, DriverSeat& seat)
-    : thread_([act = std::move(driver), &cycles, &seat](const std::stop_token& stop) {
+DriverThread::DriverThread(std::function<void(const DriveSample&)> act, SpscQueue<DriveSample>& cycles)
+    : thread_([act = std::move(act), &cycles](const std::stop_token& stop) {
         while (!stop.stop_requested()) {
           DriveSample cycle;
           if (cycles.pop(cycle))
-            seat.act(act(cycle));
+            act(cycle);
           else
             std::this_thread::sleep_for(kLookEvery);
         }

@@ -33,6 +33,8 @@ TrainerConfig checked(TrainerConfig config) {
   return config;
 }
 
+constexpr std::int64_t kMostPeriods = 11;  // of a pause: no more than the loop's world catches up, feet neither
+
 }  // namespace
 
 struct Trainer::State {
@@ -49,6 +51,8 @@ struct Trainer::State {
   bool waits_for_person() const;
   void hand_over(std::unique_ptr<LoopRun> next);
   void begin();
+  bool acts() const { return driver || feet; }
+  void act(const DriveSample& cycle);
   void cycle_once();
   void serve();
   void take_snapshot();
@@ -60,7 +64,8 @@ struct Trainer::State {
   std::int64_t now_ns() const { return is_virtual() ? virtual_ns : runner.now_ns(); }
 
   TrainerConfig config;
-  SelfDriver driver;  // that acts on the virtual clock
+  const SelfDriver driver;
+  const PersonFeet feet;
   std::int64_t period_ns;
   Gate gate;
   DriverSeat seat;
@@ -69,6 +74,7 @@ struct Trainer::State {
   std::unique_ptr<LoopRun> run;
   AdmittedTuning admitted;
   CycleRunner runner;
+  std::optional<std::int64_t> acted_ns;       // [ns] of the last cycle that the feet have seen
   std::optional<DriverThread> driver_thread;  // of the real clock
   std::unique_ptr<TraceRecorder> recorder;
   RealtimeThread thread;
@@ -89,6 +95,7 @@ struct Trainer::State {
 Trainer::State::State(const TrainerConfig& wanted)
     : config(checked(wanted)),
       driver(config.driver),
+      feet(config.driver ? PersonFeet{} : config.feet),
       period_ns(gearshift::period_ns(config.preset.haptics)),
       gate(compile_gate(config.layout, workspace_half_extent(config.preset.lever.yoke),
                         config.preset.lever.yoke.radius)),
@@ -103,6 +110,7 @@ Trainer::State::State(const TrainerConfig& wanted)
   newest.lever = newest.proxy = start;
   newest.wall_stiffness = admitted.tuning.wall_stiffness;
   if (run->car() != nullptr) runner.car.write(run->car()->state());
+  if (feet) seat.press(feet({}, 0.0));
   seat.connect(run->channels);
   begin();
 }
@@ -143,9 +151,9 @@ void Trainer::State::begin() {
     start_ns = virtual_ns = -period_ns;
     return;
   }
-  if (driver) {
+  if (acts()) {
     runner.for_driver = std::make_unique<SpscQueue<DriveSample>>(CycleRunner::kMostForDriver);
-    driver_thread.emplace(driver, *runner.for_driver, seat);
+    driver_thread.emplace([this](const DriveSample& cycle) { act(cycle); }, *runner.for_driver);
   }
   RealtimeConfig realtime;
   realtime.period_ns = period_ns;
@@ -191,10 +199,18 @@ void Trainer::State::hand_over(std::unique_ptr<LoopRun> next) {
   send(LoopCommand::stop);
 }
 
+// On the virtual clock's thread, or on the driver's.
+void Trainer::State::act(const DriveSample& cycle) {
+  if (driver) return seat.act(driver(cycle));
+  const std::int64_t before_ns = std::exchange(acted_ns, cycle.lever.time_ns).value_or(cycle.lever.time_ns);
+  const std::int64_t passed_ns = std::min(cycle.lever.time_ns - before_ns, kMostPeriods * period_ns);
+  seat.press(feet(cycle, 1e-9 * static_cast<double>(passed_ns)));
+}
+
 void Trainer::State::cycle_once() {
   virtual_ns += period_ns;
   runner.cycle({virtual_ns, 0}, nullptr);
-  if (driver) seat.act(driver(runner.newest()));
+  if (acts()) act(runner.newest());
   if (++unserved_cycles >= kServeEvery) serve();
 }
 

@@ -32,6 +32,11 @@ enum class TrainerClock { real_time, virtual_time };
 // behind, cycles are left out.
 using SelfDriver = std::function<DriverAction(const DriveSample&)>;
 
+// Beside a person: the cycle that was and the seconds since the one before, to where throttle, brake and clutch stand in
+// the next one (the rest is not used). Called as a SelfDriver is, so that pedals move on the car's clock however seldom a
+// frame comes; and once before the first cycle, with 0 s.
+using PersonFeet = std::function<DriverControls(const DriveSample& cycle, double seconds)>;
+
 struct TrainerConfig {
   GateLayout layout;
   std::optional<CarSpec> car;  // behind the lever; none: nothing
@@ -39,6 +44,7 @@ struct TrainerConfig {
   double hand_brake = 0.0;     // [1] 0 to 1, until set_controls() or the driver says otherwise
   Preset preset;               // a hand that cannot lead is replaced by leading_hand()
   SelfDriver driver;           // none: set_hand() and set_controls() lead
+  PersonFeet feet;             // with these, where nobody else drives: each pedal as deep as the deeper; may be none
   TrainerClock clock = TrainerClock::real_time;
   std::uint64_t seed = 1;             // of the car's chance
   std::string program = "gearshift";  // that records: its name and version, for the trace

@@ -39,11 +39,15 @@ Bindings bindings() {
 
 struct Driver {
   DriverInput driver{{bindings(), {0.06, 0.05}}};
+  KeyFeet feet;
+  Pedals pedals;
   WindowInput input;
 
   void key(int code, bool down) { input.keys.push_back({code, down, false, false, false}); }
   void frame(double seconds = kFrame, bool ui_has_mouse = false, bool ui_has_keys = false) {
     driver.update(input, seconds, ui_has_mouse, ui_has_keys);
+    feet.ask(driver.foot_keys());
+    pedals = feet.move(seconds, 0.0, false);
     input.keys.clear();
     input.mouse_moved = glm::dvec2(0.0);
   }
@@ -122,7 +126,7 @@ TEST_CASE("lever keys move the hand at their speed, by time and not by frames") 
   slow.key(GLFW_KEY_DOWN, true);  // up and down together: nothing
   slow.frame(0.001);              // the frame in which it is released still counts
   const glm::dvec2 stays = slow.at();
-  slow.driver.feel(stays, 0.0, false);
+  slow.driver.feel(stays);
   slow.frame(0.5);
   CHECK(near(slow.at(), stays));
 }
@@ -235,37 +239,35 @@ TEST_CASE("pedals ramp down and up by key in the pedal's time") {
   Driver d;
   d.key(GLFW_KEY_D, true);
   for (int i = 0; i < 10; ++i) d.frame();
-  CHECK(d.driver.controls().throttle == doctest::Approx(0.1 / 0.25));
+  CHECK(d.pedals.throttle == doctest::Approx(0.1 / 0.25));
   for (int i = 0; i < 20; ++i) d.frame();
-  CHECK(d.driver.controls().throttle == 1.0);
+  CHECK(d.pedals.throttle == 1.0);
   d.key(GLFW_KEY_D, false);
-  d.frame();
   for (int i = 0; i < 10; ++i) d.frame();
-  CHECK(d.driver.controls().throttle == doctest::Approx(1.0 - 0.1 / 0.25));
+  CHECK(d.pedals.throttle == doctest::Approx(1.0 - 0.1 / 0.25));
   for (int i = 0; i < 20; ++i) d.frame();
-  CHECK(d.driver.controls().throttle == 0.0);
+  CHECK(d.pedals.throttle == 0.0);
 }
 
 TEST_CASE("the clutch by key comes up slowly where it takes hold, in as long as it shall, at any frame rate") {
   for (const int parts : {1, 7}) {  // of a frame of 10 ms
     Driver d;
-    d.driver.set_clutch(0.2, 0.8);
+    d.feet.set_pace({.clutch_closed = 0.2, .clutch_bite = 0.8});
     const auto hold = [&d, parts](int key, double seconds) {
       d.key(key, true);
       for (int i = 0; i < std::lround(100.0 * parts * seconds); ++i) d.frame(0.01 / parts);
     };
     hold(GLFW_KEY_A, 0.3);
-    CHECK(d.driver.controls().clutch == 1.0);
+    CHECK(d.pedals.clutch == 1.0);
     d.key(GLFW_KEY_A, false);
-    d.frame(1e-9);  // a key is down to the end of its frame
     double slips = 0.0;
     for (int i = 0; i < 300 * parts; ++i) {
       d.frame(0.01 / parts);
-      const double pedal = d.driver.controls().clutch;
+      const double pedal = d.pedals.clutch;
       if (pedal < 0.8 - 1e-9 && pedal > 0.2 + 1e-9) slips += 0.01 / parts;
     }
-    CHECK(slips == doctest::Approx(Bindings{}.clutch_slip_time).epsilon(0.02));
-    CHECK(d.driver.controls().clutch == 0.0);
+    CHECK(slips == doctest::Approx(FootPace{}.slip_time).epsilon(0.02));
+    CHECK(d.pedals.clutch == 0.0);
   }
 }
 
@@ -277,26 +279,26 @@ TEST_CASE("the clutch stays at the bite point while it is held there, and goes o
   for (int i = 0; i < 20; ++i) d.frame();
   d.key(GLFW_KEY_Q, true);
   d.frame();
-  const double bite = d.driver.controls().clutch;
+  const double bite = d.pedals.clutch;
   CHECK((bite > 0.5 && bite < 0.75));
   for (int i = 0; i < 300; ++i) d.frame();
-  CHECK(d.driver.controls().clutch == bite);
+  CHECK(d.pedals.clutch == bite);
   d.key(GLFW_KEY_Q, false);
   for (int i = 0; i < 300; ++i) d.frame();
-  CHECK(d.driver.controls().clutch == 0.0);
+  CHECK(d.pedals.clutch == 0.0);
 }
 
 TEST_CASE("a little throttle is a fifth, and the whole goes before it") {
   Driver d;
   d.key(GLFW_KEY_F, true);
   for (int i = 0; i < 30; ++i) d.frame();
-  CHECK(d.driver.controls().throttle == 0.2);
+  CHECK(d.pedals.throttle == 0.2);
   d.key(GLFW_KEY_D, true);
   for (int i = 0; i < 30; ++i) d.frame();
-  CHECK(d.driver.controls().throttle == 1.0);
+  CHECK(d.pedals.throttle == 1.0);
   d.key(GLFW_KEY_D, false);
   for (int i = 0; i < 30; ++i) d.frame();
-  CHECK(d.driver.controls().throttle == 0.2);
+  CHECK(d.pedals.throttle == 0.2);
 }
 
 TEST_CASE("ignition is on at first; ignition and hand brake change with each press, the starter is held") {
@@ -329,13 +331,8 @@ TEST_CASE("a pedal's axis counts from its first movement on: a pad tells 0 of a 
   d.input.pads[0].axes[2] = 0.0f;
   d.frame();
   CHECK(d.driver.controls().throttle == doctest::Approx(0.5));
-  d.key(GLFW_KEY_D, true);
-  d.frame(0.2);
-  CHECK(d.driver.controls().throttle == doctest::Approx(0.8));  // the deeper of the two
-  d.input.pads.clear();                                         // unplugged
-  d.key(GLFW_KEY_D, false);
-  d.frame(0.0);
-  d.frame(1.0);
+  d.input.pads.clear();  // unplugged
+  d.frame();
   CHECK(d.driver.controls().throttle == 0.0);
 }
 
@@ -358,15 +355,15 @@ TEST_CASE("each pedal follows its own axis and no other") {
   }
 }
 
-TEST_CASE("the brake is pressed by its key as by its axis") {
+TEST_CASE("the brake is pressed by its key and not the throttle by it") {
   Bindings own = bindings();
   own.keys[Action::brake] = {GLFW_KEY_S};
   DriverInput driver({own, {0.06, 0.05}});
   WindowInput input;
   input.keys = {{GLFW_KEY_S, true, false, false, false}};
   driver.update(input, 0.1, false, false);
-  CHECK(driver.controls().brake == doctest::Approx(0.1 / 0.25));
-  CHECK(driver.controls().throttle == 0.0);
+  CHECK(driver.foot_keys().brake);
+  CHECK_FALSE(driver.foot_keys().throttle);
 }
 
 TEST_CASE("a hand that is put where a lever stands beyond its reach ends at the reach and does not push") {
@@ -421,7 +418,7 @@ TEST_CASE("what the panel has is not the driver's, but a key that types nothing 
   d.frame(kFrame, true, true);
   CHECK(d.driver.pressed() == std::vector{Action::stop});
   for (int i = 0; i < 10; ++i) d.frame(kFrame, true, true);
-  CHECK(d.driver.controls().throttle == 0.0);
+  CHECK(d.pedals.throttle == 0.0);
 }
 
 TEST_CASE("when the window loses the focus everything is let go") {
@@ -437,7 +434,7 @@ TEST_CASE("when the window loses the focus everything is let go") {
   d.input.mouse_moved = {100.0, 100.0};
   for (int i = 0; i < 30; ++i) d.frame();
   CHECK(near(d.at(), stays));
-  CHECK(d.driver.controls().throttle == 0.0);
+  CHECK(d.pedals.throttle == 0.0);
 }
 
 // A bare X server without a window manager never says that a window has the focus.
@@ -463,6 +460,7 @@ TEST_CASE("the same input gives the same driver, to the bit") {
   }
   CHECK(a.at() == b.at());
   CHECK(a.driver.controls().throttle == b.driver.controls().throttle);
+  CHECK(a.pedals.clutch == b.pedals.clutch);
   CHECK(a.driver.pressed() == b.driver.pressed());
 }
 
@@ -472,7 +470,7 @@ TEST_CASE(
   const glm::dvec2 held{-0.01, 0.005};
   d.key(GLFW_KEY_LEFT, true);
   for (int i = 0; i < 100; ++i) {
-    d.driver.feel(held, 0.0, false);
+    d.driver.feel(held);
     d.frame();
   }
   CHECK(d.at().x == doctest::Approx(held.x - 0.05));
@@ -481,7 +479,7 @@ TEST_CASE(
   CHECK(d.at().x == doctest::Approx(held.x - 0.05));  // the lever may still come
   for (int i = 0; i < 40; ++i) d.frame();
   CHECK(d.at().x == doctest::Approx(held.x - 0.005));
-  d.driver.feel({0.0, 0.0}, 0.0, false);  // the lever that is drawn back does not draw the hand with it
+  d.driver.feel({0.0, 0.0});  // the lever that is drawn back does not draw the hand with it
   for (int i = 0; i < 40; ++i) d.frame();
   CHECK(d.at().x == doctest::Approx(held.x - 0.005));
 }
@@ -501,16 +499,18 @@ TEST_CASE("a mouse after keys is not drawn back to the lever") {
   CHECK(near(d.at(), there));
 }
 
-TEST_CASE("a little throttle lets a free engine turn below 1700 rpm and no faster; coupled it is a fifth") {
+TEST_CASE("a pedal's key that goes down and up within a frame is held until the next one, any other till it goes up") {
   Driver d;
-  const auto throttle = [&d](double speed, bool coupled) {
-    d.driver.feel({}, speed, coupled);
-    for (int i = 0; i < 60; ++i) d.frame();
-    return d.driver.controls().throttle;
-  };
-  d.key(GLFW_KEY_F, true);
-  CHECK(throttle(84.0, false) == doctest::Approx(0.2));
-  CHECK(throttle(155.0, false) == doctest::Approx(0.1));
-  CHECK(throttle(200.0, false) == 0.0);
-  CHECK(throttle(200.0, true) == doctest::Approx(0.2));
+  d.key(GLFW_KEY_A, true);
+  d.key(GLFW_KEY_A, false);
+  d.frame(0.1);
+  CHECK(d.pedals.clutch == doctest::Approx(0.1 / 0.25));
+  CHECK(d.driver.foot_keys().clutch);
+  d.frame(0.0);
+  CHECK_FALSE(d.driver.foot_keys().clutch);
+  d.key(GLFW_KEY_A, true);
+  d.frame();
+  d.key(GLFW_KEY_A, false);
+  d.frame();
+  CHECK_FALSE(d.driver.foot_keys().clutch);  // else each press would last a frame longer than it did
 }

@@ -1,4 +1,5 @@
 // The tabs of the lessons and of what has been driven, worked by mouse and keyboard.
+#include <algorithm>
 #include <string>
 #include <vector>
 
@@ -195,6 +196,73 @@ TEST_CASE("a comment has an author and words, and is asked for once") {
   CHECK(asked.lesson.comment->author == "Ms Torque");
   CHECK(asked.lesson.comment->text == "Well done");
   CHECK_FALSE(rig.click("comment_add").lesson.comment.has_value());
+}
+
+TEST_CASE("a comment is said otherwise, or taken back when that was asked twice") {
+  CoachView coach = with_history();
+  coach.comments[0][0].id = 7;
+  LessonsRig rig(coach, "tab_history");
+  rig.click("run: 16");
+  rig.click("comment_edit: 7");
+  rig.click("comment_text");
+  rig.write(U" Well.");
+  const PanelRequests edited = rig.click("comment_save");
+  REQUIRE(edited.lesson.comment_change.has_value());
+  CHECK(edited.lesson.comment_change->run == 16);
+  CHECK(edited.lesson.comment_change->comment == 7);
+  REQUIRE(edited.lesson.comment_change->text.has_value());
+  CHECK(edited.lesson.comment_change->text->find("Wait for the synchroniser: push, do not hit.") != std::string::npos);
+  CHECK(edited.lesson.comment_change->text->find("Well.") != std::string::npos);
+  CHECK_FALSE(rig.click("comment_delete: 7").lesson.comment_change.has_value());
+  CHECK_FALSE(rig.click("comment_cancel").lesson.comment_change.has_value());
+  rig.click("comment_delete: 7");
+  const PanelRequests deleted = rig.click("comment_delete_sure");
+  REQUIRE(deleted.lesson.comment_change.has_value());
+  CHECK(deleted.lesson.comment_change->comment == 7);
+  CHECK_FALSE(deleted.lesson.comment_change->text.has_value());
+}
+
+TEST_CASE("a name that cannot be is not asked for: why stands below its field, until it is another one") {
+  LessonsRig rig(half_way());
+  rig.click("learner");
+  rig.write(U"Eve\u200b");
+  CHECK_FALSE(rig.press(kEnter).lesson.learner.has_value());
+  const std::string why = typed_text_problem(TypedText::name, "a learner's name", "Eve\u200b");
+  const std::vector<DrawnText> texts = drawn_texts();
+  CHECK(std::any_of(texts.begin(), texts.end(), [&](const DrawnText& text) {
+    return text.text.starts_with(without_blanks(why).substr(0, 16)) && text.box.min.y > rig.rect("learner").min.y;
+  }));
+  rig.click("learner");
+  rig.write(U"Eve");
+  CHECK(rig.press(kEnter).lesson.learner == "Eve");
+}
+
+TEST_CASE("a learner whom another program deleted is said to be, and is asked for again by her own name") {
+  CoachView coach = half_way();
+  coach.forgotten = true;
+  coach.remembers = false;
+  LessonsRig rig(coach);
+  rig.click("learner");
+  CHECK(rig.press(kEnter).lesson.learner == "Ada Example");
+  rig.input.coach.forgotten = false;
+  rig.frame();
+  rig.click("learner");
+  CHECK_FALSE(rig.press(kEnter).lesson.learner.has_value());
+}
+
+TEST_CASE("a fault says what to do about it, once for all of its kind") {
+  CoachView coach = with_history();
+  coach.runs[0].result.faults.push_back({FaultKind::jerk, Severity::minor, 15.0, 8.8, 0});
+  LessonsRig rig(coach, "tab_history");
+  rig.click("run: 16");
+  const std::string advice = without_blanks(std::string(fault_advice(FaultKind::jerk))).substr(0, 16);
+  const std::vector<DrawnText> texts = drawn_texts();
+  const auto told = [&](const std::string& begin) {
+    return std::count_if(texts.begin(), texts.end(),
+                         [&](const DrawnText& text) { return text.text.starts_with(begin); });
+  };
+  CHECK(told("Thecarjerked") == 2);
+  CHECK(told(advice) == 1);
 }
 
 TEST_CASE("another car is chosen from its list") {

@@ -64,6 +64,8 @@ TEST_CASE("on every screen all texts have room, the middle is free and the contr
     PanelRig rig(1);
     show_on(rig, screen);
     make_busy(rig);
+    rig.frame();
+    rig.wait(10.0);  // a message that the bar cannot tell has been read over the cabin
     rig.click("tab_tuning");
     show(rig, name_of(screen, "tuning"));
     CHECK(rig.panel.shortened_texts() == 0);

@@ -87,6 +87,13 @@ struct PanelRig {
     return asked;
   }
 
+  void wait(double seconds) {
+    const float usual = std::exchange(screen.seconds, static_cast<float>(seconds));
+    frame();
+    screen.seconds = usual;
+    frame();
+  }
+
   ControlRect rect(const std::string& name) const {
     const auto found = panel.control_rect(name);
     REQUIRE_MESSAGE(found.has_value(), name << " is not on the screen");
@@ -166,6 +173,7 @@ struct PanelRig {
     take(all.lesson.learner, next.lesson.learner);
     take(all.lesson.next, next.lesson.next);
     take(all.lesson.comment, next.lesson.comment);
+    take(all.lesson.comment_change, next.lesson.comment_change);
     all.look.whole |= next.look.whole;
     all.look.close |= next.look.close;
     take(all.look.open, next.look.open);

@@ -208,3 +208,13 @@ TEST_CASE("in the gate the driven way is a line through its points, the ideal on
   CHECK(drawn / way > 0.45);
   CHECK(drawn / way < 0.75);
 }
+
+TEST_CASE("while a drive is read the bar says which, and Close gives it up") {
+  PanelRig rig;
+  rig.input.opening = "moving_off-20261122-000929-29480.trace";
+  for (int i = 0; i < 3; ++i) rig.frame();
+  CHECK(is_drawn("Opening moving_off-20261122-000929-29480.trace \u2026"));
+  CHECK(rig.click("replay_close").look.close);
+  CHECK_FALSE(rig.panel.control_rect("replay_play").has_value());
+  CHECK(rig.panel.middle().max.y < rig.rect("replay_close").min.y);
+}

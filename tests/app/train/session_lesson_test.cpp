@@ -367,3 +367,37 @@ TEST_CASE("after a lesson the teacher holds the car, on a hill, too, until the n
   go(session, 1.0);
   CHECK(session.car().road_speed < -0.1);
 }
+
+TEST_CASE("a learner whom another program deletes in her lesson is told of in the window, and her recordings go") {
+  Rig rig;
+  Session session(rig.choice("moving_off", "grip"));
+  ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+  go(session, 0.5);
+  REQUIRE(std::distance(fs::directory_iterator(rig.folder / "recordings"), fs::directory_iterator()) == 1);
+  {
+    History other(rig.history);
+    CHECK(other.erase_learner(other.find_learner("Ada").value().id, [](const auto&) {}).empty());
+  }
+  ask(session, [](LessonRequests& lesson) { lesson.leave = true; });
+  go(session, 0.5);
+  CHECK(session.panel_input().message.find("Ada was deleted by another program") != std::string::npos);
+  CHECK(session.panel_input().coach.forgotten);
+  CHECK(session.settle().empty());
+  CHECK(fs::is_empty(rig.folder / "recordings"));
+  CHECK(History(rig.history).learners().empty());
+}
+
+TEST_CASE("an instructor's comment is said otherwise and taken back through the panel's requests") {
+  Rig rig;
+  Session session(rig.choice("moving_off", "grip"));
+  (void)drive_as_person(session);
+  const std::int64_t run = session.coach().view().run;
+  ask(session, [run](LessonRequests& lesson) { lesson.comment = {run, "Ms Torque", "Slower."}; });
+  const auto comments = [&] { return History(rig.history).comments(run); };
+  REQUIRE(comments().size() == 1);
+  const std::int64_t comment = comments()[0].id;
+  ask(session, [=](LessonRequests& lesson) { lesson.comment_change = {run, comment, "Slower at the bite point."}; });
+  CHECK(comments().at(0).text == "Slower at the bite point.");
+  ask(session, [=](LessonRequests& lesson) { lesson.comment_change = {run, comment, std::nullopt}; });
+  CHECK(comments().empty());
+}

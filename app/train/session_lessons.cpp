@@ -1,0 +1,136 @@
+// A session's lessons: what is offered, begun, driven and remembered, and who has the car meanwhile.
+#include <algorithm>
+#include <system_error>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "app/assets_path.h"
+#include "app/train/recording_file.h"
+#include "app/train/session.h"
+
+namespace gearshift {
+namespace {
+
+namespace fs = std::filesystem;
+
+// What the history keeps beside a lesson.
+std::string settings_text(const SessionChoice& choice, const HapticTuning& tuning) {
+  return fmt::format(
+      "car = \"{}\"\ngate = \"{}\"\npreset = \"{}\"\nhand = \"{}\"\nwall_stiffness_n_per_m = "
+      "{}\nwall_damping_n_s_per_m = {}\n",
+      choice.car, choice.gate, choice.preset, choice.hand, tuning.wall_stiffness, tuning.wall_damping);
+}
+
+}  // namespace
+
+// The first that is named, else the one that is suggested; a hand that needs nobody drives what is named alone.
+void Session::offer_first(const SessionChoice& choice) {
+  std::string name = choice.lesson;
+  const bool suggested = name.empty();
+  if (suggested && choice.hand != kByItself && choice.car != kNoCar) name = coach_.view().next;
+  if (name.empty() || name == kNoLesson) return;
+  coach_.offer(read_lesson(find_asset("lessons", name)));
+  coach_.want_help(choice.help);
+  if (choice.mode) coach_.set_mode(*choice.mode);
+}
+
+void Session::obey_instructor(const LessonRequests& requests) {
+  if (requests.learner) {
+    choice_.learner = *requests.learner;
+    coach_.set_learner(learner_of(choice_));
+    if (choice_.hand == kByItself) message_ = "the hand drives by itself: nothing is remembered of it";
+  }
+  if (requests.next) coach_.set_next(*requests.next);
+  if (requests.comment_change) change_comment(*requests.comment_change);
+  if (requests.comment) coach_.comment(requests.comment->run, requests.comment->author, requests.comment->text);
+  if (requests.offer) coach_.offer(read_lesson(find_asset("lessons", *requests.offer)));
+  if (requests.mode) coach_.set_mode(*requests.mode);
+  if (requests.help) coach_.want_help(*requests.help);
+  if (requests.leave) coach_.leave();
+  if (requests.put_away) {
+    coach_.put_away();
+    slope_ = 0.0;
+    held_ = false;
+  }
+  if (requests.begin && coach_.lesson()) begin_lesson();
+  if (coach_.view().phase != LessonPhase::driving) end_lesson_recording();
+}
+
+void Session::change_comment(const LessonRequests::CommentChange& change) {
+  if (change.text)
+    coach_.edit_comment(change.run, change.comment, *change.text);
+  else
+    coach_.delete_comment(change.run, change.comment);
+}
+
+// What lay before the trial's first cycle is not the coach's.
+void Session::begin_lesson() {
+  const Lesson lesson = *coach_.lesson();
+  if (coach_.view().phase == LessonPhase::over) coach_.offer(lesson);
+  SessionChoice wanted = with_lesson(choice_, lesson);
+  if (trainer_) wanted.haptics = trainer_->config().preset.haptics;
+  change_to(wanted, &lesson);
+  const CoachView& view = coach_.view();
+  fs::path recording;
+  if (view.remembers && !view.learner.empty()) recording = record_lesson(lesson);
+  (void)trainer_->take_cycles();
+  coach_.begin(*trainer_->config().car, trainer_->gate(),
+               settings_text(running_, trainer_->config().preset.haptics.tuning), recording);
+  trainer_->set_controls(led());
+}
+
+// A lesson can be driven without.
+fs::path Session::record_lesson(const Lesson& lesson) {
+  const std::string news = message_;
+  try {
+    start_recording(drive_name(lesson.key));
+    records_lesson_ = true;
+    lesson_recordings_.insert(fs::absolute(last_recording_).string());
+    message_ = news;  // nobody asked for it
+    return fs::absolute(last_recording_);
+  } catch (const std::exception& refused) {
+    message_ = refused.what();
+    return {};
+  }
+}
+
+void Session::follow_lesson(std::span<const DriveSample> cycles) {
+  const bool driving = coach_.view().phase == LessonPhase::driving;
+  coach_.add(cycles);
+  if (coach_.view().phase == LessonPhase::over) hold();
+  if (driving && held_) end_lesson_recording();
+  if (const std::optional<std::string> problem = coach_.take_problem()) message_ = *problem;
+}
+
+// By the teacher, until the next one.
+void Session::hold() {
+  held_ = true;
+  feet_->ask({});
+}
+
+// A recording that no history names is nobody's.
+std::string Session::settle() {
+  const std::string not_kept = coach_.settle();
+  end_lesson_recording();
+  std::error_code ignored;
+  for (const std::string& file : coach_.forget_recordings())
+    if (lesson_recordings_.contains(file)) fs::remove(file, ignored);
+  return not_kept;
+}
+
+// The person's, on the lesson's road, with the teacher's hand; after it with the teacher's feet, to a stand.
+DriverControls Session::led() const {
+  DriverControls controls = controls_;
+  if (held_) {
+    controls.throttle = 0.0;
+    controls.clutch = 1.0;
+    controls.brake = std::max(controls.brake, 0.5);
+  }
+  controls.slope = slope_;
+  controls.guidance = coach_.guidance();
+  controls.guided_gear = coach_.guided_gear();
+  return controls;
+}
+
+}  // namespace gearshift

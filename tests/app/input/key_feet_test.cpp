@@ -1,0 +1,92 @@
+// Pedals by key: against their closed form, in however many parts the time comes, and seen from a slow picture.
+#include "app/input/key_feet.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+using namespace gearshift;
+
+namespace {
+
+constexpr FootPace kPace{.pedal_time = 0.25, .slip_time = 1.2, .clutch_closed = 0.2, .clutch_bite = 0.8};
+
+// Of a clutch that is let up from the floor, `time` ago [s]: down to 0.8 at 4 a second, then 0.6 in 1.2 s, then 4 again.
+double let_up_for(double time) {
+  if (time < 0.05) return 1.0 - 4.0 * time;
+  if (time < 1.25) return 0.8 - 0.5 * (time - 0.05);
+  return std::max(0.0, 0.2 - 4.0 * (time - 1.25));
+}
+
+// Held from 0 s to 0.51 s, at a picture of so many frames a second that asks at each of its frames; every cycle's pedal.
+std::vector<double> clutch_seen(double frames_per_second, double cycle) {
+  KeyFeet feet;
+  feet.set_pace(kPace);
+  std::vector<double> path;
+  double next_frame = 0.0;
+  for (int i = 0; i < 2000; ++i) {
+    const double time = i * cycle;
+    if (time >= next_frame) {
+      feet.ask({.clutch = time < 0.51});
+      next_frame += 1.0 / frames_per_second;
+    }
+    path.push_back(feet.move(cycle, 0.0, false).clutch);
+  }
+  return path;
+}
+
+}  // namespace
+
+TEST_CASE("a clutch that is let up follows its closed form, whatever parts the time comes in") {
+  for (const double part : {0.001, 0.0137, 0.1, 0.9}) {
+    CAPTURE(part);
+    KeyFeet feet;
+    feet.set_pace(kPace);
+    feet.ask({.clutch = true});
+    CHECK(feet.move(10.0, 0.0, false).clutch == 1.0);
+    feet.ask({});
+    for (double time = part; time < 2.0; time += part)
+      REQUIRE(feet.move(part, 0.0, false).clutch == doctest::Approx(let_up_for(time)).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("at 10, 30 and 144 frames a second the pedal goes the same way, up to a frame late, and never jumps") {
+  constexpr double kCycle = 0.001;  // [s]
+  for (const double rate : {10.0, 30.0, 144.0}) {
+    CAPTURE(rate);
+    const std::vector<double> path = clutch_seen(rate, kCycle);
+    const double release = std::ceil(0.51 * rate - 1e-9) / rate;  // [s] the first frame that knows of it
+    CHECK(release - 0.51 <= 1.0 / rate);
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      const double time = static_cast<double>(i + 1) * kCycle;
+      const double at = time <= release ? std::min(1.0, 4.0 * time) : let_up_for(time - release);
+      REQUIRE(std::abs(path[i] - at) <= 4.0 * kCycle * 2.0);  // a cycle or two of rounding
+      if (i > 0) REQUIRE(std::abs(path[i] - path[i - 1]) <= 4.0 * kCycle + 1e-12);
+    }
+  }
+}
+
+TEST_CASE("a little throttle lets a free engine turn below 1700 rpm and no faster; coupled it is a fifth") {
+  const auto throttle = [](double speed, bool coupled) {
+    KeyFeet feet;
+    feet.ask({.throttle_light = true});
+    return feet.move(1.0, speed, coupled).throttle;
+  };
+  CHECK(throttle(84.0, false) == doctest::Approx(0.2));
+  CHECK(throttle(155.0, false) == doctest::Approx(0.1));
+  CHECK(throttle(200.0, false) == 0.0);
+  CHECK(throttle(200.0, true) == doctest::Approx(0.2));
+}
+
+TEST_CASE("time that is none moves nothing") {
+  KeyFeet feet;
+  feet.ask({.throttle = true, .brake = true, .clutch = true});
+  for (const double seconds : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), -HUGE_VAL, HUGE_VAL}) {
+    const Pedals pedals = feet.move(seconds, 0.0, false);
+    CHECK(pedals.throttle + pedals.brake + pedals.clutch == 0.0);
+  }
+}

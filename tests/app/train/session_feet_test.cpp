@@ -1,0 +1,106 @@
+// Pedals by key on the car's clock: however seldom a frame comes, they go the same way.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <set>
+#include <thread>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "app/train/session.h"
+#include "tests/support/temp_folder.h"
+#include "tests/support/variable.h"
+
+using namespace gearshift;
+
+namespace {
+
+constexpr double kCycle = 1e-3;               // [s]
+constexpr double kClosed = 0.2, kBite = 0.7;  // [1] of the pedal
+constexpr double kSlip = 1.0, kPedal = 0.25;  // [s]
+
+struct Rig {
+  TempFolder folder;
+  Variable config{"XDG_CONFIG_HOME", folder.path().c_str()};
+  Variable data{"XDG_DATA_HOME", folder.path().c_str()};
+
+  SessionChoice choice(TrainerClock clock, const std::string& lesson) const {
+    SessionChoice choice;
+    choice.lesson = lesson;
+    choice.hand = "grip";
+    choice.clock = clock;
+    choice.sound = SoundOutput::none;
+    return choice;
+  }
+};
+
+// The clutch, pressed from 0 s on and let up at 0.5 s: by hand, from the pace.
+double clutch_at(double time) {
+  if (time <= 0.5) return std::min(1.0, time / kPedal);
+  const double quick = (1.0 - kBite) * kPedal, left = time - 0.5 - quick;
+  if (left < 0.0) return 1.0 - (time - 0.5) / kPedal;
+  if (left < kSlip) return kBite - (kBite - kClosed) * left / kSlip;
+  return std::max(0.0, kClosed - (left - kSlip) / kPedal);
+}
+
+// In each cycle, as the car had it, by a picture of so many frames a second, which asks at each frame.
+std::vector<double> clutch_driven(Session& session, double frames_per_second) {
+  std::vector<double> path;
+  session.set_foot_pace({kPedal, kSlip, kClosed, kBite});
+  const double frame = 1.0 / frames_per_second;
+  (void)session.trainer().take_cycles();
+  for (int i = 0; i * frame < 2.0; ++i) {
+    session.lead({}, {}, {.clutch = i * frame < 0.5 - 1e-9});
+    session.trainer().advance(frame);
+    for (const DriveSample& cycle : session.trainer().take_cycles()) path.push_back(cycle.controls.clutch);
+  }
+  return path;
+}
+
+}  // namespace
+
+TEST_CASE("at 10, 30 and 144 frames a second a key's pedal goes the same way, to three cycles") {
+  for (const double rate : {10.0, 30.0, 144.0}) {
+    CAPTURE(rate);
+    const Rig rig;
+    Session session(rig.choice(TrainerClock::virtual_time, "none"));
+    const std::vector<double> path = clutch_driven(session, rate);
+    CHECK(path.size() >= 2000);
+    for (std::size_t i = 0; i < path.size(); ++i)
+      REQUIRE(std::abs(path[i] - clutch_at(static_cast<double>(i) * kCycle)) <= 3.0 * kCycle / kPedal);
+  }
+}
+
+TEST_CASE("a foot goes on from one lever to the next, and a pad's pedal counts where it is deeper") {
+  const Rig rig;
+  Session session(rig.choice(TrainerClock::virtual_time, "none"));
+  session.lead({}, {}, {.clutch = true});
+  session.advance(0.5);
+  CHECK(session.car().clutch == 1.0);
+  PanelRequests other;
+  other.car = "diesel";
+  session.obey(other);
+  session.advance(2.0 * kCycle);
+  CHECK(session.car().clutch == 1.0);
+  DriverControls pad;
+  pad.brake = 0.7;
+  session.lead({}, pad, {.brake = true});
+  session.advance(0.1);
+  CHECK(session.car().brake == 0.7);
+  session.advance(0.4);
+  CHECK(session.car().brake == 1.0);
+}
+
+TEST_CASE("in real time a pedal moves while the picture hangs") {
+  const Rig rig;
+  SessionChoice choice = rig.choice(TrainerClock::real_time, "none");
+  Session session(choice);
+  session.lead({}, {}, {.brake = true});
+  session.advance(0.0);
+  std::set<double> seen;
+  std::this_thread::sleep_for(std::chrono::milliseconds(400));  // no frame
+  for (const DriveSample& cycle : session.trainer().take_cycles()) seen.insert(cycle.controls.brake);
+  CHECK(seen.size() > 20);  // one or two, where it moves with the picture
+  CHECK(*seen.rbegin() == 1.0);
+}
