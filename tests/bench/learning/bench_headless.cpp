@@ -4,6 +4,8 @@
 #include <functional>
 #include <string>
 
+#include <fmt/format.h>
+
 #include "app/vehicle/car_world.h"
 #include "tests/bench/bench.h"
 #include "tests/bench/learning/shipped_drive.h"
@@ -76,7 +78,7 @@ std::vector<BenchRow> bench_headless(const BenchOptions& options) {
   }
   return {row("simulation at 1 kHz", alone, 1000.0, "a tour: lever, hand, gate, guard"),
           row("the same with the driveline", with_car, 400.0, "a tour of the hatchback's gate, clutch down"),
-          row("a whole lesson", whole, 400.0, std::string(kLesson) + ": and learner and teacher")};
+          row("a whole lesson", whole, 400.0, fmt::format("{}: and learner and teacher", kLesson))};
 }
 
 }  // namespace gearshift
