@@ -176,6 +176,17 @@ void Coach::leave() {
   state_->leave();
 }
 
+void Coach::forget_recording() {
+  state_->recording.clear();
+  if (!state_->is_remembered) return;
+  state_->memory.forget_recording();
+  state_->look_at_learner();
+}
+
+bool Coach::needs_room() const noexcept {
+  return state_->memory.needs_room();
+}
+
 std::string Coach::settle() {
   state_->leave();
   state_->memory.settle();

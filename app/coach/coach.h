@@ -66,12 +66,16 @@ class Coach {
   // judge says in each cycle. Throws std::logic_error where no lesson is driven.
   const LessonRun& judge(const DriveSample& sample);
   void leave();  // the learner gives up: phase over
+  // Of the trial that is driven, or is over: it has none (any more), and no history names one.
+  void forget_recording();
 
   // For who goes, before the last problem is told: a lesson that is driven counts as left, and what waits for the
   // history is written, with a patience of 3 s in all. Returns in one sentence what could not be kept, else a problem
   // that nobody has taken yet; empty: all is well. take_problem() has the same sentence, for who asks there. What was
   // tried in vain is not waited for again by the destructor.
   std::string settle();
+  // What could not be kept lacks room on the disk: who removes files (forget_recordings()) may settle again.
+  bool needs_room() const noexcept;
   // Of runs that the history has heard nothing of, or knows no more, and will not name any more: whoever wrote these
   // files removes them.
   std::vector<std::string> forget_recordings();

@@ -54,8 +54,10 @@ void LearnerMemory::open(milliseconds patience) {
   try {
     history_ = std::make_unique<History>(file_, date, patience);
     works_ = true;
+    is_full_ = false;
     told_.clear();
   } catch (const HistoryFull& problem) {
+    is_full_ = true;
     why_ = problem.what();
     tell(why_ + kWaitsForRoom);
   } catch (const HistoryError& problem) {
@@ -146,6 +148,7 @@ void LearnerMemory::load() {
     if (row.id == 0 && person_->id != 0) person_->deleted = true;
     std::vector<RunRow> runs;
     if (row.id != 0) runs = history_->runs(row.id);
+    for (RunRow& run : runs) run.recording = history_->recording_file(run.recording).string();
     if (row.id != 0) person_->id = row.id;
     runs_ = std::move(runs);
     next_ = row.next_lesson;
@@ -192,6 +195,7 @@ bool LearnerMemory::drop_what_is_of(const PersonHere& gone) {
   std::erase_if(kept_, [&](const KeptRun& run) { return is_gone(run) && run.row.id != last_run_; });
   std::erase_if(kept_comments_, is_gone);
   std::erase_if(kept_next_, is_gone);
+  std::erase_if(kept_losses_, is_gone);
   return kept_.size() + kept_comments_.size() + kept_next_.size() < before;
 }
 
@@ -276,6 +280,21 @@ void LearnerMemory::end_run(const LessonResult& result) {
   run.over = true;
   in_run_ = false;
   if (run.of == person_) add_kept(runs_, run.row);
+  write_now();
+}
+
+// What the history does not know yet it never hears of.
+void LearnerMemory::forget_recording() {
+  for (RunRow& row : runs_) {
+    if (row.id == last_run_) row.recording.clear();
+  }
+  PersonHere of = person_;
+  for (KeptRun& run : kept_) {
+    if (run.row.id != last_run_) continue;
+    run.row.recording.clear();
+    of = run.of;
+  }
+  if (last_run_ > 0) kept_losses_.push_back({of, now_(), last_run_});
   write_now();
 }
 

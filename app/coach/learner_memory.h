@@ -56,6 +56,7 @@ class LearnerMemory {
   bool in_run() const noexcept { return in_run_; }
   void add_shift(const ShiftRecord& shift);
   void end_run(const LessonResult& result);
+  void forget_recording();  // of the one that is driven, or of the last: it has none (any more)
   // Of the one that is driven, or of the last; 0: the history does not have all of it so far.
   std::int64_t run_number() const noexcept;
 
@@ -63,6 +64,8 @@ class LearnerMemory {
   bool try_again();
   // The same for who goes, with a patience of 3 s in all. What still waits then is a problem to be taken.
   void settle();
+  // What waits, waits for room on the disk.
+  bool needs_room() const noexcept { return is_full_; }
   // Of runs that the history has heard nothing of, and will not hear of these files, or is to know no more.
   std::vector<std::string> forget_recordings();
 
@@ -99,6 +102,12 @@ class LearnerMemory {
     std::string lesson;
     bool written = false;
   };
+  struct KeptLoss {  // of a run that the history has: its recording is gone
+    PersonHere of;
+    std::int64_t at = 0;  // [s] since 1970
+    std::int64_t run = 0;
+    bool written = false;
+  };
   struct DrivingSession {
     PersonHere of;
     std::int64_t id = 0;
@@ -122,6 +131,7 @@ class LearnerMemory {
   bool is_waiting(const KeptRun& run) const noexcept;
   bool is_waiting(const KeptComment& comment) const noexcept;
   bool is_waiting(const KeptNext& next) const noexcept;
+  bool is_waiting(const KeptLoss& loss) const noexcept;
   bool anything_waits() const noexcept;
   std::string what_waits() const;
   void write_now();
@@ -129,6 +139,7 @@ class LearnerMemory {
   Given write(KeptRun& run);
   Given write(KeptComment& comment);
   Given write(KeptNext& next);
+  Given write(KeptLoss& loss);
   KeptComment* kept_comment(std::int64_t comment) noexcept;
   void begin(KeptRun& run);
   void renumber(KeptRun& run, std::int64_t number);
@@ -144,8 +155,10 @@ class LearnerMemory {
   std::unique_ptr<History> history_;
   bool works_ = true;                           // the last writing did
   bool is_held_ = false, cannot_read_ = false;  // by another program, at the last try
+  bool is_full_ = false;                        // the disk was, at the last try
   bool gave_up_ = false;                        // settling, and nothing has come since
   std::string told_, why_;                      // the last problem; the last reason why something waits
+  std::string loss_;                            // what the last settling has told
   std::optional<std::string> problem_;
 
   PersonHere person_ = std::make_shared<Person>();  // who was chosen last
@@ -159,6 +172,7 @@ class LearnerMemory {
   std::vector<KeptRun> kept_;  // as they were driven: the one that is, is the last
   std::vector<KeptComment> kept_comments_;
   std::vector<KeptNext> kept_next_;  // one of each person
+  std::vector<KeptLoss> kept_losses_;
   std::vector<std::string> forgotten_recordings_;
   bool in_run_ = false;
   std::int64_t last_run_ = 0;   // the last one's number

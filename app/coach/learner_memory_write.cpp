@@ -37,6 +37,7 @@ LearnerMemory::Given LearnerMemory::give(Person& of, std::int64_t at, const Work
     work();
     given = Given::taken;
     works_ = true;
+    is_full_ = false;
     told_.clear();
   } catch (const HistoryGone&) {
     given = Given::lost;
@@ -47,6 +48,7 @@ LearnerMemory::Given LearnerMemory::give(Person& of, std::int64_t at, const Work
     tell(why_ + "; what is to be remembered waits for that");
   } catch (const HistoryFull& problem) {
     works_ = false;
+    is_full_ = true;
     why_ = problem.what();
     tell(why_ + kWaitsForRoom);
   } catch (const HistoryError& problem) {
@@ -78,11 +80,16 @@ bool LearnerMemory::is_waiting(const KeptNext& next) const noexcept {
   return waits_for_history(*next.of) && !next.written;
 }
 
+bool LearnerMemory::is_waiting(const KeptLoss& loss) const noexcept {
+  return waits_for_history(*loss.of) && !loss.written;
+}
+
 bool LearnerMemory::anything_waits() const noexcept {
   const auto waits = [this](const auto& kept) { return is_waiting(kept); };
   return std::any_of(kept_.begin(), kept_.end(), waits) ||
          std::any_of(kept_comments_.begin(), kept_comments_.end(), waits) ||
-         std::any_of(kept_next_.begin(), kept_next_.end(), waits);
+         std::any_of(kept_next_.begin(), kept_next_.end(), waits) ||
+         std::any_of(kept_losses_.begin(), kept_losses_.end(), waits);
 }
 
 // "2 runs, 1 comment"
@@ -116,7 +123,9 @@ void LearnerMemory::settle() {
   write_kept(*settles_until_);
   settles_until_.reset();
   gave_up_ = anything_waits();
-  if (gave_up_) tell(fmt::format("{}; lost with this program: {}", why_, what_waits()));
+  const std::string lost = what_waits();
+  if (!gave_up_ && problem_ == loss_) problem_.reset();  // an earlier settling's: it was taken after all
+  if (!lost.empty()) tell(loss_ = fmt::format("{}; lost with this program: {}", why_, lost));
 }
 
 // In order: what comes first holds up what comes after it. Returns whether anything was taken, or somebody forgotten.
@@ -132,10 +141,12 @@ bool LearnerMemory::write_kept(Moment until) {
   for (KeptRun& run : kept_) take(run);
   for (KeptComment& comment : kept_comments_) take(comment);
   for (KeptNext& next : kept_next_) take(next);
+  for (KeptLoss& loss : kept_losses_) take(loss);
   const auto is_written = [](const auto& kept) { return kept.written; };
   std::erase_if(kept_, is_written);
   std::erase_if(kept_comments_, is_written);
   std::erase_if(kept_next_, is_written);
+  std::erase_if(kept_losses_, is_written);
   return drop_deleted() || any;
 }
 
@@ -172,6 +183,12 @@ LearnerMemory::Given LearnerMemory::write(KeptComment& comment) {
 LearnerMemory::Given LearnerMemory::write(KeptNext& next) {
   const Given given = give(*next.of, next.at, [&] { history_->set_next_lesson(id_of(*next.of), next.lesson); });
   next.written = given == Given::taken;
+  return given;
+}
+
+LearnerMemory::Given LearnerMemory::write(KeptLoss& loss) {
+  const Given given = give(*loss.of, loss.at, [&] { history_->forget_recording(loss.run); });
+  loss.written = given == Given::taken;
   return given;
 }
 

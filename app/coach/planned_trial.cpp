@@ -18,11 +18,6 @@ std::uint64_t seed_of(std::string_view learner, std::string_view lesson) {
   return hash;
 }
 
-// To the end, whatever it was: one that was left says nothing of the learner, and is offered again as it was.
-bool was_driven(LessonEnd end) noexcept {
-  return end != LessonEnd::running && end != LessonEnd::left;
-}
-
 bool is_after_pause(const std::optional<std::int64_t>& last, std::int64_t now) {
   return last && now - *last >= kRetentionPause;
 }
@@ -34,7 +29,7 @@ PlannedTrial plan_trial(std::string_view learner, std::string_view lesson, std::
   GuidancePolicy policy(seed_of(learner, lesson));
   std::optional<std::int64_t> last;
   for (const RunRow& run : runs) {
-    if (run.result.lesson != lesson || !was_driven(run.result.end)) continue;
+    if (run.result.lesson != lesson || !was_driven(run)) continue;  // one that was left is offered again as it was
     (void)policy.next();
     policy.learn(run_error(run.result));
     last = seconds_of(run.begun_at);

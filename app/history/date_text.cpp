@@ -1,9 +1,8 @@
 #include "app/history/date_text.h"
 
+#include <array>
 #include <chrono>
 #include <ctime>
-
-#include <fmt/chrono.h>
 
 namespace gearshift {
 namespace {
@@ -20,7 +19,8 @@ std::string date_text(std::int64_t seconds) {
   const std::time_t time = seconds;
   std::tm utc{};
   gmtime_r(&time, &utc);
-  return fmt::format("{:%Y-%m-%dT%H:%M:%SZ}", utc);
+  std::array<char, 40> text{};  // the year may have ten digits and a sign
+  return {text.data(), std::strftime(text.data(), text.size(), kFormat, &utc)};
 }
 
 std::optional<std::int64_t> seconds_of(std::string_view date) {

@@ -2,6 +2,8 @@
 
 #include <sqlite3.h>
 
+#include <filesystem>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -15,8 +17,10 @@ History::History(const std::filesystem::path& file, Clock now, std::chrono::mill
   try {
     use == HistoryUse::write ? state_->open() : state_->open_copy();
   } catch (const HistoryFull&) {
-    throw HistoryFull(
-        fmt::format("{}: the disk is full: the history cannot be opened, what is in it stays", file.string()));
+    std::error_code none;
+    const bool is_new = std::filesystem::file_size(file, none) == 0 || none;
+    throw HistoryFull(fmt::format("{}: the disk is full: the history cannot be {}", file.string(),
+                                  is_new ? "made" : "opened, what is in it stays"));
   }
 }
 

@@ -48,9 +48,14 @@ struct RunRow {
   std::int64_t id = 0;
   std::int64_t session = 0;
   std::string begun_at;   // ISO 8601, UTC
-  std::string recording;  // trace file, or empty
+  std::string recording;  // trace file, from the history's folder where it lies below that, else absolute; or empty
   LessonResult result;    // with faults, deductions and shifts; figures are finite, whoever wrote them
 };
+
+// To its end, whatever that was: a run that was left, or never ended, is no practice and no test.
+inline bool was_driven(const RunRow& run) noexcept {
+  return run.result.end != LessonEnd::running && run.result.end != LessonEnd::left;
+}
 
 struct CommentRow {
   std::string at;  // ISO 8601, UTC
@@ -90,11 +95,13 @@ class History {
   // What was set from then on: gate, car, preset, as text.
   void add_settings(std::int64_t session, std::string_view text);
 
-  // The result as far as it is known: lesson, task, mode, guided.
+  // The result as far as it is known: lesson, task, mode, guided. A recording below the history's folder is kept by its
+  // way from there: folder and history can be moved, or copied, together.
   std::int64_t begin_run(std::int64_t session, const LessonResult& result, std::string_view recording);
   void add_shift(std::int64_t run, const ShiftRecord& shift);
   // The end of it; shifts that add_shift() has not seen are added.
   void end_run(std::int64_t run, const LessonResult& result);
+  void forget_recording(std::int64_t run);  // there is none (any more)
 
   // The instructor's. Throw std::invalid_argument for what is no name, no comment (typed_text.h). False: there is no
   // such comment (any more).
@@ -105,6 +112,11 @@ class History {
   std::vector<RunRow> runs(std::int64_t learner);  // oldest first
   std::vector<CommentRow> comments(std::int64_t run);
   std::vector<std::string> settings(std::int64_t session);
+
+  // Where RunRow::recording is: absolute; empty stays empty.
+  std::filesystem::path recording_file(std::string_view recording) const;
+  // Of this learner's runs, as their rows have them: those that nobody else names.
+  std::vector<std::string> recordings(std::int64_t learner);
 
   // Another number than before: another program, or another History, has written since.
   std::int64_t changes();

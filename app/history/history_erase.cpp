@@ -36,6 +36,10 @@ std::string try_to(SQLite::Database& database, const Work& work) {
 
 }  // namespace
 
+std::vector<std::string> History::recordings(std::int64_t learner) {
+  return state_->said([&] { return recordings_of(*state_->database, learner); });
+}
+
 std::string History::erase_learner(std::int64_t learner, const RecordingRemover& remove) {
   bool removed = false;
   try {

@@ -1,5 +1,6 @@
 #include <SQLiteCpp/Backup.h>
 #include <sqlite3.h>
+#include <unistd.h>
 
 #include <cstddef>
 #include <cstdint>
@@ -36,6 +37,16 @@ bool lacks_index(const SQLite::Exception& problem) {
   return code == SQLITE_CANTOPEN || code == SQLITE_READONLY || code == SQLITE_IOERR;
 }
 
+// By whoever runs this program; SQLite itself would open it to be read, and leave a log that nobody may write.
+bool may_be_written(const fs::path& file) {
+  return euidaccess(file.c_str(), W_OK) == 0;
+}
+
+bool is_there(const fs::path& file) {
+  std::error_code ignored;
+  return fs::exists(file, ignored);
+}
+
 using FileStamp = std::pair<fs::file_time_type, std::uintmax_t>;  // when it was written, how long it is
 
 FileStamp stamp_of(const fs::path& file) {
@@ -61,7 +72,8 @@ void History::State::open() {
   if (problem == std::errc::no_space_on_device) throw HistoryFull(problem.message());
   if (problem) refuse(fmt::format("its folder cannot be made: {}", problem.message()));
   const std::string from = place();
-  const bool has_log = fs::exists(from + "-wal", problem);
+  check_may_be_written(from);
+  const bool has_log = is_there(from + "-wal");
   said([&] {
     database = std::make_unique<SQLite::Database>(from, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
                                                   static_cast<int>(patience.count()));
@@ -73,6 +85,15 @@ void History::State::open() {
     database->exec("PRAGMA foreign_keys = ON");
     database->exec("PRAGMA secure_delete = ON");
   });
+}
+
+// What a program without the right to write once left beside it keeps everybody from writing: named, to be removed.
+void History::State::check_may_be_written(const std::string& from) const {
+  if (is_there(from) && !may_be_written(from)) refuse("it may not be written");
+  for (const char* beside : {"-wal", "-shm"}) {
+    if (is_there(from + beside) && !may_be_written(from + beside))
+      refuse(fmt::format("{}{} beside it may not be written", file.filename().string(), beside));
+  }
 }
 
 // Nothing is written, nobody is kept waiting while it is read, and an older one is brought up to date in memory alone.
@@ -91,10 +112,12 @@ void History::State::open_copy() {
   });
 }
 
-// A file that may not be written is opened to be read by SQLite itself: with its log, where that stands beside it.
+// With its log, where that stands beside it. A file that may not be written gets none made: what a reader without the
+// right to write makes, nobody may write either.
 void History::State::copy_what_may_be_locked(const std::string& from) {
-  std::error_code ignored;
-  const bool has_log = fs::exists(from + "-wal", ignored);
+  const bool has_log = is_there(from + "-wal");
+  if (is_there(from) && !may_be_written(from) && !(has_log && is_there(from + "-shm")))
+    return copy_what_nobody_writes(from);
   SQLite::Database source(from, SQLite::OPEN_READWRITE, static_cast<int>(patience.count()));
   if (has_log) leave_log_at_close(source, true);
   copy_from(source);
@@ -123,6 +146,7 @@ std::string History::State::place() const {
   std::error_code problem;
   const std::string absolute = fs::absolute(file, problem).string();
   if (problem) refuse(fmt::format("it cannot be found: {}", problem.message()));
+  if (fs::is_directory(absolute, problem)) refuse("it cannot be read: it is a folder");
   return absolute;
 }
 
@@ -151,10 +175,21 @@ void History::State::bring_up_to_date() {
   // Another program may have been faster.
   for (int from = version_in_file(); from < kSchemaVersion; ++from) {
     database->exec(kMigrations[static_cast<std::size_t>(from)]);
+    if (from + 1 == kRecordingsFromHere) name_recordings_from_here();
     database->exec(fmt::format("PRAGMA user_version = {}", from + 1));
   }
   database->exec(fmt::format("PRAGMA application_id = {}", kApplicationId));
   transaction.commit();
+}
+
+// One that was removed takes all that is written, and nobody ever reads it.
+void History::State::check_still_ours() {
+  int has_moved = 0;
+  sqlite3_file_control(database->getHandle(), "main", SQLITE_FCNTL_HAS_MOVED, &has_moved);
+  if (has_moved != 0) refuse("it was removed, or is another file now");
+  const int version = database->execAndGet("PRAGMA user_version").getInt();
+  if (version > kSchemaVersion) refuse("a newer program has taken it over; it is left as it is");
+  if (version != kSchemaVersion) refuse("another program has changed its version; it is left as it is");
 }
 
 // Writing ahead needs the file alone for a moment, and SQLite does not wait for it by itself.

@@ -6,6 +6,11 @@ namespace gearshift {
 namespace {
 
 constexpr double kMostPoints = 10.0;
+constexpr std::int64_t kMostShifts = 1'000'000;  // of a run, numbered from 0
+
+bool is_shift_number(std::int64_t number) noexcept {
+  return number >= 0 && number < kMostShifts;
+}
 
 bool is_gear(std::int64_t gear) noexcept {
   return gear >= kReverseGear && gear <= kMaxGear;
@@ -32,12 +37,13 @@ class RunParts {
     rows.bind(1, run);
   }
 
-  // One between gears that no box has is left out.
+  // One between gears that no box has, or with a number that no run reaches, is left out.
   void read_shift(LessonResult& result) {
     const std::int64_t from = shifts_.getColumn(1).getInt64(), to = shifts_.getColumn(2).getInt64();
-    if (!is_gear(from) || !is_gear(to)) return;
+    const std::int64_t number = shifts_.getColumn(0).getInt64();
+    if (!is_gear(from) || !is_gear(to) || !is_shift_number(number)) return;
     ShiftRecord shift;
-    shift.number = shifts_.getColumn(0).getInt64();
+    shift.number = number;
     shift.from = static_cast<int>(from);
     shift.to = static_cast<int>(to);
     shift.guided = flag_in(shifts_, 3);
@@ -55,9 +61,10 @@ class RunParts {
     if (!kind) return;  // of another program's version
     const double points = std::clamp(figure_in(faults_, 5), 0.0, kMostPoints);
     if (points > 0.0) result.deductions.push_back({result.faults.size(), points});
+    const std::int64_t shift = faults_.getColumn(4).getInt64();
     result.faults.push_back({*kind, choice_in(faults_, 1, Severity::very_severe), figure_in(faults_, 2),
-                             figure_in(faults_, 3), faults_.getColumn(4).getInt64(), faults_.getColumn(6).getString(),
-                             figure_in(faults_, 7)});
+                             figure_in(faults_, 3), is_shift_number(shift) ? shift : -1,
+                             faults_.getColumn(6).getString(), figure_in(faults_, 7)});
   }
 
   SQLite::Statement shifts_, faults_;

@@ -26,14 +26,19 @@ struct History::State {
   void insert_shift(std::int64_t run, const ShiftRecord& shift);
   void replace_faults(std::int64_t run, const LessonResult& result);
 
+  // recording_place.cpp
+  std::string recording_from_here(const std::string& recording) const;  // as a row has it
+
   std::string date() const { return date_text(now()); }
   SQLite::Statement query(const std::string& text) { return {*database, text}; }
 
-  // One sentence whatever goes wrong; `work` is one transaction, seen whole or not at all.
+  // One sentence whatever goes wrong; `work` is one transaction, seen whole or not at all, in a file that is still the
+  // one that was opened.
   template <class Work>
   auto write(const Work& work) {
     return said([&] {
       SQLite::Transaction transaction(*database, SQLite::TransactionBehavior::IMMEDIATE);
+      check_still_ours();
       if constexpr (std::is_void_v<decltype(work())>) {
         work();
         transaction.commit();
@@ -64,6 +69,9 @@ struct History::State {
 
  private:
   std::string place() const;
+  void check_still_ours();
+  void check_may_be_written(const std::string& from) const;
+  void name_recordings_from_here();
   int admitted_version();
   int version_in_file();
   void bring_up_to_date();

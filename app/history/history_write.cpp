@@ -102,7 +102,7 @@ std::int64_t History::begin_run(std::int64_t session, const LessonResult& result
         marks(16) + ")");
     insert.bind(1, session);
     insert.bind(2, state_->date());
-    insert.bind(3, std::string(recording));
+    insert.bind(3, state_->recording_from_here(std::string(recording)));
     insert.bind(4, result.lesson);
     insert.bind(5, result.task);
     insert.bind(6, static_cast<int>(result.mode));
@@ -140,6 +140,14 @@ void History::end_run(std::int64_t run, const LessonResult& result) {
     if (update.exec() == 0) state_->fail_as_gone();
     for (const ShiftRecord& shift : result.shifts) state_->insert_shift(run, shift);
     state_->replace_faults(run, result);
+  });
+}
+
+void History::forget_recording(std::int64_t run) {
+  state_->write([&] {
+    SQLite::Statement update = state_->query("UPDATE lesson_run SET recording = '' WHERE id = ?");
+    update.bind(1, run);
+    if (update.exec() == 0) state_->fail_as_gone();
   });
 }
 

@@ -31,7 +31,7 @@ inline constexpr const char* kRunColumns = R"sql(
 
 // Script i makes version i + 1 of version i: a file is brought up to the newest, in one transaction, with foreign keys
 // off: a table that is made anew takes nothing with it.
-inline const std::array<std::string, 5> kMigrations{
+inline const std::array<std::string, 6> kMigrations{
     // 1
     R"sql(
 CREATE TABLE learner (
@@ -156,7 +156,10 @@ CREATE TABLE new_comment (
 INSERT INTO new_comment (id, run, made_at, author, text) SELECT id, run, made_at, author, text FROM comment;
 DROP TABLE comment;
 ALTER TABLE new_comment RENAME TO comment;
-)sql"};
+)sql",
+    // 6: a recording below the history's folder is named by its way from there (recording_place.cpp does it).
+    ""};
+inline constexpr int kRecordingsFromHere = 6;  // the version from which on
 inline constexpr int kSchemaVersion = static_cast<int>(std::tuple_size_v<decltype(kMigrations)>);
 
 }  // namespace gearshift

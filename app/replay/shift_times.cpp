@@ -18,8 +18,10 @@ ShiftTimes shift_times(const ShiftRecord& shift) {
   const bool gear_is_in = shift.to != kNeutralGear && has(shift, ShiftStep::gear);
   times.lever_left = std::max(0.0, shift.clutch_lead);
   if (gear_is_in) times.gear_in = *times.lever_left + shift.lever_time;
-  if (!has(shift, ShiftStep::clutch_down)) return times;
+  times.presses = static_cast<int>(std::count(shift.steps.begin(), shift.steps.end(), ShiftStep::clutch_down));
+  if (times.presses == 0) return times;
   times.clutch_down = std::max(0.0, -shift.clutch_lead);
+  if (times.presses > 1) return times;
   times.clutch_up = gear_is_in ? *times.gear_in + shift.clutch_lag : *times.clutch_down + shift.clutch_time;
   return times;
 }

@@ -38,7 +38,11 @@ Deleted count(History& history, const LearnerRow& learner) {
 
 void remove_recording(const fs::path& file, Deleted& gone) {
   std::error_code error;
-  if (fs::exists(fs::symlink_status(file, error)) && !is_trace(file)) {
+  if (!fs::exists(fs::symlink_status(file, error))) {
+    gone.missing.push_back(file.string());
+    return;
+  }
+  if (!is_trace(file)) {
     gone.kept.push_back(file.string() + ": it is no recording");
     return;
   }
@@ -50,15 +54,22 @@ void remove_recording(const fs::path& file, Deleted& gone) {
   }
 }
 
+void remove_all(const History& history, const std::vector<std::string>& recordings, Deleted& gone) {
+  for (const std::string& recording : recordings) remove_recording(history.recording_file(recording), gone);
+}
+
 }  // namespace
+
+Deleted remove_recordings(History& history, const LearnerRow& learner) {
+  Deleted gone;
+  remove_all(history, history.recordings(learner.id), gone);
+  return gone;
+}
 
 Deleted delete_learner(History& history, const LearnerRow& learner) {
   Deleted gone = count(history, learner);
-  const fs::path folder = history.file().parent_path();
-  gone.left = history.erase_learner(learner.id, [&](const std::vector<std::string>& recordings) {
-    for (const std::string& recording : recordings)
-      remove_recording(folder / recording, gone);  // an absolute path replaces the folder
-  });
+  gone.left = history.erase_learner(
+      learner.id, [&](const std::vector<std::string>& recordings) { remove_all(history, recordings, gone); });
   return gone;
 }
 

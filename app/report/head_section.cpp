@@ -20,7 +20,8 @@ std::string days_words(const Totals& sum) {
 
 std::string next_lesson(const LearnerHistory& history, std::span<const Lesson> lessons) {
   const std::optional<Suggestion> suggestion = suggest_lesson(lessons, past_results(history));
-  const std::string& wanted = history.learner.next_lesson;
+  const bool is_chosen = is_lesson(lessons, history.learner.next_lesson);
+  const std::string wanted = is_chosen ? history.learner.next_lesson : std::string();
   if (wanted.empty() && !suggestion) return {};
   const std::string suggested =
       suggestion ? fmt::format("{}: {}", lesson_title(lessons, suggestion->lesson), suggestion->why) : std::string();

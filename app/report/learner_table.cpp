@@ -12,7 +12,8 @@ namespace gearshift {
 namespace {
 
 std::string next_lesson(const LearnerHistory& history, std::span<const Lesson> lessons) {
-  if (!history.learner.next_lesson.empty()) return printable(history.learner.next_lesson) + " (the instructor's)";
+  const std::string& wanted = history.learner.next_lesson;
+  if (is_lesson(lessons, wanted)) return printable(wanted) + " (the instructor's)";
   const std::optional<Suggestion> suggestion = suggest_lesson(lessons, past_results(history));
   return suggestion ? printable(suggestion->lesson) : "-";
 }

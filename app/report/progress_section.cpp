@@ -35,15 +35,19 @@ std::string fit_words(const TaskProgress& task) {
   }
   if (task.trials.size() < kFewestForCurve)
     return fmt::format("No curve yet: it takes {} graded runs, there are {}.", kFewestForCurve, task.trials.size());
+  const auto [least, most] = std::minmax_element(task.trials.begin(), task.trials.end(),
+                                                 [](const auto& a, const auto& b) { return a.grade < b.grade; });
+  if (least->grade == most->grade)
+    return fmt::format("No curve: all {} grades are {:.1f}.", task.trials.size(), most->grade);
   return fmt::format("No curve: in these {} grades no learning stands out from their scatter.", task.trials.size());
 }
 
-std::string task_row(const TaskProgress& task, std::span<const PastResult> past) {
+std::string task_row(const TaskProgress& task, std::span<const PastResult> past, std::span<const Lesson> lessons) {
   const auto best = std::max_element(task.trials.begin(), task.trials.end(),
                                      [](const GradedTrial& a, const GradedTrial& b) { return a.grade < b.grade; });
   const auto passed =
       std::count_if(task.trials.begin(), task.trials.end(), [](const GradedTrial& t) { return t.passed; });
-  std::string row = fmt::format("<tr><td>{}</td>", html_text(plain_words(task.task)));
+  std::string row = fmt::format("<tr><td>{}</td>", html_text(task_title(lessons, task.task)));
   const auto number = [&](const std::string& text) { row += "<td class=\"number\">" + text + "</td>"; };
   number(std::to_string(task.trials.size()));
   number(std::to_string(passed));
@@ -54,48 +58,49 @@ std::string task_row(const TaskProgress& task, std::span<const PastResult> past)
   return row + "</tr>\n";
 }
 
-std::string task_table(const std::vector<TaskProgress>& tasks, std::span<const PastResult> past) {
+std::string task_table(const std::vector<TaskProgress>& tasks, std::span<const PastResult> past,
+                       std::span<const Lesson> lessons) {
   std::string table =
       "<table class=\"tasks\">\n<thead><tr><th>Task</th><th class=\"number\">Graded runs</th><th "
       "class=\"number\">Passed</th>"
       "<th class=\"number\">First</th><th class=\"number\">Best</th><th class=\"number\">Last</th>"
       "<th class=\"number\">Mean of the last three</th></tr></thead>\n<tbody>\n";
-  for (const TaskProgress& task : tasks) table += task_row(task, past);
+  for (const TaskProgress& task : tasks) table += task_row(task, past, lessons);
   return table + "</tbody></table>\n";
 }
 
-std::string curve_figure(const TaskProgress& task) {
+std::string curve_figure(const TaskProgress& task, std::span<const Lesson> lessons) {
   return fmt::format("<figure class=\"curve\">\n<h3>{}</h3>\n{}<figcaption>{}</figcaption></figure>\n",
-                     html_text(plain_words(task.task)), learning_svg(task), html_text(fit_words(task)));
+                     html_text(task_title(lessons, task.task)), learning_svg(task), html_text(fit_words(task)));
 }
 
 bool has_chart(const TaskProgress& task) {
   return task.trials.size() >= kFewestForChart;
 }
 
-std::string charts(const std::vector<TaskProgress>& tasks) {
+std::string charts(const std::vector<TaskProgress>& tasks, std::span<const Lesson> lessons) {
   std::string figures;
   for (const TaskProgress& task : tasks) {
-    if (has_chart(task)) figures += curve_figure(task);
+    if (has_chart(task)) figures += curve_figure(task, lessons);
   }
   return figures.empty() ? figures : "<div class=\"curves\">\n" + figures + "</div>\n";
 }
 
 // "Reverse: 8.0 (Run 3), 8.5 (Run 7)"
-std::string grades_item(const TaskProgress& task) {
+std::string grades_item(const TaskProgress& task, std::span<const Lesson> lessons) {
   std::string grades;
   for (const GradedTrial& trial : task.trials) {
     const std::string grade = fmt::format("{:.1f} ({})", trial.grade, run_link(trial.run));
     grades += (grades.empty() ? "" : ", ") + grade;
   }
-  return fmt::format("<li>{}: {}</li>", html_text(plain_words(task.task)), grades);
+  return fmt::format("<li>{}: {}</li>", html_text(task_title(lessons, task.task)), grades);
 }
 
 // The tasks that a chart would be empty for, all in one row.
-std::string few_runs(const std::vector<TaskProgress>& tasks) {
+std::string few_runs(const std::vector<TaskProgress>& tasks, std::span<const Lesson> lessons) {
   std::string items;
   for (const TaskProgress& task : tasks) {
-    if (!has_chart(task)) items += grades_item(task);
+    if (!has_chart(task)) items += grades_item(task, lessons);
   }
   if (items.empty()) return {};
   return fmt::format(
@@ -136,8 +141,7 @@ std::string kept_cells(const std::optional<RetentionTrial>& trial) {
 
 constexpr const char* kWhatIsKept =
     "Grades of the last graded run before a pause, and of the first run after it: what is left of a lesson after 20 "
-    "hours "
-    "or more without it, and after six days or more. The newest of each.";
+    "hours or more without it, and after six days or more. The newest of each.";
 
 std::string kept_part(const LearnerHistory& history, std::span<const Lesson> lessons) {
   const std::vector<Kept> kept = kept_lessons(history);
@@ -160,11 +164,11 @@ std::string kept_part(const LearnerHistory& history, std::span<const Lesson> les
 std::string progress_section(const LearnerHistory& history, std::span<const Lesson> lessons) {
   const std::vector<TaskProgress> tasks = task_progress(history);
   if (tasks.empty()) return section("learning", "Learning", paragraph("There is no graded run yet."));
-  std::string html = task_table(tasks, past_results(history));
-  if (const std::string figures = charts(tasks); !figures.empty())
-    html += figures + few_runs(tasks) + "<p class=\"soft\">" + kHowToRead + "</p>\n";
+  std::string html = task_table(tasks, past_results(history), lessons);
+  if (const std::string figures = charts(tasks, lessons); !figures.empty())
+    html += figures + few_runs(tasks, lessons) + "<p class=\"soft\">" + kHowToRead + "</p>\n";
   else
-    html += few_runs(tasks);
+    html += few_runs(tasks, lessons);
   return section("learning", "Learning", html + kept_part(history, lessons));
 }
 

@@ -137,7 +137,7 @@ std::string shifts_csv(const LearnerHistory& history) {
   table.end();
   for (const ReportedRun& run : history.runs) {
     for (const ShiftRecord& shift : run.row.result.shifts) {
-      table.number(run.row.id).number(shift.number).text(gear_name(shift.from)).text(gear_name(shift.to));
+      table.number(run.row.id).number(shift.number + 1).text(gear_name(shift.from)).text(gear_name(shift.to));
       table.flag(shift.guided).flag(shift.missed).text(steps_text(shift.steps));
       each_figure(shift, [&](const char*, const auto& value) { table.number(value); });
       table.end();
@@ -156,9 +156,9 @@ std::string faults_csv(const LearnerHistory& history) {
     for (const Deduction& deduction : result.deductions) points[deduction.fault] += deduction.points;
     for (std::size_t i = 0; i < result.faults.size(); ++i) {
       const DriveFault& fault = result.faults[i];
-      table.number(run.row.id).number(i).text(fault_key(fault.kind)).text(severity_key(fault.severity));
+      table.number(run.row.id).number(i + 1).text(fault_key(fault.kind)).text(severity_key(fault.severity));
       table.number(fault.time).number(fault.value).text(unit_of(fault.kind));
-      fault.shift >= 0 ? table.number(fault.shift) : table.text("");
+      fault.shift >= 0 ? table.number(fault.shift + 1) : table.text("");
       table.number(points[i]).text(fault.step);
       fault.step.empty() ? table.text("") : table.number(fault.wanted);
       table.end();

@@ -13,7 +13,8 @@ std::string csv_field(std::string_view text);
 
 inline constexpr int kCsvDigits = 12;  // of a number that is no count: 13.379, not 13.379000000000001
 
-// Numbers to kCsvDigits significant digits. grade is empty where a run has none.
+// Numbers to kCsvDigits significant digits. grade is empty where a run has none. Shifts and faults of a run count from 1,
+// as on the page. A recording is named from the history's folder where it lies below that.
 std::string runs_csv(const LearnerHistory& history);
 std::string shifts_csv(const LearnerHistory& history);
 std::string faults_csv(const LearnerHistory& history);

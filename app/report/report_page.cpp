@@ -38,21 +38,22 @@ td.number, td.shift, td.day, td.bars { white-space: nowrap; }
 table.tasks, table.kept { width: auto; }
 table.kept th, table.kept td, table.tasks th, table.tasks td { padding-right: 1.4rem; }
 table.weaknesses th, table.weaknesses td { padding-right: 1.4rem; }
+table.weaknesses th:first-child { width: 36%; }
+table.weaknesses td:last-child { white-space: nowrap; }
 table.shifts { font-size: 0.85rem; }
 table.few th { font-weight: normal; color: #6b7785; white-space: nowrap; }
 table.few td { width: 100%; }
 table.few li { display: inline-block; margin-right: 1.6rem; }
 td ul { margin: 0; padding-left: 0; list-style: none; }
-td blockquote { margin: 0 0 0.3rem; white-space: pre-line; }
+td blockquote { margin: 0.3rem 0; padding-left: 0.6rem; border-left: 0.2rem solid #1f5fa8; white-space: pre-line; }
 .passed { color: #2e7d4f; font-weight: bold; }
 .failed { color: #c5303b; font-weight: bold; }
 .bar { display: inline-block; height: 0.6rem; background: #1f5fa8; border-radius: 1px; }
 .bar.earlier { background: #b9cbe0; }
 table.runs { font-size: 0.85rem; }
-table.runs th:nth-child(3) { width: 18%; }
-table.runs th:nth-child(6) { width: 15%; }
-table.runs th:nth-child(7) { width: 31%; }
-table.runs th:nth-child(8) { width: 17%; }
+table.runs th:nth-child(3) { width: 17%; }
+table.runs th:nth-child(6) { width: 18%; }
+table.runs th:nth-child(7) { width: 49%; }
 table.runs tr:target { background: #fdf3e1; }
 @media screen and (max-width: 50rem) { .curves figure, .recording figure.force, .recording figure.path { width: 100%; } }
 @media print {
@@ -61,9 +62,15 @@ table.runs tr:target { background: #fdf3e1; }
   table, table.shifts, table.runs { font-size: 8pt; }
   td, th { padding: 0.25rem 0.5rem 0.25rem 0; }
   table.weaknesses th, table.weaknesses td { padding-right: 0.7rem; }
-  .recording, table.tasks, table.few, table.kept, table.weaknesses, table.shifts { break-inside: avoid; }
+  .recording, table.tasks, table.few, table.kept, table.shifts { break-inside: avoid; }
   figcaption { font-size: 8pt; }
-  h2 { margin-top: 1.6rem; }
+  h2 { margin-top: 1.2rem; padding-top: 0.6rem; }
+  dl.totals, p.next { margin: 0.8rem 0; }
+  table { margin: 0.6rem 0; }
+  .curves figure { margin: 0.3rem 0; }
+  .recording figure { margin: 0.2rem 0 0.4rem; }
+  .recording figure.force { width: 54%; }
+  .recording figure.path { width: 27%; }
   a { color: inherit; text-decoration: none; }
   h3 { break-after: avoid; }
 }

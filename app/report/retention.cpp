@@ -29,7 +29,7 @@ std::vector<RetentionTrial> retention_trials(const LearnerHistory& history) {
   std::map<std::string, Past> lessons;
   for (const ReportedRun& run : history.runs) {
     const LessonResult& result = run.row.result;
-    if (result.end == LessonEnd::running) continue;
+    if (!was_driven(run.row)) continue;  // as the coach plans its tests
     Past& past = lessons[result.lesson];
     const std::optional<std::int64_t> begun = seconds_of(run.row.begun_at);
     const std::optional<double> pause = pause_before(past, begun);

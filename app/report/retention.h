@@ -26,7 +26,7 @@ struct RetentionTrial {
 };
 
 // Graded runs that follow a pause of kRetentionPause or more since the run of the same lesson before it, graded or not,
-// began. Oldest first. Runs that never ended do not count, nor do days that cannot be read.
+// began. Oldest first. Runs that were left or never ended do not count, nor do days that cannot be read.
 std::vector<RetentionTrial> retention_trials(const LearnerHistory& history);
 
 std::map<std::int64_t, double> retention_pauses(

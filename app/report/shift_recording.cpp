@@ -1,12 +1,15 @@
 #include "app/report/shift_recording.h"
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <utility>
 
 #include <glm/geometric.hpp>
 
 #include "app/replay/drive_reader.h"
 #include "app/replay/shift_way.h"
+#include "app/training/pedal_edge.h"
 #include "haptics/files/file_error.h"
 
 namespace gearshift {
@@ -24,6 +27,34 @@ RecordedCycle cycle_of(const DriveSample& sample, double time) {
           sample.lever.proxy};
 }
 
+// As the shift's record counts them. One that is still held at the shift's end ends with it.
+class Presses {
+ public:
+  explicit Presses(const CarSpec* car) : pedal_(car ? car->clutch.bite : 1.0), has_car_(car != nullptr) {}
+
+  void add(const DriveSample& sample, double time) {
+    if (!has_car_) return;
+    pedal_.update(sample.car.clutch, time);
+    if (pedal_.went_down()) down_ = pedal_.down_at();
+    if (pedal_.went_up()) end(pedal_.up_at());
+  }
+  std::vector<ClutchPress> up_to(double time) {
+    end(time);
+    return std::move(presses_);
+  }
+
+ private:
+  void end(double time) {
+    if (down_ && time > 0.0) presses_.push_back({std::max(0.0, *down_), time});
+    down_.reset();
+  }
+
+  PedalEdge pedal_;
+  bool has_car_;
+  std::optional<double> down_;
+  std::vector<ClutchPress> presses_;
+};
+
 }  // namespace
 
 ShiftRecording read_shift(const std::filesystem::path& trace, const ShiftRecord& shift) {
@@ -33,9 +64,11 @@ ShiftRecording read_shift(const std::filesystem::path& trace, const ShiftRecord&
   recorded.alarm = reader.header().config.over_push.warn_above;
   recorded.end = shift.end - shift.begin;
   ShiftWay way;
+  Presses presses(reader.car());
   for (DriveSample sample; reader.next(sample);) {
     const double time = sample.time() - shift.begin;
     if (time > recorded.end + kAround) break;
+    if (time <= recorded.end) presses.add(sample, time);
     if (time >= -kAround) recorded.cycles.push_back(cycle_of(sample, time));
     if (time >= 0.0) way.add(sample.time(), sample.lever.proxy);
   }
@@ -43,6 +76,7 @@ ShiftRecording read_shift(const std::filesystem::path& trace, const ShiftRecord&
       !recorded.cycles.empty() && recorded.cycles.front().time <= recorded.end && recorded.cycles.back().time >= 0.0;
   if (!holds_it) throw FileError(trace.string(), 0, "does not hold this shift");
   recorded.has_car = reader.car() != nullptr && !reader.differs();
+  recorded.presses = presses.up_to(recorded.end);
   recorded.ideal = way.ways(shift, recorded.gate).ideal;
   return recorded;
 }

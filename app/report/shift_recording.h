@@ -23,12 +23,17 @@ struct RecordedCycle {
   glm::dvec2 lever{0.0};      // [m] as drawn, which does not
 };
 
+struct ClutchPress {
+  double from = 0.0, to = 0.0;  // [s] since the shift began: the pedal past the car's bite point
+};
+
 struct ShiftRecording {
   Gate gate;
   double alarm = 0.0;                 // [N] above it the hand was warned
   double end = 0.0;                   // [s] of the shift, since it began
   bool has_car = false;               // else there are no speeds, and the gear is the lever's
   std::vector<RecordedCycle> cycles;  // from kAround before it to kAround after it
+  std::vector<ClutchPress> presses;   // of the shift, in order; with no car behind the lever there are none
   std::vector<glm::dvec2> ideal;      // [m] the shortest way from where the gear was left to where the next one was in
 };
 inline constexpr double kAround = 0.3;  // [s]

@@ -45,9 +45,7 @@ std::string figures_table(std::span<const ShownShift> shifts, std::span<const Le
 }
 
 std::string timeline(std::span<const ShownShift> shifts) {
-  std::vector<ChosenShift> chosen;
-  for (const ShownShift& shown : shifts) chosen.push_back(shown.chosen);
-  return "<figure class=\"timeline\">\n" + timeline_svg(chosen) + "</figure>\n";
+  return "<figure class=\"timeline\">\n" + timeline_svg(shifts) + "</figure>\n";
 }
 
 constexpr const char* kMeeting = "engine and gearbox, which the clutch brings together; ";

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -25,15 +26,35 @@ constexpr double kAxis = 40.0;
 
 constexpr double kLongest = 8.0;  // [s] of the axis: who waits with the clutch down shall not squeeze the others
 constexpr const char* kClutchColour = "#8d99a6";
+constexpr const char* kUnknownColour = "#e6eaee";
 
 double height_of(const ChosenShift& chosen) {
   return 2.0 * kBar + kBarGap + kLine * static_cast<double>(chosen.faults.size()) + kShiftGap;
 }
 
-double axis_length(std::span<const ChosenShift> shifts) {
+double axis_length(std::span<const ShownShift> shifts) {
   double longest = 0.5;
-  for (const ChosenShift& chosen : shifts) longest = std::max(longest, shift_times(chosen.shift).end);
+  for (const ShownShift& shown : shifts) longest = std::max(longest, shift_times(shown.chosen.shift).end);
   return std::min(kLongest, 1.04 * longest);
+}
+
+struct Clutch {
+  std::vector<ClutchPress> presses;
+  bool is_known = true;  // false: it was pressed more than once, and nobody knows when
+};
+
+// As it was recorded; else, of one press, as the shift's record has it.
+Clutch clutch_of(const ShownShift& shown, const ShiftTimes& times) {
+  if (shown.recorded && !shown.recorded->presses.empty()) return {shown.recorded->presses, true};
+  if (times.presses > 1) return {{}, false};
+  if (times.clutch_down && times.clutch_up) return {{{*times.clutch_down, *times.clutch_up}}, true};
+  return {};
+}
+
+// A clutch that came up too early did so before its shift was over, when the fault is told.
+double moment_of(const DriveFault& fault, const ShiftRecord& shift, const ShiftTimes& times) {
+  const bool came_up = fault.kind == FaultKind::clutch_early && times.gear_in && shift.clutch_lag < 0.0;
+  return came_up ? *times.gear_in + shift.clutch_lag : fault.time - shift.begin;
 }
 
 class Timeline {
@@ -56,16 +77,20 @@ class Timeline {
     entry(kClutchColour, "clutch down", 120.0);
     entry(kGearColour, "lever under way", 145.0);
     entry(kLockoutColour, "lever under way, clutch not down", 245.0);
+    svg_.line({x + 7.0, 5.0}, {x + 7.0, 21.0}, {kLockoutColour, 1.5});
+    svg_.text({x + 20.0, 17.0}, {12.0, kInk}, "a fault");
   }
 
-  void shift(const ChosenShift& chosen, double top) {
+  void shift(const ShownShift& shown, double top) {
+    const ChosenShift& chosen = shown.chosen;
     const ShiftTimes times = shift_times(chosen.shift);
+    const Clutch pedal = clutch_of(shown, times);
     svg_.text({0.0, top + 13.0}, {15.0, kInk, "start", true}, gear_change(chosen.shift));
     svg_.text({0.0, top + 31.0}, {12.0, kSoftInk},
               fmt::format("run {}, shift {}", chosen.run, chosen.shift.number + 1));
-    clutch(times, chosen.shift, top);
-    lever(times, chosen.shift, top + kBar + kBarGap);
-    faults(chosen, top);
+    clutch(times, pedal, chosen.shift, top);
+    lever(times, pedal, chosen.shift, top + kBar + kBarGap);
+    faults(chosen, times, top);
   }
 
  private:
@@ -77,21 +102,24 @@ class Timeline {
     svg_.text({box_.right() + 8.0, top + 12.0}, {12.0, kInk}, fmt::format("{:.2f} s {}", seconds, what));
   }
 
-  void clutch(const ShiftTimes& times, const ShiftRecord& shift, double top) {
-    if (!times.clutch_down) {
+  void clutch(const ShiftTimes& times, const Clutch& clutch, const ShiftRecord& shift, double top) {
+    if (times.presses == 0 && clutch.presses.empty()) {
       svg_.text({x(0.0) + 4.0, top + 12.0}, {12.0, kSoftInk}, "clutch not used");
       return;
     }
-    bar(*times.clutch_down, *times.clutch_up, top, kClutchColour);
+    for (const ClutchPress& press : clutch.presses) bar(press.from, press.to, top, kClutchColour);
+    if (!clutch.is_known) {
+      bar(*times.clutch_down, times.end, top, kUnknownColour);
+      svg_.text({x(*times.clutch_down) + 4.0, top + 12.0}, {12.0, kSoftInk},
+                fmt::format("down {} times", times.presses));
+    }
     number(top, shift.clutch_time, "clutch");
   }
 
-  void lever(const ShiftTimes& times, const ShiftRecord& shift, double top) {
+  void lever(const ShiftTimes& times, const Clutch& clutch, const ShiftRecord& shift, double top) {
     const double left = *times.lever_left, in = times.gear_in.value_or(times.end);
     bar(left, in, top, kGearColour);
-    const double down = times.clutch_down.value_or(in), up = times.clutch_up.value_or(in);
-    if (down > left) bar(left, std::min(down, in), top, kLockoutColour);
-    if (up < in) bar(std::max(up, left), in, top, kLockoutColour);
+    if (clutch.is_known) without_clutch(left, in, clutch.presses, top);
     if (times.gear_in) {
       number(top, shift.lever_time, "lever");
     } else {
@@ -99,10 +127,20 @@ class Timeline {
     }
   }
 
-  void faults(const ChosenShift& chosen, double top) {
+  // What of the lever's way no press covers.
+  void without_clutch(double left, double in, const std::vector<ClutchPress>& presses, double top) {
+    double from = left;
+    for (const ClutchPress& press : presses) {
+      if (std::min(press.from, in) > from) bar(from, std::min(press.from, in), top, kLockoutColour);
+      from = std::max(from, press.to);
+    }
+    if (in > from) bar(from, in, top, kLockoutColour);
+  }
+
+  void faults(const ChosenShift& chosen, const ShiftTimes& times, double top) {
     double line = top + 2.0 * kBar + kBarGap + kLine - 3.0;
     for (const DriveFault& fault : chosen.faults) {
-      const double at = x(fault.time - chosen.shift.begin);
+      const double at = x(moment_of(fault, chosen.shift, times));
       svg_.line({at, top - 3.0}, {at, top + 2.0 * kBar + kBarGap + 3.0}, {kLockoutColour, 1.5});
       svg_.text({x(0.0), line}, {12.0, kLockoutColour}, fault_sentence(fault));
       line += kLine;
@@ -117,17 +155,17 @@ class Timeline {
 
 }  // namespace
 
-std::string timeline_svg(std::span<const ChosenShift> shifts) {
+std::string timeline_svg(std::span<const ShownShift> shifts) {
   double height = 0.0;
-  for (const ChosenShift& chosen : shifts) height += height_of(chosen);
+  for (const ShownShift& shown : shifts) height += height_of(shown.chosen);
   Svg svg({0.0, 0.0, kWidth, kTop + height + kAxis}, 1.0);
   Timeline timeline(svg, {kLabels, kTop, kWidth - kLabels - kNumbers, height}, axis_length(shifts));
   timeline.legend();
   timeline.axis();
   double top = kTop + 0.5 * kShiftGap;
-  for (const ChosenShift& chosen : shifts) {
-    timeline.shift(chosen, top);
-    top += height_of(chosen);
+  for (const ShownShift& shown : shifts) {
+    timeline.shift(shown, top);
+    top += height_of(shown.chosen);
   }
   return std::move(svg).finish();
 }

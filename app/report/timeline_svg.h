@@ -4,10 +4,12 @@
 #include <span>
 #include <string>
 
-#include "app/report/chosen_shifts.h"
+#include "app/report/report_page.h"
 
 namespace gearshift {
 
-std::string timeline_svg(std::span<const ChosenShift> shifts);  // at least one
+// At least one. Where the pedal went down more than once, its times are the recording's; without one the bar is hollow,
+// and nothing is said of the lever without the clutch.
+std::string timeline_svg(std::span<const ShownShift> shifts);
 
 }  // namespace gearshift

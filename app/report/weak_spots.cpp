@@ -2,28 +2,41 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <span>
+#include <string>
 
 #include "app/report/progress.h"
 
 namespace gearshift {
 namespace {
 
-constexpr double kRare = 0.05;  // [1] chance, each way
+constexpr double kRare = 0.05 - 1e-9;  // [1] chance, each way; one in twenty is not rare
 
-struct Counts {
-  std::array<std::size_t, kFaultKinds> faults{};
-  std::size_t shifts = 0;
-};
-
-double binomial(std::size_t k, std::size_t n, double chance) noexcept {
+double log_ways(std::size_t k, std::size_t n) noexcept {
   const auto of = static_cast<double>(n), in = static_cast<double>(k);
-  const double ways = std::lgamma(of + 1.0) - std::lgamma(in + 1.0) - std::lgamma(of - in + 1.0);
-  return std::exp(ways + in * std::log(chance) + (of - in) * std::log1p(-chance));
+  return std::lgamma(of + 1.0) - std::lgamma(in + 1.0) - std::lgamma(of - in + 1.0);
 }
 
-double per_ten_shifts(std::size_t count, std::size_t shifts) noexcept {
-  return shifts == 0 ? 0.0 : 10.0 * static_cast<double>(count) / static_cast<double>(shifts);
+// [1] chance of 0, 1, ... in the later half: hypergeometric.
+std::vector<double> draws(const LessonHalves& lesson) {
+  const std::size_t with = lesson.earlier + lesson.lately, all = 2 * lesson.runs;
+  std::vector<double> chances(std::min(with, lesson.runs) + 1, 0.0);
+  for (std::size_t k = with > lesson.runs ? with - lesson.runs : 0; k < chances.size(); ++k)
+    chances[k] = std::exp(log_ways(k, with) + log_ways(lesson.runs - k, all - with) - log_ways(lesson.runs, all));
+  return chances;
+}
+
+std::vector<double> sums(const std::vector<double>& a, const std::vector<double>& b) {
+  std::vector<double> chances(a.size() + b.size() - 1, 0.0);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t j = 0; j < b.size(); ++j) chances[i + j] += a[i] * b[j];
+  }
+  return chances;
+}
+
+double per_ten(std::size_t count, std::size_t all) noexcept {
+  return all == 0 ? 0.0 : 10.0 * static_cast<double>(count) / static_cast<double>(all);
 }
 
 std::vector<const LessonResult*> graded_results(const LearnerHistory& history) {
@@ -34,25 +47,37 @@ std::vector<const LessonResult*> graded_results(const LearnerHistory& history) {
   return results;
 }
 
-Counts counts_of(std::span<const LessonResult* const> results) {
-  Counts counts;
-  for (const LessonResult* result : results) {
-    counts.shifts += result->shifts.size();
-    for (const DriveFault& fault : result->faults) ++counts.faults[static_cast<std::size_t>(fault.kind)];
-  }
-  return counts;
+std::size_t shifts_of(std::span<const LessonResult* const> results) {
+  std::size_t shifts = 0;
+  for (const LessonResult* result : results) shifts += result->shifts.size();
+  return shifts;
 }
 
-// Number of runs in the earlier half: where the shifts before and after are most alike.
-std::size_t middle(std::span<const LessonResult* const> results) {
-  const std::size_t all = counts_of(results).shifts;
-  std::size_t before = 0, best = 0, least = all;
-  for (std::size_t i = 0; i < results.size(); ++i) {
-    before += results[i]->shifts.size();
-    const std::size_t apart = 2 * before > all ? 2 * before - all : all - 2 * before;
-    if (apart < least) least = apart, best = i + 1;
+bool has(const LessonResult& result, FaultKind kind) {
+  return std::any_of(result.faults.begin(), result.faults.end(), [kind](const DriveFault& fault) {
+    return fault.kind == kind && fault.severity != Severity::note;
+  });
+}
+
+using ByLesson = std::map<std::string, std::vector<const LessonResult*>>;
+
+ByLesson by_lesson(std::span<const LessonResult* const> results) {
+  ByLesson lessons;
+  for (const LessonResult* result : results) lessons[result->lesson].push_back(result);
+  return lessons;
+}
+
+std::vector<LessonHalves> halves_of(FaultKind kind, const ByLesson& lessons) {
+  std::vector<LessonHalves> all;
+  for (const auto& [lesson, results] : lessons) {
+    LessonHalves halves{results.size() / 2, 0, 0};
+    for (std::size_t i = 0; i < halves.runs; ++i) {
+      halves.earlier += has(*results[i], kind) ? 1 : 0;
+      halves.lately += has(*results[results.size() - 1 - i], kind) ? 1 : 0;
+    }
+    if (halves.runs > 0) all.push_back(halves);
   }
-  return best;
+  return all;
 }
 
 WeakSpot spot_of(FaultKind kind, std::span<const LessonResult* const> results) {
@@ -72,17 +97,33 @@ WeakSpot spot_of(FaultKind kind, std::span<const LessonResult* const> results) {
   return spot;
 }
 
+// One of notes alone has no trend.
+void compare(WeakSpot& spot, const std::vector<LessonHalves>& lessons) {
+  LessonHalves sum;
+  for (const LessonHalves& lesson : lessons) {
+    sum.runs += lesson.runs;
+    sum.earlier += lesson.earlier;
+    sum.lately += lesson.lately;
+  }
+  spot.earlier = per_ten(sum.earlier, sum.runs);
+  spot.lately = per_ten(sum.lately, sum.runs);
+  if (spot.count > spot.by_severity[0]) spot.trend = trend_of(lessons);
+}
+
 }  // namespace
 
-Trend trend_of(std::size_t before, std::size_t shifts_before, std::size_t after, std::size_t shifts_after) noexcept {
-  if (shifts_before == 0 || shifts_after == 0) return Trend::unknown;
-  const double chance = static_cast<double>(shifts_after) / static_cast<double>(shifts_before + shifts_after);
-  const std::size_t all = before + after;
+Trend trend_of(std::span<const LessonHalves> lessons) {
+  if (lessons.empty()) return Trend::unknown;
+  std::vector<double> chances{1.0};
+  std::size_t lately = 0;
+  for (const LessonHalves& lesson : lessons) {
+    chances = sums(chances, draws(lesson));
+    lately += lesson.lately;
+  }
   double as_few = 0.0, as_many = 0.0;
-  for (std::size_t k = 0; k <= all; ++k) {
-    const double p = binomial(k, all, chance);
-    if (k <= after) as_few += p;
-    if (k >= after) as_many += p;
+  for (std::size_t k = 0; k < chances.size(); ++k) {
+    if (k <= lately) as_few += chances[k];
+    if (k >= lately) as_many += chances[k];
   }
   if (as_few < kRare) return Trend::falling;
   return as_many < kRare ? Trend::rising : Trend::unclear;
@@ -90,18 +131,13 @@ Trend trend_of(std::size_t before, std::size_t shifts_before, std::size_t after,
 
 Weaknesses weaknesses(const LearnerHistory& history) {
   const std::vector<const LessonResult*> results = graded_results(history);
-  const std::span<const LessonResult* const> all(results);
-  const std::size_t cut = middle(all);
-  const Counts earlier = counts_of(all.first(cut)), lately = counts_of(all.subspan(cut));
-  Weaknesses found{earlier.shifts + lately.shifts, {}};
+  const ByLesson lessons = by_lesson(results);
+  Weaknesses found{shifts_of(results), {}};
   for (std::size_t i = 0; i < kFaultKinds; ++i) {
-    const std::size_t before = earlier.faults[i], after = lately.faults[i];
-    if (before + after == 0) continue;
-    WeakSpot spot = spot_of(static_cast<FaultKind>(i), all);
-    spot.earlier = per_ten_shifts(before, earlier.shifts);
-    spot.lately = per_ten_shifts(after, lately.shifts);
-    spot.per_ten = per_ten_shifts(before + after, found.shifts);
-    spot.trend = trend_of(before, earlier.shifts, after, lately.shifts);
+    WeakSpot spot = spot_of(static_cast<FaultKind>(i), results);
+    if (spot.count == 0) continue;
+    spot.per_ten = per_ten(spot.count - spot.by_severity[0], found.shifts);
+    compare(spot, halves_of(spot.kind, lessons));
     found.spots.push_back(spot);
   }
   std::stable_sort(found.spots.begin(), found.spots.end(), [](const WeakSpot& a, const WeakSpot& b) {

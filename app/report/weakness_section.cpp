@@ -62,8 +62,11 @@ std::string weakness_section(const LearnerHistory& history) {
   double most = 0.0;
   for (const WeakSpot& spot : found.spots) most = std::max({most, spot.earlier, spot.lately});
   std::string table = fmt::format(
-      "<table class=\"weaknesses\">\n<caption>Faults in graded runs, {} shifts. Earlier and lately: the two halves of "
-      "these shifts. Falling or rising: chance alone would do that less than one time in twenty.</caption>\n"
+      "<table class=\"weaknesses\">\n<caption>Faults in graded runs, {} shifts. Earlier and lately: how many of ten "
+      "runs "
+      "had it, in the first and the second half of each lesson's runs. Falling or rising: if nothing had changed, "
+      "chance "
+      "alone would do that less than one time in twenty. Notes count in their own column alone.</caption>\n"
       "<thead><tr><th>Fault</th><th class=\"number\">Very severe</th><th class=\"number\">Severe</th>"
       "<th class=\"number\">Minor</th><th class=\"number\">Notes</th><th class=\"number\">Points lost</th>"
       "<th class=\"number\">Per 10 shifts</th><th>Earlier, lately</th><th>Trend</th></tr></thead>\n<tbody>\n",

@@ -37,6 +37,16 @@ std::string lesson_title(std::span<const Lesson> lessons, std::string_view key) 
   return found != lessons.end() ? found->title : plain_words(key);
 }
 
+std::string task_title(std::span<const Lesson> lessons, std::string_view task) {
+  const auto found =
+      std::find_if(lessons.begin(), lessons.end(), [&](const Lesson& lesson) { return lesson.task == task; });
+  return found != lessons.end() ? found->title : plain_words(task);
+}
+
+bool is_lesson(std::span<const Lesson> lessons, std::string_view key) {
+  return std::any_of(lessons.begin(), lessons.end(), [&](const Lesson& lesson) { return lesson.key == key; });
+}
+
 std::string number_words(double value, int digits) {
   std::string text = fmt::format("{:.{}f}", std::abs(value), digits);
   const bool is_nought = text.find_first_not_of("0.") == std::string::npos;

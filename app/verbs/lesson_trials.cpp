@@ -1,5 +1,6 @@
 #include "app/verbs/lesson_trials.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <set>
 #include <string>
@@ -52,8 +53,9 @@ void print_result(const LessonResult& result, std::int64_t run) {
 }
 
 void print_shift(const ShiftRecord& shift, std::int64_t run) {
-  if (run > 0) fmt::print("  run {}, shift {} written: ", run, shift.number);
-  if (run == 0) fmt::print("  shift {}: ", shift.number);
+  const std::int64_t number = shift.number + 1;  // people count from 1
+  if (run > 0) fmt::print("  run {}, shift {} written: ", run, number);
+  if (run == 0) fmt::print("  shift {}: ", number);
   fmt::print("{} to {} in {:.2f} s\n", gear_name(shift.from), gear_name(shift.to), shift.end - shift.begin);
   std::fflush(stdout);
 }
@@ -69,8 +71,7 @@ class Trials {
   bool to_the_end() {
     for (int number = 0; number < trials_.runs; ++number) drive(number);
     coach_.settle();
-    for (const std::string& file : coach_.forget_recordings())
-      if (own_recordings_.contains(file)) remove(file);  // what was asked for stays
+    if (remove_unnamed() && coach_.needs_room()) coach_.settle();  // rows before recordings
     tell_problem();
     return coach_.view().result.passed;
   }
@@ -122,14 +123,29 @@ class Trials {
     if (view.guidance > 0.0) fmt::print("With help, {:.2f}.\n", view.guidance);
   }
 
-  // A recording that nobody asked for must not cost the lesson: where it cannot begin, there is none.
+  // Recordings of runs that no history names; what was asked for stays. Whether there was one.
+  bool remove_unnamed() {
+    bool any = false;
+    for (const std::string& file : coach_.forget_recordings()) {
+      if (own_recordings_.contains(file)) any = remove(file) || any;
+    }
+    return any;
+  }
+
+  // A recording that nobody asked for must not cost the lesson: where it cannot begin, there is none. A torn one leaves
+  // its room to the history.
   void run(LessonDriveConfig& drive, bool own_recording) {
     try {
       drive_lesson(drive, judge());
     } catch (const FileError& problem) {
+      if (!own_recording) {
+        hand_over();
+        throw;
+      }
+      coach_.forget_recording();
+      remove(drive.trace);
       hand_over();
-      if (!own_recording) throw;
-      tell(problem.what());
+      tell_of_recording(problem.what());
       if (coach_.view().phase != LessonPhase::driving || coach_.view().result.duration > 0.0) return;
       drive.trace.clear();
       drive_lesson(drive, judge());
@@ -144,7 +160,7 @@ class Trials {
       make_folder(folder);
       return free_trace(folder, drive_name(trials_.drive.lesson.key));
     } catch (const std::runtime_error& problem) {
-      tell(problem.what());
+      tell_of_recording(problem.what());
       return {};
     }
   }
@@ -174,18 +190,31 @@ class Trials {
   }
 
   void tell_problem() {
-    if (const std::optional<std::string> problem = coach_.take_problem()) tell(*problem);
+    const std::optional<std::string> problem = coach_.take_problem();
+    if (problem && !was_told(*problem)) tell(*problem);
+    has_remembered_ = has_remembered_ || coach_.view().remembers;
   }
 
-  // The disk that has no room for the history has none for the recording: one sentence is enough.
+  // Once each. Where nothing was ever remembered, what was lost is no news.
+  bool was_told(const std::string& problem) const {
+    return std::any_of(told_problems_.begin(), told_problems_.end(), [&](const std::string& told) {
+      return problem == told || (!has_remembered_ && problem.starts_with(told));
+    });
+  }
+
+  // Each trial's has another name: once is enough.
+  void tell_of_recording(const std::string& problem) {
+    if (!std::exchange(told_recording_, true)) tell(problem);
+  }
+
   void tell(const std::string& problem) {
-    if (!told_problem_) fmt::print(stderr, "gearshift: {}\n", printable(problem));
-    told_problem_ = true;
+    told_problems_.push_back(problem);
+    fmt::print(stderr, "gearshift: {}\n", printable(problem));
   }
 
-  static void remove(const fs::path& file) {
+  static bool remove(const fs::path& file) {
     std::error_code ignored;
-    if (!file.empty()) fs::remove(file, ignored);
+    return fs::remove(file, ignored);
   }
 
   const LessonTrials& trials_;
@@ -194,7 +223,8 @@ class Trials {
   std::size_t unseen_ = 0;  // cycles that were judged since the last lot
   std::size_t told_ = 0;    // shifts of the trial
   std::set<std::string> own_recordings_;
-  bool told_problem_ = false, told_goal_ = false, told_help_ = false;
+  std::vector<std::string> told_problems_;
+  bool has_remembered_ = false, told_recording_ = false, told_goal_ = false, told_help_ = false;
 };
 
 }  // namespace

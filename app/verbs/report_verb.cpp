@@ -1,4 +1,5 @@
 // gearshift report: what is remembered of learners, as a table, a page, CSV; comments, the next lesson, deletion.
+#include <algorithm>
 #include <cstdint>
 #include <filesystem>
 #include <iostream>
@@ -11,7 +12,6 @@
 
 #include <fmt/format.h>
 
-#include "app/assets_path.h"
 #include "app/coach/shipped_lessons.h"
 #include "app/history/history.h"
 #include "app/output_folder.h"
@@ -92,8 +92,14 @@ void write_report(const ReportArguments& arguments, History& history, const Lear
   write_report_files(arguments.out, files, [](const fs::path& file) { fmt::print("{}\n", file.string()); });
 }
 
+// By its key, as the coach knows it.
 void set_next(const std::string& lesson, History& history, const LearnerRow& learner) {
-  if (!lesson.empty()) (void)read_lesson(find_asset("lessons", lesson));  // refuses
+  const std::vector<Lesson> lessons = shipped_lessons();
+  std::string keys;
+  for (const Lesson& each : lessons) keys += (keys.empty() ? "" : ", ") + each.key;
+  const bool is_known = std::any_of(lessons.begin(), lessons.end(), [&](const Lesson& l) { return l.key == lesson; });
+  if (!lesson.empty() && !is_known)
+    throw std::runtime_error(fmt::format("\"{}\" is none of the shipped lessons: {}", printable(lesson), keys));
   history.set_next_lesson(learner.id, lesson);
   fmt::print("{}: next lesson {}\n", printable(learner.name), lesson.empty() ? "as suggested" : printable(lesson));
 }
@@ -131,8 +137,20 @@ int tell_left(const std::string& left) {
   return left.empty() ? 0 : 1;
 }
 
-// Of a learner who is not there (any more), what an earlier deletion could not do.
-int erase(const ReportArguments& arguments, History& history) {
+void tell_recordings(const Deleted& gone) {
+  for (const std::string& file : gone.recordings) fmt::print("  {}\n", printable(file));
+  for (const std::string& file : gone.missing) fmt::print("  not found: {}\n", printable(file));
+  for (const std::string& kept : gone.kept) fmt::print(stderr, "gearshift: not removed: {}\n", printable(kept));
+}
+
+void confirm(const ReportArguments& arguments, const LearnerRow& learner) {
+  if (!is_confirmed(arguments, learner))
+    throw std::runtime_error(fmt::format("{} was not deleted: that is another name", printable(learner.name)));
+}
+
+// Of a learner who is not there (any more), what an earlier deletion could not do. `first`: recordings that have gone
+// already.
+int erase(const ReportArguments& arguments, History& history, const std::vector<std::string>& first) {
   if (!history.find_learner(arguments.learner) && history.erasure_is_pending()) {
     const std::string left = history.finish_erasure();
     if (left.empty())
@@ -140,16 +158,42 @@ int erase(const ReportArguments& arguments, History& history) {
     return tell_left(left);
   }
   const LearnerRow learner = known_learner(history, arguments.learner);
-  if (!is_confirmed(arguments, learner))
-    throw std::runtime_error(fmt::format("{} was not deleted: that is another name", printable(learner.name)));
-  const Deleted gone = delete_learner(history, learner);
+  confirm(arguments, learner);
+  Deleted gone = delete_learner(history, learner);
+  std::erase_if(gone.missing,
+                [&](const std::string& file) { return std::find(first.begin(), first.end(), file) != first.end(); });
   fmt::print("{} is gone: {} sessions, {} runs, {} shifts, {} faults, {} comments, {} recordings\n",
              printable(learner.name), gone.sessions, gone.runs, gone.shifts, gone.faults, gone.comments,
-             gone.recordings.size());
-  for (const std::string& file : gone.recordings) fmt::print("  {}\n", printable(file));
-  for (const std::string& kept : gone.kept) fmt::print(stderr, "gearshift: not removed: {}\n", printable(kept));
+             gone.recordings.size() + first.size());
+  tell_recordings(gone);
   const int code = tell_left(gone.left);
   return gone.kept.empty() ? code : 1;
+}
+
+std::unique_ptr<History> open_where_there_is_room(const fs::path& file) {
+  try {
+    return std::make_unique<History>(file);
+  } catch (const HistoryFull&) {
+    return nullptr;
+  }
+}
+
+// A disk so full that the history cannot even be opened to be written: the recordings go first and leave it room.
+int delete_for_good(ReportArguments arguments, const fs::path& file) {
+  std::unique_ptr<History> history = open_where_there_is_room(file);
+  std::vector<std::string> first;
+  if (!history) {
+    History copy(file, system_seconds, kHistoryPatience, HistoryUse::read);
+    const LearnerRow learner = known_learner(copy, arguments.learner);
+    confirm(arguments, learner);
+    arguments.yes = true;
+    const Deleted gone = remove_recordings(copy, learner);
+    fmt::print("The disk is full: {} recordings are gone first\n", gone.recordings.size());
+    tell_recordings(gone);
+    first = gone.recordings;
+    history = std::make_unique<History>(file);
+  }
+  return erase(arguments, *history, first);
 }
 
 // Of one learner.
@@ -171,10 +215,11 @@ int run_report(const ReportArguments& arguments) {
     fmt::print("Nobody has driven a lesson yet.\n");
     return 0;
   }
-  const bool writes = arguments.deletes || instructs(arguments);
+  if (arguments.deletes) return delete_for_good(arguments, file);
+  const bool writes = instructs(arguments);
   History history(file, system_seconds, kHistoryPatience, writes ? HistoryUse::write : HistoryUse::read);
   if (arguments.learner.empty()) return list_learners(history);
-  return arguments.deletes ? erase(arguments, history) : report_learner(arguments, history);
+  return report_learner(arguments, history);
 }
 
 std::string not_empty(const std::string& value) {

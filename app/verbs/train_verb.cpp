@@ -15,6 +15,7 @@
 #include "app/verbs/picture_size.h"
 #include "app/verbs/tour_arguments.h"
 #include "app/verbs/verbs.h"
+#include "haptics/files/printable.h"
 
 namespace gearshift {
 namespace {
@@ -72,15 +73,23 @@ int run_demo_instead(const TrainArguments& arguments) {
   return run_demo(tour);
 }
 
+// A hand that drives by itself is nobody's, whoever is named.
+void tell_nobody_learns(const SessionChoice& choice) {
+  if (choice.learner.empty() || !learner_of(choice).empty()) return;
+  fmt::print(stderr, "gearshift: the hand drives by itself: nothing is remembered of {}\n", printable(choice.learner));
+}
+
 int run_train(const TrainArguments& arguments) {
   TrainSetup setup = make_setup(arguments);
   if (!arguments.offscreen.empty()) {
     setup.choice.clock = TrainerClock::virtual_time;
     setup.choice.sound = SoundOutput::none;
     if (setup.choice.hand.empty()) setup.choice.hand = kByItself;
+    tell_nobody_learns(setup.choice);
     return train_offscreen(setup, {arguments.offscreen, arguments.seconds});
   }
   if (!has_display()) return run_demo_instead(arguments);
+  tell_nobody_learns(setup.choice);
   return train_in_window(setup);
 }
 
@@ -91,7 +100,8 @@ void add_train_verb(CLI::App& app, VerbAction& action) {
   CLI::App* verb = app.add_subcommand("train", "The trainer: a hand at mouse, keys or pad, or the simulated one");
   verb->add_option("--lesson", arguments->choice.lesson,
                    "shipped lesson or file, or none; else the one that is suggested");
-  verb->add_option("--learner", arguments->choice.learner, "who learns: remembered; else nothing is")
+  verb->add_option("--learner", arguments->choice.learner,
+                   "who learns: remembered, but not of a hand by itself; else nothing is")
       ->type_name("NAME")
       ->check(learner_name);
   verb->add_option("--database", arguments->database, "another history than the user's own")->type_name("FILE");

@@ -36,10 +36,14 @@ check "without a name nothing is remembered" learn nobody hill_start
 check "and no folder is made" test ! -e data
 check "a lesson is passed" learn kim hill_start --learner Kim --verbose
 check "and says so" grep -q '^Run 1: .*Grade 10.0 of 10. Passed.$' kim.txt
-check "each shift was told" grep -q '^  run 1, shift 0 written: ' kim.txt
+check "each shift was told, from 1 on" grep -q '^  run 1, shift 1 written: ' kim.txt
+check "and not from 0" exits 1 grep -q 'shift 0' kim.txt
 check "nothing is wrong" test ! -s kim.err
 check "the page" report --learner Kim --out page --csv
 check "knows the lesson" grep -q "hill_start" page/runs.csv
+check "what was told of shifts is in the table, number by number" \
+  test "$(sed -n 's/^  run \([0-9]*\), shift \([0-9]*\) written: .*/\1,\2/p' kim.txt)" = \
+  "$(tail -n +2 page/shifts.csv | cut -d, -f1,2)"
 bit_for_bit() { "$gearshift" replay "$1" 2>&1 | grep -q "^bit for bit"; }
 check "the recording replays" bit_for_bit "$(ls data/gearshift/recordings/*.trace)"
 check "a lesson is failed" exits 1 learn kim hill_start --learner Kim --fault rollback
@@ -183,12 +187,16 @@ if unshare -rm true 2>/dev/null; then
 else
   check "full: passed, and the file as it was" bash on_full_disk.sh "$gearshift"
 fi
-check "full: one sentence, got: $(cat full.err)" test "$(wc -l <full.err)" -eq 1
+said_and_lost() { # the sentence at once, and at the end what is lost
+  [ "$(wc -l <full.err)" -eq 2 ] && head -n 1 full.err | grep -q "the disk is full" &&
+    tail -n 1 full.err | grep -q "lost with this program: 3 runs"
+}
+check "full: said, and what is lost, got: $(cat full.err)" said_and_lost
 check "full: three lessons" test "$(grep -c 'Passed\.$' full.txt)" -eq 3
 rm -rf full
 check "full by a limit: passed, and the file as it was" \
   bash -c 'mount() { return 1; }; source on_full_disk.sh' - "$gearshift"
-check "full by a limit: one sentence, got: $(cat full.err)" test "$(wc -l <full.err)" -eq 1
+check "full by a limit: said, and what is lost, got: $(cat full.err)" said_and_lost
 
 # The recording itself fills the disk: no file that the history names is removed.
 cat >on_small_disk.sh <<'END'
@@ -198,13 +206,70 @@ code=$?
 python3 -c '
 import os, sqlite3, sys
 rows = sqlite3.connect("small/h.db").execute("SELECT recording FROM lesson_run WHERE recording != ?", ("",)).fetchall()
-sys.exit(0 if all(os.path.exists(row[0]) for row in rows) else 8)' || code=8
+sys.exit(0 if all(os.path.exists(os.path.join("small", row[0])) for row in rows) else 8)' || code=8
 exit $code
 END
 if unshare -rm true 2>/dev/null; then
   check "a small disk: passed, and what the history names is there" unshare -rm bash on_small_disk.sh "$gearshift"
-  check "a small disk: one sentence, got: $(cat small.err)" test "$(wc -l <small.err)" -eq 1
+  check "a small disk: told, and nothing is lost, got: $(cat small.err)" \
+    test "$(grep -c 'the recording failed' small.err)" -eq 1 -a "$(grep -c 'lost' small.err)" -eq 0
 fi
+
+# The recordings of some runs fill the disk: all rows have their place, whatever becomes of recordings.
+cat >on_filling_disk.sh <<'END'
+mkdir filling && mount -t tmpfs -o size=4m none filling || exit 9
+"$1" lesson up_through_the_gears --learner Kim --database filling/h.db --runs 6 >filling.txt 2>filling.err
+"$1" report --learner Kim --database filling/h.db --out filling_page --csv >/dev/null || exit 7
+dd if=/dev/zero of=filling/filler bs=4k 2>/dev/null
+"$1" report --learner Kim --database filling/h.db --delete --yes >filling_gone.txt 2>&1 || exit 6
+[ "$(ls filling/recordings | wc -l)" -eq 0 ] || exit 5
+END
+if unshare -rm true 2>/dev/null; then
+  check "a disk that fills: six lessons, and a deletion when it is full" \
+    unshare -rm bash on_filling_disk.sh "$gearshift"
+  check "a disk that fills: six runs that are over, got: $(cat filling.err)" \
+    test "$(grep -c ',done,' filling_page/runs.csv)" -eq 6
+  check "a disk that fills: with all shifts" test "$(rows filling_page/shifts.csv)" -eq 24
+  check "a disk that fills: recordings went with the rows, got: $(cat filling_gone.txt)" \
+    grep -q "Kim is gone: 1 sessions, 6 runs, 24 shifts" filling_gone.txt
+fi
+
+# Written by a newer program, or removed, while lessons are driven: told, and what is lost with it.
+learn taken hill_start --learner Kim --database taken/h.db
+meanwhile() { # command ...: after the third run, while more are driven
+  "$gearshift" lesson skip_shifts --runs 40 --learner Kim --database taken/h.db --verbose \
+    >taken.txt 2>taken.err </dev/null &
+  local program=$!
+  timeout 60 sh -c 'until grep -q "^  run [3-9], shift" taken.txt; do sleep 0.01; done'
+  "$@"
+  wait $program
+}
+set_version() { python3 -c 'import sqlite3; sqlite3.connect("taken/h.db").execute("PRAGMA user_version = 99")'; }
+count_runs() { python3 -c '
+import sqlite3
+print(sqlite3.connect("taken/h.db").execute("SELECT count(*) FROM lesson_run").fetchone()[0])'; }
+take_over() {
+  set_version
+  before=$(count_runs)
+}
+meanwhile take_over
+check "taken over: no run is written any more" test "$(count_runs)" -eq "$before"
+check "taken over: told, with what is lost, got: $(cat taken.err)" test "$(wc -l <taken.err)" -eq 2 -a \
+  -n "$(grep "a newer program has taken it over" taken.err)" -a -n "$(grep "lost with this program: [0-9]* runs" taken.err)"
+rm -rf taken
+learn taken hill_start --learner Kim --database taken/h.db
+meanwhile rm -f taken/h.db taken/h.db-wal taken/h.db-shm
+check "removed: told, with what is lost, got: $(cat taken.err)" test "$(wc -l <taken.err)" -eq 2 -a \
+  -n "$(grep "it was removed" taken.err)" -a -n "$(grep "lost with this program: [0-9]* runs" taken.err)"
+check "removed: not made anew" test ! -e taken/h.db
+
+# Moved with its recordings: they are found, drawn and deleted where they are now.
+learn moved skip_shifts --learner Kim --database before/h.db
+mv before after_the_move
+report --learner Kim --database after_the_move/h.db --out moved
+check "moved: drawn" grep -q 'class="path"' moved/index.html
+check "moved: deleted" report --learner Kim --database after_the_move/h.db --delete --yes
+check "moved: with its recording" test "$(ls after_the_move/recordings | wc -l)" -eq 0
 
 # Names that mean something to SQLite are names of files.
 for name in :memory: file:name.db?mode=memory; do
@@ -225,10 +290,25 @@ holder=$!
 until grep -qs held held.out; do sleep 0.05; done
 check "held by another program: passed" learn held hill_start --learner Kim --database held.db
 wait $holder
-check "held: told, got: $(cat held.err)" test "$(wc -l <held.err)" -eq 1
+check "held: told, and nothing is lost, got: $(cat held.err)" test "$(wc -l <held.err)" -eq 1
 report --learner Kim --database held.db --out held --csv
 check "held: both runs are there" test "$(rows held/runs.csv)" -eq 2
 check "held: and over" test "$(grep -c running held/runs.csv)" -eq 0
 check "held: with their recordings" bit_for_bit "$(ls recordings/*.trace | tail -n 1)"
+
+# Held for longer than anybody waits: what is lost is told, though the waiting was told before.
+python3 -c '
+import sqlite3, time
+held = sqlite3.connect("held.db", isolation_level=None)
+held.execute("BEGIN IMMEDIATE")
+print("held", flush=True)
+time.sleep(60)' >held_on.out &
+holder=$!
+until grep -qs held held_on.out; do sleep 0.05; done
+check "held on: passed" learn held_on hill_start --learner Kim --database held.db
+kill $holder
+wait $holder 2>/dev/null
+check "held on: told to wait, then to be lost, got: $(cat held_on.err)" test "$(wc -l <held_on.err)" -eq 2 -a \
+  -n "$(tail -n 1 held_on.err | grep "lost with this program: 1 run")"
 
 finish

@@ -69,7 +69,10 @@ refuse 1 "known: none yet" --learner Bob --comment 1 text --by Bo
 refuse 2 "--by" --learner "$ada" --comment 1 text
 refuse 2 "--comment" --learner "$ada" --by Bo
 refuse 2 "--comment" --learner "$ada" --comment one text --by Bo
-refuse 1 "shipped lessons" --learner "$ada" --next flying
+refuse 1 "none of the shipped lessons: start_and_stop, " --learner "$ada" --next flying
+refuse 1 "none of the shipped lessons" --learner "$ada" --next "$2/assets/lessons/reverse.toml"
+mkdir folder.db
+refuse 1 "it is a folder" --database folder.db
 refuse 2 "--learner" --out t
 refuse 2 "--learner: must not be empty" --learner "" --delete --yes
 refuse 2 "--out: must not be empty" --learner "$ada" --out ""

@@ -362,3 +362,81 @@ TEST_CASE(
     CHECK(run.result.shifts.size() == 1);
   }
 }
+
+// Law: what was lost is told, also after a problem that promised to wait; and is not where it was taken after all.
+TEST_CASE("settled in vain for want of room, then there is room: the loss is told, and taken back") {
+  const TempFolder folder;
+  CoachBench bench(folder / "history.db");
+  Coach coach(bench.config);
+  bench.trial(coach, "one");
+  CHECK_FALSE(coach.needs_room());
+  disk_is_full = true;
+  bench.trial(coach, "one");
+  CHECK(coach.take_problem().value_or("").find("waits in this program until there is room") != std::string::npos);
+  const std::string lost = coach.settle();
+  CHECK(lost.find("the disk is full") != std::string::npos);
+  CHECK(lost.find("; lost with this program: 1 run") != std::string::npos);
+  CHECK(coach.needs_room());
+  disk_is_full = false;
+  CHECK(coach.settle().empty());
+  CHECK_FALSE(coach.take_problem().has_value());
+  CHECK_FALSE(coach.needs_room());
+  CHECK(runs_in(bench.config.history).size() == 2);
+}
+
+TEST_CASE(
+    "a recording that is lost is named by no run: before its first cycle, while it is driven, and after its end") {
+  const TempFolder folder;
+  CoachBench bench(folder / "history.db");
+  {
+    Coach coach(bench.config);
+    const std::vector<DriveSample> drive = bench_drive(Drive::good);
+    for (const std::size_t driven : {std::size_t{0}, std::size_t{500}, drive.size()}) {
+      coach.offer(bench.config.lessons[0]);
+      bench.begin(coach, "", "/a/lost.trace");
+      coach.add(std::span(drive).first(driven));
+      coach.forget_recording();
+      coach.add(std::span(drive).subspan(driven));
+      CHECK(coach.view().runs[0].recording.empty());
+    }
+    coach.offer(bench.config.lessons[0]);
+    bench.begin(coach, "", "/a/kept.trace");
+    coach.add(drive);
+    disk_is_full = true;
+    coach.forget_recording();
+    CHECK(runs_in(bench.config.history).back().recording == "/a/kept.trace");
+    disk_is_full = false;
+  }
+  const std::vector<RunRow> runs = runs_in(bench.config.history);
+  REQUIRE(runs.size() == 4);
+  for (const RunRow& run : runs) CHECK(run.recording.empty());
+}
+
+TEST_CASE("recordings that lie beside the history are seen where they are, and named from there") {
+  const TempFolder folder;
+  CoachBench bench(folder / "history.db");
+  const std::string recording = (folder / "recordings/a.trace").string();
+  {
+    Coach coach(bench.config);
+    coach.offer(bench.config.lessons[0]);
+    bench.begin(coach, "", recording);
+    coach.add(bench_drive(Drive::good));
+    CHECK(coach.view().runs[0].recording == recording);
+  }
+  CHECK(runs_in(bench.config.history)[0].recording == "recordings/a.trace");
+  Coach again(bench.config);
+  CHECK(again.view().runs[0].recording == recording);
+}
+
+TEST_CASE("a history that is removed while lessons are driven is told, and what is lost with it") {
+  const TempFolder folder;
+  CoachBench bench(folder / "history.db");
+  Coach coach(bench.config);
+  bench.trial(coach, "one");
+  std::filesystem::remove(bench.config.history);
+  bench.trial(coach, "one");
+  CHECK(coach.take_problem().value_or("").find("it was removed") != std::string::npos);
+  CHECK_FALSE(coach.view().remembers);
+  CHECK(coach.settle().find("lost with this program: 1 run") != std::string::npos);
+  CHECK_FALSE(std::filesystem::exists(bench.config.history));
+}

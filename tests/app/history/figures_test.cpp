@@ -39,6 +39,8 @@ void check_can_be(const LessonResult& result) {
   for (const ShiftRecord& shift : result.shifts) {
     CHECK(std::string(gear_name(shift.from)) != "?");
     CHECK(std::string(gear_name(shift.to)) != "?");
+    CHECK(shift.number >= 0);
+    CHECK(shift.number < 1'000'000);
     each_figure(shift, [](const char*, const auto& value) { check_can_be(static_cast<double>(value)); });
   }
   for (const DriveFault& fault : result.faults) {
@@ -46,6 +48,8 @@ void check_can_be(const LessonResult& result) {
     check_can_be(fault.value);
     check_can_be(fault.wanted);
     check_can_be(fault.time);
+    CHECK(fault.shift >= -1);
+    CHECK(fault.shift < 1'000'000);
     CHECK(!fault_sentence(fault).empty());
   }
   for (const Deduction& deduction : result.deductions) {
@@ -101,6 +105,7 @@ TEST_CASE("what somebody else wrote into the file is read as something that can 
       text += std::string("UPDATE shift SET ") + name + " = " + value + " WHERE number > 0;";
     });
     text += std::string("UPDATE shift SET from_gear = ") + value + " WHERE number = 2;";
+    text += std::string("UPDATE shift SET number = ") + value + " WHERE number = 1;";
     for (const char* field : {"severity", "time_s", "value", "shift", "points", "wanted_s"})
       text += std::string("UPDATE fault SET ") + field + " = " + value + ";";
     text += "UPDATE fault SET kind = 'missed_shift' WHERE number = 1;";
@@ -108,7 +113,7 @@ TEST_CASE("what somebody else wrote into the file is read as something that can 
     History history(file);
     const std::vector<RunRow> runs = history.runs(ada);
     REQUIRE(runs.size() == 1);
-    CHECK(runs[0].result.shifts.size() >= 2);
+    CHECK(runs[0].result.shifts.size() >= 1);
     check_can_be(runs[0].result);
   }
 }

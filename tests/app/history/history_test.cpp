@@ -274,7 +274,7 @@ TEST_CASE("a file with any bytes changed gives the sentence or something to read
 TEST_CASE("a folder in the file's place, or a place that cannot be, is refused in one sentence") {
   const TempFolder folder;
   std::filesystem::create_directory(folder / "history.db");
-  CHECK(is_refused(folder / "history.db", "cannot be"));
+  CHECK(is_refused(folder / "history.db", "it is a folder"));
   write_bytes(folder / "plain", "");
   CHECK(is_refused(folder / "plain/history.db", "folder"));
 }

@@ -135,6 +135,36 @@ TEST_CASE("a file of version 1 is brought up to date with all that is in it") {
   CHECK(history.learner("Ada") == 4);
 }
 
+// Law: a file is written as long as it is the one that was opened, and of the version that it had then.
+TEST_CASE("taken over by a newer program, or removed, while it is open: refused in one sentence, and not written") {
+  const TempFolder folder;
+  const auto file = folder / "history.db";
+  History history(file);
+  const std::int64_t ada = history.learner("Ada");
+  const auto set_version = [&](int version) {
+    sqlite3* other = nullptr;
+    REQUIRE(sqlite3_open(file.c_str(), &other) == SQLITE_OK);
+    const std::string text = "PRAGMA user_version = " + std::to_string(version);
+    REQUIRE(sqlite3_exec(other, text.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK);
+    sqlite3_close(other);
+  };
+  set_version(kSchemaVersion + 1);
+  CHECK_THROWS_WITH_AS(history.learner("Bob"), doctest::Contains("a newer program has taken it over"), HistoryError);
+  CHECK_THROWS_AS(history.begin_session(ada, "1.0"), HistoryError);
+  set_version(kSchemaVersion);
+  history.learner("Bob");
+  CHECK(history.learners().size() == 2);
+
+  std::filesystem::rename(file, folder / "elsewhere.db");
+  CHECK_THROWS_WITH_AS(history.learner("Cy"), doctest::Contains("it was removed"), HistoryError);
+  CHECK_FALSE(std::filesystem::exists(file));
+  std::ofstream(file) << "another one";
+  CHECK_THROWS_WITH_AS(history.learner("Cy"), doctest::Contains("or is another file now"), HistoryError);
+  std::filesystem::rename(folder / "elsewhere.db", file);
+  history.learner("Cy");
+  CHECK(history.learners().size() == 3);
+}
+
 TEST_CASE("the clock that is given dates what is written") {
   const TempFolder folder;
   std::int64_t now = 0;

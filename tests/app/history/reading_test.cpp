@@ -111,6 +111,33 @@ TEST_CASE("a history that nobody may write, in a folder that nobody may write, i
   CHECK(sealed.bytes() == before);
 }
 
+// Law: what may not be written gets no log beside it, which nobody else could write either.
+TEST_CASE("a history that may not be written, in a folder that may: read or refused, it can be written again later") {
+  const TempFolder folder;
+  const fs::path place = folder / "open", file = place / "history.db";
+  fs::permissions(folder.path(), fs::perms(0755));
+  fs::create_directory(place);
+  fill(file);
+  fs::permissions(place, fs::perms(0777));
+  fs::permissions(file, fs::perms(0444));
+  const auto write = [&] {
+    History(file).learner("Bob");
+    return std::string();
+  };
+  const std::string said = as_nobody(write);
+  CHECK(said == file.string() + ": the history cannot be used: it may not be written");
+  CHECK(as_nobody([&] { return what_is_wrong_with(read_only(file)); }) == "");
+  CHECK(std::distance(fs::directory_iterator(place), {}) == 1);
+  fs::permissions(file, fs::perms(0666));
+  CHECK(as_nobody(write) == "");
+
+  // What an older program left there: named.
+  std::ofstream(place / "history.db-shm") << "";
+  fs::permissions(place / "history.db-shm", fs::perms(0444));
+  CHECK(as_nobody(write) ==
+        file.string() + ": the history cannot be used: history.db-shm beside it may not be written");
+}
+
 TEST_CASE("names that mean something in an address are names") {
   const TempFolder folder;
   fs::permissions(folder.path(), fs::perms(0755));
@@ -218,6 +245,7 @@ TEST_CASE("what cannot be read is refused in one sentence, and nothing is made")
   };
   CHECK(refused(folder / "none.db"));
   CHECK(refused(folder.path()));
+  CHECK_THROWS_WITH_AS((void)read_only(folder.path()), doctest::Contains("it is a folder"), HistoryError);
   std::ofstream(folder / "letter.db") << "Dear Ada" << std::string(4096, ' ');
   CHECK(refused(folder / "letter.db"));
   fill(folder / "secret.db");

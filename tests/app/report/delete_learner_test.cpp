@@ -63,7 +63,8 @@ TEST_CASE("deleted: rows, comments and recordings go, and what went is told; oth
     CHECK(gone.faults == 28);
     CHECK(gone.comments == 7);
     CHECK(gone.left.empty());
-    CHECK(gone.recordings.size() == 3);  // own, near and the one that was gone before
+    CHECK(gone.recordings.size() == 2);  // own and near
+    CHECK(gone.missing == std::vector<std::string>{away});
     REQUIRE(gone.kept.size() == 2);
     CHECK_FALSE(history.find_learner("Zebediah").has_value());
     CHECK(read_learner(history, *history.find_learner("Bob")).runs.size() == 1);
@@ -103,4 +104,42 @@ TEST_CASE("a learner read back has the runs with their comments") {
   CHECK(all.runs[1].row.recording == "b");
   REQUIRE(all.runs[1].comments.size() == 1);
   CHECK(all.runs[1].comments[0].text == "Remarkable Xylophone");
+}
+
+TEST_CASE("of a history that was copied with its recordings, a learner is deleted with the copy's own") {
+  const TempFolder folder;
+  const auto one = folder / "one", copy = folder / "copy";
+  std::filesystem::create_directories(one / "recordings");
+  write(one / "recordings/a.trace", trace_bytes());
+  {
+    History history(one / "history.db");
+    drive(history, "Ada", {(one / "recordings/a.trace").string()});
+  }
+  std::filesystem::copy(one, copy, std::filesystem::copy_options::recursive);
+  {
+    History history(copy / "history.db");
+    const Deleted gone = delete_learner(history, *history.find_learner("Ada"));
+    CHECK(gone.recordings == std::vector<std::string>{(copy / "recordings/a.trace").string()});
+  }
+  CHECK_FALSE(std::filesystem::exists(copy / "recordings/a.trace"));
+  CHECK(std::filesystem::exists(one / "recordings/a.trace"));
+}
+
+TEST_CASE("recordings alone can go first, and from a history that is only read; the rows stay to be deleted") {
+  const TempFolder folder;
+  write(folder / "own.trace", trace_bytes());
+  write(folder / "shared.trace", trace_bytes());
+  {
+    History history(folder / "history.db");
+    drive(history, "Ada", {"own.trace", "shared.trace"});
+    drive(history, "Bob", {"shared.trace"});
+  }
+  History copy(folder / "history.db", system_seconds, kHistoryPatience, HistoryUse::read);
+  CHECK(remove_recordings(copy, *copy.find_learner("Ada")).recordings.size() == 1);
+  CHECK_FALSE(std::filesystem::exists(folder / "own.trace"));
+  CHECK(std::filesystem::exists(folder / "shared.trace"));
+  History history(folder / "history.db");
+  const Deleted gone = delete_learner(history, *history.find_learner("Ada"));
+  CHECK(gone.runs == 2);
+  CHECK(gone.missing.size() == 1);
 }

@@ -25,12 +25,12 @@ TEST_CASE("said, said otherwise, taken back: the page shows the last text, and n
   const LearnerRow ada = history.find_learner("Ada").value(), bob = history.find_learner("Bob").value();
   const auto said = [&] {
     const LearnerHistory all = read_learner(history, ada);
-    return table_of(report_page(all, {}, {}), "runs").at(0).at(7);
+    return table_of(report_page(all, {}, {}), "runs").at(0).at(6);
   };
   const std::int64_t word = comment_on_run(history, ada, run[0], "Bo", "Zymurgic.");
-  CHECK(said().find("Zymurgic.") == 0);
+  CHECK(said().find("Zymurgic.") != std::string::npos);
   edit_comment(history, ada, word, "Quincunx.");
-  CHECK(said().find("Quincunx.") == 0);
+  CHECK(said().find("Quincunx.") != std::string::npos);
   CHECK(said().find("Zymurgic.") == std::string::npos);
 
   CHECK_THROWS_WITH_AS(comment_on_run(history, ada, run[1], "Bo", "No."), "run 2 is none of Ada's; known: 1",
@@ -39,9 +39,9 @@ TEST_CASE("said, said otherwise, taken back: the page shows the last text, and n
                        std::runtime_error);
   CHECK_THROWS_AS(delete_comment(history, bob, word), std::runtime_error);
   CHECK_THROWS_AS(edit_comment(history, ada, word, "No. "), std::invalid_argument);
-  CHECK(said().find("Quincunx.") == 0);
+  CHECK(said().find("Quincunx.") != std::string::npos);
   delete_comment(history, ada, word);
-  CHECK(said().empty());
+  CHECK(said().find("Quincunx.") == std::string::npos);
   CHECK_THROWS_WITH_AS(delete_comment(history, ada, word), "comment 1 is none of Ada's; known: none yet",
                        std::runtime_error);
 }

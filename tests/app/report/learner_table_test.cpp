@@ -13,14 +13,17 @@ TEST_CASE("learners: sessions, runs, last day and what comes next, one line each
   learners[0].runs[2].row.session = 2;
   learners[1].learner.name = "Bo\n\x1b[31mred";
   learners[1].learner.next_lesson = "reverse";
-  std::vector<Lesson> lessons(1);
+  std::vector<Lesson> lessons(2);
+  lessons[1].key = lessons[1].task = "reverse";
   lessons[0].key = "drill";
   lessons[0].task = "upshift";
   const std::string table = learner_table(learners, lessons);
   CHECK(table ==
         "learner      sessions  runs  last day    next lesson\n"
-        "Ada                 2     3  2026-01-04  drill\n"
+        "Ada                 2     3  2026-01-04  reverse\n"
         "Bo ?[31mred         0     0  -           reverse (the instructor's)\n");
+  learners[1].learner.next_lesson = "/home/bo/reverse.toml";  // the coach offers no such lesson
+  CHECK(learner_table(learners, lessons).find("instructor") == std::string::npos);
   CHECK(run_table(learners[0]).find("    3  2026-01-04  drill                     by_yourself    9.0  passed\n") !=
         std::string::npos);
   CHECK(run_table(learners[0]).find("comment") == std::string::npos);

@@ -149,7 +149,7 @@ TEST_CASE("shifts come back from the table, every figure to twelve digits") {
     auto fields = row(records, i);
     const ShiftRecord& shift = history.runs[0].row.result.shifts[i];
     CHECK(fields["run"] == "12");
-    CHECK(fields["shift"] == std::to_string(i));
+    CHECK(fields["shift"] == std::to_string(i + 1));  // as people count
     CHECK(fields["from_gear"] == gear_name(shift.from));
     CHECK(fields["to_gear"] == gear_name(shift.to));
     CHECK(fields["guided"] == (shift.guided ? "1" : "0"));
@@ -174,7 +174,8 @@ TEST_CASE("faults come back from the table, with unit and points") {
   CHECK(stall["shift"].empty());
   CHECK(stall["points"] == "2");
   CHECK(rollback["unit"] == "m");
-  CHECK(rollback["shift"] == "0");
+  CHECK(rollback["shift"] == "1");
+  CHECK(rollback["fault"] == "2");
   CHECK(rollback["points"] == "0.5");
   CHECK(jerk["unit"] == "m/s^3");
   CHECK(jerk["points"] == "0");

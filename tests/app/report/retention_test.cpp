@@ -45,17 +45,20 @@ TEST_CASE("the first graded run after 20 h or more since the run before it, to t
   CHECK(trials[2].before->grade == 3.0);
 }
 
-TEST_CASE("who was led before it practised before it: that run shows nothing; runs that never ended are none") {
+TEST_CASE(
+    "who was led before it practised before it: that run shows nothing; runs that were left or never ended are none") {
   LearnerHistory history;
   history.runs = {run_at(1, "2026-03-01T10:00:00Z", 5.0), run_at(2, "2026-03-03T10:00:00Z", 0.0),
                   run_at(3, "2026-03-03T10:10:00Z", 6.0), run_at(4, "2026-03-05T10:00:00Z", 0.0),
                   run_at(5, "2026-03-05T10:10:00Z", 7.0)};
   history.runs[1].row.result.guided = true;
-  history.runs[3].row.result.end = LessonEnd::running;
-  const auto trials = retention_trials(history);
-  REQUIRE(trials.size() == 1);
-  CHECK(trials[0].run == 5);
-  CHECK(trials[0].before->run == 3);
+  for (const LessonEnd end : {LessonEnd::running, LessonEnd::left}) {
+    history.runs[3].row.result.end = end;
+    const auto trials = retention_trials(history);
+    REQUIRE(trials.size() == 1);
+    CHECK(trials[0].run == 5);
+    CHECK(trials[0].before->run == 3);
+  }
 }
 
 TEST_CASE("after guided runs alone there is a pause, but nothing to compare with; unreadable days have none") {

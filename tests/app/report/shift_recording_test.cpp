@@ -1,7 +1,9 @@
 // A shift found in a trace, and drawn: force and way are those that were recorded.
 #include "app/report/shift_recording.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include <doctest/doctest.h>
 
@@ -99,6 +101,22 @@ TEST_CASE("engine, shaft and gear are those of the drive, in every cycle; the id
     }
     CHECK(next == shift.cycles.size());
   }
+}
+
+// Law: what the meter integrated while the lesson was driven is what the recording's presses add up to.
+TEST_CASE("presses of the clutch are as many, and as long, as the shift's record has them") {
+  const LessonTrace& trace = upshifts();
+  for (const ShiftRecord& record : trace.result.shifts) {
+    const std::vector<ClutchPress> presses = read_shift(trace.file, record).presses;
+    CHECK(std::count(record.steps.begin(), record.steps.end(), ShiftStep::clutch_down) ==
+          static_cast<std::ptrdiff_t>(presses.size()));
+    double sum = 0.0;
+    for (const ClutchPress& press : presses) sum += press.to - press.from;
+    CHECK(sum == doctest::Approx(record.clutch_time).epsilon(0.01));
+  }
+  const TempFolder folder;
+  write_sawtooth(folder / "a.trace");
+  CHECK(read_shift(folder / "a.trace", shift_at(104.1)).presses.empty());  // no car, no bite point
 }
 
 TEST_CASE("with a car there are speeds to see, and a box for each gear; without one there are none") {

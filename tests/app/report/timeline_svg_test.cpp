@@ -32,14 +32,14 @@ std::vector<Bar> bars_of(const std::string& svg, const std::string& colour) {
   return bars;
 }
 
-ChosenShift chosen(const ShiftRecord& shift) {
-  return {7, "drill", "", shift, {}, 0.0};
+ShownShift chosen(const ShiftRecord& shift) {
+  return {{7, "drill", "", shift, {}, 0.0}, {}, {}};
 }
 
 }  // namespace
 
 TEST_CASE("clutch and lever on one axis: 0.5 s of clutch, of which the lever goes from 0.10 to 0.35 s") {
-  const std::vector<ChosenShift> shifts{chosen(good_shift(2, 40.0))};
+  const std::vector<ShownShift> shifts{chosen(good_shift(2, 40.0))};
   const std::string svg = timeline_svg(shifts);
   const auto clutch = bars_of(svg, kClutch), lever = bars_of(svg, kLever);
   REQUIRE(clutch.size() == 1);
@@ -56,7 +56,7 @@ TEST_CASE("red: the lever's way without the clutch, before it was down and after
   ShiftRecord early = good_shift(0, 40.0), late = good_shift(0, 40.0);
   early.clutch_lag = -0.05;
   late.clutch_lead = -0.08;
-  const std::vector<ChosenShift> shifts{chosen(early), chosen(late)};
+  const std::vector<ShownShift> shifts{chosen(early), chosen(late)};
   const std::string svg = timeline_svg(shifts);
   const auto lever = bars_of(svg, kLever), red = bars_of(svg, kRed);
   REQUIRE(lever.size() == 2);
@@ -73,8 +73,51 @@ TEST_CASE("who waits a minute with the clutch down does not squeeze the others: 
   waits.clutch_lead = 60.0;
   waits.clutch_time = 60.4;
   waits.end = waits.begin + 60.5;
-  const std::vector<ChosenShift> shifts{chosen(waits), chosen(good_shift(1, 40.0))};
+  const std::vector<ShownShift> shifts{chosen(waits), chosen(good_shift(1, 40.0))};
   const auto clutch = bars_of(timeline_svg(shifts), kClutch);
   REQUIRE(clutch.size() == 2);
   CHECK(clutch[0].width / clutch[1].width == doctest::Approx(8.0 / 0.5).epsilon(1e-3));
+}
+
+// 0.35 s of lever from 0.10 s on; the pedal is down from 0 to 0.2 and from 0.3 to 0.4 s.
+TEST_CASE("a clutch that was pressed twice: as it was recorded, red between the presses; without a recording no red") {
+  ShiftRecord twice = good_shift(0, 40.0);
+  twice.steps = {ShiftStep::clutch_down, ShiftStep::neutral, ShiftStep::clutch_up,
+                 ShiftStep::clutch_down, ShiftStep::gear,    ShiftStep::clutch_up};
+  twice.lever_time = 0.35;
+  twice.clutch_time = 0.3;
+  twice.clutch_lag = -0.25;
+  std::vector<ShownShift> shifts{chosen(twice)};
+  shifts[0].chosen.faults = {{FaultKind::clutch_early, Severity::severe, twice.end, 0.25, 0}};
+  const std::string unknown = timeline_svg(shifts);
+  CHECK(bars_of(unknown, kClutch).empty());
+  CHECK(bars_of(unknown, kRed).empty());
+  CHECK(unknown.find("down 2 times") != std::string::npos);
+  CHECK(unknown.find("0.30 s clutch") != std::string::npos);
+
+  shifts[0].recorded.emplace();
+  shifts[0].recorded->presses = {{0.0, 0.2}, {0.3, 0.4}};
+  const std::string known = timeline_svg(shifts);
+  const auto clutch = bars_of(known, kClutch), lever = bars_of(known, kLever), red = bars_of(known, kRed);
+  REQUIRE(clutch.size() == 2);
+  REQUIRE(lever.size() == 1);
+  REQUIRE(red.size() == 2);
+  const double second = lever[0].width / 0.35, begin = lever[0].x - 0.1 * second;
+  CHECK((clutch[0].width + clutch[1].width) / second ==
+        doctest::Approx(0.3).epsilon(1e-3));  // the record's clutch time
+  CHECK((red[0].x - begin) / second == doctest::Approx(0.2).epsilon(1e-3));
+  CHECK(red[0].width / second == doctest::Approx(0.1).epsilon(1e-3));
+  CHECK((red[1].x - begin) / second == doctest::Approx(0.4).epsilon(1e-3));
+  CHECK(red[1].width / second == doctest::Approx(0.05).epsilon(1e-3));
+  // The tick stands where the clutch came up, 0.25 s before the gear was in, not at the shift's end.
+  std::vector<double> ticks;
+  for (std::size_t at = 0;;) {
+    const std::string_view line = between(known, "<line ", "/>", at);
+    if (at == std::string::npos) break;
+    if (line.find(kRed) != std::string_view::npos)
+      ticks.push_back(std::stod(std::string(between(line, "x1=\"", "\""))));
+  }
+  REQUIRE(ticks.size() == 2);  // the legend's is the first
+  CHECK((ticks[1] - begin) / second == doctest::Approx(0.2).epsilon(1e-3));
+  CHECK(known.find("a fault") != std::string::npos);
 }

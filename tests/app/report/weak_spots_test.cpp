@@ -9,21 +9,54 @@
 
 using namespace gearshift;
 
+namespace {
+
+Trend trend(std::vector<LessonHalves> lessons) {
+  return trend_of(lessons);
+}
+
+}  // namespace
+
 TEST_CASE("a change is told where chance alone would give it less than one time in twenty") {
-  // Equal halves: of n faults all in one half has the chance 2^-n. 1/16 is not rare, 1/32 is.
-  CHECK(trend_of(4, 20, 0, 20) == Trend::unclear);
-  CHECK(trend_of(5, 20, 0, 20) == Trend::falling);
-  CHECK(trend_of(0, 20, 4, 20) == Trend::unclear);
-  CHECK(trend_of(0, 20, 5, 20) == Trend::rising);
-  // A later part of 90 % of the shifts: all of n there has the chance 0.9^n, none of them 0.1^n.
-  CHECK(trend_of(0, 10, 28, 90) == Trend::unclear);
-  CHECK(trend_of(0, 10, 29, 90) == Trend::rising);  // 0.9^28 = 0.0523, 0.9^29 = 0.0471
-  CHECK(trend_of(1, 10, 0, 90) == Trend::unclear);
-  CHECK(trend_of(2, 10, 0, 90) == Trend::falling);
-  CHECK(trend_of(0, 20, 0, 20) == Trend::unclear);
-  CHECK(trend_of(3, 0, 3, 20) == Trend::unknown);
-  CHECK(trend_of(3, 20, 0, 0) == Trend::unknown);
-  CHECK(trend_of(5000, 1000, 5000, 1000) == Trend::unclear);  // no overflow
+  // Of 2n runs n have it, all of them in one half: one way in C(2n, n), which is 6, 20, 70 for n = 2, 3, 4.
+  CHECK(trend({{3, 3, 0}}) == Trend::unclear);  // 1/20 is not rare
+  CHECK(trend({{4, 4, 0}}) == Trend::falling);
+  CHECK(trend({{4, 0, 4}}) == Trend::rising);
+  // Of 40 runs k have it, all of them in one half: 20/40 19/39 ... k factors; 0.0530 for 4, 0.0236 for 5.
+  CHECK(trend({{20, 4, 0}}) == Trend::unclear);
+  CHECK(trend({{20, 5, 0}}) == Trend::falling);
+  CHECK(trend({{20, 0, 5}}) == Trend::rising);
+  // Two lessons by themselves say nothing, together (1/6)^2.
+  CHECK(trend({{2, 2, 0}}) == Trend::unclear);
+  CHECK(trend({{2, 2, 0}, {2, 2, 0}}) == Trend::falling);
+  CHECK(trend({{2, 2, 0}, {2, 0, 2}}) == Trend::unclear);
+  // In all runs, or in none, there is nothing to learn.
+  CHECK(trend({{9, 9, 9}, {9, 0, 0}}) == Trend::unclear);
+  CHECK(trend({}) == Trend::unknown);
+  CHECK(trend({{1000, 700, 500}, {1000, 500, 500}}) == Trend::falling);  // no overflow
+}
+
+// Law: which lessons were driven when is no change of the learner.
+TEST_CASE("a lesson with a fault in each of its runs, and another one without it later: nothing has changed") {
+  LearnerHistory history;
+  for (int i = 0; i < 24; ++i) {
+    history.runs.push_back(run_with(i + 1, 2, 5.0));
+    LessonResult& result = history.runs.back().row.result;
+    result.lesson = i < 12 ? "hill_start" : "skip_shifts";
+    result.faults = {{i < 12 ? FaultKind::stall : FaultKind::rev_mismatch, Severity::severe, 0.0, 1.0, 0}};
+  }
+  for (const WeakSpot& spot : weaknesses(history).spots) {
+    CHECK(spot.trend == Trend::unclear);
+    CHECK(spot.earlier == 5.0);
+    CHECK(spot.lately == 5.0);
+  }
+  // Control: stalls that end within the lesson are a change; notes that come are none.
+  for (std::size_t i = 6; i < 12; ++i) history.runs[i].row.result.faults[0].severity = Severity::note;
+  const Weaknesses found = weaknesses(history);
+  REQUIRE(found.spots.size() == 2);
+  const WeakSpot& stall = found.spots[0].kind == FaultKind::stall ? found.spots[0] : found.spots[1];
+  CHECK(stall.trend == Trend::falling);
+  CHECK(stall.per_ten == 10.0 * 6 / 48);
 }
 
 TEST_CASE("faults are counted by kind and severity, per ten shifts, earlier and lately") {
@@ -50,9 +83,9 @@ TEST_CASE("faults are counted by kind and severity, per ten shifts, earlier and 
   CHECK(grind.by_severity == std::array<std::size_t, 4>{1, 1, 0, 1});
   CHECK(grind.count == 3);
   CHECK(grind.points == 4.5);
-  CHECK(grind.per_ten == 1.5);
-  CHECK(grind.earlier == 2.0);  // 2 in 10 shifts
-  CHECK(grind.lately == 1.0);
+  CHECK(grind.per_ten == 1.0);  // the note is none
+  CHECK(grind.earlier == 5.0);  // one of two runs
+  CHECK(grind.lately == 5.0);
   const WeakSpot& stall = found.spots[1];
   CHECK(stall.count == 1);
   CHECK(stall.points == 2.0);
