@@ -18,6 +18,14 @@ bool SimulatedLearner::means_ill(const DriveSample& now) const noexcept {
 // At a launch: true while the deed is being done.
 bool SimulatedLearner::spoils_launch(const DriveSample& now) {
   if (!means_ill(now)) return false;
+  const bool dumps = is_due(FaultKind::clutch_dump);
+  const double revs = dumps ? kDumpSpeed : kJerkSpeed;
+  if (feet_.hand_brake.value() > 0.05 && !is_due(FaultKind::rollback) && !is_due(FaultKind::stall)) {
+    // On a hill the revs come first, or it would roll back.
+    feet_.throttle.go(kHurry, 4.0);
+    if (now.car.engine_speed >= revs) feet_.hand_brake.go(0.0, kHandBrakeRate);
+    return true;
+  }
   if (feet_.hand_brake.value() > 0.05) {
     if (intent().motion == Motion::bite) feet_.hand_brake.go(0.0, kHandBrakeRate);  // it is not waited for
     hold_revs(launch_speed_);
@@ -36,8 +44,6 @@ bool SimulatedLearner::spoils_launch(const DriveSample& now) {
     feet_.clutch.go(0.0, 3.0);
     return true;
   }
-  const bool dumps = is_due(FaultKind::clutch_dump);
-  const double revs = dumps ? kDumpSpeed : kJerkSpeed;
   feet_.throttle.go(kHurry, 4.0);
   const bool comes_up = feet_.clutch.goal() == 0.0 && feet_.clutch.value() < car_.clutch.bite;
   if (now.car.engine_speed >= revs || comes_up) feet_.clutch.go(0.0, dumps ? kFootOff : kAbrupt);
@@ -53,7 +59,8 @@ bool SimulatedLearner::over_revs(const DriveSample& now) {
   const bool howls = !over_rev_late_ && clutch_is_down_ && (stands || feet_.brake.goal() < 0.5);
   if (!late && !howls) return false;
   feet_.throttle.go(1.0, 8.0);
-  if (now.car.engine_speed > 1.01 * car_.engine.red_line) once(FaultKind::over_rev);
+  if (now.car.engine_speed > 1.01 * car_.engine.red_line && once(FaultKind::over_rev) && howls)
+    release_at_ = now.time() + kRevsSettle;
   return true;
 }
 
@@ -70,13 +77,15 @@ int SimulatedLearner::lugging_gear(const DriveSample& now) const noexcept {
 // Rolls on with the clutch down, where nothing asks for it.
 bool SimulatedLearner::coasts(const DriveSample& now) {
   if (!is_due(FaultKind::coasting)) return false;
-  const bool coupled = feet_.clutch.value() == 0.0 && now.car.clutch_locked && now.car.gear >= 2;
+  // A shift that comes next would only be a slow one.
+  const bool coupled = feet_.clutch.value() == 0.0 && now.car.clutch_locked && now.car.gear >= 2 && !intent().next_gear;
   if (coasts_until_ == 0.0 && coupled && now.car.road_speed > kCoasts)
     coasts_until_ = pause_until_ = now.time() + kRollsOn * faults_.of(FaultKind::coasting);
   if (coasts_until_ == 0.0 || (now.time() >= coasts_until_ && once(FaultKind::coasting))) return false;
   feet_.throttle.go(0.0, kLiftRate);
   feet_.brake.go(0.0, kBrakeRate);
-  press_clutch();
+  // Open, but not what lessons call down: a shift does not begin with it.
+  feet_.clutch.go(car_.clutch.bite + kHardlyOpen, kPressRate);
   return true;
 }
 
@@ -120,8 +129,15 @@ bool SimulatedLearner::lugs(const DriveSample& now) {
   return true;
 }
 
-bool SimulatedLearner::stalls_by_brake(const DriveSample& now) {
+// Where the lesson ends at a stand there, else at once.
+bool SimulatedLearner::brakes_to_stall(const DriveSample& now) const noexcept {
   if (!is_due(FaultKind::stall) || lesson_.start.speed <= 0.0 || now.car.gear == kNeutralGear) return false;
+  const auto stands = [](const LessonIntent& wants) { return wants.motion == Motion::stand; };
+  return intent().motion == Motion::stand || std::none_of(intents_.begin(), intents_.end(), stands);
+}
+
+bool SimulatedLearner::stalls_by_brake(const DriveSample& now) {
+  if (!brakes_to_stall(now)) return false;
   feet_.throttle.go(0.0, kLiftRate);
   feet_.clutch.go(0.0, kToBite);
   feet_.brake.go(0.6, kBrakeRate);

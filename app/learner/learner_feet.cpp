@@ -26,7 +26,8 @@ void SimulatedLearner::drive(const DriveSample& now) {
   if (over_revs(now) || coasts(now) || lugs(now) || stalls_by_brake(now)) return;
   switch (intent().motion) {
     case Motion::stay:
-      if (shifts_late(now)) return go_on(now);
+      lingers_ = shifts_late(now);
+      if (lingers_) return *intent().next_gear > now.car.gear ? go_on(now) : slow_down(now);
       feet_.throttle.go(0.0, kLiftRate);
       if (intent().clutch_down && !(is_due(FaultKind::no_clutch) && intent().next_gear)) press_clutch();
       break;
@@ -91,7 +92,11 @@ void SimulatedLearner::hold_revs(double speed) {
 bool SimulatedLearner::feels_bite(const DriveSample& now) const noexcept {
   if (feet_.clutch.value() >= car_.clutch.bite || now.car.gear == kNeutralGear) return false;
   if (intent().no_throttle) return heard_ < car_.engine.idle - kIdleDrop;
-  return heard_ < launch_speed_ - kBiteDrop && feet_.throttle.value() > 0.25;
+  return heard_ < launch_target() - kBiteDrop && feet_.throttle.value() > 0.25;
+}
+
+double SimulatedLearner::launch_target() const noexcept {
+  return launch_speed_ * (1.0 + kHowl * faults_.of(FaultKind::clutch_burn));
 }
 
 void SimulatedLearner::release(const DriveSample& now) {
@@ -141,7 +146,7 @@ bool SimulatedLearner::revs_fit(const DriveSample& now, double speed) {
 // From a stand: throttle first, the pedal quickly to where it begins to carry, then slowly until the clutch holds.
 void SimulatedLearner::launch(const DriveSample& now) {
   if (spoils_launch(now)) return;
-  const double target = launch_speed_ * (1.0 + kHowl * faults_.of(FaultKind::clutch_burn));
+  const double target = launch_target();
   if (intent().no_throttle) {
     feet_.throttle.go(0.0, kLiftRate);
   } else {

@@ -63,8 +63,13 @@ inline constexpr double kPushMore = 35.0;         // [N] times the amount
 inline constexpr double kFootWeighs = 0.09;       // [1] pedal under a foot that rests on it
 inline constexpr double kFootWeighsMore = 0.03;   // [1] times the amount
 inline constexpr double kDawdles = 4.0;           // [s] with the clutch down, times the amount
-inline constexpr double kRollsOn = 5.0;           // [s] with the clutch down, driving, times the amount
+inline constexpr double kRollsOn = 5.5;           // [s] with the clutch open, driving, times the amount
+inline constexpr double kHardlyOpen = 0.02;       // [1] of the pedal beyond the bite point
 inline constexpr double kLate = 1.5;              // [1] of a step's time, times the amount
 inline constexpr double kThrottleTooSoon = 0.15;  // [1] before the clutch is up
+inline constexpr double kThrottleLead = 0.6;      // [s] so long before, times the amount
+inline constexpr double kRevsSettle = 5.0;        // [s] after a howl, until the clutch comes up
+inline constexpr double kFarBefore = 0.8;         // [1] of the speed at which it is to be shifted
+inline constexpr double kFarBeyond = 4.2;         // [m/s] and beyond it
 
 }  // namespace gearshift

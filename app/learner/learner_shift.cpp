@@ -27,15 +27,14 @@ std::optional<int> SimulatedLearner::wanted_gear(const DriveSample& now) const {
   const LessonIntent& wants = intent();
   const auto other = [&](std::optional<int> gear) { return gear && *gear != now.car.gear ? gear : std::nullopt; };
   if (lug_gear_ != kNeutralGear) return other(lug_gear_);
+  if (brakes_to_stall(now)) return std::nullopt;
   if (other(wants.gear)) return wants.gear;
   const bool rolls_back = now.car.road_speed < -kRolls && wants.motion == Motion::stand;
   if (rolls_back && is_due(FaultKind::wrong_direction) && known_ + 1 < intents_.size())
     return other(intents_[known_ + 1].gear);
   const bool up_next = wants.accelerates && known_ + 1 < intents_.size() && intents_[known_ + 1].next_gear;
   const bool coupled = feet_.clutch.value() == 0.0 && now.car.clutch_locked;
-  if (up_next && coupled && faults_.of(FaultKind::early_shift) >= 0.5 &&
-      now.car.engine_speed > 1.25 * car_.engine.idle && now.car.engine_speed < lesson_.shift_from)
-    return other(intents_[known_ + 1].next_gear);
+  if (up_next && coupled && shifts_early(now)) return other(intents_[known_ + 1].next_gear);
   if (!wants.next_gear) return std::nullopt;
   if (shifts_late(now)) return std::nullopt;
   if (over_rev_late_ && is_due(FaultKind::over_rev) && coupled && now.car.gear <= 2) return std::nullopt;
@@ -49,12 +48,29 @@ bool SimulatedLearner::spins_shaft(const DriveSample& now) const noexcept {
          now.car.shaft_speed < 0.8 * car_.engine.idle;
 }
 
-// Upshifts, where the lesson has a band for them.
+// That the step says, or the one behind it for which it prepares. [m/s]
+std::optional<double> SimulatedLearner::speed_to_shift(std::size_t step) const noexcept {
+  for (std::size_t i = step; i < lesson_.steps.size() && i <= step + 1; ++i) {
+    if (lesson_.steps[i].at) return lesson_.steps[i].at;
+  }
+  return std::nullopt;
+}
+
+// Upshifts, below the lesson's band or the step's speed.
+bool SimulatedLearner::shifts_early(const DriveSample& now) const noexcept {
+  if (!is_due(FaultKind::early_shift) || now.car.engine_speed < 1.25 * car_.engine.idle) return false;
+  const std::optional<double> at = speed_to_shift(known_ + 1);
+  return at ? now.car.road_speed < kFarBefore * *at : now.car.engine_speed < lesson_.shift_from;
+}
+
+// Above the lesson's band, or far beyond the step's speed.
 bool SimulatedLearner::shifts_late(const DriveSample& now) const noexcept {
-  if (faults_.of(FaultKind::late_shift) < 0.5 || lesson_.shift_to > car_.engine.red_line) return false;
   const bool coupled = feet_.clutch.value() == 0.0 && now.car.clutch_locked;
-  const bool up = intent().next_gear && *intent().next_gear > now.car.gear;
-  return up && coupled && now.car.engine_speed < 1.1 * lesson_.shift_to;
+  if (!is_due(FaultKind::late_shift) || !coupled || !intent().next_gear) return false;
+  const bool up = *intent().next_gear > now.car.gear;
+  if (const std::optional<double> at = speed_to_shift(known_))
+    return up ? now.car.road_speed < *at + kFarBeyond : now.car.road_speed > *at - kFarBeyond;
+  return up && lesson_.shift_to <= car_.engine.red_line && now.car.engine_speed < 1.1 * lesson_.shift_to;
 }
 
 SimulatedLearner::Errand SimulatedLearner::errand_for(const DriveSample& now, int gear) noexcept {
@@ -84,6 +100,8 @@ void SimulatedLearner::begin_shift(const DriveSample& now, int gear) {
   if (shift_.errand == Errand::blocked) shift_.gear = 1;
   shift_.between_gears = now.car.gear != kNeutralGear && gear != kNeutralGear;
   once(FaultKind::grind);
+  if (intent().accelerates) once(FaultKind::early_shift);
+  if (lingers_) once(FaultKind::late_shift);
   shift_.uses_clutch = !is_due(FaultKind::no_clutch);
   shift_.lift_at = now.time() + std::max(0.0, noise(skill_.timing_spread));
   shift_.flares_until = now.time() + 0.6 * faults_.of(FaultKind::throttle_in_shift);
@@ -233,6 +251,8 @@ void SimulatedLearner::end_shift(const DriveSample& now) {
   hand_.set_feeble(0.0);
   gear_in_at_ = now.time();
   release_at_ += now.time();
+  if (shift_.between_gears && faults_.of(FaultKind::step_order) > 0.0)
+    release_at_ = now.time() + kThrottleLead * faults_.of(FaultKind::step_order);
   if (shift_.between_gears && std::abs(now.car.road_speed) > kCoasts && once(FaultKind::too_slow))
     release_at_ = now.time() + kDawdles * faults_.of(FaultKind::too_slow);
   release_rate_ = kThroughBite * skill_.haste * std::exp(noise(skill_.release_spread));

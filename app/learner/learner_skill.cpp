@@ -11,7 +11,7 @@ namespace {
 // Winston. Emergency Braking in Adults Versus Novice Teen Drivers. 2015). Of a launch: pupils rush the pedal through the
 // bite point and are shy of the throttle, which is what instructors give as the causes of a stall; how much of it nobody
 // has measured.
-constexpr LearnerSkill kBeginner{0.45, 0.18, 0.007, 0.05, 0.30, 0.50, 0.18, 2.0, 0.25, 0.50, 0.5, 0.75, 0.45};
+constexpr LearnerSkill kBeginner{0.45, 0.18, 0.007, 0.05, 0.30, 0.50, 0.18, 2.0, 0.25, 0.50, 0.5, 0.75, 0.0, 0.45};
 
 }  // namespace
 
@@ -25,7 +25,7 @@ LearnerSkill skill_of(double error) noexcept {
           between(&LearnerSkill::pace),         between(&LearnerSkill::haste),
           between(&LearnerSkill::hearing),      between(&LearnerSkill::foot_change),
           between(&LearnerSkill::brake_effort), between(&LearnerSkill::gas),
-          between(&LearnerSkill::bite_fall)};
+          between(&LearnerSkill::reading),      between(&LearnerSkill::bite_fall)};
 }
 
 LearnerFaults only(FaultKind kind, double amount) noexcept {

@@ -22,6 +22,7 @@ struct LearnerSkill {
   double foot_change = 0.20;     // [s] of the right foot, from the throttle to the brake
   double brake_effort = 1.0;     // [1] of the brake, where it should be all of it at once
   double gas = 1.0;              // [1] of the engine speed that a launch needs, that is meant
+  double reading = 0.0;          // [s] to read what a step says, before the reaction to it
   double bite_fall = 0.18;       // [1] by which the engine falls at the bite point until the left foot waits for it
   bool operator==(const LearnerSkill&) const = default;
 };
@@ -50,14 +51,14 @@ LearnerSkill skill_of(double error) noexcept;
 //   missed_shift       draws back before the gear is in and gives up for a while
 //   wrong_gear, wrong_column   a wrong gear, a wrong slot's mouth, first
 //   over_push          impatient with the synchroniser and the end stop: 55 N and 35 N more
-//   step_order         throttle before the clutch
+//   step_order         throttle 0.6 s before the clutch comes up
 //   rollback           lets the hand brake off before the bite point
 //   jerk               clutch up abruptly at high revs
-//   early_shift, late_shift    outside the lesson's band
+//   early_shift, late_shift    outside the lesson's band, or far from the speed that a step says
 //   too_slow           4 s with the clutch down
 //   wrong_direction    shifts before the car stands
 //   slow_step          begins a step that has a time once 1.5 times that has gone
-//   coasting           rolls on for 5 s with the clutch down
+//   coasting           rolls on for 5.5 s with the clutch open
 //   clutch_burn        twice the throttle that a launch needs
 //   early_downshift    the lower gear at once, instead of slowing down for it first
 struct LearnerFaults {

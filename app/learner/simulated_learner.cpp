@@ -93,11 +93,17 @@ void SimulatedLearner::notice(std::size_t step, double time) {
   if (step != seen_) {
     seen_ = step;
     seen_at_ = progress_at_ = time;
-    reaction_ = std::max(0.1, skill_.reaction + noise(skill_.timing_spread)) +
+    reaction_ = std::max(0.1, skill_.reaction + noise(skill_.timing_spread)) + reading_of(seen_) +
                 kLate * faults_.of(FaultKind::slow_step) * lesson_.steps[step].within.value_or(0.0);
   }
   gives_up_ = time - progress_at_ > kGivesUp;
   if (time - seen_at_ >= reaction_) known_ = seen_;
+}
+
+// What says the same as the step before was read then.
+double SimulatedLearner::reading_of(std::size_t step) const noexcept {
+  const bool same = step > 0 && lesson_.steps[step].prompt == lesson_.steps[step - 1].prompt;
+  return same ? 0.0 : skill_.reading;
 }
 
 bool SimulatedLearner::is_due(FaultKind kind) const noexcept {

@@ -60,6 +60,9 @@ class SimulatedLearner {
 
   void notice(std::size_t step, double time);
   const LessonIntent& intent() const noexcept { return intents_[known_]; }
+  double reading_of(std::size_t step) const noexcept;
+  std::optional<double> speed_to_shift(std::size_t step) const noexcept;
+  double launch_target() const noexcept;
   bool once(FaultKind kind) noexcept;
   bool is_due(FaultKind kind) const noexcept;
   double noise(double spread) noexcept { return spread * chance_.next(); }
@@ -70,6 +73,7 @@ class SimulatedLearner {
   std::optional<int> wanted_gear(const DriveSample& now) const;
   bool spins_shaft(const DriveSample& now) const noexcept;
   bool shifts_late(const DriveSample& now) const noexcept;
+  bool shifts_early(const DriveSample& now) const noexcept;
   void begin_shift(const DriveSample& now, int gear);
   Errand errand_for(const DriveSample& now, int gear) noexcept;
   int wrong_gear_for(int gear, int from) const noexcept;
@@ -108,6 +112,7 @@ class SimulatedLearner {
   std::optional<int> too_low_a_gear(const DriveSample& now) const;
   bool lugs(const DriveSample& now);
   int lugging_gear(const DriveSample& now) const noexcept;
+  bool brakes_to_stall(const DriveSample& now) const noexcept;
   bool stalls_by_brake(const DriveSample& now);
 
   Lesson lesson_;  // as it is driven in this car
@@ -155,6 +160,7 @@ class SimulatedLearner {
   double rolls_since_ = 0.0;    // [s]
   double slow_since_ = 0.0;     // [s] the engine is heard to fall to where the clutch must go down
   double coasts_until_ = 0.0;   // [s] 0: not yet
+  bool lingers_ = false;        // in a gear that is to be left
   bool over_rev_late_ = false;  // the lesson drives a low gear out: shifted too late; else howls
 };
 

@@ -10,7 +10,10 @@ namespace gearshift {
 namespace {
 
 constexpr double kLongest = 5.0;  // [s] after which a clutch that slips on is no longer one release [engineering value]
-constexpr double kBraking = 0.05;  // [1] pedal: then it is the brake that jerks
+constexpr double kBraking = 0.05;     // [1] pedal: then it is the brake that jerks
+constexpr double kLaunchTakes = 3.0;  // [s] as people do it [engineering value]
+constexpr double kGravity = 9.81;     // [m/s^2]
+constexpr double kHoldsHill = 1.05;   // [s] at the bite point, until the hand brake is off [engineering value]
 
 }  // namespace
 
@@ -30,10 +33,11 @@ double jerk_limit(const CarSpec& car, int gear) noexcept {
   return std::max(kLeastJerk, kJerkShare * kJerkOfStep * acceleration);
 }
 
-double burn_limit(const CarSpec& car, int gear) noexcept {
-  const double per_road = shaft_per_road(car, gear);
-  const double road_speed = car.engine.shift_high / per_road;
-  return 0.5 * mass_in(car, per_road) * road_speed * road_speed;
+double burn_limit(const CarSpec& car, int gear, double slope) noexcept {
+  const double per_road = shaft_per_road(car, gear), speed = car.engine.shift_high;
+  const double road_speed = speed / per_road;
+  const double hill = std::max(0.0, kGravity * car.body.mass * std::sin(slope) / (per_road * car.gearbox.efficiency));
+  return 0.5 * mass_in(car, per_road) * road_speed * road_speed + speed * hill * (0.5 * kLaunchTakes + kHoldsHill);
 }
 
 ClutchRelease::ClutchRelease(const CarSpec& car) : car_(car), pedal_(car.clutch.bite) {}
@@ -45,6 +49,7 @@ std::optional<DriveFault> ClutchRelease::add(const DriveSample& sample, double d
     open_ = true;
     stalled_ = false;
     gear_ = sample.car.gear;
+    slope_ = sample.controls.slope;
     begin_ = pedal_.up_at();
     closed_at_ = locked_at_ = slip_peak_ = heat_ = jerk_peak_ = 0.0;
   }
@@ -75,7 +80,7 @@ std::optional<DriveFault> ClutchRelease::judge() const noexcept {
   if (fast && slip_peak_ >= fault_rule(FaultKind::clutch_dump).raise) {
     return DriveFault{FaultKind::clutch_dump, fault_severity(FaultKind::clutch_dump, slip_peak_), begin_, slip_peak_};
   }
-  const double burnt = heat_ / burn_limit(car_, gear_);
+  const double burnt = heat_ / burn_limit(car_, gear_, slope_);
   if (!stalled_ && burnt >= fault_rule(FaultKind::clutch_burn).raise) {
     return DriveFault{FaultKind::clutch_burn, fault_severity(FaultKind::clutch_burn, burnt), begin_, heat_};
   }

@@ -22,8 +22,9 @@ double jerk_limit(const CarSpec& car, int gear) noexcept;
 // From what heat on letting the clutch up in that gear is a fault [J]: what a launch on the flat burns with the engine
 // held at shift_high, from which on one shifts up and which no launch needs. An engine held at w brings a car that weighs
 // J at the clutch from a stand up to w; of the work that it does for that, J w^2, half is the car's speed and half is
-// heat, however long it takes.
-double burn_limit(const CarSpec& car, int gear) noexcept;
+// heat, however long it takes. On a slope [rad] the clutch carries the hill's torque besides, T, as long as it slips: w
+// T times half of the time that the car takes to come up to w, and the whole of the time that it is held there before.
+double burn_limit(const CarSpec& car, int gear, double slope = 0.0) noexcept;
 
 class ClutchRelease {
  public:
@@ -44,6 +45,7 @@ class ClutchRelease {
   bool open_ = false;
   bool stalled_ = false;
   int gear_ = kNeutralGear;  // as it began
+  double slope_ = 0.0;       // [rad] the same
   double begin_ = 0.0;       // [s]
   double closed_at_ = 0.0;   // [s]; 0: not yet
   double locked_at_ = 0.0;   // [s]; 0: not yet

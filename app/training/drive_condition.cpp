@@ -3,6 +3,8 @@
 namespace gearshift {
 namespace {
 
+constexpr double kFootHolds = 0.05, kHandHolds = 0.5;  // [1] of brake and hand brake [engineering value]s
+
 bool same(const std::optional<bool>& wanted, bool is) noexcept {
   return !wanted || *wanted == is;
 }
@@ -17,6 +19,7 @@ bool holds(const DriveCondition& c, const DriveSample& sample, const DriveProgre
   const VehicleState& car = sample.car;
   return (!c.gear || *c.gear == car.gear) && same(c.ignition, car.ignition) && same(c.running, car.running) &&
          same(c.clutch_locked, car.clutch_locked) && same(c.shift_light, car.shift_advice > 0) &&
+         same(c.braked, car.brake > kFootHolds || car.hand_brake > kHandHolds) &&
          between(c.clutch_above, c.clutch_below, car.clutch) && between(c.clutch_torque_above, {}, car.clutch_torque) &&
          between(c.throttle_above, c.throttle_below, car.throttle) &&
          between(c.brake_above, c.brake_below, car.brake) &&
@@ -27,7 +30,7 @@ bool holds(const DriveCondition& c, const DriveSample& sample, const DriveProgre
 }
 
 bool is_empty(const DriveCondition& c) noexcept {
-  return !c.gear && !c.ignition && !c.running && !c.clutch_locked && !c.shift_light && !c.clutch_above &&
+  return !c.gear && !c.ignition && !c.running && !c.clutch_locked && !c.shift_light && !c.braked && !c.clutch_above &&
          !c.clutch_below && !c.clutch_torque_above && !c.throttle_above && !c.throttle_below && !c.brake_above &&
          !c.brake_below && !c.hand_brake_above && !c.hand_brake_below && !c.engine_above && !c.engine_below &&
          !c.speed_above && !c.speed_below && !c.distance_above && !c.rolled_back_above;

@@ -29,8 +29,8 @@ enum class FaultKind : std::uint8_t {
   step_order,         // pedals and lever in another order than taught; value: steps out of place
   rollback,           // value: how far [m]
   jerk,               // value: the most [m/s^3]
-  early_shift,        // below the band of engine speed; value: engine speed [rad/s]
-  late_shift,         // above it; value: engine speed [rad/s]
+  early_shift,        // up below the band of engine speed, or below the step's road speed; value: engine speed [rad/s]
+  late_shift,         // above it; down: far below the step's road speed; value: engine speed [rad/s]
   too_slow,           // the shift took too long; value: [s]
   wrong_direction,    // reverse at forward speed, or the like; value: road speed [m/s]
   slow_step,          // a step of the lesson took longer than it may; value: [s]
@@ -39,6 +39,16 @@ enum class FaultKind : std::uint8_t {
   clutch_burn,        // the engine howls, or the clutch slips for long, until it holds; value: heat in the clutch [J]
 };
 inline constexpr int kFaultKinds = 28;
+
+// What was out of its order in a shift, the first of it. Written to files: new ones come last.
+enum class StepSlip : std::uint8_t {
+  other,
+  throttle_stayed,
+  throttle_late,
+  lever_first,
+  clutch_before_gear,
+  throttle_early
+};
 
 enum class Severity : std::uint8_t { note, minor, severe, very_severe };
 
@@ -49,7 +59,9 @@ struct DriveFault {
   double value = 0.0;       // in the kind's unit
   std::int64_t shift = -1;  // number of the shift record that it belongs to, or -1
   std::string step{};       // slow_step: the step's prompt; else empty
-  double wanted = 0.0;  // slow_step: within which it should be done [s]; wrong_gear: the gear that was meant; else 0
+  // slow_step: within which it should be done [s]; wrong_gear: the gear that was meant; early_shift, late_shift,
+  // early_downshift: the road speed that was, where the lesson says one [m/s]; step_order: StepSlip; else 0
+  double wanted = 0.0;
 };
 
 // As files and databases write it: "stall", "over_rev", ...
@@ -59,6 +71,9 @@ std::string_view severity_key(Severity severity) noexcept;
 
 // What the coach says: "The clutch came up 0.12 s before the gear was in."
 std::string fault_sentence(const DriveFault& fault);
+
+// As part of a sentence: "a stall", "a dumped clutch".
+std::string_view fault_name(FaultKind kind) noexcept;
 
 // And what to do about it: "Let the clutch up only once the gear is in." One short sentence.
 std::string_view fault_advice(FaultKind kind) noexcept;

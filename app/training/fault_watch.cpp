@@ -8,23 +8,28 @@
 #include <glm/geometric.hpp>
 
 #include "app/training/fault_rules.h"
+#include "app/training/step_order.h"
 
 namespace gearshift {
 namespace {
 
 // [engineering value]s.
-constexpr double kStallWindow = 1.0;    // [s] the engine's speed before it died is the highest of this
-constexpr double kLugLoad = 0.7;        // [1] share of the torque that the engine could give
-constexpr double kTellRiding = 6.0;     // [s] told at the latest, though it goes on
-constexpr double kFootRests = 0.08;     // [1] pedal
-constexpr double kHandLeans = 3.0;      // [N]
-constexpr double kDriving = 4.0;        // [m/s] below that a driver may want the clutch to stop, or to creep
-constexpr double kBraking = 0.05;       // [1] pedal
-constexpr double kBrakingHard = 0.5;    // [1] pedal: it is to stand, from any speed
-constexpr double kStillShifts = 6.0;    // [s] longer is no shift any more, though the clutch is down
-constexpr double kReachesUp = 1.2;      // [1] of the car's shift_high
-constexpr double kPushes = 3.0;         // [N] against a synchroniser
-constexpr double kStands = 0.01;        // [m/s]
+constexpr double kStallWindow = 1.0;  // [s] the engine's speed before it died is the highest of this
+constexpr double kLugLoad = 0.7;      // [1] share of the torque that the engine could give
+constexpr double kTellRiding = 6.0;   // [s] told at the latest, though it goes on
+constexpr double kFootRests = 0.08;   // [1] pedal
+constexpr double kHandLeans = 3.0;    // [N]
+constexpr double kDriving = 4.0;      // [m/s] below that a driver may want the clutch to stop, or to creep
+constexpr double kBraking = 0.05;     // [1] pedal
+constexpr double kBrakingHard = 0.5;  // [1] pedal: it is to stand, from any speed
+constexpr double kStillShifts = 6.0;  // [s] longer is no shift any more, though the clutch is down
+constexpr double kReachesUp = 1.2;    // [1] of the car's shift_high
+constexpr double kPushes = 3.0;       // [N] against a synchroniser
+constexpr double kStands = 0.01;      // [m/s]
+constexpr double kJustStarted = 1.0;  // [s] in which an engine that was started finds its idle
+constexpr double kNearly = 0.07;      // [1] a speed is met: before it, as a needle is read
+// [m/s] and beyond it: who brakes at 1.5 m/s^2 loses 12 km/h while he reads (1.05 s, Green 2000) and shifts (1.2 s).
+constexpr double kBeyond = 12.0 / kKmhPerMps;
 constexpr double kLongestPeriod = 0.1;  // [s]
 
 bool touches_dogs(const DriveSample& sample) noexcept {
@@ -70,10 +75,11 @@ double suits_up_to(const CarSpec& car, const ShiftBand& band) noexcept {
   return band.to < car.engine.limiter ? band.to : kReachesUp * car.engine.shift_high;
 }
 
-FaultWatch::FaultWatch(const CarSpec& car, const Gate& gate, ShiftBand band)
+FaultWatch::FaultWatch(const CarSpec& car, const Gate& gate, ShiftBand band, double reading)
     : car_(car),
       gate_(gate),
       band_(band),
+      reading_(reading),
       release_(car),
       engine_(kStallWindow),
       over_rev_{FaultKind::over_rev, Measure::peak, Episode(0.0)},
@@ -85,7 +91,7 @@ FaultWatch::FaultWatch(const CarSpec& car, const Gate& gate, ShiftBand band)
       block_{FaultKind::blocked, Measure::length, Episode(least(FaultKind::blocked))},
       coasting_{FaultKind::coasting, Measure::length, Episode(least(FaultKind::coasting), kTellRiding)} {}
 
-void FaultWatch::add(const DriveSample& sample, int wanted_gear, bool shifting) {
+void FaultWatch::add(const DriveSample& sample, int wanted_gear, bool shifting, double at) {
   if (first_) {
     last_ = sample;
     last_gear_ = driven_gear_ = sample.car.gear;
@@ -101,7 +107,7 @@ void FaultWatch::add(const DriveSample& sample, int wanted_gear, bool shifting) 
   watch_hand(sample, shifting, dt);
   watch_dogs(sample, dt);
   watch_direction(sample);
-  watch_gear(sample, wanted_gear);
+  watch_gear(sample, wanted_gear, at);
   watch_rollback(sample);
   last_ = sample;
 }
@@ -113,6 +119,8 @@ void FaultWatch::follow_shift(const DriveSample& now, bool shifting, double dt) 
     shift_began_ = now.time();
   }
   if (shifting) follow_roll(now, moves, dt);
+  const bool dead = !now.car.running || now.time() - runs_since_ < kJustStarted;
+  rolled_.dead = rolled_.dead || (shifting && dead);
   if (moves && !shift_moved_) shift_moved_at_ = now.time();
   shift_moved_ = shifting && (shift_moved_ || moves);
   shifting_ = shifting;
@@ -134,7 +142,8 @@ void FaultWatch::watch_engine(const DriveSample& now, double dt) {
   // An engine that fires under the starter and dies as the key is let go has not started yet.
   has_run_ = has_run_ || (now.car.running && speed >= car_.engine.stall);
   const bool died = last_.car.running && !now.car.running && now.car.ignition;
-  if (died && has_run_) tell_if(FaultKind::stall, now.time(), engine_.value());
+  if (died && has_run_) has_stalled_ = tell_if(FaultKind::stall, now.time(), engine_.value());
+  if (now.car.running && !last_.car.running) runs_since_ = now.time();
   has_run_ = has_run_ && now.car.running;
   engine_.add(speed, dt);
   const FaultRule& red = fault_rule(FaultKind::over_rev);
@@ -170,7 +179,22 @@ void FaultWatch::watch_drive(const DriveSample& now, double dt) {
   const bool open = now.car.gear == kNeutralGear || now.car.clutch >= car_.clutch.bite;
   const bool shifts = shift_moved_ && now.time() - shift_moved_at_ < kStillShifts;
   const bool coasts = open && !shifts && now.car.running && is_moving(now.car.road_speed) && !comes_to_stand(now);
-  goes_on(coasting_, coasts, 0.0, now.time(), dt);
+  if (coasting_.episode.update(coasts, 0.0, now.time(), dt)) tell_coasting();
+}
+
+// One press of the clutch is one deed: out of a shift that turns out too slow it is not told.
+void FaultWatch::tell_coasting() {
+  const double began = coasting_.episode.begin();
+  if (began >= slow_from_ && began <= slow_to_) return;
+  const std::size_t before = faults_.size();
+  tell_lasting(coasting_);
+  if (faults_.size() == before) return;
+  if (!shift_moved_) {
+    coasted_at_ = began;
+    return;
+  }
+  coasted_.push_back(faults_.back());
+  faults_.pop_back();
 }
 
 void FaultWatch::watch_hand(const DriveSample& now, bool shifting, double dt) {
@@ -215,18 +239,44 @@ void FaultWatch::watch_direction(const DriveSample& now) {
 }
 
 // A gear that was not asked for; the one that was just left does not count, nor does a missed shift to it.
-void FaultWatch::watch_gear(const DriveSample& now, int wanted_gear) {
+void FaultWatch::watch_gear(const DriveSample& now, int wanted_gear, double at) {
   const int gear = now.car.gear;
   const bool engaged = gear != last_.car.gear && gear != kNeutralGear;
-  if (engaged && wanted_gear != kNeutralGear && gear != wanted_gear && gear != last_gear_) {
+  const bool other = wanted_gear != kNeutralGear && gear != wanted_gear && gear != last_gear_;
+  if (engaged && gear == wanted_gear && now.car.running) has_stalled_ = false;
+  if (engaged && other && !moves_off_again(gear, wanted_gear)) {
     tell_if(FaultKind::wrong_gear, now.time(), gear);
     faults_.back().wanted = wanted_gear;
   }
   if (engaged) {
     note(engaged_, gear);
     asked_ = shaft_per_road(car_, gear) * now.car.road_speed;
+    if (gear == wanted_gear && at > 0.0 && gear != last_gear_) judge_speed(now, at);
   }
   if (gear != kNeutralGear) last_gear_ = gear;
+}
+
+// After a stall one begins anew: in first, and up to where it was.
+bool FaultWatch::moves_off_again(int gear, int wanted_gear) const noexcept {
+  return has_stalled_ && gear >= 1 && gear <= wanted_gear;
+}
+
+// A gear that went in before the speed for which it was meant, or long after it.
+void FaultWatch::judge_speed(const DriveSample& now, double at) {
+  const double speed = now.car.road_speed;
+  const bool up = now.car.gear > last_gear_;
+  const double least_speed = up ? (1.0 - kNearly) * at : at - kBeyond;
+  const double most_speed = up ? at + kBeyond : (1.0 + kNearly) * at;
+  if (speed >= least_speed && speed <= most_speed) return;
+  const bool early = up ? speed < least_speed : speed > most_speed;
+  FaultKind kind = FaultKind::late_shift;
+  if (early) kind = up ? FaultKind::early_shift : FaultKind::early_downshift;
+  const bool by_share = kind == FaultKind::early_downshift;
+  const double turned = shaft_per_road(car_, last_gear_) * speed;
+  const Severity severity = fault_severity(kind, by_share ? asked_ / suits_up_to(car_, band_) : turned);
+  faults_.push_back({kind, severity, now.time(), by_share ? asked_ : turned});
+  faults_.back().wanted = at;
+  told_speed_ = true;
 }
 
 // Backwards without being in reverse, or rolling on out of it.
@@ -258,10 +308,12 @@ void FaultWatch::tell_lasting(const Lasting& lasting) {
 }
 
 void FaultWatch::finish() {
-  for (Lasting* lasting :
-       {&over_rev_, &lugging_, &riding_clutch_, &riding_lever_, &over_push_, &grind_, &block_, &coasting_}) {
+  for (Lasting* lasting : {&over_rev_, &lugging_, &riding_clutch_, &riding_lever_, &over_push_, &grind_, &block_}) {
     if (lasting->episode.finish()) tell_lasting(*lasting);
   }
+  if (coasting_.episode.finish()) tell_coasting();
+  faults_.insert(faults_.end(), coasted_.begin(), coasted_.end());
+  coasted_.clear();
   tell_rollback(last_.time());
   highest_ = last_.car.distance;
   if (const auto fault = release_.finish()) faults_.push_back(*fault);
@@ -283,6 +335,7 @@ void FaultWatch::judge(const ShiftRecord& record) {
   tried_.clear();
   engaged_.clear();
   touch_error_ = 0.0;
+  told_speed_ = false;
 }
 
 // The last that was tried and never in; without one, what the lesson wants. Not the gear that was left: on its way out
@@ -311,15 +364,30 @@ double FaultWatch::flare_needed(const ShiftRecord& record) const noexcept {
   return std::max(0.0, asked - record.engine_speed);
 }
 
-void FaultWatch::judge_engine(const ShiftRecord& record) {
-  if (!is_between_gears(record)) return;
-  // At a stand there is time, and on the way there the clutch is down to stop: of that the lever's way alone counts.
-  const Rolled& rolled = record.end < shift_began_ ? rolled_before_ : rolled_;
+const FaultWatch::Rolled& FaultWatch::rolled_in(const ShiftRecord& record) const noexcept {
+  return record.end < shift_began_ ? rolled_before_ : rolled_;
+}
+
+// At a stand there is time, and on the way there the clutch is down to stop: of that the lever's way alone counts. What
+// was told as coasting is not told again.
+void FaultWatch::judge_time(const ShiftRecord& record, const Rolled& rolled) {
   const double took = std::min(rolled.counts(), std::max(record.clutch_time, record.lever_time));
+  const bool coasted = coasted_at_ >= record.begin && coasted_at_ <= record.end;
+  if (coasted || took - reading_ < least(FaultKind::too_slow)) return;
   tell_if(FaultKind::too_slow, record.end, took, record.number);
-  if (!is_moving(last_.car.road_speed)) return;
+  slow_from_ = record.begin;
+  slow_to_ = record.end;
+  coasted_.clear();
+}
+
+void FaultWatch::judge_engine(const ShiftRecord& record) {
+  const Rolled rolled = rolled_in(record);
+  if (is_between_gears(record) && !rolled.dead) judge_time(record, rolled);
+  faults_.insert(faults_.end(), coasted_.begin(), coasted_.end());
+  coasted_.clear();
+  if (!is_between_gears(record) || rolled.dead || !is_moving(last_.car.road_speed)) return;
   judge_revs(record);
-  if (record.to <= record.from || record.from == kReverseGear) return;
+  if (record.to <= record.from || record.from == kReverseGear || told_speed_) return;
   const double speed = record.engine_speed;
   if (speed < band_.from) tell_if(FaultKind::early_shift, record.begin, speed, record.number);
   if (speed > band_.to) tell_if(FaultKind::late_shift, record.begin, speed, record.number);
@@ -340,7 +408,7 @@ void FaultWatch::judge_revs(const ShiftRecord& record) {
 // By the speed at which it was chosen.
 void FaultWatch::judge_gear(const ShiftRecord& record) {
   const double share = asked_ / suits_up_to(car_, band_);
-  if (!is_down(record) || share < least(FaultKind::early_downshift)) return;
+  if (!is_down(record) || told_speed_ || share < least(FaultKind::early_downshift)) return;
   const Severity severity = fault_severity(FaultKind::early_downshift, share);
   faults_.push_back({FaultKind::early_downshift, severity, record.end, asked_, record.number});
 }
@@ -348,7 +416,7 @@ void FaultWatch::judge_gear(const ShiftRecord& record) {
 // Only between gears and driving: pulling away wants the throttle before the clutch. Clutch and throttle out of time
 // are out of order too: that was said.
 void FaultWatch::judge_order(const ShiftRecord& record, std::size_t faults_before) {
-  if (!is_between_gears(record) || !is_moving(last_.car.road_speed)) return;
+  if (!is_between_gears(record) || rolled_in(record).dead || !is_moving(last_.car.road_speed)) return;
   const auto said = [](const DriveFault& fault) {
     return fault.kind == FaultKind::no_clutch || fault.kind == FaultKind::clutch_early ||
            fault.kind == FaultKind::clutch_late || fault.kind == FaultKind::throttle_in_shift;
@@ -357,7 +425,8 @@ void FaultWatch::judge_order(const ShiftRecord& record, std::size_t faults_befor
   if (std::any_of(first, faults_.end(), said)) return;
   // What is exchanged within the tolerance of the clutch's timing is in order.
   const int forgiven = (record.clutch_lead < 0.0 ? 2 : 0) + (record.clutch_lag < 0.0 ? 2 : 0);
-  tell_if(FaultKind::step_order, record.begin, record.steps_out_of_place - forgiven, record.number);
+  if (tell_if(FaultKind::step_order, record.begin, record.steps_out_of_place - forgiven, record.number))
+    faults_.back().wanted = static_cast<double>(first_slip(record.steps, record.from, record.to));
 }
 
 bool FaultWatch::tell_if(FaultKind kind, double time, double value, std::int64_t shift) {

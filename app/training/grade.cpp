@@ -39,10 +39,10 @@ std::string reason(const Lesson& lesson, const LessonResult& result) {
   if (!result.had_forces) return "The lever was without forces: it is not graded.";
   if (!result.whole) return "A part of the drive was lost: it is not graded.";
   if (result.end == LessonEnd::aborted && !result.why.empty()) return result.why;
+  if (result.end == LessonEnd::left) return "The lesson was left.";  // whatever was wrong before
   if (const DriveFault* fault = failing_fault(lesson, result)) return fault_sentence(*fault);
   if (result.end == LessonEnd::aborted) return "The lesson was broken off.";
   if (result.end == LessonEnd::out_of_time) return fmt::format("It was not done in {:.0f} s.", lesson.time_limit);
-  if (result.end == LessonEnd::left) return "The lesson was left.";
   if (result.end == LessonEnd::running) return "The lesson is not over.";
   if (result.grade >= lesson.pass_grade) return {};
   return fmt::format("Grade {:.1f} is below {:.1f}.", result.grade, lesson.pass_grade);

@@ -18,6 +18,7 @@ struct DriveCondition {
   std::optional<int> gear;
   std::optional<bool> ignition, running, clutch_locked;
   std::optional<bool> shift_light;                           // it asks for a higher gear
+  std::optional<bool> braked;                                // foot or hand brake holds the car
   std::optional<double> clutch_above, clutch_below;          // [1] pedal
   std::optional<double> clutch_torque_above;                 // [N m] that it carries into the gearbox
   std::optional<double> throttle_above, throttle_below;      // [1]
@@ -40,6 +41,7 @@ struct LessonStep {
   std::optional<double> fails_after{};  // [s] longer fails the lesson that catches slow_step; >= within; none: within
   bool call = false;                    // prompted in both modes: nobody can know by himself when to do it
   bool may_be_skipped = false;          // it prepares the next one and is done with it
+  std::optional<double> at{};           // [m/s] road speed at which the gear that it waits for is to go in
 };
 
 struct LessonAbort {
@@ -84,6 +86,10 @@ bool catches(const Lesson& lesson, FaultKind kind) noexcept;
 
 // It looks at that kind: catches it, or counts it.
 bool looks_at(const Lesson& lesson, FaultKind kind) noexcept;
+
+// What it claims to catch, for who is about to drive it: "Not passed with: a stall, a dumped clutch." Empty where it
+// catches nothing.
+std::string catches_sentence(const Lesson& lesson);
 
 // The lesson as it is driven in that car: with its band for the upshifts, where the lesson leaves it to the car.
 Lesson lesson_in_car(const Lesson& lesson, const CarSpec& car);

@@ -19,7 +19,10 @@ namespace {
 
 constexpr double kShiftEnds = 3.0;      // [s] that a shift in progress gets once all steps are done [engineering value]
 constexpr double kLongestPeriod = 0.1;  // [s] between samples
-constexpr double kAstray = 3.0;         // [s] in a gear that the step is not about [engineering value]
+// [s] Two prompts come while the clutch is down, and each takes its reading: 0.75 s to what is expected and 0.3 s to
+// read it (Green. How long does it take to stop? 2000).
+constexpr double kReading = 2.0 * 1.05;
+constexpr double kAstray = 3.0;  // [s] in a gear that the step is not about [engineering value]
 
 void check_gear(const Lesson& lesson, const Gate& gate, int gear) {
   if (gear == kNeutralGear || slot_of_gear(gate, gear) != kNoSlot) return;
@@ -43,15 +46,17 @@ struct LessonRun::State {
         gate(a_gate),
         config(a_config),
         meter(car, gate),
-        watch(car, gate, {lesson.shift_from, lesson.shift_to}),
+        watch(car, gate, {lesson.shift_from, lesson.shift_to}, reads(a_config) ? kReading : 0.0),
         abort_held(a_lesson.aborts.size()) {}
 
+  static bool reads(const LessonRunConfig& config) { return config.mode == LessonMode::follow_me; }
   void begin(const DriveSample& sample);
   void measure(const DriveSample& sample, double dt);
   void keep(const std::optional<ShiftRecord>& ended);
   void judge(std::vector<DriveFault> faults);
   void attribute(DriveFault& fault) const;
   int gear_wanted(int gear) const noexcept;
+  double speed_wanted(int gear) const noexcept;
   bool aborts(const DriveSample& sample);
   void follow_steps(const DriveSample& sample);
   std::size_t steps_ahead(const DriveSample& sample);
@@ -138,7 +143,7 @@ void LessonRun::State::measure(const DriveSample& sample, double dt) {
   highest = std::max(highest, sample.car.distance);
 
   const std::optional<ShiftRecord> ended = meter.add(sample);
-  watch.add(sample, gear_wanted(sample.car.gear), meter.is_open());
+  watch.add(sample, gear_wanted(sample.car.gear), meter.is_open(), speed_wanted(sample.car.gear));
   keep(ended);
   judge(watch.take());
 }
@@ -178,6 +183,14 @@ int LessonRun::State::gear_wanted(int gear) const noexcept {
     if (meant != kNeutralGear && wanted != gear) wanted = meant;
   }
   return wanted;
+}
+
+// At which that gear is to go in, by this step or one that may be reached by passing over; 0: at any. [m/s]
+double LessonRun::State::speed_wanted(int gear) const noexcept {
+  for (std::size_t i = view.step; !all_done() && i <= view.step + ahead.size(); ++i) {
+    if (lesson.steps[i].at && lesson.steps[i].until.gear == gear) return *lesson.steps[i].at;
+  }
+  return 0.0;
 }
 
 bool LessonRun::State::aborts(const DriveSample& sample) {

@@ -24,6 +24,7 @@ constexpr double kStirs = 0.002;        // [m] that a lever must move to be take
 constexpr double kSlipsForEver = 5.0;   // [s] gear and clutch in without locking: the shift is over all the same
 constexpr double kThrottleOn = 0.08;    // [1]
 constexpr double kThrottleOff = 0.04;   // [1]
+constexpr double kTogether = 0.2;       // [s] both feet at once: a pedal's whole way, in either order
 constexpr double kChord = 5e-4;         // [m] of the lever's way: seven counts of the paper's encoder
 constexpr double kLeastWay = 0.005;     // [m] shorter ways have no efficiency
 constexpr double kLongestPeriod = 0.1;  // [s] between samples; longer is a gap in the record
@@ -192,16 +193,26 @@ void ShiftMeter::follow_lever(const DriveSample& now) {
   open_.last_slot = slot;
 }
 
-// What one sample shows at once counts in the order that is taught.
+// What one sample shows at once counts in the order that is taught, and so do two feet that move together.
 void ShiftMeter::follow_steps(const DriveSample& now, bool throttle_was_on) {
   auto& steps = open_.record.steps;
   const int gear = now.car.gear, before = last_.car.gear;
-  if (throttle_was_on && !throttle_on_) steps.push_back(ShiftStep::throttle_off);
+  const auto ends_with = [&](ShiftStep step) { return !steps.empty() && steps.back() == step; };
+  if (throttle_was_on && !throttle_on_) {
+    const bool together = ends_with(ShiftStep::clutch_down) && now.time() - pedal_.down_at() <= kTogether;
+    steps.insert(together ? steps.end() - 1 : steps.end(), ShiftStep::throttle_off);
+  }
   if (pedal_.went_down()) steps.push_back(ShiftStep::clutch_down);
   if (gear != before && before != kNeutralGear) steps.push_back(ShiftStep::neutral);
   if (gear != before && gear != kNeutralGear) steps.push_back(ShiftStep::gear);
-  if (pedal_.went_up()) steps.push_back(ShiftStep::clutch_up);
-  if (!throttle_was_on && throttle_on_) steps.push_back(ShiftStep::throttle_on);
+  if (pedal_.went_up()) {
+    const bool together = ends_with(ShiftStep::throttle_on) && pedal_.up_at() - open_.throttle_on_at <= kTogether;
+    steps.insert(together ? steps.end() - 1 : steps.end(), ShiftStep::clutch_up);
+  }
+  if (!throttle_was_on && throttle_on_) {
+    steps.push_back(ShiftStep::throttle_on);
+    open_.throttle_on_at = now.time();
+  }
 }
 
 void ShiftMeter::follow_gear(const DriveSample& now) {

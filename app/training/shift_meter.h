@@ -51,6 +51,7 @@ class ShiftMeter {
     double slip_before = 0.0;     // [J]
     double flare_base = 0.0;      // [rad/s]
     double clutch_down_at = 0.0;  // [s]
+    double throttle_on_at = 0.0;  // [s] the last time
     double early_up_at = 0.0;     // [s] the clutch came up against ring or dogs, the first time; 0: it did not
     double left_at = 0.0;         // [s]
     double gear_in_at = 0.0;      // [s]

@@ -84,4 +84,19 @@ int steps_out_of_place(std::span<const ShiftStep> steps, int from, int to, bool 
   return least;
 }
 
+StepSlip first_slip(std::span<const ShiftStep> steps, int from, int to) {
+  using enum ShiftStep;
+  const auto first = [&](ShiftStep step) { return std::find(steps.begin(), steps.end(), step) - steps.begin(); };
+  const auto has = [&](ShiftStep step) { return std::find(steps.begin(), steps.end(), step) != steps.end(); };
+  const auto last = [&](ShiftStep step) { return steps.rend() - std::find(steps.rbegin(), steps.rend(), step); };
+  const bool down = to >= 1 && to < from;
+  if (!has(throttle_off)) return StepSlip::throttle_stayed;
+  if (first(throttle_off) > first(clutch_down)) return StepSlip::throttle_late;
+  if (has(neutral) && first(neutral) < first(clutch_down)) return StepSlip::lever_first;
+  if (has(gear) && has(clutch_up) && last(clutch_up) < last(gear)) return StepSlip::clutch_before_gear;
+  if (!down && has(throttle_on) && has(clutch_up) && first(throttle_on) < last(clutch_up) - 1)
+    return StepSlip::throttle_early;
+  return StepSlip::other;
+}
+
 }  // namespace gearshift

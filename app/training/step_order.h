@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "app/training/drive_fault.h"
 #include "app/training/shift_record.h"
 
 namespace gearshift {
@@ -19,5 +20,9 @@ std::vector<ShiftStep> taught_steps(int from, int to);
 // was taken up again before the shift ended does not count. whole: false where the shift was cut short, and what was
 // still to come does not count.
 int steps_out_of_place(std::span<const ShiftStep> steps, int from, int to, bool whole = true);
+
+// Of a shift that is out of order: what of it comes first in the plain order, in words that a driver knows. other: it
+// is in that order, or something else.
+StepSlip first_slip(std::span<const ShiftStep> steps, int from, int to);
 
 }  // namespace gearshift

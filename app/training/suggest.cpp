@@ -16,19 +16,36 @@ bool was_passed(std::span<const PastResult> past, std::string_view lesson) {
   return std::any_of(past.begin(), past.end(), [&](const PastResult& r) { return r.passed && r.lesson == lesson; });
 }
 
-// The lesson with the lowest grade of its task; where `only_weak`, among those that were passed once and are weak now.
+bool is_weaker(const TaskForm& a, const TaskForm& b) noexcept {
+  const int more = a.failed * b.runs - b.failed * a.runs;  // shares of what was not passed
+  return more != 0 ? more > 0 : a.grade < b.grade;
+}
+
+// One run that went wrong is no weakness of a lesson that is still to be learnt.
+bool is_weak(const TaskForm& form, bool passed_once) noexcept {
+  const bool tried = passed_once || form.runs >= static_cast<int>(kLastResults);
+  return tried && 2 * form.failed >= form.runs;
+}
+
+// The weakest lesson that was passed once; where `only_weak`, the weakest of those that are weak now.
 const Lesson* weakest(std::span<const Lesson> lessons, std::span<const PastResult> past, bool only_weak) {
   const Lesson* found = nullptr;
-  double lowest = 0.0;
+  TaskForm lowest;
   for (const Lesson& lesson : lessons) {
-    const std::optional<double> grade = task_grade(past, lesson.task);
-    if (!grade || !was_passed(past, lesson.key)) continue;
-    if (only_weak && *grade >= lesson.pass_grade) continue;
-    if (found != nullptr && *grade >= lowest) continue;
+    const std::optional<TaskForm> form = task_form(past, lesson.task);
+    if (!form) continue;
+    const bool passed_once = was_passed(past, lesson.key);
+    if (only_weak ? !is_weak(*form, passed_once) : !passed_once) continue;
+    if (found != nullptr && !is_weaker(*form, lowest)) continue;
     found = &lesson;
-    lowest = *grade;
+    lowest = *form;
   }
   return found;
+}
+
+std::string weak_words(const Lesson& lesson, const TaskForm& form) {
+  return fmt::format("{} has become weak: {} of the last {} not passed, {:.1f} on average.", lesson.title, form.failed,
+                     form.runs, form.grade);
 }
 
 }  // namespace
@@ -38,23 +55,28 @@ std::optional<PastResult> past_result(const LessonResult& result) {
   return PastResult{result.lesson, result.task, result.grade, result.passed};
 }
 
-std::optional<double> task_grade(std::span<const PastResult> past, std::string_view task) {
-  double sum = 0.0;
-  std::size_t count = 0;
-  for (std::size_t i = past.size(); i > 0 && count < kLastResults; --i) {
+std::optional<TaskForm> task_form(std::span<const PastResult> past, std::string_view task) {
+  TaskForm form;
+  for (std::size_t i = past.size(); i > 0 && form.runs < static_cast<int>(kLastResults); --i) {
     if (past[i - 1].task != task) continue;
-    sum += past[i - 1].grade;
-    ++count;
+    ++form.runs;
+    form.failed += past[i - 1].passed ? 0 : 1;
+    form.grade += past[i - 1].grade;
   }
-  if (count == 0) return std::nullopt;
-  return sum / static_cast<double>(count);
+  if (form.runs == 0) return std::nullopt;
+  form.grade /= form.runs;
+  return form;
+}
+
+std::optional<double> task_grade(std::span<const PastResult> past, std::string_view task) {
+  const std::optional<TaskForm> form = task_form(past, task);
+  return form ? std::optional(form->grade) : std::nullopt;
 }
 
 std::optional<Suggestion> suggest_lesson(std::span<const Lesson> lessons, std::span<const PastResult> past) {
   if (lessons.empty()) return std::nullopt;
   if (const Lesson* lesson = weakest(lessons, past, true)) {
-    return Suggestion{lesson->key, fmt::format("{} has become weak: {:.1f} on average lately.", lesson->title,
-                                               *task_grade(past, lesson->task))};
+    return Suggestion{lesson->key, weak_words(*lesson, *task_form(past, lesson->task))};
   }
   const auto open =
       std::find_if(lessons.begin(), lessons.end(), [&](const Lesson& lesson) { return !was_passed(past, lesson.key); });

@@ -35,9 +35,16 @@ inline constexpr std::array<std::string_view, 13> kTeachingOrder{
 // Mean grade of a task's last three results; none where it has none. [1] of 10
 std::optional<double> task_grade(std::span<const PastResult> past, std::string_view task);
 
-// In this order: a task that was passed once and has become weak (below its lesson's pass grade), the weakest first;
-// the first lesson that was never passed; the one with the lowest grade. `lessons` in the order of teaching; nothing
-// where it is empty. The instructor may choose otherwise.
+// How a task's last three results were: the more of them were not passed, the weaker; then the lower the grade.
+struct TaskForm {
+  int runs = 0, failed = 0;
+  double grade = 0.0;  // [1] of 10, their mean
+};
+std::optional<TaskForm> task_form(std::span<const PastResult> past, std::string_view task);  // none where it has none
+
+// In this order: a task that has become weak (half or more of its last three results were not passed, and its lesson
+// was passed once or has three of them), the weakest first; the first lesson that was never passed; the weakest.
+// `lessons` in the order of teaching; nothing where it is empty. The instructor may choose otherwise.
 std::optional<Suggestion> suggest_lesson(std::span<const Lesson> lessons, std::span<const PastResult> past);
 
 }  // namespace gearshift

@@ -538,9 +538,122 @@ TEST_CASE("over-push: the paper's 60 N, once until it is below 50 N, with the mo
   CHECK(pushes(59.0).empty());
 }
 
-TEST_CASE("step order: the throttle after the clutch") {
-  CHECK(only(in_shift([](DriveSample& s, double t) { s.car.throttle = t < 0.15 ? 0.3 : 0.0; }), FaultKind::step_order)
-            .value == 2.0);
+TEST_CASE("step order: the throttle long after the clutch, and that is said") {
+  const DriveFault late =
+      only(in_shift([](DriveSample& s, double t) { s.car.throttle = t < 0.29 ? 0.3 : 0.0; }), FaultKind::step_order);
+  CHECK(late.value == 2.0);
+  CHECK(fault_sentence(late) == "The throttle came off only after the clutch was down.");
+  CHECK(
+      in_shift([](DriveSample& s, double t) { s.car.throttle = t < 0.17 ? 0.3 : 0.0; }).empty());  // both feet at once
+}
+
+TEST_CASE("what a step's slip is, in words; what is no slip has the number") {
+  DriveFault fault{FaultKind::step_order, Severity::minor, 0.0, 2.0};
+  std::set<std::string> said;
+  for (const double slip : {-1.0, 0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 1e300}) {
+    fault.wanted = slip;
+    said.insert(fault_sentence(fault));
+  }
+  CHECK(said.size() == 6);
+  CHECK(said.count("The shift was out of order: 2 steps.") == 1);
+}
+
+TEST_CASE("one wrong slot is said as one") {
+  CHECK(fault_sentence({FaultKind::wrong_column, Severity::minor, 0.0, 1.0}) == "The lever entered a wrong slot.");
+  CHECK(fault_sentence({FaultKind::wrong_column, Severity::minor, 0.0, 2.0}) == "The lever entered 2 wrong slots.");
+}
+
+// From 2 to 3 at 12 m/s, 43.2 km/h; the gear goes in with the speed that it began with.
+TEST_CASE("a gear that goes in at another speed than the step says is early or late; a tenth beyond is neither") {
+  struct At {
+    double at;  // [m/s]
+    std::optional<FaultKind> kind;
+  };
+  for (const At& meant :
+       {At{12.0, {}}, {12.8, {}}, {13.0, FaultKind::early_shift}, {9.0, {}}, {8.0, FaultKind::late_shift}}) {
+    ConstructedShift shift;
+    ShiftMeter meter(shift.car, shift.gate);
+    FaultWatch watch(shift.car, shift.gate);
+    for (const DriveSample& s : shift.samples()) {
+      const auto record = meter.add(s);
+      watch.add(s, 3, meter.is_open(), meant.at);
+      if (record) watch.judge(*record);
+    }
+    watch.finish();
+    const std::vector<DriveFault> faults = watch.take();
+    CAPTURE(meant.at);
+    REQUIRE(faults.size() == (meant.kind ? 1 : 0));
+    if (!meant.kind) continue;
+    CHECK(fault_key(faults[0].kind) == fault_key(*meant.kind));
+    CHECK(faults[0].wanted == meant.at);
+    CHECK(fault_sentence(faults[0]).find("km/h.") != std::string::npos);
+  }
+}
+
+TEST_CASE("a dead engine's speed is no fault of the shift: no flare as it starts again, no shift too early") {
+  const auto restarts = [](bool dead) {
+    return in_shift(
+        [dead](DriveSample& s, double t) {
+          const double share = t < 0.5 ? 0.1 : 1.5;
+          if (dead) s.car.running = t < -0.5 || t > 0.5;
+          if (t > -0.5 && t < 0.6) s.car.engine_speed *= share;
+        },
+        {kNeutralGear, {200.0, 400.0}});
+  };
+  CHECK(restarts(false).size() >= 2);
+  const auto dead = restarts(true);
+  CHECK(only(dead, FaultKind::stall).value > 0.0);
+}
+
+TEST_CASE("after a stall first gear is meant again, and those up to the one that was; without one it is wrong") {
+  for (const bool stalls : {false, true}) {
+    const auto faults = in_shift(
+        [stalls](DriveSample& s, double t) {
+          if (stalls) s.car.running = t < -0.5 || t > -0.2;
+        },
+        {5, {}});
+    std::string raised;
+    for (const DriveFault& fault : faults) raised += std::string(fault_key(fault.kind)) + " ";
+    CHECK(raised == (stalls ? "stall " : "wrong_gear "));
+  }
+}
+
+TEST_CASE("the prompts within a shift take their time, and that is none of the shift's") {
+  const auto held = [](double until, double reading) {
+    ConstructedShift shift;
+    shift.to = until + 2.0;
+    shift.spoil = [until](DriveSample& s, double t) {
+      if (t > 0.35) s.car.clutch = t < until ? 1.0 : 0.0;
+      s.car.clutch_locked = t < 0.075 || t > until;
+    };
+    ShiftMeter meter(shift.car, shift.gate);
+    FaultWatch watch(shift.car, shift.gate, {}, reading);
+    int slow = 0;
+    for (const DriveSample& s : shift.samples()) {
+      const auto record = meter.add(s);
+      watch.add(s, kNeutralGear, meter.is_open());
+      if (record) watch.judge(*record);
+      for (const DriveFault& fault : watch.take()) slow += fault.kind == FaultKind::too_slow ? 1 : 0;
+    }
+    return slow;
+  };
+  CHECK(held(2.9, 0.0) == 1);
+  CHECK(held(2.9, 1.0) == 0);
+  CHECK(held(3.9, 1.0) == 1);
+}
+
+TEST_CASE("one press of the clutch that is held before the lever moves is a shift too slow, and not coasting too") {
+  ConstructedShift shift;
+  shift.from = -6.0;
+  shift.spoil = [](DriveSample& s, double t) {
+    if (t > -4.5 && t < 0.3)
+      s.car.clutch = 1.0, s.car.throttle = 0.0, s.car.clutch_locked = false, s.car.clutch_torque = 0.0;
+    if (t < -4.6) s.car.throttle = 0.3;
+    if (t > -4.6 && t < 0.0) s.car.throttle = 0.0;
+  };
+  std::string raised;
+  for (const DriveFault& fault : faults_of(shift)) raised += std::string(fault_key(fault.kind)) + " ";
+  CHECK(raised == "too_slow ");
 }
 
 TEST_CASE("rollback: how far, not in reverse, and not for a hand's breadth") {

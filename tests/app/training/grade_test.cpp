@@ -125,6 +125,9 @@ TEST_CASE("only what was done is passed") {
   CHECK(graded(result).why == "It was not done in 90 s.");
   result.end = LessonEnd::left;
   CHECK(graded(result).why == "The lesson was left.");
+  LessonResult stalled = result;  // who leaves is told that, whatever was wrong before
+  stalled.faults.push_back({FaultKind::stall, Severity::very_severe, 3.0, 62.0, -1});
+  CHECK(graded(stalled, lesson_that_catches({FaultKind::stall})).why == "The lesson was left.");
   result.end = LessonEnd::running;
   CHECK_FALSE(graded(result).passed);
   result.end = LessonEnd::aborted;

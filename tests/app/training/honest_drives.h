@@ -199,7 +199,7 @@ inline void skip_shifts(ScriptedDrive& d) {
   a.accelerate_to(45.5);
   a.shift(4);
   d.wait(0.5);
-  a.slow_to(27.5);
+  a.slow_to(31.5);
   a.shift_with_blip(2);
 }
 
@@ -306,6 +306,64 @@ inline void bite_point_and_neutral(ScriptedDrive& d) {
   }
 }
 
+// Off the throttle and down with the clutch in one movement of both feet; and up again with the throttle.
+inline void both_feet(ScriptedDrive& d, double throttle, double clutch, double seconds) {
+  const double from = d.time(), old_throttle = d.feet.throttle, old_clutch = d.feet.clutch;
+  d.until([&] {
+    const double share = std::min(1.0, (d.time() - from) / seconds);
+    d.feet.throttle = old_throttle + share * (throttle - old_throttle);
+    d.feet.clutch = old_clutch + share * (clutch - old_clutch);
+    return share == 1.0;
+  });
+}
+
+inline void shift_with_both_feet(ScriptedDrive& d, int gear) {
+  both_feet(d, 0.0, 1.0, 0.2);
+  d.lever(gear);
+  both_feet(d, 0.25, 0.0, 0.6);
+}
+
+inline void up_with_both_feet(ScriptedDrive& d) {
+  for (int gear = 2; gear <= 5; ++gear) {
+    Able{d}.accelerate_to_rpm(2200.0);
+    shift_with_both_feet(d, gear);
+  }
+}
+
+inline void eco_with_both_feet(ScriptedDrive& d) {
+  for (int gear = 2; gear <= 5; ++gear) {
+    Able{d}.accelerate([&] { return d.now().shift_advice > 0; });
+    d.wait(0.4);
+    shift_with_both_feet(d, gear);
+  }
+  Able{d}.accelerate_to(70.5, 0.5);
+}
+
+// By the light, with a third of the throttle as the hint has it, and as people see it (Green 2000).
+inline void eco_with_a_persons_reaction(ScriptedDrive& d) {
+  for (int gear = 2; gear <= 5; ++gear) {
+    Able{d}.accelerate([&] { return d.now().shift_advice > 0; }, 1.0 / 3.0);
+    d.wait(1.05);
+    Able{d}.shift(gear);
+  }
+  Able{d}.accelerate_to(70.5, 0.5);
+}
+
+// The hand brake while the foot still holds the car, then the foot off, then neutral.
+inline void emergency_stop_by_the_hand_brake(ScriptedDrive& d) {
+  Able{d}.accelerate_to(50.05);
+  d.wait(1.0);
+  d.feet.throttle = 0.0;
+  d.press(d.feet.brake, 1.0, 0.2);
+  d.until([&] { return d.km_per_h() < 18.0; });
+  d.clutch_down();
+  d.until([&] { return d.stands(); });
+  d.wait(0.3);
+  d.press(d.feet.hand_brake, 1.0, 0.3);
+  d.press(d.feet.brake, 0.0, 0.2);
+  d.lever(kNeutralGear);
+}
+
 struct Honest {
   const char* lesson;
   void (*drive)(ScriptedDrive&);
@@ -334,6 +392,10 @@ inline constexpr Honest kOwnWays[] = {
     {"up_through_the_gears", up_in_another_way},
     {"moving_off", moving_off_at_the_second_try},
     {"bite_point", bite_point_and_neutral},
+    {"up_through_the_gears", up_with_both_feet},
+    {"eco_driving", eco_with_both_feet},
+    {"eco_driving", eco_with_a_persons_reaction},
+    {"emergency_stop", emergency_stop_by_the_hand_brake},
 };
 
 }  // namespace gearshift::honest

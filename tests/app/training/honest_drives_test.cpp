@@ -1,6 +1,7 @@
 // Who does right what the goal asks for passes with the best grade: in the real car, on its slope, prompted or not.
 #include "tests/app/training/honest_drives.h"
 
+#include <cstddef>
 #include <span>
 #include <string>
 #include <string_view>
@@ -43,6 +44,95 @@ TEST_CASE("who does right what a goal says passes with the best grade, in the re
 
 TEST_CASE("who does it in another way than the prompts have it gets no less, and does not get stuck") {
   check_all(honest::kOwnWays);
+}
+
+namespace {
+
+// Reads every prompt that is new, for `reading` seconds in which the feet stay where they are, and does what it says.
+void obey(ScriptedDrive& d, double reading) {
+  Able a{d};
+  const auto says = [&](std::string_view part) { return d.run.view().prompt.find(part) != std::string::npos; };
+  while (!d.run.is_over() && d.time() < 260.0) {
+    const std::string prompt = d.run.view().prompt;
+    d.wait(reading);
+    const auto changed = [&] { return d.run.view().prompt != prompt; };
+    if (changed()) continue;
+    if (says("blip")) {
+      d.press(d.feet.brake, 0.0, 0.1);
+      const std::size_t lever = prompt.find("lever to ") + 9;
+      a.lift();
+      d.clutch_down();
+      d.lever(prompt[lever] - '0');
+      d.feet.throttle = 0.5;
+      d.until([&] { return d.rpm() > std::stod(prompt.substr(prompt.find("blip to ") + 8)); }, 3.0);
+      d.feet.throttle = 0.0;
+      d.press(d.feet.clutch, 0.0, 0.4);
+      d.until(changed, 5.0);
+    } else if (says("Accelerate")) {
+      d.press(d.feet.throttle, 0.33, 0.3);
+      d.until(changed);
+    } else if (says("Slow down")) {
+      a.lift();
+      d.press(d.feet.brake, 0.2, 0.2);
+      d.until(changed);
+    } else if (says("Brake")) {
+      a.stop();
+    } else if (says("clutch down")) {
+      d.press(d.feet.brake, 0.0, 0.1);
+      a.lift();
+      d.clutch_down();
+    } else if (says("Lever to ")) {
+      d.lever(prompt[9] - '0');
+    } else {
+      d.press(d.feet.clutch, 0.0, 0.8);
+    }
+  }
+}
+
+}  // namespace
+
+// Green 2000: 0.75 s to a signal that is expected, 0.3 s more to read it.
+TEST_CASE("who reads each prompt before he obeys it passes with the best grade") {
+  for (const char* key : {"up_through_the_gears", "down_through_the_gears", "skip_shifts", "rev_matching"}) {
+    for (const double reading : {0.3, 0.75, 1.05}) {
+      ScriptedDrive d(key);
+      obey(d, reading);
+      const LessonResult& result = d.finish();
+      CAPTURE(std::string(key));
+      CAPTURE(reading);
+      CAPTURE(faults_of(result));
+      CHECK(result.end == LessonEnd::done);
+      CHECK(result.grade == 10.0);
+    }
+  }
+}
+
+TEST_CASE("who stalls, starts again and goes up from first has that stall and nothing else") {
+  for (const LessonMode mode : {LessonMode::follow_me, LessonMode::by_yourself}) {
+    ScriptedDrive d("up_through_the_gears", mode);
+    Able a{d};
+    a.accelerate_to_rpm(2200.0);
+    a.shift(2);
+    d.feet.brake = 0.5;
+    d.until([&] { return !d.now().running; });
+    d.clutch_down();
+    d.feet.brake = 0.0;
+    d.feet.starter = true;
+    d.until([&] { return d.now().running && d.rpm() > 700.0; }, 5.0);
+    d.feet.starter = false;
+    d.wait(1.0);
+    d.lever(1);
+    a.launch();
+    for (int gear = 2; gear <= 5; ++gear) {
+      a.accelerate_to_rpm(2200.0);
+      a.shift(gear);
+    }
+    const LessonResult& result = d.finish();
+    CAPTURE(faults_of(result));
+    CHECK(result.end == LessonEnd::done);
+    CHECK(result.grade == 8.0);
+    CHECK(faults_of(result).starts_with("The engine stalled"));
+  }
 }
 
 TEST_CASE("who took a wrong gear is told where the lesson goes on, and can finish it") {

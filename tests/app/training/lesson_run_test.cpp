@@ -166,7 +166,7 @@ TEST_CASE("a step for the lever that has no hint of its own tells the lever's wa
 TEST_CASE("faults are said as they happen; at the end in summary; what is not looked at is a note and not said") {
   const auto spoil = [](DriveSample& s, double t) {
     if (t > 0.3 && t < 0.35) s.lever.f_h = {70.0, 0.0};
-    s.car.throttle = t < 0.15 ? 0.3 : 0.0;  // step order, which this lesson does not look at
+    s.car.throttle = t < 0.29 ? 0.3 : 0.0;  // step order, which this lesson does not look at
   };
   Driven driven;
   driven.shift.spoil = spoil;
@@ -176,7 +176,7 @@ TEST_CASE("faults are said as they happen; at the end in summary; what is not lo
   };
   const Outcome run = driven.run();
   CHECK(said == doctest::Approx(0.65).epsilon(0.02));  // the push, and the gap that ends it
-  CHECK(run.view().said == std::vector<std::string>{"The lever was pushed with 70 N."});
+  CHECK(run.view().said == std::vector<std::string>{"The lever was pushed hard (70 N)."});
   REQUIRE(run.result().faults.size() == 2);
   CHECK(run.result().faults[1].kind == FaultKind::step_order);
   CHECK(run.result().faults[1].severity == Severity::note);

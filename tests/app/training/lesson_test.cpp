@@ -118,6 +118,7 @@ ignition = true
 running = false
 clutch_locked = true
 shift_light = false
+braked = true
 clutch_torque_above_nm = 30
 clutch_above = 0.1
 clutch_below = 0.9
@@ -193,6 +194,7 @@ TEST_CASE("every key is read, in SI units") {
   CHECK(c.running == false);
   CHECK(c.clutch_locked == true);
   CHECK(c.shift_light == false);
+  CHECK(c.braked == true);
   CHECK(c.clutch_torque_above == 30.0);
   CHECK(c.clutch_above == 0.1);
   CHECK(c.clutch_below == 0.9);
@@ -230,7 +232,7 @@ TEST_CASE("shift_to is pedal, lever, pedal: the pedal before the lever may be sk
   CHECK(lesson.steps[2].until.clutch_below.has_value());
 }
 
-TEST_CASE("a band that is the car's holds its own, from a tenth below to where UDRIVE's drivers end") {
+TEST_CASE("a band that is the car's holds its own, from a tenth below to what a person's reaction to the light adds") {
   CarSpec car;
   car.engine.shift_low = 200.0;
   car.engine.shift_high = 250.0;
@@ -240,7 +242,27 @@ TEST_CASE("a band that is the car's holds its own, from a tenth below to where U
   CHECK(lesson_in_car(lesson, car).shift_to == 400.0);
   lesson.band_of_car = true;
   CHECK(lesson_in_car(lesson, car).shift_from == doctest::Approx(180.0));
-  CHECK(lesson_in_car(lesson, car).shift_to == doctest::Approx(300.0));
+  CHECK(lesson_in_car(lesson, car).shift_to == doctest::Approx(325.0));
+}
+
+TEST_CASE("a step may say at what speed its gear goes in, and then a shift may be too early or late without a band") {
+  const std::string head = "title = 'T'\ngoal = 'G'\ntask = 't'\n", tail = "[faults]\nearly_shift = 'fails'\n";
+  const Lesson lesson = parse_lesson(head + "[[step]]\nshift_to = '3'\nat_km_per_h = 36\n" + tail, "l.toml");
+  CHECK_FALSE(lesson.steps[0].at.has_value());
+  CHECK(*lesson.steps[1].at == doctest::Approx(10.0));
+  CHECK_FALSE(lesson.steps[2].at.has_value());
+  const std::string step = "[[step]]\nprompt = 'P'\nat_km_per_h = 36\nuntil = { gear = ";
+  CHECK(*parse_lesson(head + step + "'2' }\n" + tail, "l.toml").steps[0].at == doctest::Approx(10.0));
+  CHECK_THROWS_AS(parse_lesson(head + step + "'R' }\n" + tail, "l.toml"), FileError);
+}
+
+TEST_CASE(
+    "what a lesson is not passed with is one sentence for who is about to drive it, and none where nothing fails") {
+  Lesson lesson;
+  CHECK(catches_sentence(lesson).empty());
+  lesson.catches = {FaultKind::stall, FaultKind::clutch_dump};
+  lesson.counts = {FaultKind::jerk};
+  CHECK(catches_sentence(lesson) == "Not passed with: a stall, a dumped clutch.");
 }
 
 TEST_CASE("every hostile lesson is refused in one sentence with file, line and reason") {

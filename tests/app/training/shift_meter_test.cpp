@@ -200,7 +200,7 @@ TEST_CASE("steps are noted as they happen and measured against the taught order"
                                                                         ShiftStep::neutral, ShiftStep::gear,
                                                                         ShiftStep::clutch_up});
   // The throttle comes off after the clutch is down: two steps are exchanged.
-  const ShiftRecord late = spoilt([](DriveSample& s, double t) { s.car.throttle = t < 0.15 ? 0.3 : 0.0; });
+  const ShiftRecord late = spoilt([](DriveSample& s, double t) { s.car.throttle = t < 0.29 ? 0.3 : 0.0; });
   CHECK(late.steps.front() == ShiftStep::clutch_down);
   CHECK(late.steps_out_of_place == 2);
   // Between clutch and gear a blip: into a higher gear two steps too many. (Into a lower one it is taught:
@@ -208,6 +208,25 @@ TEST_CASE("steps are noted as they happen and measured against the taught order"
   CHECK(spoilt([](DriveSample& s, double t) {
           s.car.throttle = within(t, 0.3, 0.35) ? 0.5 : 0.0;
         }).steps_out_of_place == 2);
+}
+
+// The bite point is passed at 0.075 s downwards and, with the slow pedal, at 0.8 s upwards.
+TEST_CASE("both feet at once are in order, within a fifth of a second and no further") {
+  const auto lifted_at = [](double t0) {
+    return spoilt([t0](DriveSample& s, double t) { s.car.throttle = t < t0 ? 0.3 : 0.0; }).steps_out_of_place;
+  };
+  CHECK(lifted_at(0.17) == 0);
+  CHECK(lifted_at(0.29) == 2);
+  const auto given_at = [](double t0) {
+    return spoilt([t0](DriveSample& s, double t) {
+             if (t > 0.5) s.car.clutch = ConstructedShift::line(t, 0.6, 1.0, 1.4, 0.0);
+             s.car.clutch_locked = t < 0.075 || t > 1.2;
+             if (t > t0) s.car.throttle = 0.3;
+           })
+        .steps_out_of_place;
+  };
+  CHECK(given_at(0.65) == 0);
+  CHECK(given_at(0.55) > 0);
 }
 
 TEST_CASE("a mouth entered off the way is a wrong column") {

@@ -51,7 +51,7 @@ bool always(const DriveSample&) {
 }
 
 // What a driver with that fault would have shown. Nothing for a kind that cannot be put into samples from outside.
-Spoil spoil_of(FaultKind kind, const Gate& gate, const CarSpec& car) {
+Spoil spoil_of(FaultKind kind, const Gate& gate, const CarSpec& car, const Lesson& lesson) {
   const double bite = car.clutch.bite;
   const double red = car.engine.red_line;
   switch (kind) {
@@ -117,16 +117,16 @@ Spoil spoil_of(FaultKind kind, const Gate& gate, const CarSpec& car) {
       };
     case FaultKind::throttle_in_shift:
       return [=](DriveSample& s) {
-        if (s.car.clutch > 0.0 && s.car.clutch < 1.0) s.car.throttle = 0.3;  // still on it as the clutch goes down
+        if (s.car.clutch > 0.0) s.car.throttle = 0.3;  // still on it as the clutch goes down
         if (s.car.clutch >= bite && s.car.gear == kNeutralGear) s.car.engine_speed += 200.0;
       };
-    case FaultKind::early_shift:
+    case FaultKind::early_shift:  // too slow, by the needle of the engine and by that of the road
       return [=](DriveSample& s) {
-        if (s.car.clutch > bite - 0.05) s.car.engine_speed *= 0.5;
+        if (s.car.clutch > bite - 0.05) s.car.engine_speed *= 0.5, s.car.road_speed *= 0.7;
       };
     case FaultKind::late_shift:
-      return [=](DriveSample& s) {
-        if (s.car.clutch > bite - 0.05) s.car.engine_speed *= 2.5;
+      return [=, climbs = lesson.band_of_car || lesson.shift_to < 1e8](DriveSample& s) {
+        if (s.car.clutch > bite - 0.05) climbs ? s.car.engine_speed *= 2.5 : s.car.road_speed *= 0.4;
       };
     case FaultKind::no_clutch:
       return [](DriveSample& s) {
@@ -210,9 +210,9 @@ TEST_CASE("each shipped lesson sees every fault that it looks at, and is failed 
       const auto kind = static_cast<FaultKind>(i);
       if (!looks_at(lesson, kind)) continue;
       ScriptedDrive drive(each.lesson);
-      drive.spoil = spoil_of(kind, drive.gate, drive.car);
+      drive.spoil = spoil_of(kind, drive.gate, drive.car, lesson);
       if (!drive.spoil) continue;
-      drive.dawdle = waits(kind) ? 3.0 : 0.0;
+      drive.dawdle = kind == FaultKind::too_slow ? 5.0 : waits(kind) ? 3.0 : 0.0;  // beyond what reading takes
       each.drive(drive);
       const LessonResult& result = drive.finish();
       CAPTURE(std::string(each.lesson));

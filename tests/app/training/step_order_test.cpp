@@ -79,6 +79,17 @@ TEST_CASE("what a shift that was cut short had still to do does not count") {
   CHECK(steps_out_of_place(std::vector<S>{S::gear, S::neutral}, 2, 3, false) == 2);
 }
 
+TEST_CASE("what was out of order is named") {
+  const auto slip = [](std::vector<S> steps) { return first_slip(steps, 2, 3); };
+  CHECK(slip(taught_steps(2, 3)) == StepSlip::other);
+  CHECK(slip({S::clutch_down, S::neutral, S::gear, S::clutch_up}) == StepSlip::throttle_stayed);
+  CHECK(slip({S::clutch_down, S::neutral, S::throttle_off, S::gear, S::clutch_up}) == StepSlip::throttle_late);
+  CHECK(slip({S::throttle_off, S::neutral, S::clutch_down, S::gear, S::clutch_up}) == StepSlip::lever_first);
+  CHECK(slip({S::throttle_off, S::clutch_down, S::neutral, S::clutch_up, S::gear}) == StepSlip::clutch_before_gear);
+  CHECK(slip({S::throttle_off, S::clutch_down, S::neutral, S::gear, S::throttle_on, S::clutch_up}) ==
+        StepSlip::throttle_early);
+}
+
 TEST_CASE("one step left out or too many counts one, two exchanged count two") {
   CHECK(steps_out_of_place(std::vector<S>{S::clutch_down, S::neutral, S::gear, S::clutch_up}, 2, 3) == 1);
   CHECK(steps_out_of_place(std::vector<S>{S::throttle_off, S::clutch_down, S::neutral, S::clutch_up, S::gear}, 2, 3) ==

@@ -41,7 +41,41 @@ TEST_CASE("what has become weak comes before what is new, the weakest first") {
                                      result("bite", 3.0),  result("bite", 4.0), result("start", 3.0)};
   CHECK(next(past) == "bite");  // 3.0 against 5.5
   const auto suggestion = suggest_lesson(three_lessons(), past);
-  CHECK(suggestion->why == "Bite point has become weak: 3.0 on average lately.");
+  CHECK(suggestion->why == "Bite point has become weak: 3 of the last 3 not passed, 3.0 on average.");
+}
+
+TEST_CASE("weak is what was not passed lately, whatever the grade: a fault fails a lesson at 9.5") {
+  const PastResult failed{"away", "away", 9.5, false}, passed{"away", "away", 9.5, true};
+  std::vector<PastResult> past{result("start", 8.0), passed, result("start", 6.0)};
+  CHECK(next(past) == "bite");
+  past.push_back(failed);
+  CHECK(next(past) == "away");
+  past.push_back(passed);
+  CHECK(next(past) == "bite");  // one of three is a slip
+  past.push_back(failed);
+  CHECK(next(past) == "away");
+}
+
+TEST_CASE("who fails more of them is weaker, and of two who fail as many the one with the lower grade") {
+  const auto runs = [](const char* lesson, std::vector<double> grades) {
+    std::vector<PastResult> list{{lesson, lesson, 10.0, true}};
+    for (const double grade : grades) list.push_back({lesson, lesson, grade, false});
+    return list;
+  };
+  std::vector<PastResult> past = runs("start", {0.0}), more = runs("bite", {9.0, 9.0, 9.0});
+  past.insert(past.end(), more.begin(), more.end());
+  CHECK(next(past) == "bite");
+  past = runs("start", {8.0, 8.0, 8.0});
+  past.insert(past.end(), more.begin(), more.end());
+  CHECK(next(past) == "start");
+}
+
+TEST_CASE("what was never passed in three runs is weak, too; in one or two it is still new") {
+  std::vector<PastResult> past{result("start", 8.0)};
+  for (int run = 1; run <= 6; ++run) {
+    past.push_back(result("away", 0.0));
+    CHECK(next(past) == (run < 3 ? "bite" : "away"));
+  }
 }
 
 TEST_CASE("with all passed the weakest is practised") {
