@@ -113,12 +113,16 @@ LeverOutput CarWorld::step(const LeverInput& in, double period) noexcept {
   LeverOutput out;
   out.road_speed = state_.road_speed;
   if (lever.slot != kNoSlot) {
-    out.force.y = gear_of_slot_[static_cast<std::size_t>(lever.slot)].side * sleeve.force;
+    const double side = gear_of_slot_[static_cast<std::size_t>(lever.slot)].side;
+    out.force.y = side * sleeve.force;
+    out.shake.y = side * sleeve.rattle;
     out.limited_slot = lever.slot;
     out.depth_min = sleeve.depth_min;
     out.depth_max = sleeve.depth_max;
   }
-  out.force.y += shake_.step(state_.shudder, state_.engine_speed, period);
+  const double shake = shake_.step(state_.shudder, state_.engine_speed, period);
+  out.force.y += shake;
+  out.shake.y += shake;
   return out;
 }
 

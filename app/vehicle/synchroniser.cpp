@@ -97,7 +97,8 @@ SleeveOutput Synchroniser::step(const SleeveInput& in, double period) noexcept {
     out.grind_power = rattle_torque(in) * std::abs(in.difference);
   }
   if (is_meshed()) hold_under_load(in, period, out);
-  out.force = bump_force(in.depth) - rattle_force(in, period);
+  out.rattle = -rattle_force(in, period);
+  out.force = bump_force(in.depth) + out.rattle;
   return out;
 }
 

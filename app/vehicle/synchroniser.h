@@ -54,6 +54,7 @@ struct SleeveOutput {
   double depth_min = 0.0;        // [m] limits in the slot: 0 and the largest number where there is none
   double depth_max = 0.0;        // [m]
   double force = 0.0;            // [N] on the knob, into the slot +
+  double rattle = 0.0;           // [N] of it the dogs' that clash: at their own rate, whatever the lever does
   SyncPhase phase = SyncPhase::free;
   double grind_power = 0.0;    // [W]
   bool torque_locked = false;  // no hand draws the gear out

@@ -5,6 +5,10 @@
 // what the device says. Where it chatters on all the same they are not: then half of it, and again, until it is still.
 // It stays there until the loop is armed anew or the wall is tuned. A bounce that dies away by itself takes little or
 // nothing. What chatters on at 1/64 is no wall's doing.
+//
+// A world may shake the lever too, as a dying engine does. A lever that is shaken turns as often as the force that
+// shakes it, and goes no further than that force can move it: such a turn is not the wall's. Softening would not calm it,
+// and take the walls from a lever that needs them. What turns oftener, or swings wider, is counted as ever.
 #pragma once
 
 #include <array>
@@ -23,8 +27,9 @@ class ReversalLimiter {
   void reset() noexcept;  // full stiffness again
 
   // Once per cycle, with the trusted position [m], whether the lever is pressed into a wall, and the stiffness that
-  // is wanted of that wall [N/m]. True when share() or exhausted() has just changed. Real-time safe.
-  bool update(glm::dvec2 position, bool touches, double wanted) noexcept;
+  // is wanted of that wall [N/m], and the force by which the world shakes the lever: no function of the lever [N]. True
+  // when share() or exhausted() has just changed. Real-time safe.
+  bool update(glm::dvec2 position, bool touches, double wanted, glm::dvec2 shake) noexcept;
 
   double share() const noexcept { return share_; }        // [1] of the wanted stiffness to be used
   bool exhausted() const noexcept { return exhausted_; }  // softening does not help
@@ -32,19 +37,31 @@ class ReversalLimiter {
  private:
   static constexpr std::size_t kReversals = 6;
 
-  // The turning points of one axis: a turn counts once the lever has come back from it by kTurn counts.
+  // Something that goes up and down. It has turned once it has come back from its farthest by `back`.
+  struct Swing {
+    bool turns(double value, double back) noexcept;
+
+    double farthest = 0.0;   // in the present direction
+    double direction = 1.0;  // +1 or -1
+    double turned_at = 0.0;  // where it turned last
+    double width = 0.0;      // from the turn before to that one
+  };
+
   struct Axis {
-    double extreme = 0.0;                     // [m] farthest in the present direction
-    double direction = 1.0;                   // +1 or -1
-    std::array<double, kReversals> turned{};  // [s] when
+    Swing lever;                              // [m]
+    int shakes = 0;                           // turns of the shake that no turn of the lever has answered yet
+    std::array<double, kReversals> turned{};  // [s] when the lever turned of itself
     std::size_t count = 0;
   };
 
+  void watch_shake(glm::dvec2 shake) noexcept;
+  bool is_shaken(Axis& axis) noexcept;
   bool chatters(Axis& axis, double position) noexcept;
   bool lower(double wanted) noexcept;
 
   double period_;
   double turn_;              // [m] that makes a reversal
+  double damping_;           // [N s/m] of the bare lever
   double floor_;             // [N/m] that would hold if the device were what it says
   double now_ = 0.0;         // [s]
   double touched_ = -1.0;    // [s] when the lever was last in a wall
@@ -53,6 +70,9 @@ class ReversalLimiter {
   double share_ = 1.0;
   bool exhausted_ = false;
   std::array<Axis, 2> axis_{};
+  std::array<Swing, 2> shake_{};  // [N]
+  double shaken_ = -1.0;          // [s] when it turned last
+  double shaken_by_ = 0.0;        // [m] the most by which that turn of it moves a lever whose walls give no energy
 };
 
 }  // namespace gearshift

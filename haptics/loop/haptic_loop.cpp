@@ -296,7 +296,7 @@ void HapticLoop::watch_contact() noexcept {
 // The lever chatters on a wall: less stiffness, and where that does not calm it, none.
 void HapticLoop::watch_chatter() noexcept {
   if (!config_.contact.reversal_limiter) return;
-  if (!limiter_.update(motion_.position, has_flag(kFlagContact), tuning_.wall_stiffness)) return;
+  if (!limiter_.update(motion_.position, has_flag(kFlagContact), tuning_.wall_stiffness, world_out_.shake)) return;
   tell(EventKind::stiffness_lowered, tuning_.wall_stiffness * limiter_.share());
   if (limiter_.exhausted()) guard_.damp();
 }

@@ -9,6 +9,9 @@
 // It may return any finite force: the guard makes it safe. Depth limits take effect in the next cycle and
 // never move the lever: a limit inside which the lever does not lie is applied at the lever's depth.
 //
+// What shakes the lever on purpose it says in `shake`, so that the loop does not take it for a wall that chatters. Only
+// what comes and goes at a rate of its own is a shake: a force that answers the lever's motion must not be in it.
+//
 //   LeverOutput NullWorld::step(const LeverInput&, double) noexcept { return {}; }  // nothing behind it
 #pragma once
 
@@ -46,6 +49,7 @@ struct LeverInput {
 
 struct LeverOutput {
   glm::dvec2 force{0.0};       // [N] on the lever
+  glm::dvec2 shake{0.0};       // [N] of it what comes and goes by itself, whatever the lever does: an engine that dies
   int limited_slot = kNoSlot;  // the slot whose depth is limited: a blocked synchroniser, a torque lock
   double depth_min = 0.0;      // [m]
   double depth_max = std::numeric_limits<double>::max();  // [m]

@@ -321,31 +321,6 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("nothing ejects the lever: left alone in gear it stays, whatever throttle and clutch do") {
-  const CarSpec car = shipped_car("hatchback");
-  const Gate gate = gate_of(car);
-  for (const int gear : {1, 2, 3, 4, 5}) {
-    CAPTURE(gear);
-    RestingHand nobody;
-    SimulatedRunConfig config = gripped(gate, gear);
-    config.lever.hand = kBareHand;
-    CarWorld world(car, gate, kPaperForce, rolling_in(car, gear, 300.0));
-    SimulatedRun run(config, nobody, &world);
-    while (run.time() < 6.0) {
-      const double phase = std::fmod(run.time(), 1.0);
-      DriverControls feet = phase < 0.5 ? clutch_up(1.0) : clutch_up(0.0);
-      if (phase > 0.45 && phase < 0.55) feet.clutch = 1.0;
-      run.channels().controls.write(feet);
-      const HapticSnapshot& lever = run.step();
-      if (run.time() < 0.2) continue;
-      REQUIRE(lever.gear == gear);
-      REQUIRE(world.state().gear == gear);
-      REQUIRE(std::abs(std::abs(lever.proxy.y) - slot_of(gate, lever.slot).rest) < 0.001);
-      REQUIRE(lever.world_force == dvec2(0.0));
-    }
-  }
-}
-
 TEST_CASE("no gear hangs on after neutral, and no force is left in it: an hour of town, shortened") {
   const CarSpec car = shipped_car("hatchback");
   const Gate gate = gate_of(car);
@@ -366,21 +341,6 @@ TEST_CASE("no gear hangs on after neutral, and no force is left in it: an hour o
   }
   CHECK(times >= 6);
   CHECK(run.state().gear == 3);
-}
-
-TEST_CASE("the lever does not drift sideways in a slot, blocked, clashing or in gear") {
-  for (const double worn : {1.0, 0.5}) {
-    CarSpec car = shipped_car("hatchback");
-    car.synchro.friction *= worn;
-    const Gate gate = gate_of(car);
-    PushingHand hand = leaning_hand(gate, 4, 20.0);
-    CarStart start;
-    start.road_speed = 20.0;
-    CarWorld world(car, gate, kPaperForce, start);
-    SimulatedRun run(before_slot(gate, 4), hand, &world);
-    run.channels().controls.write(worn < 1.0 ? clutch_down() : clutch_up());
-    while (run.time() < 3.0) REQUIRE(std::abs(run.step().lever.x - rest_position(gate, 4).x) < 0.0005);
-  }
 }
 
 TEST_CASE("a stall is announced: the clutch dumped at idle") {

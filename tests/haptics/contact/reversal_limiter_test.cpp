@@ -25,9 +25,31 @@ int lowered(ReversalLimiter& limiter, double frequency, double span, double seco
   int count = 0;
   for (int n = 0; n < static_cast<int>(seconds / kPeriod); ++n) {
     const double x = 0.5 * span * std::sin(2.0 * std::numbers::pi * frequency * n * kPeriod);
-    count += limiter.update({0.0, x}, touches, wanted);
+    count += limiter.update({0.0, x}, touches, wanted, {0.0, 0.0});
   }
   return count;
+}
+
+// The same in a wall of 5000 N/m, while the world shakes the lever with a sine of that amplitude [N]. lag: of the lever
+// [periods of the shake].
+struct Shake {
+  double frequency = 20.0, amplitude = 1.0, lag = 0.2;
+};
+int lowered_shaken(ReversalLimiter& limiter, const Shake& shake, double frequency, double span, double seconds) {
+  const auto sine = [](double turns) { return std::sin(2.0 * std::numbers::pi * turns); };
+  int count = 0;
+  for (int n = 0; n < static_cast<int>(seconds / kPeriod); ++n) {
+    const double time = n * kPeriod;
+    const double y = 0.5 * span * sine(frequency * (time - shake.lag / shake.frequency));
+    count += limiter.update({0.1 * y, y}, true, 5000.0, {0.0, shake.amplitude * sine(shake.frequency * time)});
+  }
+  return count;
+}
+
+// What a force of amplitude 1 N moves the paper's lever by at most, from turn to turn, where it stands in resonance with
+// it [m]: 2 / (b w).
+double resonant_span(double frequency) {
+  return 2.0 / (kPaperAxisY.damping * 2.0 * std::numbers::pi * frequency);
 }
 
 }  // namespace
@@ -87,4 +109,40 @@ TEST_CASE("at the floor a bounce that dies away takes nothing, however often it 
   CHECK_FALSE(limiter.exhausted());
   CHECK(lowered(limiter, 40.0, 0.002, 1.0) >= 1);  // one that does not
   CHECK(limiter.share() <= 0.5);
+}
+
+TEST_CASE("a lever that is shaken by the world turns with it: no wall is lowered for that, whatever it stands in") {
+  for (const double frequency : {9.0, 12.0, 20.0, 25.0, 120.0}) {
+    for (const double lag : {0.0, 0.1, 0.25, 0.4, 0.5}) {
+      CAPTURE(frequency);
+      CAPTURE(lag);
+      ReversalLimiter limiter(paper_spec(), kPeriod);
+      CHECK(lowered_shaken(limiter, {frequency, 1.0, lag}, frequency, resonant_span(frequency), 20.0) == 0);
+      CHECK(limiter.share() == 1.0);
+      ReversalLimiter blind(paper_spec(), kPeriod);
+      if (frequency >= 12.0) CHECK(lowered(blind, frequency, resonant_span(frequency), 20.0) > 0);  // negative control
+    }
+  }
+}
+
+TEST_CASE("shaken or not, a wall is lowered for what turns oftener, or goes further than a passive wall lets it") {
+  ReversalLimiter oftener(paper_spec(), kPeriod);
+  CHECK(lowered_shaken(oftener, {20.0}, 45.0, 0.001, 1.0) > 0);
+  CHECK(oftener.share() < 1.0);
+  ReversalLimiter wider(paper_spec(), kPeriod);
+  CHECK(lowered_shaken(wider, {20.0}, 20.0, 1.5 * resonant_span(20.0), 1.0) > 0);
+  CHECK(wider.share() < 1.0);
+  ReversalLimiter barely_shaken(paper_spec(), kPeriod);
+  CHECK(lowered_shaken(barely_shaken, {20.0, 0.03}, 20.0, 6.0 * kCount, 1.0) > 0);
+}
+
+TEST_CASE("a shake that is over answers for nothing") {
+  ReversalLimiter limiter(paper_spec(), kPeriod), fresh(paper_spec(), kPeriod);
+  CHECK(lowered_shaken(limiter, {20.0}, 20.0, 0.001, 5.0) == 0);
+  CHECK(lowered(limiter, 1.0, 0.0, 0.3) == 0);
+  for (int n = 0; n < 400; ++n) {
+    const double y = 0.001 * std::sin(2.0 * std::numbers::pi * 40.0 * n * kPeriod);
+    const bool now = limiter.update({0.0, y}, true, 5000.0, {0.0, 0.0});
+    CHECK(now == fresh.update({0.0, y}, true, 5000.0, {0.0, 0.0}));
+  }
 }

@@ -1,0 +1,217 @@
+// A gear that is in stays in, and a lever in a slot stays in the middle of it: every slot, every load, for as long as it
+// lasts, and nothing of it is taken for a wall that chatters. Complaints of users of other simulators: training.md
+// section 2.
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "haptics/gate/feel_curve.h"
+#include "haptics/gate/gate_feel.h"
+#include "tests/app/vehicle/car_run.h"
+
+using namespace gearshift;
+using glm::dvec2;
+
+namespace {
+
+constexpr double kLong = 20.0;    // [s]
+constexpr double kShaken = 1e-3;  // [m] by an engine that dies, at most, of a lever that nobody holds
+
+DriverControls pedals_at(double clutch, double throttle, double brake = 0.0) {
+  DriverControls feet;
+  feet.ignition = true;
+  feet.clutch = clutch;
+  feet.throttle = throttle;
+  feet.brake = brake;
+  return feet;
+}
+
+bool every_other(double time, double seconds) {
+  return std::fmod(time, 2.0 * seconds) < seconds;
+}
+
+// From rest: clutch down, the starter; then as far up as that, without throttle.
+DriverControls dying(double time, double clutch, double brake) {
+  const double since = std::fmod(time, 5.0);
+  DriverControls feet = pedals_at(since < 1.0 ? 1.0 : clutch, 0.0, brake);
+  feet.starter = time > 5.0 && since > 0.1 && since < 0.9;
+  return feet;
+}
+
+struct Driving {
+  const char* name;
+  bool rolls;  // from the start on
+  DriverControls (*feet)(double time);
+};
+
+// The engine pulls and brakes; into the limiter, which cuts it many times a second; both in turn; at half a clutch that
+// slips, at one that a foot cannot hold still about the bite, and with none; and dies, in a car that creeps or stands.
+const Driving kDriving[] = {
+    {"pulls into the limiter", true, [](double) { return pedals_at(0.0, 1.0); }},
+    {"coasts", true, [](double) { return pedals_at(0.0, 0.0); }},
+    {"on and off the throttle", true, [](double time) { return pedals_at(0.0, every_other(time, 0.25) ? 0.5 : 0.0); }},
+    {"half a clutch, pulling", true, [](double) { return pedals_at(0.5, 0.4); }},
+    {"half a clutch, no throttle", true, [](double) { return pedals_at(0.5, 0.0); }},
+    {"an unsteady foot about the bite", true,
+     [](double time) { return pedals_at(0.68 + 0.1 * std::sin(20.0 * time) + 0.02 * std::sin(331.0 * time), 0.1); }},
+    {"clutch down and up", true, [](double time) { return pedals_at(every_other(time, 0.5) ? 1.0 : 0.0, 0.3); }},
+    {"clutch down", true, [](double) { return pedals_at(1.0, 0.0); }},
+    {"creeps and dies", false, [](double time) { return dying(time, 0.6, 0.0); }},
+    {"dies at the brake", false, [](double time) { return dying(time, 0.0, 1.0); }},
+};
+
+double way_of(const Slot& slot) {
+  return static_cast<double>(static_cast<int>(slot.side));
+}
+
+// A lever that nobody holds, and that is pushed by a function of time and place.
+struct PushedLever {
+  template <typename Push>
+  PushedLever(const CarSpec& car, const CarStart& start, dvec2 place, Push push)
+      : gate(gate_of(car)), hand(push), world(car, gate, kPaperForce, start), run(bare(gate, place), hand, &world) {}
+
+  static SimulatedRunConfig bare(const Gate& gate, dvec2 place) {
+    SimulatedRunConfig config = gripped(gate, kNeutralGear);
+    config.lever.hand = kBareHand;
+    config.start = place;
+    return config;
+  }
+  const HapticSnapshot& step(const Driving& driving) {
+    run.channels().controls.write(driving.feet(run.time()));
+    const HapticSnapshot& lever = run.step();
+    for (HapticEvent event; run.channels().events.pop(event);) lowered += event.kind == EventKind::stiffness_lowered;
+    shaken = std::max(shaken, world.state().shudder);
+    return lever;
+  }
+  bool is_guarded() { return lowered == 0 && run.loop().snapshot().guard == GuardState::running; }
+
+  Gate gate;
+  PushingHand hand;
+  CarWorld world;
+  SimulatedRun run;
+  int lowered = 0;
+  double shaken = 0.0;
+};
+
+CarStart in_gear(const CarSpec& car, const Slot& slot, const Driving& driving) {
+  const double speed = slot.gear == kReverseGear ? 150.0 : 250.0;
+  return rolling_in(car, slot.gear, driving.rolls ? speed : 0.0);
+}
+
+// In that gear, pulled out of it by so much [N] within half a second.
+PushedLever pulled(const CarSpec& car, const Slot& slot, const Driving& driving, double pull) {
+  const double way = way_of(slot);
+  return {car, in_gear(car, slot, driving), rest_position(gate_of(car), slot.gear), [=](double time, dvec2) {
+            return dvec2{0.0, -way * pull * std::min(1.0, 2.0 * time)};
+          }};
+}
+
+// Every car, slot and way to drive.
+template <typename Try>
+void everywhere(Try attempt) {
+  for (const char* name : {"hatchback", "diesel"}) {
+    const CarSpec car = shipped_car(name);
+    const Gate gate = gate_of(car);
+    for (const Slot& slot : slots(gate)) {
+      for (const Driving& driving : kDriving) {
+        const std::string drive = std::string(name) + ", " + std::string(gear_name(slot.gear)) + ", " + driving.name;
+        CAPTURE(drive);
+        attempt(car, slot, driving);
+      }
+    }
+  }
+}
+
+// Where a lever was in the mean of a quarter of a second, and whether it stood there, in a slot.
+struct Stand {
+  bool stands = true;
+  double depth = 0.0, across = 0.0;  // [m]
+};
+Stand stand_of(PushedLever& lever, const Driving& driving) {
+  Stand out;
+  double least = 1.0, most = 0.0;
+  for (int i = 0; i < 250; ++i) {
+    const HapticSnapshot& now = lever.step(driving);
+    const double depth = std::abs(now.lever.y);
+    out.stands = out.stands && now.slot != kNoSlot;
+    out.depth += depth / 250.0;
+    out.across += now.lever.x / 250.0;
+    least = std::min(least, depth);
+    most = std::max(most, depth);
+  }
+  out.stands = out.stands && most - least < 0.002;  // a rattle and no more
+  return out;
+}
+
+// [m] from its rest to where the gear's own detent holds that pull [N].
+double held_at(const Slot& slot, double pull) {
+  double way = 0.0;
+  while (feel_force(slot.feel, slot.rest - way) < pull) way += 1e-5;
+  return way;
+}
+
+}  // namespace
+
+TEST_CASE("a lever that nobody holds stays in its gear: every slot, load either way, half a clutch, 20 s") {
+  double shaken = 0.0;
+  everywhere([&](const CarSpec& car, const Slot& slot, const Driving& driving) {
+    PushedLever lever = pulled(car, slot, driving, 0.0);
+    double farthest = 0.0;
+    while (lever.run.time() < kLong) {
+      const HapticSnapshot& now = lever.step(driving);
+      if (lever.run.time() < 0.2) continue;
+      REQUIRE(now.gear == slot.gear);
+      REQUIRE(lever.world.state().gear == slot.gear);
+      farthest = std::max(farthest, std::abs(std::abs(now.lever.y) - slot.rest));
+    }
+    shaken = std::max(shaken, lever.shaken);
+    CHECK(farthest < (lever.shaken > 0.0 ? 0.0005 + kShaken : 0.0005));
+    CHECK(lever.is_guarded());
+  });
+  CHECK(shaken == doctest::Approx(1.0).epsilon(0.05));  // an engine did die
+}
+
+TEST_CASE("a pull of half the detent moves a lever to where the detent holds it, and no further in 20 s") {
+  everywhere([](const CarSpec& car, const Slot& slot, const Driving& driving) {
+    PushedLever lever = pulled(car, slot, driving, 6.0);
+    double farthest = 0.0;
+    while (lever.run.time() < kLong) {
+      const HapticSnapshot& now = lever.step(driving);
+      REQUIRE((lever.run.time() < 0.1 || now.gear == slot.gear));
+      farthest = std::max(farthest, slot.rest - std::abs(now.lever.y));
+    }
+    const double spring = 15.7 * slot.rest;  // [N] the bare lever's own
+    CHECK(farthest < held_at(slot, 6.0 + spring) + 0.0005 + (lever.shaken > 0.0 ? kShaken : 0.0));
+    CHECK(lever.is_guarded());
+  });
+}
+
+TEST_CASE("a lever in a slot does not drift sideways: blocked, clashing or in gear, every slot and load, 20 s") {
+  for (const double worn : {1.0, 0.5}) {
+    everywhere([worn](CarSpec car, const Slot& slot, const Driving& driving) {
+      car.synchro.friction *= worn;
+      const Gate gate = gate_of(car);
+      const double way = way_of(slot), across = rest_position(gate, slot.gear).x;
+      CarStart start;
+      if (driving.rolls) start.road_speed = slot.gear == kReverseGear ? 2.0 : 20.0;
+      PushedLever lever(car, start, {across, 0.0}, [=](double time, dvec2 at) {
+        return dvec2{2000.0 * (across - at.x), time < 0.2 ? 0.0 : 20.0 * way};
+      });
+      std::map<long, double> place;  // across, by the depth in half millimetres: where it stood there first
+      double farthest = 0.0;
+      while (lever.run.time() < kLong) {
+        const Stand stand = stand_of(lever, driving);
+        if (!stand.stands) continue;
+        const double first = place.try_emplace(std::lround(2000.0 * stand.depth), stand.across).first->second;
+        farthest = std::max(farthest, std::abs(stand.across - first));
+      }
+      CHECK(!place.empty());
+      CHECK(farthest < 0.0005);
+      CHECK(lever.is_guarded());
+    });
+  }
+}
