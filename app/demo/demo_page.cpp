@@ -88,8 +88,10 @@ void write_demo_page(const DemoSetup& setup, const DemoResult& result) {
       << "</p>\n<p class=\"sound\">Sound of the drive through every gear:<br><audio controls "
          "src=\"demo.wav\"></audio></p>\n";
   if (result.has_report) {
-    out << "<p>The learner drove each lesson several times, ever better; the last time is shown here: "
-           "<a href=\"report.html\">the learner's report</a>.</p>\n";
+    out << "<p>The learner drove each lesson several times, each time with smaller errors of its own, which a grade "
+           "need "
+           "not follow. The last time is shown here, all are in <a href=\"report.html\">the learner's "
+           "report</a>.</p>\n";
   }
   for (const DemoChapter& chapter : result.chapters) out << chapter_html(chapter);
   out << "<section>\n<h2>Lever and force, by a scripted hand</h2>\n<div class=\"plots\">\n"

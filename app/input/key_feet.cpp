@@ -47,8 +47,14 @@ void KeyFeet::set_pace(const FootPace& pace) {
   pace_ = pace;
 }
 
-Pedals KeyFeet::move(double seconds, double engine_speed, bool coupled) {
+void KeyFeet::give_to(int lever) {
   const std::lock_guard lock(mutex_);
+  lever_ = lever;
+}
+
+Pedals KeyFeet::move(double seconds, double engine_speed, bool coupled, int lever) {
+  const std::lock_guard lock(mutex_);
+  if (lever != lever_) return pedals_;
   seconds = std::isfinite(seconds) ? std::max(seconds, 0.0) : 0.0;
   const double time = pace_.pedal_time;
   const double light = keys_.throttle_light ? light_throttle(engine_speed, coupled) : 0.0;

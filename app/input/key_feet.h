@@ -30,14 +30,19 @@ class KeyFeet {
   void ask(const FootKeys& keys);
   void set_pace(const FootPace& pace);  // of another car
 
-  // Of so much of the car's time [s]; less than none is none. engine_speed [rad/s]; coupled: to the wheels.
-  Pedals move(double seconds, double engine_speed, bool coupled);
+  // Where one lever takes over from another both run for a while: the feet are moved by that one alone.
+  void give_to(int lever);
+
+  // Of so much of the car's time [s]; less than none is none. engine_speed [rad/s]; coupled: to the wheels. lever: that
+  // asks; while the feet are another one's it only learns where they are. 0 has them at first.
+  Pedals move(double seconds, double engine_speed, bool coupled, int lever = 0);
 
  private:
   std::mutex mutex_;  // guards what stands below
   FootKeys keys_;
   FootPace pace_;
   Pedals pedals_;
+  int lever_ = 0;  // whose they are
 };
 
 }  // namespace gearshift

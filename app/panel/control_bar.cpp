@@ -154,9 +154,9 @@ std::string loop_line(const PanelInput& input, float width) {
   const std::string rate = fmt::format("{:.0f} Hz", health.rate),
                     late = fmt::format("p99 late {:.0f} µs", 1e6 * health.late_p99),
                     missed = fmt::format("{} missed", health.skipped),
-                    frame = fmt::format("{:.0f} ms a frame", input.frame_ms);
-  const std::string lines[] = {fmt::format("{} · {} · {} · {}", rate, late, missed, frame),
-                               fmt::format("{} · {} · {}", rate, missed, frame), fmt::format("{} · {}", rate, missed)};
+                    frame = input.frame_ms > 0.0 ? fmt::format(" · {:.0f} ms a frame", input.frame_ms) : std::string();
+  const std::string lines[] = {fmt::format("{} · {} · {}{}", rate, late, missed, frame),
+                               fmt::format("{} · {}{}", rate, missed, frame), fmt::format("{} · {}", rate, missed)};
   for (const std::string& line : lines)
     if (width_of(line) <= width) return line;
   return rate;

@@ -19,6 +19,7 @@ class ForcePlots {
   static constexpr double kSpan = 5.0;  // [s] of the plots against time
 
   void push(const HapticSnapshot& snapshot);
+  void forget() { axes_ = {}; }  // another run: what was plotted is not joined to it
   void draw_axis_choice(Controls& controls);
   // One below the other in that height at the cursor [px], over the whole width.
   void draw(Controls& controls, float height, const Gate& gate, const HapticSnapshot& now, const Trail& trail);

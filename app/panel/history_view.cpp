@@ -38,7 +38,7 @@ std::string resistance_words(const ShiftRecord& shift) {
 void draw_fault(const LessonResult& result, std::size_t index) {
   const DriveFault& fault = result.faults[index];
   const double points = points_of_fault(result, index);
-  const std::string cost = points > 0.0 ? fmt::format(" (-{:.1f})", points) : std::string();
+  const std::string cost = points > 0.0 && shows_grade(result) ? fmt::format(" (-{:.1f})", points) : std::string();
   put_wrapped(fault_sentence(fault) + cost, severity_colour(fault.severity));
 }
 

@@ -50,8 +50,10 @@ void draw_restart_words(const std::vector<KeyHint>& keys) {
   put_wrapped(words, ink::kBad, UiFont::title);
 }
 
-const char* mouse_words(bool mouse_leads) {
-  return mouse_leads ? "The mouse leads the lever: Esc frees it" : "Click beside the panel: the mouse leads the lever";
+const char* mouse_words(bool mouse_leads, bool panel_shown) {
+  if (mouse_leads) return "The mouse leads the lever: Esc frees it";
+  return panel_shown ? "Click beside the panel: the mouse leads the lever"
+                     : "Click into the cabin: the mouse leads the lever";
 }
 
 }  // namespace gearshift

@@ -14,6 +14,6 @@ void draw_keys(const std::vector<KeyHint>& keys);  // caps with what they do, in
 void draw_restart_words(const std::vector<KeyHint>& keys);
 
 // Who leads the lever, and how to change that.
-const char* mouse_words(bool mouse_leads);
+const char* mouse_words(bool mouse_leads, bool panel_shown);
 
 }  // namespace gearshift

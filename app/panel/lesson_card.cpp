@@ -22,6 +22,7 @@ constexpr float kShare = 0.25f, kMostShare = 0.62f, kLeastHeight = 10.8f;  // [1
 constexpr double kFresh = 5.0;                                             // [s] that a new sentence is large
 constexpr std::size_t kOlder = 2;                                          // sentences that are kept in sight after it
 constexpr double kTimeIsShort = 20.0;                                      // [s] left
+constexpr float kUsualFoot = 5.0f;                                         // [em] until it has been drawn once
 
 bool begin_card(const ControlRect& room, ImVec2 size) {
   const float em = ui_em();
@@ -181,10 +182,11 @@ void LessonCard::listen(const CoachView& coach) {
 template <class Body, class Foot>
 void LessonCard::draw_parts(LessonPhase phase, const Body& body, const Foot& foot) {
   float& foot_height = foot_[static_cast<std::size_t>(phase)];
-  const float top = ImGui::GetCursorPosY();
-  const float height = std::max(ui_em(), ImGui::GetContentRegionAvail().y - foot_height);
-  // No bar beside a prompt: it would come and go, and break its lines anew.
-  const int bar = phase == LessonPhase::driving ? ImGuiWindowFlags_NoScrollbar : 0;
+  const bool is_known = foot_height > 0.0f;
+  const float top = ImGui::GetCursorPosY(), kept = is_known ? foot_height : kUsualFoot * ui_em();
+  const float height = std::max(ui_em(), ImGui::GetContentRegionAvail().y - kept);
+  // No bar beside a prompt, nor before the foot is known: it would come and go, and break lines anew.
+  const int bar = phase == LessonPhase::driving || !is_known ? ImGuiWindowFlags_NoScrollbar : 0;
   ImGui::BeginChild("texts", {0.0f, height}, false, ImGuiWindowFlags_NavFlattened | bar);
   const float must = body();
   ImGui::EndChild();
@@ -196,9 +198,9 @@ void LessonCard::draw_parts(LessonPhase phase, const Body& body, const Foot& foo
 
 // What a hand needs to know besides: keys, who leads the lever, and the car where no bar tells of it.
 void LessonCard::draw_helps(const Now& now) {
-  if (!now.input.keys.empty()) {
+  if (!now.input.keys.empty() && !now.input.by_itself) {
     draw_keys(now.input.keys);
-    const char* mouse = mouse_words(now.input.mouse_leads);
+    const char* mouse = mouse_words(now.input.mouse_leads, now.panel_shown);
     ImGui::SameLine(0.0f, 0.8f * ui_em());
     if (ImGui::GetContentRegionAvail().x < width_of(mouse, UiFont::small)) ImGui::NewLine();
     put(mouse, now.input.mouse_leads ? ink::kAccent : ink::kSoft, UiFont::small);
@@ -213,7 +215,10 @@ void LessonCard::draw_offered(Now& now) {
   if (quiet_button(now.controls, "lesson_put_away", "Not now")) out.put_away = true;
   const auto body = [&] {
     put_wrapped(coach.goal, ink::kText, UiFont::prompt);
+    if (!now.input.lesson_catches.empty()) put_wrapped(now.input.lesson_catches, ink::kSoft);
     put_wrapped(trial_words(coach), ink::kSoft);
+    if (now.input.teacher_holds)
+      put_wrapped("The teacher holds clutch and brake until it begins; Not now gives them back.", ink::kWarn);
     return ImGui::GetCursorPosY();
   };
   const auto foot = [&] {
@@ -259,6 +264,8 @@ float LessonCard::draw_prompts(Now& now) {
   if (now.forces_off) put_wrapped("Motors off. Enter gives them back.", ink::kBad, UiFont::title);
   if (now.input.car.stalled) draw_restart_words(now.input.keys);
   if (!coach.now.hint.empty()) put_wrapped(coach.now.hint, ink::kAccent, UiFont::body);
+  if (now.input.trial_lost)
+    put_wrapped("This try is not passed any more: go on to learn, or leave it and begin again.", ink::kWarn);
   float must = ImGui::GetCursorPosY();
   draw_said(coach.now.said, must);
   return must;
@@ -289,6 +296,8 @@ void LessonCard::draw_over(Now& now) {
   LessonRequests& out = now.out.lesson;
   const bool has_next = !coach.next.empty() && coach.next != coach.lesson, goes_on = coach.result.passed && has_next;
   const auto foot = [&] {
+    if (now.input.teacher_holds)
+      put_wrapped("The teacher holds clutch and brake until the next lesson; Close gives them back.", ink::kWarn);
     draw_next(coach, has_next);
     const char* again = goes_on ? "Again" : now.forces_off ? "Enter: motors on, and again" : "Enter: again";
     if (primary(now.controls, "lesson_again", again, !goes_on)) {

@@ -1,5 +1,7 @@
 #include "app/panel/lessons_view.h"
 
+#include <imgui_internal.h>  // letters of UTF-8
+
 #include <algorithm>
 #include <cstdio>
 
@@ -50,16 +52,36 @@ void draw_known(Controls& controls, const CoachView& coach, float width, LessonR
   ImGui::EndCombo();
 }
 
+// No font that is shipped has every writing of the world.
+bool has_every_sign(const std::string& name) {
+  const ImFont* font = ImGui::GetFont();
+  const char *at = name.data(), *end = at + name.size();
+  while (at < end) {
+    unsigned sign = 0;
+    at += std::max(1, ImTextCharFromUtf8(&sign, at, end));
+    if (sign > IM_UNICODE_CODEPOINT_MAX || font->FindGlyphNoFallback(static_cast<ImWchar>(sign)) == nullptr)
+      return false;
+  }
+  return true;
+}
+
 // One line below the name, which keeps its place where there is nothing to say.
-void draw_note(const CoachView& coach, const std::string& name, const std::string& problem, bool writes) {
+void draw_note(const CoachView& coach, const std::string& name, const std::string& problem, bool writes,
+               bool by_itself) {
   if (!problem.empty()) return put_wrapped(problem, ink::kWarn);
+  if (!has_every_sign(name))
+    put_wrapped("The name is kept as it is; signs that no font here has are shown as ?", ink::kWarn);
   if (writes && name != coach.learner)
     return put_wrapped(
         name.empty() || is_known(coach, name) ? "Enter: this learner from now on." : "Enter: a new learner.",
         ink::kAccent);
   if (coach.forgotten)
-    return put_wrapped("Another program deleted this learner: nothing is remembered until Enter or another choice.",
-                       ink::kWarn);
+    return put_wrapped(
+        "Another program deleted this learner: nothing is remembered. To begin anew with the name: Enter in this "
+        "field.",
+        ink::kWarn);
+  if (by_itself)
+    return put_wrapped("The hand drives by itself: it is nobody's, and nothing is remembered of it.", ink::kSoft);
   if (!coach.remembers) return put_wrapped("The history is not open: nothing is remembered.", ink::kWarn);
   put_wrapped(coach.learner.empty() ? "Without a name nothing is remembered." : " ", ink::kSoft);
 }
@@ -182,8 +204,8 @@ void draw_list(Controls& controls, const CoachView& coach, bool can_offer, Lesso
 
 }  // namespace
 
-void LessonsView::draw(Controls& controls, const CoachView& coach, LessonRequests& out) {
-  draw_learner(controls, coach, out);
+void LessonsView::draw(Controls& controls, const CoachView& coach, bool by_itself, LessonRequests& out) {
+  draw_learner(controls, coach, by_itself, out);
   ImGui::Spacing();
   // A lesson that is driven is not lost by a click on another one.
   const bool can_offer = coach.phase != LessonPhase::driving;
@@ -193,7 +215,7 @@ void LessonsView::draw(Controls& controls, const CoachView& coach, LessonRequest
 }
 
 // A name that is written counts when Enter says so or the field is left; Escape takes it back.
-void LessonsView::draw_learner(Controls& controls, const CoachView& coach, LessonRequests& out) {
+void LessonsView::draw_learner(Controls& controls, const CoachView& coach, bool by_itself, LessonRequests& out) {
   if (coach.learner != shown_) fill(name_, shown_ = coach.learner);
   ImGui::AlignTextToFramePadding();
   ImGui::TextDisabled("Learner");
@@ -214,7 +236,7 @@ void LessonsView::draw_learner(Controls& controls, const CoachView& coach, Lesso
   if (left) fill(name_, given_up ? coach.learner : name);
   ImGui::SameLine(0.0f, 0.0f);
   draw_known(controls, coach, width, out);
-  draw_note(coach, name, given_up ? std::string() : problem, writes);
+  draw_note(coach, name, given_up ? std::string() : problem, writes, by_itself);
 }
 
 }  // namespace gearshift

@@ -11,10 +11,11 @@ namespace gearshift {
 
 class LessonsView {
  public:
-  void draw(Controls& controls, const CoachView& coach, LessonRequests& out);
+  // by_itself: the hand needs nobody, whoever was chosen.
+  void draw(Controls& controls, const CoachView& coach, bool by_itself, LessonRequests& out);
 
  private:
-  void draw_learner(Controls& controls, const CoachView& coach, LessonRequests& out);
+  void draw_learner(Controls& controls, const CoachView& coach, bool by_itself, LessonRequests& out);
 
   std::array<char, kLongestName + 1> name_{};  // as it is written
   std::string shown_;                          // the learner that it was filled with

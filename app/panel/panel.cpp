@@ -163,6 +163,8 @@ void Panel::State::take(const HapticSnapshot& snapshot) {
 void Panel::State::take(const PanelInput& input) {
   if (std::exchange(run, input.run) != input.run) {
     trail = Trail();
+    plots.forget();
+    clip = ClipMeter();
     last_ns = -1;
   }
   // `now` may be newer than the history: what lies between comes with the next frame.
@@ -190,6 +192,7 @@ void Panel::State::draw_left(const Layout& layout, const PanelInput& input, Pane
 
 void Panel::State::draw_choices(const PanelInput& input, PanelRequests& out) {
   const float label = 4.6f * ui_em();
+  if (input.replay != nullptr) put("Of the lever that runs, not of the replay:", ink::kWarn, UiFont::small);
   const auto row = [&](const char* name, const char* words, const std::string& current,
                        const std::vector<std::string>& options, std::optional<std::string>& asked,
                        std::string (*read)(const std::string&) = nullptr) {
@@ -227,7 +230,7 @@ void Panel::State::draw_tabs(const PanelInput& input, PanelRequests& out) {
     ImGui::EndTabItem();
   };
   if (!bar()) return;
-  tab(kTabs[0], [&] { lessons.draw(controls, input.coach, out.lesson); });
+  tab(kTabs[0], [&] { lessons.draw(controls, input.coach, input.by_itself, out.lesson); });
   tab(kTabs[1], [&] { runs.draw(controls, input.coach, out); });
   tab(kTabs[2], [&] {
     tuning.draw(controls, input, out);
@@ -253,7 +256,7 @@ void Panel::State::draw_right(const Layout& layout, const PanelInput& input, Pan
 void Panel::State::draw_over_cabin(const PanelInput& input, PanelRequests& out) {
   const ControlRect room = middle;
   note.draw(input.message, message_told, room);
-  middle.max.y = replay.draw(controls, input.replay, input.opening, room, out.look);
+  middle.max.y = replay.draw(controls, input, room, out.look);
   if (input.replay == nullptr || input.coach.phase == LessonPhase::driving)
     middle.max.y = card.draw(controls, input, visible, middle, out);
 }

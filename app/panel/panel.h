@@ -26,7 +26,8 @@ struct PanelInput {
   HapticConfig haptics;                // in use; the tuning as wanted
   AdmittedTuning admitted;             // in use
   HapticSnapshot now;
-  std::uint64_t run = 0;                // another number: another lever, or a replay; its trajectory begins anew
+  std::uint64_t run =
+      0;  // another number: another lever, a replay or a jump in it; trajectory, plots and clipping begin anew
   std::vector<HapticSnapshot> history;  // new since the last frame
   std::vector<HapticEvent> events;      // new since the last frame; [ns] since the program's start
   LoopHealth health;
@@ -44,6 +45,10 @@ struct PanelInput {
   std::string opening;             // the file of a recorded drive that is still read; empty: none
   std::vector<KeyHint> keys;       // what drives the car, in the order of use; empty: no keys
   bool mouse_leads = false;        // the lever: the cursor is not free
+  bool by_itself = false;          // the hand needs nobody: keys and mouse move nothing, nothing is remembered
+  bool teacher_holds = false;      // clutch and brake, after a lesson, until the next one or none
+  bool trial_lost = false;         // the one that is driven cannot be passed any more
+  std::string lesson_catches;      // what the lesson is not passed with, one sentence; empty: not known
 };
 
 struct LessonRequests {

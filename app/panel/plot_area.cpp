@@ -27,8 +27,13 @@ double nice_above(double value, double least) {
   return value;  // not finite
 }
 
-PlotArea::PlotArea(ImVec2 size, PlotRange x, PlotRange y, const char* x_unit)
-    : list_(ImGui::GetWindowDrawList()), low_(ImGui::GetCursorScreenPos()), x_(x), y_(y), x_unit_(x_unit) {
+PlotArea::PlotArea(ImVec2 size, PlotRange x, PlotRange y, const char* x_unit, bool beside)
+    : list_(ImGui::GetWindowDrawList()),
+      low_(ImGui::GetCursorScreenPos()),
+      x_(x),
+      y_(y),
+      x_unit_(x_unit),
+      beside_(beside) {
   const float below = x_unit == nullptr ? 0.0f : ui_font(UiFont::small)->FontSize + 2.0f;
   ImGui::Dummy(size);
   high_ = {low_.x + size.x, low_.y + size.y - below};
@@ -74,16 +79,34 @@ void PlotArea::draw_grid() {
   each_x([&](double x) { list_->AddLine({at(x, 0.0).x, low_.y}, {at(x, 0.0).x, high_.y}, shade(x)); });
 }
 
+// The extreme ones first, then of those between them what has room.
 void PlotArea::number_y() {
+  std::vector<double> all;
+  each_y([&](double y) { all.push_back(y); });
+  if (all.size() > 2) std::rotate(all.begin() + 1, all.end() - 1, all.end());
+  const float least = ui_font(UiFont::small)->FontSize + 1.0f;
+  std::vector<float> taken;
+  for (const double y : all) {
+    const float top = number_top(y);
+    if (std::any_of(taken.begin(), taken.end(), [&](float other) { return std::abs(other - top) < least; })) continue;
+    taken.push_back(top);
+    number_y_at(y);
+  }
+}
+
+float PlotArea::number_top(double y) const {
+  const float height = ui_font(UiFont::small)->FontSize;
+  return std::clamp(at(0.0, y).y - 0.5f * height, low_.y, std::max(low_.y, high_.y - height));
+}
+
+void PlotArea::number_y_at(double y) {
   ImFont* font = ui_font(UiFont::small);
-  each_y([&](double y) {
-    const std::string text = fmt::format("{:g}", y);
-    const ImVec2 size = font->CalcTextSizeA(font->FontSize, 1e9f, 0.0f, text.c_str());
-    const float top = std::clamp(at(0.0, y).y - 0.5f * size.y, low_.y, std::max(low_.y, high_.y - size.y));
-    const ImVec2 place(low_.x + 0.2f * ui_em(), top);
-    list_->AddRectFilled(place, {place.x + size.x, place.y + size.y}, with_alpha(ink::kWell, 0.7f), 2.0f);
-    list_->AddText(font, font->FontSize, place, ink::kSoft, text.c_str());
-  });
+  const std::string text = fmt::format("{:g}", y);
+  const ImVec2 size = font->CalcTextSizeA(font->FontSize, 1e9f, 0.0f, text.c_str());
+  const float inside = low_.x + 0.2f * ui_em(), beside = low_.x - 0.3f * ui_em() - size.x;
+  const ImVec2 place(beside_ ? beside : inside, number_top(y));
+  if (!beside_) list_->AddRectFilled(place, {place.x + size.x, place.y + size.y}, with_alpha(ink::kWell, 0.7f), 2.0f);
+  list_->AddText(font, font->FontSize, place, ink::kSoft, text.c_str());
 }
 
 void PlotArea::number_x() {

@@ -17,8 +17,9 @@ double nice_above(double value, double least);
 class PlotArea {
  public:
   // Takes that size of the window at the cursor [px] and draws well and grid. Numbers of y stand inside, at the left;
-  // of x, where it has a unit, below the well.
-  PlotArea(ImVec2 size, PlotRange x, PlotRange y, const char* x_unit);
+  // of x, where it has a unit, below the well. What would touch another number is left out, the extreme ones stay.
+  // beside: those of y stand to the left of the cursor, where there must be room.
+  PlotArea(ImVec2 size, PlotRange x, PlotRange y, const char* x_unit, bool beside = false);
   ~PlotArea();
   PlotArea(const PlotArea&) = delete;
   PlotArea& operator=(const PlotArea&) = delete;
@@ -38,12 +39,15 @@ class PlotArea {
   void each_x(Visit visit) const;
   void draw_grid();
   void number_y();
+  float number_top(double y) const;
+  void number_y_at(double y);
   void number_x();
 
   ImDrawList* list_;
   ImVec2 low_, high_;  // [px] corners
   PlotRange x_, y_;
   const char* x_unit_;
+  bool beside_;
 };
 
 }  // namespace gearshift

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 #include <span>
 #include <string>
@@ -20,7 +21,7 @@ namespace gearshift {
 namespace {
 
 constexpr float kMostWidth = 80.0f, kOpeningWidth = 36.0f;                      // [em]
-constexpr float kPedalHeight = 1.9f, kSpeedHeight = 2.5f, kForceHeight = 1.9f;  // [em]
+constexpr float kPedalHeight = 2.1f, kSpeedHeight = 2.5f, kForceHeight = 2.1f;  // [em] two numbers have room
 constexpr std::array<double, 5> kPaces{0.1, 0.25, 0.5, 1.0, 2.0};
 constexpr double kRpm = 60.0 / (2.0 * std::numbers::pi);  // per rad/s
 constexpr double kLeastSpan = 1e-3;                       // [s]
@@ -36,6 +37,30 @@ double end_bar(const ControlRect& room) {
   const double top = static_cast<double>(ImGui::GetWindowPos().y);
   ImGui::End();
   return std::clamp(top, room.min.y, room.max.y);
+}
+
+// [px] For the numbers beside the curves; what has their time stands to the right of it.
+float gutter() {
+  return width_of("8888", UiFont::small) + 0.6f * ui_em();
+}
+
+// Of what: the run of this learner that it was recorded in, else its file; with what.
+std::string heading(const Player& replay, const CoachView& coach) {
+  const std::filesystem::path file = replay.file().filename();
+  const auto run = std::find_if(coach.runs.begin(), coach.runs.end(), [&](const RunRow& row) {
+    return std::filesystem::path(row.recording).filename() == file;
+  });
+  std::string words = "Replay: ";
+  if (run == coach.runs.end()) {
+    words += file.string();
+  } else {
+    words += lesson_title(coach, run->result.lesson);
+    if (!coach.learner.empty()) words += ", " + coach.learner;
+    words += ", " + local_time_words(run->begun_at);
+  }
+  const RecordedDrive& drive = replay.drive();
+  if (drive.has_car()) words += " · " + readable_name(drive.car_name());
+  return words + " · " + readable_name(std::filesystem::path(drive.header().gate_file).stem().string());
 }
 
 // "Opening drive-20260131.trace ..."
@@ -213,25 +238,31 @@ void ReplayBar::follow(const Player& replay) {
   for (const DriveSample& sample : replay.drive().between(from_, to_)) curves_->push(sample);
 }
 
-double ReplayBar::draw(Controls& controls, const Player* replay, const std::string& opening, const ControlRect& room,
-                       ReplayRequests& out) {
-  const bool opens = !opening.empty();
+double ReplayBar::draw(Controls& controls, const PanelInput& input, const ControlRect& room, ReplayRequests& out) {
+  const Player* replay = input.replay;
+  const bool opens = !input.opening.empty();
   const float width = foot_width(room, opens ? kOpeningWidth : kMostWidth);
   if (replay == nullptr || opens) curves_.reset();
   if ((replay == nullptr && !opens) || width < kLeastFootWidth * ui_em()) return room.max.y;
   if (opens) {
-    if (begin_bar(room, width)) draw_opening(controls, opening, out);
+    if (begin_bar(room, width)) draw_opening(controls, input.opening, out);
     return end_bar(room);
   }
   follow(*replay);
   if (begin_bar(room, width)) {
+    const float beside = gutter();
+    put_wrapped(heading(*replay, input.coach), ink::kText, UiFont::body);
+    ImGui::Indent(beside);
     draw_shift_marks(controls, *replay, out);
+    ImGui::Unindent(beside);
     if (replay->drive().differs())
       put_wrapped("Run again, this drive goes another way than it was recorded: from there on it has no shifts.",
                   ink::kWarn);
     draw_legend(controls, *replay);
+    ImGui::Indent(beside);
     draw_curves(*replay);
     draw_time(controls, *replay, out);
+    ImGui::Unindent(beside);
     draw_buttons(controls, *replay, out);
   }
   return end_bar(room);
@@ -256,7 +287,7 @@ void ReplayBar::draw_curves(const Player& replay) {
   const PlotRange time{replay.from() - begin, std::max(replay.from() + kLeastSpan, replay.to()) - begin};
   const auto lane = [&](const char* unit, float height, double most, double factor, Strip* one, ImU32 colour,
                         Strip* other, ImU32 other_colour) {
-    PlotArea plot({width, height * em}, time, {0.0, most}, nullptr);
+    PlotArea plot({width, height * em}, time, {0.0, most}, nullptr, true);
     for (const RecordedShift& shift : replay.drive().shifts())
       plot.list().AddRectFilled(plot.at(shift.record.begin - begin, most), plot.at(shift.record.end - begin, 0.0),
                                 with_alpha(ink::kAccent, 0.1f));

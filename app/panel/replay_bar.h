@@ -14,9 +14,7 @@ namespace gearshift {
 class ReplayBar {
  public:
   // Along the lower edge of that room [px]; returns its upper edge: the room's lower one where there is no replay.
-  // opening: the file of one that is still read; empty: none.
-  double draw(Controls& controls, const Player* replay, const std::string& opening, const ControlRect& room,
-              ReplayRequests& out);
+  double draw(Controls& controls, const PanelInput& input, const ControlRect& room, ReplayRequests& out);
 
  private:
   // What is looked at, as curves. They are made anew when it is another part.

@@ -55,6 +55,7 @@ RecordedDrive::RecordedDrive(const std::filesystem::path& file, const std::stop_
   header_ = reader.header();
   gate_ = reader.gate();
   has_car_ = reader.car() != nullptr;
+  if (has_car_) car_name_ = reader.car()->name;
   std::optional<ShiftFinder> finder;
   if (has_car_) finder.emplace(*reader.car(), gate_);
   const std::uint64_t every = stride(header_.config.rate, reader.cycles());

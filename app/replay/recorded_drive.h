@@ -34,6 +34,7 @@ class RecordedDrive {
   const TraceHeader& header() const noexcept { return header_; }
   const Gate& gate() const noexcept { return gate_; }
   bool has_car() const noexcept { return has_car_; }
+  const std::string& car_name() const noexcept { return car_name_; }  // CarSpec::name; empty: none
   bool differs() const noexcept { return differs_; }
   double begin() const noexcept { return samples_.front().time(); }           // [s] on the loop's clock
   double end() const noexcept { return samples_.back().time(); }              // [s]
@@ -51,6 +52,7 @@ class RecordedDrive {
   Gate gate_;
   std::vector<DriveSample> samples_;
   std::vector<RecordedShift> shifts_;
+  std::string car_name_;
   bool has_car_ = false;
   bool differs_ = false;
 };

@@ -15,17 +15,24 @@ std::string result_words(const LessonResult& result) {
   return grade + (result.passed ? "passed" : "not passed: " + result.why);
 }
 
+// The first one may be at 0 s, on a virtual clock.
+bool has_cycles(const LessonResult& result) {
+  return result.begin != 0.0 || result.duration > 0.0;
+}
+
 }  // namespace
 
-// A trial is known by when it began, with its first cycle: the next one may follow within a frame.
 std::vector<std::string> LessonLines::news(const CoachView& coach) {
   lines_.clear();
   const LessonPhase before = std::exchange(phase_, coach.phase);
+  const bool has_trial = phase_ == LessonPhase::driving || phase_ == LessonPhase::over;
+  if (!has_trial && std::exchange(driven_, false)) lines_.push_back(fmt::format("lesson {} was left", lesson_));
   if (phase_ == LessonPhase::offered && before != phase_)
     lines_.push_back(fmt::format("lesson {} is offered: {}", coach.lesson, coach.goal));
-  const bool has_trial = phase_ == LessonPhase::driving || phase_ == LessonPhase::over;
-  if (!has_trial || coach.result.begin == 0.0) return lines_;
-  if (coach.result.begin != begin_) begin(coach);
+  if (!has_trial || !has_cycles(coach.result)) return lines_;
+  const bool fresh = phase_ == LessonPhase::driving && !driven_;
+  if (fresh || is_another(coach.result)) begin(coach);
+  duration_ = coach.result.duration;
   if (coach.now.step != step_) tell_step(coach);
   tell_said(coach);
   if (phase_ == LessonPhase::over && std::exchange(driven_, false))
@@ -33,8 +40,14 @@ std::vector<std::string> LessonLines::news(const CoachView& coach) {
   return lines_;
 }
 
+// The next trial may follow within a frame.
+bool LessonLines::is_another(const LessonResult& result) const {
+  return result.begin != begin_ || result.duration < duration_;
+}
+
 void LessonLines::begin(const CoachView& coach) {
   if (driven_) lines_.emplace_back("that trial was left");
+  lesson_ = coach.lesson;
   begin_ = coach.result.begin;
   driven_ = true;
   said_ = 0;

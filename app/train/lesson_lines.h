@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstddef>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -15,13 +16,16 @@ class LessonLines {
   std::vector<std::string> news(const CoachView& coach);
 
  private:
+  bool is_another(const LessonResult& result) const;
   void begin(const CoachView& coach);
   void tell_step(const CoachView& coach);
   void tell_said(const CoachView& coach);
 
   std::vector<std::string> lines_;
   LessonPhase phase_ = LessonPhase::none;
-  double begin_ = 0.0;               // [s] of the trial that is told
+  std::string lesson_;               // that is told, by its key
+  std::optional<double> begin_;      // [s] of its trial
+  double duration_ = 0.0;            // [s] so far
   bool driven_ = false;              // it is not over
   std::size_t step_ = 0, said_ = 0;  // that have been told
 };

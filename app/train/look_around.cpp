@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <numbers>
+#include <utility>
 
 #include <glm/gtc/quaternion.hpp>
 
@@ -13,13 +14,31 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 }
 
 LookAround::LookAround(std::string_view first) {
-  camera(first);  // refuses
-  place_ = static_cast<std::size_t>(std::find(kPlaces.begin(), kPlaces.end(), first) - kPlaces.begin());
+  go_to(first);
+}
+
+void LookAround::go_to(std::string_view place) {
+  camera(place);  // refuses
+  place_ = static_cast<std::size_t>(std::find(kPlaces.begin(), kPlaces.end(), place) - kPlaces.begin());
+  recentre();
 }
 
 void LookAround::next() {
   place_ = (place_ + 1) % kPlaces.size();
   recentre();
+}
+
+bool LookAround::follow_shift(bool replays_shift) {
+  if (std::exchange(replays_shift_, replays_shift) == replays_shift) return false;
+  const std::string_view away = "lever", from = "driver";
+  if (replays_shift) {
+    left_driver_ = place() == from;
+    if (left_driver_) go_to(away);
+    return left_driver_;
+  }
+  const bool returns = std::exchange(left_driver_, false) && place() == away;
+  if (returns) go_to(from);
+  return returns;
 }
 
 void LookAround::turn(glm::dvec2 moved_px) {

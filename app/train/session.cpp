@@ -52,6 +52,14 @@ VehicleState standing_car(const DriverControls& controls, int gear) {
   return car;
 }
 
+// Of several the first.
+std::string_view changed_by(const PanelRequests& requests) {
+  if (requests.car) return "another car";
+  if (requests.gate) return "another gate";
+  if (requests.hand) return "another hand";
+  return requests.preset ? "another preset" : "another setup";
+}
+
 }  // namespace
 
 Session::Session(const SessionChoice& choice)
@@ -88,16 +96,16 @@ bool Session::keeps_forces() {
 
 // All of it or nothing: what runs goes on until the new one stands. Its plate is cut for the gate, and its lever turns as
 // the device's does.
-void Session::change_to(const SessionChoice& choice, const Lesson* lesson) {
+void Session::change_to(const SessionChoice& choice, const Lesson* lesson, std::string_view what) {
   const ChosenCar chosen = read_chosen_car(choice);
   TrainerConfig config = chosen_trainer(choice, chosen, lesson);
-  config.feet = feet();
+  config.feet = feet(lever_ + 1);
   auto trainer = std::make_unique<Trainer>(config);
   if (!stage_ || stage_gate_ != chosen.layout.text || !same_turn(stage_yoke_, config.preset.lever.yoke))
     show(trainer->gate(), chosen.layout.text, config.preset.lever.yoke, cabin_);
   message_.clear();
   const bool armed = keeps_forces();
-  close_what_ran();
+  close_what_ran(what);
   take_over(std::move(trainer), lesson);
   wants_forces_ = armed;  // what a fault has taken now is not given back by the next change either
   if (armed) trainer_->arm();
@@ -109,15 +117,18 @@ void Session::change_to(const SessionChoice& choice, const Lesson* lesson) {
 }
 
 // A lesson that is driven is left, recordings are closed, and nothing is looked at.
-void Session::close_what_ran() {
-  if (coach_.view().phase == LessonPhase::driving) coach_.leave();
+void Session::close_what_ran(std::string_view what) {
+  const bool drives = coach_.view().phase == LessonPhase::driving;
+  if (drives) coach_.leave();
   end_lesson_recording();
   if (recording()) end_recording();
+  if (drives) tell_left(what);
   opening_.reset();
   player_.reset();
 }
 
 void Session::take_over(std::unique_ptr<Trainer> trainer, const Lesson* lesson) {
+  feet_->give_to(++lever_);
   trainer_ = std::move(trainer);
   new_trainer_ = true;
   ++run_;
@@ -133,11 +144,11 @@ void Session::take_over(std::unique_ptr<Trainer> trainer, const Lesson* lesson) 
   trainer_->set_controls(led());
 }
 
-// Keys' feet go on from one lever to the next.
-PersonFeet Session::feet() const {
-  return [feet = feet_](const DriveSample& cycle, double seconds) {
+// Keys' feet go on from one lever to the next, which has them from take_over() on.
+PersonFeet Session::feet(int lever) const {
+  return [feet = feet_, lever](const DriveSample& cycle, double seconds) {
     const bool coupled = cycle.car.gear != kNeutralGear && cycle.car.clutch_capacity > 0.0;
-    const Pedals pedals = feet->move(seconds, cycle.car.engine_speed, coupled);
+    const Pedals pedals = feet->move(seconds, cycle.car.engine_speed, coupled, lever);
     DriverControls controls;
     controls.throttle = pedals.throttle;
     controls.brake = pedals.brake;
@@ -219,7 +230,7 @@ void Session::change_by(const PanelRequests& requests) {
     wanted.preset = *requests.preset;
     wanted.haptics.reset();
   }
-  change_to(wanted);
+  change_to(wanted, nullptr, changed_by(requests));
   choice_ = wanted;
   if (coach_.view().learner != learner_of(choice_)) coach_.set_learner(learner_of(choice_));
 }
@@ -312,6 +323,10 @@ const PanelInput& Session::panel_input() {
   panel_.preset_name = running_.preset;
   panel_.hand_name = running_.hand.empty() ? "preset's" : running_.hand;
   panel_.recording = trainer_->recording();
+  panel_.by_itself = running_.hand == kByItself;
+  panel_.lesson_catches = coach_.lesson() ? catches_sentence(*coach_.lesson()) : std::string();
+  panel_.teacher_holds = held_ && !panel_.by_itself;
+  panel_.trial_lost = is_lost_ && coach_.view().phase == LessonPhase::driving;
   panel_.message = message_;
   panel_.frame_ms = frame_ms_;
   return panel_;

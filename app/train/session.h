@@ -80,14 +80,16 @@ class Session {
   void set_keys(std::vector<KeyHint> keys) { panel_.keys = std::move(keys); }
   void set_mouse_leads(bool leads) { panel_.mouse_leads = leads; }
   bool replays() const { return player_.has_value(); }
+  bool replays_shift() const { return player_ && player_->shift(); }
 
  private:
   // session.cpp: the lever that runs, its cabin, a frame
-  void change_to(const SessionChoice& choice, const Lesson* lesson = nullptr);
+  void change_to(const SessionChoice& choice, const Lesson* lesson = nullptr,
+                 std::string_view what = "it begins again");  // what: leaves a lesson that is driven
   void change_by(const PanelRequests& requests);
-  void close_what_ran();
+  void close_what_ran(std::string_view what);
   void take_over(std::unique_ptr<Trainer> trainer, const Lesson* lesson);
-  PersonFeet feet() const;
+  PersonFeet feet(int lever) const;
   bool keeps_forces();
   void show(const Gate& gate, const std::string& text, const YokeGeometry& yoke, Cabin cabin);
   const Gate& shown_gate() const;
@@ -101,10 +103,14 @@ class Session {
   void obey_instructor(const LessonRequests& requests);
   void offer_first(const SessionChoice& choice);
   void change_comment(const LessonRequests::CommentChange& change);
+  void change_learner(const std::string& name);
+  void leave_lesson();
+  void tell_left(std::string_view what);
   void begin_lesson();
   std::filesystem::path record_lesson(const Lesson& lesson);  // empty where it cannot be
   void follow_lesson(std::span<const DriveSample> cycles);
   void hold();
+  void look_whether_lost();
   DriverControls led() const;
 
   // session_replay.cpp
@@ -140,10 +146,13 @@ class Session {
   std::optional<double> opening_near_;                           // [s] the shift that is looked for in it
   std::optional<Player> player_;                                 // while it replays
   std::shared_ptr<KeyFeet> feet_ = std::make_shared<KeyFeet>();  // a person's; the lever's thread moves them
+  int lever_ = 0;                                                // of all so far the one that has the feet
   DriverControls controls_;                                      // a person's, but for these
   DriverControls driven_;                                        // in the newest cycle
   double slope_ = 0.0;                                           // [rad] of the lesson's road
-  bool held_ = false;  // a lesson is over: the teacher holds the car until the next, or none
+  bool held_ = false;  // after a lesson the teacher holds the car: until the next, none, or another car, gate or hand
+  std::size_t faults_ = 0;  // of the trial that is driven, so far
+  bool is_lost_ = false;    // it cannot be passed any more
   std::optional<CarSwitches> switches_;
   EyePose ears_;
   HapticSnapshot shown_;

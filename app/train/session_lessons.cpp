@@ -6,8 +6,10 @@
 #include <fmt/core.h>
 
 #include "app/assets_path.h"
+#include "app/history/typed_text.h"
 #include "app/train/recording_file.h"
 #include "app/train/session.h"
+#include "app/training/grade.h"
 
 namespace gearshift {
 namespace {
@@ -36,18 +38,14 @@ void Session::offer_first(const SessionChoice& choice) {
 }
 
 void Session::obey_instructor(const LessonRequests& requests) {
-  if (requests.learner) {
-    choice_.learner = *requests.learner;
-    coach_.set_learner(learner_of(choice_));
-    if (choice_.hand == kByItself) message_ = "the hand drives by itself: nothing is remembered of it";
-  }
+  if (requests.learner) change_learner(*requests.learner);
   if (requests.next) coach_.set_next(*requests.next);
   if (requests.comment_change) change_comment(*requests.comment_change);
   if (requests.comment) coach_.comment(requests.comment->run, requests.comment->author, requests.comment->text);
   if (requests.offer) coach_.offer(read_lesson(find_asset("lessons", *requests.offer)));
   if (requests.mode) coach_.set_mode(*requests.mode);
   if (requests.help) coach_.want_help(*requests.help);
-  if (requests.leave) coach_.leave();
+  if (requests.leave) leave_lesson();
   if (requests.put_away) {
     coach_.put_away();
     slope_ = 0.0;
@@ -55,6 +53,30 @@ void Session::obey_instructor(const LessonRequests& requests) {
   }
   if (requests.begin && coach_.lesson()) begin_lesson();
   if (coach_.view().phase != LessonPhase::driving) end_lesson_recording();
+}
+
+// A name that is refused is nobody's.
+void Session::change_learner(const std::string& name) {
+  if (!name.empty()) check_learner_name(name);
+  const bool drives = coach_.view().phase == LessonPhase::driving;
+  choice_.learner = name;
+  coach_.set_learner(learner_of(choice_));
+  message_.clear();
+  if (choice_.hand == kByItself) message_ = "the hand drives by itself: nothing is remembered of it";
+  if (!drives || coach_.view().phase == LessonPhase::driving) return;
+  hold();
+  tell_left("another learner");
+}
+
+void Session::leave_lesson() {
+  const bool drives = coach_.view().phase == LessonPhase::driving;
+  coach_.leave();
+  if (drives) hold();
+}
+
+// Before other news: what the recording came to, or a limit.
+void Session::tell_left(std::string_view what) {
+  message_ = fmt::format("the lesson was left: {}{}{}", what, message_.empty() ? "" : "; ", message_);
 }
 
 void Session::change_comment(const LessonRequests::CommentChange& change) {
@@ -75,6 +97,8 @@ void Session::begin_lesson() {
   fs::path recording;
   if (view.remembers && !view.learner.empty()) recording = record_lesson(lesson);
   (void)trainer_->take_cycles();
+  faults_ = 0;
+  is_lost_ = false;
   coach_.begin(*trainer_->config().car, trainer_->gate(),
                settings_text(running_, trainer_->config().preset.haptics.tuning), recording);
   trainer_->set_controls(led());
@@ -98,9 +122,24 @@ fs::path Session::record_lesson(const Lesson& lesson) {
 void Session::follow_lesson(std::span<const DriveSample> cycles) {
   const bool driving = coach_.view().phase == LessonPhase::driving;
   coach_.add(cycles);
-  if (coach_.view().phase == LessonPhase::over) hold();
-  if (driving && held_) end_lesson_recording();
+  look_whether_lost();
+  if (driving && coach_.view().phase == LessonPhase::over) {
+    hold();
+    end_lesson_recording();
+  }
   if (const std::optional<std::string> problem = coach_.take_problem()) message_ = *problem;
+}
+
+// If it were done as it is: points are only taken off.
+void Session::look_whether_lost() {
+  const CoachView& view = coach_.view();
+  const bool judged = view.phase == LessonPhase::driving && !view.result.guided && view.result.whole;
+  if (!judged) is_lost_ = false;
+  if (!judged || std::exchange(faults_, view.result.faults.size()) == view.result.faults.size()) return;
+  LessonResult done = view.result;
+  done.end = LessonEnd::done;
+  grade_result(*coach_.lesson(), done);
+  is_lost_ = !done.passed;
 }
 
 // By the teacher, until the next one.

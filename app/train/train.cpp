@@ -21,6 +21,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr double kOffscreenRate = 30.0;      // [1/s] frames of simulated time
+constexpr int kSettling = 3;                 // frames of a panel until each part has its height
 constexpr double kFastestFrame = 1.0 / 144;  // [s] where the display does not hold the frames back
 constexpr double kLongestFrame = 0.25;       // [s] a frame that took longer moves car and pedals on by this
 
@@ -62,6 +63,7 @@ class WindowTrainer {
   // The lesson is left, what was being recorded is closed, and what came of both is told. Returns the exit code.
   int finish() {
     tell_unkept(session_.settle());
+    print_lines(lines_.news(session_.coach().view()), session_.lever_time());
     if (!session_.recording()) return 0;
     const bool whole = session_.end_recording();
     fmt::print(whole ? stdout : stderr, "{}{}\n", whole ? "" : "gearshift: ", session_.message());
@@ -77,6 +79,7 @@ class WindowTrainer {
     print_events(session_.events());
     print_lines(lines_.news(session_.coach().view()), session_.lever_time());
     draw_panel();
+    if (look_.follow_shift(session_.replays_shift())) session_.look_from(look_.place());
     session_.set_ears(look_.pose());
     session_.place();
     show();
@@ -265,17 +268,22 @@ int train_offscreen(const TrainSetup& setup, const OffscreenSetup& offscreen) {
   const double seconds = 1.0 / kOffscreenRate;
   const glm::ivec2 eye = eye_size(setup.view, {setup.view.width, setup.view.height});
   LessonLines lines;
-  while (session.time() < offscreen.seconds && !is_done(session)) {
-    session.advance(seconds);
-    print_events(session.events());
-    print_lines(lines.news(session.coach().view()), session.lever_time());
+  const auto draw = [&] {
     ui.begin({static_cast<float>(eye.x), static_cast<float>(eye.y), static_cast<float>(seconds),
               UiScale().follow(eye.y, 1.0f)});
     session.obey(panel.draw(session.panel_input()));
     ui.end();
+  };
+  while (session.time() < offscreen.seconds && !is_done(session)) {
+    session.advance(seconds);
+    print_events(session.events());
+    print_lines(lines.news(session.coach().view()), session.lever_time());
+    draw();
     session.place();
   }
+  for (int i = 0; i < kSettling; ++i) draw();
   tell_unkept(session.settle());
+  print_lines(lines.news(session.coach().view()), session.lever_time());
   view.set_model(session.stage().model());  // nobody sees the frames before the last
   view.begin();
   view.draw(session.stage().scene(), look.pose(), look.field(), seen_beside(panel, eye));

@@ -65,4 +65,16 @@ check "the hand that needs nobody shifts" wait_for "1 engaged"
 xdotool windowfocus "$window"
 check "its key ends it, too" ended_by End
 check "nothing on stderr" [ ! -s stereo.err ]
+
+check "a lesson that is driven" start left --lesson moving_off --hand grip --no-help --silent --no-panel
+xdotool windowfocus "$window"
+check "begins" press_for Return "lesson moving_off begins" 1
+check "its key ends it" ended_by End
+check "and it is told that it was left" said "lesson moving_off is over: not graded.*was left"
+
+check "a lesson in memory" "$gearshift" train --offscreen memory --hand "by itself" --lesson moving_off --seconds 60 \
+  --no-help --silent >memory.txt
+for words in "lesson moving_off begins" "step 6 of 6" "lesson moving_off is over: grade .*, passed"; do
+  check "tells: $words" grep -q "$words" memory.txt
+done
 finish

@@ -60,7 +60,6 @@ TEST_CASE("at 10, 30 and 144 frames a second the pedal goes the same way, up to 
     CAPTURE(rate);
     const std::vector<double> path = clutch_seen(rate, kCycle);
     const double release = std::ceil(0.51 * rate - 1e-9) / rate;  // [s] the first frame that knows of it
-    CHECK(release - 0.51 <= 1.0 / rate);
     for (std::size_t i = 0; i < path.size(); ++i) {
       const double time = static_cast<double>(i + 1) * kCycle;
       const double at = time <= release ? std::min(1.0, 4.0 * time) : let_up_for(time - release);
@@ -89,4 +88,18 @@ TEST_CASE("time that is none moves nothing") {
     const Pedals pedals = feet.move(seconds, 0.0, false);
     CHECK(pedals.throttle + pedals.brake + pedals.clutch == 0.0);
   }
+}
+
+TEST_CASE("of two levers that ask at once one moves the feet, and the other one goes on from there when it has them") {
+  KeyFeet feet;
+  feet.ask({.brake = true});  // 4 a second
+  double now = 0.0;
+  for (int cycle = 1; cycle <= 100; ++cycle) {
+    now = feet.move(0.001, 0.0, false, 0).brake;
+    REQUIRE(feet.move(0.001, 0.0, false, 1).brake == now);
+  }
+  CHECK(now == doctest::Approx(0.4));
+  feet.give_to(1);
+  CHECK(feet.move(0.001, 0.0, false, 0).brake == now);
+  CHECK(feet.move(0.050, 0.0, false, 1).brake == doctest::Approx(0.6));
 }

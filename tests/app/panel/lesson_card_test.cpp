@@ -55,6 +55,10 @@ TEST_CASE("a lesson on offer is begun, set and put away by a click each, and not
   CardRig rig(offered());
   CHECK(says("Hill start"));
   CHECK(says("without rolling back"));
+  CHECK_FALSE(says("Not passed with"));
+  rig.input.lesson_catches = "Not passed with: stall.";
+  rig.show(offered());
+  CHECK(says("Not passed with: stall."));
   CHECK(asks_nothing(rig.frame().lesson));
   CHECK(rig.click("lesson_begin").lesson.begin);
   CHECK_FALSE(rig.frame().lesson.begin);
@@ -237,11 +241,20 @@ TEST_CASE("the keys stand under goal and prompt, and an engine that stalled is s
       CHECK(words.min.x - cap.max.x < 20.0);
       before = words.max.x;
     }
+    CHECK(says("Click into the cabin: the mouse leads the lever"));
+    rig.panel.set_visible(true);
+    rig.show(coach);
     CHECK(says("Click beside the panel: the mouse leads the lever"));
+    rig.panel.set_visible(false);
     rig.input.mouse_leads = true;
     rig.show(coach);
     CHECK(says("The mouse leads the lever: Esc frees it"));
-    CHECK_FALSE(says("Click beside"));
+    CHECK_FALSE(says("Click"));
+    rig.input.mouse_leads = false;
+    rig.input.by_itself = true;  // neither keys nor mouse do anything
+    rig.show(coach);
+    CHECK_FALSE(says("Click"));
+    CHECK_FALSE(says("a little throttle"));
   }
   CardRig rig(driven());
   rig.input.keys = some_keys();
@@ -333,6 +346,60 @@ TEST_CASE("what was said last is large for some seconds, then as small as what w
   const double said = height_of(second);
   for (int i = 0; i < 8; ++i) rig.frame();
   CHECK(said > 1.15 * height_of(second));
+}
+
+TEST_CASE("already in a phase's first frame the card has its foot: buttons and keys stand on it, whole") {
+  for (const bool panel_shown : {true, false}) {
+    CAPTURE(panel_shown);
+    for (const CoachView& coach : {offered(), over(result_of("hill_start", failing_faults()))}) {
+      CardRig rig(half_way(), panel_shown);
+      rig.input.keys = some_keys();
+      rig.input.coach = coach;
+      rig.frame();
+      rig.frame();  // a window that is new is not drawn in its first frame
+      const bool is_over = coach.phase == LessonPhase::over;
+      const ControlRect button = rig.rect(is_over ? "lesson_again" : "lesson_begin");
+      const double foot = panel_shown ? rig.rect("stop").min.y : 720.0;
+      CHECK(button.max.y < foot);
+      CHECK(says(is_over ? "again" : "begin"));
+    }
+    CardRig rig(driven(), panel_shown);  // the card stands already
+    rig.input.coach = over(result_of("hill_start", failing_faults()));
+    rig.frame();
+    CHECK(rig.panel.control_rect("lesson_again").has_value());
+    CHECK(rig.panel.control_rect("lesson_put_away").has_value());
+    CHECK(says("again"));
+    CHECK(says("Close"));
+    CHECK(says("Once more"));
+    CHECK(says("Not passed"));
+  }
+}
+
+TEST_CASE("that the teacher holds the car is said as long as it is so, and how it is given back") {
+  const LessonResult passed = result_of("hill_start", some_faults());
+  for (const bool is_over : {true, false}) {
+    CardRig rig(is_over ? over(passed) : offered());
+    CHECK_FALSE(says("teacher"));
+    rig.input.teacher_holds = true;
+    rig.frame();
+    rig.frame();
+    CHECK(says("The teacher holds clutch and brake"));
+    CHECK(says(is_over ? "Close gives them back" : "Not now gives them back"));
+  }
+}
+
+TEST_CASE("a trial that cannot be passed any more says so while it is driven, once, and what to do") {
+  CardRig rig(driven());
+  CHECK_FALSE(says("not passed any more"));
+  rig.input.trial_lost = true;
+  rig.show(driven());
+  const std::vector<DrawnText> texts = drawn_texts();
+  CHECK(std::count_if(texts.begin(), texts.end(), [](const DrawnText& text) {
+          return text.text.find(without_blanks("not passed any more")) != std::string::npos;
+        }) == 1);
+  CHECK(says("go on to learn"));
+  rig.show(over(result_of("hill_start", failing_faults())));
+  CHECK_FALSE(says("not passed any more"));
 }
 
 TEST_CASE("points that are taken off and the grade make ten, and each names its fault and its time") {

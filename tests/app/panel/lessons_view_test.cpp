@@ -151,6 +151,35 @@ TEST_CASE("that nothing is remembered is said") {
   rig.input.coach.learner.clear();
   rig.frame();
   CHECK(is_drawn("Without a name nothing is remembered."));
+  rig.input.by_itself = true;  // whoever is chosen: that is why
+  rig.frame();
+  CHECK_FALSE(is_drawn("Without a name nothing is remembered."));
+  const std::vector<DrawnText> texts = drawn_texts();
+  CHECK(std::any_of(texts.begin(), texts.end(), [](const DrawnText& text) {
+    return text.text.starts_with(without_blanks("The hand drives by itself"));
+  }));
+}
+
+TEST_CASE("a name with signs that no font here has is taken, and it is said why they look as they do") {
+  LessonsRig rig(half_way());
+  const auto said = [] {
+    const std::vector<DrawnText> texts = drawn_texts();
+    return std::any_of(texts.begin(), texts.end(), [](const DrawnText& text) {
+      return text.text.find(without_blanks("shown as ?")) != std::string::npos;
+    });
+  };
+  rig.click("learner");
+  rig.write(U"Zoë Ångström");
+  CHECK_FALSE(said());
+  rig.press(kEscape);
+  rig.click("learner");
+  rig.write(U"李娜");
+  CHECK(said());
+  CHECK(rig.press(kEnter).lesson.learner == "李娜");
+  rig.input.coach.learner = "李娜";
+  rig.frame();
+  rig.frame();
+  CHECK(said());  // as long as it is hers
 }
 
 TEST_CASE("a run of the past is opened by a click, its shifts are looked at where it was recorded") {
@@ -178,6 +207,23 @@ TEST_CASE("each run says its grade, or why it has none") {
   for (const char* words : {"7.5", "0.0", "guided", "left", "cut off", "lost"}) CHECK(is_drawn(words));
   CHECK(the_text(texts, "7.5").box.min.y < the_text(texts, "0.0").box.min.y);  // as it comes: the newest first
   CHECK(the_text(texts, "guided").box.min.y < the_text(texts, "left").box.min.y);
+}
+
+TEST_CASE("a fault costs points where there is a grade, and in a run that was left it does not") {
+  CoachView coach = with_history();
+  LessonResult left = result_of("hill_start", some_faults());
+  left.end = LessonEnd::left;
+  grade_result(shipped_lesson("hill_start"), left);
+  coach.runs[3].result = left;  // run 13
+  LessonsRig rig(coach, "tab_history");
+  rig.click("run: 13");
+  rig.frame();
+  CHECK(is_drawn("The gear ground, 12.4 J."));
+  for (const DrawnText& text : drawn_texts()) CHECK_FALSE(text.text.ends_with("(-2.0)"));
+  rig.click("run: 13");
+  rig.click("run: 16");
+  rig.frame();
+  CHECK(is_drawn("The gear ground, 12.4 J. (-2.0)"));
 }
 
 TEST_CASE("a comment has an author and words, and is asked for once") {
@@ -242,6 +288,10 @@ TEST_CASE("a learner whom another program deleted is said to be, and is asked fo
   coach.forgotten = true;
   coach.remembers = false;
   LessonsRig rig(coach);
+  std::string note;
+  for (const DrawnText& text : drawn_texts())
+    if (text.colour == ink::kWarn) note += text.text;
+  CHECK(note.find(without_blanks("Enter in this field")) != std::string::npos);  // not that which begins a lesson
   rig.click("learner");
   CHECK(rig.press(kEnter).lesson.learner == "Ada Example");
   rig.input.coach.forgotten = false;

@@ -141,6 +141,20 @@ TEST_CASE("given is what the actuators give, wanted what was asked of them, and 
   }
 }
 
+TEST_CASE("how long a frame takes is told where frames are counted, else nothing is") {
+  PanelRig rig;
+  rig.screen.width = 2600.0f;  // the whole line has room
+  const auto told = [&] {
+    settle(rig);
+    const std::vector<DrawnText> texts = drawn_texts();
+    return std::any_of(texts.begin(), texts.end(),
+                       [](const DrawnText& text) { return text.text.find("aframe") != std::string::npos; });
+  };
+  CHECK_FALSE(told());
+  rig.input.frame_ms = 16.7;
+  CHECK(told());
+}
+
 TEST_CASE("a lesson's own recording is not ended by its button") {
   PanelRig rig;
   rig.input.recording = true;

@@ -91,6 +91,62 @@ TEST_CASE("the slider's handle stands below the line in the curves; units and, o
   CHECK(is_drawn("driven way"));
 }
 
+TEST_CASE("a replay says what it is of: car and gate of the recording, and of a run that is known whose, which, when") {
+  ReplayRig rig(true);
+  rig.input.car_name = "diesel";
+  rig.input.gate_name = "four_speed";
+  rig.settle();
+  const auto says = [](const std::string& words) {
+    const std::vector<DrawnText> texts = drawn_texts();
+    return std::any_of(texts.begin(), texts.end(), [&](const DrawnText& text) {
+      return text.text.find(without_blanks(words)) != std::string::npos;
+    });
+  };
+  CHECK(says("lesson.trace"));
+  CHECK(says("Hatchback"));
+  CHECK(says("Five speed r right down"));
+  CHECK(says("not of the replay"));  // beside the choices
+  rig.input.coach = half_way();
+  rig.input.coach.runs.push_back({4, 1, "no date", rig.player.file().string(), result_of("hill_start", {})});
+  rig.settle();
+  CHECK(says("Hill start"));
+  CHECK(says("Ada Example"));
+  CHECK(says("no date"));
+  CHECK_FALSE(says("lesson.trace"));
+  rig.input.replay = nullptr;
+  rig.settle();
+  CHECK_FALSE(says("not of the replay"));
+}
+
+TEST_CASE("no number beside the curves touches another one or the unit, and the curves begin beside them") {
+  ReplayRig rig;
+  for (const bool whole : {true, false}) {
+    rig.player.look_at(whole ? std::nullopt : std::optional<std::size_t>(1));
+    rig.settle();
+    const ControlRect bar = rig.rect("replay_time");
+    std::vector<DrawnText> numbers = drawn_texts();
+    std::erase_if(numbers, [&](const DrawnText& text) {
+      const bool is_number = text.text.find_first_not_of("0123456789") == std::string::npos;
+      return !is_number || text.box.min.x > bar.min.x + 60.0 || text.box.max.y > bar.min.y;
+    });
+    CHECK(numbers.size() >= 6);  // two a lane
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        CAPTURE(numbers[i].text);
+        CAPTURE(numbers[j].text);
+        CHECK(std::abs(numbers[i].box.min.y - numbers[j].box.min.y) > ui_font(UiFont::small)->FontSize);  // a line
+      }
+    double right = 0.0;
+    for (const DrawnText& number : numbers) right = std::max(right, number.box.max.x);
+    std::vector<glm::dvec2> engine = drawn_in(ink::kEngine);
+    std::erase_if(engine, [&](glm::dvec2 at) { return at.y < numbers.front().box.min.y; });  // the legend's
+    REQUIRE(engine.size() > 50);
+    for (const DrawnText& number : numbers)
+      for (const glm::dvec2 at : engine)
+        CHECK_FALSE((at.x < number.box.max.x && at.y > number.box.min.y && at.y < number.box.max.y));
+  }
+}
+
 TEST_CASE("every shift has a mark where it begins in the drive, whatever part is looked at") {
   ReplayRig rig;
   const RecordedDrive& drive = rig.player.drive();

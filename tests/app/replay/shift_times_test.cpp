@@ -28,6 +28,17 @@ TEST_CASE("lever first: the shift begins with it; the clutch up before the gear:
   CHECK(*times.clutch_up == doctest::Approx(0.20));
 }
 
+TEST_CASE("pressed twice: the record has the first time down, and no time up") {
+  ShiftRecord twice = good_shift(0, 7.0);
+  twice.steps = {ShiftStep::clutch_down, ShiftStep::neutral,   ShiftStep::clutch_up,
+                 ShiftStep::clutch_down, ShiftStep::clutch_up, ShiftStep::gear};
+  CHECK(shift_times(twice).presses == 2);
+  CHECK(*shift_times(twice).clutch_down == 0.0);
+  CHECK_FALSE(shift_times(twice).clutch_up.has_value());
+  CHECK(*shift_times(twice).gear_in == doctest::Approx(0.35));
+  CHECK(shift_times(good_shift(0, 7.0)).presses == 1);
+}
+
 TEST_CASE("without clutch, or without gear, there is no such time") {
   ShiftRecord no_clutch = good_shift(0, 7.0);
   no_clutch.steps = {ShiftStep::neutral, ShiftStep::gear};

@@ -78,3 +78,24 @@ TEST_CASE("the next place begins straight, and after the last comes the first") 
   CHECK(places == "gate cluster gearbox driver ahead lever ");
   CHECK_THROWS_AS(LookAround("roof"), std::invalid_argument);
 }
+
+TEST_CASE("a shift that is looked at takes the driver's eyes to the lever and back; who looks from elsewhere stays") {
+  LookAround look("driver");
+  CHECK_FALSE(look.follow_shift(false));
+  look.turn({50.0, 0.0});
+  CHECK(look.follow_shift(true));
+  CHECK(look.place() == "lever");
+  CHECK(look.field() == camera_field("lever"));
+  look.turn({50.0, 0.0});
+  CHECK_FALSE(look.follow_shift(true));  // and stays turned
+  CHECK(look.pose().orientation != camera("lever").orientation);
+  CHECK(look.follow_shift(false));
+  CHECK(look.place() == "driver");
+  CHECK(look.follow_shift(true));
+  look.next();  // a person chooses
+  const std::string chosen(look.place());
+  CHECK_FALSE(look.follow_shift(false));
+  CHECK(look.place() == chosen);
+  CHECK_FALSE(look.follow_shift(true));
+  CHECK(look.place() == chosen);
+}

@@ -104,3 +104,32 @@ TEST_CASE("in real time a pedal moves while the picture hangs") {
   CHECK(seen.size() > 20);  // one or two, where it moves with the picture
   CHECK(*seen.rbegin() == 1.0);
 }
+
+TEST_CASE("in real time a key's clutch goes at its pace through a change of gate, while both levers run") {
+  constexpr double kAllTheWay = 8.0;  // [s]
+  const Rig rig;
+  Session session(rig.choice(TrainerClock::real_time, "none"));
+  session.set_foot_pace({.pedal_time = kPedal, .slip_time = kAllTheWay, .clutch_closed = 0.0, .clutch_bite = 1.0});
+  session.lead({}, {}, {.clutch = true});
+  session.advance(0.0);
+  while (session.car().clutch < 1.0) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    session.advance(0.0);
+  }
+  session.lead({}, {}, {});
+  using Steady = std::chrono::steady_clock;
+  double passed = 0.0, went = 0.0;  // [s], [1]
+  for (const char* gate : {"dog_leg_five", "five_speed_r_right_down", "dog_leg_five"}) {
+    const Steady::time_point begin = Steady::now();
+    session.advance(0.0);
+    const double before = session.car().clutch;
+    PanelRequests other;
+    other.gate = gate;
+    session.obey(other);
+    session.advance(0.0);
+    went += before - session.car().clutch;
+    passed += std::chrono::duration<double>(Steady::now() - begin).count();
+  }
+  CHECK(went > 0.0);
+  CHECK(went <= (passed + 0.03) / kAllTheWay);  // a snapshot may be some cycles old
+}
