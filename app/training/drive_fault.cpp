@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include <fmt/core.h>
@@ -103,6 +104,12 @@ StepSlip slip_of(const DriveFault& fault) noexcept {
   return is_one ? static_cast<StepSlip>(fault.wanted) : StepSlip::other;
 }
 
+constexpr double kMostGear = 99.0;  // beyond any box
+
+int gear_of(double value) noexcept {
+  return std::abs(value) <= kMostGear ? static_cast<int>(value) : kNeutralGear;
+}
+
 bool has_speed(const DriveFault& fault) noexcept {
   const bool may = fault.kind == FaultKind::early_shift || fault.kind == FaultKind::late_shift ||
                    fault.kind == FaultKind::early_downshift;
@@ -147,11 +154,11 @@ std::string fault_sentence(const DriveFault& fault) {
   if (!fault.step.empty())
     return fmt::format("\"{0}\" took {1:.{3}f} s; {2:.{3}f} s is wanted.", fault.step, fault.value, fault.wanted,
                        fault.wanted < kShortStep ? 2 : 1);
-  const auto meant = static_cast<int>(fault.wanted);
+  const int meant = gear_of(fault.wanted);
   if (fault.kind == FaultKind::wrong_gear && meant != kNeutralGear)
-    return fmt::format("Gear {} instead of {}.", gear_name(static_cast<int>(fault.value)), gear_name(meant));
+    return fmt::format("Gear {} instead of {}.", gear_name(gear_of(fault.value)), gear_name(meant));
   if (fault.kind == FaultKind::missed_shift || fault.kind == FaultKind::wrong_gear)
-    return fmt::format(fmt::runtime(words.says), gear_name(static_cast<int>(fault.value)));
+    return fmt::format(fmt::runtime(words.says), gear_name(gear_of(fault.value)));
   return fmt::format(fmt::runtime(words.says), fmt::format("{:.{}f}", words.scale * fault.value, words.digits));
 }
 
