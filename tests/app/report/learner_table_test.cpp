@@ -22,7 +22,7 @@ TEST_CASE("learners: sessions, runs, last day and what comes next, one line each
         "learner      sessions  runs  last day    next lesson\n"
         "Ada                 2     3  2026-01-04  reverse\n"
         "Bo ?[31mred         0     0  -           reverse (the instructor's)\n");
-  learners[1].learner.next_lesson = "/home/bo/reverse.toml";  // the coach offers no such lesson
+  learners[1].learner.next_lesson = "lessons/reverse.toml";  // the coach offers no such lesson
   CHECK(learner_table(learners, lessons).find("instructor") == std::string::npos);
   CHECK(run_table(learners[0]).find("    3  2026-01-04  drill                     by_yourself    9.0  passed\n") !=
         std::string::npos);
