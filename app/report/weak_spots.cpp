@@ -97,7 +97,7 @@ WeakSpot spot_of(FaultKind kind, std::span<const LessonResult* const> results) {
   return spot;
 }
 
-// One of notes alone has no trend.
+// One of notes alone, or of runs that stand in no half, has no trend.
 void compare(WeakSpot& spot, const std::vector<LessonHalves>& lessons) {
   LessonHalves sum;
   for (const LessonHalves& lesson : lessons) {
@@ -107,7 +107,7 @@ void compare(WeakSpot& spot, const std::vector<LessonHalves>& lessons) {
   }
   spot.earlier = per_ten(sum.earlier, sum.runs);
   spot.lately = per_ten(sum.lately, sum.runs);
-  if (spot.count > spot.by_severity[0]) spot.trend = trend_of(lessons);
+  if (sum.earlier + sum.lately > 0) spot.trend = trend_of(lessons);
 }
 
 }  // namespace

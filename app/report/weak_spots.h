@@ -16,7 +16,7 @@
 
 namespace gearshift {
 
-enum class Trend { unknown, falling, unclear, rising };  // unknown: no runs to compare
+enum class Trend { unknown, falling, unclear, rising };  // unknown: not in the runs that are compared
 
 struct WeakSpot {
   FaultKind kind = FaultKind::stall;

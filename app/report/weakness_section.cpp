@@ -26,8 +26,9 @@ const char* trend_words(Trend trend) {
   return "–";
 }
 
-// Before above, lately below, on one scale.
+// Before above, lately below, on one scale. Nothing where nothing is compared: that is not 0 times.
 std::string bars(const WeakSpot& spot, double most) {
+  if (spot.trend == Trend::unknown) return "–";
   const auto bar = [&](const char* kind, double rate) {
     return fmt::format("<span class=\"bar {}\" style=\"width:{:.2f}rem\"></span> {:.1f}", kind,
                        most > 0.0 ? kLongestBar * rate / most : 0.0, rate);
@@ -63,10 +64,9 @@ std::string weakness_section(const LearnerHistory& history) {
   for (const WeakSpot& spot : found.spots) most = std::max({most, spot.earlier, spot.lately});
   std::string table = fmt::format(
       "<table class=\"weaknesses\">\n<caption>Faults in graded runs, {} shifts. Earlier and lately: how many of ten "
-      "runs "
-      "had it, in the first and the second half of each lesson's runs. Falling or rising: if nothing had changed, "
-      "chance "
-      "alone would do that less than one time in twenty. Notes count in their own column alone.</caption>\n"
+      "runs had it, in the first and the second half of each lesson's runs, the middle one of an odd number left out. "
+      "Falling or rising: if nothing had changed, chance alone would do that less than one time in twenty. Notes count "
+      "in their own column alone.</caption>\n"
       "<thead><tr><th>Fault</th><th class=\"number\">Very severe</th><th class=\"number\">Severe</th>"
       "<th class=\"number\">Minor</th><th class=\"number\">Notes</th><th class=\"number\">Points lost</th>"
       "<th class=\"number\">Per 10 shifts</th><th>Earlier, lately</th><th>Trend</th></tr></thead>\n<tbody>\n",

@@ -2,9 +2,11 @@
 #include "app/report/weak_spots.h"
 
 #include <cmath>
+#include <string>
 
 #include <doctest/doctest.h>
 
+#include "app/report/sections.h"
 #include "tests/app/report/constructed_history.h"
 
 using namespace gearshift;
@@ -90,6 +92,19 @@ TEST_CASE("faults are counted by kind and severity, per ten shifts, earlier and 
   CHECK(stall.count == 1);
   CHECK(stall.points == 2.0);
   CHECK(stall.lately == 0.0);
+}
+
+TEST_CASE("a fault of runs that stand in no half is not compared: it was not seen 0 times before and after") {
+  LearnerHistory history;
+  for (int i = 0; i < 3; ++i) history.runs.push_back(run_with(i + 1, 2, 5.0));
+  history.runs[1].row.result.faults = {{FaultKind::stall, Severity::severe, 0.0, 1.0, 0}};
+  REQUIRE(weaknesses(history).spots.size() == 1);
+  CHECK(weaknesses(history).spots[0].trend == Trend::unknown);
+  CHECK(weakness_section(history).find("0.0<br>") == std::string::npos);
+  // Control: the same in the last run is compared.
+  history.runs[2].row.result.faults = history.runs[1].row.result.faults;
+  CHECK(weaknesses(history).spots[0].trend == Trend::unclear);
+  CHECK(weakness_section(history).find("0.0<br>") != std::string::npos);
 }
 
 TEST_CASE("no runs, no weaknesses; runs without shifts have no rate") {
