@@ -14,6 +14,7 @@ using glm::dmat3;
 using glm::dvec3;
 
 constexpr std::int64_t kMostSkipped = 10;  // [cycles] that it catches up with
+constexpr int kMostBlind = 10;  // [cycles] that it goes on without a sample; then it begins anew with the next
 
 // Transition of (position, velocity, hand) over one period: the columns are where unit states go.
 dmat3 transition(const AxisStepper& stepper) noexcept {
@@ -64,7 +65,8 @@ ObservedMotion LeverObserver::update(const LeverMotion& motion, glm::dvec2 comma
     out.end[i] = axis.observer.predict(begin, 0.0).position;
     out.compliance[i] = axis.observer.compliance();
   }
-  started_ = started_ || motion.fresh;
+  blind_ = motion.fresh ? 0 : std::min(blind_ + 1, kMostBlind);
+  started_ = motion.fresh || (started_ && blind_ < kMostBlind);
   return out;
 }
 

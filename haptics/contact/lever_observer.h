@@ -79,6 +79,7 @@ class LeverObserver {
   std::size_t newest_ = 0;                         // of them
   std::size_t delay_;
   bool started_ = false;
+  int blind_ = 0;  // [cycles] without a fresh sample
 };
 
 }  // namespace gearshift

@@ -7,6 +7,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <glm/vector_relational.hpp>
 
 #include "haptics/device/checked.h"
 #include "haptics/joystick/finite.h"
@@ -68,6 +69,7 @@ const SimulatedLeverConfig& checked(const SimulatedLeverConfig& config, std::int
   check(config.actuator);
   check(config.force_sensor);
   require_between("SimulatedLever: delay", config.delay, 0, kMaxDelay, "cycles");
+  require_between("SimulatedLever: own_stiffness", config.own_stiffness, 0.0, 1e5, "N/m");
   check(config.hand);
   require_between("SimulatedLever: model_error", config.model_error, 0.0, 0.5);
   require_between("SimulatedLever: period_jitter", config.period_jitter, 0.0, 0.5);
@@ -87,6 +89,7 @@ DeviceSpec make_spec(const SimulatedLeverConfig& config) {
   spec.delay = config.delay;
   spec.axis_x = config.axis_x;
   spec.axis_y = config.axis_y;
+  spec.own_stiffness = glm::dvec2(config.own_stiffness);
   spec.measures_hand_force = true;
   spec.simulated = true;
   return spec;
@@ -155,9 +158,11 @@ std::uint64_t SimulatedLever::take_periods(std::int64_t now_ns) noexcept {
 void SimulatedLever::advance_period() noexcept {
   lead_hand();
   take_time();
-  drive_motors();
-  move(x_);
-  move(y_);
+  const Order& order = due_order();
+  if (may_touch(order.walls))
+    drive_in_walls(order);
+  else
+    drive(order);
   ++periods_;
   find_pose();
   sample();
@@ -209,32 +214,74 @@ void SimulatedLever::take_time() noexcept {
   drift_ns_ += length_ns - static_cast<std::int64_t>(period_ns_);
 }
 
-// The force written `delay` periods ago reaches the motors now. They saturate each on its own joint.
-void SimulatedLever::drive_motors() noexcept {
+// What was written `delay` periods ago reaches the motors now.
+const SimulatedLever::Order& SimulatedLever::due_order() noexcept {
   queue_[periods_ % queue_.size()] = written_;
   const std::uint64_t due = periods_ + queue_.size() - static_cast<std::uint64_t>(config_.delay);
-  const glm::dvec2 force = queue_[due % queue_.size()];
-  const glm::dvec2 wanted = arc_force(pose_, force);
+  return queue_[due % queue_.size()];
+}
+
+// The motors saturate each on its own joint.
+void SimulatedLever::drive(const Order& order) noexcept {
+  const glm::dvec2 wanted = arc_force(pose_, order.force);
   x_.actuator_force = x_.actuator.deliver(wanted.x, length_);
   y_.actuator_force = y_.actuator.deliver(wanted.y, length_);
   reading_.actuator_force = plane_force(pose_, {x_.actuator_force, y_.actuator_force});
+  move(x_, length_);
+  move(y_, length_);
+}
+
+// The same in parts of the period, the walls' force added in each.
+void SimulatedLever::drive_in_walls(const Order& order) noexcept {
+  const double parts = std::ceil(length_ * kOwnWallRate), part = length_ / parts;
+  const glm::dvec2 commanded = arc_force(pose_, order.force);
+  glm::dvec2 sum{0.0, 0.0};
+  for (double n = 0.0; n < parts; n += 1.0) {
+    const glm::dvec2 wanted = commanded + wall_force(order.walls, 0.5 * part);
+    x_.actuator_force = x_.actuator.deliver(wanted.x, part);
+    y_.actuator_force = y_.actuator.deliver(wanted.y, part);
+    sum += glm::dvec2{x_.actuator_force, y_.actuator_force};
+    move(x_, part);
+    move(y_, part);
+  }
+  reading_.actuator_force = plane_force(pose_, sum / parts);
+}
+
+// Within this period, by a speed that grows no faster than by kSwing a period.
+bool SimulatedLever::may_touch(const LeverWalls& walls) const noexcept {
+  constexpr double kSwing = 0.001;  // [m]
+  if (walls.share == 0.0 || config_.own_stiffness == 0.0) return false;
+  const glm::dvec2 here = true_position();
+  const glm::dvec2 margin = kSwing + 2.0 * length_ * glm::abs(true_velocity());
+  return !glm::all(glm::greaterThan(here - margin, walls.low)) || !glm::all(glm::lessThan(here + margin, walls.high));
+}
+
+// Along the arcs, where the lever will be after `ahead` [s]. [N]
+glm::dvec2 SimulatedLever::wall_force(const LeverWalls& walls, double ahead) const noexcept {
+  const auto tangent = [&](const Axis& axis) {
+    return std::tan((axis.state.position + ahead * axis.state.velocity) / config_.yoke.radius);
+  };
+  const PlanePose pose = plane_pose(tangent(x_), -tangent(y_));
+  const glm::dvec2 there = plane_position(pose, config_.yoke.radius);
+  const glm::dvec2 back = glm::clamp(there, walls.low, walls.high) - there;
+  return arc_force(pose, walls.share * config_.own_stiffness * back);
 }
 
 // Away from the stops and without dry friction, one step of known coefficients is the exact solution.
-void SimulatedLever::move(Axis& axis) const noexcept {
+void SimulatedLever::move(Axis& axis, double time) const noexcept {
   const double force = axis.hand_drive + axis.actuator_force;
   if (axis.limits.coulomb_friction == 0.0) {
-    const bool on_time = length_ == period_;
+    const bool on_time = time == period_;
     const AxisState next =
-        on_time ? axis.stepper.step(axis.state, force) : advance(axis.model, axis.state, force, length_);
+        on_time ? axis.stepper.step(axis.state, force) : advance(axis.model, axis.state, force, time);
     const double speed = std::max(std::abs(axis.state.velocity), std::abs(next.velocity));
-    const double farthest = std::max(std::abs(axis.state.position), std::abs(next.position)) + speed * length_;
+    const double farthest = std::max(std::abs(axis.state.position), std::abs(next.position)) + speed * time;
     if (farthest < axis.limits.stop) {
       axis.state = next;
       return;
     }
   }
-  axis.state = advance_limited(axis.model, axis.limits, axis.state, force, length_);
+  axis.state = advance_limited(axis.model, axis.limits, axis.state, force, time);
 }
 
 void SimulatedLever::find_pose() noexcept {
@@ -273,12 +320,17 @@ double SimulatedLever::sensed(double force) noexcept {
 }
 
 void SimulatedLever::write(glm::dvec2 force) noexcept {
-  written_ = force;
+  written_.force = force;
+}
+
+void SimulatedLever::hold_walls(const LeverWalls& walls) noexcept {
+  const bool is_sound = is_finite(walls.low) && is_finite(walls.high) && std::isfinite(walls.share);
+  written_.walls = is_sound ? walls : LeverWalls{};
 }
 
 void SimulatedLever::release() noexcept {
-  written_ = glm::dvec2(0.0);
-  queue_.fill(glm::dvec2(0.0));
+  written_ = {};
+  queue_.fill({});
 }
 
 glm::dvec2 SimulatedLever::true_position() const noexcept {

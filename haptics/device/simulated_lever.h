@@ -27,7 +27,8 @@ struct SimulatedLeverConfig {
   double encoder_counts = 2250.0 / 80.0;
   ActuatorLimits actuator;
   ForceSensorModel force_sensor;
-  int delay = 0;  // [cycles] 0 to 8, whole samples from write to effect
+  int delay = 0;               // [cycles] 0 to 8, whole samples from write to effect
+  double own_stiffness = 0.0;  // [N/m] 0 to 1e5 of walls that it keeps itself, on both axes; 0: it keeps none
   HandImpedance hand = kBareHand;
   // What no model knows, for hard cases. Drawn with the seed, evenly.
   double model_error = 0.0;    // [1] 0 to 0.5, true mass, damping and stiffness of each axis are off by up to this
@@ -37,6 +38,7 @@ struct SimulatedLeverConfig {
 
 inline constexpr int kMaxDelay = 8;  // [cycles]
 inline constexpr int kMaxPeriodsPerRead = 1000;
+inline constexpr double kOwnWallRate = 4000.0;  // [Hz] at least
 
 // Time moves only in whole periods of the loop: read(now) advances the plant by the periods since the last
 // read, under the force then due. Deterministic for a given sequence of calls.
@@ -45,6 +47,10 @@ inline constexpr int kMaxPeriodsPerRead = 1000;
 //   now = last + n T   n periods and n sequence numbers on; n is rounded, at most kMaxPeriodsPerRead:
 //                      the rest of a longer gap is dropped
 //   n <= 0             the last reading again, stale
+//
+// Its own walls (hold_walls) are told with the delay of every command, and kept without any: a spring on the true
+// position, sampled and held at kOwnWallRate by the depth in the middle of each sample, saturating with the motors. What
+// the encoder of such a stick resolves is not modelled there.
 //
 // With period_jitter a period lasts a whole number of nanoseconds between T (1 - jitter) and T (1 + jitter), whatever
 // the loop's clock says; time_ns of a reading tells how long it was.
@@ -57,6 +63,7 @@ class SimulatedLever final : public HapticDevice {
   const DeviceSpec& spec() const noexcept override { return spec_; }
   LeverReading read(std::int64_t now_ns) noexcept override;
   void write(glm::dvec2 force) noexcept override;
+  void hold_walls(const LeverWalls& walls) noexcept override;
   void release() noexcept override;
 
   // The truth behind the encoder, for tests and benches. [m], [m/s] in the gate plane
@@ -85,6 +92,12 @@ class SimulatedLever final : public HapticDevice {
     glm::dvec2 position{0.0}, velocity{0.0};
   };
 
+  // What it is told to do.
+  struct Order {
+    glm::dvec2 force{0.0};  // [N]
+    LeverWalls walls;
+  };
+
   Axis make_axis(const AxisModel& nominal, double limit);
   AxisModel true_model(const AxisModel& nominal);
   double off_by(double share) noexcept;
@@ -92,8 +105,12 @@ class SimulatedLever final : public HapticDevice {
   void advance_period() noexcept;
   void lead_hand() noexcept;
   void take_time() noexcept;
-  void drive_motors() noexcept;
-  void move(Axis& axis) const noexcept;
+  const Order& due_order() noexcept;
+  void drive(const Order& order) noexcept;
+  void drive_in_walls(const Order& order) noexcept;
+  bool may_touch(const LeverWalls& walls) const noexcept;
+  glm::dvec2 wall_force(const LeverWalls& walls, double ahead) const noexcept;
+  void move(Axis& axis, double time) const noexcept;
   void find_pose() noexcept;
   void sample() noexcept;
   ArcTarget arc_target(const HandTarget& target) const noexcept;
@@ -115,9 +132,9 @@ class SimulatedLever final : public HapticDevice {
   HandTarget target_;
   GaussianNoise noise_;
 
-  std::array<glm::dvec2, kMaxDelay + 1> queue_{};  // [N] forces written, by period
-  glm::dvec2 written_{0.0};                        // [N]
-  std::uint64_t periods_ = 0;                      // since the first read
+  std::array<Order, kMaxDelay + 1> queue_{};  // by period
+  Order written_;
+  std::uint64_t periods_ = 0;  // since the first read
   bool started_ = false;
   std::int64_t last_ns_ = 0;   // [ns] of the last sample, on the loop's clock
   std::int64_t drift_ns_ = 0;  // [ns] that this sample was really later than on that clock

@@ -11,6 +11,7 @@ std::string read_text_file(const std::filesystem::path& file) {
   const std::string name = file.string();
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
+  if (status.type() == std::filesystem::file_type::none) throw FileError(name, 0, "cannot be read: " + error.message());
   if (!std::filesystem::exists(status)) throw FileError(name, 0, "there is no such file");
   if (std::filesystem::is_directory(status)) throw FileError(name, 0, "is a folder, not a file");
   if (!std::filesystem::is_regular_file(status)) throw FileError(name, 0, "is not a plain file");

@@ -5,10 +5,12 @@
 #include <limits>
 #include <stdexcept>
 #include <string_view>
+#include <utility>
 
 #include "haptics/analysis/sampled_loop.h"
 #include "haptics/device/checked.h"
 #include "haptics/device/hand.h"
+#include "haptics/files/number_text.h"
 #include "haptics/gate/gate_feel.h"
 
 namespace gearshift {
@@ -19,11 +21,12 @@ constexpr double kQuiet = 0.35;          // of m / tau^2 and m / tau: half-sampl
 constexpr double kQuietObserved = 0.58;  // of m / tau^2: with the observer
 constexpr double kObservedTau = 0.0045;  // [s] the longest tau at which the observer pays
 constexpr double kGainMargin = 1.1;      // of the stiffness, against the exact boundary: plant error and jitter
+constexpr const char* kWallStiffness = "wall_stiffness_n_per_m";
 constexpr const char* kQuietLaw = "quiet half-sample hold: K <= 0.35 m / tau^2, tau = (delay + 1) T";
 constexpr const char* kObservedLaw = "quiet observed hold: K <= 0.58 m / tau^2, tau = (delay + 1) T";
 constexpr const char* kDampingLaw = "quiet half-sample hold: B <= 0.35 m / tau, tau = (delay + 1) T";
 constexpr const char* kStableLaw = "spectral radius of the sampled loop below 1 at 1.1 K";
-constexpr const char* kFreeLaw = "spectral radius of the sampled lever in free space below 1";
+constexpr const char* kFreeLaw = "spectral radius of the sampled lever outside the loop's walls below 1";
 constexpr const char* kObservedDampingLaw = "observed hold: B >= 50 N s/m, or a heavy arm rings";
 constexpr const char* kObserverLaw = "spectral radius of the observed loop below 1 at any K";
 constexpr const char* kFeelLaw = "passive proxy: no feel stiffer than the wall that carries the proxy";
@@ -57,7 +60,7 @@ double lag(const HapticConfig& config, const DeviceSpec& spec) noexcept {
 ContactHold chosen_hold(const HapticConfig& config, const DeviceSpec& spec) noexcept {
   if (config.contact.hold != ContactHold::automatic) return config.contact.hold;
   const double tau = lag(config, spec);
-  const bool suffices = config.tuning.wall_stiffness <= kQuiet * lighter_mass(spec) / (tau * tau);
+  const bool suffices = loop_stiffness(config.tuning, spec) <= kQuiet * lighter_mass(spec) / (tau * tau);
   return suffices || spec.delay == 0 || tau > kObservedTau ? ContactHold::half_sample : ContactHold::observer;
 }
 
@@ -71,7 +74,7 @@ void limit_to_quiet(const HapticConfig& config, const DeviceSpec& spec, Admitted
   if (!observed) limiter.limit(tuning.wall_damping, damping, "wall_damping_n_s_per_m", kDampingLaw);
   if (admitted.hold == ContactHold::zero_order) return;
   const double stiffness = (observed ? kQuietObserved : kQuiet) * lighter_mass(spec) / (tau * tau);
-  limiter.limit(tuning.wall_stiffness, stiffness, "wall_stiffness_n_per_m", observed ? kObservedLaw : kQuietLaw);
+  limiter.limit(tuning.wall_stiffness, stiffness, kWallStiffness, observed ? kObservedLaw : kQuietLaw);
 }
 
 // Not a limit but what the hold is made of: in a study, too.
@@ -89,14 +92,30 @@ void each_lever(const DeviceSpec& spec, const auto& visit) {
     for (const AxisModel& axis : {spec.axis_x, spec.axis_y}) visit(axis, named);
 }
 
-// Damping alone, away from all walls. A lever without friction or spring is on the boundary and stays there.
-bool is_free_lever_stable(const HapticConfig& config, const AdmittedTuning& admitted, const DeviceSpec& spec) {
+// In a wall: free of the device's own spring, and held by it. The loop knows of that one no more than of a hand's.
+void each_pressed_lever(const DeviceSpec& spec, const auto& visit) {
+  each_lever(spec, visit);
+  if (own_wall_stiffness(spec) == 0.0) return;
+  for (const NamedHand& named : kNamedHands) {
+    for (const auto& [axis, own] :
+         {std::pair{spec.axis_x, spec.own_stiffness.x}, {spec.axis_y, spec.own_stiffness.y}}) {
+      NamedHand held = named;
+      held.hand.stiffness += own;
+      visit(axis, held);
+    }
+  }
+}
+
+// Damping alone, away from the loop's walls. A lever without friction or spring is on the boundary and stays there.
+bool is_stable_without_wall(const HapticConfig& config, const AdmittedTuning& admitted, const DeviceSpec& spec,
+                            double wall_damping) {
   ContactLaw law = contact_law(config, admitted, spec);
   law.hold = ContactHold::zero_order;
-  law.stiffness = law.damping = 0.0;
+  law.stiffness = 0.0;
+  law.damping = wall_damping;
   law.free_damping += admitted.tuning.limit_damping;
   double worst = 0.0;
-  each_lever(spec, [&](const AxisModel& axis, const NamedHand& named) {
+  each_pressed_lever(spec, [&](const AxisModel& axis, const NamedHand& named) {
     worst = std::max(worst, spectral_radius(axis, named.hand, law, period_s(config)));
   });
   return worst < 1.0 + 1e-9;
@@ -106,7 +125,7 @@ void limit_free_damping(const HapticConfig& config, const DeviceSpec& spec, Admi
                         const Limiter& limiter) {
   AdmittedTuning trial = admitted;
   double share = 1.0;
-  while (!is_free_lever_stable(config, trial, spec) && share > 1e-3) {
+  while (!is_stable_without_wall(config, trial, spec, 0.0) && share > 1e-3) {
     share *= 0.5;
     trial.tuning.aisle_damping = share * admitted.tuning.aisle_damping;
     trial.tuning.limit_damping = share * admitted.tuning.limit_damping;
@@ -115,26 +134,76 @@ void limit_free_damping(const HapticConfig& config, const DeviceSpec& spec, Admi
   limiter.limit(admitted.tuning.limit_damping, trial.tuning.limit_damping, "limit_damping_n_s_per_m", kFreeLaw);
 }
 
+// A damping that comes late drives a lever which the device's own spring holds, however soft the loop's wall is.
+void limit_damping_beside_own_walls(const HapticConfig& config, const DeviceSpec& spec, AdmittedTuning& admitted,
+                                    const Limiter& limiter) {
+  if (own_wall_stiffness(spec) == 0.0 || admitted.hold == ContactHold::observer) return;
+  double damping = admitted.tuning.wall_damping;
+  while (!is_stable_without_wall(config, admitted, spec, damping) && damping > 1e-3) damping *= 0.5;
+  limiter.limit(admitted.tuning.wall_damping, damping, "wall_damping_n_s_per_m", kFreeLaw);
+}
+
 struct StableStiffness {
   double most = std::numeric_limits<double>::infinity();  // [N/m]
   std::string_view hand;                                  // that decides
 };
 
-// The wanted stiffness first: where every hand bears it, nothing has to be searched.
+// That wall, and softer ones down to an eighth.
+bool bears(const AxisModel& axis, const HandImpedance& hand, ContactLaw law, double stiffness, double period) {
+  for (law.stiffness = stiffness; law.stiffness > stiffness / 8.0; law.stiffness *= 0.8)
+    if (spectral_radius(axis, hand, law, period) >= 1.0) return false;
+  return true;
+}
+
+// The wanted stiffness first: where every hand bears it, nothing has to be searched. Nor where one bears what another
+// has left of it.
 StableStiffness stable_stiffness(const HapticConfig& config, const AdmittedTuning& admitted, const DeviceSpec& spec) {
   StableStiffness stable;
   ContactLaw law = contact_law(config, admitted, spec);
-  law.stiffness *= kGainMargin;
+  law.stiffness = kGainMargin * admitted.tuning.wall_stiffness;
   const double slow = law.free_damping, fast = slow + admitted.tuning.limit_damping;
   for (const double free_damping : {slow, fast}) {
     law.free_damping = free_damping;
-    each_lever(spec, [&](const AxisModel& axis, const NamedHand& named) {
-      if (spectral_radius(axis, named.hand, law, period_s(config)) < 1.0) return;
+    each_pressed_lever(spec, [&](const AxisModel& axis, const NamedHand& named) {
+      if (stable.most == 0.0 || spectral_radius(axis, named.hand, law, period_s(config)) < 1.0) return;
+      const bool is_searched = stable.most < std::numeric_limits<double>::infinity();
+      if (is_searched && bears(axis, named.hand, law, kGainMargin * stable.most, period_s(config))) return;
       const double most = stiffness_limit(axis, named.hand, law, period_s(config)) / kGainMargin;
       if (most < stable.most) stable = {most, named.name};
     });
   }
   return stable;
+}
+
+// Of a wall that is softer than the device's own it keeps a share.
+DeviceSpec with_kept_walls(DeviceSpec spec, double wanted) noexcept {
+  const double own = own_wall_stiffness(spec);
+  spec.own_stiffness *= own > 0.0 ? std::min(1.0, wanted / own) : 0.0;
+  return spec;
+}
+
+// The whole wall: what the laws admit of the loop, and what the device makes of it. Told of it is what is lacking then.
+void add_own_walls(AdmittedTuning& admitted, double wanted, const DeviceSpec& spec) {
+  const double own = own_wall_stiffness(spec);
+  if (own == 0.0) return;
+  double& stiffness = admitted.tuning.wall_stiffness;
+  stiffness = std::min(wanted, stiffness + own);
+  const auto is_wall = [](const Limited& one) { return one.what == kWallStiffness; };
+  const auto told = std::find_if(admitted.limited.begin(), admitted.limited.end(), is_wall);
+  if (told == admitted.limited.end()) return;
+  told->used = stiffness;
+  told->bound += own;
+  told->law += "; and " + number_text(own) + " N/m that the device keeps itself";
+  if (told->bound >= wanted) admitted.limited.erase(told);
+}
+
+// The observer's own damping comes too late on this device: the sampled hold then.
+AdmittedTuning sampled_instead(HapticConfig config, const DeviceSpec& device, const Gate& gate, std::string_view hand) {
+  config.contact.hold = ContactHold::half_sample;
+  AdmittedTuning instead = admit_tuning(config, device, gate);
+  const double from = static_cast<double>(ContactHold::observer), to = static_cast<double>(instead.hold);
+  instead.limited.push_back({kObserverLaw, "hold", from, to, to, std::string(hand)});
+  return instead;
 }
 
 // What only a study may have.
@@ -197,6 +266,7 @@ void check_device(const DeviceSpec& spec) {
   check_vector("workspace of the device", spec.workspace, 10.0, "m");
   require_between("yoke_radius of the device", spec.yoke_radius, 0.0, 10.0, "m");
   require_between("position_step of the device", spec.position_step, 0.0, 0.1, "m");
+  check_vector("own_stiffness of the device", spec.own_stiffness, 1e5, "N/m");
   require_between("delay of the device", spec.delay, 0, kMostDelay, "cycles");
   for (const AxisModel& axis : {spec.axis_x, spec.axis_y}) {
     require_between("mass of the device", axis.mass, 1e-3, 1e3, "kg");
@@ -205,10 +275,14 @@ void check_device(const DeviceSpec& spec) {
   }
 }
 
+double loop_stiffness(const HapticTuning& tuning, const DeviceSpec& spec) noexcept {
+  return std::max(0.0, tuning.wall_stiffness - own_wall_stiffness(spec));
+}
+
 ContactLaw contact_law(const HapticConfig& config, const AdmittedTuning& admitted, const DeviceSpec& spec) noexcept {
   ContactLaw law;
   law.hold = admitted.hold;
-  law.stiffness = admitted.tuning.wall_stiffness;
+  law.stiffness = loop_stiffness(admitted.tuning, spec);
   law.damping = admitted.tuning.wall_damping;
   law.window = config.estimator.window;
   law.free_damping = admitted.tuning.aisle_damping;
@@ -217,28 +291,25 @@ ContactLaw contact_law(const HapticConfig& config, const AdmittedTuning& admitte
   return law;
 }
 
-AdmittedTuning admit_tuning(const HapticConfig& config, const DeviceSpec& spec, const Gate& gate) {
-  refuse_without_study(config, spec);
+AdmittedTuning admit_tuning(const HapticConfig& config, const DeviceSpec& device, const Gate& gate) {
+  refuse_without_study(config, device);
+  const DeviceSpec spec = with_kept_walls(device, config.tuning.wall_stiffness);
   AdmittedTuning out{config.tuning, chosen_hold(config, spec), {}};
   const Limiter limiter{config.contact.study, out.limited};
   limit_to_quiet(config, spec, out, limiter);
   limit_free_damping(config, spec, out, limiter);
+  limit_damping_beside_own_walls(config, spec, out, limiter);
   raise_observed_damping(out);
   const StableStiffness stable = stable_stiffness(config, out, spec);
   if (stable.most == 0.0 && !config.contact.study) {
-    if (out.hold != ContactHold::observer)
+    if (out.hold == ContactHold::observer) return sampled_instead(config, device, gate, stable.hand);
+    if (own_wall_stiffness(spec) == 0.0)
       throw std::invalid_argument("no wall of any stiffness is stable on this device");
-    // The observer's own damping comes too late here: the sampled hold then.
-    HapticConfig sampled = config;
-    sampled.contact.hold = ContactHold::half_sample;
-    AdmittedTuning instead = admit_tuning(sampled, spec, gate);
-    const double from = static_cast<double>(ContactHold::observer), to = static_cast<double>(instead.hold);
-    instead.limited.push_back({kObserverLaw, "hold", from, to, to, std::string(stable.hand)});
-    return instead;
   }
-  limiter.limit(out.tuning.wall_stiffness, stable.most, "wall_stiffness_n_per_m", kStableLaw, stable.hand);
+  limiter.limit(out.tuning.wall_stiffness, stable.most, kWallStiffness, kStableLaw, stable.hand);
   const double feel = stiffest_feel(gate);
   if (feel > 0.0) limiter.limit(out.tuning.feel_scale, out.tuning.wall_stiffness / feel, "feel_scale", kFeelLaw);
+  add_own_walls(out, config.tuning.wall_stiffness, spec);
   return out;
 }
 

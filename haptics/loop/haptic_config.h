@@ -17,7 +17,7 @@ namespace gearshift {
 
 // What may change while the loop runs. Applied whole, between two cycles, and recorded.
 struct HapticTuning {
-  double wall_stiffness = 5000.0;  // [N/m] 0 to 20000
+  double wall_stiffness = 5000.0;  // [N/m] 0 to 20000, of the whole wall: what the device keeps itself included
   double wall_damping = 10.0;      // [N s/m] 0 to 100
   double feel_scale = 1.0;         // [1] 0 to 4, of the gate's feel
   double aisle_damping = 2.0;      // [N s/m] 0 to 50, everywhere
@@ -80,12 +80,19 @@ void check_device(const DeviceSpec& spec);
 //   stable     the spectral radius of the sampled cycle (sampled_loop.h) is below 1 on both axes: in the wall at 1.1 K,
 //              with the aisles' damping and with that of the speed limit, too; and in free space with both
 //   feel       no feel stiffer than the wall that carries the proxy
+// Where the device keeps walls itself (DeviceSpec::own_stiffness), the loop makes what is left of the wanted stiffness, and
+// the laws hold of that part; the exact check sees every lever with the device's spring and without it. Limited tells the
+// stiffness of the whole wall, and the device's share of it in the law. Feel is the loop's alone: its bound is what the
+// laws admit of the loop.
 // An observed hold has a damping of kObservedDamping at least. In a study all is used as wanted, and told.
 // Throws std::invalid_argument for what only a study may have, for a study on a device that is not simulated, and where
 // no wall of any stiffness is stable.
 AdmittedTuning admit_tuning(const HapticConfig& config, const DeviceSpec& spec, const Gate& gate);
 
-// What presses the lever back in the wall under that tuning: for spectral_radius().
+// [N/m] Of the wall, what the loop makes: the rest beside what the device keeps itself.
+double loop_stiffness(const HapticTuning& tuning, const DeviceSpec& spec) noexcept;
+
+// What the loop presses the lever back with in the wall under that tuning: for spectral_radius().
 ContactLaw contact_law(const HapticConfig& config, const AdmittedTuning& admitted, const DeviceSpec& spec) noexcept;
 
 }  // namespace gearshift

@@ -6,8 +6,10 @@
 #include <cstddef>
 #include <stdexcept>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 
+#include "haptics/contact/free_span.h"
 #include "haptics/device/checked.h"
 #include "haptics/gate/gate_feel.h"
 #include "haptics/joystick/finite.h"
@@ -64,6 +66,7 @@ HapticLoop::HapticLoop(const HapticConfig& config, const Gate& gate, HapticDevic
       channels_(channels),
       period_(period_s(config)),
       hand_over_(kHandOverSpeed * period_),
+      own_walls_(own_wall_stiffness(device.spec())),
       tuning_(admitted_.tuning),
       estimator_(config.estimator, period_),
       observer_(device.spec(), period_),
@@ -91,7 +94,7 @@ void HapticLoop::cycle(std::int64_t deadline_ns, std::int64_t skipped) noexcept 
   StageClock clock(stamps_, out_.cycle);
   out_.time_ns = deadline_ns;
   take_inputs();
-  reading_ = device_.read(deadline_ns);
+  read_device(deadline_ns);
   clock.stamp();
   motion_ = estimator_.update(reading_);
   clock.stamp();
@@ -106,7 +109,7 @@ void HapticLoop::cycle(std::int64_t deadline_ns, std::int64_t skipped) noexcept 
   clock.stamp();
   const GuardOutput command = guard_.guard(guard_input(skipped));
   clock.stamp();
-  device_.write(command.force);
+  drive(command);
   clock.stamp();
 
   account_force_flow(command);
@@ -142,6 +145,12 @@ void HapticLoop::obey(LoopCommand command) noexcept {
   }
 }
 
+// The panic button is believed whatever else the reading says.
+void HapticLoop::read_device(std::int64_t deadline_ns) noexcept {
+  reading_ = device_.read(deadline_ns);
+  if (reading_.stop) guard_.stop();
+}
+
 // What the limiter has learnt holds of the wall that it has seen.
 void HapticLoop::retune(const HapticTuning& tuning) noexcept {
   const bool same_wall = tuning.wall_stiffness == tuning_.wall_stiffness && tuning.wall_damping == tuning_.wall_damping;
@@ -151,6 +160,7 @@ void HapticLoop::retune(const HapticTuning& tuning) noexcept {
 
 // At arming the proxy starts anew at the lever, so that an old penetration cannot pull.
 void HapticLoop::arm() noexcept {
+  if (reading_.stop) return;
   guard_.arm();
   placed_ = false;
   limiter_.reset();
@@ -179,7 +189,8 @@ void HapticLoop::limit_depth() noexcept {
 
 Coupled HapticLoop::couple_lever(std::int64_t skipped) noexcept {
   out_.wall_stiffness = tuning_.wall_stiffness * limiter_.share();
-  const Coupling coupling{out_.wall_stiffness, tuning_.wall_damping, period_, device_.spec().delay, admitted_.hold};
+  const double stiffness = loop_stiffness(tuning_, device_.spec()) * limiter_.share();
+  const Coupling coupling{stiffness, tuning_.wall_damping, period_, device_.spec().delay, admitted_.hold};
   if (admitted_.hold != ContactHold::observer) return couple(coupling, gate_, passage_, proxy_, motion_);
   return couple(coupling, gate_, passage_, proxy_, observer_.update(motion_, out_.commanded, skipped));
 }
@@ -221,12 +232,44 @@ GuardInput HapticLoop::guard_input(std::int64_t skipped) const noexcept {
   return in;
 }
 
+void HapticLoop::drive(const GuardOutput& command) noexcept {
+  if (command.share > 0.0) device_.switch_on();
+  device_.write(command.force);
+  if (own_walls_ > 0.0) tell_walls(command.share);
+}
+
+// A wall must not stand where the lever will be by rights when the device hears of it: what is free now, and what will be
+// free then. A wall that comes nearer comes so much later; until then the loop's part of it holds alone.
+void HapticLoop::tell_walls(double ramp) noexcept {
+  const double kept = std::min(1.0, tuning_.wall_stiffness / own_walls_);  // [1] of a wall softer than the device's
+  const double share = ramp * kept * limiter_.share();
+  if (share == 0.0 && walls_.share == 0.0) return;
+  const double ahead = period_ * (1.0 + device_.spec().delay);
+  const Proxy then = move_proxy(gate_, passage_, proxy_, motion_.position + ahead * motion_.smooth_velocity, 0.0);
+  const FreeSpan free = joined(free_span(gate_, passage_, proxy_.position), free_span(gate_, passage_, then.position));
+  const LeverWalls walls{free.low, free.high, share};
+  if (walls == walls_) return;
+  walls_ = walls;
+  device_.hold_walls(walls);
+}
+
+// What the device makes of such walls, where the lever is. [N]
+dvec2 HapticLoop::own_wall_force(const LeverWalls& walls) const noexcept {
+  const dvec2 inside = glm::clamp(motion_.position, walls.low, walls.high);
+  return walls.share * device_.spec().own_stiffness * (inside - motion_.position);
+}
+
+// The wish is beyond the device: the loop's, or together with what the device makes by itself.
+bool HapticLoop::is_saturated(const GuardOutput& command) const noexcept {
+  const dvec2 all = glm::abs(command.force + own_wall_force(walls_)), most = device_.spec().max_force;
+  return command.saturated || all.x > most.x || all.y > most.y;
+}
+
 // Eq (4): f_j = f_h - f_a.
 void HapticLoop::account_force_flow(const GuardOutput& command) noexcept {
-  const bool is_measured = device_.spec().measures_hand_force;
+  const bool is_measured = device_.spec().measures_hand_force && is_finite(reading_.hand_force);
   if (is_finite(reading_.actuator_force)) out_.f_a = -reading_.actuator_force;
-  if (!is_measured) out_.f_h = estimated_push(command);
-  if (is_measured && is_finite(reading_.hand_force)) out_.f_h = reading_.hand_force;
+  out_.f_h = is_measured ? reading_.hand_force : estimated_push(command);
   out_.f_j = out_.f_h - out_.f_a;
   out_.lever = motion_.position;
   out_.velocity = motion_.smooth_velocity;
@@ -238,14 +281,14 @@ void HapticLoop::account_force_flow(const GuardOutput& command) noexcept {
   set_flag(kFlagFresh, motion_.fresh);
 }
 
-// Without a force sensor: what holds the lever against the motors and its own spring and damping, its inertia left
-// out. Beyond the motors' limit that says nothing, but the displacement does: the push is then what the wall wanted
-// to give back at this depth.
+// Without a force sensor, or one that says no number: what holds the lever against the motors and its own spring and
+// damping, its inertia left out. Beyond the motors' limit that says nothing, but the displacement does: the push is then
+// what the wall wanted to give back at this depth.
 dvec2 HapticLoop::estimated_push(const GuardOutput& command) const noexcept {
   const DeviceSpec& spec = device_.spec();
   const dvec2 damping{spec.axis_x.damping, spec.axis_y.damping};
   const dvec2 stiffness{spec.axis_x.stiffness, spec.axis_y.stiffness};
-  const dvec2 held = command.saturated ? -wanted_force() : out_.f_a;
+  const dvec2 held = is_saturated(command) ? -(wanted_force() + own_wall_force(walls_)) : out_.f_a;
   return held + damping * motion_.smooth_velocity + stiffness * motion_.position;
 }
 
@@ -270,10 +313,12 @@ void HapticLoop::watch_push() noexcept {
 // that force was due (overload).
 void HapticLoop::watch_saturation(const GuardOutput& command) noexcept {
   const std::uint64_t age = 1 + static_cast<std::uint64_t>(device_.spec().delay);
-  const dvec2 due = out_.cycle >= age ? sent_[(out_.cycle - age) % sent_.size()] : dvec2{0.0, 0.0};
-  const bool falls_short = motion_.fresh && glm::length(due + out_.f_a) > kShortfall;
-  sent_[out_.cycle % sent_.size()] = command.force;
-  unsaturated_ = command.saturated || falls_short ? 0.0 : unsaturated_ + period_;
+  const Sent due = out_.cycle >= age ? sent_[(out_.cycle - age) % sent_.size()] : Sent{};
+  const dvec2 expected = due.force + own_wall_force(due.walls);
+  const double moves = own_walls_ * period_ * glm::length(motion_.velocity);  // [N] of that, over a period
+  const bool falls_short = motion_.fresh && glm::length(expected + out_.f_a) > kShortfall + moves;
+  sent_[out_.cycle % sent_.size()] = {command.force, walls_};
+  unsaturated_ = is_saturated(command) || falls_short ? 0.0 : unsaturated_ + period_;
   const bool was = has_flag(kFlagSaturated);
   const bool is = unsaturated_ < kSaturationHold;
   set_flag(kFlagSaturated, is);

@@ -1,6 +1,10 @@
 // The haptic cycle. The same code runs on a real-time thread and on a virtual clock.
 //
 // A force sample in eight calls: read -> estimate -> move proxy -> couple -> feel -> world -> guard -> write.
+//
+// A wall may have two keepers: where the device keeps walls itself (DeviceSpec::own_stiffness), it is told where they are
+// and makes what it can of the wall's stiffness, without delay; the loop makes the rest. HapticTuning::wall_stiffness is
+// the whole wall's.
 #pragma once
 
 #include <array>
@@ -71,7 +75,8 @@ class HapticLoop {
   const DriverControls& controls() const noexcept { return controls_; }  // of the last cycle, on the same thread
   const AdmittedTuning& admitted() const noexcept { return admitted_; }  // at the start
 
-  // Allows forces, ramped up from zero. Before the first cycle, or by LoopCommand::arm while it runs.
+  // Allows forces, ramped up from zero. Before the first cycle, or by LoopCommand::arm while it runs. Nothing while the
+  // device's panic button is held.
   void arm() noexcept;
 
   // While the loop runs, on the thread that owns the channels' writing end: the same check as at the start, and what
@@ -84,6 +89,7 @@ class HapticLoop {
 
  private:
   void take_inputs() noexcept;
+  void read_device(std::int64_t deadline_ns) noexcept;
   void obey(LoopCommand command) noexcept;
   void retune(const HapticTuning& tuning) noexcept;
   void follow_lever() noexcept;
@@ -93,6 +99,10 @@ class HapticLoop {
   LeverOutput run_world(std::int64_t skipped) noexcept;
   GuardInput guard_input(std::int64_t skipped) const noexcept;
   glm::dvec2 wanted_force() const noexcept { return out_.wall_force + out_.feel_force + world_out_.force; }
+  void drive(const GuardOutput& command) noexcept;
+  void tell_walls(double share) noexcept;
+  glm::dvec2 own_wall_force(const LeverWalls& walls) const noexcept;
+  bool is_saturated(const GuardOutput& command) const noexcept;
   glm::dvec2 estimated_push(const GuardOutput& command) const noexcept;
   void account_force_flow(const GuardOutput& command) noexcept;
   void watch_gear() noexcept;
@@ -115,6 +125,7 @@ class HapticLoop {
   LoopChannels& channels_;
   double period_;     // [s]
   double hand_over_;  // [m] per cycle
+  double own_walls_;  // [N/m] that the device keeps by itself
 
   HapticTuning tuning_;
   DriverControls controls_;
@@ -131,12 +142,17 @@ class HapticLoop {
   Passage passage_;
   Proxy proxy_;
   LeverOutput world_out_;
-  bool placed_ = false;                            // the proxy stands where the lever was at the start or at arming
-  bool first_step_ = true;                         // of the world: period 0
-  double healthy_ = 0.0;                           // [s] of fresh readings in a row, to re-arm a simulated lever
-  std::array<glm::dvec2, kMostDelay + 1> sent_{};  // [N] commanded in the last cycles
-  double apart_ = 1.0;                             // [s] since the lever last touched a wall
-  double unsaturated_ = 1.0;                       // [s] since the wanted force was last beyond the device
+  LeverWalls walls_;        // as the device was last told
+  bool placed_ = false;     // the proxy stands where the lever was at the start or at arming
+  bool first_step_ = true;  // of the world: period 0
+  double healthy_ = 0.0;    // [s] of fresh readings in a row, to re-arm a simulated lever
+  struct Sent {
+    glm::dvec2 force{0.0};  // [N]
+    LeverWalls walls;
+  };
+  std::array<Sent, kMostDelay + 1> sent_{};  // in the last cycles
+  double apart_ = 1.0;                       // [s] since the lever last touched a wall
+  double unsaturated_ = 1.0;                 // [s] since the wanted force was last beyond the device
   HapticSnapshot out_;
   StageStamps stamps_;
 };

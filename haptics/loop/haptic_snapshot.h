@@ -11,12 +11,13 @@
 namespace gearshift {
 
 // Bits of HapticSnapshot::flags.
-inline constexpr std::uint32_t kFlagContact = 1u << 0;        // the lever is pressed into a wall
-inline constexpr std::uint32_t kFlagSaturated = 1u << 1;      // the wanted force was beyond the device
-inline constexpr std::uint32_t kFlagOverPush = 1u << 2;       // the hand pushes above the warning threshold
-inline constexpr std::uint32_t kFlagPushEstimated = 1u << 3;  // no force sensor: the push is inferred
-inline constexpr std::uint32_t kFlagGhost = 1u << 4;          // lever and drawn lever are too far apart
-inline constexpr std::uint32_t kFlagFresh = 1u << 5;          // this cycle's reading was new and believed
+inline constexpr std::uint32_t kFlagContact = 1u << 0;    // the lever is pressed into a wall
+inline constexpr std::uint32_t kFlagSaturated = 1u << 1;  // the wanted force was beyond the device
+inline constexpr std::uint32_t kFlagOverPush = 1u << 2;   // the hand pushes above the warning threshold
+inline constexpr std::uint32_t kFlagPushEstimated =
+    1u << 3;                                          // no force sensor, or no number from it: the push is inferred
+inline constexpr std::uint32_t kFlagGhost = 1u << 4;  // lever and drawn lever are too far apart
+inline constexpr std::uint32_t kFlagFresh = 1u << 5;  // this cycle's reading was new and believed
 
 struct HapticSnapshot {
   std::uint64_t cycle = 0;

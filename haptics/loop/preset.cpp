@@ -101,6 +101,7 @@ void read_lever(const TomlTable& table, SimulatedLeverConfig& lever) {
   read_actuator(table, lever.actuator);
   read(table, "coulomb_friction_n", lever.coulomb_friction, {0.0, 1e3});
   read_whole(table, "delay_cycles", lever.delay, {0.0, kMaxDelay});
+  read(table, "own_wall_stiffness_n_per_m", lever.own_stiffness, {0.0, 1e5});
   read_hand(table, lever.hand);
   read(table, "model_error", lever.model_error, {0.0, 0.5});
   read(table, "period_jitter", lever.period_jitter, {0.0, 0.5});

@@ -99,6 +99,7 @@ void put_lever(TomlText& out, const SimulatedLeverConfig& lever) {
   out.put("overload_time_s", lever.actuator.overload_time);
   out.put("coulomb_friction_n", lever.coulomb_friction);
   out.put("delay_cycles", lever.delay);
+  out.put("own_wall_stiffness_n_per_m", lever.own_stiffness);
   out.put("hand", hand_text(lever.hand));
   out.put("model_error", lever.model_error);
   out.put("period_jitter", lever.period_jitter);

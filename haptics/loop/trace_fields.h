@@ -36,8 +36,8 @@ constexpr void each_field(FieldsOf<AxisModel> auto& axis, auto&& visit) {
 }
 
 constexpr void each_field(FieldsOf<DeviceSpec> auto& spec, auto&& visit) {
-  auto& [max_force, continuous_force, workspace, yoke_radius, position_step, delay, axis_x, axis_y, measures,
-         simulated] = spec;
+  auto& [max_force, continuous_force, workspace, yoke_radius, position_step, delay, axis_x, axis_y, own_stiffness,
+         measures, simulated] = spec;
   visit("max_force", max_force);
   visit("continuous_force", continuous_force);
   visit("workspace", workspace);
@@ -46,6 +46,7 @@ constexpr void each_field(FieldsOf<DeviceSpec> auto& spec, auto&& visit) {
   visit("delay", delay);
   visit("axis_x", axis_x);
   visit("axis_y", axis_y);
+  visit("own_stiffness", own_stiffness);
   visit("measures_hand_force", measures);
   visit("simulated", simulated);
 }
@@ -105,7 +106,7 @@ constexpr void each_field(FieldsOf<HapticConfig> auto& config, auto&& visit) {
 }
 
 constexpr void each_field(FieldsOf<LeverReading> auto& reading, auto&& visit) {
-  auto& [sequence, time_ns, position, hand_force, actuator_force, pressed_down, lifted] = reading;
+  auto& [sequence, time_ns, position, hand_force, actuator_force, pressed_down, lifted, stop] = reading;
   visit("sequence", sequence);
   visit("time_ns", time_ns);
   visit("position", position);
@@ -113,6 +114,7 @@ constexpr void each_field(FieldsOf<LeverReading> auto& reading, auto&& visit) {
   visit("actuator_force", actuator_force);
   visit("pressed_down", pressed_down);
   visit("lifted", lifted);
+  visit("stop", stop);
 }
 
 constexpr void each_field(FieldsOf<DriverControls> auto& controls, auto&& visit) {

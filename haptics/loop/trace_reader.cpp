@@ -38,6 +38,7 @@ bool TraceReader::stop_or_fail(const std::string& reason) {
 void TraceReader::open(const std::filesystem::path& file) {
   std::error_code error;
   const std::filesystem::file_status status = std::filesystem::status(file, error);
+  if (status.type() == std::filesystem::file_type::none) fail("cannot be read: " + error.message());
   if (!std::filesystem::exists(status)) fail("there is no such file");
   if (std::filesystem::is_directory(status)) fail("is a directory, not a trace");
   if (!std::filesystem::is_regular_file(status)) fail("is not a regular file");

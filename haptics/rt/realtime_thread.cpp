@@ -17,6 +17,8 @@
 #include <stdexcept>
 #include <utility>
 
+#include "haptics/rt/realtime_scope.h"
+
 namespace gearshift {
 namespace {
 
@@ -63,15 +65,6 @@ std::string lock_memory() {
   if (!may_lock_any_amount()) return "the memory lock was refused (grant it with 'memlock unlimited')";
   if (mlockall(MCL_CURRENT | MCL_FUTURE) == 0) return {};
   return std::string("the memory lock was refused: ") + std::strerror(errno) + " (grant it with 'memlock unlimited')";
-}
-
-std::string schedule_fifo(int priority) {
-  sched_param wanted{};
-  wanted.sched_priority = priority;
-  if (sched_setscheduler(0, SCHED_FIFO | SCHED_RESET_ON_FORK, &wanted) == 0) return {};
-  const std::string level = std::to_string(priority);
-  return "SCHED_FIFO at priority " + level + " was refused: " + std::strerror(errno) + " (grant it with 'rtprio " +
-         level + "')";
 }
 
 std::string pin_to(int core) {

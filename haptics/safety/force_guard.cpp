@@ -57,7 +57,8 @@ GuardOutput ForceGuard::allowed(const GuardInput& in, dvec2 travel) noexcept {
   const dvec2 slewed = glm::clamp(wanted, last_ - config_.slew, last_ + config_.slew);
   last_ = glm::clamp(slewed, -max_force_, max_force_);
   const bool saturated = std::abs(in.force.x) > max_force_.x || std::abs(in.force.y) > max_force_.y;
-  return {last_ * ramp_gain(), saturated};
+  const double share = ramp_gain();
+  return {last_ * share, saturated, share};
 }
 
 // Looks for every fault before a force is let through. What is worse wins.

@@ -45,6 +45,7 @@ struct GuardInput {
 struct GuardOutput {
   glm::dvec2 force{0.0};   // [N] commanded
   bool saturated = false;  // the wanted force was beyond the device on some axis
+  double share = 0.0;      // [1] 0 to 1, of the force that is let through: the ramp; 0 in every state without force
 };
 
 class ForceGuard {

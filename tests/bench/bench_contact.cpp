@@ -60,15 +60,24 @@ std::vector<BenchRow> bench_contact(const BenchOptions& options) {
                               {1000, 1, .10, .11, true}, {4000, 0, .02, .04},       {1000, 2, .12, .3},
                               {1000, 3, .12, .3},        {1000, 4, .12, .3},        {500, 1, .12, .3},
                               {200, 0, .12, .3},         {100, 0, .12, .3}};
+  constexpr double kPlaces = 17.0;
   std::vector<BenchRow> rows;
   double done = 0.0;
   for (const Setting& at : settings) {
-    if (options.progress) options.progress("contact", done++ / 14.0);
+    if (options.progress) options.progress("contact", done++ / kPlaces);
     add(rows, at, "", run_campaign(push_of_20(at, options.quick ? 40 : 400)));
+  }
+  // A stick that keeps a part of the wall by itself, beside the same one that keeps none: {1000, 3} above.
+  for (const double own : {400.0, 1000.0, 3000.0}) {
+    if (options.progress) options.progress("contact", done++ / kPlaces);
+    const Setting at{1000, 3, .12, .3};
+    Campaign campaign = push_of_20(at, options.quick ? 40 : 400);
+    campaign.contact.lever.own_stiffness = own;
+    add(rows, at, "device's own walls of " + std::to_string(static_cast<int>(own)) + " N/m, ", run_campaign(campaign));
   }
   // The same wall forced on a device that does not bear it: what the reversal limiter finds by itself.
   for (const Setting& at : {Setting{100, 0, .3, .3}, Setting{200, 0, .3, .3}, Setting{1000, 3, .3, .3}}) {
-    if (options.progress) options.progress("contact", done++ / 14.0);
+    if (options.progress) options.progress("contact", done++ / kPlaces);
     Campaign campaign = push_of_20(at, options.quick ? 20 : 100);
     campaign.contact.haptics.contact.study = true;
     campaign.contact.haptics.contact.hold = ContactHold::half_sample;

@@ -1,4 +1,5 @@
 // Cost of the whole haptic cycle, and of its stages.
+#include <algorithm>
 #include <array>
 #include <string>
 #include <vector>
@@ -82,6 +83,18 @@ Medians run_tours(const Gate& gate, const Tape& tape, int runs, const BenchOptio
   return medians;
 }
 
+// A stick that keeps walls itself: it is told where they are.
+Tape with_own_walls(Tape tape) {
+  tape.spec.own_stiffness = {1000.0, 1000.0};
+  return tape;
+}
+
+// A stick that was unplugged: the same reading for ever.
+Tape silent(Tape tape) {
+  std::fill(tape.readings.begin(), tape.readings.end(), tape.readings.front());
+  return tape;
+}
+
 }  // namespace
 
 std::vector<BenchRow> bench_cycle(const BenchOptions& options) {
@@ -94,6 +107,12 @@ std::vector<BenchRow> bench_cycle(const BenchOptions& options) {
                              {"cycle", "whole cycle p99", quantile(medians.p99, 0.5), "ns", 500.0, false, note},
                              {"cycle", "cycles in contact", 100.0 * tape.contact_share, "%", 30.0, true,
                               "gripping hand, paper's gate, 1 kHz"}};
+  Medians walls = run_tours(gate, with_own_walls(tape), runs, options);
+  rows.push_back(
+      {"cycle", "whole cycle p50, walls that the device keeps", quantile(walls.p50, 0.5), "ns", {}, false, note});
+  Medians lost = run_tours(gate, silent(tape), runs, options);
+  rows.push_back({"cycle", "whole cycle p50, never a fresh reading", quantile(lost.p50, 0.5), "ns",
+                  quantile(medians.p50, 0.5), false, "no more than with fresh ones"});
   for (std::size_t s = 0; s < kStages; ++s) {
     const std::string stage = std::string("stage ") + kStageNames[s];
     rows.push_back(

@@ -64,6 +64,12 @@ std::vector<BenchRow> bench_faults(const BenchOptions& options) {
     rows.push_back(row(name, cycles, 1.0, state_of(rig)));
   }
   {
+    PressedRig rig(gate);
+    rig.lever.sabotage = [](LeverReading& reading) { reading.stop = true; };
+    const int cycles = rig.cycles_to_zero();
+    rows.push_back(row("the device's panic button", cycles, 1.0, state_of(rig)));
+  }
+  {
     PressedRig rig(gate);  // every cycle late by two periods; damping alone is left, and fades with the motion
     int cycles = 0;
     for (; cycles < 1000 && glm::length(rig.lever.written) > 0.05; ++cycles) rig.run(1, 2);

@@ -4,7 +4,7 @@
 set -u
 cd "$1" || exit 1
 
-haptics="haptics/files haptics/rt haptics/joystick haptics/gate haptics/device haptics/contact haptics/analysis haptics/safety haptics/loop"
+haptics="haptics/files haptics/rt haptics/joystick haptics/gate haptics/device haptics/contact haptics/analysis haptics/safety haptics/loop haptics/hid haptics/usb haptics/hardware"
 shared="app/assets_path app/energy_words app/event_words app/hold_words app/limited_words app/output_folder app/program_name app/user_cache"
 pictures="engine/gpu engine/image engine/model engine/render engine/scene engine/ui engine/window"
 declare -A sees=(
@@ -12,7 +12,9 @@ declare -A sees=(
   [haptics/gate]="haptics/files" [haptics/device]="haptics/joystick haptics/rt"
   [haptics/contact]="haptics/gate haptics/device haptics/files haptics/joystick haptics/rt"
   [haptics/analysis]="haptics/contact haptics/safety haptics/gate haptics/device haptics/files haptics/joystick haptics/rt"
-  [haptics/safety]="haptics/device haptics/joystick haptics/rt" [haptics/loop]="$haptics"
+  [haptics/safety]="haptics/device haptics/joystick haptics/rt" [haptics/loop]="haptics/files haptics/rt haptics/joystick haptics/gate haptics/device haptics/contact haptics/analysis haptics/safety"
+  [haptics/hid]="" [haptics/usb]="haptics/files haptics/hid"
+  [haptics/hardware]="haptics/device haptics/joystick haptics/files haptics/hid haptics/rt"
   [engine/image]="" [engine/model]="engine/image" [engine/scene]="engine/model engine/image"
   [engine/light]="engine/image" [engine/gpu]="engine/image"
   [engine/render]="engine/gpu engine/scene engine/light engine/model engine/image"
@@ -23,12 +25,13 @@ declare -A sees=(
   [app/coach]="$haptics $shared app/training app/history app/vehicle"
   [app/draw]="$haptics" [app/report]="$haptics $shared app/history app/training app/vehicle app/draw app/replay"
   [app/learner]="$haptics app/training app/vehicle"
+  [app/devices]="$haptics app/input engine/window engine/gpu engine/image"
   [app/trainer]="$haptics app/vehicle app/training" [app/input]="$haptics engine/window engine/gpu engine/image"
   [app/stage]="$haptics app/vehicle engine/scene engine/model engine/image"
   [app/cabin_sound]="$haptics app/vehicle engine/scene engine/model engine/image engine/sound"
   [app/panel]="$haptics $shared app/trainer app/vehicle app/training app/history app/coach app/replay engine/ui engine/gpu engine/image"
   [app/view]="$haptics $shared app/stage app/vehicle $pictures"
-  [app/train]="$haptics $shared app/input app/trainer app/vehicle app/training app/history app/coach app/replay app/learner app/stage app/cabin_sound app/panel app/view engine/sound $pictures"
+  [app/train]="$haptics $shared app/devices app/input app/trainer app/vehicle app/training app/history app/coach app/replay app/learner app/stage app/cabin_sound app/panel app/view engine/sound $pictures"
 )
 failed=0
 passed=0

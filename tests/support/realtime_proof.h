@@ -3,7 +3,8 @@
 // The code runs once, in a forked child, so that the test's own state stays as it was. There
 //   allocations   are counted by standing in for malloc, free and their kin, where operator new ends, too
 //   locks         by standing in for the pthread and semaphore calls where std::mutex and its kin end
-//   system calls  are trapped by a seccomp filter that lets nothing through but the exit
+//   system calls  are trapped by a seccomp filter that lets nothing through but the exit, and writes to the one
+//                 descriptor that is named: a device's own
 // Reading the clock through the vDSO is no system call. (Seccomp's strict mode would not do: it forbids the
 // time stamp counter that the vDSO reads.)
 //
@@ -28,7 +29,7 @@ struct RealtimeProof {
   std::string verdict() const;  // one sentence
 };
 
-// `work` must not throw. Must not be called from inside itself.
-RealtimeProof prove_realtime(const std::function<void()>& work);
+// `work` must not throw. Must not be called from inside itself. written: a descriptor that it may write to; -1: none.
+RealtimeProof prove_realtime(const std::function<void()>& work, int written = -1);
 
 }  // namespace gearshift

@@ -97,6 +97,27 @@ double energy_share(const AxisModel& axis, const Coupling& wall, double speed, d
 
 }  // namespace
 
+// A stick that is unplugged: 20 N of a hand against a wall, taken as constant, would carry the model off by metres.
+TEST_CASE("without samples it stays where the last one was, and begins anew with the next") {
+  constexpr double kPeriod = 0.001;
+  DeviceSpec spec;
+  spec.delay = 3;
+  LeverObserver observer(spec, kPeriod);
+  LeverMotion motion;
+  motion.position = {0.02, 0.01};
+  motion.fresh = true;
+  for (int n = 0; n < 300; ++n) observer.update(motion, {-20.0, 0.0});  // it stands still: the hand gives as much
+  motion.fresh = false;
+  ObservedMotion seen;
+  for (int n = 0; n < 1000; ++n) seen = observer.update(motion, {0.0, 0.0});
+  CHECK(seen.position.x == doctest::Approx(0.02).epsilon(0.01));
+  motion.position = {0.05, -0.03};
+  motion.fresh = true;
+  seen = observer.update(motion, {0.0, 0.0});
+  CHECK(seen.position.x == doctest::Approx(0.05).epsilon(0.01));
+  CHECK(seen.position.y == doctest::Approx(-0.03).epsilon(0.01));
+}
+
 TEST_CASE("solved hold, true model, no damping: the wall gives back what it took, to rounding, at any K and T") {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> unit(0.0, 1.0);

@@ -298,6 +298,9 @@ TEST_CASE("a bad value is refused in one sentence with parameter, value and allo
   config.delay = 9;
   CHECK(refusal(config) == "SimulatedLever: delay = 9: must be between 0 and 8 cycles");
   config = {};
+  config.own_stiffness = -1.0;
+  CHECK(refusal(config) == "SimulatedLever: own_stiffness = -1: must be between 0 and 100000 N/m");
+  config = {};
   config.axis_x.mass = 0.0;
   CHECK(refusal(config) == "SimulatedLever: axis_x.mass = 0: must be between 0.001 and 1000 kg");
   config = {};

@@ -53,6 +53,10 @@ TEST_CASE("what is not a readable file is refused in one sentence") {
   CHECK(refusal(scratch.path()) == scratch.path().string() + ": is a folder, not a file");
   CHECK(refusal("/dev/zero") == "/dev/zero: is not a plain file");
 
+  const fs::path loop = scratch / "loop";  // to itself: what is behind it is not known, for root neither
+  fs::create_symlink(loop, loop);
+  CHECK(refusal(loop) == loop.string() + ": cannot be read: Too many levels of symbolic links");
+
   const fs::path secret = write(scratch / "secret", "x");
   fs::permissions(secret, fs::perms::none);
   if (geteuid() != 0) CHECK(refusal(secret) == secret.string() + ": cannot be read");  // root reads everything

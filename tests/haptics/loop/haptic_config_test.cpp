@@ -4,8 +4,10 @@
 #include <algorithm>
 #include <initializer_list>
 #include <limits>
+#include <set>
 #include <stdexcept>
 #include <string>
+#include <tuple>
 
 #include <doctest/doctest.h>
 
@@ -101,23 +103,26 @@ TEST_CASE("whatever is admitted is stable: in the wall, in every softer one, in 
   damped.wall_damping = 100.0;
   damped.aisle_damping = 50.0;
   damped.limit_damping = 50.0;
+  std::set<std::tuple<ContactHold, double, double, double, int, double>> seen;  // what two tunings both come to
+  const auto check = [&seen](ContactHold as, double stiffness, double damping, double free, int delay, double rate) {
+    if (!seen.insert({as, stiffness, damping, free, delay, rate}).second) return;
+    const ContactLaw law{as, stiffness, damping, 1, free, 0.004, delay};
+    for (const NamedHand& named : kNamedHands)
+      for (const AxisModel& axis : {kPaperAxisX, kPaperAxisY})
+        CHECK(spectral_radius(axis, named.hand, law, 1.0 / rate) < 1.0);
+  };
   for (const HapticTuning& wanted : {HapticTuning{}, damped}) {
     for (const double rate : {100.0, 200.0, 500.0, 1000.0, 2000.0, 4000.0}) {
       for (int delay = 0; delay <= 8; ++delay) {
         for (const ContactHold hold : {ContactHold::zero_order, ContactHold::half_sample, ContactHold::observer}) {
           const AdmittedTuning used = admitted(wanted, rate, delay, hold);
-          const auto check = [&](ContactHold as, double stiffness, double damping, double free) {
-            const ContactLaw law{as, stiffness, damping, 1, free, 0.004, delay};
-            for (const NamedHand& named : kNamedHands)
-              for (const AxisModel& axis : {kPaperAxisX, kPaperAxisY})
-                CHECK(spectral_radius(axis, named.hand, law, 1.0 / rate) < 1.0);
-          };
           const HapticTuning& t = used.tuning;
           for (const double share : {1.0, 0.75, 0.5, 0.1}) {
-            check(used.hold, share * t.wall_stiffness, t.wall_damping, t.aisle_damping);
-            check(used.hold, share * t.wall_stiffness, t.wall_damping, t.aisle_damping + t.limit_damping);
+            const double stiffness = share * t.wall_stiffness;
+            check(used.hold, stiffness, t.wall_damping, t.aisle_damping, delay, rate);
+            check(used.hold, stiffness, t.wall_damping, t.aisle_damping + t.limit_damping, delay, rate);
           }
-          check(ContactHold::zero_order, 0.0, 0.0, t.aisle_damping + t.limit_damping);
+          check(ContactHold::zero_order, 0.0, 0.0, t.aisle_damping + t.limit_damping, delay, rate);
         }
       }
     }
@@ -151,6 +156,8 @@ TEST_CASE("a device that describes itself as nonsense is refused") {
   refused([](DeviceSpec& s) { s.workspace.y = -0.1; });
   refused([](DeviceSpec& s) { s.yoke_radius = -0.12; });
   refused([](DeviceSpec& s) { s.position_step = -1e-5; });
+  refused([](DeviceSpec& s) { s.own_stiffness.x = -1.0; });
+  refused([](DeviceSpec& s) { s.own_stiffness.y = std::numeric_limits<double>::quiet_NaN(); });
   refused([](DeviceSpec& s) { s.delay = 16; });
   refused([](DeviceSpec& s) { s.delay = -1; });
   refused([](DeviceSpec& s) { s.axis_x.mass = 0.0; });
@@ -202,4 +209,98 @@ TEST_CASE("no feel stiffer than the wall that carries the proxy") {
   wanted.feel_scale = 4.0;
   const HapticTuning used = admitted(wanted, 1000.0, 0).tuning;
   CHECK(used.feel_scale * stiffest_feel(paper_gate()) <= used.wall_stiffness * (1.0 + 1e-12));
+}
+
+namespace {
+
+AdmittedTuning admitted_beside(double own, double wanted, int delay, ContactHold hold = ContactHold::automatic) {
+  HapticConfig config;
+  config.tuning.wall_stiffness = wanted;
+  config.contact.hold = hold;
+  DeviceSpec spec;
+  spec.delay = delay;
+  spec.own_stiffness = {own, own};
+  return admit_tuning(config, spec, paper_gate());
+}
+
+const Limited* limit_of_wall(const AdmittedTuning& admitted) {
+  for (const Limited& limited : admitted.limited)
+    if (limited.what == "wall_stiffness_n_per_m") return &limited;
+  return nullptr;
+}
+
+}  // namespace
+
+TEST_CASE("what the device keeps of a wall the loop does not make: wanted less own, never below none") {
+  DeviceSpec spec;
+  spec.own_stiffness = {400.0, 500.0};
+  const HapticTuning wanted{.wall_stiffness = 1000.0};
+  CHECK(loop_stiffness(wanted, spec) == 600.0);  // what both axes have counts
+  CHECK(loop_stiffness({.wall_stiffness = 300.0}, spec) == 0.0);
+  spec.own_stiffness.x = 0.0;
+  CHECK(loop_stiffness(wanted, spec) == 1000.0);
+
+  // Without delay all of it is admitted, and the wall is the wanted one, whoever keeps it.
+  const AdmittedTuning prompt = admitted_beside(1000.0, 5000.0, 0);
+  CHECK(prompt.tuning.wall_stiffness == 5000.0);
+  CHECK(limit_of_wall(prompt) == nullptr);
+}
+
+TEST_CASE("where the loop may not make the rest, the wall is its part and the device's, and that is said") {
+  const double quiet = 0.35 * 0.086 / 16e-6;  // 3 samples of delay at 1 kHz
+  const AdmittedTuning used = admitted_beside(400.0, 5000.0, 3, ContactHold::half_sample);
+  CHECK(used.tuning.wall_stiffness == doctest::Approx(quiet + 400.0));
+  const Limited* wall = limit_of_wall(used);
+  REQUIRE(wall != nullptr);
+  CHECK(wall->wanted == 5000.0);
+  CHECK(wall->used == used.tuning.wall_stiffness);
+  CHECK(wall->bound == used.tuning.wall_stiffness);
+  CHECK(wall->law ==
+        "quiet half-sample hold: K <= 0.35 m / tau^2, tau = (delay + 1) T; and 400 N/m that the device "
+        "keeps itself");
+  // Where the two make what is wanted, nothing was limited. The simpler hold does then.
+  const AdmittedTuning both = admitted_beside(1000.0, quiet + 900.0, 3);
+  CHECK(both.tuning.wall_stiffness == quiet + 900.0);
+  CHECK(limit_of_wall(both) == nullptr);
+  CHECK(both.hold == ContactHold::half_sample);
+}
+
+TEST_CASE("feel is the loop's alone: a wall that the device keeps does not let it be stiffer") {
+  HapticConfig config;
+  config.tuning.feel_scale = 4.0;
+  DeviceSpec spec;
+  spec.delay = 3;
+  spec.own_stiffness = {4000.0, 4000.0};
+  const AdmittedTuning used = admit_tuning(config, spec, paper_gate());
+  CHECK(used.tuning.wall_stiffness > 4000.0);
+  CHECK(used.tuning.feel_scale * stiffest_feel(paper_gate()) <= 0.35 * 0.086 / 16e-6 * (1.0 + 1e-12));
+}
+
+TEST_CASE("whatever is admitted beside own walls is stable with all of these, half of them and none") {
+  for (const double own : {400.0, 3000.0, 20000.0}) {
+    for (const int delay : {0, 1, 3, 6, 8}) {
+      for (const ContactHold hold : {ContactHold::half_sample, ContactHold::observer}) {
+        CAPTURE(own);
+        CAPTURE(delay);
+        const AdmittedTuning used = admitted_beside(own, 5000.0, delay, hold);
+        const HapticTuning& t = used.tuning;
+        DeviceSpec spec;
+        spec.own_stiffness = {own, own};
+        const double kept = std::min(own, t.wall_stiffness), loops = loop_stiffness(t, spec);
+        for (const double share : {0.0, 0.5, 1.0}) {
+          for (const double free : {t.aisle_damping, t.aisle_damping + t.limit_damping}) {
+            for (NamedHand named : kNamedHands) {
+              named.hand.stiffness += share * kept;  // the loop knows of it no more than of a hand
+              for (const AxisModel& axis : {kPaperAxisX, kPaperAxisY}) {
+                const ContactLaw in_wall{used.hold, loops, t.wall_damping, 1, free, 0.004, delay};
+                CHECK(spectral_radius(axis, named.hand, in_wall, 0.001) < 1.0);
+                const ContactLaw outside{ContactHold::zero_order, 0.0, 0.0, 1, free, 0.004, delay};
+                CHECK(spectral_radius(axis, named.hand, outside, 0.001) < 1.0);
+              }
+            }
+          }
+        }
+      }
+    }
+  }
 }

@@ -177,6 +177,120 @@ TEST_CASE("stop: motors off in the same cycle, and released until a person arms 
   CHECK(rig.loop.snapshot().guard == GuardState::released);
 }
 
+TEST_CASE("the device's panic button: motors off in the cycle of its reading, whatever else that reading says") {
+  using Spoil = void (*)(LeverReading&);
+  const Spoil spoils[] = {[](LeverReading&) {}, [](LeverReading& r) { r.sequence = 3; },
+                          [](LeverReading& r) { r.position.x = kNan; }, [](LeverReading& r) { r.time_ns = 0; }};
+  for (const Spoil spoil : spoils) {
+    PressedRig rig(paper_gate());
+    REQUIRE(glm::length(rig.lever.written) > 10.0);
+    rig.lever.sabotage = [spoil](LeverReading& r) {
+      r.stop = true;
+      spoil(r);
+    };
+    CHECK(rig.cycles_to_zero() == 1);
+    CHECK(rig.lever.releases == 1);
+    CHECK(rig.loop.snapshot().guard == GuardState::released);
+    CHECK(rig.loop.snapshot().fault == GuardFault::stopped);
+  }
+}
+
+TEST_CASE("while the panic button is held nothing arms the loop; let go, a person does, and nobody else") {
+  PressedRig rig(paper_gate());
+  rig.lever.sabotage = [](LeverReading& r) { r.stop = true; };
+  rig.run(1);
+  for (int i = 0; i < 100; ++i) {
+    rig.channels.commands.push(LoopCommand::arm);
+    rig.run(1);
+    REQUIRE(rig.loop.snapshot().guard == GuardState::released);
+    REQUIRE(rig.lever.written == dvec2{0.0, 0.0});
+  }
+  rig.lever.sabotage = nullptr;
+  rig.run(1000);
+  CHECK(rig.loop.snapshot().guard == GuardState::released);
+  rig.channels.commands.push(LoopCommand::arm);
+  rig.run(1000);
+  CHECK(rig.loop.snapshot().guard == GuardState::running);
+}
+
+TEST_CASE("armed and stopped in one cycle is stopped; and a button that is held from the start keeps a loop idle") {
+  PressedRig rig(paper_gate());
+  rig.channels.commands.push(LoopCommand::disarm);
+  rig.run(1);
+  rig.channels.commands.push(LoopCommand::arm);
+  rig.lever.sabotage = [](LeverReading& r) { r.stop = true; };
+  rig.run(1);
+  CHECK(rig.loop.snapshot().guard == GuardState::released);
+
+  // A simulated lever, which arms itself again after other faults, does not after this one.
+  class Pressed final : public HapticDevice {
+   public:
+    const DeviceSpec& spec() const noexcept override { return lever_.spec(); }
+    LeverReading read(std::int64_t now_ns) noexcept override {
+      LeverReading reading = lever_.read(now_ns);
+      reading.stop = held;
+      return reading;
+    }
+    void write(dvec2 force) noexcept override { lever_.write(force); }
+    void release() noexcept override { lever_.release(); }
+    bool held = true;
+
+   private:
+    RestingHand nobody_;
+    SimulatedLever lever_{{}, kPeriodNs, nobody_};
+  };
+  Pressed lever;
+  NullWorld world;
+  LoopChannels channels;
+  HapticLoop loop(HapticConfig{}, rig.gate, lever, world, channels);
+  std::int64_t now = 0;
+  const auto run = [&](int cycles) {
+    for (int i = 0; i < cycles; ++i) loop.cycle(now += kPeriodNs, 0);
+  };
+  run(10);
+  channels.commands.push(LoopCommand::arm);
+  run(10);
+  CHECK(loop.snapshot().guard == GuardState::idle);
+  lever.held = false;
+  run(10);
+  channels.commands.push(LoopCommand::arm);
+  run(600);
+  CHECK(loop.snapshot().guard == GuardState::running);
+  lever.held = true;
+  run(1);
+  lever.held = false;
+  run(1000);
+  CHECK(loop.snapshot().guard == GuardState::released);
+}
+
+TEST_CASE("a stop that comes while the lever is damped takes what was left: the force that fades, too") {
+  PressedRig rig(paper_gate());
+  rig.run(8, 1);
+  REQUIRE(rig.loop.snapshot().guard == GuardState::damped);
+  rig.channels.commands.push(LoopCommand::stop);
+  rig.run(1);
+  CHECK(rig.lever.written == dvec2{0.0, 0.0});
+  CHECK(rig.loop.snapshot().guard == GuardState::released);
+  CHECK(rig.loop.snapshot().fault == GuardFault::stopped);
+}
+
+TEST_CASE("a lever beyond the device's workspace and its margin: motors off in the cycle that believes it") {
+  PressedRig rig(paper_gate());
+  const double most = rig.lever.spec().workspace.y + GuardConfig{}.position_margin;
+  rig.lever.sabotage = [y = rig.loop.snapshot().lever.y](LeverReading& r) mutable {
+    r.position.y = y += 0.004;  // 4 m/s: believed
+  };
+  for (int i = 0; i < 100 && rig.loop.snapshot().lever.y <= most; ++i) {
+    CHECK(rig.loop.snapshot().guard == GuardState::running);
+    rig.run(1);
+  }
+  CHECK(rig.loop.snapshot().lever.y > most);
+  CHECK(rig.lever.written == dvec2{0.0, 0.0});
+  CHECK(rig.lever.releases == 1);
+  CHECK(rig.loop.snapshot().guard == GuardState::released);
+  CHECK(rig.loop.snapshot().fault == GuardFault::limit_broken);
+}
+
 TEST_CASE("arming starts anew where the lever is: no pull from where it was") {
   PressedRig rig(paper_gate());
   rig.channels.commands.push(LoopCommand::disarm);

@@ -55,7 +55,7 @@ void check_equal(const T& a, const T& b, const std::string& name) {
 
 // Taken apart by structured bindings: a struct that gains a member no longer compiles here.
 void check_equal(const SimulatedLeverConfig& a, const SimulatedLeverConfig& b) {
-  const auto& [yoke, axis_x, axis_y, friction, counts, actuator, sensor, delay, hand, error, jitter, seed] = a;
+  const auto& [yoke, axis_x, axis_y, friction, counts, actuator, sensor, delay, own, hand, error, jitter, seed] = a;
   const auto& [radius, theta, phi] = yoke;
   const auto& [peak, continuous, overload] = actuator;
   const auto& [offset, gain, resolution, range, noise] = sensor;
@@ -69,7 +69,7 @@ void check_equal(const SimulatedLeverConfig& a, const SimulatedLeverConfig& b) {
   CHECK((resolution == b.force_sensor.resolution_gw && range == b.force_sensor.range_gw));
   CHECK((noise == b.force_sensor.noise_gw && hand_mass == b.hand.mass && hand_damping == b.hand.damping));
   CHECK((hand_stiffness == b.hand.stiffness && error == b.model_error && jitter == b.period_jitter));
-  CHECK(seed == b.seed);
+  CHECK((own == b.own_stiffness && seed == b.seed));
 }
 
 }  // namespace
@@ -110,6 +110,7 @@ continuous_force_n = 6
 overload_time_s = 2
 coulomb_friction_n = 0.25
 delay_cycles = 3
+own_wall_stiffness_n_per_m = 900
 hand = "0.2,4,300"
 model_error = 0.05
 period_jitter = 0.1
@@ -141,6 +142,7 @@ noise_gw = 5)")
                                 {8.0, 6.0, 2.0},
                                 {1.0, 2.0, 3.0, 4.0, 5.0},
                                 3,
+                                900.0,
                                 {0.2, 4.0, 300.0},
                                 0.05,
                                 0.1,

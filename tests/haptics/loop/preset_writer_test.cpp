@@ -57,7 +57,7 @@ class RandomPreset {
 
   // Angles as a file has them: in degrees.
   void fill(SimulatedLeverConfig& lever) {
-    auto& [yoke, axis_x, axis_y, friction, counts, actuator, sensor, delay, hand, error, jitter, seed] = lever;
+    auto& [yoke, axis_x, axis_y, friction, counts, actuator, sensor, delay, own, hand, error, jitter, seed] = lever;
     const double degree = std::numbers::pi / 180.0;
     yoke = {between(0.01, 10.0), between(1.0, 80.0) * std::numbers::pi / 180.0, 35.0 * degree};
     axis_x = {between(1e-3, 1e3), between(0.0, 1e4), between(0.0, 1e6)};
@@ -69,6 +69,7 @@ class RandomPreset {
     actuator.overload_time = between(0.0, 1e4);
     sensor = {between(-1e9, 1e9), between(1e-9, 1e9), between(0.0, 1e6), between(1e-3, 1e9), between(0.0, 1e6)};
     delay = static_cast<int>(chance_() % 9);
+    own = flag() ? 0.0 : between(0.0, 1e5);
     hand = flag() ? kNamedHands[chance_() % 4].hand
                   : HandImpedance{between(0.0, 1e3), between(0.0, 1e4), between(0.0, 1e6)};
     error = between(0.0, 0.5);
@@ -87,7 +88,7 @@ std::vector<std::byte> bytes_of(const HapticConfig& config) {
 
 // Taken apart by structured bindings: a struct that gains a member no longer compiles here.
 std::vector<double> numbers_of(const SimulatedLeverConfig& lever) {
-  const auto& [yoke, x, y, friction, counts, actuator, sensor, delay, hand, error, jitter, seed] = lever;
+  const auto& [yoke, x, y, friction, counts, actuator, sensor, delay, own, hand, error, jitter, seed] = lever;
   const auto& [radius, theta, phi] = yoke;
   const auto& [peak, continuous, overload] = actuator;
   const auto& [offset, gain, resolution, range, noise] = sensor;
@@ -112,6 +113,7 @@ std::vector<double> numbers_of(const SimulatedLeverConfig& lever) {
           range,
           noise,
           static_cast<double>(delay),
+          own,
           hand_mass,
           hand_damping,
           hand_stiffness,

@@ -1,5 +1,5 @@
 // A drive in which everything happens that can happen to a loop: shifts, walls, a frozen sensor, readings
-// that are no numbers, late cycles, new tuning, other controls, commands.
+// that are no numbers, the panic button, late cycles, new tuning, other controls, commands. The device keeps walls itself.
 #pragma once
 
 #include <cstdint>
@@ -31,9 +31,11 @@ class FailingSensor final : public HapticDevice {
     if (cycle == 1700) reading.position.x = std::numeric_limits<double>::quiet_NaN();
     if (cycle == 1710) reading.hand_force.y = std::numeric_limits<double>::infinity();
     if (cycle == 1720) reading.position.y += 0.5;  // faster than any hand
+    reading.stop = cycle >= 3300 && cycle < 3320;
     return frozen_ = reading;
   }
   void write(glm::dvec2 force) noexcept override { lever_.write(force); }
+  void hold_walls(const LeverWalls& walls) noexcept override { lever_.hold_walls(walls); }
   void release() noexcept override { lever_.release(); }
 
  private:
@@ -75,6 +77,7 @@ class RecordedDrive {
     if (cycle == 1300) channels_.tuning.write(loop_.admitted().tuning);
     if (cycle == 2600) (void)channels_.commands.push(LoopCommand::disarm);
     if (cycle == 2650) (void)channels_.commands.push(LoopCommand::arm);
+    if (cycle == 3310 || cycle == 3350) (void)channels_.commands.push(LoopCommand::arm);  // held still; let go
     if (cycle == 3800) (void)channels_.commands.push(LoopCommand::stop);
     // Every second deadline missed for a while: more overruns in a row than the guard bears.
     const std::int64_t skipped = cycle >= 2000 && cycle < 2012 ? 1 : 0;
@@ -111,6 +114,7 @@ class RecordedDrive {
   static SimulatedLeverConfig lever_config() {
     SimulatedLeverConfig config;
     config.hand = kGripHand;
+    config.own_stiffness = 300.0;
     return config;
   }
 

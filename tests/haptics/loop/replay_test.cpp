@@ -99,6 +99,9 @@ TEST_CASE("replay: the drive of these tests meets what it is there to meet") {
   CHECK(guards.count(GuardState::idle) + guards.count(GuardState::running) + guards.count(GuardState::damped) == 3);
   CHECK(guards.count(GuardState::released) == 1);
   CHECK(faults.count(GuardFault::stale_reading) == 1);
+  CHECK(recorded_trace().samples[3300].out.fault == GuardFault::stopped);
+  CHECK(recorded_trace().samples[3319].out.guard == GuardState::released);
+  CHECK(recorded_trace().samples[3700].out.guard == GuardState::running);
   CHECK(gears.size() >= 3);
   CHECK(contacts > 500);
 }

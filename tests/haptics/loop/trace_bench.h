@@ -51,7 +51,7 @@ inline TraceSample any_sample(std::mt19937_64& random, std::uint64_t cycle) {
   s.reading = {random(),           static_cast<std::int64_t>(random()),
                any_vector(random), any_vector(random),
                any_vector(random), random() % 2 == 0,
-               random() % 2 == 0};
+               random() % 2 == 0,  random() % 2 == 0};
   s.controls = {any_double(random), any_double(random), any_double(random),
                 any_double(random), random() % 2 == 0,  random() % 2 == 0};
   s.tuning = {any_double(random), any_double(random), any_double(random),

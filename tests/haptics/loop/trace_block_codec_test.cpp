@@ -15,7 +15,7 @@ namespace {
 
 using Block = std::vector<std::byte>;
 
-constexpr std::size_t kSample = 391;  // [bytes] per cycle
+constexpr std::size_t kSample = 392;  // [bytes] per cycle
 
 Block encoded(const std::vector<TraceSample>& samples) {
   Block bytes;
@@ -76,15 +76,15 @@ TEST_CASE("block codec: bytes that are zero by chance, as often as can be worst,
   }
 }
 
-// By hand, from the format's description. Fields: reading.sequence from byte 16, f_a from 329. f_a is expected to be
-// the actuators' force turned round: where both are +0 the sign bits are left over, in bytes 336 and 344.
+// By hand, from the format's description. Fields: reading.sequence from byte 16, f_a from 330. f_a is expected to be
+// the actuators' force turned round: where both are +0 the sign bits are left over, in bytes 337 and 345.
 TEST_CASE("block codec: the bytes of small blocks") {
-  // 336 = 2 x 128 + 80 zeros, one byte; 7 zeros, one byte; 46 zeros, none.
-  CHECK(coded(Block(kSample)) == text({128 + 80, 2, 1, 0x80, 7, 1, 0x80, 46, 0}));
+  // 337 = 2 x 128 + 81 zeros, one byte; 7 zeros, one byte; 46 zeros, none.
+  CHECK(coded(Block(kSample)) == text({128 + 81, 2, 1, 0x80, 7, 1, 0x80, 46, 0}));
 
   Block samples(2 * kSample);  // planes of two bytes; the second sequence is as the first
   samples[23] = samples[kSample + 23] = std::byte{0x40};
-  const int between = 2 * 336 - (2 * 23 + 1);
+  const int between = 2 * 337 - (2 * 23 + 1);
   CHECK(coded(samples) ==
         text({2 * 23, 1, 0x40, 128 + between % 128, between / 128, 2, 0x80, 0x80, 2 * 7, 2, 0x80, 0x80, 2 * 46, 0}));
 }

@@ -35,8 +35,8 @@ bool same_sample(const TraceSample& a, const TraceSample& b) {
   return a.deadline_ns == b.deadline_ns && a.skipped == b.skipped && a.command == b.command &&
          r.sequence == q.sequence && r.time_ns == q.time_ns && same_bits(r.position, q.position) &&
          same_bits(r.hand_force, q.hand_force) && same_bits(r.actuator_force, q.actuator_force) &&
-         r.pressed_down == q.pressed_down && r.lifted == q.lifted && bits(c.throttle) == bits(d.throttle) &&
-         bits(c.brake) == bits(d.brake) && bits(c.clutch) == bits(d.clutch) &&
+         r.pressed_down == q.pressed_down && r.lifted == q.lifted && r.stop == q.stop &&
+         bits(c.throttle) == bits(d.throttle) && bits(c.brake) == bits(d.brake) && bits(c.clutch) == bits(d.clutch) &&
          bits(c.hand_brake) == bits(d.hand_brake) && c.ignition == d.ignition && c.starter == d.starter &&
          bits(t.wall_stiffness) == bits(u.wall_stiffness) && bits(t.wall_damping) == bits(u.wall_damping) &&
          bits(t.feel_scale) == bits(u.feel_scale) && bits(t.aisle_damping) == bits(u.aisle_damping) &&
@@ -103,6 +103,7 @@ TEST_CASE("trace: the header comes back whole") {
   header.config.ghost_offset = std::nextafter(0.02, 1.0);
   header.device.delay = 1;
   header.device.axis_y.mass = 0.5;
+  header.device.own_stiffness = {400.0, 300.0};
   header.gate_text += "# \xC3\xBC and a zero: ";
   header.gate_text.push_back('\0');
   header.world = "driveline 7";
@@ -116,6 +117,7 @@ TEST_CASE("trace: the header comes back whole") {
   CHECK(back.config.ghost_offset == std::nextafter(0.02, 1.0));
   CHECK(back.device.delay == 1);
   CHECK(back.device.axis_y.mass == 0.5);
+  CHECK(back.device.own_stiffness == glm::dvec2{400.0, 300.0});
   CHECK(back.device.simulated);
   CHECK_FALSE(back.device.measures_hand_force);
   CHECK(back.gate_file == "paper.toml");
@@ -134,7 +136,7 @@ TEST_CASE("trace: a sample is little-endian, inputs first, outputs last") {
   CHECK(std::memcmp(bytes.data(), first, 8) == 0);
   CHECK(std::memcmp(bytes.data() + bytes.size() - 4, last, 4) == 0);
   CHECK(outputs_of(bytes).data() + outputs_of(bytes).size() == bytes.data() + bytes.size());
-  CHECK(kSampleBytes - kOutputBytes == 8 + 8 + (8 + 8 + 6 * 8 + 2) + (4 * 8 + 2 + 8 + 4 + 8) + 6 * 8 + 1);
+  CHECK(kSampleBytes - kOutputBytes == 8 + 8 + (8 + 8 + 6 * 8 + 3) + (4 * 8 + 2 + 8 + 4 + 8) + 6 * 8 + 1);
   CHECK(kOutputBytes == 8 + 8 + 10 * 16 + 2 * 8 + 4 + 4 + 1 + 1 + 4);
 }
 

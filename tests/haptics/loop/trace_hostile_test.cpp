@@ -18,7 +18,7 @@ namespace gearshift {
 namespace {
 
 constexpr std::size_t kFrame = 20, kPreamble = 12;  // [bytes] as documented, not as the code says
-constexpr std::size_t kSample = 391;                // [bytes] per cycle
+constexpr std::size_t kSample = 392;                // [bytes] per cycle
 constexpr std::size_t kCycles = 600;                // two full blocks and a part of one
 
 // Bit by bit: the definition.
@@ -117,10 +117,10 @@ const std::vector<Hostile> hostile_traces = {
     {"another magic", [](B& f, At&) { f[1] ^= 1; }, "is not a gearshift trace"},
     {"line ends rewritten", [](B& f, At&) { f.erase(f.begin() + 6); }, "is not a gearshift trace"},
     {"cut inside the magic", [](B& f, At&) { f.resize(5); }, "is not a gearshift trace"},
-    {"a newer format", [](B& f, At&) { put(f, 8, 6); }, "format 6, made by a newer gearshift; this one reads format 5"},
+    {"a newer format", [](B& f, At&) { put(f, 8, 7); }, "format 7, made by a newer gearshift; this one reads format 6"},
     {"a far newer format", [](B& f, At&) { put(f, 8, 0xFFFFFFFF); }, "made by a newer gearshift"},
-    {"an older format", [](B& f, At&) { put(f, 8, 4); },
-     "format 4, made by an older gearshift; this one reads format 5"},
+    {"an older format", [](B& f, At&) { put(f, 8, 5); },
+     "format 5, made by an older gearshift; this one reads format 6"},
     {"cut after the version", [](B& f, At& at) { f.resize(at[0]); }, "is torn: it ends inside its header"},
     {"cut inside the header's frame", [](B& f, At& at) { f.resize(at[0] + 7); }, "is torn: it ends inside its header"},
     {"cut inside the header", [](B& f, At& at) { f.resize(at[1] - 1); }, "is torn: it ends inside its header"},
@@ -226,7 +226,7 @@ const std::vector<Hostile> hostile_traces = {
     {"bytes after the end", [](B& f, At&) { f.push_back(0); }, "is damaged: 1 bytes follow its end"},
     {"two traces in one file", [](B& f, At&) { append(f, Bytes(f)); }, "bytes follow its end"},
     {"a command that does not exist",
-     [](B& f, At& at) { forge(f, at[1], [](std::byte* samples) { samples[184] = std::byte{77}; }); },
+     [](B& f, At& at) { forge(f, at[1], [](std::byte* samples) { samples[185] = std::byte{77}; }); },
      "is damaged: cycle 0 holds a value that does not exist"},
     {"fewer deadlines skipped than none",
      [](B& f, At& at) {
@@ -235,7 +235,7 @@ const std::vector<Hostile> hostile_traces = {
      },
      "is damaged: cycle 1 skipped -3 deadlines"},
     {"an output forged, its block sealed again",
-     [](B& f, At& at) { forge(f, at[1], [](std::byte* samples) { samples[220] ^= std::byte{1}; }); },
+     [](B& f, At& at) { forge(f, at[1], [](std::byte* samples) { samples[221] ^= std::byte{1}; }); },
      "is damaged: its parameters and outputs are not those"},
     {"the hash forged", [](B& f, At& at) { f[at[4] + kFrame + 9] ^= 1, seal_payload(f, at[4]); },
      "is damaged: its parameters and outputs are not those"},

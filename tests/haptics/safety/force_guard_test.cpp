@@ -53,6 +53,21 @@ TEST_CASE("the ramp is linear and takes its stated time") {
   CHECK(guard.state() == GuardState::running);
 }
 
+TEST_CASE("the share of the force that is let through: the ramp while it rises, then 1, and 0 in every other state") {
+  ForceGuard guard({}, paper_spec(), kPeriod);
+  CHECK(guard.guard(wanting({1.0, 0.0})).share == 0.0);
+  guard.arm();
+  GuardInput stale = wanting({1.0, 0.0});
+  stale.fresh = false;
+  CHECK(guard.guard(stale).share == 0.0);  // armed, waiting
+  for (int i = 1; i <= 500; ++i) CHECK(guard.guard(wanting({0.0, 0.0})).share == doctest::Approx(i * kPeriod / 0.5));
+  CHECK(guard.guard(wanting({0.0, 0.0})).share == 1.0);
+  guard.damp();
+  CHECK(guard.guard(wanting({1.0, 0.0})).share == 0.0);
+  guard.stop();
+  CHECK(guard.guard(wanting({1.0, 0.0})).share == 0.0);
+}
+
 TEST_CASE("whatever is wanted, the command is finite, within the device and within the slew") {
   ForceGuard guard = running_guard();
   const GuardConfig config;

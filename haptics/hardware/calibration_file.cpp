@@ -1,0 +1,246 @@
+// DeviceCalibration as a file that a person can read, and back.
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <charconv>
+#include <cmath>
+#include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
+
+#include "haptics/files/file_error.h"
+#include "haptics/files/number_text.h"
+#include "haptics/files/part_file.h"
+#include "haptics/files/text_file.h"
+#include "haptics/files/toml_reader.h"
+#include "haptics/hardware/device_calibration.h"
+
+namespace gearshift {
+namespace {
+
+constexpr Range kId{0.0, 65535.0}, kCounts{-2147483648.0, 4294967295.0}, kSign{-1.0, 1.0}, kButton{0.0, 64.0};
+constexpr Range kTravel{0.0, 1.0}, kForce{0.0, 200.0}, kStiffness{0.0, 1e5}, kTime{0.0, 1.0};
+constexpr double kLeastTravel = 0.01, kLeastForce = 0.1;  // [m], [N] where it is known
+
+using AxisName = std::pair<std::string_view, int>;  // usages of the Generic Desktop page
+constexpr std::array<AxisName, 9> kAxisNames{{{"x", 0x30},
+                                              {"y", 0x31},
+                                              {"z", 0x32},
+                                              {"rx", 0x33},
+                                              {"ry", 0x34},
+                                              {"rz", 0x35},
+                                              {"slider", 0x36},
+                                              {"dial", 0x37},
+                                              {"wheel", 0x38}}};
+
+template <class Integer>
+void read_whole(const TomlTable& table, std::string_view key, Integer& value, Range range) {
+  const double number = table.number(key, range);
+  if (number != std::floor(number)) table.fail(key, "must be a whole number");
+  value = static_cast<Integer>(number);
+}
+
+int read_axis_name(const TomlTable& table) {
+  std::vector<std::string> words;
+  for (const AxisName& name : kAxisNames) words.emplace_back(name.first);
+  const std::string word = table.choice("axis", words);
+  const auto found =
+      std::find_if(kAxisNames.begin(), kAxisNames.end(), [&](const AxisName& name) { return name.first == word; });
+  return found->second;
+}
+
+// 0: not known.
+double read_known(const TomlTable& table, std::string_view key, Range range, double least) {
+  const double value = table.number(key, range);
+  if (value > 0.0 && value < least) {
+    table.fail(key, "must be 0 (not known) or between " + number_text(least) + " and " + number_text(range.max));
+  }
+  return value;
+}
+
+void read_handle(const TomlTable& table, AxisModel& handle) {
+  handle.mass = table.number("mass_kg", {0.0, 1e3});
+  if (handle.mass > 0.0 && handle.mass < 1e-3) table.fail("mass_kg", "must be 0 (not measured) or at least 0.001");
+  handle.damping = table.number("damping_n_s_per_m", {0.0, 1e4});
+  handle.stiffness = table.number("stiffness_n_per_m", {0.0, 1e6});
+  table.refuse_unknown_keys();
+}
+
+void read_lever_axis(const TomlTable& table, LeverAxisCalibration& axis) {
+  axis.usage = read_axis_name(table);
+  axis.low = table.number("low_counts", kCounts);
+  axis.centre = table.number("centre_counts", kCounts);
+  axis.high = table.number("high_counts", kCounts);
+  const bool between = (axis.centre - axis.low) * (axis.high - axis.centre) > 0.0;
+  if (axis.low != axis.high && !between) table.fail("centre_counts", "must lie between low_counts and high_counts");
+  axis.travel = read_known(table, "travel_m", kTravel, kLeastTravel);
+  axis.full_force = read_known(table, "full_force_n", kForce, kLeastForce);
+  read_whole(table, "constant_sign", axis.constant_sign, kSign);
+  read_whole(table, "spring_sign", axis.spring_sign, kSign);
+  axis.spring_stiffness = table.number("spring_stiffness_n_per_m", kStiffness);
+  read_handle(table.table("handle"), axis.handle);
+  table.refuse_unknown_keys();
+}
+
+void read_timing(const TomlTable& table, DeviceTiming& timing) {
+  timing.input_interval = table.number("input_interval_s", kTime);
+  timing.output_interval = table.number("output_interval_s", kTime);
+  timing.delay = table.number("delay_s", kTime);
+  timing.jitter = table.number("jitter_s", kTime);
+  table.refuse_unknown_keys();
+}
+
+void read_buttons(const TomlTable& table, DeviceCalibration& calibration) {
+  read_whole(table, "press", calibration.press_button, kButton);
+  read_whole(table, "lift", calibration.lift_button, kButton);
+  read_whole(table, "stop", calibration.stop_button, kButton);
+  table.refuse_unknown_keys();
+}
+
+std::string digits_of(double value) {
+  char digits[64];
+  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
+}
+
+std::string hex_of(std::uint16_t value) {
+  char digits[8] = "0000";
+  const std::string_view all(digits,
+                             static_cast<std::size_t>(std::to_chars(digits, digits + 8, value, 16).ptr - digits));
+  return std::string(4 - all.size(), '0') + std::string(all);
+}
+
+// A basic string of TOML: quotes and backslashes are escaped; control characters are the reader's to refuse.
+std::string in_quotes(std::string_view text) {
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') out += '\\';
+    out += c;
+  }
+  return out + '"';
+}
+
+// Lines with what they mean beside them.
+class CommentedText {
+ public:
+  void comment(std::string_view words) { text_ += "# " + std::string(words) + '\n'; }
+  void section(std::string_view name, std::string_view words) {
+    text_ += '\n';
+    line("[" + std::string(name) + "]", words);
+  }
+  void put(std::string_view key, const std::string& value, std::string_view words) {
+    line(std::string(key) + " = " + value, words);
+  }
+  void put(std::string_view key, double value, std::string_view words) { put(key, digits_of(value), words); }
+  std::string take() { return std::move(text_); }
+
+ private:
+  void line(std::string left, std::string_view words) {
+    constexpr std::size_t kColumn = 40;
+    if (!words.empty() && left.size() < kColumn) left.resize(kColumn, ' ');
+    text_ += left + (words.empty() ? "" : "  # " + std::string(words)) + '\n';
+  }
+
+  std::string text_;
+};
+
+std::string axis_name(int usage) {
+  for (const AxisName& name : kAxisNames)
+    if (name.second == usage) return std::string(name.first);
+  return "unknown";
+}
+
+void put_axis(CommentedText& out, const std::string& section, const LeverAxisCalibration& axis, bool is_select) {
+  out.section(section, is_select ? "the lever to the right (+) and the left" : "the lever forward (+) and back");
+  out.put("axis", in_quotes(axis_name(axis.usage)), "of the device; x and y have motors");
+  out.put("low_counts", axis.low, is_select ? "at the left stop" : "at the back stop");
+  out.put("centre_counts", axis.centre, "at rest");
+  out.put("high_counts", axis.high, is_select ? "at the right stop" : "at the forward stop");
+  out.put("travel_m", axis.travel, "of the knob, from stop to stop");
+  out.put("full_force_n", axis.full_force, "at the knob, at full magnitude");
+  out.put("constant_sign", axis.constant_sign,
+          is_select ? "1: plus pushes right, -1: left" : "1: plus pushes forward, -1: back");
+  out.put("spring_sign", axis.spring_sign, "1: a spring pulls to its centre, -1: pushes away");
+  out.put("spring_stiffness_n_per_m", axis.spring_stiffness, "of the strongest spring; 0: not measured");
+  out.section(section + ".handle", "without a hand");
+  out.put("mass_kg", axis.handle.mass, "0: not measured");
+  out.put("damping_n_s_per_m", axis.handle.damping, "");
+  out.put("stiffness_n_per_m", axis.handle.stiffness, "");
+}
+
+void check_readable(const std::filesystem::path& part, const std::string& name) {
+  try {
+    (void)read_calibration(part);
+  } catch (const FileError& error) {
+    std::string reason = error.what();
+    const std::size_t at = reason.find(part.string());
+    if (at != std::string::npos) reason = reason.substr(reason.find(": ", at) + 2);
+    throw FileError(name, 0, "not written, it could not be read again: " + reason);
+  }
+}
+
+}  // namespace
+
+std::filesystem::path calibration_file(const std::filesystem::path& folder, const HidIdentity& device) {
+  std::string name = hex_of(device.vendor) + '_' + hex_of(device.product);
+  if (!device.serial.empty()) name += '_';
+  for (const char c : device.serial.substr(0, 64)) {
+    const bool plain = std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-';
+    name += plain ? c : '_';
+  }
+  return folder / (name + ".toml");
+}
+
+std::optional<DeviceCalibration> read_calibration(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (std::filesystem::symlink_status(file, ignored).type() == std::filesystem::file_type::not_found)
+    return std::nullopt;
+  const TomlTable root = TomlTable::parse(read_text_file(file), file.string());
+  DeviceCalibration calibration;
+  if (root.has("name")) calibration.name = root.text("name");
+  read_whole(root, "vendor", calibration.vendor, kId);
+  read_whole(root, "product", calibration.product, kId);
+  if (root.has("serial")) calibration.serial = root.text("serial");
+  read_lever_axis(root.table("select"), calibration.select);
+  read_lever_axis(root.table("shift"), calibration.shift);
+  if (calibration.select.usage == calibration.shift.usage)
+    root.table("shift").fail("axis", "must not be that of select");
+  read_timing(root.table("timing"), calibration.timing);
+  read_buttons(root.table("buttons"), calibration);
+  root.refuse_unknown_keys();
+  return calibration;
+}
+
+std::string calibration_text(const DeviceCalibration& calibration) {
+  CommentedText out;
+  out.comment("What is known of this stick. Counts are its own, metres and newtons are at the knob.");
+  if (!calibration.name.empty()) out.put("name", in_quotes(calibration.name), "as it calls itself");
+  out.put("vendor", "0x" + hex_of(calibration.vendor), "");
+  out.put("product", "0x" + hex_of(calibration.product), "");
+  if (!calibration.serial.empty()) out.put("serial", in_quotes(calibration.serial), "");
+  put_axis(out, "select", calibration.select, true);
+  put_axis(out, "shift", calibration.shift, false);
+  const DeviceTiming& timing = calibration.timing;
+  out.section("timing", "how late it is");
+  out.put("input_interval_s", timing.input_interval, "between two readings; 0: not measured");
+  out.put("output_interval_s", timing.output_interval, "between two forces");
+  out.put("delay_s", timing.delay, "from a force that was sent to its effect");
+  out.put("jitter_s", timing.jitter, "of the readings: the latest of a hundred");
+  out.section("buttons", "from 1; 0: none");
+  out.put("press", calibration.press_button, "pushes the knob down");
+  out.put("lift", calibration.lift_button, "lifts the ring");
+  out.put("stop", calibration.stop_button, "motors off");
+  return out.take();
+}
+
+void write_calibration(const DeviceCalibration& calibration, const std::filesystem::path& file) {
+  std::error_code failed;
+  if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), failed);
+  if (failed) throw FileError(file.string(), 0, "cannot be written: " + failed.message());
+  PartFile part(file);
+  part.write(calibration_text(calibration));
+  check_readable(part.path(), file.string());
+  part.keep();
+}
+
+}  // namespace gearshift

@@ -1,0 +1,215 @@
+// What a person shows and knows. What the stick does by itself: calibrator_forces.cpp.
+#include "haptics/hardware/calibrator.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <utility>
+
+#include "haptics/files/number_text.h"
+
+namespace gearshift {
+namespace {
+
+constexpr std::uint16_t kGenericDesktop = 0x01;
+constexpr double kStartTime = 0.5, kEndTime = 0.3;  // [s] of holding still before a push, and of holding it
+constexpr double kLeastMotion = 0.20;               // [1] of what the report can say
+constexpr double kStraight = 0.5;                   // [1] of that motion, at most along another axis
+constexpr double kTogether = 0.9;                   // [1] correlation of two axes
+constexpr double kLetGo = 1.0;                      // [s]
+
+std::string percent(double share) {
+  return number_text(100.0 * share, 0) + " %";
+}
+
+double middle_of_three(double a, double b, double c) noexcept {
+  return std::max(std::min(a, b), std::min(std::max(a, b), c));
+}
+
+// Without the jumps of a single reading.
+std::vector<double> without_jumps(const std::vector<double>& seen) {
+  std::vector<double> smooth;
+  for (std::size_t i = 2; i < seen.size(); ++i) smooth.push_back(middle_of_three(seen[i - 2], seen[i - 1], seen[i]));
+  return smooth;
+}
+
+double mean_of(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += value;
+  return values.empty() ? 0.0 : sum / static_cast<double>(values.size());
+}
+
+double correlation(const std::vector<double>& a, const std::vector<double>& b) {
+  const double mean_a = mean_of(a), mean_b = mean_of(b);
+  double aa = 0.0, bb = 0.0, ab = 0.0;
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    aa += (a[i] - mean_a) * (a[i] - mean_a);
+    bb += (b[i] - mean_b) * (b[i] - mean_b);
+    ab += (a[i] - mean_a) * (b[i] - mean_b);
+  }
+  return aa > 0.0 && bb > 0.0 ? ab / std::sqrt(aa * bb) : 0.0;
+}
+
+double within(double value, double least, double most, const std::string& what, const std::string& unit) {
+  if (value >= least && value <= most) return value;
+  throw CalibrationRefused(what + " of " + number_text(value, 4) + " " + unit + ": it must be between " +
+                           number_text(least, 4) + " and " + number_text(most, 4) + " " + unit);
+}
+
+std::string counts_text(const LeverAxisCalibration& axis) {
+  return number_text(axis.low, 0) + " to " + number_text(axis.high, 0) + " counts, at rest " +
+         number_text(axis.centre, 0);
+}
+
+}  // namespace
+
+const char* calibration_step_name(CalibrationStep step) noexcept {
+  static constexpr const char* kNames[] = {"range", "numbers", "polarity", "timing", "handle", "springs"};
+  return kNames[static_cast<int>(step)];
+}
+
+std::vector<CalibrationStep> missing_steps(const DeviceCalibration& calibration, bool springs) {
+  const LeverAxisCalibration &select = calibration.select, &shift = calibration.shift;
+  const bool has_spring_signs = select.spring_sign != 0 && shift.spring_sign != 0;
+  const bool has_springs = select.spring_stiffness > 0.0 && shift.spring_stiffness > 0.0;
+  std::vector<CalibrationStep> missing;
+  if (!calibration.has_stops()) missing.push_back(CalibrationStep::range);
+  if (!calibration.has_travel() || !calibration.has_force()) missing.push_back(CalibrationStep::numbers);
+  if (!calibration.has_polarity() || (springs && !has_spring_signs)) missing.push_back(CalibrationStep::polarity);
+  if (!calibration.has_timing()) missing.push_back(CalibrationStep::timing);
+  if (!calibration.has_handle()) missing.push_back(CalibrationStep::handle);
+  if (springs && !has_springs) missing.push_back(CalibrationStep::springs);
+  return missing;
+}
+
+Calibrator::Calibrator(PidDriver& driver, CalibrationTick tick, const DeviceCalibration& known)
+    : driver_(driver), tick_(std::move(tick)), calibration_(known) {
+  if (!known.has_stops()) return;
+  found_[0] = {known.select.usage, known.select.high > known.select.low ? 1 : -1};
+  found_[1] = {known.shift.usage, known.shift.high > known.shift.low ? 1 : -1};
+}
+
+std::size_t Calibrator::report_axis(int usage) const {
+  const std::vector<HidAxis>& axes = driver_.lever_report().axes;
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    if (axes[i].usage.page == kGenericDesktop && axes[i].usage.id == usage) return i;
+  }
+  throw CalibrationRefused("the stick has no such axis as its calibration names");
+}
+
+std::string Calibrator::find_axis(bool select, double seconds) {
+  const std::vector<HidAxis>& axes = driver_.lever_report().axes;
+  StickRig rig(driver_, tick_);
+  std::vector<std::vector<double>> before(axes.size()), after(axes.size());
+  const std::int64_t begin = rig.step().now_ns;
+  for (double time = 0.0; time < seconds; time = 1e-9 * static_cast<double>(rig.step().now_ns - begin)) {
+    for (std::size_t i = 0; i < axes.size(); ++i) {
+      if (time < kStartTime) before[i].push_back(rig.position(i));
+      if (time > seconds - kEndTime) after[i].push_back(rig.position(i));
+    }
+  }
+  std::size_t most = 0;
+  std::vector<double> moved(axes.size());
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    if (axes[i].usage.page != kGenericDesktop) continue;
+    moved[i] = (mean_of(after[i]) - mean_of(before[i])) / rig.range(i);
+    if (std::abs(moved[i]) > std::abs(moved[most])) most = i;
+  }
+  if (std::abs(moved[most]) < kLeastMotion)
+    throw CalibrationRefused("no axis moved by more than " + percent(std::abs(moved[most])) +
+                             " of its range: push the lever as far as it goes and keep it there");
+  for (std::size_t i = 0; i < axes.size(); ++i) {
+    if (i != most && std::abs(moved[i]) > kStraight * std::abs(moved[most]))
+      throw CalibrationRefused("two axes moved together: push the lever straight");
+  }
+  const int usage = axes[most].usage.id;
+  if (found_[select ? 1 : 0].usage == usage) {
+    if (!select) throw CalibrationRefused("the same axis moved as to the right: push the lever forward");
+    found_[1] = {};  // it was found before, with the axes the other way round
+  }
+  found_[select ? 0 : 1] = {usage, moved[most] > 0.0 ? 1 : -1};
+  return std::string(select ? "right" : "forward") + " is axis " + std::to_string(most + 1) +
+         " of the stick, counting " + (moved[most] > 0.0 ? "up" : "down");
+}
+
+std::string Calibrator::measure_range(double seconds) {
+  if (found_[0].usage == 0 || found_[1].usage == 0)
+    throw CalibrationRefused("which axes the lever moves is not known yet");
+  const std::size_t select = report_axis(found_[0].usage), shift = report_axis(found_[1].usage);
+  StickRig rig(driver_, tick_);
+  std::vector<double> x, y;
+  const std::int64_t begin = rig.step().now_ns;
+  while (1e-9 * static_cast<double>(rig.look().now_ns - begin) < seconds - kLetGo) {
+    x.push_back(rig.position(select));
+    y.push_back(rig.position(shift));
+    rig.step();
+  }
+  x = without_jumps(x);
+  y = without_jumps(y);
+  const double rest_x = rig.rest(select), rest_y = rig.rest(shift);
+  LeverAxisCalibration new_select = range_of("select", found_[0], x, rest_x, rig.range(select));
+  LeverAxisCalibration new_shift = range_of("shift", found_[1], y, rest_y, rig.range(shift));
+  if (std::abs(correlation(x, y)) > kTogether)
+    throw CalibrationRefused("the two axes move together: move the lever to the left and right, and forward and back");
+  new_select.travel = calibration_.select.travel;
+  new_select.full_force = calibration_.select.full_force;
+  new_shift.travel = calibration_.shift.travel;
+  new_shift.full_force = calibration_.shift.full_force;
+  calibration_.select = new_select;
+  calibration_.shift = new_shift;
+  return "select: " + counts_text(new_select) + "; shift: " + counts_text(new_shift);
+}
+
+// A range that is measured anew says nothing of what was found with the old one.
+LeverAxisCalibration Calibrator::range_of(const std::string& name, const FoundAxis& found,
+                                          const std::vector<double>& seen, double centre, double whole) {
+  if (seen.empty()) throw CalibrationRefused("the time was too short to move the lever at all");
+  const auto [low, high] = std::minmax_element(seen.begin(), seen.end());
+  const double least = *low, most = *high;
+  if (most - least < kLeastMotion * whole)
+    throw CalibrationRefused(name + " moved over " + percent((most - least) / whole) +
+                             " of its range: move the lever to all its ends");
+  const double place = (centre - least) / (most - least);
+  if (place < 0.25 || place > 0.75)
+    throw CalibrationRefused(name + " rests at " + percent(place) +
+                             " of the way between its ends: let go of the lever, and let it stand in the middle");
+  LeverAxisCalibration axis;
+  axis.usage = found.usage;
+  axis.low = found.sign > 0 ? least : most;
+  axis.high = found.sign > 0 ? most : least;
+  axis.centre = centre;
+  return axis;
+}
+
+std::string Calibrator::set_numbers(double select_travel, double shift_travel, double full_force) {
+  calibration_.select.travel = within(select_travel, 0.02, 0.5, "a travel", "m");
+  calibration_.shift.travel = within(shift_travel, 0.02, 0.5, "a travel", "m");
+  within(full_force, 0.5, 100.0, "a full force", "N");
+  calibration_.select.full_force = calibration_.shift.full_force = full_force;
+  return "travel " + millimetres_text(select_travel) + " and " + millimetres_text(shift_travel) + ", full force " +
+         number_text(full_force, 2) + " N";
+}
+
+std::string Calibrator::find_button(LeverButton button, double seconds) {
+  std::array<int*, 3> numbers{&calibration_.press_button, &calibration_.lift_button, &calibration_.stop_button};
+  StickRig rig(driver_, tick_);
+  const std::int64_t begin = rig.step().now_ns;
+  std::uint64_t held = rig.look().sight.counts.buttons, pressed = 0;
+  while (pressed == 0) {
+    const std::uint64_t now = rig.step().sight.counts.buttons;
+    pressed = now & ~held;
+    held &= now;
+    if (1e-9 * static_cast<double>(rig.look().now_ns - begin) > seconds)
+      throw CalibrationRefused("no button was pressed");
+  }
+  if (std::popcount(pressed) > 1) throw CalibrationRefused("more than one button was pressed at once");
+  const int number = std::countr_zero(pressed) + 1;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    if (i != static_cast<std::size_t>(button) && *numbers[i] == number)
+      throw CalibrationRefused("button " + std::to_string(number) + " has another meaning already");
+  }
+  *numbers[static_cast<std::size_t>(button)] = number;
+  return "button " + std::to_string(number);
+}
+
+}  // namespace gearshift

@@ -1,0 +1,66 @@
+#include "haptics/hardware/device_calibration.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "haptics/files/number_text.h"
+
+namespace gearshift {
+namespace {
+
+constexpr double kRounding = 1e-9;      // [1] of a cycle
+constexpr double kSlowestLoop = 100.0;  // [Hz]
+
+std::string too_slow(double answer, double period) {
+  const double most = (1.0 + kMostDelay) * period, rate = std::floor((1.0 + kMostDelay) / answer);
+  const std::string sentence = "the stick answers after " + number_text(1e3 * answer, 1) + " ms, and at " +
+                               number_text(1.0 / period, 0) + " Hz the loop accounts for " +
+                               number_text(1e3 * most, 1) + " ms at most: ";
+  if (rate < kSlowestLoop) return sentence + "too late for any rate from 100 Hz up";
+  return sentence + number_text(rate, 0) + " Hz would do";
+}
+
+// [m] of a count, on the coarser side.
+double step_of(const LeverAxisCalibration& axis) noexcept {
+  if (axis.low == axis.high) return 0.0;
+  return 0.5 * axis.travel / std::min(std::abs(axis.high - axis.centre), std::abs(axis.centre - axis.low));
+}
+
+AxisModel handle_of(const LeverAxisCalibration& axis) noexcept {
+  return axis.handle.mass > 0.0 ? axis.handle : kUnmeasuredHandle;
+}
+
+double own_stiffness_of(const LeverAxisCalibration& axis) noexcept {
+  return axis.spring_sign != 0 && axis.spring_stiffness >= kLeastSpring ? axis.spring_stiffness : 0.0;
+}
+
+}  // namespace
+
+double answer_time(const DeviceTiming& timing) noexcept {
+  return timing.input_interval + timing.jitter + timing.output_interval + timing.delay;
+}
+
+int delay_cycles(const DeviceTiming& timing, double period) {
+  const double answer = answer_time(timing);
+  const double cycles = std::max(0.0, std::ceil(answer / period - kRounding) - 1.0);
+  if (!(cycles <= kMostDelay)) throw std::invalid_argument(too_slow(answer, period));
+  return static_cast<int>(cycles);
+}
+
+DeviceSpec spec_of(const DeviceCalibration& calibration, double period) {
+  const LeverAxisCalibration &select = calibration.select, &shift = calibration.shift;
+  DeviceSpec spec;
+  spec.max_force = calibration.has_polarity() ? glm::dvec2{select.full_force, shift.full_force} : glm::dvec2{0.0};
+  spec.continuous_force = spec.max_force;  // its own firmware watches over its motors
+  spec.workspace = 0.5 * glm::dvec2{select.travel, shift.travel};
+  spec.position_step = std::max(step_of(select), step_of(shift));
+  spec.delay = delay_cycles(calibration.has_timing() ? calibration.timing : kUnmeasuredTiming, period);
+  spec.axis_x = handle_of(select);
+  spec.axis_y = handle_of(shift);
+  if (calibration.has_polarity())
+    spec.own_stiffness = glm::dvec2(std::min(own_stiffness_of(select), own_stiffness_of(shift)));
+  return spec;
+}
+
+}  // namespace gearshift

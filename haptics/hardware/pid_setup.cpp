@@ -1,0 +1,206 @@
+#include "haptics/hardware/pid_setup.h"
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <optional>
+#include <thread>
+
+namespace gearshift {
+namespace {
+
+constexpr int kBlockLoadPolls = 60;                 // as Linux
+constexpr std::chrono::milliseconds kPollPause{1};  // between two of them
+
+constexpr const char* kEndless =
+    "its effects do not end by themselves: if this program dies, the last force stays until it is unplugged";
+constexpr const char* kNoReset = "it cannot be reset: another program's effects may go on until they end";
+constexpr const char* kNoSwitch = "its motors have no switch: they are silent while no force is commanded";
+
+PidEffect kind_of(StickEffect effect) noexcept {
+  if (effect == StickEffect::spring) return PidEffect::spring;
+  return effect == StickEffect::damper ? PidEffect::damper : PidEffect::constant;
+}
+
+int axis_of(StickEffect effect) noexcept {
+  if (effect == StickEffect::constant_x) return 0;
+  return effect == StickEffect::constant_y ? 1 : -1;
+}
+
+class StickSetup {
+ public:
+  StickSetup(HidPort& port, const PidLayout& pid) : port_(port), pid_(pid) {}
+
+  PreparedStick run() {
+    read_pool();
+    clear();
+    make(StickEffect::constant_x);
+    make(StickEffect::constant_y);
+    if (has_conditions(PidEffect::spring)) result_.ability.spring = try_to_make(StickEffect::spring);
+    if (has_conditions(PidEffect::damper)) result_.ability.damper = try_to_make(StickEffect::damper);
+    tell(PidControl::disable_actuators);
+    tell(encode_gain(pid_, 1.0));
+    return std::move(result_);
+  }
+
+  const StickBlocks& blocks() const noexcept { return result_.blocks; }
+
+ private:
+  void note(const std::string& sentence) { result_.ability.notes.push_back(sentence); }
+  void tell(const HidBytes& report) {
+    if (report.size > 0) port_.send(report);
+  }
+  void tell(PidControl control) { tell(encode_control(pid_, control)); }
+  bool knows(PidControl control) const { return pid_.device_control.control.knows(static_cast<std::size_t>(control)); }
+
+  // Some have none, some do not answer: what they hold shows when effects are created.
+  void read_pool() {
+    if (!pid_.pool.exists()) return;
+    try {
+      (void)port_.get_feature(pid_.pool.id, pid_.pool.size);
+    } catch (const HidGone&) {
+      throw;
+    } catch (const HidError&) {
+      note("it does not tell how many effects it holds");
+    }
+  }
+
+  void clear() {
+    if (!knows(PidControl::reset)) note(kNoReset);
+    if (!knows(PidControl::enable_actuators) || !knows(PidControl::disable_actuators)) note(kNoSwitch);
+    tell(PidControl::stop_all);
+    tell(PidControl::reset);
+    tell(PidControl::disable_actuators);
+    tell(encode_gain(pid_, 0.0));
+  }
+
+  bool has_conditions(PidEffect effect) {
+    if (pid_.makes(effect) && pid_.set_condition.exists()) return true;
+    note(std::string("it has no ") + pid_effect_name(effect));
+    return false;
+  }
+
+  bool try_to_make(StickEffect effect) {
+    try {
+      make(effect);
+      return true;
+    } catch (const HidGone&) {
+      throw;
+    } catch (const HidError& error) {
+      note(std::string("it goes without a ") + pid_effect_name(kind_of(effect)) + ": " + error.what());
+      return false;
+    }
+  }
+
+  void make(StickEffect effect) {
+    const auto which = static_cast<std::size_t>(effect);
+    const int block = create(kind_of(effect));
+    if (std::find(result_.blocks.begin(), result_.blocks.end(), block) != result_.blocks.end())
+      throw HidError("the stick gave block " + std::to_string(block) + " twice");
+    set(effect, block);
+    zero(effect, block);
+    result_.blocks[which] = block;
+    ++result_.ability.blocks;
+  }
+
+  // A device that is not asked to create effects has them all: block 1, 2, ...
+  int create(PidEffect effect) {
+    if (!pid_.create.exists()) return ++unasked_;
+    const std::string refuses = std::string("the stick refuses a ") + pid_effect_name(effect) + ": ";
+    const HidBytes report = encode_create(pid_, effect);
+    if (report.size == 0) throw HidError(refuses + "it knows none");
+    port_.set_feature(report);
+    if (!pid_.block_load.exists()) return ++unasked_;
+    const BlockLoad load = poll_block_load();
+    if (load.status == BlockLoad::Status::full) throw HidError(refuses + "its memory for effects is full");
+    if (load.status == BlockLoad::Status::error) throw HidError(refuses + "it says that there was an error");
+    if (load.status == BlockLoad::Status::pending) throw HidError(refuses + "it does not say where it is loaded");
+    if (load.block == kNoBlock) throw HidError(refuses + "it gives no block");
+    return load.block;
+  }
+
+  BlockLoad poll_block_load() {
+    BlockLoad load;
+    for (int poll = 0; poll < kBlockLoadPolls && load.status == BlockLoad::Status::pending; ++poll) {
+      if (poll > 0) std::this_thread::sleep_for(kPollPause);
+      load = block_load();
+    }
+    return load;
+  }
+
+  BlockLoad block_load() {
+    const HidBytes report = port_.get_feature(pid_.block_load.id, pid_.block_load.size);
+    return decode_block_load(pid_, report.view()).value_or(BlockLoad{});
+  }
+
+  // That ends by itself, unless the device will not have it so: the first effect shows.
+  void set(StickEffect effect, int block) {
+    PidAbility& ability = result_.ability;
+    if (accepts(effect, block, ability.finite ? kEffectDuration : kForever)) return;
+    if (ability.blocks > 0 || !accepts(effect, block, kForever))
+      throw HidError(std::string("the stick refuses what a ") + pid_effect_name(kind_of(effect)) + " shall be");
+    ability.finite = false;
+    note(kEndless);
+  }
+
+  bool accepts(StickEffect effect, int block, double duration) {
+    const HidBytes report = encode_set_effect(pid_, {block, kind_of(effect), duration, 1.0, axis_of(effect)});
+    if (report.size == 0) throw HidError("the stick gave block " + std::to_string(block) + ", which it cannot name");
+    try {
+      port_.send(report);
+    } catch (const HidGone&) {
+      throw;
+    } catch (const HidError&) {
+      return false;
+    }
+    const bool is_known = result_.ability.blocks > 0 || duration == kForever;
+    if (is_known || !pid_.create.exists() || !pid_.block_load.exists()) return true;
+    const BlockLoad load = block_load();
+    return load.status != BlockLoad::Status::error || load.block != block;
+  }
+
+  void zero(StickEffect effect, int block) {
+    if (axis_of(effect) >= 0) return tell(encode_constant(pid_, block, 0.0));
+    for (int axis = 0; axis < 2; ++axis) tell(encode_condition(pid_, block, axis, PidCondition{}));
+  }
+
+  HidPort& port_;
+  const PidLayout& pid_;
+  PreparedStick result_;
+  int unasked_ = 0;  // blocks that were taken without being given
+};
+
+}  // namespace
+
+PreparedStick prepare_stick(HidPort& port, const PidLayout& pid) {
+  StickSetup setup(port, pid);
+  try {
+    return setup.run();
+  } catch (const HidGone&) {
+    throw;
+  } catch (const HidError&) {
+    quiet_stick(port, pid, setup.blocks());
+    throw;
+  }
+}
+
+void quiet_stick(HidPort& port, const PidLayout& pid, const StickBlocks& blocks) noexcept {
+  bool gone = false;
+  const auto tell = [&](const HidBytes& report) {
+    if (gone || report.size == 0) return;
+    try {
+      port.send(report);
+    } catch (const HidGone&) {
+      gone = true;
+    } catch (...) {
+      return;  // the next may still be taken
+    }
+  };
+  tell(encode_control(pid, PidControl::stop_all));
+  tell(encode_control(pid, PidControl::disable_actuators));
+  for (const int block : blocks) tell(encode_block_free(pid, block));
+  tell(encode_control(pid, PidControl::reset));
+  tell(encode_control(pid, PidControl::disable_actuators));
+}
+
+}  // namespace gearshift

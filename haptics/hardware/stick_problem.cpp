@@ -1,0 +1,64 @@
+#include "haptics/hardware/stick_problem.h"
+
+namespace gearshift {
+namespace {
+
+constexpr std::uint32_t bit_of(std::size_t kind) noexcept {
+  return std::uint32_t{1} << kind;
+}
+
+std::string sentence(StickProblem problem, std::int64_t a, std::int64_t b) {
+  switch (problem) {
+    case StickProblem::wrong_length:
+      return "the stick sends a report of " + std::to_string(a) + " bytes where its descriptor says " +
+             std::to_string(b) + ": it is not used";
+    case StickProblem::unknown_report:
+      return "the stick sends report " + std::to_string(a) + ", which its descriptor does not know: it is not used";
+    case StickProblem::frozen:
+      return "the stick has said one place for " + std::to_string(a) +
+             " s while its force changed: its sensor is taken for dead until it moves";
+    case StickProblem::jumps:
+      return "the stick's position jumps by " + std::to_string(a) + " % of its range between two reports";
+    case StickProblem::switched_off:
+      return "the stick switched its motors off by itself: they were switched on again";
+    case StickProblem::effect_stopped:
+      return "the stick stopped an effect by itself: it was started again";
+    case StickProblem::no_power:
+      return "the stick says that its motors have no power";
+    case StickProblem::safety_switch:
+      return "the stick says that its safety switch is open: it gives no force";
+    case StickProblem::takes_no_output:
+      return "the stick takes no outputs: its force ends by itself";
+    case StickProblem::nobody_commands:
+      break;
+  }
+  return "no force was commanded for " + std::to_string(a) + " ms: the motors are off until they are armed again";
+}
+
+}  // namespace
+
+void StickProblems::raise(StickProblem problem, std::int64_t a, std::int64_t b) noexcept {
+  const auto kind = static_cast<std::size_t>(problem);
+  if ((raised_.load(std::memory_order_relaxed) & bit_of(kind)) != 0) return;
+  detail_[kind].a.store(a, std::memory_order_relaxed);
+  detail_[kind].b.store(b, std::memory_order_relaxed);
+  raised_.fetch_or(bit_of(kind), std::memory_order_release);
+}
+
+void StickProblems::forget() noexcept {
+  raised_.store(0, std::memory_order_relaxed);
+  told_.store(0, std::memory_order_relaxed);
+}
+
+std::optional<std::string> StickProblems::take() {
+  const std::uint32_t raised = raised_.load(std::memory_order_acquire);
+  for (std::size_t kind = 0; kind < kStickProblems; ++kind) {
+    if ((raised & bit_of(kind)) == 0) continue;
+    if ((told_.fetch_or(bit_of(kind), std::memory_order_relaxed) & bit_of(kind)) != 0) continue;
+    return sentence(static_cast<StickProblem>(kind), detail_[kind].a.load(std::memory_order_relaxed),
+                    detail_[kind].b.load(std::memory_order_relaxed));
+  }
+  return std::nullopt;
+}
+
+}  // namespace gearshift

@@ -1,0 +1,11 @@
+#include "haptics/hid/hid_bytes.h"
+
+#include <algorithm>
+
+namespace gearshift {
+
+bool HidBytes::operator==(const HidBytes& other) const noexcept {
+  return std::ranges::equal(view(), other.view());
+}
+
+}  // namespace gearshift

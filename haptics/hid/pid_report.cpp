@@ -1,0 +1,203 @@
+#include "haptics/hid/pid_report.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gearshift {
+namespace {
+
+HidBytes begin(const PidReport& report) noexcept {
+  HidBytes bytes;
+  bytes.size = std::min(report.size, HidBytes::kMost);
+  bytes.bytes[0] = report.id;
+  return bytes;
+}
+
+std::span<std::uint8_t> all_of(HidBytes& bytes) noexcept {
+  return {bytes.bytes.data(), bytes.size};
+}
+
+void put(HidBytes& bytes, const BitField& field, std::int64_t value) noexcept {
+  write_bits(all_of(bytes), field, value);
+}
+
+std::int64_t rounded(double value) noexcept {
+  return static_cast<std::int64_t>(std::llround(value));
+}
+
+// A share of what the field can say, from its zero up or down; what is no number is zero.
+void put_share(HidBytes& bytes, const BitField& field, double share) noexcept {
+  const double limited = std::isfinite(share) ? std::clamp(share, -1.0, 1.0) : 0.0;
+  const auto room = static_cast<double>(limited > 0.0 ? field.max - field.zero : field.zero - field.min);
+  put(bytes, field, field.zero + rounded(limited * room));
+}
+
+// A block that the report cannot name would be another one in it.
+bool names(const BitField& field, int block) noexcept {
+  return block > kNoBlock && block >= field.min && block <= field.max;
+}
+
+template <std::size_t N>
+void put_choice(HidBytes& bytes, const PidChoice<N>& choice, std::size_t which) noexcept {
+  if (choice.bit[which].exists()) return put(bytes, choice.bit[which], 1);
+  put(bytes, choice.field, choice.number[which]);
+}
+
+template <std::size_t N>
+bool chosen(const PidChoice<N>& choice, std::size_t which, std::span<const std::uint8_t> report) noexcept {
+  if (!choice.knows(which)) return false;
+  if (choice.bit[which].exists()) return read_bits(report, choice.bit[which]) != 0;
+  return read_bits(report, choice.field) == choice.number[which];
+}
+
+// For ever is all ones: more than the logical range where that leaves room, which means no value and so no end; and the
+// longest that there is where it does not.
+void put_duration(HidBytes& bytes, const PidSetEffect& effect, double seconds) noexcept {
+  BitField field = effect.duration;
+  if (!field.exists()) return;
+  const std::int64_t ones = (std::int64_t{1} << field.bits) - 1;
+  if (seconds >= kForever) {
+    field.min = 0;
+    field.max = ones;
+    return put(bytes, field, ones);
+  }
+  const double counts = std::isfinite(seconds) ? seconds / effect.duration_unit : 0.0;
+  const auto most = static_cast<double>(std::min(field.max, ones - 1));
+  put(bytes, field, rounded(std::clamp(counts, 1.0, std::max(most, 1.0))));
+}
+
+// 0 is from the far side and it turns clockwise: X is a quarter, Y a half of a turn.
+void put_direction(HidBytes& bytes, const PidSetEffect& effect, int axis) noexcept {
+  put(bytes, effect.direction_enable, 1);
+  const BitField& field = effect.direction[0];
+  std::int64_t counts = rounded((axis == 0 ? 0.25 : 0.5) * effect.full_turn);
+  if (counts > field.max) counts -= rounded(effect.full_turn);
+  put(bytes, field, counts);
+}
+
+bool fits(const PidReport& layout, std::span<const std::uint8_t> report) noexcept {
+  return layout.exists() && report.size() == layout.size && report[0] == layout.id;
+}
+
+bool flag(std::span<const std::uint8_t> report, const BitField& field, bool otherwise) noexcept {
+  return field.exists() ? read_bits(report, field) != 0 : otherwise;
+}
+
+}  // namespace
+
+HidBytes encode_set_effect(const PidLayout& pid, const PidEffectSettings& settings) noexcept {
+  const PidSetEffect& effect = pid.set_effect;
+  const auto type = static_cast<std::size_t>(settings.effect);
+  const bool tells_type = std::ranges::any_of(effect.type.known, [](bool known) { return known; });
+  if (!names(effect.block, settings.block) || (tells_type && !effect.type.knows(type))) return {};
+  HidBytes bytes = begin(effect);
+  put(bytes, effect.block, settings.block);
+  if (tells_type) put_choice(bytes, effect.type, type);
+  put_duration(bytes, effect, settings.duration);
+  put_share(bytes, effect.gain, std::max(settings.gain, 0.0));
+  for (int axis = 0; axis < 2; ++axis) {
+    if (settings.axis == axis || settings.axis < 0) put(bytes, effect.axis_enable[static_cast<std::size_t>(axis)], 1);
+  }
+  if (settings.axis >= 0) put_direction(bytes, effect, settings.axis);
+  return bytes;
+}
+
+HidBytes encode_constant(const PidLayout& pid, int block, double magnitude) noexcept {
+  if (!names(pid.set_constant.block, block)) return {};
+  HidBytes bytes = begin(pid.set_constant);
+  put(bytes, pid.set_constant.block, block);
+  put_share(bytes, pid.set_constant.magnitude, magnitude);
+  return bytes;
+}
+
+HidBytes encode_condition(const PidLayout& pid, int block, int axis, const PidCondition& condition) noexcept {
+  const PidSetCondition& set = pid.set_condition;
+  // Without a parameter block there is one condition: the next one would take its place.
+  const bool names_axis = axis == 0 || (axis >= set.parameter_block.min && axis <= set.parameter_block.max);
+  if (!names(set.block, block) || !names_axis) return {};
+  HidBytes bytes = begin(set);
+  put(bytes, set.block, block);
+  put(bytes, set.parameter_block, axis);
+  put_share(bytes, set.centre, condition.centre);
+  put_share(bytes, set.positive_coefficient, condition.coefficient);
+  put_share(bytes, set.negative_coefficient, condition.coefficient);
+  put_share(bytes, set.positive_saturation, condition.saturation);
+  put_share(bytes, set.negative_saturation, condition.saturation);
+  put_share(bytes, set.dead_band, condition.dead_band);
+  return bytes;
+}
+
+HidBytes encode_operation(const PidLayout& pid, int block, PidOperation operation, int loops) noexcept {
+  const auto which = static_cast<std::size_t>(operation);
+  if (!names(pid.operate.block, block) || !pid.operate.operation.knows(which)) return {};
+  HidBytes bytes = begin(pid.operate);
+  put(bytes, pid.operate.block, block);
+  put_choice(bytes, pid.operate.operation, which);
+  put(bytes, pid.operate.loops, loops);
+  return bytes;
+}
+
+HidBytes encode_control(const PidLayout& pid, PidControl control) noexcept {
+  const auto which = static_cast<std::size_t>(control);
+  if (!pid.device_control.control.knows(which)) return {};
+  HidBytes bytes = begin(pid.device_control);
+  put_choice(bytes, pid.device_control.control, which);
+  return bytes;
+}
+
+HidBytes encode_gain(const PidLayout& pid, double gain) noexcept {
+  if (!pid.gain.gain.exists()) return {};
+  HidBytes bytes = begin(pid.gain);
+  put_share(bytes, pid.gain.gain, std::max(gain, 0.0));
+  return bytes;
+}
+
+HidBytes encode_block_free(const PidLayout& pid, int block) noexcept {
+  if (!names(pid.block_free.block, block)) return {};
+  HidBytes bytes = begin(pid.block_free);
+  put(bytes, pid.block_free.block, block);
+  return bytes;
+}
+
+HidBytes encode_create(const PidLayout& pid, PidEffect effect) noexcept {
+  const auto which = static_cast<std::size_t>(effect);
+  if (!pid.create.type.knows(which)) return {};
+  HidBytes bytes = begin(pid.create);
+  put_choice(bytes, pid.create.type, which);
+  return bytes;
+}
+
+std::optional<BlockLoad> decode_block_load(const PidLayout& pid, std::span<const std::uint8_t> report) noexcept {
+  if (!fits(pid.block_load, report)) return std::nullopt;
+  BlockLoad load;
+  load.block = static_cast<int>(std::clamp<std::int64_t>(read_bits(report, pid.block_load.block), 0, 0xffff));
+  using enum BlockLoad::Status;
+  constexpr std::array statuses{success, full, error};
+  for (std::size_t i = 0; i < statuses.size(); ++i) {
+    if (load.status == pending && chosen(pid.block_load.status, i, report)) load.status = statuses[i];
+  }
+  return load;
+}
+
+std::optional<PoolInfo> decode_pool(const PidLayout& pid, std::span<const std::uint8_t> report) noexcept {
+  if (!fits(pid.pool, report)) return std::nullopt;
+  PoolInfo info;
+  info.ram = read_bits(report, pid.pool.ram_size);
+  info.simultaneous = read_bits(report, pid.pool.simultaneous);
+  info.device_managed = flag(report, pid.pool.device_managed, false);
+  return info;
+}
+
+std::optional<PidStatus> decode_state(const PidLayout& pid, std::span<const std::uint8_t> report) noexcept {
+  if (!fits(pid.state, report)) return std::nullopt;
+  PidStatus status;
+  status.actuators_enabled = flag(report, pid.state.actuators_enabled, false);
+  status.actuator_power = flag(report, pid.state.actuator_power, true);
+  status.safety_switch = flag(report, pid.state.safety_switch, true);
+  status.paused = flag(report, pid.state.paused, false);
+  status.playing = flag(report, pid.state.playing, false);
+  status.block = static_cast<int>(std::clamp<std::int64_t>(read_bits(report, pid.state.block), 0, 0xffff));
+  return status;
+}
+
+}  // namespace gearshift

@@ -1,0 +1,63 @@
+// PID reports to bytes and back: pure functions of a layout. Real-time safe. A field that the device does not have is left
+// out; a report that it does not have has no bytes (size 0).
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+
+#include "haptics/hid/hid_bytes.h"
+#include "haptics/hid/pid_layout.h"
+
+namespace gearshift {
+
+inline constexpr int kNoBlock = 0;  // effect blocks count from 1
+
+struct PidEffectSettings {
+  int block = kNoBlock;
+  PidEffect effect = PidEffect::constant;
+  double duration = 0.3;  // [s] > 0; kForever: as long as the device can
+  double gain = 1.0;      // [1] 0 to 1
+  // Which axis it acts on: 0 X, 1 Y, by the axis' enable bit, and by direction where it has one: X 90 degrees, Y 180
+  // (PID 1.0 section 4.2: 0 is from the far side, clockwise). -1: both, for conditions.
+  int axis = 0;
+};
+inline constexpr double kForever = 1e9;  // [s]
+
+struct PidCondition {  // of one axis, in shares of the axis' full deflection, -1 to 1, and of the full force, 0 to 1
+  double centre = 0.0;
+  double dead_band = 0.0;    // half of the width in which nothing is felt
+  double coefficient = 0.0;  // full force per full deflection; the device's most is 1
+  double saturation = 1.0;
+};
+
+HidBytes encode_set_effect(const PidLayout& pid, const PidEffectSettings& settings) noexcept;
+HidBytes encode_constant(const PidLayout& pid, int block, double magnitude) noexcept;  // -1 to 1
+HidBytes encode_condition(const PidLayout& pid, int block, int axis, const PidCondition& condition) noexcept;
+HidBytes encode_operation(const PidLayout& pid, int block, PidOperation operation, int loops) noexcept;
+HidBytes encode_control(const PidLayout& pid, PidControl control) noexcept;
+HidBytes encode_gain(const PidLayout& pid, double gain) noexcept;  // 0 to 1
+HidBytes encode_block_free(const PidLayout& pid, int block) noexcept;
+HidBytes encode_create(const PidLayout& pid, PidEffect effect) noexcept;
+
+struct BlockLoad {
+  enum class Status : std::uint8_t { pending, success, full, error };
+  int block = kNoBlock;
+  Status status = Status::pending;
+};
+struct PoolInfo {
+  std::int64_t ram = 0, simultaneous = 0;  // 0: not told
+  bool device_managed = false;
+};
+struct PidStatus {
+  bool actuators_enabled = false, actuator_power = true, safety_switch = true, paused = false;  // where told
+  bool playing = false;
+  int block = kNoBlock;
+};
+// Nothing where ID or length are not those of the report.
+std::optional<BlockLoad> decode_block_load(const PidLayout& pid, std::span<const std::uint8_t> report) noexcept;
+std::optional<PoolInfo> decode_pool(const PidLayout& pid, std::span<const std::uint8_t> report) noexcept;
+std::optional<PidStatus> decode_state(const PidLayout& pid, std::span<const std::uint8_t> report) noexcept;
+
+}  // namespace gearshift

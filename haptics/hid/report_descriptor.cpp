@@ -1,0 +1,343 @@
+#include "haptics/hid/report_descriptor.h"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <string>
+
+#include "haptics/hid/hid_error.h"
+
+namespace gearshift {
+namespace {
+
+constexpr std::size_t kMostFields = 4096, kMostCollections = 4096;
+constexpr std::size_t kMostUsages = 1024;           // of one field; nobody here asks for a later one
+constexpr std::uint64_t kMostBits = 8 * 0xffffULL;  // of a report: its length is told in 16 bits
+
+// Section 6.2.2.2: an item is its type, its tag and up to four bytes of data.
+enum class ItemType { main, global, local, reserved };
+
+struct Item {
+  ItemType type = ItemType::main;
+  int tag = 0;
+  std::uint32_t data = 0;
+  int size = 0;        // [bytes] of the data
+  std::size_t at = 0;  // [bytes] where it begins
+};
+
+[[noreturn]] void refuse(std::size_t at, const std::string& reason) {
+  throw HidError("report descriptor, byte " + std::to_string(at) + ": " + reason);
+}
+
+// A number whose sign only its neighbours tell.
+struct Limit {
+  std::uint32_t data = 0;
+  int size = 0;
+
+  std::int64_t as_signed() const {
+    if (size == 0) return 0;
+    const std::int64_t half = std::int64_t{1} << (8 * size - 1);
+    return data < half ? data : data - 2 * half;
+  }
+};
+
+struct Range {
+  Limit min, max;
+
+  std::int64_t low() const { return min.as_signed(); }
+  // 25 FF above a minimum of 0 is 255.
+  std::int64_t high() const { return low() < 0 ? max.as_signed() : std::int64_t{max.data}; }
+};
+
+struct Globals {
+  std::uint16_t page = 0;
+  Range logical, physical;
+  std::uint32_t unit = 0, bits = 0, count = 0;
+  int unit_exponent = 0;
+  std::uint8_t report_id = 0;
+};
+
+struct LocalUsage {
+  HidUsage usage;
+  bool with_page = false;  // of 32 bits
+};
+
+struct Locals {
+  std::vector<LocalUsage> usages;
+  std::optional<LocalUsage> low, high;     // a range that is being told
+  bool in_set = false, set_begun = false;  // alternate usages between delimiters
+};
+
+class Parser {
+ public:
+  explicit Parser(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
+
+  ReportDescriptor parse() {
+    const auto last = std::find_if(bytes_.rbegin(), bytes_.rend(), [](std::uint8_t byte) { return byte != 0; });
+    const auto end = static_cast<std::size_t>(bytes_.rend() - last);
+    while (at_ < end) {
+      if (skip_long_item()) continue;
+      take(next_item());
+    }
+    if (collection_ >= 0) {
+      refuse(begun_at_[static_cast<std::size_t>(collection_)], "the collection that begins here never ends");
+    }
+    return std::move(result_);
+  }
+
+ private:
+  bool skip_long_item() {
+    constexpr std::uint8_t prefix = 0xfe;
+    if (bytes_[at_] != prefix) return false;
+    const std::size_t left = bytes_.size() - at_;
+    if (left < 3 || left - 3 < bytes_[at_ + 1]) refuse(at_, "a long item is cut off");
+    at_ += 3U + bytes_[at_ + 1];
+    return true;
+  }
+
+  Item next_item() {
+    const std::uint8_t prefix = bytes_[at_];
+    Item item;
+    item.at = at_;
+    item.size = (prefix & 3) == 3 ? 4 : prefix & 3;
+    item.type = static_cast<ItemType>(prefix >> 2 & 3);
+    item.tag = prefix >> 4;
+    const auto size = static_cast<std::size_t>(item.size);
+    if (bytes_.size() - at_ - 1 < size) refuse(at_, "the last item is cut off");
+    for (std::size_t i = 0; i < size; ++i) {
+      item.data |= static_cast<std::uint32_t>(bytes_[at_ + 1 + i]) << (8 * i);
+    }
+    at_ += 1 + size;
+    return item;
+  }
+
+  void take(const Item& item) {
+    switch (item.type) {
+      case ItemType::main:
+        return take_main(item);
+      case ItemType::global:
+        return take_global(item);
+      case ItemType::local:
+        return take_local(item);
+      case ItemType::reserved:
+        return;
+    }
+  }
+
+  void take_main(const Item& item) {
+    resolve_pages();
+    switch (item.tag) {
+      case 0x8:
+        add_field(item, ReportKind::input);
+        break;
+      case 0x9:
+        add_field(item, ReportKind::output);
+        break;
+      case 0xb:
+        add_field(item, ReportKind::feature);
+        break;
+      case 0xa:
+        begin_collection(item);
+        break;
+      case 0xc:
+        end_collection(item);
+        break;
+      default:
+        break;
+    }
+    locals_ = {};
+  }
+
+  void take_global(const Item& item) {
+    switch (item.tag) {
+      case 0x0:
+        globals_.page = static_cast<std::uint16_t>(item.data);
+        break;
+      case 0x1:
+        globals_.logical.min = {item.data, item.size};
+        break;
+      case 0x2:
+        globals_.logical.max = {item.data, item.size};
+        break;
+      case 0x3:
+        globals_.physical.min = {item.data, item.size};
+        break;
+      case 0x4:
+        globals_.physical.max = {item.data, item.size};
+        break;
+      // A nibble with a sign: 55 0D and 55 FD are both -3.
+      case 0x5:
+        globals_.unit_exponent = (static_cast<int>(item.data & 0xf) ^ 8) - 8;
+        break;
+      case 0x6:
+        globals_.unit = item.data;
+        break;
+      case 0x7:
+        globals_.bits = item.data;
+        break;
+      case 0x8:
+        set_report_id(item);
+        break;
+      case 0x9:
+        globals_.count = item.data;
+        break;
+      case 0xa:
+        pushed_.push_back(globals_);
+        break;
+      case 0xb:
+        pop(item);
+        break;
+      default:
+        break;
+    }
+  }
+
+  void set_report_id(const Item& item) {
+    if (item.data > 0xff) refuse(item.at, "report ID " + std::to_string(item.data) + " is beyond 255");
+    globals_.report_id = static_cast<std::uint8_t>(item.data);
+    result_.numbered = result_.numbered || globals_.report_id != 0;
+  }
+
+  void pop(const Item& item) {
+    if (pushed_.empty()) refuse(item.at, "pops what was never pushed");
+    globals_ = pushed_.back();
+    pushed_.pop_back();
+  }
+
+  LocalUsage usage_of(const Item& item) const {
+    const bool with_page = item.size == 4;
+    const auto page = with_page ? static_cast<std::uint16_t>(item.data >> 16) : globals_.page;
+    return {{page, static_cast<std::uint16_t>(item.data)}, with_page};
+  }
+
+  void take_local(const Item& item) {
+    constexpr int usage = 0x0, usage_low = 0x1, usage_high = 0x2, delimiter = 0xa;
+    switch (item.tag) {
+      case usage:
+        add_usages(usage_of(item), usage_of(item));
+        break;
+      case usage_low:
+        locals_.low = usage_of(item);
+        break;
+      case usage_high:
+        locals_.high = usage_of(item);
+        break;
+      case delimiter:
+        locals_.in_set = item.data != 0;
+        locals_.set_begun = false;
+        break;
+      default:
+        break;  // strings and designators
+    }
+    if (locals_.low && locals_.high) {
+      add_usages(*locals_.low, *locals_.high);
+      locals_.low = locals_.high = std::nullopt;
+    }
+  }
+
+  // Of a set of alternates the first one counts: section 6.2.2.8.
+  void add_usages(LocalUsage low, LocalUsage high) {
+    if (locals_.in_set && locals_.set_begun) return;
+    locals_.set_begun = true;
+    for (int id = low.usage.id; id <= high.usage.id && locals_.usages.size() < kMostUsages; ++id) {
+      low.usage.id = static_cast<std::uint16_t>(id);
+      locals_.usages.push_back(low);
+    }
+  }
+
+  // A page that is told after the usages is theirs (section 6.2.2.8), back to the last one that was told under it: of X and
+  // Y of one page and a throttle of the next, each keeps its own.
+  void resolve_pages() {
+    for (auto usage = locals_.usages.rbegin(); usage != locals_.usages.rend(); ++usage) {
+      if (usage->with_page) continue;
+      if (usage->usage.page == globals_.page) return;
+      usage->usage.page = globals_.page;
+    }
+  }
+
+  void begin_collection(const Item& item) {
+    if (result_.collections.size() == kMostCollections) refuse(item.at, "more than 4096 collections");
+    HidCollection collection;
+    if (!locals_.usages.empty()) collection.usage = locals_.usages.front().usage;
+    collection.type = static_cast<std::uint8_t>(item.data);
+    collection.parent = collection_;
+    collection_ = static_cast<int>(result_.collections.size());
+    result_.collections.push_back(collection);
+    begun_at_.push_back(item.at);
+  }
+
+  void end_collection(const Item& item) {
+    if (collection_ < 0) refuse(item.at, "a collection ends that never began");
+    collection_ = result_.collections[static_cast<std::size_t>(collection_)].parent;
+  }
+
+  void add_field(const Item& item, ReportKind kind) {
+    if (globals_.bits == 0 || globals_.count == 0) return;
+    if (result_.fields.size() == kMostFields) refuse(item.at, "more than 4096 fields");
+    std::uint64_t& end = ends_[static_cast<std::size_t>(kind)][globals_.report_id];
+    const std::uint64_t length = std::uint64_t{globals_.bits} * globals_.count;
+    if (length > kMostBits - end) refuse(item.at, "the report becomes longer than 65535 bytes");
+    HidField field = field_of(item.data, kind);
+    field.offset = static_cast<int>(end);
+    end += length;
+    result_.fields.push_back(std::move(field));
+  }
+
+  HidField field_of(std::uint32_t flags, ReportKind kind) const {
+    HidField field;
+    field.kind = kind;
+    field.report_id = globals_.report_id;
+    field.bits = static_cast<int>(globals_.bits);
+    field.count = static_cast<int>(globals_.count);
+    field.constant = (flags & 1) != 0;
+    field.array = (flags & 2) == 0;
+    field.relative = (flags & 4) != 0;
+    field.logical_min = globals_.logical.low();
+    field.logical_max = globals_.logical.high();
+    field.physical_min = globals_.physical.low();
+    field.physical_max = globals_.physical.high();
+    field.unit = globals_.unit;
+    field.unit_exponent = globals_.unit_exponent;
+    for (const LocalUsage& usage : locals_.usages) field.usages.push_back(usage.usage);
+    field.collection = collection_;
+    return field;
+  }
+
+  std::span<const std::uint8_t> bytes_;
+  std::size_t at_ = 0;
+  Globals globals_;
+  std::vector<Globals> pushed_;
+  Locals locals_;
+  int collection_ = -1;                                   // the innermost that is open
+  std::vector<std::size_t> begun_at_;                     // of each collection
+  std::array<std::array<std::uint64_t, 256>, 3> ends_{};  // [bits] of each report, so far
+  ReportDescriptor result_;
+};
+
+}  // namespace
+
+HidUsage HidField::usage(int element) const noexcept {
+  if (usages.empty()) return {};
+  return usages[std::min(static_cast<std::size_t>(element), usages.size() - 1)];
+}
+
+std::size_t ReportDescriptor::report_size(ReportKind kind, std::uint8_t id) const noexcept {
+  int bits = 0;
+  for (const HidField& field : fields) {
+    if (field.kind == kind && field.report_id == id) bits = std::max(bits, field.offset + field.bits * field.count);
+  }
+  return bits == 0 ? 0 : 1 + (static_cast<std::size_t>(bits) + 7) / 8;
+}
+
+bool ReportDescriptor::is_within(const HidField& field, HidUsage collection) const noexcept {
+  for (int at = field.collection; at >= 0; at = collections[static_cast<std::size_t>(at)].parent) {
+    if (collections[static_cast<std::size_t>(at)].usage == collection) return true;
+  }
+  return false;
+}
+
+ReportDescriptor parse_report_descriptor(std::span<const std::uint8_t> bytes) {
+  return Parser(bytes).parse();
+}
+
+}  // namespace gearshift

@@ -1,0 +1,51 @@
+// HID devices by libusb: which are plugged in, and a port to one of them. No other room sees libusb.
+//
+// Threads: a bus is used by one thread at a time, and so is a port. They share nothing: each has a libusb context of its
+// own, so that a port streams on its thread while the bus lists on another, and may outlive it.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "haptics/hid/hid_port.h"
+
+namespace gearshift {
+
+// A HID interface of a device that is plugged in.
+struct UsbHidDevice {
+  HidIdentity identity;  // as the kernel read it when it was plugged in: it takes no permission
+  int interface = 0;
+  std::string problem;  // why it cannot be opened, one sentence: "... may not be used by this user: ..."; empty: it can
+  std::vector<std::uint8_t> report_descriptor;  // empty where it cannot be read
+};
+
+inline constexpr int kFirstInterface = -1;
+
+class UsbBus {
+ public:
+  UsbBus();  // throws HidError: no USB here
+  ~UsbBus();
+  UsbBus(const UsbBus&) = delete;
+  UsbBus& operator=(const UsbBus&) = delete;
+
+  // In the order of their places. Opens each for a moment, detaches nothing. Throws HidError: no USB here.
+  std::vector<UsbHidDevice> hid_devices() const;
+
+  // Takes the interface: the kernel's driver is detached, and given back when the port goes. Throws HidGone where no such
+  // device is plugged in, HidError where it may not be used (the sentence names the udev rule), is used by another program
+  // or tells no report descriptor. Serial empty: the first of that vendor and product. place, where not empty, must be the
+  // same, too. interface: as hid_devices() says; kFirstInterface: the first HID interface of the device.
+  std::unique_ptr<HidPort> open(const HidIdentity& wanted, int interface = kFirstInterface) const;
+
+  // True as soon as a device has come or gone, or may be used now, since the last call; waits at most that long [ms]. Told
+  // by udev; where nobody tells (containers, guests) the list is looked at every 500 ms.
+  bool wait_for_change(int milliseconds);
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace gearshift

@@ -1,0 +1,220 @@
+// This work is based on:
+// The Linux kernel's documentation of USB/IP: usb/usbip_protocol.rst
+#include "tests/guest/attached_stick.h"
+
+#include <arpa/inet.h>
+#include <sys/socket.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <chrono>
+#include <cstring>
+#include <deque>
+#include <fstream>
+#include <optional>
+#include <span>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+namespace gearshift {
+namespace {
+
+constexpr std::uint32_t kSubmit = 1, kUnlink = 2, kSubmitted = 3, kUnlinked = 4;
+constexpr std::uint32_t kFromDevice = 1;
+constexpr const char* kController = "/sys/devices/platform/vhci_hcd.0/";
+constexpr int kFullSpeed = 2;                    // enum usb_device_speed
+constexpr unsigned kDevice = 0x10002;            // bus 1, device 2, of a host that is not there
+constexpr std::chrono::microseconds kLook{500};  // between two looks at what the stick has to say
+
+// Every message begins with 48 bytes; numbers have their high byte first.
+struct Message {
+  std::uint32_t command = 0, number = 0, device = 0, direction = 0, endpoint = 0;
+  std::array<std::uint32_t, 5> word{};  // submit: flags, length, ...; unlink: the number; answers: status, length, ...
+  std::array<std::uint8_t, 8> setup{};
+};
+static_assert(sizeof(Message) == 48);
+
+Message swapped(Message m) {
+  for (std::uint32_t* word : {&m.command, &m.number, &m.device, &m.direction, &m.endpoint}) *word = ntohl(*word);
+  for (std::uint32_t& word : m.word) word = ntohl(word);
+  return m;
+}
+
+bool read_all(int fd, void* to, std::size_t size) {
+  auto* bytes = static_cast<std::uint8_t*>(to);
+  while (size > 0) {
+    const ssize_t got = read(fd, bytes, size);
+    if (got <= 0) return false;
+    bytes += got;
+    size -= static_cast<std::size_t>(got);
+  }
+  return true;
+}
+
+// A kernel that has hung up is seen where its requests are read.
+void send_all(int fd, const void* from, std::size_t size) {
+  [[maybe_unused]] const ssize_t sent = send(fd, from, size, MSG_NOSIGNAL);
+}
+
+UsbSetup setup_of(const std::array<std::uint8_t, 8>& s) {
+  const auto word = [&](std::size_t at) { return static_cast<std::uint16_t>(s[at] | s[at + 1] << 8); };
+  return {s[0], s[1], word(2), word(4), word(6)};
+}
+
+std::int64_t monotonic_ns() {
+  return std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+void tell_controller(const char* file, const std::string& text) {
+  std::ofstream out(std::string(kController) + file);
+  out << text;
+  out.close();
+  if (!out) throw std::runtime_error(std::string("The virtual host controller does not take ") + file + " " + text);
+}
+
+}  // namespace
+
+struct AttachedStick::Wire {
+  Wire(EmulatedStick& its, std::mutex& guard) : stick(its), mutex(guard) {
+    std::array<int, 2> pair{};
+    if (socketpair(AF_UNIX, SOCK_STREAM, 0, pair.data()) != 0) throw std::runtime_error("No socket for USB/IP");
+    ours = pair[0];
+    theirs = pair[1];
+  }
+  ~Wire() {
+    close(ours);
+    close(theirs);
+  }
+
+  void serve();
+  void live();
+  void submit(const Message& request, std::vector<std::uint8_t> data);
+  void unlink(const Message& request);
+  void answer(const Message& request, std::int32_t status, std::size_t length, std::span<const std::uint8_t> data);
+  void answer_inputs();
+
+  EmulatedStick& stick;
+  std::mutex& mutex;  // of the stick, of what waits, and of what is written
+  int ours = -1, theirs = -1;
+  std::deque<Message> waiting;  // for a report
+  bool ends = false;
+  std::thread server, clock;
+};
+
+// What the kernel asks, until it hangs up.
+void AttachedStick::Wire::serve() {
+  Message request;
+  while (read_all(ours, &request, sizeof request)) {
+    request = swapped(request);
+    const bool sends = request.command == kSubmit && request.direction != kFromDevice;
+    std::vector<std::uint8_t> data(sends ? request.word[1] : 0);
+    if (!read_all(ours, data.data(), data.size())) return;
+    if (request.command == kUnlink) {
+      unlink(request);
+    } else {
+      submit(request, std::move(data));
+    }
+  }
+}
+
+// Time, and reports as soon as there are some.
+void AttachedStick::Wire::live() {
+  auto next = std::chrono::steady_clock::now();
+  for (;;) {
+    next = std::max(next + kLook, std::chrono::steady_clock::now() - kLook);
+    std::this_thread::sleep_until(next);
+    const std::lock_guard lock(mutex);
+    if (ends) return;
+    stick.advance(monotonic_ns());
+    answer_inputs();
+  }
+}
+
+void AttachedStick::Wire::submit(const Message& request, std::vector<std::uint8_t> data) {
+  const bool controls = request.endpoint == 0;
+  std::unique_lock lock(mutex);
+  if (controls && stick.faults.slow > 0.0) {
+    const std::chrono::duration<double> slow(stick.faults.slow);
+    lock.unlock();
+    std::this_thread::sleep_for(slow);
+    lock.lock();
+  }
+  stick.advance(monotonic_ns());
+  if (controls) {
+    const auto reply = stick.control(setup_of(request.setup), data);
+    const std::size_t length = !reply ? 0 : request.direction == kFromDevice ? reply->size() : data.size();
+    answer(request, reply ? 0 : -EPIPE, length, reply ? std::span(*reply) : std::span<const std::uint8_t>{});
+  } else if (request.direction == kFromDevice) {
+    waiting.push_back(request);
+    answer_inputs();
+  } else {
+    const bool taken = stick.output(data);
+    answer(request, taken ? 0 : -EPIPE, taken ? data.size() : 0, {});
+  }
+}
+
+void AttachedStick::Wire::answer_inputs() {
+  while (!waiting.empty()) {
+    std::optional<std::vector<std::uint8_t>> report = stick.input();
+    if (!report) return;
+    const Message request = waiting.front();
+    waiting.pop_front();
+    report->resize(std::min<std::size_t>(report->size(), request.word[1]));
+    answer(request, 0, report->size(), *report);
+  }
+}
+
+void AttachedStick::Wire::unlink(const Message& request) {
+  const std::lock_guard lock(mutex);
+  const auto is_it = [&](const Message& m) { return m.number == request.word[0]; };
+  const auto found = std::find_if(waiting.begin(), waiting.end(), is_it);
+  Message reply;
+  reply.command = kUnlinked;
+  reply.number = request.number;
+  reply.word[0] = found == waiting.end() ? 0 : static_cast<std::uint32_t>(-ECONNRESET);
+  if (found != waiting.end()) waiting.erase(found);
+  reply = swapped(reply);
+  send_all(ours, &reply, sizeof reply);
+}
+
+void AttachedStick::Wire::answer(const Message& request, std::int32_t status, std::size_t length,
+                                 std::span<const std::uint8_t> data) {
+  Message reply;
+  reply.command = kSubmitted;
+  reply.number = request.number;
+  reply.word[0] = static_cast<std::uint32_t>(status);
+  reply.word[1] = static_cast<std::uint32_t>(length);
+  reply = swapped(reply);
+  std::vector<std::uint8_t> bytes(sizeof reply);
+  std::memcpy(bytes.data(), &reply, sizeof reply);
+  bytes.insert(bytes.end(), data.begin(), data.end());
+  send_all(ours, bytes.data(), bytes.size());
+}
+
+AttachedStick::AttachedStick(EmulatedStick& stick, std::mutex& mutex) : wire_(std::make_unique<Wire>(stick, mutex)) {
+  tell_controller("attach", "0 " + std::to_string(wire_->theirs) + " " + std::to_string(kDevice) + " " +
+                                std::to_string(kFullSpeed));
+  wire_->server = std::thread([this] { wire_->serve(); });
+  wire_->clock = std::thread([this] { wire_->live(); });
+}
+
+AttachedStick::~AttachedStick() {
+  try {
+    tell_controller("detach", "0");
+  } catch (const std::runtime_error&) {  // it has gone by itself
+  }
+  {
+    const std::lock_guard lock(wire_->mutex);
+    wire_->ends = true;
+    wire_->stick.unplug();
+  }
+  shutdown(wire_->ours, SHUT_RDWR);
+  wire_->server.join();
+  wire_->clock.join();
+}
+
+}  // namespace gearshift

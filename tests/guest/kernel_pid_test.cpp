@@ -1,0 +1,237 @@
+// The Linux kernel's own driver for PID sticks (drivers/hid/usbhid/hid-pidff.c) against the emulated families: it was
+// written by others, so that it takes them says that they are what they claim to be. Runs in the guest alone.
+#include <fcntl.h>
+#include <linux/input.h>
+#include <sys/ioctl.h>
+#include <sys/klog.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include "tests/guest/guest_bench.h"
+#include "tests/haptics/device/still_hand.h"
+
+using namespace gearshift;
+
+namespace {
+
+int count_in_kernel_log(const std::string& line) {
+  constexpr int kReadAll = 3;
+  std::string log(1 << 20, '\0');
+  const int size = klogctl(kReadAll, log.data(), static_cast<int>(log.size()));
+  log.resize(size > 0 ? static_cast<std::size_t>(size) : 0);
+  int count = 0;
+  for (std::size_t at = log.find(line); at != std::string::npos; at = log.find(line, at + 1)) ++count;
+  return count;
+}
+
+int open_event_device(int vendor, int product) {
+  for (int i = 0; i < 32; ++i) {
+    const int fd = open(("/dev/input/event" + std::to_string(i)).c_str(), O_RDWR | O_NONBLOCK);
+    if (fd < 0) continue;
+    input_id id{};
+    if (ioctl(fd, EVIOCGID, &id) == 0 && id.vendor == vendor && id.product == product) return fd;
+    close(fd);
+  }
+  return -1;
+}
+
+EmulatedStickConfig config_of(StickFamily family) {
+  EmulatedStickConfig config;
+  config.family = family;
+  return config;
+}
+
+// A stick that the kernel has taken, and its event device.
+struct TakenStick {
+  explicit TakenStick(const EmulatedStickConfig& config) : plugged(config, hand) {
+    const auto ready = [&] {
+      if (events < 0) events = open_event_device(plugged.vendor(), plugged.product());
+      return events >= 0 && says(0, EV_FF);
+    };
+    REQUIRE(comes_true(ready, 20.0));
+  }
+  ~TakenStick() { close(events); }
+
+  bool has(int ability) const { return says(EV_FF, ability); }
+  bool says(int kind, int bit) const {
+    std::array<std::uint8_t, KEY_MAX / 8 + 1> bits{};
+    ioctl(events, EVIOCGBIT(kind, bits.size()), bits.data());
+    return (bits[static_cast<std::size_t>(bit / 8)] >> (bit % 8) & 1) != 0;
+  }
+  // The effect's number, or the error.
+  int upload(ff_effect& effect) const {
+    effect.id = -1;
+    return ioctl(events, EVIOCSFF, &effect) < 0 ? -errno : effect.id;
+  }
+  bool play(int effect, int times) const {
+    input_event event{};
+    event.type = EV_FF;
+    event.code = static_cast<std::uint16_t>(effect);
+    event.value = times;
+    return write(events, &event, sizeof event) == sizeof event;
+  }
+  template <class Look>
+  auto truth(Look look) {
+    return plugged.see(look);
+  }
+
+  StillHand hand;
+  PluggedStick plugged;
+  int events = -1;
+};
+
+ff_effect constant_force(int direction, int milliseconds) {
+  ff_effect effect{};
+  effect.type = FF_CONSTANT;
+  effect.direction = static_cast<std::uint16_t>(direction);
+  effect.replay.length = static_cast<std::uint16_t>(milliseconds);
+  effect.u.constant.level = 0x4000;
+  return effect;
+}
+
+}  // namespace
+
+TEST_CASE("hid-pidff takes each family as a PID device, and knows what it can") {
+  for (StickFamily family : kFamilies) {
+    CAPTURE(std::string(stick_family_name(family)));
+    const int before = count_in_kernel_log("Force feedback for USB HID PID devices");
+    TakenStick taken(config_of(family));
+    const auto said = [&] { return count_in_kernel_log("Force feedback for USB HID PID devices") == before + 1; };
+    CHECK(comes_true(said, 5.0));
+    CHECK(taken.has(FF_CONSTANT));
+    CHECK(taken.has(FF_SPRING));
+    CHECK(taken.has(FF_DAMPER));
+    // A first block that is 2 is taken for a centring spring of the device's own: the SideWinder's.
+    CHECK(taken.has(FF_AUTOCENTER) == (family == StickFamily::sidewinder));
+    const int playing = family == StickFamily::sidewinder ? 1 : 0;
+    CHECK(comes_true([&] { return taken.truth([](EmulatedStick& s) { return s.playing(); }) == playing; }, 5.0));
+  }
+}
+
+TEST_CASE("a constant force of the kernel pushes where linux/input.h says, and ends when it shall") {
+  // 0 is down (towards the user), 0x4000 left, 0x8000 up, 0xC000 right.
+  const std::array<glm::dvec2, 4> pushes{{{0.0, -1.0}, {-1.0, 0.0}, {0.0, 1.0}, {1.0, 0.0}}};
+  for (StickFamily family : kFamilies) {
+    CAPTURE(std::string(stick_family_name(family)));
+    TakenStick taken(config_of(family));
+    input_event centring_off{};
+    centring_off.type = EV_FF;
+    centring_off.code = FF_AUTOCENTER;
+    REQUIRE(write(taken.events, &centring_off, sizeof centring_off) == sizeof centring_off);
+    REQUIRE(comes_true([&] { return taken.truth([](EmulatedStick& s) { return s.playing(); }) == 0; }, 5.0));
+    for (std::size_t i = 0; i < pushes.size(); ++i) {
+      CAPTURE(i);
+      taken.truth([](EmulatedStick& stick) {
+        stick.place({0.0, 0.0});
+        return 0;
+      });
+      ff_effect effect = constant_force(static_cast<int>(i) * 0x4000, 300);
+      const int id = taken.upload(effect);
+      REQUIRE(id >= 0);
+      REQUIRE(taken.play(id, 1));
+      const auto along = [&] {
+        return taken.truth([&](EmulatedStick& s) { return glm::dot(s.position(), pushes[i]); });
+      };
+      const auto across = [&] {
+        return taken.truth(
+            [&](EmulatedStick& s) { return s.position().x * pushes[i].y - s.position().y * pushes[i].x; });
+      };
+      CHECK(comes_true([&] { return along() > 0.02; }, 5.0));
+      CHECK(std::abs(across()) < 2e-3);
+      CHECK(comes_true([&] { return taken.truth([](EmulatedStick& s) { return s.playing(); }) == 0; }, 5.0));
+      CHECK(ioctl(taken.events, EVIOCRMFF, id) == 0);
+    }
+  }
+}
+
+TEST_CASE("the event device says where the lever is: right is X +, away from the user Y -") {
+  for (StickFamily family : kFamilies) {
+    CAPTURE(std::string(stick_family_name(family)));
+    EmulatedStickConfig config = config_of(family);
+    config.lever.hand = kGripHand;
+    TakenStick taken(config);
+    taken.truth([&](EmulatedStick&) { return taken.hand.target.position = {0.04, 0.04}; });
+    const auto share = [&](unsigned axis) {
+      input_absinfo info{};
+      ioctl(taken.events, EVIOCGABS(axis), &info);
+      return (info.value - info.minimum) / static_cast<double>(info.maximum - info.minimum);
+    };
+    CHECK(comes_true([&] { return share(ABS_X) > 0.6 && share(ABS_Y) < 0.4; }, 5.0));
+  }
+}
+
+TEST_CASE("a spring of the kernel stands where its law says: x = F / K") {
+  for (StickFamily family : kFamilies) {
+    CAPTURE(std::string(stick_family_name(family)));
+    EmulatedStickConfig config = config_of(family);
+    config.lever.axis_x.stiffness = config.lever.axis_y.stiffness = 0.0;
+    TakenStick taken(config);
+    input_event centring_off{};
+    centring_off.type = EV_FF;
+    centring_off.code = FF_AUTOCENTER;
+    REQUIRE(write(taken.events, &centring_off, sizeof centring_off) == sizeof centring_off);
+    ff_effect effect{};
+    effect.type = FF_SPRING;
+    for (ff_condition_effect& axis : effect.u.condition) {
+      axis.right_coeff = axis.left_coeff = 0x7fff;
+      axis.right_saturation = axis.left_saturation = 0xffff;
+    }
+    const int id = taken.upload(effect);
+    REQUIRE(id >= 0);
+    REQUIRE(taken.play(id, 1));
+    taken.truth([&](EmulatedStick&) {
+      taken.hand.target.push = {6.0, -4.0};
+      return 0;
+    });
+    const glm::dvec2 wanted{6.0 / 400.0, -4.0 / 400.0};
+    const auto off = [&] { return taken.truth([&](EmulatedStick& s) { return glm::length(s.position() - wanted); }); };
+    CHECK(comes_true([&] { return off() < 1e-4; }, 10.0));
+  }
+}
+
+TEST_CASE("a full pool refuses one effect more, and takes it when another has gone") {
+  for (StickFamily family : kFamilies) {
+    CAPTURE(std::string(stick_family_name(family)));
+    EmulatedStickConfig config = config_of(family);
+    config.blocks = 4;
+    TakenStick taken(config);
+    int last = -1;
+    for (int i = 0; i < 4; ++i) {
+      ff_effect effect = constant_force(0, 100);
+      last = taken.upload(effect);
+      CHECK(last >= 0);
+    }
+    ff_effect more = constant_force(0, 100);
+    CHECK(taken.upload(more) == -ENOSPC);
+    CHECK(ioctl(taken.events, EVIOCRMFF, last) == 0);
+    // The kernel frees a block by the output pipe and creates one by the control pipe, which may be faster.
+    CHECK(comes_true([&] { return taken.upload(more) >= 0; }, 5.0));
+  }
+}
+
+TEST_CASE("pulled out while it pushes, it is gone without harm to the kernel") {
+  for (StickFamily family : kFamilies) {
+    CAPTURE(std::string(stick_family_name(family)));
+    EmulatedStickConfig config = config_of(family);
+    int events = -1;
+    {
+      TakenStick taken(config);
+      ff_effect effect = constant_force(0, 0);
+      const int id = taken.upload(effect);
+      REQUIRE(taken.play(id, 1));
+      events = dup(taken.events);
+    }
+    input_id id{};
+    CHECK(comes_true([&] { return ioctl(events, EVIOCGID, &id) < 0 && errno == ENODEV; }, 5.0));
+    close(events);
+  }
+  CHECK(count_in_kernel_log("BUG:") + count_in_kernel_log("Oops") + count_in_kernel_log("WARNING:") == 0);
+}

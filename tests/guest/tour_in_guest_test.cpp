@@ -1,0 +1,285 @@
+// The whole program below the screen, through the real libusb and the real kernel: the driver takes the stick from the
+// kernel's, calibrates it, drives the tour with a hand on it, and gives it back. Runs in the guest alone.
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include "haptics/hardware/calibrator.h"
+#include "haptics/hardware/lever_keeper.h"
+#include "haptics/hardware/pid_lever.h"
+#include "haptics/loop/haptic_loop.h"
+#include "haptics/loop/shift_script.h"
+#include "haptics/rt/realtime_thread.h"
+#include "haptics/usb/usb_hid.h"
+#include "tests/guest/guest_bench.h"
+#include "tests/haptics/device/still_hand.h"
+#include "tests/support/gates.h"
+
+using namespace gearshift;
+
+namespace {
+
+constexpr std::int64_t kTick = 1'000'000;  // [ns] between two outputs
+
+std::int64_t monotonic_ns() {
+  return std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+// Which of the kernel's drivers has the stick's interface; empty: none.
+std::string kernel_driver() {
+  std::error_code none;
+  return std::filesystem::read_symlink("/sys/bus/usb/devices/1-1:1.0/driver", none).filename();
+}
+
+HidIdentity identity_of(const PluggedStick& plugged) {
+  HidIdentity identity;
+  identity.vendor = static_cast<std::uint16_t>(plugged.vendor());
+  identity.product = static_cast<std::uint16_t>(plugged.product());
+  return identity;
+}
+
+// The driver on a stick, as the program has it.
+struct Driven {
+  explicit Driven(const PluggedStick& plugged)
+      : driver(plugged.stick.report_descriptor()),
+        keeper(
+            driver, [identity = identity_of(plugged)] { return UsbBus().open(identity); }, kTick) {
+    REQUIRE(comes_true([&] { return keeper.connected(); }, 20.0));
+  }
+  PidDriver driver;
+  LeverKeeper keeper;
+};
+
+// What a person has shown and measured: the stops in counts, the travel, the force.
+DeviceCalibration shown(const EmulatedStickConfig& config, const PluggedStick& plugged) {
+  const bool sidewinder = config.family == StickFamily::sidewinder, vjoy = config.family == StickFamily::vjoy;
+  LeverAxisCalibration axis;
+  axis.low = sidewinder ? -512.0 : vjoy ? 0.0 : -32767.0;
+  axis.high = sidewinder ? 511.0 : 32767.0;
+  axis.centre = vjoy ? 16384.0 : 0.0;
+  axis.travel = 2.0 * config.half_travel;
+  axis.full_force = config.full_force;
+  DeviceCalibration calibration;
+  calibration.vendor = identity_of(plugged).vendor;
+  calibration.product = identity_of(plugged).product;
+  calibration.select = calibration.shift = axis;
+  calibration.shift.usage = 0x31;
+  std::swap(calibration.shift.low, calibration.shift.high);  // away from the user counts down
+  return calibration;
+}
+
+void take_over(LeverAxisCalibration& axis, const LeverAxisCalibration& measured) {
+  axis.handle = measured.handle;
+  axis.spring_stiffness = measured.spring_stiffness;
+}
+
+// Its polarity is measured. All else is measured of one family alone, and taken over for the others, whose mechanism is the
+// same: it is most of what the guest takes its time for.
+DeviceCalibration calibrated(const EmulatedStickConfig& config, const DeviceCalibration* measured) {
+  RestingHand nobody;
+  PluggedStick plugged(config, nobody);
+  CHECK(comes_true([] { return kernel_driver() == "usbhid"; }, 20.0));
+  Driven driven(plugged);
+  CHECK(kernel_driver() == "usbfs");
+  const CalibrationTick tick = [] {
+    std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    return monotonic_ns();
+  };
+  Calibrator calibrator(driven.driver, tick, shown(config, plugged));
+  try {
+    std::printf("  %s\n", calibrator.measure_polarity().c_str());
+    if (measured == nullptr) {
+      std::printf("  %s\n", calibrator.measure_timing().c_str());
+      std::printf("  %s\n", calibrator.measure_handle().c_str());
+      std::printf("  %s\n", calibrator.measure_springs().c_str());
+    }
+  } catch (const CalibrationRefused& refused) {
+    while (const auto news = driven.keeper.take_news()) MESSAGE(*news);
+    FAIL(std::string(refused.what()));
+  }
+  DeviceCalibration calibration = calibrator.calibration();
+  if (measured == nullptr) return calibration;
+  calibration.timing = measured->timing;
+  take_over(calibration.select, measured->select);
+  take_over(calibration.shift, measured->shift);
+  return calibration;
+}
+
+// Stays where the drive begins until it is led.
+class WaitingHand final : public HandDriver {
+ public:
+  WaitingHand(glm::dvec2 start, std::vector<HandStroke> strokes, double period)
+      : start_(start), script_(touring_hand(start), std::move(strokes), period) {}
+
+  void begin() { led_ = true; }
+  double duration() const { return script_.duration(); }
+
+  HandTarget next(double time, glm::dvec2 lever) noexcept override {
+    HandTarget target;
+    target.position = start_;
+    if (!led_) return target;
+    if (begun_ < 0.0) begun_ = time;
+    return script_.next(time - begun_, lever);
+  }
+
+ private:
+  glm::dvec2 start_;
+  ScriptedHand script_;
+  std::atomic<bool> led_{false};
+  double begun_ = -1.0;  // [s]
+};
+
+HapticConfig config_at_500_hz() {
+  HapticConfig config;
+  config.rate = 500.0;
+  return config;
+}
+
+// The loop on its thread, and what it tells.
+class Running {
+ public:
+  Running(const DeviceCalibration& calibration, PidDriver& driver, const Gate& gate)
+      : config_(config_at_500_hz()),
+        lever_(calibration, driver, period_s(config_)),
+        loop_(config_, gate, lever_, world_, channels_) {
+    RealtimeConfig thread;
+    thread.period_ns = period_ns(config_);
+    thread.spin_ns = 0;
+    thread_.start(thread, [this](const CycleCall& call) { loop_.cycle(call.deadline_ns, call.skipped); });
+  }
+  ~Running() {
+    thread_.stop();
+    lever_.release();
+  }
+
+  int delay() const { return lever_.spec().delay; }
+  double wall() const { return loop_.admitted().tuning.wall_stiffness; }
+  GuardState guard() {
+    channels_.snapshot.update();
+    return channels_.snapshot.value().guard;
+  }
+  bool arm() {
+    channels_.commands.push(LoopCommand::arm);
+    return comes_true([&] { return guard() == GuardState::running; }, 5.0);
+  }
+  // Since the last call.
+  std::vector<int> gears() {
+    std::vector<int> engaged;
+    for (HapticEvent event; channels_.events.pop(event);) {
+      if (event.kind == EventKind::gear_engaged) engaged.push_back(static_cast<int>(event.value));
+    }
+    return engaged;
+  }
+
+ private:
+  HapticConfig config_;
+  NullWorld world_;
+  LoopChannels channels_;
+  PidLever lever_;
+  HapticLoop loop_;
+  RealtimeThread thread_;
+};
+
+bool is_silent(PluggedStick& plugged) {
+  return plugged.see([](EmulatedStick& stick) { return stick.force() == glm::dvec2(0.0) && !stick.actuators_on(); });
+}
+
+// Every gear in its order; then silence before anything is given back.
+void drive_tour(PluggedStick& plugged, WaitingHand& hand, const DeviceCalibration& calibration, const Gate& gate) {
+  Driven driven(plugged);
+  std::vector<int> engaged;
+  double strongest = 0.0;
+  {
+    Running running(calibration, driven.driver, gate);
+    std::printf("  500 Hz, delay %d cycles, walls of %.0f N/m\n", running.delay(), running.wall());
+    REQUIRE(running.arm());
+    hand.begin();
+    const auto is_over = [&] {
+      for (int gear : running.gears()) engaged.push_back(gear);
+      strongest = std::max(strongest, plugged.see([](EmulatedStick& s) { return glm::length(s.force()); }));
+      return engaged.size() >= tour_order(gate).size() || running.guard() != GuardState::running;
+    };
+    CHECK(comes_true(is_over, hand.duration() + 5.0));
+    CHECK(running.guard() == GuardState::running);
+  }
+  CHECK(comes_true([&] { return is_silent(plugged); }, 0.05));
+  CHECK(engaged == tour_order(gate));
+  CHECK(strongest > 2.0);
+  std::printf("  %zu gears, at most %.1f N\n", engaged.size(), strongest);
+  while (const auto news = driven.keeper.take_news()) MESSAGE(*news);
+}
+
+}  // namespace
+
+TEST_CASE("the six-gear tour through the kernel: taken from its driver, calibrated, driven, given back") {
+  const Gate gate = paper_gate();
+  const glm::dvec2 start = rest_position(gate, kNeutralGear);
+  std::optional<DeviceCalibration> measured;
+  for (StickFamily family : {StickFamily::openffboard, StickFamily::sidewinder, StickFamily::vjoy}) {
+    CAPTURE(std::string(stick_family_name(family)));
+    std::printf("%s\n", stick_family_name(family));
+    EmulatedStickConfig config;
+    config.family = family;
+    config.input_interval = 0.002;
+    const DeviceCalibration calibration = calibrated(config, measured ? &*measured : nullptr);
+    if (!measured) measured = calibration;
+    // A positive force comes from the right and from the user (PID 1.0 section 4.2).
+    CHECK(calibration.select.constant_sign == -1);
+    CHECK(calibration.shift.constant_sign == 1);
+    CHECK(calibration.select.spring_sign == 1);
+    CHECK(calibration.shift.spring_sign == 1);
+
+    config.lever.hand = kGripHand;
+    WaitingHand hand(start, shift_strokes(gate, start, tour_order(gate)), config.plant_period);
+    PluggedStick plugged(config, hand);
+    drive_tour(plugged, hand, calibration, gate);
+    CHECK(comes_true([] { return kernel_driver() == "usbhid"; }, 5.0));
+  }
+  // The mechanism as it is: 0.095 and 0.086 kg, springs of 400 N/m.
+  CHECK(measured->select.handle.mass == doctest::Approx(0.095).epsilon(0.1));
+  CHECK(measured->shift.handle.mass == doctest::Approx(0.086).epsilon(0.1));
+  CHECK(measured->select.spring_stiffness == doctest::Approx(400.0).epsilon(0.1));
+}
+
+TEST_CASE("pulled out while it pushes: waited for without udev, silent when it is back until a person arms it") {
+  const Gate gate = paper_gate();
+  EmulatedStickConfig config;
+  config.family = StickFamily::openffboard;
+  config.input_interval = 0.002;
+  StillHand hand(hand_pushing({6.0, 0.0}));  // along the neutral aisle, to its end
+  PluggedStick plugged(config, hand);
+  DeviceCalibration calibration = shown(config, plugged);
+  calibration.timing = {0.002, 0.001, 0.001, 0.0};
+  for (LeverAxisCalibration* axis : {&calibration.select, &calibration.shift}) {
+    axis->handle = kPaperAxisY;
+    axis->constant_sign = axis == &calibration.select ? -1 : 1;
+  }
+  Driven driven(plugged);
+  Running running(calibration, driven.driver, gate);
+  REQUIRE(running.arm());
+  const auto pushes = [&] { return plugged.see([](EmulatedStick& stick) { return stick.force().x < -3.0; }); };
+  CHECK(comes_true(pushes, 5.0));
+
+  plugged.pull_out();
+  CHECK(comes_true([&] { return !driven.keeper.connected(); }, 5.0));
+  CHECK(comes_true([&] { return running.guard() == GuardState::damped || running.guard() == GuardState::released; },
+                   5.0));
+  plugged.plug_in();
+  CHECK(comes_true([&] { return driven.keeper.connected(); }, 20.0));
+  CHECK(kernel_driver() == "usbfs");
+  CHECK_FALSE(comes_true([&] { return !is_silent(plugged); }, 1.0));
+  REQUIRE(running.arm());
+  CHECK(comes_true(pushes, 5.0));
+  while (const auto news = driven.keeper.take_news()) std::printf("  %s\n", news->c_str());
+}

@@ -1,0 +1,47 @@
+// What a perfect measurement of an emulated stick would say.
+#pragma once
+
+#include "haptics/hardware/device_calibration.h"
+#include "tests/support/stick/emulated_stick.h"
+
+namespace gearshift {
+
+// Forward is away from the user, which a stick counts down; a positive constant force pushes left and forward (PID 1.0
+// section 4.2), unless the stick has it the other way round.
+inline DeviceCalibration calibration_of(const EmulatedStickConfig& stick) {
+  struct Range {
+    double low, high;
+  };
+  const Range range = stick.family == StickFamily::sidewinder    ? Range{-512.0, 511.0}
+                      : stick.family == StickFamily::openffboard ? Range{-32767.0, 32767.0}
+                                                                 : Range{0.0, 32767.0};
+  const double centre = 0.5 * (range.low + range.high), travel = 2.0 * stick.half_travel;
+  DeviceCalibration known;
+  known.select = {0x30,
+                  range.low,
+                  centre,
+                  range.high,
+                  travel,
+                  stick.full_force,
+                  -stick.constant_sign.x,
+                  stick.spring_sign.x,
+                  stick.spring_stiffness,
+                  stick.lever.axis_x};
+  known.shift = {0x31,
+                 range.high,
+                 centre,
+                 range.low,
+                 travel,
+                 stick.full_force,
+                 stick.constant_sign.y,
+                 stick.spring_sign.y,
+                 stick.spring_stiffness,
+                 stick.lever.axis_y};
+  known.timing = {stick.input_interval, 0.001, stick.delay, 0.0};
+  known.press_button = 1;
+  known.lift_button = 2;
+  known.stop_button = 3;
+  return known;
+}
+
+}  // namespace gearshift

@@ -1,0 +1,376 @@
+// A stick is measured as it is: by what the emulation was built with, in virtual time. And nonsense is refused.
+#include "haptics/hardware/calibrator.h"
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include <doctest/doctest.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "tests/haptics/device/still_hand.h"
+#include "tests/haptics/hardware/calibrated.h"
+#include "tests/haptics/hardware/showing_hand.h"
+#include "tests/haptics/hardware/stick_bench.h"
+#include "tests/haptics/hardware/stick_loop.h"
+
+using namespace gearshift;
+using glm::dvec2;
+
+namespace {
+
+// A stick, somebody in front of it, and the calibrator, whose ticks are the bench's.
+struct CalibrationBench : StickBench {
+  explicit CalibrationBench(const EmulatedStickConfig& config, const DeviceCalibration& known = {})
+      : StickBench(config, person),
+        calibrator((prepare(), driver),
+                   [this] {
+                     tick();
+                     strongest = std::max(strongest, glm::length(stick.force()));
+                     if (every_tick) every_tick();
+                     return now_ns;
+                   },
+                   known) {
+    stick.logs = false;
+  }
+
+  void show(const std::function<dvec2(double)>& way) {  // [m] by time from now [s]
+    person.wants = [this, way, begin = time()] { return way(time() - begin); };
+  }
+  void hands_off() { person.wants = nullptr; }
+
+  void find_axes() {
+    show([](double t) { return dvec2(t < 0.6 ? 0.0 : 0.060, 0.0); });
+    calibrator.find_axis(true, 2.0);
+    show([](double t) { return dvec2(0.0, t < 0.6 ? 0.0 : 0.060); });
+    calibrator.find_axis(false, 2.0);
+  }
+  std::string round_all_ends() {
+    show([](double t) { return 0.090 * dvec2(std::cos(3.0 * t), std::sin(3.0 * t)); });
+    every_tick = [this, begin = time()] {
+      if (time() - begin > 4.0) hands_off();
+    };
+    std::string sentence = calibrator.measure_range(5.0);
+    every_tick = nullptr;
+    return sentence;
+  }
+
+  ShowingHand person;
+  double strongest = 0.0;  // [N]
+  std::function<void()> every_tick;
+  Calibrator calibrator;
+};
+
+EmulatedStickConfig of(StickFamily family) {
+  EmulatedStickConfig config;
+  config.family = family;
+  return config;
+}
+
+// All of it but the timing and the handle; those of a perfect measurement.
+DeviceCalibration shown(const EmulatedStickConfig& config) {
+  DeviceCalibration known = calibration_of(config);
+  known.timing = {};
+  for (LeverAxisCalibration* axis : {&known.select, &known.shift}) {
+    axis->constant_sign = axis->spring_sign = 0;
+    axis->spring_stiffness = 0.0;
+    axis->handle = {};
+  }
+  return known;
+}
+
+std::string refusal(const std::function<void()>& step) {
+  try {
+    step();
+  } catch (const CalibrationRefused& refused) {
+    return refused.what();
+  }
+  return "";
+}
+
+double counts_of(const LeverAxisCalibration& axis) {
+  return std::abs(axis.high - axis.low);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "a stick that nobody knows is measured from the start, on every family and with every polarity, and holds a wall") {
+  for (const StickFamily family : kStickFamilies) {
+    for (const glm::ivec2 sign : {glm::ivec2(1, 1), glm::ivec2(-1, 1)}) {
+      CAPTURE(name_of(family));
+      CAPTURE(sign.x);
+      EmulatedStickConfig config = of(family);
+      config.constant_sign = sign;
+      config.spring_sign = {sign.y, sign.x};
+      config.delay = 0.002;
+      const DeviceCalibration truth = calibration_of(config);
+      CalibrationBench bench(config);
+      Calibrator& calibrator = bench.calibrator;
+
+      bench.find_axes();
+      bench.round_all_ends();
+      calibrator.set_numbers(0.14, 0.14, 20.0);
+      bench.hands_off();
+      bench.strongest = 0.0;
+      calibrator.measure_polarity();
+      CHECK(bench.strongest <= kCautious * 20.0 * 1.01);
+      calibrator.measure_timing();
+      calibrator.measure_handle();
+      calibrator.measure_springs();
+
+      const DeviceCalibration& found = calibrator.calibration();
+      CHECK(missing_steps(found, true).empty());
+      CHECK(found.select.constant_sign == truth.select.constant_sign);
+      CHECK(found.shift.constant_sign == truth.shift.constant_sign);
+      CHECK(found.select.spring_sign == truth.select.spring_sign);
+      CHECK(found.shift.spring_sign == truth.shift.spring_sign);
+      for (const bool select : {true, false}) {
+        const LeverAxisCalibration& is = select ? found.select : found.shift;
+        const LeverAxisCalibration& should = select ? truth.select : truth.shift;
+        const double count = 0.01 * counts_of(should);
+        CHECK(is.usage == should.usage);
+        CHECK(std::abs(is.low - should.low) < count);
+        CHECK(std::abs(is.high - should.high) < count);
+        CHECK(std::abs(is.centre - should.centre) < count);
+        CHECK(is.handle.mass == doctest::Approx(should.handle.mass).epsilon(0.05));
+        CHECK(is.handle.damping == doctest::Approx(should.handle.damping).epsilon(0.05));
+        CHECK(std::abs(is.handle.stiffness - should.handle.stiffness) < 4.0);
+        CHECK(is.spring_stiffness == doctest::Approx(400.0).epsilon(0.05));
+      }
+      CHECK(found.timing.input_interval == doctest::Approx(0.001));
+      CHECK(found.timing.jitter == doctest::Approx(0.0));
+      CHECK(found.timing.output_interval == doctest::Approx(0.001).epsilon(0.02));
+      CHECK(std::abs(found.timing.delay - 0.002) < 3e-4);
+
+      // And holds a wall with it: a hand that presses into the gate's neutral aisle.
+      EmulatedStickConfig gripped = config;
+      gripped.lever.hand = kGripHand;
+      StillHand hand;
+      StickLoop run(gripped, found, HapticConfig{}, stick_gate("six_speed_r_left_up", gripped), hand);
+      run.loop.arm();
+      run.cycle_for(0.7);
+      hand.target = hand_at({0.012, 0.020});
+      run.cycle_for(1.0);
+      CHECK(run.loop.snapshot().guard == GuardState::running);
+      CHECK(glm::length(run.stick.force()) > 3.0);
+      CHECK(glm::distance(run.loop.snapshot().lever, run.loop.snapshot().proxy) < 0.005);
+      dvec2 low = run.stick.position(), high = low;
+      for (int ms = 0; ms < 100; ++ms) {
+        run.cycle();
+        low = glm::min(low, run.stick.position());
+        high = glm::max(high, run.stick.position());
+      }
+      CHECK(glm::length(high - low) < 3e-4);  // two counts of the SideWinder
+    }
+  }
+}
+
+TEST_CASE("delay: what the emulation was built with, to a third of a millisecond") {
+  for (const double delay : {0.0, 0.001, 0.003, 0.0055, 0.012}) {
+    CAPTURE(delay);
+    EmulatedStickConfig config = of(StickFamily::sidewinder);  // the coarsest
+    config.delay = delay;
+    config.plant_period = 0.00025;
+    DeviceCalibration known = shown(config);
+    known.select.constant_sign = -1;
+    known.shift.constant_sign = 1;
+    CalibrationBench bench(config, known);
+    bench.calibrator.measure_timing();
+    CHECK(std::abs(bench.calibrator.calibration().timing.delay - delay) < 3.5e-4);
+  }
+}
+
+TEST_CASE("intervals: those of the stick and of its ticks") {
+  for (const double interval : {0.002, 0.004, 0.008}) {
+    EmulatedStickConfig config = of(StickFamily::vjoy);
+    config.input_interval = interval;
+    DeviceCalibration known = shown(config);
+    known.select.constant_sign = -1;
+    known.shift.constant_sign = 1;
+    CalibrationBench bench(config, known);
+    bench.period_ns = 2'000'000;
+    bench.stream.tick_ns = 2'000'000;
+    bench.calibrator.measure_timing();
+    CHECK(bench.calibrator.calibration().timing.input_interval == doctest::Approx(interval).epsilon(0.01));
+    CHECK(bench.calibrator.calibration().timing.output_interval == doctest::Approx(0.002).epsilon(0.03));
+  }
+}
+
+TEST_CASE("what is missing, in order; a step that is done is not asked for again") {
+  using enum CalibrationStep;
+  DeviceCalibration known;
+  CHECK(missing_steps(known, true) == std::vector{range, numbers, polarity, timing, handle, springs});
+  CHECK(missing_steps(known, false) == std::vector{range, numbers, polarity, timing, handle});
+  known = calibration_of(of(StickFamily::vjoy));
+  CHECK(missing_steps(known, true).empty());
+  known.timing = {};
+  known.shift.spring_stiffness = 0.0;
+  CHECK(missing_steps(known, true) == std::vector{timing, springs});
+  known = shown(of(StickFamily::vjoy));
+  CHECK(missing_steps(known, true) == std::vector{polarity, timing, handle, springs});
+}
+
+TEST_CASE("resumed: the steps that are left need what is in the file, and no more") {
+  const EmulatedStickConfig config = of(StickFamily::openffboard);
+  CalibrationBench bench(config, shown(config));
+  bench.calibrator.measure_polarity();
+  const DeviceCalibration half = bench.calibrator.calibration();
+  CalibrationBench again(config, half);
+  again.calibrator.measure_timing();
+  again.calibrator.measure_springs();
+  CHECK(missing_steps(again.calibrator.calibration(), true) == std::vector{CalibrationStep::handle});
+}
+
+TEST_CASE("nonsense while a person shows the lever is refused, and changes nothing") {
+  const EmulatedStickConfig config = of(StickFamily::openffboard);
+  CalibrationBench bench(config);
+  Calibrator& calibrator = bench.calibrator;
+  CHECK(refusal([&] { calibrator.measure_range(2.0); }) == "which axes the lever moves is not known yet");
+
+  bench.show([](double t) { return dvec2(t < 0.6 ? 0.0 : 0.020, 0.0); });
+  CHECK(refusal([&] { calibrator.find_axis(true, 2.0); }).find("no axis moved by more than 1") == 0);
+  bench.show([](double t) { return dvec2(t < 0.6 ? 0.0 : 0.060); });
+  CHECK(refusal([&] { calibrator.find_axis(true, 2.0); }) == "two axes moved together: push the lever straight");
+  bench.show([](double t) { return dvec2(t < 0.6 ? 0.0 : 0.060, 0.0); });
+  CHECK(calibrator.find_axis(true, 2.0) == "right is axis 1 of the stick, counting up");
+  bench.show([](double t) { return dvec2(t < 0.6 ? 0.0 : 0.060, 0.0); });
+  CHECK(refusal([&] { calibrator.find_axis(false, 2.0); }) ==
+        "the same axis moved as to the right: push the lever forward");
+  bench.show([](double t) { return dvec2(0.0, t < 0.6 ? 0.0 : 0.060); });
+  CHECK(calibrator.find_axis(false, 2.0) == "forward is axis 2 of the stick, counting down");
+
+  const auto lets_go_after = [&](double seconds) {
+    bench.every_tick = [&, seconds, begin = bench.time()] {
+      if (bench.time() - begin > seconds) bench.hands_off();
+    };
+  };
+  bench.show([](double t) { return 0.010 * dvec2(std::cos(3.0 * t), std::sin(3.0 * t)); });
+  lets_go_after(4.0);
+  CHECK(refusal([&] { calibrator.measure_range(5.0); }).find("of its range: move the lever to all its ends") !=
+        std::string::npos);
+  bench.show([](double t) { return dvec2(0.06 * std::sin(3.0 * t)); });
+  lets_go_after(4.0);
+  CHECK(refusal([&] { calibrator.measure_range(5.0); }).find("the two axes move together") == 0);
+  // It is left leaning to the right.
+  bench.show([](double t) { return t < 3.0 ? 0.09 * dvec2(std::cos(3.0 * t), std::sin(3.0 * t)) : dvec2(0.055, 0.0); });
+  bench.every_tick = nullptr;
+  CHECK(refusal([&] { calibrator.measure_range(5.0); }).find("select rests at 8") == 0);
+  // The hand never leaves it alone.
+  bench.show([](double t) { return 0.09 * dvec2(std::cos(3.0 * t), std::sin(3.0 * t)); });
+  CHECK(refusal([&] { calibrator.measure_range(5.0); }) == "the lever does not come to rest: take the hands off it");
+  CHECK_FALSE(calibrator.calibration().has_stops());
+
+  CHECK(refusal([&] { calibrator.set_numbers(0.01, 0.1, 20.0); }) ==
+        "a travel of 0.01 m: it must be between 0.02 and 0.5 m");
+  CHECK(refusal([&] { calibrator.set_numbers(0.1, 0.1, 500.0); }) ==
+        "a full force of 500 N: it must be between 0.5 and 100 N");
+  CHECK(refusal([&] { calibrator.set_numbers(0.1, std::nan(""), 20.0); }).find("a travel of nan m") == 0);
+  CHECK_FALSE(calibrator.calibration().has_force());
+}
+
+TEST_CASE("a range is measured in spite of readings that jump") {
+  CalibrationBench bench(of(StickFamily::vjoy));
+  bench.find_axes();
+  bench.stick.faults.jump = true;
+  bench.show([](double t) { return 0.050 * dvec2(std::cos(3.0 * t), std::sin(3.0 * t)); });  // not to the ends
+  bench.every_tick = [&, begin = bench.time()] {
+    if (bench.time() - begin > 4.0) bench.hands_off();
+    if (bench.time() - begin > 3.9) bench.stick.faults.jump = false;
+  };
+  bench.calibrator.measure_range(5.0);
+  // Its circle is of some 48 mm, of 70; a jump goes 42 mm beyond.
+  CHECK(counts_of(bench.calibrator.calibration().select) == doctest::Approx(32767.0 * 0.048 / 0.07).epsilon(0.03));
+}
+
+TEST_CASE(
+    "polarity: refused where nothing moves, where a hand holds it, where it is moved by a hand, before the range") {
+  const EmulatedStickConfig config = of(StickFamily::vjoy);
+  CalibrationBench unknown(config);
+  CHECK(refusal([&] { unknown.calibrator.measure_polarity(); }) == "where the lever's ends are is not known yet");
+
+  EmulatedStickConfig stiff = config;
+  stiff.lever.coulomb_friction = 3.0;  // more than 10 % of 20 N
+  CalibrationBench stuck(stiff, shown(stiff));
+  CHECK(refusal([&] { stuck.calibrator.measure_polarity(); }).find("select does not move by 10 % of the full force") ==
+        0);
+  CHECK(stuck.strongest <= 2.0 + 1e-9);
+
+  EmulatedStickConfig in_hand = config;
+  in_hand.lever.hand = kArmHand;
+  in_hand.lever.hand.stiffness = 5000.0;
+  CalibrationBench held(in_hand, shown(in_hand));
+  CHECK(refusal([&] { held.calibrator.measure_polarity(); }).find("select does not move") == 0);
+
+  CalibrationBench pushed(config, shown(config));
+  pushed.every_tick = [&] {  // against whatever it does, to one side
+    if (glm::length(pushed.stick.force()) > 0.1)
+      pushed.person.wants = [] { return dvec2(0.03, 0.0); };
+    else
+      pushed.hands_off();
+  };
+  CHECK(refusal([&] { pushed.calibrator.measure_polarity(); }) ==
+        "select did not move one way and then the other: take the hands off the lever");
+
+  CalibrationBench shaken(config, shown(config));
+  shaken.show([](double t) { return 0.02 * dvec2(std::sin(9.0 * t), 0.0); });
+  CHECK(refusal([&] { shaken.calibrator.measure_polarity(); }) ==
+        "the lever does not come to rest: take the hands off it");
+  for (CalibrationBench* bench : {&stuck, &held, &pushed, &shaken}) {
+    CHECK_FALSE(bench->calibrator.calibration().has_polarity());
+    bench->tick();
+    bench->tick();
+    CHECK(bench->stick.force() == dvec2(0.0));  // nothing is left on
+  }
+}
+
+TEST_CASE("a wrong axis, a wrong polarity, a stick that is lost: refused") {
+  const EmulatedStickConfig config = of(StickFamily::sidewinder);
+  DeviceCalibration known = shown(config);
+  known.select.usage = 0x32;
+  CalibrationBench other(config, known);
+  CHECK_FALSE(refusal([&] { other.calibrator.measure_polarity(); }).empty());
+
+  known = shown(config);
+  known.select.constant_sign = 1;  // it is -1
+  known.shift.constant_sign = 1;
+  CalibrationBench wrong(config, known);
+  CHECK(refusal([&] { wrong.calibrator.measure_timing(); }) ==
+        "select moves the other way than its polarity says: measure the polarity again");
+
+  CalibrationBench lost(config, shown(config));
+  lost.every_tick = [&] {
+    if (lost.now_ns == 700'000'000) lost.prepare();  // unplugged and back
+  };
+  CHECK(refusal([&] { lost.calibrator.measure_polarity(); }) == "the stick was lost while it was measured");
+
+  CalibrationBench silent(config, shown(config));
+  silent.every_tick = [&] { silent.stick.faults.silent = silent.time() > 0.1; };
+  CHECK_THROWS(silent.calibrator.measure_polarity());
+}
+
+TEST_CASE("buttons: the one that is pressed, not one that was held, and none twice") {
+  CalibrationBench bench(of(StickFamily::sidewinder));
+  const auto press = [&](std::uint64_t before, std::uint64_t after) {
+    bench.stick.held_buttons = before;
+    bench.tick();
+    bench.every_tick = [&bench, after, begin = bench.time()] {
+      if (bench.time() - begin > 0.5) bench.stick.held_buttons = after;
+    };
+  };
+  press(0b00001, 0b01001);
+  CHECK(bench.calibrator.find_button(LeverButton::stop, 2.0) == "button 4");
+  CHECK(bench.calibrator.calibration().stop_button == 4);
+  press(0, 0b1000);
+  CHECK(refusal([&] { bench.calibrator.find_button(LeverButton::lift, 2.0); }) ==
+        "button 4 has another meaning already");
+  press(0, 0b11000);
+  CHECK(refusal([&] { bench.calibrator.find_button(LeverButton::lift, 2.0); }) ==
+        "more than one button was pressed at once");
+  press(0b1, 0b1);
+  CHECK(refusal([&] { bench.calibrator.find_button(LeverButton::lift, 2.0); }) == "no button was pressed");
+  press(0, 0b1000);
+  CHECK(bench.calibrator.find_button(LeverButton::stop, 2.0) == "button 4");
+}

@@ -1,0 +1,243 @@
+// A calibration as a file, to the bit; and what the loop may make of it.
+#include "haptics/hardware/device_calibration.h"
+
+#include <algorithm>
+#include <fstream>
+#include <random>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "haptics/files/file_error.h"
+#include "haptics/loop/haptic_config.h"
+#include "tests/support/gates.h"
+#include "tests/support/temp_folder.h"
+
+using namespace gearshift;
+
+namespace {
+
+class RandomCalibration {
+ public:
+  explicit RandomCalibration(std::uint64_t seed) : chance_(seed) {}
+
+  DeviceCalibration make() {
+    DeviceCalibration made;
+    made.vendor = static_cast<std::uint16_t>(chance_());
+    made.product = static_cast<std::uint16_t>(chance_());
+    if (flag()) made.serial = "S\"" + std::to_string(chance_()) + "\\";
+    if (flag())
+      made.name =
+          "St\xc3\xb6"
+          "ck # " +
+          std::to_string(chance_());
+    fill(made.select);
+    fill(made.shift);
+    made.select.usage = 0x30 + static_cast<int>(chance_() % 4);
+    made.shift.usage = 0x34 + static_cast<int>(chance_() % 5);
+    made.timing = {between(0.0, 1.0), between(0.0, 1.0), between(0.0, 1.0), between(0.0, 1.0)};
+    made.press_button = static_cast<int>(chance_() % 65);
+    made.lift_button = static_cast<int>(chance_() % 65);
+    made.stop_button = static_cast<int>(chance_() % 65);
+    return made;
+  }
+
+ private:
+  double between(double low, double high) { return std::uniform_real_distribution<double>(low, high)(chance_); }
+  bool flag() { return chance_() % 2 == 0; }
+  int sign() { return static_cast<int>(chance_() % 3) - 1; }
+
+  void fill(LeverAxisCalibration& axis) {
+    axis.low = between(-4e4, 4e4);
+    axis.high = between(-4e4, 4e4);
+    axis.centre = axis.low + between(0.1, 0.9) * (axis.high - axis.low);
+    axis.travel = flag() ? 0.0 : between(0.01, 1.0);
+    axis.full_force = flag() ? 0.0 : between(0.1, 200.0);
+    axis.constant_sign = sign();
+    axis.spring_sign = sign();
+    axis.spring_stiffness = between(0.0, 1e5);
+    axis.handle = {flag() ? 0.0 : between(1e-3, 1e3), between(0.0, 1e4), between(0.0, 1e6)};
+  }
+
+  std::mt19937_64 chance_;
+};
+
+bool same(const AxisModel& a, const AxisModel& b) {
+  return a.mass == b.mass && a.damping == b.damping && a.stiffness == b.stiffness;
+}
+
+bool same(const LeverAxisCalibration& a, const LeverAxisCalibration& b) {
+  return a.usage == b.usage && a.low == b.low && a.centre == b.centre && a.high == b.high && a.travel == b.travel &&
+         a.full_force == b.full_force && a.constant_sign == b.constant_sign && a.spring_sign == b.spring_sign &&
+         a.spring_stiffness == b.spring_stiffness && same(a.handle, b.handle);
+}
+
+bool same(const DeviceTiming& a, const DeviceTiming& b) {
+  return a.input_interval == b.input_interval && a.output_interval == b.output_interval && a.delay == b.delay &&
+         a.jitter == b.jitter;
+}
+
+bool same(const DeviceCalibration& a, const DeviceCalibration& b) {
+  return a.vendor == b.vendor && a.product == b.product && a.serial == b.serial && a.name == b.name &&
+         same(a.select, b.select) && same(a.shift, b.shift) && same(a.timing, b.timing) &&
+         a.press_button == b.press_button && a.lift_button == b.lift_button && a.stop_button == b.stop_button;
+}
+
+// The paper's joystick as a stick of 140 mm and 20 N that answers after so long.
+DeviceCalibration measured(const DeviceTiming& timing) {
+  DeviceCalibration known;
+  known.select = {0x30, 0.0, 500.0, 1000.0, 0.14, 20.0, 1, 1, 400.0, kPaperAxisX};
+  known.shift = {0x31, 1000.0, 400.0, 0.0, 0.14, 20.0, -1, 1, 300.0, kPaperAxisY};
+  known.timing = timing;
+  return known;
+}
+
+std::string refusal(const std::string& text) {
+  const TempFolder folder;
+  std::ofstream(folder / "c.toml") << text;
+  try {
+    (void)read_calibration(folder / "c.toml");
+  } catch (const FileError& error) {
+    const std::string sentence = error.what();
+    return sentence.substr(sentence.find("c.toml"));
+  }
+  return "";
+}
+
+// The text of a calibration in which one line says something else.
+std::string changed(const std::string& key, const std::string& line) {
+  std::istringstream text(calibration_text(measured({0.001, 0.001, 0.002, 0.0})));
+  std::string out, old;
+  for (bool done = false; std::getline(text, old);) {
+    const bool is_it = !done && old.rfind(key + " = ", 0) == 0;
+    out += (is_it ? line : old) + '\n';
+    done = done || is_it;
+  }
+  return out;
+}
+
+}  // namespace
+
+TEST_CASE("what is written is read back: every key, every bit") {
+  const TempFolder folder;
+  for (std::uint64_t seed = 1; seed <= 200; ++seed) {
+    CAPTURE(seed);
+    const DeviceCalibration written = RandomCalibration(seed).make();
+    const std::filesystem::path file = folder / "deep" / "c.toml";
+    write_calibration(written, file);
+    const std::optional<DeviceCalibration> back = read_calibration(file);
+    REQUIRE(back.has_value());
+    CHECK(same(*back, written));
+  }
+  CHECK(read_calibration(folder / "none.toml") == std::nullopt);
+}
+
+TEST_CASE("a device has a file of its own, whatever its serial says") {
+  HidIdentity stick;
+  stick.vendor = 0x045e;
+  stick.product = 0x001b;
+  CHECK(calibration_file("/c", stick) == "/c/045e_001b.toml");
+  stick.serial = "A-1/../\xc3\xa9\n";
+  CHECK(calibration_file("/c", stick) == "/c/045e_001b_A-1_______.toml");
+}
+
+TEST_CASE("nonsense is refused: file, line, key, value and range") {
+  CHECK(refusal(changed("low_counts", "low_counts = 600")) ==
+        "c.toml:8: centre_counts = 500: must lie between low_counts and high_counts");
+  CHECK(refusal(changed("travel_m", "travel_m = 0.003")) ==
+        "c.toml:10: travel_m = 0.003: must be 0 (not known) or between 0.01 and 1");
+  CHECK(refusal(changed("constant_sign", "constant_sign = 2")) ==
+        "c.toml:12: constant_sign = 2: must be between -1 and 1");
+  CHECK(refusal(changed("constant_sign", "constant_sign = 0.5")) ==
+        "c.toml:12: constant_sign = 0.5: must be a whole number");
+  CHECK(refusal(changed("mass_kg", "mass_kg = nan")).find("c.toml:17: mass_kg = nan: must be between 0 and 1000") == 0);
+  CHECK(refusal(changed("axis", "axis = \"q\"")) ==
+        "c.toml:6: axis = \"q\": must be one of x, y, z, rx, ry, rz, slider, dial, wheel");
+  CHECK(refusal(changed("axis", "axis = \"y\"")).find("must not be that of select") != std::string::npos);
+  CHECK(refusal(changed("stop", "stop = 65")).find("stop = 65: must be between 0 and 64") != std::string::npos);
+  CHECK(refusal(changed("stop", "halt = 1")).find("stop is missing") != std::string::npos);
+  CHECK(refusal("vendor = 1\n").find("product is missing") != std::string::npos);
+  CHECK(refusal("what").find("not valid TOML") != std::string::npos);
+}
+
+TEST_CASE("what could not be read again is not written, and the old file stays") {
+  const TempFolder folder;
+  const std::filesystem::path file = folder / "c.toml";
+  write_calibration(measured({}), file);
+  DeviceCalibration bad = measured({});
+  bad.select.centre = 2000.0;
+  CHECK_THROWS_AS(write_calibration(bad, file), FileError);
+  CHECK(same(*read_calibration(file), measured({})));
+}
+
+TEST_CASE("cycles of delay: (1 + delay) T is no less than what passes between a reading and its answer") {
+  // Sums by hand: interval + jitter + output interval + delay.
+  CHECK(delay_cycles({0.001, 0.001, 0.0, 0.0}, 0.001) == 1);        // 2.0 ms
+  CHECK(delay_cycles({0.001, 0.001, 0.002, 0.0}, 0.001) == 3);      // 4.0 ms: 3 ms after it was sent a force is seen
+  CHECK(delay_cycles({0.001, 0.001, 0.002, 0.0001}, 0.001) == 4);   // 4.1 ms
+  CHECK(delay_cycles({0.001, 0.001, 0.002, 0.0}, 0.002) == 1);      // the same at 500 Hz
+  CHECK(delay_cycles({0.001, 0.001, 0.002, 0.0}, 0.00025) == 15);   // at 4 kHz
+  CHECK(delay_cycles({0.000125, 0.000125, 0.0, 0.0}, 0.001) == 0);  // a fast bus
+  CHECK_THROWS_WITH_AS(
+      delay_cycles({0.008, 0.008, 0.004, 0.0}, 0.001),
+      "the stick answers after 20 ms, and at 1000 Hz the loop accounts for 16 ms at most: 800 Hz would do",
+      std::invalid_argument);
+  CHECK(delay_cycles({0.008, 0.008, 0.004, 0.0}, 1.0 / 800.0) == 15);
+  CHECK_THROWS_WITH_AS(
+      delay_cycles({0.1, 0.1, 0.0, 0.0}, 0.001),
+      "the stick answers after 200 ms, and at 1000 Hz the loop accounts for 16 ms at most: too late for any "
+      "rate from 100 Hz up",
+      std::invalid_argument);
+}
+
+TEST_CASE("what the loop may know of it") {
+  const DeviceSpec spec = spec_of(measured({0.001, 0.001, 0.002, 0.0}), 0.001);
+  CHECK(spec.max_force == glm::dvec2(20.0));
+  CHECK(spec.workspace == glm::dvec2(0.07));
+  CHECK(spec.position_step == doctest::Approx(0.07 / 400.0));  // 400 counts from the centre to the nearer stop
+  CHECK(spec.delay == 3);
+  CHECK(spec.axis_x.mass == kPaperAxisX.mass);
+  CHECK(spec.own_stiffness == glm::dvec2(300.0));  // of both, what both have
+  CHECK_FALSE(spec.measures_hand_force);
+  CHECK_FALSE(spec.simulated);
+
+  DeviceCalibration unknown = measured({});
+  unknown.shift.constant_sign = 0;
+  unknown.select.handle = {};
+  const DeviceSpec careful = spec_of(unknown, 0.001);
+  CHECK(careful.max_force == glm::dvec2(0.0));  // polarity of one axis is not known
+  CHECK(careful.own_stiffness == glm::dvec2(0.0));
+  CHECK(careful.delay == 7);  // 8 ms are assumed
+  CHECK(careful.axis_x.mass == kUnmeasuredHandle.mass);
+
+  DeviceCalibration weak = measured({});
+  weak.shift.spring_stiffness = 40.0;
+  CHECK(spec_of(weak, 0.001).own_stiffness == glm::dvec2(0.0));
+}
+
+// Facts, 7a and 9: 1 ms and three samples of delay admit 873 N/m (X axis, exact, B = 0), 2078 with the half-sample hold.
+TEST_CASE("a 3 ms device gets parameters that hold on a 3 ms device, and says so") {
+  DeviceCalibration known = measured({0.001, 0.001, 0.002, 0.0});
+  known.select.spring_sign = known.shift.spring_sign = 0;
+  const DeviceSpec spec = spec_of(known, 0.001);
+  const Gate gate = paper_gate();
+  HapticConfig config;
+
+  config.contact.hold = ContactHold::zero_order;
+  config.tuning.wall_damping = config.tuning.aisle_damping = config.tuning.limit_damping = 0.0;
+  const AdmittedTuning plain = admit_tuning(config, spec, gate);
+  CHECK(plain.tuning.wall_stiffness > 683.0);
+  CHECK(plain.tuning.wall_stiffness < 873.0);
+  REQUIRE_FALSE(plain.limited.empty());
+  CHECK(plain.limited.front().what == "wall_stiffness_n_per_m");
+  CHECK(plain.limited.front().wanted == 5000.0);
+
+  config = {};
+  config.contact.hold = ContactHold::half_sample;
+  const AdmittedTuning held = admit_tuning(config, spec, gate);
+  CHECK(held.tuning.wall_stiffness == doctest::Approx(0.35 * kPaperAxisY.mass / 16e-6));  // 1881: the lighter axis
+  const auto is_wall = [](const Limited& one) { return one.what == "wall_stiffness_n_per_m" && one.wanted == 5000.0; };
+  CHECK(std::any_of(held.limited.begin(), held.limited.end(), is_wall));
+}

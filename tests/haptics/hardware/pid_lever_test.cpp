@@ -1,0 +1,251 @@
+// A stick as a lever: metres and newtons by its calibration, whatever its counts, signs and buttons are.
+#include "haptics/hardware/pid_lever.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include "tests/haptics/device/still_hand.h"
+#include "tests/haptics/hardware/calibrated.h"
+#include "tests/haptics/hardware/stick_bench.h"
+
+using namespace gearshift;
+using glm::dvec2;
+
+namespace {
+
+EmulatedStickConfig held(StickFamily family) {
+  EmulatedStickConfig config;
+  config.family = family;
+  config.lever.hand = {0.5, 50.0, 50'000.0};  // fast
+  return config;
+}
+
+// A stick, its driver and the lever on it; one cycle is: read, write, a tick.
+struct LeverBench : StickBench {
+  LeverBench(const EmulatedStickConfig& config, const DeviceCalibration& known, HandDriver& hand)
+      : StickBench(config, hand), lever((prepare(), known), driver, 0.001) {}
+
+  LeverReading cycle(dvec2 force, int times = 1) {
+    LeverReading reading;
+    for (int i = 0; i < times; ++i) {
+      reading = lever.read(now_ns);
+      lever.write(force);
+      tick();
+    }
+    return reading;
+  }
+
+  PidLever lever;
+};
+
+}  // namespace
+
+TEST_CASE("counts to metres: straight on either side of the centre, and on beyond the stops") {
+  // 0 to 1000 counts, rest at 400, 100 mm: 50 mm are 400 counts below and 600 above.
+  const LeverAxisCalibration up{0x30, 0.0, 400.0, 1000.0, 0.1, 0.0, 0, 0, 0.0, {}};
+  const LeverAxisCalibration down{0x30, 1000.0, 400.0, 0.0, 0.1, 0.0, 0, 0, 0.0, {}};
+  const BitField field{0, 16, 0, 1000, 0};
+  const LeverAxisMap rising(up, field), falling(down, field);
+  CHECK(rising.metres(400.0) == 0.0);
+  CHECK(rising.metres(0.0) == doctest::Approx(-0.05));
+  CHECK(rising.metres(1000.0) == doctest::Approx(0.05));
+  CHECK(rising.metres(700.0) == doctest::Approx(0.025));
+  CHECK(rising.metres(1120.0) == doctest::Approx(0.06));
+  CHECK(falling.metres(0.0) == doctest::Approx(0.05));
+  CHECK(falling.metres(200.0) == doctest::Approx(0.025));
+  CHECK(falling.metres(1000.0) == doctest::Approx(-0.05));
+  for (double counts = -50.0; counts < 1050.0; counts += 12.5) {
+    CHECK(rising.counts(rising.metres(counts)) == doctest::Approx(counts));
+    CHECK(falling.counts(falling.metres(counts)) == doctest::Approx(counts));
+  }
+  CHECK(rising.share(0.0) == doctest::Approx(-0.2));  // 400 of 0 to 1000
+  CHECK(falling.share(0.05) == doctest::Approx(-1.0));
+}
+
+TEST_CASE("what it cannot be is refused in one sentence") {
+  StillHand hand;
+  StickBench bench(held(StickFamily::vjoy), hand);
+  DeviceCalibration known = calibration_of(held(StickFamily::vjoy));
+  known.select.travel = 0.0;
+  CHECK_THROWS_AS(PidLever(known, bench.driver, 0.001), std::invalid_argument);
+  known = calibration_of(held(StickFamily::sidewinder));
+  known.shift.usage = 0x38;
+  StickBench sidewinder(held(StickFamily::sidewinder), hand);
+  CHECK_THROWS_AS(PidLever(known, sidewinder.driver, 0.001), std::invalid_argument);
+  known = calibration_of(held(StickFamily::vjoy));
+  known.timing.delay = 0.1;
+  CHECK_THROWS_AS(PidLever(known, bench.driver, 0.001), std::invalid_argument);
+}
+
+TEST_CASE("where the lever is, and the force that was asked for, on every family and with every polarity") {
+  for (const StickFamily family : kStickFamilies) {
+    for (const glm::ivec2 sign : {glm::ivec2(1, 1), glm::ivec2(-1, 1), glm::ivec2(1, -1), glm::ivec2(-1, -1)}) {
+      CAPTURE(name_of(family));
+      EmulatedStickConfig config = held(family);
+      config.constant_sign = sign;
+      StillHand hand(hand_at({0.030, -0.045}));
+      LeverBench bench(config, calibration_of(config), hand);
+      bench.cycle(dvec2(0.0), 500);
+      CHECK_FALSE(bench.stick.actuators_on());  // zero newtons need no motor
+      const LeverReading reading = bench.cycle({6.0, -11.0}, 200);
+      CHECK(glm::distance(reading.position, bench.stick.position()) <
+            0.6 * bench.lever.spec().position_step * std::sqrt(2.0));
+      CHECK(glm::distance(bench.stick.force(), {6.0, -11.0}) < 0.06);
+      CHECK(glm::distance(reading.actuator_force, {6.0, -11.0}) < 1e-9);
+      CHECK(reading.sequence == 699);
+      CHECK_FALSE(reading.stop);
+      bench.cycle({400.0, -400.0}, 20);                                  // beyond it: all that it has
+      CHECK(glm::distance(bench.stick.force(), {20.0, -20.0}) < 0.003);  // vJoy's right angles are rounded
+      bench.lever.release();
+      bench.cycle(dvec2(0.0), 1);
+      CHECK(bench.stick.force() == dvec2(0.0));
+    }
+  }
+}
+
+TEST_CASE("a stick that is turned by a quarter: its Y is select") {
+  EmulatedStickConfig config = held(StickFamily::openffboard);
+  DeviceCalibration known = calibration_of(config);
+  std::swap(known.select, known.shift);  // the knob's forward is now to the right
+  StillHand hand(hand_at({0.010, 0.030}));
+  LeverBench bench(config, known, hand);
+  const LeverReading reading = bench.cycle({5.0, 2.0}, 500);
+  CHECK(reading.position.x == doctest::Approx(0.030).epsilon(0.02));
+  CHECK(reading.position.y == doctest::Approx(0.010).epsilon(0.05));
+  CHECK(glm::distance(bench.stick.force(), {2.0, 5.0}) < 0.01);
+}
+
+TEST_CASE("a lever that is no more leaves the motors off, and the next one drives") {
+  EmulatedStickConfig config = held(StickFamily::sidewinder);
+  StillHand hand;
+  StickBench bench(config, hand);
+  bench.prepare();
+  for (int time = 0; time < 3; ++time) {
+    {
+      PidLever lever(calibration_of(config), bench.driver, 0.001);
+      for (int i = 0; i < 50; ++i) {
+        CHECK_FALSE(lever.read(bench.now_ns).stop);
+        lever.write({8.0, 0.0});
+        bench.tick();
+      }
+      CHECK(bench.stick.force().x == doctest::Approx(8.0).epsilon(0.01));
+    }
+    bench.tick();
+    CHECK(bench.stick.force() == dvec2(0.0));
+    for (int i = 0; i < 200; ++i) bench.tick();
+    CHECK_FALSE(bench.stick.actuators_on());
+  }
+  CHECK(bench.problems().empty());
+}
+
+TEST_CASE("without measured polarity there is no force at all") {
+  EmulatedStickConfig config = held(StickFamily::vjoy);
+  DeviceCalibration known = calibration_of(config);
+  known.shift.constant_sign = 0;
+  StillHand hand;
+  LeverBench bench(config, known, hand);
+  LeverWalls walls;
+  walls.share = 1.0;
+  bench.lever.hold_walls(walls);
+  bench.cycle({20.0, 20.0}, 100);
+  CHECK(bench.lever.spec().max_force == dvec2(0.0));
+  CHECK(bench.lines().empty());
+}
+
+TEST_CASE("nothing drives before a force is asked for, nor after a release until one is") {
+  EmulatedStickConfig config = held(StickFamily::sidewinder);
+  StillHand hand;
+  LeverBench bench(config, calibration_of(config), hand);
+  bench.cycle(dvec2(0.0), 200);
+  CHECK(bench.lines().empty());
+  bench.cycle({1.0, 0.0}, 20);
+  bench.lever.release();
+  bench.cycle(dvec2(0.0), 20);
+  bench.stick.log.clear();
+  bench.cycle(dvec2(0.0), 200);
+  CHECK(bench.lines().empty());
+  bench.cycle({0.0, 3.0}, 20);
+  CHECK(bench.stick.force().y == doctest::Approx(3.0).epsilon(0.03));
+}
+
+// Facts 2J: centre in the middle of the aisle, dead band of half its width, coefficient K, saturation: two walls.
+TEST_CASE(
+    "walls that the device keeps: nothing between them, a spring of share x stiffness beyond, whichever way it "
+    "counts") {
+  for (const StickFamily family : {StickFamily::openffboard, StickFamily::vjoy}) {
+    for (const glm::ivec2 sign : {glm::ivec2(1, 1), glm::ivec2(-1, 1), glm::ivec2(-1, -1)}) {
+      CAPTURE(name_of(family));
+      CAPTURE(sign.x);
+      EmulatedStickConfig config = held(family);
+      config.spring_sign = sign;
+      StillHand hand(hand_at({0.020, 0.0}));
+      LeverBench bench(config, calibration_of(config), hand);
+      CHECK(bench.lever.spec().own_stiffness == dvec2(400.0));
+      LeverWalls walls{{-0.010, -0.040}, {0.030, 0.015}, 0.5};
+      bench.lever.hold_walls(walls);
+      bench.cycle(dvec2(0.0), 200);
+      CHECK(bench.stick.actuators_on());
+      CHECK(glm::length(bench.stick.force()) < 1e-9);  // between them
+      for (const dvec2 place : {dvec2{0.045, 0.0}, dvec2{-0.030, 0.0}, dvec2{0.0, 0.030}, dvec2{0.0, -0.055}}) {
+        hand.target = hand_at(place);
+        bench.cycle(dvec2(0.0), 300);
+        const dvec2 there = bench.stick.position();
+        const dvec2 expected = 0.5 * 400.0 * (glm::clamp(there, walls.low, walls.high) - there);
+        CHECK(glm::distance(bench.stick.force(), expected) < 0.03);
+        CHECK(glm::distance(bench.cycle(dvec2(0.0)).actuator_force, expected) < 0.03);
+      }
+      bench.lever.hold_walls({});
+      bench.cycle(dvec2(0.0), 20);
+      CHECK(glm::length(bench.stick.force()) < 1e-9);
+    }
+  }
+}
+
+TEST_CASE("springs that push away where the device cannot turn them round, and springs not measured, keep no walls") {
+  StillHand hand;
+  EmulatedStickConfig config = held(StickFamily::vjoy);
+  DeviceCalibration known = calibration_of(config);
+  known.shift.spring_sign = 0;
+  StickBench bench(config, hand);
+  CHECK(PidLever(known, bench.driver, 0.001).spec().own_stiffness == dvec2(0.0));
+}
+
+TEST_CASE("buttons: pressed, lifted, stop; one that is held at the start is no stop until it was let go") {
+  EmulatedStickConfig config = held(StickFamily::sidewinder);
+  StillHand hand;
+  LeverBench bench(config, calibration_of(config), hand);
+  bench.stick.held_buttons = 0b0100;
+  CHECK_FALSE(bench.cycle(dvec2(0.0), 5).stop);
+  bench.stick.held_buttons = 0b0011;
+  const LeverReading both = bench.cycle(dvec2(0.0), 5);
+  CHECK(both.pressed_down);
+  CHECK(both.lifted);
+  CHECK_FALSE(both.stop);
+  bench.stick.held_buttons = 0b0100;
+  const LeverReading stop = bench.cycle(dvec2(0.0), 5);
+  CHECK(stop.stop);
+  CHECK_FALSE(stop.pressed_down);
+}
+
+TEST_CASE("back after an unplug: one reading says stop, and what the loop says in that cycle drives nothing") {
+  EmulatedStickConfig config = held(StickFamily::vjoy);
+  StillHand hand;
+  LeverBench bench(config, calibration_of(config), hand);
+  bench.cycle({5.0, 5.0}, 100);
+  bench.stick.unplug();
+  bench.prepare();
+  int stops = 0;
+  for (int i = 0; i < 50; ++i) {
+    const LeverReading reading = bench.lever.read(bench.now_ns);
+    stops += reading.stop ? 1 : 0;
+    bench.lever.write(reading.stop ? dvec2{5.0, 5.0} : dvec2(0.0));  // a loop that obeys, a cycle late
+    bench.tick();
+    CHECK_FALSE(bench.stick.actuators_on());
+  }
+  CHECK(stops == 1);
+  bench.cycle({5.0, 5.0}, 20);
+  CHECK(bench.stick.force().x == doctest::Approx(5.0).epsilon(0.01));
+}

@@ -1,0 +1,90 @@
+// Mass, damping, stiffness and delay from pulses, against responses in closed form.
+#include "haptics/hardware/pulse_response.h"
+
+#include <cmath>
+#include <random>
+#include <stdexcept>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+using namespace gearshift;
+
+namespace {
+
+// To a step of acceleration 1, from rest. Three forms of x'' + b x' + k x = 1, each solved by hand.
+double sliding(double b, double t) {  // k = 0: x = (t - (1 - e^-bt) / b) / b
+  return t <= 0.0 ? 0.0 : (t - (1.0 - std::exp(-b * t)) / b) / b;
+}
+double swinging(double b, double k, double t) {  // b^2 < 4 k
+  if (t <= 0.0) return 0.0;
+  const double a = 0.5 * b, w = std::sqrt(k - a * a);
+  return (1.0 - std::exp(-a * t) * (std::cos(w * t) + a / w * std::sin(w * t))) / k;
+}
+double creeping(double b, double k, double t) {  // b^2 > 4 k
+  if (t <= 0.0) return 0.0;
+  const double root = std::sqrt(0.25 * b * b - k), fast = 0.5 * b + root, slow = 0.5 * b - root;
+  return (1.0 - (fast * std::exp(-slow * t) - slow * std::exp(-fast * t)) / (fast - slow)) / k;
+}
+
+std::vector<Pulse> pulses_of(const auto& step, double gain, double delay, double quantum) {
+  std::vector<Pulse> pulses;
+  for (const double magnitude : {0.05, -0.05, 0.10}) {
+    Pulse pulse;
+    pulse.magnitude = magnitude;
+    pulse.length = 0.060;
+    for (int ms = 0; ms < 460; ++ms) {
+      const double since = 1e-3 * ms - delay;
+      const double x = magnitude * gain * (step(since) - step(since - pulse.length));
+      pulse.samples.push_back({1e-3 * ms, quantum > 0.0 ? quantum * std::round(x / quantum) : x});
+    }
+    pulses.push_back(pulse);
+  }
+  return pulses;
+}
+
+}  // namespace
+
+TEST_CASE("the exact response gives the exact lever: sliding, swinging, creeping, at any delay") {
+  for (const double delay : {0.0, 0.0013, 0.045}) {
+    CAPTURE(delay);
+    const double gain = 1e5;
+    const PulseFit slides = fit_pulses(pulses_of([](double t) { return sliding(32.0, t); }, gain, delay, 0.0));
+    CHECK(slides.gain == doctest::Approx(gain).epsilon(1e-4));
+    CHECK(slides.damping == doctest::Approx(32.0).epsilon(1e-3));
+    CHECK(std::abs(slides.stiffness) < 0.1);
+    CHECK(std::abs(slides.delay - delay) < 2e-6);
+    const PulseFit swings = fit_pulses(pulses_of([](double t) { return swinging(8.0, 4000.0, t); }, gain, delay, 0.0));
+    CHECK(swings.gain == doctest::Approx(gain).epsilon(1e-4));
+    CHECK(swings.damping == doctest::Approx(8.0).epsilon(1e-3));
+    CHECK(swings.stiffness == doctest::Approx(4000.0).epsilon(1e-3));
+    CHECK(std::abs(swings.delay - delay) < 2e-6);
+    // The paper's X axis: m 0.095, b 3, k 14.8: b / m 31.6, k / m 155.8.
+    const PulseFit paper = fit_pulses(pulses_of([](double t) { return creeping(31.58, 155.8, t); }, gain, delay, 0.0));
+    CHECK(paper.gain == doctest::Approx(gain).epsilon(1e-4));
+    CHECK(paper.damping == doctest::Approx(31.58).epsilon(1e-3));
+    CHECK(paper.stiffness == doctest::Approx(155.8).epsilon(1e-3));
+    CHECK(paper.residual < 1e-4);
+  }
+}
+
+TEST_CASE("in counts of a coarse stick: a tenth of a millisecond of delay, some percent of the rest") {
+  const PulseFit fit = fit_pulses(pulses_of([](double t) { return creeping(31.58, 155.8, t); }, 7e5, 0.004, 1.0));
+  CHECK(fit.gain == doctest::Approx(7e5).epsilon(0.02));
+  CHECK(fit.damping == doctest::Approx(31.58).epsilon(0.03));
+  CHECK(fit.stiffness == doctest::Approx(155.8).epsilon(0.10));
+  CHECK(std::abs(fit.delay - 0.004) < 2e-4);
+}
+
+TEST_CASE("what is no such response leaves much of it unexplained; nothing at all is refused") {
+  std::vector<Pulse> pulses = pulses_of([](double t) { return sliding(32.0, t); }, 1e5, 0.0, 0.0);
+  std::mt19937 chance(5);
+  std::normal_distribution<double> noise(0.0, 100.0);
+  for (Pulse& pulse : pulses)
+    for (PulseSample& sample : pulse.samples) sample.position = noise(chance);
+  CHECK(fit_pulses(pulses).residual > 0.9);
+  for (Pulse& pulse : pulses)
+    for (PulseSample& sample : pulse.samples) sample.position = 0.0;
+  CHECK_THROWS_WITH_AS(fit_pulses(pulses), "the lever did not move", std::invalid_argument);
+  CHECK_THROWS_AS(fit_pulses({}), std::invalid_argument);
+}

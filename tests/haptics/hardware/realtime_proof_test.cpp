@@ -1,0 +1,55 @@
+// The calls of a stick that run in the haptic cycle, proved: no allocation, no lock, and no system call but the write that
+// wakes the port.
+#include "tests/support/realtime_proof.h"
+
+#include <doctest/doctest.h>
+
+#include "haptics/hardware/pid_lever.h"
+#include "tests/haptics/device/still_hand.h"
+#include "tests/haptics/hardware/calibrated.h"
+#include "tests/haptics/hardware/stick_bench.h"
+
+using namespace gearshift;
+
+TEST_CASE("reading, writing, walls and release allocate nothing, take no lock, and write to nothing but the wake-up") {
+  EmulatedStickConfig config;
+  StillHand hand;
+  StickBench bench(config, hand);
+  bench.prepare();
+  PidLever lever(calibration_of(config), bench.driver, 0.001);
+  bench.tick_for(0.1, {});
+  const auto cycles = [&] {
+    for (int i = 0; i < 1000; ++i) {
+      (void)lever.read(i);
+      lever.write({0.01 * i, -0.02 * i});
+      lever.hold_walls({{-0.01, -0.02}, {0.01, 1e-5 * i}, 0.5});
+      if (i % 100 == 0) lever.release();
+    }
+  };
+  const RealtimeProof proof = prove_realtime(cycles, bench.stream.wake_fd);
+  INFO(proof.verdict());
+  CHECK(proof.clean());
+  CHECK_FALSE(prove_realtime(cycles).clean());  // the filter sees that write
+  CHECK_FALSE(prove_realtime(cycles, bench.stream.wake_fd + 1).clean());
+}
+
+TEST_CASE("the port's side takes no lock and allocates nothing either") {
+  EmulatedStickConfig config;
+  StillHand hand;
+  StickBench bench(config, hand);
+  bench.prepare();
+  bench.tick_for(0.1, pushing(0.5, 0.5));
+  const std::vector<std::uint8_t> report(13, 1), unknown{0x77};
+  const RealtimeProof proof = prove_realtime(
+      [&] {
+        for (int i = 0; i < 1000; ++i) {
+          bench.driver.on_input(report, 1'000'000 * i);
+          bench.driver.on_input(unknown, 1'000'000 * i);
+          bench.driver.wish(pushing(0.001 * i, 0.5));
+          if (bench.driver.next_output(1'000'000 * i).size > 0) bench.driver.on_sent(1'000'000 * i);
+        }
+      },
+      bench.stream.wake_fd);
+  INFO(proof.verdict());
+  CHECK(proof.clean());
+}

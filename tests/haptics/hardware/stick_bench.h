@@ -1,0 +1,78 @@
+// An emulated stick with a driver on it, on a virtual clock.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include "haptics/hardware/device_calibration.h"
+#include "haptics/hardware/pid_driver.h"
+#include "haptics/hid/hid_error.h"
+#include "tests/support/stick/stick_port.h"
+
+namespace gearshift {
+
+inline constexpr StickFamily kStickFamilies[] = {StickFamily::sidewinder, StickFamily::openffboard, StickFamily::vjoy};
+
+inline std::string name_of(StickFamily family) {
+  return stick_family_name(family);
+}
+
+class StickBench {
+ public:
+  explicit StickBench(const EmulatedStickConfig& config, HandDriver& hand)
+      : stick(config, hand), port(stick, mutex, plugged), driver(stick.report_descriptor()) {}
+
+  void prepare() {
+    stick.advance(now_ns);
+    ability = driver.prepare(port);
+    stream = driver.stream_config(period_ns);
+    stick.log.clear();
+  }
+
+  // One millisecond, or whatever the period is, under a wish that is repeated as a loop does.
+  void tick() {
+    now_ns += period_ns;
+    tick_stick(stick, stream, driver, now_ns);
+  }
+  void tick(const PidWish& wish) {
+    driver.see();
+    driver.wish(wish);
+    tick();
+  }
+  void tick_for(double seconds, const PidWish& wish) {
+    for (const std::int64_t end = now_ns + static_cast<std::int64_t>(1e9 * seconds); now_ns < end;) tick(wish);
+  }
+  double time() const { return 1e-9 * static_cast<double>(now_ns); }
+
+  std::vector<std::string> lines() const {
+    std::vector<std::string> all;
+    for (const StickMessage& message : stick.log) all.push_back(message_line(message));
+    return all;
+  }
+  std::vector<std::string> problems() {
+    std::vector<std::string> all;
+    while (const auto problem = driver.take_problem()) all.push_back(*problem);
+    return all;
+  }
+
+  std::int64_t now_ns = 0, period_ns = 1'000'000;
+  std::mutex mutex;
+  std::atomic<bool> plugged{true};
+  EmulatedStick stick;
+  StickPort port;
+  PidDriver driver;
+  PidAbility ability;
+  StreamConfig stream;
+};
+
+inline PidWish pushing(double x, double y) {
+  PidWish wish;
+  wish.enabled = true;
+  wish.constant = {x, y};
+  return wish;
+}
+
+}  // namespace gearshift

@@ -1,0 +1,241 @@
+// What goes wrong while a person holds the lever: how soon the motors are silent, and what it takes to have them back.
+#include <algorithm>
+#include <functional>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include "haptics/files/number_text.h"
+#include "haptics/loop/shift_script.h"
+#include "tests/haptics/device/still_hand.h"
+#include "tests/haptics/hardware/stick_loop.h"
+
+using namespace gearshift;
+using glm::dvec2;
+
+namespace {
+
+constexpr double kSilent = 0.1;  // [N] at the knob: nothing that can be felt
+// What the guard leaves while readings are fresh: damping of 5 N s/m, a few ms late, and a count of the SideWinder, 0.14 mm
+// in a millisecond, makes 0.2 N of it.
+constexpr double kDamping = 8.0, kCount = 0.2;  // [N s/m], [N]
+
+EmulatedStickConfig gripped(StickFamily family) {
+  EmulatedStickConfig config;
+  config.family = family;
+  config.lever.hand = kGripHand;
+  return config;
+}
+
+// A person presses the lever into a wall; then something happens, and time goes on.
+struct Fault {
+  const char* name;
+  std::function<void(StickLoop&)> happens;
+  std::function<void(StickLoop&)> goes_on;  // one millisecond
+  double most;                              // [s] to silence
+  bool is_damped = false;                   // it is left damped: nothing but what slows the lever
+  bool own_power = false;
+};
+
+void usual(StickLoop& run) {
+  run.cycle();
+}
+
+const std::vector<Fault>& faults() {
+  static const std::vector<Fault> all{
+      {"stop button on the stick", [](StickLoop& run) { run.stick.held_buttons = 0b100; }, usual, 0.005},
+      {"stop in the program", [](StickLoop& run) { run.channels.commands.push(LoopCommand::stop); }, usual, 0.005},
+      {"release()", [](StickLoop& run) { run.lever.release(); }, [](StickLoop& run) { run.tick(); }, 0.002},
+      {"unplugged", [](StickLoop& run) { run.stick.unplug(); },
+       [](StickLoop& run) { run.loop.cycle(run.now_ns += 1'000'000, 0); }, 0.0},
+      {"unplugged, its motors fed from the wall", [](StickLoop& run) { run.stick.unplug(); },
+       [](StickLoop& run) {
+         run.stick.advance(run.now_ns += 1'000'000);
+         run.loop.cycle(run.now_ns, 0);
+       },
+       0.301, false, true},
+      {"no readings", [](StickLoop& run) { run.stick.faults.silent = true; }, usual, 0.060},
+      {"loop too late, every cycle", [](StickLoop&) {},
+       [](StickLoop& run) {
+         run.tick();
+         run.loop.cycle(run.now_ns, 1);
+       },
+       0.040, true},
+      {"loop dead, USB thread alive", [](StickLoop&) {}, [](StickLoop& run) { run.tick(); }, 0.110},
+      {"program dead", [](StickLoop&) {}, [](StickLoop& run) { run.stick.advance(run.now_ns += 1'000'000); }, 0.301},
+  };
+  return all;
+}
+
+double time_to_silence(StickFamily family, const Fault& fault, double before) {
+  StillHand hand(hand_at({0.0, 0.0}));
+  EmulatedStickConfig config = gripped(family);
+  config.own_power = fault.own_power;
+  StickLoop run(config, hand);
+  run.loop.arm();
+  run.cycle_for(0.8);
+  hand.target = hand_at({0.012, 0.020});  // into the neutral aisle's wall
+  run.cycle_for(before);
+  REQUIRE(glm::length(run.stick.force()) > 3.0);
+  const std::int64_t begin = run.now_ns;
+  std::int64_t loud = begin;
+  fault.happens(run);
+  for (int ms = 0; ms < 400; ++ms) {
+    const double allowed = fault.is_damped ? kCount + kDamping * glm::length(run.stick.velocity()) : 0.0;
+    if (glm::length(run.stick.force()) > kSilent + allowed) loud = run.now_ns + 1'000'000;
+    if (ms > 240 && run.stick.faults.silent) break;  // then the port itself gives up
+    fault.goes_on(run);
+  }
+  return 1e-9 * static_cast<double>(loud - begin);
+}
+
+}  // namespace
+
+TEST_CASE("from a fault to silent motors: in the stated time, whenever it happens") {
+  std::mt19937 chance(3);
+  std::string table = "\nfault | median ms | worst ms\n";
+  for (const Fault& fault : faults()) {
+    std::vector<double> times;
+    for (const StickFamily family : kStickFamilies) {
+      for (int i = 0; i < 8; ++i) {
+        times.push_back(time_to_silence(family, fault, 0.5 + 1e-3 * static_cast<double>(chance() % 200)));
+      }
+    }
+    std::sort(times.begin(), times.end());
+    CAPTURE(std::string(fault.name));
+    CHECK(times.back() <= fault.most);
+    table += std::string(fault.name) + " | " + number_text(1e3 * times[times.size() / 2], 0) + " | " +
+             number_text(1e3 * times.back(), 0) + '\n';
+  }
+  MESSAGE(table);
+}
+
+TEST_CASE("unplugged at any moment of a tour: silent until a person arms it again, and then the tour goes on") {
+  for (const StickFamily family : kStickFamilies) {
+    CAPTURE(name_of(family));
+    std::mt19937 chance(11);
+    const EmulatedStickConfig config = gripped(family);
+    const Gate gate = stick_gate("six_speed_r_left_up", config);
+    const dvec2 start = rest_position(gate, kNeutralGear);
+    ScriptedHandConfig script = touring_hand(start);
+    script.effort_limit = 8.0;
+    ScriptedHand hand(script, shift_strokes(gate, start, tour_order(gate)), 0.001);
+    StickLoop run(config, calibration_of(config), HapticConfig{}, gate, hand);
+    run.loop.arm();
+    for (int time = 0; time < 5; ++time) {
+      run.cycle_for(0.6 + 1e-3 * static_cast<double>(chance() % 1000));
+      CHECK(run.loop.snapshot().guard == GuardState::running);
+      run.stick.unplug();
+      CHECK(run.stick.force() == dvec2(0.0));
+      for (int ms = 0; ms < 300; ++ms) {  // nobody is there; the loop goes on
+        run.stick.advance(run.now_ns += 1'000'000);
+        run.loop.cycle(run.now_ns, 0);
+      }
+      CHECK(run.loop.snapshot().guard == GuardState::damped);
+      run.prepare();
+      for (int ms = 0; ms < 300; ++ms) {
+        run.cycle();
+        CHECK(run.stick.force() == dvec2(0.0));
+        CHECK_FALSE(run.stick.actuators_on());
+      }
+      CHECK(run.loop.snapshot().guard == GuardState::released);
+      run.loop.arm();
+      run.cycle_for(0.6);
+      CHECK(run.loop.snapshot().guard == GuardState::running);
+      CHECK(run.stick.actuators_on());
+    }
+    CHECK(run.problems().empty());
+  }
+}
+
+TEST_CASE("armed while it was unplugged: it must be armed again when it is back") {
+  StillHand hand(hand_at({0.0, 0.012}));
+  StickLoop run(gripped(StickFamily::vjoy), hand);
+  run.loop.arm();
+  run.cycle_for(0.8);
+  run.stick.unplug();
+  for (int ms = 0; ms < 100; ++ms) run.loop.cycle(run.now_ns += 1'000'000, 0);
+  run.loop.arm();
+  for (int ms = 0; ms < 100; ++ms) run.loop.cycle(run.now_ns += 1'000'000, 0);
+  run.prepare();
+  run.cycle_for(0.3);
+  CHECK(run.loop.snapshot().guard == GuardState::released);
+  CHECK_FALSE(run.stick.actuators_on());
+}
+
+TEST_CASE("a loop that was dead and lives again: silent until it is armed") {
+  StillHand hand(hand_at({0.012, 0.020}));
+  StickLoop run(gripped(StickFamily::openffboard), hand);
+  run.loop.arm();
+  run.cycle_for(1.0);
+  for (int ms = 0; ms < 150; ++ms) run.tick();
+  CHECK(run.stick.force() == dvec2(0.0));
+  for (int ms = 0; ms < 300; ++ms) {
+    run.cycle();
+    CHECK_FALSE(run.stick.actuators_on());
+  }
+  CHECK(run.loop.snapshot().guard == GuardState::released);
+}
+
+TEST_CASE("a stick that lies while it is held: jumps move nobody, readings that say nothing end in silence") {
+  for (const StickFamily family : kStickFamilies) {
+    CAPTURE(name_of(family));
+    for (const bool jumps : {true, false}) {
+      StillHand hand;
+      StickLoop run(gripped(family), hand);
+      run.loop.arm();
+      run.cycle_for(0.8);
+      hand.target = hand_at({0.012, 0.020});
+      run.cycle_for(0.5);
+      const auto strongest =
+          [&run] {  // [N] in a fifth of a second: a count of a coarse stick is a kick of wall damping
+            double force = 0.0;
+            for (int ms = 0; ms < 200; ++ms) {
+              run.cycle();
+              force = std::max(force, glm::length(run.stick.force()));
+            }
+            return force;
+          };
+      const double before = strongest();
+      run.stick.faults.jump = jumps;
+      run.stick.faults.wrong_length = !jumps;
+      CHECK(strongest() < before + 2.0);
+      CHECK(run.loop.snapshot().guard == (jumps ? GuardState::running : GuardState::damped));
+      if (!jumps) CHECK(run.stick.force() == dvec2(0.0));
+      CHECK(run.problems().size() == 1);
+    }
+  }
+}
+
+// Facts, 7a: what is stable on a fast device is not on a late one, so its delay must be known.
+TEST_CASE("a stick that is 3 ms late: quiet on the wall with its own calibration, not with a faster one's") {
+  const auto shaking = [](double claimed) {
+    EmulatedStickConfig config = gripped(StickFamily::openffboard);
+    config.lever.hand = {};
+    config.delay = 0.003;
+    DeviceCalibration known = calibration_of(config);
+    known.select.spring_sign = known.shift.spring_sign = 0;
+    known.timing.delay = claimed;
+    if (claimed == 0.0) known.timing.input_interval = known.timing.output_interval = 0.0005;
+    StillHand hand;
+    StickLoop run(config, known, HapticConfig{}, stick_gate("six_speed_r_left_up", config), hand);
+    run.loop.arm();
+    run.cycle_for(0.7);
+    hand.target = hand_pushing({0.0, 6.0});  // into the end of the slot ahead
+    run.cycle_for(0.4);
+    double low = 1.0, high = -1.0;
+    for (int ms = 0; ms < 100; ++ms) {
+      run.cycle();
+      low = std::min(low, run.stick.position().y);
+      high = std::max(high, run.stick.position().y);
+    }
+    return high - low;
+  };
+  const double honest = shaking(0.003), boasting = shaking(0.0);
+  MESSAGE("peak to peak at the wall: ", 1e3 * honest, " mm, and ", 1e3 * boasting, " mm where its delay is not told");
+  CHECK(honest < 1e-4);
+  CHECK(boasting > 1e-3);
+}

@@ -1,0 +1,111 @@
+// The whole loop closed through reports: a hand drives a stick through a gate, and the stick holds the walls.
+#include <algorithm>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include "haptics/loop/shift_script.h"
+#include "tests/haptics/device/still_hand.h"
+#include "tests/haptics/hardware/stick_loop.h"
+
+using namespace gearshift;
+using glm::dvec2;
+
+namespace {
+
+EmulatedStickConfig gripped(StickFamily family) {
+  EmulatedStickConfig config;
+  config.family = family;
+  config.lever.hand = kGripHand;
+  return config;
+}
+
+struct Tour {
+  std::vector<int> engaged, wanted;
+  bool inside = true;      // the drawn lever never left the free space
+  double deepest = 0.0;    // [m] lever behind its proxy
+  double strongest = 0.0;  // [N]
+  GuardState guard = GuardState::idle;
+  std::vector<std::string> problems;
+};
+
+Tour drive(const EmulatedStickConfig& config, const DeviceCalibration& known, const HapticConfig& haptics = {}) {
+  const Gate gate = stick_gate("six_speed_r_left_up", config);
+  const dvec2 start = rest_position(gate, kNeutralGear);
+  ScriptedHandConfig script = touring_hand(start);
+  script.effort_limit = 8.0;  // of a hand that means no harm to a stick of 20 N
+  ScriptedHand hand(script, shift_strokes(gate, start, tour_order(gate)), config.plant_period);
+  StickLoop run(config, known, haptics, gate, hand);
+  run.stick.logs = false;
+  run.loop.arm();
+  Tour tour;
+  tour.wanted = tour_order(gate);
+  while (run.time() < hand.duration()) {
+    const HapticSnapshot& now = run.cycle();
+    tour.inside = tour.inside && in_free_space(gate, now.proxy, 1e-9);
+    tour.deepest = std::max(tour.deepest, glm::distance(now.lever, now.proxy));
+    tour.strongest = std::max(tour.strongest, glm::length(run.stick.force()));
+  }
+  tour.engaged = run.gears();
+  tour.guard = run.loop.snapshot().guard;
+  tour.problems = run.problems();
+  return tour;
+}
+
+}  // namespace
+
+TEST_CASE("the six-gear tour through every family: each gear once and in order, and nothing to complain of") {
+  for (const StickFamily family : kStickFamilies) {
+    CAPTURE(name_of(family));
+    const EmulatedStickConfig config = gripped(family);
+    const Tour tour = drive(config, calibration_of(config));
+    CHECK(tour.engaged == tour.wanted);
+    CHECK(tour.engaged.size() == 7);
+    CHECK(tour.inside);
+    CHECK(tour.guard == GuardState::running);
+    CHECK(tour.problems.empty());
+    CHECK(tour.strongest > 5.0);
+    MESSAGE(name_of(family), ": deepest ", 1e3 * tour.deepest, " mm, strongest ", tour.strongest, " N");
+  }
+}
+
+TEST_CASE("the tour with springs that keep no wall, with every polarity turned round, at 500 Hz, and 2 ms late") {
+  for (const StickFamily family : {StickFamily::openffboard, StickFamily::vjoy}) {
+    EmulatedStickConfig config = gripped(family);
+    DeviceCalibration known = calibration_of(config);
+    known.select.spring_sign = known.shift.spring_sign = 0;
+    CHECK(drive(config, known).engaged.size() == 7);
+
+    config.constant_sign = config.spring_sign = {-1, -1};
+    CHECK(drive(config, calibration_of(config)).engaged.size() == 7);
+
+    config = gripped(family);
+    config.delay = 0.002;
+    CHECK(drive(config, calibration_of(config)).engaged.size() == 7);
+
+    config = gripped(family);
+    config.plant_period = config.input_interval = 0.002;
+    HapticConfig haptics;
+    haptics.rate = 500.0;
+    CHECK(drive(config, calibration_of(config), haptics).engaged.size() == 7);
+  }
+}
+
+// At rest in the middle of the paper's gate nothing pushes. The effects are started all the same: who comes to a wall then
+// feels it with the next report, not three or four later.
+TEST_CASE("armed means motors on, also where there is nothing to push yet; not armed means off") {
+  EmulatedStickConfig config = gripped(StickFamily::openffboard);  // its rest is a whole count
+  StillHand hand;
+  StickLoop run(config, calibration_of(config), HapticConfig{}, stick_gate("paper", config), hand);
+  run.cycle_for(0.1);
+  CHECK_FALSE(run.stick.actuators_on());
+  run.loop.arm();
+  run.cycle_for(0.1);
+  CHECK(glm::length(run.loop.snapshot().commanded) == 0.0);
+  CHECK(run.stick.actuators_on());
+  CHECK(run.stick.playing() >= 2);
+  run.channels.commands.push(LoopCommand::disarm);
+  run.cycle_for(0.01);
+  CHECK_FALSE(run.stick.actuators_on());
+}

@@ -1,0 +1,59 @@
+// Report descriptors: of devices, by their file in tests/data/hid, and written out in a test.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <span>
+#include <sstream>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+namespace gearshift {
+
+inline constexpr const char* kPidDevices[] = {"microsoft-sidewinder-ff2", "openffboard-2axis", "vjoy-2axis-ffb-tlid1",
+                                              "saitek-gamepad-ff0d"};
+inline constexpr const char* kOtherDevices[] = {"sony-dualshock4-v2-usb", "logitech-g29-ps4",
+                                                "fanatec-clubsport-handbrake"};
+
+// "05 01 ..." to bytes.
+inline std::vector<std::uint8_t> hex_bytes(const std::string& text) {
+  std::istringstream words(text);
+  std::vector<std::uint8_t> bytes;
+  for (std::string word; words >> word;) bytes.push_back(static_cast<std::uint8_t>(std::stoul(word, nullptr, 16)));
+  return bytes;
+}
+
+// And back, as a message shows it.
+inline std::string hex(std::span<const std::uint8_t> bytes) {
+  std::string text;
+  for (const std::uint8_t byte : bytes) {
+    char word[4];
+    std::snprintf(word, sizeof word, "%02X ", byte);
+    text += word;
+  }
+  if (!text.empty()) text.pop_back();
+  return text;
+}
+
+inline std::vector<std::uint8_t> device_descriptor(const std::string& device) {
+  std::ifstream file(GEARSHIFT_TEST_DATA "/hid/" + device + ".hex");
+  if (!file) throw std::runtime_error("no descriptor of " + device);
+  return hex_bytes({std::istreambuf_iterator<char>(file), {}});
+}
+
+// The first place of these bytes gives way to those.
+inline std::vector<std::uint8_t> with(std::vector<std::uint8_t> descriptor, const std::string& old_bytes,
+                                      const std::string& new_bytes) {
+  const std::vector<std::uint8_t> out = hex_bytes(old_bytes), in = hex_bytes(new_bytes);
+  const auto at = std::search(descriptor.begin(), descriptor.end(), out.begin(), out.end());
+  if (at == descriptor.end()) throw std::runtime_error("no such bytes: " + old_bytes);
+  const auto gap = descriptor.erase(at, at + static_cast<std::ptrdiff_t>(out.size()));
+  descriptor.insert(gap, in.begin(), in.end());
+  return descriptor;
+}
+
+}  // namespace gearshift

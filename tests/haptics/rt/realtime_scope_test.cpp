@@ -1,0 +1,53 @@
+#include "haptics/rt/realtime_scope.h"
+
+#include <sched.h>
+
+#include <thread>
+
+#include <doctest/doctest.h>
+
+using namespace gearshift;
+
+namespace {
+
+int policy() {
+  return sched_getscheduler(0) & ~SCHED_RESET_ON_FORK;
+}
+
+int priority() {
+  sched_param now{};
+  sched_getparam(0, &now);
+  return now.sched_priority;
+}
+
+// On a thread of its own, which may be left as it is.
+template <class Work>
+void aside(const Work& work) {
+  std::thread(work).join();
+}
+
+}  // namespace
+
+TEST_CASE("a thread is real-time for as long as the scope stands, where it may be, and not those that it starts") {
+  bool allowed = false;
+  aside([&] { allowed = schedule_fifo(70).empty(); });
+  if (!allowed) MESSAGE("no right to SCHED_FIFO here: the scope must change nothing");
+  aside([&] {
+    {
+      const RealtimeScope realtime(70);
+      CHECK(policy() == (allowed ? SCHED_FIFO : SCHED_OTHER));
+      CHECK(priority() == (allowed ? 70 : 0));
+      aside([] { CHECK(policy() == SCHED_OTHER); });
+    }
+    CHECK(policy() == SCHED_OTHER);
+    CHECK(priority() == 0);
+  });
+}
+
+TEST_CASE("a priority that there is none of is refused in a sentence, and changes nothing") {
+  aside([] {
+    CHECK(schedule_fifo(0) == "SCHED_FIFO at priority 0 was refused: Invalid argument (grant it with 'rtprio 0')");
+    const RealtimeScope realtime(100);
+    CHECK(policy() == SCHED_OTHER);
+  });
+}

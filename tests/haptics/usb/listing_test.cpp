@@ -1,0 +1,158 @@
+#include <sys/fsuid.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
+#include <doctest/doctest.h>
+
+#include "tests/haptics/usb/usb_rig.h"
+
+namespace gearshift {
+namespace {
+
+// Whoever this thread is for the file system: a user without any right, where the tests run as root.
+class Nobody {
+ public:
+  Nobody() : before_(setfsuid(65534)) {}
+  ~Nobody() { setfsuid(static_cast<uid_t>(before_)); }
+  Nobody(const Nobody&) = delete;
+  Nobody& operator=(const Nobody&) = delete;
+
+ private:
+  int before_;
+};
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
+}
+
+}  // namespace
+
+TEST_CASE("a device is listed as it calls itself, and stays the kernel's") {
+  PlainGadget hub;
+  UsbRig rig;
+  hub.interface_class = 9;
+  rig.usb.plug(hub, {.place = "1-1"});
+  rig.usb.plug(rig.gadget, {.place = "1-1.2"});
+  const std::vector<UsbHidDevice> seen = UsbBus().hid_devices();
+  REQUIRE(seen.size() == 1);
+  CHECK(seen[0].identity.vendor == 0x1209);
+  CHECK(seen[0].identity.product == 0x0001);
+  CHECK(seen[0].identity.maker == "Plain maker");
+  CHECK(seen[0].identity.name == "Plain joystick");
+  CHECK(seen[0].identity.serial == "A1");
+  CHECK(seen[0].identity.place == "1-1.2");
+  CHECK(seen[0].interface == 0);
+  CHECK(seen[0].problem.empty());
+  CHECK(seen[0].report_descriptor == rig.gadget.report_descriptor());
+  CHECK(rig.usb.driver_bound(rig.gadget));
+  CHECK(rig.usb.counts(rig.gadget).detached == 0);
+  CHECK(rig.usb.counts(rig.gadget).claims == 0);
+}
+
+TEST_CASE("a device that no driver has is asked itself, and offered to the kernel's drivers afterwards") {
+  UsbRig rig;
+  rig.usb.plug(rig.gadget, {.driver_bound = false});
+  const std::vector<UsbHidDevice> seen = UsbBus().hid_devices();
+  REQUIRE(seen.size() == 1);
+  CHECK(seen[0].problem.empty());
+  CHECK(seen[0].report_descriptor == rig.gadget.report_descriptor());
+  const UsbNodeCounts counts = rig.usb.counts(rig.gadget);
+  CHECK(counts.claims == 1);
+  CHECK(counts.releases == 1);
+  CHECK(counts.detached == 0);
+  CHECK(counts.misuses == 0);
+  CHECK(rig.usb.driver_bound(rig.gadget));
+}
+
+TEST_CASE("a missing permission is one sentence that names the udev rule; the device is known all the same") {
+  UsbRig rig;
+  rig.usb.plug(rig.gadget, {.permitted = false});
+  const UsbBus bus;
+  std::vector<UsbHidDevice> seen;
+  std::string refused;
+  {
+    const Nobody nobody;
+    seen = bus.hid_devices();
+    refused = sentence_of<HidError>([&] { static_cast<void>(bus.open(plain_identity())); });
+  }
+  const std::string expected =
+      "Plain joystick (1209:0001) may not be used by this user: install the udev rule assets/udev/70-gearshift.rules "
+      "as "
+      "its first lines say, and plug it in again";
+  CHECK(refused == expected);
+  REQUIRE(seen.size() == 1);
+  CHECK(seen[0].problem == expected);
+  CHECK(seen[0].report_descriptor == rig.gadget.report_descriptor());
+}
+
+TEST_CASE("the udev rule ships, and lists the emulated sticks that people own") {
+  const std::string rule = text_of(std::filesystem::path(GEARSHIFT_ASSETS) / "udev" / "70-gearshift.rules");
+  for (const char* stick : {R"(ATTR{idVendor}=="045e", ATTR{idProduct}=="001b")",     // SideWinder Force Feedback 2
+                            R"(ATTR{idVendor}=="1209", ATTR{idProduct}=="ffb0")"}) {  // OpenFFBoard
+    CHECK_MESSAGE(rule.find(stick) != std::string::npos, stick);
+  }
+  CHECK(rule.find(R"(TAG+="uaccess")") != std::string::npos);
+}
+
+TEST_CASE("a device that another program has is said to be so") {
+  UsbRig rig;
+  rig.usb.plug(rig.gadget, {.taken = true});
+  const UsbBus bus;
+  const std::string expected = "Plain joystick (1209:0001) is used by another program";
+  const std::vector<UsbHidDevice> seen = bus.hid_devices();
+  REQUIRE(seen.size() == 1);
+  CHECK(seen[0].problem == expected);
+  CHECK(seen[0].report_descriptor.empty());
+  CHECK(sentence_of<HidError>([&] { static_cast<void>(bus.open(plain_identity())); }) == expected);
+}
+
+TEST_CASE("what a device calls itself is made printable") {
+  UsbRig rig;
+  rig.gadget.name = "Evil\x1b[2J stick";
+  rig.gadget.serial = "";
+  rig.usb.plug(rig.gadget);
+  const std::vector<UsbHidDevice> seen = UsbBus().hid_devices();
+  REQUIRE(seen.size() == 1);
+  CHECK(seen[0].identity.name == "Evil?[2J stick");
+  CHECK(seen[0].identity.serial.empty());
+}
+
+TEST_CASE("only HID interfaces are listed, in the order of their places") {
+  PlainGadget disk, second;
+  UsbRig rig;
+  disk.interface_class = 8;
+  second.serial = "B2";
+  rig.usb.plug(second, {.place = "1-3"});
+  rig.usb.plug(disk, {.place = "1-2"});
+  rig.usb.plug(rig.gadget, {.place = "1-1"});
+  const std::vector<UsbHidDevice> seen = UsbBus().hid_devices();
+  REQUIRE(seen.size() == 2);
+  CHECK(seen[0].identity.serial == "A1");
+  CHECK(seen[1].identity.serial == "B2");
+}
+
+TEST_CASE("of two alike, serial number or place say which one is opened") {
+  PlainGadget second;
+  UsbRig rig;
+  second.serial = "B2";
+  rig.usb.plug(rig.gadget, {.place = "1-1"});
+  rig.usb.plug(second, {.place = "1-2"});
+  const UsbBus bus;
+  HidIdentity wanted = plain_identity();
+  wanted.serial = "B2";
+  CHECK(bus.open(wanted)->identity().place == "1-2");
+  wanted.serial.clear();
+  wanted.place = "1-1";
+  CHECK(bus.open(wanted)->identity().serial == "A1");
+  wanted.place = "1-7";
+  CHECK(sentence_of<HidGone>([&] { static_cast<void>(bus.open(wanted)); }) ==
+        "the USB device 1209:0001 is not plugged in");
+  wanted.place.clear();
+  CHECK(sentence_of<HidGone>([&] { static_cast<void>(bus.open(wanted, 1)); }) ==
+        "the USB device 1209:0001 is not plugged in");
+}
+
+}  // namespace gearshift

@@ -1,0 +1,58 @@
+// A small joystick of our own at the plug, for what is asked of the wire alone: it counts, records what it is told, and
+// does as it is asked.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tests/support/usb/usb_gadget.h"
+
+namespace gearshift {
+
+class PlainGadget final : public UsbGadget {
+ public:
+  struct Told {
+    std::int64_t time_ns = 0;
+    Bytes bytes;
+  };
+
+  bool numbered = true;                // its reports begin with an ID
+  bool has_in = true, has_out = true;  // its interrupt endpoints
+  double report_every = 0.001;         // [s] 0: it never reports by itself
+  bool answers_get_report = true;      // else it stalls
+  double delay = 0.0;                  // [s] of control transfers
+  std::string serial = "A1", name = "Plain joystick";
+  std::uint16_t product = 0x0001;
+  std::uint8_t interface_class = 3;
+  int declared_length = -1;  // [bytes] of the report descriptor; -1: as it is
+
+  std::vector<Told> outputs;         // by the interrupt pipe, or SET_REPORT(output)
+  std::vector<Told> features;        // SET_REPORT(feature)
+  Bytes feature{2, 10, 20, 30, 40};  // what GET_REPORT(feature) says, ID first
+  int reports = 0;                   // sent by itself
+  int asked = 0;                     // GET_REPORT(input)
+  int idles = 0;                     // SET_IDLE
+  int unplugs = 0;
+
+  Bytes device_descriptor() const override;
+  Bytes configuration_descriptor() const override;
+  Bytes report_descriptor() const override;
+  std::string string_descriptor(int index) const override;
+  std::optional<Bytes> control(const UsbSetup& setup, std::span<const std::uint8_t> data) override;
+  bool output(std::span<const std::uint8_t> report) override;
+  std::optional<Bytes> input() override;
+  double control_delay() const override { return delay; }
+  void advance(std::int64_t now_ns) override { now_ns_ = now_ns; }
+  void unplug() override { ++unplugs; }
+
+ private:
+  Bytes lever_report(int count) const;
+  Bytes without_id(Bytes report) const;
+
+  std::int64_t now_ns_ = 0, reported_ns_ = 0;
+};
+
+}  // namespace gearshift

@@ -1,0 +1,89 @@
+// A stream that records what comes, sends what it is given, and ends when it is told.
+#pragma once
+
+#include <sys/eventfd.h>
+#include <unistd.h>
+
+#include <atomic>
+#include <cstdint>
+#include <deque>
+#include <mutex>
+#include <span>
+#include <vector>
+
+#include "haptics/hid/hid_port.h"
+
+namespace gearshift {
+
+class RecordingStream final : public HidStream {
+ public:
+  struct Input {
+    std::int64_t time_ns = 0;
+    std::vector<std::uint8_t> bytes;
+  };
+
+  RecordingStream() : wake_fd_(eventfd(0, EFD_NONBLOCK | EFD_CLOEXEC)) {}
+  ~RecordingStream() override { close(wake_fd_); }
+  RecordingStream(const RecordingStream&) = delete;
+  RecordingStream& operator=(const RecordingStream&) = delete;
+
+  StreamConfig config() const {
+    StreamConfig config;
+    config.wake_fd = wake_fd_;
+    config.lever_report = 1;
+    return config;
+  }
+
+  // Any thread.
+  void give(const HidBytes& report) {
+    {
+      const std::lock_guard<std::mutex> lock(mutex_);
+      waiting_.push_back(report);
+    }
+    eventfd_write(wake_fd_, 1);
+  }
+  void end() { end_ = true; }
+  std::vector<Input> inputs() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return inputs_;
+  }
+  std::vector<std::int64_t> looks() const {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return looks_;
+  }
+  std::vector<std::int64_t> output_times() const {  // when next_output() gave one
+    const std::lock_guard<std::mutex> lock(mutex_);
+    return output_times_;
+  }
+  std::size_t input_count() const { return input_count_; }
+  int sent() const { return sent_; }
+
+  void on_input(std::span<const std::uint8_t> report, std::int64_t time_ns) noexcept override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    inputs_.push_back({time_ns, {report.begin(), report.end()}});
+    ++input_count_;
+  }
+  HidBytes next_output(std::int64_t now_ns) noexcept override {
+    const std::lock_guard<std::mutex> lock(mutex_);
+    looks_.push_back(now_ns);
+    if (waiting_.empty()) return {};
+    const HidBytes next = waiting_.front();
+    waiting_.pop_front();
+    output_times_.push_back(now_ns);
+    return next;
+  }
+  void on_sent(std::int64_t) noexcept override { ++sent_; }
+  bool should_end() const noexcept override { return end_; }
+
+ private:
+  int wake_fd_;
+  mutable std::mutex mutex_;
+  std::deque<HidBytes> waiting_;
+  std::vector<Input> inputs_;
+  std::vector<std::int64_t> looks_, output_times_;
+  std::atomic<std::size_t> input_count_{0};
+  std::atomic<int> sent_{0};
+  std::atomic<bool> end_{false};
+};
+
+}  // namespace gearshift

@@ -1,0 +1,69 @@
+// The program inside a stick: what reports it takes, what it answers, and what its effects push. Knows neither USB nor the
+// lever.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+
+#include "tests/support/stick/device_effects.h"
+#include "tests/support/stick/stick_family.h"
+
+namespace gearshift {
+
+class StickFirmware {
+ public:
+  enum class BlockStatus : std::uint8_t { success = 1, full = 2, error = 3 };
+
+  // blocks: of its pool, 0: as the family has it.
+  StickFirmware(const StickFamilyTable& family, int blocks, bool finite_refused);
+
+  void power_off() noexcept;
+
+  // Reports, ID first. false, nothing: it knows no such report, or its length is wrong.
+  bool knows_output(std::span<const std::uint8_t> report) const noexcept;
+  void output(std::span<const std::uint8_t> report, std::int64_t now_ns);
+  bool set_feature(std::span<const std::uint8_t> report);
+  std::optional<StickReport> feature(std::uint8_t id) const;
+
+  StickReport state() const;                // as an input report; empty: the family has none
+  std::optional<StickReport> take_state();  // the next that is to be sent
+
+  void set_clock(std::int64_t now_ns) noexcept;  // no time passes by that
+  void advance(std::int64_t now_ns);             // ends what is over
+  EffectForces forces(const DeviceMotion& motion, std::int64_t now_ns) const noexcept;
+
+  bool actuators() const noexcept { return actuators_; }
+  int playing() const noexcept { return effects_.playing(); }
+
+  std::optional<BlockStatus> refusal;  // what every create is answered with, whatever there is
+
+ private:
+  void take_spring() noexcept;
+  void set_effect(std::span<const std::uint8_t> report);
+  void set_constant(std::span<const std::uint8_t> report) noexcept;
+  void set_condition(std::span<const std::uint8_t> report) noexcept;
+  void operate(std::span<const std::uint8_t> report, std::int64_t now_ns);
+  void control(std::uint8_t told);
+  void control_by_number(int number);
+  void control_by_switch(int number);
+  void reset() noexcept;
+  void create(int type) noexcept;
+  void tell_state(int block);
+  EffectKind kind_of(int type) const noexcept;
+
+  const StickFamilyTable& family_;
+  int blocks_;
+  bool finite_refused_;
+  DeviceEffects effects_;
+  bool actuators_ = false, paused_ = false;
+  double gain_ = 1.0;
+  std::int64_t now_ns_ = 0;
+  int load_block_ = 0;
+  BlockStatus load_status_ = BlockStatus::error;
+  int state_block_ = 0;
+  std::deque<StickReport> states_;
+};
+
+}  // namespace gearshift

@@ -1,0 +1,124 @@
+// The port to an emulated stick keeps what haptics/hid/hid_port.h says of every port.
+#include "tests/support/stick/stick_port.h"
+
+#include <vector>
+
+#include <doctest/doctest.h>
+
+using namespace gearshift;
+
+namespace {
+
+constexpr std::int64_t kMs = 1'000'000;
+
+HidBytes report(std::initializer_list<std::uint8_t> bytes) {
+  HidBytes made;
+  for (std::uint8_t byte : bytes) made.bytes[made.size++] = byte;
+  return made;
+}
+
+struct Listener final : HidStream {
+  void on_input(std::span<const std::uint8_t> bytes, std::int64_t time_ns) noexcept override {
+    if (bytes[0] != 1) return;  // of its state
+    ++inputs;
+    last_input_ns = time_ns;
+  }
+  HidBytes next_output(std::int64_t now_ns) noexcept override {
+    asked_ns.push_back(now_ns);
+    return output;
+  }
+  void on_sent(std::int64_t time_ns) noexcept override { sent_ns.push_back(time_ns); }
+  bool should_end() const noexcept override { return sent_ns.size() >= 20; }
+
+  HidBytes output;
+  int inputs = 0;
+  std::int64_t last_input_ns = 0;
+  std::vector<std::int64_t> asked_ns, sent_ns;
+};
+
+struct Rig {
+  explicit Rig(const EmulatedStickConfig& config) : stick(config, hand), port(stick, mutex, plugged) {}
+
+  RestingHand hand;
+  std::mutex mutex;
+  std::atomic<bool> plugged{true};
+  EmulatedStick stick;
+  StickPort port;
+};
+
+EmulatedStickConfig of(StickFamily family) {
+  EmulatedStickConfig config;
+  config.family = family;
+  return config;
+}
+
+}  // namespace
+
+TEST_CASE("identity, features and outputs, by a pipe or by SET_REPORT") {
+  Rig board(of(StickFamily::openffboard));
+  CHECK(board.port.identity().vendor == 0x1209);
+  CHECK(board.port.identity().product == 0xffb0);
+  CHECK(board.port.identity().name == "FFBoard");
+  CHECK(board.port.identity().serial == "EMULATED01");
+  CHECK(board.port.report_descriptor().size() == 1215);
+  board.port.set_feature(report({0x11, 1, 0, 0}));
+  const HidBytes load = board.port.get_feature(0x12, 5);
+  CHECK(load.size == 5);
+  CHECK(load.bytes[2] == 1);
+  board.port.send(report({0x0C, 1}));
+  CHECK(board.stick.actuators_on());
+
+  Rig feeder(of(StickFamily::vjoy));
+  feeder.port.send(report({0x1C, 1}));
+  CHECK(feeder.stick.actuators_on());
+}
+
+TEST_CASE("what cannot be done is one sentence, what is gone is gone") {
+  Rig rig(of(StickFamily::sidewinder));
+  CHECK_THROWS_AS(rig.port.get_feature(0x7E, 5), HidError);
+  CHECK_THROWS_AS(rig.port.set_feature(report({0x7E, 1})), HidError);
+  rig.stick.faults.stalls_outputs = true;
+  CHECK_THROWS_AS(rig.port.send(report({0x0C, 1})), HidError);
+  rig.stick.faults = {};
+  rig.stick.faults.slow = 1.0;
+  CHECK_THROWS_AS(rig.port.get_feature(0x03, 5), HidError);
+  rig.plugged = false;
+  Listener listener;
+  CHECK_THROWS_AS(rig.port.get_feature(0x03, 5), HidGone);
+  CHECK_THROWS_AS(rig.port.send(report({0x0C, 1})), HidGone);
+  CHECK_THROWS_AS(rig.port.stream({}, listener), HidGone);
+}
+
+TEST_CASE("a tick brings a report and takes an output; a stick that is still is asked, a dead one is told of") {
+  EmulatedStickConfig config = of(StickFamily::sidewinder);
+  config.reports_changes_alone = true;
+  Rig rig(config);
+  Listener listener;
+  StreamConfig stream;
+  stream.lever_report = 1;
+  listener.output = report({0x0C, 1});
+  for (std::int64_t now = 0; now <= 100 * kMs; now += kMs) tick_stick(rig.stick, stream, listener, now);
+  CHECK(listener.sent_ns.size() == 101);
+  CHECK(rig.stick.actuators_on());
+  CHECK(listener.inputs == 1 + 12);  // its first, at 1 ms, then an answer every 8 ms
+  CHECK(listener.last_input_ns == 97 * kMs);
+  rig.stick.faults.silent = true;
+  std::int64_t now = 101 * kMs;
+  const auto tick_on = [&] {
+    for (; now < 400 * kMs; now += kMs) tick_stick(rig.stick, stream, listener, now);
+  };
+  CHECK_THROWS_AS(tick_on(), HidError);
+  CHECK(now == (97 + 250) * kMs);
+}
+
+TEST_CASE("a stream keeps a tick between two outputs, and ends when it shall") {
+  Rig rig(of(StickFamily::openffboard));
+  Listener listener;
+  StreamConfig stream;
+  stream.lever_report = 1;
+  listener.output = report({0x0C, 1});
+  rig.port.stream(stream, listener);
+  CHECK(listener.sent_ns.size() == 20);
+  CHECK(listener.inputs > 0);
+  for (std::size_t i = 1; i < 20; ++i) CHECK(listener.sent_ns[i] - listener.sent_ns[i - 1] >= kMs);
+}

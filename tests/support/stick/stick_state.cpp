@@ -1,0 +1,182 @@
+#include "tests/support/stick/stick_state.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+
+#include "haptics/device/checked.h"
+
+namespace gearshift {
+namespace {
+
+constexpr double kDamperSpeed = 1.0;        // [m/s] at which the greatest coefficient of a damper gives the full force
+constexpr std::uint64_t kJumpEvery = 50;    // reports
+constexpr double kJump = 0.6;               // [1] of the full deflection
+constexpr std::uint8_t kHatCentred = 0x08;  // beyond its 0 to 7
+
+// Forward on the gate is away from the user, which a stick counts down.
+glm::dvec2 turned(glm::dvec2 v) {
+  return {v.x, -v.y};
+}
+
+EmulatedStickConfig checked(const EmulatedStickConfig& config) {
+  require_between("EmulatedStick: half_travel", config.half_travel, 1e-3, 0.95 * config.lever.yoke.radius, "m");
+  require_between("EmulatedStick: full_force", config.full_force, 0.1, 1e4, "N");
+  require_between("EmulatedStick: spring_stiffness", config.spring_stiffness, 0.0, 1e6, "N/m");
+  require_between("EmulatedStick: plant_period", config.plant_period, 1e-6, 0.1, "s");
+  require_between("EmulatedStick: input_interval", config.input_interval, 1e-4, 0.255, "s");
+  require_between("EmulatedStick: delay", config.delay, 0.0, 1.0, "s");
+  require_between("EmulatedStick: blocks", config.blocks, 0, 100);
+  return config;
+}
+
+std::int64_t nanoseconds(double seconds) {
+  return std::llround(seconds * 1e9);
+}
+
+SimulatedLeverConfig mechanism(const EmulatedStickConfig& config) {
+  SimulatedLeverConfig lever = config.lever;
+  lever.delay = 0;
+  lever.encoder_counts = 0.0;
+  lever.yoke.theta_limit = lever.yoke.phi_limit = std::asin(config.half_travel / lever.yoke.radius);
+  lever.actuator.peak_force = lever.actuator.continuous_force = config.full_force;
+  return lever;
+}
+
+// The low `bits` of it, as a report has them.
+std::int64_t cut(std::int64_t value, int bits) {
+  return value & ((std::int64_t{1} << bits) - 1);
+}
+
+}  // namespace
+
+EmulatedStick::State::State(const EmulatedStickConfig& wanted, HandDriver& hand, const StickFaults& wrong,
+                            const std::uint64_t& held)
+    : config(checked(wanted)),
+      family(stick_family(config.family)),
+      descriptor(stick_report_descriptor(config.family)),
+      period_ns(nanoseconds(config.plant_period)),
+      interval_ns(nanoseconds(config.input_interval)),
+      delay_ns(nanoseconds(config.delay)),
+      faults(wrong),
+      held_buttons(held),
+      lever(mechanism(config), period_ns, hand),
+      firmware(family, config.blocks, config.finite_refused) {}
+
+bool EmulatedStick::State::take(std::span<const std::uint8_t> report) {
+  if (!firmware.knows_output(report)) return false;
+  outputs_.push_back({now_ns + delay_ns, {report.begin(), report.end()}});
+  take_due();
+  push();
+  return true;
+}
+
+void EmulatedStick::State::settle() {
+  for (Pending& output : outputs_) output.due_ns = plant_ns;
+  take_due();
+  push();
+}
+
+// At the caller's time where nothing delays it, else when the plant has come there.
+void EmulatedStick::State::take_due() {
+  const std::int64_t at_ns = delay_ns == 0 ? now_ns : plant_ns;
+  while (!outputs_.empty() && outputs_.front().due_ns <= at_ns) {
+    firmware.output(outputs_.front().report, plant_ns);
+    outputs_.pop_front();
+  }
+}
+
+void EmulatedStick::State::advance(std::int64_t to_ns) {
+  if (!started_) begin(to_ns);
+  now_ns = std::max(now_ns, to_ns);
+  while (plant_ns + period_ns <= now_ns) step();
+}
+
+void EmulatedStick::State::begin(std::int64_t at_ns) {
+  started_ = true;
+  for (Pending& output : outputs_) output.due_ns += at_ns;
+  now_ns = plant_ns = sample_ns_ = told_ns = at_ns;
+  firmware.set_clock(at_ns);
+  reading_ = lever.read(at_ns);
+}
+
+void EmulatedStick::State::step() {
+  push();
+  reading_ = lever.read(plant_ns + period_ns);
+  plant_ns += period_ns;
+  take_due();
+  firmware.advance(plant_ns);
+  push();
+  if (plant_ns - sample_ns_ < interval_ns) return;
+  sample_ns_ += interval_ns * ((plant_ns - sample_ns_) / interval_ns);
+  sample();
+}
+
+void EmulatedStick::State::power_off() {
+  outputs_.clear();
+  firmware.power_off();
+  waiting.reset();
+  sent.clear();
+  configuration = idle = 0;
+  push();
+}
+
+void EmulatedStick::State::meet_bus() {
+  if (unplugged) power_off();
+  unplugged = false;
+}
+
+DeviceMotion EmulatedStick::State::motion() const {
+  return {turned(lever.true_position()) / config.half_travel, turned(lever.true_velocity()) / kDamperSpeed,
+          config.spring_stiffness * config.half_travel / config.full_force};
+}
+
+// What the effects ask of the motors, on the plant from now on.
+void EmulatedStick::State::push() {
+  const EffectForces shares = firmware.forces(motion(), plant_ns);
+  const glm::dvec2 constant = glm::dvec2(config.constant_sign) * shares.constant;
+  const glm::dvec2 spring = glm::dvec2(config.spring_sign) * shares.spring;
+  force = config.full_force * turned(glm::clamp(constant + spring + shares.damper, -1.0, 1.0));
+  lever.write(force);
+}
+
+void EmulatedStick::State::sample() {
+  ++samples_;
+  if (faults.silent) return;
+  const bool lies = faults.jump && samples_ % kJumpEvery == 0;
+  const double off = motion().deflection.x > 0.0 ? -kJump : kJump;
+  StickReport report = spoiled(lever_report(lies ? off : 0.0));
+  if (config.reports_changes_alone && report == sent && !waiting) return;
+  waiting = std::move(report);
+}
+
+StickReport EmulatedStick::State::lever_report(double off) const {
+  const LeverBytes& bytes = family.lever;
+  const glm::dvec2 deflection = motion().deflection + glm::dvec2(off, 0.0);
+  const auto counts = [&](double share) {
+    const double value = bytes.low + 0.5 * (share + 1.0) * (bytes.high - bytes.low);
+    return cut(static_cast<std::int64_t>(std::floor(std::clamp(value, bytes.low, bytes.high) + 0.5)), bytes.bits);
+  };
+  StickReport report(bytes.size, 0);
+  report[0] = bytes.id;
+  write_number(report, bytes.x, counts(deflection.x));
+  write_number(report, bytes.y, counts(deflection.y));
+  if (bytes.hat_at != 0) report[bytes.hat_at] = kHatCentred;
+  const std::uint64_t hand = (reading_.pressed_down ? 1U : 0U) | (reading_.lifted ? 2U : 0U);
+  report[bytes.buttons_at] = static_cast<std::uint8_t>(hand | held_buttons);  // every family has eight at least
+  return report;
+}
+
+StickReport EmulatedStick::State::spoiled(StickReport report) {
+  if (!faults.stuck) {
+    stuck_.clear();
+  } else if (stuck_.empty()) {
+    stuck_ = report;
+  }
+  if (faults.stuck) report = stuck_;
+  if (faults.wrong_length) report.pop_back();
+  return report;
+}
+
+}  // namespace gearshift

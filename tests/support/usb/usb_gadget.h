@@ -1,0 +1,53 @@
+// A USB device as it looks from its plug.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "tests/support/stick/emulated_stick.h"
+
+namespace gearshift {
+
+class UsbGadget {
+ public:
+  using Bytes = std::vector<std::uint8_t>;
+
+  virtual ~UsbGadget() = default;
+  virtual Bytes device_descriptor() const = 0;
+  virtual Bytes configuration_descriptor() const = 0;  // with interface, HID and endpoint descriptors
+  virtual Bytes report_descriptor() const = 0;
+  virtual std::string string_descriptor(int index) const = 0;  // 1 maker, 2 product, 3 serial; empty: none
+  virtual std::optional<Bytes> control(const UsbSetup& setup,
+                                       std::span<const std::uint8_t> data) = 0;  // nothing: stall
+  virtual bool output(std::span<const std::uint8_t> report) = 0;                 // interrupt OUT; false: stall
+  virtual std::optional<Bytes> input() = 0;                                      // interrupt IN; nothing: NAK
+  virtual double control_delay() const { return 0.0; }  // [s] that each control transfer takes longer
+  virtual void advance(std::int64_t now_ns) = 0;        // CLOCK_MONOTONIC
+  virtual void unplug() = 0;
+};
+
+// An emulated stick at the plug. The stick must outlive it.
+class StickGadget final : public UsbGadget {
+ public:
+  explicit StickGadget(EmulatedStick& stick) : stick_(stick) {}
+
+  Bytes device_descriptor() const override { return stick_.device_descriptor(); }
+  Bytes configuration_descriptor() const override { return stick_.configuration_descriptor(); }
+  Bytes report_descriptor() const override { return stick_.report_descriptor(); }
+  std::string string_descriptor(int index) const override;
+  std::optional<Bytes> control(const UsbSetup& setup, std::span<const std::uint8_t> data) override {
+    return stick_.control(setup, data);
+  }
+  bool output(std::span<const std::uint8_t> report) override { return stick_.output(report); }
+  std::optional<Bytes> input() override { return stick_.input(); }
+  double control_delay() const override { return stick_.faults.slow; }
+  void advance(std::int64_t now_ns) override { stick_.advance(now_ns); }
+  void unplug() override { stick_.unplug(); }
+
+ private:
+  EmulatedStick& stick_;
+};
+
+}  // namespace gearshift

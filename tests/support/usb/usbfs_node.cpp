@@ -1,0 +1,297 @@
+#include "tests/support/usb/usbfs_node.h"
+
+// usbdevice_fs.h uses the macros of ioctl.h.
+#include <sys/ioctl.h>
+// clang-format keeps this order
+#include <linux/usbdevice_fs.h>
+#include <time.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstddef>
+#include <cstring>
+#include <iterator>
+#include <span>
+#include <utility>
+
+namespace gearshift {
+namespace {
+
+constexpr std::size_t kSetup = 8;      // [bytes] before the data of a control transfer
+constexpr unsigned kHidInterface = 0;  // the one that the kernel's driver or another program has
+
+std::int64_t clock_ns() noexcept {
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  return now.tv_sec * 1'000'000'000 + now.tv_nsec;
+}
+
+// What the client's memory holds where the pointer at that offset leads.
+IoctlData resolve(UMockdevIoctlData* data, std::size_t offset, std::size_t size) {
+  GError* error = nullptr;
+  IoctlData resolved(umockdev_ioctl_data_resolve(data, offset, size, &error));
+  if (error != nullptr) g_error_free(error);
+  return resolved;
+}
+
+template <class T>
+T* as(const IoctlData& data) {
+  return data ? reinterpret_cast<T*>(data->data) : nullptr;
+}
+
+std::span<std::uint8_t> bytes_of(const IoctlData& data) {
+  return data ? std::span<std::uint8_t>(data->data, static_cast<std::size_t>(data->data_len))
+              : std::span<std::uint8_t>();
+}
+
+UsbSetup setup_of(std::span<const std::uint8_t> bytes) {
+  const auto word = [&](std::size_t at) { return static_cast<std::uint16_t>(bytes[at] | bytes[at + 1] << 8); };
+  return {bytes[0], bytes[1], word(2), word(4), word(6)};
+}
+
+}  // namespace
+
+UsbfsNode::UsbfsNode(UsbGadget& gadget, bool driver_bound, bool taken)
+    : gadget_(gadget), driver_bound_(driver_bound && !taken), taken_(taken) {}
+
+// As close() of the file: its transfers are killed, its claims go; the kernel's driver does not come back by itself.
+void UsbfsNode::closed(UMockdevIoctlClient* client) {
+  ++counts_.closed;
+  const auto is_its = [client](const Urb& urb) { return urb.client == client; };
+  std::erase_if(pending_, is_its);
+  std::erase_if(done_, is_its);
+  claimed_.erase(client);
+  terminal_.set_writable(!done_.empty());
+}
+
+void UsbfsNode::ioctl(UMockdevIoctlClient* client) {
+  const Answer told = answer(client, umockdev_ioctl_client_get_request(client), umockdev_ioctl_client_get_arg(client));
+  umockdev_ioctl_client_complete(client, told.result, told.error);
+}
+
+void UsbfsNode::advance(std::int64_t now_ns) {
+  if (gone_) return;
+  now_ns_ = now_ns;
+  gadget_.advance(now_ns);
+  carry_all();
+}
+
+void UsbfsNode::disconnect() {
+  gone_ = true;
+  for (Urb& urb : pending_) finish(urb, -ESHUTDOWN, 0);
+  std::move(pending_.begin(), pending_.end(), std::back_inserter(done_));
+  pending_.clear();
+  gadget_.unplug();
+  terminal_.hang_up();
+}
+
+// ----------------------------------------------------------------------------------------------------------- ioctls
+
+UsbfsNode::Answer UsbfsNode::answer(UMockdevIoctlClient* client, unsigned long request, UMockdevIoctlData* argument) {
+  if (request == USBDEVFS_REAPURBNDELAY) return reap(client, argument);
+  if (gone_) return {-1, ENODEV};
+  const std::size_t size = _IOC_SIZE(request);
+  if (request == USBDEVFS_SUBMITURB) return submit(client, argument);
+  if (request == USBDEVFS_DISCARDURB) return discard(argument);
+  const IoctlData data = size > 0 ? resolve(argument, 0, size) : nullptr;
+  switch (request) {
+    case USBDEVFS_GET_CAPABILITIES:
+      *as<std::uint32_t>(data) =
+          USBDEVFS_CAP_ZERO_PACKET | USBDEVFS_CAP_NO_PACKET_SIZE_LIM | USBDEVFS_CAP_REAP_AFTER_DISCONNECT;
+      return {};
+    case USBDEVFS_CLAIMINTERFACE:
+      return claim(client, *as<unsigned>(data), false);
+    case USBDEVFS_DISCONNECT_CLAIM:
+      return claim(client, as<usbdevfs_disconnect_claim>(data)->interface, true);
+    case USBDEVFS_RELEASEINTERFACE:
+      return release(client, *as<unsigned>(data));
+    case USBDEVFS_IOCTL:
+      return drive(static_cast<unsigned>(as<usbdevfs_ioctl>(data)->ioctl_code));
+    case USBDEVFS_CLEAR_HALT:
+      return clear_halt(*as<unsigned>(data));
+    default:
+      return {-1, ENOTTY};
+  }
+}
+
+UsbfsNode::Answer UsbfsNode::claim(UMockdevIoctlClient* client, unsigned interface, bool detach) {
+  if (interface == kHidInterface) {
+    if (taken_) return {-1, EBUSY};
+    if (driver_bound_ && !detach) return {-1, EBUSY};
+    for (const auto& [other, interfaces] : claimed_) {
+      if (other != client && interfaces.contains(interface)) return {-1, EBUSY};
+    }
+    if (std::exchange(driver_bound_, false)) ++counts_.detached;
+  }
+  if (claimed_[client].insert(interface).second) ++counts_.claims;
+  return {};
+}
+
+UsbfsNode::Answer UsbfsNode::release(UMockdevIoctlClient* client, unsigned interface) {
+  if (claimed_[client].erase(interface) == 0) return {-1, EINVAL};
+  ++counts_.releases;
+  return {};
+}
+
+// Not while transfers wait in the endpoint.
+UsbfsNode::Answer UsbfsNode::clear_halt(unsigned endpoint) {
+  const auto waits = [endpoint](const Urb& urb) { return urb.endpoint == endpoint; };
+  if (std::any_of(pending_.begin(), pending_.end(), waits)) ++counts_.misuses;
+  halted_.erase(endpoint);
+  return {};
+}
+
+// Of all that a driver can be asked for: to come back.
+UsbfsNode::Answer UsbfsNode::drive(unsigned code) {
+  if (code != USBDEVFS_CONNECT) return {-1, ENOTTY};
+  if (driver_bound_) return {-1, EBUSY};
+  driver_bound_ = true;
+  ++counts_.attached;
+  return {1, 0};
+}
+
+UsbfsNode::Answer UsbfsNode::submit(UMockdevIoctlClient* client, UMockdevIoctlData* argument) {
+  Urb urb;
+  urb.client = client;
+  urb.urb = resolve(argument, 0, sizeof(usbdevfs_urb));
+  if (urb.urb == nullptr) return {-1, EFAULT};
+  const auto* told = as<usbdevfs_urb>(urb.urb);
+  urb.type = told->type;
+  urb.endpoint = told->endpoint;
+  const std::size_t length = static_cast<std::size_t>(told->buffer_length);
+  if (length > 0) urb.buffer = resolve(urb.urb.get(), offsetof(usbdevfs_urb, buffer), length);
+  if (!may_use(client, urb)) {
+    ++counts_.misuses;
+    return {-1, EBUSY};
+  }
+  if (urb.type == USBDEVFS_URB_TYPE_CONTROL) {
+    urb.due_ns = clock_ns() + static_cast<std::int64_t>(1e9 * gadget_.control_delay());
+  }
+  now_ns_ = clock_ns();
+  ++counts_.submitted;
+  pending_.push_back(std::move(urb));
+  carry_all();
+  return {};
+}
+
+UsbfsNode::Answer UsbfsNode::discard(UMockdevIoctlData* argument) {
+  const std::uint64_t address = *reinterpret_cast<std::uint64_t*>(argument->data);
+  const auto found = std::find_if(pending_.begin(), pending_.end(),
+                                  [address](const Urb& urb) { return urb.urb->client_addr == address; });
+  if (found == pending_.end()) return {-1, EINVAL};
+  finish(*found, -ENOENT, 0);
+  done_.push_back(std::move(*found));
+  pending_.erase(found);
+  terminal_.set_writable(true);
+  return {};
+}
+
+UsbfsNode::Answer UsbfsNode::reap(UMockdevIoctlClient* client, UMockdevIoctlData* argument) {
+  const auto found =
+      std::find_if(done_.begin(), done_.end(), [client](const Urb& urb) { return urb.client == client; });
+  if (found == done_.end()) return {-1, gone_ ? ENODEV : EAGAIN};
+  const IoctlData where = resolve(argument, 0, sizeof(void*));
+  if (where == nullptr) return {-1, EFAULT};  // the client has died
+  umockdev_ioctl_data_set_ptr(where.get(), 0, found->urb.get());
+  done_.erase(found);
+  ++counts_.given_back;
+  terminal_.set_writable(!done_.empty());
+  return {};
+}
+
+// A request to an interface, or to one of its endpoints, wants it claimed. The kernel would claim it silently where it is
+// free, and warn.
+bool UsbfsNode::may_use(UMockdevIoctlClient* client, const Urb& urb) {
+  if (urb.type == USBDEVFS_URB_TYPE_CONTROL) {
+    const std::span<const std::uint8_t> bytes = bytes_of(urb.buffer);
+    if (bytes.size() < kSetup || (bytes[0] & 0x1f) == 0) return bytes.size() >= kSetup;
+  }
+  return claimed_[client].contains(kHidInterface);
+}
+
+// --------------------------------------------------------------------------------------------------------- transfers
+
+void UsbfsNode::carry_all() {
+  // In each endpoint one after the other.
+  std::set<std::uint8_t> waiting;
+  for (auto urb = pending_.begin(); urb != pending_.end();) {
+    if (waiting.contains(urb->endpoint) || !carry(*urb)) {
+      waiting.insert(urb->endpoint);
+      ++urb;
+      continue;
+    }
+    done_.push_back(std::move(*urb));
+    urb = pending_.erase(urb);
+  }
+  terminal_.set_writable(!done_.empty());
+}
+
+bool UsbfsNode::carry(Urb& urb) {
+  if (urb.type == USBDEVFS_URB_TYPE_CONTROL) return carry_control(urb);
+  return (urb.endpoint & 0x80) != 0 ? carry_input(urb) : carry_output(urb);
+}
+
+bool UsbfsNode::carry_control(Urb& urb) {
+  if (faults.control_stuck || now_ns_ < urb.due_ns) return false;
+  const std::span<std::uint8_t> bytes = bytes_of(urb.buffer);
+  const UsbSetup setup = setup_of(bytes);
+  const bool in = (setup.request_type & 0x80) != 0;
+  const std::span<std::uint8_t> data = bytes.subspan(kSetup);
+  const bool is_output = setup.request_type == 0x21 && setup.request == 9 && setup.value >> 8 == 2;
+  const bool stalls = is_output && stalls_output();
+  const auto answered = stalls ? std::nullopt : gadget_.control(setup, in ? std::span<const std::uint8_t>() : data);
+  if (!answered) {
+    finish(urb, -EPIPE, 0);
+  } else if (in) {
+    const std::size_t length = std::min({answered->size(), data.size(), std::size_t{setup.length}});
+    std::copy_n(answered->begin(), length, data.begin());
+    finish(urb, 0, length);
+  } else {
+    finish(urb, 0, data.size());
+  }
+  return true;
+}
+
+bool UsbfsNode::carry_input(Urb& urb) {
+  if (halted_.contains(urb.endpoint)) return false;
+  if (faults.input_stalls > 0 && faults.input_stalls-- > 0) return stall(urb);
+  auto report = gadget_.input();
+  if (!report) return false;
+  if (faults.garbled) {
+    finish(urb, -EPROTO, 0);
+    return true;
+  }
+  report->resize(static_cast<std::size_t>(static_cast<int>(report->size()) + faults.extra_bytes), 0xee);
+  const std::span<std::uint8_t> room = bytes_of(urb.buffer);
+  const std::size_t length = std::min(report->size(), room.size());
+  std::copy_n(report->begin(), length, room.begin());
+  finish(urb, report->size() > room.size() ? -EOVERFLOW : 0, length);
+  return true;
+}
+
+bool UsbfsNode::carry_output(Urb& urb) {
+  if (faults.output_stuck || halted_.contains(urb.endpoint)) return false;
+  const std::span<const std::uint8_t> bytes = bytes_of(urb.buffer);
+  if (stalls_output() || !gadget_.output(bytes)) return stall(urb);
+  finish(urb, 0, bytes.size());
+  return true;
+}
+
+// The endpoint is halted until that is cleared: what else waits there goes on waiting, as on an EHCI controller.
+bool UsbfsNode::stall(Urb& urb) {
+  halted_.insert(urb.endpoint);
+  finish(urb, -EPIPE, 0);
+  return true;
+}
+
+bool UsbfsNode::stalls_output() {
+  return faults.output_stalls > 0 && faults.output_stalls-- > 0;
+}
+
+void UsbfsNode::finish(Urb& urb, int status, std::size_t length) {
+  auto* told = as<usbdevfs_urb>(urb.urb);
+  told->status = status;
+  told->actual_length = static_cast<int>(length);
+}
+
+}  // namespace gearshift

@@ -1,0 +1,87 @@
+// What the Linux kernel's usbfs does behind /dev/bus/usb/001/002, as far as libusb asks for it: claims and the kernel's
+// driver, URBs submitted, discarded and reaped, a device that goes away.
+//
+// This work is based on:
+// Linux 6.1, drivers/usb/core/devio.c; include/uapi/linux/usbdevice_fs.h
+#pragma once
+
+#include <umockdev.h>
+
+#include <cstdint>
+#include <deque>
+#include <map>
+#include <memory>
+#include <set>
+
+#include "tests/support/usb/held_terminal.h"
+#include "tests/support/usb/usb_gadget.h"
+#include "tests/support/usb/usb_plug.h"
+
+namespace gearshift {
+
+struct Unref {
+  void operator()(void* object) const noexcept { g_object_unref(object); }
+};
+using IoctlData = std::unique_ptr<UMockdevIoctlData, Unref>;
+
+// Not thread-safe: who calls it holds the bus' lock.
+class UsbfsNode {
+ public:
+  // The gadget must outlive it. driver_bound: the kernel's HID driver has the interface; taken: another program has it.
+  UsbfsNode(UsbGadget& gadget, bool driver_bound, bool taken);
+
+  const std::string& path() const noexcept { return terminal_.path(); }
+  UsbGadget& gadget() noexcept { return gadget_; }
+  const UsbNodeCounts& counts() const noexcept { return counts_; }
+  bool driver_bound() const noexcept { return driver_bound_; }
+
+  void opened() noexcept { ++counts_.opened; }
+  void closed(UMockdevIoctlClient* client);
+  void ioctl(UMockdevIoctlClient* client);  // answers it
+  void advance(std::int64_t now_ns);        // the gadget, and all that is due by then
+  void disconnect();
+
+  UsbWireFaults faults;
+
+ private:
+  struct Urb {
+    UMockdevIoctlClient* client = nullptr;
+    IoctlData urb, buffer;
+    std::uint8_t type = 0, endpoint = 0;
+    std::int64_t due_ns = 0;
+  };
+  struct Answer {
+    long result = 0;
+    int error = 0;
+  };
+
+  Answer answer(UMockdevIoctlClient* client, unsigned long request, UMockdevIoctlData* argument);
+  Answer claim(UMockdevIoctlClient* client, unsigned interface, bool detach);
+  Answer release(UMockdevIoctlClient* client, unsigned interface);
+  Answer clear_halt(unsigned endpoint);
+  Answer drive(unsigned code);
+  Answer submit(UMockdevIoctlClient* client, UMockdevIoctlData* argument);
+  Answer discard(UMockdevIoctlData* argument);
+  Answer reap(UMockdevIoctlClient* client, UMockdevIoctlData* argument);
+
+  bool may_use(UMockdevIoctlClient* client, const Urb& urb);
+  bool carry(Urb& urb);  // false: not yet
+  bool carry_control(Urb& urb);
+  bool carry_input(Urb& urb);
+  bool carry_output(Urb& urb);
+  bool stall(Urb& urb);
+  bool stalls_output();
+  void finish(Urb& urb, int status, std::size_t length);
+  void carry_all();
+
+  UsbGadget& gadget_;
+  HeldTerminal terminal_;
+  UsbNodeCounts counts_;
+  bool driver_bound_ = false, taken_ = false, gone_ = false;
+  std::int64_t now_ns_ = 0;
+  std::map<UMockdevIoctlClient*, std::set<unsigned>> claimed_;
+  std::set<unsigned> halted_;  // endpoints
+  std::deque<Urb> pending_, done_;
+};
+
+}  // namespace gearshift
