@@ -6,7 +6,7 @@
 
 namespace gearshift {
 
-std::string event_words(const HapticEvent& event) {
+std::string event_words(const HapticEvent& event, bool push_estimated) {
   switch (event.kind) {
     case EventKind::gear_engaged:
       return fmt::format("{} engaged", gear_name(static_cast<int>(event.value)));
@@ -15,7 +15,7 @@ std::string event_words(const HapticEvent& event) {
     case EventKind::wall_contact:
       return fmt::format("wall hit at {:.2f} m/s", event.value);
     case EventKind::over_push_begin:
-      return fmt::format("over-push: {:.0f} N", event.value);
+      return fmt::format("over-push: {:.0f} N{}", event.value, push_estimated ? ", estimated" : "");
     case EventKind::over_push_end:
       return "over-push ends";
     case EventKind::saturation_begin:

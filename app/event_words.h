@@ -7,7 +7,7 @@
 
 namespace gearshift {
 
-// "2 engaged", "wall hit at 0.31 m/s", ...
-std::string event_words(const HapticEvent& event);
+// "2 engaged", "wall hit at 0.31 m/s", ... push_estimated: by a device that has no force sensor, and it is said.
+std::string event_words(const HapticEvent& event, bool push_estimated = false);
 
 }  // namespace gearshift

@@ -30,6 +30,7 @@ int run(int argc, char** argv) {
   gearshift::add_reproduce_verb(app, action);
   gearshift::add_replay_verb(app, action);
   gearshift::add_report_verb(app, action);
+  gearshift::add_devices_verb(app, action);
   gearshift::add_bench_verb(app, action);
 
   try {
@@ -40,9 +41,8 @@ int run(int argc, char** argv) {
     }
     if (!action)
       throw CLI::RequiredError(
-          "A subcommand: train, demo, lesson, tour, render, gate, identify, stability, reproduce, replay, report or "
-          "bench (see "
-          "--help)");
+          "A subcommand: train, demo, lesson, tour, render, gate, identify, stability, reproduce, replay, report, "
+          "devices or bench (see --help)");
     return action();
   } catch (const CLI::Success& help) {
     return app.exit(help);

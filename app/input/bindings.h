@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "app/input/axis.h"
+
 namespace gearshift {
 
 // Everything that input can do. Held ones act while held, others once when pressed.
@@ -51,18 +53,19 @@ struct ActionInfo {
 };
 const std::vector<ActionInfo>& all_actions();
 
-struct AxisBinding {
-  int pad = 0;  // 0: the first one plugged in
-  int axis = 0;
-  double from = -1.0;      // raw value that means 0 ...
-  double to = 1.0;         // ... and 1 (pedals), or -1 and 1 (lever)
-  double dead_zone = 0.0;  // [1] 0 to 0.9, around the middle (lever) or at the start (pedals)
+// How a stick leads the hand.
+enum class LeverMode {
+  moves,  // as far as it is pushed, as fast the hand goes; let go, the hand stays. For sticks with a centring spring
+  places  // where the stick is, there is the hand. For levers that stay where they are put
 };
 
 struct Bindings {
   std::map<Action, std::vector<int>> keys;  // GLFW_KEY_...
   std::map<Action, std::vector<int>> pad_buttons;
+  std::string button_stick;  // a part of the name or the GUID of the sticks whose buttons these are; empty: of all
   std::optional<AxisBinding> lever_select, lever_shift, throttle, brake, clutch;
+  LeverMode lever_mode = LeverMode::moves;
+  double stick_speed = 0.3;       // [m/s] of the hand at full deflection, where the stick moves it
   double mouse_mm_per_px = 0.12;  // [mm] of the hand in the lever plane per pixel of the mouse
   double key_speed = 0.25;        // [m/s] of the hand while a lever key is held
   double pedal_time = 0.25;       // [s] from up to down by key
@@ -71,6 +74,14 @@ struct Bindings {
 
 // Throws FileError: file, line, key, value, allowed range. A key, button or axis that does two things is refused.
 Bindings read_bindings(const std::filesystem::path& file);
+
+// A file that read_bindings gives back as these. Throws FileError; then what was there before still is.
+void write_bindings(const Bindings& bindings, const std::filesystem::path& file);
+std::string bindings_text(const Bindings& bindings);
+
+// Where the user's own bindings of that name are, below the folder of the user's configuration; nothing is made. Throws
+// std::invalid_argument with one sentence for a name that is no file's.
+std::filesystem::path own_bindings_file(const std::filesystem::path& config_folder, const std::string& name);
 
 // What F1 shows: a line for each action that has a key, then mouse and pad; what is pressed and what it does apart by a
 // tab.

@@ -26,18 +26,8 @@ bool is_once(Action action) {
   return info != actions.end() && !info->held;
 }
 
-// 0 to 1 of the way from `from` to `to`.
-double share(const AxisBinding& axis, double raw) {
-  return std::clamp((raw - axis.from) / (axis.to - axis.from), 0.0, 1.0);
-}
-
-// What is left of a value from 0 to 1 beyond the dead zone, stretched to the whole again.
-double beyond(double dead_zone, double value) {
-  return std::max(0.0, value - dead_zone) / (1.0 - dead_zone);
-}
-
-constexpr double kKeyLead = 0.05;  // [m] of the hand before the lever, by keys: 25 N of a grip
-constexpr double kWaits = 0.3;     // [s] after the keys the lever has come as far as it comes ...
+constexpr double kKeyLead = 0.05;  // [m] of the hand before the lever, by keys or stick: 25 N of a grip
+constexpr double kWaits = 0.3;     // [s] after them the lever has come as far as it comes ...
 constexpr double kRests = 0.005;   // [m] ... and the hand rests so near to it: 2.5 N hold it against its centring
 
 }  // namespace
@@ -98,8 +88,9 @@ void DriverInput::take_buttons(const WindowInput& input) {
   for (const auto& [action, buttons] : config_.bindings.pad_buttons) {
     for (const int button : buttons) {
       const auto index = static_cast<std::size_t>(button);
-      const bool down = std::any_of(input.pads.begin(), input.pads.end(), [index](const PadState& pad) {
-        return index < pad.buttons.size() && pad.buttons[index] != 0;
+      const bool down = std::any_of(input.pads.begin(), input.pads.end(), [this, index](const PadState& pad) {
+        const bool is_there = index < pad.buttons.size() && is_meant(pad, config_.bindings.button_stick);
+        return is_there && pad.buttons[index] != 0;
       });
       const Source source{true, button};
       if (down)
@@ -171,8 +162,12 @@ void DriverInput::take_mouse(const WindowInput& input, bool ui_has_mouse) {
 void DriverInput::move_hand(const WindowInput& input, double seconds) {
   if (led_ && mouse_leads_) aim_by_mouse(input.mouse_moved);
   led_ = mouse_leads_;
-  aim_by_keys(config_.bindings.key_speed * seconds, seconds);
-  lead_by_stick(input);
+  const Bindings& bindings = config_.bindings;
+  const glm::dvec2 at{stick(input, bindings.lever_select, kLeverSelect),
+                      stick(input, bindings.lever_shift, kLeverShift)};
+  const bool moves = bindings.lever_mode == LeverMode::moves;
+  aim_by_speed(key_speed() + (moves ? bindings.stick_speed * at * glm::abs(at) : glm::dvec2(0.0)), seconds);
+  if (!moves) place_by_stick(at);
   set_hand();
   hand_.pressed_down = is_held(Action::push_down);
   hand_.lifted = is_held(Action::lift);
@@ -188,15 +183,18 @@ void DriverInput::aim_by_mouse(glm::dvec2 moved_px) {
   if (moved_px != glm::dvec2(0.0)) keys_rest_ = kWaits;
 }
 
-// A key that is held a little long must not push: keys end at the reach, and not far before a lever that is held up.
-void DriverInput::aim_by_keys(double way, double seconds) {
+glm::dvec2 DriverInput::key_speed() const {
   const auto direction = [this](Action plus, Action minus) { return double(is_held(plus)) - double(is_held(minus)); };
-  const glm::dvec2 step{direction(Action::lever_right, Action::lever_left),
-                        direction(Action::lever_forward, Action::lever_back)};
-  const bool moves = step != glm::dvec2(0.0);
+  return config_.bindings.key_speed * glm::dvec2{direction(Action::lever_right, Action::lever_left),
+                                                 direction(Action::lever_forward, Action::lever_back)};
+}
+
+// What is held a little long must not push: it ends at the reach, and not far before a lever that is held up.
+void DriverInput::aim_by_speed(glm::dvec2 speed, double seconds) {
+  const bool moves = speed != glm::dvec2(0.0);
   if (moves) {
     keys_rest_ = 0.0;
-    const glm::dvec2 near = glm::clamp(aim_ + way * step, lever_ - kKeyLead, lever_ + kKeyLead);
+    const glm::dvec2 near = glm::clamp(aim_ + seconds * speed, lever_ - kKeyLead, lever_ + kKeyLead);
     aim_ = glm::clamp(near, -config_.reach, config_.reach);
   } else if (keys_rest_ < kWaits) {
     keys_rest_ += seconds;
@@ -204,13 +202,11 @@ void DriverInput::aim_by_keys(double way, double seconds) {
   }
 }
 
-void DriverInput::lead_by_stick(const WindowInput& input) {
-  const glm::dvec2 at{stick(input, config_.bindings.lever_select, kLeverSelect),
-                      stick(input, config_.bindings.lever_shift, kLeverShift)};
+void DriverInput::place_by_stick(glm::dvec2 stick) {
   for (std::size_t axis = 0; axis < 2; ++axis) {
     const int i = static_cast<int>(axis);
-    const bool deflected = at[i] != 0.0;
-    if (deflected || stick_leads_[axis]) aim_[i] = at[i] * config_.reach[i];
+    const bool deflected = stick[i] != 0.0;
+    if (deflected || stick_leads_[axis]) aim_[i] = stick[i] * config_.reach[i];
     if (deflected) keys_rest_ = kWaits;
     stick_leads_[axis] = deflected;
   }
@@ -240,14 +236,14 @@ void DriverInput::set_car(bool ignition, double hand_brake) {
 std::optional<double> DriverInput::raw_axis(const WindowInput& input, const std::optional<AxisBinding>& axis,
                                             std::size_t watch) {
   if (!axis) return std::nullopt;
-  const auto pad = static_cast<std::size_t>(axis->pad), number = static_cast<std::size_t>(axis->axis);
-  const bool there = pad < input.pads.size() && number < input.pads[pad].axes.size();
+  const PadState* pad = find_stick(input.pads, *axis);
+  const auto number = static_cast<std::size_t>(axis->axis);
   AxisWatch& seen = watch_[watch];
-  if (!there || !std::isfinite(input.pads[pad].axes[number])) {
+  if (pad == nullptr || number >= pad->axes.size() || !std::isfinite(pad->axes[number])) {
     seen = {};
     return std::nullopt;
   }
-  const double raw = static_cast<double>(input.pads[pad].axes[number]);
+  const double raw = static_cast<double>(pad->axes[number]);
   if (!seen.first) seen.first = raw;
   seen.moved = seen.moved || std::abs(raw - *seen.first) > kMoved;
   return seen.moved ? std::optional(raw) : std::nullopt;
@@ -255,14 +251,12 @@ std::optional<double> DriverInput::raw_axis(const WindowInput& input, const std:
 
 double DriverInput::stick(const WindowInput& input, const std::optional<AxisBinding>& axis, std::size_t watch) {
   const std::optional<double> raw = raw_axis(input, axis, watch);
-  if (!raw) return 0.0;
-  const double value = 2.0 * share(*axis, *raw) - 1.0;
-  return std::copysign(beyond(axis->dead_zone, std::abs(value)), value);
+  return raw ? lever_value(*axis, *raw) : 0.0;
 }
 
 double DriverInput::pedal_axis(const WindowInput& input, const std::optional<AxisBinding>& axis, std::size_t watch) {
   const std::optional<double> raw = raw_axis(input, axis, watch);
-  return raw ? beyond(axis->dead_zone, share(*axis, *raw)) : 0.0;
+  return raw ? pedal_value(*axis, *raw) : 0.0;
 }
 
 void DriverInput::read_pedals(const WindowInput& input) {

@@ -1,9 +1,10 @@
 // From window input to what the driver's hand and feet do. Needs no window: the same input gives the same driver.
 //
-//   hand    the mouse leads it while it leads the lever; lever keys move it at their speed; a stick puts it where the
-//           stick is, from when it leaves its rest until it is back there. It stays within reach; a mouse that goes on
-//           pushes instead, against whatever holds the lever. Keys lead it at most 5 cm before the lever, and when they
-//           are let go it rests 5 mm before it at most: nobody leans on a lever for good
+//   hand    the mouse leads it while it leads the lever; lever keys move it at their speed, a stick the faster the further
+//           it is pushed, its square; or (LeverMode::places) the stick puts it where the stick is, from when it leaves its
+//           rest until it is back there. It stays within reach; a mouse that goes on pushes instead, against whatever
+//           holds the lever. Keys and sticks that move it lead it at most 5 cm before the lever, and when they are let go
+//           it rests 5 mm before it at most: nobody leans on a lever for good
 //   feet    which pedals' keys are held, for KeyFeet, which move the pedals on the car's clock; and where the axes are,
 //           once these have moved: a pad tells nothing of an axis before
 //   mouse   leads the lever after a click beside the panel or by grab_mouse, until grab_mouse or the focus is lost
@@ -85,10 +86,11 @@ class DriverInput {
   template <class Holds>
   bool any_source(Action action, const Holds& holds) const;
   void move_hand(const WindowInput& input, double seconds);
-  void lead_by_stick(const WindowInput& input);
+  void place_by_stick(glm::dvec2 stick);
   void read_pedals(const WindowInput& input);
   void aim_by_mouse(glm::dvec2 moved_px);
-  void aim_by_keys(double way, double seconds);
+  void aim_by_speed(glm::dvec2 speed, double seconds);
+  glm::dvec2 key_speed() const;
   void set_hand();
   std::optional<double> raw_axis(const WindowInput& input, const std::optional<AxisBinding>& axis, std::size_t watch);
   double stick(const WindowInput& input, const std::optional<AxisBinding>& axis, std::size_t watch);
@@ -97,7 +99,7 @@ class DriverInput {
   InputConfig config_;
   glm::dvec2 aim_{0.0};     // [m] where the hand wants to be: beyond reach it pushes
   glm::dvec2 lever_{0.0};   // [m] where it is
-  double keys_rest_ = 1.0;  // [s] since keys moved the hand; 1: something else has moved it since
+  double keys_rest_ = 1.0;  // [s] since keys or a stick moved the hand; 1: something else has moved it since
   HandTarget hand_;
   DriverControls controls_;
   std::vector<Action> pressed_;

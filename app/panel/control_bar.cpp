@@ -17,7 +17,7 @@ namespace {
 
 // [em] wide
 constexpr float kCar = 14.6f, kLamps = 6.2f, kState = 7.0f, kArm = 5.5f, kRecording = 7.4f, kStop = 9.0f;
-constexpr float kLeastMessage = 9.0f;
+constexpr float kEstimatedLamps = 8.2f, kLeastMessage = 9.0f;
 constexpr int kLampColumns = 3;
 
 // The bar from left to right; each part takes its width and leaves the cursor at its right.
@@ -117,13 +117,26 @@ Lamp slope_lamp(const VehicleState& car) {
   return {fmt::format("Slope {:+.0f} %", slope), true, ink::kText, "How steep the road is: uphill is more than zero."};
 }
 
+// Where no sensor feels the hand, its push is only estimated, and so is the warning.
+Lamp over_push_lamp(const HapticSnapshot& now) {
+  const bool on = (now.flags & kFlagOverPush) != 0, estimated = (now.flags & kFlagPushEstimated) != 0;
+  return {estimated && on ? "Push, estimated" : "Over-push", on, ink::kBad,
+          estimated ? "The hand pushes harder than the device can hold: estimated, for the device does not feel it."
+                    : "The hand pushes harder than the device can hold."};
+}
+
+// [em] of the first column: "Push, estimated" is longer than any other.
+float first_lamps(const PanelInput& input) {
+  return (input.now.flags & kFlagPushEstimated) != 0 ? kEstimatedLamps : kLamps;
+}
+
 // In columns of three, the more important ones first.
 void draw_lamps(const Parts& parts, int columns, const PanelInput& input) {
   const HapticSnapshot& now = input.now;
   const bool softened = now.wall_stiffness > 0.0 && now.wall_stiffness < 0.999 * input.admitted.tuning.wall_stiffness;
   const VehicleState& car = input.car;
   const Lamp lamps[kLampColumns][3] = {
-      {{"Over-push", (now.flags & kFlagOverPush) != 0, ink::kBad, "The hand pushes harder than the device can hold."},
+      {over_push_lamp(now),
        {"Saturated", (now.flags & kFlagSaturated) != 0, ink::kWarn, "More force is wanted than the device can give."},
        {"Ghost hand", (now.flags & kFlagGhost) != 0, ink::kWarn,
         "The drawn lever stays in the gate; the hand has pushed the real one through a wall."}},
@@ -135,16 +148,18 @@ void draw_lamps(const Parts& parts, int columns, const PanelInput& input) {
        slope_lamp(car)}};
   const float em = ui_em(), line = parts.height() / 3.0f;
   const float above = 0.5f * (line - ui_font(UiFont::small)->FontSize);
+  float x = parts.low().x;
   for (int column = 0; column < columns; ++column) {
-    const float x = parts.low().x + static_cast<float>(column) * kLamps * em;
+    const float width = (column == 0 ? first_lamps(input) : kLamps) * em;
     for (int row = 0; row < 3; ++row) {
       const Lamp& l = lamps[column][row];
       if (l.name.empty()) continue;
       const float y = parts.low().y + static_cast<float>(row) * line;
       lamp({x, y + above}, l.name.c_str(), l.on, l.colour);
-      if (ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect({x, y}, {x + kLamps * em, y + line}))
+      if (ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect({x, y}, {x + width, y + line}))
         ImGui::SetTooltip("%s", l.means);
     }
+    x += width;
   }
 }
 
@@ -218,11 +233,14 @@ void draw_state(const Parts& parts, float width, const HapticSnapshot& now) {
   if (fell) centred(UiFont::small, guard_fault_name(now.fault), top + title, ink::kText);
 }
 
-void draw_arm(Controls& controls, const Parts& parts, float width, GuardState state, PanelRequests& out) {
+void draw_arm(Controls& controls, const Parts& parts, float width, const PanelInput& input, PanelRequests& out) {
+  const GuardState state = input.now.guard;
   const bool off = state == GuardState::idle || state == GuardState::damped || state == GuardState::released;
   const ImVec2 size(width, parts.height());
   if (off) {
+    ImGui::BeginDisabled(input.stick && !input.stick->plugged_in);
     out.arm = controls.button("arm", "Arm", size, ink::kAccentDeep);
+    ImGui::EndDisabled();
   } else {
     out.disarm = controls.button("disarm", "Release", size);
   }
@@ -260,7 +278,7 @@ struct Shown {
   float message;  // [em] wide; 0: none
 };
 
-Shown what_fits(float room) {
+Shown what_fits(float room, float first_lamps) {
   const auto fits = [&room](float width) {
     const bool does = room >= width + 1.0f;
     if (does) room -= width + 1.0f;
@@ -272,7 +290,7 @@ Shown what_fits(float room) {
   shown.state = fits(kState);
   shown.car = fits(kCar);
   shown.recording = fits(kRecording);
-  if (fits(kLamps)) shown.lamps = 1;
+  if (fits(first_lamps)) shown.lamps = 1;
   while (shown.lamps > 0 && shown.lamps < kLampColumns && fits(kLamps - 1.0f)) ++shown.lamps;
   if (room >= kLeastMessage + 1.0f) shown.message = room - 1.0f;
   return shown;
@@ -283,7 +301,7 @@ Shown what_fits(float room) {
 bool draw_control_bar(Controls& controls, const PanelInput& input, PanelRequests& out) {
   const float em = ui_em(), all = ImGui::GetContentRegionAvail().x;
   const float stop = std::min(kStop * em, all), right_group = ImGui::GetCursorScreenPos().x + all;
-  const Shown shown = what_fits(all / em);
+  const Shown shown = what_fits(all / em, first_lamps(input));
   Parts parts;
   if (shown.car) {
     draw_car(parts, input);
@@ -291,7 +309,7 @@ bool draw_control_bar(Controls& controls, const PanelInput& input, PanelRequests
   }
   if (shown.lamps > 0) {
     draw_lamps(parts, shown.lamps, input);
-    parts.next(static_cast<float>(shown.lamps) * kLamps * em);
+    parts.next((first_lamps(input) + static_cast<float>(shown.lamps - 1) * kLamps) * em);
   }
   const bool told = shown.message > 0.0f && draw_message(controls, parts, shown.message * em, input);
   const float group = (shown.state ? kState + 1.0f : 0.0f) + (shown.arm ? kArm + 1.0f : 0.0f) +
@@ -302,7 +320,7 @@ bool draw_control_bar(Controls& controls, const PanelInput& input, PanelRequests
     parts.next(kState * em);
   }
   if (shown.arm) {
-    draw_arm(controls, parts, kArm * em, input.now.guard, out);
+    draw_arm(controls, parts, kArm * em, input, out);
     parts.next(kArm * em);
   }
   if (shown.recording) {

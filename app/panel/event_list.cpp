@@ -35,7 +35,7 @@ void EventList::take(std::span<const HapticEvent> events) {
   }
 }
 
-void EventList::draw() const {
+void EventList::draw(bool push_estimated) const {
   const WithFont small(UiFont::small);
   const float line = ImGui::GetTextLineHeightWithSpacing();
   auto room = static_cast<int>(ImGui::GetContentRegionAvail().y / line) - 2;
@@ -46,7 +46,7 @@ void EventList::draw() const {
     ImGui::TextDisabled("%8.2f s", 1e-9 * static_cast<double>(event->time_ns));
     ImGui::SameLine(5.5f * ui_em());
     ImGui::PushStyleColor(ImGuiCol_Text, colour_of(*event));
-    ImGui::TextUnformatted(event_words(*event).c_str());
+    ImGui::TextUnformatted(event_words(*event, push_estimated).c_str());
     ImGui::PopStyleColor();
   }
 }

@@ -11,7 +11,8 @@ namespace gearshift {
 class EventList {
  public:
   void take(std::span<const HapticEvent> events);
-  void draw() const;  // newest first, as many as the window's rest has room for
+  // Newest first, as many as the window's rest has room for. push_estimated: the device has no force sensor.
+  void draw(bool push_estimated) const;
 
  private:
   static constexpr std::size_t kMost = 64;

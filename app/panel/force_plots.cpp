@@ -89,7 +89,8 @@ void ForcePlots::draw(Controls& controls, float height, const Gate& gate, const 
 
 void ForcePlots::draw_forces(Controls& controls, float height, const HapticSnapshot& now) {
   header("Force");
-  entry(controls, ink::kHand, "f_h", along(axis_, now.f_h), "N");
+  const bool estimated = (now.flags & kFlagPushEstimated) != 0;
+  entry(controls, ink::kHand, estimated ? "f_h estimated" : "f_h", along(axis_, now.f_h), "N");
   entry(controls, ink::kActuator, "f_a", along(axis_, now.f_a), "N");
   entry(controls, ink::kJoystick, "f_j", along(axis_, now.f_j), "N");
   Axis& a = axis();

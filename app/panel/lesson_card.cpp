@@ -125,6 +125,12 @@ bool are_forces_off(const PanelInput& input) {
   return input.replay == nullptr && guard != GuardState::running && guard != GuardState::ramping;
 }
 
+const char* motors_off_words(const PanelInput& input) {
+  const bool unplugged = input.stick && !input.stick->plugged_in;
+  return unplugged ? "Motors off. Plug the stick in, then Enter gives them back."
+                   : "Motors off. Enter gives them back.";
+}
+
 void draw_title(const CoachView& coach) {
   ImGui::AlignTextToFramePadding();
   put(coach.title, ink::kAccent, UiFont::title);
@@ -200,7 +206,8 @@ void LessonCard::draw_parts(LessonPhase phase, const Body& body, const Foot& foo
 void LessonCard::draw_helps(const Now& now) {
   if (!now.input.keys.empty() && !now.input.by_itself) {
     draw_keys(now.input.keys);
-    const char* mouse = mouse_words(now.input.mouse_leads, now.panel_shown);
+    const char* mouse =
+        now.input.stick ? "The stick is the lever" : mouse_words(now.input.mouse_leads, now.panel_shown);
     ImGui::SameLine(0.0f, 0.8f * ui_em());
     if (ImGui::GetContentRegionAvail().x < width_of(mouse, UiFont::small)) ImGui::NewLine();
     put(mouse, now.input.mouse_leads ? ink::kAccent : ink::kSoft, UiFont::small);
@@ -261,7 +268,7 @@ void LessonCard::draw_driving(Now& now) {
 float LessonCard::draw_prompts(Now& now) {
   const CoachView& coach = now.coach;
   put_wrapped(coach.now.prompt, ink::kText, UiFont::prompt);
-  if (now.forces_off) put_wrapped("Motors off. Enter gives them back.", ink::kBad, UiFont::title);
+  if (now.forces_off) put_wrapped(motors_off_words(now.input), ink::kBad, UiFont::title);
   if (now.input.car.stalled) draw_restart_words(now.input.keys);
   if (!coach.now.hint.empty()) put_wrapped(coach.now.hint, ink::kAccent, UiFont::body);
   if (now.input.trial_lost)

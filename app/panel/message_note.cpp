@@ -12,7 +12,7 @@ constexpr float kOpaque = 0.86f;
 
 }  // namespace
 
-void MessageNote::draw(const std::string& message, bool told, const ControlRect& room) {
+void MessageNote::draw(const std::string& message, bool told, const std::string& to_do, const ControlRect& room) {
   if (message != message_) {
     message_ = message;
     came_at_ = ImGui::GetTime();
@@ -20,11 +20,14 @@ void MessageNote::draw(const std::string& message, bool told, const ControlRect&
   const float em = ui_em();
   const float width = std::min(kMostWidth * em, static_cast<float>(room.max.x - room.min.x) - 2.0f * kMargin * em);
   const bool is_new = ImGui::GetTime() - came_at_ < kSeen;
-  if (told || !is_new || message.empty() || width < kLeastWidth * em) return;
+  const bool tells = !told && is_new && !message.empty();
+  if ((!tells && to_do.empty()) || width < kLeastWidth * em) return;
   constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoNav |
                                       ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoFocusOnAppearing |
                                       ImGuiWindowFlags_NoInputs | ImGuiWindowFlags_AlwaysAutoResize;
-  const float text = std::min(width_of(message, UiFont::small), width - 2.0f * ImGui::GetStyle().WindowPadding.x);
+  const float told_width = tells ? width_of(message, UiFont::small) : 0.0f;
+  const float text =
+      std::min(std::max(told_width, width_of(to_do, UiFont::body)), width - 2.0f * ImGui::GetStyle().WindowPadding.x);
   ImGui::SetNextWindowPos(
       {0.5f * static_cast<float>(room.min.x + room.max.x), static_cast<float>(room.min.y) + 0.5f * kMargin * em},
       ImGuiCond_Always, {0.5f, 0.0f});
@@ -32,7 +35,8 @@ void MessageNote::draw(const std::string& message, bool told, const ControlRect&
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, 0.5f * em);
   if (ImGui::Begin("Message", nullptr, kFlags)) {
     ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + text + 1.0f);
-    put(with_short_paths(message, text), ink::kText, UiFont::small);
+    if (!to_do.empty()) put(to_do, ink::kWarn, UiFont::body);
+    if (tells) put(with_short_paths(message, text), ink::kText, UiFont::small);
     ImGui::PopTextWrapPos();
   }
   ImGui::End();

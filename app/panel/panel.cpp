@@ -22,6 +22,7 @@
 #include "app/panel/preset_view.h"
 #include "app/panel/replay_bar.h"
 #include "app/panel/setup_view.h"
+#include "app/panel/stick_words.h"
 #include "app/panel/text_lines.h"
 #include "app/panel/tuning_view.h"
 
@@ -204,10 +205,17 @@ void Panel::State::draw_choices(const PanelInput& input, PanelRequests& out) {
   if (!input.cars.empty()) row("car", "Car", input.car_name, input.cars, out.car, readable_name);
   row("gate", "Gate", input.gate_name, input.gates, out.gate, readable_name);
   row("preset", "Preset", input.preset_name, input.presets, out.preset);
-  row("hand", "Hand", input.hand_name, input.hands, out.hand);
-  ImGui::TextDisabled("Device");
-  ImGui::SameLine(label);
-  controls.line(input.device_name, ImGui::GetContentRegionAvail().x, ink::kText);
+  const auto told = [&](const char* words, const std::string& value, ImU32 colour) {
+    ImGui::TextDisabled("%s", words);
+    ImGui::SameLine(label);
+    controls.line(value, ImGui::GetContentRegionAvail().x, colour);
+  };
+  if (input.hands.empty())
+    told("Hand", input.hand_name, ink::kText);
+  else
+    row("hand", "Hand", input.hand_name, input.hands, out.hand);
+  told("Device", input.device_name, ink::kText);
+  if (input.stick) told("", stick_words(*input.stick), input.stick->plugged_in ? ink::kSoft : ink::kBad);
 }
 
 void Panel::State::draw_tabs(const PanelInput& input, PanelRequests& out) {
@@ -234,7 +242,7 @@ void Panel::State::draw_tabs(const PanelInput& input, PanelRequests& out) {
   tab(kTabs[1], [&] { runs.draw(controls, input.coach, out); });
   tab(kTabs[2], [&] {
     tuning.draw(controls, input, out);
-    events.draw();
+    events.draw(!input.device->measures_hand_force);
   });
   tab(kTabs[3], [&] { setup.draw(controls, input, out); });
   tab(kTabs[4], [&] { draw_loop_view(input); });
@@ -255,7 +263,7 @@ void Panel::State::draw_right(const Layout& layout, const PanelInput& input, Pan
 // both take their room from the cabin.
 void Panel::State::draw_over_cabin(const PanelInput& input, PanelRequests& out) {
   const ControlRect room = middle;
-  note.draw(input.message, message_told, room);
+  note.draw(input.message, message_told, stick_request(input), room);
   middle.max.y = replay.draw(controls, input, room, out.look);
   if (input.replay == nullptr || input.coach.phase == LessonPhase::driving)
     middle.max.y = card.draw(controls, input, visible, middle, out);

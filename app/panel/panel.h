@@ -20,6 +20,12 @@ struct KeyHint {
   std::string does, key;  // "clutch", "A"
 };
 
+// A stick that a person holds, in place of the simulated lever.
+struct StickView {
+  bool plugged_in = true;
+  double delay = 0.0;  // [s] measured, from a reading to the effect of the force that answers it
+};
+
 struct PanelInput {
   const Gate* gate = nullptr;          // never null in draw()
   const DeviceSpec* device = nullptr;  // never null in draw()
@@ -33,7 +39,8 @@ struct PanelInput {
   LoopHealth health;
   VehicleState car;
   std::string gate_name, preset_name, hand_name, device_name;
-  std::vector<std::string> gates, presets, hands;  // to choose from
+  std::optional<StickView> stick;                  // none: simulated
+  std::vector<std::string> gates, presets, hands;  // to choose from; no hands: a person's own
   std::optional<Preset> compared;  // what PanelRequests::compare asked for; nothing where it could not be read
   bool recording = false;
   std::string message;  // the last refusal or news, one sentence

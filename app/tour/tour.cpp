@@ -56,14 +56,6 @@ ScriptedHand hand_through(const std::vector<int>& gears, const TourSetup& setup,
   return {config, shift_strokes(setup.gate, start, gears, setup.style), period_s(setup.haptics)};
 }
 
-void measure(const HapticSnapshot& now, TourResult& result) {
-  result.deepest = std::max(result.deepest, glm::distance(now.lever, now.proxy));
-  result.strongest = std::max(result.strongest, glm::length(now.f_h));
-  result.softest = std::min(result.softest, now.wall_stiffness);
-  result.contacts += (now.flags & kFlagContact) != 0 ? 1u : 0u;
-  ++result.cycles;
-}
-
 void drive(SimulatedRun& run, double duration, TraceRecorder& recorder, const TourProgress& progress,
            const TourWatch& watch, TourResult& result) {
   double next_watch = 0.0;
@@ -89,22 +81,38 @@ std::uint64_t finish(TraceRecorder& recorder, const std::filesystem::path& trace
   return recording.hash;
 }
 
-void export_csv(const std::filesystem::path& trace, const std::filesystem::path& csv, const TourProgress& progress) {
-  TraceReader reader(trace);
-  TraceCsvFile out(csv);
+}  // namespace
+
+void measure(const HapticSnapshot& now, TourResult& result) {
+  result.deepest = std::max(result.deepest, glm::distance(now.lever, now.proxy));
+  result.strongest = std::max(result.strongest, glm::length(now.f_h));
+  result.softest = std::min(result.softest, now.wall_stiffness);
+  result.contacts += (now.flags & kFlagContact) != 0 ? 1u : 0u;
+  ++result.cycles;
+}
+
+std::uint64_t write_tour_table(const std::filesystem::path& folder, const TourProgress& progress) {
+  TraceReader reader(folder / "tour.trace");
+  TraceCsvFile out(folder / "tour.csv");
   std::uint64_t rows = 0;
   for (TraceSample sample; reader.next(sample);) {
     out.add(sample);
     progress("table", static_cast<double>(++rows) / static_cast<double>(reader.cycles()));
   }
   out.finish();
+  return reader.hash();
 }
-
-}  // namespace
 
 bool TourResult::complete() const {
   return std::equal(wanted.begin(), wanted.end(), engaged.begin(), engaged.end(),
                     [](int gear, const GearTime& time) { return gear == time.gear; });
+}
+
+bool TourResult::came_in_order() const {
+  auto next = wanted.begin();
+  for (const GearTime& gear : engaged)
+    if (next != wanted.end() && *next == gear.gear) ++next;
+  return next == wanted.end();
 }
 
 double TourResult::contact_share() const {
@@ -124,7 +132,7 @@ TourResult drive_tour(const TourSetup& setup, const TourProgress& progress, cons
   TraceRecorder recorder(trace, header_of(setup, run.lever().spec()), run.channels(), TracePump::by_caller);
   drive(run, hand.duration(), recorder, progress, watch, result);
   result.hash = finish(recorder, trace);
-  export_csv(trace, setup.folder / "tour.csv", progress);
+  (void)write_tour_table(setup.folder, progress);
   return result;
 }
 

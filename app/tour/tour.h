@@ -47,6 +47,7 @@ struct TourResult {
   std::uint64_t hash = 0;         // of the recording
 
   bool complete() const;         // engaged is wanted, in order and nothing else
+  bool came_in_order() const;    // the same, with others between: as a person drives
   double contact_share() const;  // [1] of the cycles
 };
 
@@ -57,8 +58,14 @@ using TourProgress = std::function<void(std::string_view what, double share)>;
 inline constexpr double kWatchPeriod = 1.0 / 60.0;  // [s]
 using TourWatch = std::function<void(const HapticSnapshot& now, std::span<const HapticEvent> events)>;
 
+// What a cycle adds to it.
+void measure(const HapticSnapshot& now, TourResult& result);
+
 // Drives and records. Throws FileError when a file cannot be written.
 TourResult drive_tour(const TourSetup& setup, const TourProgress& progress, const TourWatch& watch = {});
+
+// tour.csv from tour.trace, in that folder. Returns the recording's hash. Throws FileError.
+std::uint64_t write_tour_table(const std::filesystem::path& folder, const TourProgress& progress);
 
 // Fig. 9 (a) and (b) of the paper for this run: trajectory.{svg,png}, force.{svg,png}, from tour.csv.
 void draw_tour(const TourSetup& setup, const TourResult& result, const TourProgress& progress);

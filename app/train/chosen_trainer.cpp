@@ -39,7 +39,9 @@ TrainerConfig chosen_trainer(const SessionChoice& choice, const ChosenCar& chose
     config.start = car_start(lesson->start);
     config.hand_brake = lesson->start.hand_brake;
   }
+  if (choice.stick) config.lever = [stick = choice.stick](double period) { return stick->lever(period); };
   if (choice.hand != kByItself) return config;
+  if (choice.stick) throw std::invalid_argument("a hand by itself has the simulated lever: a person holds the stick");
   if (!config.car) throw std::invalid_argument("a hand by itself drives a car: without one a person leads the lever");
   config.driver = self_driver(config, *config.car, lesson);
   return config;

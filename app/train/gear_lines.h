@@ -11,12 +11,13 @@
 
 namespace gearshift {
 
-// time_ns: since the start of the session.
-inline void print_events(std::span<const HapticEvent> events) {
+// time_ns: since the start of the session. push_estimated: the device has no force sensor.
+inline void print_events(std::span<const HapticEvent> events, bool push_estimated) {
   for (const HapticEvent& event : events) {
     const bool told = event.kind == EventKind::gear_engaged || event.kind == EventKind::over_push_begin ||
                       event.kind == EventKind::guard_changed;
-    if (told) fmt::print("{:8.3f} s  {}\n", 1e-9 * static_cast<double>(event.time_ns), event_words(event));
+    if (told)
+      fmt::print("{:8.3f} s  {}\n", 1e-9 * static_cast<double>(event.time_ns), event_words(event, push_estimated));
   }
   if (!events.empty()) std::fflush(stdout);
 }

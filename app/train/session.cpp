@@ -84,11 +84,13 @@ Session::Session(const SessionChoice& choice)
   panel_.cars = shipped_names("cars");
   panel_.cars.emplace_back(kNoCar);
   panel_.hands = {"light", "grip", "arm", std::string(kByItself)};
-  panel_.device_name = kSimulatedDevice;
+  if (choice.stick) panel_.hands.clear();
+  panel_.device_name = choice.stick ? choice.stick->name() : std::string(kSimulatedDevice);
 }
 
-// What a person or a fault has taken, only a person gives back.
+// What a person or a fault has taken, only a person gives back; a stick's forces he gives in this very frame.
 bool Session::keeps_forces() {
+  if (choice_.stick) return armed_now_;
   if (!trainer_) return true;
   const GuardState guard = trainer_->snapshot().guard;
   return wants_forces_ && (armed_now_ || (guard != GuardState::released && guard != GuardState::damped));
@@ -100,20 +102,31 @@ void Session::change_to(const SessionChoice& choice, const Lesson* lesson, std::
   const ChosenCar chosen = read_chosen_car(choice);
   TrainerConfig config = chosen_trainer(choice, chosen, lesson);
   config.feet = feet(lever_ + 1);
-  auto trainer = std::make_unique<Trainer>(config);
+  std::unique_ptr<Trainer> trainer;
+  if (!choice.stick) trainer = std::make_unique<Trainer>(config);
+  const Gate gate = trainer ? trainer->gate() : check_stick(config);
+  if (lesson && choice.stick) check_gear_of(*lesson, gate);
   if (!stage_ || stage_gate_ != chosen.layout.text || !same_turn(stage_yoke_, config.preset.lever.yoke))
-    show(trainer->gate(), chosen.layout.text, config.preset.lever.yoke, cabin_);
+    show(gate, chosen.layout.text, config.preset.lever.yoke, cabin_);
   message_.clear();
   const bool armed = keeps_forces();
   close_what_ran(what);
-  take_over(std::move(trainer), lesson);
+  take_over(trainer ? std::move(trainer) : hand_over(config), lesson);
   wants_forces_ = armed;  // what a fault has taken now is not given back by the next change either
   if (armed) trainer_->arm();
   running_ = choice;
   running_.car = chosen.car;
   running_.gate = chosen.gate;
-  const std::string limit = first_limit(trainer_->admitted());
+  const std::string limit = limit_words();
   if (!limit.empty()) message_ += (message_.empty() ? "" : "; ") + limit;
+}
+
+// What the device did not admit, and why it is another than one expects.
+std::string Session::limit_words() const {
+  const std::string limit = first_limit(trainer_->admitted());
+  if (limit.empty() || !running_.stick) return limit;
+  return fmt::format("{} answers after {:.1f} ms: {}", running_.stick->name(), 1e3 * running_.stick->answer_time(),
+                     limit);
 }
 
 // A lesson that is driven is left, recordings are closed, and nothing is looked at.
@@ -195,8 +208,8 @@ void Session::obey(const PanelRequests& requests) {
   try {
     if (requests.stop) trainer_->stop();
     if (requests.disarm) trainer_->disarm();
-    if (requests.arm) trainer_->arm();
-    if (requests.stop || requests.disarm || requests.arm) wants_forces_ = armed_now_ = requests.arm;
+    const bool arms = requests.arm && arm();
+    if (requests.stop || requests.disarm || requests.arm) wants_forces_ = armed_now_ = arms;
     if (requests.tuning) message_ = first_limit(trainer_->change_tuning(*requests.tuning));
     if (requests.record) toggle_recording();
     if (requests.replay) open_last();
@@ -238,6 +251,7 @@ void Session::change_by(const PanelRequests& requests) {
 void Session::advance(double seconds) {
   time_ += seconds;
   armed_now_ = false;
+  follow_stick();
   trainer_->set_controls(led());
   if (running_.clock == TrainerClock::virtual_time) trainer_->advance(seconds);
   tell_recording_problem();
@@ -321,7 +335,8 @@ const PanelInput& Session::panel_input() {
   panel_.gate_name = running_.gate;
   panel_.car_name = running_.car;
   panel_.preset_name = running_.preset;
-  panel_.hand_name = running_.hand.empty() ? "preset's" : running_.hand;
+  panel_.hand_name = running_.stick ? "a person's" : running_.hand.empty() ? "preset's" : running_.hand;
+  if (running_.stick) panel_.stick = StickView{stick_is_there_, running_.stick->answer_time()};
   panel_.recording = trainer_->recording();
   panel_.by_itself = running_.hand == kByItself;
   panel_.lesson_catches = coach_.lesson() ? catches_sentence(*coach_.lesson()) : std::string();

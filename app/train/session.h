@@ -83,10 +83,18 @@ class Session {
   bool replays_shift() const { return player_ && player_->shift(); }
 
  private:
+  // session_stick.cpp: the lever that a person holds
+  bool arm();
+  void follow_stick();
+  Gate check_stick(TrainerConfig config) const;
+  std::unique_ptr<Trainer> hand_over(const TrainerConfig& config);
+  void check_gear_of(const Lesson& lesson, const Gate& gate) const;
+
   // session.cpp: the lever that runs, its cabin, a frame
   void change_to(const SessionChoice& choice, const Lesson* lesson = nullptr,
                  std::string_view what = "it begins again");  // what: leaves a lesson that is driven
   void change_by(const PanelRequests& requests);
+  std::string limit_words() const;
   void close_what_ran(std::string_view what);
   void take_over(std::unique_ptr<Trainer> trainer, const Lesson* lesson);
   PersonFeet feet(int lever) const;
@@ -165,6 +173,7 @@ class Session {
   std::string message_;
   bool wants_forces_ = true;     // the last of arm, release and stop
   bool armed_now_ = false;       // by a person, in this frame
+  bool stick_is_there_ = false;  // in the frame before
   bool records_lesson_ = false;  // the recording that runs
   std::int64_t start_ns_ = 0;    // [ns] of this session, on the lever's clock
   std::int64_t newest_ns_ = 0;   // [ns] of its newest snapshot, on the same

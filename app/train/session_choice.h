@@ -3,10 +3,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
 
+#include "app/devices/stick_lever.h"
 #include "app/trainer/trainer.h"
 #include "app/training/lesson_result.h"
 #include "engine/sound/sound_world.h"
@@ -20,11 +22,12 @@ inline constexpr std::string_view kNoLesson = "none";
 inline constexpr std::string_view kSimulatedDevice = "simulated";
 
 struct SessionChoice {
-  std::string car;                 // shipped, a file, or kNoCar; empty: the lesson's, else "hatchback"
-  std::string gate;                // shipped, or a file; empty: the lesson's, else the car's, without a car "paper"
-  std::string preset = "default";  // shipped, the user's own, or a file
-  std::string hand;                // light, grip, arm, M,B,K or kByItself; empty: the preset's, or a grip
-  std::string camera = "driver";   // the cabin is laid open for what is looked at
+  std::string car;                    // shipped, a file, or kNoCar; empty: the lesson's, else "hatchback"
+  std::string gate;                   // shipped, or a file; empty: the lesson's, else the car's, without a car "paper"
+  std::string preset = "default";     // shipped, the user's own, or a file
+  std::string hand;                   // light, grip, arm, M,B,K or kByItself; empty: the preset's, or a grip
+  std::shared_ptr<StickLever> stick;  // that a person holds; none: the simulated lever
+  std::string camera = "driver";      // the cabin is laid open for what is looked at
   TrainerClock clock = TrainerClock::real_time;
   SoundOutput sound = SoundOutput::card;
   std::uint64_t seed = 1;               // of the car's chance, and of the hand that needs nobody

@@ -6,6 +6,7 @@
 
 #include "app/train/seen_history.h"
 #include "app/train/session.h"
+#include "haptics/joystick/kinematics.h"
 
 namespace gearshift {
 
@@ -72,12 +73,12 @@ void Session::look_at(const fs::path& recording, std::optional<std::size_t> shif
   look_at(std::move(player));
 }
 
-// In the cabin of its own gate.
+// In the cabin of its own gate. The preset's lever is drawn; a stick's way fits any.
 void Session::look_at(Player player) {
   const TraceHeader& header = player.drive().header();
-  const bool same_lever = header.device.yoke_radius == trainer_->device().yoke_radius &&
-                          header.device.workspace == trainer_->device().workspace;
-  if (!same_lever)
+  const bool same_lever =
+      header.device.yoke_radius == stage_yoke_.radius && header.device.workspace == workspace_half_extent(stage_yoke_);
+  if (header.device.simulated && !same_lever)
     throw std::runtime_error(
         fmt::format("{}: recorded with another lever: choose its preset first", player.file().string()));
   if (header.gate_text != stage_gate_) show(player.drive().gate(), header.gate_text, stage_yoke_, cabin_);

@@ -6,6 +6,7 @@
 
 #include <fmt/core.h>
 
+#include "app/devices/stop_signals.h"
 #include "app/output_folder.h"
 #include "app/train/gear_lines.h"
 #include "app/train/lesson_lines.h"
@@ -58,7 +59,7 @@ class WindowTrainer {
     if (!setup.replay.empty()) session_.look_at(setup.replay, setup.shift);
   }
 
-  bool done() const { return quit_ || window_.wants_close(); }
+  bool done() const { return quit_ || window_.wants_close() || StopSignals::asked(); }
 
   // The lesson is left, what was being recorded is closed, and what came of both is told. Returns the exit code.
   int finish() {
@@ -76,7 +77,7 @@ class WindowTrainer {
     act();
     lead();
     session_.advance(seconds_);
-    print_events(session_.events());
+    print_events(session_.events(), !session_.trainer().device().measures_hand_force);
     print_lines(lines_.news(session_.coach().view()), session_.lever_time());
     draw_panel();
     if (look_.follow_shift(session_.replays_shift())) session_.look_from(look_.place());
@@ -104,6 +105,7 @@ class WindowTrainer {
     input_.feel(session_.trainer().snapshot().lever);
     session_.set_mouse_leads(input_.mouse_leads());
     shared_.update(window_.poll(), seconds_, eye_size().x, panel_, ui_);
+    if (setup_.choice.stick) input_.free_mouse();
     look_.turn(shared_.turned());
   }
 
@@ -250,6 +252,8 @@ bool is_done(const Session& session) {
 }  // namespace
 
 int train_in_window(const TrainSetup& setup) {
+  std::optional<StopSignals> signals;
+  if (setup.choice.stick) signals.emplace();
   WindowTrainer trainer(setup);
   while (!trainer.done()) trainer.frame();
   return trainer.finish();
@@ -276,7 +280,7 @@ int train_offscreen(const TrainSetup& setup, const OffscreenSetup& offscreen) {
   };
   while (session.time() < offscreen.seconds && !is_done(session)) {
     session.advance(seconds);
-    print_events(session.events());
+    print_events(session.events(), !session.trainer().device().measures_hand_force);
     print_lines(lines.news(session.coach().view()), session.lever_time());
     draw();
     session.place();

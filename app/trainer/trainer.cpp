@@ -28,6 +28,9 @@ constexpr std::chrono::microseconds kLookEvery{
 
 TrainerConfig checked(TrainerConfig config) {
   check_config(config.preset.haptics);
+  if (config.lever && config.driver)
+    throw std::invalid_argument(
+        "a hand that drives by itself has the simulated lever alone: a stick is held by a person");
   HandImpedance& hand = config.preset.lever.hand;
   hand = leading_hand(hand);
   return config;
@@ -35,7 +38,38 @@ TrainerConfig checked(TrainerConfig config) {
 
 constexpr std::int64_t kMostPeriods = 11;  // of a pause: no more than the loop's world catches up, feet neither
 
+// Null: the simulated one.
+std::unique_ptr<HapticDevice> made_lever(const TrainerConfig& config) {
+  return config.lever ? config.lever(period_s(config.preset.haptics)) : nullptr;
+}
+
+// As far as the lever reaches: on a yoke's sphere, or in the plane.
+Gate gate_for(const TrainerConfig& config, const HapticDevice* made) {
+  const YokeGeometry& yoke = config.preset.lever.yoke;
+  if (made == nullptr) return compile_gate(config.layout, workspace_half_extent(yoke), yoke.radius);
+  const DeviceSpec& spec = made->spec();
+  return compile_gate(config.layout, spec.workspace, spec.yoke_radius > 0.0 ? spec.yoke_radius : HUGE_VAL);
+}
+
+std::unique_ptr<CarWorld> make_car(const TrainerConfig& config, const Gate& gate, const DeviceSpec& device,
+                                   const CarStart& from) {
+  if (!config.car) return nullptr;
+  return std::make_unique<CarWorld>(*config.car, gate, device.max_force.y, from, config.seed);
+}
+
 }  // namespace
+
+Gate check_trainer(const TrainerConfig& wanted) {
+  const TrainerConfig config = checked(wanted);
+  const std::unique_ptr<HapticDevice> made = made_lever(config);
+  const Gate gate = gate_for(config, made.get());
+  RestingHand nobody;
+  std::optional<SimulatedLever> simulated;
+  if (!made) simulated.emplace(config.preset.lever, period_ns(config.preset.haptics), nobody);
+  HapticDevice& lever = made ? *made : *simulated;
+  const LoopRun run(config.preset.haptics, gate, lever, make_car(config, gate, lever.spec(), config.start));
+  return gate;
+}
 
 struct Trainer::State {
   explicit State(const TrainerConfig& wanted);
@@ -43,7 +77,6 @@ struct Trainer::State {
 
   std::unique_ptr<HandDriver> make_hand();
   DriverAction at_rest() const;
-  std::unique_ptr<CarWorld> make_car(const CarStart& from) const;
   std::unique_ptr<LoopRun> make_run();
   glm::dvec2 start_position() const { return rest_position(gate, config.start.gear); }
   HapticConfig as_it_runs() const;
@@ -67,10 +100,12 @@ struct Trainer::State {
   const SelfDriver driver;
   const PersonFeet feet;
   std::int64_t period_ns;
+  std::unique_ptr<HapticDevice> made;  // null: simulated
   Gate gate;
   DriverSeat seat;
-  std::unique_ptr<HandDriver> hand;
-  SimulatedLever lever;
+  std::unique_ptr<HandDriver> hand;  // of the simulated one
+  std::unique_ptr<SimulatedLever> simulated;
+  HapticDevice& lever;
   std::unique_ptr<LoopRun> run;
   AdmittedTuning admitted;
   CycleRunner runner;
@@ -97,16 +132,18 @@ Trainer::State::State(const TrainerConfig& wanted)
       driver(config.driver),
       feet(config.driver ? PersonFeet{} : config.feet),
       period_ns(gearshift::period_ns(config.preset.haptics)),
-      gate(compile_gate(config.layout, workspace_half_extent(config.preset.lever.yoke),
-                        config.preset.lever.yoke.radius)),
+      made(made_lever(config)),
+      gate(gate_for(config, made.get())),
       seat(static_cast<bool>(config.driver), at_rest()),
-      hand(make_hand()),
-      lever(config.preset.lever, period_ns, *hand),
-      run(std::make_unique<LoopRun>(config.preset.haptics, gate, lever, make_car(config.start))),
+      hand(made ? nullptr : make_hand()),
+      simulated(made ? nullptr : std::make_unique<SimulatedLever>(config.preset.lever, period_ns, *hand)),
+      lever(made ? *made : *simulated),
+      run(std::make_unique<LoopRun>(config.preset.haptics, gate, lever,
+                                    make_car(config, gate, lever.spec(), config.start))),
       admitted(run->loop.admitted()),
       runner(period_ns) {
   const glm::dvec2 start = start_position();
-  lever.place(start);
+  if (simulated) simulated->place(start);
   newest.lever = newest.proxy = start;
   newest.wall_stiffness = admitted.tuning.wall_stiffness;
   if (run->car() != nullptr) runner.car.write(run->car()->state());
@@ -134,15 +171,11 @@ DriverAction Trainer::State::at_rest() const {
   return action;
 }
 
-std::unique_ptr<CarWorld> Trainer::State::make_car(const CarStart& from) const {
-  if (!config.car) return nullptr;
-  return std::make_unique<CarWorld>(*config.car, gate, lever.spec().max_force.y, from, config.seed);
-}
-
 // The next one: the car goes on.
 std::unique_ptr<LoopRun> Trainer::State::make_run() {
   runner.car.update();
-  return std::make_unique<LoopRun>(as_it_runs(), gate, lever, make_car(start_from(runner.car.value())));
+  const CarStart from = start_from(runner.car.value());
+  return std::make_unique<LoopRun>(as_it_runs(), gate, lever, make_car(config, gate, lever.spec(), from));
 }
 
 void Trainer::State::begin() {

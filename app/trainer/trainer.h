@@ -2,6 +2,8 @@
 //
 // Two clocks: a real-time thread for people, a virtual clock moved by advance() for films and tests. Another gate,
 // preset or driver is another Trainer. The frame may stop calling for seconds: the lever goes on.
+// Two levers: the preset's, simulated, with a hand on it that is led from here; or one that somebody holds, and that
+// nobody arms but a person, by arm().
 #pragma once
 
 #include <array>
@@ -37,12 +39,17 @@ using SelfDriver = std::function<DriverAction(const DriveSample&)>;
 // frame comes; and once before the first cycle, with 0 s.
 using PersonFeet = std::function<DriverControls(const DriveSample& cycle, double seconds)>;
 
+// Makes a lever that is not simulated, for a loop of that period [s]. Making it moves nothing; one at a time is driven.
+// Throws std::invalid_argument with one sentence.
+using LeverMaker = std::function<std::unique_ptr<HapticDevice>(double period)>;
+
 struct TrainerConfig {
   GateLayout layout;
   std::optional<CarSpec> car;  // behind the lever; none: nothing
   CarStart start;              // of the car, and the gear that the lever stands in
   double hand_brake = 0.0;     // [1] 0 to 1, until set_controls() or the driver says otherwise
   Preset preset;               // a hand that cannot lead is replaced by leading_hand()
+  LeverMaker lever;            // in place of the preset's; then nothing leads the hand, and there is no driver
   SelfDriver driver;           // none: set_hand() and set_controls() lead
   PersonFeet feet;             // with these, where nobody else drives: each pedal as deep as the deeper; may be none
   TrainerClock clock = TrainerClock::real_time;
@@ -64,10 +71,14 @@ struct LoopHealth {
   std::string why_not;  // not real-time
 };
 
+// Throws what Trainer's constructor would, and runs nothing: for a lever that one trainer has and another shall get, with a
+// stand-in for it. Returns the gate.
+Gate check_trainer(const TrainerConfig& config);
+
 class Trainer {
  public:
-  // Starts the loop with the lever in the gear of the start, disarmed; a running engine's ignition is on until
-  // set_controls() says otherwise. Throws FileError (the layout is impossible on this device), std::invalid_argument
+  // Starts the loop with the lever in the gear of the start (one that is not simulated stays where it is), disarmed; a
+  // running engine's ignition is on until set_controls() says otherwise. Throws FileError (the layout is impossible on this device), std::invalid_argument
   // (the car does not fit the gate, too) or std::runtime_error with one sentence.
   explicit Trainer(const TrainerConfig& config);
   ~Trainer();  // releases the motors, closes the recording
@@ -86,7 +97,8 @@ class Trainer {
   // The cycles since the last call, in order, every one. Of a pause of more than 8192 cycles the first 8192: the gap
   // shows in HapticSnapshot::cycle.
   std::vector<DriveSample> take_cycles();
-  void set_hand(const HandTarget& target);  // position and push are used; not where there is a driver
+  // Position and push are used; not where there is a driver, or a lever that somebody holds.
+  void set_hand(const HandTarget& target);
   // Where there is a driver: slope, guidance and guided gear alone, his own are not used. Guidance takes a car.
   void set_controls(const DriverControls& controls);
   AdmittedTuning change_tuning(const HapticTuning& wanted);  // see HapticLoop::change_tuning

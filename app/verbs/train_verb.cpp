@@ -8,6 +8,8 @@
 #include <fmt/core.h>
 
 #include "app/assets_path.h"
+#include "app/devices/open_stick.h"
+#include "app/train/own_bindings.h"
 #include "app/train/train.h"
 #include "app/trainer/user_folder.h"
 #include "app/verbs/lesson_options.h"
@@ -22,7 +24,7 @@ namespace {
 
 struct TrainArguments {
   SessionChoice choice;
-  std::string bindings = "default", size = "1280x720", offscreen, or_demo;
+  std::string device{kSimulatedDevice}, bindings, size = "1280x720", offscreen, or_demo;
   int samples = 0;  // 0: 4 on a GPU, 1 on a software driver
   std::string database, replay;
   std::optional<std::size_t> shift;
@@ -35,6 +37,15 @@ struct TrainArguments {
 std::filesystem::path history_file() {
   try {
     return user_data_folder() / "history.db";
+  } catch (const std::runtime_error&) {
+    return {};
+  }
+}
+
+// Nor are there any bindings of one's own.
+std::filesystem::path config_folder() {
+  try {
+    return user_config_folder();
   } catch (const std::runtime_error&) {
     return {};
   }
@@ -53,7 +64,7 @@ TrainSetup make_setup(const TrainArguments& arguments) {
   setup.view.height = size.height;
   setup.view.samples = arguments.samples;
   setup.view.stereo = arguments.stereo;
-  setup.bindings = read_bindings(find_asset("bindings", arguments.bindings));
+  setup.bindings = read_bindings(bindings_file(arguments.bindings, config_folder()));
   setup.panel = !arguments.no_panel && !arguments.stereo;  // an eye has little room: F2 shows it
   setup.replay = arguments.replay;
   if (!setup.replay.empty() && setup.choice.lesson.empty()) setup.choice.lesson = kNoLesson;
@@ -79,8 +90,19 @@ void tell_nobody_learns(const SessionChoice& choice) {
   fmt::print(stderr, "gearshift: the hand drives by itself: nothing is remembered of {}\n", printable(choice.learner));
 }
 
+// A person holds it: nobody else leads it, and it has its own time.
+std::shared_ptr<StickLever> held_stick(const TrainArguments& arguments) {
+  if (arguments.device == kSimulatedDevice) return nullptr;
+  if (!arguments.offscreen.empty())
+    throw CLI::ValidationError("--device: frames in memory have the simulated lever alone");
+  if (!arguments.choice.hand.empty()) throw CLI::ValidationError("--hand: a person's own hand holds the stick");
+  if (!has_display()) throw std::runtime_error("there is no display: tour --device needs none");
+  return open_stick(arguments.device, user_config_folder() / "devices");
+}
+
 int run_train(const TrainArguments& arguments) {
   TrainSetup setup = make_setup(arguments);
+  setup.choice.stick = held_stick(arguments);
   if (!arguments.offscreen.empty()) {
     setup.choice.clock = TrainerClock::virtual_time;
     setup.choice.sound = SoundOutput::none;
@@ -110,10 +132,15 @@ void add_train_verb(CLI::App& app, VerbAction& action) {
   verb->add_option("--car", arguments->choice.car, "shipped car or file, or none; else the lesson's, or hatchback");
   verb->add_option("--gate", arguments->choice.gate, "shipped gate or layout file; else the lesson's or the car's");
   verb->add_option("--preset", arguments->choice.preset, "shipped or saved preset, or a file")->capture_default_str();
+  verb->add_option(
+          "--device", arguments->device,
+          "the lever: a calibrated force-feedback stick by name, VENDOR:PRODUCT, serial or place (see devices)")
+      ->type_name("NAME")
+      ->capture_default_str();
   verb->add_option("--hand", arguments->choice.hand,
                    "light, grip, arm, M,B,K in kg, N s/m, N/m, or \"by itself\": drives without a person");
-  verb->add_option("--bindings", arguments->bindings, "shipped bindings of keys, mouse and pad, or a file")
-      ->capture_default_str();
+  verb->add_option("--bindings", arguments->bindings,
+                   "shipped bindings of keys, mouse and pad, or a file; else your own (see devices), or default");
   verb->add_option("--size", arguments->size, "of the window [px]")->type_name("WxH")->capture_default_str();
   verb->add_option("--samples", arguments->samples, "a pixel: 1 or 4; 4 where the GPU is one")
       ->check(CLI::IsMember({1, 4}));

@@ -53,20 +53,6 @@ GLFWmonitor* monitor_of(GLFWwindow* window) {
   });
 }
 
-std::vector<PadState> read_pads() {
-  std::vector<PadState> pads;
-  for (int id = GLFW_JOYSTICK_1; id <= GLFW_JOYSTICK_LAST; ++id) {
-    if (glfwJoystickPresent(id) == GLFW_FALSE) continue;
-    int axes = 0, buttons = 0;
-    const float* axis = glfwGetJoystickAxes(id, &axes);
-    const unsigned char* button = glfwGetJoystickButtons(id, &buttons);
-    const char* name = glfwGetJoystickName(id);
-    if (name == nullptr) continue;  // unplugged this moment: then all three are null
-    pads.push_back({name, {axis, axis + axes}, {button, button + buttons}});
-  }
-  return pads;
-}
-
 }  // namespace
 
 bool has_display() {

@@ -12,6 +12,7 @@
 
 #include "engine/gpu/gpu.h"
 #include "engine/gpu/gpu_image.h"
+#include "engine/window/sticks.h"
 
 namespace gearshift {
 
@@ -24,12 +25,6 @@ struct KeyEvent {
   int key = 0;  // GLFW_KEY_...
   bool down = false;
   bool shift = false, control = false, alt = false;
-};
-
-struct PadState {
-  std::string name;
-  std::vector<float> axes;             // [-1, 1]
-  std::vector<unsigned char> buttons;  // 0 or 1
 };
 
 // What happened since the last poll.

@@ -110,6 +110,13 @@ refuse 1 "zeros.trace" replay zeros.trace
 refuse 1 "newer" replay newer.trace
 refuse 1 "empty" replay empty
 refuse 1 "folder" replay folder
+refuse 2 "--again" devices --again
+refuse 2 "--calibrate" devices --json --calibrate stick
+refuse 2 "--seconds" tour --out t --seconds 5
+refuse 2 "--seconds" tour --out t --device stick --seconds 0
+refuse 2 "--hand" tour --out t --device stick --hand grip
+refuse 2 "--device" train --offscreen t --device stick
+refuse 1 "no display" train --device stick
 refuse 2 "--family" bench --family luck
 refuse 2 "--block" bench --block 0
 refuse 2 "--block" bench --block x

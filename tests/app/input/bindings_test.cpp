@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <fstream>
 #include <set>
+#include <stdexcept>
 #include <string>
 
 #define GLFW_INCLUDE_NONE
@@ -153,6 +154,89 @@ TEST_CASE("what does two things is refused: a key, a button, an axis; the same o
   CHECK(begins(refusal(stop + "[pad_axes.throttle]\naxis = 1\n[pad_axes.clutch]\naxis = 1\n"),
                "my.toml:6: axis = 1: does throttle already"));
   CHECK(refusal(stop + "[pad_axes.throttle]\naxis = 1\n[pad_axes.clutch]\naxis = 1\npad = 1\n") == "accepted");
+  CHECK(refusal(stop + "[pad_axes.throttle]\naxis = 1\n[pad_axes.clutch]\naxis = 1\nstick = \"Pedals\"\n") ==
+        "accepted");
+}
+
+TEST_CASE("throttle and brake may be the halves of one axis, and not more than halves") {
+  const std::string throttle = stop + "[pad_axes.throttle]\naxis = 1\nfrom = 0\nto = 1\n[pad_axes.brake]\naxis = 1\n";
+  CHECK(refusal(throttle + "from = 0\nto = -1\n") == "accepted");
+  CHECK(begins(refusal(throttle + "from = 0.1\nto = -1\n"), "my.toml:8: axis = 1: does throttle already"));
+}
+
+TEST_CASE("sticks by name, a lever's rest, both dead zones and how a stick leads are read as written") {
+  const Bindings bindings = bindings_of(
+      stop +
+      "[pad_buttons]\nstick = \"Wheel\"\narm = \"3\"\n"
+      "[pad_axes.lever_select]\nstick = \"T.16000M\"\naxis = 0\ncentre = 0.1\ndead_zone = 0.1\nend_zone = 0.05\n"
+      "[lever]\nmode = \"places\"\nfull_speed_m_per_s = 0.5\n");
+  CHECK(bindings.button_stick == "Wheel");
+  REQUIRE(bindings.lever_select);
+  CHECK(bindings.lever_select->stick == "T.16000M");
+  CHECK(bindings.lever_select->centre == 0.1);
+  CHECK(bindings.lever_select->end_zone == 0.05);
+  CHECK(bindings.lever_mode == LeverMode::places);
+  CHECK(bindings.stick_speed == 0.5);
+  CHECK(bindings_of(stop).lever_mode == LeverMode::moves);
+  CHECK(help_text(bindings).find("T.16000M axis 0\tlever sideways\n") != std::string::npos);
+  CHECK(help_text(bindings).find("Wheel button 3\tallow forces") != std::string::npos);
+  const std::string axis = stop + "[pad_axes.lever_select]\naxis = 0\n";
+  CHECK(
+      begins(refusal(axis + "centre = 0.95\n"), "my.toml:5: centre = 0.95: must be well between from = -1 and to = 1"));
+  CHECK(begins(refusal(axis + "dead_zone = 0.5\nend_zone = 0.6\n"),
+               "my.toml:6: end_zone = 0.6: must be at most 0.95 together with dead_zone = 0.5"));
+  CHECK(begins(refusal(stop + "[pad_axes.clutch]\naxis = 0\ncentre = 0\n"), "my.toml:5: centre is not a known key"));
+  CHECK(begins(refusal(stop + "[lever]\nmode = \"jumps\"\n"), "my.toml:4: mode = \"jumps\": must be"));
+  CHECK(begins(refusal(stop + "[lever]\nfull_speed_m_per_s = 3\n"), "my.toml:4: full_speed_m_per_s = 3: must be"));
+}
+
+TEST_CASE("a pad's stop button is bound, too, by what is shipped") {
+  CHECK(read_bindings(shipped).pad_buttons.contains(Action::stop));
+}
+
+TEST_CASE("bindings that are written are read back the same, the shipped ones and ones with everything in them") {
+  Bindings full = read_bindings(shipped);
+  full.button_stick = "a \"quoted\" \\ stick";
+  full.lever_select->stick = "Stick";
+  full.lever_select->centre = 0.1234567890123456;
+  full.lever_select->end_zone = 1.0 / 3.0;
+  full.lever_mode = LeverMode::places;
+  full.stick_speed = 0.1;
+  full.clutch_slip_time = 2.5;
+  for (const Bindings& bindings : {read_bindings(shipped), full}) {
+    const TempFolder folder;
+    const std::filesystem::path file = own_bindings_file(folder / "config", "mine");
+    CHECK(file == folder / "config" / "bindings" / "mine.toml");
+    std::filesystem::create_directories(file.parent_path());
+    write_bindings(bindings, file);
+    const Bindings back = read_bindings(file);
+    CHECK(bindings_text(back) == bindings_text(bindings));
+    CHECK(back.keys == bindings.keys);
+    CHECK(back.pad_buttons == bindings.pad_buttons);
+    CHECK(back.button_stick == bindings.button_stick);
+    REQUIRE(back.lever_select);
+    CHECK(back.lever_select->stick == bindings.lever_select->stick);
+    CHECK(back.lever_select->centre == bindings.lever_select->centre);
+    CHECK(back.lever_select->end_zone == bindings.lever_select->end_zone);
+    CHECK(back.lever_shift->from == bindings.lever_shift->from);
+    CHECK(back.lever_mode == bindings.lever_mode);
+    CHECK(back.stick_speed == bindings.stick_speed);
+    CHECK(back.clutch_slip_time == bindings.clutch_slip_time);
+  }
+}
+
+TEST_CASE(
+    "bindings that could not be read again are not written, and what was there stays; nor under a name of no file") {
+  const TempFolder folder;
+  const std::filesystem::path file = folder / "mine.toml";
+  write_bindings(read_bindings(shipped), file);
+  Bindings broken = read_bindings(shipped);
+  broken.keys.erase(Action::stop);
+  CHECK_THROWS_WITH_AS(write_bindings(broken, file),
+                       doctest::Contains("it could not be read again: [keys] has no stop"), FileError);
+  CHECK(read_bindings(file).keys.contains(Action::stop));
+  for (const char* name : {"", ".hidden", "../up", "a/b"})
+    CHECK_THROWS_AS((void)own_bindings_file(folder / "config", name), std::invalid_argument);
 }
 
 TEST_CASE("without a key that stops the motors there are no bindings") {

@@ -34,6 +34,7 @@ Bindings bindings() {
   b.lever_select = AxisBinding{0, 0, -1.0, 1.0, 0.2};
   b.lever_shift = AxisBinding{0, 1, 1.0, -1.0, 0.2};
   b.throttle = AxisBinding{0, 2, -1.0, 1.0, 0.0};
+  b.lever_mode = LeverMode::places;
   return b;
 }
 
@@ -196,12 +197,12 @@ TEST_CASE("the reach of every shipped gate goes beyond its gears and not beyond 
 TEST_CASE("knob and ring are held while their key or button is") {
   Driver d;
   d.key(GLFW_KEY_X, true);
-  d.input.pads = {{"pad", {}, {0, 0, 1}}};
+  d.input.pads = {{"pad", {}, {0, 0, 1}, ""}};
   d.frame();
   CHECK(d.driver.hand().pressed_down);
   CHECK(d.driver.hand().lifted);
   d.key(GLFW_KEY_X, false);
-  d.input.pads = {{"pad", {}, {0, 0, 0}}};
+  d.input.pads = {{"pad", {}, {0, 0, 0}, ""}};
   d.frame();
   d.frame();
   CHECK_FALSE(d.driver.hand().pressed_down);
@@ -227,7 +228,7 @@ TEST_CASE("once-actions come in order, once per press, held ones never") {
   d.key(GLFW_KEY_F11, true);
   d.key(GLFW_KEY_D, true);
   d.key(GLFW_KEY_SPACE, true);
-  d.input.pads = {{"pad", {}, {0, 0, 0, 0, 0, 1}}};
+  d.input.pads = {{"pad", {}, {0, 0, 0, 0, 0, 1}, ""}};
   d.frame();
   CHECK(d.driver.pressed() == std::vector{Action::full_screen, Action::stop, Action::arm});
   d.key(GLFW_KEY_F11, true);  // repeated by the system
@@ -322,7 +323,7 @@ TEST_CASE("ignition is on at first; ignition and hand brake change with each pre
 
 TEST_CASE("a pedal's axis counts from its first movement on: a pad tells 0 of a trigger that was not touched yet") {
   Driver d;
-  d.input.pads = {{"pad", {0.0f, 0.0f, 0.0f}, {}}};  // 0 would be half throttle
+  d.input.pads = {{"pad", {0.0f, 0.0f, 0.0f}, {}, ""}};  // 0 would be half throttle
   d.frame();
   CHECK(d.driver.controls().throttle == 0.0);
   d.input.pads[0].axes[2] = -1.0f;
@@ -341,12 +342,13 @@ TEST_CASE("each pedal follows its own axis and no other") {
   own.throttle = AxisBinding{0, 0, -1.0, 1.0, 0.0};
   own.brake = AxisBinding{0, 1, -1.0, 1.0, 0.0};
   own.clutch = AxisBinding{0, 2, -1.0, 1.0, 0.0};
-  own.lever_select = own.lever_shift = std::nullopt;
+  own.lever_select.reset();
+  own.lever_shift.reset();
   for (const std::size_t axis : {0u, 1u, 2u}) {
     CAPTURE(axis);
     DriverInput driver({own, {0.06, 0.05}});
     WindowInput input;
-    input.pads = {{"pad", {-1.0f, -1.0f, -1.0f}, {}}};
+    input.pads = {{"pad", {-1.0f, -1.0f, -1.0f}, {}, ""}};
     driver.update(input, kFrame, false, false);
     input.pads[0].axes[axis] = 0.5f;  // three quarters of the way down
     driver.update(input, kFrame, false, false);
@@ -385,7 +387,7 @@ TEST_CASE("a hand that is put where a lever stands beyond its reach ends at the 
 
 TEST_CASE("a stick puts the hand where it is, from its dead zone on, and lets go where it rests") {
   Driver d;
-  d.input.pads = {{"pad", {0.0f, 0.0f, 0.0f}, {}}};
+  d.input.pads = {{"pad", {0.0f, 0.0f, 0.0f}, {}, ""}};
   d.frame();
   d.input.pads[0].axes = {1.0f, -1.0f, 0.0f};  // right and forward
   d.frame();
@@ -401,6 +403,83 @@ TEST_CASE("a stick puts the hand where it is, from its dead zone on, and lets go
   d.key(GLFW_KEY_RIGHT, true);
   d.frame(0.1);
   CHECK(near(d.at(), {0.025, 0.0}));
+}
+
+TEST_CASE(
+    "a stick that moves the hand: the square of what it is pushed beyond its dead zone, by time and not by frames") {
+  Bindings own = bindings();
+  own.lever_mode = LeverMode::moves;
+  own.stick_speed = 0.3;
+  for (const int parts : {1, 10}) {
+    DriverInput driver({own, {0.06, 0.05}});
+    WindowInput input;
+    input.pads = {{"pad", {0.0f, 0.0f, 0.0f}, {}, ""}};
+    const auto frames = [&](double seconds) {
+      for (int i = 0; i < parts; ++i) driver.update(input, seconds / parts, false, false);
+    };
+    frames(0.1);
+    input.pads[0].axes = {1.0f, -0.6f, 0.0f};  // right, and half of the way beyond the zone forward
+    frames(0.1);
+    CHECK(driver.hand().position.x == doctest::Approx(0.3 * 0.1));
+    CHECK(driver.hand().position.y == doctest::Approx(0.3 * 0.1 / 4.0));
+    input.pads[0].axes = {0.1f, 0.15f, 0.0f};  // let go: it trembles inside the dead zone
+    driver.feel({0.03, 0.0075});               // and the lever has followed
+    const glm::dvec2 stays = driver.hand().position;
+    for (int i = 0; i < 50; ++i) frames(0.1);
+    CHECK(near(driver.hand().position, stays));
+    input.pads[0].axes = {-1.0f, 0.0f, 0.0f};
+    frames(100.0);
+    CHECK(driver.hand().position.x == doctest::Approx(0.03 - 0.05));  // no further before a lever that is held up
+    CHECK(driver.hand().push == glm::dvec2(0.0));
+  }
+}
+
+TEST_CASE("the stop of a pad works whoever has the keyboard, and without the focus") {
+  Bindings own = bindings();
+  own.pad_buttons = {{Action::stop, {1}}};
+  DriverInput driver({own, {0.06, 0.05}});
+  WindowInput input;
+  input.pads = {{"pad", {}, {0, 1}, ""}};
+  driver.update(input, kFrame, true, true);
+  CHECK(driver.pressed() == std::vector{Action::stop});
+  input.pads[0].buttons = {0, 0};
+  driver.update(input, kFrame, false, false);
+  input.focused = false;
+  driver.update(input, kFrame, false, false);
+  input.pads[0].buttons = {0, 1};
+  driver.update(input, kFrame, true, true);
+  CHECK(driver.pressed() == std::vector{Action::stop});
+}
+
+TEST_CASE("axes and buttons of a stick by its name follow it wherever it is plugged in, and no other stick") {
+  Bindings own = bindings();
+  own.throttle = AxisBinding{0, 0, 0.0, 1.0, 0.0};
+  own.throttle->stick = "pedals";
+  own.clutch = AxisBinding{1, 0, 0.0, 1.0, 0.0};  // of the second such thing
+  own.clutch->stick = "pedals";
+  own.lever_select.reset();
+  own.lever_shift.reset();
+  own.pad_buttons = {{Action::starter, {0}}};
+  own.button_stick = "Wheel";
+  const auto drive = [&](const std::vector<std::size_t>& order) {
+    const std::vector<PadState> all{
+        {"Acme Pedals", {0.25f}, {1}, "01"}, {"Some Wheel", {0.5f}, {0}, "02"}, {"PEDALS two", {0.75f}, {1}, "03"}};
+    WindowInput input;
+    for (const std::size_t i : order) input.pads.push_back(all[i]);
+    DriverInput driver({own, {0.06, 0.05}});
+    for (const bool moved : {false, true}) {
+      for (PadState& pad : input.pads) pad.axes[0] += moved ? 0.125f : 0.0f;
+      driver.update(input, kFrame, false, false);
+    }
+    return driver.controls();
+  };
+  CHECK(drive({0, 1, 2}).throttle == doctest::Approx(0.375));
+  CHECK(drive({0, 1, 2}).clutch == doctest::Approx(0.875));
+  CHECK(drive({1, 0, 2}).throttle == doctest::Approx(0.375));  // the wheel was first: nothing changes
+  CHECK(drive({1, 2}).throttle == doctest::Approx(0.875));
+  CHECK(drive({1, 2}).clutch == 0.0);  // there is no second one
+  CHECK(drive({1}).throttle == 0.0);
+  CHECK_FALSE(drive({0, 1, 2}).starter);  // the button of pedals is not the wheel's
 }
 
 TEST_CASE("what the panel has is not the driver's, but a key that types nothing stops, and what was held goes up") {
@@ -454,7 +533,7 @@ TEST_CASE("the same input gives the same driver, to the bit") {
     for (int i = 0; i < 2000; ++i) {
       d->input.mouse_moved = {static_cast<double>(chance() % 21) - 10.0, static_cast<double>(chance() % 21) - 10.0};
       d->key(GLFW_KEY_SPACE + static_cast<int>(chance() % 300), chance() % 2 == 0);
-      d->input.pads = {{"pad", {static_cast<float>(chance() % 100) / 50.0f - 1.0f, 0.0f, 0.3f}, {1, 0, 1}}};
+      d->input.pads = {{"pad", {static_cast<float>(chance() % 100) / 50.0f - 1.0f, 0.0f, 0.3f}, {1, 0, 1}, ""}};
       d->frame(0.001 * static_cast<double>(chance() % 40));
     }
   }

@@ -1,0 +1,39 @@
+#include "app/devices/answers.h"
+
+#include <poll.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <utility>
+
+namespace gearshift {
+
+std::optional<std::string> Answers::take_line() {
+  const std::size_t end = buffer_.find('\n');
+  if (end == std::string::npos) {
+    if (!ended_ || buffer_.empty()) return std::nullopt;
+    return std::exchange(buffer_, {});
+  }
+  std::string line = buffer_.substr(0, end);
+  buffer_.erase(0, end + 1);
+  if (!line.empty() && line.back() == '\r') line.pop_back();
+  return line;
+}
+
+void Answers::read_more(int milliseconds) {
+  pollfd wanted{file_, POLLIN, 0};
+  if (poll(&wanted, 1, milliseconds) <= 0) return;
+  char bytes[256];
+  const ssize_t count = read(file_, bytes, sizeof bytes);
+  if (count > 0) buffer_.append(bytes, static_cast<std::size_t>(count));
+  if (count == 0) ended_ = true;
+}
+
+std::optional<std::string> Answers::line(double seconds) {
+  if (std::optional<std::string> line = take_line()) return line;
+  if (ended_) return std::nullopt;
+  read_more(static_cast<int>(std::ceil(1e3 * seconds)));
+  return take_line();
+}
+
+}  // namespace gearshift

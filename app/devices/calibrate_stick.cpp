@@ -1,0 +1,135 @@
+#include "app/devices/calibrate_stick.h"
+
+#include <chrono>
+#include <cstdio>
+#include <stdexcept>
+#include <thread>
+
+#include <fmt/core.h>
+
+#include "app/devices/answers.h"
+#include "app/devices/calibration_talk.h"
+#include "app/devices/open_stick.h"
+#include "app/devices/stop_signals.h"
+
+namespace gearshift {
+namespace {
+
+namespace fs = std::filesystem;
+using Clock = std::chrono::steady_clock;
+
+constexpr std::chrono::milliseconds kTick{1};
+constexpr std::int64_t kTickNs = 1'000'000;
+constexpr std::chrono::seconds kOpensWithin{10};
+
+void say(const std::string& line) {
+  fmt::print("{}\n", line);
+  std::fflush(stdout);
+}
+
+void end_where_asked() {
+  if (StopSignals::asked()) throw CalibrationEnded("ended: the motors are off");
+}
+
+std::int64_t tick() {
+  end_where_asked();
+  std::this_thread::sleep_for(kTick);
+  return std::chrono::nanoseconds(Clock::now().time_since_epoch()).count();
+}
+
+std::string ask(Answers& answers, const std::string& question) {
+  say(question);
+  for (;;) {
+    if (const std::optional<std::string> line = answers.line(0.2)) return *line;
+    end_where_asked();
+    if (answers.ended()) throw CalibrationEnded("standard input is at its end");
+  }
+}
+
+// What was known before and still fits; or nothing but who it is.
+KnownStick start_from(const ListedStick& stick, const fs::path& folder, bool again) {
+  KnownStick fresh;
+  fresh.calibration.vendor = stick.identity.vendor;
+  fresh.calibration.product = stick.identity.product;
+  fresh.calibration.serial = stick.identity.serial;
+  fresh.calibration.name = stick.identity.name;
+  fresh.report_descriptor = stick.report_descriptor;
+  if (again) return fresh;
+  const std::optional<KnownStick> known = read_known(folder, stick.identity);
+  if (!known) return fresh;
+  const bool is_same = known->report_descriptor.empty() || known->report_descriptor == fresh.report_descriptor;
+  if (is_same) return KnownStick{known->calibration, fresh.report_descriptor};
+  say("It reports otherwise than when it was calibrated: nothing of that counts any more.");
+  return fresh;
+}
+
+void wait_until_open(LeverKeeper& keeper, const std::string& name) {
+  const Clock::time_point end = Clock::now() + kOpensWithin;
+  while (!keeper.connected()) {
+    end_where_asked();
+    if (Clock::now() > end)
+      throw std::runtime_error(keeper.take_news().value_or(fmt::format("{} does not answer", name)));
+    std::this_thread::sleep_for(kTick);
+  }
+}
+
+class OpenStick {
+ public:
+  OpenStick(const KnownStick& stick, PortOpener open)
+      : driver_(stick.report_descriptor), keeper_(driver_, std::move(open), kTickNs) {
+    wait_until_open(keeper_, stick_name(identity_of(stick.calibration)));
+  }
+  PidDriver& driver() { return driver_; }
+  PidAbility ability() const { return keeper_.ability().value_or(PidAbility{}); }
+
+ private:
+  PidDriver driver_;
+  LeverKeeper keeper_;
+};
+
+// Returns what is missing at the end, in words.
+std::string talk_through(OpenStick& stick, KnownStick& known, const fs::path& folder, int file) {
+  Answers answers(file);
+  CalibrationTalk talk;
+  talk.say = say;
+  talk.ask = [&](const std::string& question) { return ask(answers, question); };
+  talk.keep = [&](const DeviceCalibration& calibration) {
+    known.calibration = calibration;
+    keep_known(known, folder);
+  };
+  Calibrator calibrator(stick.driver(), tick, known.calibration);
+  for (const std::string& note : stick.ability().notes) say(note);
+  try {
+    calibrate(calibrator, stick.ability().spring, talk);
+  } catch (const CalibrationEnded& ended) {
+    say(ended.what());
+  }
+  return missing_words(calibrator.calibration());
+}
+
+}  // namespace
+
+int calibrate_stick(const std::string& wanted, const fs::path& folder, bool again, int answers) {
+  const StopSignals signals;
+  const auto bus = std::make_shared<UsbBus>();
+  const std::vector<ListedStick> plugged = list_sticks(bus->hid_devices(), folder);
+  const ListedStick stick = chosen_stick(wanted, plugged);
+  check_can_push(stick);
+  const auto open = [bus, identity = stick.identity, interface = stick.interface] {
+    return bus->open(identity, interface);
+  };
+  KnownStick known = start_from(stick, folder, again);
+  OpenStick held(known, open);
+  say(fmt::format("{} ({}). Ctrl-C ends at any time: its motors are off then, and what was measured is kept.",
+                  stick_name(stick.identity), stick_id(stick.identity)));
+  const std::string missing = talk_through(held, known, folder, answers);
+  const std::string file = calibration_file(folder, stick.identity).string();
+  if (missing.empty()) {
+    say(fmt::format("Calibrated: {}", file));
+    return 0;
+  }
+  say(fmt::format("Still missing: {}. The same command goes on from here.", missing));
+  return 1;
+}
+
+}  // namespace gearshift

@@ -1,0 +1,98 @@
+#include "app/devices/known_stick.h"
+
+#include <algorithm>
+#include <fstream>
+#include <iterator>
+#include <string_view>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "haptics/files/file_error.h"
+#include "haptics/files/part_file.h"
+
+namespace gearshift {
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path descriptor_file(fs::path calibration) {
+  return calibration.replace_extension(".hid");
+}
+
+// None where it cannot be read: then the stick must be plugged in to be opened, and is taken for the same.
+std::vector<std::uint8_t> read_descriptor(const fs::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), std::istreambuf_iterator<char>()};
+}
+
+std::optional<KnownStick> read_file(const fs::path& file) {
+  std::optional<DeviceCalibration> calibration = read_calibration(file);
+  if (!calibration) return std::nullopt;
+  return KnownStick{std::move(*calibration), read_descriptor(descriptor_file(file))};
+}
+
+}  // namespace
+
+HidIdentity identity_of(const DeviceCalibration& calibration) {
+  HidIdentity identity;
+  identity.vendor = calibration.vendor;
+  identity.product = calibration.product;
+  identity.serial = calibration.serial;
+  identity.name = calibration.name;
+  return identity;
+}
+
+std::string stick_id(const HidIdentity& identity) {
+  return fmt::format("{:04x}:{:04x}", identity.vendor, identity.product);
+}
+
+std::string stick_name(const HidIdentity& identity) {
+  return identity.name.empty() ? stick_id(identity) : identity.name;
+}
+
+std::string missing_words(const DeviceCalibration& calibration) {
+  std::string words;
+  const auto add = [&words](bool is_there, const char* what) {
+    if (!is_there) words += (words.empty() ? "" : ", ") + std::string(what);
+  };
+  add(calibration.has_stops(), "range");
+  add(calibration.has_travel() && calibration.has_force(), "travel and force");
+  add(calibration.has_timing(), "delay");
+  add(calibration.has_polarity(), "polarity");
+  return words;
+}
+
+std::optional<KnownStick> read_known(const fs::path& folder, const HidIdentity& device) {
+  return read_file(calibration_file(folder, device));
+}
+
+std::vector<KnownStick> known_sticks(const fs::path& folder) {
+  std::vector<fs::path> files;
+  std::error_code missing;
+  for (const fs::directory_entry& entry : fs::directory_iterator(folder, missing))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  std::vector<KnownStick> sticks;
+  for (const fs::path& file : files) {
+    try {
+      if (std::optional<KnownStick> stick = read_file(file)) sticks.push_back(std::move(*stick));
+    } catch (const FileError&) {
+      continue;  // told where this one is asked for
+    }
+  }
+  return sticks;
+}
+
+fs::path keep_known(const KnownStick& stick, const fs::path& folder) {
+  std::error_code error;
+  fs::create_directories(folder, error);
+  if (error) throw FileError(folder.string(), 0, "cannot be made: " + error.message());
+  fs::path file = calibration_file(folder, identity_of(stick.calibration));
+  const auto* bytes = reinterpret_cast<const char*>(stick.report_descriptor.data());
+  write_text_file(descriptor_file(file), {bytes, stick.report_descriptor.size()});
+  write_calibration(stick.calibration, file);
+  return file;
+}
+
+}  // namespace gearshift

@@ -1,0 +1,100 @@
+// Pedals and a lever without forces, shown one after another by a simulated person.
+#include "app/devices/pad_talk.h"
+
+#include <algorithm>
+#include <functional>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "app/devices/calibration_talk.h"
+
+using namespace gearshift;
+
+namespace {
+
+// Pedals on axes 0 to 2 of one device, up at 1 and down at -1, as many are; a lever on the two axes of another.
+struct Person {
+  std::vector<PadState> sticks{{"Pedals", {1.0f, 1.0f, 1.0f}, {}, "guid-p"}, {"Shifter", {0.0f, 0.0f}, {}, "guid-s"}};
+  int asked = 0, frames = 0;
+  std::vector<std::string> said;
+
+  float* moved(const std::string& question) {
+    if (question.find("CLUTCH") != std::string::npos) return &sticks[0].axes[2];
+    if (question.find("BRAKE") != std::string::npos) return &sticks[0].axes[1];
+    if (question.find("left") != std::string::npos) return &sticks[1].axes[0];
+    if (question.find("forward") != std::string::npos) return &sticks[1].axes[1];
+    return nullptr;
+  }
+
+  PadTalk talk(const std::function<std::string(const std::string&)>& types) {
+    PadTalk talk;
+    talk.say = [this](const std::string& line) { said.push_back(line); };
+    talk.next_frame = [this] { return sticks; };
+    talk.ask = [this, types](const std::string& question, const std::function<void()>& frame) {
+      ++asked;
+      const std::string answer = types(question);
+      float* axis = answer.empty() ? moved(question) : nullptr;
+      const float rest = axis != nullptr ? *axis : 0.0f;
+      const bool lever = question.find("LEVER") != std::string::npos;
+      for (int i = 0; i <= 60; ++i) {
+        const float share = i < 30 ? static_cast<float>(i) / 30.0f : static_cast<float>(60 - i) / 30.0f;
+        if (axis != nullptr && !lever) *axis = rest - 2.0f * share;
+        if (axis != nullptr && lever) *axis = i < 20 ? -1.0f : i < 40 ? 1.0f : 0.0f;
+        frame();
+      }
+      if (axis != nullptr) *axis = rest;
+      return answer;
+    };
+    return talk;
+  }
+};
+
+bool is_question_for(const std::string& question, const char* words) {
+  return question.find(words) != std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("each axis is the one that was moved, upside down where it is; what is left out stays as it was") {
+  Person person;
+  Bindings before;
+  before.throttle = AxisBinding{};
+  before.throttle->stick = "another";
+  const Bindings after = learn_axes(before, person.talk([](const std::string& question) {
+    if (is_question_for(question, "THROTTLE")) return "-";
+    return is_question_for(question, "stay where it is put") ? "y" : "";
+  }));
+  REQUIRE(after.clutch.has_value());
+  CHECK(after.clutch->stick == "Pedals");
+  CHECK(after.clutch->axis == 2);
+  CHECK(pedal_value(*after.clutch, 1.0) == 0.0);
+  CHECK(pedal_value(*after.clutch, -1.0) == 1.0);
+  CHECK(after.brake->axis == 1);
+  CHECK(after.throttle->stick == "another");
+  CHECK(lever_value(*after.lever_select, -1.0) == -1.0);
+  CHECK(after.lever_shift->axis == 1);
+  CHECK(after.lever_mode == LeverMode::places);
+}
+
+TEST_CASE(
+    "nothing that moved and words that mean nothing are told and asked again; without a lever its mode is not asked") {
+  Person person;
+  int clutch = 0, throttle = 0;
+  const Bindings after = learn_axes({}, person.talk([&](const std::string& question) -> std::string {
+    CHECK_FALSE(is_question_for(question, "stay where it is put"));
+    if (is_question_for(question, "CLUTCH")) return clutch++ == 0 ? "what" : "";
+    if (is_question_for(question, "THROTTLE")) return throttle++ == 0 ? "" : "-";  // presses nothing, and gives up
+    return "-";
+  }));
+  CHECK(after.clutch.has_value());
+  CHECK_FALSE(after.throttle.has_value());
+  CHECK(clutch == 2);
+  CHECK(throttle == 2);
+  const auto has_said = [&](const char* words) {
+    return std::any_of(person.said.begin(), person.said.end(),
+                       [&](const std::string& line) { return line.find(words) != std::string::npos; });
+  };
+  CHECK(has_said("\"what\" is no answer"));
+  CHECK(has_said("Not taken: "));
+}

@@ -1,0 +1,94 @@
+#!/usr/bin/env bash
+# Force-feedback sticks as their owner has them, emulated beneath the real libusb: listed, calibrated, driven through a
+# tour, taken away by kill -9; one that may not be used, and none at all.
+# Usage: devices.sh GEARSHIFT SOURCE_FOLDER STICK_EMULATOR
+set -u
+gearshift=$1
+emulator=$3
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+source "$here/checks.sh"
+source "$here/sticks.sh"
+all_known
+
+# Calibration: the numbers that a person knows, nonsense among them, then hands off, Enter by Enter: some more than there
+# are steps, for a machine that is busy measures nonsense, which is refused.
+calibrate() {
+  printf 'far\n5000\n140 mm\n140\n20\nwhat\n\n\n\n\n\n\n\n\n\n\n' |
+    with_stick --family "$1" -- "$gearshift" devices --calibrate "${name[$1]}" >"calibrate_$1.txt" 2>"calibrate_$1.err"
+}
+for family in $families; do calibrate $family & running+=($!); done
+
+no_stick() {
+  with_stick --family vjoy --unplug-at 0 -- \
+    bash -c 'for i in $(seq 100); do "$gearshift" devices >none.txt || exit; grep -q "No USB stick" none.txt && exit; sleep 0.1; done; exit 1' 2>none.err
+}
+check "nothing plugged in is said, and is no failure" no_stick
+check "nor is it for a script" with_stick --family vjoy --unplug-at 0 -- bash -c 'sleep 1; "$gearshift" devices --json >none.json' 2>none.err
+check "who is told so" python3 -c 'import json; assert json.load(open("none.json")) ["sticks"] == []'
+with_stick --family vjoy -- "$gearshift" tour --device rhino --out rhino >/dev/null 2>rhino.err
+check "a stick that is not there is refused, with those that are" \
+  grep -q '^gearshift: no stick "rhino" is plugged in; these are: vJoy.*1234:bead' rhino.err
+check "in one sentence, and no folder is made" [ "$(wc -l <rhino.err)" -ge 1 -a ! -e rhino ]
+
+# Root may use any device: it looks as a user who is none.
+forbidden() {
+  with_stick --family sidewinder -- bash -c '
+    chmod -R a+rwX "$UMOCKDEV_DIR" # its sockets, too
+    as_nobody=; [ "$(id -u)" = 0 ] && as_nobody="setpriv --reuid 65534 --clear-groups"
+    chmod 0 "$UMOCKDEV_DIR"/dev/bus/usb/*/*
+    $as_nobody "$gearshift" devices' >forbidden.txt 2>forbidden.err
+}
+check "a stick that may not be used is listed" forbidden
+check "with what it is" grep -q "SideWinder.*045e:001b.*constant force" forbidden.txt
+check "with the reason" grep -q "may not be used by this user" forbidden.txt
+check "and the rule's commands" grep -q "sudo cp \".*udev/70-gearshift.rules\" /etc/udev/rules.d/" forbidden.txt
+
+wait
+running=()
+for family in $families; do
+  check "$family is calibrated" grep -q "^Calibrated: " calibrate_$family.txt
+  check "nonsense is asked again" grep -q 'Not taken: "5000" is no number from 20 to 500 mm' calibrate_$family.txt
+  check "hands off is said before the motors move" grep -q "^HANDS OFF" calibrate_$family.txt
+  check "its forces push left and forward, as PID 1.0 says" grep -q "plus pushes left.*plus pushes forward" calibrate_$family.txt
+done
+check "a person who pushes nothing is told, and what is missing" bash -c '
+  printf "\n" | timeout 120 umockdev-wrapper "$0" --family sidewinder -- "$gearshift" devices --calibrate 045e:001b --again >again.txt
+  grep -q "Not taken: no axis moved" again.txt && grep -q "Still missing: range" again.txt' "$emulator"
+check "what was measured before is kept" grep -q "travel_m = 0.14" "$sticks/045e_001b.toml"
+with_stick --family openffboard -- "$gearshift" devices --json >devices.json 2>devices.err
+check "the list for a script" python3 -c '
+import json
+[stick] = json.load(open("devices.json"))["sticks"]
+assert stick["id"] == "1209:ffb0" and stick["serial"] == "EMULATED01" and stick["force"] == "pushes"
+assert {"constant force", "spring", "damper"} <= set(stick["effects"]) and stick["calibrated"], stick'
+
+# How late a busy machine measured them is not looked at here.
+all_known whole
+for family in $families; do (tour $family $family && touch $family.ok) & running+=($!); done
+wait
+running=()
+for run in $families; do
+  check "the tour of $run ends well" [ -e $run.ok ]
+  check "every gear of it, in order" in_order $run
+  check "it says how late the stick answers" grep -q "answers after .* ms" $run.txt
+  check "and what it does not carry" grep -q "limited from" $run.err
+  check "its motors are off when the program has ended" silent_within 330 $run "the program's end"
+  check "its trace replays" replays $run
+  check "its plots are pictures" is_png "$run/trajectory.png"
+done
+
+# Killed in the middle, its effects end by themselves.
+killed() {
+  with_stick --family openffboard --tour paper -- bash -c '
+    mkfifo killed.in
+    exec 9<>killed.in
+    "$gearshift" tour --device ffboard --gate paper --preset ./patient.toml --out killed <&9 >killed.txt 2>&1 &
+    for i in $(seq 100); do grep -q "press Enter" killed.txt && break; sleep 0.1; done
+    echo >&9
+    for i in $(seq 600); do grep -q "1 engaged" killed.txt && break; sleep 0.1; done
+    kill -9 $!' 2>killed.err
+}
+check "killed in a gear" killed
+check "which it was in" said "1 engaged" killed
+check "its effects end by themselves" silent_within 330 killed "the program's end"
+finish

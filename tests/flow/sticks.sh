@@ -1,0 +1,126 @@
+# Sourced by the flows with force-feedback sticks, emulated beneath the real libusb, after checks.sh; gearshift and emulator
+# say where the programs are.
+export gearshift XDG_CONFIG_HOME=$work/config XDG_DATA_HOME=$work/data
+sticks=$XDG_CONFIG_HOME/gearshift/devices
+mkdir -p "$sticks"
+
+running=()
+end_all() {
+  kill "${running[@]}" 2>/dev/null
+  rm -rf "$work"
+}
+trap end_all EXIT
+trap 'exit 1' HUP INT TERM
+
+with_stick() { timeout 120 umockdev-wrapper "$emulator" "$@"; } # options -- command
+said() { [ "$(cat "$2.txt" 2>/dev/null | grep -c -- "$1")" -ge "${3:-1}" ]; } # pattern, log, how often
+within() { # seconds, command ...: until it succeeds
+  local end=$((SECONDS + $1))
+  shift
+  until "$@"; do
+    [ $SECONDS -lt $end ] || return 1
+    sleep 0.1
+  done
+}
+
+# What is known of the emulated families. By a person's part of the calibration: forward counts down. With "whole" all of
+# it, as the rest of the calibration finds it where two cores carry program and emulation.
+known() { # file name, vendor, product, serial, low, rest, high, whole or nothing
+  local travel=0 force=0 select=0 shift=0 spring=0 spring_force=0 mass=0 damping=0 stiffness=0
+  local interval=0 delay=0 jitter=0
+  [ "${8:-}" = whole ] && travel=0.14 force=20 select=-1 shift=1 spring=1 spring_force=350 mass=0.09 damping=3 stiffness=15 \
+    interval=0.001 delay=0.001 jitter=0.004
+  cat >"$sticks/$1.toml" <<END
+vendor = $2
+product = $3
+$([ -z "$4" ] || echo "serial = \"$4\"")
+[select]
+axis = "x"
+low_counts = $5
+centre_counts = $6
+high_counts = $7
+travel_m = $travel
+full_force_n = $force
+constant_sign = $select
+spring_sign = $spring
+spring_stiffness_n_per_m = $spring_force
+[select.handle]
+mass_kg = $mass
+damping_n_s_per_m = $damping
+stiffness_n_per_m = $stiffness
+[shift]
+axis = "y"
+low_counts = $7
+centre_counts = $6
+high_counts = $5
+travel_m = $travel
+full_force_n = $force
+constant_sign = $shift
+spring_sign = $spring
+spring_stiffness_n_per_m = $spring_force
+[shift.handle]
+mass_kg = $mass
+damping_n_s_per_m = $damping
+stiffness_n_per_m = $stiffness
+[timing]
+input_interval_s = $interval
+output_interval_s = $interval
+delay_s = $delay
+jitter_s = $jitter
+[buttons]
+press = 1
+lift = 2
+stop = 0
+END
+}
+all_known() { # whole or nothing
+  known 045e_001b 0x045e 0x001b "" -512 -0.5 511 "${1:-}"
+  known 1209_ffb0_EMULATED01 0x1209 0xffb0 EMULATED01 -32767 0 32767 "${1:-}"
+  known 1234_bead_2_2_2 0x1234 0xbead 2.2.2 0 16383.5 32767 "${1:-}"
+}
+families="sidewinder openffboard vjoy"
+declare -A name=([sidewinder]=SideWinder [openffboard]=FFBoard [vjoy]=vJoy)
+declare -A id=([sidewinder]=045e:001b [openffboard]=1209:ffb0 [vjoy]=1234:bead)
+
+# A loop that bears a busy machine's lateness.
+printf 'name = "patient"\n[guard]\nstale_time_s = 0.2\noverruns_in_row = 200\n' >patient.toml
+
+# The six-gear tour by the emulated hand, which shifts while the motors are on; Enter wherever the program asks for it.
+answer_to() { # log: Enter on file 9 for each time that it is asked for, until the run is over
+  local told=0
+  while kill -0 "$2" 2>/dev/null; do
+    if said "press Enter" "$1" $((told + 1)); then
+      told=$((told + 1))
+      echo >&9
+    fi
+    sleep 0.1
+  done
+}
+tour() { # name, family, options of the emulator ...
+  local name_of_run=$1 family=$2
+  shift 2
+  mkfifo "$name_of_run.in"
+  exec 9<>"$name_of_run.in"
+  with_stick --family "$family" --tour paper "$@" -- "$gearshift" tour --device "${id[$family]}" --gate paper \
+    --preset ./patient.toml --seconds 100 --out "$name_of_run" <&9 >"$name_of_run.txt" 2>"$name_of_run.err" &
+  local run=$!
+  answer_to "$name_of_run" $run
+  wait $run
+}
+in_order() { # the log says that every gear was engaged, in the tour's order
+  local wanted gear
+  wanted="$(sed -n 's/^The tour: \(.*\)\.$/\1/p' "$1.txt" | tr -d ,) "
+  for gear in $(awk '/ engaged at/{print $1}' "$1.txt"); do
+    [ "$gear" = "${wanted%% *}" ] && wanted=${wanted#* }
+  done
+  [ -z "$wanted" ]
+}
+replays() { "$gearshift" replay "$1/tour.trace" | grep -q "^bit for bit"; }
+zero_force() { # log, after what: the longest [ms] that its motors pushed on
+  sed -n "s/^stick_emulator: zero force \([0-9]*\) ms after $2.*/\1/p" "$1.err" | sort -n | tail -n 1
+}
+silent_within() { # ms, log, after what; an effect lasts 300 ms
+  local ms
+  ms=$(zero_force "$2" "$3")
+  [ -n "$ms" ] && [ "$ms" -le "$1" ]
+}
