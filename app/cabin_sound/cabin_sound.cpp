@@ -16,10 +16,6 @@ constexpr glm::vec3 kCluster{0.0f, 0.37f, -0.70f};    // [m]
 constexpr float kWarningGain = 0.55f, kOverRevGain = 0.45f;
 constexpr float kWarningRadius = 0.5f;  // [m] so wide that both ears hear it, wherever the driver looks
 
-VoiceId silent_loop(SoundWorld& world, const std::vector<float>& samples) {
-  return world.loop(world.add_clip(samples), {.gain = 0.0f});
-}
-
 }  // namespace
 
 CabinSound::CabinSound(SoundWorld& world, const CabinSoundConfig& config)

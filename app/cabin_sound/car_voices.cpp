@@ -16,10 +16,6 @@ constexpr double kStarterGain = 0.30, kJudderGain = 0.60, kLimiterGain = 0.22, k
 constexpr double kCutHold = 0.12;                                                                 // [s]
 constexpr float kChimeRadius = 0.5f;                                                              // [m] for both ears
 
-VoiceId silent_loop(SoundWorld& world, const std::vector<float>& samples) {
-  return world.loop(world.add_clip(samples), {.gain = 0.0f});
-}
-
 // The speed that a loop is made for, and the speed that it is heard at.
 float pitch_of(double speed, double made_at) {
   return static_cast<float>(speed / made_at);
@@ -30,6 +26,10 @@ double rpm(const VehicleState& car) {
 }
 
 }  // namespace
+
+VoiceId silent_loop(SoundWorld& world, const std::vector<float>& samples) {
+  return world.loop(world.add_clip(samples), {.gain = 0.0f});
+}
 
 double tooth_pass_rate(double difference, double teeth) noexcept {
   return std::abs(difference) * teeth / (2.0 * std::numbers::pi);

@@ -1,6 +1,8 @@
 // The driveline's sounds, playing: starter, stall, limiter, grinding dogs.
 #pragma once
 
+#include <vector>
+
 #include <glm/vec3.hpp>
 
 #include "app/cabin_sound/warning_hold.h"
@@ -13,6 +15,9 @@ namespace gearshift {
 double tooth_pass_rate(double difference, double teeth) noexcept;
 // 0 to 1: of dogs that rattle with so much power [W]: with its root, never so soft that nobody hears it.
 double grind_gain(double power) noexcept;
+
+// A loop that plays from now on, and is not heard before its gain is set.
+VoiceId silent_loop(SoundWorld& world, const std::vector<float>& samples);
 
 class CarVoices {
  public:

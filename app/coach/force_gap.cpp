@@ -5,9 +5,8 @@
 namespace gearshift {
 namespace {
 
-constexpr double kMostInShifts = 1.0;   // [s] [engineering value]
-constexpr double kMostInAll = 3.0;      // [s] [engineering value]
-constexpr double kLongestPeriod = 0.1;  // [s] between samples
+constexpr double kMostInShifts = 1.0;  // [s] [engineering value]
+constexpr double kMostInAll = 3.0;     // [s] [engineering value]
 
 // The ramp that begins with arming counts as forces: it is over in half a second.
 bool has_forces(GuardState state) noexcept {
@@ -17,7 +16,7 @@ bool has_forces(GuardState state) noexcept {
 }  // namespace
 
 void ForceGap::add(const DriveSample& sample, bool in_shift) noexcept {
-  const double dt = std::clamp(sample.time() - time_.value_or(sample.time()), 0.0, kLongestPeriod);
+  const double dt = std::clamp(sample.time() - time_.value_or(sample.time()), 0.0, kLongestSample);
   time_ = sample.time();
   if (has_forces(sample.lever.guard)) return;
   in_all_ += dt;

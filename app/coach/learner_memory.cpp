@@ -12,8 +12,6 @@ namespace {
 
 using std::chrono::milliseconds;
 
-constexpr milliseconds kNoPatience{0};  // for who holds the file already
-
 // Who was known here is found by number: another one of that name is somebody else. None: number 0.
 template <class Person>
 LearnerRow row_of(std::vector<LearnerRow> rows, const Person& person) {

@@ -146,6 +146,8 @@ class LearnerMemory {
   std::int64_t session_of(const KeptRun& run);
   std::int64_t id_of(Person& person);
 
+  static constexpr std::chrono::milliseconds kNoPatience{0};  // for who holds the file already
+
   std::filesystem::path file_;
   std::string program_;
   Clock now_;

@@ -12,9 +12,8 @@ namespace {
 using std::chrono::milliseconds;
 using std::chrono::steady_clock;
 
-constexpr milliseconds kApart{500};     // between two tries in a row of frames
-constexpr milliseconds kLongest{50};    // of one frame, for all that waits
-constexpr milliseconds kNoPatience{0};  // for who holds the file already
+constexpr milliseconds kApart{500};   // between two tries in a row of frames
+constexpr milliseconds kLongest{50};  // of one frame, for all that waits
 
 // ", 2 runs", or nothing for none.
 std::string counted(std::ptrdiff_t count, const char* one, const char* many) {

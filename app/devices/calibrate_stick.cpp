@@ -19,7 +19,6 @@ namespace fs = std::filesystem;
 using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kTick{1};
-constexpr std::int64_t kTickNs = 1'000'000;
 constexpr std::chrono::seconds kOpensWithin{10};
 
 void say(const std::string& line) {

@@ -9,9 +9,6 @@
 namespace gearshift {
 namespace {
 
-constexpr std::int64_t kTickNs =
-    1'000'000;  // [ns] a frame of full-speed USB: no pipe carries more than one report in it
-
 // Another firmware has other reports: what was measured of the old one may push the wrong way.
 PortOpener as_calibrated(PortOpener open, const KnownStick& stick) {
   return [open = std::move(open), stick] {

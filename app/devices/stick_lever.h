@@ -4,6 +4,7 @@
 // its motors off. Where it is unplugged it is waited for.
 #pragma once
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
@@ -14,6 +15,8 @@
 #include "haptics/hardware/pid_driver.h"
 
 namespace gearshift {
+
+inline constexpr std::int64_t kTickNs = 1'000'000;  // [ns] a frame of full-speed USB: a pipe carries one report in it
 
 class StickLever {
  public:

@@ -11,14 +11,14 @@
 namespace gearshift {
 namespace {
 
-constexpr double kMoved = 0.2;        // [raw, of 2] less is no movement
-constexpr double kAlone = 0.5;        // [1] of the widest axis: another one that moves so far was meant as well
-constexpr double kMostly = 0.75;      // [1] of what a pedal's axis did lies on one side of its rest
-constexpr double kLeastSide = 0.15;   // [1] of what a lever's axis did lies on either side of it
-constexpr int kLeastRests = 20;       // frames
-constexpr double kRestless = 0.25;    // [1] of the way: such a dead zone is none
-constexpr double kLeastZone = 0.02;   // [1]
-constexpr double kNoiseMargin = 1.5;  // what a second shows is not the most
+constexpr double kLeastMove = 0.2;        // [raw, of 2] less is no movement
+constexpr double kAlone = 0.5;            // [1] of the widest axis: another one that moves so far was meant as well
+constexpr double kMostly = 0.75;          // [1] of what a pedal's axis did lies on one side of its rest
+constexpr double kLeastLeverSide = 0.15;  // [1] of what a lever's axis did lies on either side of it
+constexpr int kLeastRests = 20;           // frames
+constexpr double kRestless = 0.25;        // [1] of the way: such a dead zone is none
+constexpr double kLeastZone = 0.02;       // [1]
+constexpr double kNoiseMargin = 1.5;      // what a second shows is not the most
 
 // Up to whole hundredths: a number that a person may read and change.
 double rounded_up(double share) {
@@ -96,7 +96,7 @@ AxisLearner::Place AxisLearner::moved_most() const {
   const auto further = [this](const Place& a, const Place& b) { return way_of(a).span() > way_of(b).span(); };
   std::stable_sort(places.begin(), places.end(), further);
   const double most = way_of(places[0]).span();
-  if (most < kMoved) throw std::invalid_argument("nothing moved: move one control all the way, and let it go");
+  if (most < kLeastMove) throw std::invalid_argument("nothing moved: move one control all the way, and let it go");
   if (places.size() > 1 && way_of(places[1]).span() > kAlone * most)
     throw std::invalid_argument(
         fmt::format("two axes moved together, {} and {}: move one control alone", words(places[0]), words(places[1])));
@@ -120,7 +120,7 @@ AxisBinding AxisLearner::pedal(const Place& at) const {
   axis.from = way.rest();
   axis.to = way.high - axis.from > axis.from - way.low ? way.high : way.low;
   const double travel = std::abs(axis.to - axis.from);
-  if (travel < kMoved || travel < kMostly * way.span())
+  if (travel < kLeastMove || travel < kMostly * way.span())
     throw std::invalid_argument(words(at) + " rests in the middle of its way: press the pedal down, and let it go");
   axis.dead_zone = dead_zone(0.5 * (way.rest_high - way.rest_low), travel, words(at));
   axis.end_zone = kLeastZone;
@@ -136,7 +136,7 @@ AxisBinding AxisLearner::lever(const Place& at) const {
   axis.to = low_first ? way.high : way.low;
   axis.centre = way.rest();
   const double side = std::min(way.high - way.rest(), way.rest() - way.low);
-  if (side < kLeastSide * way.span())
+  if (side < kLeastLeverSide * way.span())
     throw std::invalid_argument(words(at) +
                                 " went to one side of its rest only: move the lever to one end, then to the other");
   const double before = std::abs(way.first - way.rest());  // as it was left the last time

@@ -9,10 +9,10 @@ namespace gearshift {
 namespace {
 
 // [engineering value]s
-constexpr double kClutchDown = 0.8;     // [1]
+constexpr double kPressed = 0.8;        // [1]
 constexpr double kClutchUp = 0.2;       // [1]
-constexpr double kFootOff = 0.05;       // [1] of the throttle
-constexpr double kStands = 0.14;        // [m/s] 0.5 km/h
+constexpr double kLifted = 0.05;        // [1] of the throttle
+constexpr double kHalts = 0.14;         // [m/s] 0.5 km/h
 constexpr double kPulls = 1.15;         // [1] of the speed below which the engine labours: a new gear begins there
 constexpr double kDownAt = 0.85;        // [1] of the band's lower end: what comes up does not go down again at once
 constexpr double kHighest = 0.85;       // [1] of the red line
@@ -29,7 +29,7 @@ LessonStep step(std::string prompt, DriveCondition until) {
 
 DriveCondition clutch_down() {
   DriveCondition c;
-  c.clutch_above = kClutchDown;
+  c.clutch_above = kPressed;
   return c;
 }
 
@@ -63,7 +63,7 @@ double downshift_speed(const CarSpec& car, int low) noexcept {
 
 LessonStep stand_step() {
   DriveCondition c = clutch_down();
-  c.speed_above = -kStands, c.speed_below = kStands;
+  c.speed_above = -kHalts, c.speed_below = kHalts;
   return step("Brake, clutch down, stand.", c);
 }
 
@@ -75,7 +75,7 @@ LessonStep gear_step(int gear) {
 
 void add_shift(std::vector<LessonStep>& steps, int to) {
   DriveCondition down = clutch_down(), up;
-  down.throttle_below = kFootOff;
+  down.throttle_below = kLifted;
   up.gear = to;
   up.clutch_below = kClutchUp;
   up.clutch_locked = true;

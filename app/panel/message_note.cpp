@@ -7,7 +7,7 @@
 namespace gearshift {
 namespace {
 
-constexpr float kMostWidth = 40.0f, kLeastWidth = 6.0f, kMargin = 0.8f;  // [em]
+constexpr float kMostNote = 40.0f, kLeastWidth = 6.0f, kMargin = 0.8f;  // [em]
 constexpr float kOpaque = 0.86f;
 
 }  // namespace
@@ -18,7 +18,7 @@ void MessageNote::draw(const std::string& message, bool told, const std::string&
     came_at_ = ImGui::GetTime();
   }
   const float em = ui_em();
-  const float width = std::min(kMostWidth * em, static_cast<float>(room.max.x - room.min.x) - 2.0f * kMargin * em);
+  const float width = std::min(kMostNote * em, static_cast<float>(room.max.x - room.min.x) - 2.0f * kMargin * em);
   const bool is_new = ImGui::GetTime() - came_at_ < kSeen;
   const bool tells = !told && is_new && !message.empty();
   if ((!tells && to_do.empty()) || width < kLeastWidth * em) return;

@@ -20,7 +20,7 @@
 namespace gearshift {
 namespace {
 
-constexpr float kMostWidth = 80.0f, kOpeningWidth = 36.0f;                      // [em]
+constexpr float kMostBar = 80.0f, kOpeningWidth = 36.0f;                        // [em]
 constexpr float kPedalHeight = 2.1f, kSpeedHeight = 2.5f, kForceHeight = 2.1f;  // [em] two numbers have room
 constexpr std::array<double, 5> kPaces{0.1, 0.25, 0.5, 1.0, 2.0};
 constexpr double kRpm = 60.0 / (2.0 * std::numbers::pi);  // per rad/s
@@ -241,7 +241,7 @@ void ReplayBar::follow(const Player& replay) {
 double ReplayBar::draw(Controls& controls, const PanelInput& input, const ControlRect& room, ReplayRequests& out) {
   const Player* replay = input.replay;
   const bool opens = !input.opening.empty();
-  const float width = foot_width(room, opens ? kOpeningWidth : kMostWidth);
+  const float width = foot_width(room, opens ? kOpeningWidth : kMostBar);
   if (replay == nullptr || opens) curves_.reset();
   if ((replay == nullptr && !opens) || width < kLeastFootWidth * ui_em()) return room.max.y;
   if (opens) {

@@ -8,7 +8,7 @@
 namespace gearshift {
 namespace {
 
-constexpr double kRounding = 1e-7;  // [s] of times that were added up
+constexpr double kAddedUp = 1e-7;  // [s] of times that were added up
 
 }  // namespace
 
@@ -35,7 +35,7 @@ void ShiftWay::coarsen() {
 ShiftWays ShiftWay::ways(const ShiftRecord& shift, const Gate& gate) const {
   const ShiftTimes times = shift_times(shift);
   const double left = shift.from == kNeutralGear ? 0.0 : times.lever_left.value_or(0.0);
-  const double from = shift.begin + left + kRounding, to = shift.begin + times.gear_in.value_or(times.end) + kRounding;
+  const double from = shift.begin + left + kAddedUp, to = shift.begin + times.gear_in.value_or(times.end) + kAddedUp;
   ShiftWays ways;
   for (const Point& point : points_) {
     if (point.time > to && !ways.driven.empty()) break;

@@ -11,7 +11,7 @@
 namespace gearshift {
 namespace {
 
-std::string next_lesson(const LearnerHistory& history, std::span<const Lesson> lessons) {
+std::string next_in_words(const LearnerHistory& history, std::span<const Lesson> lessons) {
   const std::string& wanted = history.learner.next_lesson;
   if (is_lesson(lessons, wanted)) return printable(wanted) + " (the instructor's)";
   const std::optional<Suggestion> suggestion = suggest_lesson(lessons, past_results(history));
@@ -38,8 +38,9 @@ std::string learner_table(std::span<const LearnerHistory> learners, std::span<co
   std::string table = fmt::format("{:<{}}  sessions  runs  last day    next lesson\n", "learner", width);
   for (const LearnerHistory& history : learners) {
     const Totals sum = totals(history);
-    table += fmt::format("{:<{}}  {:>8}  {:>4}  {:<10}  {}\n", printable(history.learner.name), width, sum.sessions,
-                         sum.runs, sum.last_day.empty() ? "-" : printable(sum.last_day), next_lesson(history, lessons));
+    table +=
+        fmt::format("{:<{}}  {:>8}  {:>4}  {:<10}  {}\n", printable(history.learner.name), width, sum.sessions,
+                    sum.runs, sum.last_day.empty() ? "-" : printable(sum.last_day), next_in_words(history, lessons));
   }
   return table;
 }

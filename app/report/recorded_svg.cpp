@@ -30,7 +30,7 @@ constexpr double kLeastForce = 20.0;  // [N] of the scale
 constexpr double kLeastSpan = 500.0;  // [1/min] of the scale
 constexpr double kPerMinute = 30.0 / std::numbers::pi;
 constexpr std::size_t kMostParts = 400;
-constexpr const char* kClutchColour = "#8d99a6";
+constexpr const char* kPedalColour = "#8d99a6";
 constexpr const char* kThrottleColour = "#2e7d4f";
 constexpr const char* kLeverColour = "#8a2f87";
 constexpr const char* kGearGround = "#cfe0f2";
@@ -105,9 +105,9 @@ class ShiftCharts {
 
   void pedals(const Rect& box) {
     const Chart chart = begin(box, {0.0, 1.0}, 1.0);
-    name(box, 0.0, kClutchColour, "clutch pedal");
+    name(box, 0.0, kPedalColour, "clutch pedal");
     name(box, 100.0, kThrottleColour, "throttle");
-    draw(chart, {kClutchColour, 2.2}, [](const RecordedCycle& c) { return std::clamp(c.clutch, 0.0, 1.0); });
+    draw(chart, {kPedalColour, 2.2}, [](const RecordedCycle& c) { return std::clamp(c.clutch, 0.0, 1.0); });
     draw(chart, {kThrottleColour, 1.6}, [](const RecordedCycle& c) { return std::clamp(c.throttle, 0.0, 1.0); });
   }
 

@@ -15,14 +15,14 @@ namespace gearshift {
 namespace {
 
 // Sizes on the page. [px]
-constexpr double kWidth = 960.0;
+constexpr double kPageWidth = 960.0;
 constexpr double kTop = 30.0;  // legend
 constexpr double kLabels = 130.0;
 constexpr double kNumbers = 96.0;  // of the bars' lengths, to the right of the axis
 constexpr double kBar = 15.0, kBarGap = 4.0;
 constexpr double kLine = 17.0;  // of a fault's sentence
 constexpr double kShiftGap = 18.0;
-constexpr double kAxis = 40.0;
+constexpr double kAxisHeight = 40.0;
 
 constexpr double kLongest = 8.0;  // [s] of the axis: who waits with the clutch down shall not squeeze the others
 constexpr const char* kClutchColour = "#8d99a6";
@@ -158,8 +158,8 @@ class Timeline {
 std::string timeline_svg(std::span<const ShownShift> shifts) {
   double height = 0.0;
   for (const ShownShift& shown : shifts) height += height_of(shown.chosen);
-  Svg svg({0.0, 0.0, kWidth, kTop + height + kAxis}, 1.0);
-  Timeline timeline(svg, {kLabels, kTop, kWidth - kLabels - kNumbers, height}, axis_length(shifts));
+  Svg svg({0.0, 0.0, kPageWidth, kTop + height + kAxisHeight}, 1.0);
+  Timeline timeline(svg, {kLabels, kTop, kPageWidth - kLabels - kNumbers, height}, axis_length(shifts));
   timeline.legend();
   timeline.axis();
   double top = kTop + 0.5 * kShiftGap;

@@ -18,8 +18,6 @@ namespace {
 
 using glm::dvec2;
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-
 struct Crosstalk {
   double angle = 0.0;   // [deg] that the lever stands off in Y, and is pushed to in X
   double motion = 0.0;  // [%] of the way in X

@@ -18,7 +18,6 @@
 namespace gearshift {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr int kSteps = 28;  // of the map, each way
 
 struct MotorTorques {

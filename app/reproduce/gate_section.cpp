@@ -198,10 +198,10 @@ Finding junctions_finding(const GateDescription& list) {
 
 Finding buffer_finding(const Gate& gate, const GateDescription& list, double layout_force) {
   double most = 0.0;
-  constexpr int kSteps = 60;
+  constexpr int kBufferSteps = 60;
   for (const Buffer& buffer : buffers(gate)) {
-    for (int i = 0; i <= kSteps; ++i) {
-      const glm::dvec2 at{buffer.wall, gate.half_aisle * (2.0 * i / kSteps - 1.0)};
+    for (int i = 0; i <= kBufferSteps; ++i) {
+      const glm::dvec2 at{buffer.wall, gate.half_aisle * (2.0 * i / kBufferSteps - 1.0)};
       most = std::max(most, std::abs(gate_feel(gate, at).y));
     }
   }

@@ -18,7 +18,7 @@ namespace {
 constexpr double kHard = 0.5, kGentle = 0.1;  // [m/s] of the first impact
 constexpr double kMinsky = 0.5;               // (22): B / (K T) above about 0.5
 constexpr double kDuration = 2.0;             // [s]
-constexpr double kLast = 0.2;                 // [s] that are judged
+constexpr double kJudged = 0.2;               // [s] that are judged
 constexpr double kCalm = 0.3e-3;              // [m] peak-to-peak: four counts of the paper's encoder
 constexpr int kPhases = 16;                   // of the impact between two samples
 
@@ -62,7 +62,7 @@ Outcome throw_lever(const Study& study, const Case& one) {
     trial.hand = carried_to(wall, one.speed, trial.lever.axis_x, HandTarget{});
     trial.duration = kDuration;
     TrialRun run = run_trial(trial);
-    const double ripple = peak_to_peak(run, kLast);
+    const double ripple = peak_to_peak(run, kJudged);
     worst.calm += ripple < kCalm;
     worst.radius = predicted_radius(trial, run.admitted);
     worst.given += share_given(trial, run) / kPhases;
@@ -255,7 +255,7 @@ Section oscillation_section(const Study& study) {
       "paper's, {:g} N/m from the last sample at {:g} Hz (presets/paper.toml), on the preset's device. Each row is the "
       "worst of {} phases between impact and sample; calm is below {:g} mm peak-to-peak over the last {:g} s of {:g} "
       "s.",
-      2e3 * study.gate.half_aisle, wall.tuning.wall_stiffness, wall.rate, kPhases, 1e3 * kCalm, kLast, kDuration);
+      2e3 * study.gate.half_aisle, wall.tuning.wall_stiffness, wall.rate, kPhases, 1e3 * kCalm, kJudged, kDuration);
   section.findings = findings(cases, outcomes, ripple);
   section.findings[5].difference += fmt::format("; below {:.2f} m/s the bare handle always comes to rest", critical);
   section.pictures = {

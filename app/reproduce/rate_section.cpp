@@ -16,36 +16,37 @@
 namespace gearshift {
 namespace {
 
-constexpr double kSpeed = 0.3, kPush = 20.0;    // [m/s], [N]
-constexpr double kDuration = 1.2, kLast = 0.2;  // [s], and what is judged of it
-constexpr double kSlow = 100.0;                 // [Hz] the paper's
+constexpr double kSpeed = 0.3, kPush = 20.0;              // [m/s], [N]
+constexpr double kRateDuration = 1.2, kRateJudged = 0.2;  // [s], and what is judged of it
+constexpr double kSlow = 100.0;                           // [Hz] the paper's
 constexpr HandTarget kPushing{{0.0, 0.0}, {0.0, 0.0}, {kPush, 0.0}, false, false};
 
-struct Case {
+struct RateCase {
   const char* tag;
   const char* title;
   HapticConfig haptics;
 };
 
-std::array<Case, 3> cases_of(const Study& study) {
+std::array<RateCase, 3> cases_of(const Study& study) {
   HapticConfig slow = study.preset.haptics;
   slow.rate = kSlow;
-  return {Case{"paper", "the paper's wall, 100 Hz", read_preset(find_asset("presets", "paper").string()).haptics},
-          Case{"ours", "ours, the preset", study.preset.haptics}, Case{"slow", "ours at 100 Hz, as limited", slow}};
+  return {RateCase{"paper", "the paper's wall, 100 Hz", read_preset(find_asset("presets", "paper").string()).haptics},
+          RateCase{"ours", "ours, the preset", study.preset.haptics},
+          RateCase{"slow", "ours at 100 Hz, as limited", slow}};
 }
 
-Trial wall_trial(const Study& study, const Case& one, const HandImpedance& hand) {
+Trial wall_trial(const Study& study, const RateCase& one, const HandImpedance& hand) {
   Trial trial;
   trial.haptics = one.haptics;
   trial.lever = study.preset.lever;
   trial.lever.hand = hand;
   trial.gate = wall_at_zero();
-  trial.duration = kDuration;
+  trial.duration = kRateDuration;
   return trial;
 }
 
 // Meets the wall at a steady speed and is pushed into it.
-TrialRun impact(const Study& study, const Case& one, const HandImpedance& hand) {
+TrialRun impact(const Study& study, const RateCase& one, const HandImpedance& hand) {
   Trial trial = wall_trial(study, one, hand);
   trial.start = before(0.0, kSpeed, period_s(one.haptics));
   trial.velocity = {kSpeed, 0.0};
@@ -56,7 +57,7 @@ TrialRun impact(const Study& study, const Case& one, const HandImpedance& hand) 
 // Steps from sample to sample while the lever, pressed and nearly at rest, stays near that depth: there the cycle is
 // linear, and a disturbance goes on as its largest eigenvalue does. Without an encoder: its counts are no part of that;
 // and without the limiter of reversals, which only a study may leave out: what was admitted, as it is.
-std::vector<double> free_steps(const Study& study, const Case& one, const HandImpedance& hand,
+std::vector<double> free_steps(const Study& study, const RateCase& one, const HandImpedance& hand,
                                const AdmittedTuning& admitted) {
   constexpr double kDepth = 0.002, kDisturbance = 1e-8, kRounding = 1e-15;  // [m]
   Trial trial = wall_trial(study, one, hand);
@@ -143,7 +144,7 @@ struct Result {
   double predicted = 0.0, measured = 0.0;  // [1] growth per cycle; 0: not measured
 };
 
-Result examine(const Study& study, const Case& one, const HandImpedance& hand) {
+Result examine(const Study& study, const RateCase& one, const HandImpedance& hand) {
   Result result;
   result.run = impact(study, one, hand);
   const AdmittedTuning& admitted = result.run.admitted;
@@ -152,13 +153,14 @@ Result examine(const Study& study, const Case& one, const HandImpedance& hand) {
   return result;
 }
 
-std::string words(const Case& one, const Result& result) {
+std::string words(const RateCase& one, const Result& result) {
   const std::vector<TrialContact> all = contacts(result.run, wall_at_zero());
   return fmt::format(
       "{}, {:.0f} N/m and {:.3g} N s/m: {:.1f} mm deep, {} contact{}, {:.3f} mm peak-to-peak at the end, the "
       "motors gave {:+.2f} mJ in the first contact",
       one.title, result.run.stiffness, result.run.admitted.tuning.wall_damping, 1e3 * deepest(result.run), all.size(),
-      all.size() == 1 ? "" : "s", 1e3 * peak_to_peak(result.run, kLast), all.empty() ? 0.0 : 1e3 * all.front().energy);
+      all.size() == 1 ? "" : "s", 1e3 * peak_to_peak(result.run, kRateJudged),
+      all.empty() ? 0.0 : 1e3 * all.front().energy);
 }
 
 std::string radii(const Result& result) {
@@ -168,14 +170,14 @@ std::string radii(const Result& result) {
                      relative(result.measured, result.predicted));
 }
 
-void add_columns(TrialTable& table, const Case& one, const Result& result, const char* hand) {
+void add_columns(TrialTable& table, const RateCase& one, const Result& result, const char* hand) {
   const std::string tag = fmt::format("{}_{}", one.tag, hand);
   table.add(tag + "_time_s", result.run, [](const TrialSample& sample) { return sample.time; });
   table.add(tag + "_x_mm", result.run, [](const TrialSample& sample) { return 1e3 * sample.position.x; });
   table.add(tag + "_motor_n", result.run, [](const TrialSample& sample) { return -sample.motor.x; });
 }
 
-std::string panel(const std::array<Case, 3>& cases, const char* hand, const char* title) {
+std::string panel(const std::array<RateCase, 3>& cases, const char* hand, const char* title) {
   constexpr std::array<const char*, 3> kColours{kLockoutColour, kGearColour, kBufferColour};
   std::string text =
       fmt::format("set title \"{}\"\nplot 0 with lines dashtype 2 linecolor \"{}\" notitle", title, kSoftInk);
@@ -191,7 +193,7 @@ std::string panel(const std::array<Case, 3>& cases, const char* hand, const char
 
 Section rate_section(const Study& study) {
   tell(study, "rate");
-  const std::array<Case, 3> cases = cases_of(study);
+  const std::array<RateCase, 3> cases = cases_of(study);
   Section section{"rate", "Section 3.1: 5000 N/m at 100 Hz, the paper's and ours", "", {}, {}};
   section.text = fmt::format(
       "The lever meets the wall at {:g} m/s and is pushed with {:g} N, bare and by a gripping hand: the paper's wall "
@@ -203,7 +205,7 @@ Section rate_section(const Study& study) {
       kSpeed, kPush, kSlow);
   TrialTable table;
   for (const NamedHand& named : {NamedHand{"bare", kBareHand}, NamedHand{"grip", kGripHand}}) {
-    for (const Case& one : cases) {
+    for (const RateCase& one : cases) {
       const Result result = examine(study, one, named.hand);
       add_columns(table, one, result, named.name.data());
       const bool is_paper = &one == &cases.front();

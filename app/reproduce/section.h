@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <functional>
+#include <numbers>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -13,6 +14,8 @@
 #include "haptics/loop/preset.h"
 
 namespace gearshift {
+
+inline constexpr double kDegree = std::numbers::pi / 180.0;  // [rad]
 
 // What all sections are made from.
 struct Study {

@@ -14,7 +14,6 @@
 namespace gearshift {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr int kLines = 8;          // of the joint grid, each way
 constexpr int kStepsPerSide = 40;  // of a curve
 
@@ -82,7 +81,7 @@ double printed_radius_error(const YokeGeometry& yoke, JointAngles q) {
   return glm::length(printed_tip(yoke, q)) - yoke.radius;
 }
 
-void draw_errors(const Study& study) {
+void draw_plane_errors(const Study& study) {
   const YokeGeometry& yoke = study.preset.lever.yoke;
   const double most = std::min(yoke.theta_limit, yoke.phi_limit);
   CsvFile csv(study, "workspace_errors",
@@ -143,7 +142,7 @@ GridSurvey survey(const YokeGeometry& yoke) {
   return worst;
 }
 
-Finding small_angles(const YokeGeometry& yoke) {
+Finding small_plane_angles(const YokeGeometry& yoke) {
   const auto at = [&](double degrees) {
     const SmallAngleError error = small_angle_error(yoke, degrees * kDegree);
     return std::array{1e3 * error.component, 1e3 * error.plane, 1e3 * error.space};
@@ -189,7 +188,7 @@ Finding inverse(const GridSurvey& worst) {
 Section workspace_section(const Study& study) {
   const YokeGeometry& yoke = study.preset.lever.yoke;
   draw_workspace(study);
-  draw_errors(study);
+  draw_plane_errors(study);
   const GridSurvey worst = survey(yoke);
   return {
       "workspace",
@@ -197,7 +196,7 @@ Section workspace_section(const Study& study) {
       "Both joints of the preset's yoke go from stop to stop. The tip is (2) with its y component corrected; the "
       "gate lies in the plane (x, y), where the workspace is not a rectangle: off both axes a point takes more of "
       "both angles. D = 1 - sin^2(phi) sin^2(theta).",
-      {small_angles(yoke), misprint(worst), ranges(yoke), inverse(worst)},
+      {small_plane_angles(yoke), misprint(worst), ranges(yoke), inverse(worst)},
       {{"workspace",
         "Left: the action space, a grid of joint angles. Right: where it puts the tip in the gate's plane, exactly and "
         "by the small-angle form (3)."},

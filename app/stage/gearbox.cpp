@@ -23,8 +23,8 @@ constexpr double kKeysMeet = 0.003;                // [m] of sleeve travel at wh
 constexpr double kTurnPerMetre = 0.5;              // [rad/m] of the hub: slow enough to be seen
 constexpr double kTurnPerTurn = 0.02;              // of a free gear, for a turn of the engine
 constexpr double kLongestStep = 0.1;               // [s]
-constexpr double kSign = 0.030;                    // [m] height of a gear's sign
-constexpr const char* kEnd[2] = {"Forward", "Back"};
+constexpr double kGearSign = 0.030;                // [m] height of a gear's sign
+constexpr const char* kEndName[2] = {"Forward", "Back"};
 constexpr double kWay[2] = {1.0, -1.0};  // of the shift axis
 
 const Slot* slot_at(const Gate& gate, int column, int end) {
@@ -98,12 +98,12 @@ int add_group(Model& model, std::string name, glm::vec3 translation, int parent)
 // passenger who looks down ahead sees both beside the gears.
 void add_sign(Patch& ink, const Slot& slot, double x) {
   const double way = static_cast<int>(slot.side);
-  for (const Stroke& stroke : gear_sign(slot.gear, {x, way * 0.095}, kSign, 0.16 * kSign, glm::vec3(1.0f))) {
+  for (const Stroke& stroke : gear_sign(slot.gear, {x, way * 0.095}, kGearSign, 0.16 * kGearSign, glm::vec3(1.0f))) {
     add_flat(ink, stroke_triangles(stroke), way > 0.0 ? 0.075 : -0.060, 0xffffffffu);
   }
 }
 
-glm::quat about(glm::vec3 axis, double angle) {
+glm::quat turned_about(glm::vec3 axis, double angle) {
   return glm::angleAxis(static_cast<float>(std::remainder(angle, 2.0 * std::numbers::pi)), axis);
 }
 
@@ -152,7 +152,8 @@ void Gearbox::add_to(Model& model, const Model& gear_model, const Gate& gate) {
       if (node.mesh == kNone || node.name == "Finger") continue;
       bool is_there = true;
       for (int k = 0; k < 2; ++k) {
-        const bool of_end = node.name == std::string("Gear") + kEnd[k] || node.name == std::string("Ring") + kEnd[k];
+        const bool of_end =
+            node.name == std::string("Gear") + kEndName[k] || node.name == std::string("Ring") + kEndName[k];
         if (of_end && slot_at(gate, column, k) == nullptr) is_there = false;
       }
       if (is_there) add_twin(model, i, node.name + number, set);
@@ -182,8 +183,8 @@ std::vector<std::string> Gearbox::moving_names(const Gate& gate) {
     for (const char* name : {"Rail", "Sleeve", "Hub"}) names.push_back(name + number);
     for (int k = 0; k < 2; ++k) {
       if (slot_at(gate, column, k) == nullptr) continue;
-      names.push_back(std::string("Gear") + kEnd[k] + number);
-      names.push_back(std::string("Ring") + kEnd[k] + number);
+      names.push_back(std::string("Gear") + kEndName[k] + number);
+      names.push_back(std::string("Ring") + kEndName[k] + number);
     }
   }
   return names;
@@ -198,8 +199,8 @@ Gearbox::Gearbox(const Model& model, const Gate& gate) : rest_(model.nodes), fin
     set.hub = needed_node(model, "Hub" + number);
     for (int k = 0; k < 2; ++k) {
       if (slot_at(gate, column, k) == nullptr) continue;
-      set.gear[k] = needed_node(model, std::string("Gear") + kEnd[k] + number);
-      set.ring[k] = needed_node(model, std::string("Ring") + kEnd[k] + number);
+      set.gear[k] = needed_node(model, std::string("Gear") + kEndName[k] + number);
+      set.ring[k] = needed_node(model, std::string("Ring") + kEndName[k] + number);
     }
     sets_.push_back(set);
   }
@@ -216,7 +217,7 @@ void Gearbox::place(const Gate& gate, glm::dvec2 lever, const VehicleState& car,
     const double shift = rail_shift(gate, column, lever);
     if (shift != 0.0) finger_shift = shift;
     const glm::vec3 along(0.0f, 0.0f, static_cast<float>(-shift));
-    const glm::quat turned = about({0.0f, 0.0f, 1.0f}, hub_angle_);
+    const glm::quat turned = turned_about({0.0f, 0.0f, 1.0f}, hub_angle_);
     node(set.rail).translation = rest_[static_cast<std::size_t>(set.rail)].translation + along;
     node(set.sleeve).translation = rest_[static_cast<std::size_t>(set.sleeve)].translation + along;
     node(set.sleeve).rotation = node(set.hub).rotation = turned;
@@ -224,7 +225,7 @@ void Gearbox::place(const Gate& gate, glm::dvec2 lever, const VehicleState& car,
   }
   const auto across = static_cast<float>(finger_place(gate, lever.x));
   node(finger_).translation = rest_[static_cast<std::size_t>(finger_)].translation + glm::vec3(across, 0.0f, 0.0f);
-  node(finger_).rotation = about({1.0f, 0.0f, 0.0f}, std::asin(finger_shift / kFingerReach));
+  node(finger_).rotation = turned_about({1.0f, 0.0f, 0.0f}, std::asin(finger_shift / kFingerReach));
 }
 
 // A free gear turns with the engine. From where the sleeve meets the dogs on it turns with the hub, tooth in gap.
@@ -245,8 +246,8 @@ void Gearbox::turn_gears(const Gate& gate, int column, double shift, const Vehic
     }
     const double pressed = kRingTravel * std::clamp((taken - kKeysMeet) / 0.002, 0.0, 1.0);
     const auto ring = static_cast<std::size_t>(set.ring[k]);
-    pose[static_cast<std::size_t>(set.gear[k])].rotation = about({0.0f, 0.0f, 1.0f}, angle);
-    pose[ring].rotation = about({0.0f, 0.0f, 1.0f}, hub_angle_);
+    pose[static_cast<std::size_t>(set.gear[k])].rotation = turned_about({0.0f, 0.0f, 1.0f}, angle);
+    pose[ring].rotation = turned_about({0.0f, 0.0f, 1.0f}, hub_angle_);
     pose[ring].translation = rest_[ring].translation + glm::vec3(0.0f, 0.0f, static_cast<float>(-kWay[k] * pressed));
   }
 }

@@ -18,7 +18,7 @@ constexpr double kThickestRod = 0.0030;     // [m] radius
 constexpr double kShareForTheRod = 0.39;    // of the metal between two slots, on either side
 constexpr double kWallStep = 0.001;         // [m] at the knob: chords of a bent wall, off by less than 2 um
 constexpr double kCoarsestCell = 0.0002;    // [m]
-constexpr double kBevel = 0.0004;           // [m]
+constexpr double kSlotBevel = 0.0004;       // [m]
 constexpr double kLoopTolerance = 0.00001;  // [m]
 
 struct Segment {
@@ -201,7 +201,7 @@ SlotOpening slot_opening(const Gate& gate, const YokeGeometry& yoke, double heig
   opening.rod_radius = std::min(kThickestRod, kShareForTheRod * metal / lean);
   opening.widened = lean * opening.rod_radius;
   const double rib = metal - 2.0 * opening.widened;  // what is left between two slots
-  opening.bevel = std::min(kBevel, 0.15 * rib);
+  opening.bevel = std::min(kSlotBevel, 0.15 * rib);
 
   const std::vector<Segment> walls = projected_walls(gate, yoke, height);
   const double cell = std::min({kCoarsestCell, 0.3 * rib, 0.4 * opening.widened});

@@ -10,7 +10,6 @@
 namespace gearshift {
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr double kSharp = 0.7;  // cosine: corners that turn more are made of two round ends
 constexpr int kCapSteps = 6;
 
@@ -18,7 +17,7 @@ constexpr int kCapSteps = 6;
 void arc(Line& line, glm::dvec2 centre, glm::dvec2 radii, double from, double to) {
   const int steps = std::max(3, static_cast<int>(std::ceil(std::abs(to - from) / 15.0)));
   for (int i = 0; i <= steps; ++i) {
-    const double angle = kDegree * (from + (to - from) * i / steps);
+    const double angle = std::numbers::pi / 180.0 * (from + (to - from) * i / steps);
     line.push_back(centre + radii * glm::dvec2(std::cos(angle), std::sin(angle)));
   }
 }

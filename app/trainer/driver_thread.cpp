@@ -8,7 +8,7 @@ namespace gearshift {
 namespace {
 
 // For the next cycle: the haptic thread cannot wake anybody, that would be a system call.
-constexpr std::chrono::microseconds kLookEvery{250};
+constexpr std::chrono::microseconds kDriveEvery{250};
 
 }  // namespace
 
@@ -19,7 +19,7 @@ DriverThread::DriverThread(std::function<void(const DriveSample&)> act, SpscQueu
           if (cycles.pop(cycle))
             act(cycle);
           else
-            std::this_thread::sleep_for(kLookEvery);
+            std::this_thread::sleep_for(kDriveEvery);
         }
       }) {}
 

@@ -10,7 +10,7 @@ namespace gearshift {
 namespace {
 
 constexpr double kLongest = 5.0;  // [s] after which a clutch that slips on is no longer one release [engineering value]
-constexpr double kBraking = 0.05;     // [1] pedal: then it is the brake that jerks
+constexpr double kBrakeJerks = 0.05;  // [1] pedal: then it is the brake that jerks
 constexpr double kLaunchTakes = 3.0;  // [s] as people do it [engineering value]
 constexpr double kGravity = 9.81;     // [m/s^2]
 constexpr double kHoldsHill = 1.05;   // [s] at the bite point, until the hand brake is off [engineering value]
@@ -57,7 +57,7 @@ std::optional<DriveFault> ClutchRelease::add(const DriveSample& sample, double d
   stalled_ = stalled_ || !sample.car.running;
   slip_peak_ = std::max(slip_peak_, sample.car.slip_power);
   heat_ += sample.car.slip_power * dt;
-  if (sample.car.brake < kBraking) jerk_peak_ = std::max(jerk_peak_, jerk);
+  if (sample.car.brake < kBrakeJerks) jerk_peak_ = std::max(jerk_peak_, jerk);
   if (closed_at_ == 0.0 && sample.car.clutch <= car_.clutch.closed) closed_at_ = sample.time();
   if (!is_over(sample)) return std::nullopt;
   open_ = false;

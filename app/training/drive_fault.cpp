@@ -12,7 +12,7 @@
 namespace gearshift {
 namespace {
 
-constexpr double kRpm = 60.0 / 6.283185307179586;  // per rad/s
+constexpr double kInRpm = 60.0 / 6.283185307179586;  // per rad/s
 
 constexpr double kShortStep = 3.0;  // [s] told to a hundredth
 
@@ -28,9 +28,9 @@ struct FaultWords {
 // In the order of FaultKind.
 constexpr std::array<FaultWords, kFaultKinds> kWords{{
     {"stall", "a stall", "The engine stalled, from {} rpm.",
-     "More throttle, and hold the clutch at the bite point; to stop, press it in time.", kRpm, 0},
+     "More throttle, and hold the clutch at the bite point; to stop, press it in time.", kInRpm, 0},
     {"over_rev", "revs above the red line", "The engine was turned to {} rpm, above its red line.",
-     "Lift the throttle, or shift up, before the red line.", kRpm, 0},
+     "Lift the throttle, or shift up, before the red line.", kInRpm, 0},
     {"lugging", "labouring", "The engine laboured for {} s: too high a gear for that speed.",
      "Shift down before the engine labours.", 1.0, 1},
     {"clutch_dump", "a dumped clutch", "The clutch came up with a bang ({} kW of slip).",
@@ -40,15 +40,15 @@ constexpr std::array<FaultWords, kFaultKinds> kWords{{
     {"clutch_late", "the lever before the clutch", "The lever moved {} s before the clutch was down.",
      "Press the clutch all the way down before the lever moves.", 1.0, 2},
     {"no_clutch", "a gear without the clutch", "The gear was changed without the clutch, {} rpm apart.",
-     "Press the clutch for every change of gear.", kRpm, 0},
+     "Press the clutch for every change of gear.", kInRpm, 0},
     {"riding_clutch", "a foot that rests on the clutch", "The foot rested on the clutch for {} s.",
      "Take the foot off the clutch once the shift is done.", 1.0, 1},
     {"riding_lever", "a hand that leans on the lever", "The hand leaned on the lever for {} s.",
      "Take the hand off the lever once the gear is in.", 1.0, 1},
     {"throttle_in_shift", "throttle in a shift", "The engine flared by {} rpm while the clutch was down.",
-     "Lift the throttle before you press the clutch.", kRpm, 0},
+     "Lift the throttle before you press the clutch.", kInRpm, 0},
     {"rev_mismatch", "revs that do not fit", "Engine and gearbox were {} rpm apart when the clutch took hold.",
-     "Bring the engine to the speed that the new gear needs before the clutch comes up.", kRpm, 0},
+     "Bring the engine to the speed that the new gear needs before the clutch comes up.", kInRpm, 0},
     {"grind", "a gear that grinds", "The gear ground, {} J.",
      "Clutch all the way down, and wait a moment before reverse.", 1.0, 1},
     {"blocked", "pushing against the synchroniser", "The lever was pushed against the synchroniser for {} s.",
@@ -67,8 +67,8 @@ constexpr std::array<FaultWords, kFaultKinds> kWords{{
      1.0, 2},
     {"jerk", "a jerk", "The car jerked, {} m/s³.", "Let the clutch up more slowly where it takes hold.", 1.0, 0},
     {"early_shift", "shifting up too early", "Shifted at {} rpm: too early.",
-     "Stay in the gear until the engine turns faster.", kRpm, 0},
-    {"late_shift", "shifting too late", "Shifted at {} rpm: too late.", "Shift earlier.", kRpm, 0},
+     "Stay in the gear until the engine turns faster.", kInRpm, 0},
+    {"late_shift", "shifting too late", "Shifted at {} rpm: too late.", "Shift earlier.", kInRpm, 0},
     {"too_slow", "a shift that takes too long", "The shift took {} s.", "Clutch, lever, clutch in one go.", 1.0, 1},
     {"wrong_direction", "a gear against the way the car rolls", "That gear was chosen at {} km/h the other way.",
      "Stop before you change the direction.", kKmhPerMps, 0},
@@ -77,7 +77,7 @@ constexpr std::array<FaultWords, kFaultKinds> kWords{{
     {"coasting", "coasting", "The car rolled without drive for {} s: out of gear, or with the clutch down.",
      "Stay in gear with the clutch up until just before you stop.", 1.0, 1},
     {"early_downshift", "shifting down too early", "Shifted down too early: at that speed the gear asks for {} rpm.",
-     "Slow down first, then shift down.", kRpm, 0},
+     "Slow down first, then shift down.", kInRpm, 0},
     {"clutch_burn", "a burnt clutch", "The clutch slipped for so long that it smells ({} kJ of heat).",
      "Less throttle, and hold the clutch at the bite point only until the car rolls.", 1e-3, 1},
 }};

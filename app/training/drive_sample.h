@@ -15,6 +15,13 @@ struct DriveSample {
   double time() const noexcept { return 1e-9 * static_cast<double>(lever.time_ns); }  // [s]
 };
 
+inline constexpr double kLongestSample = 0.1;  // [s] between samples; longer is a gap in the record
+
+// Ring or dogs are against each other, and not in.
+inline bool touches_dogs(const DriveSample& sample) noexcept {
+  return sample.car.sync != SyncPhase::free && sample.car.sync != SyncPhase::meshed;
+}
+
 // What a driver does in the next cycle.
 struct DriverAction {
   HandTarget hand;

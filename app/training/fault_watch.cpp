@@ -30,11 +30,6 @@ constexpr double kJustStarted = 1.0;  // [s] in which an engine that was started
 constexpr double kNearly = 0.07;      // [1] a speed is met: before it, as a needle is read
 // [m/s] and beyond it: who brakes at 1.5 m/s^2 loses 12 km/h while he reads (1.05 s, Green 2000) and shifts (1.2 s).
 constexpr double kBeyond = 12.0 / kKmhPerMps;
-constexpr double kLongestPeriod = 0.1;  // [s]
-
-bool touches_dogs(const DriveSample& sample) noexcept {
-  return sample.car.sync != SyncPhase::free && sample.car.sync != SyncPhase::meshed;
-}
 
 bool is_moving(double speed) noexcept {
   return std::abs(speed) > kDriving;
@@ -99,7 +94,7 @@ void FaultWatch::add(const DriveSample& sample, int wanted_gear, bool shifting, 
   }
   first_ = false;
   wanted_gear_ = wanted_gear;
-  const double dt = std::clamp(sample.time() - last_.time(), 0.0, kLongestPeriod);
+  const double dt = std::clamp(sample.time() - last_.time(), 0.0, kLongestSample);
   watch_engine(sample, dt);
   follow_shift(sample, shifting, dt);
   watch_feet(sample, dt);

@@ -31,10 +31,10 @@ constexpr Range kTimeLimitS{10.0, 1800.0};
 constexpr std::size_t kMostSteps = 64;
 
 // What shift_to asks for. [engineering value]s
-constexpr double kClutchDown = 0.8;     // [1] below the bite point of every car
-constexpr double kClutchUp = 0.2;       // [1]
-constexpr double kThrottleOff = 0.05;   // [1]
-constexpr double kPedalPatience = 6.0;  // [s]
+constexpr double kClutchDown = 0.8;        // [1] below the bite point of every car
+constexpr double kClutchUp = 0.2;          // [1]
+constexpr double kFootOffThrottle = 0.05;  // [1]
+constexpr double kPedalPatience = 6.0;     // [s]
 
 // Of the car's band: who waits for the shift light, which comes at its upper end, sees it and lifts the foot (1.05 s:
 // Green 2000), is in it with a third of the throttle: first gear turns up to 580 rpm faster by then. [engineering
@@ -159,7 +159,7 @@ void add_shift(const TomlTable& table, std::vector<LessonStep>& steps) {
   down.prompt = "Off the throttle, clutch down.";
   down.hint = "Clutch pedal all the way down, past the point where it takes hold.";
   down.patience = kPedalPatience;
-  down.until.throttle_below = kThrottleOff;
+  down.until.throttle_below = kFootOffThrottle;
   down.until.clutch_above = kClutchDown;
   down.may_be_skipped = true;
   lever.prompt = std::string("Lever to ") + gear_name(gear) + ".";

@@ -17,8 +17,7 @@
 namespace gearshift {
 namespace {
 
-constexpr double kShiftEnds = 3.0;      // [s] that a shift in progress gets once all steps are done [engineering value]
-constexpr double kLongestPeriod = 0.1;  // [s] between samples
+constexpr double kShiftEnds = 3.0;  // [s] that a shift in progress gets once all steps are done [engineering value]
 // [s] Two prompts come while the clutch is down, and each takes its reading: 0.75 s to what is expected and 0.3 s to
 // read it (Green. How long does it take to stop? 2000).
 constexpr double kReading = 2.0 * 1.05;
@@ -110,7 +109,7 @@ void LessonRun::add(const DriveSample& sample) {
   if (is_over()) return;
   State& state = *state_;
   if (!state.began) state.begin(sample);
-  const double dt = std::clamp(sample.time() - state.last.time(), 0.0, kLongestPeriod);
+  const double dt = std::clamp(sample.time() - state.last.time(), 0.0, kLongestSample);
   state.measure(sample, dt);
   state.last = sample;
   if (state.aborts(sample)) return;

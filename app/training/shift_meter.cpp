@@ -16,18 +16,17 @@ namespace {
 // All [engineering value]s but the 5 % and the 2 s, which shift_record.h states.
 constexpr double kTorqueWindow = 0.5;  // [s] before a shift: long enough to hold the lift of the throttle
 constexpr double kTorqueGapShare = 0.05;
-constexpr double kLeastTorque = 5.0;    // [N m] at the wheels; without drive before there is no gap
-constexpr double kFirstTorque = 1.0;    // [N m] of the clutch: above the drag of an open one
-constexpr double kGivesUp = 2.0;        // [s] with the clutch up and nothing done
-constexpr double kPushes = 3.0;         // [N] against ring or dogs: still tried
-constexpr double kStirs = 0.002;        // [m] that a lever must move to be taken up again
-constexpr double kSlipsForEver = 5.0;   // [s] gear and clutch in without locking: the shift is over all the same
-constexpr double kThrottleOn = 0.08;    // [1]
-constexpr double kThrottleOff = 0.04;   // [1]
-constexpr double kTogether = 0.2;       // [s] both feet at once: a pedal's whole way, in either order
-constexpr double kChord = 5e-4;         // [m] of the lever's way: seven counts of the paper's encoder
-constexpr double kLeastWay = 0.005;     // [m] shorter ways have no efficiency
-constexpr double kLongestPeriod = 0.1;  // [s] between samples; longer is a gap in the record
+constexpr double kLeastTorque = 5.0;   // [N m] at the wheels; without drive before there is no gap
+constexpr double kFirstTorque = 1.0;   // [N m] of the clutch: above the drag of an open one
+constexpr double kGivesUp = 2.0;       // [s] with the clutch up and nothing done
+constexpr double kTries = 3.0;         // [N] against ring or dogs: still tried
+constexpr double kStirs = 0.002;       // [m] that a lever must move to be taken up again
+constexpr double kSlipsForEver = 5.0;  // [s] gear and clutch in without locking: the shift is over all the same
+constexpr double kThrottleOn = 0.08;   // [1]
+constexpr double kThrottleOff = 0.04;  // [1]
+constexpr double kTogether = 0.2;      // [s] both feet at once: a pedal's whole way, in either order
+constexpr double kChord = 5e-4;        // [m] of the lever's way: seven counts of the paper's encoder
+constexpr double kLeastWay = 0.005;    // [m] shorter ways have no efficiency
 
 double area(double before, double now, double dt) noexcept {
   return 0.5 * (before + now) * dt;
@@ -41,10 +40,6 @@ double penetration(const DriveSample& sample) noexcept {
   return glm::distance(sample.lever.lever, sample.lever.proxy);
 }
 
-bool touches_dogs(const DriveSample& sample) noexcept {
-  return sample.car.sync != SyncPhase::free && sample.car.sync != SyncPhase::meshed;
-}
-
 }  // namespace
 
 ShiftMeter::ShiftMeter(const CarSpec& car, const Gate& gate)
@@ -53,7 +48,7 @@ ShiftMeter::ShiftMeter(const CarSpec& car, const Gate& gate)
 std::optional<ShiftRecord> ShiftMeter::add(const DriveSample& sample) {
   std::optional<ShiftRecord> ended;
   const double time = sample.time();
-  const double dt = first_ ? 0.0 : std::clamp(time - last_.time(), 0.0, kLongestPeriod);
+  const double dt = first_ ? 0.0 : std::clamp(time - last_.time(), 0.0, kLongestSample);
   if (first_) {
     gear_ = sample.car.gear;
     last_ = sample;
@@ -106,7 +101,7 @@ bool ShiftMeter::tries_another(const DriveSample& now) const noexcept {
 
 // Pressed against ring or dogs.
 bool ShiftMeter::pushes_on(const DriveSample& now) const noexcept {
-  return touches_dogs(now) && glm::length(now.lever.f_h) > kPushes;
+  return touches_dogs(now) && glm::length(now.lever.f_h) > kTries;
 }
 
 // The lever is where it was left when the last shift was given up.

@@ -10,10 +10,6 @@ namespace {
 constexpr double kEventTime = 1e-11;  // [s] within which a change is located
 constexpr int kMostEvents = 20;       // in a piece; then impulses (Zeno)
 
-int sign(double x) noexcept {
-  return (x > 0.0) - (x < 0.0);
-}
-
 // Speeds `seconds` on; what moves as one has one speed, to the bit.
 PerBody moved(const GripChain& chain, const GripMode& mode, const PerBody& from, const PerBody& rate,
               double seconds) noexcept {

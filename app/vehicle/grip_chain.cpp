@@ -17,10 +17,6 @@ double outside(double force, double low, double high) noexcept {
   return by > 0.0 ? std::max(0.0, by - kSlack * (std::abs(force) + std::abs(force < low ? low : high))) : 0.0;
 }
 
-int sign(double x) noexcept {
-  return (x > 0.0) - (x < 0.0);
-}
-
 // Links as an array: link i lies between body i and body i + 1, whose speeds have the ratio `ratio` where it holds.
 struct Links {
   std::array<bool, 2> holds;

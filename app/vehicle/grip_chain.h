@@ -15,6 +15,10 @@ namespace gearshift {
 enum Body : int { engine_body, shaft_body, car_body };
 using PerBody = std::array<double, 3>;  // rad/s, rad/s, m/s and what belongs to them
 
+inline int sign(double x) noexcept {
+  return (x > 0.0) - (x < 0.0);
+}
+
 enum class GearLink { open, cone, dogs };
 
 struct GripChain {

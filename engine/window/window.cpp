@@ -1,13 +1,12 @@
 #include "engine/window/window.h"
 
+#include <GLFW/glfw3.h>
+
 #include <algorithm>
 #include <chrono>
 #include <cstdlib>
 #include <stdexcept>
 #include <thread>
-
-// After vulkan.h, so that GLFW declares what makes a surface.
-#include <GLFW/glfw3.h>
 
 #include <fmt/format.h>
 

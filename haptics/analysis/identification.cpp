@@ -19,7 +19,7 @@ namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kTau = 2.0 * std::numbers::pi;
+constexpr double kTurn = 2.0 * std::numbers::pi;
 
 AxisModel model_of(glm::dvec3 p) {
   return {p[0], p[1], p[2]};
@@ -42,7 +42,7 @@ Complex held_compliance(const AxisModel& axis, double frequency, double period) 
   const AxisStepper stepper(axis, period);
   const AxisState of_x = stepper.step({1.0, 0.0}, 0.0), of_v = stepper.step({0.0, 1.0}, 0.0);
   const AxisState of_f = stepper.step({}, 1.0);
-  const Complex jwt{0.0, kTau * frequency * period}, z = std::exp(jwt);
+  const Complex jwt{0.0, kTurn * frequency * period}, z = std::exp(jwt);
   const Complex sampled = ((z - of_v.velocity) * of_f.position + of_v.position * of_f.velocity) /
                           ((z - of_x.position) * (z - of_v.velocity) - of_v.position * of_x.velocity);
   return sampled * jwt / (1.0 - 1.0 / z);
@@ -59,7 +59,7 @@ glm::dvec3 linear_fit(const std::vector<FrequencyPoint>& points) {
   double s1 = 0.0, sw = 0.0, sww = 0.0, sz = 0.0, szw = 0.0, b_top = 0.0, b_bottom = 0.0;
   for (const FrequencyPoint& point : points) {
     const Complex z = 1.0 / point.response;
-    const double weight = 1.0 / std::norm(z * point.deviation), w = kTau * point.frequency, w2 = w * w;
+    const double weight = 1.0 / std::norm(z * point.deviation), w = kTurn * point.frequency, w2 = w * w;
     s1 += weight, sw += weight * w2, sww += weight * w2 * w2;
     sz += weight * z.real(), szw += weight * z.real() * w2;
     b_top += weight * w * z.imag(), b_bottom += weight * w2;
@@ -114,7 +114,7 @@ bool has_mass(glm::dvec3 p) {
 }  // namespace
 
 Complex compliance(const AxisModel& axis, double frequency) noexcept {
-  const double w = kTau * frequency;
+  const double w = kTurn * frequency;
   return 1.0 / Complex(axis.stiffness - axis.mass * w * w, axis.damping * w);
 }
 
@@ -149,7 +149,7 @@ double frequency_at_gain(const AxisModel& axis, double gain) noexcept {
   const double root = middle * middle - 4.0 * m * m * rest;
   if (root < 0.0) return 0.0;
   const double w2 = (std::sqrt(root) - middle) / (2.0 * m * m);
-  return w2 > 0.0 ? std::sqrt(w2) / kTau : 0.0;
+  return w2 > 0.0 ? std::sqrt(w2) / kTurn : 0.0;
 }
 
 double bandwidth(const AxisModel& axis) noexcept {

@@ -11,7 +11,6 @@
 namespace gearshift {
 namespace {
 
-constexpr std::uint16_t kGenericDesktop = 0x01;
 constexpr double kStartTime = 0.5, kEndTime = 0.3;  // [s] of holding still before a push, and of holding it
 constexpr double kLeastMotion = 0.20;               // [1] of what the report can say
 constexpr double kStraight = 0.5;                   // [1] of that motion, at most along another axis

@@ -10,7 +10,6 @@
 namespace gearshift {
 namespace {
 
-constexpr int kY = 0x31;                                   // X below it: the axes that have motors
 constexpr double kMoved = 0.02, kLeastMoved = 0.01;        // [1] of the range
 constexpr std::int64_t kPushTime = 250'000'000;            // [ns] at most
 constexpr double kSpringOffset = 0.25;                     // [1] of the full deflection
@@ -54,8 +53,8 @@ void Calibrator::require_polarity() const {
 }
 
 Calibrator::AxisPlace Calibrator::place_of(const LeverAxisCalibration& axis) const {
-  if (axis.usage > kY) throw CalibrationRefused("the lever moves an axis that has no motor: X and Y have");
-  return {report_axis(axis.usage), axis.usage == kY ? std::size_t{1} : std::size_t{0},
+  if (axis.usage > kUsageY.id) throw CalibrationRefused("the lever moves an axis that has no motor: X and Y have");
+  return {report_axis(axis.usage), axis.usage == kUsageY.id ? std::size_t{1} : std::size_t{0},
           axis.high > axis.low ? 1.0 : -1.0};
 }
 
@@ -99,7 +98,7 @@ int Calibrator::constant_sign(StickRig& rig, const AxisPlace& place, const std::
 
 // [1] of the range to the right or forward, under that wish from rest.
 double Calibrator::push(StickRig& rig, const AxisPlace& place, const PidWish& wish) const {
-  const std::size_t other = report_axis(place.motor == 0 ? kY : kY - 1);
+  const std::size_t other = report_axis(place.motor == 0 ? kUsageY.id : kUsageX.id);
   const double from = rig.rest(place.report, idle_wish()), beside = rig.position(other);
   const std::int64_t begin = rig.look().now_ns;
   double moved = 0.0, strayed = 0.0;

@@ -11,7 +11,6 @@ namespace {
 
 constexpr std::int64_t kSilence = static_cast<std::int64_t>(1e9 * kCommandSilence);  // [ns]
 constexpr std::int64_t kUnarrived = 100'000'000;                                     // [ns] under way: it takes none
-constexpr HidUsage kX{0x01, 0x30}, kY{0x01, 0x31};
 
 LeverReport lever_of(const ReportDescriptor& descriptor) {
   if (std::optional<LeverReport> lever = find_lever_report(descriptor)) return *std::move(lever);
@@ -26,8 +25,8 @@ PidLayout pid_of(const ReportDescriptor& descriptor) {
 std::array<std::size_t, 2> stick_axes(const LeverReport& lever) {
   std::array<std::size_t, 2> found{};
   for (std::size_t i = 0; i < lever.axes.size(); ++i) {
-    if (lever.axes[i].usage == kX) found[0] = i;
-    if (lever.axes[i].usage == kY) found[1] = i;
+    if (lever.axes[i].usage == kUsageX) found[0] = i;
+    if (lever.axes[i].usage == kUsageY) found[1] = i;
   }
   return found;
 }

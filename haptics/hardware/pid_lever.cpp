@@ -12,9 +12,6 @@
 namespace gearshift {
 namespace {
 
-constexpr std::uint16_t kGenericDesktop = 0x01;
-constexpr int kX = 0x30, kY = 0x31;
-
 std::size_t index_of(const LeverReport& report, int usage) {
   for (std::size_t i = 0; i < report.axes.size(); ++i) {
     if (report.axes[i].usage.page == kGenericDesktop && report.axes[i].usage.id == usage) return i;
@@ -56,7 +53,7 @@ PidLever::PidLever(const DeviceCalibration& calibration, PidDriver& driver, doub
       driver_(driver),
       spec_(spec_of(calibration, period)),
       session_(driver.see().session) {
-  const bool has_motors = calibration.select.usage <= kY && calibration.shift.usage <= kY;
+  const bool has_motors = calibration.select.usage <= kUsageY.id && calibration.shift.usage <= kUsageY.id;
   if (!has_motors) spec_.max_force = spec_.continuous_force = spec_.own_stiffness = glm::dvec2(0.0);
   axis_ = {make_axis(calibration.select, drives()), make_axis(calibration.shift, drives())};
   if (axis_[0].spring == 0.0 || axis_[1].spring == 0.0) {
@@ -70,7 +67,7 @@ PidLever::Axis PidLever::make_axis(const LeverAxisCalibration& calibration, bool
   axis.report = index_of(driver_.lever_report(), calibration.usage);
   axis.map = LeverAxisMap(calibration, driver_.lever_report().axes[axis.report].field);
   if (!drives) return axis;
-  axis.motor = calibration.usage == kX ? 0 : 1;
+  axis.motor = calibration.usage == kUsageX.id ? 0 : 1;
   axis.full_force = calibration.full_force;
   axis.sign = calibration.constant_sign;
   axis.spring = wall_coefficient(calibration);

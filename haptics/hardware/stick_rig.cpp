@@ -8,7 +8,7 @@ namespace {
 
 constexpr std::int64_t kSilent = 500'000'000;         // [ns] without a reading
 constexpr std::int64_t kStillTime = 300'000'000;      // [ns] in one place
-constexpr std::int64_t kLongestWait = 5'000'000'000;  // [ns] for it to stand still,
+constexpr std::int64_t kLongestRest = 5'000'000'000;  // [ns] for it to stand still,
 constexpr std::int64_t kPatience = 3'000'000'000;     // [ns] and then a little restlessness will do
 constexpr double kStill = 0.0005, kRestless = 0.005;  // [1] of the range
 constexpr double kLeastStill = 2.0;                   // [counts]
@@ -48,7 +48,7 @@ double StickRig::rest(std::size_t axis, const PidWish& wish) {
   const std::int64_t begin = step(wish).now_ns;
   std::int64_t still_since = begin;
   double least = position(axis), most = least, sum = 0.0;
-  for (long count = 0; look_.now_ns - begin < kLongestWait; step(wish)) {
+  for (long count = 0; look_.now_ns - begin < kLongestRest; step(wish)) {
     const double here = position(axis);
     const bool patient = look_.now_ns - begin < kPatience;
     least = std::min(least, here);

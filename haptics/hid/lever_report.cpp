@@ -9,8 +9,7 @@
 namespace gearshift {
 namespace {
 
-constexpr std::uint16_t kGenericDesktop = 0x01, kSimulation = 0x02, kButton = 0x09;
-constexpr HidUsage kX{kGenericDesktop, 0x30}, kY{kGenericDesktop, 0x31};
+constexpr std::uint16_t kSimulation = 0x02, kButton = 0x09;
 constexpr std::size_t kIdBits = 8;
 
 bool holds(std::span<const std::uint8_t> report, const BitField& field) noexcept {
@@ -107,7 +106,7 @@ bool has_axis(const LeverReport& report, HidUsage usage) {
 void drop_axes(LeverReport& report) {
   for (std::size_t i = report.axes.size(); i-- > 0 && report.axes.size() > kMostAxes;) {
     const HidUsage usage = report.axes[i].usage;
-    if (usage != kX && usage != kY) report.axes.erase(report.axes.begin() + static_cast<std::ptrdiff_t>(i));
+    if (usage != kUsageX && usage != kUsageY) report.axes.erase(report.axes.begin() + static_cast<std::ptrdiff_t>(i));
   }
 }
 
@@ -162,7 +161,7 @@ std::optional<LeverReport> find_lever_report(const ReportDescriptor& descriptor)
     if (field.kind != ReportKind::input || seen[field.report_id]) continue;
     seen[field.report_id] = true;
     LeverReport report = report_of(descriptor, field.report_id);
-    if (report.size <= HidBytes::kMost && has_axis(report, kX) && has_axis(report, kY)) return report;
+    if (report.size <= HidBytes::kMost && has_axis(report, kUsageX) && has_axis(report, kUsageY)) return report;
   }
   return std::nullopt;
 }

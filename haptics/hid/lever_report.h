@@ -30,6 +30,8 @@ std::int64_t read_bits(std::span<const std::uint8_t> report, const BitField& fie
 void write_bits(std::span<std::uint8_t> report, const BitField& field, std::int64_t value) noexcept;
 
 inline constexpr std::size_t kMostAxes = 8, kMostButtons = 64;
+inline constexpr std::uint16_t kGenericDesktop = 0x01;  // usage page: HID Usage Tables 1.12, 4
+inline constexpr HidUsage kUsageX{kGenericDesktop, 0x30}, kUsageY{kGenericDesktop, 0x31};
 
 // An axis of the Generic Desktop or Simulation page: 0x30 X, 0x31 Y, 0x32 Z, ...
 struct HidAxis {

@@ -9,7 +9,7 @@
 namespace gearshift {
 namespace {
 
-constexpr std::uint16_t kGenericDesktop = 0x01, kOrdinal = 0x0a;
+constexpr std::uint16_t kOrdinal = 0x0a;
 
 constexpr HidUsage pid_usage(std::uint16_t id) noexcept {
   return {0x0f, id};

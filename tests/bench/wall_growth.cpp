@@ -13,19 +13,19 @@ namespace {
 
 using glm::dvec2;
 
-constexpr double kWall = 0.002;   // [m]
-constexpr double kDepth = 0.002;  // [m] at rest
-constexpr double kFar = 0.05;     // [1] of that depth: grown as far is grown, and still linear
-constexpr int kSettle = 12000;    // [cycles] on a softer wall, that is stable
-constexpr int kRamp = 3000;       // [cycles] from that to the wall in question, the push with it: the depth stays
-constexpr int kCycles = 6000;     // on that wall, at most
+constexpr double kGrownWall = 0.002;  // [m]
+constexpr double kDepth = 0.002;      // [m] at rest
+constexpr double kFar = 0.05;         // [1] of that depth: grown as far is grown, and still linear
+constexpr int kSettle = 12000;        // [cycles] on a softer wall, that is stable
+constexpr int kRamp = 3000;           // [cycles] from that to the wall in question, the push with it: the depth stays
+constexpr int kCycles = 6000;         // on that wall, at most
 
 // Presses the lever to its place in the wall and holds it there with the hand's own spring.
 class PressingHand final : public HandDriver {
  public:
   HandTarget next(double, dvec2) noexcept override {
     HandTarget target;
-    target.position = {kWall + kDepth, 0.0};
+    target.position = {kGrownWall + kDepth, 0.0};
     target.push = {push, 0.0};
     return target;
   }
@@ -53,8 +53,8 @@ SimulatedRunConfig rig(const AxisModel& handle, const HandImpedance& hand, const
   config.lever.delay = law.delay;
   config.lever.hand = hand;
   config.gate = plain_aisle(0.060, 0.060);
-  config.gate.select_max = kWall;
-  config.start = {kWall + kDepth, 0.0};
+  config.gate.select_max = kGrownWall;
+  config.start = {kGrownWall + kDepth, 0.0};
   return config;
 }
 
@@ -84,7 +84,7 @@ double simulated_growth(const AxisModel& handle, const HandImpedance& hand, cons
   const auto press = [&](int n) {  // the push that the wall's force of cycle n balances, when that force acts
     const double share = std::clamp(static_cast<double>(n - law.delay) / kRamp, 0.0, 1.0);
     const double stiffness = settle + share * (law.stiffness - settle);
-    driver.push = stiffness * kDepth + handle.stiffness * (kWall + kDepth);
+    driver.push = stiffness * kDepth + handle.stiffness * (kGrownWall + kDepth);
   };
   for (int n = -kSettle; n < kRamp + law.delay; ++n) {
     press(n - 1);
@@ -98,7 +98,7 @@ double simulated_growth(const AxisModel& handle, const HandImpedance& hand, cons
   for (int n = 0; n < kCycles; ++n) {
     run.step();
     x.push_back(run.lever().true_position().x);
-    if (std::abs(x.back() - kWall - kDepth) > kFar * kDepth) break;
+    if (std::abs(x.back() - kGrownWall - kDepth) > kFar * kDepth) break;
   }
   return growth(x);
 }

@@ -59,7 +59,7 @@ void frames(Coach& coach, milliseconds time = milliseconds(1000)) {
   }
 }
 
-std::vector<RunRow> runs_in(const std::filesystem::path& file) {
+std::vector<RunRow> runs_of_ada(const std::filesystem::path& file) {
   History history(file);
   const auto row = history.find_learner("Ada");
   return row ? history.runs(row->id) : std::vector<RunRow>{};
@@ -116,7 +116,7 @@ TEST_CASE("while another program holds the history no frame waits for it, and th
     CHECK(coach.view().comments[0][0].text == "Too much.");
     CHECK_FALSE(coach.take_problem().has_value());
   }
-  const std::vector<RunRow> runs = runs_in(bench.config.history);
+  const std::vector<RunRow> runs = runs_of_ada(bench.config.history);
   REQUIRE(runs.size() == 2);
   CHECK(runs[0].result.end == LessonEnd::done);
   CHECK(runs[0].result.lesson == "one");
@@ -157,7 +157,7 @@ TEST_CASE("a run of which the history knew nothing while it was driven is in it 
     CHECK(coach.view().runs.size() == 2);
     for (const RunRow& row : coach.view().runs) CHECK(row.id > 0);
   }
-  CHECK(runs_in(bench.config.history).size() == 2);
+  CHECK(runs_of_ada(bench.config.history).size() == 2);
   History history(bench.config.history);
   CHECK(history.runs(history.find_learner("Bob")->id).size() == 1);
 }
@@ -182,7 +182,7 @@ TEST_CASE("who goes while the history is held waits some seconds for it") {
     });
   }
   other.join();
-  const std::vector<RunRow> runs = runs_in(bench.config.history);
+  const std::vector<RunRow> runs = runs_of_ada(bench.config.history);
   REQUIRE(runs.size() == 2);
   CHECK(runs[1].result.end == LessonEnd::left);
 }
@@ -246,7 +246,7 @@ TEST_CASE("who settles in vain is told what is lost, once, after a bounded time;
   const auto again = steady_clock::now();
   coach.reset();
   CHECK(steady_clock::now() - again < milliseconds(1000));
-  CHECK(runs_in(bench.config.history).size() == 1);
+  CHECK(runs_of_ada(bench.config.history).size() == 1);
 }
 
 TEST_CASE("settling takes what had no place before, and says what has none") {
@@ -262,7 +262,7 @@ TEST_CASE("settling takes what had no place before, and says what has none") {
   std::filesystem::remove(folder / "place");
   (void)coach.take_problem();
   CHECK(coach.settle().empty());
-  CHECK(runs_in(bench.config.history).size() == 1);
+  CHECK(runs_of_ada(bench.config.history).size() == 1);
 }
 
 TEST_CASE("recordings of runs that the history knows nothing of are named once, and never by it") {
@@ -280,7 +280,7 @@ TEST_CASE("recordings of runs that the history knows nothing of are named once, 
     CHECK(coach.forget_recordings() == std::vector<std::string>{"/a/unknown.trace"});
     CHECK(coach.forget_recordings().empty());
   }
-  const std::vector<RunRow> runs = runs_in(bench.config.history);
+  const std::vector<RunRow> runs = runs_of_ada(bench.config.history);
   REQUIRE(runs.size() == 2);  // the holder went first
   CHECK(runs[0].recording == "/a/known.trace");
   CHECK(runs[1].recording.empty());
@@ -302,7 +302,7 @@ TEST_CASE(
   CHECK(coach.view().remembers);
   CHECK(coach.view().runs.size() == 2);
   CHECK(coach.view().run > 0);
-  CHECK(runs_in(bench.config.history).size() == 2);
+  CHECK(runs_of_ada(bench.config.history).size() == 2);
 }
 
 TEST_CASE("what cannot be read anew stays as it was read, until it can be") {
@@ -322,5 +322,5 @@ TEST_CASE("what cannot be read anew stays as it was read, until it can be") {
   CHECK(coach.view().runs.size() == 2);
   bench.trial(coach, "one");
   CHECK(coach.view().remembers);
-  CHECK(runs_in(bench.config.history).size() == 3);
+  CHECK(runs_of_ada(bench.config.history).size() == 3);
 }

@@ -22,7 +22,7 @@ using namespace gearshift;
 
 namespace {
 
-std::string bytes_of(const std::filesystem::path& file) {
+std::string all_bytes(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
 }
@@ -88,11 +88,11 @@ TEST_CASE("a newer file that a killed program left with its log is refused, and 
   const std::string set_version = "PRAGMA user_version = " + std::to_string(kSchemaVersion + 1);
   REQUIRE(sqlite3_exec(newer, set_version.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK);
   sqlite3_close(newer);
-  const std::string whole = bytes_of(file), logged = bytes_of(log);
+  const std::string whole = all_bytes(file), logged = all_bytes(log);
   REQUIRE(!logged.empty());
   CHECK_THROWS_WITH_AS(History{file}, doctest::Contains("a newer program made it"), HistoryError);
-  CHECK(bytes_of(file) == whole);
-  CHECK(bytes_of(log) == logged);
+  CHECK(all_bytes(file) == whole);
+  CHECK(all_bytes(log) == logged);
 }
 
 TEST_CASE("a file of version 1 is brought up to date with all that is in it") {
@@ -214,7 +214,7 @@ TEST_CASE(
   const TempFolder folder;
   const auto good = folder / "good.db", file = folder / "history.db";
   History(good).learner("Ada");
-  const std::string whole = bytes_of(good);
+  const std::string whole = all_bytes(good);
   const auto refused = [&](const std::string& bytes) {
     std::ofstream(file, std::ios::binary) << bytes;
     try {
@@ -225,7 +225,7 @@ TEST_CASE(
       CAPTURE(said);
       CHECK(said.find("left as it is") != std::string::npos);
       CHECK(said.find('\n') == std::string::npos);
-      return bytes_of(file) == bytes;
+      return all_bytes(file) == bytes;
     }
   };
   const auto with_version = [](std::string bytes, std::int32_t version) {  // sqlite.org/fileformat2.html, 1.3: at 60
@@ -245,7 +245,7 @@ TEST_CASE(
     REQUIRE(sqlite3_open(made.c_str(), &database) == SQLITE_OK);
     REQUIRE(sqlite3_exec(database, mark.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK);
     sqlite3_close(database);
-    return bytes_of(made);
+    return all_bytes(made);
   };
   CHECK(refused(empty("PRAGMA application_id = 1")));
   CHECK(refused(empty("PRAGMA user_version = 2")));

@@ -58,7 +58,7 @@ struct Sealed {
   }
 };
 
-void fill(const fs::path& file) {
+void write_one(const fs::path& file) {
   History history(file);
   const std::int64_t session = history.begin_session(history.learner("Ada"), "1.0");
   const std::int64_t run = history.begin_run(session, some_result(0), "");
@@ -103,7 +103,7 @@ std::string what_is_wrong_with(History&& history) {
 }  // namespace
 
 TEST_CASE("a history that nobody may write, in a folder that nobody may write, is read whole, and stays as it is") {
-  const Sealed sealed(fill);
+  const Sealed sealed(write_one);
   const auto before = sealed.bytes();
   REQUIRE(before.size() == 1);
   CHECK(as_nobody([&] { return what_is_wrong_with(read_only(sealed.file)); }) == "");
@@ -117,7 +117,7 @@ TEST_CASE("a history that may not be written, in a folder that may: read or refu
   const fs::path place = folder / "open", file = place / "history.db";
   fs::permissions(folder.path(), fs::perms(0755));
   fs::create_directory(place);
-  fill(file);
+  write_one(file);
   fs::permissions(place, fs::perms(0777));
   fs::permissions(file, fs::perms(0444));
   const auto write = [&] {
@@ -145,7 +145,7 @@ TEST_CASE("names that mean something in an address are names") {
     CAPTURE(name);
     const fs::path place = folder / name;
     fs::create_directory(place);
-    fill(place / "history.db");
+    write_one(place / "history.db");
     fs::permissions(place / "history.db", fs::perms(0444));
     fs::permissions(place, fs::perms(0555));
     CHECK(as_nobody([&] { return what_is_wrong_with(read_only(place / "history.db")); }) == "");
@@ -206,7 +206,7 @@ TEST_CASE("an older history is read as if it were brought up to date, and is not
 TEST_CASE("what was opened to be read takes nothing, and nobody waits for it") {
   const TempFolder folder;
   const auto file = folder / "history.db";
-  fill(file);
+  write_one(file);
   History copy = read_only(file), writer(file);
   CHECK_THROWS_WITH_AS(copy.learner("Bob"), doctest::Contains("may not be written"), HistoryError);
   CHECK(writer.erase_learner(writer.find_learner("Ada")->id, [](const auto&) {}).empty());
@@ -216,7 +216,7 @@ TEST_CASE("what was opened to be read takes nothing, and nobody waits for it") {
 
 TEST_CASE("on a disk that is full it is read all the same") {
   const TempFolder folder;
-  fill(folder / "history.db");
+  write_one(folder / "history.db");
   const pid_t child = fork();
   if (child == 0) {
     std::signal(SIGXFSZ, SIG_IGN);
@@ -248,7 +248,7 @@ TEST_CASE("what cannot be read is refused in one sentence, and nothing is made")
   CHECK_THROWS_WITH_AS((void)read_only(folder.path()), doctest::Contains("it is a folder"), HistoryError);
   std::ofstream(folder / "letter.db") << "Dear Ada" << std::string(4096, ' ');
   CHECK(refused(folder / "letter.db"));
-  fill(folder / "secret.db");
+  write_one(folder / "secret.db");
   fs::permissions(folder / "secret.db", fs::perms(0));
   CHECK(refused(folder / "secret.db"));
   CHECK_FALSE(fs::exists(folder / "none.db"));

@@ -32,7 +32,7 @@ std::string utf8(unsigned point) {
   return {static_cast<char>(0xf0 | (point >> 18)), tail(12), tail(6), tail(0)};
 }
 
-bool is_one_sentence(const std::string& problem) {
+bool is_sentence(const std::string& problem) {
   return problem.starts_with("a ") && is_printable(problem);
 }
 
@@ -52,27 +52,27 @@ TEST_CASE("blank, or with a blank at an end: refused, whatever blank it is") {
     CAPTURE(blank);
     const std::string b = utf8(blank);
     for (const std::string& text : {b, b + b, b + "Ada", "Ada" + b}) {
-      CHECK(is_one_sentence(name_problem(text)));
-      CHECK(is_one_sentence(comment_problem(text)));
+      CHECK(is_sentence(name_problem(text)));
+      CHECK(is_sentence(comment_problem(text)));
     }
     CHECK(name_problem("Ada" + b + "L").empty());
   }
-  CHECK(is_one_sentence(name_problem("")));
-  CHECK(is_one_sentence(comment_problem("")));
+  CHECK(is_sentence(name_problem("")));
+  CHECK(is_sentence(comment_problem("")));
 }
 
 TEST_CASE("a line break belongs into a comment, within it, and into no name") {
   CHECK(comment_problem("Calmer.\n\nAnd slower.").empty());
-  for (const char* text : {"\n", "Calmer.\n", "\nCalmer."}) CHECK(is_one_sentence(comment_problem(text)));
-  CHECK(is_one_sentence(name_problem("A\nda")));
+  for (const char* text : {"\n", "Calmer.\n", "\nCalmer."}) CHECK(is_sentence(comment_problem(text)));
+  CHECK(is_sentence(name_problem("A\nda")));
 }
 
 TEST_CASE("no control character, none that is not seen, none that turns the writing about") {
   const auto refused = [](unsigned first, unsigned last) {
     for (unsigned point = first; point <= last; ++point) {
       CAPTURE(point);
-      CHECK(is_one_sentence(name_problem("A" + utf8(point) + "da")));
-      if (point != '\n') CHECK(is_one_sentence(comment_problem("A" + utf8(point) + "da")));
+      CHECK(is_sentence(name_problem("A" + utf8(point) + "da")));
+      if (point != '\n') CHECK(is_sentence(comment_problem("A" + utf8(point) + "da")));
     }
   };
   refused(0x00, 0x1f);
@@ -106,7 +106,7 @@ TEST_CASE("a name has at most 100 bytes, a comment 4000") {
   CHECK(name_problem(std::string(100, 'x')).empty());
   CHECK(name_problem(std::string(101, 'x')) == "a name must have at most 100 bytes of UTF-8, this has 101");
   CHECK(comment_problem(std::string(4000, 'x')).empty());
-  CHECK(is_one_sentence(comment_problem(std::string(4001, 'x'))));
+  CHECK(is_sentence(comment_problem(std::string(4001, 'x'))));
 }
 
 TEST_CASE("the history takes no such name and no such comment, from whoever asks") {

@@ -20,8 +20,8 @@ using glm::dvec2;
 namespace {
 
 constexpr int kCyclesPerFrame = 16;
-constexpr double kFrame = 1e-3 * kCyclesPerFrame;  // [s]
-constexpr int kSees = 9;                           // [frames] until a person acts on what the picture shows: 0.15 s
+constexpr double kThumbFrame = 1e-3 * kCyclesPerFrame;  // [s]
+constexpr int kSees = 9;  // [frames] until a person acts on what the picture shows: 0.15 s
 
 // The shipped pad, its two-way stick in one thumb, a simulated lever in a gripping hand, and the picture of it.
 class ThumbDesk {
@@ -44,7 +44,7 @@ class ThumbDesk {
   bool shift(int gear) {
     free_reverse(gear == kReverseGear);
     lean_ = {0.0, 0.0};
-    for (double time = 0.0; time < 8.0; time += kFrame) {
+    for (double time = 0.0; time < 8.0; time += kThumbFrame) {
       if (loop_.snapshot().gear == gear && at_rest_of(gear)) {
         free_reverse(false);
         return true;
@@ -58,14 +58,14 @@ class ThumbDesk {
 
   // The thumb stays on it.
   void hold(int gear, double seconds) {
-    for (double time = 0.0; time < seconds; time += kFrame) {
+    for (double time = 0.0; time < seconds; time += kThumbFrame) {
       thumb(held_at(rest_position(gate_, gear)));
       frame();
     }
   }
   void rest(double seconds) {
     thumb({0.0, 0.0});
-    for (double time = 0.0; time < seconds; time += kFrame) frame();
+    for (double time = 0.0; time < seconds; time += kThumbFrame) frame();
   }
   int gear() const { return loop_.snapshot().gear; }
   const Gate& gate() const { return gate_; }
@@ -107,7 +107,7 @@ class ThumbDesk {
   // There, and the longer the lever stays behind the further beyond, up to 25 mm: it is drawn over detents, against
   // centring.
   dvec2 held_at(dvec2 aim) {
-    lean_ = glm::clamp(lean_ + 4.0 * kFrame * (aim - seen()), -0.025, 0.025);
+    lean_ = glm::clamp(lean_ + 4.0 * kThumbFrame * (aim - seen()), -0.025, 0.025);
     return glm::clamp((aim + lean_) / hand_reach(gate_, lever_.spec()), -1.0, 1.0);
   }
 
@@ -127,7 +127,7 @@ class ThumbDesk {
 
   void frame() {
     ++frames_;
-    thumb_ = glm::clamp(wanted_, thumb_ - kFrame * 10.0, thumb_ + kFrame * 10.0);
+    thumb_ = glm::clamp(wanted_, thumb_ - kThumbFrame * 10.0, thumb_ + kThumbFrame * 10.0);
     const dvec2 tremor = 0.03 * dvec2{std::sin(1.3 * frames_), std::sin(1.9 * frames_)};
     std::vector<float>& axes = input_.pads[0].axes;
     axes[static_cast<std::size_t>(bindings_.lever_select->axis)] = raw_of(*bindings_.lever_select, thumb_.x + tremor.x);
@@ -136,7 +136,7 @@ class ThumbDesk {
       for (const auto& axis : {bindings_.lever_select, bindings_.lever_shift})
         axes[static_cast<std::size_t>(axis->axis)] = 0.05f;  // no stick comes back to its very centre
     driver_.feel(loop_.snapshot().lever);
-    driver_.update(input_, kFrame, false, false);
+    driver_.update(input_, kThumbFrame, false, false);
     target_.write(driver_.hand());
     for (int i = 0; i < kCyclesPerFrame; ++i) loop_.cycle(now_ += 1'000'000, 0);
     picture_.push_back(loop_.snapshot().proxy);

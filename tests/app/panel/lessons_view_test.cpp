@@ -14,7 +14,7 @@ using namespace gearshift;
 
 namespace {
 
-constexpr int kEnter = 257, kEscape = 256;
+constexpr int kEnter = 257;
 
 struct LessonsRig : PanelRig {
   explicit LessonsRig(const CoachView& coach, const char* tab = "tab_lesson") {

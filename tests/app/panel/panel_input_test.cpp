@@ -12,8 +12,6 @@ using namespace gearshift;
 
 namespace {
 
-constexpr int kEscape = 256;
-
 HapticSnapshot at(double time) {
   HapticSnapshot snapshot;
   snapshot.time_ns = std::llround(1e9 * time);

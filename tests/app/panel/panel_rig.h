@@ -17,6 +17,8 @@
 
 namespace gearshift {
 
+inline constexpr int kEscape = 256;  // GLFW's number
+
 // Snapshots of that long a tour through the gears, every `step`-th cycle.
 inline std::vector<HapticSnapshot> toured(const Gate& gate, double seconds, int step = 4) {
   SimulatedRunConfig config;

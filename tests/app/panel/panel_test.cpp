@@ -10,7 +10,7 @@ using namespace gearshift;
 
 namespace {
 
-constexpr int kTab = 258, kSpace = 32, kEscape = 256, kRight = 262, kLeft = 263, kDown = 264;
+constexpr int kTab = 258, kSpace = 32, kRight = 262, kLeft = 263, kDown = 264;
 
 constexpr const char* kStiffness = "wall_stiffness_n_per_m";
 

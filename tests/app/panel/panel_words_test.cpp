@@ -15,14 +15,14 @@ using namespace gearshift;
 
 namespace {
 
-void settle(PanelRig& rig) {
+void go_on(PanelRig& rig) {
   for (int i = 0; i < 4; ++i) rig.frame();
 }
 
 // Names of the warning lamps that are lit.
 std::set<std::string> lit(PanelRig& rig, std::uint32_t flags) {
   rig.input.now.flags = flags;
-  settle(rig);
+  go_on(rig);
   std::set<std::string> names;
   const std::vector<DrawnText> texts = drawn_texts();
   for (const char* name : {"Over-push", "Saturated", "Ghost hand", "Softened", "Grinding", "Over-rev"}) {
@@ -55,11 +55,11 @@ TEST_CASE("each warning lamp is lit by its own flag and by no other") {
 TEST_CASE("an engine that stalled is told in red in place of its speed") {
   PanelRig rig;
   rig.input.car.engine_speed = 240.0;
-  settle(rig);
+  go_on(rig);
   CHECK(is_drawn("2292 rpm"));
   CHECK_FALSE(is_drawn("stalled"));
   rig.input.car.stalled = true;
-  settle(rig);
+  go_on(rig);
   CHECK(the_text(drawn_texts(), "stalled").colour == ink::kBad);
   CHECK_FALSE(is_drawn("2292 rpm"));
 }
@@ -68,7 +68,7 @@ TEST_CASE("the shift light points up for the next gear, down for the one below, 
   PanelRig rig;
   const auto arrow = [&](int advice) {
     rig.input.car.shift_advice = advice;
-    settle(rig);
+    go_on(rig);
     std::vector<glm::dvec2> corners = drawn_in(advice < 0 ? ink::kWarn : ink::kGood);
     std::erase_if(corners, [&](glm::dvec2 at) { return at.y < rig.panel.middle().max.y || at.x > 100.0; });
     return corners;
@@ -110,7 +110,7 @@ TEST_CASE("the over-push lamp is a red disc beside its name, which no contact al
 
 TEST_CASE("hand brake and ignition have lamps, and a slope is told in per cent where there is one") {
   PanelRig rig;
-  settle(rig);
+  go_on(rig);
   const auto colour = [](const char* name) { return the_text(drawn_texts(), name).colour; };
   CHECK(colour("Ignition") == ink::kGood);
   CHECK(colour("Hand brake") != ink::kBad);
@@ -118,7 +118,7 @@ TEST_CASE("hand brake and ignition have lamps, and a slope is told in per cent w
   rig.input.car.ignition = false;
   rig.input.car.hand_brake = 1.0;
   rig.input.car.slope = -std::atan(0.08);
-  settle(rig);
+  go_on(rig);
   CHECK(colour("Ignition") != ink::kGood);
   CHECK(colour("Hand brake") == ink::kBad);
   CHECK(is_drawn("Slope -8 %"));
@@ -131,7 +131,7 @@ TEST_CASE("given is what the actuators give, wanted what was asked of them, and 
   rig.input.now.wall_force = {-31.7, 0.0};
   rig.input.now.f_j = {0.0, -0.01};
   rig.input.car.road_speed = -0.01;
-  settle(rig);
+  go_on(rig);
   CHECK(is_drawn("given 12.0 N"));
   CHECK(is_drawn("wanted 31.7 N"));
   CHECK(is_drawn("0 km/h"));
@@ -145,7 +145,7 @@ TEST_CASE("how long a frame takes is told where frames are counted, else nothing
   PanelRig rig;
   rig.screen.width = 2600.0f;  // the whole line has room
   const auto told = [&] {
-    settle(rig);
+    go_on(rig);
     const std::vector<DrawnText> texts = drawn_texts();
     return std::any_of(texts.begin(), texts.end(),
                        [](const DrawnText& text) { return text.text.find("aframe") != std::string::npos; });
@@ -159,11 +159,11 @@ TEST_CASE("a lesson's own recording is not ended by its button") {
   PanelRig rig;
   rig.input.recording = true;
   rig.input.coach.phase = LessonPhase::driving;
-  settle(rig);
+  go_on(rig);
   CHECK(is_drawn("lesson recorded"));
   CHECK_FALSE(rig.click("record").record);
   rig.input.coach.phase = LessonPhase::none;
-  settle(rig);
+  go_on(rig);
   CHECK(is_drawn("End recording"));
   CHECK(rig.click("record").record);
 }
@@ -172,7 +172,7 @@ TEST_CASE("of a path that is too long for its line the middle is left out, its b
   PanelRig rig;
   rig.input.message =
       "recorded: /disk/somebody/with/a/long/name/.local/share/gearshift/recordings/reverse-20261121.trace";
-  settle(rig);
+  go_on(rig);
   bool found = false;
   for (const DrawnText& text : drawn_texts()) {
     if (text.text.find("\u2026") == std::string::npos) continue;
@@ -187,7 +187,7 @@ TEST_CASE("of a path that is too long for its line the middle is left out, its b
 
 TEST_CASE("gates and cars are shown by readable names and asked for by their own") {
   PanelRig rig;
-  settle(rig);
+  go_on(rig);
   CHECK(is_drawn("Hatchback"));
   rig.click("gate");
   CHECK(is_drawn("Dog leg five"));
@@ -207,7 +207,7 @@ TEST_CASE("the loop's figures stand beside their names") {
   rig.input.now.wall_stiffness = 4321.0;
   rig.input.frame_ms = 16.7;
   rig.click("tab_loop");
-  settle(rig);
+  go_on(rig);
   using Line = std::vector<std::string>;
   CHECK(right_of("Rate") == Line{without_blanks("2000 Hz, period 500 µs")});
   CHECK(right_of("Late, median") == Line{"11µs"});
@@ -234,7 +234,7 @@ TEST_CASE("a preset is compared with what runs, not with what was wanted") {
   rig.input.compared.emplace();
   rig.input.compared->haptics = rig.input.haptics;
   rig.input.compared->haptics.tuning = runs;
-  settle(rig);
+  go_on(rig);
   const auto counted = [] {
     for (const DrawnText& text : drawn_texts())
       if (text.text.ends_with("arethesame")) return text.text.substr(0, text.text.find("differ"));
@@ -242,7 +242,7 @@ TEST_CASE("a preset is compared with what runs, not with what was wanted") {
   };
   CHECK(counted() == "0");
   rig.input.compared->haptics.tuning.wall_stiffness = 1234.0;
-  settle(rig);
+  go_on(rig);
   CHECK(counted() == "1");
   const std::string here = std::to_string(std::lround(runs.wall_stiffness)) + "N/m";
   CHECK(right_of("Wall stiffness") == std::vector<std::string>{here, "1234N/m"});

@@ -14,7 +14,7 @@
 namespace gearshift {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+constexpr double kHalfTurn = std::numbers::pi;
 
 struct BoxRig {
   Gate gate;
@@ -129,19 +129,19 @@ TEST_CASE("a gear that is in turns with the hub, tooth in gap; a free one turns 
   for (int i = 0; i < 200; ++i) {
     car.distance = 0.37 * i;
     box.place(rig.gate, rest_position(rig.gate, 3), car, 0.02 * i, rig.pose);
-    const double slip = (rig.angle("GearForward1") - rig.angle("Hub1")) / (2.0 * kPi / 30.0);
+    const double slip = (rig.angle("GearForward1") - rig.angle("Hub1")) / (2.0 * kHalfTurn / 30.0);
     CHECK(std::abs(slip - std::round(slip)) < 1e-3);
-    CHECK(std::abs(std::remainder(rig.angle("Sleeve1") - rig.angle("Hub1"), 2.0 * kPi)) < 1e-5);
+    CHECK(std::abs(std::remainder(rig.angle("Sleeve1") - rig.angle("Hub1"), 2.0 * kHalfTurn)) < 1e-5);
     const double free = rig.angle("GearBack1");
     if (i > 0)
-      CHECK(std::remainder(free - last_free, 2.0 * kPi) ==
+      CHECK(std::remainder(free - last_free, 2.0 * kHalfTurn) ==
             doctest::Approx(0.02 * 0.02 * (0.5 + 0.15 * 4) * 300.0).epsilon(1e-3));
     last_free = free;
   }
   // The hub turns by the road alone.
   const double before = rig.angle("Hub1");
   box.place(rig.gate, rest_position(rig.gate, 3), car, 10.0, rig.pose);
-  CHECK(std::abs(std::remainder(rig.angle("Hub1") - before, 2.0 * kPi)) < 1e-6);
+  CHECK(std::abs(std::remainder(rig.angle("Hub1") - before, 2.0 * kHalfTurn)) < 1e-6);
 }
 
 TEST_CASE("every gear of a gate has a gear and a ring, and no slot without a gear has one") {

@@ -12,11 +12,11 @@
 namespace gearshift {
 namespace {
 
-constexpr glm::dvec3 kPivot{0.330, 0.007, -0.270};  // [m] of the lever, from the cabin's notes
+constexpr glm::dvec3 kLeverPivot{0.330, 0.007, -0.270};  // [m] of the lever, from the cabin's notes
 
 // On the sphere of 0.12 m about the pivot, straight above the plane point.
-glm::dvec3 knob_above(glm::dvec2 p) {
-  return kPivot + glm::dvec3(p.x, std::sqrt(0.12 * 0.12 - p.x * p.x - p.y * p.y), -p.y);
+glm::dvec3 knob_over(glm::dvec2 p) {
+  return kLeverPivot + glm::dvec3(p.x, std::sqrt(0.12 * 0.12 - p.x * p.x - p.y * p.y), -p.y);
 }
 
 // The skin of a node as it is drawn.
@@ -54,7 +54,7 @@ TEST_CASE("the hand holds the drawn knob and its ghost holds the ghost's: as far
     input.lever.flags = kFlagGhost;
     stage.place(input);
     const std::vector<glm::dvec3> hand = drawn_skin(stage, "HandMesh"), ghost = drawn_skin(stage, "GhostHand");
-    const glm::dvec3 knob = knob_above(proxy), ghost_knob = knob_above(lever);
+    const glm::dvec3 knob = knob_over(proxy), ghost_knob = knob_over(lever);
     // The knob's radius is 24 mm: skin lies on it.
     CHECK(nearest(hand, knob) > 0.015);
     CHECK(nearest(hand, knob) < 0.030);

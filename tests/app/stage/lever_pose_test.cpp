@@ -9,7 +9,7 @@
 namespace gearshift {
 namespace {
 
-constexpr YokeGeometry kYoke;
+constexpr YokeGeometry kPaperYoke;
 
 // The sphere about the pivot and the gate plane give the knob with no angle at all.
 glm::dvec3 knob_on_sphere(glm::dvec2 p, double radius) {
@@ -22,7 +22,7 @@ TEST_CASE("the lever points at the spot on the sphere above the plane point, for
   std::mt19937_64 dice(11);
   std::uniform_real_distribution<double> x(-0.077, 0.077), y(-0.068, 0.068);
   for (const double radius : {0.120, 0.180}) {
-    YokeGeometry yoke = kYoke;
+    YokeGeometry yoke = kPaperYoke;
     yoke.radius = radius;
     for (int i = 0; i < 1000; ++i) {
       const glm::dvec2 p(x(dice), y(dice));
@@ -32,11 +32,11 @@ TEST_CASE("the lever points at the spot on the sphere above the plane point, for
 }
 
 TEST_CASE("right is -Z, forward is -X: the axes of the cabin's lever") {
-  const glm::dquat right = lever_rotation(kYoke, {0.03, 0.0});
+  const glm::dquat right = lever_rotation(kPaperYoke, {0.03, 0.0});
   CHECK(right.z < 0.0);
   CHECK(std::abs(right.x) + std::abs(right.y) < 1e-15);
   CHECK(2.0 * std::asin(-right.z) == doctest::Approx(std::asin(0.03 / 0.12)));
-  const glm::dquat forward = lever_rotation(kYoke, {0.0, 0.04});
+  const glm::dquat forward = lever_rotation(kPaperYoke, {0.0, 0.04});
   CHECK(forward.x < 0.0);
   CHECK(2.0 * std::asin(-forward.x) == doctest::Approx(std::asin(0.04 / 0.12)));
 }
@@ -46,14 +46,14 @@ TEST_CASE("the rotation carries the upright lever there and does not twist the k
   std::uniform_real_distribution<double> x(-0.077, 0.077), y(-0.068, 0.068);
   for (int i = 0; i < 1000; ++i) {
     const glm::dvec2 p(x(dice), y(dice));
-    const glm::dquat turn = lever_rotation(kYoke, p);
+    const glm::dquat turn = lever_rotation(kPaperYoke, p);
     CHECK(glm::distance(turn * glm::dvec3(0.0, 1.0, 0.0), knob_on_sphere(p, 0.12)) < 1e-12);
     CHECK(std::abs(turn.y) < 1e-15);  // no part of the axis along the lever
   }
 }
 
 TEST_CASE("a point beyond the yoke's reach leaves a lever that lies down, not one that is not a number") {
-  const glm::dvec3 d = lever_direction(kYoke, {0.3, 0.4});
+  const glm::dvec3 d = lever_direction(kPaperYoke, {0.3, 0.4});
   CHECK(glm::length(d) == doctest::Approx(1.0));
   CHECK(d.y > 0.0);
   CHECK(d.x / -d.z == doctest::Approx(0.75));

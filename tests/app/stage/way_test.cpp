@@ -14,8 +14,8 @@
 namespace gearshift {
 namespace {
 
-constexpr glm::dvec3 kPivot{0.330, 0.007, -0.270};  // [m] of the lever, from the cabin's notes
-constexpr double kSphere = 0.120 + 0.026;           // [m] knob's centre, and what the ways lie above it
+constexpr glm::dvec3 kWayPivot{0.330, 0.007, -0.270};  // [m] of the lever, from the cabin's notes
+constexpr double kSphere = 0.120 + 0.026;              // [m] knob's centre, and what the ways lie above it
 
 // Straight above the plane point where the knob's sphere is, drawn out to the ways': no joint angle is used.
 glm::dvec3 above_knob(glm::dvec2 p) {
@@ -33,11 +33,11 @@ double radius_of(const std::vector<Vertex>& tube, int ring) {
   return glm::distance(glm::dvec3(tube[static_cast<std::size_t>(ring * kWaySides)].position), middle_of(tube, ring));
 }
 
-const NodeState& state_of(const Stage& stage, const char* name) {
+const NodeState& way_state(const Stage& stage, const char* name) {
   return stage.scene().nodes[static_cast<std::size_t>(stage.model().node(name))];
 }
 
-Stage paper_stage() {
+Stage stage_of_paper() {
   StageConfig config;
   config.gate = shipped_gate("paper");
   return Stage(config, GEARSHIFT_ASSETS "/models");
@@ -108,36 +108,36 @@ TEST_CASE("what has no length is no way: nothing, a point, the same point again,
 }
 
 TEST_CASE("the stage shows the ways while it is given them, at the lever's pivot, and the hand is of glass then") {
-  Stage stage = paper_stage();
+  Stage stage = stage_of_paper();
   const std::size_t deformed = stage.scene().deformed.size();
-  CHECK_FALSE(state_of(stage, kDrivenWay).visible);
-  CHECK_FALSE(state_of(stage, kIdealWay).visible);
-  CHECK(state_of(stage, "HandMesh").opacity == 1.0f);
+  CHECK_FALSE(way_state(stage, kDrivenWay).visible);
+  CHECK_FALSE(way_state(stage, kIdealWay).visible);
+  CHECK(way_state(stage, "HandMesh").opacity == 1.0f);
 
   std::vector<glm::dvec2> driven, ideal{{0.0, -0.03}, {0.0, 0.03}};
   for (int i = 0; i <= 400; ++i) driven.push_back({0.004 * std::sin(0.05 * i), -0.03 + 0.00015 * i});
   StageInput input;
   input.driven_way = driven;
   stage.place(input);
-  CHECK(state_of(stage, kDrivenWay).visible);
-  CHECK_FALSE(state_of(stage, kIdealWay).visible);
-  CHECK(state_of(stage, "HandMesh").opacity < 0.5f);
+  CHECK(way_state(stage, kDrivenWay).visible);
+  CHECK_FALSE(way_state(stage, kIdealWay).visible);
+  CHECK(way_state(stage, "HandMesh").opacity < 0.5f);
   REQUIRE(stage.scene().deformed.size() == deformed + 1);
   const DeformedMesh& shape = stage.scene().deformed.back();
   const auto node = static_cast<std::size_t>(stage.model().node(kDrivenWay));
   REQUIRE(shape.mesh == stage.model().nodes[node].mesh);
   CHECK(shape.vertices.size() == stage.model().meshes[static_cast<std::size_t>(shape.mesh)].vertex_count);
-  const glm::dvec3 first = glm::dvec3(state_of(stage, kDrivenWay).world[3]) + middle_of(shape.vertices, 0);
-  CHECK(glm::distance(first, kPivot + above_knob(driven.front())) < 1e-6);
+  const glm::dvec3 first = glm::dvec3(way_state(stage, kDrivenWay).world[3]) + middle_of(shape.vertices, 0);
+  CHECK(glm::distance(first, kWayPivot + above_knob(driven.front())) < 1e-6);
 
   input.ideal_way = ideal;
   stage.place(input);
-  CHECK(state_of(stage, kIdealWay).visible);
+  CHECK(way_state(stage, kIdealWay).visible);
   CHECK(stage.scene().deformed.size() == deformed + 2);
   stage.place({});
-  CHECK_FALSE(state_of(stage, kDrivenWay).visible);
+  CHECK_FALSE(way_state(stage, kDrivenWay).visible);
   CHECK(stage.scene().deformed.size() == deformed);
-  CHECK(state_of(stage, "HandMesh").opacity == 1.0f);
+  CHECK(way_state(stage, "HandMesh").opacity == 1.0f);
 }
 
 TEST_CASE("from driver, lever and gate a whole way from second to third is in the picture's middle square") {
@@ -146,7 +146,7 @@ TEST_CASE("from driver, lever and gate a whole way from second to third is in th
     const double fov = camera_field(name) * 3.14159265358979 / 180.0;
     const View view = view_from(camera(name), symmetric_fov(fov, 16.0 / 9.0), 0.05);
     for (const int gear : {2, 3}) {
-      const glm::dvec3 at = project(view, kPivot + above_knob(rest_position(gate, gear)), {1280.0, 720.0});
+      const glm::dvec3 at = project(view, kWayPivot + above_knob(rest_position(gate, gear)), {1280.0, 720.0});
       CAPTURE(name);
       CHECK(at.z > 0.0);
       CHECK(at.x > 280.0);

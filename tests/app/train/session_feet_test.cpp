@@ -20,7 +20,7 @@ constexpr double kCycle = 1e-3;               // [s]
 constexpr double kClosed = 0.2, kBite = 0.7;  // [1] of the pedal
 constexpr double kSlip = 1.0, kPedal = 0.25;  // [s]
 
-struct Rig {
+struct FeetRig {
   TempFolder folder;
   Variable config{"XDG_CONFIG_HOME", folder.path().c_str()};
   Variable data{"XDG_DATA_HOME", folder.path().c_str()};
@@ -63,7 +63,7 @@ std::vector<double> clutch_driven(Session& session, double frames_per_second) {
 TEST_CASE("at 10, 30 and 144 frames a second a key's pedal goes the same way, to three cycles") {
   for (const double rate : {10.0, 30.0, 144.0}) {
     CAPTURE(rate);
-    const Rig rig;
+    const FeetRig rig;
     Session session(rig.choice(TrainerClock::virtual_time, "none"));
     const std::vector<double> path = clutch_driven(session, rate);
     CHECK(path.size() >= 2000);
@@ -73,7 +73,7 @@ TEST_CASE("at 10, 30 and 144 frames a second a key's pedal goes the same way, to
 }
 
 TEST_CASE("a foot goes on from one lever to the next, and a pad's pedal counts where it is deeper") {
-  const Rig rig;
+  const FeetRig rig;
   Session session(rig.choice(TrainerClock::virtual_time, "none"));
   session.lead({}, {}, {.clutch = true});
   session.advance(0.5);
@@ -93,7 +93,7 @@ TEST_CASE("a foot goes on from one lever to the next, and a pad's pedal counts w
 }
 
 TEST_CASE("in real time a pedal moves while the picture hangs") {
-  const Rig rig;
+  const FeetRig rig;
   SessionChoice choice = rig.choice(TrainerClock::real_time, "none");
   Session session(choice);
   session.lead({}, {}, {.brake = true});
@@ -107,7 +107,7 @@ TEST_CASE("in real time a pedal moves while the picture hangs") {
 
 TEST_CASE("in real time a key's clutch goes at its pace through a change of gate, while both levers run") {
   constexpr double kAllTheWay = 8.0;  // [s]
-  const Rig rig;
+  const FeetRig rig;
   Session session(rig.choice(TrainerClock::real_time, "none"));
   session.set_foot_pace({.pedal_time = kPedal, .slip_time = kAllTheWay, .clutch_closed = 0.0, .clutch_bite = 1.0});
   session.lead({}, {}, {.clutch = true});

@@ -13,12 +13,12 @@ using namespace gearshift;
 
 namespace {
 
-struct Rig {
+struct ForcesRig {
   TempFolder folder;
   Variable config{"XDG_CONFIG_HOME", folder.path().c_str()};
   Session session;
 
-  explicit Rig(TrainerClock clock = TrainerClock::virtual_time) : session(choice(clock)) { go(2.0); }
+  explicit ForcesRig(TrainerClock clock = TrainerClock::virtual_time) : session(choice(clock)) { go(2.0); }
 
   static SessionChoice choice(TrainerClock clock) {
     SessionChoice choice;
@@ -56,7 +56,7 @@ TEST_CASE("after STOP or Release neither gate, preset, hand nor restart gives th
   for (const auto taken : {&PanelRequests::stop, &PanelRequests::disarm}) {
     for (int which = 0; which < 4; ++which) {
       CAPTURE(which);
-      Rig rig;
+      ForcesRig rig;
       REQUIRE(rig.has_forces());
       rig.ask(taken);
       if (which % 2 == 0) rig.go(0.5);  // or in the frame itself
@@ -76,7 +76,7 @@ TEST_CASE("after STOP or Release neither gate, preset, hand nor restart gives th
 TEST_CASE("a lever that had its forces has them after a change, too, and after two changes within a frame") {
   for (int which = 0; which < 4; ++which) {
     CAPTURE(which);
-    Rig rig;
+    ForcesRig rig;
     rig.change(which);
     rig.change((which + 2) % 4);
     rig.go(2.0);
@@ -87,7 +87,7 @@ TEST_CASE("a lever that had its forces has them after a change, too, and after t
 TEST_CASE("events tell the time since the session's start, over every change of gate") {
   for (const TrainerClock clock : {TrainerClock::virtual_time, TrainerClock::real_time}) {
     const auto start = std::chrono::steady_clock::now();
-    Rig rig(clock);
+    ForcesRig rig(clock);
     std::size_t events = 0;
     double last = 0.0;
     for (int i = 0; i < 60; ++i) {
@@ -114,7 +114,7 @@ TEST_CASE("events tell the time since the session's start, over every change of 
 
 TEST_CASE("what a fault has taken neither two changes nor the begin of a lesson give back; Arm does") {
   for (const bool lesson : {false, true}) {
-    Rig rig;
+    ForcesRig rig;
     // A position margin of nothing and a hand at the device's end: the limit is broken.
     PanelRequests restart;
     restart.restart = rig.session.trainer().config().preset.haptics;

@@ -12,15 +12,15 @@ using namespace gearshift;
 
 namespace {
 
-constexpr double kFrame = 1.0 / 60.0;
+constexpr double kLeftFrame = 1.0 / 60.0;
 
-struct Rig {
+struct LeftRig {
   TempFolder folder;
   Variable config{"XDG_CONFIG_HOME", folder.path().c_str()};
   Variable data{"XDG_DATA_HOME", folder.path().c_str()};
   Session session;
 
-  explicit Rig(const std::string& hand = "grip") : session(choice(hand)) {}
+  explicit LeftRig(const std::string& hand = "grip") : session(choice(hand)) {}
   SessionChoice choice(const std::string& hand) const {
     SessionChoice choice;
     choice.lesson = "moving_off";
@@ -38,7 +38,7 @@ struct Rig {
     session.obey(requests);
   }
   void go(double seconds) {
-    for (double time = 0.0; time < seconds; time += kFrame) session.advance(kFrame);
+    for (double time = 0.0; time < seconds; time += kLeftFrame) session.advance(kLeftFrame);
   }
   void begin() {
     ask([](PanelRequests& requests) { requests.lesson.begin = true; });
@@ -72,7 +72,7 @@ TEST_CASE("whatever takes a driven lesson away says that it was left, and why") 
                         {"another setup", [](PanelRequests& r) { r.restart = HapticConfig(); }}};
   for (const Case& one : cases) {
     CAPTURE(one.why);
-    Rig rig;
+    LeftRig rig;
     rig.begin();
     rig.ask(one.what);
     CHECK(rig.session.coach().view().phase != LessonPhase::driving);
@@ -89,7 +89,7 @@ TEST_CASE("after a lesson, left or not, the teacher holds the car and the panel 
                              std::function<void(PanelRequests&)>([](PanelRequests& r) { r.gate = "four_speed"; }),
                              std::function<void(PanelRequests&)>([](PanelRequests& r) { r.hand = "light"; }),
                              std::function<void(PanelRequests&)>([](PanelRequests& r) { r.lesson.put_away = true; })}) {
-    Rig rig;
+    LeftRig rig;
     CHECK_FALSE(rig.session.panel_input().teacher_holds);
     rig.begin();
     CHECK_FALSE(rig.session.panel_input().teacher_holds);
@@ -103,7 +103,7 @@ TEST_CASE("after a lesson, left or not, the teacher holds the car and the panel 
     CHECK(rig.has_car());
     CHECK_FALSE(rig.session.panel_input().teacher_holds);
   }
-  Rig rig;
+  LeftRig rig;
   rig.begin();
   rig.ask([](PanelRequests& requests) { requests.lesson.leave = true; });
   rig.begin();
@@ -111,7 +111,7 @@ TEST_CASE("after a lesson, left or not, the teacher holds the car and the panel 
 }
 
 TEST_CASE("what a lesson is not passed with is told with its goal, and nothing where there is none") {
-  Rig rig;
+  LeftRig rig;
   CHECK(rig.session.panel_input().lesson_catches == catches_sentence(*rig.session.coach().lesson()));
   CHECK_FALSE(rig.session.panel_input().lesson_catches.empty());
   rig.ask([](PanelRequests& requests) { requests.lesson.put_away = true; });
@@ -119,7 +119,7 @@ TEST_CASE("what a lesson is not passed with is told with its goal, and nothing w
 }
 
 TEST_CASE("a car that is chosen in the middle of a lesson is the person's") {
-  Rig rig;
+  LeftRig rig;
   rig.begin();
   rig.ask([](PanelRequests& requests) { requests.car = "diesel"; });
   CHECK(rig.has_car());
@@ -128,7 +128,7 @@ TEST_CASE("a car that is chosen in the middle of a lesson is the person's") {
 TEST_CASE("a name that is refused is nobody's, is told once, and a good one takes the message away") {
   for (const std::string& hand : {std::string("grip"), std::string(kByItself)}) {
     CAPTURE(hand);
-    Rig rig(hand);
+    LeftRig rig(hand);
     rig.ask([](PanelRequests& requests) { requests.lesson.learner = "a\tb"; });
     CHECK(rig.says("learner's name"));
     rig.ask([](PanelRequests& requests) { requests.car = "diesel"; });
@@ -143,7 +143,7 @@ TEST_CASE("a name that is refused is nobody's, is told once, and a good one take
 }
 
 TEST_CASE("the panel is told when a trial cannot be passed any more, from the fault that fails it on") {
-  Rig rig;
+  LeftRig rig;
   rig.begin();
   CHECK_FALSE(rig.session.panel_input().trial_lost);
   DriverControls stalls;  // the clutch comes up at once, without throttle

@@ -22,9 +22,9 @@ namespace fs = std::filesystem;
 
 namespace {
 
-constexpr double kFrame = 1.0 / 60.0;
+constexpr double kLessonFrame = 1.0 / 60.0;
 
-struct Rig {
+struct LessonRig {
   TempFolder folder;
   Variable config{"XDG_CONFIG_HOME", folder.path().c_str()};
   Variable data{"XDG_DATA_HOME", folder.path().c_str()};
@@ -54,8 +54,8 @@ void ask(Session& session, const std::function<void(LessonRequests&)>& what) {
 }
 
 void go(Session& session, double seconds) {
-  for (double time = 0.0; time < seconds; time += kFrame) {
-    session.advance(kFrame);
+  for (double time = 0.0; time < seconds; time += kLessonFrame) {
+    session.advance(kLessonFrame);
     session.place();
   }
 }
@@ -85,7 +85,7 @@ const CoachView& drive_as_person(Session& session) {
 }
 
 const CoachView& drive_to_the_end(Session& session) {
-  for (int i = 0; i < 120 * 60 && session.coach().view().phase == LessonPhase::driving; ++i) go(session, kFrame);
+  for (int i = 0; i < 120 * 60 && session.coach().view().phase == LessonPhase::driving; ++i) go(session, kLessonFrame);
   REQUIRE(session.coach().view().phase == LessonPhase::over);
   return session.coach().view();
 }
@@ -93,7 +93,7 @@ const CoachView& drive_to_the_end(Session& session) {
 }  // namespace
 
 TEST_CASE("who can drive passes a lesson in the running trainer; run, shifts and recording are remembered") {
-  Rig rig;
+  LessonRig rig;
   Session session(rig.choice("hill_start", "grip"));
   const CoachView& coach = drive_as_person(session);
   CHECK(coach.result.passed);
@@ -115,7 +115,7 @@ TEST_CASE("who can drive passes a lesson in the running trainer; run, shifts and
 }
 
 TEST_CASE("a lesson begins as its file says: gear, speed, engine, hand brake, and the person's switches with them") {
-  Rig rig;
+  LessonRig rig;
   Session session(rig.choice("emergency_stop", "grip"));
   CHECK(session.coach().view().phase == LessonPhase::offered);
   CHECK(session.car().road_speed == 0.0);
@@ -139,7 +139,7 @@ TEST_CASE("a lesson begins as its file says: gear, speed, engine, hand brake, an
 }
 
 TEST_CASE("another gate or a replay does not go on under a lesson: one leaves it, the other waits") {
-  Rig rig;
+  LessonRig rig;
   Session session(rig.choice("moving_off", "grip"));
   ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
   go(session, 1.0);
@@ -157,7 +157,7 @@ TEST_CASE("another gate or a replay does not go on under a lesson: one leaves it
 }
 
 TEST_CASE("any shift of the history is looked at again in the cabin: what is shown is what was recorded then") {
-  Rig rig;
+  LessonRig rig;
   Session session(rig.choice("up_through_the_gears", "grip"));
   const CoachView& coach = drive_as_person(session);
   REQUIRE(coach.result.shifts.size() >= 3);
@@ -180,7 +180,7 @@ TEST_CASE("any shift of the history is looked at again in the cabin: what is sho
     PanelRequests seek;
     seek.look.seek = time;
     session.obey(seek);
-    go(session, kFrame);
+    go(session, kLessonFrame);
     const auto then = std::find_if(trace.samples.begin(), trace.samples.end(), [time](const TraceSample& sample) {
       return 1e-9 * static_cast<double>(sample.out.time_ns) > time - 4.1e-3;
     });
@@ -191,7 +191,7 @@ TEST_CASE("any shift of the history is looked at again in the cabin: what is sho
 }
 
 TEST_CASE("a car brings its gate, a gate that the car lacks gears for another car, none stands still") {
-  Rig rig;
+  LessonRig rig;
   Session session(rig.choice(std::string(kNoLesson), "grip"));
   CHECK(session.panel_input().gate_name == "five_speed_r_right_down");
   const auto ask_for = [&session](std::optional<std::string> PanelRequests::*what, const std::string& name) {
@@ -209,7 +209,7 @@ TEST_CASE("a car brings its gate, a gate that the car lacks gears for another ca
 }
 
 TEST_CASE("a lesson's own gate goes with the lesson: the next one is driven in the person's") {
-  Rig rig;
+  LessonRig rig;
   Session session(rig.choice("another_gate", "grip"));
   ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
   CHECK(session.panel_input().gate_name == "dog_leg_five");
@@ -224,7 +224,7 @@ TEST_CASE("a lesson's own gate goes with the lesson: the next one is driven in t
 }
 
 TEST_CASE("a lesson's recording is not ended by a person, and none begins in its middle") {
-  Rig rig;
+  LessonRig rig;
   SessionChoice choice = rig.choice("moving_off", "grip");
   for (const char* learner : {"Ada", ""}) {
     choice.learner = learner;
@@ -244,7 +244,7 @@ TEST_CASE("a lesson's recording is not ended by a person, and none begins in its
 }
 
 TEST_CASE("what the hand shows by itself is nobody's, and a person who takes over is remembered again") {
-  Rig rig;
+  LessonRig rig;
   Session session(rig.choice("moving_off"));
   CHECK(drive_to_the_end(session).result.passed);
   PanelRequests person;
@@ -258,7 +258,7 @@ TEST_CASE("what the hand shows by itself is nobody's, and a person who takes ove
 }
 
 TEST_CASE("without a learner nothing is remembered, and a lesson is driven all the same") {
-  Rig rig;
+  LessonRig rig;
   SessionChoice choice = rig.choice("moving_off");
   choice.learner.clear();
   Session session(choice);
@@ -268,7 +268,7 @@ TEST_CASE("without a learner nothing is remembered, and a lesson is driven all t
 }
 
 TEST_CASE("a history that is damaged is told in one sentence, left as it is, and the lesson goes on") {
-  Rig rig;
+  LessonRig rig;
   std::ofstream(rig.history) << "this is no database, and long enough to be taken for none";
   const std::string before = rig.bytes_of_history();
   Session session(rig.choice("moving_off"));
@@ -278,7 +278,7 @@ TEST_CASE("a history that is damaged is told in one sentence, left as it is, and
 }
 
 TEST_CASE("a lesson whose recording dies is judged and remembered all the same") {
-  Rig rig;
+  LessonRig rig;
   {
     History history(rig.history);  // made before the files must stay small
     (void)history.learner("Ada");
@@ -290,7 +290,7 @@ TEST_CASE("a lesson whose recording dies is judged and remembered all the same")
 
 TEST_CASE(
     "a trial that the coach guides has the teacher's hand in the lever and no grade; without help none is guided") {
-  Rig rig;
+  LessonRig rig;
   SessionChoice alone = rig.choice("up_through_the_gears", "grip");
   for (int trial = 0; trial < 6; ++trial) {
     Session session(alone);
@@ -319,7 +319,7 @@ TEST_CASE(
 }
 
 TEST_CASE("Replay in the middle of a lesson neither ends its recording nor shows anything") {
-  Rig rig;
+  LessonRig rig;
   Session session(rig.choice("moving_off", "grip"));
   ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
   go(session, 0.3);
@@ -332,7 +332,7 @@ TEST_CASE("Replay in the middle of a lesson neither ends its recording nor shows
 }
 
 TEST_CASE("a lesson that is put away takes its hill with it, and recordings lie beside the history that names them") {
-  Rig rig;
+  LessonRig rig;
   rig.history = rig.folder / "elsewhere" / "history.db";
   fs::create_directories(rig.history.parent_path());
   Session session(rig.choice("hill_start", "grip"));
@@ -348,14 +348,14 @@ TEST_CASE("a lesson that is put away takes its hill with it, and recordings lie 
 }
 
 TEST_CASE("after a lesson the teacher holds the car, on a hill, too, until the next one begins or none is wanted") {
-  Rig rig;
+  LessonRig rig;
   Session session(rig.choice("hill_start", "grip"));
   ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
   DriverControls rolls;
   rolls.ignition = true;
   rolls.clutch = 1.0;
   session.lead({}, rolls);
-  for (int i = 0; i < 20 * 60 && session.coach().view().phase == LessonPhase::driving; ++i) go(session, kFrame);
+  for (int i = 0; i < 20 * 60 && session.coach().view().phase == LessonPhase::driving; ++i) go(session, kLessonFrame);
   REQUIRE(session.coach().view().phase == LessonPhase::over);  // a metre back
   CHECK(session.car().road_speed < -0.5);
   go(session, 2.0);
@@ -368,7 +368,7 @@ TEST_CASE("after a lesson the teacher holds the car, on a hill, too, until the n
 }
 
 TEST_CASE("a learner whom another program deletes in her lesson is told of in the window, and her recordings go") {
-  Rig rig;
+  LessonRig rig;
   Session session(rig.choice("moving_off", "grip"));
   ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
   go(session, 0.5);
@@ -387,7 +387,7 @@ TEST_CASE("a learner whom another program deletes in her lesson is told of in th
 }
 
 TEST_CASE("an instructor's comment is said otherwise and taken back through the panel's requests") {
-  Rig rig;
+  LessonRig rig;
   Session session(rig.choice("moving_off", "grip"));
   (void)drive_as_person(session);
   const std::int64_t run = session.coach().view().run;

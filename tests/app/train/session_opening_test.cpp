@@ -14,7 +14,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Rig {
+struct OpeningRig {
   TempFolder folder;
   Variable config{"XDG_CONFIG_HOME", folder.path().c_str()};
   Variable data{"XDG_DATA_HOME", folder.path().c_str()};
@@ -63,7 +63,7 @@ int wait(Session& session) {
 }  // namespace
 
 TEST_CASE("a long recording is opened while frames go on, and is said to be opened") {
-  const Rig rig;
+  const OpeningRig rig;
   const fs::path file = rig.recorded(60.0);
   Session session = rig.session(TrainerClock::real_time);
   const auto begin = std::chrono::steady_clock::now();
@@ -79,7 +79,7 @@ TEST_CASE("a long recording is opened while frames go on, and is said to be open
 }
 
 TEST_CASE("what is being opened can be given up, and another gate does so too") {
-  const Rig rig;
+  const OpeningRig rig;
   const fs::path file = rig.recorded(60.0);
   Session session = rig.session(TrainerClock::real_time);
   ask(session, open(file));
@@ -98,7 +98,7 @@ TEST_CASE("what is being opened can be given up, and another gate does so too") 
 }
 
 TEST_CASE("a file that is no recording is told in one sentence when it has been looked into") {
-  const Rig rig;
+  const OpeningRig rig;
   Session session = rig.session(TrainerClock::real_time);
   ask(session, open("nowhere.trace"));
   wait(session);

@@ -22,14 +22,14 @@ namespace fs = std::filesystem;
 
 namespace {
 
-struct Rig {
+struct HeldRig {
   TempFolder folder;
   Variable config{"XDG_CONFIG_HOME", folder.path().c_str()};
   Variable data{"XDG_DATA_HOME", folder.path().c_str()};
   HeldStick held;
   std::unique_ptr<Session> session;
 
-  explicit Rig(const std::string& lesson = std::string(kNoLesson)) {
+  explicit HeldRig(const std::string& lesson = std::string(kNoLesson)) {
     SessionChoice choice;
     choice.stick = held.lever;
     choice.lesson = lesson;
@@ -88,7 +88,7 @@ struct Rig {
 }  // namespace
 
 TEST_CASE("nobody but a person arms it: not the start, not another gate, car, preset or setup, and Enter does") {
-  Rig rig;
+  HeldRig rig;
   CHECK(rig.stays_off());
   CHECK(rig.session->panel_input().device_name == "SideWinder");
   rig.arm();
@@ -107,7 +107,7 @@ TEST_CASE("nobody but a person arms it: not the start, not another gate, car, pr
 }
 
 TEST_CASE("the lever is where the stick is, and the mouse's hand is nothing to it") {
-  Rig rig;
+  HeldRig rig;
   rig.held.hand.go({0.020, 0.0});
   HandTarget mouse;
   mouse.position = {-0.05, 0.0};
@@ -116,7 +116,7 @@ TEST_CASE("the lever is where the stick is, and the mouse's hand is nothing to i
 }
 
 TEST_CASE("what is refused leaves lever, forces and gate as they were") {
-  Rig rig;
+  HeldRig rig;
   rig.arm();
   REQUIRE(rig.runs());
   const Trainer* before = &rig.session->trainer();
@@ -135,7 +135,7 @@ TEST_CASE("what is refused leaves lever, forces and gate as they were") {
 
 TEST_CASE(
     "pulled out in a lesson that is recorded: forces off, the lesson goes on, and a person arms it when it is back") {
-  Rig rig("moving_off");
+  HeldRig rig("moving_off");
   rig.ask([](PanelRequests& requests) { requests.arm = requests.lesson.begin = true; });  // as the card's button does
   REQUIRE(rig.session->coach().view().phase == LessonPhase::driving);
   CHECK(rig.session->recording());
@@ -163,7 +163,7 @@ TEST_CASE(
 }
 
 TEST_CASE("a session that ends while the stick is out has kept its lesson all the same") {
-  Rig rig("moving_off");
+  HeldRig rig("moving_off");
   rig.ask([](PanelRequests& requests) { requests.arm = requests.lesson.begin = true; });
   REQUIRE(rig.runs());
   rig.held.unplug();
@@ -177,7 +177,7 @@ TEST_CASE("a session that ends while the stick is out has kept its lesson all th
 }
 
 TEST_CASE("a lesson that begins in a gear begins when the stick stands in it") {
-  Rig rig("eco_driving");  // in first gear
+  HeldRig rig("eco_driving");  // in first gear
   rig.ask([](PanelRequests& requests) { requests.lesson.begin = true; });
   CHECK(rig.says("begins in 1 and the stick stands in N"));
   CHECK(rig.session->coach().view().phase == LessonPhase::offered);

@@ -19,12 +19,6 @@ using namespace gearshift;
 
 namespace {
 
-TrainerConfig hatchback(TrainerClock clock) {
-  TrainerConfig config = trainer_config(clock, "five_speed_r_right_down");
-  config.car = read_car(GEARSHIFT_ASSETS "/cars/hatchback.toml");
-  return config;
-}
-
 // Jumps and reverses: a filter would show. Depends on what it sees, so that an error grows.
 DriverAction restless(const DriveSample& now) {
   const double t = now.time();

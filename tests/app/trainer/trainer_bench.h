@@ -22,6 +22,12 @@ inline TrainerConfig trainer_config(TrainerClock clock, const std::string& gate 
   return config;
 }
 
+inline TrainerConfig hatchback(TrainerClock clock) {
+  TrainerConfig config = trainer_config(clock, "five_speed_r_right_down");
+  config.car = read_car(GEARSHIFT_ASSETS "/cars/hatchback.toml");
+  return config;
+}
+
 inline const std::vector<int> kPaperTour{1, 2, 3, 4, 5, kReverseGear};
 
 // A hand at 60 frames a second: from wherever it is straight to the neutral line, along it by way of the neutral

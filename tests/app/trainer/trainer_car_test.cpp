@@ -18,12 +18,6 @@ using namespace gearshift;
 
 namespace {
 
-TrainerConfig hatchback(TrainerClock clock) {
-  TrainerConfig config = trainer_config(clock, "five_speed_r_right_down");
-  config.car = read_car(GEARSHIFT_ASSETS "/cars/hatchback.toml");
-  return config;
-}
-
 void feet(Trainer& trainer, double throttle, double clutch) {
   DriverControls controls;
   controls.ignition = true;

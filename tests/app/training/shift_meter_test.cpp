@@ -27,7 +27,7 @@ ShiftRecord spoilt(std::function<void(DriveSample&, double)> spoil) {
   return only_record(shift);
 }
 
-bool within(double t, double a, double b) {
+bool lies_within(double t, double a, double b) {
   return t >= a - 1e-9 && t <= b + 1e-9;
 }
 
@@ -73,7 +73,7 @@ TEST_CASE("the record comes once, a filter's settling after the shift's end") {
 TEST_CASE("drive that is lost counts as torque gap, against what there was before the throttle was lifted") {
   // 400 N m up to -0.2 s, 15 N m (3.75 %) from 0.2 s to 0.6 s, 30 N m (7.5 %) else.
   const ShiftRecord record = spoilt([](DriveSample& s, double t) {
-    s.car.drive_torque = t < -0.2 ? 400.0 : within(t, 0.2, 0.6) ? 15.0 : 30.0;
+    s.car.drive_torque = t < -0.2 ? 400.0 : lies_within(t, 0.2, 0.6) ? 15.0 : 30.0;
   });
   CHECK(record.torque_gap == doctest::Approx(0.4).epsilon(0.01));
   // Pulled by the engine before, braked by it after: that is a gap too; without drive before there is none.
@@ -91,7 +91,7 @@ TEST_CASE("heat of the clutch, revs and flare") {
     s.car.slip_power = 3000.0 * (1.0 - std::abs(2.0 * u - 1.0));
     s.car.slip_energy = 7.0 + 300.0 * (u < 0.5 ? u * u : 0.5 - (1.0 - u) * (1.0 - u));
     s.car.engine_speed = shift.engine(t < 0.45 ? 2 : 3) + (t > 0.45 && t < 0.66 ? 12.0 : 0.0);
-    if (within(t, 0.3, 0.31)) s.car.engine_speed += 20.0;
+    if (lies_within(t, 0.3, 0.31)) s.car.engine_speed += 20.0;
   };
   const ShiftRecord record = only_record(shift);
   CHECK(record.slip_energy == doctest::Approx(150.0).epsilon(1e-6));
@@ -117,8 +117,8 @@ TEST_CASE("comfort: jerk of a step, fourth-power dose of what is constant") {
 
 TEST_CASE("the hand's force: peak and impulse") {
   const ShiftRecord record = spoilt([](DriveSample& s, double t) {
-    if (within(t, 0.2, 0.5)) s.lever.f_h = {6.0, 8.0};
-    if (within(t, 1.5, 1.6)) s.lever.f_h = {90.0, 0.0};  // after the shift
+    if (lies_within(t, 0.2, 0.5)) s.lever.f_h = {6.0, 8.0};
+    if (lies_within(t, 1.5, 1.6)) s.lever.f_h = {90.0, 0.0};  // after the shift
   });
   CHECK(record.force_peak == doctest::Approx(10.0));
   CHECK(record.impulse == doctest::Approx(10.0 * 0.301).epsilon(1e-6));  // 301 samples
@@ -128,7 +128,7 @@ TEST_CASE("work into a wall counts on the way in only, and overshoot is the deep
   // Twice 1 mm into a wall of 5000 N/m: K d^2 / 2 = 2.5 mJ each.
   const ShiftRecord record = spoilt([](DriveSample& s, double t) {
     const double u = std::fmod(t + 10.0, 0.1) / 0.1;
-    const double depth = within(t, 0.3, 0.4999) ? 1e-3 * (1.0 - std::abs(2.0 * u - 1.0)) : 0.0;
+    const double depth = lies_within(t, 0.3, 0.4999) ? 1e-3 * (1.0 - std::abs(2.0 * u - 1.0)) : 0.0;
     s.lever.lever += glm::dvec2{depth, 0.0};
     s.lever.wall_force = {-5000.0 * depth, 0.0};
   });
@@ -155,8 +155,8 @@ TEST_CASE("the lever's way, and how much longer than the shortest it was") {
 
 TEST_CASE("dogs and ring: how long it was blocked, how long and how much it ground") {
   const ShiftRecord record = spoilt([](DriveSample& s, double t) {
-    if (within(t, 0.42, 0.499)) s.car.sync = SyncPhase::synchronising;
-    s.car.grinding = within(t, 0.45, 0.499);
+    if (lies_within(t, 0.42, 0.499)) s.car.sync = SyncPhase::synchronising;
+    s.car.grinding = lies_within(t, 0.45, 0.499);
     s.car.grind_power = s.car.grinding ? 100.0 : 0.0;
   });
   CHECK(record.block_time == doctest::Approx(0.080).epsilon(1e-6));
@@ -184,8 +184,9 @@ TEST_CASE("a clutch that came up against the ring was early, though it was press
   for (const SyncPhase phase : {SyncPhase::synchronising, SyncPhase::passing, SyncPhase::clashing, SyncPhase::free}) {
     ConstructedShift shift;
     shift.spoil = [&](DriveSample& s, double t) {
-      if (within(t, 0.42, 0.47)) s.car.sync = phase;
-      if (within(t, 0.43, 0.45)) s.car.clutch = ConstructedShift::line(t, 0.43, 1.0, 0.44, 0.5);  // bite point: 0.435
+      if (lies_within(t, 0.42, 0.47)) s.car.sync = phase;
+      if (lies_within(t, 0.43, 0.45))
+        s.car.clutch = ConstructedShift::line(t, 0.43, 1.0, 0.44, 0.5);  // bite point: 0.435
     };
     const ShiftRecord record = only_record(shift);
     const Slot& slot = slot_of(shift.gate, slot_of_gear(shift.gate, 2));
@@ -206,12 +207,12 @@ TEST_CASE("steps are noted as they happen and measured against the taught order"
   // Between clutch and gear a blip: into a higher gear two steps too many. (Into a lower one it is taught:
   // step_order_test.cpp.)
   CHECK(spoilt([](DriveSample& s, double t) {
-          s.car.throttle = within(t, 0.3, 0.35) ? 0.5 : 0.0;
+          s.car.throttle = lies_within(t, 0.3, 0.35) ? 0.5 : 0.0;
         }).steps_out_of_place == 2);
 }
 
 // The bite point is passed at 0.075 s downwards and, with the slow pedal, at 0.8 s upwards.
-TEST_CASE("both feet at once are in order, within a fifth of a second and no further") {
+TEST_CASE("both feet at once are in order, lies_within a fifth of a second and no further") {
   const auto lifted_at = [](double t0) {
     return spoilt([t0](DriveSample& s, double t) { s.car.throttle = t < t0 ? 0.3 : 0.0; }).steps_out_of_place;
   };
@@ -235,15 +236,15 @@ TEST_CASE("a mouth entered off the way is a wrong column") {
   shift.to = 3.0;
   const double depth = shift.gate.half_aisle + shift.gate.chamfer + 0.002;
   shift.spoil = [&](DriveSample& s, double t) {
-    if (within(t, 0.35, 0.4)) shift.place(s, {0.0, within(t, 0.37, 0.38) ? -depth : 0.0});
+    if (lies_within(t, 0.35, 0.4)) shift.place(s, {0.0, lies_within(t, 0.37, 0.38) ? -depth : 0.0});
   };
   CHECK(only_record(shift).wrong_columns == 1);
   CHECK(only_record(ConstructedShift()).wrong_columns == 0);
   // Had 4 been in on the way, that would be a gear and no wrong mouth.
   shift.spoil = [&](DriveSample& s, double t) {
     const double rest = rest_position(shift.gate, 4).y;
-    if (within(t, 0.35, 0.4)) shift.place(s, {0.0, within(t, 0.36, 0.39) ? rest : 0.0});
-    if (within(t, 0.37, 0.38)) s.car.gear = 4;
+    if (lies_within(t, 0.35, 0.4)) shift.place(s, {0.0, lies_within(t, 0.36, 0.39) ? rest : 0.0});
+    if (lies_within(t, 0.37, 0.38)) s.car.gear = 4;
   };
   CHECK(only_record(shift).wrong_columns == 0);
 }
@@ -344,7 +345,7 @@ TEST_CASE(
   ConstructedShift lever;
   lever.spoil = [&](DriveSample& s, double t) {
     const Slot& two = slot_of(lever.gate, slot_of_gear(lever.gate, 2));
-    const double back = within(t, 0.2, 0.4) ? two.engage_depth - 0.001 : two.rest;
+    const double back = lies_within(t, 0.2, 0.4) ? two.engage_depth - 0.001 : two.rest;
     lever.place(s, {rest_position(lever.gate, 2).x, -back});
     s.car.gear = 2;
     s.car.clutch = 0.0;
@@ -359,7 +360,7 @@ TEST_CASE("who gives up, or comes back to the gear that was left, has missed the
     shift.to = 5.0;
     shift.spoil = [shift, depth_share](DriveSample& s, double t) {
       const Slot& three = slot_of(shift.gate, slot_of_gear(shift.gate, 3));
-      const double depth = within(t, 0.45, 0.55) ? depth_share * three.release_depth : 0.0;
+      const double depth = lies_within(t, 0.45, 0.55) ? depth_share * three.release_depth : 0.0;
       if (t > 0.4) shift.place(s, {0.0, depth});
       if (t > 0.4) s.car.gear = kNeutralGear;
     };
@@ -377,7 +378,7 @@ TEST_CASE("who gives up, or comes back to the gear that was left, has missed the
     const double y =
         t < 0.35 ? ConstructedShift::line(t, 0.2, -1.0, 0.3, 0.0) : ConstructedShift::line(t, 0.4, 0.0, 0.5, -1.0);
     back.place(s, {rest_position(back.gate, 2).x, -y * rest_position(back.gate, 2).y});
-    s.car.gear = within(t, 0.25, 0.48) ? kNeutralGear : 2;
+    s.car.gear = lies_within(t, 0.25, 0.48) ? kNeutralGear : 2;
   };
   const ShiftRecord returned = only_record(back);
   CHECK(returned.missed);
@@ -403,7 +404,7 @@ TEST_CASE("without the clutch the revs are those just before the dogs were in") 
 
 TEST_CASE("guidance at any time makes the shift a guided one") {
   CHECK_FALSE(only_record(ConstructedShift()).guided);
-  CHECK(spoilt([](DriveSample& s, double t) { s.controls.guidance = within(t, 0.3, 0.301) ? 0.2 : 0.0; }).guided);
+  CHECK(spoilt([](DriveSample& s, double t) { s.controls.guidance = lies_within(t, 0.3, 0.301) ? 0.2 : 0.0; }).guided);
   // The force fades for half a second after it was asked for; the shift begins at 0.075 s.
   CHECK(spoilt([](DriveSample& s, double t) { s.controls.guidance = t < -0.4 ? 0.2 : 0.0; }).guided);
   CHECK_FALSE(spoilt([](DriveSample& s, double t) { s.controls.guidance = t < -0.45 ? 0.2 : 0.0; }).guided);
@@ -438,7 +439,7 @@ TEST_CASE("shifts are numbered in their order, and one noisy pedal makes one shi
 TEST_CASE("samples that are not finite do no worse than spoil their own numbers") {
   ConstructedShift shift;
   shift.spoil = [](DriveSample& s, double t) {
-    if (within(t, 0.3, 0.31)) s.lever.f_h.x = std::numeric_limits<double>::quiet_NaN();
+    if (lies_within(t, 0.3, 0.31)) s.lever.f_h.x = std::numeric_limits<double>::quiet_NaN();
   };
   const ShiftRecord record = only_record(shift);
   CHECK(record.to == 3);
@@ -448,7 +449,7 @@ TEST_CASE("samples that are not finite do no worse than spoil their own numbers"
     return spoilt([none](DriveSample& s, double t) {
       s.car.acceleration = t > 0.3 ? 1.5 : 0.0;
       s.car.drive_torque = t < -0.2 ? 400.0 : 0.0;
-      if (within(t, -0.5, -0.499)) s.car.acceleration = s.car.drive_torque = none;
+      if (lies_within(t, -0.5, -0.499)) s.car.acceleration = s.car.drive_torque = none;
     });
   };
   const ShiftRecord clean = drives(0.0), spoilt_before = drives(std::numeric_limits<double>::quiet_NaN());

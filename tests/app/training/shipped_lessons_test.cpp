@@ -16,13 +16,13 @@ using namespace gearshift;
 
 namespace {
 
-const std::string kFolder = GEARSHIFT_ASSETS "/lessons/";
+const std::string kLessons = GEARSHIFT_ASSETS "/lessons/";
 
 Lesson shipped_lesson(std::string_view key) {
-  return read_lesson(kFolder + std::string(key) + ".toml");
+  return read_lesson(kLessons + std::string(key) + ".toml");
 }
 
-using Spoil = std::function<void(DriveSample&)>;
+using Misdeed = std::function<void(DriveSample&)>;
 
 bool has(const LessonResult& result, FaultKind kind) {
   return std::any_of(result.faults.begin(), result.faults.end(),
@@ -30,8 +30,8 @@ bool has(const LessonResult& result, FaultKind kind) {
 }
 
 // Shows the first drive in gear for `seconds` from `after` on as `change` makes it.
-Spoil for_a_while(double seconds, std::function<bool(const DriveSample&)> when,
-                  std::function<void(DriveSample&, double)> change) {
+Misdeed for_a_while(double seconds, std::function<bool(const DriveSample&)> when,
+                    std::function<void(DriveSample&, double)> change) {
   return [=, since = -1.0](DriveSample& s) mutable {
     if (since < 0.0 && s.time() > 100.05 && when(s)) since = s.time();
     if (since >= 0.0 && s.time() - since < seconds) change(s, s.time() - since);
@@ -51,7 +51,7 @@ bool always(const DriveSample&) {
 }
 
 // What a driver with that fault would have shown. Nothing for a kind that cannot be put into samples from outside.
-Spoil spoil_of(FaultKind kind, const Gate& gate, const CarSpec& car, const Lesson& lesson) {
+Misdeed spoil_of(FaultKind kind, const Gate& gate, const CarSpec& car, const Lesson& lesson) {
   const double bite = car.clutch.bite;
   const double red = car.engine.red_line;
   switch (kind) {
@@ -185,7 +185,7 @@ bool waits(FaultKind kind) {
 
 TEST_CASE("the shipped lessons are those of the teaching order") {
   std::set<std::string> files, order(kTeachingOrder.begin(), kTeachingOrder.end());
-  for (const auto& entry : std::filesystem::directory_iterator(kFolder)) {
+  for (const auto& entry : std::filesystem::directory_iterator(kLessons)) {
     if (entry.path().extension() == ".toml") files.insert(entry.path().stem().string());
   }
   CHECK(files == order);

@@ -17,7 +17,7 @@ using glm::dvec2;
 namespace {
 
 // What a drive was like, and what must hold in every cycle of it.
-struct Drive {
+struct CarDrive {
   double blocked = 0.0, ground = 0.0;  // [s]
   double deepest = 0.0;                // [m] of the drawn lever in a slot
   double push = 0.0;                   // [N] the most
@@ -139,7 +139,7 @@ TEST_CASE("every shift with the clutch down, up, down and skipping, in both cars
         ScriptedHand hand = shifting_hand(gate, from, {to}, 0.2, 1.0);
         CarRun run(car, rolling_in(car, from, shaft), hand,
                    [](double time) { return time > 0.1 ? clutch_down() : clutch_up(0.2); });
-        Drive drive;
+        CarDrive drive;
         drive.drive(run, hand.duration());
         CHECK(drive.gears == std::vector{from, to});
         CHECK(run.state().gear == to);
@@ -165,7 +165,7 @@ TEST_CASE("half a clutch is enough where it carries nothing: pedal just past the
     feet.clutch = time > 0.1 ? car.clutch.bite + 0.01 : 0.0;
     return feet;
   });
-  Drive drive;
+  CarDrive drive;
   drive.drive(run, hand.duration());
   CHECK(drive.gears == std::vector{2, 3});
   CHECK(drive.ground == 0.0);
@@ -311,7 +311,7 @@ TEST_CASE(
           feet.brake = brakes && time >= 0.5 ? 1.0 : 0.0;
           return feet;
         });
-        Drive drive;
+        CarDrive drive;
         drive.drive(run, hand.duration() + 0.05);
         CHECK(run.run.loop().snapshot().gear == kNeutralGear);
         CHECK(run.state().gear == kNeutralGear);
@@ -353,7 +353,7 @@ TEST_CASE("a stall is announced: the clutch dumped at idle") {
     feet.brake = 1.0;
     return feet;
   });
-  Drive drive;
+  CarDrive drive;
   drive.drive(run, 0.25);
   CHECK_FALSE(drive.stalled);
   drive.drive(run, 1.0);
@@ -365,7 +365,7 @@ TEST_CASE("a stall is announced: the clutch dumped at idle") {
 TEST_CASE("reverse: refused by the gate at 30 km/h, by its dogs at walking pace, taken at rest") {
   const CarSpec car = shipped_car("hatchback");
   const Gate gate = gate_of(car);
-  const auto drive_at = [&](double speed, double wait, Drive& drive) {
+  const auto drive_at = [&](double speed, double wait, CarDrive& drive) {
     ScriptedHand hand = shifting_hand(gate, kNeutralGear, {kReverseGear}, wait, 0.3);
     CarStart start;
     start.road_speed = speed;
@@ -374,7 +374,7 @@ TEST_CASE("reverse: refused by the gate at 30 km/h, by its dogs at walking pace,
     return run.state().gear;
   };
   const double dogs = stations_of(gate, kReverseGear).dogs;
-  Drive fast, walking, resting, hasty;
+  CarDrive fast, walking, resting, hasty;
   CHECK(drive_at(30.0 / 3.6, 2.0, fast) == kNeutralGear);
   CHECK(fast.deepest < stations_of(gate, kReverseGear).crest);
   CHECK(drive_at(2.0, 2.0, walking) == kNeutralGear);
@@ -435,7 +435,7 @@ TEST_CASE("where it starts: engine, shaft and car at one speed, in neutral at id
 
   ScriptedHand hand = shifting_hand(gate, 2, {3});
   CarRun run(car, rolling_in(car, 2, 250.0), hand, [](double) { return clutch_down(); });
-  Drive drive;
+  CarDrive drive;
   drive.drive(run, 0.5);
   const CarWorld next(car, gate, 31.7, start_from(run.state()));
   CHECK(next.state().engine_speed == run.state().engine_speed);

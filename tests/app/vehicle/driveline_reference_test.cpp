@@ -21,7 +21,7 @@ Off off(const Drive& drive, const DriveOutcome& has, const DriveOutcome& should,
   Off worst;
   const std::size_t each = static_cast<std::size_t>(std::lround(step / 0.001));
   for (std::size_t i = 0; i < has.samples.size(); ++i) {
-    const DriveSample &a = has.samples[i], &b = should.samples[i * each];
+    const ReferenceSample &a = has.samples[i], &b = should.samples[i * each];
     worst.engine = std::max(worst.engine, std::abs(a.engine - b.engine));
     worst.shaft = std::max(worst.shaft, std::abs(a.shaft - b.shaft));
     worst.road = std::max(worst.road, std::abs(a.road - b.road));
@@ -85,8 +85,9 @@ TEST_CASE("the drives do what they are called") {
   const DriveOutcome over = reference_of(money_shift());
   CHECK(over.engine_peak > hatchback().engine.limiter);
   const DriveOutcome hill = reference_of(rollback());
-  const auto lowest = std::min_element(hill.samples.begin(), hill.samples.end(),
-                                       [](const DriveSample& a, const DriveSample& b) { return a.road < b.road; });
+  const auto lowest =
+      std::min_element(hill.samples.begin(), hill.samples.end(),
+                       [](const ReferenceSample& a, const ReferenceSample& b) { return a.road < b.road; });
   CHECK(lowest->road < -0.1);
   CHECK(hill.samples.back().road > 0.5);
   CHECK(reference_of(reverse_ahead()).samples.back().road < -1.0);
@@ -98,7 +99,7 @@ TEST_CASE("the launch is that of the facts") {
   const DriveOutcome runs = reference_of(launch());
   CHECK(runs.slip_energy == doctest::Approx(2020.0).epsilon(0.003));
   const auto locks = std::find_if(runs.samples.begin() + 1, runs.samples.end(),
-                                  [](const DriveSample& s) { return s.engine == s.shaft; });
+                                  [](const ReferenceSample& s) { return s.engine == s.shaft; });
   CHECK(static_cast<double>(locks - runs.samples.begin()) == doctest::Approx(1303.0).epsilon(0.001));
 }
 

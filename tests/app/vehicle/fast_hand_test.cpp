@@ -12,7 +12,7 @@ using glm::dvec2;
 
 namespace {
 
-constexpr double kReady = 0.05;  // [s] until the hand sets out: the guard has ramped up
+constexpr double kHandReady = 0.05;  // [s] until the hand sets out: the guard has ramped up
 
 struct Rush {
   double speed, push, rate;  // [m/s] of the hand, [N] the most that it pushes, [Hz]
@@ -28,9 +28,9 @@ struct Shifted {
 PushingHand rushing_hand(const Slot& slot, double across, const Rush& rush) {
   const double way = static_cast<double>(static_cast<int>(slot.side)), end = slot.end + 0.01;
   return PushingHand([=](double time, dvec2 lever) {
-    const double goal = std::clamp((time - kReady) * rush.speed, 0.0, end);
+    const double goal = std::clamp((time - kHandReady) * rush.speed, 0.0, end);
     const double force = std::clamp(2e4 * (goal - way * lever.y), -rush.push, rush.push);
-    return dvec2{2000.0 * (across - lever.x), time < kReady ? 0.0 : way * force};
+    return dvec2{2000.0 * (across - lever.x), time < kHandReady ? 0.0 : way * force};
   });
 }
 

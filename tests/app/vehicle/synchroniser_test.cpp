@@ -70,16 +70,16 @@ struct Bench {
   double time = 0.0;
 };
 
-struct Shift {
+struct TimedShift {
   int from, to;
   double push, facts;  // [N], [s] of shared facts, training.md section 4
 };
-const Shift kShifts[] = {{1, 2, 60.0, 0.109}, {2, 3, 60.0, 0.057}, {3, 4, 60.0, 0.032}, {4, 5, 60.0, 0.022},
-                         {1, 2, 30.0, 0.205}, {2, 3, 30.0, 0.109}, {3, 4, 30.0, 0.062}, {4, 5, 30.0, 0.043},
-                         {2, 1, 60.0, 0.42},  {3, 2, 60.0, 0.14}};
+const TimedShift kShifts[] = {{1, 2, 60.0, 0.109}, {2, 3, 60.0, 0.057}, {3, 4, 60.0, 0.032}, {4, 5, 60.0, 0.022},
+                              {1, 2, 30.0, 0.205}, {2, 3, 30.0, 0.109}, {3, 4, 30.0, 0.062}, {4, 5, 30.0, 0.043},
+                              {2, 1, 60.0, 0.42},  {3, 2, 60.0, 0.14}};
 
 // At the shaft: J w' = -+T_c/i - T_drag, and the car takes its share: m v' = +-G T_c/i. The drag helps an upshift.
-double closed_form(const CarSpec& car, const Shift& shift, double difference) {
+double closed_form(const CarSpec& car, const TimedShift& shift, double difference) {
   const double ratio = ratio_of(car, shift.to), per_road = shaft_per_road(car, shift.to);
   const double cone = shift.push * car.synchro.lever_ratio * car.synchro.efficiency * cone_gain(car.synchro) / ratio;
   const double drag = car.gearbox.drag * (shift.to > shift.from ? 1.0 : -1.0);
@@ -117,7 +117,7 @@ TEST_CASE("cone and ring: gains, and the friction below which the ring no longer
 
 TEST_CASE("a synchroniser takes J dw i^2 / (T_c +- T_drag i): up and down, 60 N and 30 N, at 2500 rpm") {
   const CarSpec car = rolling_hatchback();
-  for (const Shift& shift : kShifts) {
+  for (const TimedShift& shift : kShifts) {
     CAPTURE(shift.from);
     CAPTURE(shift.to);
     CAPTURE(shift.push);

@@ -9,6 +9,8 @@
 
 namespace gearshift {
 
+inline constexpr double kDriveGravity = 9.81;  // [m/s^2]
+
 // 1.6 l petrol hatchback of training.md section 3.
 CarSpec hatchback();
 

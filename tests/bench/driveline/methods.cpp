@@ -9,8 +9,6 @@
 namespace gearshift {
 namespace {
 
-constexpr double kGravity = 9.81;
-
 // What impulses and tanh have in common: speeds, loads and heat. Pedals as at the middle of the step.
 class PlainStepper {
  public:
@@ -58,7 +56,7 @@ class PlainStepper {
     go(to, clutch, cone, h);
   }
 
-  DriveSample sample() const { return {speed_[0], speed_[1], speed_[2]}; }
+  ReferenceSample sample() const { return {speed_[0], speed_[1], speed_[2]}; }
   bool running() const { return engine_.running(); }
   double clutch_heat = 0.0, cone_heat = 0.0;
 
@@ -69,7 +67,7 @@ class PlainStepper {
     ChainLoads loads;
     loads.push = {engine_.torque(speed_[0], in.throttle), -car_.gearbox.drag_slope * speed_[1],
                   -(body.resistance_slope + body.resistance_square * std::abs(speed_[2])) * speed_[2] -
-                      body.mass * kGravity * std::sin(in.slope)};
+                      body.mass * kDriveGravity * std::sin(in.slope)};
     loads.ground = {friction_torque(car_.engine, speed_[0]), car_.gearbox.drag,
                     body.resistance + body.brake_force * in.brake + body.hand_brake_force * in.hand_brake};
     loads.clutch = clutch_capacity(car_.clutch, in.clutch);
@@ -95,7 +93,7 @@ class PlainStepper {
   GripMode mode_;
 };
 
-void note(DriveOutcome& out, const DriveSample& sample) {
+void note(DriveOutcome& out, const ReferenceSample& sample) {
   out.samples.push_back(sample);
   out.engine_peak = std::max(out.engine_peak, sample.engine);
 }

@@ -7,7 +7,6 @@ namespace gearshift {
 namespace {
 
 constexpr double kStep = 1e-5, kLocate = 1e-13;  // [s]
-constexpr double kGravity = 9.81;
 
 int side(double x) {
   return x > 0.0 ? 1 : x < 0.0 ? -1 : 0;
@@ -70,7 +69,7 @@ class Reference {
     f.cone = dogs_ || G_ == 0.0 ? 0.0 : in.cone_torque / cone_ratio_;
     f.shaft = -car_.gearbox.drag_slope * y.shaft;
     f.air = -car_.body.resistance_slope * y.road - car_.body.resistance_square * y.road * std::abs(y.road) -
-            car_.body.mass * kGravity * std::sin(in.slope);
+            car_.body.mass * kDriveGravity * std::sin(in.slope);
     f.hold = car_.body.resistance + car_.body.brake_force * in.brake + car_.body.hand_brake_force * in.hand_brake;
     return f;
   }

@@ -8,16 +8,16 @@
 
 namespace gearshift {
 
-struct DriveSample {
+struct ReferenceSample {
   double engine = 0.0, shaft = 0.0, road = 0.0;
 };
 
 struct DriveOutcome {
-  std::vector<DriveSample> samples;  // each millisecond, the start first
-  double slip_energy = 0.0;          // [J] of the clutch
-  double cone_energy = 0.0;          // [J]
-  double engine_peak = 0.0;          // [rad/s]
-  bool running = true;               // at the end
+  std::vector<ReferenceSample> samples;  // each millisecond, the start first
+  double slip_energy = 0.0;              // [J] of the clutch
+  double cone_energy = 0.0;              // [J]
+  double engine_peak = 0.0;              // [rad/s]
+  bool running = true;                   // at the end
 };
 
 DriveOutcome reference_of(const Drive& drive);

@@ -14,7 +14,7 @@ using glm::vec3;
 
 namespace {
 
-vec3 random_direction(std::mt19937& random) {
+vec3 any_direction(std::mt19937& random) {
   std::normal_distribution<float> normal;
   return glm::normalize(vec3(normal(random), normal(random), normal(random)));
 }
@@ -37,7 +37,7 @@ TEST_CASE("a constant sky lights every surface by itself: E / pi = L") {
   const Irradiance irradiance = project_irradiance([](vec3) { return vec3(0.3f, 0.7f, 1.5f); });
   std::mt19937 random(1);
   for (int i = 0; i < 100; ++i) {
-    const vec3 e = irradiance(random_direction(random));
+    const vec3 e = irradiance(any_direction(random));
     CHECK(e.x == doctest::Approx(0.3).epsilon(1e-4));
     CHECK(e.y == doctest::Approx(0.7).epsilon(1e-4));
     CHECK(e.z == doctest::Approx(1.5).epsilon(1e-4));
@@ -51,7 +51,7 @@ TEST_CASE("radiance of degree 1 comes back by 2/3, of degree 2 by 1/4: exact for
       project_irradiance([=](vec3 d) { return vec3(1.5f * glm::dot(d, axis) * glm::dot(d, axis) - 0.5f); }, 128);
   std::mt19937 random(2);
   for (int i = 0; i < 100; ++i) {
-    const vec3 n = random_direction(random);
+    const vec3 n = any_direction(random);
     const float c = glm::dot(n, axis);
     CHECK(std::abs(linear(n).x - 2.0f / 3.0f * c) < 2e-4f);
     CHECK(std::abs(square(n).x - 0.25f * (1.5f * c * c - 0.5f)) < 2e-4f);
@@ -66,7 +66,7 @@ TEST_CASE("degree 2 of a clamped cosine sky is off by less than 1 % of its peak,
   float worst = 0.0f;
   std::mt19937 random(3);
   for (int i = 0; i < 50; ++i) {
-    const vec3 n = random_direction(random);
+    const vec3 n = any_direction(random);
     worst = std::max(worst, std::abs(irradiance(n).x - summed([](vec3 d) { return vec3(std::max(d.y, 0.0f)); }, n).x));
   }
   CHECK(worst < 0.0067f);
@@ -81,7 +81,7 @@ TEST_CASE("the day sky's irradiance is within 4 % of its peak of the summed one"
   float worst = 0.0f;
   std::mt19937 random(4);
   for (int i = 0; i < 100; ++i) {
-    const vec3 n = random_direction(random), error = glm::abs(irradiance(n) - summed(sky, n));
+    const vec3 n = any_direction(random), error = glm::abs(irradiance(n) - summed(sky, n));
     worst = std::max({worst, error.x, error.y, error.z});
   }
   MESSAGE("worst error of degree 2: " << worst / peak << " of the peak " << peak);
@@ -94,7 +94,7 @@ TEST_CASE("the day sky is finite and positive everywhere, brighter above than be
   std::mt19937 random(5);
   const float towards_sun = glm::dot(sky(sun), vec3(1.0f));
   for (int i = 0; i < 2000; ++i) {
-    const vec3 d = random_direction(random), l = sky(d);
+    const vec3 d = any_direction(random), l = sky(d);
     CHECK(std::isfinite(glm::dot(l, l)));
     CHECK(std::min({l.x, l.y, l.z}) > 0.0f);
     CHECK(glm::dot(l, vec3(1.0f)) <= towards_sun);

@@ -19,7 +19,7 @@ namespace {
 
 const std::filesystem::path data_folder = std::filesystem::path(GEARSHIFT_TEST_DATA) / "gltf";
 
-double distance(const mat4& a, const mat4& b) {
+double worst_entry(const mat4& a, const mat4& b) {
   double worst = 0.0;
   for (int c = 0; c < 4; ++c) {
     for (int r = 0; r < 4; ++r) worst = std::max(worst, std::abs(static_cast<double>(a[c][r] - b[c][r])));
@@ -79,8 +79,8 @@ TEST_CASE("a matrix and its translation, rotation and scale are one node, mirror
     GltfMaker maker = triangle();
     maker.root["nodes"][0]["matrix"] = columns(expected);
     const Model model = read_back(maker);
-    CHECK(distance(model.nodes[0].local(), expected) < 1e-5);
-    CHECK(distance(rest_pose(model)[0], expected) < 1e-5);
+    CHECK(worst_entry(model.nodes[0].local(), expected) < 1e-5);
+    CHECK(worst_entry(rest_pose(model)[0], expected) < 1e-5);
   }
 }
 

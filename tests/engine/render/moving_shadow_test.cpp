@@ -7,14 +7,14 @@ using glm::vec3;
 namespace {
 
 // Over a floor: a cube that stands, one that moves, a sun aside.
-struct Yard {
+struct MovingYard {
   Model model;
   int mover = kNone;
   FrameScene scene;
   RenderConfig config = small_picture();
   View view;
 
-  Yard() {
+  MovingYard() {
     add_floor(model, "Floor", 3.0f, add_material(model, paint(vec3(0.6f))), -0.5f);
     const int box = add_material(model, paint({0.7f, 0.3f, 0.2f}));
     add_cube(model, "Still", 0.2f, box, {0.3f, 0.1f, 0.0f});
@@ -39,7 +39,7 @@ struct Yard {
 
 TEST_CASE("a caster leaves no shadow behind: on any walk the picture is what a new renderer draws") {
   GpuFixture fixture;
-  Yard yard;
+  MovingYard yard;
   Renderer renderer(fixture.gpu(), yard.config);
   renderer.set_model(yard.model);
   Renderer unshadowed(fixture.gpu(), [&] {

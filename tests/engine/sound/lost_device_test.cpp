@@ -53,7 +53,7 @@ std::vector<float> hum(double frequency) {
   return out;
 }
 
-constexpr glm::vec3 kAhead{0.0f, 0.0f, -0.5f};
+constexpr glm::vec3 kInFront{0.0f, 0.0f, -0.5f};
 
 // This program again, one test case of it, in another environment. Returns what it printed.
 std::string run_case(const std::string& environment, const std::string& name) {
@@ -70,12 +70,12 @@ std::string run_case(const std::string& environment, const std::string& name) {
 
 void use_everything(SoundWorld& world) {
   const ClipId clip = world.add_clip(hum(440.0));
-  const VoiceId voice = world.loop(clip, {kAhead});
+  const VoiceId voice = world.loop(clip, {kInFront});
   for (int n = 0; n < 60; ++n) {
-    world.play(clip, {kAhead, 0.1f});
-    world.set(voice, {kAhead, 0.01f * static_cast<float>(n)});
+    world.play(clip, {kInFront, 0.1f});
+    world.set(voice, {kInFront, 0.01f * static_cast<float>(n)});
     world.restart(voice);
-    world.set_listener(kAhead, {0.0f, 0.0f, -1.0f}, {0.0f, 1.0f, 0.0f});
+    world.set_listener(kInFront, {0.0f, 0.0f, -1.0f}, {0.0f, 1.0f, 0.0f});
     world.set_volume(0.5f);
     world.update(0.1 * n);
   }
@@ -89,7 +89,7 @@ void use_everything(SoundWorld& world) {
 TEST_CASE("a lost device comes back with its clips and loops, as they were last asked for") {
   Socket socket;
   SoundWorld world(SoundOutput::memory, opener_of(socket));
-  const VoiceId voice = world.loop(world.add_clip(hum(440.0)), {kAhead});
+  const VoiceId voice = world.loop(world.add_clip(hum(440.0)), {kInFront});
   world.set_volume(0.5f);
   world.update(0.0);
   const double before = amplitude_at(channel(listen(world, 0.5), Ear::left), 440.0);
@@ -100,9 +100,9 @@ TEST_CASE("a lost device comes back with its clips and loops, as they were last 
   CHECK(world.why_silent() == "the sound device was lost");
   CHECK(peak(channel(listen(world, 0.1), Ear::left)) == 0.0);
   // Everything is still safe, and is remembered.
-  world.set(voice, {kAhead, 0.5f, 2.0f});
-  const VoiceId late = world.loop(world.add_clip(hum(300.0)), {kAhead, 0.25f});
-  world.play(0, {kAhead});
+  world.set(voice, {kInFront, 0.5f, 2.0f});
+  const VoiceId late = world.loop(world.add_clip(hum(300.0)), {kInFront, 0.25f});
+  world.play(0, {kInFront});
   world.update(1.5);
 
   socket.is_plugged = true;
@@ -113,7 +113,7 @@ TEST_CASE("a lost device comes back with its clips and loops, as they were last 
   CHECK(amplitude_at(left, 880.0) == doctest::Approx(0.5 * before).epsilon(0.02));
   CHECK(amplitude_at(left, 300.0) == doctest::Approx(0.25 * before).epsilon(0.02));
   CHECK(amplitude_at(left, 440.0) < 0.01 * before);  // nothing of what was asked long ago; the one-shot is past
-  world.set(late, {kAhead, 0.0f});
+  world.set(late, {kInFront, 0.0f});
   listen(world, 0.1);
   CHECK(amplitude_at(channel(listen(world, 0.5), Ear::left), 300.0) < 1e-3 * before);
 }
@@ -141,7 +141,7 @@ TEST_CASE("a lost device is asked for at most once a second, at once the first t
 TEST_CASE("ten losses in a row: every time it comes back, and nothing is left over") {
   Socket socket;
   SoundWorld world(SoundOutput::memory, opener_of(socket));
-  world.loop(world.add_clip(hum(440.0)), {kAhead});
+  world.loop(world.add_clip(hum(440.0)), {kInFront});
   const double before = amplitude_at(channel(listen(world, 0.5), Ear::left), 440.0);
   for (int n = 0; n < 10; ++n) {
     socket.is_plugged = false;

@@ -24,12 +24,12 @@ namespace {
 
 using Complex = std::complex<double>;
 
-double between(std::mt19937_64& random, double low, double high) {
+double any_between(std::mt19937_64& random, double low, double high) {
   return std::uniform_real_distribution<double>(low, high)(random);
 }
 
 double log_between(std::mt19937_64& random, double low, double high) {
-  return std::exp(between(random, std::log(low), std::log(high)));
+  return std::exp(any_between(random, std::log(low), std::log(high)));
 }
 
 struct Case {
@@ -42,16 +42,17 @@ struct Case {
 // Any device, rate, delay, hand, hold, window and damping that the cycle takes; the damping within what the rate bears.
 Case random_case(std::mt19937_64& random, int i) {
   Case c;
-  c.handle = {between(random, 0.05, 0.5), between(random, 0.5, 8.0), between(random, 0.0, 50.0)};
-  if (i % 3 != 0) c.hand = {between(random, 0.0, 1.0), between(random, 0.0, 15.0), between(random, 0.0, 800.0)};
+  c.handle = {any_between(random, 0.05, 0.5), any_between(random, 0.5, 8.0), any_between(random, 0.0, 50.0)};
+  if (i % 3 != 0)
+    c.hand = {any_between(random, 0.0, 1.0), any_between(random, 0.0, 15.0), any_between(random, 0.0, 800.0)};
   c.period = log_between(random, 2.5e-4, 1e-2);
   c.law.hold = i % 2 == 0 ? ContactHold::half_sample : ContactHold::zero_order;
   c.law.delay = i % 7 < 5 ? i % 7 : 0;
   c.law.window = i % 4 == 3 ? 2 + i % 9 : 1;
   const double mass = c.handle.mass + c.hand.mass;
   const int late = c.law.delay + c.law.window;
-  c.law.damping = between(random, 0.0, 0.5) * mass / (c.period * late);
-  c.law.free_damping = i % 5 == 4 ? between(random, 0.0, 0.1) * mass / (c.period * late) : 0.0;
+  c.law.damping = any_between(random, 0.0, 0.5) * mass / (c.period * late);
+  c.law.free_damping = i % 5 == 4 ? any_between(random, 0.0, 0.1) * mass / (c.period * late) : 0.0;
   return c;
 }
 

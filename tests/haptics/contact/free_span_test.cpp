@@ -17,24 +17,24 @@ using glm::dvec2;
 
 namespace {
 
-constexpr double kStep = 20e-6;  // [m] of the walk
-constexpr double kSlack = 1e-9;  // [m]
+constexpr double kStep = 20e-6;      // [m] of the walk
+constexpr double kSpanSlack = 1e-9;  // [m]
 
 // Free, by the gate's own answer for open walls, and by what a passage says in words for the movable ones.
 bool is_free(const Gate& gate, const Passage& passage, dvec2 p) {
-  if (!in_free_space(gate, p, kSlack)) return false;
+  if (!in_free_space(gate, p, kSpanSlack)) return false;
   const double mouth = gate.half_aisle + gate.chamfer;
   const double across = std::abs(p.y);
-  const bool in_aisle = across <= gate.half_aisle + kSlack;
+  const bool in_aisle = across <= gate.half_aisle + kSpanSlack;
   const Column& column = column_of(gate, nearest_column(gate, p.x));
-  const bool in_column = std::abs(p.x - column.center) <= column.half_width + kSlack;
-  if (!in_column && (p.x < passage.select_min - kSlack || p.x > passage.select_max + kSlack)) return false;
+  const bool in_column = std::abs(p.x - column.center) <= column.half_width + kSpanSlack;
+  if (!in_column && (p.x < passage.select_min - kSpanSlack || p.x > passage.select_max + kSpanSlack)) return false;
   if (in_aisle) return true;
   const int slot = p.y > 0.0 ? column.forward_slot : column.back_slot;
-  if ((passage.closed >> slot & 1u) != 0 && across > mouth + kSlack) return false;
-  if (slot != passage.limited_slot || across <= mouth + kSlack) return true;
+  if ((passage.closed >> slot & 1u) != 0 && across > mouth + kSpanSlack) return false;
+  if (slot != passage.limited_slot || across <= mouth + kSpanSlack) return true;
   const double least = passage.depth_min > mouth ? passage.depth_min : 0.0;
-  return across >= least - kSlack && across <= passage.depth_max + kSlack;
+  return across >= least - kSpanSlack && across <= passage.depth_max + kSpanSlack;
 }
 
 // From the point on, step by step, as long as it is free. [m]

@@ -13,7 +13,7 @@ using glm::dvec2;
 
 namespace {
 
-constexpr std::int64_t kMillisecond = 1'000'000;
+constexpr std::int64_t kLeverPeriod = 1'000'000;
 
 SimulatedLeverConfig keeps(double stiffness) {
   SimulatedLeverConfig config;
@@ -23,14 +23,14 @@ SimulatedLeverConfig keeps(double stiffness) {
   return config;
 }
 
-struct Bench {
-  explicit Bench(const SimulatedLeverConfig& config, HandTarget target = {})
-      : hand(target), lever(config, kMillisecond, hand) {
+struct WallBench {
+  explicit WallBench(const SimulatedLeverConfig& config, HandTarget target = {})
+      : hand(target), lever(config, kLeverPeriod, hand) {
     lever.read(0);
   }
   LeverReading run(int periods) {
     LeverReading reading;
-    for (int i = 0; i < periods; ++i) reading = lever.read(now += kMillisecond);
+    for (int i = 0; i < periods; ++i) reading = lever.read(now += kLeverPeriod);
     return reading;
   }
 
@@ -53,7 +53,7 @@ HandTarget pushing(dvec2 force) {
 TEST_CASE("a lever that flies into its own wall moves as a mass on that spring, and comes back no faster") {
   for (const double stiffness : {400.0, 1000.0, 3000.0}) {
     CAPTURE(stiffness);
-    Bench bench(keeps(stiffness));
+    WallBench bench(keeps(stiffness));
     bench.lever.hold_walls(kRoundMiddle);
     const AxisModel inside{kPaperAxisX.mass, kPaperAxisX.damping, kPaperAxisX.stiffness + stiffness};
     AxisState exact{0.001, 0.3};
@@ -74,7 +74,7 @@ TEST_CASE("a lever that flies into its own wall moves as a mass on that spring, 
 TEST_CASE("a push rests where the wall gives it back, the share of the stiffness counted, and nothing acts between") {
   for (const double share : {1.0, 0.25}) {
     CAPTURE(share);
-    Bench bench(keeps(1000.0), pushing({0.0, -5.0}));
+    WallBench bench(keeps(1000.0), pushing({0.0, -5.0}));
     LeverWalls walls = kRoundMiddle;
     walls.share = share;
     bench.lever.hold_walls(walls);
@@ -85,7 +85,7 @@ TEST_CASE("a push rests where the wall gives it back, the share of the stiffness
     CHECK(reading.actuator_force.x == doctest::Approx(0.0).scale(1.0));
     CHECK(reading.hand_force.y == doctest::Approx(-5.0).epsilon(1e-3));
   }
-  Bench between(keeps(1000.0), pushing({0.005, 0.0}));
+  WallBench between(keeps(1000.0), pushing({0.005, 0.0}));
   between.lever.hold_walls(kRoundMiddle);
   CHECK(between.run(100).actuator_force == dvec2{0.0, 0.0});
 }
@@ -93,8 +93,8 @@ TEST_CASE("a push rests where the wall gives it back, the share of the stiffness
 TEST_CASE("walls are told with the delay of every command, and kept without any") {
   SimulatedLeverConfig late = keeps(1000.0);
   late.delay = 5;
-  Bench bench(late), prompt(keeps(1000.0));
-  for (Bench* b : {&bench, &prompt}) b->lever.place({0.003, 0.0});
+  WallBench bench(late), prompt(keeps(1000.0));
+  for (WallBench* b : {&bench, &prompt}) b->lever.place({0.003, 0.0});
   bench.lever.hold_walls(kRoundMiddle);
   for (int i = 0; i < 5; ++i) CHECK(bench.run(1).actuator_force.x == 0.0);
   CHECK(bench.run(1).actuator_force.x < -1.0);
@@ -108,11 +108,11 @@ TEST_CASE("walls are told with the delay of every command, and kept without any"
 TEST_CASE("walls and command share the motors: together no more than these give") {
   SimulatedLeverConfig config = keeps(3000.0);
   config.actuator.peak_force = config.actuator.continuous_force = 8.0;
-  Bench bench(config, pushing({7.0, 0.0}));
+  WallBench bench(config, pushing({7.0, 0.0}));
   bench.lever.write({-5.0, 0.0});
   bench.lever.hold_walls(kRoundMiddle);
   CHECK(bench.run(2000).actuator_force.x == doctest::Approx(-7.0).epsilon(0.01));  // 5 and, of the wall, 2
-  Bench beyond(config, pushing({20.0, 0.0}));
+  WallBench beyond(config, pushing({20.0, 0.0}));
   beyond.lever.hold_walls(kRoundMiddle);
   CHECK(beyond.run(12).actuator_force.x == doctest::Approx(-8.0).epsilon(0.01));
 }
@@ -120,7 +120,7 @@ TEST_CASE("walls and command share the motors: together no more than these give"
 TEST_CASE("release takes the walls, those under way as well; what is no number is no wall") {
   SimulatedLeverConfig late = keeps(1000.0);
   late.delay = 3;
-  Bench bench(late, pushing({3.0, 0.0}));
+  WallBench bench(late, pushing({3.0, 0.0}));
   bench.lever.hold_walls(kRoundMiddle);
   CHECK(bench.run(500).actuator_force.x < -1.0);
   bench.lever.release();
@@ -133,8 +133,8 @@ TEST_CASE("release takes the walls, those under way as well; what is no number i
 }
 
 TEST_CASE("a lever that keeps no walls says so, and is told of them in vain") {
-  CHECK(Bench(keeps(700.0)).lever.spec().own_stiffness == dvec2{700.0, 700.0});
-  Bench none(keeps(0.0), pushing({3.0, 0.0}));
+  CHECK(WallBench(keeps(700.0)).lever.spec().own_stiffness == dvec2{700.0, 700.0});
+  WallBench none(keeps(0.0), pushing({3.0, 0.0}));
   CHECK(none.lever.spec().own_stiffness == dvec2{0.0, 0.0});
   none.lever.hold_walls(kRoundMiddle);
   CHECK(none.run(100).actuator_force == dvec2{0.0, 0.0});

@@ -15,10 +15,10 @@ using namespace gearshift;
 
 namespace {
 
-constexpr std::int64_t kMillisecond = 1'000'000;
-constexpr YokeGeometry kYoke;
+constexpr std::int64_t kMs = 1'000'000;
+constexpr YokeGeometry kLeverYoke;
 
-SimulatedLeverConfig exact() {
+SimulatedLeverConfig without_noise() {
   SimulatedLeverConfig config;
   config.encoder_counts = 0.0;
   config.force_sensor.resolution_gw = 0.0;
@@ -26,7 +26,7 @@ SimulatedLeverConfig exact() {
 }
 
 glm::dvec2 arc_of(const SimulatedLever& lever) {
-  return arc_position(kYoke, joint_angles_from_plane(kYoke, lever.true_position()));
+  return arc_position(kLeverYoke, joint_angles_from_plane(kLeverYoke, lever.true_position()));
 }
 
 // Asked when, and kept.
@@ -59,7 +59,7 @@ Measured measure(const SimulatedLeverConfig& config) {
   const double first = arc_of(lever)[kAxis];
   while (now < 20'000'000'000) lever.read(now += 1000 * kStep);
   const double rest = arc_of(lever)[kAxis];
-  const double held = force[kAxis] * std::cos(rest / kYoke.radius);  // along the arc
+  const double held = force[kAxis] * std::cos(rest / kLeverYoke.radius);  // along the arc
 
   lever.release();
   double integral = 0.0, before = rest;
@@ -86,10 +86,10 @@ void check_off(double measured, double nominal) {
 }  // namespace
 
 TEST_CASE("uneven periods: at every reported time the lever is where the closed form puts it") {
-  SimulatedLeverConfig config = exact();
+  SimulatedLeverConfig config = without_noise();
   config.period_jitter = 0.3;
   Clock clock;
-  SimulatedLever lever(config, kMillisecond, clock);
+  SimulatedLever lever(config, kMs, clock);
   std::int64_t now = 5'000'000'000;
   const LeverReading first = lever.read(now);
   CHECK(first.time_ns == now);
@@ -98,7 +98,7 @@ TEST_CASE("uneven periods: at every reported time the lever is where the closed 
   double shortest = 1.0, longest = 0.0;
   std::int64_t last = first.time_ns;
   for (std::uint64_t n = 1; n <= 2000; ++n) {
-    const LeverReading reading = lever.read(now += kMillisecond);
+    const LeverReading reading = lever.read(now += kMs);
     CHECK(reading.sequence == first.sequence + n);
     CHECK(clock.asked_at == doctest::Approx(1e-9 * static_cast<double>(last - first.time_ns)).epsilon(1e-12));
     const double length = 1e-9 * static_cast<double>(reading.time_ns - last);
@@ -117,18 +117,18 @@ TEST_CASE("uneven periods: at every reported time the lever is where the closed 
 }
 
 TEST_CASE("uneven periods under dry friction and at the stop: the same motion as one long step") {
-  SimulatedLeverConfig config = exact();
+  SimulatedLeverConfig config = without_noise();
   config.period_jitter = 0.5;
   config.coulomb_friction = 0.4;
   StillHand hand(hand_pushing({0.9, 0.0}));
-  SimulatedLever lever(config, kMillisecond, hand);
+  SimulatedLever lever(config, kMs, hand);
   const LeverReading first = lever.read(0);
   AxisState expected{0.0, 0.0};
   std::int64_t last = first.time_ns;
   for (std::int64_t n = 1; n <= 500; ++n) {
-    const double along = hand.target.push.x * std::cos(arc_of(lever).x / kYoke.radius);
-    const LeverReading reading = lever.read(n * kMillisecond);
-    const AxisLimits limits{kYoke.radius * kYoke.theta_limit, config.coulomb_friction};
+    const double along = hand.target.push.x * std::cos(arc_of(lever).x / kLeverYoke.radius);
+    const LeverReading reading = lever.read(n * kMs);
+    const AxisLimits limits{kLeverYoke.radius * kLeverYoke.theta_limit, config.coulomb_friction};
     const double length = 1e-9 * static_cast<double>(reading.time_ns - last);
     expected = advance_limited(config.axis_x, limits, expected, along, length);
     last = reading.time_ns;
@@ -140,26 +140,26 @@ TEST_CASE("the seed decides every period, and a gap of many is the same as each 
   SimulatedLeverConfig config;
   config.period_jitter = 0.1;
   StillHand nobody;
-  SimulatedLever each(config, kMillisecond, nobody), once(config, kMillisecond, nobody);
+  SimulatedLever each(config, kMs, nobody), once(config, kMs, nobody);
   config.seed = 2;
-  SimulatedLever other(config, kMillisecond, nobody);
+  SimulatedLever other(config, kMs, nobody);
   each.read(0), once.read(0), other.read(0);
-  for (std::int64_t n = 1; n <= 50; ++n) each.read(n * kMillisecond);
-  const LeverReading a = each.read(51 * kMillisecond), b = once.read(51 * kMillisecond);
+  for (std::int64_t n = 1; n <= 50; ++n) each.read(n * kMs);
+  const LeverReading a = each.read(51 * kMs), b = once.read(51 * kMs);
   CHECK(a.time_ns == b.time_ns);
   CHECK(a.sequence == b.sequence);
   CHECK(a.position == b.position);
-  CHECK(other.read(51 * kMillisecond).time_ns != a.time_ns);
+  CHECK(other.read(51 * kMs).time_ns != a.time_ns);
 }
 
 TEST_CASE("parts off by up to a fifth: measured apart from spec() and inside the fifth, by the seed") {
-  SimulatedLeverConfig config = exact();
+  SimulatedLeverConfig config = without_noise();
   config.model_error = 0.2;
   double last_mass = 0.0;
   for (const std::uint64_t seed : {1u, 2u, 3u}) {
     config.seed = seed;
     StillHand nobody;
-    CHECK(SimulatedLever(config, kMillisecond, nobody).spec().axis_x.mass == config.axis_x.mass);
+    CHECK(SimulatedLever(config, kMs, nobody).spec().axis_x.mass == config.axis_x.mass);
     const Measured x = measure<0>(config), y = measure<1>(config);
     check_off(x.mass, config.axis_x.mass), check_off(y.mass, config.axis_y.mass);
     check_off(x.damping, config.axis_x.damping), check_off(y.damping, config.axis_y.damping);
@@ -182,7 +182,7 @@ TEST_CASE("errors and jitter out of range are refused") {
     config.period_jitter = jitter;
     StillHand nobody;
     try {
-      SimulatedLever(config, kMillisecond, nobody);
+      SimulatedLever(config, kMs, nobody);
     } catch (const std::invalid_argument& error_) {
       return error_.what();
     }

@@ -19,12 +19,12 @@ namespace {
 constexpr double kPeriod = 0.001;
 constexpr double kDebounce = 0.010;
 
-const Slot& slot_for(const Gate& gate, int gear) {
+const Slot& slot_with(const Gate& gate, int gear) {
   return slot_of(gate, slot_of_gear(gate, gear));
 }
 
 dvec2 at_depth(const Gate& gate, int gear, double depth) {
-  const Slot& slot = slot_for(gate, gear);
+  const Slot& slot = slot_with(gate, gear);
   return {column_of(gate, slot.column).center, static_cast<int>(slot.side) * depth};
 }
 
@@ -38,9 +38,9 @@ int hold(GearSelector& selector, const Gate& gate, dvec2 p, double seconds) {
 
 TEST_CASE("no flicker: tremor of a millimetre about either threshold changes the gear once at most") {
   const Gate gate = paper_gate();
-  for (const double depth : {slot_for(gate, 1).engage_depth, slot_for(gate, 1).release_depth}) {
+  for (const double depth : {slot_with(gate, 1).engage_depth, slot_with(gate, 1).release_depth}) {
     GearSelector selector(kDebounce);
-    hold(selector, gate, at_depth(gate, 1, slot_for(gate, 1).rest), 0.1);
+    hold(selector, gate, at_depth(gate, 1, slot_with(gate, 1).rest), 0.1);
     int changes = 0, before = selector.gear();
     for (int i = 0; i < 2000; ++i) {
       const int gear = selector.update(gate, at_depth(gate, 1, depth + (i % 7 < 3 ? -0.5e-3 : 0.5e-3)), kPeriod);
@@ -54,7 +54,7 @@ TEST_CASE("no flicker: tremor of a millimetre about either threshold changes the
 TEST_CASE("a gear counts after the debounce time and not before") {
   const Gate gate = paper_gate();
   GearSelector selector(kDebounce);
-  const dvec2 in_second = at_depth(gate, 2, slot_for(gate, 2).rest);
+  const dvec2 in_second = at_depth(gate, 2, slot_with(gate, 2).rest);
   CHECK(hold(selector, gate, in_second, kDebounce - 2.0 * kPeriod) == kNeutralGear);
   CHECK(hold(selector, gate, in_second, 4.0 * kPeriod) == 2);
 }

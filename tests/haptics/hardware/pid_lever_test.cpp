@@ -16,7 +16,7 @@ using glm::dvec2;
 
 namespace {
 
-EmulatedStickConfig held(StickFamily family) {
+EmulatedStickConfig held_fast(StickFamily family) {
   EmulatedStickConfig config;
   config.family = family;
   config.lever.hand = {0.5, 50.0, 50'000.0};  // fast
@@ -67,15 +67,15 @@ TEST_CASE("counts to metres: straight on either side of the centre, and on beyon
 
 TEST_CASE("what it cannot be is refused in one sentence") {
   StillHand hand;
-  StickBench bench(held(StickFamily::vjoy), hand);
-  DeviceCalibration known = calibration_of(held(StickFamily::vjoy));
+  StickBench bench(held_fast(StickFamily::vjoy), hand);
+  DeviceCalibration known = calibration_of(held_fast(StickFamily::vjoy));
   known.select.travel = 0.0;
   CHECK_THROWS_AS(PidLever(known, bench.driver, 0.001), std::invalid_argument);
-  known = calibration_of(held(StickFamily::sidewinder));
+  known = calibration_of(held_fast(StickFamily::sidewinder));
   known.shift.usage = 0x38;
-  StickBench sidewinder(held(StickFamily::sidewinder), hand);
+  StickBench sidewinder(held_fast(StickFamily::sidewinder), hand);
   CHECK_THROWS_AS(PidLever(known, sidewinder.driver, 0.001), std::invalid_argument);
-  known = calibration_of(held(StickFamily::vjoy));
+  known = calibration_of(held_fast(StickFamily::vjoy));
   known.timing.delay = 0.1;
   CHECK_THROWS_AS(PidLever(known, bench.driver, 0.001), std::invalid_argument);
 }
@@ -84,7 +84,7 @@ TEST_CASE("where the lever is, and the force that was asked for, on every family
   for (const StickFamily family : kStickFamilies) {
     for (const glm::ivec2 sign : {glm::ivec2(1, 1), glm::ivec2(-1, 1), glm::ivec2(1, -1), glm::ivec2(-1, -1)}) {
       CAPTURE(name_of(family));
-      EmulatedStickConfig config = held(family);
+      EmulatedStickConfig config = held_fast(family);
       config.constant_sign = sign;
       StillHand hand(hand_at({0.030, -0.045}));
       LeverBench bench(config, calibration_of(config), hand);
@@ -107,7 +107,7 @@ TEST_CASE("where the lever is, and the force that was asked for, on every family
 }
 
 TEST_CASE("a stick that is turned by a quarter: its Y is select") {
-  EmulatedStickConfig config = held(StickFamily::openffboard);
+  EmulatedStickConfig config = held_fast(StickFamily::openffboard);
   DeviceCalibration known = calibration_of(config);
   std::swap(known.select, known.shift);  // the knob's forward is now to the right
   StillHand hand(hand_at({0.010, 0.030}));
@@ -119,7 +119,7 @@ TEST_CASE("a stick that is turned by a quarter: its Y is select") {
 }
 
 TEST_CASE("a lever that is no more leaves the motors off, and the next one drives") {
-  EmulatedStickConfig config = held(StickFamily::sidewinder);
+  EmulatedStickConfig config = held_fast(StickFamily::sidewinder);
   StillHand hand;
   StickBench bench(config, hand);
   bench.prepare();
@@ -142,7 +142,7 @@ TEST_CASE("a lever that is no more leaves the motors off, and the next one drive
 }
 
 TEST_CASE("without measured polarity there is no force at all") {
-  EmulatedStickConfig config = held(StickFamily::vjoy);
+  EmulatedStickConfig config = held_fast(StickFamily::vjoy);
   DeviceCalibration known = calibration_of(config);
   known.shift.constant_sign = 0;
   StillHand hand;
@@ -156,7 +156,7 @@ TEST_CASE("without measured polarity there is no force at all") {
 }
 
 TEST_CASE("nothing drives before a force is asked for, nor after a release until one is") {
-  EmulatedStickConfig config = held(StickFamily::sidewinder);
+  EmulatedStickConfig config = held_fast(StickFamily::sidewinder);
   StillHand hand;
   LeverBench bench(config, calibration_of(config), hand);
   bench.cycle(dvec2(0.0), 200);
@@ -179,7 +179,7 @@ TEST_CASE(
     for (const glm::ivec2 sign : {glm::ivec2(1, 1), glm::ivec2(-1, 1), glm::ivec2(-1, -1)}) {
       CAPTURE(name_of(family));
       CAPTURE(sign.x);
-      EmulatedStickConfig config = held(family);
+      EmulatedStickConfig config = held_fast(family);
       config.spring_sign = sign;
       StillHand hand(hand_at({0.020, 0.0}));
       LeverBench bench(config, calibration_of(config), hand);
@@ -206,7 +206,7 @@ TEST_CASE(
 
 TEST_CASE("springs that push away where the device cannot turn them round, and springs not measured, keep no walls") {
   StillHand hand;
-  EmulatedStickConfig config = held(StickFamily::vjoy);
+  EmulatedStickConfig config = held_fast(StickFamily::vjoy);
   DeviceCalibration known = calibration_of(config);
   known.shift.spring_sign = 0;
   StickBench bench(config, hand);
@@ -214,7 +214,7 @@ TEST_CASE("springs that push away where the device cannot turn them round, and s
 }
 
 TEST_CASE("buttons: pressed, lifted, stop; one that is held at the start is no stop until it was let go") {
-  EmulatedStickConfig config = held(StickFamily::sidewinder);
+  EmulatedStickConfig config = held_fast(StickFamily::sidewinder);
   StillHand hand;
   LeverBench bench(config, calibration_of(config), hand);
   bench.stick.held_buttons = 0b0100;
@@ -231,7 +231,7 @@ TEST_CASE("buttons: pressed, lifted, stop; one that is held at the start is no s
 }
 
 TEST_CASE("back after an unplug: one reading says stop, and what the loop says in that cycle drives nothing") {
-  EmulatedStickConfig config = held(StickFamily::vjoy);
+  EmulatedStickConfig config = held_fast(StickFamily::vjoy);
   StillHand hand;
   LeverBench bench(config, calibration_of(config), hand);
   bench.cycle({5.0, 5.0}, 100);

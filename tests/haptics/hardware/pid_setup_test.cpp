@@ -43,7 +43,7 @@ Told prepared(const EmulatedStickConfig& config, const StickFaults& faults = {})
   return told;
 }
 
-EmulatedStickConfig of(StickFamily family) {
+EmulatedStickConfig stick_of(StickFamily family) {
   EmulatedStickConfig config;
   config.family = family;
   return config;
@@ -54,7 +54,7 @@ EmulatedStickConfig of(StickFamily family) {
 // Set Effect: block, type (constant 1, spring 8, damper 9), 300 ms = 012C, trigger repeat, sample period, gain FF, trigger
 // button, axes (X 1, Y 2, direction 4), direction of a byte: 90 degrees = 40, 180 = 80. Its block 1 is its own spring.
 TEST_CASE("SideWinder Force Feedback 2: every byte before the first force") {
-  const Told told = prepared(of(StickFamily::sidewinder));
+  const Told told = prepared(stick_of(StickFamily::sidewinder));
   CHECK(told.before == Lines{"get 03 e0 04 27 01",  // pool: 1248 bytes, 39 effects
                              "out 0c 03",
                              "out 0c 04",
@@ -95,7 +95,7 @@ TEST_CASE("SideWinder Force Feedback 2: every byte before the first force") {
 // of 0 to 36000 in two bytes (9000 = 2328, 18000 = 4650) and two type specific offsets at its end; the greatest
 // saturation is 7FFF.
 TEST_CASE("OpenFFBoard: the same, by bits and in other fields") {
-  const Told told = prepared(of(StickFamily::openffboard));
+  const Told told = prepared(stick_of(StickFamily::openffboard));
   CHECK(told.before == Lines{"get 13 00 05 28 01",  //
                              "out 0c 04",
                              "out 0c 08",
@@ -129,7 +129,7 @@ TEST_CASE("OpenFFBoard: the same, by bits and in other fields") {
 // IDs from 11 on, Device Control a number again; a turn is 7FFF, so 90 degrees are 2000 and 180 are 4000; the greatest
 // saturation is 10000 = 2710.
 TEST_CASE("vJoy: the same, under other numbers") {
-  const Told told = prepared(of(StickFamily::vjoy));
+  const Told told = prepared(stick_of(StickFamily::vjoy));
   CHECK(told.before == Lines{"get 13 80 0c 64 01",
                              "out 1c 03",
                              "out 1c 04",
@@ -163,7 +163,7 @@ TEST_CASE("vJoy: the same, under other numbers") {
 TEST_CASE("a device that refuses effects that end gets endless ones, and it is said") {
   for (const StickFamily family : kStickFamilies) {
     CAPTURE(name_of(family));
-    EmulatedStickConfig config = of(family);
+    EmulatedStickConfig config = stick_of(family);
     config.finite_refused = true;
     const Told told = prepared(config);
     CHECK(told.error.empty());
@@ -177,7 +177,7 @@ TEST_CASE("a device that refuses effects that end gets endless ones, and it is s
 TEST_CASE("what does not fit into the pool is gone without, but not constant forces") {
   for (const StickFamily family : kStickFamilies) {
     CAPTURE(name_of(family));
-    EmulatedStickConfig config = of(family);
+    EmulatedStickConfig config = stick_of(family);
     config.blocks = 3;
     const Told three = prepared(config);
     CHECK(three.ability.spring);
@@ -196,20 +196,22 @@ TEST_CASE("a device that refuses every effect is refused in one sentence, and le
   for (const StickFamily family : kStickFamilies) {
     StickFaults faults;
     faults.refuses_effects = true;
-    CHECK(prepared(of(family), faults).error == "the stick refuses a constant force: it says that there was an error");
+    CHECK(prepared(stick_of(family), faults).error ==
+          "the stick refuses a constant force: it says that there was an error");
     faults = {};
     faults.pool_full = true;
-    CHECK(prepared(of(family), faults).error == "the stick refuses a constant force: its memory for effects is full");
+    CHECK(prepared(stick_of(family), faults).error ==
+          "the stick refuses a constant force: its memory for effects is full");
     faults = {};
     faults.stalls_outputs = true;
-    CHECK_FALSE(prepared(of(family), faults).error.empty());
+    CHECK_FALSE(prepared(stick_of(family), faults).error.empty());
   }
 }
 
 TEST_CASE("a device that takes its time is waited for") {
   StickFaults faults;
   faults.slow = 0.003;
-  const Told told = prepared(of(StickFamily::vjoy), faults);
+  const Told told = prepared(stick_of(StickFamily::vjoy), faults);
   CHECK(told.error.empty());
   CHECK(told.ability.blocks == 4);
 }
@@ -253,7 +255,7 @@ class ScriptedPort final : public HidPort {
 
 PidLayout vjoy_layout() {
   StillHand hand;
-  return PidDriver(EmulatedStick(of(StickFamily::vjoy), hand).report_descriptor()).layout();
+  return PidDriver(EmulatedStick(stick_of(StickFamily::vjoy), hand).report_descriptor()).layout();
 }
 
 }  // namespace

@@ -14,7 +14,7 @@ using glm::dvec2;
 
 namespace {
 
-EmulatedStickConfig gripped(StickFamily family) {
+EmulatedStickConfig touring_stick(StickFamily family) {
   EmulatedStickConfig config;
   config.family = family;
   config.lever.hand = kGripHand;
@@ -58,7 +58,7 @@ Tour drive(const EmulatedStickConfig& config, const DeviceCalibration& known, co
 TEST_CASE("the six-gear tour through every family: each gear once and in order, and nothing to complain of") {
   for (const StickFamily family : kStickFamilies) {
     CAPTURE(name_of(family));
-    const EmulatedStickConfig config = gripped(family);
+    const EmulatedStickConfig config = touring_stick(family);
     const Tour tour = drive(config, calibration_of(config));
     CHECK(tour.engaged == tour.wanted);
     CHECK(tour.engaged.size() == 7);
@@ -72,7 +72,7 @@ TEST_CASE("the six-gear tour through every family: each gear once and in order, 
 
 TEST_CASE("the tour with springs that keep no wall, with every polarity turned round, at 500 Hz, and 2 ms late") {
   for (const StickFamily family : {StickFamily::openffboard, StickFamily::vjoy}) {
-    EmulatedStickConfig config = gripped(family);
+    EmulatedStickConfig config = touring_stick(family);
     DeviceCalibration known = calibration_of(config);
     known.select.spring_sign = known.shift.spring_sign = 0;
     CHECK(drive(config, known).engaged.size() == 7);
@@ -80,11 +80,11 @@ TEST_CASE("the tour with springs that keep no wall, with every polarity turned r
     config.constant_sign = config.spring_sign = {-1, -1};
     CHECK(drive(config, calibration_of(config)).engaged.size() == 7);
 
-    config = gripped(family);
+    config = touring_stick(family);
     config.delay = 0.002;
     CHECK(drive(config, calibration_of(config)).engaged.size() == 7);
 
-    config = gripped(family);
+    config = touring_stick(family);
     config.plant_period = config.input_interval = 0.002;
     HapticConfig haptics;
     haptics.rate = 500.0;
@@ -95,7 +95,7 @@ TEST_CASE("the tour with springs that keep no wall, with every polarity turned r
 // At rest in the middle of the paper's gate nothing pushes. The effects are started all the same: who comes to a wall then
 // feels it with the next report, not three or four later.
 TEST_CASE("armed means motors on, also where there is nothing to push yet; not armed means off") {
-  EmulatedStickConfig config = gripped(StickFamily::openffboard);  // its rest is a whole count
+  EmulatedStickConfig config = touring_stick(StickFamily::openffboard);  // its rest is a whole count
   StillHand hand;
   StickLoop run(config, calibration_of(config), HapticConfig{}, stick_gate("paper", config), hand);
   run.cycle_for(0.1);

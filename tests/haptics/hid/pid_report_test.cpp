@@ -14,14 +14,14 @@ using namespace gearshift;
 
 namespace {
 
-PidLayout pid_in(const std::vector<std::uint8_t>& descriptor) {
+PidLayout needed_pid_in(const std::vector<std::uint8_t>& descriptor) {
   const auto pid = find_pid(parse_report_descriptor(descriptor));
   REQUIRE(pid);
   return *pid;
 }
 
 PidLayout pid_of(const char* device) {
-  return pid_in(device_descriptor(device));
+  return needed_pid_in(device_descriptor(device));
 }
 
 std::string told(const HidBytes& report) {
@@ -277,8 +277,9 @@ TEST_CASE("a block that a report cannot name is not told: it would be another on
 
 TEST_CASE("MOZA: six controls in one field that is flagged as a variable are still one number") {
   // SideWinder's device control with 91 02 for 91 00
-  const PidLayout pid = pid_in(with(device_descriptor("microsoft-sidewinder-ff2"),
-                                    "09 9C 15 01 25 06 75 08 95 01 91 00", "09 9C 15 01 25 06 75 08 95 01 91 02"));
+  const PidLayout pid =
+      needed_pid_in(with(device_descriptor("microsoft-sidewinder-ff2"), "09 9C 15 01 25 06 75 08 95 01 91 00",
+                         "09 9C 15 01 25 06 75 08 95 01 91 02"));
   CHECK(control(pid, PidControl::stop_all) == "0C 03");
   CHECK(control(pid, PidControl::resume) == "0C 06");
 }
@@ -292,7 +293,7 @@ TEST_CASE("adapt-ffb-joy: centre and one coefficient are all that a condition ha
       "09 61 95 01 91 02");
   bytes = with(bytes, "09 A7 66 03 10 55 FD 15 00 26 FF 7F 35 00 46 FF 7F 75 10 95 01 91 02", "");
   bytes = with(bytes, "55 FE 15 00 26 FF 00 35 00 47", "55 FE 15 00 26 B4 00 35 00 47");
-  const PidLayout pid = pid_in(bytes);
+  const PidLayout pid = needed_pid_in(bytes);
   CHECK(told(encode_condition(pid, 3, 1, kSpring)) == "03 03 01 E0 40");
   // 180/4 = 45 = 2Dh, 180/2 = 90 = 5Ah
   CHECK(told(encode_set_effect(pid, settings(1, PidEffect::constant, 0))) ==
@@ -302,15 +303,16 @@ TEST_CASE("adapt-ffb-joy: centre and one coefficient are all that a condition ha
 }
 
 TEST_CASE("without a parameter block there is one condition, of the first axis") {
-  const PidLayout pid = pid_in(with(device_descriptor("microsoft-sidewinder-ff2"), "09 23 15 00", "09 24 15 00"));
+  const PidLayout pid =
+      needed_pid_in(with(device_descriptor("microsoft-sidewinder-ff2"), "09 23 15 00", "09 24 15 00"));
   CHECK(told(encode_condition(pid, 3, 0, kSpring)) == "03 03 00 E0 40 40 CC CC 33");
   CHECK(told(encode_condition(pid, 3, 1, kSpring)).empty());
 }
 
 TEST_CASE("a magnitude without sign whose physical range has one: its zero is in the middle") {
   const PidLayout pid =
-      pid_in(with(device_descriptor("microsoft-sidewinder-ff2"), "09 70 16 01 FF 26 FF 00 36 F0 D8 46 10 27",
-                  "09 70 15 00 26 FE 00 36 F0 D8 46 10 27"));
+      needed_pid_in(with(device_descriptor("microsoft-sidewinder-ff2"), "09 70 16 01 FF 26 FF 00 36 F0 D8 46 10 27",
+                         "09 70 15 00 26 FE 00 36 F0 D8 46 10 27"));
   // 0 to 254 for -10000 to 10000: 127 is none, 0.5 is 190.5 -> 191 = BFh
   CHECK(told(encode_constant(pid, 1, 0.0)) == "05 01 7F 00");
   CHECK(told(encode_constant(pid, 1, 1.0)) == "05 01 FE 00");
@@ -319,8 +321,9 @@ TEST_CASE("a magnitude without sign whose physical range has one: its zero is in
 }
 
 TEST_CASE("a direction that has a sign: half a turn is its least") {
-  const PidLayout pid = pid_in(with(device_descriptor("openffboard-2axis"), "15 00 27 A0 8C 00 00 35 00 47 A0 8C 00 00",
-                                    "16 B0 B9 26 50 46 36 B0 B9 46 50 46"));  // -18000 to 18000
+  const PidLayout pid =
+      needed_pid_in(with(device_descriptor("openffboard-2axis"), "15 00 27 A0 8C 00 00 35 00 47 A0 8C 00 00",
+                         "16 B0 B9 26 50 46 36 B0 B9 46 50 46"));  // -18000 to 18000
   CHECK(told(encode_set_effect(pid, settings(1, PidEffect::constant, 0))).substr(42, 5) == "28 23");
   CHECK(told(encode_set_effect(pid, settings(1, PidEffect::constant, 1))).substr(42, 5) == "50 46");
 }

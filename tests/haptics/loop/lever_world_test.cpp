@@ -16,7 +16,7 @@ using glm::dvec2;
 
 namespace {
 
-constexpr std::int64_t kPeriodNs = 1'000'000;
+constexpr std::int64_t kWorldPeriodNs = 1'000'000;
 
 // Answers what the test says, and keeps what it was told.
 class ScriptedWorld final : public LeverWorld {
@@ -58,14 +58,14 @@ bool shifts_into(const Gate& gate, int gear, ScriptedWorld& world) {
 TEST_CASE("the world's clock: first call 0, then one period, and the skipped ones after an overrun") {
   const Gate gate = paper_gate();
   RestingHand nobody;
-  SimulatedLever lever({}, kPeriodNs, nobody);
+  SimulatedLever lever({}, kWorldPeriodNs, nobody);
   ScriptedWorld world;
   LoopChannels channels;
   HapticLoop loop(HapticConfig{}, gate, lever, world, channels);
   loop.cycle(0, 0);
-  loop.cycle(1 * kPeriodNs, 0);
-  loop.cycle(4 * kPeriodNs, 2);
-  loop.cycle(5 * kPeriodNs, 0);
+  loop.cycle(1 * kWorldPeriodNs, 0);
+  loop.cycle(4 * kWorldPeriodNs, 2);
+  loop.cycle(5 * kWorldPeriodNs, 0);
   REQUIRE(world.periods.size() == 4);
   CHECK(world.periods[0] == 0.0);
   CHECK(world.periods[1] == doctest::Approx(0.001));

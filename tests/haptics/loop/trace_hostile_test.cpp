@@ -18,7 +18,7 @@ namespace gearshift {
 namespace {
 
 constexpr std::size_t kFrame = 20, kPreamble = 12;  // [bytes] as documented, not as the code says
-constexpr std::size_t kSample = 392;                // [bytes] per cycle
+constexpr std::size_t kSampleBytes = 392;           // [bytes] per cycle
 constexpr std::size_t kCycles = 600;                // two full blocks and a part of one
 
 // Bit by bit: the definition.
@@ -154,7 +154,7 @@ const std::vector<Hostile> hostile_traces = {
     {"an end with samples", [](B& f, At& at) { put(f, at[4] + 8, 1), seal_frame(f, at[4]); },
      "is damaged: there is no block at byte"},
     {"a block larger than any can be",
-     [](B& f, At& at) { put(f, at[1] + 4, 256 * kSample + 17), seal_frame(f, at[1]); },
+     [](B& f, At& at) { put(f, at[1] + 4, 256 * kSampleBytes + 17), seal_frame(f, at[1]); },
      "is damaged: there is no block at byte"},
     {"a block of fewer samples than it claims, the end block told the same lie",
      [](B& f, At& at) {
@@ -231,7 +231,7 @@ const std::vector<Hostile> hostile_traces = {
     {"fewer deadlines skipped than none",
      [](B& f, At& at) {
        const std::int64_t skipped = -3;
-       forge(f, at[1], [&](std::byte* samples) { std::memcpy(samples + kSample + 8, &skipped, sizeof skipped); });
+       forge(f, at[1], [&](std::byte* samples) { std::memcpy(samples + kSampleBytes + 8, &skipped, sizeof skipped); });
      },
      "is damaged: cycle 1 skipped -3 deadlines"},
     {"an output forged, its block sealed again",

@@ -17,7 +17,7 @@ namespace {
 
 using Bytes = std::vector<std::uint8_t>;
 
-constexpr std::int64_t kMs = 1'000'000;
+constexpr std::int64_t kStickMs = 1'000'000;
 constexpr StickFamily kFamilies[] = {StickFamily::sidewinder, StickFamily::openffboard, StickFamily::vjoy};
 
 Bytes hex(const std::string& text) {
@@ -78,7 +78,7 @@ struct Rig {
     out(pick("0A ", "0A ", "1A ") + block + " 01 " + loops);
   }
   void run(std::int64_t ms) {
-    for (; ms > 0; --ms) stick.advance(stick.time_ns() + kMs);
+    for (; ms > 0; --ms) stick.advance(stick.time_ns() + kStickMs);
   }
 
   StickFamily family;
@@ -456,7 +456,7 @@ TEST_CASE("reports come every interval, or when something changes, each once") {
   CHECK(still.stick.input());
   still.run(100);
   CHECK_FALSE(still.stick.input());
-  CHECK(still.stick.time_ns() - still.stick.told_ns() == 100 * kMs);
+  CHECK(still.stick.time_ns() - still.stick.told_ns() == 100 * kStickMs);
   CHECK(still.get(0x101));
   CHECK(still.stick.told_ns() == still.stick.time_ns());
   still.stick.place({0.01, 0.0});
@@ -600,10 +600,10 @@ TEST_CASE("the same calls give the same motion, bit for bit, and however time is
     Rig rig(StickFamily::openffboard);
     rig.hand.target.push = {3.0, 1.0};
     rig.start(full_spring(rig));
-    for (std::int64_t t = 0; t <= 250 * kMs; t += step_ns) rig.stick.advance(t);
+    for (std::int64_t t = 0; t <= 250 * kStickMs; t += step_ns) rig.stick.advance(t);
     return rig.stick.position();
   };
-  CHECK(drive(kMs) == drive(kMs));
-  CHECK(drive(kMs) == drive(kMs / 8));
-  CHECK(drive(kMs) == drive(25 * kMs));
+  CHECK(drive(kStickMs) == drive(kStickMs));
+  CHECK(drive(kStickMs) == drive(kStickMs / 8));
+  CHECK(drive(kStickMs) == drive(25 * kStickMs));
 }

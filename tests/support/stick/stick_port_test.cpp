@@ -9,7 +9,7 @@ using namespace gearshift;
 
 namespace {
 
-constexpr std::int64_t kMs = 1'000'000;
+constexpr std::int64_t kPortMs = 1'000'000;
 
 HidBytes report(std::initializer_list<std::uint8_t> bytes) {
   HidBytes made;
@@ -36,8 +36,8 @@ struct Listener final : HidStream {
   std::vector<std::int64_t> asked_ns, sent_ns;
 };
 
-struct Rig {
-  explicit Rig(const EmulatedStickConfig& config) : stick(config, hand), port(stick, mutex, plugged) {}
+struct PortRig {
+  explicit PortRig(const EmulatedStickConfig& config) : stick(config, hand), port(stick, mutex, plugged) {}
 
   RestingHand hand;
   std::mutex mutex;
@@ -46,7 +46,7 @@ struct Rig {
   StickPort port;
 };
 
-EmulatedStickConfig of(StickFamily family) {
+EmulatedStickConfig port_stick(StickFamily family) {
   EmulatedStickConfig config;
   config.family = family;
   return config;
@@ -55,7 +55,7 @@ EmulatedStickConfig of(StickFamily family) {
 }  // namespace
 
 TEST_CASE("identity, features and outputs, by a pipe or by SET_REPORT") {
-  Rig board(of(StickFamily::openffboard));
+  PortRig board(port_stick(StickFamily::openffboard));
   CHECK(board.port.identity().vendor == 0x1209);
   CHECK(board.port.identity().product == 0xffb0);
   CHECK(board.port.identity().name == "FFBoard");
@@ -68,13 +68,13 @@ TEST_CASE("identity, features and outputs, by a pipe or by SET_REPORT") {
   board.port.send(report({0x0C, 1}));
   CHECK(board.stick.actuators_on());
 
-  Rig feeder(of(StickFamily::vjoy));
+  PortRig feeder(port_stick(StickFamily::vjoy));
   feeder.port.send(report({0x1C, 1}));
   CHECK(feeder.stick.actuators_on());
 }
 
 TEST_CASE("what cannot be done is one sentence, what is gone is gone") {
-  Rig rig(of(StickFamily::sidewinder));
+  PortRig rig(port_stick(StickFamily::sidewinder));
   CHECK_THROWS_AS(rig.port.get_feature(0x7E, 5), HidError);
   CHECK_THROWS_AS(rig.port.set_feature(report({0x7E, 1})), HidError);
   rig.stick.faults.stalls_outputs = true;
@@ -90,29 +90,29 @@ TEST_CASE("what cannot be done is one sentence, what is gone is gone") {
 }
 
 TEST_CASE("a tick brings a report and takes an output; a stick that is still is asked, a dead one is told of") {
-  EmulatedStickConfig config = of(StickFamily::sidewinder);
+  EmulatedStickConfig config = port_stick(StickFamily::sidewinder);
   config.reports_changes_alone = true;
-  Rig rig(config);
+  PortRig rig(config);
   Listener listener;
   StreamConfig stream;
   stream.lever_report = 1;
   listener.output = report({0x0C, 1});
-  for (std::int64_t now = 0; now <= 100 * kMs; now += kMs) tick_stick(rig.stick, stream, listener, now);
+  for (std::int64_t now = 0; now <= 100 * kPortMs; now += kPortMs) tick_stick(rig.stick, stream, listener, now);
   CHECK(listener.sent_ns.size() == 101);
   CHECK(rig.stick.actuators_on());
   CHECK(listener.inputs == 1 + 12);  // its first, at 1 ms, then an answer every 8 ms
-  CHECK(listener.last_input_ns == 97 * kMs);
+  CHECK(listener.last_input_ns == 97 * kPortMs);
   rig.stick.faults.silent = true;
-  std::int64_t now = 101 * kMs;
+  std::int64_t now = 101 * kPortMs;
   const auto tick_on = [&] {
-    for (; now < 400 * kMs; now += kMs) tick_stick(rig.stick, stream, listener, now);
+    for (; now < 400 * kPortMs; now += kPortMs) tick_stick(rig.stick, stream, listener, now);
   };
   CHECK_THROWS_AS(tick_on(), HidError);
-  CHECK(now == (97 + 250) * kMs);
+  CHECK(now == (97 + 250) * kPortMs);
 }
 
 TEST_CASE("a stream keeps a tick between two outputs, and ends when it shall") {
-  Rig rig(of(StickFamily::openffboard));
+  PortRig rig(port_stick(StickFamily::openffboard));
   Listener listener;
   StreamConfig stream;
   stream.lever_report = 1;
@@ -120,5 +120,5 @@ TEST_CASE("a stream keeps a tick between two outputs, and ends when it shall") {
   rig.port.stream(stream, listener);
   CHECK(listener.sent_ns.size() == 20);
   CHECK(listener.inputs > 0);
-  for (std::size_t i = 1; i < 20; ++i) CHECK(listener.sent_ns[i] - listener.sent_ns[i - 1] >= kMs);
+  for (std::size_t i = 1; i < 20; ++i) CHECK(listener.sent_ns[i] - listener.sent_ns[i - 1] >= kPortMs);
 }
