@@ -111,7 +111,7 @@ std::string talk_through(OpenStick& stick, KnownStick& known, const fs::path& fo
 int calibrate_stick(const std::string& wanted, const fs::path& folder, bool again, int answers) {
   const StopSignals signals;
   const auto bus = std::make_shared<UsbBus>();
-  const std::vector<ListedStick> plugged = list_sticks(bus->hid_devices(), folder);
+  const std::vector<ListedStick> plugged = list_sticks(bus->hid_devices(), again ? fs::path() : folder);
   const ListedStick stick = chosen_stick(wanted, plugged);
   check_can_push(stick);
   const auto open = [bus, identity = stick.identity, interface = stick.interface] {

@@ -64,7 +64,15 @@ std::string missing_words(const DeviceCalibration& calibration) {
 }
 
 std::optional<KnownStick> read_known(const fs::path& folder, const HidIdentity& device) {
-  return read_file(calibration_file(folder, device));
+  const fs::path file = calibration_file(folder, device);
+  std::optional<KnownStick> known = read_file(file);
+  if (!known) return std::nullopt;
+  const DeviceCalibration& found = known->calibration;
+  const bool is_its = found.vendor == device.vendor && found.product == device.product && found.serial == device.serial;
+  if (!is_its)
+    throw FileError(file.string(), 0,
+                    fmt::format("is the calibration of {}, not of {}", stick_id(identity_of(found)), stick_id(device)));
+  return known;
 }
 
 std::vector<KnownStick> known_sticks(const fs::path& folder) {
@@ -78,7 +86,7 @@ std::vector<KnownStick> known_sticks(const fs::path& folder) {
     try {
       if (std::optional<KnownStick> stick = read_file(file)) sticks.push_back(std::move(*stick));
     } catch (const FileError&) {
-      continue;  // told where this one is asked for
+      continue;  // told by the list, where it is plugged in
     }
   }
   return sticks;

@@ -89,7 +89,10 @@ class HeldDrive {
 
   // One that is gone has no forces, and none when it comes back.
   void follow_stick() {
-    while (const std::optional<std::string> news = stick_.take_news()) say_(*news);
+    while (const std::optional<std::string> news = stick_.take_news()) {
+      say_(*news);
+      was_missed_ = true;  // and why is said
+    }
     const bool was_there = std::exchange(is_there_, stick_.connected());
     if (was_there && !is_there_) {
       trainer_.stop();
@@ -100,7 +103,7 @@ class HeldDrive {
     was_missed_ = was_missed_ || is_there_ || trainer_.time() > kOpeningTakes;
   }
 
-  void say_not_there() { say_(fmt::format("{} is not plugged in: plug it in.", stick_.name())); }
+  void say_not_there() { say_(fmt::format("{} cannot be used yet: plug it in.", stick_.name())); }
 
   void follow_lever() {
     for (const DriveSample& cycle : trainer_.take_cycles()) {
@@ -145,7 +148,7 @@ class HeldDrive {
   std::size_t next_ = 0;  // of the gears that are wanted
   bool armed_ = false;    // by a person, and not fallen since
   bool is_there_ = false;
-  bool was_missed_ = false;  // or has been there
+  bool was_missed_ = false;  // and it was said; or has been there
   bool asked_ = false;       // to arm, and not answered yet
 };
 

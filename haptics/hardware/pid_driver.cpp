@@ -114,15 +114,16 @@ void PidDriver::see_lever(const LeverCounts& counts, std::int64_t time_ns) noexc
   publish();
 }
 
+// What protected itself is not overruled: its motors stay off until a person has armed it again.
 void PidDriver::hear_state(const PidStatus& status, std::int64_t time_ns) noexcept {
   switch (stream_.heard(status, time_ns)) {
     case StickLapse::none:
       return;
-    case StickLapse::switched_off:
-      problems_.raise(StickProblem::switched_off);
-      break;
     case StickLapse::effect_stopped:
       problems_.raise(StickProblem::effect_stopped);
+      return publish();
+    case StickLapse::switched_off:
+      problems_.raise(StickProblem::switched_off);
       break;
     case StickLapse::no_power:
       problems_.raise(StickProblem::no_power);
@@ -131,7 +132,7 @@ void PidDriver::hear_state(const PidStatus& status, std::int64_t time_ns) noexce
       problems_.raise(StickProblem::safety_switch);
       break;
   }
-  publish();
+  end_session();
 }
 
 HidBytes PidDriver::next_output(std::int64_t now_ns) noexcept {
@@ -158,6 +159,11 @@ void PidDriver::obey(std::int64_t now_ns) noexcept {
 void PidDriver::watch_silence(std::int64_t now_ns) noexcept {
   if (!driven_ || now_ns - ordered_ns_ <= kSilence) return;
   problems_.raise(StickProblem::nobody_commands, kSilence / 1'000'000);
+  end_session();
+}
+
+// What was wished drives nothing any more.
+void PidDriver::end_session() noexcept {
   ++sight_.session;
   stream_.want({});
   stream_.release();

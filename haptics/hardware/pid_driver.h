@@ -89,6 +89,7 @@ class PidDriver final : public HidStream {
   void order(const PidWish& wish) noexcept;
   void wake() const noexcept;
   void obey(std::int64_t now_ns) noexcept;
+  void end_session() noexcept;
   void watch_silence(std::int64_t now_ns) noexcept;
   void watch_arrival(bool anything, std::int64_t now_ns) noexcept;
   void see_lever(const LeverCounts& counts, std::int64_t time_ns) noexcept;

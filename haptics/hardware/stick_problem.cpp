@@ -20,7 +20,7 @@ std::string sentence(StickProblem problem, std::int64_t a, std::int64_t b) {
     case StickProblem::jumps:
       return "the stick's position jumps by " + std::to_string(a) + " % of its range between two reports";
     case StickProblem::switched_off:
-      return "the stick switched its motors off by itself: they were switched on again";
+      return "the stick switched its motors off by itself: they stay off until they are armed again";
     case StickProblem::effect_stopped:
       return "the stick stopped an effect by itself: it was started again";
     case StickProblem::no_power:

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
+#include <utility>
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
@@ -54,6 +55,13 @@ class StageClock {
   bool on_;
 };
 
+// A person's motors go off for good where a simulated lever keeps some damping: late readings or cycles make damping push.
+GuardConfig guard_of(const HapticConfig& config, const DeviceSpec& spec) noexcept {
+  GuardConfig guard = config.guard;
+  if (!spec.simulated) guard.damped_damping = 0.0;
+  return guard;
+}
+
 }  // namespace
 
 HapticLoop::HapticLoop(const HapticConfig& config, const Gate& gate, HapticDevice& device, LeverWorld& world,
@@ -72,7 +80,7 @@ HapticLoop::HapticLoop(const HapticConfig& config, const Gate& gate, HapticDevic
       observer_(device.spec(), period_),
       limiter_(device.spec(), period_),
       selector_(config.gear_debounce),
-      guard_(config.guard, device.spec(), period_, config.contact.energy_control),
+      guard_(guard_of(config, device.spec()), device.spec(), period_, config.contact.energy_control),
       stiffest_feel_(stiffest_feel(gate)),
       passage_(open_passage(gate)),
       proxy_(place_proxy(gate, rest_position(gate, kNeutralGear))) {}
@@ -162,6 +170,7 @@ void HapticLoop::retune(const HapticTuning& tuning) noexcept {
 void HapticLoop::arm() noexcept {
   if (reading_.stop) return;
   guard_.arm();
+  let_go_ = false;
   placed_ = false;
   limiter_.reset();
 }
@@ -351,7 +360,9 @@ void HapticLoop::watch_chatter() noexcept {
 void HapticLoop::watch_guard(std::int64_t skipped) noexcept {
   const bool has_changed = guard_.state() != out_.guard;
   const bool is_off = guard_.state() == GuardState::idle || guard_.state() == GuardState::released;
-  if (has_changed && is_off) device_.release();
+  const bool is_faded = guard_.state() == GuardState::damped && !device_.spec().simulated &&
+                        out_.commanded == dvec2{0.0, 0.0} && !std::exchange(let_go_, true);
+  if ((has_changed && is_off) || is_faded) device_.release();
   const bool is_healthy = motion_.fresh && skipped == 0 && !has_changed;
   healthy_ = is_healthy ? healthy_ + period_ : 0.0;
   const bool may_rearm = device_.spec().simulated && guard_.fault() != GuardFault::chatter;

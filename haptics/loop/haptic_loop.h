@@ -145,6 +145,7 @@ class HapticLoop {
   LeverWalls walls_;        // as the device was last told
   bool placed_ = false;     // the proxy stands where the lever was at the start or at arming
   bool first_step_ = true;  // of the world: period 0
+  bool let_go_ = false;     // the motors of a device that is not simulated, in the state damped
   double healthy_ = 0.0;    // [s] of fresh readings in a row, to re-arm a simulated lever
   struct Sent {
     glm::dvec2 force{0.0};  // [N]

@@ -12,6 +12,8 @@ namespace {
 
 using glm::dvec2;
 
+constexpr long kArmedPatience = 10;  // times stale_time: a device takes a while to say its first word
+
 }  // namespace
 
 const char* guard_state_name(GuardState state) noexcept {
@@ -70,7 +72,8 @@ void ForceGuard::watch(const GuardInput& in) noexcept {
     return fall(GuardState::released, GuardFault::not_finite);
   }
   if (is_outside) return fall(GuardState::released, GuardFault::limit_broken);
-  if (stale_ > stale_limit_ && state_ != GuardState::armed) return fall(GuardState::damped, GuardFault::stale_reading);
+  const long patience = state_ == GuardState::armed ? kArmedPatience * stale_limit_ : stale_limit_;
+  if (stale_ > patience) return fall(GuardState::damped, GuardFault::stale_reading);
   if (overruns_ >= config_.overruns_in_row) return fall(GuardState::damped, GuardFault::overruns);
 }
 

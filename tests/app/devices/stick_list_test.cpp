@@ -98,6 +98,10 @@ TEST_CASE("a calibration that was begun, one that is whole, and one that is dama
   std::ofstream(file) << "nonsense = 1\n";
   CHECK(calibration_words(listed()) == "no");
   CHECK(listed().problem.find(file.string()) != std::string::npos);
+  known.calibration.product = 0x001c;  // by its name the file is this stick's
+  std::filesystem::copy_file(keep_known(known, folder.path()), file, std::filesystem::copy_options::overwrite_existing);
+  CHECK(calibration_words(listed()) == "no");
+  CHECK(listed().problem == file.string() + ": is the calibration of 045e:001c, not of 045e:001b");
   UsbHidDevice forbidden = device;  // what is to be done first is said
   forbidden.problem = "it may not be used";
   CHECK(list_sticks({&forbidden, 1}, folder.path()).at(0).problem == "it may not be used");

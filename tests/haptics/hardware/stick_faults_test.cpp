@@ -63,7 +63,7 @@ const std::vector<Fault>& faults() {
          run.tick();
          run.loop.cycle(run.now_ns, 1);
        },
-       0.040, true},
+       0.040},
       {"loop dead, USB thread alive", [](StickLoop&) {}, [](StickLoop& run) { run.tick(); }, 0.110},
       {"program dead", [](StickLoop&) {}, [](StickLoop& run) { run.stick.advance(run.now_ns += 1'000'000); }, 0.301},
   };
