@@ -6,9 +6,8 @@
 
 #include "app/input/bindings.h"
 #include "app/input/key_names.h"
-#include "haptics/files/file_error.h"
-#include "haptics/files/part_file.h"
 #include "haptics/files/printable.h"
+#include "haptics/files/readable_file.h"
 
 namespace gearshift {
 namespace {
@@ -58,17 +57,6 @@ std::string axis_text(std::string_view key, const std::optional<AxisBinding>& ax
   return text + line("dead_zone", digits_of(axis->dead_zone)) + line("end_zone", digits_of(axis->end_zone));
 }
 
-void check_readable(const fs::path& part, const std::string& name) {
-  try {
-    (void)read_bindings(part);
-  } catch (const FileError& error) {
-    std::string reason = error.what();
-    const std::size_t at = reason.find(part.string());
-    if (at != std::string::npos) reason = reason.substr(reason.find(": ", at) + 2);
-    throw FileError(name, 0, "not written, it could not be read again: " + reason);
-  }
-}
-
 }  // namespace
 
 std::string bindings_text(const Bindings& bindings) {
@@ -87,10 +75,7 @@ std::string bindings_text(const Bindings& bindings) {
 }
 
 void write_bindings(const Bindings& bindings, const fs::path& file) {
-  PartFile part(file);
-  part.write(bindings_text(bindings));
-  check_readable(part.path(), file.string());
-  part.keep();
+  write_readable_file(file, bindings_text(bindings), [](const auto& written) { (void)read_bindings(written); });
 }
 
 fs::path own_bindings_file(const fs::path& config_folder, const std::string& name) {

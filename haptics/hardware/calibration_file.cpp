@@ -11,7 +11,7 @@
 
 #include "haptics/files/file_error.h"
 #include "haptics/files/number_text.h"
-#include "haptics/files/part_file.h"
+#include "haptics/files/readable_file.h"
 #include "haptics/files/text_file.h"
 #include "haptics/files/toml_reader.h"
 #include "haptics/hardware/device_calibration.h"
@@ -168,17 +168,6 @@ void put_axis(CommentedText& out, const std::string& section, const LeverAxisCal
   out.put("stiffness_n_per_m", axis.handle.stiffness, "");
 }
 
-void check_readable(const std::filesystem::path& part, const std::string& name) {
-  try {
-    (void)read_calibration(part);
-  } catch (const FileError& error) {
-    std::string reason = error.what();
-    const std::size_t at = reason.find(part.string());
-    if (at != std::string::npos) reason = reason.substr(reason.find(": ", at) + 2);
-    throw FileError(name, 0, "not written, it could not be read again: " + reason);
-  }
-}
-
 }  // namespace
 
 std::filesystem::path calibration_file(const std::filesystem::path& folder, const HidIdentity& device) {
@@ -237,10 +226,8 @@ void write_calibration(const DeviceCalibration& calibration, const std::filesyst
   std::error_code failed;
   if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), failed);
   if (failed) throw FileError(file.string(), 0, "cannot be written: " + failed.message());
-  PartFile part(file);
-  part.write(calibration_text(calibration));
-  check_readable(part.path(), file.string());
-  part.keep();
+  write_readable_file(file, calibration_text(calibration),
+                      [](const auto& written) { (void)read_calibration(written); });
 }
 
 }  // namespace gearshift

@@ -7,8 +7,7 @@
 #include <numbers>
 #include <string_view>
 
-#include "haptics/files/file_error.h"
-#include "haptics/files/part_file.h"
+#include "haptics/files/readable_file.h"
 
 namespace gearshift {
 namespace {
@@ -164,17 +163,6 @@ void put_haptics(TomlText& out, const HapticConfig& haptics) {
   out.put("clear_below_n", haptics.over_push.clear_below);
 }
 
-void check_readable(const std::filesystem::path& part, const std::string& name) {
-  try {
-    (void)read_preset(part.string());
-  } catch (const FileError& error) {
-    std::string reason = error.what();
-    const std::size_t at = reason.find(part.string());
-    if (at != std::string::npos) reason = reason.substr(reason.find(": ", at) + 2);
-    throw FileError(name, 0, "not written, it could not be read again: " + reason);
-  }
-}
-
 }  // namespace
 
 std::string preset_text(const Preset& preset) {
@@ -186,10 +174,7 @@ std::string preset_text(const Preset& preset) {
 }
 
 void write_preset(const Preset& preset, const std::filesystem::path& file) {
-  PartFile part(file);
-  part.write(preset_text(preset));
-  check_readable(part.path(), file.string());
-  part.keep();
+  write_readable_file(file, preset_text(preset), [](const auto& written) { (void)read_preset(written.string()); });
 }
 
 }  // namespace gearshift
