@@ -19,8 +19,6 @@ using glm::dvec2;
 namespace {
 
 constexpr double kSilent = 0.1;  // [N] at the knob: nothing that can be felt
-// What the guard leaves while readings are fresh: damping of 5 N s/m, a few ms late, and a count of the SideWinder, 0.14 mm
-// in a millisecond, makes 0.2 N of it.
 
 EmulatedStickConfig gripped(StickFamily family) {
   EmulatedStickConfig config;
