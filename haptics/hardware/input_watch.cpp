@@ -24,10 +24,11 @@ void InputWatch::see(const LeverCounts& counts, std::array<double, 2> force, std
     still_since_ns_ = time_ns;
     least_ = most_ = force;
   }
+  const std::int64_t passed_ns = started_ ? time_ns - time_ns_ : 0;
   started_ = true;
   place_ = now;
   time_ns_ = time_ns;
-  watch_frozen(force, time_ns);
+  watch_still(force, passed_ns);
 }
 
 void InputWatch::watch_jump(std::array<std::int64_t, 2> now, std::int64_t time_ns) noexcept {
@@ -39,14 +40,19 @@ void InputWatch::watch_jump(std::array<std::int64_t, 2> now, std::int64_t time_n
   }
 }
 
-void InputWatch::watch_frozen(std::array<double, 2> force, std::int64_t time_ns) noexcept {
-  double varied = 0.0;
+void InputWatch::watch_still(std::array<double, 2> force, std::int64_t passed_ns) noexcept {
+  double varied = 0.0, strongest = 0.0;
   for (std::size_t i = 0; i < 2; ++i) {
     least_[i] = std::min(least_[i], force[i]);
     most_[i] = std::max(most_[i], force[i]);
     varied = std::max(varied, most_[i] - least_[i]);
+    strongest = std::max({strongest, -least_[i], most_[i]});
   }
-  frozen_ = varied > kFrozenForce && static_cast<double>(time_ns - still_since_ns_) >= 1e9 * kFrozenTime;
+  const bool still = static_cast<double>(time_ns_ - still_since_ns_) >= 1e9 * kFrozenTime;
+  const double passed = 1e-9 * static_cast<double>(passed_ns);
+  const double change = still && strongest > kYieldForce ? -passed / kYieldTime : passed / kReturnTime;
+  share_ = std::clamp(share_ + change, 0.0, 1.0);
+  frozen_ = still && varied > kFrozenForce;
 }
 
 }  // namespace gearshift

@@ -20,7 +20,7 @@ using Clock = std::chrono::steady_clock;
 using std::chrono::milliseconds;
 
 constexpr milliseconds kFirstWait{12}, kLongestWait{1000};  // an absent device costs 12 ms to ask for
-constexpr milliseconds kWorks{1000};                        // so long, and what was wrong with it is over
+constexpr milliseconds kWorks{1000};                        // it streams so long, and what was wrong with it is over
 constexpr std::size_t kMostNews = 64;                       // that wait; the oldest go first
 constexpr int kPriority = 70;                               // below the haptic loop's, which it must never delay
 
@@ -49,9 +49,10 @@ struct LeverKeeper::State {
   std::deque<std::string> news;
 
   // The thread's own.
-  std::vector<std::string> told;  // complaints, since it last worked
-  std::string name;               // of the device, once it has been open
-  bool was_there = false;         // prepared, once
+  std::vector<std::string> told;                   // since it last worked
+  std::string name;                                // of the device, once it has been open
+  bool was_there = false;                          // prepared, once
+  std::optional<Clock::time_point> streams_since;  // this time
   milliseconds pause = kFirstWait;
   std::thread thread;
 };
@@ -77,19 +78,17 @@ void LeverKeeper::State::keep_open() {
   const std::unique_ptr<HidPort> port = open();
   const std::string own = port->identity().name;
   name = own.empty() ? "the stick" : own;
-  const Clock::time_point since = Clock::now();
+  streams_since.reset();
   try {
     serve(*port);
-    driver.finish(*port);
   } catch (const HidGone&) {
-    driver.finish(*port);
     lost(name + " was unplugged: its motors are off");
   } catch (const HidError& error) {
-    driver.finish(*port);
-    connected = false;
+    connected = false;  // before its motors are switched off, which may take a while
     complain(error.what());
   }
-  if (Clock::now() - since < kWorks) return;
+  driver.finish(*port);
+  if (!streams_since || Clock::now() - *streams_since < kWorks) return;
   pause = kFirstWait;
   told.clear();
 }
@@ -100,9 +99,10 @@ void LeverKeeper::State::serve(HidPort& port) {
     const std::lock_guard lock(mutex);
     ability = std::move(found);
   }
-  if (was_there) tell(name + " is back: arm it");
+  if (was_there) complain(name + " is back: arm it");
   was_there = true;
   connected = true;
+  streams_since = Clock::now();
   // end() of the one who leaves may have come before prepare() made the driver ready to stream again.
   if (leaving) return;
   const RealtimeScope realtime(kPriority);
@@ -112,6 +112,7 @@ void LeverKeeper::State::serve(HidPort& port) {
 void LeverKeeper::State::lost(const std::string& why) {
   if (!connected.exchange(false)) return complain(why);
   pause = kFirstWait;
+  told.clear();  // a person has pulled it out: what follows is another story
   tell(why);
 }
 

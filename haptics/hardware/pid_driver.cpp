@@ -152,7 +152,12 @@ void PidDriver::obey(std::int64_t now_ns) noexcept {
   const Order& order = orders_.value();
   const bool counts = prepared_ && order.session == sight_.session && order.releases == releases;
   driven_ = counts && order.wish.enabled;
-  stream_.want(counts ? order.wish : PidWish{});
+  PidWish wish = counts ? order.wish : PidWish{};
+  for (std::size_t i = 0; i < 2; ++i) {  // its own walls, too: they are as blind as its sensor
+    wish.constant[i] *= watch_.force_share();
+    wish.spring[i].coefficient *= watch_.force_share();
+  }
+  stream_.want(wish);
 }
 
 // The haptic side is late or dead, and this thread is not: a renewed force would stay for ever.

@@ -255,13 +255,14 @@ void UsbStream::look(std::int64_t now) noexcept {
   ask_if_silent(now);
 }
 
-// A stalled pipe is cleared once, and once more when something went through it meanwhile.
+// A stalled pipe is cleared. One that stalls again before anything went through it has failed, and is clear for whoever
+// comes next.
 bool UsbStream::clear(Trouble& pipe, std::uint8_t endpoint, const char* what) noexcept {
   pipe.stalled = false;
-  if (++pipe.stalls > 1) {
-    fail(false, what);
-  } else if (endpoint != 0 && libusb_clear_halt(&handle_, endpoint) == LIBUSB_ERROR_NO_DEVICE) {
+  if (endpoint != 0 && libusb_clear_halt(&handle_, endpoint) == LIBUSB_ERROR_NO_DEVICE) {
     fail(true, "was unplugged");
+  } else if (++pipe.stalls > 1) {
+    fail(false, what);
   }
   return !failure_;
 }

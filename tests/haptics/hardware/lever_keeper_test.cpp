@@ -207,6 +207,29 @@ TEST_CASE("a stick that refuses its effects, then takes them; that takes no outp
   for (const std::string& sentence : news) CHECK(std::count(news.begin(), news.end(), sentence) == 1);
 }
 
+// A pipe that takes nothing costs 250 ms each time: whoever fails slowly works no longer for it.
+TEST_CASE("what fails slowly is told once, too") {
+  class Deaf final : public StickPort {
+   public:
+    using StickPort::StickPort;
+    void send(const HidBytes&) override {
+      std::this_thread::sleep_for(std::chrono::milliseconds(180));
+      throw HidError("the stick did not answer");
+    }
+  };
+  KeptStick kept;
+  std::atomic<int> opened{0};
+  kept.keeper = std::make_unique<LeverKeeper>(
+      kept.driver,
+      [&] {
+        ++opened;
+        return std::make_unique<Deaf>(kept.stick, kept.mutex, kept.plugged);
+      },
+      1'000'000);
+  REQUIRE(comes([&] { return opened == 3; }));
+  CHECK(kept.news() == Lines{"the stick did not answer"});
+}
+
 // Looking for an absent stick takes milliseconds, which a real-time thread would take from the loop.
 TEST_CASE("its thread is real-time while it streams, where it may be, and not while it looks for the stick") {
   bool allowed = false;

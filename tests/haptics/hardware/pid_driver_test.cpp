@@ -255,9 +255,37 @@ TEST_CASE("a lever that stands still under a force that hardly changes is not st
   StickBench bench(held(StickFamily::sidewinder), hand);
   bench.prepare();
   bench.stick.faults.stuck = true;
-  for (int i = 0; i < 5000; ++i) bench.tick(pushing(0.14 * std::sin(0.02 * i), 0.0));
+  double late = 0.0;  // [1] the most in the last second
+  for (int i = 0; i < 5000; ++i) {
+    bench.tick(pushing(0.14 * std::sin(0.02 * i), 0.0));
+    if (i >= 4000) late = std::max(late, std::abs(bench.driver.see().sent[0]));
+  }
   CHECK(bench.problems().empty());
   CHECK(bench.driver.see().sequence == 5000);
+  CHECK(late == 0.0);  // nor does it push
+}
+
+TEST_CASE("a stuck sensor under a force that does not change: the force yields, and the sensor is found out") {
+  for (const StickFamily family : kStickFamilies) {
+    CAPTURE(name_of(family));
+    StillHand hand;
+    StickBench bench(held(family), hand);
+    bench.prepare();
+    bench.stick.faults.stuck = true;
+    bench.tick_for(1.99, pushing(0.5, -0.1));
+    CHECK(std::abs(bench.stick.force().x) == doctest::Approx(10.0).epsilon(0.01));
+    bench.tick_for(0.5, pushing(0.5, -0.1));
+    CHECK(std::abs(bench.stick.force().x) == doctest::Approx(5.0).epsilon(0.05));  // half of it, after half the time
+    bench.tick_for(0.6, pushing(0.5, -0.1));
+    CHECK(bench.stick.force() == glm::dvec2(0.0));
+    CHECK(bench.problems() == Lines{"the stick has said one place for 2 s while its force changed: its sensor is taken "
+                                    "for dead until it moves"});
+    CHECK(bench.time() - 1e-9 * static_cast<double>(bench.driver.see().time_ns) > 0.3);  // its readings do not count
+
+    bench.stick.faults.stuck = false;  // a place at last: back within 0.2 s
+    bench.tick_for(0.25, pushing(0.5, -0.1));
+    CHECK(std::abs(bench.stick.force().x) == doctest::Approx(10.0).epsilon(0.01));
+  }
 }
 
 TEST_CASE("silent, and outputs that are not taken: the port says so, and the device goes silent") {

@@ -203,6 +203,8 @@ TEST_CASE("an output that stalls is told once more") {
     stream.give(numbered_output(8));
     streaming.join();
     CHECK(streaming.error() == "Plain joystick (1209:0001) stalls: it takes no reports any more");
+    rig.usb.set_faults(rig.gadget, {});
+    CHECK_NOTHROW(port->send(numbered_output(9)));  // what must be told before it is given back
     CHECK(nothing_left(rig));
   }
 }
