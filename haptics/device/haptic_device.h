@@ -25,6 +25,8 @@ struct DeviceSpec {
   // [N/m] per axis of the walls that the device keeps by itself, at its own rate (hold_walls); 0: it keeps none. Used
   // where both axes have it.
   glm::dvec2 own_stiffness{0.0};
+  // [N s/m] per axis of the dampers that it turns on in these walls; 0: none. Used where both axes have them.
+  glm::dvec2 own_damping{0.0};
   bool measures_hand_force = false;  // a force sensor at the handle
   bool simulated = false;            // arms itself; may run studies that a person must not touch
 };
@@ -44,16 +46,20 @@ struct LeverReading {
 };
 
 // Walls that the device may keep by itself: nothing is felt between low and high, a spring of share x own_stiffness
-// beyond.
+// beyond, and a damper of damping x own_damping there.
 struct LeverWalls {
   glm::dvec2 low{0.0}, high{0.0};  // [m] low <= high
   double share = 0.0;              // [1] 0 to 1, of own_stiffness: of all that is wanted, the guard's ramp; 0: no wall
+  double damping = 0.0;            // [1] the same, of own_damping
   bool operator==(const LeverWalls&) const = default;
 };
 
-// [N/m] of the device's own walls that is counted on: what both axes have.
+// [N/m], [N s/m] of the device's own walls that is counted on: what both axes have.
 inline double own_wall_stiffness(const DeviceSpec& spec) noexcept {
   return std::min(spec.own_stiffness.x, spec.own_stiffness.y);
+}
+inline double own_wall_damping(const DeviceSpec& spec) noexcept {
+  return std::min(spec.own_damping.x, spec.own_damping.y);
 }
 
 class HapticDevice {
@@ -71,7 +77,7 @@ class HapticDevice {
   // Force on the knob from now on, in the gate plane. [N] Real-time safe.
   virtual void write(glm::dvec2 force) noexcept = 0;
 
-  // Walls from now on, where spec().own_stiffness says that the device has them. Real-time safe.
+  // Walls from now on, where spec() says that the device keeps any. Real-time safe.
   virtual void hold_walls(const LeverWalls&) noexcept {}
 
   // Motors off, now, queued forces included. Real-time safe; may be called in any state and twice. A later write()

@@ -20,7 +20,7 @@ namespace gearshift {
 namespace {
 
 constexpr Range kId{0.0, 65535.0}, kCounts{-2147483648.0, 4294967295.0}, kSign{-1.0, 1.0}, kButton{0.0, 64.0};
-constexpr Range kTravel{0.0, 1.0}, kForce{0.0, 200.0}, kStiffness{0.0, 1e5}, kTime{0.0, 1.0};
+constexpr Range kTravel{0.0, 1.0}, kForce{0.0, 200.0}, kStiffness{0.0, 1e5}, kDamping{0.0, 1e3}, kTime{0.0, 1.0};
 constexpr double kLeastTravel = 0.01, kLeastForce = 0.1;  // [m], [N] where it is known
 
 using AxisName = std::pair<std::string_view, int>;  // usages of the Generic Desktop page
@@ -37,7 +37,8 @@ constexpr std::array<AxisName, 9> kAxisNames{{{"x", 0x30},
 template <class Integer>
 void read_whole(const TomlTable& table, std::string_view key, Integer& value, Range range) {
   const double number = table.number(key, range);
-  if (number != std::floor(number)) table.fail(key, "must be a whole number");
+  if (number != std::floor(number))
+    table.fail(key, "must be a whole number between " + number_text(range.min) + " and " + number_text(range.max));
   value = static_cast<Integer>(number);
 }
 
@@ -79,6 +80,8 @@ void read_lever_axis(const TomlTable& table, LeverAxisCalibration& axis) {
   read_whole(table, "constant_sign", axis.constant_sign, kSign);
   read_whole(table, "spring_sign", axis.spring_sign, kSign);
   axis.spring_stiffness = table.number("spring_stiffness_n_per_m", kStiffness);
+  if (table.has("damper_sign")) read_whole(table, "damper_sign", axis.damper_sign, kSign);
+  if (table.has("damper_n_s_per_m")) axis.damper_strength = table.number("damper_n_s_per_m", kDamping);
   read_handle(table.table("handle"), axis.handle);
   table.refuse_unknown_keys();
 }
@@ -162,6 +165,8 @@ void put_axis(CommentedText& out, const std::string& section, const LeverAxisCal
           is_select ? "1: plus pushes right, -1: left" : "1: plus pushes forward, -1: back");
   out.put("spring_sign", axis.spring_sign, "1: a spring pulls to its centre, -1: pushes away");
   out.put("spring_stiffness_n_per_m", axis.spring_stiffness, "of the strongest spring; 0: not measured");
+  out.put("damper_sign", axis.damper_sign, "1: a damper brakes, -1: drives");
+  out.put("damper_n_s_per_m", axis.damper_strength, "of the strongest damper; 0: not measured");
   out.section(section + ".handle", "without a hand");
   out.put("mass_kg", axis.handle.mass, "0: not measured");
   out.put("damping_n_s_per_m", axis.handle.damping, "");

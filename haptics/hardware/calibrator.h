@@ -52,7 +52,9 @@ class Calibrator {
   std::string measure_polarity();  // of constant forces and of springs, per axis
   std::string measure_timing();    // intervals, jitter, delay
   std::string measure_handle();    // m, b, k; after set_numbers()
-  std::string measure_springs();   // N/m; after set_numbers()
+  // N/m and N s/m; after set_numbers(). The way of a damper is found at kCautious of its greatest coefficient. Dampers
+  // that are refused do without, and that is said.
+  std::string measure_springs();
 
  private:
   struct FoundAxis {
@@ -75,10 +77,12 @@ class Calibrator {
   double push(StickRig& rig, const AxisPlace& place, const PidWish& wish) const;
   int spring_sign(StickRig& rig, const AxisPlace& place) const;
   DeviceTiming measure_intervals(StickRig& rig) const;
-  Pulse pulse(StickRig& rig, const AxisPlace& place, double magnitude) const;
-  std::vector<Pulse> pulses(StickRig& rig, const AxisPlace& place) const;
-  PulseFit fit(StickRig& rig, const LeverAxisCalibration& axis, const std::string& name) const;
+  Pulse pulse(StickRig& rig, const AxisPlace& place, const PidWish& rest, double magnitude) const;
+  std::vector<Pulse> pulses(StickRig& rig, const AxisPlace& place, const PidWish& rest) const;
+  PulseFit fit(StickRig& rig, const LeverAxisCalibration& axis, const std::string& name, double damper = 0.0) const;
   double spring_stiffness(StickRig& rig, const LeverAxisCalibration& axis) const;
+  std::string measure_dampers();
+  double damping_by(StickRig& rig, const LeverAxisCalibration& axis, const std::string& name, double damper) const;
 
   PidDriver& driver_;
   CalibrationTick tick_;

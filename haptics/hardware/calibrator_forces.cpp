@@ -24,6 +24,8 @@ constexpr double kMostResidual = 0.2;                            // [1]
 constexpr double kMostDelayMeasured = 0.1;                       // [s]
 constexpr double kMostBalance = 0.4;                             // [1] of the full force, against a spring
 constexpr double kLeastBalance = 0.01;                           // [1] of the range
+constexpr double kDamper = 0.5;                                  // [1] of the greatest coefficient: enough to measure
+constexpr double kLeastBraking = 0.3;                            // [N s/m] that tells the way of a damper
 
 PidWish idle_wish() noexcept {
   PidWish wish;
@@ -179,17 +181,18 @@ DeviceTiming Calibrator::measure_intervals(StickRig& rig) const {
   return timing;
 }
 
-Pulse Calibrator::pulse(StickRig& rig, const AxisPlace& place, double magnitude) const {
-  const double from = rig.rest(place.report, idle_wish());
+// rest: what holds before, during and after it.
+Pulse Calibrator::pulse(StickRig& rig, const AxisPlace& place, const PidWish& rest, double magnitude) const {
+  const double from = rig.rest(place.report, rest);
   const std::int64_t begin = rig.look().now_ns;
-  PidWish on = idle_wish();
+  PidWish on = rest;
   on.constant[place.motor] = magnitude;
   Pulse seen;
   seen.magnitude = magnitude;
   std::int64_t on_ns = 0, off_ns = 0;
   bool pushing = true;
   while (off_ns == 0 || rig.look().now_ns - off_ns < kCoastTime) {
-    const StickRig::Look& look = rig.step(pushing ? on : idle_wish());
+    const StickRig::Look& look = rig.step(pushing ? on : rest);
     const bool pushed = look.sight.sent[place.motor] != 0.0;
     if (pushed && on_ns == 0) on_ns = look.sight.sent_ns;
     if (!pushed && on_ns != 0 && off_ns == 0) off_ns = look.sight.sent_ns;
@@ -205,24 +208,28 @@ Pulse Calibrator::pulse(StickRig& rig, const AxisPlace& place, double magnitude)
   return seen;
 }
 
-std::vector<Pulse> Calibrator::pulses(StickRig& rig, const AxisPlace& place) const {
+std::vector<Pulse> Calibrator::pulses(StickRig& rig, const AxisPlace& place, const PidWish& rest) const {
   std::vector<Pulse> seen;
   double magnitude = kPulseForce;
   while (true) {
-    seen = {pulse(rig, place, magnitude), pulse(rig, place, -magnitude)};
+    seen = {pulse(rig, place, rest, magnitude), pulse(rig, place, rest, -magnitude)};
     double farthest = 0.0;
     for (const PulseSample& sample : seen.front().samples) farthest = std::max(farthest, std::abs(sample.position));
     if (farthest > kLeastPulseMotion * rig.range(place.report) || magnitude >= kMostPulseForce) break;
     magnitude *= 2.0;
   }
-  seen.push_back(pulse(rig, place, magnitude));
-  seen.push_back(pulse(rig, place, -magnitude));
+  seen.push_back(pulse(rig, place, rest, magnitude));
+  seen.push_back(pulse(rig, place, rest, -magnitude));
   return seen;
 }
 
-// In counts.
-PulseFit Calibrator::fit(StickRig& rig, const LeverAxisCalibration& axis, const std::string& name) const {
-  const std::vector<Pulse> seen = pulses(rig, place_of(axis));
+// In counts, under a damper of that coefficient.
+PulseFit Calibrator::fit(StickRig& rig, const LeverAxisCalibration& axis, const std::string& name,
+                         double damper) const {
+  const AxisPlace place = place_of(axis);
+  PidWish rest = idle_wish();
+  rest.damper[place.motor] = damper;
+  const std::vector<Pulse> seen = pulses(rig, place, rest);
   rig.step();  // motors off: the sum takes longer than a wish counts
   PulseFit found;
   try {
@@ -275,8 +282,39 @@ std::string Calibrator::measure_springs() {
   calibration_.select.spring_stiffness = select;
   calibration_.shift.spring_stiffness = shift;
   const bool useful = std::min(select, shift) >= kLeastSpring;
-  return "the strongest springs: select " + newtons_per_metre(select) + ", shift " + newtons_per_metre(shift) +
-         (useful ? "" : ": too weak to be used");
+  const std::string springs = "the strongest springs: select " + newtons_per_metre(select) + ", shift " +
+                              newtons_per_metre(shift) + (useful ? "" : ": too weak to be used");
+  try {
+    return springs + "; " + measure_dampers();
+  } catch (const CalibrationRefused& error) {
+    return springs + "; its dampers are not used: " + error.what();
+  }
+}
+
+// The way first, with as little of it as kCautious; then the strength.
+std::string Calibrator::measure_dampers() {
+  DeviceCalibration found = calibration_;
+  if (!found.has_handle()) throw CalibrationRefused("the handle is not measured yet");
+  if (!driver_.layout().makes(PidEffect::damper)) throw CalibrationRefused("it has none");
+  StickRig rig(driver_, tick_);
+  for (LeverAxisCalibration* axis : {&found.select, &found.shift}) {
+    const std::string name = axis == &found.select ? "select" : "shift";
+    const double braking = damping_by(rig, *axis, name, kCautious);
+    if (std::abs(braking) < kLeastBraking) throw CalibrationRefused(name + " is hardly braked");
+    axis->damper_sign = braking > 0.0 ? 1 : -1;
+    axis->damper_strength = damping_by(rig, *axis, name, kDamper * axis->damper_sign) / kDamper;
+    if (axis->damper_strength <= 0.0) throw CalibrationRefused(name + " is driven whichever way it is told");
+  }
+  calibration_ = found;
+  return "dampers: select " + number_text(found.select.damper_strength, 1) + " N s/m, shift " +
+         number_text(found.shift.damper_strength, 1) + " N s/m" +
+         (found.select.damper_sign * found.shift.damper_sign > 0 ? "" : ", of different signs");
+}
+
+// [N s/m] that a damper of such a coefficient adds to the handle's own.
+double Calibrator::damping_by(StickRig& rig, const LeverAxisCalibration& axis, const std::string& name,
+                              double damper) const {
+  return fit(rig, axis, name, damper).damping * axis.handle.mass - axis.handle.damping;
 }
 
 // The strongest spring against a known force, one way and the other: where it comes to rest.

@@ -35,6 +35,10 @@ double own_stiffness_of(const LeverAxisCalibration& axis) noexcept {
   return axis.spring_sign != 0 && axis.spring_stiffness >= kLeastSpring ? axis.spring_stiffness : 0.0;
 }
 
+double own_damping_of(const LeverAxisCalibration& axis) noexcept {
+  return axis.damper_sign != 0 && axis.damper_strength >= kLeastDamper ? axis.damper_strength : 0.0;
+}
+
 }  // namespace
 
 double answer_time(const DeviceTiming& timing) noexcept {
@@ -58,8 +62,9 @@ DeviceSpec spec_of(const DeviceCalibration& calibration, double period) {
   spec.delay = delay_cycles(calibration.has_timing() ? calibration.timing : kUnmeasuredTiming, period);
   spec.axis_x = handle_of(select);
   spec.axis_y = handle_of(shift);
-  if (calibration.has_polarity())
-    spec.own_stiffness = glm::dvec2(std::min(own_stiffness_of(select), own_stiffness_of(shift)));
+  if (!calibration.has_polarity()) return spec;
+  spec.own_stiffness = glm::dvec2(std::min(own_stiffness_of(select), own_stiffness_of(shift)));
+  spec.own_damping = glm::dvec2(std::min(own_damping_of(select), own_damping_of(shift)));
   return spec;
 }
 

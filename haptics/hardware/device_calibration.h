@@ -24,6 +24,8 @@ struct LeverAxisCalibration {
   int spring_sign = 0;      // of its springs: +1 pulls to the centre, -1 pushes away; 0: not measured
   double spring_stiffness = 0.0;    // [N/m] at the knob at the greatest coefficient; 0: not measured
   AxisModel handle{0.0, 0.0, 0.0};  // bare; mass 0: not measured
+  int damper_sign = 0;              // of its dampers: +1 brakes, -1 drives; 0: not measured
+  double damper_strength = 0.0;     // [N s/m] at the knob at the greatest coefficient; 0: not measured
 };
 
 struct DeviceTiming {
@@ -54,6 +56,7 @@ struct DeviceCalibration {
 inline constexpr DeviceTiming kUnmeasuredTiming{0.002, 0.002, 0.004, 0.0};
 inline constexpr AxisModel kUnmeasuredHandle{0.05, 1.0, 0.0};
 inline constexpr double kLeastSpring = 100.0;  // [N/m] weaker ones keep no wall
+inline constexpr double kLeastDamper = 3.0;    // [N s/m] nor do these damp it
 
 // [s] From a reading to the effect of the force that answers it, worst case: the reading is one interval and its jitter
 // old before it is used, the force waits while the other axis is told, and takes the delay to act.

@@ -33,7 +33,8 @@ std::array<std::size_t, 2> stick_axes(const LeverReport& lever) {
 
 // What is no number drives nothing.
 bool is_number(const PidWish& wish) noexcept {
-  bool finite = std::isfinite(wish.constant[0]) && std::isfinite(wish.constant[1]) && std::isfinite(wish.damper);
+  bool finite = std::isfinite(wish.constant[0]) && std::isfinite(wish.constant[1]);
+  for (const double damper : wish.damper) finite = finite && std::isfinite(damper);
   for (const PidSpring& spring : wish.spring) {
     finite = finite && std::isfinite(spring.centre) && std::isfinite(spring.dead_band) &&
              std::isfinite(spring.coefficient) && std::isfinite(spring.saturation);

@@ -54,11 +54,15 @@ PidLever::PidLever(const DeviceCalibration& calibration, PidDriver& driver, doub
       spec_(spec_of(calibration, period)),
       session_(driver.see().session) {
   const bool has_motors = calibration.select.usage <= kUsageY.id && calibration.shift.usage <= kUsageY.id;
-  if (!has_motors) spec_.max_force = spec_.continuous_force = spec_.own_stiffness = glm::dvec2(0.0);
+  if (!has_motors) spec_.max_force = spec_.continuous_force = spec_.own_stiffness = spec_.own_damping = glm::dvec2(0.0);
   axis_ = {make_axis(calibration.select, drives()), make_axis(calibration.shift, drives())};
   if (axis_[0].spring == 0.0 || axis_[1].spring == 0.0) {
     spec_.own_stiffness = glm::dvec2(0.0);
     axis_[0].spring = axis_[1].spring = 0.0;
+  }
+  if (axis_[0].damper == 0.0 || axis_[1].damper == 0.0) {
+    spec_.own_damping = glm::dvec2(0.0);
+    axis_[0].damper = axis_[1].damper = 0.0;
   }
 }
 
@@ -71,6 +75,7 @@ PidLever::Axis PidLever::make_axis(const LeverAxisCalibration& calibration, bool
   axis.full_force = calibration.full_force;
   axis.sign = calibration.constant_sign;
   axis.spring = wall_coefficient(calibration);
+  axis.damper = damper_coefficient(calibration);
   return axis;
 }
 
@@ -81,6 +86,14 @@ double PidLever::wall_coefficient(const LeverAxisCalibration& calibration) const
   if (stiffness == 0.0 || !set.exists() || !driver_.layout().makes(PidEffect::spring)) return 0.0;
   if (calibration.spring_sign < 0 && set.positive_coefficient.min >= set.positive_coefficient.zero) return 0.0;
   return calibration.spring_sign * stiffness / calibration.spring_stiffness;
+}
+
+double PidLever::damper_coefficient(const LeverAxisCalibration& calibration) const noexcept {
+  const PidSetCondition& set = driver_.layout().set_condition;
+  const double damping = own_wall_damping(spec_);
+  if (damping == 0.0 || !set.exists() || !driver_.layout().makes(PidEffect::damper)) return 0.0;
+  if (calibration.damper_sign < 0 && set.positive_coefficient.min >= set.positive_coefficient.zero) return 0.0;
+  return calibration.damper_sign * damping / calibration.damper_strength;
 }
 
 LeverReading PidLever::read(std::int64_t) noexcept {
@@ -94,6 +107,7 @@ LeverReading PidLever::read(std::int64_t) noexcept {
   reading.sequence = sight.sequence;
   reading.time_ns = sight.time_ns;
   if (sight.sequence > 0) reading.position = {place(axis_[0]), place(axis_[1])};
+  position_ = reading.position;
   reading.actuator_force = motor_force(sight, reading.position);
   reading.pressed_down = has_button(sight.counts, calibration_.press_button);
   reading.lifted = has_button(sight.counts, calibration_.lift_button);
@@ -133,11 +147,13 @@ void PidLever::write(glm::dvec2 force) noexcept {
     wish_.constant[axis.motor] = axis.sign * std::clamp(force[i] / axis.full_force, -1.0, 1.0);
     if (force[i] != 0.0) wish_.enabled = true;
   }
+  damp_in_walls();
   tell();
 }
 
 void PidLever::hold_walls(const LeverWalls& walls) noexcept {
-  const bool is_sound = is_finite(walls.low) && is_finite(walls.high) && std::isfinite(walls.share);
+  const bool is_sound =
+      is_finite(walls.low) && is_finite(walls.high) && std::isfinite(walls.share) && std::isfinite(walls.damping);
   walls_ = is_sound ? walls : LeverWalls{};
   const double share = std::clamp(walls_.share, 0.0, 1.0);
   for (int i = 0; i < 2; ++i) {
@@ -151,6 +167,16 @@ void PidLever::hold_walls(const LeverWalls& walls) noexcept {
   tell();
 }
 
+// A damper knows no walls: it is turned on where the lever is in one, axis by axis.
+void PidLever::damp_in_walls() noexcept {
+  for (int i = 0; i < 2; ++i) {
+    const Axis& axis = axis_[static_cast<std::size_t>(i)];
+    const bool in_wall = position_[i] < walls_.low[i] || position_[i] > walls_.high[i];
+    const double share = in_wall ? std::clamp(walls_.damping, 0.0, 1.0) : 0.0;
+    if (axis.full_force > 0.0) wish_.damper[axis.motor] = share * axis.damper;
+  }
+}
+
 // What the loop says in the cycle in which it learns of a new session was meant for the old one.
 void PidLever::tell() noexcept {
   if (halted_) wish_ = {};
@@ -159,6 +185,7 @@ void PidLever::tell() noexcept {
 
 void PidLever::release() noexcept {
   wish_ = {};
+  walls_ = {};
   driver_.release();
 }
 

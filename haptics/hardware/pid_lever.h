@@ -54,13 +54,16 @@ class PidLever final : public HapticDevice {
     double full_force = 0.0;  // [N] 0: it has no motor, or an unknown one
     double sign = 0.0;        // of a constant force
     double spring = 0.0;      // coefficient of the walls, with its sign; 0: it keeps none
+    double damper = 0.0;      // the same of the damper in them
   };
 
   Axis make_axis(const LeverAxisCalibration& calibration, bool drives) const;
   double wall_coefficient(const LeverAxisCalibration& calibration) const noexcept;
+  double damper_coefficient(const LeverAxisCalibration& calibration) const noexcept;
   glm::dvec2 motor_force(const PidSight& sight, glm::dvec2 position) const noexcept;
   bool has_button(const LeverCounts& counts, int button) const noexcept;
   bool stop_held(const LeverCounts& counts) noexcept;
+  void damp_in_walls() noexcept;
   void tell() noexcept;
   bool drives() const noexcept { return spec_.max_force.x > 0.0 && spec_.max_force.y > 0.0; }
 
@@ -70,6 +73,7 @@ class PidLever final : public HapticDevice {
   std::array<Axis, 2> axis_;  // select, shift
   PidWish wish_;
   LeverWalls walls_;
+  glm::dvec2 position_{0.0};    // [m] newest
   std::uint64_t session_;       // of the last sight
   bool halted_ = false;         // in this cycle: the session is new
   bool stop_was_free_ = false;  // a button that is held from the start is none

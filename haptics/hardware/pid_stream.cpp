@@ -65,8 +65,8 @@ bool PidStream::is_wanted(std::size_t effect) const noexcept {
   switch (static_cast<StickEffect>(effect)) {
     case StickEffect::spring:
       return wish_.spring[0].coefficient != 0.0 || wish_.spring[1].coefficient != 0.0;
-    case StickEffect::damper:
-      return wish_.damper > 0.0;
+    case StickEffect::damper:  // it goes on with nothing: to begin anew takes three reports, in the moment of a contact
+      return wish_.damper[0] != 0.0 || wish_.damper[1] != 0.0 || effect_[effect].playing;
     default:
       return true;
   }
@@ -79,7 +79,7 @@ PidCondition PidStream::wished(std::size_t value) const noexcept {
     case StickEffect::spring:
       return {spring.centre, spring.dead_band, spring.coefficient, spring.saturation};
     case StickEffect::damper:
-      setting.coefficient = wish_.damper;
+      setting.coefficient = wish_.damper[value % 2];
       return setting;
     default:
       setting.coefficient = wish_.constant[value];

@@ -15,7 +15,7 @@ struct PidWish {
   bool enabled = false;               // else the actuators are off
   std::array<double, 2> constant{};   // [1] -1 to 1 of the full force
   std::array<PidSpring, 2> spring{};  // coefficient 0: none
-  double damper = 0.0;                // [1] 0 to 1, both axes
+  std::array<double, 2> damper{};     // [1] -1 to 1 of its greatest coefficient; 0: none
   bool operator==(const PidWish&) const = default;
 };
 

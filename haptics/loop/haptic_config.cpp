@@ -22,6 +22,7 @@ constexpr double kQuietObserved = 0.58;  // of m / tau^2: with the observer
 constexpr double kObservedTau = 0.0045;  // [s] the longest tau at which the observer pays
 constexpr double kGainMargin = 1.1;      // of the stiffness, against the exact boundary: plant error and jitter
 constexpr const char* kWallStiffness = "wall_stiffness_n_per_m";
+constexpr const char* kWallDamping = "wall_damping_n_s_per_m";
 constexpr const char* kQuietLaw = "quiet half-sample hold: K <= 0.35 m / tau^2, tau = (delay + 1) T";
 constexpr const char* kObservedLaw = "quiet observed hold: K <= 0.58 m / tau^2, tau = (delay + 1) T";
 constexpr const char* kDampingLaw = "quiet half-sample hold: B <= 0.35 m / tau, tau = (delay + 1) T";
@@ -71,7 +72,7 @@ void limit_to_quiet(const HapticConfig& config, const DeviceSpec& spec, Admitted
   limiter.limit(tuning.aisle_damping, damping, "aisle_damping_n_s_per_m", kDampingLaw);
   limiter.limit(tuning.limit_damping, damping, "limit_damping_n_s_per_m", kDampingLaw);
   const bool observed = admitted.hold == ContactHold::observer;
-  if (!observed) limiter.limit(tuning.wall_damping, damping, "wall_damping_n_s_per_m", kDampingLaw);
+  if (!observed) limiter.limit(tuning.wall_damping, damping, kWallDamping, kDampingLaw);
   if (admitted.hold == ContactHold::zero_order) return;
   const double stiffness = (observed ? kQuietObserved : kQuiet) * lighter_mass(spec) / (tau * tau);
   limiter.limit(tuning.wall_stiffness, stiffness, kWallStiffness, observed ? kObservedLaw : kQuietLaw);
@@ -81,8 +82,7 @@ void limit_to_quiet(const HapticConfig& config, const DeviceSpec& spec, Admitted
 void raise_observed_damping(AdmittedTuning& admitted) {
   double& damping = admitted.tuning.wall_damping;
   if (admitted.hold != ContactHold::observer || damping >= kObservedDamping) return;
-  admitted.limited.push_back(
-      {kObservedDampingLaw, "wall_damping_n_s_per_m", damping, kObservedDamping, kObservedDamping, {}});
+  admitted.limited.push_back({kObservedDampingLaw, kWallDamping, damping, kObservedDamping, kObservedDamping, {}});
   damping = kObservedDamping;
 }
 
@@ -92,24 +92,35 @@ void each_lever(const DeviceSpec& spec, const auto& visit) {
     for (const AxisModel& axis : {spec.axis_x, spec.axis_y}) visit(axis, named);
 }
 
-// In a wall: free of the device's own spring, and held by it. The loop knows of that one no more than of a hand's.
+bool keeps_walls(const DeviceSpec& spec) noexcept {
+  return own_wall_stiffness(spec) > 0.0 || own_wall_damping(spec) > 0.0;
+}
+
+// In a wall: free of the device's own, and held by it. The loop knows of that one no more than of a hand.
 void each_pressed_lever(const DeviceSpec& spec, const auto& visit) {
   each_lever(spec, visit);
-  if (own_wall_stiffness(spec) == 0.0) return;
+  if (!keeps_walls(spec)) return;
   for (const NamedHand& named : kNamedHands) {
-    for (const auto& [axis, own] :
-         {std::pair{spec.axis_x, spec.own_stiffness.x}, {spec.axis_y, spec.own_stiffness.y}}) {
+    for (const int i : {0, 1}) {
       NamedHand held = named;
-      held.hand.stiffness += own;
-      visit(axis, held);
+      held.hand.stiffness += spec.own_stiffness[i];
+      held.hand.damping += spec.own_damping[i];
+      visit(i == 0 ? spec.axis_x : spec.axis_y, held);
     }
   }
+}
+
+// What the loop makes of the wall while it is being admitted: the device's part comes to it at the end.
+ContactLaw loop_law(const HapticConfig& config, const AdmittedTuning& admitted, const DeviceSpec& spec) {
+  ContactLaw law = contact_law(config, admitted, spec);
+  law.damping = admitted.tuning.wall_damping;
+  return law;
 }
 
 // Damping alone, away from the loop's walls. A lever without friction or spring is on the boundary and stays there.
 bool is_stable_without_wall(const HapticConfig& config, const AdmittedTuning& admitted, const DeviceSpec& spec,
                             double wall_damping) {
-  ContactLaw law = contact_law(config, admitted, spec);
+  ContactLaw law = loop_law(config, admitted, spec);
   law.hold = ContactHold::zero_order;
   law.stiffness = 0.0;
   law.damping = wall_damping;
@@ -137,10 +148,10 @@ void limit_free_damping(const HapticConfig& config, const DeviceSpec& spec, Admi
 // A damping that comes late drives a lever which the device's own spring holds, however soft the loop's wall is.
 void limit_damping_beside_own_walls(const HapticConfig& config, const DeviceSpec& spec, AdmittedTuning& admitted,
                                     const Limiter& limiter) {
-  if (own_wall_stiffness(spec) == 0.0 || admitted.hold == ContactHold::observer) return;
+  if (!keeps_walls(spec) || admitted.hold == ContactHold::observer) return;
   double damping = admitted.tuning.wall_damping;
   while (!is_stable_without_wall(config, admitted, spec, damping) && damping > 1e-3) damping *= 0.5;
-  limiter.limit(admitted.tuning.wall_damping, damping, "wall_damping_n_s_per_m", kFreeLaw);
+  limiter.limit(admitted.tuning.wall_damping, damping, kWallDamping, kFreeLaw);
 }
 
 struct StableStiffness {
@@ -159,7 +170,7 @@ bool bears(const AxisModel& axis, const HandImpedance& hand, ContactLaw law, dou
 // has left of it.
 StableStiffness stable_stiffness(const HapticConfig& config, const AdmittedTuning& admitted, const DeviceSpec& spec) {
   StableStiffness stable;
-  ContactLaw law = contact_law(config, admitted, spec);
+  ContactLaw law = loop_law(config, admitted, spec);
   law.stiffness = kGainMargin * admitted.tuning.wall_stiffness;
   const double slow = law.free_damping, fast = slow + admitted.tuning.limit_damping;
   for (const double free_damping : {slow, fast}) {
@@ -175,25 +186,26 @@ StableStiffness stable_stiffness(const HapticConfig& config, const AdmittedTunin
   return stable;
 }
 
-// Of a wall that is softer than the device's own it keeps a share.
-DeviceSpec with_kept_walls(DeviceSpec spec, double wanted) noexcept {
-  const double own = own_wall_stiffness(spec);
-  spec.own_stiffness *= own > 0.0 ? std::min(1.0, wanted / own) : 0.0;
+// Of a wall that is softer than the device's own it keeps a share. It damps none that the observer holds, which would
+// take that for the hand's.
+DeviceSpec with_kept_walls(DeviceSpec spec, const HapticTuning& wanted) noexcept {
+  const auto share = [](double want, double own) { return own > 0.0 ? std::min(1.0, want / own) : 0.0; };
+  spec.own_stiffness *= share(wanted.wall_stiffness, own_wall_stiffness(spec));
+  spec.own_damping *= share(wanted.wall_damping, own_wall_damping(spec));
   return spec;
 }
 
 // The whole wall: what the laws admit of the loop, and what the device makes of it. Told of it is what is lacking then.
-void add_own_walls(AdmittedTuning& admitted, double wanted, const DeviceSpec& spec) {
-  const double own = own_wall_stiffness(spec);
+void add_own(AdmittedTuning& admitted, double& value, const char* what, double wanted, double own, const char* unit) {
   if (own == 0.0) return;
-  double& stiffness = admitted.tuning.wall_stiffness;
-  stiffness = std::min(wanted, stiffness + own);
-  const auto is_wall = [](const Limited& one) { return one.what == kWallStiffness; };
-  const auto told = std::find_if(admitted.limited.begin(), admitted.limited.end(), is_wall);
+  value = std::min(wanted, value + own);
+  const auto is_it = [&](const Limited& one) { return one.what == what; };
+  const auto told = std::find_if(admitted.limited.begin(), admitted.limited.end(), is_it);
   if (told == admitted.limited.end()) return;
-  told->used = stiffness;
+  told->wanted = wanted;
+  told->used = value;
   told->bound += own;
-  told->law += "; and " + number_text(own) + " N/m that the device keeps itself";
+  told->law += "; and " + number_text(own) + unit + " that the device keeps itself";
   if (told->bound >= wanted) admitted.limited.erase(told);
 }
 
@@ -267,6 +279,7 @@ void check_device(const DeviceSpec& spec) {
   require_between("yoke_radius of the device", spec.yoke_radius, 0.0, 10.0, "m");
   require_between("position_step of the device", spec.position_step, 0.0, 0.1, "m");
   check_vector("own_stiffness of the device", spec.own_stiffness, 1e5, "N/m");
+  check_vector("own_damping of the device", spec.own_damping, 1e3, "N s/m");
   require_between("delay of the device", spec.delay, 0, kMostDelay, "cycles");
   for (const AxisModel& axis : {spec.axis_x, spec.axis_y}) {
     require_between("mass of the device", axis.mass, 1e-3, 1e3, "kg");
@@ -279,11 +292,16 @@ double loop_stiffness(const HapticTuning& tuning, const DeviceSpec& spec) noexce
   return std::max(0.0, tuning.wall_stiffness - own_wall_stiffness(spec));
 }
 
+double device_damping(const HapticTuning& tuning, ContactHold hold, const DeviceSpec& spec) noexcept {
+  if (hold == ContactHold::observer) return 0.0;
+  return std::min(tuning.wall_damping, own_wall_damping(spec));
+}
+
 ContactLaw contact_law(const HapticConfig& config, const AdmittedTuning& admitted, const DeviceSpec& spec) noexcept {
   ContactLaw law;
   law.hold = admitted.hold;
   law.stiffness = loop_stiffness(admitted.tuning, spec);
-  law.damping = admitted.tuning.wall_damping;
+  law.damping = admitted.tuning.wall_damping - device_damping(admitted.tuning, admitted.hold, spec);
   law.window = config.estimator.window;
   law.free_damping = admitted.tuning.aisle_damping;
   law.smoothing = config.estimator.smoothing;
@@ -293,8 +311,10 @@ ContactLaw contact_law(const HapticConfig& config, const AdmittedTuning& admitte
 
 AdmittedTuning admit_tuning(const HapticConfig& config, const DeviceSpec& device, const Gate& gate) {
   refuse_without_study(config, device);
-  const DeviceSpec spec = with_kept_walls(device, config.tuning.wall_stiffness);
+  DeviceSpec spec = with_kept_walls(device, config.tuning);
   AdmittedTuning out{config.tuning, chosen_hold(config, spec), {}};
+  if (out.hold == ContactHold::observer) spec.own_damping = glm::dvec2(0.0);
+  out.tuning.wall_damping -= own_wall_damping(spec);
   const Limiter limiter{config.contact.study, out.limited};
   limit_to_quiet(config, spec, out, limiter);
   limit_free_damping(config, spec, out, limiter);
@@ -309,7 +329,9 @@ AdmittedTuning admit_tuning(const HapticConfig& config, const DeviceSpec& device
   limiter.limit(out.tuning.wall_stiffness, stable.most, kWallStiffness, kStableLaw, stable.hand);
   const double feel = stiffest_feel(gate);
   if (feel > 0.0) limiter.limit(out.tuning.feel_scale, out.tuning.wall_stiffness / feel, "feel_scale", kFeelLaw);
-  add_own_walls(out, config.tuning.wall_stiffness, spec);
+  add_own(out, out.tuning.wall_stiffness, kWallStiffness, config.tuning.wall_stiffness, own_wall_stiffness(spec),
+          " N/m");
+  add_own(out, out.tuning.wall_damping, kWallDamping, config.tuning.wall_damping, own_wall_damping(spec), " N s/m");
   return out;
 }
 

@@ -80,10 +80,10 @@ void check_device(const DeviceSpec& spec);
 //   stable     the spectral radius of the sampled cycle (sampled_loop.h) is below 1 on both axes: in the wall at 1.1 K,
 //              with the aisles' damping and with that of the speed limit, too; and in free space with both
 //   feel       no feel stiffer than the wall that carries the proxy
-// Where the device keeps walls itself (DeviceSpec::own_stiffness), the loop makes what is left of the wanted stiffness, and
-// the laws hold of that part; the exact check sees every lever with the device's spring and without it. Limited tells the
-// stiffness of the whole wall, and the device's share of it in the law. Feel is the loop's alone: its bound is what the
-// laws admit of the loop.
+// Where the device keeps walls itself (DeviceSpec::own_stiffness, own_damping), the loop makes what is left of what is
+// wanted, and the laws hold of that part; the exact check sees every lever with the device's spring and damper and without
+// them. Limited tells the whole wall, and the device's share of it in the law. Feel is the loop's alone: its bound is what
+// the laws admit of the loop. The observer's wall has no damper of the device's: it would take that for the hand's.
 // An observed hold has a damping of kObservedDamping at least. In a study all is used as wanted, and told.
 // Throws std::invalid_argument for what only a study may have, for a study on a device that is not simulated, and where
 // no wall of any stiffness is stable.
@@ -91,6 +91,9 @@ AdmittedTuning admit_tuning(const HapticConfig& config, const DeviceSpec& spec, 
 
 // [N/m] Of the wall, what the loop makes: the rest beside what the device keeps itself.
 double loop_stiffness(const HapticTuning& tuning, const DeviceSpec& spec) noexcept;
+
+// [N s/m] Of the wall, what the device damps itself: none where the observer holds it.
+double device_damping(const HapticTuning& tuning, ContactHold hold, const DeviceSpec& spec) noexcept;
 
 // What the loop presses the lever back with in the wall under that tuning: for spectral_radius().
 ContactLaw contact_law(const HapticConfig& config, const AdmittedTuning& admitted, const DeviceSpec& spec) noexcept;

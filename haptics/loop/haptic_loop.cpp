@@ -75,6 +75,7 @@ HapticLoop::HapticLoop(const HapticConfig& config, const Gate& gate, HapticDevic
       period_(period_s(config)),
       hand_over_(kHandOverSpeed * period_),
       own_walls_(own_wall_stiffness(device.spec())),
+      own_dampers_(own_wall_damping(device.spec())),
       tuning_(admitted_.tuning),
       estimator_(config.estimator, period_),
       observer_(device.spec(), period_),
@@ -199,7 +200,8 @@ void HapticLoop::limit_depth() noexcept {
 Coupled HapticLoop::couple_lever(std::int64_t skipped) noexcept {
   out_.wall_stiffness = tuning_.wall_stiffness * limiter_.share();
   const double stiffness = loop_stiffness(tuning_, device_.spec()) * limiter_.share();
-  const Coupling coupling{stiffness, tuning_.wall_damping, period_, device_.spec().delay, admitted_.hold};
+  const double damping = tuning_.wall_damping - device_damping(tuning_, admitted_.hold, device_.spec());
+  const Coupling coupling{stiffness, damping, period_, device_.spec().delay, admitted_.hold};
   if (admitted_.hold != ContactHold::observer) return couple(coupling, gate_, passage_, proxy_, motion_);
   return couple(coupling, gate_, passage_, proxy_, observer_.update(motion_, out_.commanded, skipped));
 }
@@ -244,25 +246,28 @@ GuardInput HapticLoop::guard_input(std::int64_t skipped) const noexcept {
 void HapticLoop::drive(const GuardOutput& command) noexcept {
   if (command.share > 0.0) device_.switch_on();
   device_.write(command.force);
-  if (own_walls_ > 0.0) tell_walls(command.share);
+  if (own_walls_ > 0.0 || own_dampers_ > 0.0) tell_walls(command.share);
 }
 
 // A wall must not stand where the lever will be by rights when the device hears of it: what is free now, and what will be
 // free then. A wall that comes nearer comes so much later; until then the loop's part of it holds alone.
 void HapticLoop::tell_walls(double ramp) noexcept {
-  const double kept = std::min(1.0, tuning_.wall_stiffness / own_walls_);  // [1] of a wall softer than the device's
+  const double kept =
+      own_walls_ > 0.0 ? std::min(1.0, tuning_.wall_stiffness / own_walls_) : 0.0;  // [1] if it is softer
   const double share = ramp * kept * limiter_.share();
-  if (share == 0.0 && walls_.share == 0.0) return;
+  const double damped = device_damping(tuning_, admitted_.hold, device_.spec());
+  const double damping = damped > 0.0 ? ramp * damped / own_dampers_ : 0.0;
+  if (share == 0.0 && damping == 0.0 && walls_.share == 0.0 && walls_.damping == 0.0) return;
   const double ahead = period_ * (1.0 + device_.spec().delay);
   const Proxy then = move_proxy(gate_, passage_, proxy_, motion_.position + ahead * motion_.smooth_velocity, 0.0);
   const FreeSpan free = joined(free_span(gate_, passage_, proxy_.position), free_span(gate_, passage_, then.position));
-  const LeverWalls walls{free.low, free.high, share};
+  const LeverWalls walls{free.low, free.high, share, damping};
   if (walls == walls_) return;
   walls_ = walls;
   device_.hold_walls(walls);
 }
 
-// What the device makes of such walls, where the lever is. [N]
+// What the device's springs make of such walls, where the lever is. [N]
 dvec2 HapticLoop::own_wall_force(const LeverWalls& walls) const noexcept {
   const dvec2 inside = glm::clamp(motion_.position, walls.low, walls.high);
   return walls.share * device_.spec().own_stiffness * (inside - motion_.position);
@@ -295,7 +300,11 @@ void HapticLoop::account_force_flow(const GuardOutput& command) noexcept {
 // what the wall wanted to give back at this depth.
 dvec2 HapticLoop::estimated_push(const GuardOutput& command) const noexcept {
   const DeviceSpec& spec = device_.spec();
-  const dvec2 damping{spec.axis_x.damping, spec.axis_y.damping};
+  dvec2 damping{spec.axis_x.damping, spec.axis_y.damping};
+  for (int i = 0; i < 2; ++i) {
+    const bool in_wall = motion_.position[i] < walls_.low[i] || motion_.position[i] > walls_.high[i];
+    if (in_wall) damping[i] += walls_.damping * spec.own_damping[i];
+  }
   const dvec2 stiffness{spec.axis_x.stiffness, spec.axis_y.stiffness};
   const dvec2 held = is_saturated(command) ? -(wanted_force() + own_wall_force(walls_)) : out_.f_a;
   return held + damping * motion_.smooth_velocity + stiffness * motion_.position;

@@ -2,9 +2,9 @@
 //
 // A force sample in eight calls: read -> estimate -> move proxy -> couple -> feel -> world -> guard -> write.
 //
-// A wall may have two keepers: where the device keeps walls itself (DeviceSpec::own_stiffness), it is told where they are
-// and makes what it can of the wall's stiffness, without delay; the loop makes the rest. HapticTuning::wall_stiffness is
-// the whole wall's.
+// A wall may have two keepers: where the device keeps walls itself (DeviceSpec::own_stiffness, own_damping), it is told
+// where they are and makes what it can of the wall's stiffness and damping, without delay; the loop makes the rest.
+// HapticTuning's are the whole wall's.
 #pragma once
 
 #include <array>
@@ -123,9 +123,9 @@ class HapticLoop {
   HapticDevice& device_;
   LeverWorld& world_;
   LoopChannels& channels_;
-  double period_;     // [s]
-  double hand_over_;  // [m] per cycle
-  double own_walls_;  // [N/m] that the device keeps by itself
+  double period_;                   // [s]
+  double hand_over_;                // [m] per cycle
+  double own_walls_, own_dampers_;  // [N/m], [N s/m] that the device keeps by itself
 
   HapticTuning tuning_;
   DriverControls controls_;

@@ -37,7 +37,7 @@ constexpr void each_field(FieldsOf<AxisModel> auto& axis, auto&& visit) {
 
 constexpr void each_field(FieldsOf<DeviceSpec> auto& spec, auto&& visit) {
   auto& [max_force, continuous_force, workspace, yoke_radius, position_step, delay, axis_x, axis_y, own_stiffness,
-         measures, simulated] = spec;
+         own_damping, measures, simulated] = spec;
   visit("max_force", max_force);
   visit("continuous_force", continuous_force);
   visit("workspace", workspace);
@@ -47,6 +47,7 @@ constexpr void each_field(FieldsOf<DeviceSpec> auto& spec, auto&& visit) {
   visit("axis_x", axis_x);
   visit("axis_y", axis_y);
   visit("own_stiffness", own_stiffness);
+  visit("own_damping", own_damping);
   visit("measures_hand_force", measures);
   visit("simulated", simulated);
 }

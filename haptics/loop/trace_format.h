@@ -23,7 +23,7 @@ namespace gearshift {
 
 // Not text, and spoilt by a transfer that rewrites line ends.
 inline constexpr std::array<char, 8> kTraceMagic = {'\x89', 'G', 'S', 'T', 'R', 'C', '\r', '\n'};
-inline constexpr std::uint32_t kTraceVersion = 6;
+inline constexpr std::uint32_t kTraceVersion = 7;
 
 // What must be known before the first cycle. The run must start with it: no tuning is written to the channels
 // before the first cycle (put it into the config), and the recording starts before the first cycle.

@@ -26,7 +26,9 @@ inline DeviceCalibration calibration_of(const EmulatedStickConfig& stick) {
                   -stick.constant_sign.x,
                   stick.spring_sign.x,
                   stick.spring_stiffness,
-                  stick.lever.axis_x};
+                  stick.lever.axis_x,
+                  stick.damper_sign.x,
+                  stick.full_force};  // at a metre per second
   known.shift = {0x31,
                  range.high,
                  centre,
@@ -36,7 +38,9 @@ inline DeviceCalibration calibration_of(const EmulatedStickConfig& stick) {
                  stick.constant_sign.y,
                  stick.spring_sign.y,
                  stick.spring_stiffness,
-                 stick.lever.axis_y};
+                 stick.lever.axis_y,
+                 stick.damper_sign.y,
+                 stick.full_force};
   known.timing = {stick.input_interval, 0.001, stick.delay, 0.0};
   known.press_button = 1;
   known.lift_button = 2;

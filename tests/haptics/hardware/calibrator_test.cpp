@@ -75,7 +75,8 @@ DeviceCalibration shown(const EmulatedStickConfig& config) {
   known.timing = {};
   for (LeverAxisCalibration* axis : {&known.select, &known.shift}) {
     axis->constant_sign = axis->spring_sign = 0;
-    axis->spring_stiffness = 0.0;
+    axis->damper_sign = 0;
+    axis->spring_stiffness = axis->damper_strength = 0.0;
     axis->handle = {};
   }
   return known;
@@ -88,6 +89,15 @@ std::string refusal(const std::function<void()>& step) {
     return refused.what();
   }
   return "";
+}
+
+// [N s/m] What a damper D adds to a mass with damping where it is a force that is held for a period: the speed falls by
+// phi - D (1 - phi) / b in each, phi = exp(-b T / m).
+double sampled_damper(const AxisModel& handle, double damper) {
+  constexpr double kPeriod = 0.001;  // [s]
+  const double phi = std::exp(-handle.damping * kPeriod / handle.mass);
+  const double falls = phi - damper * (1.0 - phi) / handle.damping;
+  return -handle.mass * std::log(falls) / kPeriod - handle.damping;
 }
 
 double counts_of(const LeverAxisCalibration& axis) {
@@ -104,7 +114,7 @@ TEST_CASE(
       CAPTURE(sign.x);
       EmulatedStickConfig config = of(family);
       config.constant_sign = sign;
-      config.spring_sign = {sign.y, sign.x};
+      config.spring_sign = config.damper_sign = {sign.y, sign.x};
       config.delay = 0.002;
       const DeviceCalibration truth = calibration_of(config);
       CalibrationBench bench(config);
@@ -121,6 +131,7 @@ TEST_CASE(
       calibrator.measure_handle();
       calibrator.measure_springs();
 
+      const double fine = family == StickFamily::sidewinder ? 0.10 : 0.04;  // counts of 137 um, or of 4 and less
       const DeviceCalibration& found = calibrator.calibration();
       CHECK(missing_steps(found, true).empty());
       CHECK(found.select.constant_sign == truth.select.constant_sign);
@@ -139,6 +150,8 @@ TEST_CASE(
         CHECK(is.handle.damping == doctest::Approx(should.handle.damping).epsilon(0.05));
         CHECK(std::abs(is.handle.stiffness - should.handle.stiffness) < 4.0);
         CHECK(is.spring_stiffness == doctest::Approx(400.0).epsilon(0.05));
+        CHECK(is.damper_sign == should.damper_sign);
+        CHECK(is.damper_strength == doctest::Approx(2.0 * sampled_damper(should.handle, 10.0)).epsilon(fine));
       }
       CHECK(found.timing.input_interval == doctest::Approx(0.001));
       CHECK(found.timing.jitter == doctest::Approx(0.0));

@@ -151,8 +151,8 @@ TEST_CASE("nonsense is refused: file, line, key, value and range") {
   CHECK(refusal(changed("constant_sign", "constant_sign = 2")) ==
         "c.toml:12: constant_sign = 2: must be between -1 and 1");
   CHECK(refusal(changed("constant_sign", "constant_sign = 0.5")) ==
-        "c.toml:12: constant_sign = 0.5: must be a whole number");
-  CHECK(refusal(changed("mass_kg", "mass_kg = nan")).find("c.toml:17: mass_kg = nan: must be between 0 and 1000") == 0);
+        "c.toml:12: constant_sign = 0.5: must be a whole number between -1 and 1");
+  CHECK(refusal(changed("mass_kg", "mass_kg = nan")).find("c.toml:19: mass_kg = nan: must be between 0 and 1000") == 0);
   CHECK(refusal(changed("axis", "axis = \"q\"")) ==
         "c.toml:6: axis = \"q\": must be one of x, y, z, rx, ry, rz, slider, dial, wheel");
   CHECK(refusal(changed("axis", "axis = \"y\"")).find("must not be that of select") != std::string::npos);

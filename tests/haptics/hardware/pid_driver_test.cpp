@@ -96,7 +96,7 @@ TEST_CASE("what is no number drives nothing") {
   const double nan = std::nan(""), infinite = std::numeric_limits<double>::infinity();
   std::vector<PidWish> wishes{pushing(nan, 0.0), pushing(0.5, infinite), pushing(0.5, 0.0), pushing(0.5, 0.0)};
   wishes[2].spring[1].centre = nan;
-  wishes[3].damper = nan;
+  wishes[3].damper[1] = nan;
   for (const PidWish& wish : wishes) {
     StillHand hand;
     StickBench bench(held(StickFamily::vjoy), hand);

@@ -2,6 +2,7 @@
 #include "haptics/hardware/pid_lever.h"
 
 #include <cmath>
+#include <numbers>
 #include <stdexcept>
 
 #include <doctest/doctest.h>
@@ -201,6 +202,35 @@ TEST_CASE(
       bench.cycle(dvec2(0.0), 20);
       CHECK(glm::length(bench.stick.force()) < 1e-9);
     }
+  }
+}
+
+// A damper condition acts everywhere, so it is on in a wall alone, on the axis that is in one.
+TEST_CASE("a damper of the device brakes in a wall, whichever way it counts, and nowhere else") {
+  for (const int sign : {1, -1}) {
+    CAPTURE(sign);
+    EmulatedStickConfig config = held_fast(StickFamily::openffboard);
+    config.damper_sign = {sign, sign};
+    StillHand hand;
+    LeverBench bench(config, calibration_of(config), hand);
+    CHECK(bench.lever.spec().own_damping == dvec2(20.0));
+    LeverWalls walls{{-0.050, -0.050}, {0.005, 0.050}, 0.0, 0.5};
+    bench.lever.hold_walls(walls);
+    bench.cycle(dvec2(1e-3, 0.0), 200);
+    double worst = 0.0, strongest = 0.0;
+    for (int ms = 0; ms < 1000; ++ms) {
+      hand.target = hand_at({0.020 * std::sin(4e-3 * std::numbers::pi * ms), 0.0});  // at 2 Hz, 0.25 m/s at most
+      const dvec2 before = bench.stick.position();
+      bench.cycle(dvec2(1e-3, 0.0));
+      const dvec2 now = bench.stick.position();
+      const double expected = before.x > 0.0052 ? -0.5 * 20.0 * (now.x - before.x) / 0.001 : 0.0;
+      if (std::abs(now.x - 0.005) < 0.002) continue;  // about to be told
+      worst = std::max(worst, std::abs(bench.stick.force().x - expected));
+      strongest = std::max(strongest, std::abs(expected));
+      CHECK(std::abs(bench.stick.force().y) < 1e-9);
+    }
+    CHECK(strongest > 1.5);
+    CHECK(worst < 0.15);
   }
 }
 

@@ -56,7 +56,7 @@ struct Wire {
 PidWish everything(double x, double y) {
   PidWish wish = pushing(x, y);
   wish.spring = {PidSpring{0.1, 0.2, 0.5, 1.0}, PidSpring{-0.1, 0.2, 0.5, 1.0}};
-  wish.damper = 0.15;
+  wish.damper = {0.15, 0.15};
   return wish;
 }
 

@@ -238,7 +238,7 @@ TEST_CASE("a stick that is 3 ms late: quiet on the wall with its own calibration
     config.lever.hand = {};
     config.delay = 0.003;
     DeviceCalibration known = calibration_of(config);
-    known.select.spring_sign = known.shift.spring_sign = 0;
+    for (LeverAxisCalibration* axis : {&known.select, &known.shift}) axis->spring_sign = axis->damper_sign = 0;
     known.timing.delay = claimed;
     if (claimed == 0.0) known.timing.input_interval = known.timing.output_interval = 0.0005;
     StillHand hand;

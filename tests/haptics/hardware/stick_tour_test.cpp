@@ -92,6 +92,55 @@ TEST_CASE("the tour with springs that keep no wall, with every polarity turned r
   }
 }
 
+// What a late stick with coarse counts gains by its own damper. By a count of 137 um in a millisecond the loop's damping
+// takes the lever for one of 0.14 m/s: a kick.
+TEST_CASE("a damper of the device: softer kicks of coarse counts, less rebound, on a late stick") {
+  struct Felt {
+    double damping = 0.0;  // [N s/m] of the wall
+    double kicks =
+        0.0;  // [N] by how much the force changes in a millisecond, root mean square, under a hand that leans
+              // to and fro
+    double rebound = 0.0;  // [m] of a hand that runs into the wall
+  };
+  const auto felt = [](double delay, bool damps) {
+    EmulatedStickConfig config = touring_stick(StickFamily::sidewinder);
+    config.delay = delay;
+    DeviceCalibration known = calibration_of(config);
+    if (!damps) known.select.damper_sign = known.shift.damper_sign = 0;
+    StillHand hand(hand_at({0.012, 0.0}));
+    StickLoop run(config, known, HapticConfig{}, stick_gate("six_speed_r_left_up", config), hand);
+    run.loop.arm();
+    run.cycle_for(1.0);
+    Felt result{run.loop.admitted().tuning.wall_damping};
+    hand.target = hand_at({0.012, 0.040});
+    double deepest = 0.0, back = 0.0;
+    for (int ms = 0; ms < 600; ++ms) {
+      run.cycle();
+      const double y = run.stick.position().y;
+      back = y > deepest ? y : std::min(back, y);
+      deepest = std::max(deepest, y);
+    }
+    result.rebound = deepest - back;
+    for (int ms = 0; ms < 3000; ++ms) {
+      hand.target = hand_at({0.012 + 0.004 * std::sin(0.005 * ms), 0.020});
+      const glm::dvec2 before = run.stick.force();
+      run.cycle();
+      const glm::dvec2 change = run.stick.force() - before;
+      if (ms >= 500) result.kicks += glm::dot(change, change) / 2500.0;
+    }
+    result.kicks = std::sqrt(result.kicks);
+    return result;
+  };
+  for (const double delay : {0.003, 0.005}) {
+    const Felt loop = felt(delay, false), device = felt(delay, true);
+    MESSAGE("late by ", 1e3 * delay, " ms: damping ", loop.damping, " -> ", device.damping, " N s/m, kicks ",
+            loop.kicks, " -> ", device.kicks, " N, rebound ", 1e3 * loop.rebound, " -> ", 1e3 * device.rebound, " mm");
+    CHECK(device.damping == 10.0);
+    CHECK(device.kicks < 0.85 * loop.kicks);
+    CHECK(device.rebound < 0.9 * loop.rebound);
+  }
+}
+
 // At rest in the middle of the paper's gate nothing pushes. The effects are started all the same: who comes to a wall then
 // feels it with the next report, not three or four later.
 TEST_CASE("armed means motors on, also where there is nothing to push yet; not armed means off") {

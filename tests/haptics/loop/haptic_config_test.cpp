@@ -223,10 +223,27 @@ AdmittedTuning admitted_beside(double own, double wanted, int delay, ContactHold
   return admit_tuning(config, spec, paper_gate());
 }
 
-const Limited* limit_of_wall(const AdmittedTuning& admitted) {
+const Limited* limit_of(const std::string& what, const AdmittedTuning& admitted) {
   for (const Limited& limited : admitted.limited)
-    if (limited.what == "wall_stiffness_n_per_m") return &limited;
+    if (limited.what == what) return &limited;
   return nullptr;
+}
+const Limited* limit_of_wall(const AdmittedTuning& admitted) {
+  return limit_of("wall_stiffness_n_per_m", admitted);
+}
+
+// A device that is late and keeps dampers.
+DeviceSpec damping_itself(double own, int delay) {
+  DeviceSpec spec;
+  spec.delay = delay;
+  spec.own_damping = {own, own + 1.0};  // what both axes have counts
+  return spec;
+}
+AdmittedTuning admitted_with(const DeviceSpec& spec, double damping, ContactHold hold) {
+  HapticConfig config;
+  config.tuning.wall_damping = damping;
+  config.contact.hold = hold;
+  return admit_tuning(config, spec, paper_gate());
 }
 
 }  // namespace
@@ -265,6 +282,33 @@ TEST_CASE("where the loop may not make the rest, the wall is its part and the de
   CHECK(both.hold == ContactHold::half_sample);
 }
 
+TEST_CASE(
+    "of a wall's damping the loop makes what the device does not; together they make more than the loop alone may") {
+  const double quiet = 0.35 * 0.086 / 0.006;  // [N s/m] 5.0: 5 samples of delay at 1 kHz
+  const DeviceSpec little = damping_itself(3.0, 5), much = damping_itself(20.0, 5), none = damping_itself(0.0, 5);
+  const AdmittedTuning alone = admitted_with(none, 10.0, ContactHold::half_sample);
+  CHECK(alone.tuning.wall_damping == doctest::Approx(quiet));
+
+  const AdmittedTuning both = admitted_with(little, 10.0, ContactHold::half_sample);
+  CHECK(both.tuning.wall_damping == doctest::Approx(quiet + 3.0));
+  CHECK(contact_law({}, both, little).damping == doctest::Approx(quiet));
+  const Limited* told = limit_of("wall_damping_n_s_per_m", both);
+  REQUIRE(told != nullptr);
+  CHECK(told->wanted == 10.0);
+  CHECK(told->used == both.tuning.wall_damping);
+  CHECK(told->law ==
+        "quiet half-sample hold: B <= 0.35 m / tau, tau = (delay + 1) T; and 3 N s/m that the device keeps itself");
+
+  const AdmittedTuning device_alone = admitted_with(much, 10.0, ContactHold::half_sample);
+  CHECK(device_alone.tuning.wall_damping == 10.0);
+  CHECK(contact_law({}, device_alone, much).damping == 0.0);
+  CHECK(limit_of("wall_damping_n_s_per_m", device_alone) == nullptr);
+
+  const AdmittedTuning observed = admitted_with(damping_itself(20.0, 3), 10.0, ContactHold::observer);
+  REQUIRE(observed.hold == ContactHold::observer);
+  CHECK(contact_law({}, observed, much).damping == observed.tuning.wall_damping);  // it would take it for the hand's
+}
+
 TEST_CASE("feel is the loop's alone: a wall that the device keeps does not let it be stiffer") {
   HapticConfig config;
   config.tuning.feel_scale = 4.0;
@@ -274,6 +318,25 @@ TEST_CASE("feel is the loop's alone: a wall that the device keeps does not let i
   const AdmittedTuning used = admit_tuning(config, spec, paper_gate());
   CHECK(used.tuning.wall_stiffness > 4000.0);
   CHECK(used.tuning.feel_scale * stiffest_feel(paper_gate()) <= 0.35 * 0.086 / 16e-6 * (1.0 + 1e-12));
+}
+
+TEST_CASE("whatever is admitted beside own dampers is stable with all of these, half of them and none") {
+  for (const double own : {3.0, 10.0, 60.0}) {
+    for (const int delay : {0, 1, 3, 6, 8}) {
+      CAPTURE(own);
+      CAPTURE(delay);
+      const DeviceSpec spec = damping_itself(own, delay);
+      const AdmittedTuning used = admitted_with(spec, 10.0, ContactHold::half_sample);
+      const ContactLaw in_wall = contact_law({}, used, spec);
+      for (const double share : {0.0, 0.5, 1.0}) {
+        for (NamedHand named : kNamedHands) {
+          named.hand.damping += share * std::min(own, 10.0);
+          for (const AxisModel& axis : {kPaperAxisX, kPaperAxisY})
+            CHECK(spectral_radius(axis, named.hand, in_wall, 0.001) < 1.0);
+        }
+      }
+    }
+  }
 }
 
 TEST_CASE("whatever is admitted beside own walls is stable with all of these, half of them and none") {

@@ -30,7 +30,7 @@ constexpr std::int64_t kPeriodNs = 1'000'000;
 class ToldLever final : public HapticDevice {
  public:
   ToldLever(const SimulatedLeverConfig& config, HandDriver& hand) : lever(config, kPeriodNs, hand) {}
-  const DeviceSpec& spec() const noexcept override { return lever.spec(); }
+  const DeviceSpec& spec() const noexcept override { return claims; }
   LeverReading read(std::int64_t now_ns) noexcept override { return lever.read(now_ns); }
   void write(dvec2 force) noexcept override { lever.write(force); }
   void hold_walls(const LeverWalls& walls) noexcept override {
@@ -41,13 +41,21 @@ class ToldLever final : public HapticDevice {
   void release() noexcept override { lever.release(); }
 
   SimulatedLever lever;
+  DeviceSpec claims = lever.spec();
   LeverWalls told;
   int times = 0;
 };
 
+ToldLever claiming(const SimulatedLeverConfig& config, HandDriver& hand, double own_damping) {
+  ToldLever lever(config, hand);
+  lever.claims.own_damping = dvec2(own_damping);
+  return lever;
+}
+
 struct Rig {
-  Rig(const SimulatedLeverConfig& lever, HandDriver& hand, const Gate& at = paper_gate(), HapticConfig config = {})
-      : gate(at), device(lever, hand), loop(config, gate, device, world, channels) {}
+  Rig(const SimulatedLeverConfig& lever, HandDriver& hand, const Gate& at = paper_gate(), HapticConfig config = {},
+      double own_damping = 0.0)
+      : gate(at), device(claiming(lever, hand, own_damping)), loop(config, gate, device, world, channels) {}
   void run(int cycles, std::int64_t skipped = 0) {
     for (int i = 0; i < cycles; ++i) loop.cycle(now += kPeriodNs * (1 + skipped), skipped);
   }
@@ -120,6 +128,25 @@ TEST_CASE("told where the device keeps walls, and when they change: their share 
   const Column& column = rig.gate.column[static_cast<std::size_t>(rig.gate.neutral_column)];
   CHECK(rig.device.told.high == dvec2{rig.gate.select_max, column.forward});
   CHECK(rig.device.told.low == dvec2{rig.gate.select_min, column.back});
+}
+
+TEST_CASE(
+    "told what to damp in its walls: its share of the wanted, up with the guard's ramp; the loop damps the rest") {
+  RestingHand nobody;
+  HapticConfig config;
+  config.tuning.wall_damping = 10.0;
+  for (const auto& [own, share] : {std::pair{4.0, 1.0}, {40.0, 0.25}}) {
+    Rig rig(lever_of(0.0, 0), nobody, paper_gate(), config, own);
+    rig.loop.arm();
+    rig.run(250);
+    CHECK(rig.device.told.damping == doctest::Approx(0.5 * share));
+    rig.run(300);
+    CHECK(rig.device.told.damping == share);
+    CHECK(rig.device.told.share == 0.0);  // it has no springs
+    rig.loop.change_tuning({.wall_damping = 0.0});
+    rig.run(2);
+    CHECK(rig.device.told.damping == 0.0);
+  }
 }
 
 TEST_CASE("every way down takes the walls in the cycle of the fall") {

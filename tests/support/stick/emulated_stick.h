@@ -30,10 +30,11 @@ struct EmulatedStickConfig {
   double input_interval = 0.001;    // [s] between reports
   double delay = 0.0;               // [s] from an output's arrival to its force
   // 1: as PID 1.0 says, where a direction is whence a force comes: a positive constant force at 90 degrees pushes left,
-  // at 180 degrees away from the user; springs pull to their centre. -1: that family of effects works the other way on
+  // at 180 degrees away from the user; springs pull to their centre, dampers brake. -1: that family of effects works the other way on
   // that axis (select, shift).
   glm::ivec2 constant_sign{1, 1};
   glm::ivec2 spring_sign{1, 1};
+  glm::ivec2 damper_sign{1, 1};
   bool reports_changes_alone = false;  // no report while nothing changes; GET_REPORT answers
   // A finite duration is not taken: the effect stays as it was, and block load says error for its block.
   bool finite_refused = false;

@@ -137,7 +137,8 @@ void EmulatedStick::State::push() {
   const EffectForces shares = firmware.forces(motion(), plant_ns);
   const glm::dvec2 constant = glm::dvec2(config.constant_sign) * shares.constant;
   const glm::dvec2 spring = glm::dvec2(config.spring_sign) * shares.spring;
-  force = config.full_force * turned(glm::clamp(constant + spring + shares.damper, -1.0, 1.0));
+  const glm::dvec2 damper = glm::dvec2(config.damper_sign) * shares.damper;
+  force = config.full_force * turned(glm::clamp(constant + spring + damper, -1.0, 1.0));
   lever.write(force);
 }
 
