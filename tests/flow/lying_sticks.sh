@@ -83,6 +83,7 @@ check "a dead sensor's force yields to nothing" silent_within 3500 stuck "the fa
 for fault in refuses-effects pool-full; do
   check "$fault: it never pushes" silent_within 0 $fault "the fault"
 done
+check "a tour without forces is drawn without a word" bash -c '! grep -i warning "$0"' pool-full.err
 for fault in jump slow; do
   check "$fault: the tour goes on" said "2 engaged at" $fault
 done
