@@ -30,21 +30,6 @@ void end_where_asked() {
   if (StopSignals::asked()) throw CalibrationEnded("ended: the motors are off");
 }
 
-std::int64_t tick() {
-  end_where_asked();
-  std::this_thread::sleep_for(kTick);
-  return std::chrono::nanoseconds(Clock::now().time_since_epoch()).count();
-}
-
-std::string ask(Answers& answers, const std::string& question) {
-  say(question);
-  for (;;) {
-    if (const std::optional<std::string> line = answers.line(0.2)) return *line;
-    end_where_asked();
-    if (answers.ended()) throw CalibrationEnded("standard input is at its end");
-  }
-}
-
 // What was known before and still fits; or nothing but who it is.
 KnownStick start_from(const ListedStick& stick, const fs::path& folder, bool again) {
   KnownStick fresh;
@@ -80,23 +65,44 @@ class OpenStick {
   }
   PidDriver& driver() { return driver_; }
   PidAbility ability() const { return keeper_.ability().value_or(PidAbility{}); }
+  void tell_news() {
+    while (const std::optional<std::string> news = keeper_.take_news()) say(*news);
+  }
 
  private:
   PidDriver driver_;
   LeverKeeper keeper_;
 };
 
+std::int64_t tick(OpenStick& stick) {
+  end_where_asked();
+  stick.tell_news();
+  std::this_thread::sleep_for(kTick);
+  return std::chrono::nanoseconds(Clock::now().time_since_epoch()).count();
+}
+
+std::string ask(OpenStick& stick, Answers& answers, const std::string& question) {
+  say(question);
+  for (;;) {
+    if (const std::optional<std::string> line = answers.line(0.2)) return *line;
+    end_where_asked();
+    stick.tell_news();
+    if (answers.ended()) throw CalibrationEnded("standard input is at its end");
+  }
+}
+
 // Returns what is missing at the end, in words.
 std::string talk_through(OpenStick& stick, KnownStick& known, const fs::path& folder, int file) {
   Answers answers(file);
   CalibrationTalk talk;
   talk.say = say;
-  talk.ask = [&](const std::string& question) { return ask(answers, question); };
+  talk.ask = [&](const std::string& question) { return ask(stick, answers, question); };
   talk.keep = [&](const DeviceCalibration& calibration) {
     known.calibration = calibration;
     keep_known(known, folder);
   };
-  Calibrator calibrator(stick.driver(), tick, known.calibration);
+  Calibrator calibrator(
+      stick.driver(), [&stick] { return tick(stick); }, known.calibration);
   for (const std::string& note : stick.ability().notes) say(note);
   try {
     calibrate(calibrator, stick.ability().spring, talk);

@@ -75,21 +75,21 @@ std::optional<KnownStick> read_known(const fs::path& folder, const HidIdentity& 
   return known;
 }
 
-std::vector<KnownStick> known_sticks(const fs::path& folder) {
+KnownSticks known_sticks(const fs::path& folder) {
   std::vector<fs::path> files;
   std::error_code missing;
   for (const fs::directory_entry& entry : fs::directory_iterator(folder, missing))
     if (entry.path().extension() == ".toml") files.push_back(entry.path());
   std::sort(files.begin(), files.end());
-  std::vector<KnownStick> sticks;
+  KnownSticks known;
   for (const fs::path& file : files) {
     try {
-      if (std::optional<KnownStick> stick = read_file(file)) sticks.push_back(std::move(*stick));
-    } catch (const FileError&) {
-      continue;  // told by the list, where it is plugged in
+      if (std::optional<KnownStick> stick = read_file(file)) known.sticks.push_back(std::move(*stick));
+    } catch (const FileError& damaged) {
+      known.problems.emplace_back(damaged.what());
     }
   }
-  return sticks;
+  return known;
 }
 
 fs::path keep_known(const KnownStick& stick, const fs::path& folder) {

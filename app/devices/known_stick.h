@@ -30,7 +30,11 @@ std::string missing_words(const DeviceCalibration& calibration);
 std::optional<KnownStick> read_known(const std::filesystem::path& folder, const HidIdentity& device);
 
 // All that can be read in the folder; none where it is not there.
-std::vector<KnownStick> known_sticks(const std::filesystem::path& folder);
+struct KnownSticks {
+  std::vector<KnownStick> sticks;
+  std::vector<std::string> problems;  // of files that are damaged, one sentence each
+};
+KnownSticks known_sticks(const std::filesystem::path& folder);
 
 // Makes the folder. Returns the calibration's file. Throws FileError.
 std::filesystem::path keep_known(const KnownStick& stick, const std::filesystem::path& folder);

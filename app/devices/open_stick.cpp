@@ -66,7 +66,7 @@ const HidIdentity& listed_identity(const ListedStick& stick) {
 
 // One that was unplugged, and is waited for.
 std::optional<KnownStick> absent_stick(const std::string& wanted, const std::filesystem::path& folder) {
-  const std::vector<KnownStick> known = known_sticks(folder);
+  const std::vector<KnownStick> known = known_sticks(folder).sticks;
   const auto identity = [](const KnownStick& stick) { return identity_of(stick.calibration); };
   const std::vector<const KnownStick*> found = meant(wanted, known, identity);
   if (found.empty()) return std::nullopt;

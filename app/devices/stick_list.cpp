@@ -33,6 +33,7 @@ void take_forces(const ReportDescriptor& descriptor, ListedStick& stick) {
 }
 
 void take_calibration(const std::filesystem::path& folder, ListedStick& stick) {
+  stick.missing = missing_words({});
   try {
     const std::optional<KnownStick> known = read_known(folder, stick.identity);
     if (!known) return;
@@ -79,6 +80,15 @@ std::vector<ListedStick> list_sticks(std::span<const UsbHidDevice> devices, cons
   return sticks;
 }
 
+std::vector<std::string> absent_problems(std::span<const ListedStick> plugged, const std::filesystem::path& folder) {
+  std::vector<std::string> problems = known_sticks(folder).problems;
+  std::erase_if(problems, [plugged](const std::string& problem) {
+    return std::any_of(plugged.begin(), plugged.end(),
+                       [&problem](const ListedStick& stick) { return stick.problem == problem; });
+  });
+  return problems;
+}
+
 bool is_forbidden(const ListedStick& stick) {
   return stick.problem.find("may not be used by this user") != std::string::npos;
 }
@@ -104,7 +114,7 @@ std::string force_words(const ListedStick& stick) {
 std::string calibration_words(const ListedStick& stick) {
   if (stick.force != StickForce::pushes) return "-";
   if (stick.calibrated) return "yes";
-  return stick.missing.empty() ? "no" : fmt::format("begun: {} missing", stick.missing);
+  return stick.missing == missing_words({}) ? "no" : fmt::format("begun: {} missing", stick.missing);
 }
 
 }  // namespace gearshift

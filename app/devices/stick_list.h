@@ -27,12 +27,15 @@ struct ListedStick {
   StickForce force = StickForce::unknown;
   std::vector<PidEffect> effects;  // that it makes, where it pushes
   bool calibrated = false;         // all that is needed before it may push
-  std::string missing;             // of its calibration, where it was begun
+  std::string missing;             // of its calibration, where it pushes
   std::string problem;             // one sentence; empty: none
 };
 
 // Sticks, pads and wheels among them, and what cannot be looked into. folder: of the calibrations.
 std::vector<ListedStick> list_sticks(std::span<const UsbHidDevice> devices, const std::filesystem::path& folder);
+
+// What is wrong with calibrations of sticks that are not plugged in, one sentence each.
+std::vector<std::string> absent_problems(std::span<const ListedStick> plugged, const std::filesystem::path& folder);
 
 bool is_forbidden(const ListedStick& stick);  // a rule of udev's would let this user have it
 

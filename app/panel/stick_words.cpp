@@ -11,10 +11,10 @@ std::string stick_words(const StickView& stick) {
 
 std::string stick_request(const PanelInput& input) {
   if (!input.stick) return {};
-  if (!input.stick->plugged_in) return "The stick is unplugged: plug it in, then arm it (Enter).";
+  if (!input.stick->plugged_in) return "The stick is unplugged: plug it in, then press Enter.";
   const GuardState guard = input.now.guard;
   const bool has_forces = guard == GuardState::running || guard == GuardState::ramping || guard == GuardState::armed;
-  return has_forces ? "" : "The stick's motors are off: hold it, then arm it (Enter).";
+  return has_forces ? "" : "The stick's motors are off: hold it, then press Enter.";
 }
 
 }  // namespace gearshift

@@ -31,6 +31,12 @@ bool is_off(GuardState state) {
   return state == GuardState::idle || state == GuardState::damped || state == GuardState::released;
 }
 
+// As who holds the stick understands it.
+const char* reason_words(GuardFault fault) {
+  if (fault == GuardFault::stale_reading) return "no readings of the stick arrive";
+  return fault == GuardFault::overruns ? "the computer was too late" : guard_fault_name(fault);
+}
+
 // [ns] Of the loop that runs.
 std::int64_t first_cycle_of(Trainer& trainer) {
   const HapticSnapshot now = trainer.snapshot();
@@ -135,7 +141,7 @@ class HeldDrive {
 
   void tell_guard(GuardState state) {
     if (!is_off(state) || !std::exchange(armed_, false)) return;
-    say_(fmt::format("forces off: {}", guard_fault_name(trainer_.snapshot().fault)));
+    say_(fmt::format("forces off: {}", reason_words(trainer_.snapshot().fault)));
     ask_to_arm();
   }
 

@@ -67,10 +67,12 @@ std::string gear_marks(const TourResult& result, bool named) {
   return marks;
 }
 
-// One panel of force.png: both axes of a quantity over time.
+// One panel of force.png: both axes of a quantity over time. Of what was 0 all the while gnuplot would complain: points
+// that are not seen give it a height.
 std::string panel(const char* label, const char* x, const char* y, double width) {
   return fmt::format(R"gp(set ylabel "{}"
-plot "tour.csv" using "time_s":"{}" with lines linewidth {} linecolor "{}" title "select x", \
+plot sample [-1:1] "+" using (0):1 with points pointsize 0 notitle, \
+  "tour.csv" using "time_s":"{}" with lines linewidth {} linecolor "{}" title "select x", \
   "tour.csv" using "time_s":"{}" with lines linewidth {} linecolor "{}" title "shift y"
 )gp",
                      label, x, width, kRed, y, width, kBlue);

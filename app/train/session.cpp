@@ -121,10 +121,17 @@ void Session::change_to(const SessionChoice& choice, const Lesson* lesson, std::
   if (!limit.empty()) message_ += (message_.empty() ? "" : "; ") + limit;
 }
 
-// What the device did not admit, and why it is another than one expects.
+// What the device did not admit; of a stick what that is to the hand: its walls.
 std::string Session::limit_words() const {
-  const std::string limit = first_limit(trainer_->admitted());
-  if (limit.empty() || !running_.stick) return limit;
+  const AdmittedTuning admitted = trainer_->admitted();
+  const auto wall = std::find_if(admitted.limited.begin(), admitted.limited.end(), [](const Limited& limited) {
+    return limited.what == "wall_stiffness_n_per_m" && limited.used < limited.wanted;
+  });
+  if (!running_.stick || admitted.limited.empty()) return first_limit(admitted);
+  const std::string limit =
+      wall == admitted.limited.end()
+          ? first_limit(admitted)
+          : fmt::format("its walls are softer, {:.0f} N/m instead of {:.0f}", wall->used, wall->wanted);
   return fmt::format("{} answers after {:.1f} ms: {}", running_.stick->name(), 1e3 * running_.stick->answer_time(),
                      limit);
 }

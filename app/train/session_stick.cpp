@@ -17,6 +17,7 @@ bool Session::arm() {
     return false;
   }
   trainer_->arm();
+  if (choice_.stick) message_.clear();  // that asked for it
   return true;
 }
 

@@ -69,7 +69,7 @@ DeviceJson stick_json(const ListedStick& stick) {
           {"buttons", stick.buttons},
           {"force", stick.force == StickForce::pushes ? "pushes" : force_words(stick)},
           {"effects", effects},
-          {"calibrated", stick.calibrated},
+          {"calibrated", stick.force == StickForce::pushes ? DeviceJson(stick.calibrated) : DeviceJson()},
           {"calibration_lacks", stick.missing},
           {"problem", stick.problem}};
 }
@@ -126,16 +126,19 @@ void print_rule(const std::vector<ListedStick>& sticks) {
 int list_devices(bool as_json) {
   const std::vector<ListedStick> sticks = plugged_sticks();
   const std::vector<PadState> pads = glfw_pads();
+  const std::vector<std::string> absent = absent_problems(sticks, calibrations_folder());
   if (as_json) {
     DeviceJson all = DeviceJson::array();
     for (const ListedStick& stick : sticks) all.push_back(stick_json(stick));
     DeviceJson seen = DeviceJson::array();
     for (const PadState& pad : pads) seen.push_back(pad_json(pad));
-    fmt::print("{}\n", DeviceJson{{"sticks", all}, {"seen_by_glfw", seen}}.dump(2));
+    const DeviceJson listed{{"sticks", all}, {"seen_by_glfw", seen}, {"problems_of_absent", absent}};
+    fmt::print("{}\n", listed.dump(2));
     return 0;
   }
   if (sticks.empty()) fmt::print("No USB stick is plugged in: the simulated lever needs none.\n");
   if (!sticks.empty()) print_sticks(sticks);
+  for (const std::string& problem : absent) fmt::print("  {}\n", problem);
   print_rule(sticks);
   print_pads(pads);
   return 0;
@@ -170,6 +173,7 @@ void add_devices_verb(CLI::App& app, VerbAction& action) {
               "--calibrate", arguments->calibrate,
               "measure that stick (name, VENDOR:PRODUCT, serial or place): asks step by step, keeps every step")
           ->type_name("NAME")
+          ->check([](const std::string& name) { return name.empty() ? "the name of a stick is empty" : ""; })
           ->excludes(json);
   verb->add_flag("--again", arguments->again, "measure all of it anew")->needs(calibrate);
   verb->callback([arguments, &action] { action = [arguments] { return run_devices(*arguments); }; });

@@ -52,6 +52,7 @@ struct LeverKeeper::State {
   std::vector<std::string> told;                   // since it last worked
   std::string name;                                // of the device, once it has been open
   bool was_there = false;                          // prepared, once
+  bool has_failed = false;                         // while it streamed: that it cannot be prepared now is no news
   std::optional<Clock::time_point> streams_since;  // this time
   milliseconds pause = kFirstWait;
   std::thread thread;
@@ -64,6 +65,7 @@ void LeverKeeper::State::run() noexcept {
       keep_open();
     } catch (const HidGone& error) {
       if (!was_there) complain(error.what());  // else it is known that it was unplugged
+      has_failed = false;
     } catch (const std::exception& error) {
       complain(error.what());
     } catch (...) {
@@ -85,7 +87,8 @@ void LeverKeeper::State::keep_open() {
     lost(name + " was unplugged: its motors are off");
   } catch (const HidError& error) {
     connected = false;  // before its motors are switched off, which may take a while
-    complain(error.what());
+    if (!has_failed) complain(error.what());
+    has_failed = has_failed || streams_since;
   }
   driver.finish(*port);
   if (!streams_since || Clock::now() - *streams_since < kWorks) return;
@@ -102,6 +105,7 @@ void LeverKeeper::State::serve(HidPort& port) {
   if (was_there) complain(name + " is back: arm it");
   was_there = true;
   connected = true;
+  has_failed = false;
   streams_since = Clock::now();
   // end() of the one who leaves may have come before prepare() made the driver ready to stream again.
   if (leaving) return;

@@ -54,6 +54,12 @@ done
 check "a person who pushes nothing is told, and what is missing" bash -c '
   printf "\n" | timeout 120 umockdev-wrapper "$0" --family sidewinder -- "$gearshift" devices --calibrate 045e:001b --again >again.txt
   grep -q "Not taken: no axis moved" again.txt && grep -q "Still missing: range" again.txt' "$emulator"
+pulled_out() { # between two questions
+  sleep 5 | with_stick --family sidewinder --unplug-at 2 --replug-at 3 -- \
+    "$gearshift" devices --calibrate 045e:001b --again >pulled_out.txt 2>pulled_out.err
+  said "was unplugged" pulled_out && said "is back" pulled_out
+}
+check "a person whose stick is pulled out meanwhile is told, and that it is back" pulled_out
 check "what was measured before is kept" grep -q "travel_m = 0.14" "$sticks/045e_001b.toml"
 with_stick --family openffboard -- "$gearshift" devices --json >devices.json 2>devices.err
 check "the list for a script" python3 -c '

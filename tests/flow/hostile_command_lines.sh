@@ -42,6 +42,7 @@ for verb in "gate paper" "lesson hill_start" "tour --help"; do
 done
 
 unset DISPLAY WAYLAND_DISPLAY
+refuse 2 "--calibrate: the name of a stick is empty" devices --calibrate ""
 refuse 1 "no display"
 refuse 1 "no display" train
 DISPLAY=:987 WAYLAND_DISPLAY=wayland-0 refuse 1 "no display" train

@@ -86,10 +86,13 @@ declare -A id=([sidewinder]=045e:001b [openffboard]=1209:ffb0 [vjoy]=1234:bead)
 printf 'name = "patient"\n[guard]\nstale_time_s = 0.2\noverruns_in_row = 200\n' >patient.toml
 
 # The six-gear tour by the emulated hand, which shifts while the motors are on; Enter wherever the program asks for it.
+tour_seconds=100 # at most
+enters=100       # the same
+hand_gate=paper  # that the hand believes in
 answer_to() { # log: Enter on file 9 for each time that it is asked for, until the run is over
   local told=0
   while kill -0 "$2" 2>/dev/null; do
-    if said "press Enter" "$1" $((told + 1)); then
+    if [ $told -lt $enters ] && said "press Enter" "$1" $((told + 1)); then
       told=$((told + 1))
       echo >&9
     fi
@@ -101,8 +104,8 @@ tour() { # name, family, options of the emulator ...
   shift 2
   mkfifo "$name_of_run.in"
   exec 9<>"$name_of_run.in"
-  with_stick --family "$family" --tour paper "$@" -- "$gearshift" tour --device "${id[$family]}" --gate paper \
-    --preset ./patient.toml --seconds 100 --out "$name_of_run" <&9 >"$name_of_run.txt" 2>"$name_of_run.err" &
+  with_stick --family "$family" --tour "$hand_gate" "$@" -- "$gearshift" tour --device "${id[$family]}" --gate paper \
+    --preset ./patient.toml --seconds $tour_seconds --out "$name_of_run" <&9 >"$name_of_run.txt" 2>"$name_of_run.err" &
   local run=$!
   answer_to "$name_of_run" $run
   wait $run

@@ -32,6 +32,7 @@ TEST_CASE("sticks that push, pads and wheels are listed, a handbrake without X a
   CHECK(sticks[0].buttons == 8);
   CHECK(calibration_words(sticks[0]) == "no");
   CHECK(sticks[1].force == StickForce::pushes);
+  CHECK(sticks[1].missing == "range, travel and force, delay, polarity");  // of one that was never calibrated, too
   CHECK(force_words(sticks[2]) == "no force feedback");
   CHECK(sticks[2].buttons == 14);  // the DualShock 4's
   CHECK(calibration_words(sticks[2]) == "-");
@@ -98,6 +99,10 @@ TEST_CASE("a calibration that was begun, one that is whole, and one that is dama
   std::ofstream(file) << "nonsense = 1\n";
   CHECK(calibration_words(listed()) == "no");
   CHECK(listed().problem.find(file.string()) != std::string::npos);
+  CHECK(listed().missing == "range, travel and force, delay, polarity");
+  const std::vector<ListedStick> plugged{listed()}, none;
+  CHECK(absent_problems(plugged, folder.path()).empty());  // it is there, and says so itself
+  CHECK(absent_problems(none, folder.path()) == std::vector{listed().problem});
   known.calibration.product = 0x001c;  // by its name the file is this stick's
   std::filesystem::copy_file(keep_known(known, folder.path()), file, std::filesystem::copy_options::overwrite_existing);
   CHECK(calibration_words(listed()) == "no");

@@ -25,8 +25,8 @@ struct StickRig : PanelRig {
   }
 };
 
-constexpr const char* kUnplugged = "The stick is unplugged: plug it in, then arm it (Enter).";
-constexpr const char* kOff = "The stick's motors are off: hold it, then arm it (Enter).";
+constexpr const char* kUnplugged = "The stick is unplugged: plug it in, then press Enter.";
+constexpr const char* kOff = "The stick's motors are off: hold it, then press Enter.";
 
 }  // namespace
 

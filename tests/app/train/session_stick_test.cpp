@@ -22,6 +22,13 @@ namespace fs = std::filesystem;
 
 namespace {
 
+KnownStick late_by(double delay) {  // [s]
+  RestingHand nobody;
+  KnownStick known{sidewinder_calibration(), EmulatedStick({}, nobody).report_descriptor()};
+  known.calibration.timing.delay = delay;
+  return known;
+}
+
 struct HeldRig {
   TempFolder folder;
   Variable config{"XDG_CONFIG_HOME", folder.path().c_str()};
@@ -29,7 +36,7 @@ struct HeldRig {
   HeldStick held;
   std::unique_ptr<Session> session;
 
-  explicit HeldRig(const std::string& lesson = std::string(kNoLesson)) {
+  explicit HeldRig(const std::string& lesson = std::string(kNoLesson), double delay = 0.0) : held(late_by(delay)) {
     SessionChoice choice;
     choice.stick = held.lever;
     choice.lesson = lesson;
@@ -104,6 +111,14 @@ TEST_CASE("nobody but a person arms it: not the start, not another gate, car, pr
     rig.arm();
     CHECK(rig.runs());
   }
+}
+
+TEST_CASE("what its delay costs is told of the walls, until it is armed") {
+  HeldRig rig(std::string(kNoLesson), 0.004);
+  CHECK(rig.says("SideWinder answers after 7.0 ms: its walls are softer, "));
+  CHECK(rig.says(" N/m instead of 5000"));
+  rig.arm();
+  CHECK(rig.session->message().empty());
 }
 
 TEST_CASE("the lever is where the stick is, and the mouse's hand is nothing to it") {

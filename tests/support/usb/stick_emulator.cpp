@@ -2,8 +2,9 @@
 //
 //   umockdev-wrapper stick_emulator --family sidewinder [options] -- PROGRAM ARGUMENTS
 //
-// Times are seconds from the program's start, with --tour from when the motors first came on. Its exit status is the program's; at the end it says on stderr how long after
-// the last fault, unplug or the program's end the emulated motors still pushed.
+// Times are seconds from the program's start, with --tour from when the motors first came on; at 0 it happens before the
+// program looks. Its exit status is the program's; at the end it says on stderr how long after the last fault, unplug or
+// the program's end the emulated motors still pushed.
 
 #include <signal.h>
 #include <spawn.h>
@@ -105,7 +106,7 @@ class Emulation {
   void settle();
   void say() const;
   double now() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-  double event_time();  // [s] below 0: not begun
+  double event_time();  // [s]
 
   const Options& options_;
   EmulatedStickConfig config_;
@@ -189,7 +190,7 @@ double Emulation::event_time() {
   if (!touring_) return now();
   const std::lock_guard<std::mutex> lock(usb_->mutex());
   if (motors_on_ < 0.0 && stick_->actuators_on()) motors_on_ = now();
-  return motors_on_ < 0.0 ? -1.0 : now() - motors_on_;
+  return motors_on_ < 0.0 ? 0.0 : now() - motors_on_;
 }
 
 void Emulation::watch() {

@@ -1,0 +1,94 @@
+#!/usr/bin/env bash
+# Force-feedback sticks that lie, beneath the real libusb, each in the middle of a tour: all that is told is the sentence
+# that is due, once; where the program is blind the motors go silent, and stay so, for nobody presses Enter again; the
+# drive so far is kept.
+# Usage: lying_sticks.sh GEARSHIFT SOURCE_FOLDER STICK_EMULATOR
+set -u
+gearshift=$1
+emulator=$3
+here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+source "$here/checks.sh"
+source "$here/sticks.sh"
+all_known whole
+enters=1
+
+# What each shall tell, a pattern for all of it.
+blind="forces off: no readings of the stick arrive"
+declare -A due=(
+  [jump]="the stick's position jumps by [0-9][0-9] % of its range between two reports"
+  [wrong-length]="the stick sends a report of 24 bytes where its descriptor says 25: it is not used
+$blind"
+  [stuck]="the stick has said one place for 2 s while its force changed: its sensor is taken for dead until it moves
+$blind"
+  [silent]="$blind"
+  [refuses-effects]="the stick refuses a constant force: it says that there was an error"
+  [pool-full]="the stick refuses a constant force: its memory for effects is full"
+  [stalls-outputs]="vJoy * stalls: it takes no reports any more
+forces off: stopped"
+  [slow]=""
+)
+told() { # all that is said before the table but the tour's own words
+  sed '/^Five speeds/,$d' "$1.txt" | grep -v -e '^The tour: ' -e '^The motors are off' -e '^Shift to ' -e ' engaged$' \
+    -e ' answers after '
+}
+tells() {
+  [[ "$(told "$1")" == ${due[$1]} ]] && return
+  told "$1" | sed 's/^/    told: /'
+  return 1
+}
+# A machine that stands still for a fifth of a second is told of, too: once more.
+was_busy() { told "$1" | grep -q -e "stopped an effect by itself" -e "no force was commanded" -e "too late"; }
+lie() { # fault, family, when [s]; 0: before the stick is prepared
+  for _ in 1 2 3; do
+    rm -rf "$1" "$1.in"
+    tour "$1" "$2" --fault "$1@$3"
+    echo $? >"$1.status"
+    was_busy "$1" || return
+  done
+}
+# A hand that shifts where the gate has its wall: only a strong force tells that a sensor is dead.
+cat >elsewhere.toml <<END
+name = "Elsewhere"
+[gate]
+aisle_width_mm = 14
+slot_width_mm = 12
+slot_length_mm = 50
+chamfer_mm = 5
+[[column]]
+position_mm = -15
+forward = "1"
+neutral = true
+[[column]]
+position_mm = 15
+back = "2"
+END
+ended() { [ "$(cat "$1.status")" -le 1 ]; } # 1: not every gear, in so short a time
+
+# Three at a time: sticks that keep their own time need the machine.
+tour_seconds=4
+lie jump sidewinder 2 & lie wrong-length openffboard 2 & lie stalls-outputs vjoy 2 & wait
+lie silent sidewinder 2 & lie pool-full vjoy 0 & lie refuses-effects sidewinder 0 & wait
+tour_seconds=5.5 # a dead sensor's force yields in 3 s
+lie slow openffboard 0 & hand_gate=$work/elsewhere.toml lie stuck vjoy 1.55 & wait
+
+for fault in "${!due[@]}"; do
+  check "$fault: the program ends as it should" ended $fault
+  check "$fault: it tells what is due, once" tells $fault
+  check "$fault: the drive so far is kept" replays $fault
+done
+for fault in wrong-length silent stalls-outputs; do
+  check "$fault: its last effect ends, and none comes again" silent_within 350 $fault "the fault"
+done
+check "a dead sensor's force yields to nothing" silent_within 3500 stuck "the fault"
+for fault in refuses-effects pool-full; do
+  check "$fault: it never pushes" silent_within 0 $fault "the fault"
+done
+check "a tour without forces is drawn without a word" bash -c '! grep -i warning "$0"' pool-full.err
+for fault in jump slow; do
+  check "$fault: the tour goes on" said "2 engaged at" $fault
+done
+for fault in "${!due[@]}"; do
+  check "$fault: its motors are off when the program has ended" silent_within 330 $fault "the program's end"
+done
+sed -n 's/^stick_emulator: \(zero force .* the fault .*\)/\1/p' *.err
+finish
