@@ -14,7 +14,7 @@ inline constexpr double kFrozenTime = 2.0;    // [s] in one place, to the count,
 inline constexpr double kFrozenForce = 0.30;  // [1] of the full force, by which the force varied meanwhile
 inline constexpr double kYieldForce = 0.05;   // [1] of the full force: less yields to nobody
 inline constexpr double kYieldTime = 1.0;     // [s] in which a force yields to nothing,
-inline constexpr double kReturnTime = 0.2;    // [s] and in which it is back
+inline constexpr double kReturnTime = 0.05;   // [s] and in which it is back
 
 // Pure, report by report.
 //

@@ -102,7 +102,7 @@ void LeverKeeper::State::serve(HidPort& port) {
     const std::lock_guard lock(mutex);
     ability = std::move(found);
   }
-  if (was_there) complain(name + " is back: arm it");
+  if (was_there) complain(name + " is back: its motors are off");
   was_there = true;
   connected = true;
   has_failed = false;

@@ -26,7 +26,7 @@ class LeverKeeper {
 
   bool connected() const noexcept;            // prepared, and streaming
   std::optional<PidAbility> ability() const;  // of the device as it was last prepared
-  // "... was unplugged", "... is back: arm it", a problem: one sentence, in order. What keeps it from being opened and
+  // "... was unplugged", "... is back: its motors are off", a problem: one sentence, in order. What keeps it from being opened and
   // what it does wrong is told once, until it has worked again for a second; of one that failed nothing more.
   std::optional<std::string> take_news();
 

@@ -109,6 +109,7 @@ void PidDriver::see_lever(const LeverCounts& counts, std::int64_t time_ns) noexc
   watch_.see(counts, stream_.force(), time_ns);
   if (watch_.jump() > 0.0) problems_.raise(StickProblem::jumps, std::lround(100.0 * watch_.jump()));
   if (watch_.is_frozen()) return problems_.raise(StickProblem::frozen, std::lround(kFrozenTime));
+  if (watch_.force_share() == 0.0) problems_.raise(StickProblem::yields, std::lround(kFrozenTime + kYieldTime));
   ++sight_.sequence;
   sight_.time_ns = time_ns;
   sight_.counts = counts;

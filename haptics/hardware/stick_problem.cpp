@@ -17,6 +17,9 @@ std::string sentence(StickProblem problem, std::int64_t a, std::int64_t b) {
     case StickProblem::frozen:
       return "the stick has said one place for " + std::to_string(a) +
              " s while its force changed: its sensor is taken for dead until it moves";
+    case StickProblem::yields:
+      return "the stick has said one place for " + std::to_string(a) +
+             " s under its force, which has yielded: it is back when the lever moves";
     case StickProblem::jumps:
       return "the stick's position jumps by " + std::to_string(a) + " % of its range between two reports";
     case StickProblem::switched_off:

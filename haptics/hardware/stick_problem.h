@@ -14,6 +14,7 @@ enum class StickProblem : std::uint8_t {
   wrong_length,     // a, b: bytes of a report, and what its descriptor says
   unknown_report,   // a: its ID
   frozen,           // a: seconds
+  yields,           // a: seconds
   jumps,            // a: percent of the range
   switched_off,     // its motors, by itself
   effect_stopped,   // by itself
@@ -22,7 +23,7 @@ enum class StickProblem : std::uint8_t {
   takes_no_output,  // none arrives
   nobody_commands   // a: milliseconds; no fault of the stick: the program's other side is late or dead
 };
-inline constexpr std::size_t kStickProblems = 10;
+inline constexpr std::size_t kStickProblems = 11;
 
 class StickProblems {
  public:

@@ -33,7 +33,7 @@ for ((i = 0; i < tours; ++i)); do
   check "$run: the tour comes to its end" tour $run $family $([ $power = wall ] && echo --own-power) $(moments)
   check "$run: every gear of it, in order" in_order $run
   check "$run: each time it was told" said "was unplugged" $run 4 # the last may come with the last gear
-  check "$run: and that it is back" said "is back: arm it" $run 4
+  check "$run: and that it is back" said "is back: its motors are off" $run 4
   check "$run: its forces came back by Enter alone" said "press Enter" $run 5
   check "$run: its motors were off in $most ms" silent_within $most $run "the unplug"
   check "$run: the whole drive is kept" replays $run

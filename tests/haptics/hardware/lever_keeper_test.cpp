@@ -126,7 +126,7 @@ TEST_CASE("unplugged and plugged in again, 20 times while it drives: back each t
   Lines expected;
   for (int time = 0; time < 20; ++time) {
     expected.push_back(std::string(kName) + " was unplugged: its motors are off");
-    expected.push_back(std::string(kName) + " is back: arm it");
+    expected.push_back(std::string(kName) + " is back: its motors are off");
   }
   CHECK(kept.news() == expected);
   CHECK(kept.keeper->ability()->spring);
@@ -202,7 +202,7 @@ TEST_CASE("a stick that refuses its effects, then takes them; that takes no outp
     const std::lock_guard lock(kept.mutex);
     kept.stick.faults = {};
   }
-  CHECK(told(std::string(kName) + " is back: arm it"));
+  CHECK(told(std::string(kName) + " is back: its motors are off"));
   CHECK(kept.force() == dvec2(0.0));
   for (const std::string& sentence : news) CHECK(std::count(news.begin(), news.end(), sentence) == 1);
 }
