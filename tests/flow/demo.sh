@@ -54,8 +54,7 @@ check "and it says so" grep -q "^No display" stale.txt
 check "its page is there" [ -s stale/index.html ]
 different() { ! same "$1" "$2"; }
 check "first and fifth gear do not look the same" different one/gear_1.png one/gear_5.png
-check "another gate" demo six --gate six_speed_r_left_up
-check "stereo and a film" demo film --stereo --film 1 --samples 1
+check "another gate, stereo and a film" demo film --gate six_speed_r_left_up --stereo --film 1 --samples 1
 check "the film has frames" is_png film/film/00003.png
 
 refused() { # sentence, arguments ...
