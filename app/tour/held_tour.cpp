@@ -76,8 +76,10 @@ class HeldDrive {
 
  private:
   void ask_to_arm() {
-    if (is_there_ && !std::exchange(asked_, true))
-      say_("The motors are off. Hold the stick, then press Enter: its forces ramp up.");
+    if (!is_there_ || asked_) return;
+    while (answers_.line(0.0)) continue;  // what was said before it was asked for is no answer
+    asked_ = true;
+    say_("The motors are off. Hold the stick, then press Enter: its forces ramp up.");
   }
   void ask_for_gear() {
     if (next_ < result_.wanted.size()) say_(fmt::format("Shift to {}.", gear_name(result_.wanted[next_])));
@@ -86,8 +88,8 @@ class HeldDrive {
   void take_answer() {
     const std::optional<std::string> answer = answers_.line(kLookEvery);
     if (!answer) return;
-    asked_ = false;
     if (!stick_.connected()) return say_not_there();
+    if (!std::exchange(asked_, false)) return;
     trainer_.arm();
     armed_ = true;
     ask_for_gear();

@@ -115,8 +115,9 @@ std::string Calibrator::find_axis(bool select, double seconds) {
     if (std::abs(moved[i]) > std::abs(moved[most])) most = i;
   }
   if (std::abs(moved[most]) < kLeastMotion)
-    throw CalibrationRefused("no axis moved by more than " + percent(std::abs(moved[most])) +
-                             " of its range: push the lever as far as it goes and keep it there");
+    throw CalibrationRefused("no axis moved by more than " + percent(std::abs(moved[most])) + " of its range, and " +
+                             percent(kLeastMotion) +
+                             " is the least: push the lever as far as it goes and keep it there");
   for (std::size_t i = 0; i < axes.size(); ++i) {
     if (i != most && std::abs(moved[i]) > kStraight * std::abs(moved[most]))
       throw CalibrationRefused("two axes moved together: push the lever straight");

@@ -18,6 +18,7 @@ constexpr double kLoadNews = 0.01;                         // [1] up and down, s
 constexpr std::int64_t kLoadTime = 2'100'000'000, kLoadStart = 100'000'000;  // [ns] all of it, and what does not count
 constexpr std::size_t kLeastReadings = 50;
 constexpr double kPulseForce = 0.05, kMostPulseForce = 0.4;  // [1] of the full force
+constexpr double kDampedPulseForce = 0.2;                    // [1] against a damper
 constexpr std::int64_t kPulseTime = 60'000'000, kCoastTime = 400'000'000, kNoForceTime = 1'000'000'000;  // [ns]
 constexpr double kPulseMotion = 0.06, kLeastPulseMotion = 0.03;  // [1] of the range
 constexpr double kMostResidual = 0.2;                            // [1]
@@ -25,6 +26,7 @@ constexpr double kMostDelayMeasured = 0.1;                       // [s]
 constexpr double kMostBalance = 0.4;                             // [1] of the full force, against a spring
 constexpr double kLeastBalance = 0.01;                           // [1] of the range
 constexpr double kDamper = 0.5;                                  // [1] of the greatest coefficient: enough to measure
+constexpr double kMostOwnSpring = 0.3;                           // [1] of the full force, at a stop: else a hand's
 constexpr double kLeastBraking = 0.3;                            // [N s/m] that tells the way of a damper
 
 PidWish idle_wish() noexcept {
@@ -210,7 +212,7 @@ Pulse Calibrator::pulse(StickRig& rig, const AxisPlace& place, const PidWish& re
 
 std::vector<Pulse> Calibrator::pulses(StickRig& rig, const AxisPlace& place, const PidWish& rest) const {
   std::vector<Pulse> seen;
-  double magnitude = kPulseForce;
+  double magnitude = rest.damper[place.motor] == 0.0 ? kPulseForce : kDampedPulseForce;
   while (true) {
     seen = {pulse(rig, place, rest, magnitude), pulse(rig, place, rest, -magnitude)};
     double farthest = 0.0;
@@ -263,6 +265,11 @@ std::string Calibrator::measure_handle() {
     if (!(mass >= 0.005 && mass <= 20.0))
       throw CalibrationRefused("a handle of " + number_text(mass, 4) +
                                " kg: the full force or the travel is not right");
+    const double half_way = 0.5 * found.stiffness * mass * axis.travel;  // [N] that its own spring takes at a stop
+    if (half_way > kMostOwnSpring * axis.full_force)
+      throw CalibrationRefused((select ? "select has a spring of " : "shift has a spring of ") +
+                               newtons_per_metre(found.stiffness * mass) +
+                               ", more than its motors are for: take the hands off the lever");
     handle[select ? 0 : 1] = {mass, found.damping * mass, found.stiffness * mass};
     sentence += (select ? "select: " : "; shift: ") + number_text(mass, 3) + " kg, " +
                 number_text(found.damping * mass, 2) + " N s/m, " + newtons_per_metre(found.stiffness * mass);

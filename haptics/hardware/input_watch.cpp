@@ -9,50 +9,64 @@ namespace gearshift {
 InputWatch::InputWatch(const LeverReport& report, std::array<std::size_t, 2> axes) : axes_(axes) {
   for (std::size_t i = 0; i < 2; ++i) {
     const BitField& field = report.axes[axes[i]].field;
-    range_[i] = static_cast<double>(field.max - field.min);
+    axis_[i].middle = 0.5 * static_cast<double>(field.min + field.max);
+    axis_[i].half_range = 0.5 * static_cast<double>(field.max - field.min);
   }
 }
 
-std::array<std::int64_t, 2> InputWatch::place(const LeverCounts& counts) const noexcept {
-  return {counts.axis[axes_[0]], counts.axis[axes_[1]]};
-}
-
-void InputWatch::see(const LeverCounts& counts, std::array<double, 2> force, std::int64_t time_ns) noexcept {
-  const std::array<std::int64_t, 2> now = place(counts);
-  watch_jump(now, time_ns);
-  if (!started_ || now != place_) {
-    still_since_ns_ = time_ns;
-    least_ = most_ = force;
+void InputWatch::see(const LeverCounts& counts, std::array<double, 2> force, std::array<PidSpring, 2> springs,
+                     std::int64_t time_ns) noexcept {
+  watch_jump(counts, time_ns);
+  const double passed = started_ ? 1e-9 * static_cast<double>(time_ns - time_ns_) : 0.0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const std::int64_t place = counts.axis[axes_[i]];
+    const double deflection = (static_cast<double>(place) - axis_[i].middle) / axis_[i].half_range;
+    const bool is_beyond = std::abs(deflection - springs[i].centre) > springs[i].dead_band;
+    watch_still(axis_[i], place, force[i], is_beyond ? springs[i].coefficient : 0.0, passed);
   }
-  const std::int64_t passed_ns = started_ ? time_ns - time_ns_ : 0;
   started_ = true;
-  place_ = now;
   time_ns_ = time_ns;
-  watch_still(force, passed_ns);
 }
 
-void InputWatch::watch_jump(std::array<std::int64_t, 2> now, std::int64_t time_ns) noexcept {
+void InputWatch::forget_force() noexcept {
+  for (Axis& axis : axis_) {
+    axis.forced = 0.0;
+    axis.share = 1.0;
+  }
+}
+
+void InputWatch::watch_jump(const LeverCounts& counts, std::int64_t time_ns) noexcept {
   jump_ = 0.0;
   if (!started_ || static_cast<double>(time_ns - time_ns_) > 1e9 * kJumpTime) return;
   for (std::size_t i = 0; i < 2; ++i) {
-    const double share = std::abs(static_cast<double>(now[i] - place_[i])) / range_[i];
+    const auto moved = static_cast<double>(counts.axis[axes_[i]] - axis_[i].place);
+    const double share = 0.5 * std::abs(moved) / axis_[i].half_range;
     if (share > kJump) jump_ = std::max(jump_, share);
   }
 }
 
-void InputWatch::watch_still(std::array<double, 2> force, std::int64_t passed_ns) noexcept {
-  double varied = 0.0, strongest = 0.0;
-  for (std::size_t i = 0; i < 2; ++i) {
-    least_[i] = std::min(least_[i], force[i]);
-    most_[i] = std::max(most_[i], force[i]);
-    varied = std::max(varied, most_[i] - least_[i]);
-    strongest = std::max({strongest, -least_[i], most_[i]});
+void InputWatch::watch_still(Axis& axis, std::int64_t place, double force, double spring, double passed) noexcept {
+  const bool moved = place != axis.place;
+  axis.place = place;
+  if (moved) {
+    axis.forced = 0.0;
+    axis.force.begin(force);
+    axis.spring.begin(spring);
   }
-  const bool still = static_cast<double>(time_ns_ - still_since_ns_) >= 1e9 * kFrozenTime;
-  const double passed = 1e-9 * static_cast<double>(passed_ns);
-  const double change = still && strongest > kYieldForce ? -passed / kYieldTime : passed / kReturnTime;
-  share_ = std::clamp(share_ + change, 0.0, 1.0);
-  frozen_ = still && varied > kFrozenForce;
+  axis.force.add(force);
+  axis.spring.add(spring);
+  const bool is_pushed = std::max(std::abs(force), std::abs(spring)) > kYieldForce;
+  const bool was_still = axis.forced >= kFrozenTime;  // then it is, until it moves: its force yields
+  if (!was_still) axis.forced = std::max(0.0, axis.forced + (is_pushed ? passed : -kForgets * passed));
+  const bool is_still = axis.forced >= kFrozenTime;
+  const double change = is_still ? -passed / kYieldTime : passed / kReturnTime;
+  axis.share = std::clamp(axis.share + change, 0.0, 1.0);
+  axis.frozen = is_still && std::max(axis.force.width(), axis.spring.width()) > kFrozenForce;
+}
+
+void InputWatch::Span::add(double value) noexcept {
+  least = std::min(least, value);
+  most = std::max(most, value);
 }
 
 }  // namespace gearshift

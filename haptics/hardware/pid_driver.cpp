@@ -10,7 +10,9 @@ namespace gearshift {
 namespace {
 
 constexpr std::int64_t kSilence = static_cast<std::int64_t>(1e9 * kCommandSilence);  // [ns]
-constexpr std::int64_t kUnarrived = 100'000'000;                                     // [ns] under way: it takes none
+constexpr std::int64_t kMillisecond = 1'000'000;                                     // [ns]
+constexpr std::int64_t kUnarrived = 100 * kMillisecond;                              // [ns] under way: it takes none
+constexpr std::int64_t kSlowness = 500 * kMillisecond;                               // [ns] over which it is judged
 
 LeverReport lever_of(const ReportDescriptor& descriptor) {
   if (std::optional<LeverReport> lever = find_lever_report(descriptor)) return *std::move(lever);
@@ -70,6 +72,7 @@ PidAbility PidDriver::prepare(HidPort& port) {
   stream_.begin(blocks_, prepared.ability.finite);
   watch_ = InputWatch(lever_, stick_axes(lever_));
   driven_ = unarrived_ = false;
+  arrivals_since_ns_ = arrivals_ns_ = arrivals_ = 0;
   prepared_ = true;
   ++sight_.session;
   publish();
@@ -106,10 +109,13 @@ void PidDriver::on_input(std::span<const std::uint8_t> report, std::int64_t time
 
 // A dead sensor must not be taken for a live one: its readings do not count.
 void PidDriver::see_lever(const LeverCounts& counts, std::int64_t time_ns) noexcept {
-  watch_.see(counts, stream_.force(), time_ns);
+  watch_.see(counts, stream_.force(), stream_.spring(), time_ns);
   if (watch_.jump() > 0.0) problems_.raise(StickProblem::jumps, std::lround(100.0 * watch_.jump()));
   if (watch_.is_frozen()) return problems_.raise(StickProblem::frozen, std::lround(kFrozenTime));
-  if (watch_.force_share() == 0.0) problems_.raise(StickProblem::yields, std::lround(kFrozenTime + kYieldTime));
+  if (watch_.has_yielded()) {
+    problems_.raise(StickProblem::yields, std::lround(kFrozenTime + kYieldTime));
+    end_session();
+  }
   ++sight_.sequence;
   sight_.time_ns = time_ns;
   sight_.counts = counts;
@@ -156,8 +162,8 @@ void PidDriver::obey(std::int64_t now_ns) noexcept {
   driven_ = counts && order.wish.enabled;
   PidWish wish = counts ? order.wish : PidWish{};
   for (std::size_t i = 0; i < 2; ++i) {  // its own walls, too: they are as blind as its sensor
-    wish.constant[i] *= watch_.force_share();
-    wish.spring[i].coefficient *= watch_.force_share();
+    wish.constant[i] *= watch_.force_share(i);
+    wish.spring[i].coefficient *= watch_.force_share(i);
   }
   stream_.want(wish);
 }
@@ -174,10 +180,12 @@ void PidDriver::end_session() noexcept {
   ++sight_.session;
   stream_.want({});
   stream_.release();
+  watch_.forget_force();
   publish();
 }
 
 void PidDriver::watch_arrival(bool anything, std::int64_t now_ns) noexcept {
+  if (anything) handed_ns_ = now_ns;
   if (anything && !unarrived_) unarrived_ns_ = now_ns;
   if (anything && unarrived_ && now_ns - unarrived_ns_ > kUnarrived) problems_.raise(StickProblem::takes_no_output);
   unarrived_ = anything;
@@ -186,9 +194,23 @@ void PidDriver::watch_arrival(bool anything, std::int64_t now_ns) noexcept {
 void PidDriver::on_sent(std::int64_t time_ns) noexcept {
   unarrived_ = false;
   stream_.arrived(time_ns);
+  watch_slowness(time_ns);
   sight_.sent_ns = time_ns;
   ++sight_.outputs;
   publish();
+}
+
+// What is admitted on a prompt stick shakes on a slow one.
+void PidDriver::watch_slowness(std::int64_t now_ns) noexcept {
+  arrivals_ns_ += now_ns - handed_ns_;
+  ++arrivals_;
+  if (now_ns - arrivals_since_ns_ < kSlowness) return;
+  const std::int64_t mean = arrivals_ns_ / arrivals_, answer = answer_ns_.load(std::memory_order_relaxed);
+  arrivals_since_ns_ = now_ns;
+  arrivals_ns_ = arrivals_ = 0;
+  if (!driven_ || answer == 0 || mean <= 2 * answer + kMillisecond) return;
+  problems_.raise(StickProblem::slower, mean / kMillisecond, (answer + kMillisecond - 1) / kMillisecond);
+  end_session();
 }
 
 void PidDriver::publish() noexcept {

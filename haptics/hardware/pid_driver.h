@@ -16,6 +16,7 @@
 
 #include <array>
 #include <atomic>
+#include <cmath>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -75,6 +76,10 @@ class PidDriver final : public HidStream {
   void release() noexcept;  // off before all else; a later wish() may enable again
 
   // Any thread.
+  // [s] The stick was calibrated to answer so soon. One that takes twice as long for its outputs is driven no longer.
+  void expect_answer(double seconds) noexcept {
+    answer_ns_.store(std::llround(1e9 * seconds), std::memory_order_relaxed);
+  }
   void end() noexcept { end_.store(true, std::memory_order_relaxed); }  // stream() comes back
   // What the device did wrong since it was prepared: one sentence, each kind once.
   std::optional<std::string> take_problem() { return problems_.take(); }
@@ -92,6 +97,7 @@ class PidDriver final : public HidStream {
   void end_session() noexcept;
   void watch_silence(std::int64_t now_ns) noexcept;
   void watch_arrival(bool anything, std::int64_t now_ns) noexcept;
+  void watch_slowness(std::int64_t now_ns) noexcept;
   void see_lever(const LeverCounts& counts, std::int64_t time_ns) noexcept;
   void hear_state(const PidStatus& status, std::int64_t time_ns) noexcept;
   void publish() noexcept;
@@ -108,6 +114,7 @@ class PidDriver final : public HidStream {
   LatestValue<PidSight> sights_;
   std::atomic<std::uint64_t> releases_{0};
   std::atomic<bool> end_{false};
+  std::atomic<std::int64_t> answer_ns_{0};  // 0: not known
   StickProblems problems_;
 
   // The port's thread.
@@ -120,7 +127,9 @@ class PidDriver final : public HidStream {
   std::int64_t ordered_ns_ = 0;  // when the last order was seen
   bool driven_ = false;          // by that order
   std::int64_t unarrived_ns_ = 0;
-  bool unarrived_ = false;  // an output is under way since then
+  bool unarrived_ = false;                                               // an output is under way since then
+  std::int64_t handed_ns_ = 0;                                           // when the last output was handed out
+  std::int64_t arrivals_since_ns_ = 0, arrivals_ns_ = 0, arrivals_ = 0;  // since then: how long they took, how many
 
   // The haptic side.
   Order last_order_;

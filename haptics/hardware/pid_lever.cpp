@@ -53,6 +53,7 @@ PidLever::PidLever(const DeviceCalibration& calibration, PidDriver& driver, doub
       driver_(driver),
       spec_(spec_of(calibration, period)),
       session_(driver.see().session) {
+  driver.expect_answer(answer_time(calibration.has_timing() ? calibration.timing : kUnmeasuredTiming));
   const bool has_motors = calibration.select.usage <= kUsageY.id && calibration.shift.usage <= kUsageY.id;
   if (!has_motors) spec_.max_force = spec_.continuous_force = spec_.own_stiffness = spec_.own_damping = glm::dvec2(0.0);
   axis_ = {make_axis(calibration.select, drives()), make_axis(calibration.shift, drives())};

@@ -3,8 +3,11 @@
 namespace gearshift {
 namespace {
 
-constexpr std::uint32_t bit_of(std::size_t kind) noexcept {
-  return std::uint32_t{1} << kind;
+constexpr std::uint64_t bit_of(std::size_t kind) noexcept {
+  return std::uint64_t{1} << kind;
+}
+constexpr std::uint64_t told_bit_of(std::size_t kind) noexcept {
+  return bit_of(kind) << 32;
 }
 
 std::string sentence(StickProblem problem, std::int64_t a, std::int64_t b) {
@@ -19,7 +22,7 @@ std::string sentence(StickProblem problem, std::int64_t a, std::int64_t b) {
              " s while its force changed: its sensor is taken for dead until it moves";
     case StickProblem::yields:
       return "the stick has said one place for " + std::to_string(a) +
-             " s under its force, which has yielded: it is back when the lever moves";
+             " s under its force: the motors are off until they are armed again";
     case StickProblem::jumps:
       return "the stick's position jumps by " + std::to_string(a) + " % of its range between two reports";
     case StickProblem::switched_off:
@@ -32,6 +35,9 @@ std::string sentence(StickProblem problem, std::int64_t a, std::int64_t b) {
       return "the stick says that its safety switch is open: it gives no force";
     case StickProblem::takes_no_output:
       return "the stick takes no outputs: its force ends by itself";
+    case StickProblem::slower:
+      return "the stick takes " + std::to_string(a) + " ms for an output, and answered after " + std::to_string(b) +
+             " ms when it was calibrated: the motors are off until they are armed again";
     case StickProblem::nobody_commands:
       break;
   }
@@ -42,24 +48,25 @@ std::string sentence(StickProblem problem, std::int64_t a, std::int64_t b) {
 
 void StickProblems::raise(StickProblem problem, std::int64_t a, std::int64_t b) noexcept {
   const auto kind = static_cast<std::size_t>(problem);
-  if ((raised_.load(std::memory_order_relaxed) & bit_of(kind)) != 0) return;
+  if ((raised_and_told_.load(std::memory_order_relaxed) & bit_of(kind)) != 0) return;
   detail_[kind].a.store(a, std::memory_order_relaxed);
   detail_[kind].b.store(b, std::memory_order_relaxed);
-  raised_.fetch_or(bit_of(kind), std::memory_order_release);
+  raised_and_told_.fetch_or(bit_of(kind), std::memory_order_release);
 }
 
 void StickProblems::forget() noexcept {
-  raised_.store(0, std::memory_order_relaxed);
-  told_.store(0, std::memory_order_relaxed);
+  raised_and_told_.store(0, std::memory_order_relaxed);
 }
 
 std::optional<std::string> StickProblems::take() {
-  const std::uint32_t raised = raised_.load(std::memory_order_acquire);
+  std::uint64_t now = raised_and_told_.load(std::memory_order_acquire);
+  const auto is_news = [&now](std::size_t kind) { return (now & bit_of(kind)) != 0 && (now & told_bit_of(kind)) == 0; };
   for (std::size_t kind = 0; kind < kStickProblems; ++kind) {
-    if ((raised & bit_of(kind)) == 0) continue;
-    if ((told_.fetch_or(bit_of(kind), std::memory_order_relaxed) & bit_of(kind)) != 0) continue;
-    return sentence(static_cast<StickProblem>(kind), detail_[kind].a.load(std::memory_order_relaxed),
-                    detail_[kind].b.load(std::memory_order_relaxed));
+    while (is_news(kind)) {
+      if (!raised_and_told_.compare_exchange_weak(now, now | told_bit_of(kind), std::memory_order_acquire)) continue;
+      return sentence(static_cast<StickProblem>(kind), detail_[kind].a.load(std::memory_order_relaxed),
+                      detail_[kind].b.load(std::memory_order_relaxed));
+    }
   }
   return std::nullopt;
 }

@@ -21,9 +21,10 @@ enum class StickProblem : std::uint8_t {
   no_power,         // for its motors
   safety_switch,    // open
   takes_no_output,  // none arrives
+  slower,           // a, b: milliseconds that an output takes, and the answer that it was calibrated with
   nobody_commands   // a: milliseconds; no fault of the stick: the program's other side is late or dead
 };
-inline constexpr std::size_t kStickProblems = 11;
+inline constexpr std::size_t kStickProblems = 12;
 
 class StickProblems {
  public:
@@ -38,7 +39,7 @@ class StickProblems {
   struct Detail {
     std::atomic<std::int64_t> a{0}, b{0};
   };
-  std::atomic<std::uint32_t> raised_{0}, told_{0};  // a bit each
+  std::atomic<std::uint64_t> raised_and_told_{0};  // a bit each: raised in the low half, told in the high one
   std::array<Detail, kStickProblems> detail_;
 };
 

@@ -186,8 +186,7 @@ StableStiffness stable_stiffness(const HapticConfig& config, const AdmittedTunin
   return stable;
 }
 
-// Of a wall that is softer than the device's own it keeps a share. It damps none that the observer holds, which would
-// take that for the hand's.
+// Of a wall that is softer than the device's own it keeps a share.
 DeviceSpec with_kept_walls(DeviceSpec spec, const HapticTuning& wanted) noexcept {
   const auto share = [](double want, double own) { return own > 0.0 ? std::min(1.0, want / own) : 0.0; };
   spec.own_stiffness *= share(wanted.wall_stiffness, own_wall_stiffness(spec));
@@ -313,7 +312,7 @@ AdmittedTuning admit_tuning(const HapticConfig& config, const DeviceSpec& device
   refuse_without_study(config, device);
   DeviceSpec spec = with_kept_walls(device, config.tuning);
   AdmittedTuning out{config.tuning, chosen_hold(config, spec), {}};
-  if (out.hold == ContactHold::observer) spec.own_damping = glm::dvec2(0.0);
+  if (out.hold == ContactHold::observer) spec.own_damping = glm::dvec2(0.0);  // it would take it for the hand's
   out.tuning.wall_damping -= own_wall_damping(spec);
   const Limiter limiter{config.contact.study, out.limited};
   limit_to_quiet(config, spec, out, limiter);

@@ -26,10 +26,10 @@ within() { # seconds, command ...: until it succeeds
 # What is known of the emulated families. By a person's part of the calibration: forward counts down. With "whole" all of
 # it, as the rest of the calibration finds it where two cores carry program and emulation.
 known() { # file name, vendor, product, serial, low, rest, high, whole or nothing
-  local travel=0 force=0 select=0 shift=0 spring=0 spring_force=0 mass=0 damping=0 stiffness=0
+  local travel=0 force=0 select=0 shift=0 spring=0 spring_force=0 damper_force=0 mass=0 damping=0 stiffness=0
   local interval=0 delay=0 jitter=0
-  [ "${8:-}" = whole ] && travel=0.14 force=20 select=-1 shift=1 spring=1 spring_force=350 mass=0.09 damping=3 stiffness=15 \
-    interval=0.001 delay=0.001 jitter=0.004
+  [ "${8:-}" = whole ] && travel=0.14 force=20 select=-1 shift=1 spring=1 spring_force=350 damper_force=20 \
+    mass=0.09 damping=3 stiffness=15 interval=0.001 delay=0.001 jitter=0.004
   cat >"$sticks/$1.toml" <<END
 vendor = $2
 product = $3
@@ -44,6 +44,8 @@ full_force_n = $force
 constant_sign = $select
 spring_sign = $spring
 spring_stiffness_n_per_m = $spring_force
+damper_sign = $spring
+damper_n_s_per_m = $damper_force
 [select.handle]
 mass_kg = $mass
 damping_n_s_per_m = $damping
@@ -58,6 +60,8 @@ full_force_n = $force
 constant_sign = $shift
 spring_sign = $spring
 spring_stiffness_n_per_m = $spring_force
+damper_sign = $spring
+damper_n_s_per_m = $damper_force
 [shift.handle]
 mass_kg = $mass
 damping_n_s_per_m = $damping
@@ -84,6 +88,23 @@ declare -A id=([sidewinder]=045e:001b [openffboard]=1209:ffb0 [vjoy]=1234:bead)
 
 # A loop that bears a busy machine's lateness.
 printf 'name = "patient"\n[guard]\nstale_time_s = 0.2\noverruns_in_row = 200\n' >patient.toml
+
+# A gate for a hand that shifts where the paper's has its wall, and so presses into that.
+cat >elsewhere.toml <<END
+name = "Elsewhere"
+[gate]
+aisle_width_mm = 14
+slot_width_mm = 12
+slot_length_mm = 50
+chamfer_mm = 5
+[[column]]
+position_mm = -15
+forward = "1"
+neutral = true
+[[column]]
+position_mm = 15
+back = "2"
+END
 
 # The six-gear tour by the emulated hand, which shifts while the motors are on; Enter wherever the program asks for it.
 tour_seconds=100 # at most

@@ -127,7 +127,7 @@ class Emulation {
 
 Emulation::Emulation(const Options& options) : options_(options) {
   config_.family = family_of(options.family);
-  config_.lever.hand = kGripHand;
+  if (!options.tour.empty()) config_.lever.hand = kGripHand;  // else nobody holds it
   config_.own_power = options.own_power;
   if (!options.tour.empty()) {
     touring_ = std::make_unique<TouringHand>(gate_of(options.tour, config_.lever), config_.plant_period);
