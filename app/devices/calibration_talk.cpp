@@ -48,8 +48,9 @@ class Talk {
         return hands_off("How heavy its handle is: it is pushed to and fro, with up to four tenths of its force.",
                          Needed::no, [&] { return calibrator_.measure_handle(); });
       case CalibrationStep::springs:
-        return hands_off("How stiff its own springs are: it is drawn to a side and held there, for some seconds.",
-                         Needed::no, [&] { return calibrator_.measure_springs(); });
+        return hands_off(
+            "How its own springs and dampers push: it is drawn to a side and held there, then pushed to and fro.",
+            Needed::no, [&] { return calibrator_.measure_springs(); });
     }
   }
 

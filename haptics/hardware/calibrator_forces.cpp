@@ -20,6 +20,7 @@ constexpr std::size_t kLeastReadings = 50;
 constexpr double kPulseForce = 0.05, kMostPulseForce = 0.4;  // [1] of the full force
 constexpr double kDampedPulseForce = 0.2;                    // [1] against a damper
 constexpr std::int64_t kPulseTime = 60'000'000, kCoastTime = 400'000'000, kNoForceTime = 1'000'000'000;  // [ns]
+constexpr std::int64_t kSettingTime = 20'000'000;                // [ns] in which what holds is told
 constexpr double kPulseMotion = 0.06, kLeastPulseMotion = 0.03;  // [1] of the range
 constexpr double kMostResidual = 0.2;                            // [1]
 constexpr double kMostDelayMeasured = 0.1;                       // [s]
@@ -183,9 +184,10 @@ DeviceTiming Calibrator::measure_intervals(StickRig& rig) const {
   return timing;
 }
 
-// rest: what holds before, during and after it.
+// rest: what holds before, during and after it. It comes to rest without: a damped lever takes seconds.
 Pulse Calibrator::pulse(StickRig& rig, const AxisPlace& place, const PidWish& rest, double magnitude) const {
-  const double from = rig.rest(place.report, rest);
+  const double from = rig.rest(place.report, idle_wish());
+  for (const std::int64_t now = rig.look().now_ns; rig.look().now_ns < now + kSettingTime;) rig.step(rest);
   const std::int64_t begin = rig.look().now_ns;
   PidWish on = rest;
   on.constant[place.motor] = magnitude;

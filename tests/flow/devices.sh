@@ -94,6 +94,13 @@ for run in $families; do
   check "its plots are pictures" is_png "$run/trajectory.png"
 done
 
+early() {
+  printf '\n\n\n\n' | with_stick --family vjoy -- "$gearshift" tour --device vjoy --gate paper --out early >early.txt 2>early.err
+}
+early
+check "Enter before it is asked for arms nothing" grep -q "nobody can arm the stick" early.err
+check "and its motors never pushed" silent_within 0 early "the program's end"
+
 # Killed while a hand presses into a wall, its effects end by themselves.
 killed() {
   with_stick --family openffboard --tour elsewhere.toml -- bash -c '
