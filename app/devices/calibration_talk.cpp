@@ -81,7 +81,8 @@ class Talk {
 
   template <class Measure>
   void hands_off(const std::string& what, Needed needed, const Measure& measure) {
-    if (try_out("HANDS OFF the stick, its motors will move it. " + what, needed, measure)) keep();
+    try_out("HANDS OFF the stick, its motors will move it. " + what, needed, measure);
+    keep();  // of what was left out, too: its springs may be known and its dampers not
   }
 
   // The buttons before the range: until that is known, all of it is asked again.

@@ -52,8 +52,8 @@ class Calibrator {
   std::string measure_polarity();  // of constant forces and of springs, per axis
   std::string measure_timing();    // intervals, jitter, delay
   std::string measure_handle();    // m, b, k; after set_numbers()
-  // N/m and N s/m; after set_numbers(). The way of a damper is found at kCautious of its greatest coefficient. Dampers
-  // that are refused do without, and that is said.
+  // N/m and N s/m; after set_numbers(). The way of a damper is found at kCautious of its greatest coefficient. Where
+  // only the dampers are refused the springs are known all the same.
   std::string measure_springs();
 
  private:

@@ -293,26 +293,21 @@ std::string Calibrator::measure_springs() {
   const bool useful = std::min(select, shift) >= kLeastSpring;
   const std::string springs = "the strongest springs: select " + newtons_per_metre(select) + ", shift " +
                               newtons_per_metre(shift) + (useful ? "" : ": too weak to be used");
-  try {
-    return springs + "; " + measure_dampers();
-  } catch (const CalibrationRefused& error) {
-    return springs + "; its dampers are not used: " + error.what();
-  }
+  return driver_.layout().makes(PidEffect::damper) ? springs + "; " + measure_dampers() : springs;
 }
 
 // The way first, with as little of it as kCautious; then the strength.
 std::string Calibrator::measure_dampers() {
   DeviceCalibration found = calibration_;
-  if (!found.has_handle()) throw CalibrationRefused("the handle is not measured yet");
-  if (!driver_.layout().makes(PidEffect::damper)) throw CalibrationRefused("it has none");
+  if (!found.has_handle()) return "dampers are not measured: the handle is not known";
   StickRig rig(driver_, tick_);
   for (LeverAxisCalibration* axis : {&found.select, &found.shift}) {
     const std::string name = axis == &found.select ? "select" : "shift";
     const double braking = damping_by(rig, *axis, name, kCautious);
-    if (std::abs(braking) < kLeastBraking) throw CalibrationRefused(name + " is hardly braked");
+    if (std::abs(braking) < kLeastBraking) return "dampers: too weak to be used";
     axis->damper_sign = braking > 0.0 ? 1 : -1;
     axis->damper_strength = damping_by(rig, *axis, name, kDamper * axis->damper_sign) / kDamper;
-    if (axis->damper_strength <= 0.0) throw CalibrationRefused(name + " is driven whichever way it is told");
+    if (axis->damper_strength <= 0.0) throw CalibrationRefused(name + " is driven whichever way its damper is told");
   }
   calibration_ = found;
   return "dampers: select " + number_text(found.select.damper_strength, 1) + " N s/m, shift " +

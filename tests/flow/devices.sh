@@ -13,7 +13,7 @@ all_known
 # Calibration: the numbers that a person knows, nonsense among them, then hands off, Enter by Enter: some more than there
 # are steps, for a machine that is busy measures nonsense, which is refused.
 calibrate() {
-  printf 'far\n5000\n140 mm\n140\n20\nwhat\n\n\n\n\n\n\n\n\n\n\n' |
+  printf 'far\n5000\n140 mm\n140\n20\nwhat\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n\n' |
     with_stick --family "$1" -- "$gearshift" devices --calibrate "${name[$1]}" >"calibrate_$1.txt" 2>"calibrate_$1.err"
 }
 for family in $families; do calibrate $family & running+=($!); done

@@ -226,6 +226,18 @@ TEST_CASE("what is missing, in order; a step that is done is not asked for again
   CHECK(missing_steps(known, true) == std::vector{polarity, timing, handle, springs});
 }
 
+// Twice the mass and thirty times the stiffness: walls that are admitted for them shake without the hand (facts 7a).
+TEST_CASE("a hand that holds the lever while its handle is measured is refused") {
+  EmulatedStickConfig config = of(StickFamily::openffboard);
+  DeviceCalibration known = calibration_of(config);
+  known.select.handle = known.shift.handle = {};
+  config.lever.hand = kGripHand;
+  CalibrationBench bench(config, known);
+  CHECK(refusal([&] { bench.calibrator.measure_handle(); }).find("more than its motors are for: take the hands off") !=
+        std::string::npos);
+  CHECK_FALSE(bench.calibrator.calibration().has_handle());
+}
+
 TEST_CASE("resumed: the steps that are left need what is in the file, and no more") {
   const EmulatedStickConfig config = of(StickFamily::openffboard);
   CalibrationBench bench(config, shown(config));
