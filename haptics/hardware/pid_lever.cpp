@@ -75,26 +75,20 @@ PidLever::Axis PidLever::make_axis(const LeverAxisCalibration& calibration, bool
   axis.motor = calibration.usage == kUsageX.id ? 0 : 1;
   axis.full_force = calibration.full_force;
   axis.sign = calibration.constant_sign;
-  axis.spring = wall_coefficient(calibration);
-  axis.damper = damper_coefficient(calibration);
+  axis.spring =
+      coefficient(PidEffect::spring, calibration.spring_sign, own_wall_stiffness(spec_), calibration.spring_stiffness);
+  axis.damper =
+      coefficient(PidEffect::damper, calibration.damper_sign, own_wall_damping(spec_), calibration.damper_strength);
   return axis;
 }
 
-// Of walls as stiff as spec() says. A spring that pushes away is turned round, where the device can say so.
-double PidLever::wall_coefficient(const LeverAxisCalibration& calibration) const noexcept {
+// Of a condition that makes as much of its strongest as wanted. One that works the other way is turned round, where the
+// device can say so. 0: it has none.
+double PidLever::coefficient(PidEffect effect, int sign, double wanted, double strongest) const noexcept {
   const PidSetCondition& set = driver_.layout().set_condition;
-  const double stiffness = own_wall_stiffness(spec_);
-  if (stiffness == 0.0 || !set.exists() || !driver_.layout().makes(PidEffect::spring)) return 0.0;
-  if (calibration.spring_sign < 0 && set.positive_coefficient.min >= set.positive_coefficient.zero) return 0.0;
-  return calibration.spring_sign * stiffness / calibration.spring_stiffness;
-}
-
-double PidLever::damper_coefficient(const LeverAxisCalibration& calibration) const noexcept {
-  const PidSetCondition& set = driver_.layout().set_condition;
-  const double damping = own_wall_damping(spec_);
-  if (damping == 0.0 || !set.exists() || !driver_.layout().makes(PidEffect::damper)) return 0.0;
-  if (calibration.damper_sign < 0 && set.positive_coefficient.min >= set.positive_coefficient.zero) return 0.0;
-  return calibration.damper_sign * damping / calibration.damper_strength;
+  if (wanted == 0.0 || !set.exists() || !driver_.layout().makes(effect)) return 0.0;
+  if (sign < 0 && set.positive_coefficient.min >= set.positive_coefficient.zero) return 0.0;
+  return sign * wanted / strongest;
 }
 
 LeverReading PidLever::read(std::int64_t) noexcept {

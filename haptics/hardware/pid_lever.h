@@ -58,8 +58,7 @@ class PidLever final : public HapticDevice {
   };
 
   Axis make_axis(const LeverAxisCalibration& calibration, bool drives) const;
-  double wall_coefficient(const LeverAxisCalibration& calibration) const noexcept;
-  double damper_coefficient(const LeverAxisCalibration& calibration) const noexcept;
+  double coefficient(PidEffect effect, int sign, double wanted, double strongest) const noexcept;
   glm::dvec2 motor_force(const PidSight& sight, glm::dvec2 position) const noexcept;
   bool has_button(const LeverCounts& counts, int button) const noexcept;
   bool stop_held(const LeverCounts& counts) noexcept;
