@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace gearshift {
 namespace {
@@ -13,6 +14,7 @@ constexpr std::int64_t kSilence = static_cast<std::int64_t>(1e9 * kCommandSilenc
 constexpr std::int64_t kMillisecond = 1'000'000;                                     // [ns]
 constexpr std::int64_t kUnarrived = 100 * kMillisecond;                              // [ns] under way: it takes none
 constexpr std::int64_t kSlowness = 500 * kMillisecond;                               // [ns] over which it is judged
+constexpr std::int64_t kFewestArrivals = 5;
 
 LeverReport lever_of(const ReportDescriptor& descriptor) {
   if (std::optional<LeverReport> lever = find_lever_report(descriptor)) return *std::move(lever);
@@ -72,7 +74,7 @@ PidAbility PidDriver::prepare(HidPort& port) {
   stream_.begin(blocks_, prepared.ability.finite);
   watch_ = InputWatch(lever_, stick_axes(lever_));
   driven_ = unarrived_ = false;
-  arrivals_since_ns_ = arrivals_ns_ = arrivals_ = 0;
+  arrivals_ = {};
   prepared_ = true;
   ++sight_.session;
   publish();
@@ -200,16 +202,17 @@ void PidDriver::on_sent(std::int64_t time_ns) noexcept {
   publish();
 }
 
-// What is admitted on a prompt stick shakes on a slow one.
+// What is admitted on a prompt stick shakes on a slow one. Most outputs of half a second: one that is late says nothing.
 void PidDriver::watch_slowness(std::int64_t now_ns) noexcept {
-  arrivals_ns_ += now_ns - handed_ns_;
-  ++arrivals_;
-  if (now_ns - arrivals_since_ns_ < kSlowness) return;
-  const std::int64_t mean = arrivals_ns_ / arrivals_, answer = answer_ns_.load(std::memory_order_relaxed);
-  arrivals_since_ns_ = now_ns;
-  arrivals_ns_ = arrivals_ = 0;
-  if (!driven_ || answer == 0 || mean <= 2 * answer + kMillisecond) return;
-  problems_.raise(StickProblem::slower, mean / kMillisecond, (answer + kMillisecond - 1) / kMillisecond);
+  const std::int64_t took = now_ns - handed_ns_, answer = answer_ns_.load(std::memory_order_relaxed);
+  ++arrivals_.all;
+  arrivals_.took_ns += took;
+  if (took > 2 * answer + kMillisecond) ++arrivals_.late;
+  if (now_ns - arrivals_.since_ns < kSlowness || arrivals_.all < kFewestArrivals) return;
+  const Arrivals judged = std::exchange(arrivals_, {now_ns, 0, 0, 0});
+  if (!driven_ || answer == 0 || 2 * judged.late <= judged.all) return;
+  problems_.raise(StickProblem::slower, judged.took_ns / judged.all / kMillisecond,
+                  (answer + kMillisecond - 1) / kMillisecond);
   end_session();
 }
 

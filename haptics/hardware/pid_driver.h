@@ -91,6 +91,11 @@ class PidDriver final : public HidStream {
     std::uint64_t releases = 0;  // that came before it
   };
 
+  struct Arrivals {  // of outputs
+    std::int64_t since_ns = 0, all = 0, late = 0;
+    std::int64_t took_ns = 0;  // together
+  };
+
   void order(const PidWish& wish) noexcept;
   void wake() const noexcept;
   void obey(std::int64_t now_ns) noexcept;
@@ -127,9 +132,9 @@ class PidDriver final : public HidStream {
   std::int64_t ordered_ns_ = 0;  // when the last order was seen
   bool driven_ = false;          // by that order
   std::int64_t unarrived_ns_ = 0;
-  bool unarrived_ = false;                                               // an output is under way since then
-  std::int64_t handed_ns_ = 0;                                           // when the last output was handed out
-  std::int64_t arrivals_since_ns_ = 0, arrivals_ns_ = 0, arrivals_ = 0;  // since then: how long they took, how many
+  bool unarrived_ = false;      // an output is under way since then
+  std::int64_t handed_ns_ = 0;  // when the last output was handed out
+  Arrivals arrivals_;
 
   // The haptic side.
   Order last_order_;

@@ -349,6 +349,9 @@ TEST_CASE("a stick that is slower than it was calibrated is driven no longer") {
   const std::uint64_t session = drive(50);  // nobody said how fast it was
   bench.driver.expect_answer(0.004);
   CHECK(drive(8) == session);
+  bench.now_ns += 1'000'000'000;  // nothing to be told for a while, and then one that is late
+  CHECK(drive(900) == session);
+  CHECK(drive(8) == session);
   CHECK(drive(50) == session + 1);
   CHECK(bench.problems() ==
         Lines{"the stick takes 50 ms for an output, and answered after 4 ms when it was calibrated: "
