@@ -3,11 +3,7 @@
 # tour, taken away by kill -9; one that may not be used, and none at all.
 # Usage: devices.sh GEARSHIFT SOURCE_FOLDER STICK_EMULATOR
 set -u
-gearshift=$1
-emulator=$3
-here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-source "$here/checks.sh"
-source "$here/sticks.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/sticks.sh"
 all_known
 
 # Calibration: the numbers that a person knows, nonsense among them, then hands off, Enter by Enter: some more than there

@@ -4,11 +4,7 @@
 # drive so far is kept.
 # Usage: lying_sticks.sh GEARSHIFT SOURCE_FOLDER STICK_EMULATOR
 set -u
-gearshift=$1
-emulator=$3
-here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-source "$here/checks.sh"
-source "$here/sticks.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/sticks.sh"
 all_known whole
 enters=1
 

@@ -1,5 +1,8 @@
-# Sourced by the flows with force-feedback sticks, emulated beneath the real libusb, after checks.sh; gearshift and emulator
-# say where the programs are.
+# Sourced by the flows with force-feedback sticks, emulated beneath the real libusb, which are called by
+# GEARSHIFT SOURCE_FOLDER STICK_EMULATOR.
+gearshift=$1
+emulator=$3
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 export gearshift XDG_CONFIG_HOME=$work/config XDG_DATA_HOME=$work/data
 sticks=$XDG_CONFIG_HOME/gearshift/devices
 mkdir -p "$sticks"

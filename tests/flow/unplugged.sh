@@ -3,13 +3,9 @@
 # stated time, nothing is lost, and the tour goes on when a person has armed it.
 # Usage: unplugged.sh GEARSHIFT SOURCE_FOLDER STICK_EMULATOR [UNPLUGS [SEED]]: 5, or as many fives as are asked for
 set -u
-gearshift=$1
-emulator=$3
 tours=$(((${4:-5} + 4) / 5))
 seed=${5:-$RANDOM}
-here=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
-source "$here/checks.sh"
-source "$here/sticks.sh"
+source "$(dirname "${BASH_SOURCE[0]}")/sticks.sh"
 echo "seed $seed"
 RANDOM=$seed
 all_known whole
