@@ -105,6 +105,16 @@ VkPhysicalDevice choose(VkInstance instance, bool swapchain, const std::string& 
   return best;
 }
 
+// Where the headset is there is no other choice.
+VkPhysicalDevice choose_by(GpuMaker& maker, VkInstance instance, bool swapchain) {
+  VkPhysicalDevice physical = maker.choose(instance);
+  VkPhysicalDeviceProperties properties;
+  vkGetPhysicalDeviceProperties(physical, &properties);
+  if (is_usable(physical, properties, swapchain)) return physical;
+  throw GpuError(fmt::format("The headset is at {}, which is no Vulkan 1.3 device that we can use.",
+                             static_cast<const char*>(properties.deviceName)));
+}
+
 GpuTraits traits_of(const VkPhysicalDeviceProperties& properties, const Features& has,
                     const VkQueueFamilyProperties& family) {
   const auto& limits = properties.limits;
@@ -124,7 +134,7 @@ GpuTraits traits_of(const VkPhysicalDeviceProperties& properties, const Features
 }
 
 VkDevice make_device(VkPhysicalDevice physical, std::uint32_t family, const GpuTraits& traits, const Features& has,
-                     bool swapchain) {
+                     bool swapchain, GpuMaker* maker) {
   Features wanted;
   wanted.v13.dynamicRendering = VK_TRUE;
   wanted.v13.synchronization2 = VK_TRUE;
@@ -146,19 +156,22 @@ VkDevice make_device(VkPhysicalDevice physical, std::uint32_t family, const GpuT
                                 .enabledExtensionCount = swapchain ? 1u : 0u,
                                 .ppEnabledExtensionNames = &extension};
   VkDevice device = VK_NULL_HANDLE;
-  check(vkCreateDevice(physical, &info, nullptr, &device), "vkCreateDevice");
+  check(maker != nullptr ? maker->make_device(physical, info, &device)
+                         : vkCreateDevice(physical, &info, nullptr, &device),
+        "vkCreateDevice");
   return device;
 }
 
 }  // namespace
 
-Device::Device(VkInstance instance, bool swapchain, const std::string& wanted)
-    : physical_(choose(instance, swapchain, wanted)), family_(graphics_family(physical_).value()) {
+Device::Device(VkInstance instance, bool swapchain, const std::string& wanted, GpuMaker* maker)
+    : physical_(maker != nullptr ? choose_by(*maker, instance, swapchain) : choose(instance, swapchain, wanted)),
+      family_(graphics_family(physical_).value()) {
   vkGetPhysicalDeviceProperties(physical_, &properties_);
   Features has;
   vkGetPhysicalDeviceFeatures2(physical_, &has.core);
   traits_ = traits_of(properties_, has, queue_families(physical_)[family_]);
-  device_ = make_device(physical_, family_, traits_, has, swapchain);
+  device_ = make_device(physical_, family_, traits_, has, swapchain, maker);
   vkGetDeviceQueue(device_, family_, 0, &queue_);
 }
 

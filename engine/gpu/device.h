@@ -9,8 +9,9 @@ namespace gearshift {
 
 class Device {
  public:
-  // A discrete device before an integrated before a software one; wanted: part of a name, empty for any.
-  Device(VkInstance instance, bool swapchain, const std::string& wanted);
+  // A discrete device before an integrated before a software one; wanted: part of a name, empty for any. maker: chooses
+  // and makes it, where not null.
+  Device(VkInstance instance, bool swapchain, const std::string& wanted, GpuMaker* maker);
   ~Device();
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;

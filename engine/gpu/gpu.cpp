@@ -52,7 +52,7 @@ Semaphore make_timeline(VkDevice device) {
 struct Gpu::State {
   explicit State(const GpuConfig& config)
       : instance(config),
-        device(instance.get(), config.swapchain, wanted_device()),
+        device(instance.get(), config.swapchain, wanted_device(), config.maker),
         memory(device.physical(), device.get()),
         cache_file(config.pipeline_cache),
         cache(make_cache(device, cache_file)),

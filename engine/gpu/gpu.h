@@ -15,9 +15,19 @@
 
 namespace gearshift {
 
+// Who makes the Vulkan objects in place of us: an XR runtime adds what its compositor needs, and says which device the
+// headset is at. Outlives the Gpu.
+struct GpuMaker {
+  virtual ~GpuMaker() = default;
+  virtual VkResult make_instance(const VkInstanceCreateInfo& info, VkInstance* instance) = 0;
+  virtual VkPhysicalDevice choose(VkInstance instance) = 0;  // throws what it likes
+  virtual VkResult make_device(VkPhysicalDevice physical, const VkDeviceCreateInfo& info, VkDevice* device) = 0;
+};
+
 struct GpuConfig {
   std::vector<const char*> instance_extensions;  // what a window asks for
   bool swapchain = false;                        // VK_KHR_swapchain
+  GpuMaker* maker = nullptr;                     // null: ourselves
   bool validation = false;                       // core and synchronization validation, where the layer is installed
   std::function<void(std::string_view)> on_validation;  // each message; never empty text
   std::filesystem::path pipeline_cache;                 // file; empty: none
@@ -48,8 +58,9 @@ enum class MemoryUser { buffer, image };              // they never share a bloc
 
 class Gpu {
  public:
-  // A discrete device before an integrated before a software one; GEARSHIFT_GPU=substring of a name chooses. Throws
-  // GpuError with one sentence where there is no Vulkan 1.3 device (and names the package that brings a software one).
+  // A discrete device before an integrated before a software one; GEARSHIFT_GPU=substring of a name chooses; a maker's
+  // choice goes before both. Throws GpuError with one sentence where there is no Vulkan 1.3 device (and names the package
+  // that brings a software one).
   explicit Gpu(const GpuConfig& config);
   ~Gpu();  // waits idle and writes the pipeline cache (whole or not at all; a foreign or torn cache is ignored)
   Gpu(const Gpu&) = delete;

@@ -18,8 +18,9 @@ enum class ImageUse : std::uint8_t {
   none,           // undefined content
   colour_target,  // written, blended, resolved into
   depth_target,
-  sampled,    // in a fragment shader
-  copy_from,  // copied, blitted or resolved from
+  depth_resolved,  // the samples of a depth target are resolved into it
+  sampled,         // in a fragment shader
+  copy_from,       // copied, blitted or resolved from
   copy_to,
   present
 };

@@ -66,7 +66,8 @@ Instance::Instance(const GpuConfig& config)
                                   .ppEnabledLayerNames = &kLayer,
                                   .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
                                   .ppEnabledExtensionNames = extensions.data()};
-  const VkResult result = vkCreateInstance(&info, nullptr, &instance_);
+  const VkResult result = config.maker != nullptr ? config.maker->make_instance(info, &instance_)
+                                                  : vkCreateInstance(&info, nullptr, &instance_);
   if (result == VK_ERROR_INCOMPATIBLE_DRIVER) {
     throw GpuError("No Vulkan driver is installed: the package mesa-vulkan-drivers brings one that needs no card.");
   }

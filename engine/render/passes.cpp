@@ -3,6 +3,7 @@
 #include <stdexcept>
 
 #include <glm/common.hpp>
+#include <glm/gtc/matrix_transform.hpp>
 #include <glm/vector_relational.hpp>
 
 #include "engine/render/pass_data.h"
@@ -55,10 +56,23 @@ void copy_depth(VkCommandBuffer commands, GpuImage& from, GpuImage& to, const Vk
                  &region);
 }
 
-std::vector<glm::mat4> clips_of(std::span<const View> views) {
+std::vector<glm::mat4> clips_of(std::span<const View> views, float margin) {
   std::vector<glm::mat4> clips;
-  for (const View& view : views) clips.push_back(clip_from_world(view));
+  const float share = 1.0f / (1.0f + margin);
+  const glm::mat4 wider = glm::scale(glm::mat4(1.0f), glm::vec3(share, share, 1.0f));
+  for (const View& view : views) clips.push_back(wider * clip_from_world(view));
   return clips;
+}
+
+// Empty where some eye is behind the mirror.
+std::vector<View> mirrored_views(const MirrorWindow& window, std::span<const View> views) {
+  std::vector<View> mirrored;
+  for (const View& view : views) {
+    const std::optional<View> seen = mirror_view(window, view.eye);
+    if (!seen) return {};
+    mirrored.push_back(*seen);
+  }
+  return mirrored;
 }
 
 void check_frame(const RenderConfig& config, const GpuModel& model, const FrameScene& scene,
@@ -79,7 +93,8 @@ std::uint64_t Renderer::State::draw(const FrameScene& scene, std::span<const Vie
   Frame frame;
   frame.scene = &scene;
   frame.views = views;
-  frame.mirror = mirror_of(scene, views);
+  frame.clips = clips_of(views, config.late_margin);
+  frame.mirror = mirror_of(frame);
   if (frame.mirror) fit_mirror(frame.mirror->window);
 
   frame.commands = ring.begin();
@@ -99,26 +114,41 @@ std::uint64_t Renderer::State::draw(const FrameScene& scene, std::span<const Vie
   draw_overlays(frame, overlays);
   timer.stamp(frame.commands);
   transition(frame.commands, picture.colour.image, ImageUse::copy_from);
+  if (picture.keeps_depth) transition(frame.commands, picture.kept_depth().image, ImageUse::copy_from);
   if (finish == nullptr) return ring.end();
   finish->record(frame.commands, picture.colour.image);
+  follow(frame, finish->late_views());
   return ring.end(finish->wait_for, finish->then_signal);
 }
 
 // Empty where there is none, where no eye sees its box, or where some eye is behind it.
-std::optional<MirrorOfFrame> Renderer::State::mirror_of(const FrameScene& scene, std::span<const View> views) const {
+std::optional<MirrorOfFrame> Renderer::State::mirror_of(const Frame& frame) const {
+  const FrameScene& scene = *frame.scene;
   if (scene.mirror == kNone || config.mirror_height == 0) return std::nullopt;
   const auto node = static_cast<std::size_t>(scene.mirror);
   const int mesh = model.mesh_of_node[node];
   if (mesh == kNone || !scene.nodes[node].visible) return std::nullopt;
   const Box& box = model.meshes[static_cast<std::size_t>(mesh)].box;
-  if (!Frusta(clips_of(views)).see(moved(scene.nodes[node].world, box))) return std::nullopt;
+  if (!Frusta(frame.clips).see(moved(scene.nodes[node].world, box))) return std::nullopt;
   MirrorOfFrame mirrored{mirror_window(scene.nodes[node].world, box), {}};
-  for (const View& view : views) {
-    const std::optional<View> seen = mirror_view(mirrored.window, view.eye);
-    if (!seen) return std::nullopt;
-    mirrored.views.push_back(*seen);
-  }
+  mirrored.views = mirrored_views(mirrored.window, frame.views);
+  if (mirrored.views.empty()) return std::nullopt;
   return mirrored;
+}
+
+// What is recorded reads its views from memory when it runs: until it is submitted they may be written again.
+void Renderer::State::follow(Frame& frame, std::span<const View> late) {
+  if (late.empty()) return;
+  if (late.size() != frame.views.size()) throw std::invalid_argument("A frame needs one late view an eye.");
+  set_views(frame.data, late);
+  frame.slot->write_pass(PassKind::depth, frame.data);
+  frame.slot->write_pass(PassKind::main, frame.data);
+  if (!frame.mirror) return;
+  const std::vector<View> mirrored = mirrored_views(frame.mirror->window, late);
+  if (mirrored.empty()) return;  // an eye went behind it: it shows what it did
+  shader::PassData data = frame.data;
+  set_views(data, mirrored);
+  frame.slot->write_pass(PassKind::mirror, data);
 }
 
 // Writes what the GPU reads of this frame, and lists what there is to draw.
@@ -129,7 +159,7 @@ void Renderer::State::prepare(Frame& frame) {
   frame.items = list_items(model, *frame.scene, deformed);
   for (DrawItem& item : frame.items)
     item.shows_mirror = frame.mirror.has_value() && item.node == static_cast<std::uint32_t>(frame.scene->mirror);
-  frame.list = list_draws(frame.items, Frusta(clips_of(frame.views)), frame.eye);
+  frame.list = list_draws(frame.items, Frusta(frame.clips), frame.eye);
   draws = static_cast<int>(frame.list.solid.size() + frame.list.blended.size());
   set_views(frame.data, frame.views);
   set_sun(frame.data, *frame.scene);
@@ -140,8 +170,7 @@ void Renderer::State::prepare(Frame& frame) {
 // never moves.
 void Renderer::State::draw_shadow(Frame& frame) {
   if (config.shadow_side == 0) return;
-  const std::vector<glm::vec3> seen =
-      seen_corners(shadowed_box(model.box, frame.scene->shadow_room), clips_of(frame.views));
+  const std::vector<glm::vec3> seen = seen_corners(shadowed_box(model.box, frame.scene->shadow_room), frame.clips);
   const ShadowFit fit = fit_shadow(seen, frame.scene->sun.towards, config.shadow_side);
   set_shadow(frame.data, fit, config.shadow_side);
   shader::PassData data = frame.data;
@@ -188,6 +217,7 @@ void Renderer::State::ready_targets(const Frame& frame) {
   };
   ready(picture.drawn().image, ImageUse::colour_target);
   ready(picture.depth.image, ImageUse::depth_target);
+  if (picture.keeps_depth && picture.multisampled) ready(picture.one_depth.image, ImageUse::depth_resolved);
   if (!frame.mirror) return;
   ready(mirror.colour.image, ImageUse::colour_target);
   ready(mirror.depth.image, ImageUse::depth_target);
@@ -214,7 +244,8 @@ void Renderer::State::draw_mirror(Frame& frame) {
   std::vector<DrawItem> others = frame.items;  // a mirror does not see itself
   std::erase_if(others,
                 [&](const DrawItem& item) { return item.node == static_cast<std::uint32_t>(frame.scene->mirror); });
-  const DrawList list = list_draws(others, Frusta(clips_of(frame.mirror->views)), frame.mirror->views[0].eye);
+  const DrawList list =
+      list_draws(others, Frusta(clips_of(frame.mirror->views, config.late_margin)), frame.mirror->views[0].eye);
   draw_eyes(frame, PassKind::mirror, mirror.colour, mirror.depth, list);
 }
 
@@ -253,6 +284,13 @@ void Renderer::State::draw_overlays(const Frame& frame, std::span<Overlay* const
   }
 }
 
+void Renderer::State::keep(Attachment& depth, EyeGroup eyes) const {
+  if (picture.multisampled)
+    depth.resolved = view_of(picture.one_depth, eyes);
+  else
+    depth.store = VK_ATTACHMENT_STORE_OP_STORE;
+}
+
 VkImageView Renderer::State::view_of(const EyeImage& image, EyeGroup eyes) const {
   return layered ? image.all.get() : image.one[eyes.first].get();
 }
@@ -264,6 +302,7 @@ void Renderer::State::draw_eyes(const Frame& frame, PassKind pass, EyeImage& col
     const Attachment drawn{.view = view_of(colour, eyes)};
     Attachment deep{.view = view_of(depth, eyes), .store = VK_ATTACHMENT_STORE_OP_DONT_CARE};
     if (pass == PassKind::main && !picture.multisampled) deep.load = VK_ATTACHMENT_LOAD_OP_LOAD;  // draw_depth()
+    if (pass == PassKind::main && picture.keeps_depth) keep(deep, eyes);
     begin_rendering(frame.commands, colour.image.extent(), eyes.count, &drawn, &deep);
     record(frame, pass, list.solid, eyes);
     const VkDescriptorSet set = frame.slot->set(pass);

@@ -23,6 +23,8 @@ void check_config(const Gpu& gpu, const RenderConfig& config) {
   if (config.shadow_side != 0 && !within(config.shadow_side, 16, 8192))
     throw std::invalid_argument("A shadow map has 16 to 8192 texels a side, or 0: none.");
   if (!within(config.mirror_height, 0, 2048)) throw std::invalid_argument("A mirror is 0 to 2048 pixels high.");
+  if (!(config.late_margin >= 0.0f && config.late_margin <= 1.0f))
+    throw std::invalid_argument("Late views have a margin of 0 to 1.");
   if (config.samples == 4 && !gpu.traits().four_samples)
     throw GpuError("The device has no four samples a pixel: " + gpu.traits().name + ".");
   if (config.eyes == 2 && config.eye_passes == EyePasses::layered && !gpu.traits().layered_vertex)
@@ -90,7 +92,7 @@ void Renderer::State::make_picture() {
   const auto eyes = static_cast<std::uint32_t>(config.eyes);
   const VkExtent2D extent{static_cast<std::uint32_t>(config.width), static_cast<std::uint32_t>(config.height)};
   layered = config.eyes == 2 && config.eye_passes != EyePasses::one_by_one && gpu.traits().layered_vertex;
-  picture = PictureTarget(gpu, extent, eyes, sample_count(config));
+  picture = PictureTarget(gpu, extent, eyes, sample_count(config), config.keep_depth);
 }
 
 void Renderer::State::make_shadow() {
@@ -201,6 +203,10 @@ std::uint64_t Renderer::draw(const FrameScene& scene, std::span<const View> view
 
 GpuImage& Renderer::colour() noexcept {
   return state_->picture.colour.image;
+}
+
+GpuImage& Renderer::depth() noexcept {
+  return state_->picture.kept_depth().image;
 }
 
 Image Renderer::read_eye(int eye) {

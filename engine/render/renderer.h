@@ -30,6 +30,10 @@ struct RenderConfig {
   int shadow_side = 2048;   // [texels] 0: no shadow
   int mirror_height = 96;   // [px] 0: the mirror shows its material only
   bool normal_maps = true;  // false: a test's negative control
+  bool keep_depth = false;  // depth() can be copied: for who projects the picture again
+  // [1] of the tangents of the half angles: how much wider than the views things are looked for, where Finish has later
+  // views. A head that turns at 300 deg/s turns by 3 deg in 10 ms, a tenth at the side of a 90 deg picture.
+  float late_margin = 0.0f;
 };
 
 // Time on the GPU of the passes of the last finished frame. [ms] 0 without timestamps
@@ -58,6 +62,9 @@ class Renderer {
   struct Finish {
     virtual ~Finish() = default;
     virtual void record(VkCommandBuffer commands, GpuImage& colour) = 0;
+    // The eyes as they stand now, asked for when all is recorded and just before it is submitted: what is drawn is drawn
+    // from there. Empty: from where it was. They turn and move no further than late_margin allows for.
+    virtual std::span<const View> late_views() { return {}; }
     VkSemaphore wait_for = VK_NULL_HANDLE;
     VkSemaphore then_signal = VK_NULL_HANDLE;
   };
@@ -65,7 +72,10 @@ class Renderer {
                      Finish& finish);
 
   GpuImage& colour() noexcept;  // one layer an eye, kColourFormat
-  Image read_eye(int eye);      // waits
+  // One layer an eye, kDepthFormat: near plane / distance. Of several samples the first. In copy_from after draw(), where
+  // the config keeps it.
+  GpuImage& depth() noexcept;
+  Image read_eye(int eye);  // waits
   const PassTimes& times() const noexcept;
   int draws() const noexcept;     // of the last frame's main pass
   bool layered() const noexcept;  // both eyes in one pass

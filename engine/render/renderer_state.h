@@ -31,6 +31,7 @@ struct Frame {
   int slot_index = 0;
   const FrameScene* scene = nullptr;
   std::span<const View> views;
+  std::vector<glm::mat4> clips;  // what may be seen: of the views, a late margin wider
   std::optional<MirrorOfFrame> mirror;
   glm::vec3 eye{0.0f};  // midway between the eyes
   std::vector<DrawItem> items;
@@ -62,7 +63,7 @@ struct Renderer::State {
   // passes.cpp
   std::uint64_t draw(const FrameScene& scene, std::span<const View> views, std::span<Overlay* const> overlays,
                      Finish* finish);
-  std::optional<MirrorOfFrame> mirror_of(const FrameScene& scene, std::span<const View> views) const;
+  std::optional<MirrorOfFrame> mirror_of(const Frame& frame) const;
   void prepare(Frame& frame);
   void draw_shadow(Frame& frame);
   void draw_casters(const Frame& frame, VkImageView view, VkAttachmentLoadOp load,
@@ -72,7 +73,9 @@ struct Renderer::State {
   void draw_mirror(Frame& frame);
   void draw_main(Frame& frame);
   void resolve(VkCommandBuffer commands);
+  void follow(Frame& frame, std::span<const View> late);
   void draw_overlays(const Frame& frame, std::span<Overlay* const> overlays);
+  void keep(Attachment& depth, EyeGroup eyes) const;
   VkImageView view_of(const EyeImage& image, EyeGroup eyes) const;
   void draw_eyes(const Frame& frame, PassKind pass, EyeImage& colour, EyeImage& depth, const DrawList& list);
   void record(const Frame& frame, PassKind pass, std::span<const DrawItem* const> items, EyeGroup eyes);

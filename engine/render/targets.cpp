@@ -14,9 +14,13 @@ ImageDesc target_desc(VkExtent2D extent, std::uint32_t layers, VkFormat format, 
 }
 
 VkRenderingAttachmentInfo attachment_info(const Attachment& attachment, ImageUse use) {
+  const bool resolves = attachment.resolved != VK_NULL_HANDLE;
   return {.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
           .imageView = attachment.view,
           .imageLayout = layout_of(use),
+          .resolveMode = resolves ? VK_RESOLVE_MODE_SAMPLE_ZERO_BIT : VK_RESOLVE_MODE_NONE,
+          .resolveImageView = attachment.resolved,
+          .resolveImageLayout = resolves ? layout_of(ImageUse::depth_resolved) : VK_IMAGE_LAYOUT_UNDEFINED,
           .loadOp = attachment.load,
           .storeOp = attachment.store};  // cleared to zero: black, and reverse-Z's infinity
 }
@@ -28,21 +32,22 @@ EyeImage::EyeImage(Gpu& gpu, const ImageDesc& desc)
   for (std::uint32_t eye = 0; eye < desc.layers; ++eye) one[eye] = make_view(gpu, image, VK_IMAGE_VIEW_TYPE_2D, eye, 1);
 }
 
-PictureTarget::PictureTarget(Gpu& gpu, VkExtent2D extent, std::uint32_t eyes, VkSampleCountFlagBits count)
-    : multisampled(count != VK_SAMPLE_COUNT_1_BIT) {
+PictureTarget::PictureTarget(Gpu& gpu, VkExtent2D extent, std::uint32_t eyes, VkSampleCountFlagBits count, bool keeps)
+    : multisampled(count != VK_SAMPLE_COUNT_1_BIT), keeps_depth(keeps) {
   ImageDesc picture =
       target_desc(extent, eyes, kColourFormat, kColour | kSource | kSampled | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
   picture.also = kOverlayFormat;
   colour = EyeImage(gpu, picture);
   for (std::uint32_t eye = 0; eye < eyes; ++eye)
     overlay[eye] = make_view(gpu, colour.image, VK_IMAGE_VIEW_TYPE_2D, eye, 1, kOverlayFormat);
-  ImageDesc deep = target_desc(extent, eyes, kDepthFormat, kDepth);
+  ImageDesc deep = target_desc(extent, eyes, kDepthFormat, kDepth | (keeps && !multisampled ? kSource : 0));
   deep.samples = count;
   depth = EyeImage(gpu, deep);
   if (!multisampled) return;
   ImageDesc several = target_desc(extent, eyes, kColourFormat, kColour | kSource);
   several.samples = count;
   samples = EyeImage(gpu, several);
+  if (keeps) one_depth = EyeImage(gpu, target_desc(extent, eyes, kDepthFormat, kDepth | kSource));
 }
 
 MirrorTarget::MirrorTarget(Gpu& gpu, VkExtent2D extent, std::uint32_t eyes)

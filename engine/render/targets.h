@@ -21,13 +21,15 @@ struct EyeImage {
 
 struct PictureTarget {
   PictureTarget() = default;
-  PictureTarget(Gpu& gpu, VkExtent2D extent, std::uint32_t eyes, VkSampleCountFlagBits samples);
+  PictureTarget(Gpu& gpu, VkExtent2D extent, std::uint32_t eyes, VkSampleCountFlagBits samples, bool keeps_depth);
   EyeImage colour;   // what is shown: one sample
   EyeImage samples;  // drawn into where there are several
   EyeImage depth;
+  EyeImage one_depth;                // of several samples the first, where depth is kept
   std::array<ImageView, 2> overlay;  // the layers of colour as kOverlayFormat
-  bool multisampled = false;
+  bool multisampled = false, keeps_depth = false;
   EyeImage& drawn() noexcept { return multisampled ? samples : colour; }
+  EyeImage& kept_depth() noexcept { return multisampled ? one_depth : depth; }
 };
 
 struct MirrorTarget {
@@ -50,6 +52,7 @@ struct Attachment {
   VkImageView view = VK_NULL_HANDLE;
   VkAttachmentLoadOp load = VK_ATTACHMENT_LOAD_OP_CLEAR;
   VkAttachmentStoreOp store = VK_ATTACHMENT_STORE_OP_STORE;
+  VkImageView resolved = VK_NULL_HANDLE;  // gets the first sample of depth
 };
 void begin_rendering(VkCommandBuffer commands, VkExtent2D extent, std::uint32_t layers, const Attachment* colour,
                      const Attachment* depth);

@@ -1,0 +1,131 @@
+// What a headset asks of a frame beyond two pictures: eyes that move after it was recorded, and its depth.
+#include <cstring>
+
+#include "tests/engine/render/render_bench.h"
+
+using namespace gearshift;
+using glm::dvec3;
+using glm::vec3;
+
+namespace {
+
+constexpr double kNear = 0.05;  // [m]
+
+std::array<View, 2> eyes_of(const RenderConfig& config, const EyePose& head) {
+  const StereoEyes eyes =
+      stereo_eyes(head, symmetric_fov(1.0, static_cast<double>(config.width) / config.height), 0.064, 1.0);
+  return {view_from(eyes.pose[0], eyes.fov[0], kNear), view_from(eyes.pose[1], eyes.fov[1], kNear)};
+}
+
+RenderConfig for_headset(int samples, EyePasses passes = EyePasses::automatic) {
+  RenderConfig config = small_picture(160, 120);
+  config.eyes = 2;
+  config.samples = samples;
+  config.eye_passes = passes;
+  config.mirror_height = 32;
+  config.keep_depth = true;
+  config.late_margin = 0.1f;
+  return config;
+}
+
+// A row of cubes from side to side, glass, and a mirror that shows what is behind.
+Model row_of_cubes() {
+  Model model;
+  const int red = add_material(model, paint({0.7f, 0.2f, 0.1f}, 0.4f));
+  for (int i = -6; i <= 6; ++i)
+    add_cube(model, "Cube", 0.15f, red, {0.5f * static_cast<float>(i), 0.0f, i % 2 == 0 ? -2.0f : 1.5f});
+  Material pane = paint({0.2f, 0.4f, 0.9f}, 0.1f);
+  pane.base_colour.a = 0.4f;
+  pane.alpha_mode = AlphaMode::blend;
+  add_rectangle(model, "Pane", {0.4f, 0.3f}, add_material(model, pane), {0.0f, 0.1f, -1.0f});
+  add_rectangle(model, "Mirror", {0.3f, 0.1f}, add_material(model, paint(vec3(1.0f), 0.0f, 1.0f)),
+                {-0.3f, 0.35f, -1.2f});
+  return model;
+}
+
+struct LaterEyes final : Renderer::Finish {
+  explicit LaterEyes(const std::array<View, 2>& views) : later(views) {}
+  void record(VkCommandBuffer, GpuImage&) override { ++recorded; }
+  std::span<const View> late_views() override {
+    CHECK(recorded == 1);  // asked for when nothing is left to be recorded
+    return later;
+  }
+  std::array<View, 2> later;
+  int recorded = 0;
+};
+
+std::vector<float> read_depth(Gpu& gpu, GpuImage& depth, std::uint32_t eye) {
+  const Image raw = read_back(gpu, depth, eye);
+  std::vector<float> values(raw.rgba.size() / 4);
+  std::memcpy(values.data(), raw.rgba.data(), raw.rgba.size());
+  return values;
+}
+
+}  // namespace
+
+TEST_CASE("what was recorded for one pose of the head and told a later one is seen from the later one") {
+  GpuFixture fixture;
+  const Model model = row_of_cubes();
+  FrameScene scene = still(model);
+  scene.sun = Sun{};
+  scene.mirror = model.node("Mirror");
+  const EyePose before = look_at({0, 0, 0}, {0, 0, -1});
+  const EyePose after = look_at({0.01, -0.004, 0.006}, {0.052, 0.02, -1});  // 2.4 deg aside: 8 ms at 300 deg/s
+  for (const EyePasses passes : {EyePasses::layered, EyePasses::one_by_one}) {
+    const RenderConfig config = for_headset(1, passes);
+    CAPTURE(static_cast<int>(passes));
+    Renderer renderer(fixture.gpu(), config);
+    renderer.set_model(model);
+    const std::array<View, 2> early = eyes_of(config, before), late = eyes_of(config, after);
+    renderer.draw(scene, late);
+    const std::array<Image, 2> wanted{renderer.read_eye(0), renderer.read_eye(1)};
+    LaterEyes later(late);
+    renderer.draw(scene, early, {}, later);
+    for (int eye = 0; eye < 2; ++eye) {
+      CAPTURE(eye);
+      CHECK(difference(renderer.read_eye(eye), wanted[static_cast<std::size_t>(eye)]).worst <= 1);
+    }
+    renderer.draw(scene, early);  // and without: the test can tell
+    CHECK(difference(renderer.read_eye(0), wanted[0], 3).share_beyond > 0.05);
+  }
+}
+
+TEST_CASE("a frame that keeps its depth has near plane / distance at each pixel of each eye, at 1 and 4 samples") {
+  GpuFixture fixture;
+  Model model;
+  const int grey = add_material(model, paint(vec3(0.5f)));
+  add_rectangle(model, "Wall", {4.0f, 4.0f}, grey, {0.0f, 0.0f, -2.5f});
+  add_rectangle(model, "Sign", {0.2f, 0.2f}, grey, {0.0f, 0.0f, -0.8f});
+  for (const int samples : {1, 4}) {
+    for (const EyePasses passes : {EyePasses::layered, EyePasses::one_by_one}) {
+      if (samples == 4 && passes == EyePasses::one_by_one) continue;  // lavapipe: see the room's README
+      CAPTURE(samples);
+      CAPTURE(static_cast<int>(passes));
+      const RenderConfig config = for_headset(samples, passes);
+      Renderer renderer(fixture.gpu(), config);
+      renderer.set_model(model);
+      const std::array<View, 2> views = eyes_of(config, look_at({0, 0, 0}, {0, 0, -1}));
+      renderer.draw(still(model), views);
+      for (std::uint32_t eye = 0; eye < 2; ++eye) {
+        const std::vector<float> depth = read_depth(fixture.gpu(), renderer.depth(), eye);
+        double worst = 0.0;
+        int sign = 0;
+        for (int y = 0; y < config.height; ++y) {
+          for (int x = 0; x < config.width; ++x) {
+            const double seen = depth[static_cast<std::size_t>(y * config.width + x)];
+            const glm::dvec3 left = project(views[eye], {-0.2, 0.2, -0.8}, {config.width, config.height});
+            const glm::dvec3 right = project(views[eye], {0.2, -0.2, -0.8}, {config.width, config.height});
+            const bool inside = x > left.x + 1 && x + 2 < right.x && y > left.y + 1 && y + 2 < right.y;
+            const bool outside = x + 2 < left.x || x > right.x + 1 || y + 2 < left.y || y > right.y + 1;
+            if (!inside && !outside) continue;
+            sign += inside;
+            worst = std::max(worst, std::abs(seen * (inside ? 0.8 : 2.5) / kNear - 1.0));
+          }
+        }
+        CAPTURE(eye);
+        CHECK(sign > 300);
+        CHECK(worst < 1e-5);
+      }
+    }
+  }
+}
