@@ -39,7 +39,7 @@ class Show final : public Renderer::Finish {
     wait_for = swapchain.acquired();
     then_signal = swapchain.rendered();
   }
-  void record(VkCommandBuffer commands, GpuImage& colour) override {
+  void record(VkCommandBuffer commands, GpuImage& colour, int) override {
     const std::array<ShownLayer, 2> both{{{0, 0.0f, 0.5f}, {1, 0.5f, 1.0f}}};
     const std::array<ShownLayer, 1> one{{{0, 0.0f, 1.0f}}};
     if (stereo_) {

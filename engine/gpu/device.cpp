@@ -10,7 +10,7 @@
 namespace gearshift {
 namespace {
 
-// What a device has, or what is asked of it: one chain for both.
+// What a device has.
 struct Features {
   VkPhysicalDeviceVulkan13Features v13{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
   VkPhysicalDeviceVulkan12Features v12{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, .pNext = &v13};
@@ -22,6 +22,26 @@ struct Features {
   bool are_enough() const {
     return v13.dynamicRendering == VK_TRUE && v13.synchronization2 == VK_TRUE && v12.timelineSemaphore == VK_TRUE;
   }
+};
+
+// What is asked of it: one structure a feature. An XR runtime adds its own to the chain, and none may be in it twice, nor
+// beside the structure that holds all of a version's (VUID-VkDeviceCreateInfo-pNext-02830). The layer that a vertex shader
+// chooses has no structure of its own: its extension asks for it.
+struct Wanted {
+  VkPhysicalDeviceDynamicRenderingFeatures rendering{
+      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES, .dynamicRendering = VK_TRUE};
+  VkPhysicalDeviceSynchronization2Features synchronization{
+      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SYNCHRONIZATION_2_FEATURES,
+      .pNext = &rendering,
+      .synchronization2 = VK_TRUE};
+  VkPhysicalDeviceTimelineSemaphoreFeatures timeline{
+      .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_TIMELINE_SEMAPHORE_FEATURES,
+      .pNext = &synchronization,
+      .timelineSemaphore = VK_TRUE};
+  VkPhysicalDeviceFeatures2 core{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &timeline};
+  Wanted() = default;
+  Wanted(const Wanted&) = delete;  // it points into itself
+  Wanted& operator=(const Wanted&) = delete;
 };
 
 std::vector<VkPhysicalDevice> physical_devices(VkInstance instance) {
@@ -49,18 +69,18 @@ std::optional<std::uint32_t> graphics_family(VkPhysicalDevice physical) {
   return std::nullopt;
 }
 
-bool has_swapchain(VkPhysicalDevice physical) {
+bool has_extension(VkPhysicalDevice physical, const char* name) {
   std::uint32_t count = 0;
   vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, nullptr);
   std::vector<VkExtensionProperties> extensions(count);
   vkEnumerateDeviceExtensionProperties(physical, nullptr, &count, extensions.data());
   return std::any_of(extensions.begin(), extensions.end(),
-                     [](const auto& e) { return std::strcmp(e.extensionName, VK_KHR_SWAPCHAIN_EXTENSION_NAME) == 0; });
+                     [&](const auto& e) { return std::strcmp(e.extensionName, name) == 0; });
 }
 
 bool is_usable(VkPhysicalDevice physical, const VkPhysicalDeviceProperties& properties, bool swapchain) {
   if (properties.apiVersion < VK_API_VERSION_1_3 || !graphics_family(physical)) return false;
-  if (swapchain && !has_swapchain(physical)) return false;
+  if (swapchain && !has_extension(physical, VK_KHR_SWAPCHAIN_EXTENSION_NAME)) return false;
   Features has;
   vkGetPhysicalDeviceFeatures2(physical, &has.core);
   return has.are_enough();
@@ -115,13 +135,14 @@ VkPhysicalDevice choose_by(GpuMaker& maker, VkInstance instance, bool swapchain)
                              static_cast<const char*>(properties.deviceName)));
 }
 
-GpuTraits traits_of(const VkPhysicalDeviceProperties& properties, const Features& has,
+GpuTraits traits_of(VkPhysicalDevice physical, const VkPhysicalDeviceProperties& properties, const Features& has,
                     const VkQueueFamilyProperties& family) {
   const auto& limits = properties.limits;
   GpuTraits traits;
   traits.name = properties.deviceName;
   traits.is_cpu = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
-  traits.layered_vertex = has.v12.shaderOutputLayer == VK_TRUE;
+  traits.layered_vertex = has.v12.shaderOutputLayer == VK_TRUE &&
+                          has_extension(physical, VK_EXT_SHADER_VIEWPORT_INDEX_LAYER_EXTENSION_NAME);
   traits.four_samples =
       (limits.framebufferColorSampleCounts & limits.framebufferDepthSampleCounts & VK_SAMPLE_COUNT_4_BIT) != 0;
   traits.depth_clamp = has.core.features.depthClamp == VK_TRUE;
@@ -135,12 +156,7 @@ GpuTraits traits_of(const VkPhysicalDeviceProperties& properties, const Features
 
 VkDevice make_device(VkPhysicalDevice physical, std::uint32_t family, const GpuTraits& traits, const Features& has,
                      bool swapchain, GpuMaker* maker) {
-  Features wanted;
-  wanted.v13.dynamicRendering = VK_TRUE;
-  wanted.v13.synchronization2 = VK_TRUE;
-  wanted.v12.timelineSemaphore = VK_TRUE;
-  wanted.v12.shaderOutputLayer = has.v12.shaderOutputLayer;
-  wanted.v12.shaderOutputViewportIndex = has.v12.shaderOutputViewportIndex;
+  Wanted wanted;
   wanted.core.features.depthClamp = has.core.features.depthClamp;
   wanted.core.features.samplerAnisotropy = traits.most_anisotropy > 1.0f ? VK_TRUE : VK_FALSE;
   const float priority = 1.0f;
@@ -148,13 +164,15 @@ VkDevice make_device(VkPhysicalDevice physical, std::uint32_t family, const GpuT
                                       .queueFamilyIndex = family,
                                       .queueCount = 1,
                                       .pQueuePriorities = &priority};
-  const char* const extension = VK_KHR_SWAPCHAIN_EXTENSION_NAME;
+  std::vector<const char*> extensions;
+  if (swapchain) extensions.push_back(VK_KHR_SWAPCHAIN_EXTENSION_NAME);
+  if (traits.layered_vertex) extensions.push_back(VK_EXT_SHADER_VIEWPORT_INDEX_LAYER_EXTENSION_NAME);
   const VkDeviceCreateInfo info{.sType = VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO,
                                 .pNext = &wanted.core,
                                 .queueCreateInfoCount = 1,
                                 .pQueueCreateInfos = &queue,
-                                .enabledExtensionCount = swapchain ? 1u : 0u,
-                                .ppEnabledExtensionNames = &extension};
+                                .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
+                                .ppEnabledExtensionNames = extensions.data()};
   VkDevice device = VK_NULL_HANDLE;
   check(maker != nullptr ? maker->make_device(physical, info, &device)
                          : vkCreateDevice(physical, &info, nullptr, &device),
@@ -170,7 +188,7 @@ Device::Device(VkInstance instance, bool swapchain, const std::string& wanted, G
   vkGetPhysicalDeviceProperties(physical_, &properties_);
   Features has;
   vkGetPhysicalDeviceFeatures2(physical_, &has.core);
-  traits_ = traits_of(properties_, has, queue_families(physical_)[family_]);
+  traits_ = traits_of(physical_, properties_, has, queue_families(physical_)[family_]);
   device_ = make_device(physical_, family_, traits_, has, swapchain, maker);
   vkGetDeviceQueue(device_, family_, 0, &queue_);
 }

@@ -105,6 +105,10 @@ GpuImage make_texture(Gpu& gpu, const Image& pixels, bool srgb, bool mips);
 // Raw texels for each level of each layer, level by level: tables and environments.
 GpuImage make_texture(Gpu& gpu, const ImageDesc& desc, std::span<const std::vector<std::byte>> levels);
 
+// Records the copy of all layers at level 0 into an image of the same size, in whatever format it has. from in copy_from,
+// to in copy_to.
+void copy_whole(VkCommandBuffer commands, const GpuImage& from, const GpuImage& to);
+
 // Records the barrier after which the host may read what copies have written, once the commands are done.
 void make_copies_visible_to_host(VkCommandBuffer commands);
 

@@ -90,6 +90,24 @@ GpuImage make_texture(Gpu& gpu, const ImageDesc& desc, std::span<const std::vect
   return image;
 }
 
+void copy_whole(VkCommandBuffer commands, const GpuImage& from, const GpuImage& to) {
+  expect(from, ImageUse::copy_from);
+  expect(to, ImageUse::copy_to);
+  const auto [width, height] = from.extent();
+  const VkImageSubresourceLayers layers{.aspectMask = from.aspect(), .layerCount = from.desc().layers};
+  if (from.desc().format == to.desc().format) {
+    const VkImageCopy copy{.srcSubresource = layers, .dstSubresource = layers, .extent = {width, height, 1}};
+    vkCmdCopyImage(commands, from.get(), layout_of(ImageUse::copy_from), to.get(), layout_of(ImageUse::copy_to), 1,
+                   &copy);
+    return;
+  }
+  const VkOffset3D end{static_cast<std::int32_t>(width), static_cast<std::int32_t>(height), 1};
+  const VkImageBlit blit{
+      .srcSubresource = layers, .srcOffsets = {{}, end}, .dstSubresource = layers, .dstOffsets = {{}, end}};
+  vkCmdBlitImage(commands, from.get(), layout_of(ImageUse::copy_from), to.get(), layout_of(ImageUse::copy_to), 1, &blit,
+                 VK_FILTER_NEAREST);
+}
+
 void make_copies_visible_to_host(VkCommandBuffer commands) {
   const VkMemoryBarrier2 to_host{.sType = VK_STRUCTURE_TYPE_MEMORY_BARRIER_2,
                                  .srcStageMask = VK_PIPELINE_STAGE_2_COPY_BIT,

@@ -116,7 +116,7 @@ std::uint64_t Renderer::State::draw(const FrameScene& scene, std::span<const Vie
   transition(frame.commands, picture.colour.image, ImageUse::copy_from);
   if (picture.keeps_depth) transition(frame.commands, picture.kept_depth().image, ImageUse::copy_from);
   if (finish == nullptr) return ring.end();
-  finish->record(frame.commands, picture.colour.image);
+  finish->record(frame.commands, picture.colour.image, frame.slot_index);
   follow(frame, finish->late_views());
   return ring.end(finish->wait_for, finish->then_signal);
 }

@@ -61,7 +61,8 @@ class Renderer {
   // The same, handing the command buffer over before it is submitted: a window appends its blit, an XR session its copy.
   struct Finish {
     virtual ~Finish() = default;
-    virtual void record(VkCommandBuffer commands, GpuImage& colour) = 0;
+    // slot: which of the kFramesInFlight this frame is, for an overlay of one's own.
+    virtual void record(VkCommandBuffer commands, GpuImage& colour, int slot) = 0;
     // The eyes as they stand now, asked for when all is recorded and just before it is submitted: what is drawn is drawn
     // from there. Empty: from where it was. They turn and move no further than late_margin allows for.
     virtual std::span<const View> late_views() { return {}; }

@@ -10,6 +10,19 @@ constexpr glm::dvec3 kRight{1.0, 0.0, 0.0};
 
 }  // namespace
 
+EyePose operator*(const EyePose& a, const EyePose& b) {
+  return {a * b.position, glm::normalize(a.orientation * b.orientation)};
+}
+
+EyePose inverse(const EyePose& pose) {
+  const glm::dquat back = glm::conjugate(pose.orientation);
+  return {back * -pose.position, back};
+}
+
+glm::dvec3 operator*(const EyePose& pose, glm::dvec3 point) {
+  return pose.position + pose.orientation * point;
+}
+
 // With tangents l, r, d, u of the half angles and the near plane n, a view point (x, y, z), z < 0 ahead, becomes
 //   w = -z,   x_clip = (2 x + (r + l) z) / (r - l),   y_clip = -(2 y + (u + d) z) / (u - d),   z_clip = n
 // so that depth is n / -z: 1 at the near plane, 0 at infinity. That spends a float's exponent where depth is crowded

@@ -20,6 +20,11 @@ struct EyePose {
   glm::dquat orientation{1.0, 0.0, 0.0, 0.0};  // looks along its -Z, +Y up
 };
 
+// A pose is also where a space stands in another: b in a's space becomes a * b outside of it.
+EyePose operator*(const EyePose& a, const EyePose& b);
+EyePose inverse(const EyePose& pose);
+glm::dvec3 operator*(const EyePose& pose, glm::dvec3 point);
+
 struct View {
   glm::mat4 view_from_world{1.0f};
   glm::mat4 clip_from_view{1.0f};

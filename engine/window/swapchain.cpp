@@ -264,8 +264,8 @@ bool Swapchain::acquire() {
   State& s = *state_;
   if (!s.make_ready()) return false;
   const std::size_t next = (s.frame + 1) % s.acquired.size();
-  const VkResult result =
-      vkAcquireNextImageKHR(s.gpu.device(), s.swapchain, kPatience, s.acquired[next].get(), VK_NULL_HANDLE, &s.index);
+  const VkResult result = vkAcquireNextImageKHR(s.gpu.device(), s.swapchain, s.vsync ? kPatience : 0,
+                                                s.acquired[next].get(), VK_NULL_HANDLE, &s.index);
   if (!s.take(result, "vkAcquireNextImageKHR")) return false;  // the semaphore stays unused, and is the next one again
   s.frame = next;
   return true;

@@ -19,6 +19,7 @@ VkRect2D place_of(const ShownLayer& layer, VkExtent2D picture, VkExtent2D window
 
 class Swapchain {
  public:
+  // Without vsync acquire() never waits either: for a window beside something that must not be held up.
   Swapchain(Gpu& gpu, Window& window, bool vsync = true);
   ~Swapchain();
 

@@ -14,7 +14,7 @@ struct Keep final : Renderer::Finish {
   Keep(Gpu& gpu, int width, int height)
       : buffer(gpu, 4u * static_cast<unsigned>(width * height), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                MemoryKind::read_back) {}
-  void record(VkCommandBuffer commands, GpuImage& colour) override {
+  void record(VkCommandBuffer commands, GpuImage& colour, int) override {
     expect(colour, ImageUse::copy_from);
     const VkBufferImageCopy copy{.imageSubresource = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .layerCount = 1},
                                  .imageExtent = {colour.desc().width, colour.desc().height, 1}};

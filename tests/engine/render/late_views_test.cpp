@@ -45,7 +45,7 @@ Model row_of_cubes() {
 
 struct LaterEyes final : Renderer::Finish {
   explicit LaterEyes(const std::array<View, 2>& views) : later(views) {}
-  void record(VkCommandBuffer, GpuImage&) override { ++recorded; }
+  void record(VkCommandBuffer, GpuImage&, int) override { ++recorded; }
   std::span<const View> late_views() override {
     CHECK(recorded == 1);  // asked for when nothing is left to be recorded
     return later;

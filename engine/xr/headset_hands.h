@@ -1,0 +1,35 @@
+// Hands and their buttons: what OpenXR calls actions.
+#pragma once
+
+#include <array>
+
+#include "engine/xr/headset_session.h"
+#include "engine/xr/openxr.h"
+
+namespace gearshift {
+
+class HeadsetHands {
+ public:
+  HeadsetHands(XrInstance instance, XrSession session);
+  ~HeadsetHands();
+  HeadsetHands(const HeadsetHands&) = delete;
+  HeadsetHands& operator=(const HeadsetHands&) = delete;
+
+  std::array<HeadsetHand, 2> read(XrSpace space, XrTime time);
+
+ private:
+  XrAction make_action(const char* name, const char* words, XrActionType type);
+  void suggest();
+  XrPath path(const char* text) const;
+  bool is_pressed(XrAction action, XrPath hand) const;
+  HeadsetHand read(std::size_t hand, XrSpace space, XrTime time) const;
+
+  XrInstance instance_;
+  XrSession session_;
+  XrActionSet set_ = XR_NULL_HANDLE;
+  std::array<XrPath, 2> hand_{};  // left, right
+  XrAction aim_ = XR_NULL_HANDLE, select_ = XR_NULL_HANDLE, menu_ = XR_NULL_HANDLE, scroll_ = XR_NULL_HANDLE;
+  std::array<XrSpace, 2> aim_space_{};
+};
+
+}  // namespace gearshift

@@ -1,0 +1,29 @@
+// What a runtime keeps, within this room.
+#pragma once
+
+#include "engine/xr/headset_runtime.h"
+#include "engine/xr/openxr.h"
+
+namespace gearshift {
+
+inline constexpr XrViewConfigurationType kTwoEyes = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
+
+struct HeadsetRuntime::State {
+  State();
+  ~State();
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+
+  XrInstance instance = XR_NULL_HANDLE;
+  XrSystemId system = XR_NULL_SYSTEM_ID;
+  XrEnvironmentBlendMode blend = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
+  bool timespec = false;  // the runtime's clock against ours
+  HeadsetTraits traits;
+
+ private:
+  void make_instance();
+  void find_headset();
+  void check_vulkan() const;
+};
+
+}  // namespace gearshift

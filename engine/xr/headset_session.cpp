@@ -1,0 +1,389 @@
+#include "engine/xr/headset_session.h"
+
+#include <algorithm>
+#include <limits>
+#include <vector>
+
+#include "engine/xr/headset_hands.h"
+#include "engine/xr/headset_images.h"
+#include "engine/xr/headset_runtime_state.h"
+
+namespace gearshift {
+namespace {
+
+// sRGB, so that the runtime filters light; 16 bits a channel hold light itself.
+constexpr VkFormat kPictureFormats[] = {VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_B8G8R8A8_SRGB,
+                                        VK_FORMAT_R16G16B16A16_SFLOAT};
+constexpr VkFormat kDepthFormats[] = {VK_FORMAT_D32_SFLOAT};
+constexpr double kEyeDistance = 0.063;  // [m] until the eyes are seen
+
+std::vector<XrReferenceSpaceType> spaces_of(XrSession session) {
+  return list_of<XrReferenceSpaceType>("xrEnumerateReferenceSpaces", XR_REFERENCE_SPACE_TYPE_VIEW,
+                                       [&](std::uint32_t room, std::uint32_t* count, XrReferenceSpaceType* items) {
+                                         return xrEnumerateReferenceSpaces(session, room, count, items);
+                                       });
+}
+
+// One turn's event: the buffer holds any of them.
+template <class Event>
+const Event& as(const XrEventDataBuffer& buffer) {
+  return *reinterpret_cast<const Event*>(&buffer);
+}
+
+HeadsetState state_of(XrSessionState state) {
+  switch (state) {
+    case XR_SESSION_STATE_READY:
+      return HeadsetState::ready;
+    case XR_SESSION_STATE_SYNCHRONIZED:
+      return HeadsetState::synchronised;
+    case XR_SESSION_STATE_VISIBLE:
+      return HeadsetState::visible;
+    case XR_SESSION_STATE_FOCUSED:
+      return HeadsetState::focused;
+    case XR_SESSION_STATE_STOPPING:
+      return HeadsetState::stopping;
+    case XR_SESSION_STATE_EXITING:
+      return HeadsetState::exiting;
+    default:
+      return HeadsetState::idle;
+  }
+}
+
+}  // namespace
+
+std::string_view name_of(HeadsetState state) noexcept {
+  constexpr std::string_view kNames[] = {"idle", "ready", "synchronised", "visible", "focused", "stopping", "exiting"};
+  return kNames[static_cast<std::size_t>(state)];
+}
+
+struct HeadsetSession::State {
+  State(HeadsetRuntime& runtime, Gpu& device, const HeadsetConfig& config);
+  ~State();
+  State(const State&) = delete;
+  State& operator=(const State&) = delete;
+
+  void make_session();
+  XrSpace make_space(XrReferenceSpaceType type) const;
+  void make_images(const HeadsetConfig& config);
+  void take_event(const XrEventDataBuffer& event);
+  void take_state(XrSessionState told);
+  void take_space_change(const XrEventDataReferenceSpaceChangePending& change);
+  void keep_eyes(const XrView* views, XrViewStateFlags flags);
+
+  struct Pending {
+    XrTime at;
+    SpaceChange change;
+  };
+
+  const HeadsetRuntime::State& xr;
+  Gpu& gpu;
+  XrSession session = XR_NULL_HANDLE;
+  XrReferenceSpaceType space_type = XR_REFERENCE_SPACE_TYPE_LOCAL;
+  XrSpace space = XR_NULL_HANDLE;
+  std::unique_ptr<HeadsetImages> colour, depth, panel;
+  std::unique_ptr<HeadsetHands> hands;
+  PFN_xrConvertTimespecTimeToTimeKHR to_runtime_time = nullptr;
+  HeadsetState state = HeadsetState::idle;
+  bool runs = false;
+  HeadsetEyes eyes;  // as they were seen last
+  std::vector<Pending> pending;
+};
+
+HeadsetSession::State::State(HeadsetRuntime& runtime, Gpu& device, const HeadsetConfig& config)
+    : xr(*runtime.state_), gpu(device) {
+  make_session();
+  try {
+    const auto known = spaces_of(session);
+    const bool stage = std::find(known.begin(), known.end(), XR_REFERENCE_SPACE_TYPE_STAGE) != known.end();
+    space_type = stage ? XR_REFERENCE_SPACE_TYPE_STAGE : XR_REFERENCE_SPACE_TYPE_LOCAL;
+    space = make_space(space_type);
+    make_images(config);
+    hands = std::make_unique<HeadsetHands>(xr.instance, session);
+    if (xr.timespec)
+      to_runtime_time = load<PFN_xrConvertTimespecTimeToTimeKHR>(xr.instance, "xrConvertTimespecTimeToTimeKHR");
+  } catch (...) {
+    hands.reset();
+    colour.reset();
+    depth.reset();
+    panel.reset();
+    xrDestroySession(session);  // and its spaces
+    throw;
+  }
+  for (std::size_t eye = 0; eye < 2; ++eye) {
+    eyes.pose[eye].position.x = (eye == 0 ? -0.5 : 0.5) * kEyeDistance;
+    eyes.fov[eye] = symmetric_fov(1.5, 1.0);
+  }
+}
+
+HeadsetSession::State::~State() {
+  gpu.wait_idle();  // the runtime's images may still be written
+  hands.reset();
+  colour.reset();
+  depth.reset();
+  panel.reset();
+  xrDestroySpace(space);
+  xrDestroySession(session);
+}
+
+void HeadsetSession::State::make_session() {
+  XrGraphicsBindingVulkan2KHR binding{XR_TYPE_GRAPHICS_BINDING_VULKAN2_KHR};
+  binding.instance = gpu.instance();
+  binding.physicalDevice = gpu.physical();
+  binding.device = gpu.device();
+  binding.queueFamilyIndex = gpu.queue_family();
+  XrSessionCreateInfo info{XR_TYPE_SESSION_CREATE_INFO};
+  info.next = &binding;
+  info.systemId = xr.system;
+  check(xrCreateSession(xr.instance, &info, &session), "xrCreateSession");
+}
+
+XrSpace HeadsetSession::State::make_space(XrReferenceSpaceType type) const {
+  XrReferenceSpaceCreateInfo info{XR_TYPE_REFERENCE_SPACE_CREATE_INFO};
+  info.referenceSpaceType = type;
+  info.poseInReferenceSpace = xr_pose({});
+  XrSpace made = XR_NULL_HANDLE;
+  check(xrCreateReferenceSpace(session, &info, &made), "xrCreateReferenceSpace");
+  return made;
+}
+
+// Depth helps the runtime and is no must.
+void HeadsetSession::State::make_images(const HeadsetConfig& config) {
+  colour = std::make_unique<HeadsetImages>(session, gpu, config.eye, 2, kPictureFormats);
+  if (!xr.traits.depth) return;
+  try {
+    depth = std::make_unique<HeadsetImages>(session, gpu, config.eye, 2, kDepthFormats);
+  } catch (const HeadsetLost&) {
+    throw;
+  } catch (const HeadsetError&) {
+  }
+}
+
+void HeadsetSession::State::take_event(const XrEventDataBuffer& event) {
+  switch (event.type) {
+    case XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING:
+      throw HeadsetLost("the OpenXR runtime goes away");
+    case XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED: {
+      const auto& told = as<XrEventDataSessionStateChanged>(event);
+      if (told.session == session) take_state(told.state);
+      break;
+    }
+    case XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING: {
+      const auto& change = as<XrEventDataReferenceSpaceChangePending>(event);
+      if (change.session == session) take_space_change(change);
+      break;
+    }
+    default:
+      break;  // hands are asked for each frame
+  }
+}
+
+void HeadsetSession::State::take_state(XrSessionState told) {
+  state = state_of(told);
+  if (told == XR_SESSION_STATE_READY) {
+    XrSessionBeginInfo begin{XR_TYPE_SESSION_BEGIN_INFO};
+    begin.primaryViewConfigurationType = kTwoEyes;
+    check(xrBeginSession(session, &begin), "xrBeginSession");
+    runs = true;
+  } else if (told == XR_SESSION_STATE_STOPPING) {
+    check(xrEndSession(session), "xrEndSession");
+    runs = false;
+  } else if (told == XR_SESSION_STATE_LOSS_PENDING) {
+    throw HeadsetLost("the headset is lost");
+  }
+}
+
+// The event has the new origin in the old space.
+void HeadsetSession::State::take_space_change(const XrEventDataReferenceSpaceChangePending& event) {
+  if (event.referenceSpaceType == XR_REFERENCE_SPACE_TYPE_VIEW) return;
+  SpaceChange change;
+  change.ours = event.referenceSpaceType == space_type;
+  if (event.poseValid == XR_TRUE) change.new_from_old = inverse(pose_of(event.poseInPreviousSpace));
+  pending.push_back({event.changeTime, change});
+}
+
+// As far as tracking is lost the eyes stay where they were.
+void HeadsetSession::State::keep_eyes(const XrView* views, XrViewStateFlags flags) {
+  const bool turned = (flags & XR_VIEW_STATE_ORIENTATION_VALID_BIT) != 0;
+  const bool placed = (flags & XR_VIEW_STATE_POSITION_VALID_BIT) != 0;
+  for (std::size_t eye = 0; eye < 2; ++eye) {
+    const Fov fov = fov_of(views[eye].fov);
+    if (fov.left < fov.right && fov.down < fov.up) eyes.fov[eye] = fov;
+    const EyePose seen = turned || placed ? pose_of(views[eye].pose) : EyePose{};
+    if (turned) eyes.pose[eye].orientation = seen.orientation;
+    if (placed) eyes.pose[eye].position = seen.position;
+  }
+  eyes.is_tracked = turned && placed;
+  eyes.is_known = eyes.is_known || eyes.is_tracked;
+}
+
+HeadsetSession::HeadsetSession(HeadsetRuntime& runtime, Gpu& gpu, const HeadsetConfig& config)
+    : state_(std::make_unique<State>(runtime, gpu, config)) {}
+HeadsetSession::~HeadsetSession() = default;
+
+void HeadsetSession::poll() {
+  State& s = *state_;
+  while (true) {
+    XrEventDataBuffer event{XR_TYPE_EVENT_DATA_BUFFER};
+    const XrResult result = xrPollEvent(s.xr.instance, &event);
+    check(result, "xrPollEvent");
+    if (result == XR_EVENT_UNAVAILABLE) return;
+    s.take_event(event);
+  }
+}
+
+HeadsetState HeadsetSession::state() const noexcept {
+  return state_->state;
+}
+
+bool HeadsetSession::runs() const noexcept {
+  return state_->runs;
+}
+
+bool HeadsetSession::is_stage() const noexcept {
+  return state_->space_type == XR_REFERENCE_SPACE_TYPE_STAGE;
+}
+
+std::int64_t HeadsetSession::now_ns() const {
+  const State& s = *state_;
+  if (s.to_runtime_time == nullptr) return 0;
+  timespec now{};
+  clock_gettime(CLOCK_MONOTONIC, &now);
+  XrTime time = 0;
+  check(s.to_runtime_time(s.xr.instance, &now, &time), "xrConvertTimespecTimeToTimeKHR");
+  return time;
+}
+
+void HeadsetSession::fit_panel(glm::ivec2 size) {
+  State& s = *state_;
+  if (s.panel && s.panel->size() == size) return;
+  s.gpu.wait_idle();  // frames in flight write the old one
+  s.panel.reset();
+  s.panel = std::make_unique<HeadsetImages>(s.session, s.gpu, size, 1, kPictureFormats);
+}
+
+HeadsetFrame HeadsetSession::wait() {
+  State& s = *state_;
+  XrFrameState told{XR_TYPE_FRAME_STATE};
+  check(xrWaitFrame(s.session, nullptr, &told), "xrWaitFrame");
+  HeadsetFrame frame;
+  frame.woken_ns = now_ns();
+  check(xrBeginFrame(s.session, nullptr), "xrBeginFrame");
+  frame.display_ns = told.predictedDisplayTime;
+  frame.period = 1e-9 * static_cast<double>(told.predictedDisplayPeriod);
+  frame.is_shown = told.shouldRender == XR_TRUE;
+  return frame;
+}
+
+HeadsetEyes HeadsetSession::locate(const HeadsetFrame& frame) {
+  State& s = *state_;
+  XrViewLocateInfo ask{XR_TYPE_VIEW_LOCATE_INFO};
+  ask.viewConfigurationType = kTwoEyes;
+  ask.displayTime = frame.display_ns;
+  ask.space = s.space;
+  XrViewState told{XR_TYPE_VIEW_STATE};
+  XrView views[2] = {{XR_TYPE_VIEW}, {XR_TYPE_VIEW}};
+  std::uint32_t count = 0;
+  check(xrLocateViews(s.session, &ask, &told, 2, &count, views), "xrLocateViews");
+  if (count == 2) s.keep_eyes(views, told.viewStateFlags);
+  return s.eyes;
+}
+
+std::array<HeadsetHand, 2> HeadsetSession::hands(const HeadsetFrame& frame) {
+  return state_->hands->read(state_->space, frame.display_ns);
+}
+
+std::optional<SpaceChange> HeadsetSession::take_change(const HeadsetFrame& frame) {
+  auto& pending = state_->pending;
+  if (pending.empty() || frame.display_ns < pending.front().at) return std::nullopt;
+  const SpaceChange change = pending.front().change;
+  pending.erase(pending.begin());
+  return change;
+}
+
+HeadsetSession::Images HeadsetSession::take_images(bool with_panel) {
+  State& s = *state_;
+  Images images;
+  images.colour = s.colour->take();
+  if (s.depth) images.depth = s.depth->take();
+  if (with_panel && s.panel) images.panel = s.panel->take();
+  return images;
+}
+
+void HeadsetSession::ready_to_give(VkCommandBuffer commands) {
+  for (const auto* images : {&state_->colour, &state_->depth, &state_->panel})
+    if (*images) (*images)->ready_to_give(commands);
+}
+
+namespace {
+
+using LayerHeader = const XrCompositionLayerBaseHeader*;
+
+// What one frame shows: OpenXR's structures point at each other, so they stay where they are.
+struct Layers {
+  std::array<XrCompositionLayerDepthInfoKHR, 2> depth;
+  std::array<XrCompositionLayerProjectionView, 2> views;
+  XrCompositionLayerProjection picture{XR_TYPE_COMPOSITION_LAYER_PROJECTION};
+  XrCompositionLayerQuad panel{XR_TYPE_COMPOSITION_LAYER_QUAD};
+  std::vector<LayerHeader> all;
+  Layers() = default;
+  Layers(const Layers&) = delete;
+  Layers& operator=(const Layers&) = delete;
+
+  void add_picture(XrSpace space, const HeadsetEyes& eyes, const HeadsetImages& images) {
+    for (std::uint32_t eye = 0; eye < 2; ++eye) {
+      views[eye] = {XR_TYPE_COMPOSITION_LAYER_PROJECTION_VIEW};
+      views[eye].pose = xr_pose(eyes.pose[eye]);
+      views[eye].fov = xr_fov(eyes.fov[eye]);
+      views[eye].subImage = images.layer(eye);
+    }
+    picture.space = space;
+    picture.viewCount = 2;
+    picture.views = views.data();
+    all.push_back(reinterpret_cast<LayerHeader>(&picture));
+  }
+
+  // Depth is near plane / distance: 0 stands for the infinite, 1 for the near plane.
+  void add_depth(const HeadsetImages& images, double near_plane) {
+    for (std::uint32_t eye = 0; eye < 2; ++eye) {
+      depth[eye] = {XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR};
+      depth[eye].subImage = images.layer(eye);
+      depth[eye].minDepth = 0.0f;
+      depth[eye].maxDepth = 1.0f;
+      depth[eye].nearZ = std::numeric_limits<float>::infinity();
+      depth[eye].farZ = static_cast<float>(near_plane);
+      views[eye].next = &depth[eye];
+    }
+  }
+
+  // Its colours have their alpha in them already.
+  void add_panel(XrSpace space, const HeadsetPanel& hung, const HeadsetImages& images) {
+    panel.layerFlags = XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT;
+    panel.space = space;
+    panel.eyeVisibility = XR_EYE_VISIBILITY_BOTH;
+    panel.subImage = images.layer(0);
+    panel.pose = xr_pose(hung.pose);
+    panel.size = {static_cast<float>(hung.size.x), static_cast<float>(hung.size.y)};
+    all.push_back(reinterpret_cast<LayerHeader>(&panel));
+  }
+};
+
+}  // namespace
+
+void HeadsetSession::end(const HeadsetFrame& frame, const HeadsetEyes* eyes, double near_plane,
+                         const HeadsetPanel* panel) {
+  State& s = *state_;
+  for (const auto* images : {&s.colour, &s.depth, &s.panel})
+    if (*images) (*images)->give();
+  Layers layers;
+  if (eyes != nullptr && s.colour->ever_given()) layers.add_picture(s.space, *eyes, *s.colour);
+  if (eyes != nullptr && s.depth && s.depth->ever_given()) layers.add_depth(*s.depth, near_plane);
+  if (panel != nullptr && s.panel && s.panel->ever_given()) layers.add_panel(s.space, *panel, *s.panel);
+  XrFrameEndInfo info{XR_TYPE_FRAME_END_INFO};
+  info.displayTime = frame.display_ns;
+  info.environmentBlendMode = s.xr.blend;
+  info.layerCount = static_cast<std::uint32_t>(layers.all.size());
+  info.layers = layers.all.data();
+  check(xrEndFrame(s.session, &info), "xrEndFrame");
+}
+
+}  // namespace gearshift

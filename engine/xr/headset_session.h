@@ -1,0 +1,107 @@
+// A session at a headset: its life cycle, its frames, its images. One thread.
+//
+// A frame by the book: poll(), wait(), locate(), draw, locate() again just before it is submitted, end().
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string_view>
+
+#include "engine/gpu/gpu_image.h"
+#include "engine/scene/view.h"
+#include "engine/xr/headset_runtime.h"
+
+namespace gearshift {
+
+struct HeadsetConfig {
+  glm::ivec2 eye{0};  // [px] of each eye's picture
+};
+
+// What the runtime lets us do; in the order of getting there.
+enum class HeadsetState : std::uint8_t {
+  idle,          // nobody wears it, or another program has it
+  ready,         // begins with the next poll()
+  synchronised,  // frames are paced and not seen
+  visible,       // seen, but another program has hands and buttons: its menu is open
+  focused,       // all is ours
+  stopping,      // put down
+  exiting        // the person has asked us to leave
+};
+std::string_view name_of(HeadsetState state) noexcept;
+
+// One frame. Times are on the runtime's clock.
+struct HeadsetFrame {
+  std::int64_t display_ns = 0;  // [ns] when it will be seen, as predicted
+  std::int64_t woken_ns = 0;    // [ns] when wait() was over; 0 where the runtime's clock is not told
+  double period = 0.0;          // [s] between two frames of the display
+  bool is_shown = false;        // false: nothing need be drawn
+};
+
+// Eyes in the tracking space. Where tracking is lost they stay where they were seen last, each as far as it is lost.
+struct HeadsetEyes {
+  std::array<EyePose, 2> pose;
+  std::array<Fov, 2> fov;
+  bool is_known = false;    // they were seen since the session began
+  bool is_tracked = false;  // they are seen now
+};
+
+// The room's origin has moved: what stood at p in it stands at new_from_old p from now on.
+struct SpaceChange {
+  bool ours = false;                    // the space that all poses are in; else the one that a person recentres
+  std::optional<EyePose> new_from_old;  // none: nobody knows
+};
+
+struct HeadsetHand {
+  bool is_tracked = false;
+  EyePose aim;             // points along its -Z
+  bool selects = false;    // trigger
+  bool menu = false;       // button
+  glm::dvec2 scroll{0.0};  // [1] thumb stick, right and up +
+};
+
+// A picture that hangs in the room: its middle, facing along its +Z.
+struct HeadsetPanel {
+  EyePose pose;
+  glm::dvec2 size{0.0};  // [m]
+};
+
+class HeadsetSession {
+ public:
+  // Both outlive it. Throws HeadsetError, HeadsetLost.
+  HeadsetSession(HeadsetRuntime& runtime, Gpu& gpu, const HeadsetConfig& config);
+  ~HeadsetSession();  // waits until the device is idle
+
+  // What the runtime has told since the last poll: the session begins and ends as it asks. Throws HeadsetLost.
+  void poll();
+  HeadsetState state() const noexcept;
+  bool runs() const noexcept;      // frames are wanted: wait() paces them
+  bool is_stage() const noexcept;  // poses are in a room that stays from one day to the next
+
+  void fit_panel(glm::ivec2 size);  // [px] of the panel's picture; made anew where it has another size
+
+  HeadsetFrame wait();  // until the runtime wants the next frame, which it begins. Throws HeadsetLost
+  HeadsetEyes locate(const HeadsetFrame& frame);
+  std::array<HeadsetHand, 2> hands(const HeadsetFrame& frame);        // left, right; none while not focused
+  std::optional<SpaceChange> take_change(const HeadsetFrame& frame);  // once its time has come
+
+  // The images of this frame, null where the runtime has none now (depth and panel also where there are none). Copied
+  // into between take and ready_to_give(), which is recorded; given back with end(), after the submission.
+  struct Images {
+    GpuImage *colour = nullptr, *depth = nullptr, *panel = nullptr;
+  };
+  Images take_images(bool panel);
+  void ready_to_give(VkCommandBuffer commands);
+
+  // Shows what was drawn, from where it was drawn; null: nothing. near_plane [m]: of the depth's projection.
+  void end(const HeadsetFrame& frame, const HeadsetEyes* eyes, double near_plane, const HeadsetPanel* panel);
+
+  std::int64_t now_ns() const;  // [ns] on the runtime's clock; 0 where it is not told
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace gearshift

@@ -1,0 +1,51 @@
+// Times of a headset's frames, counted by hand.
+#include "engine/xr/frame_times.h"
+
+#include <doctest/doctest.h>
+
+using namespace gearshift;
+
+namespace {
+
+constexpr double kPeriod = 0.010;  // [s]
+
+HeadsetFrame frame_at(double display_ms, double woken_ms) {
+  return {static_cast<std::int64_t>(1e6 * display_ms), static_cast<std::int64_t>(1e6 * woken_ms), kPeriod, true};
+}
+
+}  // namespace
+
+TEST_CASE("a frame's cost, what is left of its time, and when it could be seen at last") {
+  FrameTimes times;
+  times.take(frame_at(130.0, 100.0), 104'000'000, 6.0);  // ready at 110, seen at 130
+  CHECK(times.timing().cpu_ms == doctest::Approx(4.0));
+  CHECK(times.timing().spare_ms == doctest::Approx(20.0));
+  CHECK(times.timing().late_ms == 0.0);
+  times.take(frame_at(140.0, 110.0), 131'000'000, 12.0);  // ready at 143: not at 140 but at 150
+  CHECK(times.timing().spare_ms == doctest::Approx(-3.0));
+  CHECK(times.timing().late_ms == doctest::Approx(10.0));
+  CHECK(times.timing().late == 1);
+  CHECK(times.timing().frames == 2);
+  CHECK(times.timing().dropped == 0);
+}
+
+TEST_CASE("display periods that got no frame are dropped ones, but for a pause") {
+  FrameTimes times;
+  times.take(frame_at(100.0, 80.0), 85'000'000, 1.0);
+  times.take(frame_at(110.1, 90.0), 95'000'000, 1.0);  // a runtime's period jitters
+  CHECK(times.timing().dropped == 0);
+  times.take(frame_at(140.0, 120.0), 125'000'000, 1.0);  // nothing at 120 and 130
+  CHECK(times.timing().dropped == 2);
+  times.pause();
+  times.take(frame_at(900.0, 880.0), 885'000'000, 1.0);
+  CHECK(times.timing().dropped == 2);
+}
+
+TEST_CASE("a runtime that tells no clock gives counts alone") {
+  FrameTimes times;
+  times.take(frame_at(100.0, 0.0), 0, 2.0);
+  CHECK(times.timing().frames == 1);
+  CHECK(times.timing().gpu_ms == 2.0);
+  CHECK(times.timing().late == 0);
+  CHECK(times.timing().cpu_ms == 0.0);
+}
