@@ -1,0 +1,33 @@
+// What the panel shows of a headset, and what is asked of it there.
+#pragma once
+
+#include <optional>
+#include <string>
+
+#include <glm/vec2.hpp>
+
+#include "app/headset/seat_file.h"
+#include "engine/xr/frame_times.h"
+
+namespace gearshift {
+
+struct HeadsetReport {
+  std::string headset, runtime, state;
+  glm::ivec2 eye{0};  // [px]
+  HeadsetTiming timing;
+  bool is_tracked = false;
+  SeatSettings seat;
+  bool touching = false;    // the next triggers are touches of the knob
+  std::size_t touches = 0;
+  double worst_touch = 0.0;  // [m]
+};
+
+struct HeadsetRequests {
+  bool recentre = false;
+  bool touch = false, touched = false, forget_touches = false;  // begin, keep, drop
+  std::optional<double> height;                                 // [m]
+  std::optional<KnobDistance> knob;                             // [m]
+  bool forget_knob = false;
+};
+
+}  // namespace gearshift

@@ -1,0 +1,66 @@
+#include "app/headset/seat.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+namespace gearshift {
+namespace {
+
+constexpr glm::dvec3 kUp{0.0, 1.0, 0.0}, kAhead{0.0, 0.0, -1.0};
+constexpr double kSteep = 0.3;          // [1] less of a look lies in the horizon: it tells no direction
+constexpr double kLeastSpread = 0.020;  // [m] RMS of the touches about their middle
+
+// [rad] to the right of the room's -Z. Who looks at his feet has the top of his head ahead.
+double heading(const glm::dquat& head) {
+  glm::dvec3 look = head * kAhead;
+  if (std::hypot(look.x, look.z) < kSteep) look = (look.y < 0.0 ? 1.0 : -1.0) * (head * kUp);
+  return std::atan2(look.x, -look.z);
+}
+
+// Turned, and with a point of the room at one of the cabin.
+EyePose placed(double turn, glm::dvec3 room, glm::dvec3 cabin) {
+  const glm::dquat orientation = glm::angleAxis(turn, kUp);
+  return {cabin - orientation * room, orientation};
+}
+
+}  // namespace
+
+EyePose seat_at_eyes(const EyePose& head, const SeatPlaces& places, double height) {
+  return placed(heading(head.orientation), head.position, places.eye + height * kUp);
+}
+
+EyePose seat_at_lever(const EyePose& head, const SeatPlaces& places, const KnobDistance& knob) {
+  const double turn = heading(head.orientation);
+  const glm::dvec3 away = glm::angleAxis(-turn, kUp) * glm::dvec3(knob.right, -knob.down, -knob.ahead);
+  return placed(turn, head.position + away, places.knob);
+}
+
+// Turned by a about y, (x, z) becomes (x cos a + z sin a, z cos a - x sin a): the sum of squares is least where the sum of
+// products is most.
+std::optional<LeverTouches::Fit> LeverTouches::fit(const EyePose& now) const {
+  if (touches_.empty()) return std::nullopt;
+  const double count = static_cast<double>(touches_.size());
+  glm::dvec3 room(0.0), cabin(0.0);
+  for (const Touch& touch : touches_) {
+    room += touch.room / count;
+    cabin += touch.cabin / count;
+  }
+  double along = 0.0, across = 0.0, spread = 0.0;
+  for (const Touch& touch : touches_) {
+    const glm::dvec3 r = touch.room - room, c = touch.cabin - cabin;
+    along += c.x * r.x + c.z * r.z;
+    across += c.x * r.z - c.z * r.x;
+    spread += (c.x * c.x + c.z * c.z) / count;
+  }
+  Fit fit;
+  fit.turned = std::sqrt(spread) >= kLeastSpread;
+  fit.cabin_from_room = placed(
+      fit.turned ? std::atan2(across, along) : 2.0 * std::atan2(now.orientation.y, now.orientation.w), room, cabin);
+  for (const Touch& touch : touches_)
+    fit.worst = std::max(fit.worst, glm::distance(fit.cabin_from_room * touch.room, touch.cabin));
+  return fit;
+}
+
+}  // namespace gearshift

@@ -1,0 +1,70 @@
+// A panel that hangs in the cabin: far enough, large enough to be read, and pointed at where it is.
+#include "app/headset/hanging_panel.h"
+
+#include <cmath>
+#include <numbers>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+using namespace gearshift;
+using glm::dvec3;
+
+namespace {
+
+constexpr dvec3 kEye{0.0, 0.635, 0.05};
+constexpr double kDegree = std::numbers::pi / 180.0;
+
+// A hand there that points at that place of the panel's picture.
+EyePose pointing(const HangingPanel& panel, dvec3 hand, glm::dvec2 at) {
+  const dvec3 target = panel.pose * dvec3((at.x - 0.5) * panel.size.x, (0.5 - at.y) * panel.size.y, 0.0);
+  return look_at(hand, target);
+}
+
+}  // namespace
+
+TEST_CASE("it hangs 1 to 3 m away, faces the driver, and stands upright at the passenger's side") {
+  for (const DriveSide side : {DriveSide::left, DriveSide::right}) {
+    const dvec3 eye = on_side(side, kEye);
+    const HangingPanel panel = hang_panel(eye, side, {1280, 720});
+    const double distance = glm::distance(panel.pose.position, eye);
+    CHECK(distance >= 1.0);
+    CHECK(distance <= 3.0);
+    CHECK(glm::dot(panel.pose.orientation * dvec3(0, 0, 1), (eye - panel.pose.position) / distance) > 0.9999);
+    CHECK((panel.pose.orientation * dvec3(1, 0, 0)).y == doctest::Approx(0.0));
+    CHECK((panel.pose.position.x - eye.x) * (side == DriveSide::left ? 1.0 : -1.0) > 0.3);
+    CHECK(panel.size.x / panel.size.y == doctest::Approx(1280.0 / 720.0));
+  }
+}
+
+// ISO 9241-303: letters are read well from 20 to 22 minutes of arc on, and read at all from 16. DejaVu Sans has capitals
+// of 0.729 em and lines of 1.164 em; the panel's small font has lines of 13 px at scale 1 and its body of 15
+// (engine/ui/ui_style.cpp); the scale is at least its picture's width / 1280 in a headset (UiScale).
+TEST_CASE("capitals of the panel's fonts are 20 minutes of arc high and more") {
+  const HangingPanel panel = hang_panel(kEye, DriveSide::left, {1280, 720});
+  const double px = panel.size.x / 1280.0, distance = glm::distance(panel.pose.position, kEye);
+  for (const double font : {13.0, 15.0}) {
+    const double minutes = 60.0 / kDegree * std::atan(0.729 / 1.164 * font * px / distance);
+    CAPTURE(font);
+    CHECK(minutes >= 20.0);
+  }
+}
+
+TEST_CASE("a hand points where it points, and at nothing beside the panel or from behind") {
+  const HangingPanel panel = hang_panel(kEye, DriveSide::left, {1280, 720});
+  const dvec3 hand{0.2, 0.3, -0.2};
+  for (const glm::dvec2 at : {glm::dvec2(0.5, 0.5), glm::dvec2(0.02, 0.97), glm::dvec2(0.9, 0.1)}) {
+    const auto hit = point_at(panel, pointing(panel, hand, at));
+    REQUIRE(hit);
+    CHECK(glm::distance(hit->at, at) < 1e-9);
+    const dvec3 met = hand + hit->distance * (pointing(panel, hand, at).orientation * dvec3(0, 0, -1));
+    CHECK(std::abs((inverse(panel.pose) * met).z) < 1e-9);
+  }
+  CHECK_FALSE(point_at(panel, pointing(panel, hand, {1.01, 0.5})));
+  CHECK_FALSE(point_at(panel, pointing(panel, hand, {0.5, -0.01})));
+  const dvec3 behind = panel.pose * dvec3(0.0, 0.0, -0.5);
+  CHECK_FALSE(point_at(panel, look_at(behind, panel.pose.position)));
+  EyePose away = pointing(panel, hand, {0.5, 0.5});
+  away.orientation = away.orientation * glm::angleAxis(std::numbers::pi, dvec3(0, 1, 0));
+  CHECK_FALSE(point_at(panel, away));
+}

@@ -1,0 +1,136 @@
+// Where room and cabin stand to each other: laws of rigid motion, and a registration whose answer is known.
+#include "app/headset/seat.h"
+
+#include <cmath>
+#include <random>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+using namespace gearshift;
+using glm::dvec3;
+
+namespace {
+
+constexpr SeatPlaces kPlaces{{0.0, 0.635, 0.05}, {0.33, 0.127, -0.27}};
+constexpr dvec3 kUp{0.0, 1.0, 0.0};
+
+glm::dquat turned(double left, double up, double tilt = 0.0) {
+  return glm::angleAxis(left, kUp) * glm::angleAxis(up, dvec3(1, 0, 0)) * glm::angleAxis(tilt, dvec3(0, 0, 1));
+}
+
+void check_at(dvec3 seen, dvec3 wanted, double within = 1e-12) {
+  CAPTURE(seen.x);
+  CAPTURE(seen.y);
+  CAPTURE(seen.z);
+  CHECK(glm::distance(seen, wanted) < within);
+}
+
+void check_level(const EyePose& seat) {
+  check_at(seat.orientation * kUp, kUp);  // gravity is the same
+}
+
+}  // namespace
+
+TEST_CASE("who sits down is at the driver's eyes and looks ahead, wherever he looks up, down or aside of level") {
+  for (const double left : {0.0, 0.7, -2.9, 3.1}) {
+    for (const double up : {0.0, -0.6, 0.5, -1.5, 1.5}) {  // to his feet, to the roof
+      const EyePose head{{1.3, 1.6, -2.2}, turned(left, up, 0.0)};
+      const EyePose seat = seat_at_eyes(head, kPlaces, 0.04);
+      CAPTURE(left);
+      CAPTURE(up);
+      check_level(seat);
+      check_at(seat * head.position, kPlaces.eye + 0.04 * kUp);
+      check_at(seat.orientation * (glm::angleAxis(left, kUp) * dvec3(0, 0, -1)), {0, 0, -1}, 1e-9);
+    }
+  }
+}
+
+TEST_CASE("with the knob measured it is seen where it is, and the eyes are as far from it as they are") {
+  const EyePose head{{-0.4, 1.2, 0.9}, turned(1.1, -0.2)};
+  const KnobDistance knob{0.28, 0.46, 0.31};
+  const EyePose seat = seat_at_lever(head, kPlaces, knob);
+  check_level(seat);
+  // In the room, from the head's heading and by hand: ahead is (-sin 1.1, 0, -cos 1.1), right is (cos 1.1, 0, -sin 1.1).
+  const dvec3 ahead(-std::sin(1.1), 0.0, -std::cos(1.1)), right(std::cos(1.1), 0.0, -std::sin(1.1));
+  check_at(seat * (head.position + 0.28 * right - 0.46 * kUp + 0.31 * ahead), kPlaces.knob);
+  check_at(seat * head.position, kPlaces.knob + dvec3(-0.28, 0.46, 0.31));
+}
+
+TEST_CASE("touches in six gears find turn and shift of any room, exactly where they are exact") {
+  std::mt19937_64 dice(7);
+  std::uniform_real_distribution<double> anywhere(-3.0, 3.0);
+  for (int i = 0; i < 50; ++i) {
+    const EyePose room_from_cabin{{anywhere(dice), anywhere(dice), anywhere(dice)},
+                                  glm::angleAxis(anywhere(dice), kUp)};
+    LeverTouches touches;
+    for (const double select : {-0.036, 0.0, 0.036})
+      for (const double shift : {-0.04, 0.04}) {
+        const dvec3 knob = kPlaces.knob + dvec3(select, -0.003, -shift);
+        touches.add(room_from_cabin * knob, knob);
+      }
+    const auto fit = touches.fit({});
+    REQUIRE(fit);
+    CHECK(fit->turned);
+    CHECK(fit->worst < 1e-12);
+    check_level(fit->cabin_from_room);
+    const EyePose known = inverse(room_from_cabin);
+    for (const dvec3 point : {dvec3(0, 0, 0), dvec3(1, 2, 3)})
+      check_at(fit->cabin_from_room * point, known * point, 1e-11);
+  }
+}
+
+TEST_CASE("trembling touches are least squares: no other turn or shift near by has less, and the worst is told") {
+  std::mt19937_64 dice(11);
+  std::normal_distribution<double> tremble(0.0, 0.002);
+  LeverTouches touches;
+  std::vector<std::pair<dvec3, dvec3>> pairs;
+  const EyePose room_from_cabin{{0.5, 0.9, -1.0}, glm::angleAxis(0.8, kUp)};
+  for (int i = 0; i < 12; ++i) {
+    const dvec3 knob = kPlaces.knob + dvec3(0.036 * (i % 3 - 1), 0.0, i % 2 == 0 ? 0.04 : -0.04);
+    const dvec3 told = room_from_cabin * knob + dvec3(tremble(dice), tremble(dice), tremble(dice));
+    touches.add(told, knob);
+    pairs.push_back({told, knob});
+  }
+  const auto fit = touches.fit({});
+  REQUIRE(fit);
+  const auto squares = [&](const EyePose& seat) {
+    double sum = 0.0;
+    for (const auto& [room, knob] : pairs) sum += glm::dot(seat * room - knob, seat * room - knob);
+    return sum;
+  };
+  const double least = squares(fit->cabin_from_room);
+  dvec3 middle(0.0);
+  for (const auto& [room, knob] : pairs) middle += room / 12.0;
+  for (const double turn : {-0.01, 0.01}) {  // about the touches' middle
+    EyePose other = fit->cabin_from_room;
+    other.orientation = glm::angleAxis(turn, kUp) * other.orientation;
+    other.position += fit->cabin_from_room * middle - other * middle;
+    CHECK(squares(other) > least);
+  }
+  for (const dvec3 shift : {dvec3(1e-3, 0, 0), dvec3(0, 1e-3, 0), dvec3(0, 0, -1e-3)}) {
+    EyePose other = fit->cabin_from_room;
+    other.position += shift;
+    CHECK(squares(other) > least);
+  }
+  CHECK(fit->worst > 0.001);
+  CHECK(fit->worst < 0.010);
+  CHECK(std::abs(2.0 * std::atan2(fit->cabin_from_room.orientation.y, fit->cabin_from_room.orientation.w) + 0.8) <
+        0.05);
+}
+
+TEST_CASE("one touch shifts and leaves the direction") {
+  LeverTouches touches;
+  CHECK_FALSE(touches.fit({}));
+  const EyePose now{{0.1, 0.2, 0.3}, glm::angleAxis(-0.4, kUp)};
+  touches.add({2.0, 1.0, 0.5}, kPlaces.knob);
+  touches.add({2.0, 1.0, 0.508}, kPlaces.knob + dvec3(0.008, 0, 0));  // as far apart as a hand trembles: no direction
+  const auto fit = touches.fit(now);
+  REQUIRE(fit);
+  CHECK_FALSE(fit->turned);
+  CHECK(glm::distance(fit->cabin_from_room.orientation * dvec3(0, 0, -1), now.orientation * dvec3(0, 0, -1)) < 1e-12);
+  check_at(0.5 * (fit->cabin_from_room * dvec3(2.0, 1.0, 0.5) + fit->cabin_from_room * dvec3(2.0, 1.0, 0.508)),
+           kPlaces.knob + dvec3(0.004, 0, 0));
+  touches.forget();
+  CHECK(touches.count() == 0);
+}
