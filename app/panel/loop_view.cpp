@@ -6,21 +6,12 @@
 #include <fmt/format.h>
 
 #include "app/panel/palette.h"
+#include "app/panel/table_rows.h"
 
 namespace gearshift {
 namespace {
 
 constexpr std::array<const char*, 8> kStages{"read", "estimate", "proxy", "couple", "feel", "world", "guard", "write"};
-
-void row(const char* name, const std::string& value, ImU32 colour = ink::kText) {
-  ImGui::TableNextRow();
-  ImGui::TableNextColumn();
-  ImGui::TextDisabled("%s", name);
-  ImGui::TableNextColumn();
-  ImGui::PushStyleColor(ImGuiCol_Text, colour);
-  ImGui::TextUnformatted(value.c_str());
-  ImGui::PopStyleColor();
-}
 
 std::string microseconds(double seconds) {
   return fmt::format("{:.0f} µs", 1e6 * seconds);
@@ -30,19 +21,19 @@ void draw_timing(const PanelInput& input) {
   const LoopHealth& health = input.health;
   const double period = health.rate > 0.0 ? 1.0 / health.rate : 0.0;
   if (!ImGui::BeginTable("timing", 2, ImGuiTableFlags_SizingStretchProp)) return;
-  row("Rate", fmt::format("{:.0f} Hz, period {}", health.rate, microseconds(period)));
-  row("Late, median", microseconds(health.late_p50));
-  row("Late, 99 of 100", microseconds(health.late_p99), health.late_p99 > period ? ink::kWarn : ink::kText);
-  row("Late, worst", microseconds(health.late_worst), health.late_worst > period ? ink::kWarn : ink::kText);
-  row("Deadlines missed", fmt::format("{}", health.skipped), health.skipped > 0 ? ink::kWarn : ink::kText);
-  row("Cycles too long", fmt::format("{}", health.overruns), health.overruns > 0 ? ink::kWarn : ink::kText);
-  row("Thread", health.realtime ? "real-time" : "not real-time", health.realtime ? ink::kGood : ink::kWarn);
-  row("Cycle", fmt::format("{:.2f} µs, {:.2f} % of it", 1e-3 * health.cycle_ns,
-                           period > 0.0 ? 1e-7 * health.cycle_ns / period : 0.0));
-  row("Knob's forces", fmt::format("{:.0f} % of the car's", 100.0 * input.car.force_scale));
-  row("Frame", fmt::format("{:.1f} ms", input.frame_ms));
-  row("Stiffness in use", fmt::format("{:.0f} N/m", input.now.wall_stiffness),
-      input.now.wall_stiffness < 0.999 * input.admitted.tuning.wall_stiffness ? ink::kWarn : ink::kText);
+  table_row("Rate", fmt::format("{:.0f} Hz, period {}", health.rate, microseconds(period)));
+  table_row("Late, median", microseconds(health.late_p50));
+  table_row("Late, 99 of 100", microseconds(health.late_p99), health.late_p99 > period ? ink::kWarn : ink::kText);
+  table_row("Late, worst", microseconds(health.late_worst), health.late_worst > period ? ink::kWarn : ink::kText);
+  table_row("Deadlines missed", fmt::format("{}", health.skipped), health.skipped > 0 ? ink::kWarn : ink::kText);
+  table_row("Cycles too long", fmt::format("{}", health.overruns), health.overruns > 0 ? ink::kWarn : ink::kText);
+  table_row("Thread", health.realtime ? "real-time" : "not real-time", health.realtime ? ink::kGood : ink::kWarn);
+  table_row("Cycle", fmt::format("{:.2f} µs, {:.2f} % of it", 1e-3 * health.cycle_ns,
+                                 period > 0.0 ? 1e-7 * health.cycle_ns / period : 0.0));
+  table_row("Knob's forces", fmt::format("{:.0f} % of the car's", 100.0 * input.car.force_scale));
+  table_row("Frame", fmt::format("{:.1f} ms", input.frame_ms));
+  table_row("Stiffness in use", fmt::format("{:.0f} N/m", input.now.wall_stiffness),
+            input.now.wall_stiffness < 0.999 * input.admitted.tuning.wall_stiffness ? ink::kWarn : ink::kText);
   ImGui::EndTable();
   if (!health.why_not.empty()) ImGui::TextWrapped("%s", health.why_not.c_str());
 }

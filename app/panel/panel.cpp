@@ -1,6 +1,7 @@
 #include "app/panel/panel.h"
 
 #include <algorithm>
+#include <span>
 #include <utility>
 #include <vector>
 
@@ -9,6 +10,7 @@
 #include "app/panel/event_list.h"
 #include "app/panel/force_plots.h"
 #include "app/panel/gate_view.h"
+#include "app/panel/headset_tab.h"
 #include "app/panel/help_view.h"
 #include "app/panel/history_view.h"
 #include "app/panel/lesson_card.h"
@@ -76,11 +78,16 @@ struct Tab {
 };
 // The learner's first, then the engineer's.
 constexpr Tab kTabs[] = {{"tab_lesson", "Lessons"}, {"tab_history", "History"}, {"tab_tuning", "Tuning"},
-                         {"tab_setup", "Setup"},    {"tab_loop", "Loop"},       {"tab_presets", "Presets"}};
+                         {"tab_setup", "Setup"},    {"tab_loop", "Loop"},       {"tab_presets", "Presets"},
+                         {"tab_headset", "XR"}};  // the last only while one is worn
 
-bool tabs_fit() {
+std::span<const Tab> tabs_of(const PanelInput& input) {
+  return std::span(kTabs).first(std::size(kTabs) - (input.headset ? 0 : 1));
+}
+
+bool tabs_fit(std::span<const Tab> tabs) {
   float room = ImGui::GetContentRegionAvail().x;
-  for (const Tab& tab : kTabs) room -= button_width(tab.label) + ImGui::GetStyle().ItemInnerSpacing.x + 1.0f;
+  for (const Tab& tab : tabs) room -= button_width(tab.label) + ImGui::GetStyle().ItemInnerSpacing.x + 1.0f;
   return room > 0.0f;
 }
 
@@ -219,7 +226,7 @@ void Panel::State::draw_choices(const PanelInput& input, PanelRequests& out) {
 }
 
 void Panel::State::draw_tabs(const PanelInput& input, PanelRequests& out) {
-  const bool dense = !tabs_fit();
+  const bool dense = !tabs_fit(tabs_of(input));
   const auto bar = [&] {
     const TabStyle style(dense);
     return ImGui::BeginTabBar("parts");
@@ -247,6 +254,7 @@ void Panel::State::draw_tabs(const PanelInput& input, PanelRequests& out) {
   tab(kTabs[3], [&] { setup.draw(controls, input, out); });
   tab(kTabs[4], [&] { draw_loop_view(input); });
   tab(kTabs[5], [&] { presets.draw(controls, input, out); });
+  if (input.headset) tab(kTabs[6], [&] { draw_headset_tab(controls, input, out.headset); });
   ImGui::EndTabBar();
 }
 

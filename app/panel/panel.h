@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "app/coach/coach_view.h"
+#include "app/headset/headset_report.h"
 #include "app/panel/controls.h"
 #include "app/replay/player.h"
 #include "app/trainer/trainer.h"
@@ -48,14 +49,15 @@ struct PanelInput {
   std::string car_name;
   std::vector<std::string> cars;  // to choose from
   CoachView coach;
-  const Player* replay = nullptr;  // while one is looked at; then `now` and `car` are its
-  std::string opening;             // the file of a recorded drive that is still read; empty: none
-  std::vector<KeyHint> keys;       // what drives the car, in the order of use; empty: no keys
-  bool mouse_leads = false;        // the lever: the cursor is not free
-  bool by_itself = false;          // the hand needs nobody: keys and mouse move nothing, nothing is remembered
-  bool teacher_holds = false;      // clutch and brake, after a lesson, until the next one or none
-  bool trial_lost = false;         // the one that is driven cannot be passed any more
-  std::string lesson_catches;      // what the lesson is not passed with, one sentence; empty: not known
+  const Player* replay = nullptr;        // while one is looked at; then `now` and `car` are its
+  std::string opening;                   // the file of a recorded drive that is still read; empty: none
+  std::vector<KeyHint> keys;             // what drives the car, in the order of use; empty: no keys
+  bool mouse_leads = false;              // the lever: the cursor is not free
+  bool by_itself = false;                // the hand needs nobody: keys and mouse move nothing, nothing is remembered
+  bool teacher_holds = false;            // clutch and brake, after a lesson, until the next one or none
+  bool trial_lost = false;               // the one that is driven cannot be passed any more
+  std::optional<HeadsetReport> headset;  // none: nobody wears one
+  std::string lesson_catches;            // what the lesson is not passed with, one sentence; empty: not known
 };
 
 struct LessonRequests {
@@ -103,6 +105,7 @@ struct PanelRequests {
   std::optional<std::string> car;                 // to change to; its gate comes with it
   LessonRequests lesson;
   ReplayRequests look;
+  HeadsetRequests headset;
 };
 
 class Panel {
@@ -134,7 +137,7 @@ class Panel {
   // Of the last draw(): where a control stands, for a test or a script; and how many texts had too little room.
   // The bar: "stop", "arm", "disarm", "record", "replay". The left column: "reset_view", "axis_shift", "axis_select".
   // The right one: "car", "gate", "preset", "hand", each with "gate: NAME" once it is open; "tab_lesson", "tab_history",
-  // "tab_tuning", "tab_setup", "tab_loop", "tab_presets".
+  // "tab_tuning", "tab_setup", "tab_loop", "tab_presets", "tab_headset" while one is worn.
   // Lessons: "learner" (Enter takes the name), "learner_known" with "learner: NAME" (none: nobody), "lesson_suggested",
   // "lesson: KEY", "next: KEY", "next_as_suggested". History: "run: ID" opens it; then "look: ID SHIFT",
   // "comment_author", "comment", "comment_add"; of each comment "comment_edit: ID" ("comment_text", "comment_save",

@@ -33,7 +33,7 @@ const NamedCamera& named(std::string_view name) {
 
 }  // namespace
 
-EyePose camera(std::string_view name) {
+EyePose camera(std::string_view name, DriveSide) {
   const NamedCamera& camera = named(name);
   return look_at(camera.eye, camera.target);
 }

@@ -24,6 +24,7 @@
 namespace gearshift {
 namespace {
 
+constexpr double kKnobRadius = 0.024;  // [m] of the cabin's knob
 constexpr float kGhostOpacity = 0.4f;
 constexpr float kGlassHand = 0.25f;  // opacity of a hand with ways to see below it
 constexpr float kExposure = 3.0f;    // for eyes inside: the cabin is darker than the road
@@ -239,6 +240,15 @@ glm::dvec3 Stage::knob() const noexcept {
 
 glm::dvec3 Stage::ghost_knob() const noexcept {
   return state_->ghost_knob;
+}
+
+glm::dvec3 Stage::knob_at_rest() const noexcept {
+  return state_->pivot + glm::dvec3(0.0, kDrawnLever, 0.0);
+}
+
+glm::dvec3 Stage::knob_top() const noexcept {
+  const glm::dvec3 lever = state_->ghost_knob - state_->pivot;
+  return state_->pivot + (kDrawnLever + kKnobRadius) / kDrawnLever * lever;
 }
 
 EyePose Stage::driver_eye() const noexcept {

@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -10,6 +11,8 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "app/stage/drive_side.h"
+#include "app/stage/pointer_beam.h"
 #include "app/vehicle/vehicle_state.h"
 #include "engine/model/model.h"
 #include "engine/scene/frame_scene.h"
@@ -26,6 +29,7 @@ struct StageConfig {
   bool cutaway = false;    // the gearbox is seen beside the console
   bool open_gate = false;  // a slotted plate of the loaded gate in place of the boot
   bool hand = true;        // a hand on the knob
+  DriveSide drive = DriveSide::left;
 };
 
 struct StageInput {
@@ -35,6 +39,7 @@ struct StageInput {
   // Of a shift that is looked at again, drawn just above the knob: the way that it took, and the shortest. In the gate
   // plane [m]; empty: none. The hand is of glass then.
   std::span<const glm::dvec2> driven_way{}, ideal_way{};
+  std::optional<Beam> pointer{};  // of a hand that points at something
 };
 
 class Stage {
@@ -54,6 +59,9 @@ class Stage {
 
   glm::dvec3 knob() const noexcept;        // [m] world, centre of the drawn knob
   glm::dvec3 ghost_knob() const noexcept;  // [m] world, where the lever point is
+  // [m] world: centre of the knob of the upright lever, and the middle of the knob's top where the lever point is.
+  glm::dvec3 knob_at_rest() const noexcept;
+  glm::dvec3 knob_top() const noexcept;
   EyePose driver_eye() const noexcept;     // at rest, looking ahead and a little down
 
  private:
@@ -63,7 +71,7 @@ class Stage {
 
 // Named cameras: "driver", "ahead", "lever", "gate", "cluster", "gearbox". What each is for lies in the middle square of
 // the picture: the panel may cover the sides. Throw std::invalid_argument naming them all.
-EyePose camera(std::string_view name);
+EyePose camera(std::string_view name, DriveSide side = DriveSide::left);
 double camera_field(std::string_view name);  // [deg] across the shorter side of the picture
 
 }  // namespace gearshift

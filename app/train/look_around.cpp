@@ -13,7 +13,7 @@ namespace {
 constexpr double kDegree = std::numbers::pi / 180.0;
 }
 
-LookAround::LookAround(std::string_view first) {
+LookAround::LookAround(std::string_view first, DriveSide side) : side_(side) {
   go_to(first);
 }
 
@@ -55,7 +55,7 @@ double LookAround::field() const {
 }
 
 EyePose LookAround::pose() const {
-  EyePose eye = camera(kPlaces[place_]);
+  EyePose eye = camera(kPlaces[place_], side_);
   // Turned about the world's vertical first: the horizon stays level.
   eye.orientation = glm::angleAxis(yaw_, glm::dvec3(0.0, 1.0, 0.0)) * eye.orientation *
                     glm::angleAxis(pitch_, glm::dvec3(1.0, 0.0, 0.0));

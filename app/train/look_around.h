@@ -7,13 +7,15 @@
 
 #include <glm/vec2.hpp>
 
+#include "app/stage/drive_side.h"
 #include "engine/scene/view.h"
 
 namespace gearshift {
 
 class LookAround {
  public:
-  explicit LookAround(std::string_view first);  // throws std::invalid_argument for an unknown camera
+  // Throws std::invalid_argument for an unknown camera.
+  explicit LookAround(std::string_view first, DriveSide side = DriveSide::left);
   void next();
   void go_to(std::string_view place);  // throws as the constructor
   // A shift that is looked at is seen at the lever, where its ways lie, and then again from where it was: but only by the
@@ -27,6 +29,7 @@ class LookAround {
 
  private:
   static constexpr std::array<std::string_view, 6> kPlaces{"driver", "ahead", "lever", "gate", "cluster", "gearbox"};
+  DriveSide side_;
   std::size_t place_ = 0;
   bool replays_shift_ = false;      // in the frame before
   bool left_driver_ = false;        // for it

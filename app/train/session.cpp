@@ -178,7 +178,9 @@ PersonFeet Session::feet(int lever) const {
 }
 
 void Session::show(const Gate& gate, const std::string& text, const YokeGeometry& yoke, Cabin cabin) {
-  stage_ = std::make_unique<Stage>(stage_config(gate, yoke, cabin), assets_folder() / "models");
+  StageConfig config = stage_config(gate, yoke, cabin);
+  config.drive = choice_.drive;
+  stage_ = std::make_unique<Stage>(config, assets_folder() / "models");
   stage_gate_ = text;
   stage_yoke_ = yoke;
   cabin_ = cabin;
@@ -284,12 +286,15 @@ void Session::take_cycles() {
 // After the cycles were taken: no older than the history.
 void Session::look() {
   shown_ = trainer_->snapshot();
+  const double apart = glm::distance(shown_.lever, shown_.proxy) + seen_offset_;
+  if (seen_offset_ > 0.0 && apart > trainer_->config().preset.haptics.ghost_offset) shown_.flags |= kFlagGhost;
   newest_ns_ = shown_.time_ns;
   car_ = trainer_->config().car ? trainer_->car() : standing_car(driven_, shown_.gear);
 }
 
 void Session::place() {
   StageInput input{shown_, car_, time_};
+  input.pointer = pointer_;
   if (player_ && player_->shift()) {
     const RecordedShift& shift = player_->drive().shifts()[*player_->shift()];
     input.driven_way = shift.driven;

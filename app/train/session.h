@@ -77,6 +77,12 @@ class Session {
   bool end_recording();  // false where it failed; what came of it is in message()
   void set_ears(const EyePose& ears) { ears_ = ears; }
   void set_frame_ms(double ms) { frame_ms_ = ms; }
+  void tell(const std::string& news) { message_ = news; }
+  // Of a headset; none: nobody wears one.
+  void set_headset(std::optional<HeadsetReport> report) { panel_.headset = std::move(report); }
+  // How far the seen lever is from the felt one already, before it is clamped: so much less may the clamp take. [m]
+  void set_seen_offset(double offset) { seen_offset_ = offset; }
+  void set_pointer(const std::optional<Beam>& beam) { pointer_ = beam; }  // of a hand that points, in the cabin
   void set_keys(std::vector<KeyHint> keys) { panel_.keys = std::move(keys); }
   void set_mouse_leads(bool leads) { panel_.mouse_leads = leads; }
   bool replays() const { return player_.has_value(); }
@@ -163,6 +169,8 @@ class Session {
   bool is_lost_ = false;    // it cannot be passed any more
   std::optional<CarSwitches> switches_;
   EyePose ears_;
+  double seen_offset_ = 0.0;  // [m]
+  std::optional<Beam> pointer_;
   HapticSnapshot shown_;
   VehicleState car_;                     // that is shown
   std::vector<HapticSnapshot> history_;  // of what is shown, in this frame

@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "app/devices/stick_lever.h"
+#include "app/stage/drive_side.h"
 #include "app/trainer/trainer.h"
 #include "app/training/lesson_result.h"
 #include "engine/sound/sound_world.h"
@@ -28,6 +29,7 @@ struct SessionChoice {
   std::string hand;                   // light, grip, arm, M,B,K or kByItself; empty: the preset's, or a grip
   std::shared_ptr<StickLever> stick;  // that a person holds; none: the simulated lever
   std::string camera = "driver";      // the cabin is laid open for what is looked at
+  DriveSide drive = DriveSide::left;  // where the driver sits
   TrainerClock clock = TrainerClock::real_time;
   SoundOutput sound = SoundOutput::card;
   std::uint64_t seed = 1;               // of the car's chance, and of the hand that needs nobody

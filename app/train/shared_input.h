@@ -14,7 +14,9 @@ class SharedInput {
 
   // Once a frame, before the panel is drawn. seconds: since the last call. picture_width [px]: of one eye's picture, as
   // the panel was drawn into; beside it stands the other eye's.
-  void update(const WindowInput& window, double seconds, double picture_width, const Panel& panel, UiContext& ui);
+  // draws_mouse: nobody else shows where it is.
+  void update(const WindowInput& window, double seconds, double picture_width, const Panel& panel, UiContext& ui,
+              bool draws_mouse = false);
 
   DriverInput& driver() noexcept { return driver_; }
   glm::dvec2 turned() const noexcept {
@@ -22,7 +24,7 @@ class SharedInput {
   }  // [px] the view, in this frame: the right button beside the panel
 
  private:
-  UiEvents for_panel(const WindowInput& window, glm::dvec2 mouse);
+  UiEvents for_panel(const WindowInput& window, glm::dvec2 mouse, bool draws_mouse);
   void look(const WindowInput& window, bool panel_has_mouse);
 
   DriverInput driver_;

@@ -11,6 +11,7 @@
 #include "app/train/gear_lines.h"
 #include "app/train/lesson_lines.h"
 #include "app/train/look_around.h"
+#include "app/train/pointing_hand.h"
 #include "app/train/shared_input.h"
 #include "app/train/ui_scale.h"
 #include "engine/ui/ui.h"
@@ -48,18 +49,22 @@ class WindowTrainer {
   explicit WindowTrainer(const TrainSetup& setup)
       : setup_(setup),
         window_(setup.view.width, setup.view.height, "gearshift"),
-        view_(std::make_unique<CabinView>(setup.view, &window_, &ui_)),
         session_(setup.choice),
         shared_(setup.bindings),
         input_(shared_.driver()),
-        look_(setup.choice.camera),
+        look_(setup.choice.camera, setup.choice.drive),
         last_frame_(Clock::now()) {
+    if (setup.headset) headset_.emplace(*setup.headset, window_, ui_);
+    find_view();
     panel_.set_visible(setup.panel);
     session_.set_keys(key_hints(setup.bindings));
     if (!setup.replay.empty()) session_.look_at(setup.replay, setup.shift);
   }
 
-  bool done() const { return quit_ || window_.wants_close() || StopSignals::asked(); }
+  bool done() const {
+    const bool left = headset_ && headset_->wants_exit();
+    return quit_ || left || window_.wants_close() || StopSignals::asked();
+  }
 
   // The lesson is left, what was being recorded is closed, and what came of both is told. Returns the exit code.
   int finish() {
@@ -80,8 +85,7 @@ class WindowTrainer {
     print_events(session_.events(), !session_.trainer().device().measures_hand_force);
     print_lines(lines_.news(session_.coach().view()), session_.lever_time());
     draw_panel();
-    if (look_.follow_shift(session_.replays_shift())) session_.look_from(look_.place());
-    session_.set_ears(look_.pose());
+    look();
     session_.place();
     show();
   }
@@ -89,11 +93,34 @@ class WindowTrainer {
  private:
   glm::ivec2 eye_size() const { return gearshift::eye_size(setup_.view, window_.framebuffer()); }
 
-  // Sleeps before input is read, not after: what is seen is as new as can be.
+  bool wears() const { return headset_ && headset_->is_open(); }
+
+  // A headset where one is found, else the window alone: the window shows one of them.
+  void find_view() {
+    if (headset_ && headset_->is_found()) {
+      view_.reset();
+      (void)headset_->open();
+      fresh_view_ = true;
+    }
+    if (headset_) tell_news(headset_->take_news());
+    if (wears() || view_) return;
+    view_ = std::make_unique<CabinView>(setup_.view, &window_, &ui_);
+    fresh_view_ = true;
+  }
+
+  void tell_news(const std::string& news) {
+    if (news.empty()) return;
+    fmt::print(stderr, "gearshift: {}\n", printable(news));
+    session_.tell(news);
+  }
+
+  // The headset's display sets the pace while somebody wears it. Else sleeps before input is read, not after: what is seen
+  // is as new as can be.
   void pace() {
+    find_view();
     const auto next =
         last_frame_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(kFastestFrame));
-    std::this_thread::sleep_until(next);
+    if (!wears() || !headset_->begin(session_.stage())) std::this_thread::sleep_until(next);
     const Clock::time_point now = Clock::now();
     const double passed = std::chrono::duration<double>(now - last_frame_).count();
     session_.set_frame_ms(1e3 * passed);
@@ -104,9 +131,24 @@ class WindowTrainer {
   void poll() {
     input_.feel(session_.trainer().snapshot().lever);
     session_.set_mouse_leads(input_.mouse_leads());
-    shared_.update(window_.poll(), seconds_, eye_size().x, panel_, ui_);
+    pointing_.follow(window_.poll(), wears() ? headset_->pointer() : std::nullopt, window_.framebuffer());
+    shared_.update(pointing_.input(), seconds_, eye_size().x, panel_, ui_, pointing_.leads());
     if (setup_.choice.stick) input_.free_mouse();
+    if (wears() && headset_->take_menu()) panel_.set_visible(!panel_.visible());
     look_.turn(shared_.turned());
+  }
+
+  // Who wears a headset looks with the head alone: no camera is moved for him.
+  void look() {
+    session_.set_pointer(wears() ? headset_->beam() : std::nullopt);
+    if (wears()) {
+      session_.set_ears(headset_->head());
+      session_.set_seen_offset(headset_->touch_error());
+      return;
+    }
+    session_.set_seen_offset(0.0);
+    if (look_.follow_shift(session_.replays_shift())) session_.look_from(look_.place());
+    session_.set_ears(look_.pose());
   }
 
   // Another gate, hand or device: the person's hand is where the lever is.
@@ -152,6 +194,7 @@ class WindowTrainer {
         break;
       case Action::recentre:
         look_.recentre();
+        if (headset_) headset_->recentre();
         input_.recentre(session_.trainer().snapshot().lever);
         break;
       case Action::full_screen:
@@ -165,6 +208,7 @@ class WindowTrainer {
         panel_.set_visible(!panel_.visible());
         break;
       case Action::next_camera:
+        if (wears()) break;
         look_.next();
         session_.look_from(look_.place());
         break;
@@ -203,16 +247,26 @@ class WindowTrainer {
 
   void draw_panel() {
     const glm::ivec2 size = eye_size();
+    const float scale = ui_scale_.follow(window_.framebuffer().y, window_.content_scale());
     ui_.begin({static_cast<float>(size.x), static_cast<float>(size.y), static_cast<float>(std::max(seconds_, 1e-4)),
-               ui_scale_.follow(window_.framebuffer().y, window_.content_scale())});
+               wears() ? UiScale::in_headset(scale, size.x) : scale});
+    session_.set_headset(wears() ? std::optional(headset_->report()) : std::nullopt);
     const PanelRequests requests = panel_.draw(session_.panel_input());
     ui_.end();
     help_ = panel_.shows_help();
     if (requests.reset_view) look_.recentre();
+    if (wears()) headset_->obey(requests.headset, session_.trainer().config().preset.haptics.ghost_offset);
     session_.obey(requests);
   }
 
   void show() {
+    if (wears()) {
+      if (session_.take_new_model() || fresh_view_) headset_->set_model(session_.stage().model());
+      fresh_view_ = false;
+      headset_->draw(session_.stage().scene(), seen_beside(panel_, eye_size()), eye_size());
+      return;
+    }
+    if (!view_) return;  // the headset was lost in this frame
     try {
       if (session_.take_new_model() || fresh_view_) view_->set_model(session_.stage().model());
       fresh_view_ = false;
@@ -233,6 +287,8 @@ class WindowTrainer {
   Panel panel_;
   std::unique_ptr<CabinView> view_;
   Session session_;
+  std::optional<WornHeadset> headset_;
+  PointingHand pointing_;
   SharedInput shared_;
   DriverInput& input_;
   LookAround look_;
@@ -262,7 +318,7 @@ int train_in_window(const TrainSetup& setup) {
 int train_offscreen(const TrainSetup& setup, const OffscreenSetup& offscreen) {
   Session session(setup.choice);
   if (!session.message().empty()) fmt::print(stderr, "gearshift: {}\n", session.message());
-  const LookAround look(setup.choice.camera);
+  const LookAround look(setup.choice.camera, setup.choice.drive);
   UiContext ui;
   Panel panel;
   panel.set_visible(setup.panel);

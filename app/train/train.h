@@ -6,6 +6,7 @@
 
 #include "app/input/bindings.h"
 #include "app/train/session.h"
+#include "app/train/worn_headset.h"
 #include "app/view/cabin_view.h"
 
 namespace gearshift {
@@ -15,8 +16,9 @@ struct TrainSetup {
   ViewConfig view;
   Bindings bindings;
   bool panel = true;
-  std::filesystem::path replay;      // a recorded drive to be looked at; empty: none
-  std::optional<std::size_t> shift;  // of it, from 0; none: all of it
+  std::optional<HeadsetSetup> headset;  // none: the desktop alone
+  std::filesystem::path replay;         // a recorded drive to be looked at; empty: none
+  std::optional<std::size_t> shift;     // of it, from 0; none: all of it
 };
 
 // Until the window is closed. Prints a line for each gear. Returns the exit code: 1 where the last recording failed.

@@ -29,6 +29,11 @@ struct TrainArguments {
   std::string database, replay;
   std::optional<std::size_t> shift;
   bool stereo = false, no_panel = false, silent = false;
+  bool xr = false;
+  double xr_scale = 1.0;         // [1]
+  std::string drive;             // left, right; empty: as it was kept for the headset, else left
+  std::optional<double> height;  // [m]
+  std::vector<double> knob;      // [m] right, down, ahead
   bool no_help = false;
   double seconds = 5.0;  // [s]
 };
@@ -51,6 +56,28 @@ std::filesystem::path config_folder() {
   }
 }
 
+DriveSide drive_side(const TrainArguments& arguments, DriveSide else_where) {
+  if (arguments.drive.empty()) return else_where;
+  return arguments.drive == "right" ? DriveSide::right : DriveSide::left;
+}
+
+// What is given counts from now on: it is kept with what was set before.
+HeadsetSetup headset_setup(const TrainArguments& arguments) {
+  HeadsetSetup setup;
+  setup.view.scale = arguments.xr_scale;
+  setup.view.samples = arguments.samples;
+  const std::filesystem::path folder = config_folder();
+  if (!folder.empty()) setup.seat_file = folder / "headset.toml";
+  if (!setup.seat_file.empty()) setup.seat = read_seat(setup.seat_file);
+  setup.seat.drive = drive_side(arguments, setup.seat.drive);
+  if (arguments.height) setup.seat.height = *arguments.height;
+  if (arguments.knob.size() == 3)
+    setup.seat.knob = KnobDistance{arguments.knob[0], arguments.knob[1], arguments.knob[2]};
+  const bool is_new = !arguments.drive.empty() || arguments.height || !arguments.knob.empty();
+  if (is_new && !setup.seat_file.empty()) write_seat(setup.seat, setup.seat_file);
+  return setup;
+}
+
 TrainSetup make_setup(const TrainArguments& arguments) {
   const std::string& hand = arguments.choice.hand;
   if (!hand.empty() && hand != kByItself) (void)driving_hand(hand);  // refuses
@@ -69,6 +96,11 @@ TrainSetup make_setup(const TrainArguments& arguments) {
   setup.replay = arguments.replay;
   if (!setup.replay.empty() && setup.choice.lesson.empty()) setup.choice.lesson = kNoLesson;
   if (arguments.shift) setup.shift = *arguments.shift - 1;
+  setup.choice.drive = drive_side(arguments, DriveSide::left);
+  if (arguments.xr) {
+    setup.headset = headset_setup(arguments);
+    setup.choice.drive = setup.headset->seat.drive;
+  }
   return setup;
 }
 
@@ -153,6 +185,23 @@ void add_train_verb(CLI::App& app, VerbAction& action) {
       ->check(CLI::IsMember({"driver", "ahead", "lever", "gate", "cluster", "gearbox"}))
       ->capture_default_str();
   verb->add_flag("--stereo", arguments->stereo, "both eyes, side by side");
+  verb->add_option("--drive", arguments->drive, "where the driver sits: left or right; in a headset it is kept")
+      ->check(CLI::IsMember({"left", "right"}));
+  CLI::Option* xr =
+      verb->add_flag("--xr", arguments->xr, "in a headset, through OpenXR; the window shows it to others");
+  verb->add_option("--xr-scale", arguments->xr_scale, "of the headset's picture: more is sharper and slower")
+      ->needs(xr)
+      ->check(number_between(0.3, 2.0))
+      ->capture_default_str();
+  verb->add_option("--seat-height", arguments->height, "the seat is raised by [m]; kept")
+      ->needs(xr)
+      ->check(number_between(-0.3, 0.3));
+  verb->add_option("--knob", arguments->knob, "from the eyes of who sits to the real knob [m]; kept")
+      ->type_name("RIGHT,DOWN,AHEAD")
+      ->delimiter(',')
+      ->expected(3)
+      ->needs(xr)
+      ->check(number_between(-1.5, 1.5));
   verb->add_flag("--no-panel", arguments->no_panel, "the cabin alone; F2 shows the panel");
   verb->add_flag("--silent", arguments->silent, "no sound");
   verb->add_option("--offscreen", arguments->offscreen,

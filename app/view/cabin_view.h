@@ -8,6 +8,7 @@
 
 #include <glm/vec2.hpp>
 
+#include "app/view/seen_part.h"
 #include "engine/model/model.h"
 #include "engine/render/renderer.h"
 #include "engine/scene/frame_scene.h"
@@ -28,11 +29,6 @@ struct ViewConfig {
 
 // [px] of the picture that one eye sees of a whole picture of that size: at least 1 x 1. The panel is drawn into it.
 glm::ivec2 eye_size(const ViewConfig& config, glm::ivec2 whole);
-
-// The part of an eye's picture that nothing lies before, in shares of it from the upper left corner. [1]
-struct SeenPart {
-  glm::dvec2 low{0.0}, high{1.0};
-};
 
 // A frustum through a picture of that size whose middle is the part's: the field lies across the part's shorter side.
 // [rad] A part narrower than a fifth of the picture is none: then the whole picture's.

@@ -116,6 +116,7 @@ void feed_mouse(const UiEvents& events) {
   ImGuiIO& io = ImGui::GetIO();
   constexpr float kNowhere = -3.4e38f;  // Dear ImGui's own "no mouse": -FLT_MAX
   const ImVec2 place(static_cast<float>(events.mouse.x), static_cast<float>(events.mouse.y));
+  io.MouseDrawCursor = events.draws_mouse;
   io.MousePos = events.mouse_here ? place : ImVec2(kNowhere, kNowhere);
   std::copy(events.mouse_down.begin(), events.mouse_down.end(), io.MouseDown);
   io.MouseWheel += static_cast<float>(events.scroll.y);

@@ -19,6 +19,7 @@ struct UiKey {
 struct UiEvents {
   glm::dvec2 mouse{0.0};             // [px]
   bool mouse_here = true;            // false: captured by something else, or outside
+  bool draws_mouse = false;          // nobody else shows where it is
   std::array<bool, 5> mouse_down{};  // now: left, right, middle, ...
   glm::dvec2 scroll{0.0};            // [lines] up +
   std::vector<UiKey> keys;           // in order

@@ -1,0 +1,95 @@
+// A headset that somebody wears at the lever: its pictures, where it sits in the cabin, and the hand that points at the
+// panel. It may be lost and come back; without it the caller shows the cabin on the desktop.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "app/headset/hanging_panel.h"
+#include "app/headset/headset_report.h"
+#include "app/headset/seat.h"
+#include "app/headset/seat_file.h"
+#include "app/stage/stage.h"
+#include "app/view/headset_view.h"
+
+namespace gearshift {
+
+struct HeadsetSetup {
+  HeadsetViewConfig view;
+  std::filesystem::path seat_file;  // empty: nothing is kept
+  SeatSettings seat;
+};
+
+class WornHeadset {
+ public:
+  // Nothing of a headset is opened yet. Window and panel outlive it.
+  WornHeadset(const HeadsetSetup& setup, Window& window, UiContext& ui);
+
+  // Is there a runtime with a headset now? Asks once every 2 s. Where there is, the window must be free for open().
+  bool is_found();
+  // What is_found() has found becomes the view. False where that fails: news() says why.
+  bool open();
+  bool is_open() const noexcept { return view_ != nullptr; }
+
+  void set_model(const Model& model);  // of the stage; also while nothing is open
+
+  // A frame, in this order. begin(): waits for the headset's next frame and places the seat; false where nobody wears it
+  // now, and the caller paces. Where the headset is lost everything of it is gone: is_open() says so, news() why.
+  bool begin(const Stage& stage);
+  void draw(const FrameScene& scene, const SeenPart& seen, glm::dvec2 panel_size);
+
+  // Of the frame that has begun.
+  EyePose head() const;  // in the cabin, midway between the eyes
+  struct Pointer {
+    PanelHit hit;
+    bool selects = false;
+    glm::dvec2 scroll{0.0};
+  };
+  const std::optional<Pointer>& pointer() const noexcept { return pointer_; }  // of the hand that points at the panel
+  const std::optional<Beam>& beam() const noexcept { return beam_; }           // from that hand, in the cabin
+  bool take_menu() noexcept;                                                   // once: its button went down
+  bool wants_exit() const noexcept { return wants_exit_; }
+
+  void recentre() noexcept { sits_ = false; }
+  void obey(const HeadsetRequests& requests, double bound);  // bound [m]: how far felt and seen lever may be apart
+  HeadsetReport report() const;
+  double touch_error() const noexcept;  // [m] between felt and seen lever, as far as the seat makes it
+  std::string take_news();              // one sentence, once; empty: none
+
+ private:
+  void lose(const std::string& why);
+  void sit(const Stage& stage);
+  void follow_changes();
+  void follow_hands(const Stage& stage);
+  void touch(const EyePose& hand, const Stage& stage);
+  void keep();
+
+  HeadsetSetup setup_;
+  Window& window_;
+  UiContext& ui_;
+  std::unique_ptr<HeadsetRuntime> found_;
+  std::unique_ptr<HeadsetView> view_;
+  std::chrono::steady_clock::time_point next_try_{};
+  bool tries_ = true;  // again: not where there never was a runtime
+  bool was_open_ = false, told_absent_ = false;
+
+  EyePose cabin_from_room_;
+  bool sits_ = false;        // the seat is placed
+  bool is_touched_ = false;  // by what was touched
+  LeverTouches touches_;
+  bool touching_ = false;
+  double worst_touch_ = 0.0;
+
+  HangingPanel panel_;
+  std::optional<Pointer> pointer_;
+  std::optional<Beam> beam_;
+  std::array<bool, 2> selected_{}, menu_{};  // in the frame before
+  bool menu_pressed_ = false;
+  bool wants_exit_ = false;
+  std::string news_;
+};
+
+}  // namespace gearshift
