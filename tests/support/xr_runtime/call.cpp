@@ -1,0 +1,161 @@
+// What every function does first: handles, structures, rules, planted failures, the log.
+#include <algorithm>
+#include <cstring>
+
+#include "tests/support/xr_runtime/rules.h"
+#include "tests/support/xr_runtime/state.h"
+
+namespace gearshift::xr_test {
+namespace {
+
+void restart(Control& control) {
+  State& s = state();
+  const std::lock_guard lock(s.mutex);
+  control.record = {};
+  s.events.clear();
+  s.begin = 0;
+  s.next_step = 0;
+  s.hidden_until = -1.0;
+  s.origins.clear();
+  count_live();
+}
+
+template <class Handle, class Object>
+Object& found(const Table<Handle, Object>& table, Handle handle) {
+  Object* const object = table.find(handle);
+  require(object != nullptr, "handle_live", Object::kKind);
+  return *object;
+}
+
+struct Header {
+  XrStructureType type;
+  const void* next;
+};
+
+}  // namespace
+
+State& state() {
+  static State* const one = [] {
+    auto* const made = new State;  // outlives the loader's destructors
+    made->control.rules = rules();
+    made->control.restart = restart;
+    read_flow_script(made->control);
+    return made;
+  }();
+  return *one;
+}
+
+void refuse(XrResult result) {
+  throw Refused{result};
+}
+
+void require(bool holds, const char* id, const std::string& detail) {
+  if (holds) return;
+  State& s = state();
+  const Rule& broken = rule(id);
+  s.control.record.violations.push_back({id, s.function, detail});
+  log_line(std::string("violation ") + id + " " + s.function + (detail.empty() ? "" : ": " + detail));
+  if (broken.result != XR_SUCCESS) refuse(broken.result);
+}
+
+std::optional<XrResult> injected_failure(const char* function) {
+  std::vector<Failure>& failures = state().control.script.failures;
+  for (auto failure = failures.begin(); failure != failures.end(); ++failure) {
+    if (failure->function != function || --failure->nth > 0) continue;
+    const XrResult result = failure->result;
+    failures.erase(failure);
+    log_line(std::string("planted ") + function + " " + std::to_string(result));
+    return result;
+  }
+  return std::nullopt;
+}
+
+void log_line(const std::string& line) {
+  state().control.record.log.push_back(line);
+  write_log(line);
+}
+
+void count_live() {
+  State& s = state();
+  s.control.record.live = {{"instance", s.instances.size()},     {"session", s.sessions.size()},
+                           {"space", s.spaces.size()},           {"swapchain", s.swapchains.size()},
+                           {"action set", s.action_sets.size()}, {"action", s.actions.size()}};
+}
+
+void leak(State& s, const char* kind, const char* parent) {
+  s.control.record.leaks.push_back(std::string(kind) + " of " + parent);
+  log_line("leak " + s.control.record.leaks.back());
+}
+
+InstanceObject& live(XrInstance handle) {
+  InstanceObject& instance = found(state().instances, handle);
+  if (instance.lost) refuse(XR_ERROR_INSTANCE_LOST);
+  return instance;
+}
+
+SessionObject& live(XrSession handle) {
+  SessionObject& session = found(state().sessions, handle);
+  live(session.instance);
+  if (session.lost) refuse(XR_ERROR_SESSION_LOST);
+  return session;
+}
+
+SpaceObject& live(XrSpace handle) {
+  SpaceObject& space = found(state().spaces, handle);
+  live(space.session);
+  return space;
+}
+
+SwapchainObject& live(XrSwapchain handle) {
+  SwapchainObject& swapchain = found(state().swapchains, handle);
+  live(swapchain.session);
+  return swapchain;
+}
+
+ActionSetObject& live(XrActionSet handle) {
+  ActionSetObject& set = found(state().action_sets, handle);
+  live(set.instance);
+  return set;
+}
+
+ActionObject& live(XrAction handle) {
+  ActionObject& action = found(state().actions, handle);
+  live(action.set);
+  return action;
+}
+
+void pointer(const void* given, const char* name) {
+  require(given != nullptr, "pointer", name);
+}
+
+bool enabled(const char* extension) {
+  State& s = state();
+  const auto with = s.instances.of([&](const InstanceObject& one) { return one.extensions.contains(extension); });
+  return !with.empty();
+}
+
+void structure(const void* given, XrStructureType type, std::initializer_list<Extends> allowed) {
+  pointer(given, "a structure");
+  const auto* const head = static_cast<const Header*>(given);
+  require(head->type == type, "struct_type", "is " + std::to_string(head->type) + ", not " + std::to_string(type));
+  for (auto* next = static_cast<const Header*>(head->next); next != nullptr;
+       next = static_cast<const Header*>(next->next)) {
+    const auto known = std::find_if(allowed.begin(), allowed.end(),
+                                    [&](const Extends& extends) { return extends.type == next->type; });
+    require(known != allowed.end(), "next_chain", "type " + std::to_string(next->type));
+    require(known->extension == nullptr || enabled(known->extension), "extension_enabled",
+            known->extension == nullptr ? "" : known->extension);
+  }
+}
+
+const void* chained(const void* given, XrStructureType type) {
+  auto* next = static_cast<const Header*>(static_cast<const Header*>(given)->next);
+  while (next != nullptr && next->type != type) next = static_cast<const Header*>(next->next);
+  return next;
+}
+
+}  // namespace gearshift::xr_test
+
+extern "C" __attribute__((visibility("default"))) gearshift::xr_test::Control* gearshift_xr_test_control() {
+  return &gearshift::xr_test::state().control;
+}

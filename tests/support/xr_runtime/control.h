@@ -1,0 +1,265 @@
+// An OpenXR runtime for tests, seen from the test: what it shall play (Script), what it was given (Record).
+// It is found by the loader through XR_RUNTIME_JSON, needs no headset and no display. README.md.
+#pragma once
+
+#include <openxr/openxr.h>
+
+#include <cstdint>
+#include <functional>
+#include <map>
+#include <numbers>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <glm/gtc/quaternion.hpp>
+#include <glm/vec3.hpp>
+
+#include "engine/image/image.h"
+
+namespace gearshift::xr_test {
+
+struct Pose {
+  glm::dvec3 position{0.0};  // [m]
+  glm::dquat orientation{1.0, 0.0, 0.0, 0.0};
+  bool position_valid = true, orientation_valid = true, tracked = true;
+};
+inline Pose operator*(const Pose& a, const Pose& b) {
+  return {a.position + a.orientation * b.position, a.orientation * b.orientation, a.position_valid && b.position_valid,
+          a.orientation_valid && b.orientation_valid, a.tracked && b.tracked};
+}
+inline Pose inverse(const Pose& a) {
+  const glm::dquat back = glm::conjugate(a.orientation);
+  return {back * -a.position, back, a.position_valid, a.orientation_valid, a.tracked};
+}
+
+inline constexpr double kDegree = std::numbers::pi / 180.0;  // [rad]
+
+struct Fov {  // [rad], signs as in XrFovf
+  double left = 0.0, right = 0.0, up = 0.0, down = 0.0;
+};
+
+enum class Space { view, local, stage, action };
+enum class Pacing {
+  stepped,  // each xrWaitFrame is the next display period and nobody sleeps: the same on every machine
+  real,     // sleeps like a compositor; who is late gets the next free period, those between count as dropped
+};
+
+// What happens at a time: one of the makers below.
+struct Event {
+  enum class What {
+    focused,       // shown, and the controllers are the program's
+    visible,       // a menu lies over it
+    synchronized,  // not shown: shouldRender is false
+    stopping,      // the headset was put down
+    ready,         // and picked up again
+    loss_pending,  // the session is lost: its calls give XR_ERROR_SESSION_LOST
+    instance_loss,
+    exit,  // the user closed the program: STOPPING, IDLE, EXITING
+    space_change,
+    profile,  // other controllers; none: empty
+    hidden,   // shouldRender is false for a while, whatever the state
+    stall,    // xrWaitFrame blocks for some display periods: the runtime drops frames
+  };
+  double at = 0.0;  // [s] of Script's clock
+  What what = What::focused;
+  Space space = Space::local;  // of space_change: local or stage
+  Pose pose{};                 // of space_change: the new origin in the space as it was
+  int frames_ahead = 3;        // of space_change: display periods between the event and the change
+  std::string profile{};
+  double span = 0.0;  // [s] of hidden
+  int periods = 0;    // of stall
+};
+inline Event focused(double at) {
+  return {.at = at, .what = Event::What::focused};
+}
+inline Event visible(double at) {
+  return {.at = at, .what = Event::What::visible};
+}
+inline Event synchronized(double at) {
+  return {.at = at, .what = Event::What::synchronized};
+}
+inline Event stopping(double at) {
+  return {.at = at, .what = Event::What::stopping};
+}
+inline Event ready(double at) {
+  return {.at = at, .what = Event::What::ready};
+}
+inline Event lose_session(double at) {
+  return {.at = at, .what = Event::What::loss_pending};
+}
+inline Event lose_instance(double at) {
+  return {.at = at, .what = Event::What::instance_loss};
+}
+inline Event exit(double at) {
+  return {.at = at, .what = Event::What::exit};
+}
+inline Event change_space(double at, Space space, Pose pose, int frames_ahead = 3) {
+  return {.at = at, .what = Event::What::space_change, .space = space, .pose = pose, .frames_ahead = frames_ahead};
+}
+inline Event change_profile(double at, std::string profile) {
+  return {.at = at, .what = Event::What::profile, .profile = std::move(profile)};
+}
+inline Event hidden(double at, double span) {
+  return {.at = at, .what = Event::What::hidden, .span = span};
+}
+inline Event stall(double at, int periods) {
+  return {.at = at, .what = Event::What::stall, .periods = periods};
+}
+
+struct Failure {
+  std::string function{};  // "xrEndFrame"
+  XrResult result = XR_ERROR_RUNTIME_FAILURE;
+  int nth = 1;  // call from now on
+};
+
+struct Hand {
+  std::function<Pose(double)> aim = [](double) { return Pose{}; };
+  std::function<Pose(double)> grip = [](double) { return Pose{}; };
+};
+
+struct Gap {                       // in the head's tracking
+  double from = 0.0, until = 0.0;  // [s]
+  bool valid = false;              // a guess goes on; otherwise there is no pose
+};
+
+struct Capture {                      // of pixels; the records of frames are always kept
+  int every = 0;                      // every n-th frame; 0: none
+  std::vector<std::uint64_t> only{};  // and these
+  bool depth = true;
+};
+
+// All times are seconds of display time since the first xrBeginSession after start(); a later session goes on with it.
+// While no session runs, a stepped clock goes one display period with every xrPollEvent that has no event.
+struct Script {
+  bool headset = true;  // false: XR_ERROR_FORM_FACTOR_UNAVAILABLE
+  bool vulkan_enable2 = true, composition_layer_depth = true, convert_timespec_time = true;  // offered extensions
+  bool stage = true;
+  Pose stage_origin{.position = {0.0, -1.2, 0.0}};                  // in LOCAL as it is at first
+  std::uint32_t recommended_width = 320, recommended_height = 240;  // [px] of an eye
+  std::uint32_t max_width = 4096, max_height = 4096;                // [px]
+  std::uint32_t recommended_samples = 1, max_samples = 4;           // [1]
+  std::uint32_t images = 3;                                         // of a swapchain
+  std::vector<std::int64_t> colour_formats{43, 50, 37, 44};         // VkFormat: R8G8B8A8 and B8G8R8A8, sRGB first
+  std::vector<std::int64_t> depth_formats{126};                     // VkFormat: D32_SFLOAT
+  Fov fov[2] = {{-50 * kDegree, 42 * kDegree, 44 * kDegree, -48 * kDegree},  // left eye
+                {-42 * kDegree, 50 * kDegree, 44 * kDegree, -48 * kDegree}};
+  double eye_distance = 0.063;  // [m]
+  double period = 1.0 / 90.0;   // [s] of the display
+  Pacing pacing = Pacing::stepped;
+  int polls_before_ready = 0;  // xrPollEvent calls without an event between IDLE and READY
+  std::function<Pose(double)> head = [](double) { return Pose{}; };  // in LOCAL as it is at first
+  std::vector<Gap> tracking_gaps{};
+  double early_error = 0.0;  // [m] in x, of each frame's first xrLocateViews only
+  Hand hands[2]{};           // left, right
+  std::string profile = "/interaction_profiles/oculus/touch_controller";
+  std::map<std::string, std::function<double(double)>> inputs{};  // ["/user/hand/right/input/trigger/value"]
+  std::vector<Event> timeline{};
+  std::vector<Failure> failures{};
+  Capture capture{};
+};
+
+struct Rect {
+  int x = 0, y = 0, width = 0, height = 0;  // [px]
+};
+
+struct DepthRecord {
+  bool given = false;
+  float min_depth = 0.0f, max_depth = 0.0f, near_z = 0.0f, far_z = 0.0f;
+  Rect rect{};
+  std::vector<float> values{};  // of the rectangle, rows from the top; empty when not captured
+};
+
+struct ViewRecord {
+  Pose pose{};  // as submitted, in the layer's space
+  Fov fov{};
+  Rect rect{};
+  std::uint32_t layer = 0;  // of the swapchain's array
+  DepthRecord depth{};
+  Image picture{};  // of the rectangle, bytes as stored; empty when not captured
+};
+
+struct LayerRecord {
+  XrStructureType type = XR_TYPE_UNKNOWN;
+  XrCompositionLayerFlags flags = 0;
+  Space space = Space::local;
+  std::vector<ViewRecord> views{};    // of a projection: left, right; of a quad: its pose and picture alone
+  float width = 0.0f, height = 0.0f;  // [m] of a quad
+  XrEyeVisibility eyes = XR_EYE_VISIBILITY_BOTH;
+};
+
+struct FrameRecord {
+  std::uint64_t index = 0;  // of xrWaitFrame
+  double time = 0.0;        // [s] of Script's clock, as predicted
+  XrTime display_time = 0;
+  bool should_render = false;
+  bool discarded = false;  // by the next xrBeginFrame
+  bool ended = false;
+  int locates = 0;                    // xrLocateViews calls between this xrWaitFrame and the next
+  std::vector<LayerRecord> layers{};  // from the farthest to the nearest
+
+  const LayerRecord* projection() const { return first(XR_TYPE_COMPOSITION_LAYER_PROJECTION); }
+  const LayerRecord* quad() const { return first(XR_TYPE_COMPOSITION_LAYER_QUAD); }
+
+ private:
+  const LayerRecord* first(XrStructureType type) const {
+    for (const LayerRecord& layer : layers) {
+      if (layer.type == type) return &layer;
+    }
+    return nullptr;
+  }
+};
+
+struct Rule {
+  const char* id;
+  XrResult result;      // what the function returns; XR_SUCCESS: it goes on
+  const char* section;  // of the OpenXR 1.0 specification
+  const char* law;
+};
+
+struct Violation {
+  std::string rule{}, function{}, detail{};
+};
+
+struct Pulse {  // xrApplyHapticFeedback
+  int hand = 0;
+  double seconds = 0.0;  // 0: the shortest there is
+  float frequency = 0.0f, amplitude = 0.0f;
+};
+
+struct Record {
+  std::vector<FrameRecord> frames{};
+  std::vector<Violation> violations{};
+  std::vector<std::string> leaks{};   // "space of session", handles that died with their parent
+  std::vector<std::string> log{};     // frames, events, states, violations, one line each
+  std::map<std::string, int> live{};  // handles by kind: instance, session, swapchain, space, action set, action
+  std::map<std::string, int> calls{};
+  std::uint64_t dropped = 0;  // display periods without a frame
+  std::vector<Pulse> pulses{};
+  XrSessionState state = XR_SESSION_STATE_UNKNOWN;
+
+  int live_handles() const {
+    int sum = 0;
+    for (const auto& [kind, count] : live) sum += count;
+    return sum;
+  }
+};
+
+struct Control {
+  Script script;  // may be changed while a session runs: poses, inputs, timeline, failures, capture, headset, profile
+  Record record;
+  std::span<const Rule> rules{};
+  void (*restart)(Control&) = nullptr;
+
+  // Before xrCreateInstance: a new script and an empty record.
+  void start(Script next = Script()) {
+    script = std::move(next);
+    restart(*this);
+  }
+};
+
+// Sets XR_RUNTIME_JSON and loads the runtime; the same object at each call. Throws std::runtime_error. (xr_test_control)
+Control& control();
+
+}  // namespace gearshift::xr_test

@@ -1,0 +1,262 @@
+// What actions say: synced, read, and felt.
+#include <algorithm>
+#include <cmath>
+
+#include "tests/support/xr_runtime/functions.h"
+#include "tests/support/xr_runtime/profiles.h"
+#include "tests/support/xr_runtime/state.h"
+
+namespace gearshift::xr_test {
+namespace {
+
+// The paths that an action is bound to on the session's controllers; of one subaction path, or of all.
+std::vector<std::string> sources(const SessionObject& session, XrAction action, XrPath subaction) {
+  const InstanceObject& instance = live(session.instance);
+  const auto suggested = instance.suggestions.find(session.profile);
+  std::vector<std::string> found;
+  if (suggested == instance.suggestions.end()) return found;
+  const std::string user = subaction == XR_NULL_PATH ? "" : path_string(instance, subaction) + "/";
+  for (const XrActionSuggestedBinding& binding : suggested->second) {
+    const std::string& path = path_string(instance, binding.binding);
+    if (binding.action == action && path.starts_with(user)) found.push_back(path);
+  }
+  return found;
+}
+
+ActionValue read_source(const Script& script, XrActionType type, const std::string& path, double t) {
+  ActionValue value{.active = true};
+  if (type == XR_ACTION_TYPE_VECTOR2F_INPUT) {
+    value.x = read_scalar(script, path + "/x", t);
+    value.y = read_scalar(script, path + "/y", t);
+  } else {
+    value.x = read_scalar(script, path, t);
+  }
+  constexpr float kPressed = 0.5f;
+  if (type == XR_ACTION_TYPE_BOOLEAN_INPUT) value.x = value.x >= kPressed ? 1.0f : 0.0f;
+  return value;
+}
+
+// Of several bound inputs the one that is farthest from rest.
+void sync_value(State& s, const SessionObject& session, XrAction handle, ActionObject& action, XrPath subaction) {
+  ActionValue next;
+  for (const std::string& path : sources(session, handle, subaction)) {
+    const ActionValue one = read_source(s.control.script, action.type, path, script_now(s));
+    if (!next.active || std::hypot(one.x, one.y) > std::hypot(next.x, next.y)) next = one;
+  }
+  const ActionValue& last = action.values[subaction];
+  next.changed = next.active && last.active && (next.x != last.x || next.y != last.y);
+  const bool steps = s.control.script.pacing == Pacing::stepped && s.begin != 0;
+  const XrTime now = steps ? display_time(s, std::max<std::int64_t>(s.next_step - 1, 0)) : monotonic_now();
+  next.change_time = next.changed ? now : last.change_time;
+  action.values[subaction] = next;
+}
+
+void sync_action(State& s, const SessionObject& session, XrAction handle) {
+  ActionObject& action = *s.actions.find(handle);
+  sync_value(s, session, handle, action, XR_NULL_PATH);
+  for (const XrPath subaction : action.subactions) sync_value(s, session, handle, action, subaction);
+}
+
+void forget_values(State& s, const SessionObject& session) {
+  for (const XrActionSet set : session.attached) {
+    for (const XrAction one : s.actions.of([&](const ActionObject& action) { return action.set == set; })) {
+      for (auto& [subaction, value] : s.actions.find(one)->values) value.active = value.changed = false;
+    }
+  }
+}
+
+// It changes with xrSyncActions alone, and to one that the program has bindings for.
+void choose_profile(State& s, XrSession handle, SessionObject& session) {
+  const auto& suggestions = live(session.instance).suggestions;
+  const std::string& held = s.control.script.profile;
+  const std::string simple = "/interaction_profiles/khr/simple_controller";
+  std::string next;
+  if (suggestions.contains(held)) {
+    next = held;
+  } else if (!held.empty() && suggestions.contains(simple)) {
+    next = simple;
+  }
+  if (next == session.profile) return;
+  session.profile = next;
+  XrEventDataInteractionProfileChanged changed{XR_TYPE_EVENT_DATA_INTERACTION_PROFILE_CHANGED};
+  changed.session = handle;
+  push_event(s, changed);
+  log_line("event INTERACTION_PROFILE_CHANGED " + next);
+}
+
+bool is_attached(const SessionObject& session, XrActionSet set) {
+  return std::find(session.attached.begin(), session.attached.end(), set) != session.attached.end();
+}
+
+const ActionObject& readable(const SessionObject& session, XrAction handle, XrPath subaction, XrActionType type) {
+  const ActionObject& action = live(handle);
+  require(is_attached(session, action.set), "set_attached");
+  require(action.type == type, "action_type", action.name);
+  check_subaction(action, subaction);
+  return action;
+}
+
+ActionValue value_of(const ActionObject& action, XrPath subaction) {
+  const auto value = action.values.find(subaction);
+  return value == action.values.end() || !value->second.active ? ActionValue{} : value->second;
+}
+
+template <class Out, class Write>
+XrResult get_state(const char* function, XrSession session, const XrActionStateGetInfo* info, Out* out,
+                   XrStructureType type, XrActionType action_type, Write write) {
+  return call(function, [&](State&) {
+    const SessionObject& object = live(session);
+    structure(info, XR_TYPE_ACTION_STATE_GET_INFO);
+    structure(out, type);
+    const ActionValue value =
+        value_of(readable(object, info->action, info->subactionPath, action_type), info->subactionPath);
+    write(value);
+    out->isActive = value.active ? XR_TRUE : XR_FALSE;
+    return XR_SUCCESS;
+  });
+}
+
+template <class Out>
+void write_change(Out* out, const ActionValue& value) {
+  out->changedSinceLastSync = value.changed ? XR_TRUE : XR_FALSE;
+  out->lastChangeTime = value.change_time;
+}
+
+}  // namespace
+
+void check_subaction(const ActionObject& action, XrPath subaction) {
+  if (subaction == XR_NULL_PATH) return;
+  path_string(live(live(action.set).instance), subaction);
+  const bool declared =
+      std::find(action.subactions.begin(), action.subactions.end(), subaction) != action.subactions.end();
+  require(declared, "subaction_path", action.name);
+}
+
+Pose action_pose(const State& s, const SpaceObject& space, double t) {
+  const Pose nowhere{.position_valid = false, .orientation_valid = false, .tracked = false};
+  const ActionObject* const action = s.actions.find(space.action);
+  if (action == nullptr || !value_of(*action, space.subaction).active) return nowhere;
+  for (const std::string& path : sources(live(space.session), space.action, space.subaction)) {
+    const Hand& hand = s.control.script.hands[path.starts_with("/user/hand/left/") ? 0 : 1];
+    if (path.find("/input/aim") != std::string::npos) return hand.aim(t);
+    if (path.find("/input/grip") != std::string::npos) return hand.grip(t);
+  }
+  return nowhere;
+}
+
+namespace xr {
+
+XrResult XRAPI_CALL SyncActions(XrSession session, const XrActionsSyncInfo* info) {
+  return call("xrSyncActions", [&](State& s) {
+    SessionObject& object = live(session);
+    structure(info, XR_TYPE_ACTIONS_SYNC_INFO);
+    for (std::uint32_t i = 0; i < info->countActiveActionSets; ++i) {
+      live(info->activeActionSets[i].actionSet);
+      require(is_attached(object, info->activeActionSets[i].actionSet), "set_attached");
+    }
+    if (object.state != XR_SESSION_STATE_FOCUSED) {
+      forget_values(s, object);
+      return XR_SESSION_NOT_FOCUSED;
+    }
+    choose_profile(s, session, object);
+    std::vector<XrActionSet> active;
+    for (std::uint32_t i = 0; i < info->countActiveActionSets; ++i)
+      active.push_back(info->activeActionSets[i].actionSet);
+    for (const XrAction one : s.actions.of([&](const ActionObject& action) {
+           return std::find(active.begin(), active.end(), action.set) != active.end();
+         })) {
+      sync_action(s, object, one);
+    }
+    return XR_SUCCESS;
+  });
+}
+
+XrResult XRAPI_CALL GetActionStateBoolean(XrSession session, const XrActionStateGetInfo* info,
+                                          XrActionStateBoolean* state) {
+  return get_state("xrGetActionStateBoolean", session, info, state, XR_TYPE_ACTION_STATE_BOOLEAN,
+                   XR_ACTION_TYPE_BOOLEAN_INPUT, [&](const ActionValue& value) {
+                     state->currentState = value.x > 0.0f ? XR_TRUE : XR_FALSE;
+                     write_change(state, value);
+                   });
+}
+
+XrResult XRAPI_CALL GetActionStateFloat(XrSession session, const XrActionStateGetInfo* info,
+                                        XrActionStateFloat* state) {
+  return get_state("xrGetActionStateFloat", session, info, state, XR_TYPE_ACTION_STATE_FLOAT,
+                   XR_ACTION_TYPE_FLOAT_INPUT, [&](const ActionValue& value) {
+                     state->currentState = value.x;
+                     write_change(state, value);
+                   });
+}
+
+XrResult XRAPI_CALL GetActionStateVector2f(XrSession session, const XrActionStateGetInfo* info,
+                                           XrActionStateVector2f* state) {
+  return get_state("xrGetActionStateVector2f", session, info, state, XR_TYPE_ACTION_STATE_VECTOR2F,
+                   XR_ACTION_TYPE_VECTOR2F_INPUT, [&](const ActionValue& value) {
+                     state->currentState = {value.x, value.y};
+                     write_change(state, value);
+                   });
+}
+
+XrResult XRAPI_CALL GetActionStatePose(XrSession session, const XrActionStateGetInfo* info, XrActionStatePose* state) {
+  return get_state("xrGetActionStatePose", session, info, state, XR_TYPE_ACTION_STATE_POSE, XR_ACTION_TYPE_POSE_INPUT,
+                   [](const ActionValue&) {});
+}
+
+XrResult XRAPI_CALL EnumerateBoundSourcesForAction(XrSession session, const XrBoundSourcesForActionEnumerateInfo* info,
+                                                   std::uint32_t capacity, std::uint32_t* count, XrPath* paths) {
+  return call("xrEnumerateBoundSourcesForAction", [&](State&) {
+    const SessionObject& object = live(session);
+    structure(info, XR_TYPE_BOUND_SOURCES_FOR_ACTION_ENUMERATE_INFO);
+    require(is_attached(object, live(info->action).set), "set_attached");
+    InstanceObject& instance = live(object.instance);
+    return fill(capacity, count, paths, sources(object, info->action, XR_NULL_PATH),
+                [&](XrPath& to, const std::string& from) { to = path_number(instance, from); });
+  });
+}
+
+XrResult XRAPI_CALL GetInputSourceLocalizedName(XrSession session, const XrInputSourceLocalizedNameGetInfo* info,
+                                                std::uint32_t capacity, std::uint32_t* count, char* buffer) {
+  return call("xrGetInputSourceLocalizedName", [&](State&) {
+    const SessionObject& object = live(session);
+    structure(info, XR_TYPE_INPUT_SOURCE_LOCALIZED_NAME_GET_INFO);
+    require(object.has_attached, "set_attached");
+    // A name for people, which nobody shall take apart: the path's parts.
+    std::string name = path_string(live(object.instance), info->sourcePath).substr(1);
+    std::replace(name.begin(), name.end(), '/', ' ');
+    return fill_text(capacity, count, buffer, name);
+  });
+}
+
+XrResult XRAPI_CALL ApplyHapticFeedback(XrSession session, const XrHapticActionInfo* info,
+                                        const XrHapticBaseHeader* what) {
+  return call("xrApplyHapticFeedback", [&](State& s) {
+    const SessionObject& object = live(session);
+    structure(info, XR_TYPE_HAPTIC_ACTION_INFO);
+    structure(what, XR_TYPE_HAPTIC_VIBRATION);
+    readable(object, info->action, info->subactionPath, XR_ACTION_TYPE_VIBRATION_OUTPUT);
+    const auto& pulse = reinterpret_cast<const XrHapticVibration&>(*what);
+    const bool lasts = pulse.duration > 0 || pulse.duration == XR_MIN_HAPTIC_DURATION;
+    require(lasts && pulse.amplitude >= 0.0f && pulse.amplitude <= 1.0f && pulse.frequency >= 0.0f, "haptic");
+    if (object.state != XR_SESSION_STATE_FOCUSED) return XR_SESSION_NOT_FOCUSED;
+    const double length = pulse.duration > 0 ? static_cast<double>(pulse.duration) * 1e-9 : 0.0;
+    for (const std::string& path : sources(object, info->action, info->subactionPath)) {
+      const int hand = path.starts_with("/user/hand/left/") ? 0 : 1;
+      s.control.record.pulses.push_back({hand, length, pulse.frequency, pulse.amplitude});
+      log_line("pulse " + path);
+    }
+    return XR_SUCCESS;
+  });
+}
+
+XrResult XRAPI_CALL StopHapticFeedback(XrSession session, const XrHapticActionInfo* info) {
+  return call("xrStopHapticFeedback", [&](State&) {
+    const SessionObject& object = live(session);
+    structure(info, XR_TYPE_HAPTIC_ACTION_INFO);
+    readable(object, info->action, info->subactionPath, XR_ACTION_TYPE_VIBRATION_OUTPUT);
+    return object.state == XR_SESSION_STATE_FOCUSED ? XR_SUCCESS : XR_SESSION_NOT_FOCUSED;
+  });
+}
+
+}  // namespace xr
+}  // namespace gearshift::xr_test

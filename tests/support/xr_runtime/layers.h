@@ -1,0 +1,10 @@
+// What a frame submits, checked and written down.
+#pragma once
+
+#include "tests/support/xr_runtime/state.h"
+
+namespace gearshift::xr_test {
+
+std::vector<LayerRecord> read_layers(const XrFrameEndInfo& info);
+
+}  // namespace gearshift::xr_test

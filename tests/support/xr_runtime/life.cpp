@@ -1,0 +1,152 @@
+// A session's states and what the timeline does to them: the order is always a legal one.
+#include <algorithm>
+#include <string>
+
+#include "tests/support/xr_runtime/state.h"
+
+namespace gearshift::xr_test {
+namespace {
+
+const char* state_name(XrSessionState state) {
+  static const char* const kNames[] = {"UNKNOWN", "IDLE",     "READY",        "SYNCHRONIZED", "VISIBLE",
+                                       "FOCUSED", "STOPPING", "LOSS_PENDING", "EXITING"};
+  return kNames[state];
+}
+
+XrTime event_time(const State& s) {
+  if (s.begin == 0 || s.control.script.pacing == Pacing::real) return monotonic_now();
+  return display_time(s, std::max<std::int64_t>(s.next_step - 1, 0));
+}
+
+void change_origin(State& s, XrSession handle, const Event& event) {
+  std::vector<OriginChange>& changes = s.origins[event.space];
+  const Pose at_first = event.space == Space::stage ? s.control.script.stage_origin : Pose{};
+  const Pose before = changes.empty() ? at_first : changes.back().origin;
+  const XrTime time = display_time(s, s.next_step + event.frames_ahead);
+  changes.push_back({time, before * event.pose});
+  const bool stage = event.space == Space::stage;
+  XrEventDataReferenceSpaceChangePending pending{XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING};
+  pending.session = handle;
+  pending.referenceSpaceType = stage ? XR_REFERENCE_SPACE_TYPE_STAGE : XR_REFERENCE_SPACE_TYPE_LOCAL;
+  pending.changeTime = time;
+  pending.poseValid = XR_TRUE;
+  pending.poseInPreviousSpace = to_xr(event.pose);
+  push_event(s, pending);
+  log_line(std::string("event REFERENCE_SPACE_CHANGE_PENDING ") + (stage ? "STAGE" : "LOCAL"));
+}
+
+void lose_instances(State& s) {
+  for (const XrInstance handle : s.instances.of([](const InstanceObject&) { return true; })) {
+    s.instances.find(handle)->lost = true;
+    XrEventDataInstanceLossPending loss{XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING};
+    loss.lossTime = event_time(s);
+    push_event(s, loss);
+    log_line("event INSTANCE_LOSS_PENDING");
+  }
+}
+
+void step_down(State& s, XrSession handle, SessionObject& session, XrSessionState target) {
+  while (session.state > target && session.state <= XR_SESSION_STATE_FOCUSED) {
+    set_state(s, handle, session, static_cast<XrSessionState>(session.state - 1));
+  }
+}
+
+void stop(State& s, XrSession handle, SessionObject& session) {
+  if (!session.running) return;
+  session.stop_wanted = true;
+  walk(s, handle, session);
+}
+
+void leave(State& s, XrSession handle, SessionObject& session) {
+  session.exit_requested = true;
+  if (session.running) return stop(s, handle, session);
+  if (session.state == XR_SESSION_STATE_IDLE) set_state(s, handle, session, XR_SESSION_STATE_EXITING);
+}
+
+void play_for_session(State& s, const Event& event, XrSession handle, SessionObject& session) {
+  switch (event.what) {
+    case Event::What::focused:
+      session.wanted = XR_SESSION_STATE_FOCUSED;
+      break;
+    case Event::What::visible:
+      session.wanted = XR_SESSION_STATE_VISIBLE;
+      break;
+    case Event::What::synchronized:
+      session.wanted = XR_SESSION_STATE_SYNCHRONIZED;
+      break;
+    case Event::What::stopping:
+      return stop(s, handle, session);
+    case Event::What::ready:
+      session.ready_wanted = true;
+      break;
+    case Event::What::exit:
+      return leave(s, handle, session);
+    case Event::What::loss_pending:
+      set_state(s, handle, session, XR_SESSION_STATE_LOSS_PENDING);
+      session.lost = true;
+      return;
+    case Event::What::space_change:
+      return change_origin(s, handle, event);
+    default:
+      break;
+  }
+  if (session.running) step_down(s, handle, session, session.wanted);
+  if (session.ready_wanted && session.state == XR_SESSION_STATE_IDLE) {
+    session.ready_wanted = false;
+    set_state(s, handle, session, XR_SESSION_STATE_READY);
+  }
+}
+
+void play(State& s, const Event& event) {
+  if (event.what == Event::What::instance_loss) return lose_instances(s);
+  if (event.what == Event::What::hidden) s.hidden_until = event.at + event.span;
+  if (event.what == Event::What::stall) stall_periods(s, event.periods);
+  if (event.what == Event::What::profile) s.control.script.profile = event.profile;
+  for (const XrSession handle : s.sessions.of([](const SessionObject& one) { return !one.lost; })) {
+    play_for_session(s, event, handle, *s.sessions.find(handle));
+  }
+}
+
+}  // namespace
+
+void set_state(State& s, XrSession handle, SessionObject& session, XrSessionState next) {
+  session.state = next;
+  s.control.record.state = next;
+  XrEventDataSessionStateChanged changed{XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED};
+  changed.session = handle;
+  changed.state = next;
+  changed.time = event_time(s);
+  push_event(s, changed);
+  log_line(std::string("state ") + state_name(next));
+}
+
+void play_timeline(State& s, double until) {
+  if (s.begin == 0) return;
+  std::vector<Event>& timeline = s.control.script.timeline;
+  constexpr double kNanosecond = 1e-9;  // [s] that display times are rounded to
+  while (true) {
+    const auto next =
+        std::min_element(timeline.begin(), timeline.end(), [](const Event& a, const Event& b) { return a.at < b.at; });
+    if (next == timeline.end() || next->at > until + kNanosecond) return;
+    const Event event = *next;
+    timeline.erase(next);
+    play(s, event);
+  }
+}
+
+void walk(State& s, XrSession handle, SessionObject& session) {
+  if (session.stop_wanted) {
+    step_down(s, handle, session, XR_SESSION_STATE_SYNCHRONIZED);
+    if (session.state != XR_SESSION_STATE_STOPPING) set_state(s, handle, session, XR_SESSION_STATE_STOPPING);
+    return;
+  }
+  // The first frame is needed for SYNCHRONIZED; then one state a frame, as far as it is shown.
+  if (session.waits < 1 || session.state >= XR_SESSION_STATE_STOPPING) return;
+  if (session.state < session.wanted) {
+    set_state(s, handle, session, static_cast<XrSessionState>(session.state + 1));
+  } else {
+    step_down(s, handle, session, session.wanted);
+  }
+}
+
+}  // namespace gearshift::xr_test

@@ -1,0 +1,13 @@
+// The table of what is checked.
+#pragma once
+
+#include <span>
+
+#include "tests/support/xr_runtime/control.h"
+
+namespace gearshift::xr_test {
+
+std::span<const Rule> rules();
+const Rule& rule(const char* id);
+
+}  // namespace gearshift::xr_test

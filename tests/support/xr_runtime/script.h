@@ -1,0 +1,12 @@
+// The text of a script. README.md has its words.
+#pragma once
+
+#include <filesystem>
+
+#include "tests/support/xr_runtime/control.h"
+
+namespace gearshift::xr_test {
+
+Script read_script(const std::filesystem::path& file);  // throws std::runtime_error
+
+}  // namespace gearshift::xr_test

@@ -1,0 +1,123 @@
+// Sessions: made, begun, ended, asked to leave.
+#include "tests/support/xr_runtime/functions.h"
+#include "tests/support/xr_runtime/state.h"
+
+namespace gearshift::xr_test {
+namespace {
+
+template <class Table, class Drop>
+void drop_children(State& s, XrSession session, const Table& table, const char* kind, Drop drop) {
+  for (const auto handle : table.of([&](const auto& one) { return one.session == session; })) {
+    leak(s, kind, "session");
+    drop(handle);
+  }
+}
+
+Graphics bind(State& s, const XrSessionCreateInfo& info) {
+  const auto* const binding =
+      static_cast<const XrGraphicsBindingVulkanKHR*>(chained(&info, XR_TYPE_GRAPHICS_BINDING_VULKAN_KHR));
+  require(binding != nullptr, "graphics_binding", "there is none");
+  const auto made = s.vulkan_devices.find(binding->device);
+  require(made != s.vulkan_devices.end(), "graphics_binding", "the device is not of xrCreateVulkanDeviceKHR");
+  require(made->second == binding->physicalDevice, "graphics_binding", "physicalDevice");
+  require(s.vulkan_physicals.at(made->second) == binding->instance, "graphics_binding", "instance");
+  const PFN_vkGetInstanceProcAddr get = s.vulkan_instances.at(binding->instance);
+  return open_graphics(*binding, get);
+}
+
+}  // namespace
+
+void drop_session(State& s, XrSession handle) {
+  SessionObject& session = *s.sessions.find(handle);
+  drop_children(s, handle, s.swapchains, "swapchain", [&](XrSwapchain one) { drop_swapchain(s, one); });
+  drop_children(s, handle, s.spaces, "space", [&](XrSpace one) { s.spaces.erase(one); });
+  close_graphics(session.graphics);
+  s.sessions.erase(handle);
+}
+
+namespace xr {
+
+XrResult XRAPI_CALL CreateSession(XrInstance instance, const XrSessionCreateInfo* info, XrSession* session) {
+  return call("xrCreateSession", [&](State& s) {
+    const InstanceObject& of = live(instance);
+    structure(info, XR_TYPE_SESSION_CREATE_INFO,
+              {{XR_TYPE_GRAPHICS_BINDING_VULKAN_KHR, XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME}});
+    pointer(session, "session");
+    require_system(info->systemId);
+    require(of.asked_requirements, "graphics_requirements");
+    if (s.sessions.size() != 0) return XR_ERROR_LIMIT_REACHED;
+    SessionObject made{.instance = instance, .graphics = bind(s, *info)};
+    made.polls_before_ready = s.control.script.polls_before_ready;
+    *session = s.sessions.add(std::move(made));
+    SessionObject& object = *s.sessions.find(*session);
+    set_state(s, *session, object, XR_SESSION_STATE_IDLE);
+    if (object.polls_before_ready == 0) set_state(s, *session, object, XR_SESSION_STATE_READY);
+    count_live();
+    return XR_SUCCESS;
+  });
+}
+
+XrResult XRAPI_CALL DestroySession(XrSession session) {
+  return call("xrDestroySession", [&](State& s) {
+    require(s.sessions.find(session) != nullptr, "handle_live", "session");
+    drop_session(s, session);
+    // No event of a session that is gone.
+    std::erase_if(s.events, [&](const XrEventDataBuffer& event) {
+      return event.type == XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED &&
+             reinterpret_cast<const XrEventDataSessionStateChanged&>(event).session == session;
+    });
+    count_live();
+    return XR_SUCCESS;
+  });
+}
+
+XrResult XRAPI_CALL BeginSession(XrSession session, const XrSessionBeginInfo* info) {
+  return call("xrBeginSession", [&](State& s) {
+    SessionObject& object = live(session);
+    structure(info, XR_TYPE_SESSION_BEGIN_INFO);
+    require(!object.running, "session_begun_twice");
+    require(object.state == XR_SESSION_STATE_READY, "session_ready");
+    require_stereo(info->primaryViewConfigurationType);
+    if (s.begin == 0) s.begin = monotonic_now();
+    object.running = true;
+    object.stop_wanted = false;
+    object.waits = 0;
+    object.last_display = 0;
+    log_line("begin");
+    return XR_SUCCESS;
+  });
+}
+
+XrResult XRAPI_CALL EndSession(XrSession session) {
+  return call("xrEndSession", [&](State& s) {
+    SessionObject& object = live(session);
+    require(object.running, "session_running");
+    require(object.state == XR_SESSION_STATE_STOPPING, "session_stopping");
+    object.running = object.stop_wanted = false;
+    object.waited.reset();
+    object.begun.reset();
+    log_line("end");
+    set_state(s, session, object, XR_SESSION_STATE_IDLE);
+    if (object.exit_requested) {
+      set_state(s, session, object, XR_SESSION_STATE_EXITING);
+    } else if (object.ready_wanted) {
+      object.ready_wanted = false;
+      set_state(s, session, object, XR_SESSION_STATE_READY);
+    }
+    return XR_SUCCESS;
+  });
+}
+
+XrResult XRAPI_CALL RequestExitSession(XrSession session) {
+  return call("xrRequestExitSession", [&](State& s) {
+    SessionObject& object = live(session);
+    require(object.running, "session_running");
+    object.exit_requested = true;
+    object.stop_wanted = true;
+    walk(s, session, object);
+    return XR_SUCCESS;
+  });
+}
+
+}  // namespace xr
+}  // namespace gearshift::xr_test

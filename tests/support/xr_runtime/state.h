@@ -1,0 +1,277 @@
+// All that the runtime holds: one of it in the process, and it stays when the loader lets go of the library.
+#pragma once
+
+#include <deque>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+#include <vector>
+
+#include "tests/support/xr_runtime/control.h"
+#include "tests/support/xr_runtime/vulkan.h"
+
+namespace gearshift::xr_test {
+
+struct InstanceObject {
+  static constexpr const char* kKind = "instance";
+  std::set<std::string> extensions{};
+  std::vector<std::string> paths{};                                            // XrPath is the index plus one
+  std::map<std::string, std::vector<XrActionSuggestedBinding>> suggestions{};  // by interaction profile
+  bool asked_requirements = false;
+  bool lost = false;
+};
+
+struct FrameState {
+  XrTime time = 0;
+  std::size_t record = 0;  // in Record::frames
+};
+
+struct SessionObject {
+  static constexpr const char* kKind = "session";
+  XrInstance instance = XR_NULL_HANDLE;
+  Graphics graphics{};
+  XrSessionState state = XR_SESSION_STATE_UNKNOWN;
+  XrSessionState wanted = XR_SESSION_STATE_FOCUSED;  // where the runtime walks to while frames go on
+  int polls_before_ready = 0;
+  bool running = false, lost = false;
+  bool exit_requested = false, stop_wanted = false, ready_wanted = false;
+  int waits = 0;                       // since xrBeginSession
+  int locates = 0;                     // xrLocateViews since xrWaitFrame
+  std::optional<FrameState> waited{};  // and not yet begun
+  std::optional<FrameState> begun{};   // and not yet ended
+  XrTime last_display = 0;
+  std::vector<XrActionSet> attached{};
+  bool has_attached = false;
+  std::string profile{};  // that its controllers have now
+};
+
+struct SpaceObject {
+  static constexpr const char* kKind = "space";
+  XrSession session = XR_NULL_HANDLE;
+  Space type = Space::local;
+  Pose pose{};                       // in the reference space, or in the action's
+  XrAction action = XR_NULL_HANDLE;  // of an action space
+  XrPath subaction = XR_NULL_PATH;
+};
+
+struct SwapchainObject {
+  static constexpr const char* kKind = "swapchain";
+  XrSession session = XR_NULL_HANDLE;
+  XrSwapchainCreateInfo info{};
+  std::vector<SwapchainImage> images{};
+  std::deque<std::uint32_t> acquired{};  // the first may have been waited for
+  bool waited = false;
+  std::uint32_t next = 0;
+  std::optional<std::uint32_t> released{};  // the last one
+};
+
+struct ActionSetObject {
+  static constexpr const char* kKind = "action set";
+  XrInstance instance = XR_NULL_HANDLE;
+  std::string name{}, localized{};
+  bool attached = false;
+};
+
+struct ActionValue {  // as of the last xrSyncActions
+  float x = 0.0f, y = 0.0f;
+  bool active = false, changed = false;
+  XrTime change_time = 0;
+};
+
+struct ActionObject {
+  static constexpr const char* kKind = "action";
+  XrActionSet set = XR_NULL_HANDLE;
+  std::string name{}, localized{};
+  XrActionType type = XR_ACTION_TYPE_BOOLEAN_INPUT;
+  std::vector<XrPath> subactions{};
+  std::map<XrPath, ActionValue> values{};  // by subaction path; XR_NULL_PATH: all of them
+};
+
+// Live objects of one kind. Handles are never used twice, so that a dead one is noticed.
+template <class Handle, class Object>
+class Table {
+ public:
+  Handle add(Object object) {
+    static std::uint64_t count = 0;
+    // No neighbour of a live handle is one.
+    const auto id = (++count * 0x9e3779b97f4a7c15u) | 1u;
+    const auto handle = reinterpret_cast<Handle>(id);
+    objects_.emplace(handle, std::make_unique<Object>(std::move(object)));
+    return handle;
+  }
+  Object* find(Handle handle) const {
+    const auto found = objects_.find(handle);
+    return found == objects_.end() ? nullptr : found->second.get();
+  }
+  void erase(Handle handle) { objects_.erase(handle); }
+  int size() const { return static_cast<int>(objects_.size()); }
+  template <class Belongs>
+  std::vector<Handle> of(Belongs belongs) const {
+    std::vector<Handle> found;
+    for (const auto& [handle, object] : objects_) {
+      if (belongs(*object)) found.push_back(handle);
+    }
+    return found;
+  }
+
+ private:
+  std::unordered_map<Handle, std::unique_ptr<Object>> objects_;
+};
+
+struct OriginChange {
+  XrTime time = 0;
+  Pose origin{};  // in the head's world
+};
+
+struct State {
+  Control control;
+  std::recursive_mutex mutex;
+  const char* function = "";  // that the program is in
+  Table<XrInstance, InstanceObject> instances;
+  Table<XrSession, SessionObject> sessions;
+  Table<XrSpace, SpaceObject> spaces;
+  Table<XrSwapchain, SwapchainObject> swapchains;
+  Table<XrActionSet, ActionSetObject> action_sets;
+  Table<XrAction, ActionObject> actions;
+  std::deque<XrEventDataBuffer> events{};
+  // The script's clock.
+  XrTime begin = 0;            // of the first xrBeginSession; 0: it has not begun
+  std::int64_t next_step = 0;  // the display period that comes next
+  double hidden_until = -1.0;  // [s]
+  std::map<Space, std::vector<OriginChange>> origins{};
+  // Vulkan objects made through the runtime.
+  std::map<VkInstance, PFN_vkGetInstanceProcAddr> vulkan_instances{};
+  std::map<VkPhysicalDevice, VkInstance> vulkan_physicals{};
+  std::map<VkDevice, VkPhysicalDevice> vulkan_devices{};
+};
+State& state();
+
+// ---- the frame of each call (call.cpp)
+
+struct Refused {  // thrown: what the function returns
+  XrResult result;
+};
+// The rule holds or it is written down and the function returns the rule's result (goes on where that is XR_SUCCESS).
+void require(bool holds, const char* rule, const std::string& detail = {});
+[[noreturn]] void refuse(XrResult result);
+std::optional<XrResult> injected_failure(const char* function);
+void log_line(const std::string& line);  // to the record, and to the file of a flow
+void count_live();
+
+template <class Body>
+XrResult call(const char* function, Body&& body) {
+  State& s = state();
+  const std::lock_guard lock(s.mutex);
+  s.function = function;
+  ++s.control.record.calls[function];
+  try {
+    if (const auto failure = injected_failure(function)) return *failure;
+    return body(s);
+  } catch (const Refused& refused) {
+    return refused.result;
+  } catch (const std::exception& error) {
+    log_line(std::string("error ") + function + ": " + error.what());
+    return XR_ERROR_RUNTIME_FAILURE;
+  }
+}
+
+// A live object, whose instance and session are not lost.
+InstanceObject& live(XrInstance handle);
+SessionObject& live(XrSession handle);
+SpaceObject& live(XrSpace handle);
+SwapchainObject& live(XrSwapchain handle);
+ActionSetObject& live(XrActionSet handle);
+ActionObject& live(XrAction handle);
+
+void pointer(const void* given, const char* name);
+bool enabled(const char* extension);  // by the one instance
+
+// The chain of a structure: its type, and nothing unknown behind it. `allowed`: type and the extension that brings it.
+struct Extends {
+  XrStructureType type;
+  const char* extension = nullptr;
+};
+void structure(const void* given, XrStructureType type, std::initializer_list<Extends> allowed = {});
+const void* chained(const void* given, XrStructureType type);  // nullptr when it is not there
+
+// The two calls of section "Buffer Size Parameters".
+template <class Out, class Items, class Write>
+XrResult fill(std::uint32_t capacity, std::uint32_t* count, Out* out, const Items& items, Write write) {
+  pointer(count, "the count");
+  *count = static_cast<std::uint32_t>(items.size());
+  if (capacity == 0) return XR_SUCCESS;
+  if (capacity < *count) return XR_ERROR_SIZE_INSUFFICIENT;
+  pointer(out, "the buffer");
+  for (std::size_t i = 0; i < items.size(); ++i) write(out[i], items[i]);
+  return XR_SUCCESS;
+}
+template <class Out, class Items>
+XrResult fill(std::uint32_t capacity, std::uint32_t* count, Out* out, const Items& items) {
+  return fill(capacity, count, out, items, [](Out& to, const auto& from) { to = static_cast<Out>(from); });
+}
+
+// ---- time (clock.cpp)
+
+XrTime monotonic_now();
+XrDuration period(const State& s);
+double seconds(const State& s, XrTime time);  // of the script's clock
+XrTime display_time(const State& s, std::int64_t step);
+double script_now(const State& s);
+std::int64_t next_display_period(State& s, XrTime last);  // sleeps with Pacing::real; counts what was dropped
+void stall_periods(State& s, int periods);
+
+// ---- life (life.cpp)
+
+template <class T>
+void push_event(State& s, const T& event) {
+  static_assert(sizeof(T) <= sizeof(XrEventDataBuffer));
+  XrEventDataBuffer buffer{XR_TYPE_EVENT_DATA_BUFFER, nullptr, {}};
+  *reinterpret_cast<T*>(&buffer) = event;
+  s.events.push_back(buffer);
+}
+void set_state(State& s, XrSession handle, SessionObject& session, XrSessionState next);
+void play_timeline(State& s, double until);                     // what is due by then
+void walk(State& s, XrSession handle, SessionObject& session);  // one legal step towards what is wanted
+
+// ---- spaces (space.cpp)
+
+Pose from_xr(const XrPosef& pose);
+XrPosef to_xr(const Pose& pose);
+void unit_pose(const XrPosef& pose, const char* what);
+Pose head_at(const State& s, double t);
+Pose place(const State& s, const SpaceObject& space, XrTime time);  // in the head's world
+
+// ---- paths, actions (paths.cpp, actions.cpp, input.cpp)
+
+const std::string& path_string(const InstanceObject& instance, XrPath path);
+XrPath path_number(InstanceObject& instance, const std::string& text);
+bool is_path_part(std::string_view part);
+int hand_of(XrPath path, const InstanceObject& instance);  // -1: no hand
+XrResult fill_text(std::uint32_t capacity, std::uint32_t* count, char* buffer, const std::string& text);
+void check_subaction(const ActionObject& action, XrPath subaction);
+Pose action_pose(const State& s, const SpaceObject& space, double t);
+
+// ---- system (instance.cpp)
+
+void require_system(XrSystemId system);
+void require_stereo(XrViewConfigurationType type);
+
+// ---- ends: parents take their children along
+
+void drop_session(State& s, XrSession handle);
+void drop_swapchain(State& s, XrSwapchain handle);
+void drop_action_set(State& s, XrActionSet handle);
+void leak(State& s, const char* kind, const char* parent);
+
+// ---- capture (capture.cpp) and flows (flow.cpp)
+
+void capture_frame(State& s, const XrFrameEndInfo& info, const SessionObject& session, FrameRecord& record);
+void write_pictures(const FrameRecord& record);  // in a flow
+void write_log(const std::string& line);
+void read_flow_script(Control& control);  // GEARSHIFT_XR_SCRIPT
+
+}  // namespace gearshift::xr_test

@@ -1,0 +1,136 @@
+// Swapchains: their images go to the program one after the other.
+#include <algorithm>
+
+#include "tests/support/xr_runtime/functions.h"
+#include "tests/support/xr_runtime/state.h"
+
+namespace gearshift::xr_test {
+namespace {
+
+std::vector<std::int64_t> formats(const Script& script) {
+  std::vector<std::int64_t> all = script.colour_formats;
+  all.insert(all.end(), script.depth_formats.begin(), script.depth_formats.end());
+  return all;
+}
+
+bool within(std::uint32_t value, std::uint32_t most) {
+  return value >= 1 && value <= most;
+}
+
+void check_create_info(const Script& script, const XrSwapchainCreateInfo& info) {
+  const std::vector<std::int64_t> known = formats(script);
+  require(std::find(known.begin(), known.end(), info.format) != known.end(), "swapchain_format",
+          std::to_string(info.format));
+  constexpr std::uint32_t kMostLayers = 2048, kMostLevels = 16;
+  require(within(info.width, script.max_width) && within(info.height, script.max_height), "swapchain_size", "extent");
+  require(within(info.sampleCount, script.max_samples), "swapchain_size", "sampleCount");
+  require(within(info.arraySize, kMostLayers) && within(info.mipCount, kMostLevels), "swapchain_size",
+          "layers, levels");
+  require(info.faceCount == 1 || info.faceCount == 6, "swapchain_size", "faceCount");
+  const XrSwapchainUsageFlags foreign =
+      is_depth(info.format) ? XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT : XR_SWAPCHAIN_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
+  require((info.usageFlags & foreign) == 0, "swapchain_usage");
+  constexpr XrSwapchainUsageFlags kKnown = 0x7f;
+  require((info.usageFlags & ~kKnown) == 0, "swapchain_usage", "an unknown bit");
+  // What a runtime need not have.
+  if (info.faceCount != 1 || info.arraySize > 2 || (info.sampleCount & (info.sampleCount - 1)) != 0 ||
+      info.createFlags != 0) {
+    refuse(XR_ERROR_FEATURE_UNSUPPORTED);
+  }
+}
+
+}  // namespace
+
+void drop_swapchain(State& s, XrSwapchain handle) {
+  SwapchainObject& swapchain = *s.swapchains.find(handle);
+  free_images(s.sessions.find(swapchain.session)->graphics, swapchain.images);
+  s.swapchains.erase(handle);
+}
+
+namespace xr {
+
+XrResult XRAPI_CALL EnumerateSwapchainFormats(XrSession session, std::uint32_t capacity, std::uint32_t* count,
+                                              std::int64_t* list) {
+  return call("xrEnumerateSwapchainFormats", [&](State& s) {
+    live(session);
+    return fill(capacity, count, list, formats(s.control.script));
+  });
+}
+
+XrResult XRAPI_CALL CreateSwapchain(XrSession session, const XrSwapchainCreateInfo* info, XrSwapchain* swapchain) {
+  return call("xrCreateSwapchain", [&](State& s) {
+    const SessionObject& of = live(session);
+    structure(info, XR_TYPE_SWAPCHAIN_CREATE_INFO);
+    pointer(swapchain, "swapchain");
+    check_create_info(s.control.script, *info);
+    SwapchainObject made{.session = session, .info = *info};
+    made.info.next = nullptr;
+    made.images = make_images(of.graphics, *info, s.control.script.images);
+    *swapchain = s.swapchains.add(std::move(made));
+    count_live();
+    return XR_SUCCESS;
+  });
+}
+
+XrResult XRAPI_CALL DestroySwapchain(XrSwapchain swapchain) {
+  return call("xrDestroySwapchain", [&](State& s) {
+    const SwapchainObject* const object = s.swapchains.find(swapchain);
+    require(object != nullptr, "handle_live", "swapchain");
+    require(object->acquired.empty(), "destroyed_in_use");
+    drop_swapchain(s, swapchain);
+    count_live();
+    return XR_SUCCESS;
+  });
+}
+
+XrResult XRAPI_CALL EnumerateSwapchainImages(XrSwapchain swapchain, std::uint32_t capacity, std::uint32_t* count,
+                                             XrSwapchainImageBaseHeader* images) {
+  return call("xrEnumerateSwapchainImages", [&](State&) {
+    const SwapchainObject& object = live(swapchain);
+    auto* const out = reinterpret_cast<XrSwapchainImageVulkanKHR*>(images);
+    return fill(capacity, count, out, object.images, [](XrSwapchainImageVulkanKHR& to, const SwapchainImage& from) {
+      structure(&to, XR_TYPE_SWAPCHAIN_IMAGE_VULKAN2_KHR);
+      to.image = from.image;
+    });
+  });
+}
+
+XrResult XRAPI_CALL AcquireSwapchainImage(XrSwapchain swapchain, const XrSwapchainImageAcquireInfo* info,
+                                          std::uint32_t* index) {
+  return call("xrAcquireSwapchainImage", [&](State& s) {
+    SwapchainObject& object = live(swapchain);
+    if (info != nullptr) structure(info, XR_TYPE_SWAPCHAIN_IMAGE_ACQUIRE_INFO);
+    pointer(index, "index");
+    require(object.acquired.size() < object.images.size(), "acquire_order");
+    *index = object.next;
+    object.next = (object.next + 1) % static_cast<std::uint32_t>(object.images.size());
+    object.acquired.push_back(*index);
+    lay_out(s.sessions.find(object.session)->graphics, object.images[*index], object.info);
+    return XR_SUCCESS;
+  });
+}
+
+XrResult XRAPI_CALL WaitSwapchainImage(XrSwapchain swapchain, const XrSwapchainImageWaitInfo* info) {
+  return call("xrWaitSwapchainImage", [&](State&) {
+    SwapchainObject& object = live(swapchain);
+    structure(info, XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO);
+    require(!object.acquired.empty() && !object.waited, "image_wait_order");
+    object.waited = true;
+    return XR_SUCCESS;
+  });
+}
+
+XrResult XRAPI_CALL ReleaseSwapchainImage(XrSwapchain swapchain, const XrSwapchainImageReleaseInfo* info) {
+  return call("xrReleaseSwapchainImage", [&](State&) {
+    SwapchainObject& object = live(swapchain);
+    if (info != nullptr) structure(info, XR_TYPE_SWAPCHAIN_IMAGE_RELEASE_INFO);
+    require(object.waited, "release_order");
+    object.released = object.acquired.front();
+    object.acquired.pop_front();
+    object.waited = false;
+    return XR_SUCCESS;
+  });
+}
+
+}  // namespace xr
+}  // namespace gearshift::xr_test
