@@ -1,8 +1,8 @@
 #include "engine/xr/headset_runtime.h"
 
 #include <algorithm>
-#include <cstdlib>
 #include <cstring>
+#include <iostream>
 
 #include <fmt/format.h>
 
@@ -14,10 +14,20 @@ namespace {
 constexpr const char* kNoRuntime =
     "no OpenXR runtime answers: start the headset's software, or name its manifest in XR_RUNTIME_JSON";
 
-// The loader tells on stderr what we tell in a sentence.
-void quiet_loader() {
-  setenv("XR_LOADER_DEBUG", "none", 0);
-}
+// Debian's loader tells on std::cerr in four lines, whatever XR_LOADER_DEBUG says, what we tell in a sentence.
+class QuietLoader {
+ public:
+  QuietLoader() : told_(std::cerr.rdbuf(nullptr)) {}
+  ~QuietLoader() {
+    std::cerr.rdbuf(told_);
+    std::cerr.clear();
+  }
+  QuietLoader(const QuietLoader&) = delete;
+  QuietLoader& operator=(const QuietLoader&) = delete;
+
+ private:
+  std::streambuf* told_;
+};
 
 std::vector<XrExtensionProperties> offered_extensions() {
   try {
@@ -46,8 +56,10 @@ glm::ivec2 size_of(std::uint32_t width, std::uint32_t height) {
 }  // namespace
 
 HeadsetRuntime::State::State() {
-  quiet_loader();
-  make_instance();
+  {
+    const QuietLoader quiet;
+    make_instance();
+  }
   try {
     find_headset();
     check_vulkan();

@@ -1,0 +1,435 @@
+// A session at a headset, through the real loader, at a runtime that checks what the specification demands.
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <filesystem>
+#include <fstream>
+#include <numbers>
+
+#include "engine/xr/frame_times.h"
+#include "tests/engine/xr/session_rig.h"
+
+using namespace gearshift;
+using glm::dvec3;
+using xr_test::FrameRecord;
+using xr_test::LayerRecord;
+
+namespace {
+
+std::array<int, 3> colour_at(const Image& picture, int x, int y) {
+  const std::uint8_t* p = picture.pixel(x, y);
+  return {p[0], p[1], p[2]};
+}
+
+// The last frame that was shown.
+const FrameRecord& last_shown() {
+  const auto& frames = xr_test::control().record.frames;
+  const FrameRecord* found = nullptr;
+  for (const FrameRecord& frame : frames)
+    if (frame.projection() != nullptr) found = &frame;
+  REQUIRE(found != nullptr);
+  return *found;
+}
+
+// A head that looks about while it moves.
+xr_test::Pose moving_head(double seconds) {
+  return {dvec3(0.1 * std::sin(3.0 * seconds), 0.02 * std::cos(5.0 * seconds), -0.3 * seconds),
+          glm::angleAxis(0.5 * std::sin(2.0 * seconds), dvec3(0, 1, 0)) *
+              glm::angleAxis(0.3 * std::cos(4.0 * seconds), dvec3(1, 0, 0))};
+}
+
+double turn_between(const glm::dquat& a, const glm::dquat& b) {
+  return 2.0 * std::acos(std::min(1.0, std::abs(glm::dot(glm::normalize(a), glm::normalize(b)))));
+}
+
+}  // namespace
+
+TEST_CASE("by the book from the first event to the last: pictures, depth and panel arrive, each eye its own") {
+  xr_test::Control& xr = xr_test::control();
+  xr.start();
+  xr.script.capture.every = 1;
+  {
+    SessionRig rig;
+    CHECK(rig.session->state() == HeadsetState::idle);
+    CHECK_FALSE(rig.session->runs());
+    rig.panel = HeadsetPanel{{{0.5, 1.2, -1.4}, glm::angleAxis(-0.4, dvec3(0, 1, 0))}, {1.5, 0.75}};
+    REQUIRE(rig.comes_to(HeadsetState::focused));
+    for (int i = 0; i < 3; ++i) CHECK(rig.turn());
+  }
+  check_by_the_book();
+  const FrameRecord& frame = last_shown();
+  REQUIRE(frame.layers.size() == 2);  // the panel before the cabin
+  const LayerRecord& eyes = *frame.projection();
+  CHECK(colour_at(eyes.views[0].picture, 5, 5) == std::array{255, 0, 0});
+  CHECK(colour_at(eyes.views[1].picture, 40, 30) == std::array{0, 255, 0});
+  for (const xr_test::ViewRecord& view : eyes.views) {
+    CHECK(view.rect.width == 48);
+    CHECK(view.rect.height == 32);
+    REQUIRE(view.depth.given);
+    CHECK(view.depth.min_depth == 0.0f);  // is infinitely far
+    CHECK(std::isinf(view.depth.near_z));
+    CHECK(view.depth.max_depth == 1.0f);
+    CHECK(view.depth.far_z == 0.05f);
+    REQUIRE(view.depth.values.size() == 48 * 32);
+    CHECK(view.depth.values[100] == 0.25f);
+  }
+  const LayerRecord& quad = *frame.quad();
+  CHECK(quad.width == 1.5f);
+  CHECK(quad.height == 0.75f);
+  CHECK((quad.flags & XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT) != 0);
+  CHECK(glm::distance(quad.views[0].pose.position, dvec3(0.5, 1.2, -1.4)) < 1e-6);
+  CHECK(colour_at(quad.views[0].picture, 3, 3) == std::array{0, 0, 255});
+}
+
+TEST_CASE("what was drawn is shown with the pose of the time that it will be seen at, the newest that is known") {
+  xr_test::Control& xr = xr_test::control();
+  xr.start();
+  xr.script.head = moving_head;
+  xr.script.early_error = 0.04;  // what is asked for early is 4 cm off
+  {
+    SessionRig rig;
+    REQUIRE(rig.comes_to(HeadsetState::focused));
+    for (int i = 0; i < 20; ++i) (void)rig.turn();
+  }
+  check_by_the_book();
+  int seen = 0;
+  for (const FrameRecord& frame : xr.record.frames) {
+    if (frame.projection() == nullptr) continue;
+    ++seen;
+    CHECK(frame.locates == 2);
+    for (std::size_t eye = 0; eye < 2; ++eye) {
+      const xr_test::Pose head = moving_head(frame.time);
+      const xr_test::Pose& told = frame.projection()->views[eye].pose;  // in STAGE, whose origin is 1.2 m down
+      const dvec3 place = head.position + head.orientation * dvec3(eye == 0 ? -0.0315 : 0.0315, 0.0, 0.0);
+      CHECK(glm::distance(told.position, place + dvec3(0.0, 1.2, 0.0)) < 1e-6);
+      CHECK(turn_between(told.orientation, head.orientation) < 1e-6);
+    }
+  }
+  CHECK(seen >= 20);
+}
+
+TEST_CASE(
+    "menu, another program, put down and picked up, hidden: each state as told, frames only where they are shown") {
+  xr_test::Control& xr = xr_test::control();
+  xr.start();
+  xr.script.timeline = {xr_test::visible(0.2),      xr_test::focused(0.3), xr_test::hidden(0.4, 0.1),
+                        xr_test::synchronized(0.6), xr_test::visible(0.7), xr_test::focused(0.8),
+                        xr_test::stopping(1.0),     xr_test::ready(1.3)};
+  std::vector<HeadsetState> states;
+  int turns_without = 0;
+  {
+    SessionRig rig;
+    for (int i = 0; i < 400 && (xr.record.frames.empty() || xr.record.frames.back().time < 1.8); ++i) {
+      if (!rig.turn()) ++turns_without;
+      if (states.empty() || states.back() != rig.session->state()) states.push_back(rig.session->state());
+    }
+  }
+  check_by_the_book();
+  // One of these may pass between two turns: what stands is in order, and none is missing of those that last.
+  std::string order;
+  for (const HeadsetState state : states) order += std::string(name_of(state)) + " ";
+  CAPTURE(order);
+  const auto at = [&](const char* name, std::size_t from) { return order.find(name, from); };
+  std::size_t place = 0;
+  for (const char* name : {"focused", "visible", "focused", "synchronised", "visible", "focused", "idle", "focused"}) {
+    place = at(name, place);
+    REQUIRE(place != std::string::npos);
+    ++place;
+  }
+  CHECK(turns_without > 2);  // put down: nobody waits for frames
+  int hidden = 0;
+  for (const FrameRecord& frame : xr.record.frames) {
+    CHECK((frame.projection() != nullptr) == frame.should_render);
+    if (frame.time > 0.41 && frame.time < 0.49) hidden += !frame.should_render;
+  }
+  CHECK(hidden >= 6);
+}
+
+TEST_CASE("where tracking is lost the last pose stays, as far as it is lost, and nobody freezes") {
+  xr_test::Control& xr = xr_test::control();
+  xr.start();
+  xr.script.stage = false;
+  bool placed = false, turned = false;
+  xr.script.head = [&](double seconds) {
+    xr_test::Pose pose = moving_head(seconds);
+    pose.position_valid = placed;
+    pose.orientation_valid = turned;
+    return pose;
+  };
+  {
+    SessionRig rig;
+    REQUIRE(rig.comes_to(HeadsetState::focused));  // though the head was never seen
+    CHECK_FALSE(rig.eyes.is_known);
+    CHECK(glm::length(rig.eyes.pose[1].orientation) == doctest::Approx(1.0));
+    CHECK(rig.eyes.pose[1].position.x - rig.eyes.pose[0].position.x == doctest::Approx(0.063));
+    CHECK_FALSE(rig.session->is_stage());
+    placed = turned = true;
+    (void)rig.turn();
+    CHECK(rig.eyes.is_known);
+    CHECK(rig.eyes.is_tracked);
+    const HeadsetEyes last = rig.eyes;
+    placed = false;  // turned alone
+    for (int i = 0; i < 5; ++i) (void)rig.turn();
+    CHECK_FALSE(rig.eyes.is_tracked);
+    CHECK(rig.eyes.is_known);
+    CHECK(rig.eyes.pose[0].position == last.pose[0].position);
+    CHECK(turn_between(rig.eyes.pose[0].orientation, last.pose[0].orientation) > 0.01);
+    turned = false;
+    const glm::dquat kept = rig.eyes.pose[0].orientation;
+    for (int i = 0; i < 5; ++i) (void)rig.turn();
+    CHECK(turn_between(rig.eyes.pose[0].orientation, kept) < 1e-9);
+  }
+  check_by_the_book();
+}
+
+TEST_CASE("an origin that is moved is told when its time has come, not before, and where everything is then") {
+  xr_test::Control& xr = xr_test::control();
+  xr.start();
+  const xr_test::Pose moved{dvec3(0.3, 0.0, -0.2), glm::angleAxis(0.7, dvec3(0, 1, 0))};
+  xr.script.head = [](double) { return xr_test::Pose{dvec3(0.1, 0.2, 0.3)}; };  // stands still
+  xr.script.timeline = {xr_test::change_space(0.5, xr_test::Space::stage, moved, 6),
+                        xr_test::change_space(1.0, xr_test::Space::local, moved, 2)};
+  {
+    SessionRig rig;
+    REQUIRE(rig.comes_to(HeadsetState::focused));
+    std::optional<SpaceChange> stage, local;
+    for (int i = 0; i < 120; ++i) {
+      const HeadsetEyes old = rig.eyes;
+      const auto frame = rig.turn();
+      REQUIRE(frame);
+      const auto change = rig.session->take_change(*frame);
+      const bool jumped = glm::distance(old.pose[0].position, rig.eyes.pose[0].position) > 1e-3;
+      CAPTURE(i);
+      if (!stage) CHECK(jumped == change.has_value());  // in the very frame in which the eyes jump
+      if (change && change->ours) {
+        stage = change;
+        REQUIRE(change->new_from_old);
+        CHECK(glm::distance(*change->new_from_old * old.pose[0].position, rig.eyes.pose[0].position) < 1e-6);
+      }
+      if (change && !change->ours) local = change;
+    }
+    CHECK(stage.has_value());
+    CHECK(local.has_value());
+  }
+  check_by_the_book();
+}
+
+TEST_CASE("a session or a runtime that is lost is told as lost, and leaves nothing") {
+  for (const bool instance : {false, true}) {
+    CAPTURE(instance);
+    xr_test::Control& xr = xr_test::control();
+    xr.start();
+    xr.script.timeline = {instance ? xr_test::lose_instance(0.3) : xr_test::lose_session(0.3)};
+    {
+      SessionRig rig;
+      const std::string told = thrown<HeadsetLost>([&] {
+        for (int i = 0; i < 100; ++i) (void)rig.turn();
+      });
+      // By the event or by the first call after it, whichever comes first.
+      const bool by_event = told == (instance ? "the OpenXR runtime goes away" : "the headset is lost");
+      const bool by_call =
+          told.find(instance ? "XR_ERROR_INSTANCE_LOST" : "XR_ERROR_SESSION_LOST") != std::string::npos;
+      CAPTURE(told);
+      CHECK((by_event || by_call));
+    }
+    CHECK(xr.record.violations.empty());
+  }
+}
+
+// The nth call of each function that a frame makes fails: it is told as what it is, and everything can be made anew.
+TEST_CASE("an error of any call is an error of ours, and the next session begins as if nothing was") {
+  constexpr const char* kCalls[] = {"xrCreateSession",
+                                    "xrCreateReferenceSpace",
+                                    "xrCreateSwapchain",
+                                    "xrEnumerateSwapchainImages",
+                                    "xrBeginSession",
+                                    "xrWaitFrame",
+                                    "xrBeginFrame",
+                                    "xrLocateViews",
+                                    "xrAcquireSwapchainImage",
+                                    "xrWaitSwapchainImage",
+                                    "xrReleaseSwapchainImage",
+                                    "xrEndFrame",
+                                    "xrPollEvent",
+                                    "xrCreateActionSet",
+                                    "xrAttachSessionActionSets"};
+  for (const char* call : kCalls) {
+    for (const XrResult result : {XR_ERROR_RUNTIME_FAILURE, XR_ERROR_SESSION_LOST, XR_ERROR_OUT_OF_MEMORY}) {
+      CAPTURE(call);
+      CAPTURE(static_cast<int>(result));
+      xr_test::Control& xr = xr_test::control();
+      xr.start();
+      xr.script.failures = {{call, result, 1}};
+      const auto run = [&] {
+        SessionRig rig;
+        for (int i = 0; i < 20; ++i) (void)rig.turn();
+      };
+      const bool lost = result != XR_ERROR_OUT_OF_MEMORY;
+      const std::string told = lost ? thrown<HeadsetLost>(run) : thrown<HeadsetError>(run);
+      CHECK(told.find(call) != std::string::npos);
+      CHECK(told.find("XR_ERROR_") != std::string::npos);
+    }
+    CHECK(xr_test::control().record.live_handles() == 0);
+  }
+  xr_test::control().start();
+  {
+    SessionRig rig;
+    CHECK(rig.comes_to(HeadsetState::focused));
+  }
+  check_by_the_book();
+}
+
+TEST_CASE("no runtime, no headset, no Vulkan: one clear sentence each") {
+  xr_test::Control& xr = xr_test::control();
+  const std::string manifest = std::getenv("XR_RUNTIME_JSON");
+  setenv("XR_RUNTIME_JSON", "/nowhere/runtime.json", 1);
+  CHECK(thrown<HeadsetError>([] { HeadsetRuntime runtime; }).find("no OpenXR runtime answers") != std::string::npos);
+  setenv("XR_RUNTIME_JSON", manifest.c_str(), 1);
+  xr.start();
+  xr.script.headset = false;
+  CHECK(thrown<HeadsetAbsent>([] { HeadsetRuntime runtime; }).find("no headset is connected") != std::string::npos);
+  xr.start();
+  xr.script.vulkan_enable2 = false;
+  CHECK(thrown<HeadsetError>([] { HeadsetRuntime runtime; }).find("XR_KHR_vulkan_enable2") != std::string::npos);
+  check_by_the_book();
+  // The loader remembers what a runtime offered until an instance of it is destroyed.
+  XrInstanceCreateInfo plain{XR_TYPE_INSTANCE_CREATE_INFO};
+  std::strcpy(plain.applicationInfo.applicationName, "plain");
+  plain.applicationInfo.apiVersion = XR_MAKE_VERSION(1, 0, 0);
+  XrInstance instance = XR_NULL_HANDLE;
+  REQUIRE(xrCreateInstance(&plain, &instance) == XR_SUCCESS);
+  xrDestroyInstance(instance);
+}
+
+TEST_CASE("what a runtime lacks is done without: depth, its clock, the room, our order of colours") {
+  for (int lacks = 0; lacks < 5; ++lacks) {
+    CAPTURE(lacks);
+    xr_test::Control& xr = xr_test::control();
+    xr.start();
+    xr.script.capture.every = 1;
+    if (lacks == 0) xr.script.composition_layer_depth = false;
+    if (lacks == 1) xr.script.convert_timespec_time = false;
+    if (lacks == 2) xr.script.stage = false;
+    if (lacks == 3) xr.script.colour_formats = {VK_FORMAT_B8G8R8A8_SRGB};
+    if (lacks == 4) xr.script.depth_formats = {VK_FORMAT_D16_UNORM};
+    {
+      SessionRig rig;
+      REQUIRE(rig.comes_to(HeadsetState::focused));
+      const auto frame = rig.turn();
+      REQUIRE(frame);
+      CHECK((frame->woken_ns == 0) == (lacks == 1));
+      CHECK(rig.session->is_stage() == (lacks != 2));
+    }
+    check_by_the_book();
+    const auto& view = last_shown().projection()->views[0];
+    CHECK(view.depth.given == (lacks != 0 && lacks != 4));
+    CHECK(colour_at(view.picture, 5, 5) == std::array{255, 0, 0});
+  }
+  xr_test::control().start();
+  xr_test::control().script.colour_formats = {VK_FORMAT_R8G8B8A8_UINT};
+  CHECK(thrown<HeadsetError>([] { SessionRig rig; }).find("takes no picture") != std::string::npos);
+}
+
+TEST_CASE("hands point, click and scroll while all is ours, and not under another program's menu") {
+  xr_test::Control& xr = xr_test::control();
+  xr.start();
+  xr.script.stage = false;
+  const xr_test::Pose aim{dvec3(0.2, -0.3, -0.4), glm::angleAxis(0.6, dvec3(0, 1, 0))};
+  xr.script.hands[1].aim = [&](double) { return aim; };
+  xr.script.hands[0].aim = [](double) {
+    xr_test::Pose lost;
+    lost.position_valid = lost.orientation_valid = false;
+    return lost;
+  };
+  xr.script.inputs["/user/hand/right/input/trigger/value"] = [](double seconds) { return seconds > 0.5 ? 1.0 : 0.0; };
+  xr.script.inputs["/user/hand/right/input/thumbstick/y"] = [](double) { return 0.75; };
+  xr.script.timeline = {xr_test::visible(1.0)};
+  {
+    SessionRig rig;
+    REQUIRE(rig.comes_to(HeadsetState::focused));
+    CHECK(rig.session->state() == HeadsetState::focused);
+    for (int i = 0; i < 120; ++i) {
+      rig.session->poll();
+      const HeadsetFrame frame = rig.session->wait();
+      const auto hands = rig.session->hands(frame);
+      const double seconds = xr.record.frames.back().time;
+      CAPTURE(seconds);
+      if (seconds < 0.99) {
+        CHECK_FALSE(hands[0].is_tracked);
+        REQUIRE(hands[1].is_tracked);
+        CHECK(glm::distance(hands[1].aim.position, aim.position) < 1e-6);
+        CHECK(turn_between(hands[1].aim.orientation, aim.orientation) < 1e-6);
+        CHECK(hands[1].selects == (seconds > 0.5));
+        CHECK(hands[1].scroll.y == doctest::Approx(0.75));
+      } else if (seconds > 1.05) {
+        CHECK_FALSE(hands[1].is_tracked);
+        CHECK_FALSE(hands[1].selects);
+      }
+      rig.session->end(frame, nullptr, kRigNear, nullptr);
+    }
+    CHECK(rig.session->state() == HeadsetState::visible);
+  }
+  check_by_the_book();
+}
+
+TEST_CASE("periods that a runtime drops are counted, and those alone") {
+  xr_test::Control& xr = xr_test::control();
+  xr.start();
+  xr.script.timeline = {xr_test::stall(0.3, 5), xr_test::stall(0.6, 2)};
+  FrameTimes times;
+  {
+    SessionRig rig;
+    for (int i = 0; i < 90; ++i)
+      if (const auto frame = rig.turn()) times.take(*frame, rig.session->now_ns(), 1.0);
+  }
+  check_by_the_book();
+  CHECK(xr.record.dropped == 7);
+  CHECK(times.timing().dropped == xr.record.dropped);
+  CHECK(times.timing().period_ms == doctest::Approx(1e3 / 90.0));
+}
+
+namespace {
+
+std::size_t open_files() {
+  const auto all = std::filesystem::directory_iterator("/proc/self/fd");
+  return static_cast<std::size_t>(std::distance(begin(all), end(all)));
+}
+
+// [KiB] that are the program's own
+std::size_t resident() {
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.rfind("RssAnon:", 0) == 0) return std::stoul(line.substr(8));
+  return 0;
+}
+
+}  // namespace
+
+// 20 of them; GEARSHIFT_XR_RESTARTS=1000 for the long run.
+TEST_CASE("a session that begins again and again leaves nothing behind") {
+  const char* asked = std::getenv("GEARSHIFT_XR_RESTARTS");
+  const int restarts = asked != nullptr ? std::atoi(asked) : 20;
+  SessionRig rig;  // runtime and device stay: what they keep is not the session's
+  xr_test::control().start();
+  const auto again = [&] {
+    rig.session.reset();
+    rig.session = std::make_unique<HeadsetSession>(*rig.runtime, rig.fixture.gpu(), HeadsetConfig{{48, 32}});
+    CHECK(rig.comes_to(HeadsetState::focused));
+    CHECK(rig.turn());
+  };
+  for (int i = 0; i < 5; ++i) again();  // what is made once
+  const std::size_t files = open_files(), memory = resident();
+  const VkDeviceSize device = rig.fixture.gpu().allocated();
+  const int handles = xr_test::control().record.live_handles();
+  for (int i = 0; i < restarts; ++i) {
+    again();
+    xr_test::control().record.frames.clear();
+    xr_test::control().record.log.clear();
+  }
+  MESSAGE(restarts << " restarts: " << static_cast<long>(resident()) - static_cast<long>(memory) << " KiB more");
+  CHECK(open_files() == files);
+  CHECK(rig.fixture.gpu().allocated() == device);
+  CHECK(xr_test::control().record.live_handles() == handles);
+  CHECK(resident() < memory + 2048 + 4 * static_cast<std::size_t>(restarts));  // [KiB]
+  CHECK(xr_test::control().record.violations.empty());
+}
