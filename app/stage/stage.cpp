@@ -30,6 +30,14 @@ constexpr float kExposure = 3.0f;    // for eyes inside: the cabin is darker tha
 constexpr ShadowRoom kCabin{{-0.45f, -0.31f, -1.25f}, {1.12f, 0.96f, 1.45f}};  // [m]
 constexpr glm::vec3 kX{1.0f, 0.0f, 0.0f}, kZ{0.0f, 0.0f, 1.0f};
 
+ShadowRoom room_of(DriveSide side) {
+  if (side == DriveSide::left) return kCabin;
+  ShadowRoom room = kCabin;
+  room.low.x = static_cast<float>(2.0 * kMirrorPlane) - kCabin.high.x;
+  room.high.x = static_cast<float>(2.0 * kMirrorPlane) - kCabin.low.x;
+  return room;
+}
+
 glm::quat about(glm::vec3 axis, double angle) {
   return glm::angleAxis(static_cast<float>(angle), axis);
 }
@@ -67,7 +75,7 @@ struct Stage::State {
     find_nodes();
     scene.nodes.resize(model.nodes.size());
     scene.exposure = kExposure;
-    scene.shadow_room = kCabin;
+    scene.shadow_room = room_of(config.drive);
     for (NodeState& state : scene.nodes) state.indoors = true;
     for (const std::string& name : outdoor_names())
       scene.nodes[static_cast<std::size_t>(needed_node(model, name))].indoors = false;
@@ -106,7 +114,7 @@ struct Stage::State {
   }
 
   void take_hand() {
-    hand.emplace(model);
+    hand.emplace(model, config.drive);
     hand_mesh = scene.deformed.size();
     scene.deformed.push_back({node(hand->skin_node()).mesh, {}});
     skin_vertices(model, hand->skin_node(), rest_pose(model), scene.deformed.back().vertices);
@@ -242,7 +250,7 @@ glm::dvec3 Stage::ghost_knob() const noexcept {
 }
 
 EyePose Stage::driver_eye() const noexcept {
-  return camera("driver");
+  return camera("driver", state_->config.drive);
 }
 
 }  // namespace gearshift

@@ -10,6 +10,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
+#include "app/stage/drive_side.h"
 #include "app/vehicle/vehicle_state.h"
 #include "engine/model/model.h"
 #include "engine/scene/frame_scene.h"
@@ -26,6 +27,7 @@ struct StageConfig {
   bool cutaway = false;    // the gearbox is seen beside the console
   bool open_gate = false;  // a slotted plate of the loaded gate in place of the boot
   bool hand = true;        // a hand on the knob
+  DriveSide drive = DriveSide::left;
 };
 
 struct StageInput {
@@ -63,7 +65,7 @@ class Stage {
 
 // Named cameras: "driver", "ahead", "lever", "gate", "cluster", "gearbox". What each is for lies in the middle square of
 // the picture: the panel may cover the sides. Throw std::invalid_argument naming them all.
-EyePose camera(std::string_view name);
-double camera_field(std::string_view name);  // [deg] across the shorter side of the picture
+EyePose camera(std::string_view name, DriveSide side = DriveSide::left);
+double camera_field(std::string_view name);  // [deg] across the shorter side of the picture; on both sides alike
 
 }  // namespace gearshift
