@@ -62,6 +62,7 @@ struct Stage::State {
   int lever = kNone, ghost = kNone, boot = kNone, wheel = kNone, tach = kNone, speed = kNone, gear_panel = kNone;
   int clutch = kNone, brake = kNone, throttle = kNone, hand_brake = kNone;
   int shift_up = kNone, shift_down = kNone, driven_way = kNone, ideal_way = kNone;
+  int beam = kNone, beam_end = kNone;
   glm::dvec3 pivot{0.0};  // [m] world
   glm::dvec3 knob{0.0}, ghost_knob{0.0};
 
@@ -103,6 +104,8 @@ struct Stage::State {
     shift_down = needed_node(model, kShiftDown);
     driven_way = needed_node(model, kDrivenWay);
     ideal_way = needed_node(model, kIdealWay);
+    beam = needed_node(model, kBeamNode);
+    beam_end = needed_node(model, kBeamEndNode);
     for (std::size_t i = 0; i < lamp.size(); ++i) lamp[i] = needed_node(model, kLampNodes[i]);
   }
 
@@ -200,6 +203,16 @@ struct Stage::State {
     return is_shown;
   }
 
+  void place_pointer(const std::optional<Beam>& pointer) {
+    NodeState &stick = scene.nodes[static_cast<std::size_t>(beam)],
+              &end = scene.nodes[static_cast<std::size_t>(beam_end)];
+    stick.opacity = end.opacity = kBeamOpacity;
+    end.visible = pointer.has_value();
+    stick.visible = pointer && pointer->from != pointer->to;
+    if (stick.visible) place_beam_stick(*pointer, pose[static_cast<std::size_t>(beam)]);
+    if (end.visible) pose[static_cast<std::size_t>(beam_end)].translation = glm::vec3(pointer->to);
+  }
+
   void resolve() {
     for (std::size_t i = 0; i < pose.size(); ++i) {
       const int parent = pose[i].parent;
@@ -231,6 +244,7 @@ void Stage::place(const StageInput& input) {
   state_->place_lever(input);
   state_->place_instruments(input);
   state_->place_ways(input);
+  state_->place_pointer(input.pointer);
   state_->road.place(input.car.distance, input.car.slope, state_->pose);
   if (state_->gearbox)
     state_->gearbox->place(state_->config.gate, input.lever.proxy, input.car, input.time, state_->pose);

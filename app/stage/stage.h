@@ -3,6 +3,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -11,6 +12,7 @@
 #include <glm/vec3.hpp>
 
 #include "app/stage/drive_side.h"
+#include "app/stage/pointer_beam.h"
 #include "app/vehicle/vehicle_state.h"
 #include "engine/model/model.h"
 #include "engine/scene/frame_scene.h"
@@ -37,6 +39,7 @@ struct StageInput {
   // Of a shift that is looked at again, drawn just above the knob: the way that it took, and the shortest. In the gate
   // plane [m]; empty: none. The hand is of glass then.
   std::span<const glm::dvec2> driven_way{}, ideal_way{};
+  std::optional<Beam> pointer{};  // of a hand that points at something
 };
 
 class Stage {

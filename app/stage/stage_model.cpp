@@ -15,6 +15,7 @@
 #include "app/stage/lever_pose.h"
 #include "app/stage/mirror_image.h"
 #include "app/stage/pieces.h"
+#include "app/stage/pointer_beam.h"
 #include "app/stage/roadside.h"
 #include "app/stage/shift_light.h"
 #include "app/stage/strokes.h"
@@ -199,7 +200,7 @@ std::vector<std::string> moving_names(const StageConfig& config) {
       "LeverPivot", "Boot",          "TachNeedle", "SpeedNeedle", "SteeringWheel",         "PedalClutch", "PedalBrake",
       "GearPanel",  "PedalThrottle", "Handbrake",  "GhostPivot",  "InteriorMirrorSurface", kBodywork};
   names.insert(names.end(), kLampNodes.begin(), kLampNodes.end());
-  names.insert(names.end(), {kShiftUp, kShiftDown, kDrivenWay, kIdealWay});
+  names.insert(names.end(), {kShiftUp, kShiftDown, kDrivenWay, kIdealWay, kBeamNode, kBeamEndNode});
   if (config.hand) names.insert(names.end(), {"HandRoot", "GhostHand"});
   for (std::string& name : Roadside::moving_names()) names.push_back(std::move(name));
   if (config.cutaway) {
@@ -235,6 +236,7 @@ Model make_stage_model(const StageConfig& config, const std::filesystem::path& f
   Roadside::add_to(model, road_things(config, folder));
   if (config.cutaway) Gearbox::add_to(model, gearbox_parts(config, folder), config.gate);
   if (config.drive == DriveSide::right) sit_on_the_right(model);
+  add_pointer_beam(model);
   const std::vector<std::string> names = moving_names(config);
   return merge_static(model, std::vector<std::string_view>(names.begin(), names.end()));
 }
