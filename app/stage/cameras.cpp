@@ -33,9 +33,9 @@ const NamedCamera& named(std::string_view name) {
 
 }  // namespace
 
-EyePose camera(std::string_view name, DriveSide) {
+EyePose camera(std::string_view name, DriveSide side) {
   const NamedCamera& camera = named(name);
-  return look_at(camera.eye, camera.target);
+  return look_at(on_side(side, camera.eye), on_side(side, camera.target));
 }
 
 double camera_field(std::string_view name) {

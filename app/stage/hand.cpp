@@ -50,7 +50,7 @@ void Hand::add_to(Model& model, const Model& hand_model, glm::vec3 knob) {
   model.nodes[static_cast<std::size_t>(ghost)].skin = kNone;  // its vertices come with the hand's
 }
 
-Hand::Hand(const Model& model)
+Hand::Hand(const Model& model, DriveSide side)
     : root_(needed_node(model, "HandRoot")),
       skin_(needed_node(model, "HandMesh")),
       ghost_(needed_node(model, "GhostHand")),
@@ -61,7 +61,8 @@ Hand::Hand(const Model& model)
   wrist_at_ = glm::dvec3(rest[static_cast<std::size_t>(forearm_)][3]) - knob;
   wrist_turn_ = wrist_ == kNone ? glm::dquat(1.0, 0.0, 0.0, 0.0) : turn_of(rest[static_cast<std::size_t>(wrist_)]);
   forearm_turn_ = turn_of(rest[static_cast<std::size_t>(forearm_)]);
-  elbow_ = knob + kElbow;
+  elbow_at_ = side == DriveSide::left ? kElbow : kElbow * glm::dvec3(-1.0, 1.0, 1.0);
+  elbow_ = knob + elbow_at_;
 }
 
 void Hand::place(glm::dvec3 knob, const glm::dquat& lever, std::vector<Node>& pose) const {
@@ -69,7 +70,7 @@ void Hand::place(glm::dvec3 knob, const glm::dquat& lever, std::vector<Node>& po
   Node& root = pose[static_cast<std::size_t>(root_)];
   root.translation = glm::vec3(knob);
   root.rotation = glm::quat(lean);
-  const glm::dvec3 at_rest = glm::normalize(kElbow - wrist_at_);
+  const glm::dvec3 at_rest = glm::normalize(elbow_at_ - wrist_at_);
   const glm::dvec3 now = glm::normalize(elbow_ - knob - lean * wrist_at_);
   const glm::dquat forearm = glm::rotation(at_rest, now) * forearm_turn_;
   pose[static_cast<std::size_t>(forearm_)].rotation = glm::quat(glm::inverse(lean * wrist_turn_) * forearm);

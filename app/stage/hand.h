@@ -7,6 +7,7 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
+#include "app/stage/drive_side.h"
 #include "engine/model/model.h"
 
 namespace gearshift {
@@ -19,7 +20,8 @@ class Hand {
   // skin, "GhostHand". Throws std::runtime_error where a node is missing.
   static void add_to(Model& model, const Model& hand_model, glm::vec3 knob);
 
-  explicit Hand(const Model& model);  // finds what add_to() made
+  // Finds what add_to() made; on the right, mirrored: a left hand.
+  explicit Hand(const Model& model, DriveSide side = DriveSide::left);
 
   int skin_node() const noexcept { return skin_; }
   int ghost_node() const noexcept { return ghost_; }
@@ -33,6 +35,7 @@ class Hand {
   glm::dvec3 wrist_at_{0.0};                     // [m] from the knob, at rest
   glm::dquat wrist_turn_{1.0, 0.0, 0.0, 0.0};    // at rest
   glm::dquat forearm_turn_{1.0, 0.0, 0.0, 0.0};  // at rest
+  glm::dvec3 elbow_at_{0.0};                     // [m] from the knob, at rest
   glm::dvec3 elbow_{0.0};                        // [m] world
 };
 

@@ -175,6 +175,7 @@ std::vector<std::string> Roadside::moving_names() {
 }
 
 Roadside::Roadside(const Model& model) : strip_(needed_node(model, "RoadStrip")), land_(needed_node(model, "Land")) {
+  place_ = model.nodes[static_cast<std::size_t>(strip_)].translation;
   for (int block = 0; block < kBlocks; ++block) {
     block_[static_cast<std::size_t>(block)] = needed_node(model, block_name(block));
   }
@@ -184,7 +185,7 @@ void Roadside::place(double distance, double slope, std::vector<Node>& pose) con
   const glm::quat tilt = glm::angleAxis(static_cast<float>(slope), glm::vec3(1.0f, 0.0f, 0.0f));
   const auto put = [&](int node, glm::dvec3 from_car) {
     pose[static_cast<std::size_t>(node)].rotation = tilt;
-    pose[static_cast<std::size_t>(node)].translation = kRoadPlace + tilt * glm::vec3(from_car);
+    pose[static_cast<std::size_t>(node)].translation = place_ + tilt * glm::vec3(from_car);
   };
   put(land_, glm::dvec3(0.0));
   put(strip_, {0.0, 0.0, tile_shift(distance)});

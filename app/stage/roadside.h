@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include <glm/vec3.hpp>
+
 #include "app/stage/road.h"
 #include "engine/model/model.h"
 
@@ -25,6 +27,7 @@ class Roadside {
   void place(double distance, double slope, std::vector<Node>& pose) const;
 
  private:
+  glm::vec3 place_{0.0f};  // [m] where the car is on it
   int strip_ = kNone, land_ = kNone;
   std::array<int, kBlocks> block_{};
 };

@@ -31,6 +31,14 @@ constexpr float kExposure = 3.0f;    // for eyes inside: the cabin is darker tha
 constexpr ShadowRoom kCabin{{-0.45f, -0.31f, -1.25f}, {1.12f, 0.96f, 1.45f}};  // [m]
 constexpr glm::vec3 kX{1.0f, 0.0f, 0.0f}, kZ{0.0f, 0.0f, 1.0f};
 
+ShadowRoom room_of(DriveSide side) {
+  if (side == DriveSide::left) return kCabin;
+  ShadowRoom room = kCabin;
+  room.low.x = static_cast<float>(2.0 * kMirrorPlane) - kCabin.high.x;
+  room.high.x = static_cast<float>(2.0 * kMirrorPlane) - kCabin.low.x;
+  return room;
+}
+
 glm::quat about(glm::vec3 axis, double angle) {
   return glm::angleAxis(static_cast<float>(angle), axis);
 }
@@ -55,6 +63,7 @@ struct Stage::State {
   int lever = kNone, ghost = kNone, boot = kNone, wheel = kNone, tach = kNone, speed = kNone, gear_panel = kNone;
   int clutch = kNone, brake = kNone, throttle = kNone, hand_brake = kNone;
   int shift_up = kNone, shift_down = kNone, driven_way = kNone, ideal_way = kNone;
+  int beam = kNone, beam_end = kNone;
   glm::dvec3 pivot{0.0};  // [m] world
   glm::dvec3 knob{0.0}, ghost_knob{0.0};
 
@@ -68,7 +77,7 @@ struct Stage::State {
     find_nodes();
     scene.nodes.resize(model.nodes.size());
     scene.exposure = kExposure;
-    scene.shadow_room = kCabin;
+    scene.shadow_room = room_of(config.drive);
     for (NodeState& state : scene.nodes) state.indoors = true;
     for (const std::string& name : outdoor_names())
       scene.nodes[static_cast<std::size_t>(needed_node(model, name))].indoors = false;
@@ -96,6 +105,8 @@ struct Stage::State {
     shift_down = needed_node(model, kShiftDown);
     driven_way = needed_node(model, kDrivenWay);
     ideal_way = needed_node(model, kIdealWay);
+    beam = needed_node(model, kBeamNode);
+    beam_end = needed_node(model, kBeamEndNode);
     for (std::size_t i = 0; i < lamp.size(); ++i) lamp[i] = needed_node(model, kLampNodes[i]);
   }
 
@@ -107,7 +118,7 @@ struct Stage::State {
   }
 
   void take_hand() {
-    hand.emplace(model);
+    hand.emplace(model, config.drive);
     hand_mesh = scene.deformed.size();
     scene.deformed.push_back({node(hand->skin_node()).mesh, {}});
     skin_vertices(model, hand->skin_node(), rest_pose(model), scene.deformed.back().vertices);
@@ -193,6 +204,16 @@ struct Stage::State {
     return is_shown;
   }
 
+  void place_pointer(const std::optional<Beam>& pointer) {
+    NodeState &stick = scene.nodes[static_cast<std::size_t>(beam)],
+              &end = scene.nodes[static_cast<std::size_t>(beam_end)];
+    stick.opacity = end.opacity = kBeamOpacity;
+    end.visible = pointer.has_value();
+    stick.visible = pointer && pointer->from != pointer->to;
+    if (stick.visible) place_beam_stick(*pointer, pose[static_cast<std::size_t>(beam)]);
+    if (end.visible) pose[static_cast<std::size_t>(beam_end)].translation = glm::vec3(pointer->to);
+  }
+
   void resolve() {
     for (std::size_t i = 0; i < pose.size(); ++i) {
       const int parent = pose[i].parent;
@@ -224,6 +245,7 @@ void Stage::place(const StageInput& input) {
   state_->place_lever(input);
   state_->place_instruments(input);
   state_->place_ways(input);
+  state_->place_pointer(input.pointer);
   state_->road.place(input.car.distance, input.car.slope, state_->pose);
   if (state_->gearbox)
     state_->gearbox->place(state_->config.gate, input.lever.proxy, input.car, input.time, state_->pose);
@@ -252,7 +274,7 @@ glm::dvec3 Stage::knob_top() const noexcept {
 }
 
 EyePose Stage::driver_eye() const noexcept {
-  return camera("driver");
+  return camera("driver", state_->config.drive);
 }
 
 }  // namespace gearshift

@@ -72,6 +72,6 @@ class Stage {
 // Named cameras: "driver", "ahead", "lever", "gate", "cluster", "gearbox". What each is for lies in the middle square of
 // the picture: the panel may cover the sides. Throw std::invalid_argument naming them all.
 EyePose camera(std::string_view name, DriveSide side = DriveSide::left);
-double camera_field(std::string_view name);  // [deg] across the shorter side of the picture
+double camera_field(std::string_view name);  // [deg] across the shorter side of the picture; on both sides alike
 
 }  // namespace gearshift

@@ -13,7 +13,9 @@
 #include "app/stage/hand.h"
 #include "app/stage/instruments.h"
 #include "app/stage/lever_pose.h"
+#include "app/stage/mirror_image.h"
 #include "app/stage/pieces.h"
+#include "app/stage/pointer_beam.h"
 #include "app/stage/roadside.h"
 #include "app/stage/shift_light.h"
 #include "app/stage/strokes.h"
@@ -30,6 +32,13 @@ constexpr float kModelRod = 0.006f;         // [m] radius of the cabin's LeverRo
 constexpr glm::dvec2 kLamp{-0.052, 0.059};  // [m] on the boot's frame, front left: no hand hides it from the driver
 constexpr double kLampRadius = 0.0040;      // [m]
 constexpr const char* kBodywork = "Bodywork";
+constexpr std::array kPedals{"PedalClutch", "PedalBrake", "PedalThrottle"};
+
+// What is the same in a right-hand-drive car, only elsewhere: print, what is held, what turns.
+constexpr std::string_view kUpright[] = {
+    "Cluster",    "RadioScreen",   "ClimatePrint", "HazardButton", "SteeringColumn", "PedalClutch",
+    "PedalBrake", "PedalThrottle", "LeverPivot",   "GhostPivot",   "Boot",           "GatePlate",
+    "BootRing",   "GateInsert",    kDrivenWay,     kIdealWay,      "Gearbox"};
 
 Node& node_of(Model& model, std::string_view name) {
   return model.nodes[static_cast<std::size_t>(needed_node(model, name))];
@@ -42,7 +51,7 @@ void hide(Model& model, std::string_view name) {
 // Draws that nobody would miss: small faces of one material are shown in another that the part has too, what turns
 // about its own axis of symmetry stands still.
 void join_draws(Model& cabin) {
-  for (const char* pedal : {"PedalClutch", "PedalBrake", "PedalThrottle"}) {
+  for (const char* pedal : kPedals) {
     repaint(cabin, pedal, "PlasticHard", "PlasticSoft");
   }
   repaint(cabin, "Handbrake", "PlasticGloss", "MetalSatin");
@@ -162,12 +171,36 @@ glm::vec3 knob_at_rest(const Model& model) {
   return pivot_at_rest(model) + glm::vec3(0.0f, static_cast<float>(kDrawnLever), 0.0f);
 }
 
+// All at once, before what stands still is merged. The clutch stays left of the brake: pedals stand to their driver as
+// they did. The footrest stays before its wheel, though that is beside the throttle now: the tunnel leaves it no room,
+// and without it the floor shows the hole and the dark that were baked behind it.
+void sit_on_the_right(Model& model) {
+  mirror_model(model, static_cast<float>(kMirrorPlane), kUpright);
+  for (const char* pedal : kPedals) {
+    Node& node = node_of(model, pedal);
+    node.translation.x = -node.translation.x;
+  }
+}
+
+// The sign is to be read, the box to be open towards the driver: both are mirrored once more, or once before.
+Model road_things(const StageConfig& config, const std::filesystem::path& folder) {
+  Model road = read_gltf(folder / "road.glb");
+  if (config.drive == DriveSide::right) mirror_mesh(road, node_of(road, "Sign").mesh);
+  return road;
+}
+
+Model gearbox_parts(const StageConfig& config, const std::filesystem::path& folder) {
+  Model parts = read_gltf(folder / "gearbox.glb");
+  if (config.drive == DriveSide::right) mirror_model(parts, 0.0f, {});
+  return parts;
+}
+
 std::vector<std::string> moving_names(const StageConfig& config) {
   std::vector<std::string> names = {
       "LeverPivot", "Boot",          "TachNeedle", "SpeedNeedle", "SteeringWheel",         "PedalClutch", "PedalBrake",
       "GearPanel",  "PedalThrottle", "Handbrake",  "GhostPivot",  "InteriorMirrorSurface", kBodywork};
   names.insert(names.end(), kLampNodes.begin(), kLampNodes.end());
-  names.insert(names.end(), {kShiftUp, kShiftDown, kDrivenWay, kIdealWay});
+  names.insert(names.end(), {kShiftUp, kShiftDown, kDrivenWay, kIdealWay, kBeamNode, kBeamEndNode});
   if (config.hand) names.insert(names.end(), {"HandRoot", "GhostHand"});
   for (std::string& name : Roadside::moving_names()) names.push_back(std::move(name));
   if (config.cutaway) {
@@ -200,8 +233,10 @@ Model make_stage_model(const StageConfig& config, const std::filesystem::path& f
   add_way(model, kIdealWay, pivot_at_rest(model), kIdealLook);
   add_ghost(model);
   if (config.hand) Hand::add_to(model, read_gltf(folder / "hand.glb"), knob_at_rest(model));
-  Roadside::add_to(model, read_gltf(folder / "road.glb"));
-  if (config.cutaway) Gearbox::add_to(model, read_gltf(folder / "gearbox.glb"), config.gate);
+  Roadside::add_to(model, road_things(config, folder));
+  if (config.cutaway) Gearbox::add_to(model, gearbox_parts(config, folder), config.gate);
+  if (config.drive == DriveSide::right) sit_on_the_right(model);
+  add_pointer_beam(model);
   const std::vector<std::string> names = moving_names(config);
   return merge_static(model, std::vector<std::string_view>(names.begin(), names.end()));
 }

@@ -1,0 +1,87 @@
+// The right-hand-drive cabin under a mirrored sun is the left-hand-drive one's picture in a mirror, but where there is
+// print: so light comes from the right side, through normal maps too, and what culls nothing wrong.
+#include <algorithm>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "engine/light/enclosure.h"
+#include "tests/picture/cabin_rig.h"
+
+using namespace gearshift;
+
+namespace {
+
+constexpr int kWidth = 640, kHeight = 360;  // [px]
+
+RenderConfig config_of_sides(bool normal_maps = true) {
+  RenderConfig config;
+  config.width = kWidth;
+  config.height = kHeight;
+  config.samples = 4;
+  config.normal_maps = normal_maps;
+  return config;
+}
+
+// With the sun that the left has, or with that in a mirror.
+Image seen_on(DriveSide side, const char* name, bool mirror_sun, bool normal_maps = true) {
+  StageConfig cabin;
+  cabin.gate = shipped_gate("paper");
+  cabin.drive = side;
+  CabinRig rig(config_of_sides(normal_maps), cabin);
+  rig.stage.place(resting_in(rig.gate, kNeutralGear));
+  FrameScene scene = rig.stage.scene();
+  if (mirror_sun) scene.sun.towards.x = -scene.sun.towards.x;
+  const Radiance open = day_sky(scene.sun.towards);
+  rig.renderer.set_environment(open, inside(car_cabin(), open, scene.sun.towards, scene.sun.irradiance));
+  const View view = seen_from(camera(name, side), rig.renderer.config(), camera_field(name));
+  rig.renderer.draw(scene, {&view, 1});
+  return rig.renderer.read_eye(0);
+}
+
+Image in_mirror(Image image) {
+  for (int y = 0; y < image.height; ++y) {
+    for (int x = 0; x < image.width / 2; ++x)
+      std::swap_ranges(image.pixel(x, y), image.pixel(x, y) + 4, image.pixel(image.width - 1 - x, y));
+  }
+  return image;
+}
+
+struct Region {
+  const char* camera;
+  int x, y, width, height;  // [px] of the left's picture
+};
+constexpr Region kRegions[] = {{"driver", 480, 190, 160, 130},  // the passenger's door, with the edge of his seat
+                               {"ahead", 500, 0, 140, 200},     // pillar and roof, and the land beside
+                               {"gate", 280, 40, 360, 320},     // hand and seat, whose leather has normal maps
+                               {"cluster", 150, 110, 340, 160}};
+constexpr const Region &kSeat = kRegions[2], &kDials = kRegions[3];
+
+Image part(const Image& image, const Region& r) {
+  return crop(image, r.x, r.y, r.width, r.height);
+}
+
+// Edges differ: the samples of a pixel are no mirror image of themselves.
+constexpr double kEdges = 0.04;
+
+ImageDifference apart_in(const Region& region, const Image& left, const Image& right) {
+  const ImageDifference apart = difference(part(left, region), part(in_mirror(right), region), 3);
+  MESSAGE(std::string(region.camera) << ": " << 100.0 * apart.share_beyond << " % beyond 3/255");
+  return apart;
+}
+
+}  // namespace
+
+TEST_CASE("body and hand on the right look as in a mirror, and the dials do not") {
+  for (const Region& region : kRegions) {
+    const ImageDifference apart = apart_in(region, seen_on(DriveSide::left, region.camera, false),
+                                           seen_on(DriveSide::right, region.camera, true));
+    CHECK((apart.share_beyond < kEdges) == (&region != &kDials));
+  }
+}
+
+TEST_CASE("with the sun as it was, or without normal maps, the seat on the right is no mirror image") {
+  const Image left = seen_on(DriveSide::left, kSeat.camera, false);
+  CHECK(apart_in(kSeat, left, seen_on(DriveSide::right, kSeat.camera, false)).share_beyond > 4.0 * kEdges);
+  CHECK(apart_in(kSeat, left, seen_on(DriveSide::right, kSeat.camera, true, false)).share_beyond > 4.0 * kEdges);
+}
