@@ -6,21 +6,47 @@
 namespace gearshift {
 namespace {
 
-constexpr double kDistance = 1.4;                           // [m]
-constexpr double kWidth = 1.5;                              // [m]
-constexpr double kAside = 36.0 * std::numbers::pi / 180.0;  // [rad] towards the passenger
-constexpr double kAbove = 2.0 * std::numbers::pi / 180.0;   // [rad]
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kDistance = 1.4;  // [m]
+constexpr double kWidth = 1.5;     // [m] of the whole picture
+
+struct Direction {
+  double aside, above;  // [rad] towards the passenger, up
+};
+constexpr Direction kPanel{36.0 * kDegree, 2.0 * kDegree};
+constexpr Direction kCardFoot{21.0 * kDegree, -9.0 * kDegree};  // of its lower edge
+
+glm::dvec3 towards(Direction direction, DriveSide side) {
+  const double aside = side == DriveSide::left ? direction.aside : -direction.aside;
+  return {std::sin(aside) * std::cos(direction.above), std::sin(direction.above),
+          -std::cos(aside) * std::cos(direction.above)};
+}
+
+// Its -Z looks away from the driver.
+HangingPanel hung_at(glm::dvec3 driver_eye, glm::dvec3 along) {
+  const glm::dvec3 at = driver_eye + kDistance * along;
+  HangingPanel panel;
+  panel.pose = look_at(at, at + along);
+  return panel;
+}
 
 }  // namespace
 
 HangingPanel hang_panel(glm::dvec3 driver_eye, DriveSide side, glm::dvec2 picture) {
-  const double aside = side == DriveSide::left ? kAside : -kAside;
-  const glm::dvec3 towards{std::sin(aside) * std::cos(kAbove), std::sin(kAbove), -std::cos(aside) * std::cos(kAbove)};
-  const glm::dvec3 at = driver_eye + kDistance * towards;
-  HangingPanel panel;
-  panel.pose = look_at(at, at + towards);  // its -Z looks away from the driver
+  HangingPanel panel = hung_at(driver_eye, towards(kPanel, side));
   panel.size = {kWidth, kWidth * picture.y / picture.x};
   return panel;
+}
+
+HangingPanel hang_card(glm::dvec3 driver_eye, DriveSide side, glm::dvec2 picture, glm::dvec2 low, glm::dvec2 high) {
+  const glm::dvec2 size = kWidth / picture.x * (high - low) * picture;
+  Direction middle = kCardFoot;
+  middle.above += std::atan(0.5 * size.y / kDistance);
+  HangingPanel card = hung_at(driver_eye, towards(middle, side));
+  card.size = size;
+  card.low = low;
+  card.high = high;
+  return card;
 }
 
 std::optional<PanelHit> point_at(const HangingPanel& panel, const EyePose& hand) {
@@ -30,8 +56,9 @@ std::optional<PanelHit> point_at(const HangingPanel& panel, const EyePose& hand)
   PanelHit hit;
   hit.distance = seen.position.z / -along.z;
   const glm::dvec3 at = seen.position + hit.distance * along;
-  hit.at = {0.5 + at.x / panel.size.x, 0.5 - at.y / panel.size.y};
-  const bool inside = hit.at.x >= 0.0 && hit.at.x <= 1.0 && hit.at.y >= 0.0 && hit.at.y <= 1.0;
+  const glm::dvec2 share{0.5 + at.x / panel.size.x, 0.5 - at.y / panel.size.y};
+  hit.at = panel.low + share * (panel.high - panel.low);
+  const bool inside = share.x >= 0.0 && share.x <= 1.0 && share.y >= 0.0 && share.y <= 1.0;
   return inside ? std::optional(hit) : std::nullopt;
 }
 

@@ -12,16 +12,20 @@
 namespace gearshift {
 
 struct HangingPanel {
-  EyePose pose;          // of its middle, in the cabin; it faces along its +Z
-  glm::dvec2 size{0.0};  // [m]
+  EyePose pose;                    // of its middle, in the cabin; it faces along its +Z
+  glm::dvec2 size{0.0};            // [m]
+  glm::dvec2 low{0.0}, high{1.0};  // [1] the part of the picture that is shown
 };
 
-// Of a picture of that size [px], before the windscreen at the passenger's side: 1.4 m from the driver's eyes, facing
-// them, where nothing of the cabin stands nearer, and 1.5 m wide. It hangs still: nothing is locked to the head.
+// 1.4 m from the driver's eyes, facing them, where nothing of the cabin stands nearer; a picture of that size [px] is 1.5 m
+// wide as a whole. It hangs still: nothing is locked to the head.
+// All of it, before the windscreen at the passenger's side.
 HangingPanel hang_panel(glm::dvec3 driver_eye, DriveSide side, glm::dvec2 picture);
+// What the panel leaves to the cabin, where a learner's card lies: beside the way ahead, its lower edge on the dashboard.
+HangingPanel hang_card(glm::dvec3 driver_eye, DriveSide side, glm::dvec2 picture, glm::dvec2 low, glm::dvec2 high);
 
 struct PanelHit {
-  glm::dvec2 at{0.0};     // [1] of the picture, from its upper left corner
+  glm::dvec2 at{0.0};     // [1] of the whole picture, from its upper left corner
   double distance = 0.0;  // [m] from the hand
 };
 

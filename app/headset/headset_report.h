@@ -17,7 +17,7 @@ struct HeadsetReport {
   HeadsetTiming timing;
   bool is_tracked = false;
   SeatSettings seat;
-  bool touching = false;    // the next triggers are touches of the knob
+  bool touching = false;  // the next triggers are touches of the knob
   std::size_t touches = 0;
   double worst_touch = 0.0;  // [m]
 };

@@ -2,10 +2,10 @@
 
 #include <charconv>
 #include <cmath>
-#include <numbers>
 #include <system_error>
 
 #include <fmt/core.h>
+#include <glm/trigonometric.hpp>
 
 #include "haptics/files/readable_file.h"
 #include "haptics/files/text_file.h"
@@ -16,10 +16,9 @@ namespace {
 
 constexpr Range kHeight{-0.3, 0.3}, kKnobRange{-1.5, 1.5}, kRoom{-50.0, 50.0}, kError{0.0, 0.1}, kTurn{-180.0, 180.0};
 constexpr glm::dvec3 kVertical{0.0, 1.0, 0.0};
-constexpr double kDegree = std::numbers::pi / 180.0;
 
 double turn_of(const EyePose& pose) {
-  return 2.0 * std::atan2(pose.orientation.y, pose.orientation.w) / kDegree;
+  return glm::degrees(2.0 * std::atan2(pose.orientation.y, pose.orientation.w));
 }
 
 // The shortest that reads back to the bit.
@@ -63,7 +62,7 @@ SeatSettings read_seat(const std::filesystem::path& file) {
   if (all.has("touched")) {
     const TomlTable touched = all.table("touched");
     seat.touched = EyePose{{touched.number("x_m", kRoom), touched.number("y_m", kRoom), touched.number("z_m", kRoom)},
-                           glm::angleAxis(kDegree * touched.number("turn_deg", kTurn), kVertical)};
+                           glm::angleAxis(glm::radians(touched.number("turn_deg", kTurn)), kVertical)};
     seat.touch_error = touched.number("error_m", kError);
     touched.refuse_unknown_keys();
   }

@@ -98,7 +98,7 @@ class TabStyle {
     if (!dense_) return;
     const ImGuiStyle& style = ImGui::GetStyle();
     ImGui::PushFont(ui_font(UiFont::small));
-    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0.5f * style.FramePadding.x, 1.3f * style.FramePadding.y});
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0.3f * style.FramePadding.x, 1.3f * style.FramePadding.y});
     ImGui::PushStyleVar(ImGuiStyleVar_ItemInnerSpacing, {2.0f, style.ItemInnerSpacing.y});
   }
   ~TabStyle() {

@@ -134,7 +134,6 @@ class WindowTrainer {
     pointing_.follow(window_.poll(), wears() ? headset_->pointer() : std::nullopt, window_.framebuffer());
     shared_.update(pointing_.input(), seconds_, eye_size().x, panel_, ui_, pointing_.leads());
     if (setup_.choice.stick) input_.free_mouse();
-    if (wears() && headset_->take_menu()) panel_.set_visible(!panel_.visible());
     look_.turn(shared_.turned());
   }
 

@@ -14,7 +14,7 @@ constexpr auto kPause = std::chrono::seconds(2);  // between two looks for a hea
 constexpr double kBeam = 3.0;                     // [m] of a hand that points at nothing
 
 HeadsetPanel in_room(const EyePose& cabin_from_room, const HangingPanel& panel) {
-  return {inverse(cabin_from_room) * panel.pose, panel.size};
+  return {inverse(cabin_from_room) * panel.pose, panel.size, panel.low, panel.high};
 }
 
 EyePose between(const HeadsetEyes& eyes) {
@@ -91,7 +91,9 @@ bool WornHeadset::begin(const Stage& stage) {
 }
 
 void WornHeadset::draw(const FrameScene& scene, const SeenPart& seen, glm::dvec2 panel_size) {
-  panel_ = hang_panel(camera("driver", setup_.seat.drive).position, setup_.seat.drive, panel_size);
+  const DriveSide side = setup_.seat.drive;
+  const glm::dvec3 eye = camera("driver", side).position;
+  panel_ = panel_open_ ? hang_panel(eye, side, panel_size) : hang_card(eye, side, panel_size, seen.low, seen.high);
   const HeadsetPanel panel = in_room(cabin_from_room_, panel_);
   try {
     view_->draw(scene, cabin_from_room_, &panel, seen);
@@ -144,7 +146,7 @@ void WornHeadset::follow_hands(const Stage& stage) {
     const HeadsetHand& hand = hands[i];
     const bool selected = std::exchange(selected_[i], hand.selects), had_menu = std::exchange(menu_[i], hand.menu);
     const bool pressed = hand.selects && !selected;
-    menu_pressed_ = menu_pressed_ || (hand.menu && !had_menu);
+    if (hand.menu && !had_menu) panel_open_ = !panel_open_;
     if (!hand.is_tracked) continue;
     const EyePose aim = cabin_from_room_ * hand.aim;
     const glm::dvec3 along = aim.orientation * glm::dvec3(0.0, 0.0, -1.0);
@@ -223,10 +225,6 @@ void WornHeadset::keep() {
 
 EyePose WornHeadset::head() const {
   return cabin_from_room_ * between(view_->eyes());
-}
-
-bool WornHeadset::take_menu() noexcept {
-  return std::exchange(menu_pressed_, false);
 }
 
 double WornHeadset::touch_error() const noexcept {

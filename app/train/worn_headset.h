@@ -39,6 +39,7 @@ class WornHeadset {
   // A frame, in this order. begin(): waits for the headset's next frame and places the seat; false where nobody wears it
   // now, and the caller paces. Where the headset is lost everything of it is gone: is_open() says so, news() why.
   bool begin(const Stage& stage);
+  // seen: what the panel, of that size [px], leaves to the cabin.
   void draw(const FrameScene& scene, const SeenPart& seen, glm::dvec2 panel_size);
 
   // Of the frame that has begun.
@@ -50,7 +51,6 @@ class WornHeadset {
   };
   const std::optional<Pointer>& pointer() const noexcept { return pointer_; }  // of the hand that points at the panel
   const std::optional<Beam>& beam() const noexcept { return beam_; }           // from that hand, in the cabin
-  bool take_menu() noexcept;                                                   // once: its button went down
   bool wants_exit() const noexcept { return wants_exit_; }
 
   void recentre() noexcept { sits_ = false; }
@@ -87,7 +87,7 @@ class WornHeadset {
   std::optional<Pointer> pointer_;
   std::optional<Beam> beam_;
   std::array<bool, 2> selected_{}, menu_{};  // in the frame before
-  bool menu_pressed_ = false;
+  bool panel_open_ = false;                  // all of it, not the learner's card alone: by the hand's menu button
   bool wants_exit_ = false;
   std::string news_;
 };

@@ -361,6 +361,9 @@ struct Layers {
     panel.space = space;
     panel.eyeVisibility = XR_EYE_VISIBILITY_BOTH;
     panel.subImage = images.layer(0);
+    const glm::dvec2 size(images.size());
+    const glm::ivec2 low(hung.low * size), high(hung.high * size);
+    panel.subImage.imageRect = {{low.x, low.y}, {std::max(1, high.x - low.x), std::max(1, high.y - low.y)}};
     panel.pose = xr_pose(hung.pose);
     panel.size = {static_cast<float>(hung.size.x), static_cast<float>(hung.size.y)};
     all.push_back(reinterpret_cast<LayerHeader>(&panel));

@@ -61,10 +61,11 @@ struct HeadsetHand {
   glm::dvec2 scroll{0.0};  // [1] thumb stick, right and up +
 };
 
-// A picture that hangs in the room: its middle, facing along its +Z.
+// A part of the panel's picture that hangs in the room: its middle, facing along its +Z.
 struct HeadsetPanel {
   EyePose pose;
-  glm::dvec2 size{0.0};  // [m]
+  glm::dvec2 size{0.0};            // [m]
+  glm::dvec2 low{0.0}, high{1.0};  // [1] of the picture, from its upper left corner
 };
 
 class HeadsetSession {

@@ -68,3 +68,26 @@ TEST_CASE("a hand points where it points, and at nothing beside the panel or fro
   away.orientation = away.orientation * glm::angleAxis(std::numbers::pi, dvec3(0, 1, 0));
   CHECK_FALSE(point_at(panel, away));
 }
+
+TEST_CASE(
+    "a learner's card hangs beside the way ahead, as large a pixel as the panel's, and is pointed at where it is") {
+  const glm::dvec2 low{0.25, 0.0}, high{0.75, 0.9};
+  for (const DriveSide side : {DriveSide::left, DriveSide::right}) {
+    const dvec3 eye = on_side(side, kEye);
+    const HangingPanel panel = hang_panel(eye, side, {1280, 720}), card = hang_card(eye, side, {1280, 720}, low, high);
+    CHECK(card.size.x == doctest::Approx(0.5 * panel.size.x));
+    CHECK(card.size.y == doctest::Approx(0.9 * panel.size.y));
+    CHECK(glm::distance(card.pose.position, eye) == doctest::Approx(glm::distance(panel.pose.position, eye)));
+    // Its inner edge leaves 5 degrees and more beside straight ahead free, its lower edge lies below the horizon.
+    const double inner = side == DriveSide::left ? -0.5 : 0.5;
+    const dvec3 edge = card.pose * dvec3(inner * card.size.x, 0.0, 0.0) - eye;
+    CHECK(std::abs(std::atan2(edge.x, -edge.z)) > 5.0 * kDegree);
+    const dvec3 foot = card.pose * dvec3(0.0, -0.5 * card.size.y, 0.0) - eye;
+    CHECK(std::asin(foot.y / glm::length(foot)) == doctest::Approx(-9.0 * kDegree).epsilon(0.05));
+    const dvec3 target = card.pose * dvec3(0.1, -0.2, 0.0);
+    const auto hit = point_at(card, look_at({0.3, 0.2, -0.1}, target));
+    REQUIRE(hit);
+    CHECK(hit->at.x == doctest::Approx(0.5 + 0.1 / card.size.x * 0.5));
+    CHECK(hit->at.y == doctest::Approx(0.45 + 0.2 / card.size.y * 0.9));
+  }
+}
