@@ -9,19 +9,20 @@
 #define GEARSHIFT_XR_FUNCTIONS(_)                                                                                      \
   _(EnumerateInstanceExtensionProperties, nullptr)                                                                     \
   _(CreateInstance, nullptr)                                                                                           \
-  _(DestroyInstance, nullptr) _(GetInstanceProperties, nullptr) _(PollEvent, nullptr) _(ResultToString, nullptr) _(    \
-      StructureTypeToString, nullptr) _(GetSystem, nullptr) _(GetSystemProperties, nullptr)                            \
-      _(EnumerateEnvironmentBlendModes, nullptr) _(CreateSession, nullptr) _(DestroySession, nullptr) _(               \
-          EnumerateReferenceSpaces, nullptr) _(CreateReferenceSpace, nullptr) _(GetReferenceSpaceBoundsRect, nullptr)  \
-          _(CreateActionSpace, nullptr) _(LocateSpace, nullptr) _(DestroySpace, nullptr)                               \
-              _(EnumerateViewConfigurations, nullptr) _(GetViewConfigurationProperties, nullptr) _(                    \
-                  EnumerateViewConfigurationViews, nullptr) _(EnumerateSwapchainFormats, nullptr)                      \
-                  _(CreateSwapchain, nullptr) _(DestroySwapchain, nullptr) _(EnumerateSwapchainImages, nullptr) _(     \
-                      AcquireSwapchainImage, nullptr) _(WaitSwapchainImage, nullptr) _(ReleaseSwapchainImage, nullptr) \
-                      _(BeginSession, nullptr) _(EndSession, nullptr) _(RequestExitSession, nullptr)                   \
-                          _(WaitFrame, nullptr) _(BeginFrame, nullptr) _(EndFrame, nullptr) _(LocateViews, nullptr)    \
-                              _(StringToPath, nullptr) _(PathToString, nullptr) _(CreateActionSet, nullptr)            \
-                                  _(DestroyActionSet, nullptr) _(CreateAction, nullptr) _(DestroyAction, nullptr) _(   \
+  _(DestroyInstance, nullptr)                                                                                          \
+  _(GetInstanceProperties, nullptr) _(PollEvent, nullptr) _(ResultToString, nullptr) _(StructureTypeToString, nullptr) \
+      _(GetSystem, nullptr) _(GetSystemProperties, nullptr) _(EnumerateEnvironmentBlendModes, nullptr)                 \
+          _(CreateSession, nullptr) _(DestroySession, nullptr) _(EnumerateReferenceSpaces, nullptr) _(                 \
+              CreateReferenceSpace, nullptr) _(GetReferenceSpaceBoundsRect, nullptr) _(CreateActionSpace, nullptr)     \
+              _(LocateSpace, nullptr) _(DestroySpace, nullptr) _(EnumerateViewConfigurations, nullptr) _(              \
+                  GetViewConfigurationProperties, nullptr) _(EnumerateViewConfigurationViews, nullptr)                 \
+                  _(EnumerateSwapchainFormats, nullptr) _(CreateSwapchain, nullptr) _(DestroySwapchain, nullptr) _(    \
+                      EnumerateSwapchainImages, nullptr) _(AcquireSwapchainImage, nullptr)                             \
+                      _(WaitSwapchainImage, nullptr) _(ReleaseSwapchainImage, nullptr) _(BeginSession, nullptr) _(     \
+                          EndSession, nullptr) _(RequestExitSession, nullptr) _(WaitFrame, nullptr)                    \
+                          _(BeginFrame, nullptr) _(EndFrame, nullptr) _(LocateViews, nullptr) _(StringToPath, nullptr) \
+                              _(PathToString, nullptr) _(CreateActionSet, nullptr) _(DestroyActionSet, nullptr)        \
+                                  _(CreateAction, nullptr) _(DestroyAction, nullptr) _(                                \
                                       SuggestInteractionProfileBindings, nullptr) _(AttachSessionActionSets, nullptr)  \
                                       _(GetCurrentInteractionProfile, nullptr) _(GetActionStateBoolean, nullptr) _(    \
                                           GetActionStateFloat, nullptr) _(GetActionStateVector2f, nullptr)             \
