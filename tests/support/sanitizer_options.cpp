@@ -25,7 +25,8 @@ extern "C" const char* __lsan_default_suppressions() {
   return "leak:libvulkan_lvp.so\n"
          "leak:libLLVM\n"
          "leak:libVkLayer_khronos_validation.so\n"
-         "leak:libvulkan.so\n";
+         "leak:libvulkan.so\n"
+         "leak:libopenxr_loader.so\n";
 }
 #endif
 

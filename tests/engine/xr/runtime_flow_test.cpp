@@ -105,5 +105,18 @@ TEST_CASE("a script's words are the control's, and an unknown one is refused") {
   }
 }
 
+TEST_CASE("the script in the runtime's README is one") {
+  const TempFolder folder;
+  const std::string file = (folder.path() / "script.toml").string();
+  const std::string readme = read_text(std::filesystem::path(GEARSHIFT_TEST_DATA) / "../support/xr_runtime/README.md");
+  const std::string fence = "```toml\n";
+  const std::size_t start = readme.find(fence) + fence.size();
+  write_text(file, readme.substr(start, readme.find("```", start) - start));
+  const Script script = control().read_script(file.c_str());
+  CHECK(script.hands[0].aim(0.0).position.z == -0.4);
+  CHECK(script.failures.size() == 1);
+  CHECK(script.tracking_gaps.size() == 1);
+}
+
 }  // namespace
 }  // namespace gearshift::xr_test
