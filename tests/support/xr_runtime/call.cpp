@@ -3,6 +3,7 @@
 #include <cstring>
 
 #include "tests/support/xr_runtime/rules.h"
+#include "tests/support/xr_runtime/script.h"
 #include "tests/support/xr_runtime/state.h"
 
 namespace gearshift::xr_test {
@@ -39,6 +40,7 @@ State& state() {
     auto* const made = new State;  // outlives the loader's destructors
     made->control.rules = rules();
     made->control.restart = restart;
+    made->control.read_script = [](const char* file) { return read_script(file); };
     read_flow_script(made->control);
     return made;
   }();

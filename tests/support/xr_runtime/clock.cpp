@@ -21,9 +21,9 @@ std::int64_t whole_periods(const State& s, XrTime time) {
 }  // namespace
 
 XrTime monotonic_now() {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return now.tv_sec * 1'000'000'000 + now.tv_nsec;
+  timespec time{};
+  clock_gettime(CLOCK_MONOTONIC, &time);
+  return time.tv_sec * 1'000'000'000 + time.tv_nsec;
 }
 
 XrDuration period(const State& s) {
@@ -38,10 +38,9 @@ XrTime display_time(const State& s, std::int64_t step) {
   return s.begin + std::llround(static_cast<double>(step) * s.control.script.period * 1e9);
 }
 
-double script_now(const State& s) {
-  if (s.begin == 0) return 0.0;
-  if (s.control.script.pacing == Pacing::real) return seconds(s, monotonic_now());
-  return seconds(s, display_time(s, std::max<std::int64_t>(s.next_step - 1, 0)));
+XrTime now(const State& s) {
+  if (s.begin == 0 || s.control.script.pacing == Pacing::real) return monotonic_now();
+  return display_time(s, std::max<std::int64_t>(s.next_step - 1, 0));
 }
 
 std::int64_t next_display_period(State& s, XrTime last) {

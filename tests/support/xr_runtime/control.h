@@ -251,6 +251,7 @@ struct Control {
   Record record;
   std::span<const Rule> rules{};
   void (*restart)(Control&) = nullptr;
+  Script (*read_script)(const char* file) = nullptr;  // a flow's text; throws std::runtime_error
 
   // Before xrCreateInstance: a new script and an empty record.
   void start(Script next = Script()) {

@@ -42,13 +42,12 @@ XrResult XRAPI_CALL WaitFrame(XrSession session, const XrFrameWaitInfo* info, Xr
     require(!object.waited, "wait_twice");
     // First what is due by the display time that comes, a stall among it; then that time.
     const bool steps = s.control.script.pacing == Pacing::stepped;
-    play_timeline(s, steps ? seconds(s, display_time(s, s.next_step)) : script_now(s));
+    play_timeline(s, steps ? seconds(s, display_time(s, s.next_step)) : seconds(s, now(s)));
     live(session);  // which the timeline may have lost
     walk(s, session, object);
     const XrTime time = display_time(s, next_display_period(s, object.last_display));
     ++object.waits;
     object.last_display = time;
-    object.locates = 0;
     FrameRecord record{.index = s.control.record.frames.size(), .time = seconds(s, time), .display_time = time};
     record.should_render = is_shown(s, object, record.time);
     object.waited = FrameState{time, s.control.record.frames.size()};
@@ -86,7 +85,6 @@ XrResult XRAPI_CALL EndFrame(XrSession session, const XrFrameEndInfo* info) {
     require(info->layerCount <= XR_MIN_COMPOSITION_LAYERS_SUPPORTED, "layer_count");
     FrameRecord& record = s.control.record.frames[object.begun->record];
     record.layers = read_layers(*info);
-    record.locates = object.locates;
     record.ended = true;
     capture_frame(s, *info, object, record);
     object.begun.reset();

@@ -5,44 +5,34 @@
 
 #include "tests/support/xr_runtime/vulkan.h"
 
-// name in OpenXR without "xr", the extension that brings it or nullptr
-#define GEARSHIFT_XR_FUNCTIONS(_)                                                                                      \
-  _(EnumerateInstanceExtensionProperties, nullptr)                                                                     \
-  _(CreateInstance, nullptr)                                                                                           \
-  _(DestroyInstance, nullptr) _(GetInstanceProperties, nullptr) _(PollEvent, nullptr) _(ResultToString, nullptr) _(    \
-      StructureTypeToString, nullptr) _(GetSystem, nullptr) _(GetSystemProperties, nullptr)                            \
-      _(EnumerateEnvironmentBlendModes, nullptr) _(CreateSession, nullptr) _(DestroySession, nullptr) _(               \
-          EnumerateReferenceSpaces, nullptr) _(CreateReferenceSpace, nullptr) _(GetReferenceSpaceBoundsRect, nullptr)  \
-          _(CreateActionSpace, nullptr) _(LocateSpace, nullptr) _(DestroySpace, nullptr)                               \
-              _(EnumerateViewConfigurations, nullptr) _(GetViewConfigurationProperties, nullptr) _(                    \
-                  EnumerateViewConfigurationViews, nullptr) _(EnumerateSwapchainFormats, nullptr)                      \
-                  _(CreateSwapchain, nullptr) _(DestroySwapchain, nullptr) _(EnumerateSwapchainImages, nullptr) _(     \
-                      AcquireSwapchainImage, nullptr) _(WaitSwapchainImage, nullptr) _(ReleaseSwapchainImage, nullptr) \
-                      _(BeginSession, nullptr) _(EndSession, nullptr) _(RequestExitSession, nullptr)                   \
-                          _(WaitFrame, nullptr) _(BeginFrame, nullptr) _(EndFrame, nullptr) _(LocateViews, nullptr)    \
-                              _(StringToPath, nullptr) _(PathToString, nullptr) _(CreateActionSet, nullptr)            \
-                                  _(DestroyActionSet, nullptr) _(CreateAction, nullptr) _(DestroyAction, nullptr) _(   \
-                                      SuggestInteractionProfileBindings, nullptr) _(AttachSessionActionSets, nullptr)  \
-                                      _(GetCurrentInteractionProfile, nullptr) _(GetActionStateBoolean, nullptr) _(    \
-                                          GetActionStateFloat, nullptr) _(GetActionStateVector2f, nullptr)             \
-                                          _(GetActionStatePose, nullptr) _(SyncActions, nullptr) _(                    \
-                                              EnumerateBoundSourcesForAction, nullptr)                                 \
-                                              _(GetInputSourceLocalizedName, nullptr) _(ApplyHapticFeedback, nullptr)  \
-                                                  _(StopHapticFeedback, nullptr)                                       \
-                                                      _(GetVulkanGraphicsRequirements2KHR, "XR_KHR_vulkan_enable2")    \
-                                                          _(CreateVulkanInstanceKHR, "XR_KHR_vulkan_enable2")          \
-                                                              _(GetVulkanGraphicsDevice2KHR, "XR_KHR_vulkan_enable2")  \
-                                                                  _(CreateVulkanDeviceKHR, "XR_KHR_vulkan_enable2")    \
-                                                                      _(ConvertTimespecTimeToTimeKHR,                  \
-                                                                        "XR_KHR_convert_timespec_time")                \
-                                                                          _(ConvertTimeToTimespecTimeKHR,              \
-                                                                            "XR_KHR_convert_timespec_time")
+// By their names without "xr"; and those that an extension brings.
+// clang-format off
+#define GEARSHIFT_XR_CORE(_)                                                                                           \
+  _(EnumerateInstanceExtensionProperties) _(CreateInstance) _(DestroyInstance) _(GetInstanceProperties) _(PollEvent)   \
+  _(ResultToString) _(StructureTypeToString) _(GetSystem) _(GetSystemProperties) _(EnumerateEnvironmentBlendModes)     \
+  _(CreateSession) _(DestroySession) _(EnumerateReferenceSpaces) _(CreateReferenceSpace)                               \
+  _(GetReferenceSpaceBoundsRect) _(CreateActionSpace) _(LocateSpace) _(DestroySpace) _(EnumerateViewConfigurations)    \
+  _(GetViewConfigurationProperties) _(EnumerateViewConfigurationViews) _(EnumerateSwapchainFormats) _(CreateSwapchain) \
+  _(DestroySwapchain) _(EnumerateSwapchainImages) _(AcquireSwapchainImage) _(WaitSwapchainImage)                       \
+  _(ReleaseSwapchainImage) _(BeginSession) _(EndSession) _(RequestExitSession) _(WaitFrame) _(BeginFrame) _(EndFrame)  \
+  _(LocateViews) _(StringToPath) _(PathToString) _(CreateActionSet) _(DestroyActionSet) _(CreateAction)                \
+  _(DestroyAction) _(SuggestInteractionProfileBindings) _(AttachSessionActionSets) _(GetCurrentInteractionProfile)     \
+  _(GetActionStateBoolean) _(GetActionStateFloat) _(GetActionStateVector2f) _(GetActionStatePose) _(SyncActions)       \
+  _(EnumerateBoundSourcesForAction) _(GetInputSourceLocalizedName) _(ApplyHapticFeedback) _(StopHapticFeedback)
+#define GEARSHIFT_XR_VULKAN_ENABLE2(_)                                                                                 \
+  _(GetVulkanGraphicsRequirements2KHR) _(CreateVulkanInstanceKHR) _(GetVulkanGraphicsDevice2KHR)                       \
+  _(CreateVulkanDeviceKHR)
+#define GEARSHIFT_XR_CONVERT_TIMESPEC_TIME(_)                                                                          \
+  _(ConvertTimespecTimeToTimeKHR) _(ConvertTimeToTimespecTimeKHR)
+// clang-format on
 
 namespace gearshift::xr_test::xr {
 
 // Each has the type that OpenXR gives it: XrResult WaitFrame(XrSession, const XrFrameWaitInfo*, XrFrameState*);
-#define GEARSHIFT_XR_DECLARE(name, extension) std::remove_pointer_t<PFN_xr##name> name;
-GEARSHIFT_XR_FUNCTIONS(GEARSHIFT_XR_DECLARE)
+#define GEARSHIFT_XR_DECLARE(name) std::remove_pointer_t<PFN_xr##name> name;
+GEARSHIFT_XR_CORE(GEARSHIFT_XR_DECLARE)
+GEARSHIFT_XR_VULKAN_ENABLE2(GEARSHIFT_XR_DECLARE)
+GEARSHIFT_XR_CONVERT_TIMESPEC_TIME(GEARSHIFT_XR_DECLARE)
 #undef GEARSHIFT_XR_DECLARE
 
 }  // namespace gearshift::xr_test::xr

@@ -40,14 +40,12 @@ ActionValue read_source(const Script& script, XrActionType type, const std::stri
 void sync_value(State& s, const SessionObject& session, XrAction handle, ActionObject& action, XrPath subaction) {
   ActionValue next;
   for (const std::string& path : sources(session, handle, subaction)) {
-    const ActionValue one = read_source(s.control.script, action.type, path, script_now(s));
+    const ActionValue one = read_source(s.control.script, action.type, path, seconds(s, now(s)));
     if (!next.active || std::hypot(one.x, one.y) > std::hypot(next.x, next.y)) next = one;
   }
   const ActionValue& last = action.values[subaction];
   next.changed = next.active && last.active && (next.x != last.x || next.y != last.y);
-  const bool steps = s.control.script.pacing == Pacing::stepped && s.begin != 0;
-  const XrTime now = steps ? display_time(s, std::max<std::int64_t>(s.next_step - 1, 0)) : monotonic_now();
-  next.change_time = next.changed ? now : last.change_time;
+  next.change_time = next.changed ? now(s) : last.change_time;
   action.values[subaction] = next;
 }
 
@@ -57,8 +55,10 @@ void sync_action(State& s, const SessionObject& session, XrAction handle) {
   for (const XrPath subaction : action.subactions) sync_value(s, session, handle, action, subaction);
 }
 
-void forget_values(State& s, const SessionObject& session) {
+// Of the sets that are not active.
+void forget_values(State& s, const SessionObject& session, const std::vector<XrActionSet>& active) {
   for (const XrActionSet set : session.attached) {
+    if (std::find(active.begin(), active.end(), set) != active.end()) continue;
     for (const XrAction one : s.actions.of([&](const ActionObject& action) { return action.set == set; })) {
       for (auto& [subaction, value] : s.actions.find(one)->values) value.active = value.changed = false;
     }
@@ -155,13 +155,14 @@ XrResult XRAPI_CALL SyncActions(XrSession session, const XrActionsSyncInfo* info
       require(is_attached(object, info->activeActionSets[i].actionSet), "set_attached");
     }
     if (object.state != XR_SESSION_STATE_FOCUSED) {
-      forget_values(s, object);
+      forget_values(s, object, {});
       return XR_SESSION_NOT_FOCUSED;
     }
     choose_profile(s, session, object);
     std::vector<XrActionSet> active;
     for (std::uint32_t i = 0; i < info->countActiveActionSets; ++i)
       active.push_back(info->activeActionSets[i].actionSet);
+    forget_values(s, object, active);
     for (const XrAction one : s.actions.of([&](const ActionObject& action) {
            return std::find(active.begin(), active.end(), action.set) != active.end();
          })) {

@@ -131,7 +131,7 @@ XrResult XRAPI_CALL PollEvent(XrInstance instance, XrEventDataBuffer* data) {
     InstanceObject* const object = s.instances.find(instance);
     require(object != nullptr, "handle_live", "instance");
     structure(data, XR_TYPE_EVENT_DATA_BUFFER);
-    if (!object->lost) play_timeline(s, script_now(s));
+    if (!object->lost) play_timeline(s, seconds(s, now(s)));
     if (s.events.empty()) {
       live(instance);
       tick(s);

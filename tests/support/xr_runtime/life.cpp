@@ -13,11 +13,6 @@ const char* state_name(XrSessionState state) {
   return kNames[state];
 }
 
-XrTime event_time(const State& s) {
-  if (s.begin == 0 || s.control.script.pacing == Pacing::real) return monotonic_now();
-  return display_time(s, std::max<std::int64_t>(s.next_step - 1, 0));
-}
-
 void change_origin(State& s, XrSession handle, const Event& event) {
   std::vector<OriginChange>& changes = s.origins[event.space];
   const Pose at_first = event.space == Space::stage ? s.control.script.stage_origin : Pose{};
@@ -39,7 +34,7 @@ void lose_instances(State& s) {
   for (const XrInstance handle : s.instances.of([](const InstanceObject&) { return true; })) {
     s.instances.find(handle)->lost = true;
     XrEventDataInstanceLossPending loss{XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING};
-    loss.lossTime = event_time(s);
+    loss.lossTime = now(s);
     push_event(s, loss);
     log_line("event INSTANCE_LOSS_PENDING");
   }
@@ -115,7 +110,7 @@ void set_state(State& s, XrSession handle, SessionObject& session, XrSessionStat
   XrEventDataSessionStateChanged changed{XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED};
   changed.session = handle;
   changed.state = next;
-  changed.time = event_time(s);
+  changed.time = now(s);
   push_event(s, changed);
   log_line(std::string("state ") + state_name(next));
 }

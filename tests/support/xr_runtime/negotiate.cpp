@@ -31,9 +31,17 @@ struct Function {
   PFN_xrVoidFunction address;
 };
 const Function kFunctions[] = {
-#define GEARSHIFT_XR_ENTRY(name, extension) {"xr" #name, extension, reinterpret_cast<PFN_xrVoidFunction>(&xr::name)},
-    GEARSHIFT_XR_FUNCTIONS(GEARSHIFT_XR_ENTRY)
+#define GEARSHIFT_XR_FUNCTION(name) reinterpret_cast<PFN_xrVoidFunction>(&xr::name)
+#define GEARSHIFT_XR_ENTRY(name) {"xr" #name, nullptr, GEARSHIFT_XR_FUNCTION(name)},
+    GEARSHIFT_XR_CORE(GEARSHIFT_XR_ENTRY)
 #undef GEARSHIFT_XR_ENTRY
+#define GEARSHIFT_XR_ENTRY(name) {"xr" #name, XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME, GEARSHIFT_XR_FUNCTION(name)},
+        GEARSHIFT_XR_VULKAN_ENABLE2(GEARSHIFT_XR_ENTRY)
+#undef GEARSHIFT_XR_ENTRY
+#define GEARSHIFT_XR_ENTRY(name) {"xr" #name, XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME, GEARSHIFT_XR_FUNCTION(name)},
+            GEARSHIFT_XR_CONVERT_TIMESPEC_TIME(GEARSHIFT_XR_ENTRY)
+#undef GEARSHIFT_XR_ENTRY
+#undef GEARSHIFT_XR_FUNCTION
 };
 
 XrResult XRAPI_CALL get_function(XrInstance instance, const char* name, PFN_xrVoidFunction* address) {

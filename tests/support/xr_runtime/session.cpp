@@ -13,6 +13,12 @@ void drop_children(State& s, XrSession session, const Table& table, const char* 
   }
 }
 
+// No event of a session that is gone. All of these have it behind their header.
+bool is_event_of(const XrEventDataBuffer& event, XrSession session) {
+  return event.type != XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING &&
+         reinterpret_cast<const XrEventDataSessionStateChanged&>(event).session == session;
+}
+
 Graphics bind(State& s, const XrSessionCreateInfo& info) {
   const auto* const binding =
       static_cast<const XrGraphicsBindingVulkanKHR*>(chained(&info, XR_TYPE_GRAPHICS_BINDING_VULKAN_KHR));
@@ -61,11 +67,7 @@ XrResult XRAPI_CALL DestroySession(XrSession session) {
   return call("xrDestroySession", [&](State& s) {
     require(s.sessions.find(session) != nullptr, "handle_live", "session");
     drop_session(s, session);
-    // No event of a session that is gone.
-    std::erase_if(s.events, [&](const XrEventDataBuffer& event) {
-      return event.type == XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED &&
-             reinterpret_cast<const XrEventDataSessionStateChanged&>(event).session == session;
-    });
+    std::erase_if(s.events, [&](const XrEventDataBuffer& event) { return is_event_of(event, session); });
     count_live();
     return XR_SUCCESS;
   });

@@ -171,16 +171,17 @@ XrResult XRAPI_CALL LocateSpace(XrSpace space, XrSpace base, XrTime time, XrSpac
 XrResult XRAPI_CALL LocateViews(XrSession session, const XrViewLocateInfo* info, XrViewState* view_state,
                                 std::uint32_t capacity, std::uint32_t* count, XrView* views) {
   return call("xrLocateViews", [&](State& s) {
-    SessionObject& object = live(session);
+    live(session);
     structure(info, XR_TYPE_VIEW_LOCATE_INFO);
     structure(view_state, XR_TYPE_VIEW_STATE);
     require_stereo(info->viewConfigurationType);
     require(info->displayTime > 0, "time_positive");
     const SpaceObject& base = live(info->space);
-    const bool located = capacity != 0;
-    SpaceObject head{.session = session, .type = Space::view};
+    const SpaceObject head{.session = session, .type = Space::view};
     Pose pose = relative(s, head, base, info->displayTime);
-    if (located && object.locates == 0) pose.position.x += s.control.script.early_error;
+    std::vector<FrameRecord>& frames = s.control.record.frames;
+    const bool counts = capacity != 0 && !frames.empty();
+    if (counts && frames.back().locates == 0) pose.position.x += s.control.script.early_error;
     view_state->viewStateFlags = location_flags(pose);
     const XrResult result = fill(capacity, count, views, std::vector{0, 1}, [&](XrView& to, int eye) {
       structure(&to, XR_TYPE_VIEW);
@@ -188,7 +189,7 @@ XrResult XRAPI_CALL LocateViews(XrSession session, const XrViewLocateInfo* info,
       to.pose = to_xr(pose * Pose{.position = {side, 0.0, 0.0}});
       to.fov = xr_fov(s.control.script.fov[eye]);
     });
-    if (located && result == XR_SUCCESS) ++object.locates;
+    if (counts && result == XR_SUCCESS) ++frames.back().locates;
     return result;
   });
 }

@@ -40,7 +40,6 @@ struct SessionObject {
   bool running = false, lost = false;
   bool exit_requested = false, stop_wanted = false, ready_wanted = false;
   int waits = 0;                       // since xrBeginSession
-  int locates = 0;                     // xrLocateViews since xrWaitFrame
   std::optional<FrameState> waited{};  // and not yet begun
   std::optional<FrameState> begun{};   // and not yet ended
   XrTime last_display = 0;
@@ -220,7 +219,7 @@ XrTime monotonic_now();
 XrDuration period(const State& s);
 double seconds(const State& s, XrTime time);  // of the script's clock
 XrTime display_time(const State& s, std::int64_t step);
-double script_now(const State& s);
+XrTime now(const State& s);                               // stepped: the display time last handed out
 std::int64_t next_display_period(State& s, XrTime last);  // sleeps with Pacing::real; counts what was dropped
 void stall_periods(State& s, int periods);
 

@@ -17,13 +17,13 @@
 // What a designated initializer leaves out is zero, as Vulkan wants its unused fields.
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 
-#define GEARSHIFT_XR_VULKAN_FUNCTIONS(_)                                                                            \
-  _(CreateImage)                                                                                                    \
-  _(DestroyImage)                                                                                                   \
-  _(GetImageMemoryRequirements) _(AllocateMemory) _(FreeMemory) _(BindImageMemory) _(CreateBuffer) _(DestroyBuffer) \
-      _(GetBufferMemoryRequirements) _(BindBufferMemory) _(MapMemory) _(CreateCommandPool) _(DestroyCommandPool)    \
-          _(AllocateCommandBuffers) _(BeginCommandBuffer) _(EndCommandBuffer) _(CmdPipelineBarrier)                 \
-              _(CmdCopyImageToBuffer) _(QueueSubmit) _(QueueWaitIdle) _(ResetCommandPool) _(GetDeviceQueue)
+// clang-format off
+#define GEARSHIFT_XR_VULKAN_FUNCTIONS(_)                                                                               \
+  _(CreateImage) _(DestroyImage) _(GetImageMemoryRequirements) _(AllocateMemory) _(FreeMemory) _(BindImageMemory)      \
+  _(CreateBuffer) _(DestroyBuffer) _(GetBufferMemoryRequirements) _(BindBufferMemory) _(MapMemory)                     \
+  _(CreateCommandPool) _(DestroyCommandPool) _(AllocateCommandBuffers) _(BeginCommandBuffer) _(EndCommandBuffer)       \
+  _(CmdPipelineBarrier) _(CmdCopyImageToBuffer) _(QueueSubmit) _(QueueWaitIdle) _(ResetCommandPool) _(GetDeviceQueue)
+// clang-format on
 
 namespace gearshift::xr_test {
 
