@@ -13,6 +13,10 @@ extern "C" VKAPI_ATTR VkResult VKAPI_CALL vkAcquireNextImageKHR(VkDevice device,
                                                                 std::uint64_t timeout, VkSemaphore semaphore,
                                                                 VkFence fence, std::uint32_t* index) {
   injected_faults.acquired_with.push_back(semaphore);
+  if (injected_faults.never_free) {
+    injected_faults.waited_ns += timeout;
+    return timeout == 0 ? VK_NOT_READY : VK_TIMEOUT;
+  }
   const VkResult fault = std::exchange(injected_faults.next_acquire, VK_SUCCESS);
   if (fault < VK_SUCCESS || fault == VK_TIMEOUT) return fault;
   const auto real = reinterpret_cast<PFN_vkAcquireNextImageKHR>(dlsym(RTLD_NEXT, "vkAcquireNextImageKHR"));

@@ -1,0 +1,329 @@
+// What a headset is shown, what hangs in it, and what the instructor sees of it: the whole view at the test runtime.
+#include "app/view/headset_view.h"
+
+#include <imgui.h>
+
+#include <array>
+#include <cmath>
+#include <cstring>
+#include <memory>
+#include <numbers>
+#include <vector>
+
+#include "app/stage/stage.h"
+#include "engine/render/renderer.h"
+#include "tests/engine/render/render_bench.h"
+#include "tests/engine/window/injected_faults.h"
+#include "tests/engine/window/x_server.h"
+#include "tests/support/gates.h"
+#include "tests/support/xr_runtime/control.h"
+
+using namespace gearshift;
+using glm::dvec2;
+using glm::dvec3;
+using glm::vec3;
+
+namespace {
+
+constexpr double kNear = 0.05;  // [m]
+const EyePose kRoomInCabin{{0.3, -0.5, 0.2}, glm::angleAxis(0.4, dvec3(0, 1, 0))};
+
+// A head that turns at up to 100 deg/s: a display period of 11 ms is worth 4 px and more of 256.
+xr_test::Pose turning_head(double seconds) {
+  return {dvec3(0.05 * std::sin(4.0 * seconds), 1.0 + 0.03 * std::cos(3.0 * seconds), 0.1 * std::sin(2.0 * seconds)),
+          glm::angleAxis(0.25 * std::sin(7.0 * seconds), dvec3(0, 1, 0)) *
+              glm::angleAxis(0.15 * std::cos(5.0 * seconds), dvec3(1, 0, 0)) *
+              glm::angleAxis(0.05 * std::sin(3.0 * seconds), dvec3(0, 0, 1))};
+}
+
+struct HeadsetRig {
+  explicit HeadsetRig(int samples = 1, int width = 256, int height = 192) : window(400, 300, "mirror") {
+    choose_software_driver();
+    setenv("GEARSHIFT_VALIDATION", "1", 1);
+    xr_test::Control& xr = xr_test::control();
+    xr.start();
+    xr.script.stage = false;
+    xr.script.recommended_width = static_cast<std::uint32_t>(width);
+    xr.script.recommended_height = static_cast<std::uint32_t>(height);
+    xr.script.capture.every = 1;
+    HeadsetViewConfig config;
+    config.samples = samples;
+    config.near_plane = kNear;
+    view = std::make_unique<HeadsetView>(config, std::make_unique<HeadsetRuntime>(), window, ui);
+  }
+  ~HeadsetRig() {
+    CHECK(view->validation_messages() == 0);
+    view.reset();
+    const xr_test::Record& record = xr_test::control().record;
+    for (const xr_test::Violation& broken : record.violations) FAIL_CHECK(broken.rule << ": " << broken.detail);
+    CHECK(record.live_handles() == 0);
+  }
+
+  // One frame; a red square in the panel's upper left corner.
+  void frame(const FrameScene& scene, const HeadsetPanel* panel = nullptr, SeenPart seen = {}) {
+    window.poll();
+    const glm::ivec2 size = window.framebuffer();
+    ui.begin({static_cast<float>(size.x), static_cast<float>(size.y), 0.01f, 1.0f});
+    ImGui::GetForegroundDrawList()->AddRectFilled({0.0f, 0.0f}, {40.0f, 30.0f}, IM_COL32(255, 0, 0, 255));
+    ui.end();
+    (void)view->begin();
+    view->draw(scene, kRoomInCabin, panel, seen);
+  }
+
+  gearshift::Window window;
+  UiContext ui;
+  std::unique_ptr<HeadsetView> view;
+};
+
+std::vector<const xr_test::FrameRecord*> shown_frames() {
+  std::vector<const xr_test::FrameRecord*> shown;
+  for (const xr_test::FrameRecord& frame : xr_test::control().record.frames)
+    if (frame.projection() != nullptr) shown.push_back(&frame);
+  return shown;
+}
+
+// The eye in the cabin at a time of the script, by hand: head, half the eyes' distance aside, then the room's place.
+EyePose eye_at(double seconds, int eye) {
+  const xr_test::Pose head = turning_head(seconds);
+  const dvec3 at = head.position + head.orientation * dvec3(eye == 0 ? -0.0315 : 0.0315, 0.0, 0.0);
+  return {kRoomInCabin.position + kRoomInCabin.orientation * at, kRoomInCabin.orientation * head.orientation};
+}
+
+Fov fov_of_script(int eye) {
+  const xr_test::Fov& fov = xr_test::control().script.fov[eye];
+  return {fov.left, fov.right, fov.down, fov.up};
+}
+
+// A pinhole with unequal sides that knows no matrix. [px]
+dvec2 pinhole(const EyePose& eye, const Fov& fov, dvec3 point, dvec2 size) {
+  const dvec3 seen = glm::conjugate(eye.orientation) * (point - eye.position);
+  const double x = seen.x / -seen.z, y = seen.y / -seen.z;
+  return {size.x * (x - std::tan(fov.left)) / (std::tan(fov.right) - std::tan(fov.left)),
+          size.y * (std::tan(fov.up) - y) / (std::tan(fov.up) - std::tan(fov.down))};
+}
+
+// Centroid of a convex polygon. [px]
+dvec2 centroid_of(const std::vector<dvec2>& corners) {
+  double area = 0.0;
+  dvec2 sum(0.0);
+  for (std::size_t i = 0; i < corners.size(); ++i) {
+    const dvec2 a = corners[i], b = corners[(i + 1) % corners.size()];
+    const double cross = a.x * b.y - b.x * a.y;
+    area += cross;
+    sum += cross * (a + b) / 3.0;
+  }
+  return sum / area;
+}
+
+double linear(std::uint8_t stored) {
+  const double value = stored / 255.0;
+  return value <= 0.04045 ? value / 12.92 : std::pow((value + 0.055) / 1.055, 2.4);
+}
+
+// Of what is brighter than the ground, by how much of each pixel it covers.
+dvec2 centroid_of(const Image& picture) {
+  dvec2 sum(0.0);
+  double weight = 0.0;
+  const double ground = linear(picture.pixel(0, 0)[0]);
+  for (int y = 0; y < picture.height; ++y) {
+    for (int x = 0; x < picture.width; ++x) {
+      const double w = linear(picture.pixel(x, y)[0]) - ground;
+      if (w < 0.01) continue;
+      sum += w * dvec2(x + 0.5, y + 0.5);
+      weight += w;
+    }
+  }
+  return sum / weight;
+}
+
+}  // namespace
+
+TEST_CASE("a scripted head: each eye of each frame is drawn from the pose of its display time, within 0.1 px") {
+  HeadsetRig rig(4);
+  xr_test::control().script.head = turning_head;
+  xr_test::control().script.early_error = 0.03;  // what is known early is wrong by 3 cm
+  Model model;
+  Material black = paint(vec3(0.0f));
+  const vec3 ahead(kRoomInCabin.orientation * dvec3(0.0, 0.0, -1.0));
+  // A lamp 0.8 m ahead, before a dark wall that fills all that is seen.
+  const dvec3 middle = kRoomInCabin.position + kRoomInCabin.orientation * dvec3(0.05, 1.02, -0.8);
+  const int lamp_node = add_rectangle(model, "Lamp", {0.12f, 0.09f}, add_material(model, lamp(vec3(4.0f))), {});
+  const int wall = add_rectangle(model, "Wall", {9.0f, 9.0f}, add_material(model, black), {});
+  rig.view->set_model(model);
+  FrameScene scene = still(model);
+  const glm::mat4 turned = glm::mat4_cast(glm::quat(kRoomInCabin.orientation));
+  scene.nodes[static_cast<std::size_t>(lamp_node)].world = glm::translate(glm::mat4(1.0f), vec3(middle)) * turned;
+  scene.nodes[static_cast<std::size_t>(wall)].world =
+      glm::translate(glm::mat4(1.0f), vec3(middle) + 1.2f * ahead) * turned;
+  for (int i = 0; i < 16; ++i) rig.frame(scene);
+  double worst = 0.0, other_time = 0.0;
+  const auto frames = shown_frames();
+  REQUIRE(frames.size() >= 12);
+  for (const xr_test::FrameRecord* frame : frames) {
+    for (int eye = 0; eye < 2; ++eye) {
+      const Image& picture = frame->projection()->views[static_cast<std::size_t>(eye)].picture;
+      const auto expected = [&](double seconds) {
+        std::vector<dvec2> corners;
+        for (const dvec2 corner : {dvec2(-1, -1), dvec2(1, -1), dvec2(1, 1), dvec2(-1, 1)}) {
+          const dvec3 point = middle + kRoomInCabin.orientation * dvec3(0.12 * corner.x, 0.09 * corner.y, 0.0);
+          corners.push_back(pinhole(eye_at(seconds, eye), fov_of_script(eye), point, {picture.width, picture.height}));
+        }
+        return centroid_of(corners);
+      };
+      const dvec2 seen = centroid_of(picture);
+      worst = std::max(worst, glm::length(seen - expected(frame->time)));
+      other_time = std::max(other_time, glm::length(seen - expected(frame->time - 1.0 / 90.0)));
+    }
+  }
+  MESSAGE("worst " << worst << " px; of the period before " << other_time << " px");
+  CHECK(worst < 0.1);
+  CHECK(other_time > 1.0);  // the test can tell a period
+}
+
+TEST_CASE("both eyes of the cabin, in the headset's own images, are what one eye sees there; and so is their depth") {
+  const Gate gate = shipped_gate("paper");
+  StageConfig cabin;
+  cabin.gate = gate;
+  Stage stage(cabin, GEARSHIFT_ASSETS "/models");
+  FrameScene scene = stage.scene();
+  scene.shadow_room = {{0.22f, 0.0f, -0.40f}, {0.44f, 0.25f, -0.20f}};  // wholly seen by each eye: one map for all
+  HeadsetRig rig;
+  const EyePose seat = camera("driver");
+  // The head is at the driver's eyes, looks at the lever, and moves on between the early and the late look.
+  const EyePose in_room = inverse(kRoomInCabin) * seat;
+  const auto head = [&](double seconds) {
+    return xr_test::Pose{in_room.position + dvec3(0.0, 0.1 * seconds, 0.0),
+                         in_room.orientation * glm::angleAxis(0.3 * seconds, dvec3(0, 1, 0))};
+  };
+  xr_test::control().script.head = head;
+  rig.view->set_model(stage.model());
+  for (int i = 0; i < 5; ++i) rig.frame(scene);
+  const auto frames = shown_frames();
+  REQUIRE(!frames.empty());
+  const xr_test::LayerRecord& shown = *frames.back()->projection();
+
+  GpuFixture fixture;
+  RenderConfig config;
+  config.width = 256;
+  config.height = 192;
+  config.keep_depth = true;
+  config.late_margin = 0.1f;
+  Renderer single(fixture.gpu(), config);
+  single.set_model(stage.model());
+  for (int eye = 0; eye < 2; ++eye) {
+    CAPTURE(eye);
+    const xr_test::Pose at = head(frames.back()->time);
+    const dvec3 aside = at.orientation * dvec3(eye == 0 ? -0.0315 : 0.0315, 0.0, 0.0);
+    const EyePose pose = kRoomInCabin * EyePose{at.position + aside, at.orientation};
+    const View view = view_from(pose, fov_of_script(eye), kNear);
+    single.draw(scene, {&view, 1});
+    const xr_test::ViewRecord& told = shown.views[static_cast<std::size_t>(eye)];
+    const ImageDifference apart = difference(told.picture, single.read_eye(0), 3);
+    MESSAGE("eye " << eye << ": " << 100.0 * apart.share_beyond << " % of the pixels are beyond 3/255, worst "
+                   << apart.worst);
+    CHECK(apart.share_beyond < 0.005);
+    const Image depth = read_back(fixture.gpu(), single.depth());
+    REQUIRE(told.depth.values.size() == 256 * 192);
+    std::size_t off = 0;
+    for (std::size_t i = 0; i < told.depth.values.size(); ++i) {
+      float reference = 0.0f;
+      std::memcpy(&reference, &depth.rgba[4 * i], 4);
+      off += std::abs(told.depth.values[i] - reference) > 1e-4f;
+    }
+    CHECK(off < told.depth.values.size() / 200);
+  }
+  // Negative control: the eyes do not see the same.
+  CHECK(difference(shown.views[0].picture, shown.views[1].picture, 3).share_beyond > 0.1);
+}
+
+TEST_CASE("the panel hangs where it is told, with what is drawn of it and nothing else, all of it or a part") {
+  HeadsetRig rig;
+  Model model;
+  add_rectangle(model, "Wall", {1.0f, 1.0f}, add_material(model, paint(vec3(0.5f))), {0.0f, 0.0f, -3.0f});
+  rig.view->set_model(model);
+  HeadsetPanel panel{{{0.1, 1.1, -1.4}, glm::dquat(1, 0, 0, 0)}, {1.2, 0.9}};
+  for (int i = 0; i < 5; ++i) rig.frame(still(model), &panel);
+  panel.low = {0.05, 0.0};
+  panel.high = {0.55, 0.5};
+  rig.frame(still(model), &panel);
+  const auto frames = shown_frames();
+  REQUIRE(frames.size() >= 3);
+  const xr_test::LayerRecord& whole = *frames[frames.size() - 2]->quad();
+  CHECK(whole.width == 1.2f);
+  const xr_test::ViewRecord& all = whole.views[0];
+  CHECK(all.rect.width == 400);
+  CHECK(all.rect.height == 300);
+  const auto pixel = [](const Image& picture, int x, int y) {
+    const std::uint8_t* p = picture.pixel(x, y);
+    return std::array<int, 4>{p[0], p[1], p[2], p[3]};
+  };
+  CHECK(pixel(all.picture, 20, 15) == std::array{255, 0, 0, 255});
+  CHECK(pixel(all.picture, 60, 15) == std::array{0, 0, 0, 0});  // the cabin is seen there
+  CHECK(pixel(all.picture, 200, 200) == std::array{0, 0, 0, 0});
+  const xr_test::ViewRecord& part = frames.back()->quad()->views[0];
+  CHECK(part.rect.x == 20);
+  CHECK(part.rect.width == 200);
+  CHECK(part.rect.height == 150);
+  CHECK(pixel(part.picture, 10, 15) == std::array{255, 0, 0, 255});
+  CHECK(pixel(part.picture, 30, 15) == std::array{0, 0, 0, 0});
+}
+
+TEST_CASE("the instructor sees the left eye's picture where the panel leaves room, and the panel over it") {
+  XServer server;
+  HeadsetRig rig;
+  Model model;
+  add_rectangle(model, "Lamp", {9.0f, 9.0f}, add_material(model, lamp({0.0f, 4.0f, 0.0f})), {});
+  rig.view->set_model(model);
+  FrameScene scene = still(model);
+  scene.nodes[0].world = glm::translate(glm::mat4(1.0f), vec3(kRoomInCabin * dvec3(0.0, 0.0, -1.0))) *
+                         glm::mat4_cast(glm::quat(kRoomInCabin.orientation));
+  const ::Window id = server.find("mirror");
+  REQUIRE(id != 0);
+  Image seen;
+  for (int i = 0; i < 60; ++i) {
+    rig.frame(scene, nullptr, {{0.25, 0.0}, {1.0, 1.0}});
+    seen = server.picture(id);
+    if (seen.pixel(250, 150)[1] > 200) break;
+  }
+  // 300 x 300 px are left of 400 x 300: the picture of 256 x 192 becomes 300 x 225 there.
+  CHECK(seen.pixel(250, 150)[1] > 200);
+  CHECK(seen.pixel(110, 150)[1] > 200);
+  CHECK(seen.pixel(90, 150)[1] == 0);   // beside it
+  CHECK(seen.pixel(250, 20)[1] == 0);   // above it
+  CHECK(seen.pixel(20, 15)[0] == 255);  // the panel
+}
+
+TEST_CASE("a window that has no image free costs the headset nothing: no wait, no frame") {
+  HeadsetRig rig;
+  Model model;
+  add_rectangle(model, "Wall", {1.0f, 1.0f}, add_material(model, paint(vec3(0.5f))), {0.0f, 0.0f, -3.0f});
+  rig.view->set_model(model);
+  for (int i = 0; i < 5; ++i) rig.frame(still(model));
+  injected_faults.never_free = true;
+  injected_faults.waited_ns = 0;
+  const std::size_t asked = injected_faults.acquired_with.size(), before = shown_frames().size();
+  while (injected_faults.acquired_with.size() < asked + 10) rig.frame(still(model));
+  const std::size_t shown = shown_frames().size() - before;
+  injected_faults.never_free = false;
+  CHECK(shown >= 10);
+  CHECK(injected_faults.waited_ns == 0);
+  CHECK(rig.view->timing().dropped == 0);
+}
+
+TEST_CASE("a scale of the picture is of what the headset recommends, even, and no more than it takes") {
+  for (const auto& [scale, width] : {std::pair{1.0, 256}, {0.5, 128}, {0.33, 84}, {2.0, 300}}) {
+    xr_test::Control& xr = xr_test::control();
+    xr.start();
+    xr.script.recommended_width = 256;
+    xr.script.recommended_height = 192;
+    xr.script.max_width = 300;
+    choose_software_driver();
+    gearshift::Window window(200, 150, "scaled");
+    UiContext ui;
+    HeadsetViewConfig config;
+    config.scale = scale;
+    config.samples = 1;
+    HeadsetView view(config, std::make_unique<HeadsetRuntime>(), window, ui);
+    CHECK(view.eye_size().x == width);
+  }
+}
