@@ -1,0 +1,290 @@
+// A headset that is worn at the lever: where it sits in the cabin, what its hands do there, and that it may go and come.
+#include "app/train/worn_headset.h"
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include "tests/support/gates.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/temp_folder.h"
+#include "tests/support/xr_runtime/control.h"
+
+using namespace gearshift;
+using glm::dvec3;
+
+namespace {
+
+constexpr double kBound = 0.020;  // [m] the clamp's
+constexpr dvec3 kUp{0.0, 1.0, 0.0};
+constexpr auto kPause = std::chrono::milliseconds(2050);  // after which it is looked for again
+
+// The room as it stands in the cabin in truth: what a real lever in it would need.
+const EyePose kTruth{{-0.7, -0.6, 0.9}, glm::angleAxis(0.8, kUp)};
+
+xr_test::Pose told(const EyePose& pose) {
+  return {pose.position, pose.orientation};
+}
+
+// It is read once: nothing of it is drawn.
+Stage& cabin() {
+  static const auto stage = [] {
+    StageConfig config;
+    config.gate = shipped_gate("paper");
+    return std::make_unique<Stage>(config, GEARSHIFT_ASSETS "/models");
+  }();
+  return *stage;
+}
+
+struct Worn {
+  explicit Worn(HeadsetSetup wanted = {}, bool stage_space = true)
+      : window(320, 200, "worn"), setup(std::move(wanted)) {
+    choose_software_driver();
+    xr_test::Control& xr = xr_test::control();
+    xr.start();
+    xr.script.stage = stage_space;
+    xr.script.stage_origin = {};  // LOCAL and STAGE are the same: one room
+    xr.script.recommended_width = 32;
+    xr.script.recommended_height = 32;
+    xr.script.head = [this](double) { return told(head); };
+    xr.script.hands[1].aim = [this](double) { return told(hand); };
+    xr.script.inputs["/user/hand/right/input/trigger/value"] = [this](double) { return trigger ? 1.0 : 0.0; };
+    xr.script.inputs["/user/hand/right/input/b/click"] = [this](double) { return menu ? 1.0 : 0.0; };
+    setup.view.samples = 1;
+    wear();
+  }
+
+  void wear() {
+    headset = std::make_unique<WornHeadset>(setup, window, ui);
+    REQUIRE(headset->is_found());
+    REQUIRE(headset->open());
+    for (int i = 0; i < 6; ++i) frame();  // until it is focused
+  }
+
+  void frame() {
+    window.poll();
+    ui.begin({320.0f, 200.0f, 0.01f, 1.0f});
+    ui.end();
+    (void)headset->begin(*stage);
+    if (headset->is_open()) headset->draw({}, {{0.25, 0.0}, {0.75, 0.8}}, {320.0, 200.0});
+  }
+
+  void hold_lever(glm::dvec2 plane) {
+    StageInput input;
+    input.lever.lever = input.lever.proxy = plane;
+    stage->place(input);
+  }
+
+  // The tip of the hand on the knob's top, where that truly is in the room; and the trigger, once.
+  void touch(glm::dvec2 plane, dvec3 error = dvec3(0.0)) {
+    hold_lever(plane);
+    hand = EyePose{inverse(kTruth) * stage->knob_top() + error, glm::dquat(1, 0, 0, 0)};
+    frame();
+    trigger = true;
+    frame();
+    trigger = false;
+    frame();
+  }
+
+  void ask(bool HeadsetRequests::*what) {
+    HeadsetRequests requests;
+    requests.*what = true;
+    headset->obey(requests, kBound);
+  }
+
+  gearshift::Window window;
+  UiContext ui;
+  HeadsetSetup setup;
+  Stage* stage = &cabin();
+  EyePose head{{0.2, 1.3, -0.4}, glm::angleAxis(-1.1, kUp) * glm::angleAxis(-0.3, dvec3(1, 0, 0))};
+  EyePose hand;
+  bool trigger = false, menu = false;
+  std::unique_ptr<WornHeadset> headset;
+};
+
+dvec3 driver_eye(DriveSide side = DriveSide::left) {
+  return camera("driver", side).position;
+}
+
+// The cabin has turned with the head, which is where it should be in it.
+void check_sits(const Worn& worn, dvec3 eye) {
+  CHECK(glm::distance(worn.headset->head().position, eye) < 1e-6);
+  const dvec3 look = worn.headset->head().orientation * dvec3(0, 0, -1);
+  CHECK(std::abs(look.x) < 1e-6);
+  CHECK(look.z < 0.0);
+}
+
+}  // namespace
+
+TEST_CASE("who puts it on sits at the wheel, raised as wanted, on either side; and again after a recentre") {
+  for (const DriveSide side : {DriveSide::left, DriveSide::right}) {
+    HeadsetSetup setup;
+    setup.seat.drive = side;
+    setup.seat.height = 0.03;
+    Worn worn(setup);
+    check_sits(worn, driver_eye(side) + 0.03 * kUp);
+    worn.head.position += dvec3(0.1, 0.02, 0.0);  // leans: the cabin stays
+    worn.frame();
+    CHECK(glm::distance(worn.headset->head().position, driver_eye(side) + 0.03 * kUp) > 0.09);
+    worn.headset->recentre();
+    worn.frame();
+    check_sits(worn, driver_eye(side) + 0.03 * kUp);
+  }
+}
+
+TEST_CASE("with the knob's distances it is seen as far from the eyes as it is") {
+  HeadsetSetup setup;
+  setup.seat.knob = KnobDistance{0.25, 0.40, 0.35};
+  Worn worn(setup);
+  const dvec3 eye = worn.stage->knob_at_rest() - dvec3(0.25, -0.40, -0.35);
+  check_sits(worn, eye);
+}
+
+TEST_CASE("a knob that is touched in its gears is seen where it is, today and tomorrow") {
+  const TempFolder folder;
+  HeadsetSetup setup;
+  setup.seat_file = folder.path() / "headset.toml";
+  auto today = std::make_unique<Worn>(setup);
+  Worn& worn = *today;
+  worn.ask(&HeadsetRequests::touch);
+  CHECK(worn.headset->report().touching);
+  for (const glm::dvec2 gear : {glm::dvec2(0, 0), glm::dvec2(-0.036, 0.04), glm::dvec2(0.036, -0.04)}) worn.touch(gear);
+  CHECK(worn.headset->report().touches == 3);
+  CHECK(worn.headset->report().worst_touch < 1e-4);
+  worn.ask(&HeadsetRequests::touched);
+  worn.frame();
+  CHECK(glm::distance(worn.headset->head().position, kTruth * worn.head.position) < 1e-3);
+  worn.headset->recentre();  // the lever stands where it stands
+  worn.frame();
+  CHECK(glm::distance(worn.headset->head().position, kTruth * worn.head.position) < 1e-3);
+
+  today.reset();
+
+  setup.seat = read_seat(setup.seat_file);
+  REQUIRE(setup.seat.touched);
+  Worn tomorrow(setup);
+  CHECK(glm::distance(tomorrow.headset->head().position, kTruth * tomorrow.head.position) < 1e-3);
+  CHECK(tomorrow.headset->touch_error() == setup.seat.touch_error);
+  tomorrow.ask(&HeadsetRequests::forget_touches);
+  tomorrow.frame();
+  check_sits(tomorrow, driver_eye());
+  CHECK_FALSE(read_seat(setup.seat_file).touched);
+}
+
+TEST_CASE("touches that do not fit the lever are refused with how far and how far they may, and nothing is kept") {
+  const TempFolder folder;
+  HeadsetSetup setup;
+  setup.seat_file = folder.path() / "headset.toml";
+  Worn worn(setup);
+  worn.ask(&HeadsetRequests::touch);
+  worn.touch({0.0, 0.0});
+  worn.touch({-0.036, 0.04}, {0.0, 0.05, 0.0});  // 5 cm above: half of it stays at each
+  worn.ask(&HeadsetRequests::touched);
+  const std::string news = worn.headset->take_news();
+  CHECK(news.find("25 mm") != std::string::npos);
+  CHECK(news.find("20 may be") != std::string::npos);
+  worn.frame();
+  check_sits(worn, driver_eye());
+  CHECK_FALSE(read_seat(setup.seat_file).touched);
+}
+
+TEST_CASE("a room without a memory keeps a touched knob for today alone") {
+  const TempFolder folder;
+  HeadsetSetup setup;
+  setup.seat_file = folder.path() / "headset.toml";
+  Worn worn(setup, false);
+  worn.ask(&HeadsetRequests::touch);
+  worn.touch({0.0, 0.0});
+  worn.ask(&HeadsetRequests::touched);
+  worn.frame();
+  CHECK(worn.headset->report().seat.touched.has_value());
+  CHECK_FALSE(read_seat(setup.seat_file).touched);
+}
+
+TEST_CASE("the room's origin may move: a touched lever stays where it is") {
+  Worn worn;
+  worn.ask(&HeadsetRequests::touch);
+  for (const glm::dvec2 gear : {glm::dvec2(0, 0), glm::dvec2(-0.036, 0.04), glm::dvec2(0.036, -0.04)}) worn.touch(gear);
+  worn.ask(&HeadsetRequests::touched);
+  worn.frame();
+  const dvec3 before = worn.headset->head().position;
+  xr_test::Control& xr = xr_test::control();
+  const xr_test::Pose moved{dvec3(0.4, 0.0, -0.3), glm::angleAxis(1.2, kUp)};
+  xr.script.timeline = {xr_test::change_space(xr.record.frames.back().time + 0.05, xr_test::Space::stage, moved)};
+  for (int i = 0; i < 20; ++i) {
+    worn.frame();
+    CHECK(glm::distance(worn.headset->head().position, before) < 1e-5);
+  }
+}
+
+TEST_CASE("a hand points at the learner's card, and its menu button brings the whole panel") {
+  Worn worn;
+  worn.frame();
+  const DriveSide side = DriveSide::left;
+  const HangingPanel card = hang_card(driver_eye(), side, {320.0, 200.0}, {0.25, 0.0}, {0.75, 0.8});
+  // The seat as it came to be: the head is at the driver's eyes and looks ahead.
+  const EyePose cabin_from_room = seat_at_eyes(worn.head, {driver_eye(), {}}, 0.0);
+  const dvec3 from{0.3, 0.2, -0.1};
+  const dvec3 target = card.pose * dvec3(0.05, -0.1, 0.0);
+  worn.hand = inverse(cabin_from_room) * look_at(from, target);
+  worn.frame();
+  REQUIRE(worn.headset->pointer());
+  CHECK(worn.headset->pointer()->hit.at.x == doctest::Approx(0.5 + 0.05 / card.size.x * 0.5).epsilon(1e-4));
+  CHECK_FALSE(worn.headset->pointer()->selects);
+  REQUIRE(worn.headset->beam());
+  CHECK(glm::distance(worn.headset->beam()->from, from) < 1e-5);
+  CHECK(glm::distance(worn.headset->beam()->to, target) < 1e-5);
+  worn.trigger = true;
+  worn.frame();
+  REQUIRE(worn.headset->pointer());
+  CHECK(worn.headset->pointer()->selects);
+  worn.trigger = false;
+  worn.menu = true;
+  worn.frame();
+  worn.frame();
+  const HangingPanel panel = hang_panel(driver_eye(), side, {320.0, 200.0});
+  worn.hand = inverse(cabin_from_room) * look_at(from, panel.pose.position);
+  worn.frame();
+  worn.frame();
+  REQUIRE(worn.headset->pointer());
+  CHECK(worn.headset->pointer()->hit.at.x == doctest::Approx(0.5).epsilon(1e-4));
+  const auto& quad = *xr_test::control().record.frames.back().quad();
+  CHECK(quad.width == doctest::Approx(1.5));
+  worn.hand.orientation = glm::angleAxis(3.0, kUp) * worn.hand.orientation;  // elsewhere
+  worn.frame();
+  CHECK_FALSE(worn.headset->pointer());
+}
+
+TEST_CASE("a headset that is lost is told once, looked for again, and found when it is back") {
+  for (const bool instance : {false, true}) {
+    CAPTURE(instance);
+    Worn worn;
+    (void)worn.headset->take_news();
+    xr_test::Control& xr = xr_test::control();
+    const double now = xr.record.frames.back().time;
+    xr.script.timeline = {instance ? xr_test::lose_instance(now) : xr_test::lose_session(now)};
+    for (int i = 0; i < 5 && worn.headset->is_open(); ++i) worn.frame();
+    REQUIRE_FALSE(worn.headset->is_open());
+    CHECK(worn.headset->take_news().find("the desktop shows the cabin, the lever goes on") != std::string::npos);
+    CHECK_FALSE(worn.headset->is_found());  // not at once: it has just gone
+    if (instance) {
+      xr.script.headset = false;
+      for (const bool first : {true, false}) {
+        std::this_thread::sleep_for(kPause);
+        CHECK_FALSE(worn.headset->is_found());
+        CHECK((worn.headset->take_news().find("no headset is connected") != std::string::npos) == first);  // told once
+      }
+    }
+    xr.start();
+    std::this_thread::sleep_for(kPause);
+    REQUIRE(worn.headset->is_found());
+    CHECK(worn.headset->open());
+    worn.frame();
+    CHECK(worn.headset->is_open());
+  }
+}
