@@ -183,6 +183,13 @@ struct PanelRig {
     take(all.look.seek, next.look.seek);
     take(all.look.play, next.look.play);
     take(all.look.pace, next.look.pace);
+    all.headset.recentre |= next.headset.recentre;
+    all.headset.touch |= next.headset.touch;
+    all.headset.touched |= next.headset.touched;
+    all.headset.forget_touches |= next.headset.forget_touches;
+    all.headset.forget_knob |= next.headset.forget_knob;
+    take(all.headset.height, next.headset.height);
+    take(all.headset.knob, next.headset.knob);
   }
 };
 
