@@ -14,7 +14,7 @@ struct Direction {
   double aside, above;  // [rad] towards the passenger, up
 };
 constexpr Direction kPanel{36.0 * kDegree, 2.0 * kDegree};
-constexpr Direction kCardFoot{21.0 * kDegree, -9.0 * kDegree};  // of its lower edge
+constexpr Direction kCardFoot{23.0 * kDegree, -6.5 * kDegree};  // of its lower edge
 
 glm::dvec3 towards(Direction direction, DriveSide side) {
   const double aside = side == DriveSide::left ? direction.aside : -direction.aside;

@@ -84,7 +84,9 @@ void draw_seat(Controls& controls, const HeadsetReport& headset, HeadsetRequests
   if (seat.touched || headset.touching) return;  // the lever says where all stands
   if (!seat.knob) {
     out.height = length_field(controls, "headset_height", "Seat raised by", seat.height, kMostHeight);
-    if (controls.button("headset_knob", "Enter where the knob is")) out.knob = KnobDistance{0.33, 0.51, 0.32};
+    // To begin with as in the cabin.
+    const double right = seat.drive == DriveSide::left ? 0.33 : -0.33;
+    if (controls.button("headset_knob", "Enter where the knob is")) out.knob = KnobDistance{right, 0.51, 0.32};
     return;
   }
   put_wrapped("The knob, from the eyes of who sits:", ink::kSoft);

@@ -147,7 +147,7 @@ struct Panel::State {
   bool message_told = false;  // by the bar, all of it, in this frame
   std::int64_t last_ns = -1;  // [ns] of the newest snapshot that was taken in this run
   std::uint64_t run = 0;
-  ControlRect middle;
+  ControlRect middle, between;
 
   void take(const PanelInput& input);
   void take(const HapticSnapshot& snapshot);
@@ -270,7 +270,7 @@ void Panel::State::draw_right(const Layout& layout, const PanelInput& input, Pan
 // What a learner needs who has hidden the panel, too. The card tells of now and gives way to what is looked at again;
 // both take their room from the cabin.
 void Panel::State::draw_over_cabin(const PanelInput& input, PanelRequests& out) {
-  const ControlRect room = middle;
+  const ControlRect room = between = middle;
   note.draw(input.message, message_told, stick_request(input), room);
   middle.max.y = replay.draw(controls, input, room, out.look);
   if (input.replay == nullptr || input.coach.phase == LessonPhase::driving)
@@ -318,6 +318,9 @@ void Panel::redo() {
 }
 ControlRect Panel::middle() const noexcept {
   return state_->middle;
+}
+ControlRect Panel::between() const noexcept {
+  return state_->between;
 }
 bool Panel::covers(glm::dvec2 mouse) const {
   return panel_covers(mouse);

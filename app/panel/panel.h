@@ -125,6 +125,8 @@ class Panel {
 
   // [px] of the last draw(): what columns, bar, a replay and a lesson's card leave to the cabin.
   ControlRect middle() const noexcept;
+  // [px] of the last draw(): what columns and bar leave to cabin, replay and card.
+  ControlRect between() const noexcept;
 
   void undo();  // with the next draw()
   void redo();

@@ -33,6 +33,12 @@ SeenPart seen_beside(const Panel& panel, glm::dvec2 size) {
   return {middle.min / size, middle.max / size};
 }
 
+// The same with what lies over the cabin for the learner.
+SeenPart card_in(const Panel& panel, glm::dvec2 size) {
+  const ControlRect between = panel.between();
+  return {between.min / size, between.max / size};
+}
+
 std::vector<KeyHint> key_hints(const Bindings& bindings) {
   std::vector<KeyHint> hints;
   for (const DrivingKey& key : driving_keys(bindings)) hints.push_back({std::string(key.does), key.key});
@@ -262,7 +268,8 @@ class WindowTrainer {
     if (wears()) {
       if (session_.take_new_model() || fresh_view_) headset_->set_model(session_.stage().model());
       fresh_view_ = false;
-      headset_->draw(session_.stage().scene(), seen_beside(panel_, eye_size()), eye_size());
+      headset_->draw(session_.stage().scene(), seen_beside(panel_, eye_size()), card_in(panel_, eye_size()),
+                     eye_size());
       return;
     }
     if (!view_) return;  // the headset was lost in this frame

@@ -11,7 +11,7 @@ namespace gearshift {
 namespace {
 
 constexpr auto kPause = std::chrono::seconds(2);  // between two looks for a headset
-constexpr double kBeam = 3.0;                     // [m] of a hand that points at nothing
+constexpr double kTip = 0.10;                     // [m] of the ray of a hand that touches: where it begins is the tip
 
 HeadsetPanel in_room(const EyePose& cabin_from_room, const HangingPanel& panel) {
   return {inverse(cabin_from_room) * panel.pose, panel.size, panel.low, panel.high};
@@ -35,15 +35,18 @@ bool WornHeadset::is_found() {
     found_ = std::make_unique<HeadsetRuntime>();
     return true;
   } catch (const HeadsetAbsent& absent) {
-    if (news_.empty() && !told_absent_)
-      news_ = fmt::format("{}; the desktop shows the cabin until one is", absent.what());
-    told_absent_ = true;
+    tell_once(fmt::format("{}; the desktop shows the cabin until one is", absent.what()));
   } catch (const HeadsetError& error) {
-    // What was never there does not come by itself.
-    tries_ = was_open_;
-    if (!was_open_) news_ = fmt::format("{}; the desktop shows the cabin", error.what());
+    tries_ = was_open_;  // what was never there does not come by itself
+    tell_once(fmt::format("{}; the desktop shows the cabin", error.what()));
   }
   return false;
+}
+
+// What is found every 2 s is no news.
+void WornHeadset::tell_once(const std::string& news) {
+  if (news == told_) return;
+  told_ = news_ = news;
 }
 
 bool WornHeadset::open() {
@@ -51,10 +54,11 @@ bool WornHeadset::open() {
     view_ = std::make_unique<HeadsetView>(setup_.view, std::move(found_), window_, ui_);
   } catch (const std::exception& error) {  // of the runtime or of the GPU
     lose(error.what());
+    tries_ = was_open_;  // what never could be shown is not tried again
     return false;
   }
   was_open_ = true;
-  told_absent_ = false;
+  told_.clear();
   sits_ = false;
   news_ = fmt::format("{} at {}", view_->headset().headset, view_->headset().runtime);
   return true;
@@ -70,7 +74,7 @@ void WornHeadset::lose(const std::string& why) {
   pointer_.reset();
   beam_.reset();
   next_try_ = std::chrono::steady_clock::now() + kPause;
-  news_ = fmt::format("{}; the desktop shows the cabin, the lever goes on", why);
+  tell_once(fmt::format("{}; the desktop shows the cabin, the lever goes on", why));
 }
 
 bool WornHeadset::begin(const Stage& stage) {
@@ -90,10 +94,10 @@ bool WornHeadset::begin(const Stage& stage) {
   return false;
 }
 
-void WornHeadset::draw(const FrameScene& scene, const SeenPart& seen, glm::dvec2 panel_size) {
+void WornHeadset::draw(const FrameScene& scene, const SeenPart& seen, const SeenPart& card, glm::dvec2 panel_size) {
   const DriveSide side = setup_.seat.drive;
   const glm::dvec3 eye = camera("driver", side).position;
-  panel_ = panel_open_ ? hang_panel(eye, side, panel_size) : hang_card(eye, side, panel_size, seen.low, seen.high);
+  panel_ = panel_open_ ? hang_panel(eye, side, panel_size) : hang_card(eye, side, panel_size, card.low, card.high);
   const HeadsetPanel panel = in_room(cabin_from_room_, panel_);
   try {
     view_->draw(scene, cabin_from_room_, &panel, seen);
@@ -150,14 +154,13 @@ void WornHeadset::follow_hands(const Stage& stage) {
     if (!hand.is_tracked) continue;
     const EyePose aim = cabin_from_room_ * hand.aim;
     const glm::dvec3 along = aim.orientation * glm::dvec3(0.0, 0.0, -1.0);
-    if (touching_) {
-      if (pressed) touch(hand.aim, stage);
-      continue;
-    }
     if (pointer_) continue;
     if (const std::optional<PanelHit> hit = point_at(panel_, aim)) {
       pointer_ = Pointer{*hit, hand.selects, hand.scroll};
       beam_ = Beam{aim.position, aim.position + hit->distance * along};
+    } else if (touching_) {
+      beam_ = Beam{aim.position, aim.position + kTip * along};
+      if (pressed) touch(hand.aim, stage);
     }
   }
 }
@@ -172,7 +175,7 @@ void WornHeadset::touch(const EyePose& hand, const Stage& stage) {
 void WornHeadset::obey(const HeadsetRequests& requests, double bound) {
   SeatSettings& seat = setup_.seat;
   if (requests.touch) {
-    touching_ = true;
+    touching_ = panel_open_ = true;  // it says how
     touches_.forget();
     worst_touch_ = 0.0;
   }

@@ -39,8 +39,8 @@ class WornHeadset {
   // A frame, in this order. begin(): waits for the headset's next frame and places the seat; false where nobody wears it
   // now, and the caller paces. Where the headset is lost everything of it is gone: is_open() says so, news() why.
   bool begin(const Stage& stage);
-  // seen: what the panel, of that size [px], leaves to the cabin.
-  void draw(const FrameScene& scene, const SeenPart& seen, glm::dvec2 panel_size);
+  // seen: what the panel, of that size [px], leaves to the cabin; card: the same with a learner's card.
+  void draw(const FrameScene& scene, const SeenPart& seen, const SeenPart& card, glm::dvec2 panel_size);
 
   // Of the frame that has begun.
   EyePose head() const;  // in the cabin, midway between the eyes
@@ -60,6 +60,7 @@ class WornHeadset {
   std::string take_news();              // one sentence, once; empty: none
 
  private:
+  void tell_once(const std::string& news);
   void lose(const std::string& why);
   void sit(const Stage& stage);
   void follow_changes();
@@ -74,7 +75,8 @@ class WornHeadset {
   std::unique_ptr<HeadsetView> view_;
   std::chrono::steady_clock::time_point next_try_{};
   bool tries_ = true;  // again: not where there never was a runtime
-  bool was_open_ = false, told_absent_ = false;
+  bool was_open_ = false;
+  std::string told_;  // the last of what is looked for in vain
 
   EyePose cabin_from_room_;
   bool sits_ = false;        // the seat is placed

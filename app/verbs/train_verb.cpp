@@ -184,7 +184,7 @@ void add_train_verb(CLI::App& app, VerbAction& action) {
   verb->add_option("--camera", arguments->choice.camera, "driver, ahead, lever, gate, cluster or gearbox")
       ->check(CLI::IsMember({"driver", "ahead", "lever", "gate", "cluster", "gearbox"}))
       ->capture_default_str();
-  verb->add_flag("--stereo", arguments->stereo, "both eyes, side by side");
+  CLI::Option* stereo = verb->add_flag("--stereo", arguments->stereo, "both eyes, side by side");
   verb->add_option("--drive", arguments->drive, "where the driver sits: left or right; in a headset it is kept")
       ->check(CLI::IsMember({"left", "right"}));
   CLI::Option* xr =
@@ -204,9 +204,10 @@ void add_train_verb(CLI::App& app, VerbAction& action) {
       ->check(number_between(-1.5, 1.5));
   verb->add_flag("--no-panel", arguments->no_panel, "the cabin alone; F2 shows the panel");
   verb->add_flag("--silent", arguments->silent, "no sound");
-  verb->add_option("--offscreen", arguments->offscreen,
-                   "no window: the last picture into this folder, the gears on stdout")
-      ->type_name("DIR");
+  CLI::Option* offscreen = verb->add_option("--offscreen", arguments->offscreen,
+                                            "no window: the last picture into this folder, the gears on stdout")
+                               ->type_name("DIR");
+  xr->excludes(stereo)->excludes(offscreen);
   verb->add_option("--or-demo", arguments->or_demo, "where there is no display: the demo into this folder")
       ->type_name("DIR");
   verb->add_option("--seconds", arguments->seconds, "of simulated time offscreen [s]")

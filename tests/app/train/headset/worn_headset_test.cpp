@@ -71,7 +71,7 @@ struct Worn {
     ui.begin({320.0f, 200.0f, 0.01f, 1.0f});
     ui.end();
     (void)headset->begin(*stage);
-    if (headset->is_open()) headset->draw({}, {{0.25, 0.0}, {0.75, 0.8}}, {320.0, 200.0});
+    if (headset->is_open()) headset->draw({}, {}, {{0.25, 0.0}, {0.75, 0.8}}, {320.0, 200.0});
   }
 
   void hold_lever(glm::dvec2 plane) {
