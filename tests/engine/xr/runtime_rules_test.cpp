@@ -37,14 +37,14 @@ Planted session(const char* rule, std::function<XrResult(Client&)> act) {
 Planted focused_session(const char* rule, std::function<XrResult(Client&)> act) {
   return {rule, in<Client>(std::move(act), [](Client& program) { program.begin_and_focus(); })};
 }
-Planted controls(const char* rule, std::function<XrResult(Client&, Controls&)> act) {
+Planted controls(const char* rule, const std::function<XrResult(Client&, Controls&)>& act) {
   return focused_session(rule, [=](Client& program) {
     Controls made(program);
     return act(program, made);
   });
 }
 // A frame that was drawn, and then submitted as `spoil` leaves it.
-Planted submitted(const char* rule, std::function<void(Client&)> spoil) {
+Planted submitted(const char* rule, const std::function<void(Client&)>& spoil) {
   return focused_session(rule, [=](Client& program) {
     REQUIRE(program.wait() == XR_SUCCESS);
     REQUIRE(program.begin_frame() == XR_SUCCESS);

@@ -8,8 +8,8 @@ namespace gearshift::xr_test {
 namespace {
 
 const char* state_name(XrSessionState state) {
-  static const char* const kNames[] = {"UNKNOWN", "IDLE",     "READY",        "SYNCHRONIZED", "VISIBLE",
-                                       "FOCUSED", "STOPPING", "LOSS_PENDING", "EXITING"};
+  static constexpr const char* kNames[] = {"UNKNOWN", "IDLE",     "READY",        "SYNCHRONIZED", "VISIBLE",
+                                           "FOCUSED", "STOPPING", "LOSS_PENDING", "EXITING"};
   return kNames[state];
 }
 
