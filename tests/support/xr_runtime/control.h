@@ -63,7 +63,7 @@ struct Event {
     hidden,   // shouldRender is false for a while, whatever the state
     stall,    // xrWaitFrame blocks for some display periods: the runtime drops frames
   };
-  double at = 0.0;  // [s] of Script's clock
+  double at = 0.0;  // [s] of Script's clock; -1: before the first xrBeginSession
   What what = What::focused;
   Space space = Space::local;  // of space_change: local or stage
   Pose pose{};                 // of space_change: the new origin in the space as it was

@@ -116,7 +116,8 @@ void set_state(State& s, XrSession handle, SessionObject& session, XrSessionStat
 }
 
 void play_timeline(State& s, double until) {
-  if (s.begin == 0) return;
+  if (s.begin == 0 && s.sessions.size() == 0) return;
+  if (s.begin == 0) until = -1.0;  // what shall come before the first xrBeginSession
   std::vector<Event>& timeline = s.control.script.timeline;
   constexpr double kNanosecond = 1e-9;  // [s] that display times are rounded to
   while (true) {

@@ -64,6 +64,7 @@ XrResult XRAPI_CALL get_function(XrInstance instance, const char* name, PFN_xrVo
 }  // namespace
 }  // namespace gearshift::xr_test
 
+// NOLINTNEXTLINE(readability-identifier-naming): the loader gives the name
 extern "C" __attribute__((visibility("default"))) XrResult XRAPI_CALL xrNegotiateLoaderRuntimeInterface(
     const gearshift::xr_test::LoaderInfo* loader, gearshift::xr_test::RuntimeRequest* request) {
   constexpr std::uint32_t kInterface = 1;
