@@ -10,8 +10,8 @@
 
 namespace gearshift::xr_test {
 
-inline const char* const kTouchController = "/interaction_profiles/oculus/touch_controller";
-inline const char* const kSimpleController = "/interaction_profiles/khr/simple_controller";
+inline constexpr const char* kTouchController = "/interaction_profiles/oculus/touch_controller";
+inline constexpr const char* kSimpleController = "/interaction_profiles/khr/simple_controller";
 
 inline XrPath path(XrInstance instance, const std::string& text) {
   XrPath made = XR_NULL_PATH;
@@ -58,6 +58,7 @@ struct Controls {
 
   XrResult suggest(const char* profile, const std::vector<std::pair<XrAction, std::string>>& bindings) const {
     std::vector<XrActionSuggestedBinding> list;
+    list.reserve(bindings.size());
     for (const auto& [one, to] : bindings) list.push_back({one, path(instance, to)});
     const XrInteractionProfileSuggestedBinding info{XR_TYPE_INTERACTION_PROFILE_SUGGESTED_BINDING, nullptr,
                                                     path(instance, profile), static_cast<std::uint32_t>(list.size()),

@@ -20,7 +20,7 @@ std::string read_text(const std::filesystem::path& file) {
   return text.str();
 }
 
-const char* const kFlow = R"(
+constexpr const char* kFlow = R"(
 early_error = 0.5
 period = 0.01
 stage_origin = {position = [0, -1, 0], yaw = 90}
@@ -52,7 +52,7 @@ TEST_CASE("a flow's program" * doctest::skip()) {
 
 TEST_CASE("a program that knows nothing of the script plays it, and leaves a log and pictures") {
   const TempFolder folder;
-  const std::filesystem::path out = folder.path();
+  const std::filesystem::path& out = folder.path();
   write_text(out / "flow.toml", kFlow);
   const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
   const std::string command = "GEARSHIFT_XR_SCRIPT=" + (out / "flow.toml").string() +

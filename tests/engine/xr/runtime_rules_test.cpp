@@ -16,9 +16,9 @@ struct Planted {
 // What was said before the program is taken down.
 std::vector<Violation> said;
 
-template <class Program>
+template <class Program, class Act>
 std::function<XrResult()> in(
-    std::function<XrResult(Program&)> act, void (*before)(Program&) = [](Program&) {}) {
+    Act act, void (*before)(Program&) = [](Program&) {}) {
   return [=] {
     Program program;
     before(program);
@@ -28,23 +28,24 @@ std::function<XrResult()> in(
   };
 }
 
-Planted machine(const char* rule, std::function<XrResult(Machine&)> act) {
-  return {rule, in<Machine>(std::move(act))};
+Planted machine(const char* rule, XrResult (*act)(Machine&)) {
+  return {rule, in<Machine>(act)};
 }
-Planted session(const char* rule, std::function<XrResult(Client&)> act) {
-  return {rule, in<Client>(std::move(act))};
+Planted session(const char* rule, XrResult (*act)(Client&)) {
+  return {rule, in<Client>(act)};
 }
-Planted focused_session(const char* rule, std::function<XrResult(Client&)> act) {
-  return {rule, in<Client>(std::move(act), [](Client& program) { program.begin_and_focus(); })};
+template <class Act>
+Planted focused_session(const char* rule, Act act) {
+  return {rule, in<Client>(act, [](Client& program) { program.begin_and_focus(); })};
 }
-Planted controls(const char* rule, std::function<XrResult(Client&, Controls&)> act) {
+Planted controls(const char* rule, XrResult (*act)(Client&, Controls&)) {
   return focused_session(rule, [=](Client& program) {
     Controls made(program);
     return act(program, made);
   });
 }
 // A frame that was drawn, and then submitted as `spoil` leaves it.
-Planted submitted(const char* rule, std::function<void(Client&)> spoil) {
+Planted submitted(const char* rule, void (*spoil)(Client&)) {
   return focused_session(rule, [=](Client& program) {
     REQUIRE(program.wait() == XR_SUCCESS);
     REQUIRE(program.begin_frame() == XR_SUCCESS);

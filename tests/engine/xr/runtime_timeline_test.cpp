@@ -128,6 +128,16 @@ TEST_CASE("a lost session is gone but for its end; a new one lives") {
   CHECK(xr.record.violations.empty());
 }
 
+TEST_CASE("a session may be lost before it begins") {
+  Control& xr = control();
+  xr.start();
+  xr.script.timeline = {lose_session(-1.0)};
+  Client program;
+  CHECK(program.poll() == TimelineStates{XR_SESSION_STATE_IDLE, XR_SESSION_STATE_READY, XR_SESSION_STATE_LOSS_PENDING});
+  CHECK(program.begin() == XR_ERROR_SESSION_LOST);
+  CHECK(xr.record.violations.empty());
+}
+
 TEST_CASE("a lost instance answers nothing but its end") {
   Control& xr = control();
   xr.start();

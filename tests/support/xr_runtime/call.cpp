@@ -51,13 +51,12 @@ void refuse(XrResult result) {
   throw Refused{result};
 }
 
-void require(bool holds, const char* id, const std::string& detail) {
-  if (holds) return;
+XrResult write_violation(const char* id, const std::string& detail) {
   State& s = state();
   const Rule& broken = rule(id);
   s.control.record.violations.push_back({id, s.function, detail});
   log_line(std::string("violation ") + id + " " + s.function + (detail.empty() ? "" : ": " + detail));
-  if (broken.result != XR_SUCCESS) refuse(broken.result);
+  return broken.result;
 }
 
 std::optional<XrResult> injected_failure(const char* function) {

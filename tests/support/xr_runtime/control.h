@@ -4,6 +4,7 @@
 
 #include <openxr/openxr.h>
 
+#include <array>
 #include <cstdint>
 #include <functional>
 #include <map>
@@ -62,7 +63,7 @@ struct Event {
     hidden,   // shouldRender is false for a while, whatever the state
     stall,    // xrWaitFrame blocks for some display periods: the runtime drops frames
   };
-  double at = 0.0;  // [s] of Script's clock
+  double at = 0.0;  // [s] of Script's clock; -1: before the first xrBeginSession
   What what = What::focused;
   Space space = Space::local;  // of space_change: local or stage
   Pose pose{};                 // of space_change: the new origin in the space as it was
@@ -143,16 +144,16 @@ struct Script {
   std::uint32_t images = 3;                                         // of a swapchain
   std::vector<std::int64_t> colour_formats{43, 50, 37, 44};         // VkFormat: R8G8B8A8 and B8G8R8A8, sRGB first
   std::vector<std::int64_t> depth_formats{126};                     // VkFormat: D32_SFLOAT
-  Fov fov[2] = {{-50 * kDegree, 42 * kDegree, 44 * kDegree, -48 * kDegree},  // left eye
-                {-42 * kDegree, 50 * kDegree, 44 * kDegree, -48 * kDegree}};
+  std::array<Fov, 2> fov{Fov{-50 * kDegree, 42 * kDegree, 44 * kDegree, -48 * kDegree},  // left eye
+                         Fov{-42 * kDegree, 50 * kDegree, 44 * kDegree, -48 * kDegree}};
   double eye_distance = 0.063;  // [m]
   double period = 1.0 / 90.0;   // [s] of the display
   Pacing pacing = Pacing::stepped;
   int polls_before_ready = 0;  // xrPollEvent calls without an event between IDLE and READY
   std::function<Pose(double)> head = [](double) { return Pose{}; };  // in LOCAL as it is at first
   std::vector<Gap> tracking_gaps{};
-  double early_error = 0.0;  // [m] in x, of each frame's first xrLocateViews only
-  Hand hands[2]{};           // left, right
+  double early_error = 0.0;     // [m] in x, of each frame's first xrLocateViews only
+  std::array<Hand, 2> hands{};  // left, right
   std::string profile = "/interaction_profiles/oculus/touch_controller";
   std::map<std::string, std::function<double(double)>> inputs{};  // ["/user/hand/right/input/trigger/value"]
   std::vector<Event> timeline{};

@@ -43,7 +43,7 @@ void write_log(const std::string& line) {
 
 void write_pictures(const FrameRecord& record) {
   if (out_folder() == nullptr) return;
-  static const char* const kEyes[] = {"left", "right"};
+  static constexpr const char* kEyes[] = {"left", "right"};
   int quads = 0;
   for (const LayerRecord& layer : record.layers) {
     if (layer.type == XR_TYPE_COMPOSITION_LAYER_QUAD) {

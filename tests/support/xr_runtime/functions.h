@@ -29,10 +29,12 @@
 namespace gearshift::xr_test::xr {
 
 // Each has the type that OpenXR gives it: XrResult WaitFrame(XrSession, const XrFrameWaitInfo*, XrFrameState*);
+// NOLINTBEGIN(bugprone-macro-parentheses): a name that is declared has none
 #define GEARSHIFT_XR_DECLARE(name) std::remove_pointer_t<PFN_xr##name> name;
 GEARSHIFT_XR_CORE(GEARSHIFT_XR_DECLARE)
 GEARSHIFT_XR_VULKAN_ENABLE2(GEARSHIFT_XR_DECLARE)
 GEARSHIFT_XR_CONVERT_TIMESPEC_TIME(GEARSHIFT_XR_DECLARE)
 #undef GEARSHIFT_XR_DECLARE
+// NOLINTEND(bugprone-macro-parentheses)
 
 }  // namespace gearshift::xr_test::xr

@@ -148,7 +148,7 @@ XrResult XRAPI_CALL ResultToString(XrInstance instance, XrResult value, char buf
     live(instance);
     std::string name = (value < 0 ? "XR_UNKNOWN_FAILURE_" : "XR_UNKNOWN_SUCCESS_") + std::to_string(value);
 #define GEARSHIFT_XR_NAME(one, number) \
-  if (value == number) name = #one;
+  if (value == (number)) name = #one;
     XR_LIST_ENUM_XrResult(GEARSHIFT_XR_NAME);
     std::snprintf(buffer, XR_MAX_RESULT_STRING_SIZE, "%s", name.c_str());
     return XR_SUCCESS;

@@ -8,8 +8,8 @@ namespace gearshift::xr_test {
 namespace {
 
 const char* state_name(XrSessionState state) {
-  static const char* const kNames[] = {"UNKNOWN", "IDLE",     "READY",        "SYNCHRONIZED", "VISIBLE",
-                                       "FOCUSED", "STOPPING", "LOSS_PENDING", "EXITING"};
+  static constexpr const char* kNames[] = {"UNKNOWN", "IDLE",     "READY",        "SYNCHRONIZED", "VISIBLE",
+                                           "FOCUSED", "STOPPING", "LOSS_PENDING", "EXITING"};
   return kNames[state];
 }
 
@@ -116,7 +116,8 @@ void set_state(State& s, XrSession handle, SessionObject& session, XrSessionStat
 }
 
 void play_timeline(State& s, double until) {
-  if (s.begin == 0) return;
+  if (s.begin == 0 && s.sessions.size() == 0) return;
+  if (s.begin == 0) until = -1.0;  // what shall come before the first xrBeginSession
   std::vector<Event>& timeline = s.control.script.timeline;
   constexpr double kNanosecond = 1e-9;  // [s] that display times are rounded to
   while (true) {

@@ -30,7 +30,7 @@ struct Function {
   const char* extension;
   PFN_xrVoidFunction address;
 };
-const Function kFunctions[] = {
+const Function functions[] = {
 #define GEARSHIFT_XR_FUNCTION(name) reinterpret_cast<PFN_xrVoidFunction>(&xr::name)
 #define GEARSHIFT_XR_ENTRY(name) {"xr" #name, nullptr, GEARSHIFT_XR_FUNCTION(name)},
     GEARSHIFT_XR_CORE(GEARSHIFT_XR_ENTRY)
@@ -53,7 +53,7 @@ XrResult XRAPI_CALL get_function(XrInstance instance, const char* name, PFN_xrVo
   }
   const bool early = wanted == "xrCreateInstance" || wanted == "xrEnumerateInstanceExtensionProperties";
   if (instance == XR_NULL_HANDLE && !early) return XR_ERROR_HANDLE_INVALID;
-  for (const Function& one : kFunctions) {
+  for (const Function& one : functions) {
     if (wanted != one.name || (one.extension != nullptr && !enabled(one.extension))) continue;
     *address = one.address;
     return XR_SUCCESS;
@@ -64,6 +64,7 @@ XrResult XRAPI_CALL get_function(XrInstance instance, const char* name, PFN_xrVo
 }  // namespace
 }  // namespace gearshift::xr_test
 
+// NOLINTNEXTLINE(readability-identifier-naming): the loader gives the name
 extern "C" __attribute__((visibility("default"))) XrResult XRAPI_CALL xrNegotiateLoaderRuntimeInterface(
     const gearshift::xr_test::LoaderInfo* loader, gearshift::xr_test::RuntimeRequest* request) {
   constexpr std::uint32_t kInterface = 1;

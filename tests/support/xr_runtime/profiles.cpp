@@ -10,7 +10,7 @@ struct Component {
 };
 constexpr const char* kSimple = "/interaction_profiles/khr/simple_controller";
 constexpr const char* kTouch = "/interaction_profiles/oculus/touch_controller";
-const Component kComponents[] = {
+constexpr Component kComponents[] = {
     {kSimple, "lr", "input/select/click"},    {kSimple, "lr", "input/menu/click"},
     {kSimple, "lr", "input/grip/pose"},       {kSimple, "lr", "input/aim/pose"},
     {kSimple, "lr", "output/haptic"},         {kTouch, "l", "input/x/click"},

@@ -6,7 +6,7 @@
 namespace gearshift::xr_test {
 namespace {
 
-const Rule kRules[] = {
+constexpr Rule kRules[] = {
     // Any function.
     {"handle_live", XR_ERROR_HANDLE_INVALID, "Handles", "a handle must be a live one: created, and not destroyed"},
     {"pointer", XR_ERROR_VALIDATION_FAILURE, "Valid Usage",

@@ -153,20 +153,20 @@ void read_input(Words& words, Script& script) {
 
 Event::What event_word(const std::string& word) {
   using What = Event::What;
-  static const std::map<std::string, What> kWords{{"focused", What::focused},
-                                                  {"visible", What::visible},
-                                                  {"synchronized", What::synchronized},
-                                                  {"stopping", What::stopping},
-                                                  {"ready", What::ready},
-                                                  {"loss_pending", What::loss_pending},
-                                                  {"instance_loss", What::instance_loss},
-                                                  {"exit", What::exit},
-                                                  {"space_change", What::space_change},
-                                                  {"profile", What::profile},
-                                                  {"hidden", What::hidden},
-                                                  {"stall", What::stall}};
-  const auto found = kWords.find(word);
-  if (found == kWords.end()) wrong("event: " + word);
+  static const std::map<std::string, What> words{{"focused", What::focused},
+                                                 {"visible", What::visible},
+                                                 {"synchronized", What::synchronized},
+                                                 {"stopping", What::stopping},
+                                                 {"ready", What::ready},
+                                                 {"loss_pending", What::loss_pending},
+                                                 {"instance_loss", What::instance_loss},
+                                                 {"exit", What::exit},
+                                                 {"space_change", What::space_change},
+                                                 {"profile", What::profile},
+                                                 {"hidden", What::hidden},
+                                                 {"stall", What::stall}};
+  const auto found = words.find(word);
+  if (found == words.end()) wrong("event: " + word);
   return found->second;
 }
 

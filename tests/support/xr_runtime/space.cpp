@@ -183,12 +183,13 @@ XrResult XRAPI_CALL LocateViews(XrSession session, const XrViewLocateInfo* info,
     const bool counts = capacity != 0 && !frames.empty();
     if (counts && frames.back().locates == 0) pose.position.x += s.control.script.early_error;
     view_state->viewStateFlags = location_flags(pose);
-    const XrResult result = fill(capacity, count, views, std::vector{0, 1}, [&](XrView& to, int eye) {
-      structure(&to, XR_TYPE_VIEW);
-      const double side = (eye == 0 ? -0.5 : 0.5) * s.control.script.eye_distance;
-      to.pose = to_xr(pose * Pose{.position = {side, 0.0, 0.0}});
-      to.fov = xr_fov(s.control.script.fov[eye]);
-    });
+    const XrResult result =
+        fill(capacity, count, views, std::vector<std::size_t>{0, 1}, [&](XrView& to, std::size_t eye) {
+          structure(&to, XR_TYPE_VIEW);
+          const double side = (eye == 0 ? -0.5 : 0.5) * s.control.script.eye_distance;
+          to.pose = to_xr(pose * Pose{.position = {side, 0.0, 0.0}});
+          to.fov = xr_fov(s.control.script.fov[eye]);
+        });
     if (counts && result == XR_SUCCESS) ++frames.back().locates;
     return result;
   });

@@ -1,6 +1,7 @@
 // All that the runtime holds: one of it in the process, and it stays when the loader lets go of the library.
 #pragma once
 
+#include <bit>
 #include <deque>
 #include <memory>
 #include <mutex>
@@ -98,7 +99,7 @@ class Table {
     static std::uint64_t count = 0;
     // No neighbour of a live handle is one.
     const auto id = (++count * 0x9e3779b97f4a7c15u) | 1u;
-    const auto handle = reinterpret_cast<Handle>(id);
+    const auto handle = std::bit_cast<Handle>(id);
     objects_.emplace(handle, std::make_unique<Object>(std::move(object)));
     return handle;
   }
@@ -154,9 +155,12 @@ State& state();
 struct Refused {  // thrown: what the function returns
   XrResult result;
 };
-// The rule holds or it is written down and the function returns the rule's result (goes on where that is XR_SUCCESS).
-void require(bool holds, const char* rule, const std::string& detail = {});
 [[noreturn]] void refuse(XrResult result);
+XrResult write_violation(const char* rule, const std::string& detail);  // the rule's result
+// The rule holds, or it is written down and the function returns the rule's result.
+inline void require(bool holds, const char* rule, const std::string& detail = {}) {
+  if (!holds) refuse(write_violation(rule, detail));
+}
 std::optional<XrResult> injected_failure(const char* function);
 void log_line(const std::string& line);  // to the record, and to the file of a flow
 void count_live();
