@@ -6,7 +6,7 @@ cd "$1" || exit 1
 
 haptics="haptics/files haptics/rt haptics/joystick haptics/gate haptics/device haptics/contact haptics/analysis haptics/safety haptics/loop haptics/hid haptics/usb haptics/hardware"
 shared="app/assets_path app/energy_words app/event_words app/hold_words app/limited_words app/output_folder app/program_name app/user_cache"
-pictures="engine/gpu engine/image engine/model engine/render engine/scene engine/ui engine/window"
+pictures="engine/gpu engine/image engine/model engine/render engine/scene engine/ui engine/window engine/xr"
 declare -A sees=(
   [haptics/files]="" [haptics/rt]="" [haptics/joystick]=""
   [haptics/gate]="haptics/files" [haptics/device]="haptics/joystick haptics/rt"
@@ -19,6 +19,7 @@ declare -A sees=(
   [engine/light]="engine/image" [engine/gpu]="engine/image"
   [engine/render]="engine/gpu engine/scene engine/light engine/model engine/image"
   [engine/ui]="engine/gpu engine/image" [engine/window]="engine/gpu engine/image" [engine/sound]=""
+  [engine/xr]="engine/gpu engine/scene engine/model engine/image"
   [app/vehicle]="$haptics" [app/training]="$haptics app/vehicle"
   [app/history]="$haptics app/training app/vehicle"
   [app/replay]="$haptics app/training app/vehicle"
@@ -29,9 +30,10 @@ declare -A sees=(
   [app/trainer]="$haptics app/vehicle app/training" [app/input]="$haptics engine/window engine/gpu engine/image"
   [app/stage]="$haptics app/vehicle engine/scene engine/model engine/image"
   [app/cabin_sound]="$haptics app/vehicle engine/scene engine/model engine/image engine/sound"
-  [app/panel]="$haptics $shared app/trainer app/vehicle app/training app/history app/coach app/replay engine/ui engine/gpu engine/image"
+  [app/headset]="$haptics app/stage app/vehicle engine/xr engine/gpu engine/scene engine/model engine/image"
+  [app/panel]="$haptics $shared app/trainer app/vehicle app/training app/history app/coach app/replay app/headset app/stage engine/xr engine/scene engine/model engine/ui engine/gpu engine/image"
   [app/view]="$haptics $shared app/stage app/vehicle $pictures"
-  [app/train]="$haptics $shared app/devices app/input app/trainer app/vehicle app/training app/history app/coach app/replay app/learner app/stage app/cabin_sound app/panel app/view engine/sound $pictures"
+  [app/train]="$haptics $shared app/devices app/input app/trainer app/vehicle app/training app/history app/coach app/replay app/learner app/stage app/cabin_sound app/panel app/headset app/view engine/sound $pictures"
 )
 failed=0
 passed=0
