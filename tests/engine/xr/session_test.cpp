@@ -430,6 +430,8 @@ TEST_CASE("a session that begins again and again leaves nothing behind") {
   CHECK(open_files() == files);
   CHECK(rig.gpu().allocated() == device);
   CHECK(xr_test::control().record.live_handles() == handles);
-  CHECK(resident() < memory + 1024);  // [KiB] however often
+#if !defined(GEARSHIFT_TEST_SANITIZED)  // a sanitizer keeps what was freed, and finds leaks by itself
+  CHECK(resident() < memory + 1024);    // [KiB] however often
+#endif
   CHECK(xr_test::control().record.violations.empty());
 }
