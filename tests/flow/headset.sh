@@ -107,7 +107,7 @@ done
 check "other words after the lesson" differs "$card" "$last_card" 1000
 
 # --- every state; the room turned; a head that is not seen. The car stands: its picture stays.
-begin "it starts, the seat at the right" wear states --lesson none --car none --hand grip --drive right --knob 0.3,0.5,0.3 < <(
+begin "it starts, the seat at the right" wear states --lesson none --car none --hand grip --drive right --knob -0.3,0.5,0.3 < <(
   echo 'capture = {every = 1}'
   at 6 visible
   at 7 focused
@@ -143,7 +143,7 @@ for when in "turned 15.5 16.5" "not_seen 16.5 18" "seen_again 18.5 20"; do
 done
 check "the seat at the right is kept" grep -q '^drive = "right"$' "$seat"
 check "with its height" grep -q '^seat_height_m = 0.05$' "$seat"
-for line in 'right_m = 0.3' 'down_m = 0.5' 'ahead_m = 0.3'; do check "$line is kept" grep -q "^$line$" "$seat"; done
+for line in 'right_m = -0.3' 'down_m = 0.5' 'ahead_m = 0.3'; do check "$line is kept" grep -q "^$line$" "$seat"; done
 
 # --- lost, in four ways, and found again
 begin "it starts" wear losses --lesson none --hand "by itself" < <(
