@@ -1,0 +1,260 @@
+#!/usr/bin/env bash
+# The trainer in a headset, whole: a lesson is passed in it, it is put down and picked up, lost and found again, there is
+# none or no runtime, the room turns, its pictures stop; and the lever goes on through all of it.
+# The headset is the OpenXR test runtime with a script for each run.
+# Usage: headset.sh GEARSHIFT SOURCE_FOLDER MANIFEST
+set -u
+gearshift=$1
+manifest=$3
+flows=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+source "$flows/checks.sh"
+source "$flows/window.sh"
+grep -q library_path "$manifest" || { echo "no manifest of the test runtime: $manifest"; exit 1; }
+unset XR_LOADER_DEBUG
+
+seat=config/gearshift/headset.toml
+found="gearshift test headset at gearshift test runtime"
+lost="; the desktop shows the cabin, the lever goes on$"
+
+# name of the script and of all results, arguments ...; the script's own part on stdin. Small eyes: a CPU draws them. The
+# hands hang down: what they point at is none of the card.
+hanging() { printf '%s = {aim = [{position = [%s, -0.6, 0], pitch = -80}]}\n' "$@"; }
+wear() {
+  {
+    printf 'pacing = "real"\nrecommended = [256, 192]\n'
+    hanging left -0.3 right 0.3
+    cat
+  } >"$1.toml"
+  mkdir "$1"
+  export XR_RUNTIME_JSON=$manifest GEARSHIFT_XR_SCRIPT=$work/$1.toml GEARSHIFT_XR_OUT=$work/$1
+  start "$1" --xr --silent --no-panel "${@:2}"
+}
+begin() { # what, command ...: without it there is nothing to wait for
+  check "$@"
+  alive && return
+  cat "$log.err"
+  finish
+  exit 1
+}
+# As within, while the trainer is there.
+is_so_or_gone() { "$@" || is_gone; }
+soon() { within "$1" is_so_or_gone "${@:2}" && "${@:2}"; }
+at() { # [s] of the script, what happens, and its own words
+  printf '[[event]]\nat = %s\nwhat = "%s"\n' "$1" "$2"
+  printf '%s\n' "${@:3}"
+}
+fails() { # nth call of a function, the function, its result
+  printf '[[failure]]\nnth = %s\nfunction = "%s"\nresult = "%s"\n' "$1" "$2" "$3"
+}
+told() { [ "$(grep -c -- "$1" "$log.err")" -ge "${2:-1}" ]; }
+told_so_often() { [ "$(grep -c -- "$1" "$log.err")" = "$2" ]; }
+ended_by_itself() { within 60 is_gone && wait $trainer; } # with the exit code 0
+frames() { grep -c "^frame .* shown" "$log/log.txt"; }
+has_more_frames() { [ "$(frames)" -gt "$1" ]; }
+broke_no_rule() { grep -q "^frame" "$log/log.txt" && ! grep "^violation\|^leak" "$log/log.txt"; }
+# Where the eyes are is asked for again when the rest of the frame is done.
+each_frame_is_whole() {
+  grep "^frame .* shown" "$log/log.txt" >shown && ! grep -v " layers=2 locates=2 projection+depth quad$" shown
+}
+validates() { ! grep "validation:" ./*.err; }
+colours() { convert "$@" -format %k info:; }
+is_picture() { [ "$(colours "$1")" -gt 500 ]; }
+differs() { [ "$(compare -metric AE "$1" "$2" null: 2>&1)" -gt "$3" ]; } # in more than so many pixels
+looks_like() { compare -metric RMSE "$1" "$2" null: 2>&1 | python3 -c '
+import re, sys
+sys.exit(float(re.search(r"\((.*)\)", sys.stdin.read())[1]) > 0.08)'; }
+window_picture() { import -window "$window" "$log.png" 2>/dev/null; }
+shows_picture() { window_picture && is_picture "$log.png"; }
+# The headset's picture is narrower than the window: beside it the window is black.
+shows_desktop() { window_picture && [ "$(colours "$log.png" -crop 40x300+0+50)" -gt 50 ]; }
+engaged() { grep -c " engaged" "$log.txt"; }
+shifts_after() { [ "$(engaged)" -gt "$1" ]; }
+one_line() { [ "$(wc -l <"$log.err")" = 1 ]; }
+
+# --- a lesson, by the simulated learner, until the person leaves by the headset's own menu
+begin "a lesson starts in the headset" wear lesson --hand "by itself" --lesson hill_start --seat-height 0.05 < <(
+  echo 'capture = {every = 4}'
+  at 13 exit)
+check "which is told" within 20 told "$found"
+check "the lesson is passed in it" within 30 said "lesson hill_start is over: grade .* of 10, passed"
+check "the window shows it to others" shows_picture
+xdotool windowfocus "$window"
+recorded() { ls data/gearshift/recordings/*.trace >/dev/null 2>&1; }
+key F9
+check "a recording" within 10 recorded
+check "the headset's menu ends it" ended_by_itself
+check "nothing else on stderr" one_line
+check "it broke no rule" broke_no_rule
+check "each frame has both eyes, depth, the card, and the eyes' late place" each_frame_is_whole
+check "and there were some" has_more_frames 5
+check "the headset was left by the book" [ "$(tail -n 1 lesson/log.txt)" = "state EXITING" ]
+check "the recording was closed, and where it is was told" said "^recorded: .*\.trace"
+check "it is whole" bash -c '"$0" replay "$(sed -n "s/^recorded: //p" lesson.txt)" | grep -q "^bit for bit"' "$gearshift"
+check "the seat is kept" grep -q "^seat_height_m = 0.05$" "$seat"
+for left in lesson/*_left.png; do
+  right=${left/left/right}
+  check "$left" is_picture "$left"
+  check "$right" is_picture "$right"
+  check "each eye has its own" differs "$left" "$right" 10000
+done
+# The card fills what hangs there, its words are drawn, and they follow the lesson.
+card=$(ls lesson/*_quad.png | sed -n 2p) last_card=$(ls lesson/*_quad.png | tail -n 1)
+cover() { convert "$1" -alpha extract -format '%[fx:mean]' info: | python3 -c 'import sys; sys.exit(float(input()) < 0.5)'; }
+for one in "$card" "$last_card"; do
+  check "the card covers $one" cover "$one"
+  check "with words" [ "$(colours "$one")" -gt 30 ]
+done
+check "other words after the lesson" differs "$card" "$last_card" 1000
+
+# --- every state; the room turned; a head that is not seen. The car stands: its picture stays.
+begin "it starts, the seat at the right" wear states --lesson none --car none --hand grip --drive right --knob -0.3,0.5,0.3 < <(
+  echo 'capture = {every = 1}'
+  at 6 visible
+  at 7 focused
+  at 8 synchronized
+  at 9 focused
+  at 10 hidden "span = 0.8"
+  at 11 stopping
+  at 12 ready
+  at 14 space_change 'space = "local"' "position = [0.2, 0, 0.1]" "yaw = 20"
+  at 15 space_change 'space = "stage"' "position = [0.4, 0, -0.3]" "yaw = 90"
+  echo '[[tracking_gap]]'
+  printf 'from = 16.5\nuntil = 18\nvalid = false\n[[tracking_gap]]\nfrom = 18.1\nuntil = 18.5\n'
+  at 20 exit)
+check "the headset's menu ends it" ended_by_itself
+check "one sentence" one_line
+check "it broke no rule" broke_no_rule
+check "each frame that is shown is whole" each_frame_is_whole
+worn="SYNCHRONIZED VISIBLE FOCUSED " down="VISIBLE SYNCHRONIZED STOPPING IDLE "
+check "through every state" [ "$(sed -n 's/^state //p' states/log.txt | tr '\n' ' ')" = \
+  "IDLE READY ${worn}VISIBLE FOCUSED VISIBLE SYNCHRONIZED VISIBLE FOCUSED ${down}READY $worn${down}EXITING " ]
+hidden_frames() { grep "^frame .* hidden" states/log.txt; }
+check "hidden frames there were" [ "$(hidden_frames | wc -l)" -ge 3 ]
+check "and the cabin is drawn for nobody" [ "$(hidden_frames | grep -c projection)" = 0 ]
+# [s] from, until: a frame of that time whose picture there is
+picture_at() {
+  sed -n 's/^frame \([0-9]*\) t=\([0-9.]*\) shown.*/\1 \2/p' states/log.txt | awk -v from="$1" -v until="$2" \
+    '$2 > from && $2 < until {printf "states/frame_%06d_left.png\n", $1; exit}'
+}
+before=$(picture_at 12.8 14)
+for when in "turned 15.5 16.5" "not_seen 16.5 18" "seen_again 18.5 20"; do
+  read -r what from until <<<"$when"
+  check "the driver looks ahead: $what" looks_like "$before" "$(picture_at "$from" "$until")"
+done
+check "the seat at the right is kept" grep -q '^drive = "right"$' "$seat"
+check "with its height" grep -q '^seat_height_m = 0.05$' "$seat"
+for line in 'right_m = -0.3' 'down_m = 0.5' 'ahead_m = 0.3'; do check "$line is kept" grep -q "^$line$" "$seat"; done
+
+# --- lost, in four ways, and found again
+begin "it starts" wear losses --lesson none --hand "by itself" < <(
+  at 5 loss_pending
+  at 14 instance_loss
+  fails 50 xrEndFrame XR_ERROR_RUNTIME_FAILURE
+  fails 80 xrWaitFrame XR_ERROR_RUNTIME_FAILURE)
+for i in 1 2 3 4; do
+  check "$i. found" soon 30 told "$found" $i
+  check "$i. lost" soon 30 told "$lost" $i
+  drawn=$(frames) shifts=$(engaged)
+  check "$i. the window shows the cabin" soon 10 shows_desktop
+  check "$i. found again" soon 30 told "$found" $((i + 1))
+  check "$i. and shown again" soon 20 has_more_frames "$drawn"
+done
+check "the lever shifts on" soon 30 shifts_after "$shifts"
+xdotool windowfocus "$window"
+check "its key ends it" ended_by End
+check "it broke no rule" broke_no_rule
+check "each frame is whole" each_frame_is_whole
+check "a sentence each, no more" [ "$(wc -l <losses.err)" = 9 ]
+for what in "the headset is lost" "the OpenXR runtime goes away" "xrEndFrame failed: XR_ERROR_RUNTIME_FAILURE" \
+  "xrWaitFrame failed: XR_ERROR_RUNTIME_FAILURE"; do
+  check "told: $what" told_so_often "^gearshift: $what$lost" 1
+done
+
+# --- lost again and again: six times, as it looks for one every 2 s
+begin "it starts" wear restarts --lesson none --hand "by itself" < <(
+  for i in 1 2 3 4 5 6; do fails $((3 * i)) xrWaitFrame XR_ERROR_SESSION_LOST; done)
+process() { pgrep -P $trainer; }
+open_files() { ls "/proc/$(process)/fd" | wc -l; }
+threads() { ls "/proc/$(process)/task" | wc -l; }
+# As many frames as it takes to be settled: two of a headset that is worn.
+worn_again() { soon 30 told "$found" "$1" && soon 20 has_more_frames "$2"; }
+check "lost and found once" worn_again 2 1
+files=$(open_files) tasks=$(threads)
+check "and six times" worn_again 7 8
+check "no more open files ($files, $(open_files))" [ "$(open_files)" -le "$files" ]
+check "no more threads ($tasks, $(threads))" [ "$(threads)" -le "$tasks" ]
+xdotool windowfocus "$window"
+check "its key ends it" ended_by End
+check "it broke no rule" broke_no_rule
+
+# --- pictures that stop for half a second, again and again, do not stop the lever
+record() { # for some 10 s
+  rm -rf data/gearshift/recordings
+  xdotool windowfocus "$window"
+  key F9
+  within 10 recorded && sleep 10 && key F9 && within 10 replays
+}
+replays() { "$gearshift" replay data/gearshift/recordings/*.trace --csv "$log.csv" 2>/dev/null | grep "^bit for bit"; }
+# Cycles of the loop, their share of those that were due, and the longest time without one [ms]. A bound that a stall of
+# half a second would break; and a busy machine alone does not.
+never_stopped() { python3 - "$log.csv" <<'END'
+import csv, sys
+times = [float(row["time_s"]) for row in csv.DictReader(open(sys.argv[1]))]
+longest = max(b - a for a, b in zip(times, times[1:]))
+share = len(times) / (1 + round(1000 * (times[-1] - times[0])))
+print(f"    {len(times)} cycles in {times[-1] - times[0]:.2f} s, {100 * share:.2f} %, longest gap {1e3 * longest:.0f} ms")
+sys.exit(not (times[-1] - times[0] > 8 and share > 0.8 and longest < 0.25))
+END
+}
+begin "it starts" wear stalled --lesson none --hand "by itself" < <(
+  for i in $(seq 2 20); do at $((3 * i / 2)).$((5 * (i % 2))) stall "periods = 45"; done)
+check "worn" within 20 has_more_frames 2
+check "a recording while pictures stop" record
+check "they did" [ "$(awk '/^frame/ {sub("t=", "", $3); n += $3 - last > 0.45; last = $3} END {print n}' stalled/log.txt)" -ge 5 ]
+check "the loop went on" never_stopped
+check "and the motors stayed on" [ "$(grep -c "released\|fault" stalled.txt)" = 0 ]
+xdotool windowfocus "$window"
+check "its key ends it" ended_by End
+check "one sentence" one_line
+check "it broke no rule" broke_no_rule
+
+# --- no runtime: a window as ever
+export XR_RUNTIME_JSON=/nowhere
+begin "without a runtime" start nowhere --xr --silent --no-panel --lesson none --hand "by itself"
+check "the window shows the cabin" within 20 shows_desktop
+check "a recording beside the others" record
+check "the loop went on" never_stopped
+xdotool windowfocus "$window"
+check "its key ends it" ended_by End
+check "a sentence, and nothing of the loader's" one_line
+check "it says what to do" grep -q "^gearshift: no OpenXR runtime answers: .*XR_RUNTIME_JSON.*; the desktop" nowhere.err
+
+# --- no headset: told once, however often it is looked for
+begin "without a headset" wear nothing --lesson none --hand "by itself" < <(echo 'headset = false')
+check "the window shows the cabin" within 20 shows_desktop
+sleep 5 # two more looks for one
+check "one sentence" one_line
+check "it says so" told "^gearshift: no headset is connected to gearshift test runtime.*; the desktop shows the cabin"
+xdotool windowfocus "$window"
+check "its key ends it" ended_by End
+
+# --- what is refused
+refused() { # exit code, part of the sentence, arguments of train ...
+  timeout 20 "$gearshift" train "${@:3}" >refused.txt 2>refused.err
+  [ $? -eq "$1" ] && [ ! -s refused.txt ] && [ "$(wc -l <refused.err)" = 1 ] && grep -q -- "$2" refused.err
+}
+check "a seat beyond its range" refused 2 "seat-height.*5.*0\.3" --xr --seat-height 5
+check "a knob of two numbers" refused 2 "knob" --xr --knob 0.3,0.5
+check "a knob beyond its range" refused 2 "knob.*9.*1\.5" --xr --knob 0.3,0.5,9
+for option in "--seat-height 0.1" "--knob 0.3,0.5,0.3" "--xr-scale 1.2"; do
+  check "$option without --xr" refused 2 "requires --xr" $option
+done
+check "the seat stays as it was" grep -q '^seat_height_m = 0.05$' "$seat"
+sed -i 's/^seat_height_m.*/seat_height_m = 7.5/' "$seat"
+line=$(grep -n seat_height_m "$seat" | cut -d : -f 1)
+check "a bad seat in the file" refused 1 "headset.toml:$line.*seat_height_m.*7\.5.*-0\.3.*0\.3" --xr --silent
+check "the file stays" grep -q "7.5" "$seat"
+
+check "validation has nothing to say" validates
+[ -n "${GEARSHIFT_PICTURES:-}" ] && cp -r lesson states losses ./*.png ./*.txt ./*.err "$GEARSHIFT_PICTURES"
+finish
