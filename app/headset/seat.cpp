@@ -2,8 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
+#include <stdexcept>
 
+#include <fmt/core.h>
 #include <glm/geometric.hpp>
+
+#include "haptics/files/number_text.h"
 
 namespace gearshift {
 namespace {
@@ -26,6 +30,14 @@ EyePose placed(double turn, glm::dvec3 room, glm::dvec3 cabin) {
 }
 
 }  // namespace
+
+void check_knob(const KnobDistance& knob, DriveSide drive) {
+  const double away = drive == DriveSide::left ? knob.right : -knob.right;
+  if (away > 0.0) return;
+  const bool left = drive == DriveSide::left;
+  throw std::invalid_argument(fmt::format("a driver on the {} has the knob to his {}: {} m to the right cannot be",
+                                          left ? "left" : "right", left ? "right" : "left", number_text(knob.right)));
+}
 
 EyePose seat_at_eyes(const EyePose& head, const SeatPlaces& places, double height) {
   return placed(heading(head.orientation), head.position, places.eye + height * kUp);

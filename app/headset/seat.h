@@ -8,6 +8,7 @@
 
 #include <glm/vec3.hpp>
 
+#include "app/stage/drive_side.h"
 #include "engine/scene/view.h"
 
 namespace gearshift {
@@ -22,6 +23,9 @@ struct SeatPlaces {
 struct KnobDistance {
   double right = 0.0, down = 0.0, ahead = 0.0;
 };
+
+// Throws std::invalid_argument with one sentence: a driver on the left has the lever to his right, and the other way round.
+void check_knob(const KnobDistance& knob, DriveSide drive);
 
 // The cabin from the room: the head comes to the driver's eyes, raised by `height` [m]; what it looks at comes ahead.
 // head: in the room, upright or looking down or up.

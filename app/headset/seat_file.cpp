@@ -57,6 +57,11 @@ SeatSettings read_seat(const std::filesystem::path& file) {
     const TomlTable knob = all.table("knob");
     seat.knob = KnobDistance{knob.number("right_m", kKnobRange), knob.number("down_m", kKnobRange),
                              knob.number("ahead_m", kKnobRange)};
+    try {
+      check_knob(*seat.knob, seat.drive);
+    } catch (const std::invalid_argument& refused) {
+      knob.fail("right_m", refused.what());
+    }
     knob.refuse_unknown_keys();
   }
   if (all.has("touched")) {

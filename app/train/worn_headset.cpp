@@ -25,7 +25,9 @@ EyePose between(const HeadsetEyes& eyes) {
 }  // namespace
 
 WornHeadset::WornHeadset(const HeadsetSetup& setup, Window& window, UiContext& ui)
-    : setup_(setup), window_(window), ui_(ui), cabin_from_room_(camera("driver", setup.seat.drive)) {}
+    : setup_(setup), window_(window), ui_(ui), cabin_from_room_(camera("driver", setup.seat.drive)) {
+  if (setup.is_new) keep();
+}
 
 bool WornHeadset::is_found() {
   const auto now = std::chrono::steady_clock::now();

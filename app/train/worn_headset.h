@@ -21,6 +21,7 @@ struct HeadsetSetup {
   HeadsetViewConfig view;
   std::filesystem::path seat_file;  // empty: nothing is kept
   SeatSettings seat;
+  bool is_new = false;  // it is another one than the file's: kept once the trainer runs
 };
 
 class WornHeadset {

@@ -73,8 +73,8 @@ HeadsetSetup headset_setup(const TrainArguments& arguments) {
   if (arguments.height) setup.seat.height = *arguments.height;
   if (arguments.knob.size() == 3)
     setup.seat.knob = KnobDistance{arguments.knob[0], arguments.knob[1], arguments.knob[2]};
-  const bool is_new = !arguments.drive.empty() || arguments.height || !arguments.knob.empty();
-  if (is_new && !setup.seat_file.empty()) write_seat(setup.seat, setup.seat_file);
+  if (setup.seat.knob) check_knob(*setup.seat.knob, setup.seat.drive);
+  setup.is_new = !arguments.drive.empty() || arguments.height || !arguments.knob.empty();
   return setup;
 }
 

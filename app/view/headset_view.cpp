@@ -204,7 +204,8 @@ void HeadsetView::draw(const FrameScene& scene, const EyePose& cabin_from_room, 
     s.draw_cabin(scene, cabin_from_room, nullptr);
   }
   if (s.frame) {
-    s.session.end(*s.frame, images.colour ? &s.eyes : nullptr, s.config.near_plane, panel);
+    s.session.end(*s.frame, images.colour ? &s.eyes : nullptr, s.config.near_plane,
+                  s.frame->is_shown ? panel : nullptr);
     s.times.take(*s.frame, s.session.now_ns(), s.renderer.times().all);
     s.frame.reset();
   }

@@ -33,7 +33,7 @@ TEST_CASE("what is written of a seat is read again, to the bit") {
   SeatSettings seat;
   seat.drive = DriveSide::right;
   seat.height = 0.0613;
-  seat.knob = KnobDistance{0.28, 0.461, 0.3};
+  seat.knob = KnobDistance{-0.28, 0.461, 0.3};
   seat.touched = EyePose{{1.25, -0.875, 0.1}, glm::angleAxis(-2.5, glm::dvec3(0, 1, 0))};
   seat.touch_error = 0.0035;
   write_seat(seat, file);
@@ -55,6 +55,8 @@ TEST_CASE("a bad seat is refused with file, line, key, value and range") {
   CHECK(refusal(folder, "seat_height_m = 0.7\n").find("0.3") != std::string::npos);
   CHECK(refusal(folder, "drive = \"middle\"\n").find("left") != std::string::npos);
   CHECK(refusal(folder, "[knob]\nright_m = 0.1\ndown_m = 0.2\n").find("ahead_m") != std::string::npos);
+  CHECK(refusal(folder, "drive = \"right\"\n[knob]\nright_m = 0.3\ndown_m = 0.5\nahead_m = 0.3\n")
+            .find("right_m = 0.3") != std::string::npos);
   CHECK(refusal(folder, "[touched]\nx_m = 0\ny_m = 0\nz_m = 0\nturn_deg = 400\nerror_m = 0\n").find("turn_deg = 400") !=
         std::string::npos);
   CHECK(refusal(folder, "seat_hight_m = 0.1\n").find("seat_hight_m") != std::string::npos);

@@ -57,6 +57,15 @@ TEST_CASE("with the knob measured it is seen where it is, and the eyes are as fa
   check_at(seat * head.position, kPlaces.knob + dvec3(-0.28, 0.46, 0.31));
 }
 
+TEST_CASE("a driver has the lever towards the car's middle: to his right on the left, to his left on the right") {
+  CHECK_NOTHROW(check_knob({0.3, 0.5, 0.3}, DriveSide::left));
+  CHECK_NOTHROW(check_knob({-0.3, 0.5, 0.3}, DriveSide::right));
+  CHECK_THROWS_WITH(check_knob({0.3, 0.5, 0.3}, DriveSide::right),
+                    "a driver on the right has the knob to his left: 0.3 m to the right cannot be");
+  CHECK_THROWS_WITH(check_knob({-0.3, 0.5, 0.3}, DriveSide::left),
+                    "a driver on the left has the knob to his right: -0.3 m to the right cannot be");
+}
+
 TEST_CASE("touches in six gears find turn and shift of any room, exactly where they are exact") {
   std::mt19937_64 dice(7);
   std::uniform_real_distribution<double> anywhere(-3.0, 3.0);
