@@ -7,8 +7,9 @@ namespace gearshift {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr double kDistance = 1.4;  // [m]
-constexpr double kWidth = 1.5;     // [m] of the whole picture
+constexpr double kDistance = 1.4;    // [m]
+constexpr double kWidth = 1.5;       // [m] of the whole picture
+constexpr double kCardWidth = 0.75;  // [m]
 
 struct Direction {
   double aside, above;  // [rad] towards the passenger, up
@@ -39,7 +40,8 @@ HangingPanel hang_panel(glm::dvec3 driver_eye, DriveSide side, glm::dvec2 pictur
 }
 
 HangingPanel hang_card(glm::dvec3 driver_eye, DriveSide side, glm::dvec2 picture, glm::dvec2 low, glm::dvec2 high) {
-  const glm::dvec2 size = kWidth / picture.x * (high - low) * picture;
+  const glm::dvec2 part = (high - low) * picture;
+  const glm::dvec2 size = kCardWidth / part.x * part;
   Direction middle = kCardFoot;
   middle.above += std::atan(0.5 * size.y / kDistance);
   HangingPanel card = hung_at(driver_eye, towards(middle, side));

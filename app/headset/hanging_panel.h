@@ -17,11 +17,12 @@ struct HangingPanel {
   glm::dvec2 low{0.0}, high{1.0};  // [1] the part of the picture that is shown
 };
 
-// 1.4 m from the driver's eyes, facing them, where nothing of the cabin stands nearer; a picture of that size [px] is 1.5 m
-// wide as a whole. It hangs still: nothing is locked to the head.
-// All of it, before the windscreen at the passenger's side.
+// 1.4 m from the driver's eyes, facing them, where nothing of the cabin stands nearer. It hangs still: nothing is locked to
+// the head. picture: its size [px].
+// All of it, 1.5 m wide, before the windscreen at the passenger's side.
 HangingPanel hang_panel(glm::dvec3 driver_eye, DriveSide side, glm::dvec2 picture);
-// What the panel leaves to the cabin, where a learner's card lies: beside the way ahead, its lower edge on the dashboard.
+// What the panel leaves to the cabin, where a learner's card lies, 0.75 m wide: beside the way ahead, its lower edge just
+// above the dashboard.
 HangingPanel hang_card(glm::dvec3 driver_eye, DriveSide side, glm::dvec2 picture, glm::dvec2 low, glm::dvec2 high);
 
 struct PanelHit {

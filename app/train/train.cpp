@@ -137,15 +137,31 @@ class WindowTrainer {
   void poll() {
     input_.feel(session_.trainer().snapshot().lever);
     session_.set_mouse_leads(input_.mouse_leads());
-    pointing_.follow(window_.poll(), wears() ? headset_->pointer() : std::nullopt, window_.framebuffer());
+    const WindowInput& polled = window_.poll();
+    pointer_ = pointer_at_panel();
+    pointing_.follow(polled, pointer_, window_.framebuffer());
     shared_.update(pointing_.input(), seconds_, eye_size().x, panel_, ui_, pointing_.leads());
     if (setup_.choice.stick) input_.free_mouse();
     look_.turn(shared_.turned());
   }
 
+  // Of a hand: where nothing of the panel stands it points through it.
+  std::optional<WornHeadset::Pointer> pointer_at_panel() const {
+    if (!wears() || !headset_->pointer()) return std::nullopt;
+    const std::optional<WornHeadset::Pointer>& pointer = headset_->pointer();
+    const bool is_there = panel_.covers(pointer->hit.at * glm::dvec2(window_.framebuffer()));
+    return is_there ? pointer : std::nullopt;
+  }
+
+  double between_width() const {
+    const ControlRect between = panel_.between();
+    return between.max.x - between.min.x;
+  }
+
   // Who wears a headset looks with the head alone: no camera is moved for him.
   void look() {
-    session_.set_pointer(wears() ? headset_->beam() : std::nullopt);
+    const bool points = wears() && (pointer_ || !headset_->pointer());
+    session_.set_pointer(points ? headset_->beam() : std::nullopt);
     if (wears()) {
       session_.set_ears(headset_->head());
       session_.set_seen_offset(headset_->touch_error());
@@ -254,7 +270,7 @@ class WindowTrainer {
     const glm::ivec2 size = eye_size();
     const float scale = ui_scale_.follow(window_.framebuffer().y, window_.content_scale());
     ui_.begin({static_cast<float>(size.x), static_cast<float>(size.y), static_cast<float>(std::max(seconds_, 1e-4)),
-               wears() ? UiScale::in_headset(scale, size.x) : scale});
+               wears() ? UiScale::in_headset(scale, between_width()) : scale});
     session_.set_headset(wears() ? std::optional(headset_->report()) : std::nullopt);
     const PanelRequests requests = panel_.draw(session_.panel_input());
     ui_.end();
@@ -294,6 +310,7 @@ class WindowTrainer {
   std::unique_ptr<CabinView> view_;
   Session session_;
   std::optional<WornHeadset> headset_;
+  std::optional<WornHeadset::Pointer> pointer_;  // at something of the panel
   PointingHand pointing_;
   SharedInput shared_;
   DriverInput& input_;

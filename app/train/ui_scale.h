@@ -17,8 +17,9 @@ class UiScale {
     return scale_;
   }
 
-  // In a headset the picture hangs as wide as ever, so a wider one has smaller pixels: its text stays as large.
-  static float in_headset(float scale, int width) { return std::max(scale, static_cast<float>(width) / 1280.0f); }
+  // In a headset what the panel's columns leave hangs as wide as ever, whatever it has of pixels [px]: its text stays as
+  // large.
+  static float in_headset(float scale, double between) { return std::max(scale, static_cast<float>(between) / 640.0f); }
 
  private:
   float scale_ = 1.0f;

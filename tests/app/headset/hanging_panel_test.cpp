@@ -75,8 +75,10 @@ TEST_CASE(
   for (const DriveSide side : {DriveSide::left, DriveSide::right}) {
     const dvec3 eye = on_side(side, kEye);
     const HangingPanel panel = hang_panel(eye, side, {1280, 720}), card = hang_card(eye, side, {1280, 720}, low, high);
-    CHECK(card.size.x == doctest::Approx(0.5 * panel.size.x));
+    CHECK(card.size.x == doctest::Approx(0.5 * panel.size.x));  // of half the picture: pixels as large as the panel's
     CHECK(card.size.y == doctest::Approx(0.9 * panel.size.y));
+    const HangingPanel alone = hang_card(eye, side, {1280, 720}, {0.0, 0.0}, {1.0, 1.0});  // the panel is hidden
+    CHECK(alone.size.x == doctest::Approx(card.size.x));
     CHECK(glm::distance(card.pose.position, eye) == doctest::Approx(glm::distance(panel.pose.position, eye)));
     // Its inner edge leaves 5 degrees and more beside straight ahead free, its lower edge lies below the horizon.
     const double inner = side == DriveSide::left ? -0.5 : 0.5;

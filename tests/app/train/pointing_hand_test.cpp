@@ -44,8 +44,8 @@ TEST_CASE("a hand that comes to the panel leads, until the desk's mouse moves; i
   CHECK_FALSE(pointing.input().mouse_down[0]);
 }
 
-TEST_CASE("in a headset a wider picture has larger text: as much of the panel as ever") {
-  CHECK(UiScale::in_headset(1.0f, 1280) == 1.0f);
-  CHECK(UiScale::in_headset(1.0f, 1920) == 1.5f);
-  CHECK(UiScale::in_headset(2.0f, 1920) == 2.0f);  // a display's own scale
+TEST_CASE("in a headset a part of more pixels, which hangs as wide as ever, has larger text") {
+  CHECK(UiScale::in_headset(1.0f, 640.0) == 1.0f);   // between the columns of 1280 px
+  CHECK(UiScale::in_headset(1.0f, 1280.0) == 2.0f);  // without them
+  CHECK(UiScale::in_headset(2.0f, 960.0) == 2.0f);   // a display's own scale
 }
