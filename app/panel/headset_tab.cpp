@@ -28,7 +28,9 @@ void draw_frames(const HeadsetReport& headset) {
             t.spare_ms < 0.0 ? fmt::format("{:.1f} ms too late", -t.spare_ms)
                              : fmt::format("{:.1f} ms before it is seen", t.spare_ms),
             t.spare_ms < 0.0 ? ink::kWarn : ink::kText);
-  table_row("Seen", t.late_ms > 0.0 ? fmt::format("{:.1f} ms later than predicted", t.late_ms) : "as predicted",
+  table_row("Seen",
+            t.late_ms > 0.0 ? fmt::format("{:.1f} ms later than predicted, at the earliest", t.late_ms)
+                            : "as predicted, at the earliest",
             t.late_ms > 0.0 ? ink::kWarn : ink::kText);
   table_row("Dropped", fmt::format("{} of {}", t.dropped, t.dropped + t.frames),
             t.dropped > 0 ? ink::kWarn : ink::kText);

@@ -62,8 +62,12 @@ struct HeadsetView::State {
         renderer(gpu, two_eyes(config, runtime->traits(), gpu.traits())),
         session(*runtime, gpu, {{renderer.config().width, renderer.config().height}}),
         panel(gpu, ui),
-        mirror(gpu, window, ui) {}
+        eyes(session.eyes()) {
+    make_mirror(ui);
+  }
 
+  void make_mirror(UiContext& ui);
+  void show_instructor(const SeenPart& seen);
   void fit_panel();
   void draw_cabin(const FrameScene& scene, const EyePose& seat, Renderer::Finish* finish);
 
@@ -74,10 +78,10 @@ struct HeadsetView::State {
   Renderer renderer;
   HeadsetSession session;
   UiCanvas panel;
-  DesktopMirror mirror;
+  std::optional<DesktopMirror> mirror;  // none: the window cannot show it, and the learner goes on
   FrameTimes times;
   std::optional<HeadsetFrame> frame;  // that has begun
-  HeadsetEyes eyes;
+  HeadsetEyes eyes, shown_eyes;
   bool drawn = false;  // there is a picture to be mirrored
 };
 
@@ -132,6 +136,25 @@ class ToHeadset final : public Renderer::Finish {
 };
 
 }  // namespace
+
+void HeadsetView::State::make_mirror(UiContext& ui) {
+  try {
+    mirror.emplace(gpu, window, ui);
+  } catch (const GpuLost&) {
+    throw;
+  } catch (const GpuError&) {
+  }
+}
+
+void HeadsetView::State::show_instructor(const SeenPart& seen) {
+  try {
+    mirror->show(renderer.colour(), seen);
+  } catch (const GpuLost&) {
+    throw;
+  } catch (const GpuError&) {
+    mirror.reset();
+  }
+}
 
 // As many pixels as the window has: there the panel is laid out.
 void HeadsetView::State::fit_panel() {
@@ -190,7 +213,7 @@ std::optional<SpaceChange> HeadsetView::take_change() {
 void HeadsetView::draw(const FrameScene& scene, const EyePose& cabin_from_room, const HeadsetPanel* panel,
                        const SeenPart& seen) {
   State& s = *state_;
-  const bool instructor_sees = s.mirror.is_due();
+  const bool instructor_sees = s.mirror && s.mirror->is_due();
   HeadsetSession::Images images;
   if (s.frame && s.frame->is_shown) {
     s.fit_panel();
@@ -199,17 +222,18 @@ void HeadsetView::draw(const FrameScene& scene, const EyePose& cabin_from_room, 
   if (images.colour) {
     ToHeadset finish(s.session, *s.frame, images, s.renderer.depth(), s.panel, cabin_from_room, s.config.near_plane);
     s.draw_cabin(scene, cabin_from_room, &finish);
-    s.eyes = finish.eyes();
+    s.eyes = s.shown_eyes = finish.eyes();
   } else if (instructor_sees) {
     s.draw_cabin(scene, cabin_from_room, nullptr);
   }
   if (s.frame) {
-    s.session.end(*s.frame, images.colour ? &s.eyes : nullptr, s.config.near_plane,
-                  s.frame->is_shown ? panel : nullptr);
+    // Without an image for now the last one is shown again, from where it was drawn.
+    const bool shows = s.frame->is_shown;
+    s.session.end(*s.frame, shows ? &s.shown_eyes : nullptr, s.config.near_plane, shows ? panel : nullptr);
     s.times.take(*s.frame, s.session.now_ns(), s.renderer.times().all);
     s.frame.reset();
   }
-  if (instructor_sees && s.drawn) s.mirror.show(s.renderer.colour(), seen);
+  if (instructor_sees && s.drawn) s.show_instructor(seen);
 }
 
 const HeadsetTraits& HeadsetView::headset() const noexcept {

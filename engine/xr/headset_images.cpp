@@ -60,7 +60,15 @@ HeadsetImages::HeadsetImages(XrSession session, const Gpu& gpu, glm::ivec2 size,
   }
 }
 
+// An error in the middle of a frame leaves an image in our hands: it is given back first, as well as may be.
 HeadsetImages::~HeadsetImages() {
+  if (hold_ == Hold::acquired) {
+    XrSwapchainImageWaitInfo wait{XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO};
+    wait.timeout = kPatience;
+    if (xrWaitSwapchainImage(swapchain_, &wait) == XR_SUCCESS) hold_ = Hold::ours;
+  }
+  const XrSwapchainImageReleaseInfo release{XR_TYPE_SWAPCHAIN_IMAGE_RELEASE_INFO};
+  if (hold_ == Hold::ours) xrReleaseSwapchainImage(swapchain_, &release);
   xrDestroySwapchain(swapchain_);
 }
 

@@ -69,6 +69,8 @@ struct HeadsetSession::State {
   void take_state(XrSessionState told);
   void take_space_change(const XrEventDataReferenceSpaceChangePending& change);
   void keep_eyes(const XrView* views, XrViewStateFlags flags);
+  void move_kept(const EyePose& new_from_old);
+  void end_begun_frame() noexcept;
 
   struct Pending {
     XrTime at;
@@ -85,7 +87,12 @@ struct HeadsetSession::State {
   PFN_xrConvertTimespecTimeToTimeKHR to_runtime_time = nullptr;
   HeadsetState state = HeadsetState::idle;
   bool runs = false;
-  HeadsetEyes eyes;  // as they were seen last
+  bool in_frame = false;              // begun and not ended
+  XrTime begun_for = 0;               // its display time
+  bool depth_of_frame = false;        // depth was written in this frame
+  HeadsetEyes eyes;                   // as they were seen last
+  glm::dvec3 middle{0.0};             // [m] between them
+  std::array<glm::dvec3, 2> aside{};  // [m] from there, in the head
   std::vector<Pending> pending;
 };
 
@@ -110,13 +117,15 @@ HeadsetSession::State::State(HeadsetRuntime& runtime, Gpu& device, const Headset
     throw;
   }
   for (std::size_t eye = 0; eye < 2; ++eye) {
-    eyes.pose[eye].position.x = (eye == 0 ? -0.5 : 0.5) * kEyeDistance;
+    aside[eye] = {(eye == 0 ? -0.5 : 0.5) * kEyeDistance, 0.0, 0.0};
+    eyes.pose[eye].position = aside[eye];
     eyes.fov[eye] = symmetric_fov(1.5, 1.0);
   }
 }
 
 HeadsetSession::State::~State() {
   gpu.wait_idle();  // the runtime's images may still be written
+  end_begun_frame();
   hands.reset();
   colour.reset();
   depth.reset();
@@ -201,19 +210,41 @@ void HeadsetSession::State::take_space_change(const XrEventDataReferenceSpaceCha
   pending.push_back({event.changeTime, change});
 }
 
-// As far as tracking is lost the eyes stay where they were.
+// As far as tracking is lost the head stays as it was: its place, or the way it looks. Both eyes stay on it.
 void HeadsetSession::State::keep_eyes(const XrView* views, XrViewStateFlags flags) {
   const bool turned = (flags & XR_VIEW_STATE_ORIENTATION_VALID_BIT) != 0;
   const bool placed = (flags & XR_VIEW_STATE_POSITION_VALID_BIT) != 0;
+  std::array<glm::dvec3, 2> at{};
   for (std::size_t eye = 0; eye < 2; ++eye) {
     const Fov fov = fov_of(views[eye].fov);
     if (fov.left < fov.right && fov.down < fov.up) eyes.fov[eye] = fov;
-    const EyePose seen = turned || placed ? pose_of(views[eye].pose) : EyePose{};
-    if (turned) eyes.pose[eye].orientation = seen.orientation;
-    if (placed) eyes.pose[eye].position = seen.position;
+    if (turned) eyes.pose[eye].orientation = pose_of({views[eye].pose.orientation, {}}).orientation;
+    if (placed) at[eye] = {views[eye].pose.position.x, views[eye].pose.position.y, views[eye].pose.position.z};
+  }
+  const glm::dquat head = glm::slerp(eyes.pose[0].orientation, eyes.pose[1].orientation, 0.5);
+  if (placed) middle = 0.5 * (at[0] + at[1]);
+  for (std::size_t eye = 0; eye < 2; ++eye) {
+    if (placed && turned) aside[eye] = glm::conjugate(head) * (at[eye] - middle);
+    eyes.pose[eye].position = placed && turned ? at[eye] : middle + head * aside[eye];
   }
   eyes.is_tracked = turned && placed;
   eyes.is_known = eyes.is_known || eyes.is_tracked;
+}
+
+// Where nobody sees the head it moves with the room's origin.
+void HeadsetSession::State::move_kept(const EyePose& new_from_old) {
+  middle = new_from_old * middle;
+  for (EyePose& eye : eyes.pose) eye = new_from_old * eye;
+}
+
+// After an error in the middle of it: with nothing, as well as may be.
+void HeadsetSession::State::end_begun_frame() noexcept {
+  if (!in_frame) return;
+  XrFrameEndInfo info{XR_TYPE_FRAME_END_INFO};
+  info.displayTime = begun_for;
+  info.environmentBlendMode = xr.blend;
+  xrEndFrame(session, &info);
+  in_frame = false;
 }
 
 HeadsetSession::HeadsetSession(HeadsetRuntime& runtime, Gpu& gpu, const HeadsetConfig& config)
@@ -237,6 +268,10 @@ HeadsetState HeadsetSession::state() const noexcept {
 
 bool HeadsetSession::runs() const noexcept {
   return state_->runs;
+}
+
+const HeadsetEyes& HeadsetSession::eyes() const noexcept {
+  return state_->eyes;
 }
 
 bool HeadsetSession::is_stage() const noexcept {
@@ -268,6 +303,8 @@ HeadsetFrame HeadsetSession::wait() {
   HeadsetFrame frame;
   frame.woken_ns = now_ns();
   check(xrBeginFrame(s.session, nullptr), "xrBeginFrame");
+  s.in_frame = true;
+  s.begun_for = told.predictedDisplayTime;
   frame.display_ns = told.predictedDisplayTime;
   frame.period = 1e-9 * static_cast<double>(told.predictedDisplayPeriod);
   frame.is_shown = told.shouldRender == XR_TRUE;
@@ -297,6 +334,7 @@ std::optional<SpaceChange> HeadsetSession::take_change(const HeadsetFrame& frame
   if (pending.empty() || frame.display_ns < pending.front().at) return std::nullopt;
   const SpaceChange change = pending.front().change;
   pending.erase(pending.begin());
+  if (change.ours && change.new_from_old && !state_->eyes.is_tracked) state_->move_kept(*change.new_from_old);
   return change;
 }
 
@@ -304,8 +342,10 @@ HeadsetSession::Images HeadsetSession::take_images(bool with_panel) {
   State& s = *state_;
   Images images;
   images.colour = s.colour->take();
+  if (!images.colour) return {};  // nothing is drawn
   if (s.depth) images.depth = s.depth->take();
   if (with_panel && s.panel) images.panel = s.panel->take();
+  s.depth_of_frame = images.depth != nullptr;
   return images;
 }
 
@@ -379,13 +419,14 @@ void HeadsetSession::end(const HeadsetFrame& frame, const HeadsetEyes* eyes, dou
     if (*images) (*images)->give();
   Layers layers;
   if (eyes != nullptr && s.colour->ever_given()) layers.add_picture(s.space, *eyes, *s.colour);
-  if (eyes != nullptr && s.depth && s.depth->ever_given()) layers.add_depth(*s.depth, near_plane);
+  if (eyes != nullptr && s.depth_of_frame) layers.add_depth(*s.depth, near_plane);
   if (panel != nullptr && s.panel && s.panel->ever_given()) layers.add_panel(s.space, *panel, *s.panel);
   XrFrameEndInfo info{XR_TYPE_FRAME_END_INFO};
   info.displayTime = frame.display_ns;
   info.environmentBlendMode = s.xr.blend;
   info.layerCount = static_cast<std::uint32_t>(layers.all.size());
   info.layers = layers.all.data();
+  s.in_frame = s.depth_of_frame = false;
   check(xrEndFrame(s.session, &info), "xrEndFrame");
 }
 

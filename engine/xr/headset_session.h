@@ -39,7 +39,8 @@ struct HeadsetFrame {
   bool is_shown = false;        // false: nothing need be drawn
 };
 
-// Eyes in the tracking space. Where tracking is lost they stay where they were seen last, each as far as it is lost.
+// Eyes in the tracking space. Where tracking is lost the head stays where it was, or looks where it did, as far as it is
+// lost; both eyes stay on it.
 struct HeadsetEyes {
   std::array<EyePose, 2> pose;
   std::array<Fov, 2> fov;
@@ -77,8 +78,9 @@ class HeadsetSession {
   // What the runtime has told since the last poll: the session begins and ends as it asks. Throws HeadsetLost.
   void poll();
   HeadsetState state() const noexcept;
-  bool runs() const noexcept;      // frames are wanted: wait() paces them
-  bool is_stage() const noexcept;  // poses are in a room that stays from one day to the next
+  bool runs() const noexcept;                // frames are wanted: wait() paces them
+  const HeadsetEyes& eyes() const noexcept;  // as they were located last; before that, side by side at the origin
+  bool is_stage() const noexcept;            // poses are in a room that stays from one day to the next
 
   void fit_panel(glm::ivec2 size);  // [px] of the panel's picture; made anew where it has another size
 
