@@ -17,16 +17,19 @@ struct HeadsetReport {
   HeadsetTiming timing;
   bool is_tracked = false;
   SeatSettings seat;
-  bool touching = false;  // the next triggers are touches of the knob
+  bool is_touched = false;   // the lever stands where it was touched
+  double touch_error = 0.0;  // [m] between it and where it is seen
+  bool touching = false;     // the next triggers are touches of the knob
   std::size_t touches = 0;
   double worst_touch = 0.0;  // [m]
 };
 
 struct HeadsetRequests {
   bool recentre = false;
-  bool touch = false, touched = false, forget_touches = false;  // begin, keep, drop
-  std::optional<double> height;                                 // [m]
-  std::optional<KnobDistance> knob;                             // [m]
+  bool touch = false, touched = false;  // begin, keep
+  bool forget_touches = false;          // those that are made, or the ones that are in use
+  std::optional<double> height;         // [m]
+  std::optional<KnobDistance> knob;     // [m]
   bool forget_knob = false;
 };
 

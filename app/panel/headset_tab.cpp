@@ -28,9 +28,8 @@ void draw_frames(const HeadsetReport& headset) {
             t.spare_ms < 0.0 ? fmt::format("{:.1f} ms too late", -t.spare_ms)
                              : fmt::format("{:.1f} ms before it is seen", t.spare_ms),
             t.spare_ms < 0.0 ? ink::kWarn : ink::kText);
-  table_row("Seen",
-            t.late_ms > 0.0 ? fmt::format("{:.1f} ms later than predicted, at the earliest", t.late_ms)
-                            : "as predicted, at the earliest",
+  table_row("Seen, at best",
+            t.late_ms > 0.0 ? fmt::format("{:.1f} ms later than predicted", t.late_ms) : "as predicted",
             t.late_ms > 0.0 ? ink::kWarn : ink::kText);
   table_row("Dropped", fmt::format("{} of {}", t.dropped, t.dropped + t.frames),
             t.dropped > 0 ? ink::kWarn : ink::kText);
@@ -54,36 +53,43 @@ std::optional<double> length_field(Controls& controls, const char* name, const c
   return changed ? std::optional(1e-3 * shown) : std::nullopt;
 }
 
-void draw_touching(Controls& controls, const HeadsetReport& headset, HeadsetRequests& out) {
-  if (!headset.touching) {
-    out.touch = controls.button("headset_touch", "Touch the knob");
-    if (!headset.seat.touched) return;
+// is_real: a person holds a lever, which is somewhere.
+void draw_touched(Controls& controls, const HeadsetReport& headset, bool is_real, HeadsetRequests& out) {
+  out.touch = controls.button("headset_touch", "Touch the knob");
+  if (headset.is_touched) {
     ImGui::SameLine();
     out.forget_touches = controls.button("headset_forget", "Forget it");
     put_wrapped(
-        fmt::format("The lever was touched: it is seen where it is, within {:.0f} mm.", 1e3 * headset.seat.touch_error),
+        fmt::format("The lever was touched: it is seen where it is, within {:.0f} mm.", 1e3 * headset.touch_error),
         ink::kSoft);
-    return;
+  } else if (is_real) {
+    put_wrapped("The lever was not touched: it may be centimetres from where it is seen.", ink::kWarn);
   }
+}
+
+void draw_touching(Controls& controls, const HeadsetReport& headset, HeadsetRequests& out) {
   put_wrapped(
       "Hold the tip of a controller, where its ray begins, on the middle of the knob's top and pull its trigger: "
-      "in neutral, then in other gears.",
+      "in neutral, then in other gears, turning the controller between them.",
       ink::kText);
   out.touched = controls.button("headset_touched", "Keep it");
   ImGui::SameLine();
-  out.forget_touches = controls.button("headset_forget", "Forget it");
+  out.forget_touches = controls.button("headset_forget", "Cancel");
   put(headset.touches == 0
           ? std::string("Not touched yet.")
           : fmt::format("Touched {} times, {:.0f} mm apart at most.", headset.touches, 1e3 * headset.worst_touch),
       ink::kSoft, UiFont::small);
 }
 
-void draw_seat(Controls& controls, const HeadsetReport& headset, HeadsetRequests& out) {
+void draw_seat(Controls& controls, const HeadsetReport& headset, bool is_real, HeadsetRequests& out) {
   const SeatSettings& seat = headset.seat;
   put("Seat", ink::kText, UiFont::title);
   out.recentre = controls.button("headset_recentre", "I sit: recentre");
-  draw_touching(controls, headset, out);
-  if (seat.touched || headset.touching) return;  // the lever says where all stands
+  if (headset.touching)
+    draw_touching(controls, headset, out);
+  else
+    draw_touched(controls, headset, is_real, out);
+  if (headset.is_touched || headset.touching) return;  // the lever says where all stands
   if (!seat.knob) {
     out.height = length_field(controls, "headset_height", "Seat raised by", seat.height, kMostHeight);
     // To begin with as in the cabin.
@@ -110,7 +116,7 @@ void draw_seat(Controls& controls, const HeadsetReport& headset, HeadsetRequests
 void draw_headset_tab(Controls& controls, const PanelInput& input, HeadsetRequests& out) {
   draw_frames(*input.headset);
   ImGui::Spacing();
-  draw_seat(controls, *input.headset, out);
+  draw_seat(controls, *input.headset, input.stick.has_value(), out);
 }
 
 }  // namespace gearshift

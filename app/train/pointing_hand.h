@@ -1,8 +1,9 @@
-// A hand that points at the panel is its mouse, until the instructor moves the desktop's.
+// A hand that points at the panel is its mouse, until the one on the desk moves.
 #pragma once
 
 #include <optional>
 
+#include "app/train/panel_pointer.h"
 #include "app/train/worn_headset.h"
 #include "engine/window/window.h"
 
@@ -10,28 +11,27 @@ namespace gearshift {
 
 class PointingHand {
  public:
-  // Once a frame. size [px]: of the panel's picture.
-  void follow(const WindowInput& window, const std::optional<WornHeadset::Pointer>& hand, glm::ivec2 size) {
-    input_ = window;
-    const bool came = hand.has_value() && !was_there_, clicked = hand && hand->selects;
+  // Once a frame, of that many seconds. hand: at something of the panel; size [px]: of its picture; desk_leads_lever: the
+  // desk's mouse moves the lever and not the panel.
+  void follow(const WindowInput& desk, bool desk_leads_lever, const std::optional<WornHeadset::Pointer>& hand,
+              glm::ivec2 size, double seconds) {
+    const bool came = hand.has_value() && !was_there_;
     was_there_ = hand.has_value();
-    const bool moved = window.mouse_moved != glm::dvec2(0.0) || window.mouse_down[0];
-    if (came || clicked) leads_ = true;
-    if (!hand || (moved && !clicked)) leads_ = false;
-    if (!leads_) return;
-    input_.mouse = hand->hit.at * glm::dvec2(size);
-    input_.mouse_moved = glm::dvec2(0.0);
-    input_.mouse_down = {hand->selects};
-    input_.scroll += kScroll * hand->scroll;
+    // Who comes with the trigger pulled has not pulled it here.
+    holds_ = hand && hand->selects && (holds_ || (!came && !pulled_before_));
+    pulled_before_ = hand && hand->selects;
+    const bool desk_moves = !desk_leads_lever && (desk.mouse_moved != glm::dvec2(0.0) || desk.mouse_down[0]);
+    leads_ = hand.has_value() && (came || holds_ || (leads_ && !desk_moves));
+    pointer_.reset();
+    if (leads_) pointer_ = PanelPointer{hand->hit.at * glm::dvec2(size), holds_, kScroll * seconds * hand->scroll};
   }
 
-  const WindowInput& input() const noexcept { return input_; }
-  bool leads() const noexcept { return leads_; }
+  const std::optional<PanelPointer>& pointer() const noexcept { return pointer_; }  // none: the desk's mouse
 
  private:
-  static constexpr double kScroll = 0.2;  // [lines] a frame, the stick at its end
-  WindowInput input_;
-  bool was_there_ = false, leads_ = false;
+  static constexpr double kScroll = 12.0;  // [lines/s] the stick at its end
+  std::optional<PanelPointer> pointer_;
+  bool was_there_ = false, pulled_before_ = false, holds_ = false, leads_ = false;
 };
 
 }  // namespace gearshift

@@ -8,23 +8,28 @@
 namespace gearshift {
 
 void SharedInput::update(const WindowInput& window, double seconds, double picture_width, const Panel& panel,
-                         UiContext& ui, bool draws_mouse) {
+                         UiContext& ui, const std::optional<PanelPointer>& hand) {
   const glm::dvec2 mouse(picture_width > 0.0 ? std::fmod(window.mouse.x, picture_width) : window.mouse.x,
                          window.mouse.y);
   const bool panel_has_mouse = panel.covers(mouse), panel_has_keys = panel.has_keyboard();
-  ui.feed(for_panel(window, mouse, draws_mouse));
+  ui.feed(for_panel(window, mouse, hand));
   driver_.update(window, seconds, panel_has_mouse, panel_has_keys);
   look(window, panel_has_mouse);
 }
 
 // A key event tells which modifiers were held before it, and none comes while one is only held: they are kept here.
-UiEvents SharedInput::for_panel(const WindowInput& window, glm::dvec2 mouse, bool draws_mouse) {
+UiEvents SharedInput::for_panel(const WindowInput& window, glm::dvec2 mouse, const std::optional<PanelPointer>& hand) {
   UiEvents events;
   events.mouse = mouse;
   events.mouse_here = !driver_.mouse_leads();
-  events.draws_mouse = draws_mouse;
   events.mouse_down = window.mouse_down;
   events.scroll = window.scroll;
+  if (hand) {
+    events.mouse = hand->at;
+    events.mouse_here = events.draws_mouse = true;
+    events.mouse_down = {hand->down};
+    events.scroll = hand->scroll;
+  }
   for (const KeyEvent& key : window.keys) {
     events.keys.push_back({key.key, key.down});
     if (key.key == GLFW_KEY_LEFT_SHIFT || key.key == GLFW_KEY_RIGHT_SHIFT) shift_ = key.down;

@@ -1,8 +1,11 @@
 // A window's mouse and keys, shared between the panel and the driver: each frame's to one of them.
 #pragma once
 
+#include <optional>
+
 #include "app/input/driver_input.h"
 #include "app/panel/panel.h"
+#include "app/train/panel_pointer.h"
 #include "engine/ui/ui.h"
 #include "engine/window/window.h"
 
@@ -14,9 +17,9 @@ class SharedInput {
 
   // Once a frame, before the panel is drawn. seconds: since the last call. picture_width [px]: of one eye's picture, as
   // the panel was drawn into; beside it stands the other eye's.
-  // draws_mouse: nobody else shows where it is.
+  // hand: has the panel in place of the window's mouse; nothing of it is the driver's.
   void update(const WindowInput& window, double seconds, double picture_width, const Panel& panel, UiContext& ui,
-              bool draws_mouse = false);
+              const std::optional<PanelPointer>& hand = std::nullopt);
 
   DriverInput& driver() noexcept { return driver_; }
   glm::dvec2 turned() const noexcept {
@@ -24,7 +27,7 @@ class SharedInput {
   }  // [px] the view, in this frame: the right button beside the panel
 
  private:
-  UiEvents for_panel(const WindowInput& window, glm::dvec2 mouse, bool draws_mouse);
+  UiEvents for_panel(const WindowInput& window, glm::dvec2 mouse, const std::optional<PanelPointer>& hand);
   void look(const WindowInput& window, bool panel_has_mouse);
 
   DriverInput driver_;

@@ -139,8 +139,8 @@ class WindowTrainer {
     session_.set_mouse_leads(input_.mouse_leads());
     const WindowInput& polled = window_.poll();
     pointer_ = pointer_at_panel();
-    pointing_.follow(polled, pointer_, window_.framebuffer());
-    shared_.update(pointing_.input(), seconds_, eye_size().x, panel_, ui_, pointing_.leads());
+    pointing_.follow(polled, input_.mouse_leads(), pointer_, window_.framebuffer(), seconds_);
+    shared_.update(polled, seconds_, eye_size().x, panel_, ui_, pointing_.pointer());
     if (setup_.choice.stick) input_.free_mouse();
     look_.turn(shared_.turned());
   }

@@ -10,8 +10,8 @@
 
 #include "app/headset/hanging_panel.h"
 #include "app/headset/headset_report.h"
-#include "app/headset/seat.h"
 #include "app/headset/seat_file.h"
+#include "app/headset/seating.h"
 #include "app/stage/stage.h"
 #include "app/view/headset_view.h"
 
@@ -54,7 +54,7 @@ class WornHeadset {
   const std::optional<Beam>& beam() const noexcept { return beam_; }           // from that hand, in the cabin
   bool wants_exit() const noexcept { return wants_exit_; }
 
-  void recentre() noexcept { sits_ = false; }
+  void recentre() noexcept { seating_.recentre(); }
   void obey(const HeadsetRequests& requests, double bound);  // bound [m]: how far felt and seen lever may be apart
   HeadsetReport report() const;
   double touch_error() const noexcept;  // [m] between felt and seen lever, as far as the seat makes it
@@ -63,11 +63,9 @@ class WornHeadset {
  private:
   void tell_once(const std::string& news);
   void lose(const std::string& why);
-  void sit(const Stage& stage);
-  void follow_changes();
+  template <class Deed>
+  void guarded(const Deed& deed);
   void follow_hands(const Stage& stage);
-  void touch(const EyePose& hand, const Stage& stage);
-  void keep();
 
   HeadsetSetup setup_;
   Window& window_;
@@ -75,16 +73,12 @@ class WornHeadset {
   std::unique_ptr<HeadsetRuntime> found_;
   std::unique_ptr<HeadsetView> view_;
   std::chrono::steady_clock::time_point next_try_{};
-  bool tries_ = true;  // again: not where there never was a runtime
+  bool tries_ = true;  // again: not where what was found could never be shown
   bool was_open_ = false;
   std::string told_;  // the last of what is looked for in vain
 
-  EyePose cabin_from_room_;
-  bool sits_ = false;        // the seat is placed
-  bool is_touched_ = false;  // by what was touched
-  LeverTouches touches_;
-  bool touching_ = false;
-  double worst_touch_ = 0.0;
+  Seating seating_;
+  bool worn_ = false;  // in the frame before
 
   HangingPanel panel_;
   std::optional<Pointer> pointer_;

@@ -198,6 +198,10 @@ bool HeadsetView::begin() {
   return true;
 }
 
+bool HeadsetView::is_shown() const noexcept {
+  return state_->frame && state_->frame->is_shown;
+}
+
 const HeadsetEyes& HeadsetView::eyes() const noexcept {
   return state_->eyes;
 }

@@ -34,6 +34,7 @@ class HeadsetView {
   // follow. Throws HeadsetLost: all of this is to be made anew; so do the others.
   bool begin();
   // Of the frame that has begun.
+  bool is_shown() const noexcept;            // to somebody, says the runtime
   const HeadsetEyes& eyes() const noexcept;  // in the room
   std::array<HeadsetHand, 2> hands();        // in the room: left, right
   std::optional<SpaceChange> take_change();

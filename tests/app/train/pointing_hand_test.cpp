@@ -20,28 +20,38 @@ std::optional<WornHeadset::Pointer> at(double x, double y, bool selects = false)
 TEST_CASE("a hand that comes to the panel leads, until the desk's mouse moves; its trigger takes it back") {
   PointingHand pointing;
   WindowInput desk;
-  desk.mouse = {7.0, 9.0};
-  pointing.follow(desk, std::nullopt, kPanel);
-  CHECK_FALSE(pointing.leads());
-  CHECK(pointing.input().mouse == glm::dvec2(7.0, 9.0));
-  pointing.follow(desk, at(0.5, 0.2), kPanel);
-  CHECK(pointing.leads());
-  CHECK(pointing.input().mouse == glm::dvec2(500.0, 100.0));
-  CHECK_FALSE(pointing.input().mouse_down[0]);
-  CHECK(pointing.input().scroll.y > 0.0);
+  const auto follow = [&](const std::optional<WornHeadset::Pointer>& hand, bool desk_leads_lever = false) {
+    pointing.follow(desk, desk_leads_lever, hand, kPanel, 0.1);
+    return pointing.pointer();
+  };
+  CHECK_FALSE(follow(std::nullopt));
+  const auto came = follow(at(0.5, 0.2));
+  REQUIRE(came);
+  CHECK(came->at == glm::dvec2(500.0, 100.0));
+  CHECK_FALSE(came->down);
+  CHECK(came->scroll.y == doctest::Approx(0.6));  // half of 12 lines/s for 0.1 s
   desk.mouse_moved = {3.0, 0.0};
-  pointing.follow(desk, at(0.5, 0.2), kPanel);
-  CHECK_FALSE(pointing.leads());
-  CHECK(pointing.input().mouse == glm::dvec2(7.0, 9.0));
+  CHECK(follow(at(0.5, 0.2), true));  // it moves the lever
+  CHECK_FALSE(follow(at(0.5, 0.2)));
   desk.mouse_moved = {0.0, 0.0};
-  pointing.follow(desk, at(0.5, 0.2), kPanel);  // it has not come anew
-  CHECK_FALSE(pointing.leads());
-  pointing.follow(desk, at(0.5, 0.2, true), kPanel);
-  CHECK(pointing.leads());
-  CHECK(pointing.input().mouse_down[0]);
-  pointing.follow(desk, std::nullopt, kPanel);
-  CHECK_FALSE(pointing.leads());
-  CHECK_FALSE(pointing.input().mouse_down[0]);
+  CHECK_FALSE(follow(at(0.5, 0.2)));  // it has not come anew
+  const auto clicks = follow(at(0.5, 0.2, true));
+  REQUIRE(clicks);
+  CHECK(clicks->down);
+  CHECK_FALSE(follow(std::nullopt));
+}
+
+TEST_CASE("a trigger that was pulled elsewhere clicks nothing when the ray comes over the panel") {
+  PointingHand pointing;
+  const WindowInput desk;
+  for (int i = 0; i < 3; ++i) {
+    pointing.follow(desk, false, at(0.1 * i, 0.2, true), kPanel, 0.1);
+    REQUIRE(pointing.pointer());
+    CHECK_FALSE(pointing.pointer()->down);
+  }
+  pointing.follow(desk, false, at(0.4, 0.2), kPanel, 0.1);
+  pointing.follow(desk, false, at(0.4, 0.2, true), kPanel, 0.1);
+  CHECK(pointing.pointer()->down);
 }
 
 TEST_CASE("in a headset a part of more pixels, which hangs as wide as ever, has larger text") {

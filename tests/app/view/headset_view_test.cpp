@@ -293,6 +293,26 @@ TEST_CASE("the instructor sees the left eye's picture where the panel leaves roo
   CHECK(seen.pixel(20, 15)[0] == 255);  // the panel
 }
 
+TEST_CASE("while nobody wears it the instructor sees the cabin from where the seat is") {
+  XServer server;
+  HeadsetRig rig;
+  xr_test::control().script.polls_before_ready = 1000000;  // it stays idle
+  Model model;
+  add_rectangle(model, "Lamp", {9.0f, 9.0f}, add_material(model, lamp({0.0f, 4.0f, 0.0f})), {});
+  rig.view->set_model(model);
+  FrameScene scene = still(model);
+  scene.nodes[0].world = glm::translate(glm::mat4(1.0f), vec3(kRoomInCabin * dvec3(0.0, 0.0, -1.0))) *
+                         glm::mat4_cast(glm::quat(kRoomInCabin.orientation));
+  Image seen;
+  for (int i = 0; i < 60; ++i) {
+    rig.frame(scene, nullptr, {});
+    seen = server.picture(server.find("mirror"));
+    if (seen.pixel(200, 150)[1] > 200) break;
+  }
+  CHECK(rig.view->state() == HeadsetState::idle);
+  CHECK(seen.pixel(200, 150)[1] > 200);
+}
+
 TEST_CASE("a window that has no image free costs the headset nothing: no wait, no frame") {
   HeadsetRig rig;
   Model model;

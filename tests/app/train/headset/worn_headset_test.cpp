@@ -63,6 +63,7 @@ struct Worn {
     headset = std::make_unique<WornHeadset>(setup, window, ui);
     REQUIRE(headset->is_found());
     REQUIRE(headset->open());
+    (void)headset->take_news();  // which one it is
     for (int i = 0; i < 6; ++i) frame();  // until it is focused
   }
 
@@ -88,6 +89,14 @@ struct Worn {
     trigger = true;
     frame();
     trigger = false;
+    frame();
+  }
+
+  // In three gears, and kept.
+  void touch_all() {
+    ask(&HeadsetRequests::touch);
+    for (const glm::dvec2 gear : {glm::dvec2(0, 0), glm::dvec2(-0.036, 0.04), glm::dvec2(0.036, -0.04)}) touch(gear);
+    ask(&HeadsetRequests::touched);
     frame();
   }
 
@@ -155,6 +164,7 @@ TEST_CASE("a knob that is touched in its gears is seen where it is, today and to
   CHECK(worn.headset->report().touching);
   for (const glm::dvec2 gear : {glm::dvec2(0, 0), glm::dvec2(-0.036, 0.04), glm::dvec2(0.036, -0.04)}) worn.touch(gear);
   CHECK(worn.headset->report().touches == 3);
+  CHECK(read_seat(setup.seat_file).touched.has_value() == false);  // not before it is kept
   CHECK(worn.headset->report().worst_touch < 1e-4);
   worn.ask(&HeadsetRequests::touched);
   worn.frame();
@@ -183,27 +193,71 @@ TEST_CASE("touches that do not fit the lever are refused with how far and how fa
   Worn worn(setup);
   worn.ask(&HeadsetRequests::touch);
   worn.touch({0.0, 0.0});
-  worn.touch({-0.036, 0.04}, {0.0, 0.05, 0.0});  // 5 cm above: half of it stays at each
+  worn.ask(&HeadsetRequests::touched);  // one tells no direction, and nothing of its own error
+  CHECK(worn.headset->take_news().find("three gears or more") != std::string::npos);
+  worn.touch({-0.036, 0.04}, {0.0, 0.06, 0.0});  // 6 cm above
+  worn.touch({0.036, -0.04});
   worn.ask(&HeadsetRequests::touched);
   const std::string news = worn.headset->take_news();
-  CHECK(news.find("25 mm") != std::string::npos);
+  CHECK(news.find("40 mm") != std::string::npos);  // two thirds of it stay there
   CHECK(news.find("20 may be") != std::string::npos);
   worn.frame();
   check_sits(worn, driver_eye());
   CHECK_FALSE(read_seat(setup.seat_file).touched);
 }
 
-TEST_CASE("a room without a memory keeps a touched knob for today alone") {
+TEST_CASE("a room without a memory keeps a touched knob for today alone, and yesterday's of another room stays kept") {
   const TempFolder folder;
   HeadsetSetup setup;
   setup.seat_file = folder.path() / "headset.toml";
+  setup.seat.touched = EyePose{{1.0, 0.0, 0.0}, glm::dquat(1, 0, 0, 0)};
+  setup.is_new = true;
   Worn worn(setup, false);
+  check_sits(worn, driver_eye());  // not where it was touched in another room
+  CHECK_FALSE(worn.headset->report().is_touched);
+  worn.touch_all();
+  CHECK(worn.headset->report().is_touched);
+  CHECK(worn.headset->take_news().find("for today") != std::string::npos);
+  worn.ask(&HeadsetRequests::recentre);
+  HeadsetRequests raise;
+  raise.height = 0.02;
+  worn.headset->obey(raise, kBound);
+  REQUIRE(read_seat(setup.seat_file).touched);
+  CHECK(read_seat(setup.seat_file).touched->position == glm::dvec3(1.0, 0.0, 0.0));
+}
+
+TEST_CASE("touches that are taken back leave what was kept") {
+  const TempFolder folder;
+  HeadsetSetup setup;
+  setup.seat_file = folder.path() / "headset.toml";
+  Worn worn(setup);
+  worn.touch_all();
+  const dvec3 before = worn.headset->head().position;
   worn.ask(&HeadsetRequests::touch);
-  worn.touch({0.0, 0.0});
-  worn.ask(&HeadsetRequests::touched);
+  worn.touch({0.0, 0.0}, {0.3, 0.0, 0.0});
+  CHECK(glm::distance(worn.headset->head().position, before) > 0.2);
+  worn.ask(&HeadsetRequests::forget_touches);
   worn.frame();
-  CHECK(worn.headset->report().seat.touched.has_value());
-  CHECK_FALSE(read_seat(setup.seat_file).touched);
+  CHECK(glm::distance(worn.headset->head().position, before) < 1e-9);
+  CHECK(read_seat(setup.seat_file).touched.has_value());
+}
+
+TEST_CASE("nobody sits where nothing is shown: a headset that lies on a table is put on later, and sat down with") {
+  Worn worn;
+  xr_test::Control& xr = xr_test::control();
+  const double now = xr.record.frames.back().time;
+  check_sits(worn, driver_eye());
+  xr.script.timeline = {xr_test::stopping(now + 0.05), xr_test::ready(now + 0.4)};
+  for (int i = 0; i < 12; ++i) worn.frame();
+  const EyePose worn_head = worn.head;
+  worn.head = {{2.0, 0.1, 1.0}, glm::angleAxis(1.5, dvec3(0, 0, 1))};  // on the table
+  xr.script.polls_before_ready = 0;
+  for (int i = 0; i < 400 && xr.record.state != XR_SESSION_STATE_SYNCHRONIZED; ++i) worn.frame();
+  worn.head = worn_head;  // put on
+  worn.head.position += dvec3(0.3, 0.0, 0.2);
+  for (int i = 0; i < 10; ++i) worn.frame();
+  REQUIRE(xr.record.state == XR_SESSION_STATE_FOCUSED);
+  check_sits(worn, driver_eye());
 }
 
 TEST_CASE("the room's origin may move: a touched lever stays where it is") {
