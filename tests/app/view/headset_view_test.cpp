@@ -37,15 +37,16 @@ xr_test::Pose turning_head(double seconds) {
 }
 
 struct HeadsetRig {
-  explicit HeadsetRig(int samples = 1, int width = 256, int height = 192) : window(400, 300, "mirror") {
+  explicit HeadsetRig(int samples = 1, bool worn = true) : window(400, 300, "mirror") {
     choose_software_driver();
     setenv("GEARSHIFT_VALIDATION", "1", 1);
     xr_test::Control& xr = xr_test::control();
     xr.start();
     xr.script.stage = false;
-    xr.script.recommended_width = static_cast<std::uint32_t>(width);
-    xr.script.recommended_height = static_cast<std::uint32_t>(height);
+    xr.script.recommended_width = 256;
+    xr.script.recommended_height = 192;
     xr.script.capture.every = 1;
+    if (!worn) xr.script.polls_before_ready = 1000000;  // it stays idle
     HeadsetViewConfig config;
     config.samples = samples;
     config.near_plane = kNear;
@@ -295,8 +296,7 @@ TEST_CASE("the instructor sees the left eye's picture where the panel leaves roo
 
 TEST_CASE("while nobody wears it the instructor sees the cabin from where the seat is") {
   XServer server;
-  HeadsetRig rig;
-  xr_test::control().script.polls_before_ready = 1000000;  // it stays idle
+  HeadsetRig rig(1, false);
   Model model;
   add_rectangle(model, "Lamp", {9.0f, 9.0f}, add_material(model, lamp({0.0f, 4.0f, 0.0f})), {});
   rig.view->set_model(model);
