@@ -63,7 +63,7 @@ struct Worn {
     headset = std::make_unique<WornHeadset>(setup, window, ui);
     REQUIRE(headset->is_found());
     REQUIRE(headset->open());
-    (void)headset->take_news();  // which one it is
+    (void)headset->take_news();           // which one it is
     for (int i = 0; i < 6; ++i) frame();  // until it is focused
   }
 
