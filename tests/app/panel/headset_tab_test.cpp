@@ -51,9 +51,8 @@ TEST_CASE("without a headset there is no tab of it; with one it tells its frames
   PanelRig bare;
   CHECK_FALSE(bare.panel.control_rect("tab_headset").has_value());
   HeadsetTabRig rig;
-  for (const char* words :
-       {"Simulated HMD", "Monado 24.0.0", "focused", "2 x 1440 x 1600", "90 Hz, period 11.1 ms", "4.2 ms", "7.5 ms",
-        "3.0 ms before it is seen", "as predicted", "12 of 5412", "3 of 5400"})
+  for (const char* words : {"Simulated HMD", "Monado 24.0.0", "focused", "2 x 1440 x 1600", "90 Hz, period 11.1 ms",
+                            "4.2 ms", "7.5 ms", "3.0 ms before it is seen", "as predicted", "12 of 5412", "3 of 5400"})
     CHECK_MESSAGE(is_drawn(words), words);
   rig.input.headset->timing.spare_ms = -2.0;
   rig.input.headset->timing.late_ms = 11.1;
