@@ -55,13 +55,13 @@ class WindowTrainer {
   explicit WindowTrainer(const TrainSetup& setup)
       : setup_(setup),
         window_(setup.view.width, setup.view.height, "gearshift"),
+        headset_(setup.headset ? std::make_unique<WornHeadset>(*setup.headset, window_, ui_) : nullptr),
+        view_(first_view()),  // before the lever runs
         session_(setup.choice),
         shared_(setup.bindings),
         input_(shared_.driver()),
         look_(setup.choice.camera, setup.choice.drive),
         last_frame_(Clock::now()) {
-    if (setup.headset) headset_.emplace(*setup.headset, window_, ui_);
-    find_view();
     panel_.set_visible(setup.panel);
     session_.set_keys(key_hints(setup.bindings));
     if (!setup.replay.empty()) session_.look_at(setup.replay, setup.shift);
@@ -101,6 +101,13 @@ class WindowTrainer {
 
   bool wears() const { return headset_ && headset_->is_open(); }
 
+  std::unique_ptr<CabinView> desktop_view() { return std::make_unique<CabinView>(setup_.view, &window_, &ui_); }
+
+  std::unique_ptr<CabinView> first_view() {
+    const bool worn = headset_ && headset_->is_found() && headset_->open();
+    return worn ? nullptr : desktop_view();
+  }
+
   // A headset where one is found, else the window alone: the window shows one of them.
   void find_view() {
     if (headset_ && headset_->is_found()) {
@@ -110,7 +117,7 @@ class WindowTrainer {
     }
     if (headset_) tell_news(headset_->take_news());
     if (wears() || view_) return;
-    view_ = std::make_unique<CabinView>(setup_.view, &window_, &ui_);
+    view_ = desktop_view();
     fresh_view_ = true;
   }
 
@@ -284,6 +291,7 @@ class WindowTrainer {
     if (wears()) {
       if (session_.take_new_model() || fresh_view_) headset_->set_model(session_.stage().model());
       fresh_view_ = false;
+      if (!wears()) return;  // it was lost with that
       headset_->draw(session_.stage().scene(), seen_beside(panel_, eye_size()), card_in(panel_, eye_size()),
                      eye_size());
       return;
@@ -297,7 +305,7 @@ class WindowTrainer {
     } catch (const GpuLost& lost) {
       fmt::print(stderr, "gearshift: {}; the picture is made anew, the lever goes on\n", lost.what());
       view_.reset();
-      view_ = std::make_unique<CabinView>(setup_.view, &window_, &ui_);
+      view_ = desktop_view();
       fresh_view_ = true;
     }
   }
@@ -307,9 +315,9 @@ class WindowTrainer {
   UiContext ui_;
   UiScale ui_scale_;
   Panel panel_;
-  std::unique_ptr<CabinView> view_;
+  std::unique_ptr<WornHeadset> headset_;  // null: nobody asked for one
+  std::unique_ptr<CabinView> view_;       // null while one is worn
   Session session_;
-  std::optional<WornHeadset> headset_;
   std::optional<WornHeadset::Pointer> pointer_;  // at something of the panel
   PointingHand pointing_;
   SharedInput shared_;
