@@ -76,6 +76,17 @@ struct HeadsetRig {
   std::unique_ptr<HeadsetView> view;
 };
 
+// All that is seen ahead of the room's origin.
+FrameScene green_wall(HeadsetRig& rig) {
+  Model model;
+  add_rectangle(model, "Lamp", {9.0f, 9.0f}, add_material(model, lamp({0.0f, 4.0f, 0.0f})), {});
+  rig.view->set_model(model);
+  FrameScene scene = still(model);
+  scene.nodes[0].world = glm::translate(glm::mat4(1.0f), vec3(kRoomInCabin * dvec3(0.0, 0.0, -1.0))) *
+                         glm::mat4_cast(glm::quat(kRoomInCabin.orientation));
+  return scene;
+}
+
 std::vector<const xr_test::FrameRecord*> shown_frames() {
   std::vector<const xr_test::FrameRecord*> shown;
   for (const xr_test::FrameRecord& frame : xr_test::control().record.frames)
@@ -272,12 +283,7 @@ TEST_CASE("the panel hangs where it is told, with what is drawn of it and nothin
 TEST_CASE("the instructor sees the left eye's picture where the panel leaves room, and the panel over it") {
   XServer server;
   HeadsetRig rig;
-  Model model;
-  add_rectangle(model, "Lamp", {9.0f, 9.0f}, add_material(model, lamp({0.0f, 4.0f, 0.0f})), {});
-  rig.view->set_model(model);
-  FrameScene scene = still(model);
-  scene.nodes[0].world = glm::translate(glm::mat4(1.0f), vec3(kRoomInCabin * dvec3(0.0, 0.0, -1.0))) *
-                         glm::mat4_cast(glm::quat(kRoomInCabin.orientation));
+  const FrameScene scene = green_wall(rig);
   const ::Window id = server.find("mirror");
   REQUIRE(id != 0);
   Image seen;
@@ -297,12 +303,7 @@ TEST_CASE("the instructor sees the left eye's picture where the panel leaves roo
 TEST_CASE("while nobody wears it the instructor sees the cabin from where the seat is") {
   XServer server;
   HeadsetRig rig(1, false);
-  Model model;
-  add_rectangle(model, "Lamp", {9.0f, 9.0f}, add_material(model, lamp({0.0f, 4.0f, 0.0f})), {});
-  rig.view->set_model(model);
-  FrameScene scene = still(model);
-  scene.nodes[0].world = glm::translate(glm::mat4(1.0f), vec3(kRoomInCabin * dvec3(0.0, 0.0, -1.0))) *
-                         glm::mat4_cast(glm::quat(kRoomInCabin.orientation));
+  const FrameScene scene = green_wall(rig);
   Image seen;
   for (int i = 0; i < 60; ++i) {
     rig.frame(scene, nullptr, {});
