@@ -1,6 +1,7 @@
 #include "app/view/headset_view.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -14,6 +15,7 @@ namespace {
 
 // [1] of the tangents: see RenderConfig::late_margin
 constexpr float kLateMargin = 0.1f;
+constexpr auto kStill = std::chrono::milliseconds(300);  // after which a window is no longer dragged
 
 GpuConfig shared_with(HeadsetRuntime& runtime) {
   GpuConfig config = gpu_config(true);
@@ -80,7 +82,9 @@ struct HeadsetView::State {
   UiCanvas panel;
   std::optional<DesktopMirror> mirror;  // none: the window cannot show it, and the learner goes on
   FrameTimes times;
-  std::optional<HeadsetFrame> frame;  // that has begun
+  std::optional<HeadsetFrame> frame;         // that has begun
+  glm::ivec2 window_size{0}, panel_size{0};  // [px]
+  std::chrono::steady_clock::time_point resized{};
   HeadsetEyes eyes, shown_eyes;
   bool drawn = false;  // there is a picture to be mirrored
 };
@@ -156,10 +160,15 @@ void HeadsetView::State::show_instructor(const SeenPart& seen) {
   }
 }
 
-// As many pixels as the window has: there the panel is laid out.
+// As many pixels as the window has: there the panel is laid out. New images cost the headset a frame: while somebody drags
+// the window's edge the old ones do, cut off.
 void HeadsetView::State::fit_panel() {
   const glm::ivec2 size = window.framebuffer();
   if (size.x <= 0 || size.y <= 0) return;  // minimised: as it was
+  const auto now = std::chrono::steady_clock::now();
+  if (std::exchange(window_size, size) != size) resized = now;
+  if (panel_size.x > 0 && now - resized < kStill) return;
+  panel_size = size;
   panel.fit({static_cast<std::uint32_t>(size.x), static_cast<std::uint32_t>(size.y)});
   session.fit_panel(size);
 }

@@ -4,10 +4,12 @@
 #include <imgui.h>
 
 #include <array>
+#include <chrono>
 #include <cmath>
 #include <cstring>
 #include <memory>
 #include <numbers>
+#include <thread>
 #include <vector>
 
 #include "app/stage/stage.h"
@@ -312,6 +314,27 @@ TEST_CASE("while nobody wears it the instructor sees the cabin from where the se
   }
   CHECK(rig.view->state() == HeadsetState::idle);
   CHECK(seen.pixel(200, 150)[1] > 200);
+}
+
+TEST_CASE("while the window's edge is dragged the panel in the headset keeps its images, and has new ones after it") {
+  XServer server;
+  HeadsetRig rig;
+  Model model;
+  add_rectangle(model, "Wall", {1.0f, 1.0f}, add_material(model, paint(vec3(0.5f))), {0.0f, 0.0f, -3.0f});
+  rig.view->set_model(model);
+  const HeadsetPanel panel{{{0.1, 1.1, -1.4}, glm::dquat(1, 0, 0, 0)}, {1.2, 0.9}};
+  for (int i = 0; i < 5; ++i) rig.frame(still(model), &panel);
+  const ::Window id = server.find("mirror");
+  const int made = xr_test::control().record.calls["xrCreateSwapchain"];
+  for (int width = 410; width <= 480; width += 10) {
+    server.resize(id, width, 300);
+    rig.frame(still(model), &panel);
+  }
+  CHECK(xr_test::control().record.calls["xrCreateSwapchain"] <= made + 1);  // a slow machine may rest in between
+  CHECK(rig.window.framebuffer().x == 480);
+  std::this_thread::sleep_for(std::chrono::milliseconds(320));
+  for (int i = 0; i < 2; ++i) rig.frame(still(model), &panel);
+  CHECK(shown_frames().back()->quad()->views[0].rect.width == 480);
 }
 
 TEST_CASE("a window that has no image free costs the headset nothing: no wait, no frame") {
