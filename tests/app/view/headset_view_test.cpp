@@ -2,13 +2,18 @@
 #include "app/view/headset_view.h"
 
 #include <imgui.h>
+#include <malloc.h>
 
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
+#include <filesystem>
+#include <fstream>
 #include <memory>
 #include <numbers>
+#include <string>
 #include <thread>
 #include <vector>
 
@@ -370,4 +375,61 @@ TEST_CASE("a scale of the picture is of what the headset recommends, even, and n
     HeadsetView view(config, std::make_unique<HeadsetRuntime>(), window, ui);
     CHECK(view.eye_size().x == width);
   }
+}
+
+namespace {
+
+std::size_t entries(const char* folder) {
+  const auto all = std::filesystem::directory_iterator(folder);
+  return static_cast<std::size_t>(std::distance(begin(all), end(all)));
+}
+
+// [MiB] that are the program's own and in use
+double resident() {
+  malloc_trim(0);
+  std::ifstream status("/proc/self/status");
+  for (std::string line; std::getline(status, line);)
+    if (line.rfind("RssAnon:", 0) == 0) return std::stod(line.substr(8)) / 1024.0;
+  return 0.0;
+}
+
+}  // namespace
+
+// What the program does after a loss: runtime, device, renderer, session and the instructor's window, all of it. 20 times;
+// GEARSHIFT_XR_RESTARTS=1000 for the long run. The software driver keeps some of each device, less and less.
+TEST_CASE("a headset's view that is made anew again and again leaves no file, no thread, and little memory") {
+  choose_software_driver();
+  unsetenv("GEARSHIFT_VALIDATION");  // the layer keeps some of all that was ever made
+  const char* asked = std::getenv("GEARSHIFT_XR_RESTARTS");
+  const int restarts = asked != nullptr ? std::atoi(asked) : 20;
+  gearshift::Window window(200, 150, "again");
+  UiContext ui;
+  xr_test::Control& xr = xr_test::control();
+  std::size_t files = 0, threads = 0;
+  double half_way = 0.0;
+  for (int i = 0; i < restarts; ++i) {
+    xr.start();
+    xr.script.recommended_width = xr.script.recommended_height = 32;
+    HeadsetViewConfig config;
+    config.samples = 1;
+    {
+      HeadsetView view(config, std::make_unique<HeadsetRuntime>(), window, ui);
+      for (int k = 0; k < 5; ++k) {
+        window.poll();
+        ui.begin({200.0f, 150.0f, 0.01f, 1.0f});
+        ui.end();
+        (void)view.begin();
+        view.draw({}, {}, nullptr, {});
+      }
+      CHECK(!shown_frames().empty());
+    }
+    CHECK(xr.record.live_handles() == 0);
+    if (i == 0) files = entries("/proc/self/fd"), threads = entries("/proc/self/task");
+    if (i == restarts / 2) half_way = resident();
+  }
+  const double more = resident() - half_way;
+  MESSAGE(restarts << " views, the second half of them: " << more << " MiB more");
+  CHECK(entries("/proc/self/fd") == files);
+  CHECK(entries("/proc/self/task") == threads);
+  CHECK(more < 1.0 * restarts / 2);
 }
