@@ -70,7 +70,6 @@ struct HeadsetSession::State {
   void take_space_change(const XrEventDataReferenceSpaceChangePending& change);
   void keep_eyes(const XrView* views, XrViewStateFlags flags);
   void move_kept(const EyePose& new_from_old);
-  void end_begun_frame() noexcept;
 
   struct Pending {
     XrTime at;
@@ -87,8 +86,6 @@ struct HeadsetSession::State {
   PFN_xrConvertTimespecTimeToTimeKHR to_runtime_time = nullptr;
   HeadsetState state = HeadsetState::idle;
   bool runs = false;
-  bool in_frame = false;              // begun and not ended
-  XrTime begun_for = 0;               // its display time
   bool depth_of_frame = false;        // depth was written in this frame
   HeadsetEyes eyes;                   // as they were seen last
   glm::dvec3 middle{0.0};             // [m] between them
@@ -125,7 +122,6 @@ HeadsetSession::State::State(HeadsetRuntime& runtime, Gpu& device, const Headset
 
 HeadsetSession::State::~State() {
   gpu.wait_idle();  // the runtime's images may still be written
-  end_begun_frame();
   hands.reset();
   colour.reset();
   depth.reset();
@@ -237,16 +233,6 @@ void HeadsetSession::State::move_kept(const EyePose& new_from_old) {
   for (EyePose& eye : eyes.pose) eye = new_from_old * eye;
 }
 
-// After an error in the middle of it: with nothing, as well as may be.
-void HeadsetSession::State::end_begun_frame() noexcept {
-  if (!in_frame) return;
-  XrFrameEndInfo info{XR_TYPE_FRAME_END_INFO};
-  info.displayTime = begun_for;
-  info.environmentBlendMode = xr.blend;
-  xrEndFrame(session, &info);
-  in_frame = false;
-}
-
 HeadsetSession::HeadsetSession(HeadsetRuntime& runtime, Gpu& gpu, const HeadsetConfig& config)
     : state_(std::make_unique<State>(runtime, gpu, config)) {}
 HeadsetSession::~HeadsetSession() = default;
@@ -303,8 +289,6 @@ HeadsetFrame HeadsetSession::wait() {
   HeadsetFrame frame;
   frame.woken_ns = now_ns();
   check(xrBeginFrame(s.session, nullptr), "xrBeginFrame");
-  s.in_frame = true;
-  s.begun_for = told.predictedDisplayTime;
   frame.display_ns = told.predictedDisplayTime;
   frame.period = 1e-9 * static_cast<double>(told.predictedDisplayPeriod);
   frame.is_shown = told.shouldRender == XR_TRUE;
@@ -426,7 +410,7 @@ void HeadsetSession::end(const HeadsetFrame& frame, const HeadsetEyes* eyes, dou
   info.environmentBlendMode = s.xr.blend;
   info.layerCount = static_cast<std::uint32_t>(layers.all.size());
   info.layers = layers.all.data();
-  s.in_frame = s.depth_of_frame = false;
+  s.depth_of_frame = false;
   check(xrEndFrame(s.session, &info), "xrEndFrame");
 }
 
