@@ -30,22 +30,6 @@ VkRect2D place_in(const SeenPart& part, VkExtent2D canvas, VkExtent2D picture) {
   return {at, {length(shown.x, at.x, canvas.width), length(shown.y, at.y, canvas.height)}};
 }
 
-void blit(VkCommandBuffer commands, const GpuImage& from, const GpuImage& to, const VkRect2D& place) {
-  const auto corner = [](std::uint32_t x, std::uint32_t y) {
-    return VkOffset3D{static_cast<std::int32_t>(x), static_cast<std::int32_t>(y), 1};
-  };
-  const VkImageSubresourceLayers layer{.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .layerCount = 1};
-  const VkOffset3D first{place.offset.x, place.offset.y, 0};
-  const VkImageBlit region{.srcSubresource = layer,
-                           .srcOffsets = {{}, corner(from.extent().width, from.extent().height)},
-                           .dstSubresource = layer,
-                           .dstOffsets = {first,
-                                          {first.x + static_cast<std::int32_t>(place.extent.width),
-                                           first.y + static_cast<std::int32_t>(place.extent.height), 1}}};
-  vkCmdBlitImage(commands, from.get(), layout_of(ImageUse::copy_from), to.get(), layout_of(ImageUse::copy_to), 1,
-                 &region, VK_FILTER_LINEAR);
-}
-
 }  // namespace
 
 struct DesktopMirror::State {
@@ -78,7 +62,7 @@ void DesktopMirror::show(GpuImage& picture, const SeenPart& part) {
   VkCommandBuffer commands = s.ring.begin();
   GpuImage& canvas = s.canvas.begin(commands);
   expect(picture, ImageUse::copy_from);
-  blit(commands, picture, canvas, place_in(part, canvas.extent(), picture.extent()));
+  blit_into(commands, picture, 0, canvas, place_in(part, canvas.extent(), picture.extent()));
   s.canvas.draw(commands, s.ring.slot());
   s.swapchain.record(commands, canvas, std::array{ShownLayer{}});
   s.ring.end(s.swapchain.acquired(), s.swapchain.rendered());

@@ -109,6 +109,10 @@ GpuImage make_texture(Gpu& gpu, const ImageDesc& desc, std::span<const std::vect
 // to in copy_to.
 void copy_whole(VkCommandBuffer commands, const GpuImage& from, const GpuImage& to);
 
+// Records the blit of a layer, scaled into that place of another picture. from in copy_from, to in copy_to.
+void blit_into(VkCommandBuffer commands, const GpuImage& from, std::uint32_t layer, const GpuImage& to,
+               const VkRect2D& place);
+
 // Records the barrier after which the host may read what copies have written, once the commands are done.
 void make_copies_visible_to_host(VkCommandBuffer commands);
 

@@ -88,22 +88,6 @@ VkCompositeAlphaFlagBitsKHR choose_alpha(VkCompositeAlphaFlagsKHR can) {
   return static_cast<VkCompositeAlphaFlagBitsKHR>(can & (~can + 1));  // the first of what it can
 }
 
-void blit_into(VkCommandBuffer commands, const GpuImage& from, std::uint32_t layer, const GpuImage& to,
-               const VkRect2D& place) {
-  const auto [width, height] = from.extent();
-  const auto left = place.offset.x, top = place.offset.y;
-  const auto right = left + static_cast<std::int32_t>(place.extent.width);
-  const auto bottom = top + static_cast<std::int32_t>(place.extent.height);
-  const VkImageBlit blit{
-      .srcSubresource = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .baseArrayLayer = layer, .layerCount = 1},
-      .srcOffsets = {{}, {static_cast<std::int32_t>(width), static_cast<std::int32_t>(height), 1}},
-      .dstSubresource = {.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .layerCount = 1},
-      .dstOffsets = {{left, top, 0}, {right, bottom, 1}}};
-  const bool is_same_size = place.extent.width == width && place.extent.height == height;
-  vkCmdBlitImage(commands, from.get(), layout_of(ImageUse::copy_from), to.get(), layout_of(ImageUse::copy_to), 1, &blit,
-                 is_same_size ? VK_FILTER_NEAREST : VK_FILTER_LINEAR);
-}
-
 }  // namespace
 
 VkRect2D place_of(const ShownLayer& layer, VkExtent2D picture, VkExtent2D window) {
