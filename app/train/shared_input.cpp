@@ -1,16 +1,12 @@
 #include "app/train/shared_input.h"
 
-#include <cmath>
-
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
 
 namespace gearshift {
 
-void SharedInput::update(const WindowInput& window, double seconds, double picture_width, const Panel& panel,
-                         UiContext& ui, const std::optional<PanelPointer>& hand) {
-  const glm::dvec2 mouse(picture_width > 0.0 ? std::fmod(window.mouse.x, picture_width) : window.mouse.x,
-                         window.mouse.y);
+void SharedInput::update(const WindowInput& window, double seconds, glm::dvec2 mouse, const Panel& panel, UiContext& ui,
+                         const std::optional<PanelPointer>& hand) {
   const bool panel_has_mouse = panel.covers(mouse), panel_has_keys = panel.has_keyboard();
   ui.feed(for_panel(window, mouse, hand));
   driver_.update(window, seconds, panel_has_mouse, panel_has_keys);

@@ -15,10 +15,10 @@ class SharedInput {
  public:
   explicit SharedInput(const Bindings& bindings) : driver_({bindings}) {}
 
-  // Once a frame, before the panel is drawn. seconds: since the last call. picture_width [px]: of one eye's picture, as
-  // the panel was drawn into; beside it stands the other eye's.
+  // Once a frame, before the panel is drawn. seconds: since the last call. mouse [px]: where the window's is in the
+  // picture that the panel was drawn into.
   // hand: has the panel in place of the window's mouse; nothing of it is the driver's.
-  void update(const WindowInput& window, double seconds, double picture_width, const Panel& panel, UiContext& ui,
+  void update(const WindowInput& window, double seconds, glm::dvec2 mouse, const Panel& panel, UiContext& ui,
               const std::optional<PanelPointer>& hand = std::nullopt);
 
   DriverInput& driver() noexcept { return driver_; }

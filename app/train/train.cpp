@@ -14,6 +14,7 @@
 #include "app/train/pointing_hand.h"
 #include "app/train/shared_input.h"
 #include "app/train/ui_scale.h"
+#include "app/view/desktop_mirror.h"
 #include "engine/ui/ui.h"
 #include "haptics/files/printable.h"
 
@@ -97,7 +98,15 @@ class WindowTrainer {
   }
 
  private:
-  glm::ivec2 eye_size() const { return gearshift::eye_size(setup_.view, window_.framebuffer()); }
+  // [px] Of the picture that the panel is drawn into.
+  glm::ivec2 panel_size() const {
+    return wears() ? setup_.headset->view.panel : eye_size(setup_.view, window_.framebuffer());
+  }
+
+  glm::dvec2 mouse_at_panel(glm::dvec2 mouse) const {
+    const glm::ivec2 window = window_.framebuffer();
+    return wears() ? in_mirrored_panel(mouse, panel_size(), window) : in_eye(setup_.view, mouse, window);
+  }
 
   bool wears() const { return headset_ && headset_->is_open(); }
 
@@ -146,8 +155,8 @@ class WindowTrainer {
     session_.set_mouse_leads(input_.mouse_leads());
     const WindowInput& polled = window_.poll();
     pointer_ = pointer_at_panel();
-    pointing_.follow(polled, input_.mouse_leads(), pointer_, window_.framebuffer(), seconds_);
-    shared_.update(polled, seconds_, eye_size().x, panel_, ui_, pointing_.pointer());
+    pointing_.follow(polled, input_.mouse_leads(), pointer_, panel_size(), seconds_);
+    shared_.update(polled, seconds_, mouse_at_panel(polled.mouse), panel_, ui_, pointing_.pointer());
     if (setup_.choice.stick) input_.free_mouse();
     look_.turn(shared_.turned());
   }
@@ -156,13 +165,8 @@ class WindowTrainer {
   std::optional<WornHeadset::Pointer> pointer_at_panel() const {
     if (!wears() || !headset_->pointer()) return std::nullopt;
     const std::optional<WornHeadset::Pointer>& pointer = headset_->pointer();
-    const bool is_there = panel_.covers(pointer->hit.at * glm::dvec2(window_.framebuffer()));
+    const bool is_there = panel_.covers(pointer->hit.at * glm::dvec2(panel_size()));
     return is_there ? pointer : std::nullopt;
-  }
-
-  double between_width() const {
-    const ControlRect between = panel_.between();
-    return between.max.x - between.min.x;
   }
 
   // Who wears a headset looks with the head alone: no camera is moved for him.
@@ -274,10 +278,11 @@ class WindowTrainer {
   }
 
   void draw_panel() {
-    const glm::ivec2 size = eye_size();
-    const float scale = ui_scale_.follow(window_.framebuffer().y, window_.content_scale());
-    ui_.begin({static_cast<float>(size.x), static_cast<float>(size.y), static_cast<float>(std::max(seconds_, 1e-4)),
-               wears() ? UiScale::in_headset(scale, between_width()) : scale});
+    const glm::ivec2 size = panel_size();
+    const float scale = wears() ? UiScale::in_headset(size.x, panel_.visible())
+                                : ui_scale_.follow(window_.framebuffer().y, window_.content_scale());
+    ui_.begin(
+        {static_cast<float>(size.x), static_cast<float>(size.y), static_cast<float>(std::max(seconds_, 1e-4)), scale});
     session_.set_headset(wears() ? std::optional(headset_->report()) : std::nullopt);
     const PanelRequests requests = panel_.draw(session_.panel_input());
     ui_.end();
@@ -292,8 +297,7 @@ class WindowTrainer {
       if (session_.take_new_model() || fresh_view_) headset_->set_model(session_.stage().model());
       fresh_view_ = false;
       if (!wears()) return;  // it was lost with that
-      headset_->draw(session_.stage().scene(), seen_beside(panel_, eye_size()), card_in(panel_, eye_size()),
-                     eye_size());
+      headset_->draw(session_.stage().scene(), seen_beside(panel_, panel_size()), card_in(panel_, panel_size()));
       return;
     }
     if (!view_) return;  // the headset was lost in this frame
@@ -301,7 +305,7 @@ class WindowTrainer {
       if (session_.take_new_model() || fresh_view_) view_->set_model(session_.stage().model());
       fresh_view_ = false;
       if (view_->begin())
-        view_->draw(session_.stage().scene(), look_.pose(), look_.field(), seen_beside(panel_, eye_size()));
+        view_->draw(session_.stage().scene(), look_.pose(), look_.field(), seen_beside(panel_, panel_size()));
     } catch (const GpuLost& lost) {
       fmt::print(stderr, "gearshift: {}; the picture is made anew, the lever goes on\n", lost.what());
       view_.reset();

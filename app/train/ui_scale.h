@@ -17,9 +17,9 @@ class UiScale {
     return scale_;
   }
 
-  // In a headset what the panel's columns leave hangs as wide as ever, whatever it has of pixels [px]: its text stays as
-  // large.
-  static float in_headset(float scale, double between) { return std::max(scale, static_cast<float>(between) / 640.0f); }
+  // In a headset, where what the panel's columns leave hangs as wide as ever: without them it has twice the pixels, and its
+  // text is as large. width [px]: of the panel's picture.
+  static float in_headset(int width, bool columns) { return static_cast<float>(width) / (columns ? 1280.0f : 640.0f); }
 
  private:
   float scale_ = 1.0f;

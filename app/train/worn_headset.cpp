@@ -108,10 +108,11 @@ bool WornHeadset::begin(const Stage& stage) {
   return worn && view_ != nullptr;
 }
 
-void WornHeadset::draw(const FrameScene& scene, const SeenPart& seen, const SeenPart& card, glm::dvec2 panel_size) {
+void WornHeadset::draw(const FrameScene& scene, const SeenPart& seen, const SeenPart& card) {
   const DriveSide side = setup_.seat.drive;
   const glm::dvec3 eye = camera("driver", side).position;
-  panel_ = panel_open_ ? hang_panel(eye, side, panel_size) : hang_card(eye, side, panel_size, card.low, card.high);
+  const glm::dvec2 size = setup_.view.panel;
+  panel_ = panel_open_ ? hang_panel(eye, side, size) : hang_card(eye, side, size, card.low, card.high);
   const HeadsetPanel panel = in_room(seating_.cabin_from_room(), panel_);
   guarded([&] { view_->draw(scene, seating_.cabin_from_room(), &panel, seen); });
 }

@@ -40,8 +40,8 @@ class WornHeadset {
   // A frame, in this order. begin(): waits for the headset's next frame and places the seat; false where nobody wears it
   // now, and the caller paces. Where the headset is lost everything of it is gone: is_open() says so, news() why.
   bool begin(const Stage& stage);
-  // seen: what the panel, of that size [px], leaves to the cabin; card: the same with a learner's card.
-  void draw(const FrameScene& scene, const SeenPart& seen, const SeenPart& card, glm::dvec2 panel_size);
+  // seen: what the panel leaves to the cabin; card: the same with a learner's card.
+  void draw(const FrameScene& scene, const SeenPart& seen, const SeenPart& card);
 
   // Of the frame that has begun.
   EyePose head() const;  // in the cabin, midway between the eyes

@@ -60,6 +60,10 @@ glm::ivec2 eye_size(const ViewConfig& config, glm::ivec2 whole) {
   return {std::max(1, whole.x / (config.stereo ? 2 : 1)), std::max(1, whole.y)};
 }
 
+glm::dvec2 in_eye(const ViewConfig& config, glm::dvec2 mouse, glm::ivec2 whole) {
+  return {std::fmod(mouse.x, eye_size(config, whole).x), mouse.y};
+}
+
 Fov fov_around(double field, glm::dvec2 size, const SeenPart& part) {
   constexpr double kLeastPart = 0.2;
   const glm::dvec2 share = part.high - part.low;

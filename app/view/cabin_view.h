@@ -29,6 +29,8 @@ struct ViewConfig {
 
 // [px] of the picture that one eye sees of a whole picture of that size: at least 1 x 1. The panel is drawn into it.
 glm::ivec2 eye_size(const ViewConfig& config, glm::ivec2 whole);
+// Where in that eye's picture the mouse is over which it stands. [px]
+glm::dvec2 in_eye(const ViewConfig& config, glm::dvec2 mouse, glm::ivec2 whole);
 
 // A frustum through a picture of that size whose middle is the part's: the field lies across the part's shorter side.
 // [rad] A part narrower than a fifth of the picture is none: then the whole picture's.

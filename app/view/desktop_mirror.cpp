@@ -30,11 +30,17 @@ VkRect2D place_in(const SeenPart& part, VkExtent2D canvas, VkExtent2D picture) {
   return {at, {length(shown.x, at.x, canvas.width), length(shown.y, at.y, canvas.height)}};
 }
 
+VkExtent2D extent_of(glm::ivec2 size) {
+  return {static_cast<std::uint32_t>(size.x), static_cast<std::uint32_t>(size.y)};
+}
+
 }  // namespace
 
 struct DesktopMirror::State {
-  State(Gpu& device, Window& window, UiContext& ui)
-      : gpu(device), swapchain(device, window, false), canvas(device, ui), ring(device) {}
+  State(Gpu& device, Window& window, UiContext& ui, glm::ivec2 size)
+      : gpu(device), swapchain(device, window, false), canvas(device, ui), ring(device) {
+    canvas.fit(extent_of(size));
+  }
 
   Gpu& gpu;
   Swapchain swapchain;
@@ -43,8 +49,15 @@ struct DesktopMirror::State {
   Clock::time_point next = Clock::now();
 };
 
-DesktopMirror::DesktopMirror(Gpu& gpu, Window& window, UiContext& ui)
-    : state_(std::make_unique<State>(gpu, window, ui)) {}
+glm::dvec2 in_mirrored_panel(glm::dvec2 mouse, glm::ivec2 panel, glm::ivec2 window) {
+  if (std::min(window.x, window.y) <= 0) return mouse;  // minimised
+  const VkRect2D place = place_of(ShownLayer{}, extent_of(panel), extent_of(window));
+  const glm::dvec2 corner(place.offset.x, place.offset.y), shown(place.extent.width, place.extent.height);
+  return (mouse - corner) / shown * glm::dvec2(panel);
+}
+
+DesktopMirror::DesktopMirror(Gpu& gpu, Window& window, UiContext& ui, glm::ivec2 size)
+    : state_(std::make_unique<State>(gpu, window, ui, size)) {}
 
 DesktopMirror::~DesktopMirror() {
   state_->gpu.wait_idle();
@@ -58,7 +71,6 @@ void DesktopMirror::show(GpuImage& picture, const SeenPart& part) {
   State& s = *state_;
   if (!s.swapchain.acquire()) return;
   s.next = Clock::now() + kPeriod;
-  s.canvas.fit(s.swapchain.extent());
   VkCommandBuffer commands = s.ring.begin();
   GpuImage& canvas = s.canvas.begin(commands);
   expect(picture, ImageUse::copy_from);

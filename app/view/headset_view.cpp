@@ -1,7 +1,6 @@
 #include "app/view/headset_view.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -15,7 +14,6 @@ namespace {
 
 // [1] of the tangents: see RenderConfig::late_margin
 constexpr float kLateMargin = 0.1f;
-constexpr auto kStill = std::chrono::milliseconds(300);  // after which a window is no longer dragged
 
 GpuConfig shared_with(HeadsetRuntime& runtime) {
   GpuConfig config = gpu_config(true);
@@ -58,23 +56,21 @@ std::array<View, 2> views_in(const EyePose& cabin_from_room, const HeadsetEyes& 
 struct HeadsetView::State {
   State(const HeadsetViewConfig& wanted, std::unique_ptr<HeadsetRuntime> found, Window& shown_in, UiContext& ui)
       : config(wanted),
-        window(shown_in),
         runtime(std::move(found)),
         gpu(shared_with(*runtime)),
         renderer(gpu, two_eyes(config, runtime->traits(), gpu.traits())),
-        session(*runtime, gpu, {{renderer.config().width, renderer.config().height}}),
+        session(*runtime, gpu, {{renderer.config().width, renderer.config().height}, config.panel}),
         panel(gpu, ui),
         eyes(session.eyes()) {
-    make_mirror(ui);
+    panel.fit({static_cast<std::uint32_t>(config.panel.x), static_cast<std::uint32_t>(config.panel.y)});
+    make_mirror(shown_in, ui);
   }
 
-  void make_mirror(UiContext& ui);
+  void make_mirror(Window& window, UiContext& ui);
   void show_instructor(const SeenPart& seen);
-  void fit_panel();
   void draw_cabin(const FrameScene& scene, const EyePose& seat, Renderer::Finish* finish);
 
   HeadsetViewConfig config;
-  Window& window;
   std::unique_ptr<HeadsetRuntime> runtime;
   Gpu gpu;
   Renderer renderer;
@@ -82,9 +78,7 @@ struct HeadsetView::State {
   UiCanvas panel;
   std::optional<DesktopMirror> mirror;  // none: the window cannot show it, and the learner goes on
   FrameTimes times;
-  std::optional<HeadsetFrame> frame;         // that has begun
-  glm::ivec2 window_size{0}, panel_size{0};  // [px]
-  std::chrono::steady_clock::time_point resized{};
+  std::optional<HeadsetFrame> frame;  // that has begun
   HeadsetEyes eyes, shown_eyes;
   bool drawn = false;  // there is a picture to be mirrored
 };
@@ -141,9 +135,9 @@ class ToHeadset final : public Renderer::Finish {
 
 }  // namespace
 
-void HeadsetView::State::make_mirror(UiContext& ui) {
+void HeadsetView::State::make_mirror(Window& window, UiContext& ui) {
   try {
-    mirror.emplace(gpu, window, ui);
+    mirror.emplace(gpu, window, ui, config.panel);
   } catch (const GpuLost&) {
     throw;
   } catch (const GpuError&) {
@@ -158,19 +152,6 @@ void HeadsetView::State::show_instructor(const SeenPart& seen) {
   } catch (const GpuError&) {
     mirror.reset();
   }
-}
-
-// As many pixels as the window has: there the panel is laid out. New images cost the headset a frame: while somebody drags
-// the window's edge the old ones do, cut off.
-void HeadsetView::State::fit_panel() {
-  const glm::ivec2 size = window.framebuffer();
-  if (size.x <= 0 || size.y <= 0) return;  // minimised: as it was
-  const auto now = std::chrono::steady_clock::now();
-  if (std::exchange(window_size, size) != size) resized = now;
-  if (panel_size.x > 0 && now - resized < kStill) return;
-  panel_size = size;
-  panel.fit({static_cast<std::uint32_t>(size.x), static_cast<std::uint32_t>(size.y)});
-  session.fit_panel(size);
 }
 
 void HeadsetView::State::draw_cabin(const FrameScene& scene, const EyePose& seat, Renderer::Finish* finish) {
@@ -228,10 +209,7 @@ void HeadsetView::draw(const FrameScene& scene, const EyePose& cabin_from_room, 
   State& s = *state_;
   const bool instructor_sees = s.mirror && s.mirror->is_due();
   HeadsetSession::Images images;
-  if (s.frame && s.frame->is_shown) {
-    s.fit_panel();
-    images = s.session.take_images(panel != nullptr);
-  }
+  if (s.frame && s.frame->is_shown) images = s.session.take_images(panel != nullptr);
   if (images.colour) {
     ToHeadset finish(s.session, *s.frame, images, s.renderer.depth(), s.panel, cabin_from_room, s.config.near_plane);
     s.draw_cabin(scene, cabin_from_room, &finish);

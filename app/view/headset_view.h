@@ -17,9 +17,10 @@
 namespace gearshift {
 
 struct HeadsetViewConfig {
-  double scale = 1.0;        // [1] 0.3 to 2: of the picture that the headset recommends
-  int samples = 0;           // 1, 4, or 0: 4 on a GPU, 1 on a software driver
-  double near_plane = 0.05;  // [m]
+  double scale = 1.0;            // [1] 0.3 to 2: of the picture that the headset recommends
+  int samples = 0;               // 1, 4, or 0: 4 on a GPU, 1 on a software driver
+  double near_plane = 0.05;      // [m]
+  glm::ivec2 panel{1920, 1080};  // [px] its picture: enough for 32 to a degree of a learner's card
 };
 
 class HeadsetView {

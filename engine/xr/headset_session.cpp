@@ -65,6 +65,7 @@ struct HeadsetSession::State {
   void make_session();
   XrSpace make_space(XrReferenceSpaceType type) const;
   void make_images(const HeadsetConfig& config);
+  void make_depth(const HeadsetConfig& config);
   void take_event(const XrEventDataBuffer& event);
   void take_state(XrSessionState told);
   void take_space_change(const XrEventDataReferenceSpaceChangePending& change);
@@ -154,6 +155,11 @@ XrSpace HeadsetSession::State::make_space(XrReferenceSpaceType type) const {
 // Depth helps the runtime and is no must.
 void HeadsetSession::State::make_images(const HeadsetConfig& config) {
   colour = std::make_unique<HeadsetImages>(session, gpu, config.eye, 2, kPictureFormats);
+  make_depth(config);
+  if (config.panel.x > 0) panel = std::make_unique<HeadsetImages>(session, gpu, config.panel, 1, kPictureFormats);
+}
+
+void HeadsetSession::State::make_depth(const HeadsetConfig& config) {
   if (!xr.traits.depth) return;
   try {
     depth = std::make_unique<HeadsetImages>(session, gpu, config.eye, 2, kDepthFormats);
@@ -272,14 +278,6 @@ std::int64_t HeadsetSession::now_ns() const {
   XrTime time = 0;
   check(s.to_runtime_time(s.xr.instance, &now, &time), "xrConvertTimespecTimeToTimeKHR");
   return time;
-}
-
-void HeadsetSession::fit_panel(glm::ivec2 size) {
-  State& s = *state_;
-  if (s.panel && s.panel->size() == size) return;
-  s.gpu.wait_idle();  // frames in flight write the old one
-  s.panel.reset();
-  s.panel = std::make_unique<HeadsetImages>(s.session, s.gpu, size, 1, kPictureFormats);
 }
 
 HeadsetFrame HeadsetSession::wait() {

@@ -16,7 +16,8 @@
 namespace gearshift {
 
 struct HeadsetConfig {
-  glm::ivec2 eye{0};  // [px] of each eye's picture
+  glm::ivec2 eye{0};    // [px] of each eye's picture
+  glm::ivec2 panel{0};  // [px] of the panel's; 0: there is none
 };
 
 // What the runtime lets us do; in the order of getting there.
@@ -81,8 +82,6 @@ class HeadsetSession {
   bool runs() const noexcept;                // frames are wanted: wait() paces them
   const HeadsetEyes& eyes() const noexcept;  // as they were located last; before that, side by side at the origin
   bool is_stage() const noexcept;            // poses are in a room that stays from one day to the next
-
-  void fit_panel(glm::ivec2 size);  // [px] of the panel's picture; made anew where it has another size
 
   HeadsetFrame wait();  // until the runtime wants the next frame, which it begins. Throws HeadsetLost
   HeadsetEyes locate(const HeadsetFrame& frame);

@@ -39,7 +39,7 @@ TEST_CASE("it hangs 1 to 3 m away, faces the driver, and stands upright at the p
 
 // ISO 9241-303: letters are read well from 20 to 22 minutes of arc on, and read at all from 16. DejaVu Sans has capitals
 // of 0.729 em and lines of 1.164 em; the panel's small font has lines of 13 px at scale 1 and its body of 15
-// (engine/ui/ui_style.cpp); the scale is at least its picture's width / 1280 in a headset (UiScale).
+// (engine/ui/ui_style.cpp); the scale is its picture's width / 1280 in a headset (UiScale).
 TEST_CASE("capitals of the panel's fonts are 20 minutes of arc high and more") {
   const HangingPanel panel = hang_panel(kEye, DriveSide::left, {1280, 720});
   const double px = panel.size.x / 1280.0, distance = glm::distance(panel.pose.position, kEye);

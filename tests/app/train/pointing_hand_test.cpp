@@ -3,8 +3,6 @@
 
 #include <doctest/doctest.h>
 
-#include "app/train/ui_scale.h"
-
 using namespace gearshift;
 
 namespace {
@@ -52,10 +50,4 @@ TEST_CASE("a trigger that was pulled elsewhere clicks nothing when the ray comes
   pointing.follow(desk, false, at(0.4, 0.2), kPanel, 0.1);
   pointing.follow(desk, false, at(0.4, 0.2, true), kPanel, 0.1);
   CHECK(pointing.pointer()->down);
-}
-
-TEST_CASE("in a headset a part of more pixels, which hangs as wide as ever, has larger text") {
-  CHECK(UiScale::in_headset(1.0f, 640.0) == 1.0f);   // between the columns of 1280 px
-  CHECK(UiScale::in_headset(1.0f, 1280.0) == 2.0f);  // without them
-  CHECK(UiScale::in_headset(2.0f, 960.0) == 2.0f);   // a display's own scale
 }

@@ -8,6 +8,7 @@
 
 #include <doctest/doctest.h>
 
+#include "app/view/cabin_view.h"
 #include "tests/app/panel/panel_rig.h"
 
 using namespace gearshift;
@@ -19,6 +20,7 @@ struct Desk {
   SharedInput shared{read_bindings(GEARSHIFT_ASSETS "/bindings/default.toml")};
   DriverInput& driver = shared.driver();
   WindowInput window;
+  std::optional<glm::dvec2> mouse;  // [px] of the panel's picture; none: the window is one
 
   Desk() {
     rig.input.now.guard = GuardState::running;
@@ -28,7 +30,7 @@ struct Desk {
   }
 
   const PanelRequests& frame() {
-    shared.update(window, 1.0 / 60.0, 1280.0, rig.panel, rig.ui);
+    shared.update(window, 1.0 / 60.0, mouse ? *mouse : window.mouse, rig.panel, rig.ui);
     rig.ui.begin(rig.screen);
     rig.asked = rig.panel.draw(rig.input);
     rig.ui.end();
@@ -185,8 +187,11 @@ TEST_CASE("Ctrl+click on a slider types a number, and its digits are not the dri
 
 TEST_CASE("in stereo the mouse over either eye's panel is over the panel") {
   Desk desk;
+  ViewConfig stereo;
+  stereo.stereo = true;
   for (const double eye : {0.0, 1280.0}) {
     desk.window.mouse = desk.middle("stop") + glm::dvec2(eye, 0.0);
+    desk.mouse = in_eye(stereo, desk.window.mouse, {2560, 720});
     desk.frame();
     desk.window.mouse_down[0] = true;
     CHECK(desk.frame().stop);

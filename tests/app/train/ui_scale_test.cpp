@@ -1,8 +1,14 @@
 #include "app/train/ui_scale.h"
 
+#include <cmath>
+#include <numbers>
 #include <set>
 
 #include <doctest/doctest.h>
+
+#include "app/headset/hanging_panel.h"
+#include "app/view/headset_view.h"
+#include "tests/app/panel/panel_rig.h"
 
 using namespace gearshift;
 
@@ -30,4 +36,28 @@ TEST_CASE("a window that is minimised keeps its scale") {
   UiScale scale;
   scale.follow(2160, 1.0f);
   CHECK(scale.follow(0, 1.0f) == 2.0f);
+}
+
+// Where a learner's card hangs, seen from the driver's eyes: headsets of today have 20 to 35 px a degree, and ISO 9241-303
+// asks for capitals of 20 minutes of arc (see hanging_panel_test.cpp for the fonts).
+TEST_CASE(
+    "in a headset the card's picture has 30 px a degree and more, and its text is as large with the columns as "
+    "without") {
+  const glm::ivec2 size = HeadsetViewConfig{}.panel;
+  for (const bool columns : {true, false}) {
+    CAPTURE(columns);
+    const float scale = UiScale::in_headset(size.x, columns);
+    PanelRig rig;
+    rig.screen = {static_cast<float>(size.x), static_cast<float>(size.y), 0.02f, scale};
+    rig.panel.set_visible(columns);
+    rig.frame();
+    const ControlRect card = rig.panel.between();
+    const HangingPanel hung =
+        hang_card({}, DriveSide::left, size, card.min / glm::dvec2(size), card.max / glm::dvec2(size));
+    const double px = hung.size.x / (card.max.x - card.min.x), away = glm::length(hung.pose.position);
+    CHECK(std::numbers::pi / 180.0 / std::atan(px / away) >= 30.0);
+    const double minutes = 60.0 * 180.0 / std::numbers::pi * std::atan(0.729 / 1.164 * 13.0 * scale * px / away);
+    CHECK(minutes >= 20.0);
+    CHECK(minutes <= 24.0);
+  }
 }

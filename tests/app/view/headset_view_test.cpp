@@ -14,10 +14,10 @@
 #include <memory>
 #include <numbers>
 #include <string>
-#include <thread>
 #include <vector>
 
 #include "app/stage/stage.h"
+#include "app/view/desktop_mirror.h"
 #include "engine/render/renderer.h"
 #include "tests/engine/render/render_bench.h"
 #include "tests/engine/window/injected_faults.h"
@@ -32,7 +32,8 @@ using glm::vec3;
 
 namespace {
 
-constexpr double kNear = 0.05;  // [m]
+constexpr double kNear = 0.05;          // [m]
+constexpr glm::ivec2 kPanel{400, 300};  // [px]
 const EyePose kRoomInCabin{{0.3, -0.5, 0.2}, glm::angleAxis(0.4, dvec3(0, 1, 0))};
 
 // A head that turns at up to 100 deg/s: a display period of 11 ms is worth 4 px and more of 256.
@@ -57,6 +58,7 @@ struct HeadsetRig {
     HeadsetViewConfig config;
     config.samples = samples;
     config.near_plane = kNear;
+    config.panel = kPanel;
     view = std::make_unique<HeadsetView>(config, std::make_unique<HeadsetRuntime>(), window, ui);
   }
   ~HeadsetRig() {
@@ -70,8 +72,7 @@ struct HeadsetRig {
   // One frame; a red square in the panel's upper left corner.
   void frame(const FrameScene& scene, const HeadsetPanel* panel = nullptr, SeenPart seen = {}) {
     window.poll();
-    const glm::ivec2 size = window.framebuffer();
-    ui.begin({static_cast<float>(size.x), static_cast<float>(size.y), 0.01f, 1.0f});
+    ui.begin({static_cast<float>(kPanel.x), static_cast<float>(kPanel.y), 0.01f, 1.0f});
     ImGui::GetForegroundDrawList()->AddRectFilled({0.0f, 0.0f}, {40.0f, 30.0f}, IM_COL32(255, 0, 0, 255));
     ui.end();
     (void)view->begin();
@@ -321,25 +322,41 @@ TEST_CASE("while nobody wears it the instructor sees the cabin from where the se
   CHECK(seen.pixel(200, 150)[1] > 200);
 }
 
-TEST_CASE("while the window's edge is dragged the panel in the headset keeps its images, and has new ones after it") {
+TEST_CASE(
+    "a window of any size leaves the headset's panel as it is, and shows it whole to the instructor, whose mouse finds "
+    "it") {
   XServer server;
   HeadsetRig rig;
-  Model model;
-  add_rectangle(model, "Wall", {1.0f, 1.0f}, add_material(model, paint(vec3(0.5f))), {0.0f, 0.0f, -3.0f});
-  rig.view->set_model(model);
+  const FrameScene scene = green_wall(rig);
   const HeadsetPanel panel{{{0.1, 1.1, -1.4}, glm::dquat(1, 0, 0, 0)}, {1.2, 0.9}};
-  for (int i = 0; i < 5; ++i) rig.frame(still(model), &panel);
+  for (int i = 0; i < 5; ++i) rig.frame(scene, &panel);
   const ::Window id = server.find("mirror");
   const int made = xr_test::control().record.calls["xrCreateSwapchain"];
-  for (int width = 410; width <= 480; width += 10) {
-    server.resize(id, width, 300);
-    rig.frame(still(model), &panel);
+  // Half as large, the panel's 400 x 300 becomes 200 x 150: at the left of it 30 px are black.
+  for (const glm::ivec2 size : {glm::ivec2(480, 300), glm::ivec2(260, 150)}) {
+    CAPTURE(size.x);
+    server.resize(id, size.x, size.y);
+    const double scale = size.y / 300.0, aside = 0.5 * (size.x - 400.0 * scale);
+    const auto at = [&](double x, double y) { return dvec2(aside, 0.0) + scale * dvec2(x, y); };
+    const auto is_red = [&](const Image& seen, dvec2 p) {
+      if (seen.width != size.x) return false;
+      const std::uint8_t* pixel = seen.pixel(static_cast<int>(p.x), static_cast<int>(p.y));
+      return pixel[0] > 200 && pixel[1] < 50;
+    };
+    const auto is_whole = [&](const Image& seen) {
+      return is_red(seen, at(37.0, 27.0)) && !is_red(seen, at(43.0, 15.0)) && !is_red(seen, {aside - 3.0, 15.0});
+    };
+    Image seen;
+    for (int i = 0; i < 60 && !is_whole(seen); ++i) {  // at first it is what was there before
+      rig.frame(scene, &panel);
+      seen = server.picture(id);
+    }
+    CHECK(is_whole(seen));
+    CHECK(glm::distance(in_mirrored_panel(at(37.0, 27.0), kPanel, size), dvec2(37.0, 27.0)) < 0.5);
+    CHECK(in_mirrored_panel({aside - 3.0, 15.0}, kPanel, size).x < 0.0);
   }
-  CHECK(xr_test::control().record.calls["xrCreateSwapchain"] <= made + 1);  // a slow machine may rest in between
-  CHECK(rig.window.framebuffer().x == 480);
-  std::this_thread::sleep_for(std::chrono::milliseconds(320));
-  for (int i = 0; i < 2; ++i) rig.frame(still(model), &panel);
-  CHECK(shown_frames().back()->quad()->views[0].rect.width == 480);
+  CHECK(xr_test::control().record.calls["xrCreateSwapchain"] == made);
+  CHECK(shown_frames().back()->quad()->views[0].rect.width == kPanel.x);
 }
 
 TEST_CASE("a window that has no image free costs the headset nothing: no wait, no frame") {
@@ -372,6 +389,7 @@ TEST_CASE("a scale of the picture is of what the headset recommends, even, and n
     HeadsetViewConfig config;
     config.scale = scale;
     config.samples = 1;
+    config.panel = {32, 16};
     HeadsetView view(config, std::make_unique<HeadsetRuntime>(), window, ui);
     CHECK(view.eye_size().x == width);
   }
@@ -429,7 +447,7 @@ TEST_CASE("a headset's view that is made anew again and again leaves no file, no
   }
   const double more = resident() - half_way;
   MESSAGE(restarts << " views, the second half of them: " << more << " MiB more");
-  CHECK(entries("/proc/self/fd") == files);
-  CHECK(entries("/proc/self/task") == threads);
+  CHECK(entries("/proc/self/fd") <= files);
+  CHECK(entries("/proc/self/task") <= threads);
   CHECK(more < 1.0 * restarts / 2);
 }

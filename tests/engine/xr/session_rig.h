@@ -18,8 +18,8 @@
 
 namespace gearshift {
 
-constexpr double kRigNear = 0.05;      // [m]
-constexpr glm::ivec2 kRigEye{48, 32};  // [px]
+constexpr double kRigNear = 0.05;                        // [m]
+constexpr glm::ivec2 kRigEye{48, 32}, kRigPanel{16, 8};  // [px]
 
 // Everything that a program has of a headset. Made by the book or thrown by it.
 struct SessionRig {
@@ -28,10 +28,10 @@ struct SessionRig {
       : runtime((choose_software_driver(), xr_test::control(), std::make_unique<HeadsetRuntime>())),
         fixture(validates ? std::make_unique<GpuFixture>(made_by(*runtime)) : nullptr),
         bare(validates ? nullptr : std::make_unique<Gpu>(made_by(*runtime))),
-        session(std::make_unique<HeadsetSession>(*runtime, gpu(), HeadsetConfig{kRigEye})),
+        session(std::make_unique<HeadsetSession>(*runtime, gpu(), HeadsetConfig{kRigEye, kRigPanel})),
         ring(std::make_unique<FrameRing>(gpu())),
         eyes_drawn(colour_image(gpu(), kRigEye, 2)),
-        panel_drawn(colour_image(gpu(), {16, 8}, 1)) {}
+        panel_drawn(colour_image(gpu(), kRigPanel, 1)) {}
 
   ~SessionRig() { gpu().wait_idle(); }
   SessionRig(const SessionRig&) = delete;
@@ -96,7 +96,6 @@ struct SessionRig {
     eyes = session->locate(frame);
     HeadsetSession::Images images;
     if (frame.is_shown) {
-      if (panel) session->fit_panel({16, 8});
       images = session->take_images(panel.has_value());
     }
     if (images.colour) {

@@ -56,6 +56,7 @@ struct Worn {
     xr.script.inputs["/user/hand/right/input/trigger/value"] = [this](double) { return trigger ? 1.0 : 0.0; };
     xr.script.inputs["/user/hand/right/input/b/click"] = [this](double) { return menu ? 1.0 : 0.0; };
     setup.view.samples = 1;
+    setup.view.panel = {320, 200};
     wear();
   }
 
@@ -72,7 +73,7 @@ struct Worn {
     ui.begin({320.0f, 200.0f, 0.01f, 1.0f});
     ui.end();
     (void)headset->begin(*stage);
-    if (headset->is_open()) headset->draw({}, {}, {{0.25, 0.0}, {0.75, 0.8}}, {320.0, 200.0});
+    if (headset->is_open()) headset->draw({}, {}, {{0.25, 0.0}, {0.75, 0.8}});
   }
 
   void hold_lever(glm::dvec2 plane) {
