@@ -16,6 +16,7 @@ struct HeadsetReport {
   glm::ivec2 eye{0};  // [px]
   HeadsetTiming timing;
   bool is_tracked = false;
+  bool turns_alone = false;  // it tells where it looks, and has not told where it is
   SeatSettings seat;
   bool is_touched = false;   // the lever stands where it was touched
   double touch_error = 0.0;  // [m] between it and where it is seen

@@ -12,14 +12,18 @@ namespace {
 
 constexpr double kMostHeight = 0.3, kMostDistance = 1.5;  // [m] as the seat's file allows
 
+const char* unseen(const HeadsetReport& headset) {
+  if (headset.is_tracked) return "";
+  return headset.turns_alone ? ", its place not known" : ", not tracked";
+}
+
 void draw_frames(const HeadsetReport& headset) {
   const HeadsetTiming& t = headset.timing;
   const double rate = t.period_ms > 0.0 ? 1e3 / t.period_ms : 0.0;
   if (!ImGui::BeginTable("headset", 2, ImGuiTableFlags_SizingStretchProp)) return;
   table_row("Headset", headset.headset);
   table_row("Runtime", headset.runtime);
-  table_row("It is", headset.is_tracked ? headset.state : headset.state + ", not tracked",
-            headset.is_tracked ? ink::kText : ink::kWarn);
+  table_row("It is", headset.state + unseen(headset), headset.is_tracked ? ink::kText : ink::kWarn);
   table_row("Picture", fmt::format("2 x {} x {}", headset.eye.x, headset.eye.y));
   table_row("Display", fmt::format("{:.0f} Hz, period {:.1f} ms", rate, t.period_ms));
   table_row("Frame, CPU", fmt::format("{:.1f} ms", t.cpu_ms), t.cpu_ms > t.period_ms ? ink::kWarn : ink::kText);

@@ -101,11 +101,19 @@ bool WornHeadset::begin(const Stage& stage) {
     if (!worn) return;
     while (const std::optional<SpaceChange> change = view_->take_change())
       seating_.follow(*change, view_->keeps_room());
-    const HeadsetEyes& eyes = view_->eyes();
-    if (view_->is_shown() && eyes.is_tracked) seating_.sit(between(eyes), stage.knob_at_rest(), view_->keeps_room());
+    if (view_->is_shown()) take_seat(stage);
     follow_hands(stage);
   });
   return worn && view_ != nullptr;
+}
+
+// Some headsets never tell a place, and some not at first: the head is at the wheel all the same, and sits down anew once
+// there is a place. What was touched in the room is nothing to a head that is nowhere in it.
+void WornHeadset::take_seat(const Stage& stage) {
+  const HeadsetEyes& eyes = view_->eyes();
+  if (std::exchange(placed_, eyes.is_known) != eyes.is_known) seating_.recentre();
+  const bool seen = eyes.is_known ? eyes.is_tracked : eyes.is_oriented;
+  if (seen) seating_.sit(between(eyes), stage.knob_at_rest(), eyes.is_known && view_->keeps_room());
 }
 
 void WornHeadset::draw(const FrameScene& scene, const SeenPart& seen, const SeenPart& card) {
@@ -167,6 +175,7 @@ HeadsetReport WornHeadset::report() const {
   report.eye = view_->eye_size();
   report.timing = view_->timing();
   report.is_tracked = view_->eyes().is_tracked;
+  report.turns_alone = view_->eyes().is_oriented && !view_->eyes().is_known;
   seating_.report(report);
   return report;
 }

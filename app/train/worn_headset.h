@@ -65,6 +65,7 @@ class WornHeadset {
   void lose(const std::string& why);
   template <class Deed>
   void guarded(const Deed& deed);
+  void take_seat(const Stage& stage);
   void follow_hands(const Stage& stage);
 
   HeadsetSetup setup_;
@@ -78,7 +79,8 @@ class WornHeadset {
   std::string told_;  // the last of what is looked for in vain
 
   Seating seating_;
-  bool worn_ = false;  // in the frame before
+  bool worn_ = false;    // in the frame before
+  bool placed_ = false;  // where the head is has been told; until then it sits where it looks from
 
   HangingPanel panel_;
   std::optional<Pointer> pointer_;

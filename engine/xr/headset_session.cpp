@@ -229,6 +229,7 @@ void HeadsetSession::State::keep_eyes(const XrView* views, XrViewStateFlags flag
     if (placed && turned) aside[eye] = glm::conjugate(head) * (at[eye] - middle);
     eyes.pose[eye].position = placed && turned ? at[eye] : middle + head * aside[eye];
   }
+  eyes.is_oriented = turned;
   eyes.is_tracked = turned && placed;
   eyes.is_known = eyes.is_known || eyes.is_tracked;
 }

@@ -45,8 +45,9 @@ struct HeadsetFrame {
 struct HeadsetEyes {
   std::array<EyePose, 2> pose;
   std::array<Fov, 2> fov;
-  bool is_known = false;    // they were seen since the session began
-  bool is_tracked = false;  // they are seen now
+  bool is_known = false;     // their place was told since the session began
+  bool is_tracked = false;   // place and orientation are told now
+  bool is_oriented = false;  // orientation is: all that some headsets ever tell
 };
 
 // The room's origin has moved: what stood at p in it stands at new_from_old p from now on.

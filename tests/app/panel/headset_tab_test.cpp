@@ -61,6 +61,10 @@ TEST_CASE("without a headset there is no tab of it; with one it tells its frames
   for (const char* words : {"2.0 ms too late", "11.1 ms later than predicted", "focused, not tracked"})
     CHECK_MESSAGE(is_drawn(words), words);
   CHECK(rig.panel.shortened_texts() == 0);
+  rig.input.headset->turns_alone = true;
+  rig.show();
+  CHECK(is_drawn("focused, its place not known"));
+  CHECK(rig.panel.shortened_texts() == 0);
 }
 
 TEST_CASE("the seat is placed by sitting, by its height, by distances, or by touching the knob") {

@@ -42,8 +42,8 @@ Stage& cabin() {
 }
 
 struct Worn {
-  explicit Worn(HeadsetSetup wanted = {}, bool stage_space = true)
-      : window(320, 200, "worn"), setup(std::move(wanted)) {
+  explicit Worn(HeadsetSetup wanted = {}, bool stage_space = true, bool tells_place = true)
+      : window(320, 200, "worn"), setup(std::move(wanted)), placed(tells_place) {
     choose_software_driver();
     xr_test::Control& xr = xr_test::control();
     xr.start();
@@ -51,7 +51,11 @@ struct Worn {
     xr.script.stage_origin = {};  // LOCAL and STAGE are the same: one room
     xr.script.recommended_width = 32;
     xr.script.recommended_height = 32;
-    xr.script.head = [this](double) { return told(head); };
+    xr.script.head = [this](double) {
+      xr_test::Pose pose = told(head);
+      pose.position_valid = placed;
+      return pose;
+    };
     xr.script.hands[1].aim = [this](double) { return told(hand); };
     xr.script.inputs["/user/hand/right/input/trigger/value"] = [this](double) { return trigger ? 1.0 : 0.0; };
     xr.script.inputs["/user/hand/right/input/b/click"] = [this](double) { return menu ? 1.0 : 0.0; };
@@ -114,6 +118,7 @@ struct Worn {
   EyePose head{{0.2, 1.3, -0.4}, glm::angleAxis(-1.1, kUp) * glm::angleAxis(-0.3, dvec3(1, 0, 0))};
   EyePose hand;
   bool trigger = false, menu = false;
+  bool placed = true;  // the headset tells where the head is
   std::unique_ptr<WornHeadset> headset;
 };
 
@@ -259,6 +264,37 @@ TEST_CASE("nobody sits where nothing is shown: a headset that lies on a table is
   for (int i = 0; i < 10; ++i) worn.frame();
   REQUIRE(xr.record.state == XR_SESSION_STATE_FOCUSED);
   check_sits(worn, driver_eye());
+}
+
+TEST_CASE(
+    "a headset that tells no place has its wearer at the wheel, and once it tells one he sits there, or at the lever") {
+  HeadsetSetup setup;
+  setup.seat.height = 0.03;
+  const dvec3 eye = driver_eye() + 0.03 * kUp;
+  for (const bool touched : {false, true}) {
+    CAPTURE(touched);
+    if (touched) setup.seat.touched = kTruth;
+    Worn worn(setup, true, false);
+    check_sits(worn, eye);
+    CHECK(worn.headset->report().turns_alone);
+    const dvec3 ahead = worn.headset->head().orientation * dvec3(0, 0, -1);
+    worn.head.orientation = glm::angleAxis(0.5, kUp) * worn.head.orientation;
+    worn.frame();
+    CHECK(glm::distance(worn.headset->head().position, eye) < 1e-6);
+    const dvec3 turned = worn.headset->head().orientation * dvec3(0, 0, -1);
+    CHECK(glm::distance(turned, glm::angleAxis(0.5, kUp) * ahead) < 1e-6);
+    worn.placed = true;
+    worn.frame();
+    CHECK_FALSE(worn.headset->report().turns_alone);
+    if (touched)
+      CHECK(glm::distance(worn.headset->head().position, kTruth * worn.head.position) < 1e-6);
+    else
+      check_sits(worn, eye);
+    worn.placed = false;  // it is only lost for now: nobody is moved
+    const dvec3 before = worn.headset->head().position;
+    worn.frame();
+    CHECK(glm::distance(worn.headset->head().position, before) < 1e-6);
+  }
 }
 
 TEST_CASE("the room's origin may move: a touched lever stays where it is") {
