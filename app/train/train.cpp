@@ -15,6 +15,7 @@
 #include "app/train/shared_input.h"
 #include "app/train/ui_scale.h"
 #include "app/view/desktop_mirror.h"
+#include "engine/gpu/instance.h"
 #include "engine/ui/ui.h"
 #include "haptics/files/printable.h"
 
@@ -316,6 +317,7 @@ class WindowTrainer {
 
   TrainSetup setup_;
   Window window_;
+  const Instance driver_{GpuConfig{}};  // the Vulkan driver stays loaded while views come and go
   UiContext ui_;
   UiScale ui_scale_;
   Panel panel_;

@@ -180,13 +180,15 @@ begin "it starts" wear restarts --lesson none --hand "by itself" < <(
 process() { pgrep -P $trainer; }
 open_files() { ls "/proc/$(process)/fd" | wc -l; }
 threads() { ls "/proc/$(process)/task" | wc -l; }
+code_kb() { awk '$2 ~ /^rwx/ {own = 1; next} /^[0-9a-f]+-/ {own = 0} own && /^Size:/ {sum += $2} END {print sum + 0}' "/proc/$(process)/smaps"; }
 # As many frames as it takes to be settled: two of a headset that is worn.
 worn_again() { soon 30 told "$found" "$1" && soon 20 has_more_frames "$2"; }
 check "lost and found once" worn_again 2 1
-files=$(open_files) tasks=$(threads)
+files=$(open_files) tasks=$(threads) code=$(code_kb)
 check "and four times" worn_again 5 6
 check "no more open files ($files, $(open_files))" [ "$(open_files)" -le "$files" ]
 check "no more threads ($tasks, $(threads))" [ "$(threads)" -le "$tasks" ]
+check "no driver left its code behind ($code, $(code_kb) KiB)" [ "$(code_kb)" -le $((code + 4096)) ]
 xdotool windowfocus "$window"
 check "its key ends it" ended_by End
 check "it broke no rule" broke_no_rule
