@@ -27,14 +27,17 @@ within 20 has_display || { cat xvfb.err; exit 1; }
 DISPLAY=:$(cat display)
 export DISPLAY
 
-start() { # name of the result, arguments ...
+beneath=()   # what runs the program, and its arguments
+size=640x400 # of the window
+launch() { # name of the result, arguments ...
   local name=$1
   shift
-  timeout 200 "$gearshift" train --size 640x400 "$@" >"$name.txt" 2>"$name.err" &
+  timeout 200 "${beneath[@]}" "$gearshift" train --size $size "$@" >"$name.txt" 2>"$name.err" &
   trainer=$!
   log=$name
-  within 20 find_window && wait_for "running"
+  within 20 find_window
 }
+start() { launch "$@" && wait_for "running"; }
 find_window() { window=$(xdotool search --onlyvisible --name '^gearshift$' 2>/dev/null | head -n 1) && [ -n "$window" ]; }
 said() { [ "$(grep -c -- "$1" "$log.txt")" -ge "${2:-1}" ]; }
 wait_for() { within 20 said "$@"; } # pattern in the log, and how often

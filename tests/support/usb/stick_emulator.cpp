@@ -6,6 +6,7 @@
 // program looks. Its exit status is the program's; at the end it says on stderr how long after the last fault, unplug or
 // the program's end the emulated motors still pushed.
 
+#include <fcntl.h>
 #include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
@@ -23,6 +24,7 @@
 #include <map>
 #include <memory>
 #include <mutex>
+#include <sstream>
 #include <stdexcept>
 #include <string>
 #include <thread>
@@ -35,6 +37,7 @@
 #include "haptics/gate/gate_layout.h"
 #include "haptics/joystick/kinematics.h"
 #include "tests/support/usb/mock_usb.h"
+#include "tests/support/usb/ordered_hand.h"
 #include "tests/support/usb/touring_hand.h"
 
 namespace gearshift {
@@ -49,7 +52,7 @@ struct Options {
   std::string family = "sidewinder", tour;
   std::vector<double> unplug_at, replug_at;
   std::vector<std::string> faults, command;
-  std::filesystem::path log;
+  std::filesystem::path log, orders;
   bool own_power = false;
 };
 
@@ -100,6 +103,8 @@ class Emulation {
   void plan();
   void plug(bool in);
   void plan_fault(const std::string& text);
+  void take_orders(double time);
+  void obey(const std::string& order, double time);
   void start();
   void watch();      // one look
   bool has_ended();  // the program
@@ -112,6 +117,9 @@ class Emulation {
   EmulatedStickConfig config_;
   RestingHand resting_;
   std::unique_ptr<TouringHand> touring_;
+  std::unique_ptr<OrderedHand> ordered_;
+  int orders_ = -1;    // file
+  std::string order_;  // as far as it has come
   std::unique_ptr<EmulatedStick> stick_;
   std::unique_ptr<StickGadget> gadget_;
   std::unique_ptr<MockUsb> usb_;
@@ -127,12 +135,20 @@ class Emulation {
 
 Emulation::Emulation(const Options& options) : options_(options) {
   config_.family = family_of(options.family);
-  if (!options.tour.empty()) config_.lever.hand = kGripHand;  // else nobody holds it
+  if (!options.tour.empty() || !options.orders.empty()) config_.lever.hand = kGripHand;  // else nobody holds it
   config_.own_power = options.own_power;
   if (!options.tour.empty()) {
     touring_ = std::make_unique<TouringHand>(gate_of(options.tour, config_.lever), config_.plant_period);
   }
-  stick_ = std::make_unique<EmulatedStick>(config_, touring_ ? static_cast<HandDriver&>(*touring_) : resting_);
+  if (!options.orders.empty()) {
+    orders_ = open(options.orders.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (orders_ < 0) throw std::runtime_error("cannot read " + options.orders.string());
+    ordered_ = std::make_unique<OrderedHand>(config_.plant_period);
+  }
+  HandDriver* hand = &resting_;
+  if (ordered_) hand = ordered_.get();
+  if (touring_) hand = touring_.get();
+  stick_ = std::make_unique<EmulatedStick>(config_, *hand);
   stick_->logs = !options.log.empty();
   if (stick_->logs) {
     log_.open(options.log);
@@ -174,6 +190,35 @@ void Emulation::plan_fault(const std::string& text) {
                      }});
 }
 
+// What has been written so far, a line each.
+void Emulation::take_orders(double time) {
+  char text[256];
+  for (ssize_t count; orders_ >= 0 && (count = read(orders_, text, sizeof text)) > 0;) {
+    order_.append(text, static_cast<std::size_t>(count));
+  }
+  for (std::size_t end; (end = order_.find('\n')) != std::string::npos; order_.erase(0, end + 1)) {
+    obey(order_.substr(0, end), time);
+  }
+}
+
+void Emulation::obey(const std::string& order, double time) {
+  std::istringstream words(order);
+  std::string what;
+  glm::dvec2 to{0.0};
+  words >> what;
+  const auto next = events_.begin() + static_cast<std::ptrdiff_t>(happened_);
+  if (what == "go" && words >> to.x >> to.y) {
+    const std::lock_guard<std::mutex> lock(usb_->mutex());
+    ordered_->go(1e-3 * to);
+  } else if (what == "unplug") {
+    events_.insert(next, {time, "the unplug", [this] { plug(false); }});
+  } else if (what == "plug") {
+    events_.insert(next, {time, "", [this] { plug(true); }});
+  } else {
+    std::cerr << "stick_emulator: an order that it does not know: " << order << '\n';
+  }
+}
+
 void Emulation::start() {
   std::vector<char*> arguments;
   for (const std::string& each : options_.command) arguments.push_back(const_cast<char*>(each.c_str()));
@@ -195,6 +240,7 @@ double Emulation::event_time() {
 
 void Emulation::watch() {
   const double time = event_time();
+  take_orders(time);
   for (; happened_ < events_.size() && events_[happened_].at <= time; ++happened_) {
     events_[happened_].at = now();
     if (events_[happened_].happen) events_[happened_].happen();
@@ -203,7 +249,11 @@ void Emulation::watch() {
   if (!is_in_) stick_->advance(std::chrono::nanoseconds(Clock::now().time_since_epoch()).count());  // it has no bus
   if (touring_) touring_->work(is_in_ && stick_->actuators_on());  // as who sees on the screen that it is gone
   if (happened_ > 0 && glm::length(stick_->force()) > kFreeOfForce) events_[happened_ - 1].last_force = now();
-  for (const StickMessage& message : stick_->log) log_ << message_line(message) << '\n';
+  for (const StickMessage& message : stick_->log) {
+    char time_text[32];
+    std::snprintf(time_text, sizeof time_text, "%.6f ", 1e-9 * static_cast<double>(message.time_ns));
+    log_ << time_text << message_line(message) << '\n';
+  }
   stick_->log.clear();
 }
 
@@ -260,7 +310,9 @@ int main(int count, char** arguments) {
   each(cli.add_option("--fault", options.faults, "NAME@S: from then on"));
   cli.add_flag("--own-power", options.own_power,
                "its motors are fed from the wall: unplugged, its effects go on to their end");
-  cli.add_option("--log", options.log, "file for all that the stick is told, a message a line");
+  cli.add_option("--log", options.log, "file for all that the stick is told, a message a line after its time [s]");
+  cli.add_option("--orders", options.orders,
+                 "a pipe whose lines say what happens next: go X Y [mm], unplug, plug; a hand holds the lever");
   cli.add_option("program", options.command, "and its arguments, after --")->required();
   CLI11_PARSE(cli, count, arguments);
   try {

@@ -1,0 +1,103 @@
+#!/usr/bin/env bash
+# A real lever and a headset at once, whole: both are found, forces come by Enter alone, the stick is pulled
+# out while the headset is worn, and goes on when the headset is lost; how its cycles go with and without a headset.
+# The stick is emulated beneath the real libusb, the headset is the OpenXR test runtime.
+# Usage: headset_stick.sh GEARSHIFT SOURCE_FOLDER STICK_EMULATOR MANIFEST
+set -u
+manifest=$4
+flows=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+source "$flows/sticks.sh"
+source "$flows/window.sh"
+source "$flows/worn.sh"
+all_known whole
+puts_on=launch
+
+no_word_of_forces() { ! said "guard:"; }
+
+# --- the plug is pulled while the headset is worn
+mkfifo orders
+exec 8<>orders
+order() { echo "$*" >&8; }
+beneath=(umockdev-wrapper "$emulator" --family openffboard --own-power --orders orders --log told.log --)
+begin "stick and headset are found" wear pulled --device ffboard --preset ./patient.toml --lesson none --car none --gate paper </dev/null
+check "of the headset it is told" within 20 told "$found"
+xdotool windowfocus "$window"
+check "the window shows it to others" within 20 shows_picture
+check "no forces so far" no_word_of_forces
+check "Enter gives them" press_for Return "guard: running" 1
+order go 15 0
+sleep 0.2
+order go 15 20 # into the wall beside a slot
+sleep 1
+drawn=$(frames)
+window_picture && cp "$log.png" plugged.png
+order unplug
+check "pulled out, its forces are off" within 5 said "guard: released"
+check "the headset's pictures go on" within 10 has_more_frames $((drawn + 3))
+window_picture
+check "the panel says so" differs plugged.png "$log.png" 3000
+order go 0 0
+order plug
+sleep 1.5
+check "back, it has no forces by itself" [ "$(grep -c "guard: running" pulled.txt)" = 1 ]
+check "but by Enter" press_for Return "guard: running" 2
+check "its key ends it" ended_by End
+check "no rule of the headset's was broken" broke_no_rule
+check "each frame is whole" each_frame_is_whole
+zero() { sed -n "s/^stick_emulator: zero force \([0-9]*\) ms after $1.*/\1/p" "$log.err"; }
+gone_after() { local ms; ms=$(zero "$1") && echo "    zero force $ms ms after $1" && [ -n "$ms" ] && [ "$ms" -le 330 ]; }
+check "it pushed, and was still after an effect's length" gone_after "the unplug"
+check "still after the end" gone_after "the program's end"
+
+# --- the headset is lost while the stick is armed
+beneath=(umockdev-wrapper "$emulator" --family openffboard --tour paper --log lost.log --)
+begin "they are found again" wear lost --device ffboard --preset ./patient.toml --lesson none --car none --gate paper < <(
+  fails 36 xrEndFrame XR_ERROR_RUNTIME_FAILURE
+  for i in 2 3 4 5 6 7; do fails $i xrGetSystem XR_ERROR_FORM_FACTOR_UNAVAILABLE; done)
+check "of the headset it is told again" within 20 told "$found"
+check "the headset is worn" within 30 has_more_frames 4
+xdotool windowfocus "$window"
+check "armed" press_for Return "guard: running" 1
+uptime_now() { read -r now _ </proc/uptime; echo "$now"; }
+armed_at=$(uptime_now)
+rm -rf data/gearshift/recordings
+recorded_at=$(uptime_now)
+key F9
+check "a recording" within 10 recorded
+check "the headset is lost" soon 40 told "$lost"
+lost_at=$(uptime_now)
+sleep 5
+check "the window shows the cabin" within 5 shows_desktop
+gone_at=$(uptime_now)
+check "its forces are on all the time" [ "$(grep -c "guard: released\|guard: damped" lost.txt)" = 0 ]
+
+key F9
+check "the recording is whole" within 10 replays
+check "its key ends it" ended_by End
+# The reports to the stick by its own clock; the cycles before and after the loss, but for a second about it.
+check "the stick was told its forces all the time" python3 - lost.log "$armed_at" "$gone_at" <<'END'
+import sys
+begin, end = map(float, sys.argv[2:])
+times = [t for t in (float(line.split()[0]) for line in open(sys.argv[1]) if " out " in line) if begin < t < end]
+longest = max(b - a for a, b in zip(times, times[1:]))
+print(f"    {len(times)} reports in {end - begin:.1f} s, longest gap {1e3 * longest:.0f} ms")
+sys.exit(not (len(times) > 100 and longest < 0.2 and end - times[-1] < 0.2))
+END
+check "the cycles went on" python3 - lost.csv "$(awk -v a="$recorded_at" -v b="$lost_at" 'BEGIN {print b - a}')" <<'END'
+import csv, sys
+times = [float(row["time_s"]) for row in csv.DictReader(open(sys.argv[1]))]
+start, lost = times[0], float(sys.argv[2])
+ok = True
+for name, part in ("stick and headset", [t for t in times if t - start < lost - 1]), ("stick alone", [t for t in times if t - start > lost + 1]):
+    gaps = sorted(b - a for a, b in zip(part, part[1:]))
+    span = part[-1] - part[0]
+    share = len(part) / (1 + round(1000 * span))
+    print(f"    {name}: {len(part)} cycles in {span:.1f} s, {100 * share:.1f} %; apart p50 {1e3 * gaps[len(gaps) // 2]:.2f}, "
+          f"p99 {1e3 * gaps[len(gaps) * 99 // 100]:.2f}, at most {1e3 * gaps[-1]:.1f} ms")
+    ok = ok and span > 2 and share > 0.8 and gaps[-1] < 0.2
+sys.exit(not ok)
+END
+check "no rule of the headset's was broken" broke_no_rule
+check "its motors are still" gone_after "the program's end"
+check "validation has nothing to say" validates
+finish
