@@ -118,11 +118,13 @@ void WornHeadset::take_seat(const Stage& stage) {
 
 void WornHeadset::draw(const FrameScene& scene, const SeenPart& seen, const SeenPart& card) {
   const DriveSide side = setup_.seat.drive;
-  const glm::dvec3 eye = camera("driver", side).position;
+  const EyePose driver = camera("driver", side);
   const glm::dvec2 size = setup_.view.panel;
-  panel_ = panel_open_ ? hang_panel(eye, side, size) : hang_card(eye, side, size, card.low, card.high);
+  panel_ = panel_open_ ? hang_panel(driver.position, side, size)
+                       : hang_card(driver.position, side, size, card.low, card.high);
   const HeadsetPanel panel = in_room(seating_.cabin_from_room(), panel_);
-  guarded([&] { view_->draw(scene, seating_.cabin_from_room(), &panel, seen); });
+  const EyePose& seat = view_->is_shown() ? seating_.cabin_from_room() : driver;
+  guarded([&] { view_->draw(scene, seat, &panel, seen); });
 }
 
 // The first hand that points at the panel has it.

@@ -61,14 +61,15 @@ struct HeadsetView::State {
         renderer(gpu, two_eyes(config, runtime->traits(), gpu.traits())),
         session(*runtime, gpu, {{renderer.config().width, renderer.config().height}, config.panel}),
         panel(gpu, ui),
-        eyes(session.eyes()) {
+        eyes(session.eyes()),
+        at_origin(session.eyes()) {
     panel.fit({static_cast<std::uint32_t>(config.panel.x), static_cast<std::uint32_t>(config.panel.y)});
     make_mirror(shown_in, ui);
   }
 
   void make_mirror(Window& window, UiContext& ui);
   void show_instructor(const SeenPart& seen);
-  void draw_cabin(const FrameScene& scene, const EyePose& seat, Renderer::Finish* finish);
+  void draw_cabin(const FrameScene& scene, const EyePose& seat, const HeadsetEyes& from, Renderer::Finish* finish);
 
   HeadsetViewConfig config;
   std::unique_ptr<HeadsetRuntime> runtime;
@@ -79,7 +80,7 @@ struct HeadsetView::State {
   std::optional<DesktopMirror> mirror;  // none: the window cannot show it, and the learner goes on
   FrameTimes times;
   std::optional<HeadsetFrame> frame;  // that has begun
-  HeadsetEyes eyes, shown_eyes;
+  HeadsetEyes eyes, shown_eyes, at_origin;
   bool drawn = false;  // there is a picture to be mirrored
 };
 
@@ -154,8 +155,9 @@ void HeadsetView::State::show_instructor(const SeenPart& seen) {
   }
 }
 
-void HeadsetView::State::draw_cabin(const FrameScene& scene, const EyePose& seat, Renderer::Finish* finish) {
-  const std::array<View, 2> views = views_in(seat, eyes, config.near_plane);
+void HeadsetView::State::draw_cabin(const FrameScene& scene, const EyePose& seat, const HeadsetEyes& from,
+                                    Renderer::Finish* finish) {
+  const std::array<View, 2> views = views_in(seat, from, config.near_plane);
   if (finish != nullptr)
     renderer.draw(scene, views, {}, *finish);
   else
@@ -212,10 +214,10 @@ void HeadsetView::draw(const FrameScene& scene, const EyePose& cabin_from_room, 
   if (s.frame && s.frame->is_shown) images = s.session.take_images(panel != nullptr);
   if (images.colour) {
     ToHeadset finish(s.session, *s.frame, images, s.renderer.depth(), s.panel, cabin_from_room, s.config.near_plane);
-    s.draw_cabin(scene, cabin_from_room, &finish);
+    s.draw_cabin(scene, cabin_from_room, s.eyes, &finish);
     s.eyes = s.shown_eyes = finish.eyes();
   } else if (instructor_sees) {
-    s.draw_cabin(scene, cabin_from_room, nullptr);
+    s.draw_cabin(scene, cabin_from_room, is_shown() ? s.eyes : s.at_origin, nullptr);
   }
   if (s.frame) {
     // Without an image for now the last one is shown again, from where it was drawn.

@@ -41,7 +41,8 @@ class HeadsetView {
   std::optional<SpaceChange> take_change();
 
   // Draws from where the eyes are now, shows it, and then to the instructor, in that part of the window. cabin_from_room:
-  // see Seat. panel: in the room; null: it is hidden. Without a frame that has begun the instructor alone sees it.
+  // see Seat. panel: in the room; null: it is hidden. Where no frame is shown the instructor alone sees it, from
+  // cabin_from_room itself: nobody is behind the eyes.
   void draw(const FrameScene& scene, const EyePose& cabin_from_room, const HeadsetPanel* panel, const SeenPart& seen);
 
   const HeadsetTraits& headset() const noexcept;

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# A real lever and a headset at once, whole: both are found, forces come by Enter alone, the stick is pulled
-# out while the headset is worn, and goes on when the headset is lost; how its cycles go with and without a headset.
+# A real lever and a headset at once, whole: both are found, the lever is seen where it is once its knob was touched, forces
+# come by Enter alone, the stick is pulled out while the headset is worn, and goes on when the headset is lost; how its
+# cycles go with and without a headset.
 # The stick is emulated beneath the real libusb, the headset is the OpenXR test runtime.
 # Usage: headset_stick.sh GEARSHIFT SOURCE_FOLDER STICK_EMULATOR MANIFEST
 set -u
@@ -13,17 +14,64 @@ all_known whole
 puts_on=launch
 
 no_word_of_forces() { ! said "guard:"; }
+in_room() { python3 "$flows/lever_in_room.py" "$@"; }
+# The script's clock, as far as it has been shown.
+script_time() { sed -n 's/^frame [0-9]* t=\([0-9.]*\).*/\1/p' "$log/log.txt" | tail -n 1; }
+is_later() { awk -v now="$(script_time)" -v then="$1" 'BEGIN {exit !(now > then)}'; }
+in_round() { within 20 is_later "$(awk -v round="$round" -v t="$1" 'BEGIN {print round + t}')"; }
+click() { # x, y of the window
+  xdotool mousemove --window "$window" "$1" "$2"
+  sleep 0.4
+  xdotool click 1
+  sleep 0.4
+}
 
-# --- the plug is pulled while the headset is worn
+# --- the knob is touched in three gears, nobody has given forces; the plug is pulled while the headset is worn
 mkfifo orders
 exec 8<>orders
 order() { echo "$*" >&8; }
 beneath=(umockdev-wrapper "$emulator" --family openffboard --own-power --orders orders --log told.log --)
-begin "stick and headset are found" wear pulled --device ffboard --preset ./patient.toml --lesson none --car none --gate paper </dev/null
+size=960x600 panel= hang="left -0.3"
+begin "stick and headset are found" wear touched --device ffboard --preset ./patient.toml --lesson none --car none --gate paper < <(
+  echo 'capture = {every = 2}'
+  in_room script)
 check "of the headset it is told" within 20 told "$found"
 xdotool windowfocus "$window"
 check "the window shows it to others" within 20 shows_picture
+# The panel is 960 x 540 in the middle of the window; the tab that is open is blue, and at first that is another.
+tab_is_open() { window_picture && [[ $(convert "$log.png" -crop 1x1+733+144 txt:-) != *"#285C7A"* ]]; }
+opens_tab() { click 935 149 && tab_is_open; }
+check "the panel's XR tab" within 20 opens_tab
+before=$(ls touched/*_left.png | tail -n 1)
+kept() { grep -qs "^\[touched\]" "$seat"; }
+# From a round's last pull to the next round's, the lever where the controller is; kept before another pull comes.
+touch_in_a_round() {
+  round=$(script_time | awk '{print 10 * int(($1 + 1.6) / 10 + 1)}')
+  in_round -1.5
+  click 770 369 # touch the knob
+  in_round 2
+  order go -30 0
+  sleep 0.2
+  order go -30 35.8
+  in_round 5
+  order go -30 0
+  sleep 0.2
+  order go 30 0
+  sleep 0.4
+  order go 30 -35.8
+  in_round 8.4
+  click 750 412 # keep it
+  order go 30 0
+  sleep 0.2
+  order go 0 0
+  within 4 kept
+}
+touch_in_some_round() { touch_in_a_round || touch_in_a_round || touch_in_a_round; } # a machine may be late for one
+check "what was touched is kept" touch_in_some_round
+check "the knob is seen where it is" in_room found "$seat"
 check "no forces so far" no_word_of_forces
+touched=$(ls touched/*_left.png | tail -n 1)
+
 check "Enter gives them" press_for Return "guard: running" 1
 order go 15 0
 sleep 0.2
@@ -39,7 +87,7 @@ check "the panel says so" differs plugged.png "$log.png" 3000
 order go 0 0
 order plug
 sleep 1.5
-check "back, it has no forces by itself" [ "$(grep -c "guard: running" pulled.txt)" = 1 ]
+check "back, it has no forces by itself" [ "$(grep -c "guard: running" touched.txt)" = 1 ]
 check "but by Enter" press_for Return "guard: running" 2
 check "its key ends it" ended_by End
 check "no rule of the headset's was broken" broke_no_rule
@@ -49,14 +97,19 @@ gone_after() { local ms; ms=$(zero "$1") && echo "    zero force $ms ms after $1
 check "it pushed, and was still after an effect's length" gone_after "the unplug"
 check "still after the end" gone_after "the program's end"
 
-# --- the headset is lost while the stick is armed
+# --- the headset is lost while the stick is armed: another day, its room as it stands in truth
+in_room truth "$seat"
 beneath=(umockdev-wrapper "$emulator" --family openffboard --tour paper --log lost.log --)
-begin "they are found again" wear lost --device ffboard --preset ./patient.toml --lesson none --car none --gate paper < <(
+panel=--no-panel hang="left -0.3 right 0.3"
+begin "another day" wear lost --device ffboard --preset ./patient.toml --lesson none --car none --gate paper < <(
+  echo 'capture = {every = 2}'
+  in_room script | grep "^head\|^stage_origin"
   fails 36 xrEndFrame XR_ERROR_RUNTIME_FAILURE
   for i in 2 3 4 5 6 7; do fails $i xrGetSystem XR_ERROR_FORM_FACTOR_UNAVAILABLE; done)
 check "of the headset it is told again" within 20 told "$found"
 check "the headset is worn" within 30 has_more_frames 4
 xdotool windowfocus "$window"
+check "the knob is drawn where it is" in_room drawn "$touched" "$(ls lost/*_left.png | tail -n 1)" "$before"
 check "armed" press_for Return "guard: running" 1
 uptime_now() { read -r now _ </proc/uptime; echo "$now"; }
 armed_at=$(uptime_now)

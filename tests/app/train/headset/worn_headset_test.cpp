@@ -10,8 +10,6 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
-#include "app/train/session.h"
-#include "tests/app/devices/held_stick.h"
 #include "tests/support/gates.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/temp_folder.h"
@@ -380,67 +378,4 @@ TEST_CASE("a headset that is lost is told once, looked for again, and found when
     worn.frame();
     CHECK(worn.headset->is_open());
   }
-}
-
-TEST_CASE("a stick whose knob is touched in three gears is seen where it is in all of them, within the clamp's bound") {
-  const TempFolder folder;
-  HeldStick held;
-  SessionChoice choice;
-  choice.stick = held.lever;
-  choice.gate = "paper";
-  choice.car = std::string(kNoCar);
-  choice.lesson = std::string(kNoLesson);
-  choice.help = false;
-  choice.sound = SoundOutput::none;
-  Session session(choice);
-  HeadsetSetup setup;
-  setup.seat_file = folder.path() / "headset.toml";
-  Worn worn(setup);
-  // The true knob's top, from the stick's own place and the lever's geometry: 0.144 m from the pivot.
-  const auto true_top = [&] {
-    const std::lock_guard lock(held.mutex);
-    const glm::dvec2 at = held.stick.position();
-    const double up = std::sqrt(0.120 * 0.120 - dot(at, at));
-    return dvec3(0.330, 0.007, -0.270) + 1.2 * dvec3(at.x, up, -at.y);
-  };
-  const auto stand = [&](glm::dvec2 at) {
-    for (const glm::dvec2 to : {glm::dvec2(at.x, 0.0), at}) {
-      held.hand.go(to);
-      for (int i = 0; i < 120; ++i) {
-        std::this_thread::sleep_for(std::chrono::milliseconds(5));
-        session.advance(0.005);
-      }
-    }
-    StageInput input;
-    input.lever = session.trainer().snapshot();
-    worn.stage->place(input);
-  };
-  const auto leave = [&](glm::dvec2 at) { stand({at.x, 0.0}), stand({0.0, 0.0}); };
-  const glm::dvec2 gears[] = {{0.0, 0.0}, {-0.030, 0.0358}, {0.030, -0.0358}};
-  const dvec3 off[] = {{0.003, 0.0, 0.0}, {0.0, 0.0, 0.003}, {0.0, 0.003, 0.0}};  // a person's tip
-  worn.ask(&HeadsetRequests::touch);
-  for (int i = 0; i < 3; ++i) {
-    stand(gears[i]);
-    worn.hand = EyePose{inverse(kTruth) * true_top() + off[i], glm::dquat(1, 0, 0, 0)};
-    worn.frame();
-    worn.trigger = true;
-    worn.frame();
-    worn.trigger = false;
-    worn.frame();
-    leave(gears[i]);
-  }
-  worn.ask(&HeadsetRequests::touched);
-  const SeatSettings kept = read_seat(setup.seat_file);
-  REQUIRE(kept.touched);
-  CHECK(kept.touch_error < 0.005);
-  for (const glm::dvec2 gear : gears) {
-    stand(gear);
-    const dvec3 real = inverse(kTruth) * true_top();
-    const double miss = glm::distance(*kept.touched * real, worn.stage->knob_top());
-    MESSAGE("seen ", 1e3 * miss, " mm from where it is; worst touch ", 1e3 * kept.touch_error, " mm");
-    CHECK(miss <= kept.touch_error + 0.0035);  // the tip's 3 mm, and the stick's resolution
-    CHECK(miss < kBound);
-    leave(gear);
-  }
-  CHECK(held.force() == 0.0);  // nobody has armed it
 }
