@@ -49,6 +49,14 @@ EyePose seat_at_lever(const EyePose& head, const SeatPlaces& places, const KnobD
   return placed(turn, head.position + away, places.knob);
 }
 
+double LeverTouches::turned() const {
+  double most = 0.0;
+  for (const Touch& a : touches_)
+    for (const Touch& b : touches_)
+      most = std::max(most, 2.0 * std::acos(std::min(1.0, std::abs(glm::dot(a.held, b.held)))));
+  return most;
+}
+
 // Turned by a about y, (x, z) becomes (x cos a + z sin a, z cos a - x sin a): the sum of squares is least where the sum of
 // products is most.
 std::optional<LeverTouches::Fit> LeverTouches::fit(const EyePose& now) const {

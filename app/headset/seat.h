@@ -37,7 +37,8 @@ EyePose seat_at_lever(const EyePose& head, const SeatPlaces& places, const KnobD
 // The knob was touched in several places of the lever: what a tracked tip says against where the knob is seen.
 class LeverTouches {
  public:
-  void add(glm::dvec3 room, glm::dvec3 cabin) { touches_.push_back({room, cabin}); }
+  // tip: its place in the room, and how the controller is held.
+  void add(const EyePose& tip, glm::dvec3 cabin) { touches_.push_back({tip.position, cabin, tip.orientation}); }
   void forget() { touches_.clear(); }
   std::size_t count() const noexcept { return touches_.size(); }
 
@@ -50,9 +51,14 @@ class LeverTouches {
   // apart leave the direction of `now`. Nothing touched: none.
   std::optional<Fit> fit(const EyePose& now) const;
 
+  // [rad] The most that the controller was turned between two of them. A tip that is told beside where it is shows in the
+  // misfit only by that.
+  double turned() const;
+
  private:
   struct Touch {
     glm::dvec3 room, cabin;
+    glm::dquat held;
   };
   std::vector<Touch> touches_;
 };

@@ -10,6 +10,9 @@ namespace gearshift {
 namespace {
 
 constexpr std::size_t kLeastTouches = 3;
+constexpr double kLeastTurn =
+    0.785;                       // [rad] of the controller between them: a third of a tip's error shows in the misfit
+constexpr double kFarOff = 0.6;  // [m] from the driver's eyes: nobody who sits there has his head
 
 }  // namespace
 
@@ -32,16 +35,23 @@ void Seating::sit(const EyePose& head, glm::dvec3 knob_at_rest, bool keeps_room)
   if (sits_) return;
   sits_ = true;
   places_.knob = knob_at_rest;
-  if (!touched_ && settings_.touched && keeps_room) {
-    touched_ = settings_.touched;
-    touch_error_ = settings_.touch_error;
-  }
+  if (!touched_ && settings_.touched && keeps_room) take_kept_touch(head);
   if (touched_)
     cabin_from_room_ = *touched_;
   else if (settings_.knob)
     cabin_from_room_ = seat_at_lever(head, places_, *settings_.knob);
   else
     cabin_from_room_ = seat_at_eyes(head, places_, settings_.height);
+}
+
+// A room that was set up anew while we did not run tells nothing of it: the lever is somewhere else in it.
+void Seating::take_kept_touch(const EyePose& head) {
+  if (glm::distance(*settings_.touched * head.position, places_.eye) > kFarOff) {
+    news_ = "who sits where the lever was touched is not at the wheel: sit there and recentre, or touch the knob again";
+    return;
+  }
+  touched_ = settings_.touched;
+  touch_error_ = settings_.touch_error;
 }
 
 void Seating::stop_touching() noexcept {
@@ -87,7 +97,7 @@ void Seating::follow(const SpaceChange& change, bool keeps_room) {
   keep();
 }
 
-void Seating::touch(glm::dvec3 tip, glm::dvec3 knob_top) {
+void Seating::touch(const EyePose& tip, glm::dvec3 knob_top) {
   touches_.add(tip, knob_top);
   fit_ = *touches_.fit(cabin_from_room_);
   cabin_from_room_ = fit_.cabin_from_room;
@@ -96,6 +106,10 @@ void Seating::touch(glm::dvec3 tip, glm::dvec3 knob_top) {
 void Seating::keep_touched(double bound, bool keeps_room) {
   if (touches_.count() < kLeastTouches || !fit_.turned) {
     news_ = "touch the knob in three gears or more that lie apart";
+    return;
+  }
+  if (touches_.turned() < kLeastTurn) {
+    news_ = "turn the controller between the touches, by 45 degrees or more: touch again";
     return;
   }
   if (fit_.worst > bound) {

@@ -30,7 +30,7 @@ class Seating {
   void follow(const SpaceChange& change, bool keeps_room);
 
   bool touches() const noexcept { return touching_; }
-  void touch(glm::dvec3 tip, glm::dvec3 knob_top);  // in the room, in the cabin
+  void touch(const EyePose& tip, glm::dvec3 knob_top);  // in the room, in the cabin
   // bound [m]: how far felt and seen lever may be apart.
   void obey(const HeadsetRequests& requests, double bound, bool keeps_room);
 
@@ -39,6 +39,7 @@ class Seating {
   std::string take_news();  // one sentence, once; empty: none
 
  private:
+  void take_kept_touch(const EyePose& head);
   void keep_touched(double bound, bool keeps_room);
   void stop_touching() noexcept;
 

@@ -110,6 +110,7 @@ class WindowTrainer {
   }
 
   bool wears() const { return headset_ && headset_->is_open(); }
+  bool is_worn() const { return headset_ && headset_->is_worn(); }  // now
 
   std::unique_ptr<CabinView> desktop_view() { return std::make_unique<CabinView>(setup_.view, &window_, &ui_); }
 
@@ -155,6 +156,7 @@ class WindowTrainer {
     input_.feel(session_.trainer().snapshot().lever);
     session_.set_mouse_leads(input_.mouse_leads());
     const WindowInput& polled = window_.poll();
+    if (wears() && headset_->take_opened()) panel_.set_visible(true);
     pointer_ = pointer_at_panel();
     pointing_.follow(polled, input_.mouse_leads(), pointer_, panel_size(), seconds_);
     shared_.update(polled, seconds_, mouse_at_panel(polled.mouse), panel_, ui_, pointing_.pointer());
@@ -172,9 +174,9 @@ class WindowTrainer {
 
   // Who wears a headset looks with the head alone: no camera is moved for him.
   void look() {
-    const bool points = wears() && (pointer_ || !headset_->pointer());
+    const bool points = is_worn() && (pointer_ || !headset_->pointer());
     session_.set_pointer(points ? headset_->beam() : std::nullopt);
-    if (wears()) {
+    if (is_worn()) {
       session_.set_ears(headset_->head());
       session_.set_seen_offset(headset_->touch_error());
       return;
@@ -298,7 +300,8 @@ class WindowTrainer {
       if (session_.take_new_model() || fresh_view_) headset_->set_model(session_.stage().model());
       fresh_view_ = false;
       if (!wears()) return;  // it was lost with that
-      headset_->draw(session_.stage().scene(), seen_beside(panel_, panel_size()), card_in(panel_, panel_size()));
+      headset_->draw(session_.stage().scene(), seen_beside(panel_, panel_size()), card_in(panel_, panel_size()),
+                     look_.pose());
       return;
     }
     if (!view_) return;  // the headset was lost in this frame

@@ -8,8 +8,9 @@
 namespace gearshift {
 namespace {
 
-constexpr auto kPause = std::chrono::seconds(2);  // between two looks for a headset
-constexpr double kTip = 0.10;                     // [m] of the ray of a hand that touches: where it begins is the tip
+constexpr std::chrono::seconds kPause(2), kLongestPause(60);  // between two looks for a headset
+constexpr std::chrono::seconds kPutDown(1);                   // after which it is told: who leaves puts it down, too
+constexpr double kTip = 0.10;  // [m] of the ray of a hand that touches: where it begins is the tip
 
 HeadsetPanel in_room(const EyePose& cabin_from_room, const HangingPanel& panel) {
   return {inverse(cabin_from_room) * panel.pose, panel.size, panel.low, panel.high};
@@ -32,8 +33,8 @@ WornHeadset::WornHeadset(const HeadsetSetup& setup, Window& window, UiContext& u
 
 bool WornHeadset::is_found() {
   const auto now = std::chrono::steady_clock::now();
-  if (view_ || !tries_ || now < next_try_) return false;
-  next_try_ = now + kPause;
+  if (view_ || now < next_try_) return false;
+  next_try_ = now + pause_;
   try {
     found_ = std::make_unique<HeadsetRuntime>();
     return true;
@@ -56,10 +57,11 @@ bool WornHeadset::open() {
     view_ = std::make_unique<HeadsetView>(setup_.view, std::move(found_), window_, ui_);
   } catch (const std::exception& error) {  // of the runtime or of the GPU
     lose(error.what());
-    tries_ = was_open_;  // what never could be shown is not tried again
+    pause_ = std::min(2 * pause_, kLongestPause);  // each try takes the desktop's picture away
+    next_try_ = std::chrono::steady_clock::now() + pause_;
     return false;
   }
-  was_open_ = true;
+  pause_ = kPause;
   told_.clear();
   news_ = fmt::format("{} at {}", view_->headset().headset, view_->headset().runtime);
   return true;
@@ -97,14 +99,30 @@ bool WornHeadset::begin(const Stage& stage) {
   guarded([&] {
     worn = view_->begin();
     wants_exit_ = wants_exit_ || view_->state() == HeadsetState::exiting;
-    if (std::exchange(worn_, worn) && !worn) seating_.stand_up();
-    if (!worn) return;
+    if (std::string news = view_->take_news(); !news.empty()) news_ = "the window does not show it: " + news;
+    if (std::exchange(worn_, worn) && !worn) put_down();
+    tell_put_down();
+    if (!view_->has_begun()) return;
     while (const std::optional<SpaceChange> change = view_->take_change())
       seating_.follow(*change, view_->keeps_room());
     if (view_->is_shown()) take_seat(stage);
     follow_hands(stage);
   });
   return worn && view_ != nullptr;
+}
+
+void WornHeadset::put_down() {
+  seating_.stand_up();
+  pointer_.reset();
+  beam_.reset();
+  put_down_ = std::chrono::steady_clock::now();
+}
+
+void WornHeadset::tell_put_down() {
+  if (worn_ || wants_exit_) put_down_.reset();
+  if (!put_down_ || std::chrono::steady_clock::now() - *put_down_ < kPutDown) return;
+  put_down_.reset();
+  news_ = "the headset is put down; the desktop shows the cabin";
 }
 
 // Some headsets never tell a place, and some not at first: the head is at the wheel all the same, and sits down anew once
@@ -116,14 +134,14 @@ void WornHeadset::take_seat(const Stage& stage) {
   if (seen) seating_.sit(between(eyes), stage.knob_at_rest(), eyes.is_known && view_->keeps_room());
 }
 
-void WornHeadset::draw(const FrameScene& scene, const SeenPart& seen, const SeenPart& card) {
+void WornHeadset::draw(const FrameScene& scene, const SeenPart& seen, const SeenPart& card, const EyePose& desk) {
   const DriveSide side = setup_.seat.drive;
   const EyePose driver = camera("driver", side);
   const glm::dvec2 size = setup_.view.panel;
   panel_ = panel_open_ ? hang_panel(driver.position, side, size)
                        : hang_card(driver.position, side, size, card.low, card.high);
   const HeadsetPanel panel = in_room(seating_.cabin_from_room(), panel_);
-  const EyePose& seat = view_->is_shown() ? seating_.cabin_from_room() : driver;
+  const EyePose& seat = view_->is_shown() ? seating_.cabin_from_room() : desk;
   guarded([&] { view_->draw(scene, seat, &panel, seen); });
 }
 
@@ -136,7 +154,7 @@ void WornHeadset::follow_hands(const Stage& stage) {
     const HeadsetHand& hand = hands[i];
     const bool selected = std::exchange(selected_[i], hand.selects), had_menu = std::exchange(menu_[i], hand.menu);
     const bool pressed = hand.selects && !selected;
-    if (hand.menu && !had_menu) panel_open_ = !panel_open_;
+    if (hand.menu && !had_menu) opened_ = panel_open_ = !panel_open_;
     if (!hand.is_tracked) continue;
     const EyePose aim = seating_.cabin_from_room() * hand.aim;
     const glm::dvec3 along = aim.orientation * glm::dvec3(0.0, 0.0, -1.0);
@@ -146,7 +164,7 @@ void WornHeadset::follow_hands(const Stage& stage) {
       beam_ = Beam{aim.position, aim.position + hit->distance * along};
     } else if (seating_.touches()) {
       beam_ = Beam{aim.position, aim.position + kTip * along};
-      if (pressed) seating_.touch(hand.aim.position, stage.knob_top());
+      if (pressed && hand.is_seen) seating_.touch(hand.aim, stage.knob_top());
     }
   }
 }

@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 
 #include "app/headset/hanging_panel.h"
 #include "app/headset/headset_report.h"
@@ -34,14 +35,16 @@ class WornHeadset {
   // What is_found() has found becomes the view. False where that fails: news() says why.
   bool open();
   bool is_open() const noexcept { return view_ != nullptr; }
+  bool is_worn() const noexcept { return view_ && worn_; }
 
   void set_model(const Model& model);  // of the stage; also while nothing is open
 
   // A frame, in this order. begin(): waits for the headset's next frame and places the seat; false where nobody wears it
   // now, and the caller paces. Where the headset is lost everything of it is gone: is_open() says so, news() why.
   bool begin(const Stage& stage);
-  // seen: what the panel leaves to the cabin; card: the same with a learner's card.
-  void draw(const FrameScene& scene, const SeenPart& seen, const SeenPart& card);
+  // seen: what the panel leaves to the cabin; card: the same with a learner's card; desk: from where the window shows the
+  // cabin while nobody sees through the headset.
+  void draw(const FrameScene& scene, const SeenPart& seen, const SeenPart& card, const EyePose& desk);
 
   // Of the frame that has begun.
   EyePose head() const;  // in the cabin, midway between the eyes
@@ -53,6 +56,7 @@ class WornHeadset {
   const std::optional<Pointer>& pointer() const noexcept { return pointer_; }  // of the hand that points at the panel
   const std::optional<Beam>& beam() const noexcept { return beam_; }           // from that hand, in the cabin
   bool wants_exit() const noexcept { return wants_exit_; }
+  bool take_opened() noexcept { return std::exchange(opened_, false); }  // a menu button asked for the whole panel
 
   void recentre() noexcept { seating_.recentre(); }
   void obey(const HeadsetRequests& requests, double bound);  // bound [m]: how far felt and seen lever may be apart
@@ -65,6 +69,8 @@ class WornHeadset {
   void lose(const std::string& why);
   template <class Deed>
   void guarded(const Deed& deed);
+  void put_down();
+  void tell_put_down();
   void take_seat(const Stage& stage);
   void follow_hands(const Stage& stage);
 
@@ -74,12 +80,12 @@ class WornHeadset {
   std::unique_ptr<HeadsetRuntime> found_;
   std::unique_ptr<HeadsetView> view_;
   std::chrono::steady_clock::time_point next_try_{};
-  bool tries_ = true;  // again: not where what was found could never be shown
-  bool was_open_ = false;
+  std::chrono::seconds pause_{2};
   std::string told_;  // the last of what is looked for in vain
 
   Seating seating_;
-  bool worn_ = false;    // in the frame before
+  bool worn_ = false;                                              // in the frame before
+  std::optional<std::chrono::steady_clock::time_point> put_down_;  // and not yet told
   bool placed_ = false;  // where the head is has been told; until then it sits where it looks from
 
   HangingPanel panel_;
@@ -87,6 +93,7 @@ class WornHeadset {
   std::optional<Beam> beam_;
   std::array<bool, 2> selected_{}, menu_{};  // in the frame before
   bool panel_open_ = false;                  // all of it, not the learner's card alone: by the hand's menu button
+  bool opened_ = false;                      // just now
   bool wants_exit_ = false;
   std::string news_;
 };

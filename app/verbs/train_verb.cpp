@@ -69,7 +69,9 @@ HeadsetSetup headset_setup(const TrainArguments& arguments) {
   const std::filesystem::path folder = config_folder();
   if (!folder.empty()) setup.seat_file = folder / "headset.toml";
   if (!setup.seat_file.empty()) setup.seat = read_seat(setup.seat_file);
-  setup.seat.drive = drive_side(arguments, setup.seat.drive);
+  const DriveSide kept = setup.seat.drive;
+  setup.seat.drive = drive_side(arguments, kept);
+  if (setup.seat.drive != kept) setup.seat.touched.reset();  // the lever was at his other hand
   if (arguments.height) setup.seat.height = *arguments.height;
   if (arguments.knob.size() == 3)
     setup.seat.knob = KnobDistance{arguments.knob[0], arguments.knob[1], arguments.knob[2]};

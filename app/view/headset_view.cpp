@@ -1,6 +1,7 @@
 #include "app/view/headset_view.h"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <utility>
 
@@ -14,6 +15,7 @@ namespace {
 
 // [1] of the tangents: see RenderConfig::late_margin
 constexpr float kLateMargin = 0.1f;
+constexpr std::chrono::milliseconds kPatience(50);  // for a frame
 
 GpuConfig shared_with(HeadsetRuntime& runtime) {
   GpuConfig config = gpu_config(true);
@@ -80,6 +82,8 @@ struct HeadsetView::State {
   std::optional<DesktopMirror> mirror;  // none: the window cannot show it, and the learner goes on
   FrameTimes times;
   std::optional<HeadsetFrame> frame;  // that has begun
+  bool is_shown = false;              // of the last one
+  std::string news;
   HeadsetEyes eyes, shown_eyes, at_origin;
   bool drawn = false;  // there is a picture to be mirrored
 };
@@ -141,7 +145,8 @@ void HeadsetView::State::make_mirror(Window& window, UiContext& ui) {
     mirror.emplace(gpu, window, ui, config.panel);
   } catch (const GpuLost&) {
     throw;
-  } catch (const GpuError&) {
+  } catch (const GpuError& error) {
+    news = error.what();
   }
 }
 
@@ -150,8 +155,9 @@ void HeadsetView::State::show_instructor(const SeenPart& seen) {
     mirror->show(renderer.colour(), seen);
   } catch (const GpuLost&) {
     throw;
-  } catch (const GpuError&) {
+  } catch (const GpuError& error) {
     mirror.reset();
+    news = error.what();
   }
 }
 
@@ -183,15 +189,22 @@ bool HeadsetView::begin() {
   s.session.poll();
   if (!s.session.runs()) {
     s.times.pause();
+    s.is_shown = false;
     return false;
   }
-  s.frame = s.session.wait();
+  s.frame = s.session.wait(kPatience);
+  if (!s.frame) return true;
+  s.is_shown = s.frame->is_shown;
   s.eyes = s.session.locate(*s.frame);
   return true;
 }
 
+bool HeadsetView::has_begun() const noexcept {
+  return state_->frame.has_value();
+}
+
 bool HeadsetView::is_shown() const noexcept {
-  return state_->frame && state_->frame->is_shown;
+  return state_->is_shown;
 }
 
 const HeadsetEyes& HeadsetView::eyes() const noexcept {
@@ -223,7 +236,7 @@ void HeadsetView::draw(const FrameScene& scene, const EyePose& cabin_from_room, 
     // Without an image for now the last one is shown again, from where it was drawn.
     const bool shows = s.frame->is_shown;
     s.session.end(*s.frame, shows ? &s.shown_eyes : nullptr, s.config.near_plane, shows ? panel : nullptr);
-    s.times.take(*s.frame, s.session.now_ns(), s.renderer.times().all);
+    s.times.take(*s.frame, s.session.now_ns(), images.colour ? s.renderer.times().all : 0.0);
     s.frame.reset();
   }
   if (instructor_sees && s.drawn) s.show_instructor(seen);
@@ -247,6 +260,10 @@ const HeadsetTiming& HeadsetView::timing() const noexcept {
 
 glm::ivec2 HeadsetView::eye_size() const noexcept {
   return {state_->renderer.config().width, state_->renderer.config().height};
+}
+
+std::string HeadsetView::take_news() {
+  return std::exchange(state_->news, {});
 }
 
 std::uint64_t HeadsetView::validation_messages() const {

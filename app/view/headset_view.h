@@ -5,6 +5,7 @@
 #include <array>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "app/view/seen_part.h"
 #include "engine/model/model.h"
@@ -32,12 +33,14 @@ class HeadsetView {
   void set_model(const Model& model);
 
   // Takes what the headset tells. Where it is worn, waits for its next frame and finds the eyes: true, and draw() must
-  // follow. Throws HeadsetLost: all of this is to be made anew; so do the others.
+  // follow. Where the runtime holds the frame back for 50 ms, none has begun: the lever's keys do not wait for it.
+  // Throws HeadsetLost: all of this is to be made anew; so do the others.
   bool begin();
-  // Of the frame that has begun.
-  bool is_shown() const noexcept;            // to somebody, says the runtime
+  bool has_begun() const noexcept;           // a frame
+  bool is_shown() const noexcept;            // to somebody, said the runtime of its last frame
   const HeadsetEyes& eyes() const noexcept;  // in the room
-  std::array<HeadsetHand, 2> hands();        // in the room: left, right
+  // Of the frame that has begun.
+  std::array<HeadsetHand, 2> hands();  // in the room: left, right
   std::optional<SpaceChange> take_change();
 
   // Draws from where the eyes are now, shows it, and then to the instructor, in that part of the window. cabin_from_room:
@@ -51,6 +54,7 @@ class HeadsetView {
   const HeadsetTiming& timing() const noexcept;
   glm::ivec2 eye_size() const noexcept;  // [px]
   std::uint64_t validation_messages() const;
+  std::string take_news();  // why the window shows nothing, once; empty: it does
 
  private:
   struct State;

@@ -122,6 +122,7 @@ HeadsetHand HeadsetHands::read(std::size_t hand, XrSpace space, XrTime time) con
   check(xrLocateSpace(aim_space_[hand], space, time, &place), "xrLocateSpace");
   constexpr XrSpaceLocationFlags kBoth = XR_SPACE_LOCATION_POSITION_VALID_BIT | XR_SPACE_LOCATION_ORIENTATION_VALID_BIT;
   out.is_tracked = (place.locationFlags & kBoth) == kBoth;
+  out.is_seen = (place.locationFlags & XR_SPACE_LOCATION_POSITION_TRACKED_BIT) != 0;
   if (out.is_tracked) out.aim = pose_of(place.pose);
   out.selects = is_pressed(select_, hand_[hand]);
   out.menu = is_pressed(menu_, hand_[hand]);

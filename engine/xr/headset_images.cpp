@@ -5,7 +5,7 @@
 namespace gearshift {
 namespace {
 
-constexpr XrDuration kPatience = 100'000'000;  // [ns] longer than a frame of any headset
+constexpr XrDuration kAtTheEnd = 100'000'000;  // [ns] longer than a frame of any headset
 
 bool is_depth(VkFormat format) {
   return format == VK_FORMAT_D32_SFLOAT;
@@ -64,7 +64,7 @@ HeadsetImages::HeadsetImages(XrSession session, const Gpu& gpu, glm::ivec2 size,
 HeadsetImages::~HeadsetImages() {
   if (hold_ == Hold::acquired) {
     XrSwapchainImageWaitInfo wait{XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO};
-    wait.timeout = kPatience;
+    wait.timeout = kAtTheEnd;
     if (xrWaitSwapchainImage(swapchain_, &wait) == XR_SUCCESS) hold_ = Hold::ours;
   }
   const XrSwapchainImageReleaseInfo release{XR_TYPE_SWAPCHAIN_IMAGE_RELEASE_INFO};
@@ -72,7 +72,7 @@ HeadsetImages::~HeadsetImages() {
   xrDestroySwapchain(swapchain_);
 }
 
-GpuImage* HeadsetImages::take() {
+GpuImage* HeadsetImages::take(XrDuration patience) {
   if (hold_ == Hold::none) {
     const XrSwapchainImageAcquireInfo acquire{XR_TYPE_SWAPCHAIN_IMAGE_ACQUIRE_INFO};
     check(xrAcquireSwapchainImage(swapchain_, &acquire, &index_), "xrAcquireSwapchainImage");
@@ -80,7 +80,7 @@ GpuImage* HeadsetImages::take() {
   }
   if (hold_ == Hold::acquired) {
     XrSwapchainImageWaitInfo wait{XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO};
-    wait.timeout = kPatience;
+    wait.timeout = patience;
     const XrResult result = xrWaitSwapchainImage(swapchain_, &wait);
     check(result, "xrWaitSwapchainImage");
     if (result == XR_TIMEOUT_EXPIRED) return nullptr;

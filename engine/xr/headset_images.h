@@ -19,7 +19,7 @@ class HeadsetImages {
 
   // The next image, in copy_to after a transition; null where the runtime has none free for now: nothing is drawn then.
   // Until give() it is ours.
-  GpuImage* take();
+  GpuImage* take(XrDuration patience);  // [ns]
   void give();  // after the submission that writes it, which leaves it as it was got: see ready_to_give()
   void ready_to_give(VkCommandBuffer commands);
 

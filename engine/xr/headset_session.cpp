@@ -1,6 +1,7 @@
 #include "engine/xr/headset_session.h"
 
 #include <algorithm>
+#include <future>
 #include <limits>
 #include <vector>
 
@@ -15,7 +16,9 @@ namespace {
 constexpr VkFormat kPictureFormats[] = {VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_B8G8R8A8_SRGB,
                                         VK_FORMAT_R16G16B16A16_SFLOAT};
 constexpr VkFormat kDepthFormats[] = {VK_FORMAT_D32_SFLOAT};
-constexpr double kEyeDistance = 0.063;  // [m] until the eyes are seen
+constexpr double kEyeDistance = 0.063;            // [m] until the eyes are seen
+constexpr XrDuration kPatience = 100'000'000;     // [ns] for an image of the eyes: longer than a frame of any headset
+constexpr XrDuration kShortPatience = 5'000'000;  // [ns] for depth and panel, without which a frame is shown, too
 
 std::vector<XrReferenceSpaceType> spaces_of(XrSession session) {
   return list_of<XrReferenceSpaceType>("xrEnumerateReferenceSpaces", XR_REFERENCE_SPACE_TYPE_VIEW,
@@ -92,6 +95,11 @@ struct HeadsetSession::State {
   glm::dvec3 middle{0.0};             // [m] between them
   std::array<glm::dvec3, 2> aside{};  // [m] from there, in the head
   std::vector<Pending> pending;
+  struct Awaited {
+    XrResult result;
+    XrFrameState told;
+  };
+  std::future<Awaited> awaited;  // beside us: see wait()
 };
 
 HeadsetSession::State::State(HeadsetRuntime& runtime, Gpu& device, const HeadsetConfig& config)
@@ -122,6 +130,7 @@ HeadsetSession::State::State(HeadsetRuntime& runtime, Gpu& device, const Headset
 }
 
 HeadsetSession::State::~State() {
+  if (awaited.valid()) awaited.wait();
   gpu.wait_idle();  // the runtime's images may still be written
   hands.reset();
   colour.reset();
@@ -246,6 +255,7 @@ HeadsetSession::~HeadsetSession() = default;
 
 void HeadsetSession::poll() {
   State& s = *state_;
+  if (s.awaited.valid()) return;
   while (true) {
     XrEventDataBuffer event{XR_TYPE_EVENT_DATA_BUFFER};
     const XrResult result = xrPollEvent(s.xr.instance, &event);
@@ -281,10 +291,18 @@ std::int64_t HeadsetSession::now_ns() const {
   return time;
 }
 
-HeadsetFrame HeadsetSession::wait() {
+std::optional<HeadsetFrame> HeadsetSession::wait(std::chrono::milliseconds patience) {
   State& s = *state_;
-  XrFrameState told{XR_TYPE_FRAME_STATE};
-  check(xrWaitFrame(s.session, nullptr, &told), "xrWaitFrame");
+  if (!s.awaited.valid()) {
+    s.awaited = std::async(std::launch::async, [session = s.session] {
+      State::Awaited frame{XR_SUCCESS, {XR_TYPE_FRAME_STATE}};
+      frame.result = xrWaitFrame(session, nullptr, &frame.told);
+      return frame;
+    });
+  }
+  if (s.awaited.wait_for(patience) == std::future_status::timeout) return std::nullopt;
+  const auto [result, told] = s.awaited.get();
+  check(result, "xrWaitFrame");
   HeadsetFrame frame;
   frame.woken_ns = now_ns();
   check(xrBeginFrame(s.session, nullptr), "xrBeginFrame");
@@ -324,10 +342,10 @@ std::optional<SpaceChange> HeadsetSession::take_change(const HeadsetFrame& frame
 HeadsetSession::Images HeadsetSession::take_images(bool with_panel) {
   State& s = *state_;
   Images images;
-  images.colour = s.colour->take();
+  images.colour = s.colour->take(kPatience);
   if (!images.colour) return {};  // nothing is drawn
-  if (s.depth) images.depth = s.depth->take();
-  if (with_panel && s.panel) images.panel = s.panel->take();
+  if (s.depth) images.depth = s.depth->take(kShortPatience);
+  if (with_panel && s.panel) images.panel = s.panel->take(kShortPatience);
   s.depth_of_frame = images.depth != nullptr;
   return images;
 }

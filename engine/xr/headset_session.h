@@ -4,6 +4,7 @@
 #pragma once
 
 #include <array>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -58,6 +59,7 @@ struct SpaceChange {
 
 struct HeadsetHand {
   bool is_tracked = false;
+  bool is_seen = false;    // now: its place is no guess
   EyePose aim;             // points along its -Z
   bool selects = false;    // trigger
   bool menu = false;       // button
@@ -77,14 +79,17 @@ class HeadsetSession {
   HeadsetSession(HeadsetRuntime& runtime, Gpu& gpu, const HeadsetConfig& config);
   ~HeadsetSession();  // waits until the device is idle
 
-  // What the runtime has told since the last poll: the session begins and ends as it asks. Throws HeadsetLost.
+  // What the runtime has told since the last poll: the session begins and ends as it asks. While a frame is waited for
+  // nothing is taken. Throws HeadsetLost.
   void poll();
   HeadsetState state() const noexcept;
   bool runs() const noexcept;                // frames are wanted: wait() paces them
   const HeadsetEyes& eyes() const noexcept;  // as they were located last; before that, side by side at the origin
   bool is_stage() const noexcept;            // poses are in a room that stays from one day to the next
 
-  HeadsetFrame wait();  // until the runtime wants the next frame, which it begins. Throws HeadsetLost
+  // Until the runtime wants the next frame, which it begins. None: it does not want one yet, the waiting goes on beside
+  // us, and the next call takes it up. A runtime may hold a frame back for as long as it likes. Throws HeadsetLost.
+  std::optional<HeadsetFrame> wait(std::chrono::milliseconds patience);
   HeadsetEyes locate(const HeadsetFrame& frame);
   std::array<HeadsetHand, 2> hands(const HeadsetFrame& frame);        // left, right; none while not focused
   std::optional<SpaceChange> take_change(const HeadsetFrame& frame);  // once its time has come

@@ -12,6 +12,8 @@ using glm::dvec3;
 
 namespace {
 
+const glm::dquat kHeld(1.0, 0.0, 0.0, 0.0);
+
 constexpr SeatPlaces kPlaces{{0.0, 0.635, 0.05}, {0.33, 0.127, -0.27}};
 constexpr dvec3 kUp{0.0, 1.0, 0.0};
 
@@ -76,7 +78,7 @@ TEST_CASE("touches in six gears find turn and shift of any room, exactly where t
     for (const double select : {-0.036, 0.0, 0.036})
       for (const double shift : {-0.04, 0.04}) {
         const dvec3 knob = kPlaces.knob + dvec3(select, -0.003, -shift);
-        touches.add(room_from_cabin * knob, knob);
+        touches.add({room_from_cabin * knob, kHeld}, knob);
       }
     const auto fit = touches.fit({});
     REQUIRE(fit);
@@ -98,7 +100,7 @@ TEST_CASE("trembling touches are least squares: no other turn or shift near by h
   for (int i = 0; i < 12; ++i) {
     const dvec3 knob = kPlaces.knob + dvec3(0.036 * (i % 3 - 1), 0.0, i % 2 == 0 ? 0.04 : -0.04);
     const dvec3 told = room_from_cabin * knob + dvec3(tremble(dice), tremble(dice), tremble(dice));
-    touches.add(told, knob);
+    touches.add({told, kHeld}, knob);
     pairs.push_back({told, knob});
   }
   const auto fit = touches.fit({});
@@ -128,12 +130,44 @@ TEST_CASE("trembling touches are least squares: no other turn or shift near by h
         0.05);
 }
 
+// About one axis by a, about another by b: cos(c/2) = cos(a/2) cos(b/2) between the two.
+TEST_CASE("how far the controller was turned is the most between any two touches") {
+  LeverTouches touches;
+  CHECK(touches.turned() == 0.0);
+  touches.add({{}, glm::angleAxis(0.3, kUp)}, kPlaces.knob);
+  CHECK(touches.turned() == doctest::Approx(0.0));
+  touches.add({{}, -glm::angleAxis(0.9, kUp)}, kPlaces.knob);  // the same turn, told with the other sign
+  CHECK(touches.turned() == doctest::Approx(0.6));
+  touches.add({{}, glm::angleAxis(0.3, kUp) * glm::angleAxis(0.8, dvec3(1, 0, 0))}, kPlaces.knob);
+  CHECK(touches.turned() == doctest::Approx(2.0 * std::acos(std::cos(0.3) * std::cos(0.4))));
+}
+
+// What the comment of kLeastTurn says (seating.cpp): a third of a tip's error is seen.
+TEST_CASE(
+    "a tip that is told beside shows in the misfit by a third and more where the controller was turned by 45 degrees") {
+  for (const dvec3 tip : {dvec3(0.03, 0, 0), dvec3(0, 0, 0.03)}) {
+    LeverTouches still, turned;
+    const dvec3 gears[] = {{0.0, 0.0, 0.0}, {-0.036, 0.0, -0.04}, {0.036, 0.0, 0.04}};
+    for (int i = 0; i < 3; ++i) {
+      const dvec3 knob = kPlaces.knob + gears[i];
+      still.add({knob + tip, kHeld}, knob);
+      const glm::dquat held = glm::angleAxis(0.3927 * (i - 1), kUp);
+      turned.add({knob + held * tip, held}, knob);
+    }
+    CHECK(still.fit({})->worst < 1e-12);  // and not at all where it was not
+    const double share = turned.fit({})->worst / 0.03;
+    MESSAGE("a share of " << share << " is seen");
+    CHECK(share > 1.0 / 3.0);
+  }
+}
+
 TEST_CASE("one touch shifts and leaves the direction") {
   LeverTouches touches;
   CHECK_FALSE(touches.fit({}));
   const EyePose now{{0.1, 0.2, 0.3}, glm::angleAxis(-0.4, kUp)};
-  touches.add({2.0, 1.0, 0.5}, kPlaces.knob);
-  touches.add({2.0, 1.0, 0.508}, kPlaces.knob + dvec3(0.008, 0, 0));  // as far apart as a hand trembles: no direction
+  touches.add({{2.0, 1.0, 0.5}, kHeld}, kPlaces.knob);
+  touches.add({{2.0, 1.0, 0.508}, kHeld},
+              kPlaces.knob + dvec3(0.008, 0, 0));  // as far apart as a hand trembles: no direction
   const auto fit = touches.fit(now);
   REQUIRE(fit);
   CHECK_FALSE(fit->turned);

@@ -92,12 +92,10 @@ struct SessionRig {
   std::optional<HeadsetFrame> turn() {
     session->poll();
     if (!session->runs()) return std::nullopt;
-    const HeadsetFrame frame = session->wait();
+    const HeadsetFrame frame = session->wait(std::chrono::hours(1)).value();
     eyes = session->locate(frame);
     HeadsetSession::Images images;
-    if (frame.is_shown) {
-      images = session->take_images(panel.has_value());
-    }
+    if (frame.is_shown) images = session->take_images(panel.has_value());
     if (images.colour) {
       draw(images);
       eyes = session->locate(frame);

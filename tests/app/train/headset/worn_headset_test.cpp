@@ -56,7 +56,11 @@ struct Worn {
       pose.position_valid = placed;
       return pose;
     };
-    xr.script.hands[1].aim = [this](double) { return told(hand); };
+    xr.script.hands[1].aim = [this](double) {
+      xr_test::Pose pose = told(hand);
+      pose.tracked = seen;
+      return pose;
+    };
     xr.script.inputs["/user/hand/right/input/trigger/value"] = [this](double) { return trigger ? 1.0 : 0.0; };
     xr.script.inputs["/user/hand/right/input/b/click"] = [this](double) { return menu ? 1.0 : 0.0; };
     setup.view.samples = 1;
@@ -77,7 +81,7 @@ struct Worn {
     ui.begin({320.0f, 200.0f, 0.01f, 1.0f});
     ui.end();
     (void)headset->begin(*stage);
-    if (headset->is_open()) headset->draw({}, {}, {{0.25, 0.0}, {0.75, 0.8}});
+    if (headset->is_open()) headset->draw({}, {}, {{0.25, 0.0}, {0.75, 0.8}}, camera("driver"));
   }
 
   void hold_lever(glm::dvec2 plane) {
@@ -89,7 +93,7 @@ struct Worn {
   // The tip of the hand on the knob's top, where that truly is in the room; and the trigger, once.
   void touch(glm::dvec2 plane, dvec3 error = dvec3(0.0)) {
     hold_lever(plane);
-    hand = EyePose{inverse(kTruth) * stage->knob_top() + error, glm::dquat(1, 0, 0, 0)};
+    hand = EyePose{inverse(kTruth) * stage->knob_top() + error, glm::angleAxis(turns * made++, kUp)};
     frame();
     trigger = true;
     frame();
@@ -115,10 +119,15 @@ struct Worn {
   UiContext ui;
   HeadsetSetup setup;
   Stage* stage = &cabin();
-  EyePose head{{0.2, 1.3, -0.4}, glm::angleAxis(-1.1, kUp) * glm::angleAxis(-0.3, dvec3(1, 0, 0))};
+  // Some 13 cm from where the driver's is: so people sit.
+  EyePose head{inverse(kTruth) * (camera("driver").position + dvec3(0.1, 0.05, -0.06)),
+               glm::angleAxis(-1.1, kUp) * glm::angleAxis(-0.3, dvec3(1, 0, 0))};
   EyePose hand;
+  double turns = 0.6;  // [rad] the controller, from one touch to the next
+  int made = 0;
   bool trigger = false, menu = false;
   bool placed = true;  // the headset tells where the head is
+  bool seen = true;    // the controller is: else its place is a guess
   std::unique_ptr<WornHeadset> headset;
 };
 
@@ -210,6 +219,76 @@ TEST_CASE("touches that do not fit the lever are refused with how far and how fa
   worn.frame();
   check_sits(worn, driver_eye());
   CHECK_FALSE(read_seat(setup.seat_file).touched);
+}
+
+TEST_CASE(
+    "a controller that is held the same way all the time hides where its tip is, and one that is not seen guesses") {
+  Worn worn;
+  worn.turns = 0.1;
+  worn.touch_all();
+  CHECK(worn.headset->take_news().find("turn the controller between the touches") != std::string::npos);
+  CHECK_FALSE(worn.headset->report().is_touched);
+  worn.ask(&HeadsetRequests::forget_touches);
+  worn.ask(&HeadsetRequests::touch);
+  worn.seen = false;
+  worn.touch({0.0, 0.0});
+  CHECK(worn.headset->report().touches == 0);
+  worn.seen = true;
+  worn.touch({0.0, 0.0});
+  CHECK(worn.headset->report().touches == 1);
+}
+
+TEST_CASE(
+    "where the lever was touched in a room that is another one by now nobody sits, and it is told; at the wheel it "
+    "holds") {
+  HeadsetSetup setup;
+  setup.seat.touched = kTruth;
+  setup.seat.touched->position += dvec3(9.0, 0.0, 3.0);
+  Worn worn(setup);
+  check_sits(worn, driver_eye());
+  CHECK_FALSE(worn.headset->report().is_touched);
+  worn.head.position -= glm::conjugate(kTruth.orientation) * dvec3(9.0, 0.0, 3.0);  // he had stood beside it
+  worn.headset->recentre();
+  worn.frame();
+  CHECK(worn.headset->report().is_touched);
+  CHECK(glm::distance(worn.headset->head().position, kTruth * worn.head.position + dvec3(9.0, 0.0, 3.0)) < 1e-6);
+}
+
+TEST_CASE("what fails when it is opened for the first time is tried again, after a while") {
+  HeadsetSetup setup;
+  Worn worn(setup);
+  worn.headset.reset();
+  xr_test::control().start();
+  xr_test::control().script.failures = {{"xrCreateSession", XR_ERROR_RUNTIME_FAILURE, 1}};
+  worn.headset = std::make_unique<WornHeadset>(setup, worn.window, worn.ui);
+  REQUIRE(worn.headset->is_found());
+  CHECK_FALSE(worn.headset->open());
+  CHECK(worn.headset->take_news().find("xrCreateSession failed") != std::string::npos);
+  std::this_thread::sleep_for(kPause);
+  CHECK_FALSE(worn.headset->is_found());  // each try takes the desktop's picture away: twice as long
+  std::this_thread::sleep_for(kPause);
+  REQUIRE(worn.headset->is_found());
+  CHECK(worn.headset->open());
+}
+
+TEST_CASE("a headset that is put down is told a second later, once; one that is put down to leave is not") {
+  for (const bool leaves : {false, true}) {
+    CAPTURE(leaves);
+    Worn worn;
+    const double now = xr_test::control().record.frames.back().time;
+    xr_test::control().script.polls_before_ready = 1000000;
+    xr_test::control().script.timeline = {leaves ? xr_test::exit(now + 0.05) : xr_test::stopping(now + 0.05)};
+    CHECK(worn.headset->is_worn());
+    for (int i = 0; i < 12; ++i) worn.frame();
+    CHECK_FALSE(worn.headset->is_worn());
+    CHECK(worn.headset->take_news().empty());
+    std::this_thread::sleep_for(std::chrono::milliseconds(1050));
+    worn.frame();
+    const bool told = worn.headset->take_news() == "the headset is put down; the desktop shows the cabin";
+    CHECK(told == !leaves);
+    worn.frame();
+    CHECK(worn.headset->take_news().empty());
+  }
 }
 
 TEST_CASE("a room without a memory keeps a touched knob for today alone, and yesterday's of another room stays kept") {
