@@ -70,6 +70,7 @@ touch_in_some_round() { touch_in_a_round || touch_in_a_round || touch_in_a_round
 check "what was touched is kept" touch_in_some_round
 check "the knob is seen where it is" in_room found "$seat"
 check "no forces so far" no_word_of_forces
+sleep 1.5 # until the lever is back and is seen there
 touched=$(ls touched/*_left.png | tail -n 1)
 
 check "Enter gives them" press_for Return "guard: running" 1
