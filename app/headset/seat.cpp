@@ -1,5 +1,6 @@
 #include "app/headset/seat.h"
 
+#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -49,12 +50,28 @@ EyePose seat_at_lever(const EyePose& head, const SeatPlaces& places, const KnobD
   return placed(turn, head.position + away, places.knob);
 }
 
-double LeverTouches::turned() const {
-  double most = 0.0;
-  for (const Touch& a : touches_)
-    for (const Touch& b : touches_)
-      most = std::max(most, 2.0 * std::acos(std::min(1.0, std::abs(glm::dot(a.held, b.held)))));
-  return most;
+// A tip that is off by e in the controller is off by held e in the room: what is left of that beside the fit's shift and
+// turn is linear in e, and its least RMS over all directions the least singular value (pivot calibration).
+double LeverTouches::tip_share() const {
+  if (touches_.size() < 3) return 0.0;
+  const auto count = static_cast<Eigen::Index>(touches_.size());
+  glm::dvec3 middle(0.0);
+  for (const Touch& touch : touches_) middle += touch.cabin / static_cast<double>(count);
+  Eigen::MatrixXd left(3 * count, 3);
+  Eigen::VectorXd turn(3 * count);
+  Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
+  for (Eigen::Index i = 0; i < count; ++i) {
+    const Touch& touch = touches_[static_cast<std::size_t>(i)];
+    const glm::dvec3 along = glm::cross(kUp, touch.cabin - middle);
+    turn.segment<3>(3 * i) << along.x, along.y, along.z;
+    const Eigen::Quaterniond held(touch.held.w, touch.held.x, touch.held.y, touch.held.z);
+    left.block<3, 3>(3 * i, 0) = held.toRotationMatrix();
+    mean += held.toRotationMatrix() / static_cast<double>(count);
+  }
+  for (Eigen::Index i = 0; i < count; ++i) left.block<3, 3>(3 * i, 0) -= mean;
+  if (turn.squaredNorm() > 0.0) left -= turn * (turn.transpose() * left) / turn.squaredNorm();
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> squares(left.transpose() * left, Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(0.0, squares.eigenvalues()[0]) / static_cast<double>(count));
 }
 
 // Turned by a about y, (x, z) becomes (x cos a + z sin a, z cos a - x sin a): the sum of squares is least where the sum of

@@ -51,9 +51,9 @@ class LeverTouches {
   // apart leave the direction of `now`. Nothing touched: none.
   std::optional<Fit> fit(const EyePose& now) const;
 
-  // [rad] The most that the controller was turned between two of them. A tip that is told beside where it is shows in the
-  // misfit only by that.
-  double turned() const;
+  // [1] The least share of a tip's error, told beside where it is in the controller, that the misfit shows (RMS, worst
+  // direction): 0 where the controller was turned about one axis at most, or had fewer than three touches.
+  double tip_share() const;
 
  private:
   struct Touch {

@@ -10,9 +10,8 @@ namespace gearshift {
 namespace {
 
 constexpr std::size_t kLeastTouches = 3;
-constexpr double kLeastTurn =
-    0.785;                       // [rad] of the controller between them: a third of a tip's error shows in the misfit
-constexpr double kFarOff = 0.6;  // [m] from the driver's eyes: nobody who sits there has his head
+constexpr double kLeastShare = 0.15;  // [1] of a tip's error must be seen: 45 degrees about two axes show 0.26
+constexpr double kFarOff = 0.6;       // [m] from the driver's eyes: nobody who sits there has his head
 
 }  // namespace
 
@@ -47,7 +46,8 @@ void Seating::sit(const EyePose& head, glm::dvec3 knob_at_rest, bool keeps_room)
 // A room that was set up anew while we did not run tells nothing of it: the lever is somewhere else in it.
 void Seating::take_kept_touch(const EyePose& head) {
   if (glm::distance(*settings_.touched * head.position, places_.eye) > kFarOff) {
-    news_ = "who sits where the lever was touched is not at the wheel: sit there and recentre, or touch the knob again";
+    news_ =
+        "by the lever that was touched your head is far from the wheel: sit down and recentre, or touch the knob again";
     return;
   }
   touched_ = settings_.touched;
@@ -108,19 +108,21 @@ void Seating::keep_touched(double bound, bool keeps_room) {
     news_ = "touch the knob in three gears or more that lie apart";
     return;
   }
-  if (touches_.turned() < kLeastTurn) {
-    news_ = "turn the controller between the touches, by 45 degrees or more: touch again";
+  const double share = touches_.tip_share();
+  if (share < kLeastShare) {
+    news_ = "turn the controller to the side at one touch and tilt it at another, by 45 degrees: touch on";
     return;
   }
-  if (fit_.worst > bound) {
-    news_ = fmt::format("the touches are up to {:.0f} mm from the lever as it is seen, and {:.0f} may be: touch again",
-                        1e3 * fit_.worst, 1e3 * bound);
+  const double error = fit_.worst / share;  // of a tip that is told where it is not, and no more than that is seen of
+  if (error > bound) {
+    news_ = fmt::format("the lever may be up to {:.0f} mm from where it is seen, and {:.0f} are allowed: touch again",
+                        1e3 * error, 1e3 * bound);
     stop_touching();
     return;
   }
   touching_ = false;
   touched_ = cabin_from_room_;
-  touch_error_ = fit_.worst;
+  touch_error_ = error;
   touches_.forget();
   if (!keeps_room) {
     news_ = "the lever is seen where it was touched, for today: the runtime does not know the room tomorrow";

@@ -66,6 +66,10 @@ void draw_touched(Controls& controls, const HeadsetReport& headset, bool is_real
     put_wrapped(
         fmt::format("The lever was touched: it is seen where it is, within {:.0f} mm.", 1e3 * headset.touch_error),
         ink::kSoft);
+  } else if (headset.seat.touched) {
+    ImGui::SameLine();
+    out.forget_touches = controls.button("headset_forget", "Forget it");
+    put_wrapped("The lever was touched elsewhere: that is kept, and not used now.", ink::kWarn);
   } else if (is_real) {
     put_wrapped("The lever was not touched: it may be centimetres from where it is seen.", ink::kWarn);
   }
@@ -74,7 +78,7 @@ void draw_touched(Controls& controls, const HeadsetReport& headset, bool is_real
 void draw_touching(Controls& controls, const HeadsetReport& headset, HeadsetRequests& out) {
   put_wrapped(
       "Hold the tip of a controller, where its ray begins, on the middle of the knob's top and pull its trigger: "
-      "in neutral, then in other gears, turning the controller between them.",
+      "in neutral, then in two other gears: turned to the side in one, tilted in the other.",
       ink::kText);
   out.touched = controls.button("headset_touched", "Keep it");
   ImGui::SameLine();

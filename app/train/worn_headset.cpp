@@ -33,12 +33,13 @@ WornHeadset::WornHeadset(const HeadsetSetup& setup, Window& window, UiContext& u
 
 bool WornHeadset::is_found() {
   const auto now = std::chrono::steady_clock::now();
-  if (view_ || now < next_try_) return false;
+  if (view_ || now < next_try_ || is_leaving()) return false;
   next_try_ = now + pause_;
   try {
     found_ = std::make_unique<HeadsetRuntime>();
     return true;
   } catch (const HeadsetAbsent& absent) {
+    pause_ = kPause;
     tell_once(fmt::format("{}; the desktop shows the cabin until one is", absent.what()));
   } catch (const HeadsetError& error) {
     tell_once(fmt::format("{}; the desktop shows the cabin", error.what()));
@@ -57,12 +58,8 @@ bool WornHeadset::open() {
     view_ = std::make_unique<HeadsetView>(setup_.view, std::move(found_), window_, ui_);
   } catch (const std::exception& error) {  // of the runtime or of the GPU
     lose(error.what());
-    pause_ = std::min(2 * pause_, kLongestPause);  // each try takes the desktop's picture away
-    next_try_ = std::chrono::steady_clock::now() + pause_;
     return false;
   }
-  pause_ = kPause;
-  told_.clear();
   news_ = fmt::format("{} at {}", view_->headset().headset, view_->headset().runtime);
   return true;
 }
@@ -83,14 +80,25 @@ void WornHeadset::set_model(const Model& model) {
   guarded([&] { view_->set_model(model); });
 }
 
+bool WornHeadset::is_leaving() const {
+  return leaving_.valid() && leaving_.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
+}
+
+// STOP waits for no runtime: a view of which a frame is held back goes beside us.
 void WornHeadset::lose(const std::string& why) {
+  if (view_ && view_->awaits()) {
+    view_->leave_window();
+    leaving_ = std::async(std::launch::async, [view = std::move(view_)]() mutable { view.reset(); });
+  }
   view_.reset();
   found_.reset();
   pointer_.reset();
   beam_.reset();
   worn_ = false;
+  put_down_.reset();
   seating_.leave();
-  next_try_ = std::chrono::steady_clock::now() + kPause;
+  next_try_ = std::chrono::steady_clock::now() + pause_;
+  pause_ = std::min(2 * pause_, kLongestPause);  // each try takes the desktop's picture away
   tell_once(fmt::format("{}; the desktop shows the cabin, the lever goes on", why));
 }
 
@@ -102,10 +110,16 @@ bool WornHeadset::begin(const Stage& stage) {
     if (std::string news = view_->take_news(); !news.empty()) news_ = "the window does not show it: " + news;
     if (std::exchange(worn_, worn) && !worn) put_down();
     tell_put_down();
+    pointer_.reset();
+    beam_.reset();
     if (!view_->has_begun()) return;
     while (const std::optional<SpaceChange> change = view_->take_change())
       seating_.follow(*change, view_->keeps_room());
-    if (view_->is_shown()) take_seat(stage);
+    if (view_->is_shown()) {
+      pause_ = kPause;
+      told_.clear();
+      take_seat(stage);
+    }
     follow_hands(stage);
   });
   return worn && view_ != nullptr;
@@ -113,8 +127,6 @@ bool WornHeadset::begin(const Stage& stage) {
 
 void WornHeadset::put_down() {
   seating_.stand_up();
-  pointer_.reset();
-  beam_.reset();
   put_down_ = std::chrono::steady_clock::now();
 }
 
@@ -147,8 +159,6 @@ void WornHeadset::draw(const FrameScene& scene, const SeenPart& seen, const Seen
 
 // The first hand that points at the panel has it.
 void WornHeadset::follow_hands(const Stage& stage) {
-  pointer_.reset();
-  beam_.reset();
   const std::array<HeadsetHand, 2> hands = view_->hands();
   for (std::size_t i = 0; i < hands.size(); ++i) {
     const HeadsetHand& hand = hands[i];

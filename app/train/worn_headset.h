@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <filesystem>
+#include <future>
 #include <memory>
 #include <optional>
 #include <string>
@@ -35,7 +36,8 @@ class WornHeadset {
   // What is_found() has found becomes the view. False where that fails: news() says why.
   bool open();
   bool is_open() const noexcept { return view_ != nullptr; }
-  bool is_worn() const noexcept { return view_ && worn_; }
+  bool is_held() const noexcept { return view_ && view_->awaits(); }    // by the runtime: its next frame
+  bool is_worn() const noexcept { return view_ && view_->is_shown(); }  // somebody sees through it
 
   void set_model(const Model& model);  // of the stage; also while nothing is open
 
@@ -66,6 +68,7 @@ class WornHeadset {
 
  private:
   void tell_once(const std::string& news);
+  bool is_leaving() const;
   void lose(const std::string& why);
   template <class Deed>
   void guarded(const Deed& deed);
@@ -79,6 +82,7 @@ class WornHeadset {
   UiContext& ui_;
   std::unique_ptr<HeadsetRuntime> found_;
   std::unique_ptr<HeadsetView> view_;
+  std::future<void> leaving_;  // of a view that was lost while the runtime held a frame of it back
   std::chrono::steady_clock::time_point next_try_{};
   std::chrono::seconds pause_{2};
   std::string told_;  // the last of what is looked for in vain

@@ -203,6 +203,14 @@ bool HeadsetView::has_begun() const noexcept {
   return state_->frame.has_value();
 }
 
+bool HeadsetView::awaits() const noexcept {
+  return state_->session.awaits();
+}
+
+void HeadsetView::leave_window() {
+  state_->mirror.reset();
+}
+
 bool HeadsetView::is_shown() const noexcept {
   return state_->is_shown;
 }

@@ -37,6 +37,8 @@ class HeadsetView {
   // Throws HeadsetLost: all of this is to be made anew; so do the others.
   bool begin();
   bool has_begun() const noexcept;           // a frame
+  bool awaits() const noexcept;              // a frame that is held back: the destructor waits for it
+  void leave_window();                       // to another view: the instructor sees nothing from here any more
   bool is_shown() const noexcept;            // to somebody, said the runtime of its last frame
   const HeadsetEyes& eyes() const noexcept;  // in the room
   // Of the frame that has begun.

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <future>
 #include <limits>
+#include <system_error>
 #include <vector>
 
 #include "engine/xr/headset_hands.h"
@@ -74,6 +75,8 @@ struct HeadsetSession::State {
   void take_space_change(const XrEventDataReferenceSpaceChangePending& change);
   void keep_eyes(const XrView* views, XrViewStateFlags flags);
   void move_kept(const EyePose& new_from_old);
+  void await_frame();
+  std::int64_t runtime_time(const timespec& monotonic) const;
 
   struct Pending {
     XrTime at;
@@ -98,6 +101,7 @@ struct HeadsetSession::State {
   struct Awaited {
     XrResult result;
     XrFrameState told;
+    timespec woken;
   };
   std::future<Awaited> awaited;  // beside us: see wait()
 };
@@ -125,7 +129,7 @@ HeadsetSession::State::State(HeadsetRuntime& runtime, Gpu& device, const Headset
   for (std::size_t eye = 0; eye < 2; ++eye) {
     aside[eye] = {(eye == 0 ? -0.5 : 0.5) * kEyeDistance, 0.0, 0.0};
     eyes.pose[eye].position = aside[eye];
-    eyes.fov[eye] = symmetric_fov(1.5, 1.0);
+    eyes.fov[eye] = symmetric_fov(1.5, static_cast<double>(config.eye.x) / config.eye.y);
   }
 }
 
@@ -269,6 +273,10 @@ HeadsetState HeadsetSession::state() const noexcept {
   return state_->state;
 }
 
+bool HeadsetSession::awaits() const noexcept {
+  return state_->awaited.valid();
+}
+
 bool HeadsetSession::runs() const noexcept {
   return state_->runs;
 }
@@ -282,29 +290,39 @@ bool HeadsetSession::is_stage() const noexcept {
 }
 
 std::int64_t HeadsetSession::now_ns() const {
-  const State& s = *state_;
-  if (s.to_runtime_time == nullptr) return 0;
   timespec now{};
   clock_gettime(CLOCK_MONOTONIC, &now);
+  return state_->runtime_time(now);
+}
+
+std::int64_t HeadsetSession::State::runtime_time(const timespec& monotonic) const {
+  if (to_runtime_time == nullptr) return 0;
   XrTime time = 0;
-  check(s.to_runtime_time(s.xr.instance, &now, &time), "xrConvertTimespecTimeToTimeKHR");
+  check(to_runtime_time(xr.instance, &monotonic, &time), "xrConvertTimespecTimeToTimeKHR");
   return time;
+}
+
+void HeadsetSession::State::await_frame() {
+  try {
+    awaited = std::async(std::launch::async, [session = session] {
+      Awaited frame{XR_SUCCESS, {XR_TYPE_FRAME_STATE}, {}};
+      frame.result = xrWaitFrame(session, nullptr, &frame.told);
+      clock_gettime(CLOCK_MONOTONIC, &frame.woken);
+      return frame;
+    });
+  } catch (const std::system_error&) {
+    throw HeadsetError("there is no thread for the headset's frames");
+  }
 }
 
 std::optional<HeadsetFrame> HeadsetSession::wait(std::chrono::milliseconds patience) {
   State& s = *state_;
-  if (!s.awaited.valid()) {
-    s.awaited = std::async(std::launch::async, [session = s.session] {
-      State::Awaited frame{XR_SUCCESS, {XR_TYPE_FRAME_STATE}};
-      frame.result = xrWaitFrame(session, nullptr, &frame.told);
-      return frame;
-    });
-  }
+  if (!s.awaited.valid()) s.await_frame();
   if (s.awaited.wait_for(patience) == std::future_status::timeout) return std::nullopt;
-  const auto [result, told] = s.awaited.get();
+  const auto [result, told, woken] = s.awaited.get();
   check(result, "xrWaitFrame");
   HeadsetFrame frame;
-  frame.woken_ns = now_ns();
+  frame.woken_ns = s.runtime_time(woken);
   check(xrBeginFrame(s.session, nullptr), "xrBeginFrame");
   frame.display_ns = told.predictedDisplayTime;
   frame.period = 1e-9 * static_cast<double>(told.predictedDisplayPeriod);

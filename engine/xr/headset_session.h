@@ -83,6 +83,7 @@ class HeadsetSession {
   // nothing is taken. Throws HeadsetLost.
   void poll();
   HeadsetState state() const noexcept;
+  bool awaits() const noexcept;              // a frame that wait() has not got yet: the end waits for it
   bool runs() const noexcept;                // frames are wanted: wait() paces them
   const HeadsetEyes& eyes() const noexcept;  // as they were located last; before that, side by side at the origin
   bool is_stage() const noexcept;            // poses are in a room that stays from one day to the next

@@ -19,6 +19,7 @@ GEARS = {"neutral": (0, 0), "first": (-30, 35.8), "reverse": (30, -35.8)}  # [mm
 TIP_OFF = {"neutral": (0.003, 0, 0), "first": (0, 0, 0.003), "reverse": (0, 0.003, 0)}  # [m] a person's tip, each time aside
 # The controller goes round and pulls its trigger at each of them, again and again: who is late waits for the next round.
 ROUND, PULL, ROUNDS = 10, 1.2, 12  # [s]
+HELD = {"neutral": (0, -60), "first": (45, -60), "reverse": (0, -15)}  # [deg] to the left, up: turned to the side, tilted
 TOUCHED_AT = {"neutral": 0.8, "first": 3.8, "reverse": 7.2}  # [s] of a round
 EYE, YAW, PITCH = (0.08, 0.58, 0.02), -35, -42  # between the eyes, in the cabin; [deg] left and up +
 
@@ -48,7 +49,7 @@ def pose(p, yaw, pitch, at):
 def script():
     pulls = [(ROUND * r + TOUCHED_AT[g], g) for r in range(ROUNDS) for g in GEARS]
     tips = {g: tuple(p + e for p, e in zip(room(knob(*GEARS[g])), TIP_OFF[g])) for g in GEARS}
-    aim = [pose(tips[g], 40 * i, -80, t + after) for i, (t, g) in enumerate(pulls) for after in (-0.3, PULL + 0.2)]
+    aim = [pose(tips[g], *HELD[g], t + after) for t, g in pulls for after in (-0.3, PULL + 0.2)]
     print("stage_origin = {position = [0, 0, 0]}")  # one room, whichever space the program takes
     print(f"head = [{pose(room(EYE), YAW - math.degrees(TURN), PITCH, 0)}]")
     print(f"right = {{aim = [{', '.join(aim)}]}}")

@@ -10,6 +10,7 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include "tests/engine/window/injected_faults.h"
 #include "tests/support/gates.h"
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/temp_folder.h"
@@ -77,6 +78,15 @@ struct Worn {
   }
 
   void frame() {
+    // A machine that is late with the headset's frame takes it up the next time.
+    const xr_test::Record& record = xr_test::control().record;
+    const std::size_t frames = record.frames.size();
+    do turn();
+    while (headset->is_open() && record.frames.size() == frames && record.state >= XR_SESSION_STATE_SYNCHRONIZED &&
+           record.state <= XR_SESSION_STATE_FOCUSED);
+  }
+
+  void turn() {
     window.poll();
     ui.begin({320.0f, 200.0f, 0.01f, 1.0f});
     ui.end();
@@ -93,7 +103,7 @@ struct Worn {
   // The tip of the hand on the knob's top, where that truly is in the room; and the trigger, once.
   void touch(glm::dvec2 plane, dvec3 error = dvec3(0.0)) {
     hold_lever(plane);
-    hand = EyePose{inverse(kTruth) * stage->knob_top() + error, glm::angleAxis(turns * made++, kUp)};
+    hand = EyePose{inverse(kTruth) * stage->knob_top() + error, held()};
     frame();
     trigger = true;
     frame();
@@ -123,8 +133,13 @@ struct Worn {
   EyePose head{inverse(kTruth) * (camera("driver").position + dvec3(0.1, 0.05, -0.06)),
                glm::angleAxis(-1.1, kUp) * glm::angleAxis(-0.3, dvec3(1, 0, 0))};
   EyePose hand;
-  double turns = 0.6;  // [rad] the controller, from one touch to the next
+  double turns = 0.785;  // [rad] the controller is turned to the side and tilted, from one touch to the next
   int made = 0;
+  glm::dquat held() {
+    const dvec3 axes[] = {kUp, kUp, dvec3(1, 0, 0)};
+    const int i = made++ % 3;
+    return glm::angleAxis(i == 0 ? 0.0 : turns, axes[i]);
+  }
   bool trigger = false, menu = false;
   bool placed = true;  // the headset tells where the head is
   bool seen = true;    // the controller is: else its place is a guess
@@ -214,8 +229,10 @@ TEST_CASE("touches that do not fit the lever are refused with how far and how fa
   worn.touch({0.036, -0.04});
   worn.ask(&HeadsetRequests::touched);
   const std::string news = worn.headset->take_news();
-  CHECK(news.find("40 mm") != std::string::npos);  // two thirds of it stay there
-  CHECK(news.find("20 may be") != std::string::npos);
+  int error = 0;
+  REQUIRE(std::sscanf(news.c_str(), "the lever may be up to %d mm from where it is seen, and 20 are allowed", &error) ==
+          1);
+  CHECK(error >= 40);  // two thirds of it stay there, and so much of it at least was the tip's
   worn.frame();
   check_sits(worn, driver_eye());
   CHECK_FALSE(read_seat(setup.seat_file).touched);
@@ -226,7 +243,7 @@ TEST_CASE(
   Worn worn;
   worn.turns = 0.1;
   worn.touch_all();
-  CHECK(worn.headset->take_news().find("turn the controller between the touches") != std::string::npos);
+  CHECK(worn.headset->take_news().find("turn the controller to the side") != std::string::npos);
   CHECK_FALSE(worn.headset->report().is_touched);
   worn.ask(&HeadsetRequests::forget_touches);
   worn.ask(&HeadsetRequests::touch);
@@ -259,11 +276,16 @@ TEST_CASE("what fails when it is opened for the first time is tried again, after
   Worn worn(setup);
   worn.headset.reset();
   xr_test::control().start();
-  xr_test::control().script.failures = {{"xrCreateSession", XR_ERROR_RUNTIME_FAILURE, 1}};
+  xr_test::control().script.failures = {{"xrCreateSession", XR_ERROR_RUNTIME_FAILURE, 1},
+                                        {"xrCreateSession", XR_ERROR_RUNTIME_FAILURE, 1}};
   worn.headset = std::make_unique<WornHeadset>(setup, worn.window, worn.ui);
   REQUIRE(worn.headset->is_found());
   CHECK_FALSE(worn.headset->open());
   CHECK(worn.headset->take_news().find("xrCreateSession failed") != std::string::npos);
+  std::this_thread::sleep_for(kPause);
+  REQUIRE(worn.headset->is_found());
+  CHECK_FALSE(worn.headset->open());
+  CHECK(worn.headset->take_news().empty());  // the same is told once
   std::this_thread::sleep_for(kPause);
   CHECK_FALSE(worn.headset->is_found());  // each try takes the desktop's picture away: twice as long
   std::this_thread::sleep_for(kPause);
@@ -428,6 +450,34 @@ TEST_CASE("a hand points at the learner's card, and its menu button brings the w
   worn.hand.orientation = glm::angleAxis(3.0, kUp) * worn.hand.orientation;  // elsewhere
   worn.frame();
   CHECK_FALSE(worn.headset->pointer());
+}
+
+// STOP and the keys are on the thread that would wait.
+TEST_CASE(
+    "a GPU that is lost while the runtime holds a frame back keeps nobody waiting, and all is found when it comes") {
+  Worn worn;
+  xr_test::Control& xr = xr_test::control();
+  xr.script.pacing = xr_test::Pacing::real;
+  worn.frame();
+  const std::size_t frames = xr.record.calls["xrBeginFrame"];
+  using Clock = std::chrono::steady_clock;
+  xr.script.timeline = {xr_test::stall(xr.record.frames.back().time + 0.05, 450)};  // 5 s
+  while (xr.record.calls["xrWaitFrame"] <= static_cast<int>(frames) + 30 && !worn.headset->is_held()) worn.turn();
+  REQUIRE(worn.headset->is_held());
+  injected_faults.next_present = VK_ERROR_DEVICE_LOST;
+  double longest = 0.0;
+  for (int i = 0; i < 40 && worn.headset->is_open(); ++i) {
+    const Clock::time_point begun = Clock::now();
+    worn.turn();
+    longest = std::max(longest, std::chrono::duration<double>(Clock::now() - begun).count());
+  }
+  CHECK_FALSE(worn.headset->is_open());
+  CHECK(longest < 1.0);  // it would be some 5 s
+  std::this_thread::sleep_for(kPause);
+  CHECK_FALSE(worn.headset->is_found());  // OpenXR has one instance at a time, and the old one is still waited for
+  for (int i = 0; i < 100 && !worn.headset->is_found(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  CHECK(worn.headset->open());
 }
 
 TEST_CASE("a headset that is lost is told once, looked for again, and found when it is back") {
