@@ -149,7 +149,7 @@ xdotool windowfocus "$window"
 is_held() { drawn=$(frames) && sleep 1 && ! has_more_frames "$drawn"; }
 check "no frame comes" within 20 is_held
 xdotool key space
-check "STOP needs none" within 0.5 said "guard: released"
+check "STOP needs none" within 1 said "guard: released"
 check "and none has come" [ "$(frames)" = "$drawn" ]
 check "its key ends it" ended_by End
 check "one sentence" one_line
