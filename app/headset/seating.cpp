@@ -113,7 +113,7 @@ void Seating::keep_touched(double bound, bool keeps_room) {
     news_ = "turn the controller to the side at one touch and tilt it at another, by 45 degrees: touch on";
     return;
   }
-  const double error = fit_.worst / share;  // of a tip that is told where it is not, and no more than that is seen of
+  const double error = fit_.worst / share;  // [m] of the tip, of which no more than that share may be seen
   if (error > bound) {
     news_ = fmt::format("the lever may be up to {:.0f} mm from where it is seen, and {:.0f} are allowed: touch again",
                         1e3 * error, 1e3 * bound);
