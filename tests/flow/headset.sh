@@ -145,11 +145,11 @@ check "they did" [ "$(awk '/^frame/ {sub("t=", "", $3); n += $3 - last > 0.45; l
 check "the loop went on" never_stopped
 check "and the motors stayed on" [ "$(grep -c "released\|fault" stalled.txt)" = 0 ]
 xdotool windowfocus "$window"
-# The runtime holds a frame back for 10 s.
+# The runtime holds a frame back for 10 s; whole seconds are counted, so that "within 4" is between 3 and 4.
 is_held() { drawn=$(frames) && sleep 1 && ! has_more_frames "$drawn"; }
 check "no frame comes" within 20 is_held
 xdotool key space
-check "STOP needs none" within 1 said "guard: released"
+check "STOP needs none" within 4 said "guard: released"
 check "and none has come" [ "$(frames)" = "$drawn" ]
 check "its key ends it" ended_by End
 check "one sentence" one_line
