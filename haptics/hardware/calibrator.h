@@ -9,6 +9,7 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -78,8 +79,10 @@ class Calibrator {
   int spring_sign(StickRig& rig, const AxisPlace& place) const;
   DeviceTiming measure_intervals(StickRig& rig) const;
   Pulse pulse(StickRig& rig, const AxisPlace& place, const PidWish& rest, double magnitude) const;
-  std::vector<Pulse> pulses(StickRig& rig, const AxisPlace& place, const PidWish& rest) const;
+  std::array<Pulse, 2> pulses(StickRig& rig, const AxisPlace& place, const PidWish& rest, double& magnitude) const;
   PulseFit fit(StickRig& rig, const LeverAxisCalibration& axis, const std::string& name, double damper = 0.0) const;
+  static PulseFit fit_of(std::span<const Pulse> pulses, const std::string& name);
+  static PulseFit checked(const PulseFit& found, const LeverAxisCalibration& axis, const std::string& name);
   double spring_stiffness(StickRig& rig, const LeverAxisCalibration& axis) const;
   std::string measure_dampers();
   double damping_by(StickRig& rig, const LeverAxisCalibration& axis, const std::string& name, double damper) const;
