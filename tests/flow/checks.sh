@@ -15,6 +15,7 @@ check() { # what, command ...
     failed=$((failed + 1))
   fi
 }
+whole() { [ -n "${GEARSHIFT_FULL:-}" ]; } # ./test --full
 is_png() { [ "$(head -c 4 "$1" | tail -c 3)" = PNG ]; }
 finish() { # the script's exit code
   echo "$passed passed, $failed failed"

@@ -46,12 +46,26 @@ done
 check "both lessons and the drive through every gear are passed" [ "$(grep -c "^  Passed with grade" one.txt)" = 3 ]
 check "the learner's report has both lessons" [ "$(grep -oE "Hill start|Up through the gears" one/report.html | sort -u | wc -l)" = 2 ]
 check "nothing is remembered for the user" [ -z "$(find data -name history.db 2>/dev/null)" ]
-check "the same again" demo two
-check "every file is the same twice, the page too" diff -rq one two
+if whole; then
+  check "the same again" demo two
+  check "every file is the same twice, the page too" diff -rq one two
+fi
+# The demo as `./run` starts it, of full size; its first picture is enough where there is little time.
 stale() { DISPLAY=:987 WAYLAND_DISPLAY=wayland-0 "$gearshift" train --or-demo stale >stale.txt 2>stale.err; }
-check "train beside a display that is gone: the demo" stale
+begins() {
+  DISPLAY=:987 WAYLAND_DISPLAY=wayland-0 "$gearshift" train --or-demo stale >stale.txt 2>stale.err &
+  for _ in $(seq 600); do [ -s stale/cabin.png ] && break; sleep 0.1; done
+  kill $!
+  wait $! 2>/dev/null
+  is_png stale/cabin.png
+}
+if whole; then
+  check "train beside a display that is gone: the demo" stale
+  check "its page is there" [ -s stale/index.html ]
+else
+  check "train beside a display that is gone: the demo" begins
+fi
 check "and it says so" grep -q "^No display" stale.txt
-check "its page is there" [ -s stale/index.html ]
 different() { ! same "$1" "$2"; }
 check "first and fifth gear do not look the same" different one/gear_1.png one/gear_5.png
 check "another gate, stereo and a film" demo film --gate six_speed_r_left_up --stereo --film 1 --samples 1

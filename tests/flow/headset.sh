@@ -85,7 +85,13 @@ check "the seat at the right is kept" grep -q '^drive = "right"$' "$seat"
 check "with its height" grep -q '^seat_height_m = 0.05$' "$seat"
 for line in 'right_m = -0.3' 'down_m = 0.5' 'ahead_m = 0.3'; do check "$line is kept" grep -q "^$line$" "$seat"; done
 
-# --- lost, in four ways, and found again
+process() { pgrep -P $trainer; }
+open_files() { ls "/proc/$(process)/fd" | wc -l; }
+# The most of many looks: a frame is waited for on a thread of its own, and losses lie between the two counts.
+threads() { for i in $(seq 20); do ls "/proc/$(process)/task" | wc -l; sleep 0.02; done | sort -n | tail -n 1; }
+code_kb() { awk '$2 ~ /^rwx/ {own = 1; next} /^[0-9a-f]+-/ {own = 0} own && /^Size:/ {sum += $2} END {print sum + 0}' "/proc/$(process)/smaps"; }
+
+# --- lost, in four ways, and found again; nothing is left behind
 begin "it starts" wear losses --lesson none --hand "by itself" < <(
   at 5 loss_pending
   at 14 instance_loss
@@ -98,8 +104,14 @@ for i in 1 2 3 4; do
   drawn=$(frames) shifts=$(engaged)
   within 4 shows_desktop && seen=$((seen + 1)) # it is found again soon
   check "$i. found again" soon 30 told "$found" $((i + 1))
-  check "$i. and shown again" soon 20 has_more_frames "$drawn"
+  # As many frames as it takes to be settled: two of a headset that is worn.
+  check "$i. and shown again" soon 20 has_more_frames $((drawn + 1))
+  [ $i = 1 ] && files=$(open_files) tasks=$(threads) code=$(code_kb)
 done
+check "no more open files ($files, $(open_files))" [ "$(open_files)" -le "$files" ]
+now=$(threads)
+check "no more threads ($tasks, $now)" [ "$now" -le "$tasks" ]
+check "no driver left its code behind ($code, $(code_kb) KiB)" [ "$(code_kb)" -le $((code + 4096)) ]
 check "meanwhile the window showed the cabin ($seen times)" [ "$seen" -ge 1 ]
 check "the lever shifts on" soon 30 shifts_after "$shifts"
 xdotool windowfocus "$window"
@@ -114,31 +126,10 @@ for what in "\(the headset is lost\|.* failed: XR_ERROR_SESSION_LOST\)" \
   check "told: $what" told_so_often "^gearshift: $what$lost" 1
 done
 
-# --- lost again and again: four times, as it looks for one every 2 s
-begin "it starts" wear restarts --lesson none --hand "by itself" < <(
-  for i in 1 2 3 4; do fails $((3 * i)) xrWaitFrame XR_ERROR_SESSION_LOST; done)
-process() { pgrep -P $trainer; }
-open_files() { ls "/proc/$(process)/fd" | wc -l; }
-# The most of many looks: a frame is waited for on a thread of its own, and three losses lie between the two counts.
-threads() { for i in $(seq 20); do ls "/proc/$(process)/task" | wc -l; sleep 0.02; done | sort -n | tail -n 1; }
-code_kb() { awk '$2 ~ /^rwx/ {own = 1; next} /^[0-9a-f]+-/ {own = 0} own && /^Size:/ {sum += $2} END {print sum + 0}' "/proc/$(process)/smaps"; }
-# As many frames as it takes to be settled: two of a headset that is worn.
-worn_again() { soon 30 told "$found" "$1" && soon 20 has_more_frames "$2"; }
-check "lost and found once" worn_again 2 1
-files=$(open_files) tasks=$(threads) code=$(code_kb)
-check "and four times" worn_again 5 6
-check "no more open files ($files, $(open_files))" [ "$(open_files)" -le "$files" ]
-now=$(threads)
-check "no more threads ($tasks, $now)" [ "$now" -le "$tasks" ]
-check "no driver left its code behind ($code, $(code_kb) KiB)" [ "$(code_kb)" -le $((code + 4096)) ]
-xdotool windowfocus "$window"
-check "its key ends it" ended_by End
-check "it broke no rule" broke_no_rule
-
 # --- pictures that stop for half a second, again and again, do not stop the lever
 begin "it starts" wear stalled --lesson none --hand "by itself" < <(
-  for i in $(seq 2 11); do at $((3 * i / 2)).$((5 * (i % 2))) stall "periods = 45"; done
-  at 18 stall "periods = 900")
+  for i in $(seq 2 8); do at $((3 * i / 2)).$((5 * (i % 2))) stall "periods = 45"; done
+  at 14 stall "periods = 900")
 check "worn" within 20 has_more_frames 2
 check "a recording while pictures stop" record
 check "they did" [ "$(awk '/^frame/ {sub("t=", "", $3); n += $3 - last > 0.45; last = $3} END {print n}' stalled/log.txt)" -ge 3 ]
@@ -159,8 +150,6 @@ check "it broke no rule" broke_no_rule
 export XR_RUNTIME_JSON=/nowhere
 begin "without a runtime" start nowhere --xr --silent --no-panel --lesson none --hand "by itself"
 check "the window shows the cabin" within 20 shows_desktop
-check "a recording beside the others" record
-check "the loop went on" never_stopped
 xdotool windowfocus "$window"
 check "its key ends it" ended_by End
 check "a sentence, and nothing of the loader's" one_line
@@ -169,7 +158,7 @@ check "it says what to do" grep -q "^gearshift: no OpenXR runtime answers: .*XR_
 # --- no headset: told once, however often it is looked for
 begin "without a headset" wear nothing --lesson none --hand "by itself" < <(echo 'headset = false')
 check "the window shows the cabin" within 20 shows_desktop
-sleep 5 # two more looks for one
+sleep 3 # another look for one
 check "one sentence" one_line
 check "it says so" told "^gearshift: no headset is connected to gearshift test runtime.*; the desktop shows the cabin"
 xdotool windowfocus "$window"

@@ -10,6 +10,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/app/vehicle/car_run.h"
+#include "tests/support/whole_campaign.h"
 
 using namespace gearshift;
 using glm::dvec2;
@@ -272,7 +273,9 @@ TEST_CASE("cone and moving lever against the reference: when the ring opens, sha
 TEST_CASE("the same with the yoke and the force sensor that ship: as near as half a step of the sensor is") {
   const CarSpec car = shipped_car("hatchback");
   const double half_step = 0.5 * 44.0 * kNewtonPerGramWeight;
+  int counted = 0;
   for (const Shift& shift : shifts()) {
+    if (counted++ % 3 != 0 && !is_whole_campaign()) continue;
     CAPTURE(shift.name);
     compare(car, shift, false, {half_step / 15.85, half_step});
   }

@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/app/vehicle/car_run.h"
+#include "tests/support/whole_campaign.h"
 
 using namespace gearshift;
 using glm::dvec2;
@@ -97,10 +98,11 @@ TEST_CASE("a sound ring: no forward gear grinds with the clutch down, from 0.2 t
   for (const std::string model : {"hatchback", "diesel"}) {
     const CarSpec car = shipped_car(model);
     CAPTURE(model);
-    int shifts = 0;
+    int shifts = 0, counted = 0;
     each_shift(car, [&](const Gate& gate, int from, int to) {
       for (const Rush& rush : kRushes) {
         for (const double brake : {0.0, 1.0}) {
+          if (counted++ % 5 != 0 && !is_whole_campaign()) continue;
           CAPTURE(from);
           CAPTURE(to);
           CAPTURE(rush.speed);
@@ -115,7 +117,7 @@ TEST_CASE("a sound ring: no forward gear grinds with the clutch down, from 0.2 t
         }
       }
     });
-    CHECK(shifts > 500);
+    CHECK(shifts > (is_whole_campaign() ? 500 : 100));
   }
 }
 

@@ -12,6 +12,7 @@
 #include "haptics/gate/feel_curve.h"
 #include "haptics/gate/gate_feel.h"
 #include "tests/app/vehicle/car_run.h"
+#include "tests/support/whole_campaign.h"
 
 using namespace gearshift;
 using glm::dvec2;
@@ -110,14 +111,16 @@ PushedLever pulled(const CarSpec& car, const Slot& slot, const Driving& driving,
           }};
 }
 
-// Every car, slot and way to drive.
+// Every car, slot and way to drive; of a sample every third, which has each car, slot and way.
 template <typename Try>
 void everywhere(Try attempt) {
+  int counted = 0;
   for (const char* name : {"hatchback", "diesel"}) {
     const CarSpec car = shipped_car(name);
     const Gate gate = gate_of(car);
     for (const Slot& slot : slots(gate)) {
       for (const Driving& driving : kDriving) {
+        if (counted++ % 3 != 0 && !is_whole_campaign()) continue;
         const std::string drive = std::string(name) + ", " + std::string(gear_name(slot.gear)) + ", " + driving.name;
         CAPTURE(drive);
         attempt(car, slot, driving);

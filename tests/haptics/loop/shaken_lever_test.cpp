@@ -9,6 +9,7 @@
 #include "haptics/loop/simulated_run.h"
 #include "tests/support/gates.h"
 #include "tests/support/hands.h"
+#include "tests/support/whole_campaign.h"
 
 using namespace gearshift;
 using glm::dvec2;
@@ -79,13 +80,14 @@ Shaken shaken(LeverWorld& world, const HandImpedance& grip, int gear, dvec2 push
 }  // namespace
 
 TEST_CASE("a lever that its world shakes keeps its walls, in a gear, at its walls and out of it, in every hand") {
-  int mistaken = 0;
+  int mistaken = 0, counted = 0;
   double widest = 0.0;
   for (const NamedHand& named : kNamedHands) {
     for (const int gear : {kNeutralGear, 1, 2, kReverseGear}) {
       for (const dvec2 push : {dvec2{0.0, 0.0}, {6.0, 0.0}, {0.0, 6.0}, {6.0, -6.0}}) {
         for (const double frequency : {8.0, 12.0, 16.0, 20.0, 24.0}) {
           for (const double amplitude : {0.3, 1.0, 2.1}) {
+            if (counted++ % 7 != 0 && !is_whole_campaign()) continue;
             CAPTURE(named.name);
             CAPTURE(gear);
             CAPTURE(push.x);
@@ -103,7 +105,7 @@ TEST_CASE("a lever that its world shakes keeps its walls, in a gear, at its wall
     }
   }
   CHECK(widest > 0.001);
-  CHECK(mistaken > 300);
+  CHECK(mistaken > (is_whole_campaign() ? 300 : 40));
 }
 
 TEST_CASE("at 4 kHz and at 500 Hz, too") {
