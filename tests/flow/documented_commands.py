@@ -20,7 +20,7 @@ import subprocess
 import sys
 import tempfile
 
-PROGRAMS = re.compile(r"^(\./run|\./test|gearshift|ctest|cmake|python3|blender|umockdev-wrapper|sudo|hid_descriptor_fuzz"
+PROGRAMS = re.compile(r"^(cp|sed|\./run|\./test|gearshift|ctest|cmake|python3|blender|umockdev-wrapper|sudo|hid_descriptor_fuzz"
                       r"|gltf_fuzz|picture_tests|tests/\S+\.sh|build/\S+)( |$)")
 BARE = re.compile(r"^(gearshift|ctest|cmake|python3|blender|sudo|umockdev-wrapper|\S+_fuzz|\S+_tests|tests/\S+\.sh|build/\S+)$")
 SKIPPED_FOLDERS = {"build", "out", ".git"}
@@ -136,12 +136,13 @@ class Runner:
         (work / "bin").mkdir()
         (work / "bin" / "gearshift").write_text(f'#!/bin/sh\nexec {shlex.quote(gearshift)} "$@"\n')
         (work / "bin" / "gearshift").chmod(0o755)
-        self.help, self.done, self.failures, self.run_count, self.elsewhere = {}, {}, [], 0, 0
+        self.help, self.seen, self.failures, self.run_count, self.elsewhere = {}, {}, [], 0, 0
         self.make_fixtures()
 
     def environment(self, folder):
         env = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
         env.update(PATH=f"{self.work / 'bin'}:{env['PATH']}", HOME=str(folder / "home"))
+        env["XDG_CACHE_HOME"] = str(self.work / "cache")  # pipelines are compiled once
         for kind in ("DATA", "CONFIG"):
             env[f"XDG_{kind}_HOME"] = str(folder / "home" / kind.lower())
         return env
@@ -217,6 +218,10 @@ class Runner:
             text += " --quick"
         return text
 
+    def first_time(self, command):
+        """What prose names again and again is run once."""
+        return self.seen.setdefault(command.text, command) is command
+
     def run(self, command, folder):
         text = self.as_run(command)
         try:
@@ -236,7 +241,7 @@ class Runner:
         for command in document.commands:
             if self.only_names_verb(command) or self.shown_elsewhere(command):
                 continue
-            if not command.inline or self.done.setdefault(command.text, document.name) == document.name:
+            if not command.inline or self.first_time(command):
                 wanted.append(command)
         if not wanted:
             return
@@ -244,10 +249,9 @@ class Runner:
         shutil.copytree(self.work / "fixtures", folder, symlinks=True, dirs_exist_ok=True)
         for name, text in document.files.items():
             (folder / name).write_text(text)
-        seen = set()
+        in_blocks = {command.text for command in wanted if not command.inline}
         for command in wanted:
-            if command.text not in seen:
-                seen.add(command.text)
+            if not command.inline or command.text not in in_blocks:
                 self.run(command, folder)
         shutil.rmtree(folder)
 
