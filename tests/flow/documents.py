@@ -2,12 +2,15 @@
 """What the .md files name is there: links, pictures, paths, the files that a folder's README walks, and of every law in
 haptics/EQUATIONS.md its function and its test. Usage: documents.py SOURCE_FOLDER
 """
+import fnmatch
 import pathlib
 import re
 import sys
 import urllib.parse
 
 SKIPPED_FOLDERS = ("build", "out", ".git")
+WALKED = ("app", "engine", "haptics", "shaders", "tests/bench", "tests/flow", "tests/support")
+SOURCES = (".cpp", ".h", ".sh", ".py", ".vert", ".frag", ".glsl")
 ROOMS = "app|assets|engine|haptics|shaders|tests"
 FUNCTION = re.compile(r"((?:`[\w:]+`(?:, )?)+) in `([^`]+)`")
 TEST = re.compile(r'`([^`]+)`: "([^"]+)"')
@@ -53,6 +56,19 @@ class Documents:
                     found = list(path.parent.glob(word)) or list(path.parent.glob(word + ".*"))
                     self.check(name, bool(found), f"walks {word}, which is not there")
 
+    def unwalked(self):
+        """Each source is named by its folder's README, or where there is none by the nearest one above."""
+        for room in WALKED:
+            for path in sorted((self.sources / room).rglob("*")):
+                if path.suffix not in SOURCES or path.stem.endswith("_test"):
+                    continue
+                folder = next(f for f in path.parents if (f / "README.md").exists())
+                text = (folder / "README.md").read_text()
+                words = re.findall(r"`([^`]+)`", text)
+                is_named = any(fnmatch.fnmatch(path.name, w) or fnmatch.fnmatch(path.stem, w) for w in words)
+                is_named = is_named or re.search(rf"[`/ ]{re.escape(path.stem)}\b", text)
+                self.check(path.relative_to(self.sources), is_named, f"not walked by {folder.relative_to(self.sources)}/README.md")
+
     def test_cases(self, file):
         """Names of its cases, literals that are split put together, as a table can hold them."""
         if file not in self.cases:
@@ -96,6 +112,7 @@ def main():
         documents.links(path, name, text)
         documents.paths(name, text)
         documents.walked(path, name, text)
+    documents.unwalked()
     documents.equations()
     print("".join(failure + "\n" for failure in documents.failures), end="")
     print(f"{documents.checks - len(documents.failures)} passed, {len(documents.failures)} failed")
