@@ -11,6 +11,7 @@ import urllib.parse
 SKIPPED_FOLDERS = ("build", "out", ".git")
 WALKED = ("app", "engine", "haptics", "shaders", "tests/bench", "tests/flow", "tests/support")
 SOURCES = (".cpp", ".h", ".sh", ".py", ".vert", ".frag", ".glsl")
+GUIDES = ("TUNING.md", "BUILDING.md", "GUIDE.md")
 ROOMS = "app|assets|engine|haptics|shaders|tests"
 FUNCTION = re.compile(r"((?:`[\w:]+`(?:, )?)+) in `([^`]+)`")
 TEST = re.compile(r'`([^`]+)`: "([^"]+)"')
@@ -19,7 +20,7 @@ TEST = re.compile(r'`([^`]+)`: "([^"]+)"')
 class Documents:
     def __init__(self, sources):
         self.sources, self.failures, self.checks = sources, [], 0
-        self.cases = {}
+        self.cases, self.said = {}, ""
 
     def check(self, where, ok, what):
         self.checks += 1
@@ -69,6 +70,23 @@ class Documents:
                 is_named = is_named or re.search(rf"[`/ ]{re.escape(path.stem)}\b", text)
                 self.check(path.relative_to(self.sources), is_named, f"not walked by {folder.relative_to(self.sources)}/README.md")
 
+    def sentences(self, name, text):
+        """What a guide has the program say, in quotes, stands in its sources, but for numbers and names."""
+        prose = re.sub(r"^```.*?^```|^    [^\n]*$|`[^`]*`", "", text, flags=re.M | re.S)
+        for quoted in re.findall(r'"([^"]*)"', prose):
+            for piece in re.split(r"\.\.\.|[-\d.]*\d[\d.]*", " ".join(quoted.split())):
+                if len(piece.strip()) >= 8:
+                    self.check(name, piece.strip(" .:") in self.literals(), f'nothing says "{piece.strip()}"')
+
+    def literals(self):
+        """All string literals of the program, those that are split put together."""
+        if not self.said:
+            for room in ("app", "engine", "haptics"):
+                for path in (self.sources / room).rglob("*.cpp"):
+                    text = re.sub(r'"\s*\n\s*"', "", path.read_text())
+                    self.said += "\n".join(re.findall(r'"((?:[^"\\\n]|\\.)*)"', text)) + "\n"
+        return self.said
+
     def test_cases(self, file):
         """Names of its cases, literals that are split put together, as a table can hold them."""
         if file not in self.cases:
@@ -112,6 +130,8 @@ def main():
         documents.links(path, name, text)
         documents.paths(name, text)
         documents.walked(path, name, text)
+        if path.name in GUIDES:
+            documents.sentences(name, text)
     documents.unwalked()
     documents.equations()
     print("".join(failure + "\n" for failure in documents.failures), end="")
