@@ -8,7 +8,7 @@ their order in one empty folder, with a home of their own, beside what FIXTURES 
 fenced blocks with a file's name (```toml my.toml). Words in capitals get a value from VALUES. Exit code 0 is expected, or
 what the comment behind the command says: "# exits 1"; and what it says in words must be printed: # says "may not".
 What wants a person, a headset, a stick or many minutes stands in ELSEWHERE, with the reason and what shows it instead: its
-verb and options must exist all the same.
+verb and options must exist all the same. Ranges and defaults in the tuning guide are compared with the program's, too.
 """
 import concurrent.futures
 import os
@@ -236,6 +236,23 @@ class Runner:
             if words not in printed:
                 self.fail(command, f'does not say "{words}": {printed[-500:]}')
 
+    def check_ranges(self):
+        """A row of the tuning guide, | `[table] key` | ... | low to high | default |, has the program's own range and default."""
+        page, shipped = self.sources / "haptics/TUNING.md", (self.sources / "assets/presets/default.toml").read_text()
+        folder = pathlib.Path(tempfile.mkdtemp(dir=self.work))
+        rows = re.findall(r"^\| `\[(\w+)\] (\w+)` \|[^|]*\| ([-\d.e]+) to ([-\d.e]+)[^|]*\| ([\d.]+) \|", page.read_text(), re.M)
+        for number, (table, key, low, high, default) in enumerate(rows):
+            row = Command("haptics/TUNING.md", number, f"[{table}] {key}")
+            (folder / "beyond.toml").write_text(f'name = "Beyond"\n[{table}]\n{key} = {10 * int(float(high) + 1)}\n')
+            said = self.shell("gearshift tour --preset beyond.toml --out beyond", folder).stdout
+            bounds = re.search(rf"{key} = .*: must be between (\S+) and (\S+)", said)
+            if not bounds or [float(b) for b in bounds.groups()] != [float(low), float(high)]:
+                self.fail(row, f"is not from {low} to {high}: {said}")
+            in_table = shipped[shipped.index(f"[{table}]"):]
+            if float(re.search(rf"^{key} = (\S+)", in_table, re.M).group(1)) != float(default):
+                self.fail(row, f"is not {default} where it is left out")
+        self.run_count += len(rows)
+
     def run_document(self, document):
         wanted = []
         for command in document.commands:
@@ -264,6 +281,7 @@ def main():
         runner = Runner(gearshift, sources, verbs, pathlib.Path(work))
         with concurrent.futures.ThreadPoolExecutor(2) as pool:
             list(pool.map(runner.run_document, found))
+        runner.check_ranges()
     print("".join(failure + "\n" for failure in runner.failures), end="")
     print(f"{runner.run_count} run, {runner.elsewhere} shown elsewhere, {len(runner.failures)} failed")
     return 1 if runner.failures or runner.run_count < 20 else 0
