@@ -3,12 +3,13 @@
 
 Usage: documented_commands.py GEARSHIFT SOURCE_FOLDER
 
-A command is a line of a code block, or inline code, that begins with one of PROGRAMS. Those of one document are run in
-their order in one empty folder, with a home of their own, beside what FIXTURES makes and what the document itself has in
-fenced blocks with a file's name (```toml my.toml). Words in capitals get a value from VALUES. Exit code 0 is expected, or
-what the comment behind the command says: "# exits 1"; and what it says in words must be printed: # says "may not".
-What wants a person, a headset, a stick or many minutes stands in ELSEWHERE, with the reason and what shows it instead: its
-verb and options must exist all the same. Ranges and defaults in the tuning guide are compared with the program's, too.
+A command is a line of a code block, or inline code, that begins with one of PROGRAMS. Those of one document are run
+in their order in one empty folder, with a home of their own, beside what make_fixtures() makes and what the document itself
+has in fenced blocks with a file's name (```toml my.toml). Words in capitals get a value from VALUES. Exit code 0 is
+expected, or what the comment behind the command says: "# exits 1"; and what it says in words must be printed: # says
+"may not". What wants a person, a headset, a stick or many minutes stands in ELSEWHERE, with the reason and what shows
+it instead: its verb and options must exist all the same. Ranges and defaults in the tuning guide are compared with
+the program's, too.
 """
 import concurrent.futures
 import os
@@ -20,15 +21,16 @@ import subprocess
 import sys
 import tempfile
 
-PROGRAMS = re.compile(r"^(cp|sed|\./run|\./test|gearshift|ctest|cmake|python3|blender|umockdev-wrapper|sudo|hid_descriptor_fuzz"
-                      r"|gltf_fuzz|picture_tests|tests/\S+\.sh|build/\S+)( |$)")
-BARE = re.compile(r"^(gearshift|ctest|cmake|python3|blender|sudo|umockdev-wrapper|\S+_fuzz|\S+_tests|tests/\S+\.sh|build/\S+)$")
+PROGRAM = (r"(cp|sed|sudo|gearshift|ctest|cmake|python3|blender|umockdev-wrapper|\w+_fuzz|\w+_tests"
+           r"|tests/\S+\.sh|build/\S+)")
+PROGRAMS = re.compile(rf"^(\./run|\./test|{PROGRAM})( |$)")
+BARE = re.compile(rf"^{PROGRAM}$")  # in prose that is a name
 SKIPPED_FOLDERS = {"build", "out", ".git"}
 
 # What a word in capitals stands for, in a verb or in all of them.
-VALUES = {"gate NAME": "paper", "gate LAYOUT": "dog_leg_five", "lesson NAME": "moving_off", "replay TRACE": "tour.trace",
-          "replay FILE": "killed.trace", "render FILE": "assets/models/hand.glb", "FILE": "bindings.toml",
-          "DIR": "made", "PNG": "made.png", "OUT": "out.csv", "WHO": "Ada"}
+VALUES = {"gate NAME": "paper", "gate LAYOUT": "dog_leg_five", "lesson NAME": "moving_off",
+          "replay TRACE": "tour.trace", "replay FILE": "killed.trace", "render FILE": "assets/models/hand.glb",
+          "FILE": "bindings.toml", "DIR": "made", "PNG": "made.png", "OUT": "out.csv", "WHO": "Ada"}
 
 # pattern of a command: reason, and the flow, or the other file, that shows it.
 ELSEWHERE = {
@@ -39,8 +41,11 @@ ELSEWHERE = {
     r"gearshift train.* --xr": ("wants a headset", "tests/flow/headset.sh"),
     r"gearshift demo ": ("takes minutes on a busy machine", "tests/flow/demo.sh"),
     r"gearshift reproduce --out \S+$": ("takes long", "tests/flow/reproduce.sh"),
-    r"gearshift bench($| --family (methods|contact|learning|hard|boundary|jitter|beside|picture|quality|light)\b)":
-        ("takes minutes", "tests/flow/hostile_command_lines.sh"),
+    r"gearshift bench --family (contact|boundary|methods|hard)":
+        ("takes minutes; its campaigns are this test's", "tests/haptics/loop/contact_goals_test.cpp"),
+    r"gearshift bench --family learning": ("the same", "tests/app/learner/learner_model_test.cpp"),
+    r"gearshift bench($| --family (jitter|beside|picture|quality|light))":
+        ("takes minutes, and the machine for itself", "tests/bench/README.md"),
     r"gearshift report .*--delete$": ("asks for the name", "tests/flow/report.sh"),
     r"blender ": ("Blender is not installed for the tests", "assets/models/build.py"),
     r"hid_descriptor_fuzz|gltf_fuzz": ("searches for ever", "tests/fuzz/CMakeLists.txt"),
@@ -183,6 +188,9 @@ class Runner:
         for option in re.findall(r" (--[a-z-]+)", command.text):
             if not re.search(rf"{option}\b", self.help[verb]):
                 self.fail(command, f"{verb} has no {option}")
+        for family in re.findall(r" --family (\w+)", command.text):
+            if not re.search(rf"[{{,]{family}\b", self.help[verb]):
+                self.fail(command, "there is no such family")
 
     def only_names_verb(self, command):
         """In prose: it must be one."""
@@ -237,10 +245,11 @@ class Runner:
                 self.fail(command, f'does not say "{words}": {printed[-500:]}')
 
     def check_ranges(self):
-        """A row of the tuning guide, | `[table] key` | ... | low to high | default |, has the program's own range and default."""
+        """A row of the tuning guide, | `[table] key` | ... | low to high | default |, has the program's own of both."""
         page, shipped = self.sources / "haptics/TUNING.md", (self.sources / "assets/presets/default.toml").read_text()
         folder = pathlib.Path(tempfile.mkdtemp(dir=self.work))
-        rows = re.findall(r"^\| `\[(\w+)\] (\w+)` \|[^|]*\| ([-\d.e]+) to ([-\d.e]+)[^|]*\| ([\d.]+) \|", page.read_text(), re.M)
+        row = re.compile(r"^\| `\[(\w+)\] (\w+)` \|[^|]*\| ([-\d.e]+) to ([-\d.e]+)[^|]*\| ([\d.]+) \|", re.M)
+        rows = row.findall(page.read_text())
         for number, (table, key, low, high, default) in enumerate(rows):
             row = Command("haptics/TUNING.md", number, f"[{table}] {key}")
             (folder / "beyond.toml").write_text(f'name = "Beyond"\n[{table}]\n{key} = {10 * int(float(high) + 1)}\n')

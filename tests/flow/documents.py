@@ -46,8 +46,8 @@ class Documents:
     def paths(self, name, text):
         """Inline code that begins with a room's name and a slash is a file, with or without its ending, or a folder."""
         for word in re.findall(rf"`((?:{ROOMS})/[\w./-]+)`", text):
-            found = (self.sources / word).exists() or list((self.sources / word).parent.glob(pathlib.Path(word).name + ".*"))
-            self.check(name, bool(found), f"{word} is not there")
+            path = self.sources / word
+            self.check(name, path.exists() or any(path.parent.glob(path.name + ".*")), f"{word} is not there")
 
     def walked(self, path, name, text):
         """A table that is headed "file" names files of its folder."""
@@ -68,7 +68,7 @@ class Documents:
                 words = re.findall(r"`([^`]+)`", text)
                 is_named = any(fnmatch.fnmatch(path.name, w) or fnmatch.fnmatch(path.stem, w) for w in words)
                 is_named = is_named or re.search(rf"[`/ ]{re.escape(path.stem)}\b", text)
-                self.check(path.relative_to(self.sources), is_named, f"not walked by {folder.relative_to(self.sources)}/README.md")
+                self.check(path.relative_to(self.sources), is_named, f"not walked by {folder.name}/README.md")
 
     def sentences(self, name, text):
         """What a guide has the program say, in quotes, stands in its sources, but for numbers and names."""
@@ -115,8 +115,8 @@ class Documents:
             for file, words in tests:
                 exists = (self.sources / file).exists()
                 self.check(law, exists, f"{file} is not there")
-                if exists:
-                    self.check(law, any(words in case for case in self.test_cases(file)), f'{file} has no case "{words}"')
+                found = exists and any(words in case for case in self.test_cases(file))
+                self.check(law, found, f'{file} has no case "{words}"')
 
 
 def anchors(text):
