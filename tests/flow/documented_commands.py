@@ -4,12 +4,12 @@
 Usage: documented_commands.py GEARSHIFT SOURCE_FOLDER
 
 A command is a line of a code block, or inline code, that begins with one of PROGRAMS. Those of one document are run
-in their order in one empty folder, with a home of their own, beside what make_fixtures() makes and what the document itself
-has in fenced blocks with a file's name (```toml my.toml). Words in capitals get a value from VALUES. Exit code 0 is
-expected, or what the comment behind the command says: "# exits 1"; and what it says in words must be printed: # says
-"may not". What wants a person, a headset, a stick or many minutes stands in ELSEWHERE, with the reason and what shows
-it instead: its verb and options must exist all the same. Ranges and defaults in the tuning guide are compared with
-the program's, too.
+in their order in one empty folder, with a home of their own, beside what make_fixtures() makes and what the document
+itself has in fenced blocks with a file's name (```toml my.toml). Words in capitals get a value from VALUES. Exit code
+0 is expected, or what the comment behind the command says: "# exits 1"; and what it says in words must be printed: #
+says "may not". What wants a person, a headset, a stick or many minutes stands in ELSEWHERE, with the reason and what
+shows it instead: its verb and options must exist all the same. Ranges and defaults in the tuning guide are compared
+with the program's, too.
 """
 import concurrent.futures
 import os
