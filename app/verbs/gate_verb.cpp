@@ -23,9 +23,9 @@ constexpr const char* kGateHelp =
     "or JSON, and drawn.";
 constexpr const char* kGateExamples =
     "\nExamples:\n"
-    "  gearshift gate paper                      the gate of the paper, as a table\n"
-    "  gearshift gate dog_leg_five --svg out.svg draw it as well\n"
-    "  gearshift gate my_gate.toml --json        an own layout, for programs\n";
+    "  gearshift gate paper                       the gate of the paper, as a table\n"
+    "  gearshift gate dog_leg_five --svg out.svg  draw it as well\n"
+    "  gearshift gate my_gate.toml --json         an own layout, for programs\n";
 
 struct GateOptions {
   std::string layout;

@@ -28,8 +28,8 @@ constexpr const char* kLessonExamples =
     "A history that cannot be used is told in one sentence, and the lesson is driven without it.\n"
     "\nExamples:\n"
     "  gearshift lesson hill_start                               by someone who can\n"
-    "  gearshift lesson hill_start --skill-error 1 --seed 4      by someone who begins\n"
-    "  gearshift lesson hill_start --fault rollback              by someone who can, but for that\n"
+    "  gearshift lesson hill_start --skill-error 1 --seed 4      by someone who begins: exits 1\n"
+    "  gearshift lesson hill_start --fault rollback              by someone who can, but for that: exits 1\n"
     "  gearshift lesson skip_shifts --trace drive.trace          for gearshift replay\n"
     "  gearshift lesson reverse --learner Kim --runs 8 --guided  for gearshift report, and for the trainer\n";
 

@@ -1,0 +1,300 @@
+#!/usr/bin/env python3
+"""Every command in every .md file, and every example of a verb's --help, is run as it stands, two documents at a time.
+
+Usage: documented_commands.py GEARSHIFT SOURCE_FOLDER
+
+A command is a line of a code block, or inline code, that begins with one of PROGRAMS. Those of one document are run
+in their order in one empty folder, with a home of their own, beside what make_fixtures() makes and what the document
+itself has in fenced blocks with a file's name (```toml my.toml). Words in capitals get a value from VALUES. Exit code
+0 is expected, or what the comment behind the command says: "# exits 1"; and what it says in words must be printed: #
+says "may not". What wants a person, a headset, a stick or many minutes stands in ELSEWHERE, with the reason and what
+shows it instead: its verb and options must exist all the same. Ranges and defaults in the tuning guide are compared
+with the program's, too.
+"""
+import concurrent.futures
+import os
+import pathlib
+import re
+import shlex
+import shutil
+import subprocess
+import sys
+import tempfile
+
+PROGRAM = (r"(cp|sed|sudo|gearshift|ctest|cmake|python3|blender|umockdev-wrapper|\w+_fuzz|\w+_tests"
+           r"|tests/\S+\.sh|build/\S+)")
+PROGRAMS = re.compile(rf"^(\./run|\./test|{PROGRAM})( |$)")
+BARE = re.compile(rf"^{PROGRAM}$")  # in prose that is a name
+SKIPPED_FOLDERS = {"build", "out", ".git"}
+
+# What a word in capitals stands for, in a verb or in all of them.
+VALUES = {"gate NAME": "paper", "gate LAYOUT": "dog_leg_five", "lesson NAME": "moving_off",
+          "replay TRACE": "tour.trace", "replay FILE": "killed.trace", "render FILE": "assets/models/hand.glb",
+          "FILE": "bindings.toml", "DIR": "made", "PNG": "made.png", "OUT": "out.csv", "WHO": "Ada"}
+
+# pattern of a command: reason, and the flow, or the other file, that shows it.
+ELSEWHERE = {
+    r"\./run$": ("installs and opens a window", "tests/flow/window.sh"),
+    r"\./test|ctest|cmake --workflow|cmake --build": ("runs this test", "CMakePresets.json"),
+    r"gearshift .*--device ": ("wants a stick and who holds it", "tests/flow/devices.sh"),
+    r"gearshift devices --calibrate": ("wants a stick and a person", "tests/flow/devices.sh"),
+    r"gearshift train.* --xr": ("wants a headset", "tests/flow/headset.sh"),
+    r"gearshift demo ": ("takes minutes on a busy machine", "tests/flow/demo.sh"),
+    r"gearshift reproduce --out \S+$": ("takes long", "tests/flow/reproduce.sh"),
+    r"gearshift bench --family (contact|boundary|methods|hard)":
+        ("takes minutes; its campaigns are this test's", "tests/haptics/loop/contact_goals_test.cpp"),
+    r"gearshift bench --family learning": ("the same", "tests/app/learner/learner_model_test.cpp"),
+    r"gearshift bench($| --family (jitter|beside|picture|quality|light))":
+        ("takes minutes, and the machine for itself", "tests/bench/README.md"),
+    r"gearshift report .*--delete$": ("asks for the name", "tests/flow/report.sh"),
+    r"blender ": ("Blender is not installed for the tests", "assets/models/build.py"),
+    r"hid_descriptor_fuzz|gltf_fuzz": ("searches for ever", "tests/fuzz/CMakeLists.txt"),
+    r"tests/guest/run_guest\.sh": ("boots a kernel: ./test --full", "tests/guest/run_guest.sh"),
+    r"tests/flow/\w+\.sh": ("a flow itself", "tests/flow/CMakeLists.txt"),
+    r"umockdev-wrapper ": ("an emulated stick in real time", "tests/flow/sticks.sh"),
+    r"sudo ": ("changes the machine", "assets/udev/70-gearshift.rules"),
+}
+
+
+class Command:
+    def __init__(self, document, line, text, comment="", inline=False):
+        self.inline = inline
+        self.document, self.line, self.text = document, line, re.sub(r"^\./run ", "gearshift ", text.strip())
+        code = re.search(r"exits (\d)", comment)
+        self.code = int(code.group(1)) if code else 0
+        self.says = re.findall(r'says "([^"]*)"', comment)
+
+    def where(self):
+        return f"{self.document}:{self.line}: {self.text}"
+
+
+class Document:
+    def __init__(self, name):
+        self.name, self.commands, self.files = name, [], {}
+
+
+def split_comment(line):
+    """A command and what is written behind it, after a # or, in a table of commands, after two spaces."""
+    parts = re.split(r"\s+# |\s{2,}#? ?", line.strip(), maxsplit=1)
+    return parts[0], parts[1] if len(parts) > 1 else ""
+
+
+def read_document(path, name):
+    document = Document(name)
+    fence = file = None
+    held, started = "", 0
+    for number, line in enumerate(path.read_text().splitlines(), 1):
+        opening = re.match(r"^\s*```(\S*)\s*(\S*)", line)
+        if opening:
+            fence = None if fence else "```"
+            file = opening.group(2) if fence else None
+            if file:
+                document.files[file] = ""
+        elif file:
+            document.files[file] += line + "\n"
+        elif fence or line.startswith("    "):
+            held, started = (held + " " if held else "") + line.strip(), started or number
+            if held.endswith("\\"):
+                held = held[:-1].rstrip()
+                continue
+            text, comment = split_comment(held)
+            if PROGRAMS.match(text):
+                document.commands.append(Command(name, started, text, comment))
+            held, started = "", 0
+    text = re.sub(r"^```.*?^```", lambda block: "\n" * block.group().count("\n"), path.read_text(), flags=re.M | re.S)
+    for inline in re.finditer(r"`([^`]+)`", text):
+        command = " ".join(inline.group(1).split())
+        if PROGRAMS.match(command) and not BARE.match(command):
+            document.commands.append(Command(name, text.count("\n", 0, inline.start()) + 1, command, inline=True))
+    return document
+
+
+def read_help(gearshift, verb):
+    document = Document(f"gearshift {verb} --help")
+    printed = subprocess.run([gearshift, verb, "--help"], capture_output=True, text=True, check=True).stdout
+    for number, line in enumerate(printed.splitlines(), 1):
+        if line.startswith("  gearshift "):
+            document.commands.append(Command(document.name, number, *split_comment(line)))
+    return document
+
+
+def read_verbs(gearshift):
+    printed = subprocess.run([gearshift, "--help"], capture_output=True, text=True, check=True).stdout
+    return re.findall(r"^  (\w+)  ", printed[printed.index("Subcommands:"):], re.M)
+
+
+def documents(sources, gearshift, verbs):
+    found = []
+    for folder, folders, names in os.walk(sources):
+        folders[:] = [f for f in folders if f not in SKIPPED_FOLDERS]
+        for name in names:
+            if name.endswith(".md"):
+                path = pathlib.Path(folder, name)
+                found.append(read_document(path, str(path.relative_to(sources))))
+    found += [read_help(gearshift, verb) for verb in verbs]
+    return sorted((d for d in found if d.commands), key=lambda d: d.name)
+
+
+class Runner:
+    def __init__(self, gearshift, sources, verbs, work):
+        self.sources, self.verbs, self.work = sources, verbs, work
+        (work / "bin").mkdir()
+        (work / "bin" / "gearshift").write_text(f'#!/bin/sh\nexec {shlex.quote(gearshift)} "$@"\n')
+        (work / "bin" / "gearshift").chmod(0o755)
+        self.help, self.seen, self.failures, self.run_count, self.elsewhere = {}, {}, [], 0, 0
+        self.make_fixtures()
+
+    def environment(self, folder):
+        env = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
+        env.update(PATH=f"{self.work / 'bin'}:{env['PATH']}", HOME=str(folder / "home"))
+        env["XDG_CACHE_HOME"] = str(self.work / "cache")  # pipelines are compiled once
+        for kind in ("DATA", "CONFIG"):
+            env[f"XDG_{kind}_HOME"] = str(folder / "home" / kind.lower())
+        return env
+
+    def shell(self, text, folder):
+        return subprocess.run(["bash", "-c", text], cwd=folder, env=self.environment(folder), text=True,
+                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=120)
+
+    def make_fixtures(self):
+        folder = self.work / "fixtures"
+        folder.mkdir()
+        for name in ("assets", "tests"):
+            (folder / name).symlink_to(self.sources / name)
+        shutil.copy(self.sources / "assets/gates/paper.toml", folder / "my_gate.toml")
+        shutil.copy(self.sources / "assets/bindings/default.toml", folder / "bindings.toml")
+        for command in ("gearshift tour --gate my_gate.toml --out drive && cp drive/tour.trace .",
+                        "gearshift lesson reverse --trace lesson.trace", "cp lesson.trace drive.trace",
+                        "head -c 100000 lesson.trace >killed.trace",
+                        "gearshift lesson moving_off --learner Ada --runs 12",
+                        "gearshift report --learner Ada --comment 12 Good. --by Bo",
+                        "gearshift report --learner Ada --comment 11 Calm. --by Bo",
+                        "gearshift report --learner Ada --comment 10 Fair. --by Bo"):
+            done = self.shell(command, folder)
+            if done.returncode:
+                sys.exit(f"a fixture failed: {command}\n{done.stdout}")
+
+    def fail(self, command, why):
+        self.failures.append(f"FAILED: {command.where()}\n  {why}")
+
+    def parses(self, command):
+        """Its verb and options exist."""
+        words = command.text.split()
+        if words[0] != "gearshift" or len(words) < 2:
+            return
+        verb = words[1]
+        if verb not in self.help:
+            self.help[verb] = self.shell(f"gearshift {verb} --help", self.work / "fixtures").stdout
+        for option in re.findall(r" (--[a-z-]+)", command.text):
+            if not re.search(rf"{option}\b", self.help[verb]):
+                self.fail(command, f"{verb} has no {option}")
+        for family in re.findall(r" --family (\w+)", command.text):
+            if not re.search(rf"[{{,]{family}\b", self.help[verb]):
+                self.fail(command, "there is no such family")
+
+    def only_names_verb(self, command):
+        """In prose: it must be one."""
+        if not command.inline or not re.match(r"gearshift \w+$", command.text):
+            return False
+        if command.text.split()[1] not in self.verbs:
+            self.fail(command, "is no verb")
+        return True
+
+    def shown_elsewhere(self, command):
+        for pattern, (_, shown_by) in ELSEWHERE.items():
+            if re.match(pattern, command.text):
+                if not (self.sources / shown_by).exists():
+                    self.fail(command, f"{shown_by}, which is to show it, does not exist")
+                self.parses(command)
+                self.elsewhere += 1
+                return True
+        return False
+
+    def as_run(self, command):
+        text = command.text
+        for name, value in VALUES.items():
+            verb, _, word = name.rpartition(" ")
+            if not verb or text.startswith(f"gearshift {verb} "):
+                text = re.sub(rf"(?<=[ =]){word}(?= |$)", value, text)
+        if text.startswith("gearshift train") and "--offscreen" not in text:
+            text += " --offscreen picture"
+        if text.startswith("gearshift train") and "--replay" not in text:
+            text += " --seconds 0.1"
+        if re.match("gearshift (train|render)", text) and "--size" not in text:
+            text += " --size 64x48 --samples 1"
+        if text.startswith("gearshift bench") and "--quick" not in text:
+            text += " --quick"
+        return text
+
+    def first_time(self, command):
+        """What prose names again and again is run once."""
+        return self.seen.setdefault(command.text, command) is command
+
+    def run(self, command, folder):
+        text = self.as_run(command)
+        try:
+            done = self.shell(text, folder)
+        except subprocess.TimeoutExpired:
+            return self.fail(command, "takes more than two minutes")
+        self.run_count += 1
+        if done.returncode != command.code:
+            self.fail(command, f"exits {done.returncode}, not {command.code}: {done.stdout.strip()[-500:]}")
+        printed = " ".join(done.stdout.split())
+        for words in command.says:
+            if words not in printed:
+                self.fail(command, f'does not say "{words}": {printed[-500:]}')
+
+    def check_ranges(self):
+        """A row of the tuning guide, | `[table] key` | ... | low to high | default |, has the program's own of both."""
+        page, shipped = self.sources / "haptics/TUNING.md", (self.sources / "assets/presets/default.toml").read_text()
+        folder = pathlib.Path(tempfile.mkdtemp(dir=self.work))
+        row = re.compile(r"^\| `\[(\w+)\] (\w+)` \|[^|]*\| ([-\d.e]+) to ([-\d.e]+)[^|]*\| ([\d.]+) \|", re.M)
+        rows = row.findall(page.read_text())
+        for number, (table, key, low, high, default) in enumerate(rows):
+            row = Command("haptics/TUNING.md", number, f"[{table}] {key}")
+            (folder / "beyond.toml").write_text(f'name = "Beyond"\n[{table}]\n{key} = {10 * int(float(high) + 1)}\n')
+            said = self.shell("gearshift tour --preset beyond.toml --out beyond", folder).stdout
+            bounds = re.search(rf"{key} = .*: must be between (\S+) and (\S+)", said)
+            if not bounds or [float(b) for b in bounds.groups()] != [float(low), float(high)]:
+                self.fail(row, f"is not from {low} to {high}: {said}")
+            in_table = shipped[shipped.index(f"[{table}]"):]
+            if float(re.search(rf"^{key} = (\S+)", in_table, re.M).group(1)) != float(default):
+                self.fail(row, f"is not {default} where it is left out")
+        self.run_count += len(rows)
+
+    def run_document(self, document):
+        wanted = []
+        for command in document.commands:
+            if self.only_names_verb(command) or self.shown_elsewhere(command):
+                continue
+            if not command.inline or self.first_time(command):
+                wanted.append(command)
+        if not wanted:
+            return
+        folder = pathlib.Path(tempfile.mkdtemp(dir=self.work))
+        shutil.copytree(self.work / "fixtures", folder, symlinks=True, dirs_exist_ok=True)
+        for name, text in document.files.items():
+            (folder / name).write_text(text)
+        in_blocks = {command.text for command in wanted if not command.inline}
+        for command in wanted:
+            if not command.inline or command.text not in in_blocks:
+                self.run(command, folder)
+        shutil.rmtree(folder)
+
+
+def main():
+    gearshift, sources = os.path.abspath(sys.argv[1]), pathlib.Path(sys.argv[2]).resolve()
+    verbs = read_verbs(gearshift)
+    found = documents(sources, gearshift, verbs)
+    with tempfile.TemporaryDirectory() as work:
+        runner = Runner(gearshift, sources, verbs, pathlib.Path(work))
+        with concurrent.futures.ThreadPoolExecutor(2) as pool:
+            list(pool.map(runner.run_document, found))
+        runner.check_ranges()
+    print("".join(failure + "\n" for failure in runner.failures), end="")
+    print(f"{runner.run_count} run, {runner.elsewhere} shown elsewhere, {len(runner.failures)} failed")
+    return 1 if runner.failures or runner.run_count < 20 else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

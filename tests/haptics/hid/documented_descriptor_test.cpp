@@ -1,0 +1,65 @@
+// The descriptor of haptics/hardware/BUILDING.md is one: read from the page, it is a stick that can be driven.
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "haptics/hid/lever_report.h"
+#include "haptics/hid/pid_layout.h"
+#include "haptics/hid/pid_report.h"
+#include "tests/haptics/hid/descriptors.h"
+
+using namespace gearshift;
+
+namespace {
+
+// The bytes of the page's block, without what is said beside them.
+std::string documented_hex() {
+  std::ifstream file(GEARSHIFT_TEST_DATA "/../../haptics/hardware/BUILDING.md");
+  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  const std::string fence = "```hex least_stick.hex\n";
+  const auto begin = page.find(fence);
+  REQUIRE(begin != std::string::npos);
+  const auto from = begin + fence.size();
+  std::string bytes;
+  bool is_said = false;
+  for (const char c : page.substr(from, page.find("```", from) - from)) {
+    is_said = c == '#' || (is_said && c != '\n');
+    if (!is_said) bytes += c;
+  }
+  return bytes;
+}
+
+}  // namespace
+
+TEST_CASE("the builder's guide: 257 bytes are a lever of 16 bits and 8 buttons that can be pushed") {
+  const std::vector<std::uint8_t> bytes = hex_bytes(documented_hex());
+  CHECK(bytes.size() == 257);
+  const ReportDescriptor descriptor = parse_report_descriptor(bytes);
+
+  const auto lever = find_lever_report(descriptor);
+  REQUIRE(lever);
+  CHECK(lever->id == 1);
+  CHECK(lever->size == 6);
+  REQUIRE(lever->axes.size() == 2);
+  CHECK(lever->axes[1].usage == kUsageY);
+  CHECK(lever->axes[1].field.offset == 16);
+  CHECK(lever->axes[1].field.min == -32767);
+  CHECK(lever->axes[1].field.max == 32767);
+  CHECK(lever->buttons.size() == 8);
+
+  const auto pid = find_pid(descriptor);
+  REQUIRE(pid);
+  CHECK(pid->makes(PidEffect::constant));
+  CHECK_FALSE(pid->makes(PidEffect::spring));
+  CHECK(pid->set_effect.id == 2);
+  CHECK(pid->set_effect.duration_unit == doctest::Approx(1e-3));
+  CHECK(pid->set_effect.full_turn == doctest::Approx(36000.0));
+  for (const std::size_t control : {0, 1, 2, 3}) CHECK(pid->device_control.control.knows(control));
+  CHECK_FALSE(pid->create.exists());
+
+  // By hand: ID 3, block 2, half of 32767 = 16384 (rounded) = 4000h.
+  const HidBytes half = encode_constant(*pid, 2, 0.5);
+  CHECK(hex(half.view()) == "03 02 00 40");
+}
