@@ -1,5 +1,6 @@
 // Integrators of the plant, ns against error: the exact step beside the two that one would write first.
 #include <cmath>
+#include <string>
 
 #include "haptics/joystick/plant.h"
 #include "tests/bench/bench.h"
@@ -42,34 +43,50 @@ AxisState runge_kutta4(const AxisModel& axis, AxisState s, double h) noexcept {
 }
 
 struct Result {
-  double error, ns;
+  double error;  // [1] relative
+  Timed ns;      // a step
 };
+
+constexpr int kRounds = 21;  // that a step's cost is the median of
 
 template <class Step>
 Result measure(const AxisModel& axis, double period, Step step) {
   const int steps = static_cast<int>(std::lround(kTime / period));
-  const int repeats = 200000 / steps + 1;
+  const int repeats = 20000 / steps + 1;
   AxisState state;
-  const std::uint64_t before = ticks();
-  for (int r = 0; r < repeats; ++r) {
-    state = {kStart, 0.0};
-    for (int i = 0; i < steps; ++i) state = step(state);
+  std::vector<double> ns;
+  for (int round = 0; round < kRounds; ++round) {
+    const std::uint64_t before = ticks();
+    for (int r = 0; r < repeats; ++r) {
+      state = {kStart, 0.0};
+      for (int i = 0; i < steps; ++i) state = step(state);
+    }
+    ns.push_back(static_cast<double>(ticks() - before) / ticks_per_ns() / (static_cast<double>(steps) * repeats));
   }
-  const double ns = static_cast<double>(ticks() - before) / ticks_per_ns() / (static_cast<double>(steps) * repeats);
   const long double truth = closed_form(axis, kTime);
-  return {static_cast<double>(std::abs((state.position - truth) / truth)), ns};
+  return {static_cast<double>(std::abs((state.position - truth) / truth)), timed(ns)};
 }
 
-void add(std::vector<BenchRow>& rows, const std::string& name, Result result, std::optional<double> goal) {
-  rows.push_back({"plant",
-                  name,
-                  result.error,
-                  "relative",
-                  goal,
-                  false,
-                  "after 0.5 s under 10 N, against the sum of two exponentials",
-                  true,
-                  {{"cost", result.ns, "ns/step"}}});
+BenchRow plant_row(const std::string& method, const std::string& at, const Result& result) {
+  const Beside cost{"cost", result.ns.median, "ns/step", result.ns.spread};
+  BenchRow row{"plant",
+               method + " " + at,
+               result.error,
+               "relative",
+               {},
+               false,
+               "after 0.5 s under 10 N, against the sum of two exponentials",
+               true,
+               {cost}};
+  row.trade = Trade{at, method, cost, {"error", result.error, "relative"}};
+  return row;
+}
+
+// What the simulated lever is stepped by.
+BenchRow shipped(BenchRow row) {
+  row.goal = 1e-12;
+  row.trade->chosen = true;
+  return answering(Design::plant, std::move(row));
 }
 
 }  // namespace
@@ -78,12 +95,14 @@ std::vector<BenchRow> bench_plant(const BenchOptions&) {
   std::vector<BenchRow> rows;
   const AxisModel axis = kPaperAxisX;
   for (const double period : {0.001, 0.01}) {
-    const std::string at = period == 0.001 ? " at 1 ms" : " at 10 ms";
+    const std::string at = period == 0.001 ? "at 1 ms" : "at 10 ms";
     const AxisStepper exact(axis, period);
-    add(rows, "exact" + at, measure(axis, period, [&](AxisState s) { return exact.step(s, kForce); }), 1e-12);
-    add(rows, "Runge-Kutta 4" + at, measure(axis, period, [&](AxisState s) { return runge_kutta4(axis, s, period); }),
-        {});
-    add(rows, "symplectic Euler" + at, measure(axis, period, [&](AxisState s) { return euler(axis, s, period); }), {});
+    const auto by = [&](const std::string& method, auto step) {
+      return plant_row(method, at, measure(axis, period, step));
+    };
+    rows.push_back(shipped(by("exact", [&](AxisState s) { return exact.step(s, kForce); })));
+    rows.push_back(by("Runge-Kutta 4", [&](AxisState s) { return runge_kutta4(axis, s, period); }));
+    rows.push_back(by("symplectic Euler", [&](AxisState s) { return euler(axis, s, period); }));
   }
   return rows;
 }

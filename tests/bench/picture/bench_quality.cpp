@@ -77,22 +77,24 @@ Image shrunk(const Image& picture, int scale) {
 
 struct Taken {
   Image picture;
-  double ms = 0.0;
+  Timed ms;  // a frame
+  Beside frame() const { return {"frame", ms.median, "ms", ms.spread}; }
 };
 
 Taken take(Gpu& gpu, PaperCabin& cabin, const RenderConfig& config, const View& view, int frames) {
   Renderer renderer(gpu, config);
   renderer.set_model(cabin.stage.model());
-  const double ms = time_frames(gpu, renderer, cabin.stage.scene(), {&view, 1}, frames, 1).host_ms;
+  const Timed ms = time_frames(gpu, renderer, cabin.stage.scene(), {&view, 1}, frames, frames > 1 ? 1 : 0).host;
   return {renderer.read_eye(0), ms};
 }
 
 std::vector<BenchRow> anti_aliasing_rows(const BenchOptions& options, Gpu& gpu, PaperCabin& cabin) {
   const View view = seen_from(cabin.stage.driver_eye(), sized(1, 1));
-  const int frames = options.quick ? 3 : 9;
+  const int frames = options.quick ? 2 : 9;
   const Image reference = shrunk(take(gpu, cabin, sized(8, 1), view, 1).picture, 8);
   std::vector<BenchRow> rows;
-  const auto add = [&](const char* name, const Taken& taken) {
+  const auto add = [&](const char* name, int samples, const Taken& taken) {
+    const double apart_seen = flip(reference, taken.picture).mean;
     const ImageDifference apart = difference(taken.picture, reference);
     rows.push_back({"quality",
                     fmt::format("anti-aliasing against 64 samples a pixel, {}x{}: {}", kWidth, kHeight, name),
@@ -102,13 +104,18 @@ std::vector<BenchRow> anti_aliasing_rows(const BenchOptions& options, Gpu& gpu, 
                     true,
                     "",
                     true,
-                    {{"FLIP", flip(reference, taken.picture).mean, ""}, {"frame", taken.ms, "ms"}}});
+                    {{"FLIP", apart_seen, ""}, taken.frame()}});
+    rows.back().trade = Trade{fmt::format("anti-aliasing, {}x{}", kWidth, kHeight),
+                              name,
+                              taken.frame(),
+                              {"FLIP against 64 samples a pixel", apart_seen, ""},
+                              samples == RenderConfig{}.samples};
   };
-  add("1x", take(gpu, cabin, sized(1, 1), view, frames));
-  add("4x", take(gpu, cabin, sized(1, 4), view, frames));
+  add("1x", 1, take(gpu, cabin, sized(1, 1), view, frames));
+  add("4x", 4, take(gpu, cabin, sized(1, 4), view, frames));
   Taken super = take(gpu, cabin, sized(2, 1), view, frames);
   super.picture = shrunk(super.picture, 2);
-  add("2x2 supersampling", super);
+  add("2x2 supersampling", 0, super);
   return rows;
 }
 
@@ -208,7 +215,7 @@ double luminance(const Image& picture, const LitPixel& at) {
 
 std::vector<BenchRow> shadow_rows(const BenchOptions& options, Gpu& gpu, PaperCabin& cabin) {
   const View view = seen_from(cabin.stage.driver_eye(), sized(1, 1));
-  const std::vector<LitPixel> truth = cast(cabin.stage, view, options.quick ? 200 : 2000);
+  const std::vector<LitPixel> truth = cast(cabin.stage, view, options.quick ? 100 : 2000);
   RenderConfig config = sized(1, 1);
   config.mirror_height = 0;
   config.shadow_side = 0;
@@ -222,7 +229,7 @@ std::vector<BenchRow> shadow_rows(const BenchOptions& options, Gpu& gpu, PaperCa
   std::vector<BenchRow> rows;
   for (const int side : {512, 1024, 2048, 4096}) {
     config.shadow_side = side;
-    const Taken taken = take(gpu, cabin, config, view, options.quick ? 3 : 9);
+    const Taken taken = take(gpu, cabin, config, view, options.quick ? 2 : 9);
     int wrong = 0, judged = 0;
     for (const LitPixel& pixel : truth) {
       const double full = luminance(unshadowed, pixel), none = luminance(sunless, pixel);
@@ -231,15 +238,21 @@ std::vector<BenchRow> shadow_rows(const BenchOptions& options, Gpu& gpu, PaperCa
       wrong += lit != pixel.lit ? 1 : 0;
       ++judged;
     }
+    const double share = judged > 0 ? 100.0 * wrong / judged : 0.0;
     rows.push_back({"quality",
                     fmt::format("shadow map {0}x{0}: pixels that rays say are wrong", side),
-                    judged > 0 ? 100.0 * wrong / judged : 0.0,
+                    share,
                     "%",
                     {},
                     false,
                     "",
                     true,
-                    {{"judged", static_cast<double>(judged), "pixels"}, {"frame", taken.ms, "ms"}}});
+                    {{"judged", static_cast<double>(judged), "pixels"}, taken.frame()}});
+    rows.back().trade = Trade{"shadow map",
+                              fmt::format("{0}x{0}", side),
+                              taken.frame(),
+                              {"pixels that rays say are wrong", share, "%"},
+                              side == RenderConfig{}.shadow_side};
   }
   return rows;
 }
@@ -253,16 +266,22 @@ std::vector<BenchRow> mirror_rows(const BenchOptions& options, Gpu& gpu, PaperCa
   std::vector<BenchRow> rows;
   for (const int height : {48, 96, 192}) {
     config.mirror_height = height;
-    const Taken taken = take(gpu, cabin, config, view, options.quick ? 3 : 9);
+    const Taken taken = take(gpu, cabin, config, view, options.quick ? 2 : 9);
+    const double apart = flip(reference, taken.picture).mean;
     rows.push_back({"quality",
                     fmt::format("mirror of {} lines, seen close, against 384: FLIP", height),
-                    flip(reference, taken.picture).mean,
+                    apart,
                     "",
                     {},
                     false,
                     "",
                     true,
-                    {{"frame", taken.ms, "ms"}}});
+                    {taken.frame()}});
+    rows.back().trade = Trade{"mirror, seen close",
+                              fmt::format("{} lines", height),
+                              taken.frame(),
+                              {"FLIP against 384 lines", apart, ""},
+                              height == RenderConfig{}.mirror_height};
   }
   return rows;
 }
@@ -352,15 +371,17 @@ BenchRow projected_points(Gpu& gpu) {
       sum += error;
     }
   }
-  return {"quality",
-          fmt::format("projected points, {} marks, both eyes, off axis: worst distance from the closed form", kMarks),
-          worst,
-          "px",
-          0.1,
-          false,
-          "",
-          true,
-          {{"mean", sum / (2 * kMarks), "px"}}};
+  return answering(
+      Design::projected,
+      {"quality",
+       fmt::format("projected points, {} marks, both eyes, off axis: worst distance from the closed form", kMarks),
+       worst,
+       "px",
+       0.1,
+       false,
+       "",
+       true,
+       {{"mean", sum / (2 * kMarks), "px"}}});
 }
 
 }  // namespace
