@@ -159,6 +159,10 @@ class Panel {
 
   void names() {
     double y = box_.bottom() + kBelow + 8.0;
+    const Type heading{11.0, kSoftInk, "end"};
+    svg_.text({corner_.x + kPanelWidth - 88.0, y}, heading, "cost");
+    svg_.text({corner_.x + kPanelWidth - kRight, y}, heading, "error");
+    y += kLine;
     for (std::size_t i = 0; i < contest_.size(); ++i, y += kLine) {
       const Trade& trade = *contest_[i];
       const char* ink = trade.chosen ? kChosen : on_front(i) ? kInk : kSoftInk;
@@ -180,7 +184,7 @@ class Panel {
 };
 
 double height_of(const Contest& contest) {
-  return kTop + kPlotHeight + kBelow + kLine * static_cast<double>(contest.size()) + 20.0;
+  return kTop + kPlotHeight + kBelow + kLine * static_cast<double>(contest.size() + 1) + 20.0;
 }
 
 }  // namespace

@@ -31,6 +31,11 @@ std::vector<Timed> costs(const Drive& drive, double step, int rounds) {
   return all;
 }
 
+// The plain methods know nothing of what teeth lose.
+bool knows_plain_methods(const Drive& drive) {
+  return drive.car.gearbox.efficiency == 1.0;
+}
+
 // Per simulated second, so that steps of both lengths compare.
 Trade trade_of(const BenchRow& row, const Drive& drive, DriveMethod method, double step, const Timed& ns) {
   const double us = 1e-3 / step;  // of a second's steps, a nanosecond each
@@ -62,7 +67,7 @@ BenchRow row_of(const Drive& drive, DriveMethod method, double step, const Drive
                {{"engine at worst", worst, "rad/s"},
                 {"at the end", std::abs(has.samples.back().engine - should.samples.back().engine), "rad/s"},
                 {"cost", ns.median, "ns a step", ns.spread}}};
-  row.trade = trade_of(row, drive, method, step, ns);
+  if (knows_plain_methods(drive)) row.trade = trade_of(row, drive, method, step, ns);
   if (method != DriveMethod::events || step > 0.002) return row;
   row.goal = 0.01;
   return answering(Design::driveline, std::move(row));
@@ -108,8 +113,7 @@ std::vector<BenchRow> bench_driveline(const BenchOptions& options) {
     for (const double step : {0.001, 0.004}) {
       if (options.progress) options.progress("driveline", static_cast<double>(rows.size()) / 27.0);
       const std::vector<Timed> ns = costs(drive, step, rounds);
-      // The plain methods know nothing of what teeth lose.
-      const std::size_t methods = drive.car.gearbox.efficiency == 1.0 ? std::size(kMethods) : 1;
+      const std::size_t methods = knows_plain_methods(drive) ? std::size(kMethods) : 1;
       for (std::size_t m = 0; m < methods; ++m) rows.push_back(row_of(drive, kMethods[m], step, should, ns[m]));
     }
   }

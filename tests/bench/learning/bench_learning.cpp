@@ -58,7 +58,7 @@ std::vector<BenchRow> fault_rows(const std::vector<LessonDriveConfig>& drives, i
 }
 
 std::vector<BenchRow> practice_rows(const LessonDriveConfig& drive, bool quick) {
-  const int learners = quick ? 1 : 24, trials = quick ? 3 : 24;
+  const int learners = quick ? 1 : 24, trials = quick ? 2 : 24;
   std::vector<BenchRow> rows;
   for (const double failed_loss : {0.5, 0.0}) {
     LearningModel model;

@@ -18,6 +18,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kReferenceSamples = 16384;
+constexpr int kTruthSamples = 1024;  // of a prefiltered texel
 constexpr double kPi = 3.14159265358979323846;
 
 struct Error {
@@ -197,7 +198,7 @@ BenchRow prefilter_row(const BenchOptions& options, int samples, const Prefilter
   row.trade = Trade{"reflections prefiltered",
                     fmt::format("{} samples", samples),
                     {"bake", ms.median, "ms", ms.spread},
-                    {"RMS of 2048 samples", error, "%"},
+                    {fmt::format("RMS of {} samples", kTruthSamples), error, "%"},
                     samples == kPrefilterSamples};
   return repeated(ms.spread, std::move(row));
 }
@@ -210,7 +211,7 @@ std::vector<BenchRow> bench_light(const BenchOptions& options) {
   for (const int samples : {64, 128, 256}) rows.push_back(brdf_row(options, 32, samples));
   rows.push_back(brdf_fit_row());
   for (const int samples : {8, 32, 64}) rows.push_back(irradiance_row(options, samples));
-  const PrefilteredCube truth = prefilter(bench_sky(), 64, 6, 2048);
+  const PrefilteredCube truth = prefilter(bench_sky(), 64, 6, kTruthSamples);
   for (const int samples : {16, 64, 256}) rows.push_back(prefilter_row(options, samples, truth));
   return rows;
 }

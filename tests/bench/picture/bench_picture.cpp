@@ -99,7 +99,8 @@ BenchRow cabin_row(const BenchOptions& options, Gpu& gpu, Stage& stage, const Ca
   std::vector<View> views{seen_from(what.eye, what.render, what.field)};
   if (what.render.eyes == 2)
     views = {view_from(eyes.pose[0], eyes.fov[0], 0.05), view_from(eyes.pose[1], eyes.fov[1], 0.05)};
-  const FrameCost cost = time_frames(gpu, renderer, stage.scene(), views, options.quick ? 3 : 25);
+  const FrameCost cost =
+      time_frames(gpu, renderer, stage.scene(), views, options.quick ? 3 : 25, options.quick ? 1 : 3);
   BenchRow row{"picture", what.name, cost.host.median, "ms", what.goal, false, "", true, passes(cost)};
   if (what.goal) row.design = Design::cabin;
   row.beside.push_back({"draws", static_cast<double>(renderer.draws()), ""});
@@ -176,7 +177,8 @@ BenchRow many_triangles(const BenchOptions& options) {
   const Model model = many_spheres();
   renderer.set_model(model);
   const View view = seen_from(look_at({0.0, 0.0, 5.0}, {0.0, 0.0, 0.0}), config);
-  const FrameCost cost = time_frames(gpu, renderer, standing(model), {&view, 1}, options.quick ? 3 : 25);
+  const FrameCost cost =
+      time_frames(gpu, renderer, standing(model), {&view, 1}, options.quick ? 3 : 25, options.quick ? 1 : 3);
   BenchRow row{"picture",
                fmt::format("{} untextured GGX triangles, 1280x720, 1x", model.triangle_count()),
                cost.host.median,
