@@ -38,6 +38,10 @@ std::vector<Contest> contests_of(std::string_view family, const std::vector<Benc
   return contests;
 }
 
+std::string figure_text(double value) {
+  return std::abs(value) >= 1000.0 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
+}
+
 std::string axis_name(const Beside& figure) {
   return figure.unit.empty() ? figure.what : fmt::format("{}, {}", figure.what, figure.unit);
 }
@@ -169,8 +173,8 @@ class Panel {
       svg_.text({corner_.x + 20.0, y}, {12.0, ink, "end", trade.chosen}, std::to_string(i + 1));
       svg_.text({corner_.x + 30.0, y}, {12.0, ink, "start", trade.chosen},
                 trade.chosen ? trade.method + " (the default)" : trade.method);
-      svg_.text({corner_.x + kPanelWidth - 88.0, y}, {12.0, ink, "end"}, fmt::format("{:.3g}", trade.cost.value));
-      svg_.text({corner_.x + kPanelWidth - kRight, y}, {12.0, ink, "end"}, fmt::format("{:.3g}", trade.error.value));
+      svg_.text({corner_.x + kPanelWidth - 88.0, y}, {12.0, ink, "end"}, figure_text(trade.cost.value));
+      svg_.text({corner_.x + kPanelWidth - kRight, y}, {12.0, ink, "end"}, figure_text(trade.error.value));
     }
   }
 

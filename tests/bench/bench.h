@@ -75,6 +75,7 @@ std::vector<BenchRow> bench_headless(const BenchOptions& options);   // simulate
 std::vector<BenchRow> bench_plant(const BenchOptions& options);      // exact step against the closed form
 std::vector<BenchRow> bench_feel(const BenchOptions& options);       // commanded force along a slot
 std::vector<BenchRow> bench_intent(const BenchOptions& options);     // where a noisy hand ends up
+std::vector<BenchRow> bench_proxy(const BenchOptions& options);      // ways to find it for a thrown lever
 std::vector<BenchRow> bench_contact(const BenchOptions& options);    // what a 5000 N/m wall does under a push
 std::vector<BenchRow> bench_energy(const BenchOptions& options);     // that the wall makes of an impact
 std::vector<BenchRow> bench_delivered(const BenchOptions& options);  // force at the tip against a steady push

@@ -1,6 +1,8 @@
 // Integrators of the plant, ns against error: the exact step beside the two that one would write first.
 #include <cmath>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "haptics/joystick/plant.h"
 #include "tests/bench/bench.h"
@@ -43,32 +45,28 @@ AxisState runge_kutta4(const AxisModel& axis, AxisState s, double h) noexcept {
 }
 
 struct Result {
-  double error;  // [1] relative
-  Timed ns;      // a step
+  double error = 0.0;      // [1] relative
+  std::vector<double> ns;  // a step, of each round
 };
 
-constexpr int kRounds = 21;  // that a step's cost is the median of
-
 template <class Step>
-Result measure(const AxisModel& axis, double period, Step step) {
+void measure_once(const AxisModel& axis, double period, Step step, Result& into) {
   const int steps = static_cast<int>(std::lround(kTime / period));
   const int repeats = 20000 / steps + 1;
   AxisState state;
-  std::vector<double> ns;
-  for (int round = 0; round < kRounds; ++round) {
-    const std::uint64_t before = ticks();
-    for (int r = 0; r < repeats; ++r) {
-      state = {kStart, 0.0};
-      for (int i = 0; i < steps; ++i) state = step(state);
-    }
-    ns.push_back(static_cast<double>(ticks() - before) / ticks_per_ns() / (static_cast<double>(steps) * repeats));
+  const std::uint64_t before = ticks();
+  for (int r = 0; r < repeats; ++r) {
+    state = {kStart, 0.0};
+    for (int i = 0; i < steps; ++i) state = step(state);
   }
+  into.ns.push_back(static_cast<double>(ticks() - before) / ticks_per_ns() / (static_cast<double>(steps) * repeats));
   const long double truth = closed_form(axis, kTime);
-  return {static_cast<double>(std::abs((state.position - truth) / truth)), timed(ns)};
+  into.error = static_cast<double>(std::abs((state.position - truth) / truth));
 }
 
-BenchRow plant_row(const std::string& method, const std::string& at, const Result& result) {
-  const Beside cost{"cost", result.ns.median, "ns/step", result.ns.spread};
+BenchRow plant_row(const std::string& method, const std::string& at, Result result) {
+  const Timed ns = timed(result.ns);
+  const Beside cost{"cost", ns.median, "ns/step", ns.spread};
   BenchRow row{"plant",
                method + " " + at,
                result.error,
@@ -91,18 +89,26 @@ BenchRow shipped(BenchRow row) {
 
 }  // namespace
 
+// They alternate, so that a busy machine slows them alike.
 std::vector<BenchRow> bench_plant(const BenchOptions&) {
+  constexpr int kRounds = 21;  // that a step's cost is the median of
   std::vector<BenchRow> rows;
   const AxisModel axis = kPaperAxisX;
   for (const double period : {0.001, 0.01}) {
     const std::string at = period == 0.001 ? "at 1 ms" : "at 10 ms";
-    const AxisStepper exact(axis, period);
-    const auto by = [&](const std::string& method, auto step) {
-      return plant_row(method, at, measure(axis, period, step));
-    };
-    rows.push_back(shipped(by("exact", [&](AxisState s) { return exact.step(s, kForce); })));
-    rows.push_back(by("Runge-Kutta 4", [&](AxisState s) { return runge_kutta4(axis, s, period); }));
-    rows.push_back(by("symplectic Euler", [&](AxisState s) { return euler(axis, s, period); }));
+    const AxisStepper stepper(axis, period);
+    Result exact, fourth, first;
+    for (int round = 0; round < kRounds; ++round) {
+      measure_once(
+          axis, period, [&](AxisState s) { return stepper.step(s, kForce); }, exact);
+      measure_once(
+          axis, period, [&](AxisState s) { return runge_kutta4(axis, s, period); }, fourth);
+      measure_once(
+          axis, period, [&](AxisState s) { return euler(axis, s, period); }, first);
+    }
+    rows.push_back(shipped(plant_row("exact", at, std::move(exact))));
+    rows.push_back(plant_row("Runge-Kutta 4", at, std::move(fourth)));
+    rows.push_back(plant_row("symplectic Euler", at, std::move(first)));
   }
   return rows;
 }

@@ -7,6 +7,7 @@ const std::vector<NamedFamily>& bench_families() {
                                                  {"headless", bench_headless, {Design::headless}},
                                                  {"plant", bench_plant, {Design::plant}},
                                                  {"feel", bench_feel, {Design::delivered}},
+                                                 {"proxy", bench_proxy},
                                                  {"contact", bench_contact, {Design::wall}},
                                                  {"energy", bench_energy, {Design::energy}},
                                                  {"delivered", bench_delivered, {Design::delivered}},
