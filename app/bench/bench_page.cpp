@@ -24,6 +24,8 @@ table.figures td:first-child { min-width: 15rem; }
 table.design tr.ask td { border-top: 2px solid #6b7785; background: #f1f3f6; }
 table.design tr.ask td:first-child { font-weight: bold; padding-left: 0.4rem; }
 table.design tr.row td:first-child { padding-left: 1.4rem; }
+figure { margin: 2.2rem 0; }
+figcaption { font-size: 1.1rem; font-weight: bold; color: #1f2933; margin-bottom: 0.6rem; }
 svg { max-width: 100%; height: auto; }
 @media print {
   @page { margin: 12mm; }
@@ -74,22 +76,24 @@ std::string number_cell(const std::string& words) {
   return fmt::format("<td class=\"number\">{}</td>", html_text(words));
 }
 
+std::string answer_row(const BenchRow& row) {
+  return fmt::format("<tr class=\"row\"><td>{}: {}</td>{}{}{}{}<td class=\"soft\">{}</td></tr>\n",
+                     html_text(row.family), html_text(row.name), number_cell(figure_words(row)),
+                     number_cell(spread_words(row.spread)), number_cell(goal_words(row)), verdict_cell(row),
+                     row.measured ? "" : html_text(row.note));
+}
+
 // One row of the design, and what this run has to say to it.
 std::string answers_to(const DesignRow& asked, const BenchRun& run) {
-  std::string text = fmt::format("<tr class=\"ask\" id=\"design-{}\"><td>{}</td><td colspan=\"5\">{}</td></tr>\n",
-                                 asked.name, html_text(asked.what), html_text(asked.figure));
-  bool answered = false;
+  std::string answers;
   for (const MeasuredRow& measured : run.rows) {
-    const BenchRow& row = measured.row;
-    if (row.design != asked.key) continue;
-    answered = true;
-    text += fmt::format("<tr class=\"row\"><td>{}: {}</td>{}{}{}{}{}</tr>\n", html_text(row.family),
-                        html_text(row.name), number_cell(figure_words(row)), number_cell(spread_words(row.spread)),
-                        number_cell(goal_words(row)), verdict_cell(row),
-                        fmt::format("<td class=\"soft\">{}</td>", row.measured ? "" : html_text(row.note)));
+    if (measured.row.design == asked.key) answers += answer_row(measured.row);
   }
-  if (!answered) text += "<tr class=\"row\"><td class=\"soft\">not in this run</td><td colspan=\"5\"></td></tr>\n";
-  return text;
+  return fmt::format(
+             "<tr class=\"ask\" id=\"design-{}\"><td>{}</td><td colspan=\"3\">{}</td><td colspan=\"2\" "
+             "class=\"soft\">{}</td></tr>\n",
+             asked.name, html_text(asked.what), html_text(asked.figure), answers.empty() ? "not in this run" : "") +
+         answers;
 }
 
 std::string design_section(const BenchRun& run) {
@@ -109,7 +113,7 @@ std::string trades_section(const BenchRun& run) {
     const std::string svg = trade_svg(family, rows);
     if (svg.empty()) continue;
     figures +=
-        fmt::format("<figure id=\"trade-{0}\">\n{1}<figcaption>{0}</figcaption>\n</figure>\n", html_text(family), svg);
+        fmt::format("<figure id=\"trade-{0}\">\n<figcaption>{0}</figcaption>\n{1}</figure>\n", html_text(family), svg);
   }
   if (figures.empty()) return {};
   return "<section id=\"trades\">\n<h2>Methods against each other</h2>\n<p>Cost to the right, error upwards. The line "

@@ -76,7 +76,7 @@ BenchRow plant_row(const std::string& method, const std::string& at, Result resu
                "after 0.5 s under 10 N, against the sum of two exponentials",
                true,
                {cost}};
-  row.trade = Trade{at, method, cost, {"error", result.error, "relative"}};
+  row.trade = Trade{"plant " + at, method, cost, {"error", result.error, "relative"}};
   return row;
 }
 

@@ -94,8 +94,8 @@ TEST_CASE("every row of the design is on the page: its answer, or that this run 
   BenchRow answer = plain_row("walk", "as asked", 1.0);
   answer.design = Design::plant;
   const auto rows = table_of(section_of(bench_page(made_run({answer})), "design"), "design");
-  CHECK(rows.size() == 2 * kDesignRows.size());
-  CHECK(std::count_if(rows.begin(), rows.end(), [](const auto& r) { return r[0] == "not in this run"; }) ==
+  CHECK(rows.size() == kDesignRows.size() + 1);
+  CHECK(std::count_if(rows.begin(), rows.end(), [](const auto& r) { return r.back() == "not in this run"; }) ==
         static_cast<long>(kDesignRows.size()) - 1);
   CHECK(
       std::any_of(rows.begin(), rows.end(), [](const auto& r) { return r[0] == "walk: as asked" && r[1] == "1 ns"; }));
