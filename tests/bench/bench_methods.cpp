@@ -214,7 +214,7 @@ std::vector<BenchRow> bench_methods(const BenchOptions& options) {
       {"zero-order hold, B = K T / 2 (22)", ContactHold::zero_order, -1.0},
       {"half-sample hold, B = 0", ContactHold::half_sample, 0.0},
       {"half-sample hold, B = 10", ContactHold::half_sample, 10.0},
-      {"observer", ContactHold::observer, 10.0},
+      {"observer", ContactHold::observer, kObservedDamping},
       {"zero-order hold with passivity control", ContactHold::zero_order, 0.0, EnergyControl::passivity_controller},
       {"zero-order hold with energy bounding", ContactHold::zero_order, 0.0, EnergyControl::energy_bounding},
       {"half-sample hold, B = 10, with energy bounding", ContactHold::half_sample, 10.0,
