@@ -26,6 +26,10 @@ Json trade_json(const Trade& trade) {
           {"chosen", trade.chosen}};
 }
 
+Json since_json(const SinceLast& since) {
+  return {{"date", since.date}, {"value", since.value}, {"ratio", since.ratio}, {"changed", since.changed}};
+}
+
 std::string design_name(Design key) {
   const auto* row = std::find_if(kDesignRows.begin(), kDesignRows.end(), [&](const auto& r) { return r.key == key; });
   return row == kDesignRows.end() ? "" : std::string(row->name);
@@ -55,11 +59,8 @@ std::string bench_json(const BenchRun& run) {
   Json rows = Json::array();
   for (const MeasuredRow& measured : run.rows) {
     rows.push_back(row_json(measured.row));
-    if (!measured.since) continue;
-    rows.back()["last"] = {{"date", measured.since->date},
-                           {"value", measured.since->value},
-                           {"ratio", measured.since->ratio},
-                           {"changed", measured.since->changed}};
+    if (measured.since) rows.back()["last"] = since_json(*measured.since);
+    if (measured.cost_since) rows.back()["last_cost"] = since_json(*measured.cost_since);
   }
   const Json json{{"program", run.program},
                   {"date", run.date},

@@ -124,17 +124,20 @@ std::string trades_section(const BenchRun& run) {
          figures + "</section>\n";
 }
 
+std::string change_row(const BenchRow& row, const std::optional<SinceLast>& since) {
+  if (!since || !since->changed) return {};
+  return fmt::format("<tr><td>{}: {}</td>{}{}{}<td>{}</td></tr>\n", html_text(row.family), html_text(row.name),
+                     number_cell(fmt::format("{} {}", value_words(since->value), row.unit)),
+                     number_cell(figure_words(row)), number_cell(since_words(since)), html_text(since->date));
+}
+
 std::string changes_section(const BenchRun& run) {
   std::string table;
   bool compared = false;
   for (const MeasuredRow& measured : run.rows) {
     compared = compared || measured.since;
-    if (!measured.since || !measured.since->changed) continue;
-    const BenchRow& row = measured.row;
-    table += fmt::format("<tr><td>{}: {}</td>{}{}{}<td>{}</td></tr>\n", html_text(row.family), html_text(row.name),
-                         number_cell(fmt::format("{} {}", value_words(measured.since->value), row.unit)),
-                         number_cell(figure_words(row)), number_cell(since_words(measured.since)),
-                         html_text(measured.since->date));
+    table += change_row(measured.row, measured.since);
+    if (const auto cost = cost_row(measured.row)) table += change_row(*cost, measured.cost_since);
   }
   if (!compared) return {};
   const std::string head = "<section id=\"changes\">\n<h2>What changed here since the last full run</h2>\n";
@@ -163,11 +166,12 @@ std::string family_section(const std::string& family, const BenchRun& run) {
   for (const MeasuredRow& measured : run.rows) {
     const BenchRow& row = measured.row;
     if (row.family != family) continue;
-    const bool changed = measured.since && measured.since->changed;
+    const auto differs = [](const std::optional<SinceLast>& since) { return since && since->changed; };
+    const bool changed = differs(measured.since) || differs(measured.cost_since);
     text +=
         fmt::format("<tr{}><td>{}</td>{}{}{}{}{}{}</tr>\n", changed ? " class=\"changed\"" : "", html_text(row.name),
                     number_cell(figure_words(row)), number_cell(spread_words(row.spread)), number_cell(goal_words(row)),
-                    verdict_cell(row), number_cell(since_words(measured.since)), beside_cell(row));
+                    verdict_cell(row), number_cell(since_words(measured)), beside_cell(row));
   }
   return text + "</tbody>\n</table>\n</section>\n";
 }

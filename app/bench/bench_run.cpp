@@ -30,4 +30,18 @@ std::string since_words(const std::optional<SinceLast>& since) {
   return since->changed ? ratio + " *" : ratio;
 }
 
+std::string since_words(const MeasuredRow& measured) {
+  const std::string value = since_words(measured.since), cost = since_words(measured.cost_since);
+  return cost.empty() ? value : fmt::format("{}{}cost {}", value, value.empty() ? "" : ", ", cost);
+}
+
+std::optional<BenchRow> cost_row(const BenchRow& row) {
+  if (!row.trade) return std::nullopt;
+  const Beside& cost = row.trade->cost;
+  BenchRow of_cost{row.family, row.name + " (cost)", cost.value, cost.unit, {}, false, {}};
+  of_cost.measured = row.measured;
+  of_cost.spread = cost.spread;
+  return of_cost;
+}
+
 }  // namespace gearshift

@@ -23,7 +23,11 @@ struct SinceLast {
 struct MeasuredRow {
   BenchRow row;
   std::optional<SinceLast> since = {};
+  std::optional<SinceLast> cost_since = {};  // of the row's trade
 };
+
+// What a row's method costs, as a row of its own: "NAME (cost)". Nothing for a row without a trade.
+std::optional<BenchRow> cost_row(const BenchRow& row);
 
 struct BenchRun {
   std::string program, date;
@@ -37,5 +41,6 @@ std::string goal_words(const BenchRow& row);                       // "<= 0.1"; 
 std::string_view verdict_words(const BenchRow& row);               // "met", "NOT MET"; empty without a goal
 std::string spread_words(const std::optional<Quartiles>& spread);  // "180 to 195"; empty without
 std::string since_words(const std::optional<SinceLast>& since);    // "1.03 x", " *" behind what changed
+std::string since_words(const MeasuredRow& measured);              // of the value, and of the cost where there is one
 
 }  // namespace gearshift

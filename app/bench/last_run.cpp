@@ -98,16 +98,26 @@ std::optional<SinceLast> since_last(const LastRun& last, const BenchRow& row) {
   return SinceLast{family->second.date, then.value, ratio_of(row.value, then.value), beyond_spread(then, row)};
 }
 
+void compare(BenchRun& run, const LastRun& last) {
+  for (MeasuredRow& measured : run.rows) {
+    measured.since = since_last(last, measured.row);
+    if (const auto cost = cost_row(measured.row)) measured.cost_since = since_last(last, *cost);
+  }
+}
+
 void keep_run(const fs::path& file, LastRun last, const BenchRun& run) {
   const auto counts = [](const BenchRow& row) { return row.measured && std::isfinite(row.value); };
   for (const MeasuredRow& measured : run.rows) {
     if (counts(measured.row)) last.erase(measured.row.family);
   }
-  for (const MeasuredRow& measured : run.rows) {
-    const BenchRow& row = measured.row;
-    if (!counts(row)) continue;
+  const auto keep = [&](const BenchRow& row) {
+    if (!counts(row)) return;
     last[row.family].date = run.date;
     last[row.family].figures[row.name] = {row.value, row.spread};
+  };
+  for (const MeasuredRow& measured : run.rows) {
+    keep(measured.row);
+    if (const auto cost = cost_row(measured.row)) keep(*cost);
   }
   std::error_code problem;
   fs::create_directories(file.parent_path(), problem);

@@ -31,6 +31,7 @@ LastRun read_last_run(const std::filesystem::path& file, const std::function<voi
 
 // Nothing for a row that was not measured, or not there.
 std::optional<SinceLast> since_last(const LastRun& last, const BenchRow& row);
+void compare(BenchRun& run, const LastRun& last);  // every row, and what its method costs
 
 // Families of this run take the place of the same ones in the file, the others stay. Throws FileError.
 void keep_run(const std::filesystem::path& file, LastRun last, const BenchRun& run);

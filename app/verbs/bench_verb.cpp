@@ -82,7 +82,7 @@ void compare_and_keep(BenchRun& run) {
   try {
     const fs::path file = last_run_file(user_data_folder(), run.machine);
     const LastRun last = read_last_run(file, tell);
-    for (MeasuredRow& measured : run.rows) measured.since = since_last(last, measured.row);
+    compare(run, last);
     keep_run(file, last, run);
   } catch (const std::exception& problem) {
     tell(fmt::format("{}; this run is not kept to compare the next with", problem.what()));

@@ -80,6 +80,19 @@ TEST_CASE("from nothing to something there is no ratio, from nothing to nothing 
   CHECK_FALSE(same.changed);
 }
 
+TEST_CASE("what a method costs is compared by itself: the same error, for twice as much") {
+  const TempFolder folder;
+  const fs::path file = folder / "last.json";
+  keep_run(file, {}, made_run({trade_row("a", 10.0, 1.0), plain_row("walk", "b", 1.0)}));
+  BenchRun next = made_run({trade_row("a", 20.0, 1.0), plain_row("walk", "b", 1.0)});
+  compare(next, read_last_run(file, never_told));
+  CHECK_FALSE(next.rows[0].since->changed);
+  REQUIRE(next.rows[0].cost_since);
+  CHECK(next.rows[0].cost_since->changed);
+  CHECK(since_words(next.rows[0]) == "1 x, cost 2 x *");
+  CHECK_FALSE(next.rows[1].cost_since);
+}
+
 TEST_CASE("a run of some families leaves what is known of the others") {
   const TempFolder folder;
   const fs::path file = folder / "deep" / "last.json";
