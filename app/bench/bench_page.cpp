@@ -17,13 +17,13 @@ table { font-size: 0.85rem; }
 th { vertical-align: bottom; }
 .number { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 .soft { color: #6b7785; }
-.met { color: #2e7d4f; font-weight: bold; }
-.missed { color: #c5303b; font-weight: bold; }
+.met { color: #2e7d4f; font-weight: bold; white-space: nowrap; }
+.missed { color: #c5303b; font-weight: bold; white-space: nowrap; }
 .changed { background: #fdf3e1; }
 table.figures td:first-child { min-width: 15rem; }
 table.design tr.ask td { border-top: 2px solid #6b7785; background: #f1f3f6; }
 table.design tr.ask td:first-child { font-weight: bold; padding-left: 0.4rem; }
-table.design tr.row td:first-child { padding-left: 1.4rem; }
+table.design tr.row td:first-child { padding-left: 1.4rem; width: 46%; }
 figure { margin: 2.2rem 0; }
 figcaption { font-size: 1.1rem; font-weight: bold; color: #1f2933; margin-bottom: 0.6rem; }
 svg { max-width: 100%; height: auto; }
