@@ -135,11 +135,22 @@ VkPhysicalDevice choose_by(GpuMaker& maker, VkInstance instance, bool swapchain)
                              static_cast<const char*>(properties.deviceName)));
 }
 
+std::string driver_of(VkPhysicalDevice physical) {
+  VkPhysicalDeviceDriverProperties driver{};
+  driver.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DRIVER_PROPERTIES;
+  VkPhysicalDeviceProperties2 all{};
+  all.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROPERTIES_2;
+  all.pNext = &driver;
+  vkGetPhysicalDeviceProperties2(physical, &all);
+  return fmt::format("{} {}", static_cast<const char*>(driver.driverName), static_cast<const char*>(driver.driverInfo));
+}
+
 GpuTraits traits_of(VkPhysicalDevice physical, const VkPhysicalDeviceProperties& properties, const Features& has,
                     const VkQueueFamilyProperties& family) {
   const auto& limits = properties.limits;
   GpuTraits traits;
   traits.name = properties.deviceName;
+  traits.driver = driver_of(physical);
   traits.is_cpu = properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU;
   traits.layered_vertex = has.v12.shaderOutputLayer == VK_TRUE &&
                           has_extension(physical, VK_EXT_SHADER_VIEWPORT_INDEX_LAYER_EXTENSION_NAME);

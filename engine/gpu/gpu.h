@@ -35,6 +35,7 @@ struct GpuConfig {
 
 struct GpuTraits {
   std::string name;                  // of the device
+  std::string driver;                // its name and version, as it tells them
   bool is_cpu = false;               // a software driver: no anisotropy there (frames of seconds)
   bool layered_vertex = false;       // a vertex shader may choose the layer: both eyes in one pass
   bool four_samples = false;         // colour and depth

@@ -26,11 +26,12 @@ struct Harmonics {
   std::array<glm::vec3, 9> c{};
   glm::vec3 operator()(glm::vec3 direction) const;
 };
-Harmonics project(const Radiance& radiance, int samples_per_face_side = 32);
+inline constexpr int kIrradianceSamples = 32;  // along a face's side
+Harmonics project(const Radiance& radiance, int samples_per_face_side = kIrradianceSamples);
 
 // Irradiance / pi by normal: the cosine lobe is folded in.
 using Irradiance = Harmonics;
-Irradiance project_irradiance(const Radiance& radiance, int samples_per_face_side = 32);
+Irradiance project_irradiance(const Radiance& radiance, int samples_per_face_side = kIrradianceSamples);
 
 // Cube map of prefiltered radiance: level 0 a mirror, the last level roughness 1; roughness of level i = i / (levels - 1).
 // Faces in Vulkan's order (+X -X +Y -Y +Z -Z), texels as linear RGB half floats with alpha 1, rows from the top.
@@ -38,7 +39,8 @@ struct PrefilteredCube {
   int side = 0;                                    // [texels] of level 0
   std::vector<std::vector<std::uint16_t>> levels;  // 6 faces of (side >> level)^2 texels, 4 halves each
 };
-PrefilteredCube prefilter(const Radiance& radiance, int side = 64, int levels = 6, int samples = 64);
+inline constexpr int kPrefilterSamples = 64;  // a texel
+PrefilteredCube prefilter(const Radiance& radiance, int side = 64, int levels = 6, int samples = kPrefilterSamples);
 
 // Split sum: scale and bias of F0 for (n.v, roughness), GGX with height-correlated Smith visibility. n.v > 0. The table is
 // sampled
@@ -49,6 +51,8 @@ struct BrdfTable {
   std::vector<std::uint16_t> texels;                       // 2 unorm16 a texel, rows from roughness 0
   glm::vec2 sample(float n_dot_v, float roughness) const;  // bilinear, as a GPU does it
 };
-BrdfTable bake_brdf(int side = 64, int samples = 128);
+inline constexpr int kBrdfSide = 64;      // [texels]
+inline constexpr int kBrdfSamples = 128;  // a texel
+BrdfTable bake_brdf(int side = kBrdfSide, int samples = kBrdfSamples);
 
 }  // namespace gearshift

@@ -2,6 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <stdexcept>
+#include <utility>
 
 namespace gearshift {
 
@@ -15,6 +18,31 @@ double quantile(std::vector<double>& sample, double q) {
   std::sort(sample.begin(), sample.end());
   const double rank = q * static_cast<double>(sample.size() - 1);
   return sample[static_cast<std::size_t>(std::lround(rank))];
+}
+
+Timed timed(std::vector<double>& sample) {
+  return {quantile(sample, 0.5), {quantile(sample, 0.25), quantile(sample, 0.75)}};
+}
+
+BenchRow answering(Design design, BenchRow row) {
+  row.design = design;
+  return row;
+}
+
+BenchRow repeated(const Quartiles& spread, BenchRow row) {
+  row.spread = spread;
+  return row;
+}
+
+std::vector<BenchRow> run_family(const NamedFamily& family, const BenchOptions& options) {
+  std::vector<BenchRow> rows = family.run(options);
+  std::set<Design> answered, claimed(family.answers.begin(), family.answers.end());
+  for (const BenchRow& row : rows) answered.insert(row.design);
+  answered.erase(Design::none);
+  if (answered != claimed)
+    throw std::logic_error("bench family " + std::string(family.name) +
+                           " answers other rows of the design than it claims");
+  return rows;
 }
 
 }  // namespace gearshift

@@ -7,13 +7,30 @@
 #include <string_view>
 #include <vector>
 
+#include "tests/bench/design.h"
+
 namespace gearshift {
+
+// Of the repetitions that a figure is the median of, in the figure's unit.
+struct Quartiles {
+  double low = 0.0, high = 0.0;
+};
 
 // Another figure of the same thing: what it costs, what it takes.
 struct Beside {
   std::string what;
   double value = 0.0;
   std::string unit;
+  std::optional<Quartiles> spread = {};  // where it was taken repeatedly
+};
+
+// A row as one of several methods: what it costs and how wrong it is. Less is better of both.
+struct Trade {
+  std::string
+      contest;  // what is compared: those of one name in a family share a plot, and the figures' names and units
+  std::string method;
+  Beside cost, error;
+  bool chosen = false;  // the shipped default
 };
 
 struct BenchRow {
@@ -26,6 +43,9 @@ struct BenchRow {
   std::string note;
   bool measured = true;  // false: could not be measured here, the note says why
   std::vector<Beside> beside = {};
+  std::optional<Quartiles> spread = {};  // where the value was taken repeatedly
+  std::optional<Trade> trade = {};
+  Design design = Design::none;  // the row of the design's table that this one answers
 };
 
 bool meets_goal(const BenchRow& row) noexcept;
@@ -42,14 +62,20 @@ using BenchFamily = std::vector<BenchRow> (*)(const BenchOptions&);
 struct NamedFamily {
   std::string_view name;
   BenchFamily run;
+  std::vector<Design> answers = {};  // rows of the design's table that its rows answer
 };
 const std::vector<NamedFamily>& bench_families();
+
+// Runs it. Throws std::logic_error where a row of the design that it claims is left without an answer, or answered
+// without a claim.
+std::vector<BenchRow> run_family(const NamedFamily& family, const BenchOptions& options);
 
 std::vector<BenchRow> bench_cycle(const BenchOptions& options);      // cost of the haptic cycle and of its stages
 std::vector<BenchRow> bench_headless(const BenchOptions& options);   // simulated seconds per second
 std::vector<BenchRow> bench_plant(const BenchOptions& options);      // exact step against the closed form
 std::vector<BenchRow> bench_feel(const BenchOptions& options);       // commanded force along a slot
 std::vector<BenchRow> bench_intent(const BenchOptions& options);     // where a noisy hand ends up
+std::vector<BenchRow> bench_proxy(const BenchOptions& options);      // ways to find it for a thrown lever
 std::vector<BenchRow> bench_contact(const BenchOptions& options);    // what a 5000 N/m wall does under a push
 std::vector<BenchRow> bench_energy(const BenchOptions& options);     // that the wall makes of an impact
 std::vector<BenchRow> bench_delivered(const BenchOptions& options);  // force at the tip against a steady push
@@ -67,5 +93,15 @@ std::vector<BenchRow> bench_beside(const BenchOptions& options);     // the same
 
 // Value at quantile q in [0, 1] of an unsorted sample; sorts it. Empty: 0.
 double quantile(std::vector<double>& sample, double q);
+
+// What was timed repeatedly: its median and its quartiles. Sorts the sample.
+struct Timed {
+  double median = 0.0;
+  Quartiles spread;
+};
+Timed timed(std::vector<double>& sample);
+
+BenchRow answering(Design design, BenchRow row);           // marked with what it answers
+BenchRow repeated(const Quartiles& spread, BenchRow row);  // marked with the spread of its value
 
 }  // namespace gearshift

@@ -38,7 +38,7 @@ Drawn draw(std::mt19937_64& random) {
 
 std::vector<BenchRow> bench_boundary(const BenchOptions& options) {
   std::mt19937_64 random(2026);
-  const int wanted = options.quick ? 20 : 100;
+  const int wanted = options.quick ? 10 : 100;
   std::vector<double> error;
   int drawn = 0;
   std::string where;
@@ -57,15 +57,15 @@ std::vector<BenchRow> bench_boundary(const BenchOptions& options) {
     }
   }
   const double median = quantile(error, 0.5);
-  return {{"boundary",
-           "predicted against simulated, " + std::to_string(wanted) + " random levers",
-           worst,
-           "%",
-           2.0,
-           false,
-           "worst: " + where + "; no quantisation, no saturation",
-           true,
-           {{"median", median, "%"}}}};
+  return {answering(Design::boundary, {"boundary",
+                                       "predicted against simulated, " + std::to_string(wanted) + " random levers",
+                                       worst,
+                                       "%",
+                                       2.0,
+                                       false,
+                                       "worst: " + where + "; no quantisation, no saturation",
+                                       true,
+                                       {{"median", median, "%"}}})};
 }
 
 }  // namespace gearshift

@@ -42,6 +42,7 @@ void add(std::vector<BenchRow>& rows, const Setting& at, const std::string& how,
                                    {"deepest", 1e3 * deepest(outcomes), "mm"},
                                    {"force ripple", worst.force_ripple, "N"}};
   const std::string what = how + words(at) + ": last peak-to-peak";
+  const std::size_t first = rows.size();
   rows.push_back({"contact", what + ", p95", 1e3 * worst.ripple_p95, "mm", at.goal_p95, false,
                   "worst hand: " + worst.hand, true, beside});
   if (at.shows_5000) {
@@ -50,6 +51,7 @@ void add(std::vector<BenchRow>& rows, const Setting& at, const std::string& how,
                     "all hands, at 20 N"});
   }
   rows.push_back({"contact", what + ", most", 1e3 * most, "mm", at.goal_most, false, "all hands"});
+  for (std::size_t i = first; i < rows.size(); ++i) rows[i].design = Design::wall;
 }
 
 }  // namespace
@@ -61,24 +63,25 @@ std::vector<BenchRow> bench_contact(const BenchOptions& options) {
                               {1000, 3, .12, .3},        {1000, 4, .12, .3},        {500, 1, .12, .3},
                               {200, 0, .12, .3},         {100, 0, .12, .3}};
   constexpr double kPlaces = 17.0;
+  const int runs = options.quick ? 10 : 400;
   std::vector<BenchRow> rows;
   double done = 0.0;
   for (const Setting& at : settings) {
     if (options.progress) options.progress("contact", done++ / kPlaces);
-    add(rows, at, "", run_campaign(push_of_20(at, options.quick ? 40 : 400)));
+    add(rows, at, "", run_campaign(push_of_20(at, runs)));
   }
   // A stick that keeps a part of the wall by itself, beside the same one that keeps none: {1000, 3} above.
   for (const double own : {400.0, 1000.0, 3000.0}) {
     if (options.progress) options.progress("contact", done++ / kPlaces);
     const Setting at{1000, 3, .12, .3};
-    Campaign campaign = push_of_20(at, options.quick ? 40 : 400);
+    Campaign campaign = push_of_20(at, runs);
     campaign.contact.lever.own_stiffness = own;
     add(rows, at, "device's own walls of " + std::to_string(static_cast<int>(own)) + " N/m, ", run_campaign(campaign));
   }
   // The same wall forced on a device that does not bear it: what the reversal limiter finds by itself.
   for (const Setting& at : {Setting{100, 0, .3, .3}, Setting{200, 0, .3, .3}, Setting{1000, 3, .3, .3}}) {
     if (options.progress) options.progress("contact", done++ / kPlaces);
-    Campaign campaign = push_of_20(at, options.quick ? 20 : 100);
+    Campaign campaign = push_of_20(at, options.quick ? 4 : 100);
     campaign.contact.haptics.contact.study = true;
     campaign.contact.haptics.contact.hold = ContactHold::half_sample;
     campaign.contact.duration = 4.0;

@@ -83,6 +83,10 @@ Medians run_tours(const Gate& gate, const Tape& tape, int runs, const BenchOptio
   return medians;
 }
 
+BenchRow timed_row(const std::string& name, const Timed& ns, std::optional<double> goal, const std::string& note) {
+  return repeated(ns.spread, {"cycle", name, ns.median, "ns", goal, false, note});
+}
+
 // A stick that keeps walls itself: it is told where they are.
 Tape with_own_walls(Tape tape) {
   tape.spec.own_stiffness = {1000.0, 1000.0};
@@ -102,21 +106,21 @@ std::vector<BenchRow> bench_cycle(const BenchOptions& options) {
   const Tape tape = record_tour(gate);
   const int runs = options.quick ? 5 : 50;
   Medians medians = run_tours(gate, tape, runs, options);
+  const Timed p50 = timed(medians.p50), p99 = timed(medians.p99);
   const std::string note = "median of " + std::to_string(runs) + " tours; every 64th cycle carries nine clock reads";
-  std::vector<BenchRow> rows{{"cycle", "whole cycle p50", quantile(medians.p50, 0.5), "ns", 200.0, false, note},
-                             {"cycle", "whole cycle p99", quantile(medians.p99, 0.5), "ns", 500.0, false, note},
+  std::vector<BenchRow> rows{timed_row("whole cycle p50", p50, 200.0, note),
+                             timed_row("whole cycle p99", p99, 500.0, note),
                              {"cycle", "cycles in contact", 100.0 * tape.contact_share, "%", 30.0, true,
                               "gripping hand, paper's gate, 1 kHz"}};
+  for (BenchRow& row : rows) row.design = Design::cycle;
   Medians walls = run_tours(gate, with_own_walls(tape), runs, options);
-  rows.push_back(
-      {"cycle", "whole cycle p50, walls that the device keeps", quantile(walls.p50, 0.5), "ns", {}, false, note});
+  rows.push_back(timed_row("whole cycle p50, walls that the device keeps", timed(walls.p50), {}, note));
   Medians lost = run_tours(gate, silent(tape), runs, options);
-  rows.push_back({"cycle", "whole cycle p50, never a fresh reading", quantile(lost.p50, 0.5), "ns",
-                  quantile(medians.p50, 0.5), false, "no more than with fresh ones"});
+  rows.push_back(
+      timed_row("whole cycle p50, never a fresh reading", timed(lost.p50), p50.median, "no more than with fresh ones"));
   for (std::size_t s = 0; s < kStages; ++s) {
     const std::string stage = std::string("stage ") + kStageNames[s];
-    rows.push_back(
-        {"cycle", stage, quantile(medians.last.stages[s], 0.5), "ns", {}, false, "with one clock read, about 25 ns"});
+    rows.push_back(timed_row(stage, timed(medians.last.stages[s]), {}, "with one clock read, about 25 ns"));
   }
   return rows;
 }

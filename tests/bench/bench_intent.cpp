@@ -77,19 +77,16 @@ BenchRow intent_row(const Gate& gate, const std::string& name, int aims) {
     if (got == aim.to || ++misses > kMostListed) continue;
     listed += std::string(" ") + gear_name(aim.from) + ">" + gear_name(aim.to) + ":" + gear_name(got);
   }
-  return {"intent",
-          name,
-          100.0 * (aims - misses) / aims,
-          "% as meant",
-          99.0,
-          true,
-          std::to_string(aims) + " aims, 3 mm noise, misses (from>meant:got):" + (misses == 0 ? " none" : listed)};
+  return answering(
+      Design::intent,
+      {"intent", name, 100.0 * (aims - misses) / aims, "% as meant", 99.0, true,
+       std::to_string(aims) + " aims, 3 mm noise, misses (from>meant:got):" + (misses == 0 ? " none" : listed)});
 }
 
 }  // namespace
 
 std::vector<BenchRow> bench_intent(const BenchOptions& options) {
-  const int aims = options.quick ? 500 : 10000;
+  const int aims = options.quick ? 150 : 10000;
   const std::vector<std::string> names = gates_in(options.gate_folder);
   std::vector<BenchRow> rows;
   for (const std::string& name : names) {

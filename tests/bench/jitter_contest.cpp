@@ -110,11 +110,18 @@ Contest compete(const Gate& gate, const BenchOptions& options, const std::functi
   return contest;
 }
 
+BenchRow block_row(const std::string& family, const std::string& what, std::vector<double>& of_blocks,
+                   const std::string& unit, const std::string& note) {
+  const Timed blocks = timed(of_blocks);
+  return repeated(blocks.spread, {family, what, blocks.median, unit, {}, false, note});
+}
+
 // Ours beside theirs: the figure itself, and the median of the blocks' ratios, which is what is compared.
 void add_ours(std::vector<BenchRow>& rows, const std::string& family, const std::string& what, std::vector<double>& us,
               std::vector<double>& ratio, const std::string& note) {
-  rows.push_back({family, "ours, " + what, quantile(us, 0.5), "us", {}, false, note});
-  rows.push_back({family, "ours / cyclictest, " + what, quantile(ratio, 0.5), "ratio", 1.2, false, note});
+  rows.push_back(block_row(family, "ours, " + what, us, "us", note));
+  rows.push_back(answering(Design::jitter, block_row(family, "ours / cyclictest, " + what, ratio, "ratio", note)));
+  rows.back().goal = 1.2;
 }
 
 std::vector<BenchRow> rows_of(Contest& contest, const BenchOptions& options, const std::string& family,
@@ -125,26 +132,20 @@ std::vector<BenchRow> rows_of(Contest& contest, const BenchOptions& options, con
   for (std::size_t i = 0; i < kQuantiles.size(); ++i) {
     std::string at = i == 0 ? "p99" : "p99.9";
     at += where;
-    rows.push_back({family, "cyclictest, " + at, quantile(contest.theirs[i], 0.5), "us", {}, false, note});
+    rows.push_back(block_row(family, "cyclictest, " + at, contest.theirs[i], "us", note));
     add_ours(rows, family, "sleep only, " + at, contest.sleeping[i], contest.sleeping_ratio[i], note);
     add_ours(rows, family, "spin 50 us, " + at, contest.spinning[i], contest.spinning_ratio[i], note);
   }
-  rows.push_back({family,
-                  "ours, work of a cycle, p99.9" + where,
-                  quantile(contest.cycle_us, 0.5),
-                  "us",
-                  {},
-                  false,
-                  note,
-                  true,
-                  {{"overruns in all blocks", contest.overruns, ""}}});
+  rows.push_back(block_row(family, "ours, work of a cycle, p99.9" + where, contest.cycle_us, "us", note));
+  rows.back().beside.push_back({"overruns in all blocks", contest.overruns, ""});
   return rows;
 }
 
 BenchRow not_measurable(const std::string& family, const std::string& why) {
   BenchRow row{family, "wake-up lateness", 0.0, "us", {}, false, "not measurable: " + why};
   row.measured = false;
-  return row;
+  row.goal = 1.2;
+  return answering(Design::jitter, std::move(row));
 }
 
 }  // namespace

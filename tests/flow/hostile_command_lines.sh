@@ -121,6 +121,7 @@ refuse 1 "no display" train --device stick
 refuse 2 "--family" bench --family luck
 refuse 2 "--block" bench --block 0
 refuse 2 "--block" bench --block x
+refuse 1 "nameless.toml/x" bench --family plant --out nameless.toml/x
 refuse 1 "/nowhere/x.csv" bench --family plant --csv /nowhere/x.csv
 
 for left in t; do

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "tests/bench/bench.h"
+#include "tests/bench/driveline/closed_forms.h"
 #include "tests/bench/driveline/methods.h"
 #include "tests/bench/ticks.h"
 
@@ -15,7 +16,7 @@ constexpr DriveMethod kMethods[] = {DriveMethod::events, DriveMethod::impulses, 
 
 // [ns] a step, the pedals' function and the samples included: the same for all methods. Methods alternate, so that a
 // busy machine slows them alike.
-std::vector<double> costs(const Drive& drive, double step, int rounds) {
+std::vector<Timed> costs(const Drive& drive, double step, int rounds) {
   std::vector<std::vector<double>> taken(std::size(kMethods));
   for (int i = 0; i < rounds; ++i) {
     for (std::size_t m = 0; m < std::size(kMethods); ++m) {
@@ -25,12 +26,29 @@ std::vector<double> costs(const Drive& drive, double step, int rounds) {
                          static_cast<double>(out.samples.size() - 1));
     }
   }
-  std::vector<double> medians;
-  for (std::vector<double>& t : taken) medians.push_back(quantile(t, 0.5));
-  return medians;
+  std::vector<Timed> all;
+  for (std::vector<double>& t : taken) all.push_back(timed(t));
+  return all;
 }
 
-BenchRow row_of(const Drive& drive, DriveMethod method, double step, const DriveOutcome& should, double ns) {
+// The plain methods know nothing of what teeth lose.
+bool knows_plain_methods(const Drive& drive) {
+  return drive.car.gearbox.efficiency == 1.0;
+}
+
+// Per simulated second, so that steps of both lengths compare.
+Trade trade_of(const BenchRow& row, const Drive& drive, DriveMethod method, double step, const Timed& ns) {
+  const double us = 1e-3 / step;  // of a second's steps, a nanosecond each
+  const Quartiles spread{us * ns.spread.low, us * ns.spread.high};
+  const std::string name = name_of(method) + (", " + std::to_string(std::lround(1e3 * step)) + " ms");
+  return {drive.name,
+          name,
+          {"cost", us * ns.median, "us per simulated second", spread},
+          {"slip energy off by", row.value, "%"},
+          method == DriveMethod::events && step < 0.002};
+}
+
+BenchRow row_of(const Drive& drive, DriveMethod method, double step, const DriveOutcome& should, const Timed& ns) {
   const DriveOutcome has = drive_by(method, drive, step);
   const std::size_t each = static_cast<std::size_t>(std::lround(step / 0.001));
   double worst = 0.0;
@@ -48,9 +66,11 @@ BenchRow row_of(const Drive& drive, DriveMethod method, double step, const Drive
                true,
                {{"engine at worst", worst, "rad/s"},
                 {"at the end", std::abs(has.samples.back().engine - should.samples.back().engine), "rad/s"},
-                {"cost", ns, "ns a step"}}};
-  if (method == DriveMethod::events && step < 0.002) row.goal = 0.01;
-  return row;
+                {"cost", ns.median, "ns a step", ns.spread}}};
+  if (knows_plain_methods(drive)) row.trade = trade_of(row, drive, method, step, ns);
+  if (method != DriveMethod::events || step > 0.002) return row;
+  row.goal = 0.01;
+  return answering(Design::driveline, std::move(row));
 }
 
 // A drive from its start to its end, the inputs made before: nothing but steps is timed.
@@ -67,16 +87,16 @@ BenchRow headless_step(const std::vector<Drive>& drives, int rounds) {
       each.push_back(static_cast<double>(ticks() - before) / ticks_per_ns() / static_cast<double>(inputs.size()));
     }
   }
-  const double ns = quantile(each, 0.5);
-  return {"driveline",
-          "a step of 1 ms, headless",
-          ns,
-          "ns",
-          {},
-          false,
-          "median over all drives, " + std::to_string(rounds) + " times each",
-          true,
-          {{"p90", quantile(each, 0.9), "ns"}, {"that is", 1e6 / ns, "x real time"}}};
+  const Timed ns = timed(each);
+  return repeated(ns.spread, {"driveline",
+                              "a step of 1 ms, headless",
+                              ns.median,
+                              "ns",
+                              {},
+                              false,
+                              "median over all drives, " + std::to_string(rounds) + " times each",
+                              true,
+                              {{"p90", quantile(each, 0.9), "ns"}, {"that is", 1e6 / ns.median, "x real time"}}});
 }
 
 }  // namespace
@@ -84,6 +104,7 @@ BenchRow headless_step(const std::vector<Drive>& drives, int rounds) {
 std::vector<BenchRow> bench_driveline(const BenchOptions& options) {
   const int rounds = options.quick ? 3 : 41;
   std::vector<BenchRow> rows{headless_step(all_drives(), rounds)};
+  add_closed_forms(rows);
   const std::filesystem::path cars = std::filesystem::path(options.gate_folder).parent_path() / "cars";
   const Drive shipped = launch_of(read_car(cars / "hatchback.toml"));
   const std::vector<Drive> drives{launch(), shipped, dump_at_idle(), dump_at_4000(), money_shift()};
@@ -91,9 +112,8 @@ std::vector<BenchRow> bench_driveline(const BenchOptions& options) {
     const DriveOutcome should = reference_of(drive);
     for (const double step : {0.001, 0.004}) {
       if (options.progress) options.progress("driveline", static_cast<double>(rows.size()) / 27.0);
-      const std::vector<double> ns = costs(drive, step, rounds);
-      // The plain methods know nothing of what teeth lose.
-      const std::size_t methods = drive.car.gearbox.efficiency == 1.0 ? std::size(kMethods) : 1;
+      const std::vector<Timed> ns = costs(drive, step, rounds);
+      const std::size_t methods = knows_plain_methods(drive) ? std::size(kMethods) : 1;
       for (std::size_t m = 0; m < methods; ++m) rows.push_back(row_of(drive, kMethods[m], step, should, ns[m]));
     }
   }

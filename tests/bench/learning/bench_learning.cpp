@@ -58,7 +58,7 @@ std::vector<BenchRow> fault_rows(const std::vector<LessonDriveConfig>& drives, i
 }
 
 std::vector<BenchRow> practice_rows(const LessonDriveConfig& drive, bool quick) {
-  const int learners = quick ? 4 : 24, trials = quick ? 8 : 24;
+  const int learners = quick ? 1 : 24, trials = quick ? 2 : 24;
   std::vector<BenchRow> rows;
   for (const double failed_loss : {0.5, 0.0}) {
     LearningModel model;
@@ -87,7 +87,7 @@ std::vector<BenchRow> practice_rows(const LessonDriveConfig& drive, bool quick) 
 
 std::vector<BenchRow> bench_learning(const BenchOptions& options) {
   const fs::path assets = fs::path(options.gate_folder).parent_path();
-  const int each = options.quick ? 6 : 40;
+  const int each = options.quick ? 1 : 40;
   std::vector<LessonDriveConfig> drives;
   for (const std::string_view key : kTeachingOrder) drives.push_back(shipped_drive(assets, key));
   const auto tell = [&](double share) {
@@ -99,7 +99,7 @@ std::vector<BenchRow> bench_learning(const BenchOptions& options) {
     rows.push_back(separation_row(drive, each));
   }
   const auto add = [&](std::vector<BenchRow> more) { rows.insert(rows.end(), more.begin(), more.end()); };
-  add(fault_rows(drives, options.quick ? 4 : 20));
+  add(fault_rows(drives, options.quick ? 1 : 20));
   tell(0.7);
   add(practice_rows(shipped_drive(assets, "skip_shifts"), options.quick));
   return rows;

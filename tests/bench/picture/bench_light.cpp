@@ -4,6 +4,7 @@
 
 #include <fmt/core.h>
 #include <glm/geometric.hpp>
+#include <glm/gtc/packing.hpp>
 #include <glm/vec4.hpp>
 
 #include "engine/light/environment.h"
@@ -17,6 +18,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 constexpr int kReferenceSamples = 16384;
+constexpr int kTruthSamples = 1024;  // of a prefiltered texel
 constexpr double kPi = 3.14159265358979323846;
 
 struct Error {
@@ -30,13 +32,26 @@ struct Error {
   double rms() const { return std::sqrt(square / count); }
 };
 
+constexpr int kGrid = 20;  // the truth is known at the inner points of so many parts of each axis
+
+const std::vector<glm::dvec2>& brdf_truth() {
+  static const std::vector<glm::dvec2> truth = [] {
+    std::vector<glm::dvec2> sums;
+    for (int i = 1; i < kGrid; ++i)
+      for (int j = 1; j < kGrid; ++j)
+        sums.push_back(hammersley_sum(i / double{kGrid}, j / double{kGrid}, kReferenceSamples));
+    return sums;
+  }();
+  return truth;
+}
+
 template <class Method>
 Error brdf_error(const Method& method) {
   Error error;
-  for (int i = 1; i < 20; ++i) {
-    for (int j = 1; j < 20; ++j) {
-      const double n_dot_v = i / 20.0, roughness = j / 20.0;
-      const glm::dvec2 off = method(n_dot_v, roughness) - hammersley_sum(n_dot_v, roughness, kReferenceSamples);
+  auto truth = brdf_truth().begin();
+  for (int i = 1; i < kGrid; ++i) {
+    for (int j = 1; j < kGrid; ++j) {
+      const glm::dvec2 off = method(i / double{kGrid}, j / double{kGrid}) - *truth++;
       error.add(off.x);
       error.add(off.y);
     }
@@ -44,23 +59,49 @@ Error brdf_error(const Method& method) {
   return error;
 }
 
+// Made again and again: what it takes, and the last of them.
+template <class Make>
+auto bake(const BenchOptions& options, const Make& make, Timed& ms) {
+  std::vector<double> taken;
+  for (int i = 1;; ++i) {
+    const auto start = Clock::now();
+    auto baked = make();
+    taken.push_back(ms_since(start));
+    if (i < (options.quick ? 1 : 9)) continue;
+    ms = timed(taken);
+    return baked;
+  }
+}
+
+// What the default arguments of its function say.
+bool is_default_brdf(int side, int samples) {
+  return side == kBrdfSide && samples == kBrdfSamples;
+}
+
+Trade brdf_trade(const std::string& method, const Timed& ms, const Error& error) {
+  return {"environment BRDF", method, {"bake", ms.median, "ms", ms.spread}, {"RMS", error.rms(), ""}};
+}
+
 // facts/rendering.md: RMS .0010, worst .0055 for a table from 1024 samples.
-BenchRow brdf_row(int side, int samples) {
-  const auto start = Clock::now();
-  const BrdfTable table = bake_brdf(side, samples);
-  const double ms = ms_since(start);
+BenchRow brdf_row(const BenchOptions& options, int side, int samples) {
+  Timed ms;
+  const BrdfTable table = bake(
+      options, [&] { return bake_brdf(side, samples); }, ms);
   const Error error = brdf_error([&](double n_dot_v, double roughness) {
     return glm::dvec2(table.sample(static_cast<float>(n_dot_v), static_cast<float>(roughness)));
   });
-  return {"light",
-          fmt::format("environment BRDF, {0}x{0} table, {1} samples: RMS", side, samples),
-          error.rms(),
-          "",
-          samples >= 256 ? std::optional<double>(0.0010) : std::nullopt,
-          false,
-          "",
-          true,
-          {{"worst", error.worst, ""}, {"bake", ms, "ms"}}};
+  BenchRow row{"light",
+               fmt::format("environment BRDF, {0}x{0} table, {1} samples: RMS", side, samples),
+               error.rms(),
+               "",
+               is_default_brdf(side, samples) ? std::optional<double>(0.0010) : std::nullopt,
+               false,
+               "",
+               true,
+               {{"worst", error.worst, ""}, {"bake", ms.median, "ms", ms.spread}}};
+  row.trade = brdf_trade(fmt::format("{0}x{0} table, {1} samples", side, samples), ms, error);
+  row.trade->chosen = is_default_brdf(side, samples);
+  return row;
 }
 
 // Brian Karis. Physically Based Shading on Mobile. 2014: no table at all.
@@ -72,15 +113,17 @@ glm::dvec2 mobile_fit(double n_dot_v, double roughness) {
 
 BenchRow brdf_fit_row() {
   const Error error = brdf_error(mobile_fit);
-  return {"light",
-          "environment BRDF, analytic fit (Karis 2014): RMS",
-          error.rms(),
-          "",
-          {},
-          false,
-          "",
-          true,
-          {{"worst", error.worst, ""}}};
+  BenchRow row{"light",
+               "environment BRDF, analytic fit (Karis 2014): RMS",
+               error.rms(),
+               "",
+               {},
+               false,
+               "",
+               true,
+               {{"worst", error.worst, ""}}};
+  row.trade = brdf_trade("analytic fit (Karis 2014)", {}, error);
+  return row;
 }
 
 // Irradiance / pi by midpoint quadrature over the hemisphere around n: independent of any basis.
@@ -100,11 +143,15 @@ glm::dvec3 irradiance_by_quadrature(const Radiance& radiance, glm::vec3 n, int r
   return sum / (4.0 * rings * rings);
 }
 
-BenchRow irradiance_row(int samples) {
-  const Radiance sky = day_sky(glm::normalize(glm::vec3(0.35f, 0.80f, -0.48f)));
-  const auto start = Clock::now();
-  const Irradiance fast = project_irradiance(sky, samples);
-  const double ms = ms_since(start);
+Radiance bench_sky() {
+  return day_sky(glm::normalize(glm::vec3(0.35f, 0.80f, -0.48f)));
+}
+
+BenchRow irradiance_row(const BenchOptions& options, int samples) {
+  const Radiance sky = bench_sky();
+  Timed ms;
+  const Irradiance fast = bake(
+      options, [&] { return project_irradiance(sky, samples); }, ms);
   std::mt19937 chance(1);
   std::normal_distribution<float> normal;
   Error relative;
@@ -113,41 +160,72 @@ BenchRow irradiance_row(int samples) {
     const glm::dvec3 truth = irradiance_by_quadrature(sky, n, 48);
     relative.add(glm::length(glm::dvec3(fast(n)) - truth) / glm::length(truth));
   }
-  return {"light",
-          fmt::format("irradiance by harmonics of degree 2, {0}x{0} samples a face: RMS of the truth", samples),
-          100.0 * relative.rms(),
-          "%",
-          {},
-          false,
-          "degree 3 is the same: a cosine lobe has no third band",
-          true,
-          {{"worst", 100.0 * relative.worst, "%"}, {"projection", ms, "ms"}}};
+  const Beside cost{"projection", ms.median, "ms", ms.spread};
+  BenchRow row{"light",
+               fmt::format("irradiance by harmonics of degree 2, {0}x{0} samples a face: RMS of the truth", samples),
+               100.0 * relative.rms(),
+               "%",
+               {},
+               false,
+               "degree 3 is the same: a cosine lobe has no third band",
+               true,
+               {{"worst", 100.0 * relative.worst, "%"}, cost}};
+  row.trade = Trade{"irradiance by harmonics",
+                    fmt::format("{0}x{0} samples a face", samples),
+                    cost,
+                    {"RMS of the truth", row.value, "%"},
+                    samples == kIrradianceSamples};
+  return row;
 }
 
-BenchRow prefilter_row(int samples) {
-  const Radiance sky = day_sky(glm::normalize(glm::vec3(0.35f, 0.80f, -0.48f)));
-  const auto start = Clock::now();
-  const PrefilteredCube cube = prefilter(sky, 64, 6, samples);
-  return {"light",
-          fmt::format("reflections prefiltered, 64^2 x 6 x {} levels, {} samples", cube.levels.size(), samples),
-          ms_since(start),
-          "ms",
-          {},
-          false,
-          "",
-          true,
-          {}};
+// Of all rough levels, against many more samples; level 0 is a mirror, which one sample makes.
+double prefilter_error(const PrefilteredCube& cube, const PrefilteredCube& truth) {
+  double off = 0.0, all = 0.0;
+  for (std::size_t level = 1; level < cube.levels.size(); ++level) {
+    for (std::size_t i = 0; i < cube.levels[level].size(); ++i) {
+      const double should = glm::unpackHalf1x16(truth.levels[level][i]);
+      const double has = glm::unpackHalf1x16(cube.levels[level][i]);
+      if (i % 4 == 3) continue;  // alpha
+      off += (has - should) * (has - should);
+      all += should * should;
+    }
+  }
+  return std::sqrt(off / all);
+}
+
+BenchRow prefilter_row(const BenchOptions& options, int samples, const PrefilteredCube& truth) {
+  const Radiance sky = bench_sky();
+  Timed ms;
+  const PrefilteredCube cube = bake(
+      options, [&] { return prefilter(sky, truth.side, static_cast<int>(truth.levels.size()), samples); }, ms);
+  const double error = 100.0 * prefilter_error(cube, truth);
+  BenchRow row{"light",
+               fmt::format("reflections prefiltered, 64^2 x 6 x {} levels, {} samples", cube.levels.size(), samples),
+               ms.median,
+               "ms",
+               {},
+               false,
+               "",
+               true,
+               {{"RMS of the truth", error, "%"}}};
+  row.trade = Trade{"reflections prefiltered",
+                    fmt::format("{} samples", samples),
+                    {"bake", ms.median, "ms", ms.spread},
+                    {fmt::format("RMS of {} samples", kTruthSamples), error, "%"},
+                    samples == kPrefilterSamples};
+  return repeated(ms.spread, std::move(row));
 }
 
 }  // namespace
 
-std::vector<BenchRow> bench_light(const BenchOptions&) {
+std::vector<BenchRow> bench_light(const BenchOptions& options) {
   std::vector<BenchRow> rows;
-  for (const int samples : {16, 64, 256, 1024}) rows.push_back(brdf_row(64, samples));
-  rows.push_back(brdf_row(32, 256));
+  for (const int samples : {16, 64, 128, 256, 1024}) rows.push_back(brdf_row(options, 64, samples));
+  for (const int samples : {64, 128, 256}) rows.push_back(brdf_row(options, 32, samples));
   rows.push_back(brdf_fit_row());
-  for (const int samples : {8, 32, 64}) rows.push_back(irradiance_row(samples));
-  for (const int samples : {16, 64, 256}) rows.push_back(prefilter_row(samples));
+  for (const int samples : {8, 32, 64}) rows.push_back(irradiance_row(options, samples));
+  const PrefilteredCube truth = prefilter(bench_sky(), 64, 6, kTruthSamples);
+  for (const int samples : {16, 64, 256}) rows.push_back(prefilter_row(options, samples, truth));
   return rows;
 }
 

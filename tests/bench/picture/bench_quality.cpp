@@ -21,8 +21,11 @@ namespace {
 
 constexpr int kWidth = 640, kHeight = 360;  // [px]
 
+// One renderer for all pictures: what differs is its config.
 struct PaperCabin {
-  explicit PaperCabin(const BenchOptions& options) : stage(config(options), options.model_folder) {
+  explicit PaperCabin(const BenchOptions& options)
+      : stage(config(options), options.model_folder), renderer(gpu, RenderConfig{}) {
+    renderer.set_model(stage.model());
     StageInput input;
     input.lever.gear = input.car.gear = 1;
     input.lever.lever = input.lever.proxy = rest_position(gate, 1);
@@ -36,6 +39,8 @@ struct PaperCabin {
   }
   Gate gate;
   Stage stage;
+  Gpu gpu{{}};
+  Renderer renderer;
 };
 
 RenderConfig sized(int scale, int samples) {
@@ -77,38 +82,46 @@ Image shrunk(const Image& picture, int scale) {
 
 struct Taken {
   Image picture;
-  double ms = 0.0;
+  Timed ms;  // a frame
+  Beside frame() const { return {"frame", ms.median, "ms", ms.spread}; }
 };
 
-Taken take(Gpu& gpu, PaperCabin& cabin, const RenderConfig& config, const View& view, int frames) {
-  Renderer renderer(gpu, config);
-  renderer.set_model(cabin.stage.model());
-  const double ms = time_frames(gpu, renderer, cabin.stage.scene(), {&view, 1}, frames, 1).host_ms;
-  return {renderer.read_eye(0), ms};
+Taken take(PaperCabin& cabin, const RenderConfig& config, const View& view, int frames) {
+  cabin.renderer.resize(config);
+  const Timed ms = time_frames(cabin.gpu, cabin.renderer, cabin.stage.scene(), {&view, 1}, frames, 1).host;
+  return {cabin.renderer.read_eye(0), ms};
 }
 
-std::vector<BenchRow> anti_aliasing_rows(const BenchOptions& options, Gpu& gpu, PaperCabin& cabin) {
+std::vector<BenchRow> anti_aliasing_rows(const BenchOptions& options, PaperCabin& cabin) {
   const View view = seen_from(cabin.stage.driver_eye(), sized(1, 1));
-  const int frames = options.quick ? 3 : 9;
-  const Image reference = shrunk(take(gpu, cabin, sized(8, 1), view, 1).picture, 8);
+  const int frames = options.quick ? 2 : 9;
+  const int fine = options.quick ? 4 : 8;  // times as many samples along a side
+  const Image reference = shrunk(take(cabin, sized(fine, 1), view, 1).picture, fine);
   std::vector<BenchRow> rows;
-  const auto add = [&](const char* name, const Taken& taken) {
+  const auto add = [&](const char* name, int samples, const Taken& taken) {
+    const double apart_seen = flip(reference, taken.picture).mean;
     const ImageDifference apart = difference(taken.picture, reference);
-    rows.push_back({"quality",
-                    fmt::format("anti-aliasing against 64 samples a pixel, {}x{}: {}", kWidth, kHeight, name),
-                    apart.psnr,
-                    "dB",
-                    {},
-                    true,
-                    "",
-                    true,
-                    {{"FLIP", flip(reference, taken.picture).mean, ""}, {"frame", taken.ms, "ms"}}});
+    rows.push_back(
+        {"quality",
+         fmt::format("anti-aliasing against {} samples a pixel, {}x{}: {}", fine * fine, kWidth, kHeight, name),
+         apart.psnr,
+         "dB",
+         {},
+         true,
+         "",
+         true,
+         {{"FLIP", apart_seen, ""}, taken.frame()}});
+    rows.back().trade = Trade{fmt::format("anti-aliasing, {}x{}", kWidth, kHeight),
+                              name,
+                              taken.frame(),
+                              {fmt::format("FLIP against {} samples a pixel", fine * fine), apart_seen, ""},
+                              samples == RenderConfig{}.samples};
   };
-  add("1x", take(gpu, cabin, sized(1, 1), view, frames));
-  add("4x", take(gpu, cabin, sized(1, 4), view, frames));
-  Taken super = take(gpu, cabin, sized(2, 1), view, frames);
+  add("1x", 1, take(cabin, sized(1, 1), view, frames));
+  Taken super = take(cabin, sized(2, 1), view, frames);
   super.picture = shrunk(super.picture, 2);
-  add("2x2 supersampling", super);
+  add("2x2 supersampling", 0, super);
+  add("4x", 4, take(cabin, sized(1, 4), view, frames));
   return rows;
 }
 
@@ -206,23 +219,21 @@ double luminance(const Image& picture, const LitPixel& at) {
   return 0.2126 * linear(rgb[0]) + 0.7152 * linear(rgb[1]) + 0.0722 * linear(rgb[2]);
 }
 
-std::vector<BenchRow> shadow_rows(const BenchOptions& options, Gpu& gpu, PaperCabin& cabin) {
+std::vector<BenchRow> shadow_rows(const BenchOptions& options, PaperCabin& cabin) {
   const View view = seen_from(cabin.stage.driver_eye(), sized(1, 1));
-  const std::vector<LitPixel> truth = cast(cabin.stage, view, options.quick ? 200 : 2000);
+  const std::vector<LitPixel> truth = cast(cabin.stage, view, options.quick ? 60 : 2000);
   RenderConfig config = sized(1, 1);
   config.mirror_height = 0;
   config.shadow_side = 0;
-  const Image unshadowed = take(gpu, cabin, config, view, 1).picture;
+  const Image unshadowed = take(cabin, config, view, 1).picture;
   FrameScene dark = cabin.stage.scene();
   dark.sun.irradiance = glm::vec3(0.0f);
-  Renderer night(gpu, config);
-  night.set_model(cabin.stage.model());
-  gpu.wait(night.draw(dark, {&view, 1}));
-  const Image sunless = night.read_eye(0);
+  cabin.gpu.wait(cabin.renderer.draw(dark, {&view, 1}));
+  const Image sunless = cabin.renderer.read_eye(0);
   std::vector<BenchRow> rows;
   for (const int side : {512, 1024, 2048, 4096}) {
     config.shadow_side = side;
-    const Taken taken = take(gpu, cabin, config, view, options.quick ? 3 : 9);
+    const Taken taken = take(cabin, config, view, options.quick ? 2 : 9);
     int wrong = 0, judged = 0;
     for (const LitPixel& pixel : truth) {
       const double full = luminance(unshadowed, pixel), none = luminance(sunless, pixel);
@@ -231,38 +242,50 @@ std::vector<BenchRow> shadow_rows(const BenchOptions& options, Gpu& gpu, PaperCa
       wrong += lit != pixel.lit ? 1 : 0;
       ++judged;
     }
+    const double share = judged > 0 ? 100.0 * wrong / judged : 0.0;
     rows.push_back({"quality",
                     fmt::format("shadow map {0}x{0}: pixels that rays say are wrong", side),
-                    judged > 0 ? 100.0 * wrong / judged : 0.0,
+                    share,
                     "%",
                     {},
                     false,
                     "",
                     true,
-                    {{"judged", static_cast<double>(judged), "pixels"}, {"frame", taken.ms, "ms"}}});
+                    {{"judged", static_cast<double>(judged), "pixels"}, taken.frame()}});
+    rows.back().trade = Trade{"shadow map",
+                              fmt::format("{0}x{0}", side),
+                              taken.frame(),
+                              {"pixels that rays say are wrong", share, "%"},
+                              side == RenderConfig{}.shadow_side};
   }
   return rows;
 }
 
-std::vector<BenchRow> mirror_rows(const BenchOptions& options, Gpu& gpu, PaperCabin& cabin) {
+std::vector<BenchRow> mirror_rows(const BenchOptions& options, PaperCabin& cabin) {
   const EyePose eye = look_at(cabin.stage.driver_eye().position, glm::dvec3(0.325, 0.805, -0.495));
   const View view = seen_from(eye, sized(1, 1), 0.35);
   RenderConfig config = sized(1, 1);
   config.mirror_height = 384;
-  const Image reference = take(gpu, cabin, config, view, 1).picture;
+  const Image reference = take(cabin, config, view, 1).picture;
   std::vector<BenchRow> rows;
   for (const int height : {48, 96, 192}) {
     config.mirror_height = height;
-    const Taken taken = take(gpu, cabin, config, view, options.quick ? 3 : 9);
+    const Taken taken = take(cabin, config, view, options.quick ? 2 : 9);
+    const double apart = flip(reference, taken.picture).mean;
     rows.push_back({"quality",
                     fmt::format("mirror of {} lines, seen close, against 384: FLIP", height),
-                    flip(reference, taken.picture).mean,
+                    apart,
                     "",
                     {},
                     false,
                     "",
                     true,
-                    {{"frame", taken.ms, "ms"}}});
+                    {taken.frame()}});
+    rows.back().trade = Trade{"mirror, seen close",
+                              fmt::format("{} lines", height),
+                              taken.frame(),
+                              {"FLIP against 384 lines", apart, ""},
+                              height == RenderConfig{}.mirror_height};
   }
   return rows;
 }
@@ -318,7 +341,8 @@ glm::dvec2 centre_of(const Image& with, const Image& without) {
 }
 
 // Closed form: f (x - eye) / z from the middle of the picture, less the screen's f shift for an off-axis eye.
-BenchRow projected_points(Gpu& gpu) {
+BenchRow projected_points() {
+  Gpu gpu({});
   RenderConfig config = sized(1, 4);
   config.eyes = 2;
   config.shadow_side = 0;
@@ -352,26 +376,31 @@ BenchRow projected_points(Gpu& gpu) {
       sum += error;
     }
   }
-  return {"quality",
-          fmt::format("projected points, {} marks, both eyes, off axis: worst distance from the closed form", kMarks),
-          worst,
-          "px",
-          0.1,
-          false,
-          "",
-          true,
-          {{"mean", sum / (2 * kMarks), "px"}}};
+  return answering(
+      Design::projected,
+      {"quality",
+       fmt::format("projected points, {} marks, both eyes, off axis: worst distance from the closed form", kMarks),
+       worst,
+       "px",
+       0.1,
+       false,
+       "",
+       true,
+       {{"mean", sum / (2 * kMarks), "px"}}});
 }
 
 }  // namespace
 
 std::vector<BenchRow> bench_quality(const BenchOptions& options) {
-  Gpu gpu({});
-  PaperCabin cabin(options);
-  std::vector<BenchRow> rows = anti_aliasing_rows(options, gpu, cabin);
-  for (BenchRow& row : shadow_rows(options, gpu, cabin)) rows.push_back(std::move(row));
-  for (BenchRow& row : mirror_rows(options, gpu, cabin)) rows.push_back(std::move(row));
-  rows.push_back(projected_points(gpu));
+  std::vector<BenchRow> rows;
+  const auto add = [&](std::vector<BenchRow> more) { rows.insert(rows.end(), more.begin(), more.end()); };
+  {
+    PaperCabin cabin(options);
+    add(anti_aliasing_rows(options, cabin));
+    add(shadow_rows(options, cabin));
+    add(mirror_rows(options, cabin));
+  }
+  rows.push_back(projected_points());
   return rows;
 }
 

@@ -37,7 +37,7 @@ FrameCost time_frames(Gpu& gpu, Renderer& renderer, const FrameScene& scene, std
     overlay.push_back(times.overlay);
     all.push_back(times.all);
   }
-  return {quantile(host, 0.5),
+  return {timed(host),
           {.shadow = quantile(shadow, 0.5),
            .depth = quantile(depth, 0.5),
            .mirror = quantile(mirror, 0.5),

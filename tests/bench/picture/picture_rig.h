@@ -35,9 +35,9 @@ inline View seen_from(const EyePose& eye, const RenderConfig& config, double ver
 StageConfig paper_cabin(const BenchOptions& options);  // the paper's gate in the cabin
 StageInput in_first(const Gate& gate);                 // the lever in first, the engine turning
 
-// Draws `frames` frames after `warm_up` others, each waited for. [ms] median, on the host
+// Draws `frames` frames after `warm_up` others, each waited for.
 struct FrameCost {
-  double host_ms = 0.0;
+  Timed host;     // [ms] on the host
   PassTimes gpu;  // of the median frame's neighbourhood: each pass's own median
 };
 FrameCost time_frames(Gpu& gpu, Renderer& renderer, const FrameScene& scene, std::span<const View> views, int frames,

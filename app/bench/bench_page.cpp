@@ -1,0 +1,199 @@
+#include "app/bench/bench_page.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "app/bench/trade_svg.h"
+#include "app/draw/html.h"
+
+namespace gearshift {
+namespace {
+
+constexpr const char* kBenchStyle = R"css(
+html { -webkit-print-color-adjust: exact; print-color-adjust: exact; }
+table { font-size: 0.85rem; }
+th { vertical-align: bottom; }
+.number { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
+.soft { color: #6b7785; }
+.met { color: #2e7d4f; font-weight: bold; white-space: nowrap; }
+.missed { color: #c5303b; font-weight: bold; white-space: nowrap; }
+.changed { background: #fdf3e1; }
+table.figures td:first-child { min-width: 15rem; }
+table.design tr.ask td { border-top: 2px solid #6b7785; background: #f1f3f6; }
+table.design tr.ask td:first-child { font-weight: bold; padding-left: 0.4rem; }
+table.design tr.row td:first-child { padding-left: 1.4rem; width: 46%; }
+figure { margin: 2.2rem 0; }
+figcaption { font-size: 1.1rem; font-weight: bold; color: #1f2933; margin-bottom: 0.6rem; }
+svg { max-width: 100%; height: auto; }
+@media print {
+  @page { margin: 12mm; }
+  thead { display: table-header-group; }
+  table { font-size: 7.5pt; }
+  figure { margin: 0.6rem 0; }
+}
+)css";
+
+std::vector<BenchRow> plain_rows(const BenchRun& run) {
+  std::vector<BenchRow> rows;
+  for (const MeasuredRow& measured : run.rows) rows.push_back(measured.row);
+  return rows;
+}
+
+std::vector<std::string> families_of(const BenchRun& run) {
+  std::vector<std::string> families;
+  for (const MeasuredRow& measured : run.rows) {
+    if (std::find(families.begin(), families.end(), measured.row.family) == families.end())
+      families.push_back(measured.row.family);
+  }
+  return families;
+}
+
+std::string facts(const BenchRun& run) {
+  const auto row = [](std::string_view what, const std::string& value) {
+    return value.empty() ? "" : fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", what, html_text(value));
+  };
+  const Machine& m = run.machine;
+  return "<table class=\"facts\">\n" + row("Date", run.date) + row("Program", run.program) +
+         row("Processor", fmt::format("{}, {} cores", m.cpu, m.cores)) + row("GPU", m.gpu) + row("System", m.system) +
+         row("Build", fmt::format("{}, {}", m.build, m.compiler)) +
+         row("Run", run.quick ? "quick: a look, not figures to quote" : "full") + "</table>\n";
+}
+
+std::string verdict_cell(const BenchRow& row) {
+  const std::string_view words = verdict_words(row);
+  if (words.empty()) return "<td></td>";
+  return fmt::format("<td class=\"{}\">{}</td>", meets_goal(row) ? "met" : "missed",
+                     meets_goal(row) ? "met" : "not met");
+}
+
+std::string figure_words(const BenchRow& row) {
+  return row.measured ? fmt::format("{} {}", value_words(row.value), row.unit) : "not measured";
+}
+
+std::string number_cell(const std::string& words) {
+  return fmt::format("<td class=\"number\">{}</td>", html_text(words));
+}
+
+std::string answer_row(const BenchRow& row) {
+  return fmt::format("<tr class=\"row\"><td>{}: {}</td>{}{}{}{}<td class=\"soft\">{}</td></tr>\n",
+                     html_text(row.family), html_text(row.name), number_cell(figure_words(row)),
+                     number_cell(spread_words(row.spread)), number_cell(goal_words(row)), verdict_cell(row),
+                     row.measured ? "" : html_text(row.note));
+}
+
+// One row of the design, and what this run has to say to it.
+std::string answers_to(const DesignRow& asked, const BenchRun& run) {
+  std::string answers;
+  for (const MeasuredRow& measured : run.rows) {
+    if (measured.row.design == asked.key) answers += answer_row(measured.row);
+  }
+  return fmt::format(
+             "<tr class=\"ask\" id=\"design-{}\"><td>{}</td><td colspan=\"3\">{}</td><td colspan=\"2\" "
+             "class=\"soft\">{}</td></tr>\n",
+             asked.name, html_text(asked.what), html_text(asked.figure), answers.empty() ? "not in this run" : "") +
+         answers;
+}
+
+std::string design_section(const BenchRun& run) {
+  std::string text =
+      "<section id=\"design\">\n<h2>Where it must stand</h2>\n<table class=\"design\">\n<thead><tr><th>Asked for</th>"
+      "<th class=\"number\">Seen</th><th class=\"number\">Quartiles</th><th "
+      "class=\"number\">Goal</th><th></th><th></th>"
+      "</tr></thead>\n<tbody>\n";
+  for (const DesignRow& asked : kDesignRows) text += answers_to(asked, run);
+  return text + "</tbody>\n</table>\n</section>\n";
+}
+
+std::string trades_section(const BenchRun& run) {
+  std::string figures;
+  const std::vector<BenchRow> rows = plain_rows(run);
+  for (const std::string& family : families_of(run)) {
+    const std::string svg = trade_svg(family, rows);
+    if (svg.empty()) continue;
+    figures +=
+        fmt::format("<figure id=\"trade-{0}\">\n<figcaption>{0}</figcaption>\n{1}</figure>\n", html_text(family), svg);
+  }
+  if (figures.empty()) return {};
+  return "<section id=\"trades\">\n<h2>Methods against each other</h2>\n<p>Cost to the right, error upwards. The line "
+         "is "
+         "the best that can be had; who is on it is dark, who is beaten in both is lighter, the default is ringed. "
+         "Bars are "
+         "quartiles.</p>\n" +
+         figures + "</section>\n";
+}
+
+std::string change_row(const BenchRow& row, const std::optional<SinceLast>& since) {
+  if (!since || !since->changed) return {};
+  return fmt::format("<tr><td>{}: {}</td>{}{}{}<td>{}</td></tr>\n", html_text(row.family), html_text(row.name),
+                     number_cell(fmt::format("{} {}", value_words(since->value), row.unit)),
+                     number_cell(figure_words(row)), number_cell(since_words(since)), html_text(since->date));
+}
+
+std::string changes_section(const BenchRun& run) {
+  std::string table;
+  bool compared = false;
+  for (const MeasuredRow& measured : run.rows) {
+    compared = compared || measured.since;
+    table += change_row(measured.row, measured.since);
+    if (const auto cost = cost_row(measured.row)) table += change_row(*cost, measured.cost_since);
+  }
+  if (!compared) return {};
+  const std::string head = "<section id=\"changes\">\n<h2>What changed here since the last full run</h2>\n";
+  if (table.empty()) return head + "<p>Nothing by more than its spread.</p>\n</section>\n";
+  return head +
+         "<table class=\"changes\">\n<thead><tr><th>Row</th><th class=\"number\">Then</th><th class=\"number\">Now</th>"
+         "<th class=\"number\">Ratio</th><th>Of</th></tr></thead>\n<tbody>\n" +
+         table + "</tbody>\n</table>\n</section>\n";
+}
+
+std::string beside_cell(const BenchRow& row) {
+  std::string text = html_text(row.note);
+  for (const Beside& more : row.beside) {
+    text += fmt::format("{}{} {} {}", text.empty() ? "" : "; ", html_text(more.what), value_words(more.value),
+                        html_text(more.unit));
+  }
+  return fmt::format("<td class=\"soft\">{}</td>", text);
+}
+
+std::string family_section(const std::string& family, const BenchRun& run) {
+  std::string text = fmt::format(
+      "<section id=\"family-{0}\">\n<h2>{0}</h2>\n<table class=\"figures\">\n<thead><tr><th>What</th>"
+      "<th class=\"number\">Seen</th><th class=\"number\">Quartiles</th><th class=\"number\">Goal</th><th></th>"
+      "<th class=\"number\">Since last</th><th>Beside it</th></tr></thead>\n<tbody>\n",
+      html_text(family));
+  for (const MeasuredRow& measured : run.rows) {
+    const BenchRow& row = measured.row;
+    if (row.family != family) continue;
+    const auto differs = [](const std::optional<SinceLast>& since) { return since && since->changed; };
+    const bool changed = differs(measured.since) || differs(measured.cost_since);
+    text +=
+        fmt::format("<tr{}><td>{}</td>{}{}{}{}{}{}</tr>\n", changed ? " class=\"changed\"" : "", html_text(row.name),
+                    number_cell(figure_words(row)), number_cell(spread_words(row.spread)), number_cell(goal_words(row)),
+                    verdict_cell(row), number_cell(since_words(measured)), beside_cell(row));
+  }
+  return text + "</tbody>\n</table>\n</section>\n";
+}
+
+std::string contents(const BenchRun& run) {
+  std::string links;
+  for (const std::string& family : families_of(run))
+    links += fmt::format(" <a href=\"#family-{0}\">{0}</a>", html_text(family));
+  return "<p>Every row:" + links + "</p>\n";
+}
+
+}  // namespace
+
+std::string bench_page(const BenchRun& run) {
+  std::string page = fmt::format(
+      "<!DOCTYPE html>\n<html lang=\"en\" xmlns=\"http://www.w3.org/1999/xhtml\">\n<head>\n<meta charset=\"utf-8\"/>\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>Speed against error</title>\n"
+      "<style>{}{}</style>\n</head>\n<body>\n<h1>Speed against error</h1>\n",
+      html_style(), kBenchStyle);
+  page += facts(run) + contents(run) + design_section(run) + changes_section(run) + trades_section(run);
+  for (const std::string& family : families_of(run)) page += family_section(family, run);
+  return page + "</body>\n</html>\n";
+}
+
+}  // namespace gearshift

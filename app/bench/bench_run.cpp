@@ -1,0 +1,47 @@
+#include "app/bench/bench_run.h"
+
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace gearshift {
+
+std::string value_words(double value) {
+  return fmt::format("{:.4g}", value);
+}
+
+std::string goal_words(const BenchRow& row) {
+  return row.goal ? fmt::format("{} {:g}", row.at_least ? ">=" : "<=", *row.goal) : "";
+}
+
+std::string_view verdict_words(const BenchRow& row) {
+  if (!row.goal || !row.measured) return "";
+  return meets_goal(row) ? "met" : "NOT MET";
+}
+
+std::string spread_words(const std::optional<Quartiles>& spread) {
+  return spread ? fmt::format("{:.4g} to {:.4g}", spread->low, spread->high) : "";
+}
+
+std::string since_words(const std::optional<SinceLast>& since) {
+  if (!since) return "";
+  const std::string ratio =
+      std::isfinite(since->ratio) ? fmt::format("{:.3g} x", since->ratio) : fmt::format("was {:.4g}", since->value);
+  return since->changed ? ratio + " *" : ratio;
+}
+
+std::string since_words(const MeasuredRow& measured) {
+  const std::string value = since_words(measured.since), cost = since_words(measured.cost_since);
+  return cost.empty() ? value : fmt::format("{}{}cost {}", value, value.empty() ? "" : ", ", cost);
+}
+
+std::optional<BenchRow> cost_row(const BenchRow& row) {
+  if (!row.trade) return std::nullopt;
+  const Beside& cost = row.trade->cost;
+  BenchRow of_cost{row.family, row.name + " (cost)", cost.value, cost.unit, {}, false, {}};
+  of_cost.measured = row.measured;
+  of_cost.spread = cost.spread;
+  return of_cost;
+}
+
+}  // namespace gearshift

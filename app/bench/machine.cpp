@@ -1,0 +1,59 @@
+// This work is based on:
+// Glenn Fowler, Landon Curt Noll, Kiem-Phong Vo. FNV hash, 64 bit, variant 1a. 1991
+#include "app/bench/machine.h"
+
+#include <sys/utsname.h>
+
+#include <cstdint>
+#include <fstream>
+#include <iterator>
+#include <thread>
+
+#include <fmt/format.h>
+
+namespace gearshift {
+namespace {
+
+std::string compiler_words() {
+#if defined(__clang__)
+  return "clang++ " __clang_version__;
+#else
+  return "g++ " __VERSION__;
+#endif
+}
+
+std::uint64_t fnv_1a(std::string_view text) {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  return hash;
+}
+
+}  // namespace
+
+std::string cpu_model(std::string_view cpuinfo) {
+  const std::size_t key = cpuinfo.find("model name");
+  const std::size_t colon = key == std::string_view::npos ? key : cpuinfo.find(": ", key);
+  if (colon == std::string_view::npos) return "unknown";
+  const std::string_view rest = cpuinfo.substr(colon + 2);
+  return std::string(rest.substr(0, rest.find('\n')));
+}
+
+Machine this_machine(const std::string& gpu) {
+  std::ifstream file("/proc/cpuinfo");
+  const std::string cpuinfo{std::istreambuf_iterator<char>(file), {}};
+  utsname names{};
+  uname(&names);
+  return {.cpu = cpu_model(cpuinfo),
+          .cores = static_cast<int>(std::thread::hardware_concurrency()),
+          .gpu = gpu,
+          .host = names.nodename,
+          .system = fmt::format("{} {}", names.sysname, names.release),
+          .compiler = compiler_words(),
+          .build = GEARSHIFT_BUILD_TYPE};
+}
+
+std::string machine_key(const Machine& m) {
+  return fmt::format("{:016x}", fnv_1a(fmt::format("{}\n{}\n{}\n{}\n{}", m.cpu, m.cores, m.gpu, m.host, m.build)));
+}
+
+}  // namespace gearshift

@@ -1,0 +1,115 @@
+// Read back by readers of their own, the files hold what was put in.
+#include "app/bench/bench_files.h"
+
+#include <limits>
+
+#include <doctest/doctest.h>
+#include <nlohmann/json.hpp>
+
+#include "tests/app/bench/made_run.h"
+
+using namespace gearshift;
+
+namespace {
+
+// RFC 4180, with LF.
+std::vector<std::vector<std::string>> parse_csv(const std::string& text) {
+  std::vector<std::vector<std::string>> lines(1, {""});
+  bool quoted = false;
+  for (std::size_t i = 0; i + 1 < text.size() || (i < text.size() && text[i] != '\n'); ++i) {
+    const char c = text[i];
+    if (c == '"' && quoted && text[i + 1] == '"') {
+      lines.back().back() += '"';
+      ++i;
+    } else if (c == '"') {
+      quoted = !quoted;
+    } else if (c == ',' && !quoted) {
+      lines.back().emplace_back();
+    } else if (c == '\n' && !quoted) {
+      lines.push_back({""});
+    } else {
+      lines.back().back() += c;
+    }
+  }
+  return lines;
+}
+
+BenchRow full_row() {
+  BenchRow row = trade_row("a \"good\" one, cheap", 3.0, 0.125, true);
+  row.goal = 0.25;
+  row.spread = Quartiles{0.1, 0.2};
+  row.beside = {{"cost", 3.0, "ns"}};
+  row.design = Design::plant;
+  return row;
+}
+
+BenchRow row_not_measured() {
+  BenchRow row = plain_row("walk", "out of reach", 0.0);
+  row.measured = false;
+  row.goal = 1.0;
+  row.note = "not measurable: no path";
+  return row;
+}
+
+}  // namespace
+
+TEST_CASE("CSV: as many fields on each line as the head names, and text as it was") {
+  BenchRun run = made_run({full_row(), row_not_measured()});
+  run.rows[0].since = SinceLast{"2025-01-01T00:00:00Z", 0.5, 0.25, true};
+  const auto lines = parse_csv(bench_csv(run));
+  REQUIRE(lines.size() == 3);
+  for (const auto& line : lines) CHECK(line.size() == lines[0].size());
+  CHECK(lines[1] == std::vector<std::string>{"walk", "a \"good\" one, cheap", "0.125", "mm", "0.25", "by hand",
+                                             "cost = 3 ns", "0.1", "0.2", "walks", "a \"good\" one, cheap", "3", "ns",
+                                             "0.125", "mm", "yes", "0.5"});
+  CHECK(lines[2][2].empty());
+  CHECK(lines[2][5] == "not measurable: no path");
+}
+
+TEST_CASE("JSON: every field comes back; what was not measured is null and neither met nor missed") {
+  BenchRun run = made_run({full_row(), row_not_measured()});
+  run.rows[0].since = SinceLast{"2025-01-01T00:00:00Z", 0.5, 0.25, true};
+  const auto json = nlohmann::json::parse(bench_json(run));
+  CHECK(json["program"] == "gearshift 9.9");
+  CHECK(json["date"] == "2026-01-02T03:04:05Z");
+  CHECK(json["quick"] == false);
+  CHECK(json["machine"]["cpu"] == "Abacus");
+  CHECK_FALSE(json["machine"].contains("host"));
+  const auto& row = json["rows"][0];
+  CHECK(row["value"] == 0.125);
+  CHECK(row["quartiles"] == nlohmann::json{0.1, 0.2});
+  CHECK(row["met"] == true);
+  CHECK(row["design"] == "plant");
+  CHECK(row["trade"]["chosen"] == true);
+  CHECK(row["trade"]["cost"]["value"] == 3.0);
+  CHECK(row["last"]["ratio"] == 0.25);
+  CHECK(row["last"]["changed"] == true);
+  CHECK(json["rows"][1]["value"].is_null());
+  CHECK_FALSE(json["rows"][1].contains("met"));
+}
+
+TEST_CASE("JSON: what is not finite is null, and the file stays JSON") {
+  const BenchRun run = made_run({plain_row("walk", "endless", std::numeric_limits<double>::infinity())});
+  CHECK(nlohmann::json::parse(bench_json(run))["rows"][0]["value"].is_null());
+}
+
+TEST_CASE("table: a column against the last run only where there is one") {
+  BenchRun run = made_run({full_row()});
+  CHECK(bench_table(run).find("since last") == std::string::npos);
+  CHECK(bench_table(run).find("quartiles 0.1 to 0.2") != std::string::npos);
+  run.rows[0].since = SinceLast{"2025-01-01T00:00:00Z", 0.5, 0.25, true};
+  CHECK(bench_table(run).find("since last") != std::string::npos);
+  CHECK(bench_table(run).find("0.25 x *") != std::string::npos);
+}
+
+TEST_CASE("a goal is met at its very figure, from either side") {
+  BenchRow row = plain_row("walk", "a", 1.0);
+  CHECK(verdict_words(row).empty());
+  row.goal = 1.0;
+  CHECK(verdict_words(row) == "met");
+  row.value = 1.0001;
+  CHECK(verdict_words(row) == "NOT MET");
+  row.at_least = true;
+  CHECK(verdict_words(row) == "met");
+  CHECK(goal_words(row) == ">= 1");
+}

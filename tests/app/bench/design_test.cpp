@@ -1,0 +1,37 @@
+// Every row of the design's table has rows of the bench that answer it: claimed here, held to it at every run.
+#include "tests/bench/design.h"
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+
+#include <doctest/doctest.h>
+
+#include "tests/app/bench/made_run.h"
+
+using namespace gearshift;
+
+namespace {
+
+std::vector<BenchRow> one_for_plant(const BenchOptions&) {
+  BenchRow row = plain_row("walk", "a", 1.0);
+  row.design = Design::plant;
+  return {row, plain_row("walk", "b", 1.0)};
+}
+
+}  // namespace
+
+TEST_CASE("each row of the design is claimed by a family, and no family claims what is none") {
+  std::set<Design> asked, claimed;
+  for (const DesignRow& row : kDesignRows) asked.insert(row.key);
+  for (const NamedFamily& family : bench_families()) claimed.insert(family.answers.begin(), family.answers.end());
+  CHECK(asked.size() == kDesignRows.size());
+  CHECK(asked.size() == static_cast<std::size_t>(Design::driveline));  // the last of them
+  CHECK(claimed == asked);
+}
+
+TEST_CASE("a family is held to its claim: nothing less, nothing else") {
+  CHECK(run_family({"walk", one_for_plant, {Design::plant}}, {}).size() == 2);
+  CHECK_THROWS_AS(run_family({"walk", one_for_plant}, {}), std::logic_error);
+  CHECK_THROWS_AS(run_family({"walk", one_for_plant, {Design::plant, Design::wall}}, {}), std::logic_error);
+}

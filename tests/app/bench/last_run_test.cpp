@@ -1,0 +1,171 @@
+// What the last full run had: kept, found again, and told from what only trembles.
+#include "app/bench/last_run.h"
+
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include <doctest/doctest.h>
+
+#include "haptics/files/file_error.h"
+#include "tests/app/bench/made_run.h"
+#include "tests/support/temp_folder.h"
+
+using namespace gearshift;
+using doctest::Approx;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void never_told(const std::string& problem) {
+  FAIL(problem);
+}
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+BenchRow timed_row(double value, double low, double high) {
+  BenchRow row = plain_row("walk", "timed", value);
+  row.spread = Quartiles{low, high};
+  return row;
+}
+
+SinceLast since(const BenchRow& then, const BenchRow& now) {
+  const TempFolder folder;
+  keep_run(folder / "last.json", {}, made_run({then}));
+  const auto found = since_last(read_last_run(folder / "last.json", never_told), now);
+  REQUIRE(found);
+  return *found;
+}
+
+}  // namespace
+
+TEST_CASE("the first run has nothing to be compared with") {
+  const TempFolder folder;
+  CHECK(read_last_run(folder / "none.json", never_told).empty());
+  CHECK_FALSE(since_last({}, plain_row("walk", "a", 1.0)));
+}
+
+TEST_CASE("the next one has the ratio and the date of the last") {
+  const SinceLast found = since(plain_row("walk", "a", 4.0), plain_row("walk", "a", 3.0));
+  CHECK(found.value == 4.0);
+  CHECK(found.ratio == Approx(0.75));
+  CHECK(found.date == "2026-01-02T03:04:05Z");
+  CHECK(found.changed);
+}
+
+TEST_CASE("changed is what shares no quartile; a figure without spread, what reads otherwise") {
+  CHECK_FALSE(since(timed_row(100, 90, 110), timed_row(115, 108, 130)).changed);
+  CHECK(since(timed_row(100, 90, 110), timed_row(125, 111, 130)).changed);
+  CHECK(since(timed_row(100, 90, 110), timed_row(80, 70, 89)).changed);
+  CHECK_FALSE(since(plain_row("walk", "a", 1.00001), plain_row("walk", "a", 1.00002)).changed);
+  CHECK(since(plain_row("walk", "a", 1.001), plain_row("walk", "a", 1.002)).changed);
+}
+
+TEST_CASE("from nothing to something there is no ratio, from nothing to nothing there is no change") {
+  const SinceLast grown = since(plain_row("walk", "a", 0.0), plain_row("walk", "a", 2.0));
+  CHECK_FALSE(std::isfinite(grown.ratio));
+  CHECK(grown.changed);
+  CHECK(since_words(grown) == "was 0 *");
+  const SinceLast same = since(plain_row("walk", "a", 0.0), plain_row("walk", "a", 0.0));
+  CHECK(same.ratio == 1.0);
+  CHECK_FALSE(same.changed);
+}
+
+TEST_CASE("what a method costs is compared by itself: the same error, for twice as much") {
+  const TempFolder folder;
+  const fs::path file = folder / "last.json";
+  keep_run(file, {}, made_run({trade_row("a", 10.0, 1.0), plain_row("walk", "b", 1.0)}));
+  BenchRun next = made_run({trade_row("a", 20.0, 1.0), plain_row("walk", "b", 1.0)});
+  compare(next, read_last_run(file, never_told));
+  CHECK_FALSE(next.rows[0].since->changed);
+  REQUIRE(next.rows[0].cost_since);
+  CHECK(next.rows[0].cost_since->changed);
+  CHECK(since_words(next.rows[0]) == "1 x, cost 2 x *");
+  CHECK_FALSE(next.rows[1].cost_since);
+}
+
+TEST_CASE("a run of some families leaves what is known of the others") {
+  const TempFolder folder;
+  const fs::path file = folder / "deep" / "last.json";
+  keep_run(file, {},
+           made_run({plain_row("walk", "a", 1.0), plain_row("swim", "a", 2.0), plain_row("walk", "gone", 3.0)}));
+  BenchRow not_measured = plain_row("swim", "a", 9.0);
+  not_measured.measured = false;
+  keep_run(file, read_last_run(file, never_told), made_run({plain_row("walk", "a", 5.0), not_measured}));
+  const LastRun last = read_last_run(file, never_told);
+  CHECK(since_last(last, plain_row("walk", "a", 5.0))->value == 5.0);
+  CHECK(since_last(last, plain_row("swim", "a", 2.0))->value == 2.0);
+  CHECK_FALSE(since_last(last, plain_row("walk", "gone", 3.0)));
+  CHECK_FALSE(since_last(last, not_measured));
+}
+
+TEST_CASE("a file that makes no sense is told in one sentence and kept aside, and the next run has a file") {
+  for (const char* text : {"", "no JSON", "[]", "{\"families\": 3}", "{\"families\": {\"walk\": {\"date\": 1}}}",
+                           "{\"families\": {\"walk\": {\"date\": \"d\", \"figures\": {\"a\": {\"value\": null}}}}}"}) {
+    CAPTURE(text);
+    const TempFolder folder;
+    const fs::path file = folder / "last.json";
+    std::ofstream(file) << text;
+    std::vector<std::string> told;
+    CHECK(read_last_run(file, [&](const std::string& problem) { told.push_back(problem); }).empty());
+    REQUIRE(told.size() == 1);
+    CHECK(told[0].find(file.string()) == 0);
+    CHECK(told[0].find('\n') == std::string::npos);
+    CHECK(text_of(folder / "last.json.unreadable") == text);
+    keep_run(file, {}, made_run({plain_row("walk", "a", 1.0)}));
+    CHECK(read_last_run(file, never_told).size() == 1);
+  }
+}
+
+TEST_CASE("where nothing can be written, that is said, and what was there still is") {
+  const TempFolder folder;
+  std::ofstream(folder / "a file") << "x";
+  CHECK_THROWS_AS(keep_run(folder / "a file" / "bench" / "last.json", {}, made_run({plain_row("walk", "a", 1.0)})),
+                  FileError);
+  CHECK(text_of(folder / "a file") == "x");
+  if (geteuid() == 0) return;  // root may write anywhere
+  const fs::path file = folder / "shut" / "last.json";
+  keep_run(file, {}, made_run({plain_row("walk", "a", 1.0)}));
+  REQUIRE(chmod(file.parent_path().c_str(), 0500) == 0);
+  CHECK_THROWS_AS(keep_run(file, {}, made_run({plain_row("walk", "a", 2.0)})), FileError);
+  REQUIRE(chmod(file.parent_path().c_str(), 0700) == 0);
+  CHECK(since_last(read_last_run(file, never_told), plain_row("walk", "a", 1.0))->value == 1.0);
+}
+
+TEST_CASE(
+    "another processor, number of cores, GPU, host or build is another machine; its compiler and kernel are not") {
+  const Machine machine = made_run({}).machine;
+  const std::string key = machine_key(machine);
+  CHECK(key.size() == 16);
+  CHECK(key.find_first_not_of("0123456789abcdef") == std::string::npos);
+  for (std::string Machine::*part : {&Machine::cpu, &Machine::gpu, &Machine::host, &Machine::build}) {
+    Machine other = machine;
+    other.*part += "x";
+    CHECK(machine_key(other) != key);
+  }
+  Machine more = machine;
+  more.cores = 3;
+  CHECK(machine_key(more) != key);
+  for (std::string Machine::*part : {&Machine::system, &Machine::compiler}) {
+    Machine same = machine;
+    same.*part += "x";
+    CHECK(machine_key(same) == key);
+  }
+}
+
+TEST_CASE("the processor's model as the kernel tells it") {
+  CHECK(cpu_model("processor\t: 0\nmodel name\t: Abacus 3000 @ 1 Hz\nflags\t: fpu\nmodel name\t: other\n") ==
+        "Abacus 3000 @ 1 Hz");
+  CHECK(cpu_model("processor\t: 0\nCPU part\t: 0xd0c\n") == "unknown");
+  CHECK(cpu_model("") == "unknown");
+  CHECK(cpu_model("model name\t: last") == "last");
+}

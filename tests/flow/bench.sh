@@ -1,0 +1,46 @@
+#!/usr/bin/env bash
+# The bench as a user runs it: files, pages that hold what was measured, and a last run that is lost costs a sentence.
+# Usage: bench.sh GEARSHIFT SOURCE_FOLDER
+set -u
+gearshift=$1
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
+export XDG_DATA_HOME=$work/data XDG_CACHE_HOME=$work/cache XDG_RUNTIME_DIR=$work/runtime
+mkdir -m 700 runtime
+
+bench() { "$gearshift" bench "$@" >out 2>err; }
+says() { grep -qF -- "$1" out; }
+complains() { grep -qF -- "$1" err; }
+is_xml() { python3 -c 'import sys, xml.etree.ElementTree as tree; tree.parse(sys.argv[1])' "$1"; }
+in_json() { python3 -c "import json, sys; run = json.load(open('x/bench.json')); sys.exit(not ($1))"; }
+
+check "a quick run of two families" bench --quick --family feel --family plant --out x
+check "nothing is complained of" test ! -s err
+check "it names what it wrote" says x/bench.html
+check "feel has no methods, so no plot" test ! -e x/feel.svg
+for file in x/bench.html x/plant.svg; do check "$file is whole" is_xml $file; done
+check "the page has the plot within" grep -q "Runge-Kutta 4</text>" x/bench.html
+check "the page says where it was" grep -q "<th>Processor</th>" x/bench.html
+check "CSV: a line a row" test "$(wc -l <x/bench.csv)" -eq 8
+check "JSON: as many rows" in_json 'len(run["rows"]) == 7 and run["quick"]'
+check "JSON: the default is the exact step" \
+  in_json '[r["name"] for r in run["rows"] if r.get("trade", {}).get("chosen")] == ["exact at 1 ms", "exact at 10 ms"]'
+check "JSON: the design's rows are answered" \
+  in_json '{r["design"] for r in run["rows"] if "design" in r} == {"delivered", "plant"}'
+check "a quick run is not kept" test ! -e data/gearshift/bench
+
+check "a full run" bench --family feel
+check "has nothing to be compared with" test -z "$(grep 'since last' out)"
+check "and is kept" test "$(ls data/gearshift/bench | wc -l)" -eq 1
+check "the next is compared with it" bench --family feel --json
+check "and is the same: a simulation" grep -q '"changed": false' out
+last=$(ls data/gearshift/bench/*.json)
+echo broken >"$last"
+check "a last run that makes no sense costs nothing" bench --family feel
+check "but one sentence" test "$(wc -l <err)" -eq 1
+check "which says where it is now" complains "$last.unreadable"
+check "and the next has one again" test -n "$(grep feel "$last")"
+rm -r data && echo "a file" >data
+check "nowhere to keep it costs nothing" bench --family feel --csv rows.csv
+check "but one sentence" test "$(wc -l <err)" -eq 1
+check "the results are there" test "$(wc -l <rows.csv)" -eq 2
+finish
