@@ -40,8 +40,10 @@ fs::path find_asset(std::string_view kind, const std::string& name_or_path) {
   std::error_code error;
   if (path.has_parent_path() || path.has_extension() || fs::exists(path, error)) return path;
   if (!fs::is_directory(assets_folder(), error))
-    throw std::runtime_error(fmt::format("{}: the program's own files are not there: gates, cars, lessons, models. "
-                                         "Install it again, whole", printable(assets_folder().string())));
+    throw std::runtime_error(
+        fmt::format("{}: the program's own files are not there: gates, cars, lessons, models. "
+                    "Install it again, whole",
+                    printable(assets_folder().string())));
   throw std::runtime_error(fmt::format("\"{}\" is neither a file nor one of the shipped {}: {}",
                                        printable(name_or_path), kind, fmt::join(names, ", ")));
 }
