@@ -13,7 +13,10 @@ namespace gearshift {
 namespace fs = std::filesystem;
 
 fs::path assets_folder() {
-  return GEARSHIFT_SOURCE_ASSETS;
+  std::error_code error;
+  const fs::path program = fs::read_symlink("/proc/self/exe", error);
+  if (error) throw std::runtime_error(fmt::format("/proc/self/exe: cannot be read: {}", error.message()));
+  return program.parent_path().parent_path() / "share" / "gearshift" / "assets";
 }
 
 std::vector<std::string> shipped_names(std::string_view kind) {
@@ -36,6 +39,11 @@ fs::path find_asset(std::string_view kind, const std::string& name_or_path) {
   fs::path path(name_or_path);
   std::error_code error;
   if (path.has_parent_path() || path.has_extension() || fs::exists(path, error)) return path;
+  if (!fs::is_directory(assets_folder(), error))
+    throw std::runtime_error(
+        fmt::format("{}: the program's own files are not there: gates, cars, lessons, models. "
+                    "Install it again, whole",
+                    printable(assets_folder().string())));
   throw std::runtime_error(fmt::format("\"{}\" is neither a file nor one of the shipped {}: {}",
                                        printable(name_or_path), kind, fmt::join(names, ", ")));
 }

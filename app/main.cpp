@@ -5,8 +5,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
-#include "app/program_name.h"
 #include "app/verbs/verbs.h"
+#include "app/version/version_text.h"
 
 namespace {
 
@@ -15,7 +15,7 @@ constexpr int kBadUsage = 2;
 
 int run(int argc, char** argv) {
   CLI::App app{"gearshift: a trainer for manual shifting"};
-  app.set_version_flag("--version", gearshift::program_name());
+  app.set_version_flag("--version", gearshift::version_text());
   app.require_subcommand(0, 1);  // an unknown verb shall be named, so that none is refused below
 
   gearshift::VerbAction action;

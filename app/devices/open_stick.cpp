@@ -1,18 +1,18 @@
 #include "app/devices/open_stick.h"
 
 #include <algorithm>
-#include <cctype>
 #include <stdexcept>
 
 #include <fmt/format.h>
 
+#include "haptics/files/ascii.h"
 #include "haptics/files/printable.h"
 
 namespace gearshift {
 namespace {
 
 std::string lower(std::string text) {
-  std::transform(text.begin(), text.end(), text.begin(), [](unsigned char c) { return std::tolower(c); });
+  std::transform(text.begin(), text.end(), text.begin(), ascii_lower);
   return text;
 }
 

@@ -1,14 +1,15 @@
 #include "app/input/axis.h"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
+
+#include "haptics/files/ascii.h"
 
 namespace gearshift {
 namespace {
 
 bool same_letter(char a, char b) {
-  return std::tolower(static_cast<unsigned char>(a)) == std::tolower(static_cast<unsigned char>(b));
+  return ascii_lower(a) == ascii_lower(b);
 }
 
 // What is left of a value from 0 to 1 between the two zones, stretched to the whole again.

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstdio>
 #include <ctime>
@@ -13,6 +12,7 @@
 #include "app/panel/palette.h"
 #include "app/panel/value_text.h"
 #include "app/training/grade.h"
+#include "haptics/files/ascii.h"
 
 namespace gearshift {
 
@@ -91,7 +91,7 @@ std::string time_zone_words(std::time_t now) {
 std::string readable_name(const std::string& key) {
   std::string words = key;
   std::replace(words.begin(), words.end(), '_', ' ');
-  if (!words.empty()) words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
+  if (!words.empty()) words[0] = ascii_upper(words[0]);
   return words;
 }
 

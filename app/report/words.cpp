@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <cmath>
 #include <cstddef>
 
 #include <fmt/format.h>
+
+#include "haptics/files/ascii.h"
 
 namespace gearshift {
 namespace {
@@ -19,7 +20,7 @@ constexpr std::array<std::string_view, 2> kModes{"follow_me", "by_yourself"};
 std::string plain_words(std::string_view key) {
   std::string words(key);
   std::replace(words.begin(), words.end(), '_', ' ');
-  if (!words.empty()) words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
+  if (!words.empty()) words[0] = ascii_upper(words[0]);
   return words;
 }
 

@@ -5,6 +5,7 @@
 
 #include "tests/app/devices/described_sticks.h"
 #include "tests/support/temp_folder.h"
+#include "tests/support/turkish_letters.h"
 
 using namespace gearshift;
 
@@ -54,6 +55,12 @@ TEST_CASE("part of the name in any case, VENDOR:PRODUCT in any case, serial and 
     CHECK(chosen_stick(wanted, sticks).identity.vendor == 0x045e);
   for (const char* wanted : {"ffb", "2A0030", "1209:FFB0", "1-2"})
     CHECK(chosen_stick(wanted, sticks).identity.vendor == 0x1209);
+}
+
+TEST_CASE("the same in a Turkish locale, whose i is not the small letter of I") {
+  const TurkishLetters turkish;
+  const std::vector<UsbHidDevice> plugged{sidewinder()};
+  CHECK(chosen_stick("SIDEWINDER", list_sticks(plugged, {})).identity.vendor == 0x045e);
 }
 
 TEST_CASE("a whole serial, number or place goes before a part of a name") {

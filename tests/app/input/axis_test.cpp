@@ -3,6 +3,8 @@
 
 #include <doctest/doctest.h>
 
+#include "tests/support/turkish_letters.h"
+
 using namespace gearshift;
 
 TEST_CASE("a pedal: 0 at `from`, 1 at `to`, whichever way it counts, and no further") {
@@ -59,6 +61,12 @@ TEST_CASE("a lever: -1, 0 and 1 at its ends and its rest, lines between, its res
   CHECK(lever_value(lever, 1.0) == -1.0);
   lever.centre.reset();
   CHECK(lever_value(lever, -0.1) == doctest::Approx(0.0));
+}
+
+TEST_CASE("a stick is meant by its name in any case, a Turkish locale or not: GLFW takes the letters of the user's") {
+  const TurkishLetters turkish;
+  CHECK(is_meant({"SIDEWINDER", {}, {}, "1"}, "sidewinder"));
+  CHECK(is_meant({"Sidewinder", {}, {}, "1"}, "SIDE"));
 }
 
 TEST_CASE("a stick is meant by a part of its name, whatever the case, or by its whole GUID") {

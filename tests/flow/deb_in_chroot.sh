@@ -1,0 +1,63 @@
+#!/usr/bin/env bash
+# The Debian package in a fresh Debian 12: it installs with what it depends on, an ordinary user without a display runs the
+# demo, and purged it leaves nothing behind. By hand, as root and with a network, some minutes:
+#   cmake --preset release && cmake --build --preset release --target package
+#   tests/flow/deb_in_chroot.sh build/release/gearshift_*.deb
+# Usage: deb_in_chroot.sh PACKAGE
+set -u
+# What it mounts is seen by nobody else, and is gone with it.
+[ "$1" = --in-own-mounts ] || exec unshare --mount "$0" --in-own-mounts "$1"
+shift
+package=$(realpath "$1")
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
+root=$(mktemp -d -p /var/tmp)
+chmod 755 "$root"
+take_down() {
+  local place
+  for place in proc sys dev; do umount -R "$root/$place" 2>/dev/null; done
+  rm -rf --one-file-system "$root" "$work"
+}
+trap take_down EXIT
+
+inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive "$@"; }
+as_user() { inside setpriv --reuid=1000 --regid=1000 --clear-groups env HOME=/home/user LANG=C.UTF-8 "$@"; }
+bring_up() { # its files, its own mounts, where this machine gets its packages from
+  debootstrap --variant=minbase bookworm "$root" >debootstrap.txt 2>&1 || { tail -n 5 debootstrap.txt; return 1; }
+  local place
+  for place in proc sys dev; do mount --rbind "/$place" "$root/$place" || return 1; done
+  cp -r /etc/apt/sources.list* /etc/apt/apt.conf.d /etc/apt/trusted.gpg.d "$root/etc/apt/"
+  cp /etc/resolv.conf /etc/hosts "$root/etc/"
+  cp "$package" "$root/var/tmp/gearshift.deb"
+  chmod 644 "$root/var/tmp/gearshift.deb"
+  inside useradd --create-home --uid 1000 user
+  inside apt-get update -qq >update.txt 2>&1 || { tail -n 5 update.txt; return 1; }
+}
+install_package() {
+  inside apt-get install -y -qq --no-install-recommends /var/tmp/gearshift.deb >install.txt 2>&1 ||
+    { tail -n 5 install.txt; return 1; }
+}
+is_left() { # a file with the name, outside of what the user made
+  find "$root/usr" "$root/etc" "$root/lib" "$root/var/lib" "$root/var/cache" -xdev -iname "*gearshift*" |
+    grep -v "/var/lib/apt/" | grep .
+}
+lacks() { ! "$@"; }
+
+check "a bare Debian 12" bring_up
+check "nothing of it is there before" lacks is_left
+check "the package installs" install_package
+check "dpkg finds every file as it was packed" inside dpkg --verify gearshift
+as_user gearshift --version >version.txt
+check "a user asks for the version" grep -q "^gearshift $(dpkg-deb -f "$package" Version)$" version.txt
+check "no library is missing" lacks grep -q "not found" <(inside ldd /usr/bin/gearshift)
+check "no file of the build's machine is named in it" lacks grep -aqE "(/work/|/build/|/home/)[a-z]" "$root/usr/bin/gearshift"
+demo() { as_user gearshift demo --out /tmp/demo >demo.txt 2>demo.err || { tail -n 2 demo.err; return 1; }; }
+check "and runs the demo" demo
+check "without a word on stderr" test ! -s demo.err
+check "its page" test -s "$root/tmp/demo/index.html"
+check "its pictures" is_png "$root/tmp/demo/contact_sheet.png"
+check "the panel's letters and gnuplot's figures" is_png "$root/tmp/demo/trajectory.png"
+check "purged" inside apt-get purge -y -qq gearshift >purge.txt 2>&1
+check "nothing is left" lacks is_left
+cat version.txt
+tail -n 3 demo.txt
+finish

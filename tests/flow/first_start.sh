@@ -1,0 +1,84 @@
+#!/usr/bin/env bash
+# The first start, wherever that is: no home folder, none that may be written, folders with spaces, quotes and letters of
+# other scripts, a German and a Turkish locale. What is written is the same, byte for byte.
+# Usage: first_start.sh GEARSHIFT SOURCE_FOLDER
+set -u
+gearshift=$1
+source=$2
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
+unset DISPLAY WAYLAND_DISPLAY XDG_DATA_HOME XDG_CONFIG_HOME XDG_CACHE_HOME XDG_RUNTIME_DIR LC_ALL
+
+# Of a user whom the system does not know, too: where this is root, without root's right to write everywhere. Not as
+# nobody, who may not enter a clone in root's home.
+mkdir locked
+chmod 555 locked
+as_others=()
+overrides=-dac_override,-dac_read_search
+[ "$(id -u)" -eq 0 ] && as_others=(setpriv --bounding-set=$overrides --inh-caps=$overrides)
+start() { # name of the result, HOME=..., arguments ...
+  local name=$1 home=$2
+  shift 2
+  "${as_others[@]}" env "$home" "$gearshift" "$@" >"$name.txt" 2>"$name.err" </dev/null
+}
+one_sentence() { [ "$(wc -l <"$1")" -eq 1 ] && grep -q "$2" "$1"; }
+for home in locked locked/missing/home; do
+  check "$home: a lesson is passed" start lesson "HOME=$work/$home" lesson hill_start --learner Ada
+  check "$home: that it is not remembered is one sentence, got: $(cat lesson.err)" \
+    one_sentence lesson.err "the history cannot be used: its folder cannot be made: Permission denied"
+  start report "HOME=$work/$home" report --learner Ada --out page
+  check "$home: a report fails" test $? -eq 1
+  check "$home: in one sentence, got: $(cat report.err)" one_sentence report.err "there is no such history"
+  check "$home: devices are listed" start devices "HOME=$work/$home" devices
+done
+check "the cabin is drawn" start train "HOME=$work/locked" train --offscreen drawn --seconds 0.1 --size 320x180
+check "with one sentence, got: $(cat train.err)" one_sentence train.err "the history cannot be used"
+nameless() { # arguments ...: without HOME, as a user whom the system does not know
+  unshare --user --map-user=4242 env -u HOME "$gearshift" "$@" >nameless.txt 2>nameless.err </dev/null
+}
+if unshare --user --map-user=4242 "$gearshift" --version >/dev/null 2>&1; then
+  check "no home at all: a gate is shown" nameless gate paper
+  nameless lesson hill_start --learner Ada
+  check "no home at all: who cannot be remembered is told so, got: $(cat nameless.err)" \
+    one_sentence nameless.err "no folder for the user's files"
+fi
+start refused HOME=/ tour --out "$work/locked/tour"
+check "a folder that may not be written: refused" test $? -eq 1
+check "in one sentence, got: $(cat refused.err)" one_sentence refused.err "locked/tour: cannot be created: Permission denied"
+
+# The same files from the same commands, in a folder that is hard to quote.
+folder="Ordner ä ş ı İ 日本 o'clock \"q\" \`x\` \$HOME #1%41"
+session() { # locale
+  (
+    export LC_ALL=$1 LANG=$1
+    mkdir -p "$1/$folder"
+    cd "$1/$folder" || exit 1
+    export HOME=$PWD
+    cp "$source/assets/gates/paper.toml" "gate ı İ.toml"
+    {
+      "$gearshift" gate "gate ı İ.toml" --json --svg "gate ä.svg" >gate.json &&
+        "$gearshift" gate paper >gate.txt &&
+        "$gearshift" tour --out "tour $folder" >tour.txt &&
+        "$gearshift" lesson hill_start --learner "Ayşe İ ı" --trace "lesson ş.trace" >lesson.txt &&
+        "$gearshift" replay "lesson ş.trace" --csv "lesson ş.csv" >replay.txt &&
+        "$gearshift" report --learner "Ayşe İ ı" --database "$work/driven before.db" --out "page $folder" --csv >report.txt
+    } 2>errors.txt </dev/null || { cat errors.txt; false; }
+  )
+}
+for locale in de_DE tr_TR; do
+  check "the locale $locale can be made" localedef -i $locale -f UTF-8 "$work/$locale.UTF-8.made"
+done
+mkdir locales
+for locale in de_DE tr_TR; do mv "$locale.UTF-8.made" "locales/$locale.UTF-8"; done
+export LOCPATH=$work/locales
+check "whose decimal point is a comma" test "$(LC_ALL=tr_TR.UTF-8 locale decimal_point)" = ,
+check "a history for all of them: its runs have an hour" \
+  "$gearshift" lesson hill_start --learner "Ayşe İ ı" --database "$work/driven before.db" >/dev/null
+check "everything works in C.UTF-8" session C.UTF-8
+check "and is there" test "$(find C.UTF-8 -name "*.png" -o -name "*.csv" -o -name "*.svg" -o -name "*.gp" | wc -l)" -ge 11
+check "nothing is written elsewhere" test "$(ls C.UTF-8)" = "$folder"
+for locale in de_DE.UTF-8 tr_TR.UTF-8; do
+  check "everything works in $locale" session $locale
+  # The session's own history holds the hour, what the driver compiled its own mind.
+  check "and is the same, byte for byte" diff -rq -x .local -x .cache C.UTF-8 $locale
+done
+finish

@@ -1,0 +1,89 @@
+#!/usr/bin/env bash
+# `cmake --install` into a folder that is hard to quote, moved elsewhere, with the source tree hidden: everything that the
+# program reads is beside it. And what --version says, the changelog, the desktop entry.
+# Usage: install.sh GEARSHIFT SOURCE_FOLDER BUILD_FOLDER
+set -u
+source=$2
+build=$3
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
+export XDG_DATA_HOME=$work/data XDG_CACHE_HOME=$work/cache
+unset DISPLAY WAYLAND_DISPLAY DESTDIR
+lacks() { ! "$@"; }
+
+check "it is installed" cmake --install "$build" --prefix "$work/erste Größe" --strip >install.txt
+mv "erste Größe" "zweite 'Größe'"
+prefix="$work/zweite 'Größe'"
+cd "$prefix" || exit 1
+check "five kinds of files and the models" test "$(ls share/gearshift/assets | tr '\n' ' ')" = \
+  "bindings cars gates lessons models presets udev "
+as_in_the_source() { # each file of the assets
+  local file
+  find share/gearshift/assets -type f | while read -r file; do
+    cmp "$file" "$source/assets/${file#share/gearshift/assets/}" || return 1
+  done
+}
+check "as they are in the source tree" as_in_the_source
+check "every lesson, gate and model" test "$(find share/gearshift -name "*.toml" -o -name "*.glb" | wc -l)" -eq \
+  "$(ls "$source"/assets/{bindings,cars,gates,lessons,presets}/*.toml "$source"/assets/models/*.glb | wc -l)"
+check "nothing else" lacks grep -q . <(find . -type f ! -path "./share/gearshift/assets/*" ! -path ./bin/gearshift \
+  ! -path "./share/doc/*" ! -path "./share/man/*" ! -name gearshift.desktop ! -name gearshift.svg ! -name "*.rules")
+check "the rule for udev" cmp lib/udev/rules.d/70-gearshift.rules "$source/assets/udev/70-gearshift.rules"
+# Assertions, which a release has not, name the files that hold them.
+check "the source tree is not named in the program" lacks grep -q . \
+  <(strings -a bin/gearshift | grep -F "$source/" | grep -vE "\.(h|cpp)$")
+
+# Where mounts may be made, with nothing to be found in the source tree, nor in the build.
+cat >"$work/use.sh" <<'END'
+set -e
+[ -z "$2" ] || mount -t tmpfs none "$2"
+"$1/bin/gearshift" gate paper >gate.txt
+"$1/bin/gearshift" lesson hill_start >lesson.txt
+"$1/bin/gearshift" tour --out tour >tour.txt
+"$1/bin/gearshift" render "$1/share/gearshift/assets/models/gearbox.glb" --size 64x64 --out box.png >render.txt
+"$1/bin/gearshift" train --offscreen drawn --seconds 0.1 --size 320x180 >train.txt
+END
+mkdir "$work/elsewhere"
+cd "$work/elsewhere" || exit 1
+if unshare -rm true 2>/dev/null; then
+  check "all that it needs is beside it" unshare -rm bash "$work/use.sh" "$prefix" "$source" 2>use.err
+else
+  check "all that it needs is beside it" bash "$work/use.sh" "$prefix" "" 2>use.err
+fi
+check "nothing on stderr, got: $(cat use.err)" test ! -s use.err
+check "the gate is the installed one" grep -qF "($prefix/share/gearshift/assets/gates/paper.toml)" gate.txt
+check "the cabin is drawn" is_png drawn/train.png
+ln -s "$prefix/bin/gearshift" link
+check "a link to the program finds its files, too" ./link gate paper >gate.txt
+
+# What it says of itself.
+version=$("$prefix/bin/gearshift" --version)
+said() { grep -qE "$1" <<<"$version"; }
+number=$(sed -n 's/^project(gearshift VERSION \([0-9.]*\).*/\1/p' "$source/CMakeLists.txt")
+check "the version stands in CMakeLists.txt" said "^gearshift $number$"
+check "the commit" said "^commit [^ ]+$"
+check "build and compiler" said "^[A-Za-z]+ build by [A-Za-z]+ [0-9.]+$"
+check "libraries" said "fmt [0-9.]+, glfw3 [0-9.]+, .*vulkan [0-9.]+$"
+changes="$prefix/share/doc/gearshift/changelog.gz"
+check "the changelog begins with this version" grep -q "^gearshift ($number) " <(zcat "$changes" | head -n 1)
+facts() { # source folder
+  cmake -D "source=$1" -D header="$PWD/facts.h" -D type=t -D compiler=c -D libraries=l \
+    -P "$source/app/version/build_facts.cmake"
+}
+mkdir unpacked
+check "sources without a history" facts "$PWD/unpacked"
+check "have an unknown commit" grep -q 'kCommit = "unknown"' facts.h
+touch -d 2000-01-01 facts.h
+check "the same facts again" facts "$PWD/unpacked"
+check "are no reason to compile" test "$(date -r facts.h +%Y)" = 2000
+check "the desktop entry is valid" desktop-file-validate "$prefix/share/applications/gearshift.desktop"
+check "and its icon is there" test -s "$prefix/share/icons/hicolor/scalable/apps/gearshift.svg"
+
+# Not whole.
+mv "$prefix/share/gearshift/assets" away
+"$prefix/bin/gearshift" gate paper >missing.txt 2>missing.err
+check "without its files it fails" test $? -eq 1
+one_sentence() { [ "$(wc -l <missing.err)" -eq 1 ] && grep -qF "$prefix/share/gearshift/assets: the program's own files" missing.err; }
+check "in one sentence that names them, got: $(cat missing.err)" one_sentence
+check "a layout by its path needs none" "$prefix/bin/gearshift" gate away/gates/paper.toml >gate.txt
+check "nor does the version" "$prefix/bin/gearshift" --version >version.txt
+finish

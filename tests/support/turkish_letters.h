@@ -1,0 +1,32 @@
+// The letters of a Turkish locale, which the system need not have, for as long as this lives: std::tolower('I') is 'I'.
+#pragma once
+
+#include <cctype>
+#include <clocale>
+#include <cstdlib>
+#include <stdexcept>
+#include <string>
+
+#include "tests/support/temp_folder.h"
+#include "tests/support/variable.h"
+
+namespace gearshift {
+
+class TurkishLetters {
+ public:
+  TurkishLetters() : locpath_("LOCPATH", folder_.path().c_str()) {
+    const std::string made = (folder_ / "tr_TR.UTF-8").string();
+    if (std::system(("localedef -i tr_TR -f UTF-8 " + made).c_str()) != 0 ||
+        std::setlocale(LC_CTYPE, "tr_TR.UTF-8") == nullptr || std::tolower('I') != 'I')
+      throw std::runtime_error("no Turkish locale can be made: install the package locales");
+  }
+  ~TurkishLetters() { std::setlocale(LC_CTYPE, "C"); }
+  TurkishLetters(const TurkishLetters&) = delete;
+  TurkishLetters& operator=(const TurkishLetters&) = delete;
+
+ private:
+  TempFolder folder_;
+  Variable locpath_;
+};
+
+}  // namespace gearshift
