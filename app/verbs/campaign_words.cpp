@@ -29,14 +29,15 @@ std::string laws_text(const CampaignSummary& summary) {
 
 std::string groups_text(const CampaignSummary& summary) {
   std::string text =
-      "| drawn | | cases | shifts | gear meant is in | wall softened in | tuning limited in | a law broken in |\n"
-      "|---|---|---|---|---|---|---|---|\n";
+      "| drawn | | cases | shifts | gear meant is in | wall softened in | stopped by the guard in | tuning limited in "
+      "| a law broken in |\n"
+      "|---|---|---|---|---|---|---|---|---|\n";
   for (const CaseGroup& group : summary.groups) {
     const double reached =
         group.shifts > 0 ? 100.0 * static_cast<double>(group.reached) / static_cast<double>(group.shifts) : 0.0;
-    text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} |\n", group.of, group.name, group.cases, group.shifts,
-                        group.shifts > 0 ? fmt::format("{:.2f} %", reached) : "-", group.softened, group.limited,
-                        group.failed);
+    text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", group.of, group.name, group.cases,
+                        group.shifts, group.shifts > 0 ? fmt::format("{:.2f} %", reached) : "-", group.softened,
+                        group.stopped, group.limited, group.failed);
   }
   return text;
 }
@@ -115,6 +116,7 @@ std::string campaign_json(const CampaignSummary& summary) {
                              {"shifts", group.shifts},
                              {"reached", group.reached},
                              {"softened", group.softened},
+                             {"stopped", group.stopped},
                              {"limited", group.limited},
                              {"failed", group.failed}});
   for (const RippleCell& cell : summary.ripple)

@@ -50,7 +50,7 @@ HandImpedance hand_of(CaseHand kind, Chance& chance) {
 CaseManner manner_of(CaseHand kind, Chance& chance) {
   CaseManner manner;
   const bool is_hasty = kind == CaseHand::hasty;
-  manner.pace = is_hasty ? chance.between(0.4, 1.2) : chance.between(0.1, 0.3);
+  manner.pace = is_hasty ? chance.between(0.4, 1.2) : chance.between(0.15, 0.35);
   manner.aim_noise = is_hasty || chance.happens(0.3) ? chance.between(0.0, 0.003) : 0.0;
   manner.overshoot = is_hasty ? chance.between(0.002, 0.010) : 0.0;
   manner.tremor = kind == CaseHand::nervous ? chance.decades(0.02, 0.3) : 0.0;
@@ -90,7 +90,7 @@ HapticConfig haptics_of(Chance& chance) {
   config.contact = contact_of(chance);
   if (chance.happens(0.2)) config.estimator.smoothing = chance.decades(1e-5, 1.0);
   if (chance.happens(0.02)) config.estimator.window = 1 + chance.below(kMostWindow);  // beyond 1 a study's
-  if (chance.happens(0.2)) config.guard.slew = chance.decades(0.1, 100.0);
+  if (chance.happens(0.2)) config.guard.slew = chance.decades(1.5, 100.0);
   config.guard.ramp_time = chance.decades(0.001, 0.5);
   if (chance.happens(0.2)) config.guard.stale_time = chance.decades(0.001, 1.0);
   if (chance.happens(0.2)) config.guard.position_margin = chance.between(0.0, 0.05);
@@ -113,7 +113,7 @@ SimulatedLeverConfig lever_of(CaseHand kind, std::uint64_t seed, Chance& chance)
   lever.delay = chance.below(4);
   const bool is_promised = chance.happens(0.7);  // the laws were found with 5 % and 10 %
   lever.model_error = chance.between(0.0, is_promised ? 0.05 : 0.2);
-  lever.period_jitter = chance.between(0.0, is_promised ? 0.1 : 0.5);
+  if (chance.happens(0.6)) lever.period_jitter = chance.between(0.0, is_promised ? 0.1 : 0.5);
   if (chance.happens(0.7)) lever.encoder_counts = kCountPerDegree / chance.decades(1e-6, 0.5e-3);
   if (chance.happens(0.05)) lever.encoder_counts = 0.0;
   if (chance.happens(0.15)) lever.coulomb_friction = chance.between(0.0, 1.0);

@@ -48,7 +48,7 @@ struct CampaignCase {
   CaseManner manner;
   HapticConfig haptics;
   SimulatedLeverConfig lever;
-  int shifts = 24;  // that are tried; 0 for nobody's hand
+  int shifts = 40;  // that are tried; 0 for nobody's hand
 };
 
 // The case's seed: the n-th output of splitmix64 that begins with the campaign's.

@@ -61,8 +61,8 @@ class ScriptWriter {
 
   void push_sideways() {
     const double side = happens(0.5) ? 1.0 : -1.0;
-    push({side * between(1.0, drawn_.manner.hardest_push), 0.0}, 0.4);
-    push({0.0, 0.0}, 0.2);
+    push({side * between(1.0, drawn_.manner.hardest_push), 0.0}, 0.25);
+    push({0.0, 0.0}, 0.1);
   }
 
   void overshoot_and_return(HandStroke stroke) {
@@ -113,7 +113,7 @@ void write_shifts(ScriptWriter& writer, const Gate& gate, const CampaignCase& dr
   const std::vector<int> gears = drawn_gears(writer, gate, drawn.shifts);
   ShiftStyle style;
   style.pace = drawn.manner.pace;
-  style.dwell_gear = 0.4 + drawn.haptics.gear_debounce;
+  style.dwell_gear = 0.3 + drawn.haptics.gear_debounce;
   bool clean = drawn.manner.aim_noise == 0.0 && drawn.manner.overshoot == 0.0;
   const bool is_steady = clean;
   for (const HandStroke& stroke : shift_strokes(gate, start, gears, style)) {

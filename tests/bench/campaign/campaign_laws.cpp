@@ -17,10 +17,9 @@ namespace {
 
 using glm::dvec2;
 
-constexpr double kRounding = 1e-9;  // [m], [N], [J] below what anybody could feel
-constexpr double kQuietRipple =
-    6e-4;  // [m] twice the p95 that DESIGN grants where the limiter had to find it, as its maxima are
-constexpr double kQuietCounts = 4.0;  // of the encoder: less the reversal limiter cannot tell from its noise
+constexpr double kRounding = 1e-9;     // [m], [N], [J] below what anybody could feel
+constexpr double kQuietRipple = 1e-3;  // [m] of any one case; DESIGN grants a p95 of 0.3 mm, which the summary shows
+constexpr double kQuietCounts = 4.0;   // of the encoder: less the reversal limiter cannot tell from its noise
 
 constexpr std::array<LawWords, kCampaignLaws> kWords{{
     {"finite", "every number that comes out is finite", "bad cycles"},
@@ -32,7 +31,7 @@ constexpr std::array<LawWords, kCampaignLaws> kWords{{
     {"energy", "bounded: no energy beyond half of what the device's own damping took", "J"},
     {"guard", "the guard has nothing to stop", "as GuardFault"},
     {"quiet", "held still, the lever is still", "m"},
-    {"gear holds", "held still, the gear stays; one that comes again was really left", "changes"},
+    {"gear holds", "held still, the gear changes once at most; one that comes again was really left", "changes"},
     {"reached", "a gear that a gripping hand cleanly aims at is in", "missed"},
     {"told", "no event is lost", "events"},
 }};
@@ -58,6 +57,10 @@ bool is_past(const Gate& gate, const Lockout& lockout, dvec2 p) noexcept {
 bool is_out_of_column(const Gate& gate, int gear, dvec2 p) noexcept {
   const Column& column = column_of(gate, slot_of(gate, slot_of_gear(gate, gear)).column);
   return std::abs(p.x - column.center) > column.half_width + gate.chamfer;
+}
+
+bool is_up(GuardState state) noexcept {
+  return state == GuardState::armed || state == GuardState::ramping || state == GuardState::running;
 }
 
 double bad(bool is_bad) noexcept {
@@ -87,8 +90,8 @@ LawLimits law_limits(const HapticConfig& config, const DeviceSpec& spec) noexcep
   limits.max_force = spec.max_force;
   limits.slew = config.guard.slew;
   limits.ramp = std::min(1.0, limits.period / config.guard.ramp_time);
-  limits.energy_bounded = config.contact.energy_control == EnergyControl::energy_bounding && spec.delay == 0 &&
-                          spec.own_stiffness == dvec2(0.0);
+  limits.falls_at_once = config.contact.energy_control == EnergyControl::energy_bounding;
+  limits.energy_bounded = limits.falls_at_once && spec.delay == 0 && spec.own_stiffness == dvec2(0.0);
   limits.damping = {spec.axis_x.damping, spec.axis_y.damping};
   limits.ripple = std::max(kQuietRipple, kQuietCounts * spec.position_step);
   return limits;
@@ -139,7 +142,9 @@ void force_law(const SeenCycle& cycle, const LawLimits& limits, LawBook& book) n
 
 // While the guard's ramp is rising it adds its own part.
 void slew_law(const SeenCycle& cycle, const LawLimits& limits, LawBook& book) noexcept {
-  const dvec2 change = glm::abs(cycle.now.commanded - cycle.before.commanded);
+  if (!is_up(cycle.now.guard) || !is_up(cycle.before.guard)) return;
+  const dvec2 now = cycle.now.commanded, before = cycle.before.commanded;
+  const dvec2 change = limits.falls_at_once ? glm::abs(now) - glm::abs(before) : glm::abs(now - before);
   const bool is_ramping = cycle.before.guard != GuardState::running;
   const double most = std::max(limits.max_force.x, limits.max_force.y);
   const double bound = limits.slew + (is_ramping ? limits.ramp * most : 0.0) + kRounding;
@@ -148,14 +153,13 @@ void slew_law(const SeenCycle& cycle, const LawLimits& limits, LawBook& book) no
 
 void guard_law(const SeenCycle& cycle, LawBook& book) noexcept {
   const GuardState state = cycle.now.guard;
-  const bool is_up = state == GuardState::armed || state == GuardState::ramping || state == GuardState::running;
   const double fault = static_cast<double>(cycle.now.fault);
-  book.note(CampaignLaw::guard, is_up ? fault : std::max(1.0, fault), 0.0,
+  book.note(CampaignLaw::guard, is_up(state) ? fault : std::max(1.0, fault), 0.0,
             1e-9 * static_cast<double>(cycle.now.time_ns));
 }
 
 void EnergyLaw::look(const SeenCycle& cycle, const LawLimits& limits, LawBook& book) noexcept {
-  if (!limits.energy_bounded) return;
+  if (!limits.energy_bounded || !is_up(cycle.now.guard)) return;
   const dvec2 slope = limits.damping / limits.period;  // [N/m] c
   const dvec2 travel = cycle.now.lever - cycle.before.lever;
   const dvec2 was = cycle.before.commanded, is = cycle.now.commanded;
@@ -168,7 +172,8 @@ void EnergyLaw::look(const SeenCycle& cycle, const LawLimits& limits, LawBook& b
 void GearLaw::look(const SeenCycle& cycle, const Gate& gate, bool held_still, LawBook& book) noexcept {
   const double time = 1e-9 * static_cast<double>(cycle.now.time_ns);
   const int gear = cycle.now.gear, before = cycle.before.gear;
-  if (held_still) book.note(CampaignLaw::gear_holds, bad(gear != before), 0.0, time);
+  changes_ = held_still ? changes_ + (gear != before) : 0;
+  if (held_still) book.note(CampaignLaw::gear_holds, bad(changes_ > 1), 0.0, time);
   if (last_ != kNeutralGear) {
     const Slot& slot = slot_of(gate, slot_of_gear(gate, last_));
     const bool is_in = slot_at(gate, cycle.now.proxy) == slot_of_gear(gate, last_);
@@ -182,14 +187,17 @@ void GearLaw::look(const SeenCycle& cycle, const Gate& gate, bool held_still, La
   }
 }
 
-void QuietLaw::look(dvec2 lever) noexcept {
+void HeldSwing::look(dvec2 lever) noexcept {
   low_ = glm::min(low_, lever);
   high_ = glm::max(high_, lever);
 }
 
-void QuietLaw::finish(const LawLimits& limits, double time, LawBook& book) noexcept {
-  const dvec2 span = high_ - low_;
-  book.note(CampaignLaw::quiet, std::max(span.x, span.y), limits.ripple, time);
+double HeldSwing::span() const noexcept {
+  return std::max({0.0, high_.x - low_.x, high_.y - low_.y});
+}
+
+void quiet_law(double span, const LawLimits& limits, double time, LawBook& book) noexcept {
+  book.note(CampaignLaw::quiet, span, limits.ripple, time);
 }
 
 }  // namespace gearshift

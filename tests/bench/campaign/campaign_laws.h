@@ -22,7 +22,7 @@ enum class CampaignLaw : std::size_t {
   energy,      // bounded: the motors never give what the device's own damping had not taken
   guard,       // no fault: nothing that was admitted has to be stopped
   quiet,       // held still, it is still
-  gear_holds,  // held still, the gear does not change; a gear that comes again was really left
+  gear_holds,  // held still, the gear does not toggle: a lever let go may slide out; one that comes again was really left
   reached,     // a gear that was cleanly aimed at is in
   told         // no event is lost
 };
@@ -59,6 +59,7 @@ struct LawLimits {
   glm::dvec2 max_force{0.0};    // [N]
   double slew = 0.0;            // [N] a cycle
   double ramp = 0.0;            // [1] a cycle, of the guard's ramp
+  bool falls_at_once = false;   // energy bounding does not wait for the slew
   bool energy_bounded = false;  // by the guard, of a device without delay and without walls of its own
   glm::dvec2 damping{0.0};      // [N s/m] of the bare handle
   double ripple = 0.0;          // [m] peak to peak, held still
@@ -105,18 +106,20 @@ class GearLaw {
   void look(const SeenCycle& cycle, const Gate& gate, bool held_still, LawBook& book) noexcept;
 
  private:
+  int changes_ = 0;          // while it is held still
   int last_ = kNeutralGear;  // gear that was in last
   double nearest_ = 0.0;     // [m] least depth in its slot since then; 0: it left the slot
 };
 
 // Peak to peak of the true lever while it is held still.
-class QuietLaw {
+class HeldSwing {
  public:
   void look(glm::dvec2 lever) noexcept;
-  void finish(const LawLimits& limits, double time, LawBook& book) noexcept;
+  double span() const noexcept;  // [m]
 
  private:
   glm::dvec2 low_{1.0}, high_{-1.0};  // [m]
 };
+void quiet_law(double span, const LawLimits& limits, double time, LawBook& book) noexcept;
 
 }  // namespace gearshift

@@ -39,6 +39,18 @@ bool can_shift(const CampaignCase& drawn) {
   return drawn.hand == CaseHand::grip;
 }
 
+// Quiet, and nothing for the guard to stop, is what the loop's checks promise: of the plant error and jitter that they were
+// found with, of the listed hands, and of a hand that does not itself turn the lever as often as the reversal limiter takes
+// for a chatter, six times in 0.25 s. A bounded wall is passive, not quiet.
+bool is_promised(const CampaignCase& drawn) {
+  constexpr double kLimiterTurns = 10.0;  // [Hz]
+  const bool is_listed = drawn.hand != CaseHand::heavy && drawn.hand != CaseHand::stiff;
+  const bool trembles_fast = drawn.manner.tremor > 0.0 && drawn.manner.tremor_rate > kLimiterTurns;
+  const bool is_bounded = drawn.haptics.contact.energy_control == EnergyControl::energy_bounding;
+  return drawn.lever.model_error <= 0.05 && drawn.lever.period_jitter <= 0.1 && is_listed && !trembles_fast &&
+         !is_bounded;
+}
+
 // One case while it runs.
 class CaseRun {
  public:
@@ -51,6 +63,7 @@ class CaseRun {
         run_(config_, hand_),
         limits_(law_limits(drawn.haptics, run_.lever().spec())) {
     out.number = drawn.number;
+    out.promised = is_promised(drawn);
     out.stiffness = run_.loop().admitted().tuning.wall_stiffness;
     out.limited = static_cast<int>(run_.loop().admitted().limited.size());
   }
@@ -90,16 +103,23 @@ class CaseRun {
     free_space_law(cycle, gate, out.laws);
     is_believed_ =
         is_believed_ && glm::length(run_.lever().true_velocity()) < 0.9 * drawn_.haptics.estimator.speed_limit;
-    if (is_believed_) no_wall_law(cycle, gate, limits_, out.laws);
-    lockouts_.look(cycle, gate, out.laws);
+    const bool is_placed_anew = !is_believed_ || out.stopped > 0;  // armed again, the proxy begins at the lever
+    if (!is_placed_anew) no_wall_law(cycle, gate, limits_, out.laws);
+    if (!is_placed_anew) lockouts_.look(cycle, gate, out.laws);
     force_law(cycle, limits_, out.laws);
     slew_law(cycle, limits_, out.laws);
-    if (is_believed_) guard_law(cycle, out.laws);
+    look_at_guard(cycle);
     energy_.look(cycle, limits_, out.laws);
     gears_.look(cycle, gate, is_held_still(), out.laws);
     look_at_hold(cycle.now);
     look_at_shift(cycle.now);
     count_events();
+  }
+
+  void look_at_guard(const SeenCycle& cycle) {
+    const bool fell = cycle.now.fault != GuardFault::none && cycle.before.fault == GuardFault::none;
+    out.stopped += fell && is_believed_;
+    if (is_believed_ && out.promised) guard_law(cycle, out.laws);
   }
 
   bool is_held_still() const {
@@ -111,7 +131,8 @@ class CaseRun {
     const Hold& hold = script_.holds[hold_];
     may_tire_ = may_tire_ || is_tired(now);
     if (hand_.time() >= hold.end) {
-      if (!may_tire_) quiet_.finish(limits_, run_.time(), out.laws);
+      out.ripple = std::max(out.ripple, may_tire_ ? 0.0 : quiet_.span());
+      if (!may_tire_ && out.promised) quiet_law(quiet_.span(), limits_, run_.time(), out.laws);
       quiet_ = {};
       may_tire_ = false;
       ++hold_;
@@ -155,7 +176,7 @@ class CaseRun {
   LockoutLaw lockouts_;
   EnergyLaw energy_;
   GearLaw gears_;
-  QuietLaw quiet_;
+  HeldSwing quiet_;
   std::size_t hold_ = 0;
   bool before_reached_ = true;
   bool may_tire_ = false;

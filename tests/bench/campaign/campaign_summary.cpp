@@ -35,6 +35,7 @@ void add_to_group(CampaignSummary& summary, const std::string& of, const std::st
   ++found->cases;
   found->shifts += static_cast<std::uint64_t>(outcome.shifts);
   found->reached += static_cast<std::uint64_t>(outcome.reached);
+  found->stopped += outcome.stopped > 0;
   found->softened += outcome.softened > 0;
   found->limited += outcome.limited > 0;
   found->failed += outcome.laws.any_broken();
@@ -61,6 +62,7 @@ void add_groups(CampaignSummary& summary, const CampaignCase& drawn, const CaseO
   add("energy", is_bounded ? "bounded" : "free");
   add("count", count == 0.0 ? "none" : count < 20e-6 ? "below 20 um" : count < 150e-6 ? "20 to 150 um" : "coarser");
   add("plant error, jitter", is_beyond ? "up to 20 %, 50 %" : "up to 5 %, 10 %");
+  add("promised quiet", outcome.promised ? "yes" : "no");
   add("walls of its own", drawn.lever.own_stiffness > 0.0 ? "yes" : "no");
 }
 
@@ -108,8 +110,7 @@ CampaignSummary summarise(std::uint64_t campaign_seed, std::span<const CaseOutco
     summary.seconds += outcome.seconds;
     add_laws(summary, drawn, outcome);
     add_groups(summary, drawn, outcome);
-    const LawSeen& quiet = outcome.laws.seen(CampaignLaw::quiet);
-    if (quiet.looks > 0) ripple[{band_name(drawn.haptics.rate), drawn.lever.delay}].push_back(quiet.value);
+    if (outcome.promised) ripple[{band_name(drawn.haptics.rate), drawn.lever.delay}].push_back(outcome.ripple);
   }
   std::sort(summary.groups.begin(), summary.groups.end(), by_kind_and_name);
   add_ripple(summary, ripple);

@@ -29,7 +29,7 @@ struct LawBroken {
 struct CaseGroup {
   std::string of, name;  // "hand", "grip"
   std::uint64_t cases = 0, shifts = 0, reached = 0;
-  std::uint64_t softened = 0, limited = 0, failed = 0;  // cases
+  std::uint64_t softened = 0, stopped = 0, limited = 0, failed = 0;  // cases
 };
 
 struct RippleCell {

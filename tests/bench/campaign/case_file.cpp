@@ -18,7 +18,8 @@ std::string first_line(std::uint64_t seed) {
 
 std::string column_line() {
   std::string line =
-      "case,refused,shifts,clean,reached,cycles,seconds,stiffness_n_per_m,limited,softened,fastest_m_per_s";
+      "case,refused,shifts,clean,reached,cycles,seconds,stiffness_n_per_m,limited,promised,stopped,ripple_m,softened,"
+      "fastest_m_per_s";
   for (std::size_t i = 0; i < kCampaignLaws; ++i) {
     std::string name(law_words(static_cast<CampaignLaw>(i)).name);
     for (char& c : name) c = c == ' ' ? '_' : c;
@@ -30,9 +31,9 @@ std::string column_line() {
 std::string case_line(const CaseOutcome& out) {
   std::string refused = out.refused;
   for (char& c : refused) c = c == ',' || c == '\n' ? ';' : c;
-  std::string line =
-      fmt::format("{},{},{},{},{},{},{},{},{},{},{}", out.number, refused, out.shifts, out.clean, out.reached,
-                  out.cycles, out.seconds, out.stiffness, out.limited, out.softened, out.fastest);
+  std::string line = fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}", out.number, refused, out.shifts,
+                                 out.clean, out.reached, out.cycles, out.seconds, out.stiffness, out.limited,
+                                 out.promised ? 1 : 0, out.stopped, out.ripple, out.softened, out.fastest);
   for (std::size_t i = 0; i < kCampaignLaws; ++i) {
     const LawSeen& seen = out.laws.seen(static_cast<CampaignLaw>(i));
     line += fmt::format(",{},{},{},{}", seen.looks, seen.value, seen.bound, seen.time);
@@ -80,6 +81,11 @@ std::optional<CaseOutcome> read_case(std::string_view line) {
   in.number(out.seconds);
   in.number(out.stiffness);
   in.number(out.limited);
+  int promised = 0;
+  in.number(promised);
+  out.promised = promised == 1;
+  in.number(out.stopped);
+  in.number(out.ripple);
   in.number(out.softened);
   in.number(out.fastest);
   for (std::size_t i = 0; i < kCampaignLaws; ++i) {
