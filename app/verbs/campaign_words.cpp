@@ -83,8 +83,8 @@ std::string campaign_text(const CampaignSummary& summary) {
              summary.shifts, summary.cases, summary.seed, summary.cycles, summary.seconds / 3600.0, summary.clean,
              summary.refused) +
          laws_text(summary) + "\n" + failures_text(summary) + "\n" + groups_text(summary) +
-         "\nHeld still, peak to peak of the last 0.2 s of 3:\n\n" + ripple_text(summary) + "\n" +
-         refusals_text(summary);
+         "\nHeld still, back and forth in the last 0.2 s of 3, where quiet is promised:\n\n" + ripple_text(summary) +
+         "\n" + refusals_text(summary);
 }
 
 std::string campaign_json(const CampaignSummary& summary) {

@@ -19,7 +19,8 @@ using glm::dvec2;
 
 constexpr double kRounding = 1e-9;     // [m], [N], [J] below what anybody could feel
 constexpr double kQuietRipple = 1e-3;  // [m] of any one case; DESIGN grants a p95 of 0.3 mm, which the summary shows
-constexpr double kQuietCounts = 4.0;   // of the encoder: less the reversal limiter cannot tell from its noise
+constexpr double kQuietCounts =
+    6.0;  // the reversal limiter sees a lever that comes back by four, a count more or less at each end
 
 constexpr std::array<LawWords, kCampaignLaws> kWords{{
     {"finite", "every number that comes out is finite", "bad cycles"},
@@ -190,10 +191,13 @@ void GearLaw::look(const SeenCycle& cycle, const Gate& gate, bool held_still, La
 void HeldSwing::look(dvec2 lever) noexcept {
   low_ = glm::min(low_, lever);
   high_ = glm::max(high_, lever);
+  rise_ = glm::max(rise_, lever - low_);
+  fall_ = glm::max(fall_, high_ - lever);
 }
 
 double HeldSwing::span() const noexcept {
-  return std::max({0.0, high_.x - low_.x, high_.y - low_.y});
+  const dvec2 both = glm::min(rise_, fall_);
+  return std::max(both.x, both.y);
 }
 
 void quiet_law(double span, const LawLimits& limits, double time, LawBook& book) noexcept {

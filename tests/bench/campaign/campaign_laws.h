@@ -111,14 +111,15 @@ class GearLaw {
   double nearest_ = 0.0;     // [m] least depth in its slot since then; 0: it left the slot
 };
 
-// Peak to peak of the true lever while it is held still.
+// How far the true lever goes back and forth while it is held still: a lever that slides one way does not buzz.
 class HeldSwing {
  public:
   void look(glm::dvec2 lever) noexcept;
-  double span() const noexcept;  // [m]
+  double span() const noexcept;  // [m] of the worse axis
 
  private:
   glm::dvec2 low_{1.0}, high_{-1.0};  // [m]
+  glm::dvec2 rise_{0.0}, fall_{0.0};  // [m] the most since it was lowest, highest
 };
 void quiet_law(double span, const LawLimits& limits, double time, LawBook& book) noexcept;
 

@@ -24,7 +24,7 @@ struct CaseOutcome {
   int limited = 0;         // parameters that were not admitted as wanted
   bool promised = false;   // quiet, and never stopped: error, jitter and hand are what the checks were made for
   int stopped = 0;         // times that the guard fell
-  double ripple = 0.0;     // [m] peak to peak, of the worst hold
+  double ripple = 0.0;     // [m] back and forth, in the worst hold
   int softened = 0;        // times that the reversal limiter took some of the wall
   double fastest = 0.0;    // [m/s] of the true lever
   LawBook laws;
