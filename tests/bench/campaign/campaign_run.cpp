@@ -193,6 +193,7 @@ CaseOutcome run_case(const CampaignCase& drawn, std::span<const GateLayout> ship
     CaseOutcome out;
     out.number = drawn.number;
     out.refused = refusal.what();
+    std::replace(out.refused.begin(), out.refused.end(), ',', ';');  // a field of cases.csv
     return out;
   }
   if (planted) run->plant(planted);

@@ -14,7 +14,7 @@ namespace gearshift {
 
 struct CaseOutcome {
   std::uint64_t number = 0;
-  std::string refused;  // why the loop does not run it at all; nothing is driven then
+  std::string refused;  // why the loop does not run it at all, without commas; nothing is driven then
   int shifts = 0;       // tried
   int clean = 0;        // of them aimed at and nothing but that
   int reached = 0;      // of all

@@ -29,9 +29,7 @@ std::string column_line() {
 }
 
 std::string case_line(const CaseOutcome& out) {
-  std::string refused = out.refused;
-  for (char& c : refused) c = c == ',' || c == '\n' ? ';' : c;
-  std::string line = fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}", out.number, refused, out.shifts,
+  std::string line = fmt::format("{},{},{},{},{},{},{},{},{},{},{},{},{},{}", out.number, out.refused, out.shifts,
                                  out.clean, out.reached, out.cycles, out.seconds, out.stiffness, out.limited,
                                  out.promised ? 1 : 0, out.stopped, out.ripple, out.softened, out.fastest);
   for (std::size_t i = 0; i < kCampaignLaws; ++i) {
