@@ -49,6 +49,13 @@ bool is_promised(const CampaignCase& drawn) {
   return drawn.lever.model_error <= 0.05 && drawn.lever.period_jitter <= 0.1 && is_listed && !is_bounded;
 }
 
+// A hand that lags may come back before the lever has left the column that the lockout asks for: it is shut by rights.
+bool has_detour(const Gate& gate, int gear) {
+  return std::any_of(lockouts(gate).begin(), lockouts(gate).end(), [&](const Lockout& lockout) {
+    return lockout.kind == LockoutKind::after_gear && slot_of(gate, lockout.slot).gear == gear;
+  });
+}
+
 // One case while it runs.
 class CaseRun {
  public:
@@ -150,7 +157,7 @@ class CaseRun {
     if (done >= script_.shifts.size() || hand_.time() < script_.shifts[done].end) return;
     const TriedShift& shift = script_.shifts[done];
     const bool is_reached = now.gear == shift.gear;
-    const bool is_clean = shift.clean && before_reached_ && can_shift(drawn_);
+    const bool is_clean = shift.clean && before_reached_ && can_shift(drawn_) && !has_detour(config_.gate, shift.gear);
     if (is_clean) out.laws.note(CampaignLaw::reached, is_reached ? 0.0 : 1.0, 0.0, run_.time());
     ++out.shifts;
     out.clean += is_clean;
