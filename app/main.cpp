@@ -31,6 +31,7 @@ int run(int argc, char** argv) {
   gearshift::add_replay_verb(app, action);
   gearshift::add_report_verb(app, action);
   gearshift::add_devices_verb(app, action);
+  gearshift::add_campaign_verb(app, action);
   gearshift::add_bench_verb(app, action);
 
   try {
@@ -42,7 +43,7 @@ int run(int argc, char** argv) {
     if (!action)
       throw CLI::RequiredError(
           "A subcommand: train, demo, lesson, tour, render, gate, identify, stability, reproduce, replay, report, "
-          "devices or bench (see --help)");
+          "devices, campaign or bench (see --help)");
     return action();
   } catch (const CLI::Success& help) {
     return app.exit(help);

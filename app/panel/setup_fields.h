@@ -29,7 +29,7 @@ inline constexpr std::array<SetupField, 15> kSetupFields{{
     {"smoothing_s", "Velocity filter", "ms", 1e3, 1e-5, 1.0, 2, true, GEARSHIFT_SETUP(estimator.smoothing)},
     {"speed_limit_m_per_s", "Believed up to", "m/s", 1.0, 0.1, 1000.0, 1, true, GEARSHIFT_SETUP(estimator.speed_limit)},
     {"window_samples", "Velocity over", "samples", 1.0, 1.0, 64.0, 0, false, GEARSHIFT_SETUP(estimator.window)},
-    {"slew_n_per_cycle", "Slew", "N/cycle", 1.0, 0.1, 100.0, 1, false, GEARSHIFT_SETUP(guard.slew)},
+    {"slew_n_per_cycle", "Slew", "N/cycle", 1.0, 2.0, 100.0, 1, false, GEARSHIFT_SETUP(guard.slew)},
     {"ramp_time_s", "Ramp to full force", "s", 1.0, 0.001, 60.0, 3, true, GEARSHIFT_SETUP(guard.ramp_time)},
     {"stale_time_s", "Stale after", "ms", 1e3, 0.001, 1.0, 0, true, GEARSHIFT_SETUP(guard.stale_time)},
     {"fade_time_s", "Fade", "ms", 1e3, 0.001, 1.0, 0, true, GEARSHIFT_SETUP(guard.fade_time)},

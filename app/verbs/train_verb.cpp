@@ -1,5 +1,6 @@
 // gearshift train: the trainer, in a window or offscreen.
 #include <cstdint>
+#include <cstdio>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -111,6 +112,7 @@ int run_demo_instead(const TrainArguments& arguments) {
   if (arguments.or_demo.empty())
     throw std::runtime_error("there is no display: train --offscreen DIR needs none, and demo --out DIR shows a tour");
   fmt::print("No display: a simulated hand drives the gate in the cabin instead.\n");
+  std::fflush(stdout);  // the demo takes a minute
   TourArguments tour;
   tour.folder = arguments.or_demo;
   if (!arguments.choice.gate.empty()) tour.gate = arguments.choice.gate;

@@ -5,11 +5,13 @@
 namespace gearshift {
 namespace {
 
+constexpr double kEdge = 1e-9;  // [m] a lever on the side of a slot is in it, whatever the last bit says
+
 bool is_beyond(const Gate& gate, const Lockout& lockout, glm::dvec2 proxy) noexcept {
   if (lockout.lateral) return lockout.beyond * (proxy.x - lockout.barrier) > 0.0;
   const Slot& slot = slot_of(gate, lockout.slot);
   const Column& column = column_of(gate, slot.column);
-  const bool in_slot = std::abs(proxy.x - column.center) <= column.half_width + gate.chamfer;
+  const bool in_slot = std::abs(proxy.x - column.center) <= column.half_width + gate.chamfer + kEdge;
   return in_slot && static_cast<int>(slot.side) * proxy.y > gate.half_aisle + gate.chamfer;
 }
 
@@ -17,7 +19,7 @@ bool has_left_column(const Gate& gate, int gear, glm::dvec2 proxy) noexcept {
   const int slot = slot_of_gear(gate, gear);
   if (slot == kNoSlot) return true;
   const Column& column = column_of(gate, slot_of(gate, slot).column);
-  return std::abs(proxy.x - column.center) > column.half_width + gate.chamfer;
+  return std::abs(proxy.x - column.center) > column.half_width + gate.chamfer + kEdge;
 }
 
 // The memory of one lockout: stays as it is between its two thresholds.

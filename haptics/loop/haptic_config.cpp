@@ -21,6 +21,7 @@ constexpr double kQuiet = 0.35;          // of m / tau^2 and m / tau: half-sampl
 constexpr double kQuietObserved = 0.58;  // of m / tau^2: with the observer
 constexpr double kObservedTau = 0.0045;  // [s] the longest tau at which the observer pays
 constexpr double kGainMargin = 1.1;      // of the stiffness, against the exact boundary: plant error and jitter
+constexpr double kLeastSlew = 2.0;       // [N/cycle] at 1 a wall's force comes so late that an arm swings by 80 mm
 constexpr const char* kWallStiffness = "wall_stiffness_n_per_m";
 constexpr const char* kWallDamping = "wall_damping_n_s_per_m";
 constexpr const char* kQuietLaw = "quiet half-sample hold: K <= 0.35 m / tau^2, tau = (delay + 1) T";
@@ -254,7 +255,7 @@ void check_config(const HapticConfig& config) {
   require_between("smoothing_s", config.estimator.smoothing, 1e-5, 1.0);
   require_between("window_samples", config.estimator.window, 1, kMostWindow);
   require_between("speed_limit_of_readings_m_per_s", config.estimator.speed_limit, 0.1, 1000.0);
-  require_between("slew_n_per_cycle", config.guard.slew, 0.1, 100.0);
+  require_between("slew_n_per_cycle", config.guard.slew, kLeastSlew, 100.0);
   require_between("ramp_time_s", config.guard.ramp_time, 0.001, 60.0);
   require_between("stale_time_s", config.guard.stale_time, 0.001, 1.0);
   require_between("fade_time_s", config.guard.fade_time, 0.001, 1.0);

@@ -148,7 +148,7 @@ void read_estimator(const TomlTable& table, EstimatorConfig& estimator) {
 }
 
 void read_guard(const TomlTable& table, GuardConfig& guard) {
-  read(table, "slew_n_per_cycle", guard.slew, {0.1, 100.0});
+  read(table, "slew_n_per_cycle", guard.slew, {2.0, 100.0});
   read(table, "ramp_time_s", guard.ramp_time, {0.001, 60.0});
   read(table, "stale_time_s", guard.stale_time, {0.001, 1.0});
   read(table, "fade_time_s", guard.fade_time, {0.001, 1.0});

@@ -84,7 +84,7 @@ std::vector<HandStroke> shift_strokes(const Gate& gate, dvec2 start, std::span<c
   StrokeWriter writer(start, style);
   const auto select = [&](double x) {
     const double way = x - writer.at().x;
-    if (std::abs(way) <= column_at(gate, x).half_width + 2.0 * kLean) return;  // it stands in that column already
+    if (std::abs(way) <= column_at(gate, x).half_width + 1.01 * kLean) return;  // it leans in that column already
     writer.go({x + (style.leans ? lean_at(gate, x, way) : 0.0), 0.0}, style.dwell_neutral);
   };
   int gear = kNeutralGear;

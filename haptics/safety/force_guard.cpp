@@ -57,7 +57,7 @@ GuardOutput ForceGuard::allowed(const GuardInput& in, dvec2 travel) noexcept {
   if (state_ == GuardState::damped) return {glm::clamp(damped_force(in), -max_force_, max_force_), false};
   const dvec2 wanted = controlled(in, travel);
   const dvec2 slewed = glm::clamp(wanted, last_ - config_.slew, last_ + config_.slew);
-  last_ = glm::clamp(slewed, -max_force_, max_force_);
+  last_ = glm::clamp(bounded(slewed, travel), -max_force_, max_force_);
   const bool saturated = std::abs(in.force.x) > max_force_.x || std::abs(in.force.y) > max_force_.y;
   const double share = ramp_gain();
   return {last_ * share, saturated, share};
@@ -87,18 +87,21 @@ void ForceGuard::fall(GuardState state, GuardFault fault) noexcept {
   ramp_ = 0.0;
 }
 
-// Bounded against the newest command, whose effect is still to come; counted against the one that acted over `travel`.
+// Counted against the command that acted over `travel`.
 dvec2 ForceGuard::controlled(const GuardInput& in, dvec2 travel) noexcept {
-  const dvec2 newest = applied_[newest_];
+  if (energy_control_ != EnergyControl::passivity_controller) return in.force;
   const dvec2 acted = applied_[(newest_ + applied_.size() - delay_) % applied_.size()];
   dvec2 force = in.force;
-  for (int i = 0; i < 2; ++i) {
-    const auto axis = static_cast<std::size_t>(i);
-    if (energy_control_ == EnergyControl::energy_bounding)
-      force[i] = bounder_[axis].bound(force[i], newest[i], travel[i]);
-    if (energy_control_ == EnergyControl::passivity_controller)
-      force[i] = controller_[axis].control(force[i], acted[i], travel[i], in.touches);
-  }
+  for (int i = 0; i < 2; ++i)
+    force[i] = controller_[static_cast<std::size_t>(i)].control(force[i], acted[i], travel[i], in.touches);
+  return force;
+}
+
+// Against the newest command, whose effect is still to come. After the slew: a force that has to go may go at once.
+dvec2 ForceGuard::bounded(dvec2 force, dvec2 travel) const noexcept {
+  if (energy_control_ != EnergyControl::energy_bounding) return force;
+  for (int i = 0; i < 2; ++i)
+    force[i] = bounder_[static_cast<std::size_t>(i)].bound(force[i], applied_[newest_][i], travel[i]);
   return force;
 }
 

@@ -1,4 +1,5 @@
-// The last word on every force: finite, energy control where it is asked for, slew, clamp, ramp; and the state ladder.
+// The last word on every force: finite, passivity control where it is asked for, slew, energy bounding where it is, clamp,
+// ramp; and the state ladder.
 //
 //   idle -> armed -> ramping -> running      up: by a person only, or by itself on a simulated lever
 //   damped    reading stale, too many overruns in a row, or a chatter that softening the wall did not calm: the force
@@ -24,7 +25,7 @@ enum class GuardFault : std::uint8_t { none, stale_reading, overruns, not_finite
 const char* guard_fault_name(GuardFault fault) noexcept;
 
 struct GuardConfig {
-  double slew = 25.0;             // [N/cycle] 0.1 to 100, largest change per axis; an impact needs 16 at 1 kHz
+  double slew = 25.0;             // [N/cycle] 2 to 100, largest change per axis; an impact needs 16 at 1 kHz
   double ramp_time = 0.5;         // [s] 0.001 to 60, from armed to full force
   double stale_time = 0.020;      // [s] 0.001 to 1, without a fresh reading before damped
   double fade_time = 0.020;       // [s] 0.001 to 1, in which the force dies away after that
@@ -71,6 +72,7 @@ class ForceGuard {
   glm::dvec2 damped_force(const GuardInput& in) noexcept;
   GuardOutput allowed(const GuardInput& in, glm::dvec2 travel) noexcept;
   glm::dvec2 controlled(const GuardInput& in, glm::dvec2 travel) noexcept;
+  glm::dvec2 bounded(glm::dvec2 force, glm::dvec2 travel) const noexcept;
   double ramp_gain() noexcept;
 
   GuardConfig config_;

@@ -118,6 +118,10 @@ refuse 2 "--seconds" tour --out t --device stick --seconds 0
 refuse 2 "--hand" tour --out t --device stick --hand grip
 refuse 2 "--device" train --offscreen t --device stick
 refuse 1 "no display" train --device stick
+refuse 2 "--out" campaign
+refuse 2 "--shifts" campaign --out t --shifts 0
+refuse 2 "--case" campaign --out t --case first
+refuse 1 "/proc" campaign --out /proc/nowhere
 refuse 2 "--family" bench --family luck
 refuse 2 "--block" bench --block 0
 refuse 2 "--block" bench --block x

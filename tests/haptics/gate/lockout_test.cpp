@@ -6,6 +6,7 @@
 #include <doctest/doctest.h>
 
 #include "tests/support/gates.h"
+#include "tests/support/random_layout.h"
 
 using namespace gearshift;
 using glm::dvec2;
@@ -153,4 +154,22 @@ TEST_CASE("a lateral lockout narrows the neutral aisle on its side only") {
   CHECK(closed.select_max == 0.020);
   CHECK(closed.select_min == gate.select_min);
   CHECK(lockouts.update(gate, {}, {0.021, 0.0}).select_max == gate.select_max);
+}
+
+TEST_CASE("a lockout never closes on a lever that leans on the side of its slot, to the last bit: 500 random gates") {
+  for (std::uint64_t seed = 1; seed <= 500; ++seed) {
+    CAPTURE(seed);
+    const Gate gate = compile_gate(random_layout(seed), kPaperWorkspace);
+    for (const Lockout& lockout : lockouts(gate)) {
+      if (lockout.lateral) continue;
+      const Slot& slot = slot_of(gate, lockout.slot);
+      const Column& column = column_of(gate, slot.column);
+      for (const double x : {column.center - column.half_width, column.center + column.half_width}) {
+        Lockouts memory;
+        const LockoutInputs nothing{false, false, 100.0, lockout.after_gear};
+        const Passage passage = memory.update(gate, nothing, {x, static_cast<int>(slot.side) * slot.rest});
+        CHECK((passage.closed >> lockout.slot & 1u) == 0);
+      }
+    }
+  }
 }

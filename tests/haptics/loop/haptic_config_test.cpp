@@ -42,6 +42,9 @@ TEST_CASE("a config out of range is refused with parameter, value and range") {
   config.tuning.wall_stiffness = std::numeric_limits<double>::quiet_NaN();
   CHECK(refusal(config).find("wall_stiffness_n_per_m") != std::string::npos);
   config = {};
+  config.guard.slew = 1.9;  // a wall whose force comes that slowly swings
+  CHECK(refusal(config).find("slew_n_per_cycle = 1.9: must be between 2 and 100") != std::string::npos);
+  config = {};
   config.guard.fade_time = 0.0;
   CHECK(refusal(config).find("fade_time_s") != std::string::npos);
   config = {};

@@ -42,7 +42,7 @@ class RandomPreset {
               between(0.0, 50.0), between(0.05, 5.0),  between(0.0, 50.0)};
     contact = {static_cast<ContactHold>(chance_() % 4), static_cast<EnergyControl>(chance_() % 3), flag(), flag()};
     estimator = {between(1e-5, 1.0), between(0.1, 1000.0), static_cast<int>(1 + chance_() % 64)};
-    guard = {between(0.1, 100.0),
+    guard = {between(2.0, 100.0),
              between(0.001, 60.0),
              between(0.001, 1.0),
              between(0.001, 1.0),

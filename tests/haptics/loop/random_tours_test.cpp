@@ -1,5 +1,7 @@
 // A hand drives gates that nobody drew.
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -39,5 +41,28 @@ TEST_CASE("100 random gates, at various rates and delays: every gear, in order, 
       }
     }
     CHECK(engaged == wanted);
+  }
+}
+
+// Where columns stand close, half the way to a neighbour, which a lockout asks for, is nearly in front of its slot.
+TEST_CASE("a hand stands in front of a slot before it shifts into it: 500 random gates, every gear after every other") {
+  for (std::uint64_t seed = 1; seed <= 500; ++seed) {
+    CAPTURE(seed);
+    const Gate gate = compile_gate(random_layout(seed), kPaperWorkspace);
+    std::vector<int> gears;
+    for (const Slot& from : slots(gate))
+      for (const Slot& to : slots(gate))
+        for (const int gear : {from.gear, to.gear})
+          if (gears.empty() || gears.back() != gear) gears.push_back(gear);
+    dvec2 at = rest_position(gate, kNeutralGear);
+    std::size_t next = 0;
+    for (const HandStroke& stroke : shift_strokes(gate, at, gears)) {
+      if (std::abs(stroke.to.y) > gate.half_aisle + gate.chamfer) {
+        const Slot& slot = slot_of(gate, slot_of_gear(gate, gears[next++]));
+        const Column& column = column_of(gate, slot.column);
+        CHECK(std::abs(at.x - column.center) <= column.half_width + 0.0015 + 1e-9);
+      }
+      at = stroke.to;
+    }
   }
 }

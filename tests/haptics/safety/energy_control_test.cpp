@@ -192,6 +192,24 @@ TEST_CASE("each axis by its own model, and with delay half of (13)'s K (T/2 + d 
   }
 }
 
+TEST_CASE("energy bounding is not held up by the slew: a force that must go is gone, whatever may change in a cycle") {
+  GuardConfig config;
+  config.ramp_time = 0.001;
+  config.slew = 0.5;
+  ForceGuard guard(config, {}, 0.001, EnergyControl::energy_bounding);
+  guard.arm();
+  double at = 0.0;
+  guard.guard(still_at(at, 0.0));
+  for (int n = 0; n < 100; ++n) guard.guard(still_at(at -= 1e-4, 20.0));  // pushed in: 0.3 N a period of c dx
+  double last = guard.guard(still_at(at, 20.0)).force.x;
+  REQUIRE(last > 10.0);
+  for (int n = 0; n < 4; ++n) {  // thrown out at 1 m/s
+    const double now = guard.guard(still_at(at += 1e-3, 20.0)).force.x;
+    CHECK(std::abs(now) <= std::abs(last - 3000.0 * 1e-3) + 1e-9);
+    last = now;
+  }
+}
+
 TEST_CASE("passivity control: nothing out of contact, and every contact is a new account") {
   PassivityController controller(kPaperAxisX, 0.001);
   controller.control(-1.0, 10.0, 1e-3, true);  // 10 mJ given

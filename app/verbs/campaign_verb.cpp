@@ -1,0 +1,120 @@
+// gearshift campaign: random gates, hands, rates, delays and tunings against the laws that always hold.
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <optional>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "app/assets_path.h"
+#include "app/output_folder.h"
+#include "app/verbs/campaign_words.h"
+#include "app/verbs/progress_bar.h"
+#include "app/verbs/verbs.h"
+#include "tests/bench/campaign/shift_campaign.h"
+
+namespace gearshift {
+namespace {
+
+constexpr std::size_t kMostTraces = 100;  // of failed cases
+
+constexpr const char* kCampaignFooter =
+    "A case is a random gate, hand, rate, delay, jitter, encoder and tuning, drawn from seed and number; the loop's "
+    "own\n"
+    "checks limit or refuse it. Some dozens of shifts are driven, and every law is looked at in every cycle.\n"
+    "\n"
+    "The folder keeps what is done (cases.csv): stopped, the same command goes on where it was. At the end it has\n"
+    "summary.json, and failures/SEED.trace of each failed case, for gearshift replay.\n"
+    "\n"
+    "Exit code: 0 every law holds, 1 one is broken or the work failed, 2 bad usage.\n"
+    "\n"
+    "  gearshift campaign --shifts 10000 --out look\n"
+    "  gearshift campaign --case 42 --out look";
+
+struct CampaignArguments {
+  CampaignPlan plan;
+  std::optional<std::uint64_t> number;  // of the one case
+};
+
+int run_one_case(const CampaignArguments& arguments, const std::vector<GateLayout>& shipped) {
+  const int gates = static_cast<int>(shipped.size());
+  const CampaignCase drawn = drawn_case(arguments.plan.seed, *arguments.number, gates);
+  const std::filesystem::path trace = arguments.plan.folder / fmt::format("case_{}.trace", drawn.number);
+  const CaseOutcome outcome = run_case(drawn, shipped, trace);
+  fmt::print("{}", case_text(drawn, outcome));
+  if (outcome.refused.empty()) fmt::print("trace {}\n", trace.string());
+  return outcome.laws.any_broken() ? 1 : 0;
+}
+
+// Run again, recorded.
+void keep_failures(const CampaignPlan& plan, const CampaignSummary& summary, const std::vector<GateLayout>& shipped,
+                   ProgressBar& bar) {
+  std::set<std::uint64_t> cases;
+  for (const LawBroken& one : summary.broken) cases.insert(one.number);
+  if (cases.empty()) return;
+  make_folder(plan.folder / "failures");
+  std::size_t kept = 0;
+  for (const std::uint64_t number : cases) {
+    if (kept++ == kMostTraces) return;
+    const CampaignCase drawn = drawn_case(plan.seed, number, static_cast<int>(shipped.size()));
+    run_case(drawn, shipped, plan.folder / "failures" / fmt::format("{:016x}.trace", drawn.seed));
+    bar.show("traces", static_cast<double>(kept) / static_cast<double>(cases.size()));
+  }
+}
+
+void write_json(const std::filesystem::path& file, const CampaignSummary& summary) {
+  std::ofstream out(file);
+  out << campaign_json(summary);
+  out.close();
+  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
+}
+
+int run_cases(const CampaignPlan& plan, const std::vector<GateLayout>& shipped) {
+  ProgressBar bar;
+  const std::vector<CaseOutcome> outcomes =
+      drive_campaign(plan, shipped, [&](double share) { bar.show("campaign", share); });
+  const CampaignSummary summary = summarise(plan.seed, outcomes, static_cast<int>(shipped.size()));
+  write_json(plan.folder / "summary.json", summary);
+  keep_failures(plan, summary, shipped, bar);
+  bar.clear();
+  fmt::print("{}", campaign_text(summary));
+  return summary.broken.empty() ? 0 : 1;
+}
+
+int run_campaign_verb(const CampaignArguments& arguments) {
+  const std::vector<GateLayout> shipped = shipped_layouts(assets_folder() / "gates");
+  make_folder(arguments.plan.folder);
+  return arguments.number ? run_one_case(arguments, shipped) : run_cases(arguments.plan, shipped);
+}
+
+}  // namespace
+
+void add_campaign_verb(CLI::App& app, VerbAction& action) {
+  auto arguments = std::make_shared<CampaignArguments>();
+  arguments->plan.threads = static_cast<int>(std::max(1u, std::thread::hardware_concurrency()));
+  CLI::App* verb = app.add_subcommand(
+      "campaign", "A million random shifts: gates, hands, rates, delays, tunings against the laws that always hold");
+  verb->footer(kCampaignFooter);
+  verb->add_option("--shifts", arguments->plan.shifts, "that are tried at least")
+      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
+      ->capture_default_str();
+  verb->add_option("--seed", arguments->plan.seed, "of the whole campaign")->capture_default_str();
+  verb->add_option("--out", arguments->plan.folder, "folder for what is done and what came of it")
+      ->required()
+      ->type_name("DIR");
+  verb->add_option("--threads", arguments->plan.threads, "at a time; the result is the same with any number")
+      ->check(CLI::Range(1, 256))
+      ->capture_default_str();
+  verb->add_option("--case", arguments->number, "this one alone, recorded as DIR/case_K.trace")->type_name("K");
+  verb->callback([arguments, &action] { action = [arguments] { return run_campaign_verb(*arguments); }; });
+}
+
+}  // namespace gearshift

@@ -1,0 +1,207 @@
+// This work is based on:
+// J.-P. Kim, J. Ryu. Robustly Stable Haptic Interaction Control using an Energy-bounding Algorithm. 2010
+#include "tests/bench/campaign/campaign_laws.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "haptics/contact/proxy.h"
+#include "haptics/gate/gate_feel.h"
+#include "haptics/joystick/finite.h"
+
+namespace gearshift {
+namespace {
+
+using glm::dvec2;
+
+constexpr double kRounding = 1e-9;     // [m], [N], [J] below what anybody could feel
+constexpr double kQuietRipple = 1e-3;  // [m] of any one case; DESIGN grants a p95 of 0.3 mm, which the summary shows
+constexpr double kQuietCounts =
+    6.0;  // the reversal limiter sees a lever that comes back by four, a count more or less at each end
+
+constexpr std::array<LawWords, kCampaignLaws> kWords{{
+    {"finite", "every number that comes out is finite", "bad cycles"},
+    {"free space", "the drawn lever is in free space", "cycles outside"},
+    {"no wall", "the drawn lever crosses no wall, and goes no further than |lever step| + 0.5 m/s T", "of that way"},
+    {"lockout", "the drawn lever passes no closed lockout", "crossings"},
+    {"force", "the command is within the device's force", "N"},
+    {"slew", "the command changes by no more than the guard's slew", "N"},
+    {"energy", "bounded: no energy beyond half of what the device's own damping took", "J"},
+    {"guard", "the guard has nothing to stop", "as GuardFault"},
+    {"quiet", "held still, the lever is still", "m"},
+    {"gear holds", "held still, the gear changes once at most; one that comes again was really left", "changes"},
+    {"reached", "a gear that a gripping hand cleanly aims at is in", "missed"},
+    {"told", "no event is lost", "events"},
+}};
+
+// [m] How far a way through free space from a to b is at least: from one slot to another by the neutral aisle.
+double free_way(const Gate& gate, dvec2 a, dvec2 b) noexcept {
+  const double straight = glm::distance(a, b);
+  const int from = slot_at(gate, a), to = slot_at(gate, b);
+  if (from == kNoSlot || to == kNoSlot || from == to) return straight;
+  return std::max(straight, std::abs(a.y) + std::abs(b.y) - 2.0 * gate.half_aisle);
+}
+
+// Beyond that lockout's wall?
+bool is_past(const Gate& gate, const Lockout& lockout, dvec2 p) noexcept {
+  if (lockout.lateral) return lockout.beyond * (p.x - lockout.barrier) > kRounding;
+  const Slot& slot = slot_of(gate, lockout.slot);
+  const Column& column = column_of(gate, slot.column);
+  const double mouth = gate.half_aisle + gate.chamfer;
+  const bool in_column = std::abs(p.x - column.center) <= column.half_width + gate.chamfer;
+  return in_column && static_cast<int>(slot.side) * p.y > mouth + kRounding;
+}
+
+bool is_out_of_column(const Gate& gate, int gear, dvec2 p) noexcept {
+  const Column& column = column_of(gate, slot_of(gate, slot_of_gear(gate, gear)).column);
+  return std::abs(p.x - column.center) > column.half_width + gate.chamfer;
+}
+
+bool is_up(GuardState state) noexcept {
+  return state == GuardState::armed || state == GuardState::ramping || state == GuardState::running;
+}
+
+double bad(bool is_bad) noexcept {
+  return is_bad ? 1.0 : 0.0;
+}
+
+}  // namespace
+
+const LawWords& law_words(CampaignLaw law) noexcept {
+  return kWords[static_cast<std::size_t>(law)];
+}
+
+void LawBook::note(CampaignLaw law, double value, double bound, double time) noexcept {
+  LawSeen& seen = seen_[static_cast<std::size_t>(law)];
+  const bool is_first = seen.looks++ == 0;
+  const bool is_worse = !(value - bound <= seen.value - seen.bound);
+  if (is_first || is_worse) seen.value = value, seen.bound = bound, seen.time = time;
+}
+
+bool LawBook::any_broken() const noexcept {
+  return std::any_of(seen_.begin(), seen_.end(), [](const LawSeen& seen) { return seen.broken(); });
+}
+
+LawLimits law_limits(const HapticConfig& config, const DeviceSpec& spec) noexcept {
+  LawLimits limits;
+  limits.period = period_s(config);
+  limits.max_force = spec.max_force;
+  limits.slew = config.guard.slew;
+  limits.ramp = std::min(1.0, limits.period / config.guard.ramp_time);
+  limits.falls_at_once = config.contact.energy_control == EnergyControl::energy_bounding;
+  limits.energy_bounded = limits.falls_at_once && spec.delay == 0 && spec.own_stiffness == dvec2(0.0);
+  limits.damping = {spec.axis_x.damping, spec.axis_y.damping};
+  limits.ripple = std::max(kQuietRipple, kQuietCounts * spec.position_step);
+  return limits;
+}
+
+void finite_law(const SeenCycle& cycle, LawBook& book) noexcept {
+  const HapticSnapshot& now = cycle.now;
+  const bool all = is_finite(now.lever) && is_finite(now.velocity) && is_finite(now.proxy) &&
+                   is_finite(now.wall_force) && is_finite(now.feel_force) && is_finite(now.commanded) &&
+                   is_finite(now.f_h) && is_finite(now.f_a);
+  book.note(CampaignLaw::finite, bad(!all), 0.0, 1e-9 * static_cast<double>(now.time_ns));
+}
+
+void free_space_law(const SeenCycle& cycle, const Gate& gate, LawBook& book) noexcept {
+  const bool is_free = in_free_space(gate, cycle.now.proxy, kRounding);
+  book.note(CampaignLaw::free_space, bad(!is_free), 0.0, 1e-9 * static_cast<double>(cycle.now.time_ns));
+}
+
+void no_wall_law(const SeenCycle& cycle, const Gate& gate, const LawLimits& limits, LawBook& book) noexcept {
+  const double may_go = glm::distance(cycle.now.lever, cycle.before.lever) + kHandOverSpeed * limits.period;
+  const double goes = free_way(gate, cycle.before.proxy, cycle.now.proxy);
+  book.note(CampaignLaw::no_wall, goes / may_go, 1.0 + kRounding, 1e-9 * static_cast<double>(cycle.now.time_ns));
+}
+
+void LockoutLaw::look(const SeenCycle& cycle, const Gate& gate, LawBook& book) noexcept {
+  const double time = 1e-9 * static_cast<double>(cycle.now.time_ns);
+  std::uint32_t bit = 1u;
+  for (const Lockout& lockout : lockouts(gate)) {
+    bool closed = false;  // a speed lockout is open: nothing drives
+    if (lockout.kind == LockoutKind::push_down) closed = !cycle.pressed_down;
+    if (lockout.kind == LockoutKind::lift) closed = !cycle.lifted;
+    if (lockout.kind == LockoutKind::after_gear) {
+      if (is_out_of_column(gate, lockout.after_gear, cycle.before.proxy)) after_gear_ &= ~bit;
+      if (cycle.before.gear == lockout.after_gear) after_gear_ |= bit;
+      closed = (after_gear_ & bit) != 0;
+    }
+    const bool crossed = is_past(gate, lockout, cycle.now.proxy) && !is_past(gate, lockout, cycle.before.proxy);
+    if (crossed) book.note(CampaignLaw::lockout, bad(closed), 0.0, time);
+    bit <<= 1;
+  }
+}
+
+void force_law(const SeenCycle& cycle, const LawLimits& limits, LawBook& book) noexcept {
+  const dvec2 force = glm::abs(cycle.now.commanded);
+  const int axis = force.x - limits.max_force.x > force.y - limits.max_force.y ? 0 : 1;
+  book.note(CampaignLaw::force, force[axis], limits.max_force[axis], 1e-9 * static_cast<double>(cycle.now.time_ns));
+}
+
+// While the guard's ramp is rising it adds its own part.
+void slew_law(const SeenCycle& cycle, const LawLimits& limits, LawBook& book) noexcept {
+  if (!is_up(cycle.now.guard) || !is_up(cycle.before.guard)) return;
+  const dvec2 now = cycle.now.commanded, before = cycle.before.commanded;
+  const dvec2 change = limits.falls_at_once ? glm::abs(now) - glm::abs(before) : glm::abs(now - before);
+  const bool is_ramping = cycle.before.guard != GuardState::running;
+  const double most = std::max(limits.max_force.x, limits.max_force.y);
+  const double bound = limits.slew + (is_ramping ? limits.ramp * most : 0.0) + kRounding;
+  book.note(CampaignLaw::slew, std::max(change.x, change.y), bound, 1e-9 * static_cast<double>(cycle.now.time_ns));
+}
+
+void guard_law(const SeenCycle& cycle, LawBook& book) noexcept {
+  const GuardState state = cycle.now.guard;
+  const double fault = static_cast<double>(cycle.now.fault);
+  book.note(CampaignLaw::guard, is_up(state) ? fault : std::max(1.0, fault), 0.0,
+            1e-9 * static_cast<double>(cycle.now.time_ns));
+}
+
+void EnergyLaw::look(const SeenCycle& cycle, const LawLimits& limits, LawBook& book) noexcept {
+  if (!limits.energy_bounded || !is_up(cycle.now.guard)) return;
+  const dvec2 slope = limits.damping / limits.period;  // [N/m] c
+  const dvec2 travel = cycle.now.lever - cycle.before.lever;
+  const dvec2 was = cycle.before.commanded, is = cycle.now.commanded;
+  const dvec2 given = was * travel + (is * is - was * was) / (2.0 * slope);
+  surplus_ = glm::max(dvec2(0.0), surplus_ + given - 0.5 * slope * travel * travel);
+  book.note(CampaignLaw::energy, std::max(surplus_.x, surplus_.y), kRounding,
+            1e-9 * static_cast<double>(cycle.now.time_ns));
+}
+
+void GearLaw::look(const SeenCycle& cycle, const Gate& gate, bool held_still, LawBook& book) noexcept {
+  const double time = 1e-9 * static_cast<double>(cycle.now.time_ns);
+  const int gear = cycle.now.gear, before = cycle.before.gear;
+  changes_ = held_still ? changes_ + (gear != before) : 0;
+  if (held_still) book.note(CampaignLaw::gear_holds, bad(changes_ > 1), 0.0, time);
+  if (last_ != kNeutralGear) {
+    const Slot& slot = slot_of(gate, slot_of_gear(gate, last_));
+    const bool is_in = slot_at(gate, cycle.now.proxy) == slot_of_gear(gate, last_);
+    nearest_ = std::min(nearest_, is_in ? std::abs(cycle.now.proxy.y) : 0.0);
+    if (gear == last_ && before != gear)
+      book.note(CampaignLaw::gear_holds, bad(nearest_ > slot.release_depth), 0.0, time);
+  }
+  if (gear != kNeutralGear && gear != before) {
+    last_ = gear;
+    nearest_ = std::abs(cycle.now.proxy.y);
+  }
+}
+
+void HeldSwing::look(dvec2 lever) noexcept {
+  low_ = glm::min(low_, lever);
+  high_ = glm::max(high_, lever);
+  rise_ = glm::max(rise_, lever - low_);
+  fall_ = glm::max(fall_, high_ - lever);
+}
+
+double HeldSwing::span() const noexcept {
+  const dvec2 both = glm::min(rise_, fall_);
+  return std::max(both.x, both.y);
+}
+
+void quiet_law(double span, const LawLimits& limits, double time, LawBook& book) noexcept {
+  book.note(CampaignLaw::quiet, span, limits.ripple, time);
+}
+
+}  // namespace gearshift

@@ -1,0 +1,120 @@
+#include "tests/bench/campaign/campaign_summary.h"
+
+#include <algorithm>
+#include <cstddef>
+
+namespace gearshift {
+namespace {
+
+constexpr std::array<double, 5> kRateBands{250.0, 500.0, 1000.0, 2000.0, 4000.0};  // [Hz]
+
+// Nearer to its bound, or further beyond it.
+bool is_worse(const LawSeen& a, const LawSeen& b) {
+  if (a.broken() != b.broken()) return a.broken();
+  if (a.bound > 0.0 && b.bound > 0.0) return a.value / a.bound > b.value / b.bound;
+  return a.value > b.value;
+}
+
+void add_laws(CampaignSummary& summary, const CampaignCase& drawn, const CaseOutcome& outcome) {
+  for (std::size_t i = 0; i < kCampaignLaws; ++i) {
+    const LawSeen& seen = outcome.laws.seen(static_cast<CampaignLaw>(i));
+    if (seen.looks == 0) continue;
+    LawSummary& law = summary.laws[i];
+    if (law.cases++ == 0 || is_worse(seen, law.worst)) law.worst = seen, law.worst_case = outcome.number;
+    law.looks += seen.looks;
+    law.broken += seen.broken();
+    if (seen.broken()) summary.broken.push_back({outcome.number, drawn.seed, static_cast<CampaignLaw>(i), seen});
+  }
+}
+
+void add_to_group(CampaignSummary& summary, const std::string& of, const std::string& name,
+                  const CaseOutcome& outcome) {
+  const auto is_it = [&](const CaseGroup& group) { return group.of == of && group.name == name; };
+  auto found = std::find_if(summary.groups.begin(), summary.groups.end(), is_it);
+  if (found == summary.groups.end()) found = summary.groups.insert(found, CaseGroup{of, name});
+  ++found->cases;
+  found->shifts += static_cast<std::uint64_t>(outcome.shifts);
+  found->reached += static_cast<std::uint64_t>(outcome.reached);
+  found->stopped += outcome.stopped > 0;
+  found->softened += outcome.softened > 0;
+  found->limited += outcome.limited > 0;
+  found->failed += outcome.laws.any_broken();
+}
+
+std::string band_name(double rate) {
+  std::size_t i = 0;
+  while (i + 2 < kRateBands.size() && rate >= kRateBands[i + 1]) ++i;
+  return std::to_string(static_cast<int>(kRateBands[i])) + " to " +
+         std::to_string(static_cast<int>(kRateBands[i + 1])) + " Hz";
+}
+
+void add_groups(CampaignSummary& summary, const CampaignCase& drawn, const CaseOutcome& outcome) {
+  static constexpr const char* kHolds[] = {"automatic", "zero-order", "half-sample", "observer"};
+  const auto add = [&](const char* of, const std::string& name) { add_to_group(summary, of, name, outcome); };
+  const double count = count_of(drawn);
+  const bool is_bounded = drawn.haptics.contact.energy_control == EnergyControl::energy_bounding;
+  const bool is_beyond = drawn.lever.model_error > 0.05 || drawn.lever.period_jitter > 0.1;
+  add("hand", std::string(kCaseHandNames[static_cast<std::size_t>(drawn.hand)]));
+  add("gate", drawn.shipped_gate >= 0 ? "shipped" : "random");
+  add("rate", band_name(drawn.haptics.rate));
+  add("delay", std::to_string(drawn.lever.delay));
+  add("hold", kHolds[static_cast<int>(drawn.haptics.contact.hold)]);
+  add("energy", is_bounded ? "bounded" : "free");
+  add("count", count == 0.0 ? "none" : count < 20e-6 ? "below 20 um" : count < 150e-6 ? "20 to 150 um" : "coarser");
+  add("plant error, jitter", is_beyond ? "up to 20 %, 50 %" : "up to 5 %, 10 %");
+  add("promised quiet", outcome.promised ? "yes" : "no");
+  add("walls of its own", drawn.lever.own_stiffness > 0.0 ? "yes" : "no");
+}
+
+std::string without_values(const std::string& refusal) {
+  return refusal.substr(0, refusal.find(" ="));
+}
+
+double quantile_of(std::vector<double>& sorted, double q) {
+  return sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1))];
+}
+
+void add_ripple(CampaignSummary& summary, std::map<std::pair<std::string, int>, std::vector<double>>& samples) {
+  for (std::size_t band = 0; band + 1 < kRateBands.size(); ++band) {
+    for (int delay = 0; delay <= 3; ++delay) {
+      std::vector<double>& sample = samples[{band_name(kRateBands[band]), delay}];
+      if (sample.empty()) continue;
+      std::sort(sample.begin(), sample.end());
+      summary.ripple.push_back({kRateBands[band], kRateBands[band + 1], delay, sample.size(), quantile_of(sample, 0.5),
+                                quantile_of(sample, 0.95), sample.back()});
+    }
+  }
+}
+
+bool by_kind_and_name(const CaseGroup& a, const CaseGroup& b) {
+  return a.of != b.of ? a.of < b.of : a.name < b.name;
+}
+
+}  // namespace
+
+CampaignSummary summarise(std::uint64_t campaign_seed, std::span<const CaseOutcome> outcomes, int shipped_gates) {
+  CampaignSummary summary;
+  summary.seed = campaign_seed;
+  std::map<std::pair<std::string, int>, std::vector<double>> ripple;
+  for (const CaseOutcome& outcome : outcomes) {
+    ++summary.cases;
+    if (!outcome.refused.empty()) {
+      ++summary.refused;
+      ++summary.refusals[without_values(outcome.refused)];
+      continue;
+    }
+    const CampaignCase drawn = drawn_case(campaign_seed, outcome.number, shipped_gates);
+    summary.shifts += static_cast<std::uint64_t>(outcome.shifts);
+    summary.clean += static_cast<std::uint64_t>(outcome.clean);
+    summary.cycles += outcome.cycles;
+    summary.seconds += outcome.seconds;
+    add_laws(summary, drawn, outcome);
+    add_groups(summary, drawn, outcome);
+    if (outcome.promised) ripple[{band_name(drawn.haptics.rate), drawn.lever.delay}].push_back(outcome.ripple);
+  }
+  std::sort(summary.groups.begin(), summary.groups.end(), by_kind_and_name);
+  add_ripple(summary, ripple);
+  return summary;
+}
+
+}  // namespace gearshift

@@ -1,0 +1,54 @@
+// What a campaign says: each law's worst against its bound, what was drawn, what was refused, what failed.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "tests/bench/campaign/campaign_run.h"
+
+namespace gearshift {
+
+struct LawSummary {
+  std::uint64_t cases = 0, looks = 0;  // that it was asked in, and how often
+  std::uint64_t broken = 0;            // cases
+  LawSeen worst;                       // nearest to its bound, or furthest beyond
+  std::uint64_t worst_case = 0;
+};
+
+struct LawBroken {
+  std::uint64_t number = 0, seed = 0;  // of the case
+  CampaignLaw law = CampaignLaw::finite;
+  LawSeen seen;
+};
+
+// Cases that have something in common.
+struct CaseGroup {
+  std::string of, name;  // "hand", "grip"
+  std::uint64_t cases = 0, shifts = 0, reached = 0;
+  std::uint64_t softened = 0, stopped = 0, limited = 0, failed = 0;  // cases
+};
+
+struct RippleCell {
+  double slowest = 0.0, fastest = 0.0;  // [Hz] of the loop
+  int delay = 0;                        // [cycles]
+  std::uint64_t cases = 0;
+  double median = 0.0, p95 = 0.0, most = 0.0;  // [m] back and forth, in the worst hold of each case
+};
+
+struct CampaignSummary {
+  std::uint64_t seed = 0, cases = 0, refused = 0, shifts = 0, clean = 0, cycles = 0;
+  double seconds = 0.0;  // [s] simulated
+  std::array<LawSummary, kCampaignLaws> laws;
+  std::vector<LawBroken> broken;                  // by case
+  std::map<std::string, std::uint64_t> refusals;  // how often each was said, its values left out
+  std::vector<CaseGroup> groups;
+  std::vector<RippleCell> ripple;
+};
+
+CampaignSummary summarise(std::uint64_t campaign_seed, std::span<const CaseOutcome> outcomes, int shipped_gates);
+
+}  // namespace gearshift

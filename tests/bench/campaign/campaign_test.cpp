@@ -1,0 +1,236 @@
+// A sample of the campaign; that it does not matter when and on how many threads it ran; and that each law can be broken.
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <limits>
+#include <stdexcept>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "haptics/gate/gate_feel.h"
+#include "haptics/loop/replay.h"
+#include "haptics/loop/trace_reader.h"
+#include "tests/bench/campaign/campaign_summary.h"
+#include "tests/bench/campaign/shift_campaign.h"
+#include "tests/support/gates.h"
+#include "tests/support/temp_folder.h"
+
+using namespace gearshift;
+using glm::dvec2;
+
+namespace {
+
+const std::vector<GateLayout>& layouts() {
+  static const std::vector<GateLayout> shipped = shipped_layouts(GEARSHIFT_ASSETS "/gates");
+  return shipped;
+}
+
+CampaignCase plain_case(std::uint64_t number) {
+  CampaignCase drawn;
+  drawn.number = number;
+  drawn.seed = case_seed(7, number);
+  drawn.lever.hand = kGripHand;
+  drawn.lever.actuator.overload_time = 1e4;  // its motors never tire: that would excuse a wall
+  drawn.shifts = 4;
+  return drawn;
+}
+
+bool broken(const CaseOutcome& outcome, CampaignLaw law) {
+  return outcome.laws.seen(law).broken();
+}
+
+bool replays(const std::filesystem::path& trace) {
+  TraceReader reader(trace);
+  Replayer replayer(reader.header(), trace.string());
+  for (TraceSample sample; reader.next(sample);)
+    if (!replayer.step(sample)) return false;
+  return replayer.finish(reader.hash()).bit_for_bit();
+}
+
+std::vector<std::string> lines_of(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+std::vector<std::string> sorted_lines(const std::filesystem::path& file) {
+  std::vector<std::string> lines = lines_of(file);
+  std::sort(lines.begin(), lines.end());
+  return lines;
+}
+
+// One cycle of a lever that stands in the neutral aisle of the paper's gate, and the one before it.
+struct TwoCycles {
+  HapticSnapshot before, now;
+  TwoCycles() {
+    before.guard = now.guard = GuardState::running;
+    now.time_ns = 1'000'000;
+  }
+  SeenCycle seen() const { return {now, before, false, false}; }
+};
+
+}  // namespace
+
+TEST_CASE("2000 shifts of every kind of hand: no law is broken") {
+  CampaignPlan plan;
+  plan.seed = 11;
+  plan.shifts = 2000;
+  const std::vector<CaseOutcome> outcomes = drive_campaign(plan, layouts(), {});
+  const CampaignSummary summary = summarise(plan.seed, outcomes, static_cast<int>(layouts().size()));
+  for (const LawBroken& one : summary.broken) {
+    CAPTURE(one.number);
+    CAPTURE(one.seen.value);
+    FAIL_CHECK(law_words(one.law).name);
+  }
+  CHECK(summary.shifts >= 2000);
+  CHECK(summary.refused > 0);
+  for (const LawSummary& law : summary.laws) CHECK(law.looks > 0);
+}
+
+TEST_CASE("the result does not depend on the number of threads, nor on where it was stopped") {
+  CampaignPlan plan;
+  plan.shifts = 300;
+  const TempFolder once, twice;
+  plan.folder = once.path();
+  drive_campaign(plan, layouts(), {});
+  plan.folder = twice.path();
+  plan.threads = 3;
+  drive_campaign(plan, layouts(), {});
+  const std::vector<std::string> all = sorted_lines(once / "cases.csv");
+  std::vector<std::string> more = sorted_lines(twice / "cases.csv");  // three threads may begin two cases more
+  CHECK(std::includes(more.begin(), more.end(), all.begin(), all.end()));
+
+  // Killed in the middle of its fourth case's line.
+  const std::vector<std::string> lines = lines_of(once / "cases.csv");
+  std::ofstream cut(twice / "cases.csv", std::ios::trunc);
+  for (std::size_t i = 0; i < 5; ++i) cut << lines[i] << "\n";
+  cut << lines[5].substr(0, lines[5].size() / 2);
+  cut.close();
+  plan.threads = 1;
+  const std::vector<CaseOutcome> resumed = drive_campaign(plan, layouts(), {});
+  CHECK(sorted_lines(twice / "cases.csv") == all);
+  CHECK(resumed.size() + 2 == all.size());
+
+  plan.seed = 2;
+  CHECK_THROWS_WITH_AS(drive_campaign(plan, layouts(), {}), doctest::Contains("of another campaign"),
+                       std::runtime_error);
+}
+
+TEST_CASE("planted: the paper's 5000 N/m at 100 Hz, forced by a study, is not quiet, and its trace replays") {
+  CampaignCase drawn = plain_case(1);
+  drawn.haptics.rate = 100.0;
+  drawn.haptics.contact = {ContactHold::zero_order, EnergyControl::none, false, true};
+  const TempFolder folder;
+  const std::filesystem::path trace = folder / "case.trace";
+  const CaseOutcome outcome = run_case(drawn, layouts(), trace);
+  CAPTURE(outcome.ripple);
+  CHECK(broken(outcome, CampaignLaw::quiet));
+  CHECK(replays(trace));
+}
+
+TEST_CASE("planted: the same with the limiter's last word is stopped by the guard") {
+  CampaignCase drawn = plain_case(1);
+  drawn.haptics.rate = 250.0;
+  drawn.haptics.contact = {ContactHold::zero_order, EnergyControl::none, true, true};
+  drawn.haptics.tuning.aisle_damping = 50.0;  // unstable whatever the wall does
+  drawn.haptics.tuning.limit_damping = 50.0;
+  drawn.lever.delay = 3;
+  CHECK(broken(run_case(drawn, layouts()), CampaignLaw::guard));
+}
+
+TEST_CASE("planted: a wall without energy bounding gives what the damping had not taken; with it, never") {
+  CampaignCase drawn = plain_case(2);
+  const auto promise = [](LawLimits& limits) { limits.energy_bounded = true; };
+  CHECK(broken(run_case(drawn, layouts(), {}, promise), CampaignLaw::energy));
+  drawn.haptics.contact.energy_control = EnergyControl::energy_bounding;
+  CHECK_FALSE(broken(run_case(drawn, layouts()), CampaignLaw::energy));
+}
+
+TEST_CASE("planted: a device of 60 N where 31.7 were promised, and a slew beyond its own") {
+  CampaignCase drawn = plain_case(3);
+  drawn.lever.actuator.peak_force = 60.0;
+  drawn.manner.last_push = 70.0;
+  const auto promise = [](LawLimits& limits) {
+    limits.max_force = dvec2(31.7);
+    limits.slew = 0.5;
+  };
+  const CaseOutcome outcome = run_case(drawn, layouts(), {}, promise);
+  CHECK(broken(outcome, CampaignLaw::force));
+  CHECK(broken(outcome, CampaignLaw::slew));
+  CHECK_FALSE(run_case(drawn, layouts()).laws.any_broken());
+}
+
+TEST_CASE("planted: a proxy in a wall, or carried through one, and a number that is none") {
+  const Gate gate = paper_gate();
+  LawLimits limits;
+  LawBook book;
+  TwoCycles inside_wall;
+  inside_wall.now.proxy = {0.5 * (gate.column[0].center + gate.column[1].center), gate.half_aisle + 0.005};
+  REQUIRE_FALSE(in_free_space(gate, inside_wall.now.proxy));
+  free_space_law(inside_wall.seen(), gate, book);
+  CHECK(book.seen(CampaignLaw::free_space).broken());
+
+  // From one slot to the next, as far as the lever went: each end is in free space, the wall between them is not.
+  TwoCycles through;
+  const double deep = gate.half_aisle + 0.02;
+  through.before.proxy = through.before.lever = {gate.column[0].center, deep};
+  through.now.proxy = through.now.lever = {gate.column[1].center, deep};
+  REQUIRE(in_free_space(gate, through.before.proxy));
+  REQUIRE(in_free_space(gate, through.now.proxy));
+  no_wall_law(through.seen(), gate, limits, book);
+  CHECK(book.seen(CampaignLaw::no_wall).broken());
+
+  TwoCycles none;
+  none.now.commanded.x = std::numeric_limits<double>::quiet_NaN();
+  finite_law(none.seen(), book);
+  CHECK(book.seen(CampaignLaw::finite).broken());
+}
+
+TEST_CASE("planted: through a lockout that is closed, not through one that the hand opens") {
+  const Gate gate = shipped_gate("six_speed_r_left_up");
+  const auto pressed = std::find_if(lockouts(gate).begin(), lockouts(gate).end(), [](const Lockout& lockout) {
+    return lockout.kind == LockoutKind::push_down || lockout.kind == LockoutKind::lift;
+  });
+  REQUIRE(pressed != lockouts(gate).end());
+  const Slot& slot = slot_of(gate, pressed->slot);
+  TwoCycles through;
+  const double x = pressed->lateral ? pressed->barrier : column_of(gate, slot.column).center;
+  const double mouth = pressed->lateral ? 0.0 : static_cast<int>(slot.side) * (gate.half_aisle + gate.chamfer);
+  const dvec2 step =
+      pressed->lateral ? dvec2(1e-4 * pressed->beyond, 0.0) : dvec2(0.0, 1e-4 * static_cast<int>(slot.side));
+  through.before.proxy = dvec2(x, mouth) - step;
+  through.now.proxy = dvec2(x, mouth) + step;
+  LawBook book;
+  LockoutLaw law;
+  law.look({through.now, through.before, true, true}, gate, book);
+  CHECK_FALSE(book.seen(CampaignLaw::lockout).broken());
+  law.look(through.seen(), gate, book);
+  CHECK(book.seen(CampaignLaw::lockout).broken());
+}
+
+TEST_CASE("planted: a gear that toggles while nothing moves") {
+  const Gate gate = paper_gate();
+  TwoCycles flicker;
+  flicker.now.proxy = flicker.before.proxy = rest_position(gate, 1);
+  flicker.now.gear = 1;
+  LawBook book;
+  GearLaw law;
+  law.look(flicker.seen(), gate, false, book);  // it comes
+  CHECK_FALSE(book.seen(CampaignLaw::gear_holds).broken());
+  std::swap(flicker.now, flicker.before);
+  law.look(flicker.seen(), gate, false, book);
+  std::swap(flicker.now, flicker.before);
+  law.look(flicker.seen(), gate, false, book);  // and again, from where it was
+  CHECK(book.seen(CampaignLaw::gear_holds).broken());
+}
+
+TEST_CASE("planted: a lever that is stuck misses the gears that are cleanly aimed at") {
+  CampaignCase drawn = plain_case(4);
+  CHECK_FALSE(broken(run_case(drawn, layouts()), CampaignLaw::reached));
+  drawn.lever.coulomb_friction = 100.0;
+  CHECK(broken(run_case(drawn, layouts()), CampaignLaw::reached));
+}

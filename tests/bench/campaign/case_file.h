@@ -1,0 +1,34 @@
+// What a campaign has done so far, one line a case, in a file that may be cut short at any moment.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+
+#include "tests/bench/campaign/campaign_run.h"
+
+namespace gearshift {
+
+class CaseFile {
+ public:
+  // Reads what is there, drops a line that was not finished, and goes on behind it. Throws std::runtime_error in one
+  // sentence where the file is of another campaign, is not one, or cannot be written.
+  CaseFile(const std::filesystem::path& file, std::uint64_t seed);
+
+  const std::map<std::uint64_t, CaseOutcome>& cases() const noexcept { return cases_; }
+  void add(const CaseOutcome& outcome);  // Throws std::runtime_error
+
+ private:
+  struct Close {
+    void operator()(std::FILE* file) const noexcept { std::fclose(file); }
+  };
+
+  std::string name_;
+  std::map<std::uint64_t, CaseOutcome> cases_;
+  std::unique_ptr<std::FILE, Close> file_;
+};
+
+}  // namespace gearshift

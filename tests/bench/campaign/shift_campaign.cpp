@@ -1,0 +1,118 @@
+#include "tests/bench/campaign/shift_campaign.h"
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+
+#include "tests/bench/campaign/case_file.h"
+
+namespace gearshift {
+namespace {
+
+// Hands out cases in order and takes what came of them, in any.
+class CampaignWork {
+ public:
+  explicit CampaignWork(const CampaignPlan& plan) : plan_(plan) {
+    if (plan.folder.empty()) return;
+    file_.emplace(plan.folder / "cases.csv", plan.seed);
+    cases_ = file_->cases();
+    count_whole();
+  }
+
+  std::optional<std::uint64_t> next() {
+    const std::lock_guard lock(mutex_);
+    while (cases_.contains(next_)) ++next_;
+    if (is_enough() || problem_) return std::nullopt;
+    return next_++;
+  }
+
+  void done(CaseOutcome outcome) {
+    const std::lock_guard lock(mutex_);
+    if (file_) file_->add(outcome);
+    cases_.emplace(outcome.number, std::move(outcome));
+    count_whole();
+  }
+
+  void fail(std::exception_ptr problem) {
+    const std::lock_guard lock(mutex_);
+    problem_ = std::move(problem);
+  }
+
+  void leave() {
+    const std::lock_guard lock(mutex_);
+    ++left_;
+    changed_.notify_all();
+  }
+
+  // True when all threads are through.
+  bool wait(std::chrono::milliseconds patience) {
+    std::unique_lock lock(mutex_);
+    return changed_.wait_for(lock, patience, [this] { return left_ == plan_.threads; });
+  }
+
+  double share() {
+    const std::lock_guard lock(mutex_);
+    return static_cast<double>(shifts_) / static_cast<double>(plan_.shifts);
+  }
+
+  std::vector<CaseOutcome> take() {
+    if (problem_) std::rethrow_exception(problem_);
+    std::vector<CaseOutcome> outcomes;
+    for (auto& [number, outcome] : cases_)
+      if (number < whole_) outcomes.push_back(std::move(outcome));
+    return outcomes;
+  }
+
+ private:
+  bool is_enough() const { return shifts_ >= plan_.shifts; }
+
+  // How far the cases are done without a gap.
+  void count_whole() {
+    for (auto found = cases_.find(whole_); !is_enough() && found != cases_.end(); found = cases_.find(whole_)) {
+      shifts_ += static_cast<std::uint64_t>(found->second.shifts);
+      ++whole_;
+    }
+  }
+
+  const CampaignPlan& plan_;
+  std::mutex mutex_;
+  std::condition_variable changed_;
+  std::optional<CaseFile> file_;
+  std::map<std::uint64_t, CaseOutcome> cases_;
+  std::uint64_t next_ = 0;    // to be handed out
+  std::uint64_t whole_ = 0;   // all before it are done
+  std::uint64_t shifts_ = 0;  // in these
+  int left_ = 0;              // threads that are through
+  std::exception_ptr problem_;
+};
+
+void work(CampaignWork& work, const CampaignPlan& plan, std::span<const GateLayout> shipped) {
+  try {
+    while (const std::optional<std::uint64_t> number = work.next())
+      work.done(run_case(drawn_case(plan.seed, *number, static_cast<int>(shipped.size())), shipped));
+  } catch (...) {
+    work.fail(std::current_exception());
+  }
+  work.leave();
+}
+
+}  // namespace
+
+std::vector<CaseOutcome> drive_campaign(const CampaignPlan& plan, std::span<const GateLayout> shipped,
+                                        const CampaignProgress& progress) {
+  CampaignWork shared(plan);
+  std::vector<std::jthread> threads;
+  for (int i = 0; i < plan.threads; ++i) threads.emplace_back([&] { work(shared, plan, shipped); });
+  while (!shared.wait(std::chrono::milliseconds(100)))
+    if (progress) progress(shared.share());
+  threads.clear();
+  return shared.take();
+}
+
+}  // namespace gearshift

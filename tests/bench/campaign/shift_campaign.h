@@ -1,0 +1,29 @@
+// Many random cases on all cores. What is done is kept in the folder, so that a stopped campaign goes on where it was; the
+// result does not depend on the number of threads or on when it was stopped.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <vector>
+
+#include "tests/bench/campaign/campaign_run.h"
+
+namespace gearshift {
+
+struct CampaignPlan {
+  std::uint64_t seed = 1;
+  std::uint64_t shifts = 1'000'000;  // that are tried at least: cases are run whole, in order
+  std::filesystem::path folder;  // exists; receives cases.csv: one line a case, as they come. Empty: nothing is kept
+  int threads = 1;
+};
+
+using CampaignProgress = std::function<void(double share)>;  // 0 to 1; on the calling thread
+
+// The first cases that together try that many shifts, in order. Throws FileError or std::runtime_error in one sentence:
+// the folder holds another campaign, or cannot be written.
+std::vector<CaseOutcome> drive_campaign(const CampaignPlan& plan, std::span<const GateLayout> shipped,
+                                        const CampaignProgress& progress);
+
+}  // namespace gearshift
