@@ -15,13 +15,18 @@ chmod 555 locked
 as_others=()
 overrides=-dac_override,-dac_read_search
 [ "$(id -u)" -eq 0 ] && as_others=(setpriv --bounding-set=$overrides --inh-caps=$overrides)
+locked="locked locked/missing/home"
+if ! "${as_others[@]}" true 2>/dev/null; then
+  echo "no folder can be locked here: this root may not put its rights away"
+  as_others=() locked=""
+fi
 start() { # name of the result, HOME=..., arguments ...
   local name=$1 home=$2
   shift 2
   "${as_others[@]}" env "$home" "$gearshift" "$@" >"$name.txt" 2>"$name.err" </dev/null
 }
 one_sentence() { [ "$(wc -l <"$1")" -eq 1 ] && grep -q "$2" "$1"; }
-for home in locked locked/missing/home; do
+for home in $locked; do
   check "$home: a lesson is passed" start lesson "HOME=$work/$home" lesson hill_start --learner Ada
   check "$home: that it is not remembered is one sentence, got: $(cat lesson.err)" \
     one_sentence lesson.err "the history cannot be used: its folder cannot be made: Permission denied"
@@ -30,8 +35,13 @@ for home in locked locked/missing/home; do
   check "$home: in one sentence, got: $(cat report.err)" one_sentence report.err "there is no such history"
   check "$home: devices are listed" start devices "HOME=$work/$home" devices
 done
-check "the cabin is drawn" start train "HOME=$work/locked" train --offscreen drawn --seconds 0.1 --size 320x180
-check "with one sentence, got: $(cat train.err)" one_sentence train.err "the history cannot be used"
+if [ -n "$locked" ]; then
+  check "the cabin is drawn" start train "HOME=$work/locked" train --offscreen drawn --seconds 0.1 --size 320x180
+  check "with one sentence, got: $(cat train.err)" one_sentence train.err "the history cannot be used"
+  start refused HOME=/ tour --out "$work/locked/tour"
+  check "a folder that may not be written: refused" test $? -eq 1
+  check "in one sentence, got: $(cat refused.err)" one_sentence refused.err "locked/tour: cannot be created: Permission denied"
+fi
 nameless() { # arguments ...: without HOME, as a user whom the system does not know
   unshare --user --map-user=4242 env -u HOME "$gearshift" "$@" >nameless.txt 2>nameless.err </dev/null
 }
@@ -41,9 +51,6 @@ if unshare --user --map-user=4242 "$gearshift" --version >/dev/null 2>&1; then
   check "no home at all: who cannot be remembered is told so, got: $(cat nameless.err)" \
     one_sentence nameless.err "no folder for the user's files"
 fi
-start refused HOME=/ tour --out "$work/locked/tour"
-check "a folder that may not be written: refused" test $? -eq 1
-check "in one sentence, got: $(cat refused.err)" one_sentence refused.err "locked/tour: cannot be created: Permission denied"
 
 # The same files from the same commands, in a folder that is hard to quote.
 folder="Ordner ä ş ı İ 日本 o'clock \"q\" \`x\` \$HOME #1%41"
