@@ -2,6 +2,7 @@
 #pragma once
 
 #include <functional>
+#include <string>
 
 #include <CLI/CLI.hpp>
 
@@ -10,6 +11,11 @@ namespace gearshift {
 // Returns the exit code: 0 done, 1 the work failed. main turns what is thrown into one sentence on stderr:
 // bad usage, a CLI::ParseError, exits 2; anything else, a FileError included, exits 1.
 using VerbAction = std::function<int()>;
+
+// What a command line asks for; without a verb it is the trainer. Throws CLI::ParseError: bad usage, or help that is asked
+// for.
+VerbAction parse_command_line(CLI::App& app, int argc, const char* const* argv);
+std::string usage_sentence(const CLI::ParseError& refusal);  // what it names may be shown on a terminal
 
 struct TourArguments;
 int run_demo(const TourArguments& tour);  // as `demo` does with nothing but these

@@ -14,6 +14,7 @@ namespace gearshift {
 namespace {
 
 constexpr std::size_t kMaxTextLength = 200;  // [bytes] of one value: names and sentences, no essays
+constexpr int kMostKeyParts = 8;             // of a dotted key, "a.b.c"
 
 int line_of(const toml::node& node) {
   return static_cast<int>(node.source().begin.line);
@@ -44,7 +45,48 @@ std::string value_text(const toml::node& node) {
   return node.is_array() ? "(a list)" : "(a date or time)";
 }
 
+// Where the string that opens at `at` is over, as toml++ sees it.
+std::size_t end_of_string(std::string_view text, std::size_t at) {
+  const char quote = text[at];
+  const bool is_long = text.substr(at).starts_with(std::string(3, quote));
+  const std::string closing(is_long ? 3 : 1, quote);
+  for (at += closing.size(); at < text.size(); ++at) {
+    if (quote == '"' && text[at] == '\\') {
+      ++at;
+    } else if (!is_long && text[at] == '\n') {
+      return at;
+    } else if (text.substr(at).starts_with(closing)) {
+      at += closing.size();
+      for (int more = 0; is_long && more < 2 && at < text.size() && text[at] == quote; ++more)
+        ++at;  // """" ends in one
+      return at;
+    }
+  }
+  return text.size();
+}
+
+// toml++ takes a key of a million parts, and its tables within tables end the stack when they are destroyed.
+void refuse_long_keys(std::string_view text, const std::string& file) {
+  const auto refuse_at = [&](std::size_t at) {
+    const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
+    throw FileError(file, static_cast<int>(line),
+                    "a key must have at most " + std::to_string(kMostKeyParts) + " parts");
+  };
+  int dots = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const char c = text[at];
+    if (std::string_view("\n=,[]{}").find(c) != std::string_view::npos) dots = 0;
+    if (c == '.' && ++dots >= kMostKeyParts) refuse_at(at);
+    if (c == '"' || c == '\'') {
+      at = end_of_string(text, at);
+    } else {
+      at = c == '#' ? std::min(text.find('\n', at), text.size()) : at + 1;
+    }
+  }
+}
+
 toml::table parse_toml(std::string_view text, const std::string& file) {
+  refuse_long_keys(text, file);
   try {
     return toml::parse(text);
   } catch (const toml::parse_error& error) {

@@ -21,7 +21,8 @@ refuse() { # exit code, part of the sentence, arguments ...
   shift 2
   "$gearshift" "$@" >out 2>err </dev/null
   local got=$?
-  if [ $got -ne "$code" ] || [ "$(wc -l <err)" -ne 1 ] || [ -s out ] || ! grep -qF -- "$part" err; then
+  if [ $got -ne "$code" ] || [ "$(wc -l <err)" -ne 1 ] || [ -s out ] || ! grep -qF -- "$part" err ||
+     LC_ALL=C grep -q '[[:cntrl:]]' err; then
     echo "FAILED: gearshift $*: exit $got (wanted $code), wanted one line with \"$part\", got:"
     sed 's/^/    /' err out
     failed=$((failed + 1))
@@ -43,6 +44,9 @@ done
 
 unset DISPLAY WAYLAND_DISPLAY
 refuse 2 "--calibrate: the name of a stick is empty" devices --calibrate ""
+refuse 2 "?[31m" $'\e[31m'
+refuse 2 "?[31m" tour --out t --rate $'\e[31m'
+refuse 1 "?[31m" gate $'\e[31m'
 refuse 1 "no display"
 refuse 1 "no display" train
 DISPLAY=:987 WAYLAND_DISPLAY=wayland-0 refuse 1 "no display" train

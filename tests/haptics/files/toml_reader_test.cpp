@@ -145,6 +145,31 @@ TEST_CASE("what is not TOML is refused in one sentence with its line") {
   }
 }
 
+// Found by tests/fuzz: a key of 500,000 parts ended the stack.
+TEST_CASE("a key has few parts, wherever it stands; dots elsewhere are none of it") {
+  const auto parse = [](const std::string& text) { return refusal([&] { TomlTable::parse(text, "deep.toml"); }); };
+  const auto repeated = [](std::size_t times, const std::string& what) {
+    std::string all;
+    for (std::size_t i = 0; i < times; ++i) all += what;
+    return all;
+  };
+  const std::string many = repeated(250'000, "a.") + "a", few = repeated(7, "a.") + "a";
+  const std::string refused = ": a key must have at most 8 parts";
+  CHECK(parse("\n" + many + " = 1\n") == "deep.toml:2" + refused);
+  CHECK(parse("\n\n[" + many + "]\n") == "deep.toml:3" + refused);
+  CHECK(parse("a = \"\"\"\n#\n\"\"\"\"\"\n" + many + " = 1\n") == "deep.toml:4" + refused);
+  for (const char* before :
+       {"a = '#'\n", "a = [\"\"\"x\"\"\"\", {", "a = \"\\\"#\"\n", "a = ''''#'''\n", "# \"\n", "'#='."}) {
+    CAPTURE(before);
+    CHECK(parse(before + many + " = 1\n").ends_with(refused));
+  }
+  CHECK(parse(repeated(20'000, "'=[#'.") + "a = 1\n") == "deep.toml:1" + refused);
+  CHECK(parse(few + " = 1\n[" + repeated(7, "b . ") + "b]\n") == "not refused");
+  CHECK(parse("a = \"..................\" # .................\nb = [0.1, 0.2, 0.3, 0.4, 0.5, 0.6, 0.7, 0.8, 0.9]\n") ==
+        "not refused");
+  CHECK(parse("a = " + repeated(256, "{" + few + " = ")).starts_with("deep.toml:1: not valid TOML"));
+}
+
 TEST_CASE("no value and no key reaches the terminal raw: neither a line break nor an escape") {
   const auto refused = [](const std::string& text) {
     return refusal([&] {

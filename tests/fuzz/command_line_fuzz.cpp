@@ -1,0 +1,64 @@
+// Whatever arguments, one a line: they are parsed, or refused in one sentence. Nothing is run. The first line is what the
+// environment says of the user's folders.
+#include <stdlib.h>
+
+#include <vector>
+
+#include "app/trainer/user_folder.h"
+#include "app/verbs/verbs.h"
+#include "tests/fuzz/fuzz_laws.h"
+
+using namespace gearshift;
+
+namespace {
+
+constexpr std::size_t kMostArguments = 64;
+
+// A line holds no zero byte, as the system would have cut it there.
+std::vector<std::string> lines_of(std::string_view text) {
+  std::vector<std::string> lines(1);
+  for (const char c : text) {
+    if (c == '\n') {
+      lines.emplace_back();
+    } else if (c != '\0') {
+      lines.back() += c;
+    }
+  }
+  if (lines.size() > kMostArguments) lines.resize(kMostArguments);
+  return lines;
+}
+
+void check_folders(const std::string& value) {
+  for (const char* variable : {"XDG_CONFIG_HOME", "XDG_DATA_HOME", "HOME"}) {
+    setenv(variable, value.c_str(), 1);
+    for (const auto& folder : {user_config_folder(), user_data_folder(), user_presets_folder()}) {
+      hold(folder.is_absolute(), "a user's folder does not depend on where the program was started");
+    }
+  }
+}
+
+void check_arguments(const std::vector<std::string>& arguments) {
+  std::vector<const char*> argv;
+  for (const std::string& argument : arguments) argv.push_back(argument.c_str());
+  CLI::App app{"gearshift"};
+  app.set_version_flag("--version", "1.2.3");
+  try {
+    const VerbAction action = parse_command_line(app, static_cast<int>(argv.size()), argv.data());
+    hold(static_cast<bool>(action), "what is not refused can be done");
+  } catch (const CLI::Success&) {
+    hold(!app.help().empty(), "help is given");
+  } catch (const CLI::ParseError& refusal) {
+    hold_sentence(std::runtime_error(usage_sentence(refusal)), "");
+  }
+}
+
+}  // namespace
+
+// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer gives the name
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  std::vector<std::string> lines = lines_of(text_of(data, size));
+  check_folders(lines[0]);
+  lines[0] = "gearshift";
+  check_arguments(lines);
+  return 0;
+}

@@ -1,0 +1,34 @@
+// A harness without libFuzzer: runs it on every file of the folders that are named.
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <vector>
+
+namespace fs = std::filesystem;
+
+// NOLINTBEGIN(readability-identifier-naming): libFuzzer gives the names
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
+extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t*, std::size_t size, std::size_t) {  // nothing is searched here
+  return size;
+}
+// NOLINTEND(readability-identifier-naming)
+
+int main(int argc, char** argv) {
+  int inputs = 0;
+  for (int i = 1; i < argc; ++i) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(argv[i])) {
+      std::printf("%s\n", entry.path().c_str());
+      std::fflush(stdout);  // the last one is the one that was found
+      std::ifstream in(entry.path(), std::ios::binary);
+      const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
+      std::vector<std::uint8_t> data(bytes.begin(), bytes.end());
+      LLVMFuzzerTestOneInput(data.data(), data.size());
+      ++inputs;
+    }
+  }
+  std::printf("%d inputs\n", inputs);
+  return inputs > 0 ? 0 : 1;
+}

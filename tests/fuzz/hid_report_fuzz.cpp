@@ -1,0 +1,101 @@
+// Whatever a device reports: with the layout of one of tests/data/hid it is not read, or read as the bits stand. The first
+// byte says of which device; the rest is the report.
+#include <algorithm>
+#include <iterator>
+#include <vector>
+
+#include "haptics/hid/lever_report.h"
+#include "haptics/hid/pid_report.h"
+#include "tests/fuzz/fuzz_laws.h"
+#include "tests/haptics/hid/descriptors.h"
+
+using namespace gearshift;
+
+namespace {
+
+struct Device {
+  LeverReport lever;
+  PidLayout pid;
+};
+
+std::vector<Device> known_devices() {
+  std::vector<Device> devices;
+  for (const char* name : kPidDevices) {
+    const ReportDescriptor descriptor = parse_report_descriptor(device_descriptor(name));
+    const auto lever = find_lever_report(descriptor);
+    const auto pid = find_pid(descriptor);
+    hold(lever && pid, "a force-feedback stick is one");
+    devices.push_back({*lever, *pid});
+  }
+  return devices;
+}
+
+// Bit by bit, the definition: HID 1.11, 8.4. Bit 0 is the lowest of the first byte behind the ID.
+std::int64_t slow_bits(std::span<const std::uint8_t> report, const BitField& field) {
+  std::int64_t value = 0;
+  for (int i = 0; i < field.bits; ++i) {
+    const auto at = static_cast<std::size_t>(8 + field.offset + i);
+    const std::int64_t bit = report[at / 8] >> (at % 8) & 1;
+    value += (i == field.bits - 1 && field.min < 0 ? -bit : bit) * (std::int64_t{1} << i);
+  }
+  return value;
+}
+
+bool slow_flag(std::span<const std::uint8_t> report, const BitField& field, bool otherwise) {
+  return field.exists() ? slow_bits(report, field) != 0 : otherwise;
+}
+
+bool is_report(std::span<const std::uint8_t> report, std::uint8_t id, std::size_t size) {
+  return size > 0 && report.size() == size && report[0] == id;
+}
+
+void check_lever(const LeverReport& layout, std::span<const std::uint8_t> report) {
+  const auto counts = decode_lever(layout, report);
+  hold(counts.has_value() == is_report(report, layout.id, layout.size), "a lever's report is told by ID and length");
+  if (!counts) return;
+  for (std::size_t i = 0; i < layout.axes.size(); ++i) {
+    hold(counts->axis[i] == slow_bits(report, layout.axes[i].field), "an axis is read as it stands");
+  }
+  for (std::size_t i = 0; i < layout.buttons.size(); ++i) {
+    const bool is_down = (counts->buttons >> i & 1) != 0;
+    hold(is_down == slow_flag(report, layout.buttons[i], false), "a button is read as it stands");
+  }
+}
+
+void check_state(const PidLayout& pid, std::span<const std::uint8_t> report) {
+  const PidState& layout = pid.state;
+  const auto state = decode_state(pid, report);
+  hold(state.has_value() == is_report(report, layout.id, layout.size), "a state is told by ID and length");
+  if (!state) return;
+  hold(state->actuators_enabled == slow_flag(report, layout.actuators_enabled, false), "motors as they stand");
+  hold(state->actuator_power == slow_flag(report, layout.actuator_power, true), "power as it stands");
+  hold(state->safety_switch == slow_flag(report, layout.safety_switch, true), "the safety switch as it stands");
+  hold(state->paused == slow_flag(report, layout.paused, false), "paused as it stands");
+  hold(state->playing == slow_flag(report, layout.playing, false), "playing as it stands");
+}
+
+void check_answers(const PidLayout& pid, std::span<const std::uint8_t> report) {
+  const auto load = decode_block_load(pid, report);
+  hold(load.has_value() == is_report(report, pid.block_load.id, pid.block_load.size), "a load by ID and length");
+  if (load && pid.block_load.block.exists())
+    hold(load->block == std::clamp<std::int64_t>(slow_bits(report, pid.block_load.block), 0, 0xffff),
+         "a block as it stands");
+  const auto pool = decode_pool(pid, report);
+  hold(pool.has_value() == is_report(report, pid.pool.id, pid.pool.size), "a pool is told by ID and length");
+  if (pool && pid.pool.ram_size.exists())
+    hold(pool->ram == slow_bits(report, pid.pool.ram_size), "memory as it stands");
+}
+
+}  // namespace
+
+// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer gives the name
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  static const std::vector<Device> devices = known_devices();
+  if (size == 0) return 0;
+  const Device& device = devices[data[0] % devices.size()];
+  const std::span<const std::uint8_t> report(data + 1, size - 1);
+  check_lever(device.lever, report);
+  check_state(device.pid, report);
+  check_answers(device.pid, report);
+  return 0;
+}

@@ -1,0 +1,119 @@
+// Whatever text: each kind of file that people or the program write is read, or refused in one sentence that names it; what
+// is read and can be written is written and read back the same. The first letter says for what the rest is taken:
+// Bindings, Car, Device's calibration, Gate, Headset's seat, Lesson, Preset.
+#include <cmath>
+
+#include "app/headset/seat_file.h"
+#include "app/input/bindings.h"
+#include "app/training/lesson.h"
+#include "app/vehicle/car_spec.h"
+#include "haptics/files/file_error.h"
+#include "haptics/gate/gate_compiler.h"
+#include "haptics/hardware/device_calibration.h"
+#include "haptics/loop/preset_writer.h"
+#include "tests/fuzz/fuzz_laws.h"
+
+using namespace gearshift;
+
+namespace {
+
+FuzzedFile& the_file() {
+  static FuzzedFile file("read.toml");
+  return file;
+}
+
+void read_gate(std::string_view text) {
+  const GateLayout layout = parse_gate_layout(text, the_file().path().string());
+  hold(layout.text == text, "a layout keeps its text");
+  constexpr double kHalf = 0.08;  // [m] about that of the paper's joystick
+  const Gate gate = compile_gate(layout, {kHalf, kHalf});
+  hold(!slots(gate).empty(), "a gate has slots");
+}
+
+void read_car(std::string_view text) {
+  const CarSpec car = parse_car(text, the_file().path().string());
+  for (const double speed : {-1e3, 0.0, 50.0, 300.0, 1e4}) {
+    hold(std::isfinite(full_torque(car.engine, speed)), "torque is a number");
+    hold(std::isfinite(friction_torque(car.engine, speed)), "friction is a number");
+  }
+  for (const double pedal : {0.0, 0.5, 1.0}) {
+    const double carried = clutch_capacity(car.clutch, pedal);
+    hold(carried >= 0.0 && carried <= car.clutch.capacity, "a clutch carries what it can");
+  }
+  for (int gear = kReverseGear; gear <= kMaxGear; ++gear) {
+    hold(std::isfinite(shaft_per_road(car, gear)), "a ratio is a number");
+  }
+}
+
+void read_a_lesson(std::string_view text) {
+  const Lesson lesson = parse_lesson(text, the_file().path().string());
+  hold(!lesson.steps.empty(), "a lesson has steps");
+  hold(is_printable(catches_sentence(lesson)), "what it catches is told in one line");
+}
+
+void read_a_preset(std::string_view text) {
+  const std::string first = preset_text(read_preset(the_file().put(text).string()));
+  hold(preset_text(read_preset(the_file().put(first).string())) == first, "a preset is written and read back the same");
+}
+
+void read_keys(std::string_view text) {
+  const Bindings bindings = read_bindings(the_file().put(text));
+  const std::string first = bindings_text(bindings);
+  const Bindings again = read_bindings(the_file().put(first));
+  hold(bindings_text(again) == first && help_text(again) == help_text(bindings), "bindings are written and read back");
+}
+
+void read_device(std::string_view text) {
+  const std::string first = calibration_text(*read_calibration(the_file().put(text)));
+  hold(calibration_text(*read_calibration(the_file().put(first))) == first, "a calibration is written and read back");
+}
+
+// An angle passes through a quaternion: its first writing may be a last bit off, the next ones are not further off.
+void read_a_seat(std::string_view text) {
+  const SeatSettings seat = read_seat(the_file().put(text));
+  write_seat(seat, the_file().path());
+  const SeatSettings again = read_seat(the_file().path());
+  hold(again.drive == seat.drive && again.height == seat.height && again.touch_error == seat.touch_error &&
+           again.knob.has_value() == seat.knob.has_value() && again.touched.has_value() == seat.touched.has_value(),
+       "a seat is written and read back");
+  if (seat.knob)
+    hold(again.knob->right == seat.knob->right && again.knob->down == seat.knob->down &&
+             again.knob->ahead == seat.knob->ahead,
+         "a knob is written and read back");
+  if (!seat.touched) return;
+  hold(again.touched->position == seat.touched->position, "a touched place is written and read back");
+  const double same_turn = std::abs(glm::dot(again.touched->orientation, seat.touched->orientation));  // q is -q
+  hold(same_turn > 1.0 - 1e-12, "a turn is written and read back");
+}
+
+void read_as(char kind, std::string_view text) {
+  switch (kind) {
+    case 'B':
+      return read_keys(text);
+    case 'C':
+      return read_car(text);
+    case 'D':
+      return read_device(text);
+    case 'G':
+      return read_gate(text);
+    case 'H':
+      return read_a_seat(text);
+    case 'L':
+      return read_a_lesson(text);
+    case 'P':
+      return read_a_preset(text);
+  }
+}
+
+}  // namespace
+
+// NOLINTNEXTLINE(readability-identifier-naming): libFuzzer gives the name
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  if (size == 0) return 0;
+  try {
+    read_as(static_cast<char>(data[0]), text_of(data + 1, size - 1));
+  } catch (const FileError& refusal) {  // the only thing that they may throw
+    hold_sentence(refusal, the_file().path().string() + ":");
+  }
+  return 0;
+}

@@ -1,0 +1,205 @@
+// Whatever passes for a trace: it is refused in one sentence, or its cycles are read, exported, written and read back the
+// same, and run again as `replay` and the trainer do. The mutator changes what the blocks hold and keeps their checksums
+// true, or every input would end there; it begins from a lever alone and from a car.
+#include <algorithm>
+#include <cstring>
+#include <optional>
+#include <random>
+#include <vector>
+
+#include "app/replay/recorded_drive.h"
+#include "app/training/lesson_world.h"
+#include "haptics/files/file_error.h"
+#include "haptics/loop/block_codec.h"
+#include "haptics/loop/replay.h"
+#include "haptics/loop/simulated_run.h"
+#include "haptics/loop/trace_csv.h"
+#include "haptics/loop/trace_recorder.h"
+#include "tests/fuzz/fuzz_laws.h"
+#include "tests/support/gates.h"
+
+using namespace gearshift;
+
+// NOLINTBEGIN(readability-identifier-naming): libFuzzer gives the names
+extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
+
+namespace {
+
+using Bytes = std::vector<std::byte>;
+using Random = std::minstd_rand;
+
+constexpr int kCycles = 6;
+
+FuzzedFile& the_trace() {
+  static FuzzedFile file("drive.trace");
+  return file;
+}
+
+std::unique_ptr<LeverWorld> make_world(const std::string& name, const Gate& gate) {
+  std::unique_ptr<LeverWorld> nothing = make_null_world(name, gate);
+  return nothing ? std::move(nothing) : make_lesson_world(name, gate);
+}
+
+// A drive of a few cycles.
+Trace made_trace(bool with_car) {
+  const GateLayout layout = read_gate_layout(GEARSHIFT_ASSETS "/gates/paper.toml");
+  SimulatedRunConfig config;
+  config.gate = compile_gate(layout, kPaperWorkspace);
+  const CarSpec car = read_car(GEARSHIFT_ASSETS "/cars/hatchback.toml");
+  NullWorld nothing;
+  CarWorld hatchback(car, config.gate, 30.0);
+  LeverWorld& world = with_car ? static_cast<LeverWorld&>(hatchback) : nothing;
+  RestingHand hand;
+  SimulatedRun run(config, hand, &world);
+  const TraceHeader header{"1.2.3", config.haptics, run.lever().spec(), "paper.toml", layout.text, world.name(), true};
+  TraceRecorder recorder(the_trace().path(), header, run.channels(), TracePump::by_caller);
+  for (int i = 0; i < kCycles; ++i) run.step();
+  recorder.finish();
+  return read_trace(the_trace().path());
+}
+
+std::optional<Trace> trace_in(std::string_view bytes) {
+  try {
+    TraceReader reader(the_trace().put(bytes), TornTrace::salvage);
+    Trace trace{reader.header(), {}, 0};
+    for (TraceSample sample; reader.next(sample);) trace.samples.push_back(sample);
+    if (!trace.samples.empty()) return trace;
+  } catch (const FileError&) {  // made anew
+  }
+  return std::nullopt;
+}
+
+// All of it, or eight bytes of it in place: a number.
+void mutate(Bytes& bytes, Random& random) {
+  auto* const data = reinterpret_cast<std::uint8_t*>(bytes.data());
+  if (bytes.size() < 8 || random() % 4 != 0) {
+    const std::size_t at = bytes.size() < 8 ? 0 : random() % (bytes.size() - 7);
+    LLVMFuzzerMutate(data + at, std::min<std::size_t>(bytes.size(), 8), std::min<std::size_t>(bytes.size(), 8));
+    return;
+  }
+  const std::size_t size = bytes.size();
+  bytes.resize(size + 64);
+  bytes.resize(LLVMFuzzerMutate(reinterpret_cast<std::uint8_t*>(bytes.data()), size, bytes.size()));
+}
+
+void append(std::string& file, std::span<const std::byte> bytes) {
+  file.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+}
+
+// A file whose checksums are true, whatever it holds. The hash is of the header as it can be read.
+std::string sealed(const Bytes& header, const std::vector<EncodedSample>& samples) {
+  Bytes plain, coded;
+  RunHash hash = begin_hash(decode_header(header).value_or(TraceHeader{}));
+  for (const EncodedSample& sample : samples) {
+    plain.insert(plain.end(), sample.begin(), sample.end());
+    hash.add(outputs_of(sample));
+  }
+  BlockCodec().encode(plain, coded);
+  const auto end = encode_end({samples.size(), hash.value(), false});
+  std::string file(kTraceMagic.begin(), kTraceMagic.end());
+  file.append(reinterpret_cast<const char*>(&kTraceVersion), sizeof kTraceVersion);
+  append(file, encode_frame(BlockKind::header, header));
+  append(file, header);
+  append(file, encode_frame(BlockKind::data, coded, samples.size()));
+  append(file, coded);
+  append(file, encode_frame(BlockKind::end, end));
+  append(file, end);
+  return file;
+}
+
+std::string mutated(const Trace& trace, Random& random) {
+  Bytes header = encode_header(trace.header);
+  std::vector<EncodedSample> samples;
+  for (const TraceSample& sample : trace.samples) samples.push_back(encode_sample(sample));
+  samples.resize(std::min(samples.size(), kSamplesPerBlock));
+  if (random() % 2 == 0) {
+    mutate(header, random);
+  } else {
+    EncodedSample& sample = samples[random() % samples.size()];
+    Bytes bytes(sample.begin(), sample.end());
+    mutate(bytes, random);
+    bytes.resize(kSampleBytes);
+    std::copy(bytes.begin(), bytes.end(), sample.begin());
+  }
+  return sealed(header, samples);
+}
+
+bool same(const Trace& a, const Trace& b) {
+  return a.hash == b.hash && encode_header(a.header) == encode_header(b.header) &&
+         std::equal(a.samples.begin(), a.samples.end(), b.samples.begin(), b.samples.end(),
+                    [](const TraceSample& x, const TraceSample& y) { return encode_sample(x) == encode_sample(y); });
+}
+
+// Runs what is asked. False where it was refused, in one sentence.
+template <class Work>
+bool is_done(const Work& work) {
+  try {
+    work();
+    return true;
+  } catch (const FileError& refusal) {  // the only thing that it may throw
+    hold_sentence(refusal, the_trace().path().string() + ":");
+    return false;
+  }
+}
+
+void check_csv(const Trace& trace) {
+  const auto commas = [](const std::string& line) { return std::count(line.begin(), line.end(), ','); };
+  for (const TraceSample& sample : trace.samples) {
+    const std::string line = trace_csv_line(sample, trace.samples.front().deadline_ns);
+    hold(is_printable(line) && commas(line) == commas(trace_csv_header()), "a cycle is a line of the table");
+  }
+}
+
+void check_again(const Trace& trace) {
+  static FuzzedFile copy("copy.trace");
+  write_trace(copy.path(), trace.header, trace.samples);
+  hold(same(read_trace(copy.path()), trace), "a trace is written and read back the same");
+}
+
+void check_replay(const Trace& trace) {
+  Replayer replayer(trace.header, the_trace().path().string(), make_world);
+  for (const TraceSample& sample : trace.samples)
+    if (!replayer.step(sample)) break;
+  const ReplayResult result = replayer.finish(trace.hash);
+  hold(result.cycles <= trace.samples.size(), "no more cycles are run than there are");
+  hold(!result.first || !result.first->field.empty(), "a difference has a name");
+}
+
+void check_drive() {
+  const RecordedDrive drive(the_trace().path());
+  hold(!drive.samples().empty(), "a drive has a sample");
+  hold(drive.begin() <= drive.end(), "a drive ends after it began");
+  const auto falls = [](const DriveSample& a, const DriveSample& b) { return !(a.time() < b.time()); };
+  hold(std::adjacent_find(drive.samples().begin(), drive.samples().end(), falls) == drive.samples().end(),
+       "the times of a drive rise");
+}
+
+}  // namespace
+
+extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t size, std::size_t max_size,
+                                               unsigned seed) {
+  Random random(seed);
+  if (random() % 8 == 0) return LLVMFuzzerMutate(data, size, max_size);
+  const std::optional<Trace> trace = trace_in(text_of(data, size));
+  const std::string file = mutated(trace ? *trace : made_trace(random() % 2 == 0), random);
+  const std::size_t kept = std::min(file.size(), max_size);
+  std::memcpy(data, file.data(), kept);
+  return kept;
+}
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  the_trace().put(text_of(data, size));
+  Trace trace;
+  const bool is_whole = is_done([&] { trace = read_trace(the_trace().path()); });
+  is_done([&] {
+    const auto salvaged = TraceReader(the_trace().path(), TornTrace::salvage);
+    hold(!is_whole || salvaged.cycles() == trace.samples.size(), "a whole trace is salvaged whole");
+  });
+  is_done(check_drive);
+  if (!is_whole) return 0;
+  check_csv(trace);
+  check_again(trace);
+  is_done([&] { check_replay(trace); });
+  return 0;
+}
+// NOLINTEND(readability-identifier-naming)
