@@ -52,15 +52,17 @@ sys.exit(grown)
 END_OF_PYTHON
 }
 
-# A lesson that is over is begun again by Enter, as a person does it.
+# After a lesson Enter offers the next one, and then begins it, as a person does it.
 loop_sum() { sed -n "s/^loop: \([0-9]*\) deadlines missed, \([0-9]*\) cycles.*/\\$1/p" soak.txt | paste -sd+ | bc; }
 over() { grep -c ' is over: ' soak.txt; }
+drives() { [[ "$(grep "  lesson .* \(begins\|is over\|is offered\)" soak.txt | tail -n 1)" == *begins ]]; }
 show_for_a_moment() {
   xdotool windowmap "$window" windowfocus "$window"
-  sleep 2
-  [ "$(over)" -eq "$seen" ] || xdotool key Return
-  seen=$(over)
   sleep 1
+  for _ in 1 2; do
+    drives || xdotool key Return
+    sleep 1
+  done
   xdotool windowunmap "$window"
 }
 soak_in_window() {
@@ -70,12 +72,12 @@ soak_in_window() {
   [ "$life" -gt 900 ] || period=5
   check "it starts" start soak --hand "by itself" --lesson up_through_the_gears --no-help --silent
   process=$(pgrep -P "$trainer" -x gearshift)
-  began=$EPOCHREALTIME seen=0
+  began=$EPOCHREALTIME
   while alive && [ $SECONDS -lt $end ]; do
     show_for_a_moment
     sleep $((period - 3))
     missed=$(loop_sum 1) long=$(loop_sum 2)
-    sample window "$process" "$seen" "${missed:-0}" "${long:-0}"
+    sample window "$process" "$(over)" "${missed:-0}" "${long:-0}"
   done
   check "it is alive at the end" alive
   xdotool windowmap "$window" windowfocus "$window"
