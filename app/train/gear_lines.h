@@ -1,12 +1,15 @@
-// A line on stdout for each gear that came, each over-push and each change of the guard: for people and scripts that watch.
+// A line on stdout for each gear that came, each over-push, each change of the guard, and for a lever's whole time: for
+// people and scripts that watch.
 #pragma once
 
 #include <cstdio>
+#include <optional>
 #include <span>
 
 #include <fmt/core.h>
 
 #include "app/event_words.h"
+#include "app/trainer/trainer.h"
 #include "haptics/loop/haptic_snapshot.h"
 
 namespace gearshift {
@@ -20,6 +23,14 @@ inline void print_events(std::span<const HapticEvent> events, bool push_estimate
       fmt::print("{:8.3f} s  {}\n", 1e-9 * static_cast<double>(event.time_ns), event_words(event, push_estimated));
   }
   if (!events.empty()) std::fflush(stdout);
+}
+
+// How a lever kept its time from its first cycle to its last.
+inline void print_health(const std::optional<LoopHealth>& health) {
+  if (!health) return;
+  fmt::print("loop: {} deadlines missed, {} cycles too long, {} events lost, {}\n", health->skipped, health->overruns,
+             health->events_lost, health->realtime ? "real-time" : "not real-time");
+  std::fflush(stdout);
 }
 
 }  // namespace gearshift

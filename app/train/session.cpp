@@ -77,8 +77,9 @@ Session::Session(const SessionChoice& choice)
   else
     change_to(coach_.lesson() ? with_lesson(choice, *coach_.lesson()) : choice);
   if (const std::optional<std::string> problem = coach_.take_problem()) message_ = *problem;
-  const bool missed = choice.sound == SoundOutput::card && !sound_.why_silent().empty();
-  if (missed && message_.empty()) message_ = sound_.why_silent();
+  why_silent_ = sound_.why_silent();
+  const bool missed = choice.sound == SoundOutput::card && !why_silent_.empty();
+  if (missed && message_.empty()) message_ = why_silent_;
   panel_.gates = shipped_names("gates");
   panel_.presets = preset_names();
   panel_.cars = shipped_names("cars");
@@ -306,6 +307,14 @@ void Session::place() {
   if (!player_)
     for (const HapticEvent& event : events_) cabin_sound_.hear(event, knob);
   cabin_sound_.update(shown_, car_, ears_, knob, time_);
+  tell_sound();
+}
+
+// Lost and found again, each once.
+void Session::tell_sound() {
+  if (sound_.why_silent() == why_silent_) return;
+  why_silent_ = sound_.why_silent();
+  message_ = why_silent_.empty() ? "the sound is back" : why_silent_;
 }
 
 bool Session::take_new_trainer() {

@@ -111,6 +111,7 @@ class Session {
   void take_events();
   void take_cycles();
   void look();
+  void tell_sound();
   void save_preset(const std::string& name);
 
   // session_lessons.cpp
@@ -179,6 +180,7 @@ class Session {
   std::filesystem::path last_recording_;
   std::set<std::string> lesson_recordings_;  // files that lessons made by themselves
   std::string message_;
+  std::string why_silent_;       // in the frame before
   bool wants_forces_ = true;     // the last of arm, release and stop
   bool armed_now_ = false;       // by a person, in this frame
   bool stick_is_there_ = false;  // in the frame before

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <chrono>
 #include <thread>
+#include <utility>
 
 #include <fmt/core.h>
 
@@ -24,10 +25,12 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-constexpr double kOffscreenRate = 30.0;      // [1/s] frames of simulated time
-constexpr int kSettling = 3;                 // frames of a panel until each part has its height
-constexpr double kFastestFrame = 1.0 / 144;  // [s] where the display does not hold the frames back
-constexpr double kLongestFrame = 0.25;       // [s] a frame that took longer moves car and pedals on by this
+constexpr double kOffscreenRate = 30.0;         // [1/s] frames of simulated time
+constexpr int kSettling = 3;                    // frames of a panel until each part has its height
+constexpr double kFastestFrame = 1.0 / 144;     // [s] where the display does not hold the frames back
+constexpr double kLongestFrame = 0.25;          // [s] a frame that took longer moves car and pedals on by this
+constexpr std::chrono::seconds kViewRetry{1};   // between attempts to make a picture anew
+constexpr std::chrono::seconds kViewHolds{10};  // a picture that held so long is news when it is lost
 
 // What the panel leaves of a picture of that size.
 SeenPart seen_beside(const Panel& panel, glm::dvec2 size) {
@@ -78,6 +81,7 @@ class WindowTrainer {
   int finish() {
     tell_unkept(session_.settle());
     print_lines(lines_.news(session_.coach().view()), session_.lever_time());
+    print_health(health_);
     if (!session_.recording()) return 0;
     const bool whole = session_.end_recording();
     fmt::print(whole ? stdout : stderr, "{}{}\n", whole ? "" : "gearshift: ", session_.message());
@@ -92,6 +96,7 @@ class WindowTrainer {
     session_.advance(seconds_);
     print_events(session_.events(), !session_.trainer().device().measures_hand_force);
     print_lines(lines_.news(session_.coach().view()), session_.lever_time());
+    tell_message();
     draw_panel();
     look();
     session_.place();
@@ -127,9 +132,35 @@ class WindowTrainer {
       fresh_view_ = true;
     }
     if (headset_) tell_news(headset_->take_news());
-    if (wears() || view_) return;
-    view_ = desktop_view();
-    fresh_view_ = true;
+    if (!wears() && !view_) make_desktop_view();
+  }
+
+  // At once, but where the device is lost again and again.
+  void make_desktop_view() {
+    const Clock::time_point now = Clock::now();
+    if (now < next_view_) return;
+    next_view_ = now + kViewRetry;
+    try {
+      view_ = desktop_view();
+      fresh_view_ = true;
+    } catch (const GpuLost& lost) {
+      lose_view(lost);
+    }
+  }
+
+  void lose_view(const GpuLost& lost) {
+    view_.reset();
+    const Clock::time_point now = Clock::now();
+    if (now > view_quiet_until_)
+      fmt::print(stderr, "gearshift: {}; the picture is made anew, the lever goes on\n", lost.what());
+    view_quiet_until_ = now + kViewHolds;
+  }
+
+  // What the panel says, on stdout for who does not see it.
+  void tell_message() {
+    if (session_.message() == told_message_) return;
+    told_message_ = session_.message();
+    if (!told_message_.empty()) print_lines({printable(told_message_)}, session_.lever_time());
   }
 
   void tell_news(const std::string& news) {
@@ -189,6 +220,7 @@ class WindowTrainer {
   // Another gate, hand or device: the person's hand is where the lever is.
   void lead() {
     if (session_.take_new_trainer()) {
+      print_health(std::exchange(health_, std::nullopt));
       Trainer& trainer = session_.trainer();
       input_.set_reach(hand_reach(trainer.gate(), trainer.device()));
       input_.recentre(trainer.snapshot().lever);
@@ -287,7 +319,9 @@ class WindowTrainer {
     ui_.begin(
         {static_cast<float>(size.x), static_cast<float>(size.y), static_cast<float>(std::max(seconds_, 1e-4)), scale});
     session_.set_headset(wears() ? std::optional(headset_->report()) : std::nullopt);
-    const PanelRequests requests = panel_.draw(session_.panel_input());
+    const PanelInput& input = session_.panel_input();
+    health_ = input.health;
+    const PanelRequests requests = panel_.draw(input);
     ui_.end();
     help_ = panel_.shows_help();
     if (requests.reset_view) look_.recentre();
@@ -304,17 +338,14 @@ class WindowTrainer {
                      look_.pose());
       return;
     }
-    if (!view_) return;  // the headset was lost in this frame
+    if (!view_) return;  // headset or device was lost
     try {
       if (session_.take_new_model() || fresh_view_) view_->set_model(session_.stage().model());
       fresh_view_ = false;
       if (view_->begin())
         view_->draw(session_.stage().scene(), look_.pose(), look_.field(), seen_beside(panel_, panel_size()));
     } catch (const GpuLost& lost) {
-      fmt::print(stderr, "gearshift: {}; the picture is made anew, the lever goes on\n", lost.what());
-      view_.reset();
-      view_ = desktop_view();
-      fresh_view_ = true;
+      lose_view(lost);
     }
   }
 
@@ -338,6 +369,9 @@ class WindowTrainer {
   bool help_ = false;
   bool quit_ = false;
   bool fresh_view_ = true;
+  Clock::time_point next_view_{}, view_quiet_until_{};
+  std::optional<LoopHealth> health_;  // of the lever that runs, in the newest frame
+  std::string told_message_;
 };
 
 // A hand that drives a lesson by itself has nothing to do after it.
@@ -351,7 +385,12 @@ int train_in_window(const TrainSetup& setup) {
   std::optional<StopSignals> signals;
   if (setup.choice.stick) signals.emplace();
   WindowTrainer trainer(setup);
-  while (!trainer.done()) trainer.frame();
+  try {
+    while (!trainer.done()) trainer.frame();
+  } catch (...) {
+    (void)trainer.finish();
+    throw;
+  }
   return trainer.finish();
 }
 

@@ -11,7 +11,8 @@ end_all() {
 }
 trap end_all EXIT
 trap 'exit 1' HUP INT TERM
-timeout 290 Xvfb -displayfd 3 -screen 0 1280x720x24 -noreset 3>display 2>xvfb.err &
+life=${life:-290} # [s] of server and trainer at most
+timeout "$life" Xvfb -displayfd 3 -screen 0 1280x720x24 -noreset 3>display 2>xvfb.err &
 server=$!
 
 within() { # seconds, command ...: until it succeeds
@@ -32,7 +33,7 @@ size=640x400 # of the window
 launch() { # name of the result, arguments ...
   local name=$1
   shift
-  timeout 200 "${beneath[@]}" "$gearshift" train --size $size "$@" >"$name.txt" 2>"$name.err" &
+  timeout "$life" "${beneath[@]}" "$gearshift" train --size $size "$@" >"$name.txt" 2>"$name.err" &
   trainer=$!
   log=$name
   within 20 find_window

@@ -1,0 +1,127 @@
+#!/usr/bin/env bash
+# Hours of lessons in real time: the simulated learner at the lever, in the window as a person has it, which is hidden but
+# for some seconds a minute; or a week of simulated driving, headless. Memory, open files, threads and what the loop
+# missed go into a table; growth is the slope of its second half, less twice its standard error, and has a bound.
+# Usage: soak.sh GEARSHIFT SOURCE_FOLDER HOURS|week [CSV [HOURS_OF_WEEK]]: by hand, or in short by ./test --full
+set -u
+gearshift=$1 sources=$2 hours=$3 csv=$(realpath -m "${4:-soak.csv}") week=${5:-168}
+flows=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+[ "$hours" = week ] || life=$(awk "BEGIN {print int(3600 * $hours) + 300}")
+source "$flows/checks.sh"
+echo "what,seconds,rss_kb,files,threads,lessons,missed,too_long" >"$csv"
+
+sample() { # what, process, lessons, deadlines missed, cycles too long: a row
+  local of=/proc/$2 rss threads files
+  rss=$(sed -n 's/^VmRSS:[^0-9]*\([0-9]*\).*/\1/p' "$of/status" 2>/dev/null)
+  threads=$(sed -n 's/^Threads:[^0-9]*//p' "$of/status" 2>/dev/null)
+  files=$(ls "$of/fd" 2>/dev/null | wc -l)
+  [ -z "$rss" ] || [ -z "$threads" ] || echo "$1,$(bc <<<"$EPOCHREALTIME - $began"),$rss,$files,$threads,$3,$4,$5" >>"$csv"
+}
+
+# Of each process its second half: what it has learnt to need is not growth. 1 MB an hour is 24 in a day.
+grows_nowhere() { # kB an hour that are allowed
+  python3 - "$csv" "$1" <<'END_OF_PYTHON'
+import collections, csv, sys
+bound = {"rss_kb": float(sys.argv[2]), "files": 0.5, "threads": 0.5}  # an hour
+rows = collections.defaultdict(list)
+for row in csv.DictReader(open(sys.argv[1])):
+    rows[row["what"]].append(row)
+
+def slope(half, column):  # an hour, and its standard error
+    x = [float(row["seconds"]) / 3600 for row in half]
+    y = [float(row[column]) for row in half]
+    mx, my = sum(x) / len(x), sum(y) / len(y)
+    spread = sum((a - mx) ** 2 for a in x)
+    k = sum((a - mx) * (b - my) for a, b in zip(x, y)) / spread
+    rest = sum((b - my - k * (a - mx)) ** 2 for a, b in zip(x, y))
+    return k, (rest / (len(x) - 2) / spread) ** 0.5
+
+grown = False
+for what, all_rows in rows.items():
+    half = all_rows[len(all_rows) // 2:]
+    if len(half) < 4:
+        sys.exit(f"{what}: {len(all_rows)} samples are too few to judge")
+    words = []
+    for column, most in bound.items():
+        k, error = slope(half, column)
+        grown = grown or k - 2 * error > most
+        words.append(f"{column} {half[0][column]} to {half[-1][column]}, {k:+.1f} +- {error:.1f} an hour (bound {most:g})")
+    last = all_rows[-1]
+    print(f"{what}, {last['seconds']} s, {last['lessons']} lessons: " + "; ".join(words))
+sys.exit(grown)
+END_OF_PYTHON
+}
+
+# After a lesson Enter offers the next one, and then begins it, as a person does it.
+loop_sum() { sed -n "s/^loop: \([0-9]*\) deadlines missed, \([0-9]*\) cycles.*/\\$1/p" soak.txt | paste -sd+ | bc; }
+over() { grep -c ' is over: ' soak.txt; }
+drives() { [[ "$(grep "  lesson .* \(begins\|is over\|is offered\)" soak.txt | tail -n 1)" == *begins ]]; }
+show_for_a_moment() {
+  xdotool windowmap "$window" windowfocus "$window"
+  sleep 1
+  for _ in 1 2; do
+    drives || xdotool key Return
+    sleep 1
+  done
+  xdotool windowunmap "$window"
+}
+soak_in_window() {
+  source "$flows/window.sh"
+  unset GEARSHIFT_VALIDATION # its memory is not ours
+  local end=$((SECONDS + life - 300)) period=60 process missed long
+  [ "$life" -gt 900 ] || period=5
+  check "it starts" start soak --hand "by itself" --lesson up_through_the_gears --no-help --silent
+  process=$(pgrep -P "$trainer" -x gearshift)
+  began=$EPOCHREALTIME
+  while alive && [ $SECONDS -lt $end ]; do
+    show_for_a_moment
+    sleep $((period - 3))
+    missed=$(loop_sum 1) long=$(loop_sum 2)
+    sample window "$process" "$(over)" "${missed:-0}" "${long:-0}"
+  done
+  check "it is alive at the end" alive
+  xdotool windowmap "$window" windowfocus "$window"
+  check "its key ends it" ended_by End
+  check "nothing on stderr, got: $(head -n 3 soak.err)" [ ! -s soak.err ]
+  check "lessons were driven" [ "$(over)" -ge 1 ]
+  check "no event was lost" bash -c '! grep "^loop: " soak.txt | grep -qv ", 0 events lost"'
+  echo "$(over) lessons, $(loop_sum 1) deadlines missed, $(loop_sum 2) cycles too long"
+}
+
+# Each lesson by one process for its share of the week. Its last drive is that of a process that has just begun, word for
+# word: no error has come together meanwhile.
+drive_share() { # lesson
+  local lesson=$1 share=$((week * 3600 / 13)) seconds runs program
+  "$gearshift" lesson "$lesson" >first.txt
+  seconds=$(sed -n 's/.* in \([0-9]*\)\.[0-9] s\. .*/\1/p' first.txt | tail -n 1)
+  runs=$((share / seconds + 1))
+  "$gearshift" lesson "$lesson" --runs $runs --seed 1 >week.txt &
+  program=$!
+  while kill -0 $program 2>/dev/null; do
+    sample "$lesson" $program "$(grep -c ' in .* s\. ' week.txt)" 0 0
+    sleep "$pause"
+  done
+  wait $program
+  simulated=$(awk -v sum="$simulated" 'match($0, / in [0-9.]+ s\. /) {
+    split(substr($0, RSTART + 4), word, " "); sum += word[1] } END {printf "%.0f", sum}' week.txt)
+  driven=$((driven + runs))
+  "$gearshift" lesson "$lesson" --seed $runs | tail -n +2 >fresh.txt
+  check "$lesson: drive $runs is that of a process that has just begun" \
+    cmp -s <(tail -n "$(wc -l <fresh.txt)" week.txt) fresh.txt
+}
+soak_headless() {
+  local lesson simulated=0 driven=0 pause=2
+  [ "$week" -ge 24 ] || pause=0.2
+  began=$EPOCHREALTIME
+  for lesson in "$sources"/assets/lessons/*.toml; do drive_share "$(basename "$lesson" .toml)"; done
+  echo "$driven lessons, $((simulated / 3600)) h simulated in $(bc <<<"($EPOCHREALTIME - $began) / 1") s"
+}
+
+if [ "$hours" = week ]; then
+  soak_headless
+  check "memory, files and threads do not grow" grows_nowhere 20000
+else
+  soak_in_window
+  check "memory, files and threads do not grow" grows_nowhere 1000
+fi
+finish
