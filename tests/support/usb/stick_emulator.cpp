@@ -50,7 +50,7 @@ constexpr double kLongest = 5.0;       // [s] that it is watched after its end
 
 struct Options {
   std::string family = "sidewinder", tour;
-  std::vector<double> unplug_at, replug_at, stop_at, continue_at;
+  std::vector<double> unplug_at, replug_at;
   std::vector<std::string> faults, command;
   std::filesystem::path log, orders;
   bool own_power = false;
@@ -173,8 +173,6 @@ void Emulation::plan() {
   for (const std::string& fault : options_.faults) plan_fault(fault);
   for (const double at : options_.unplug_at) events_.push_back({at, "the unplug", [this] { plug(false); }});
   for (const double at : options_.replug_at) events_.push_back({at, "", [this] { plug(true); }});
-  for (const double at : options_.stop_at) events_.push_back({at, "the stop", [this] { kill(child_, SIGSTOP); }});
-  for (const double at : options_.continue_at) events_.push_back({at, "", [this] { kill(child_, SIGCONT); }});
   std::stable_sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) { return a.at < b.at; });
 }
 
@@ -309,8 +307,6 @@ int main(int count, char** arguments) {
   const auto each = [](CLI::Option* option) { option->allow_extra_args(false); };
   each(cli.add_option("--unplug-at", options.unplug_at, "[s] may be given again"));
   each(cli.add_option("--replug-at", options.replug_at, "[s]"));
-  each(cli.add_option("--stop-at", options.stop_at, "[s] SIGSTOP to the program"));
-  each(cli.add_option("--continue-at", options.continue_at, "[s] SIGCONT"));
   each(cli.add_option("--fault", options.faults, "NAME@S: from then on"));
   cli.add_flag("--own-power", options.own_power,
                "its motors are fed from the wall: unplugged, its effects go on to their end");
