@@ -36,7 +36,7 @@ constexpr const char* kCampaignFooter =
     "\n"
     "Exit code: 0 every law holds, 1 one is broken or the work failed, 2 bad usage.\n"
     "\n"
-    "  gearshift campaign --shifts 10000 --out look\n"
+    "  gearshift campaign --shifts 1000 --out look\n"
     "  gearshift campaign --case 42 --out look";
 
 struct CampaignArguments {

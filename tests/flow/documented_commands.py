@@ -46,6 +46,9 @@ ELSEWHERE = {
     r"gearshift bench --family learning": ("the same", "tests/app/learner/learner_model_test.cpp"),
     r"gearshift bench($| --family (jitter|beside|picture|quality|light))":
         ("takes minutes, and the machine for itself", "tests/bench/README.md"),
+    r"gearshift campaign --out \S+$": ("a million shifts", "tests/flow/campaign.sh"),
+    r"cmake --preset release && cmake --build": ("builds all of it anew", "tests/flow/deb_in_chroot.sh"),
+    r"cmake --install": ("installs what was built", "tests/flow/install.sh"),
     r"gearshift report .*--delete$": ("asks for the name", "tests/flow/report.sh"),
     r"blender ": ("Blender is not installed for the tests", "assets/models/build.py"),
     r"hid_descriptor_fuzz|gltf_fuzz": ("searches for ever", "tests/fuzz/CMakeLists.txt"),
