@@ -56,7 +56,7 @@ TEST_CASE("the builder's guide: 257 bytes are a lever of 16 bits and 8 buttons t
   CHECK(pid->set_effect.id == 2);
   CHECK(pid->set_effect.duration_unit == doctest::Approx(1e-3));
   CHECK(pid->set_effect.full_turn == doctest::Approx(36000.0));
-  for (const std::size_t control : {0, 1, 2, 3}) CHECK(pid->device_control.control.knows(control));
+  for (const std::size_t control : {0u, 1u, 2u, 3u}) CHECK(pid->device_control.control.knows(control));
   CHECK_FALSE(pid->create.exists());
 
   // By hand: ID 3, block 2, half of 32767 = 16384 (rounded) = 4000h.
