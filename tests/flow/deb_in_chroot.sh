@@ -9,7 +9,8 @@ set -u
 [ "$1" = --in-own-mounts ] || exec unshare --mount "$0" --in-own-mounts "$1"
 shift
 package=$(realpath "$1")
-source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
+flows=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
+source "$flows/checks.sh"
 root=$(mktemp -d -p /var/tmp)
 chmod 755 "$root"
 take_down() {
@@ -49,7 +50,7 @@ check "dpkg finds every file as it was packed" inside dpkg --verify gearshift
 as_user gearshift --version >version.txt
 check "a user asks for the version" grep -q "^gearshift $(dpkg-deb -f "$package" Version)$" version.txt
 check "no library is missing" lacks grep -q "not found" <(inside ldd /usr/bin/gearshift)
-check "no file of the build's machine is named in it" lacks grep -aqE "(/work/|/build/|/home/)[a-z]" "$root/usr/bin/gearshift"
+check "no file of the build's machine is named in it" lacks grep -aqF "$(cd "$flows/../.." && pwd)/" "$root/usr/bin/gearshift"
 demo() { as_user gearshift demo --out /tmp/demo >demo.txt 2>demo.err || { tail -n 2 demo.err; return 1; }; }
 check "and runs the demo" demo
 check "without a word on stderr" test ! -s demo.err
