@@ -15,6 +15,7 @@ namespace {
 using glm::dvec2;
 
 constexpr double kHold = 3.0;                              // [s] that a hold lasts
+constexpr double kStiffer = 0.15;                          // [s] that each feel_scale beyond 1 takes a hand at a spring
 constexpr std::uint64_t kScriptSeed = 0xd1b54a32d192ed03;  // apart from what the case draws
 
 // Writes the script, stroke by stroke.
@@ -114,6 +115,8 @@ void write_shifts(ScriptWriter& writer, const Gate& gate, const CampaignCase& dr
   ShiftStyle style;
   style.pace = drawn.manner.pace;
   style.dwell_gear = 0.3 + drawn.haptics.gear_debounce;
+  // Its effort has to grow beyond the aisle's spring before it can turn into a slot.
+  style.dwell_neutral += kStiffer * std::max(0.0, drawn.haptics.tuning.feel_scale - 1.0);
   bool clean = drawn.manner.aim_noise == 0.0 && drawn.manner.overshoot == 0.0;
   const bool is_steady = clean;
   for (const HandStroke& stroke : shift_strokes(gate, start, gears, style)) {
