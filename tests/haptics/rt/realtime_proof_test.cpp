@@ -1,10 +1,13 @@
 // The proof itself: it must catch what it is there to catch, and let the channels pass.
 #include "tests/support/realtime_proof.h"
 
+#include <malloc.h>
 #include <unistd.h>
 
 #include <cstdint>
 #include <cstdlib>
+#include <cstring>
+#include <fstream>
 #include <memory>
 #include <mutex>
 #include <shared_mutex>
@@ -13,6 +16,7 @@
 
 #include "haptics/rt/cycle_statistics.h"
 #include "haptics/rt/latest_value.h"
+#include "haptics/rt/realtime_thread.h"
 #include "haptics/rt/spsc_queue.h"
 
 namespace gearshift {
@@ -20,11 +24,39 @@ namespace {
 
 int* volatile kept = nullptr;  // the compiler must not leave the allocation out
 
+long resident_bytes() {
+  long pages = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> pages >> resident;
+  return resident * sysconf(_SC_PAGESIZE);
+}
+
+// [bytes] that stay of a block that is freed beneath one that is not.
+long kept_of(std::size_t bytes) {
+  const long before = resident_bytes();
+  void* const block = std::malloc(bytes);
+  std::memset(block, 1, bytes);
+  void* const above = std::malloc(100'000);
+  std::free(block);
+  const long kept_bytes = resident_bytes() - before;
+  std::free(above);
+  return kept_bytes;
+}
+
 struct Big {
   double value[64] = {};
 };
 
 }  // namespace
+
+TEST_CASE("beside a real-time thread a large block goes back to the system when it is freed") {
+  constexpr long kBlock = 20 << 20;
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // where malloc's own threshold goes with time
+  CHECK(kept_of(kBlock) > kBlock / 2);  // negative control
+  RealtimeThread thread;
+  thread.start({}, [](const CycleCall&) {});
+  thread.stop();
+  CHECK(kept_of(kBlock) < kBlock / 10);
+}
 
 TEST_CASE("real-time proof: arithmetic is clean") {
   double sum = 0.0;
