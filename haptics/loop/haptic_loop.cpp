@@ -70,6 +70,7 @@ HapticLoop::HapticLoop(const HapticConfig& config, const Gate& gate, HapticDevic
       admitted_(admit_tuning(config, device.spec(), gate)),
       gate_(gate),
       device_(device),
+      spec_(device.spec()),
       world_(world),
       channels_(channels),
       period_(period_s(config)),
@@ -91,7 +92,7 @@ AdmittedTuning HapticLoop::change_tuning(const HapticTuning& wanted) {
   HapticConfig config = config_;
   config.tuning = wanted;
   config.contact.hold = admitted_.hold;  // as it runs
-  AdmittedTuning admitted = admit_tuning(config, device_.spec(), gate_);
+  AdmittedTuning admitted = admit_tuning(config, spec_, gate_);
   if (admitted.hold != admitted_.hold) {
     throw std::invalid_argument("this tuning needs another hold than the one that runs: start the loop with it");
   }
@@ -199,9 +200,9 @@ void HapticLoop::limit_depth() noexcept {
 
 Coupled HapticLoop::couple_lever(std::int64_t skipped) noexcept {
   out_.wall_stiffness = tuning_.wall_stiffness * limiter_.share();
-  const double stiffness = loop_stiffness(tuning_, device_.spec()) * limiter_.share();
-  const double damping = tuning_.wall_damping - device_damping(tuning_, admitted_.hold, device_.spec());
-  const Coupling coupling{stiffness, damping, period_, device_.spec().delay, admitted_.hold};
+  const double stiffness = loop_stiffness(tuning_, spec_) * limiter_.share();
+  const double damping = tuning_.wall_damping - device_damping(tuning_, admitted_.hold, spec_);
+  const Coupling coupling{stiffness, damping, period_, spec_.delay, admitted_.hold};
   if (admitted_.hold != ContactHold::observer) return couple(coupling, gate_, passage_, proxy_, motion_);
   return couple(coupling, gate_, passage_, proxy_, observer_.update(motion_, out_.commanded, skipped));
 }
@@ -255,10 +256,10 @@ void HapticLoop::tell_walls(double ramp) noexcept {
   const double kept =
       own_walls_ > 0.0 ? std::min(1.0, tuning_.wall_stiffness / own_walls_) : 0.0;  // [1] if it is softer
   const double share = ramp * kept * limiter_.share();
-  const double damped = device_damping(tuning_, admitted_.hold, device_.spec());
+  const double damped = device_damping(tuning_, admitted_.hold, spec_);
   const double damping = damped > 0.0 ? ramp * damped / own_dampers_ : 0.0;
   if (share == 0.0 && damping == 0.0 && walls_.share == 0.0 && walls_.damping == 0.0) return;
-  const double ahead = period_ * (1.0 + device_.spec().delay);
+  const double ahead = period_ * (1.0 + spec_.delay);
   const Proxy then = move_proxy(gate_, passage_, proxy_, motion_.position + ahead * motion_.smooth_velocity, 0.0);
   const FreeSpan free = joined(free_span(gate_, passage_, proxy_.position), free_span(gate_, passage_, then.position));
   const LeverWalls walls{free.low, free.high, share, damping};
@@ -269,19 +270,20 @@ void HapticLoop::tell_walls(double ramp) noexcept {
 
 // What the device's springs make of such walls, where the lever is. [N]
 dvec2 HapticLoop::own_wall_force(const LeverWalls& walls) const noexcept {
+  if (walls.share == 0.0) return {0.0, 0.0};
   const dvec2 inside = glm::clamp(motion_.position, walls.low, walls.high);
-  return walls.share * device_.spec().own_stiffness * (inside - motion_.position);
+  return walls.share * spec_.own_stiffness * (inside - motion_.position);
 }
 
 // The wish is beyond the device: the loop's, or together with what the device makes by itself.
 bool HapticLoop::is_saturated(const GuardOutput& command) const noexcept {
-  const dvec2 all = glm::abs(command.force + own_wall_force(walls_)), most = device_.spec().max_force;
+  const dvec2 all = glm::abs(command.force + own_wall_force(walls_)), most = spec_.max_force;
   return command.saturated || all.x > most.x || all.y > most.y;
 }
 
 // Eq (4): f_j = f_h - f_a.
 void HapticLoop::account_force_flow(const GuardOutput& command) noexcept {
-  const bool is_measured = device_.spec().measures_hand_force && is_finite(reading_.hand_force);
+  const bool is_measured = spec_.measures_hand_force && is_finite(reading_.hand_force);
   if (is_finite(reading_.actuator_force)) out_.f_a = -reading_.actuator_force;
   out_.f_h = is_measured ? reading_.hand_force : estimated_push(command);
   out_.f_j = out_.f_h - out_.f_a;
@@ -299,13 +301,12 @@ void HapticLoop::account_force_flow(const GuardOutput& command) noexcept {
 // damping, its inertia left out. Beyond the motors' limit that says nothing, but the displacement does: the push is then
 // what the wall wanted to give back at this depth.
 dvec2 HapticLoop::estimated_push(const GuardOutput& command) const noexcept {
-  const DeviceSpec& spec = device_.spec();
-  dvec2 damping{spec.axis_x.damping, spec.axis_y.damping};
+  dvec2 damping{spec_.axis_x.damping, spec_.axis_y.damping};
   for (int i = 0; i < 2; ++i) {
     const bool in_wall = motion_.position[i] < walls_.low[i] || motion_.position[i] > walls_.high[i];
-    if (in_wall) damping[i] += walls_.damping * spec.own_damping[i];
+    if (in_wall) damping[i] += walls_.damping * spec_.own_damping[i];
   }
-  const dvec2 stiffness{spec.axis_x.stiffness, spec.axis_y.stiffness};
+  const dvec2 stiffness{spec_.axis_x.stiffness, spec_.axis_y.stiffness};
   const dvec2 held = is_saturated(command) ? -(wanted_force() + own_wall_force(walls_)) : out_.f_a;
   return held + damping * motion_.smooth_velocity + stiffness * motion_.position;
 }
@@ -330,7 +331,7 @@ void HapticLoop::watch_push() noexcept {
 // The hand gets less than it should: the wish is beyond the device, or the motors gave less than was commanded when
 // that force was due (overload).
 void HapticLoop::watch_saturation(const GuardOutput& command) noexcept {
-  const std::uint64_t age = 1 + static_cast<std::uint64_t>(device_.spec().delay);
+  const std::uint64_t age = 1 + static_cast<std::uint64_t>(spec_.delay);
   const Sent due = out_.cycle >= age ? sent_[(out_.cycle - age) % sent_.size()] : Sent{};
   const dvec2 expected = due.force + own_wall_force(due.walls);
   const double moves = own_walls_ * period_ * glm::length(motion_.velocity);  // [N] of that, over a period
@@ -369,12 +370,12 @@ void HapticLoop::watch_chatter() noexcept {
 void HapticLoop::watch_guard(std::int64_t skipped) noexcept {
   const bool has_changed = guard_.state() != out_.guard;
   const bool is_off = guard_.state() == GuardState::idle || guard_.state() == GuardState::released;
-  const bool is_faded = guard_.state() == GuardState::damped && !device_.spec().simulated &&
-                        out_.commanded == dvec2{0.0, 0.0} && !std::exchange(let_go_, true);
+  const bool is_faded = guard_.state() == GuardState::damped && !spec_.simulated && out_.commanded == dvec2{0.0, 0.0} &&
+                        !std::exchange(let_go_, true);
   if ((has_changed && is_off) || is_faded) device_.release();
   const bool is_healthy = motion_.fresh && skipped == 0 && !has_changed;
   healthy_ = is_healthy ? healthy_ + period_ : 0.0;
-  const bool may_rearm = device_.spec().simulated && guard_.fault() != GuardFault::chatter;
+  const bool may_rearm = spec_.simulated && guard_.fault() != GuardFault::chatter;
   if (guard_.state() == GuardState::damped && may_rearm && healthy_ > kRearmAfter) arm();
   if (guard_.state() != out_.guard) tell(EventKind::guard_changed, static_cast<double>(guard_.state()));
   out_.guard = guard_.state();

@@ -121,6 +121,7 @@ class HapticLoop {
   AdmittedTuning admitted_;
   Gate gate_;  // its own copy: read every cycle
   HapticDevice& device_;
+  const DeviceSpec& spec_;  // the device's, asked for once
   LeverWorld& world_;
   LoopChannels& channels_;
   double period_;                   // [s]
