@@ -19,6 +19,7 @@
 #include "app/verbs/campaign_words.h"
 #include "app/verbs/progress_bar.h"
 #include "app/verbs/verbs.h"
+#include "app/verbs/whole_number.h"
 #include "tests/bench/campaign/shift_campaign.h"
 
 namespace gearshift {
@@ -106,14 +107,18 @@ void add_campaign_verb(CLI::App& app, VerbAction& action) {
   verb->add_option("--shifts", arguments->plan.shifts, "that are tried at least")
       ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
       ->capture_default_str();
-  verb->add_option("--seed", arguments->plan.seed, "of the whole campaign")->capture_default_str();
+  verb->add_option("--seed", arguments->plan.seed, "of the whole campaign")
+      ->check(whole_number())
+      ->capture_default_str();
   verb->add_option("--out", arguments->plan.folder, "folder for what is done and what came of it")
       ->required()
       ->type_name("DIR");
   verb->add_option("--threads", arguments->plan.threads, "at a time; the result is the same with any number")
       ->check(CLI::Range(1, 256))
       ->capture_default_str();
-  verb->add_option("--case", arguments->number, "this one alone, recorded as DIR/case_K.trace")->type_name("K");
+  verb->add_option("--case", arguments->number, "this one alone, recorded as DIR/case_K.trace")
+      ->check(whole_number())
+      ->type_name("K");
   verb->callback([arguments, &action] { action = [arguments] { return run_campaign_verb(*arguments); }; });
 }
 

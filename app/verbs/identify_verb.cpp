@@ -14,6 +14,7 @@
 #include "app/verbs/number_between.h"
 #include "app/verbs/progress_bar.h"
 #include "app/verbs/verbs.h"
+#include "app/verbs/whole_number.h"
 
 namespace gearshift {
 namespace {
@@ -77,7 +78,7 @@ void add_identify_verb(CLI::App& app, VerbAction& action) {
   verb->add_option("--rate", arguments->rate, "rate of the cycle [Hz], else the preset's")
       ->check(number_between(100.0, 4000.0));
   verb->add_option("--seed", arguments->seed, "of the sensor's noise and the lever's errors, else the preset's")
-      ->check(number_between(0.0, 9007199254740992.0));
+      ->check(whole_number());
   verb->add_option("--out", arguments->folder, "folder for Bode plots and test points; made where missing")
       ->type_name("DIR");
   verb->add_flag("--json", arguments->json, "JSON on stdout");

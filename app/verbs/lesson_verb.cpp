@@ -14,6 +14,7 @@
 #include "app/verbs/lesson_trials.h"
 #include "app/verbs/number_between.h"
 #include "app/verbs/verbs.h"
+#include "app/verbs/whole_number.h"
 
 namespace gearshift {
 namespace {
@@ -121,7 +122,9 @@ void add_lesson_verb(CLI::App& app, VerbAction& action) {
       verb->add_option("--guidance", arguments->guidance, "strength of the teacher's hand; such a drive is not graded")
           ->check(number_between(0.0, 1.0))
           ->capture_default_str();
-  verb->add_option("--seed", arguments->seed, "of the learner; each next run has the next one")->capture_default_str();
+  verb->add_option("--seed", arguments->seed, "of the learner; each next run has the next one")
+      ->check(whole_number())
+      ->capture_default_str();
   CLI::Option* trace =
       verb->add_option("--trace", arguments->trace, "record the drive into this file")->type_name("FILE");
   CLI::Option* learner = verb->add_option("--learner", arguments->learner, "who drives: remembered and recorded")

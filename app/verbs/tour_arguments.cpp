@@ -6,6 +6,7 @@
 
 #include "app/assets_path.h"
 #include "app/verbs/number_between.h"
+#include "app/verbs/whole_number.h"
 #include "haptics/device/simulated_lever.h"
 #include "haptics/gate/gate_compiler.h"
 #include "haptics/joystick/kinematics.h"
@@ -21,12 +22,6 @@ void check_on_lever(const HandImpedance& hand) {
   config.hand = hand;
   RestingHand nobody;
   const SimulatedLever lever(config, kAnyPeriod, nobody);
-}
-
-// CLI alone takes -1, as 2^64 - 1.
-std::string refuse_no_seed(const std::string& text) {
-  const bool whole = !text.empty() && text.find_first_not_of("0123456789") == std::string::npos;
-  return whole ? std::string{} : fmt::format("\"{}\" is not a whole number from 0", text);
 }
 
 }  // namespace
@@ -74,7 +69,7 @@ void add_tour_options(CLI::App& verb, TourArguments& arguments) {
   verb.add_option("--rate", arguments.rate, "rate of the haptic cycle [Hz]; the preset's where none is given")
       ->check(number_between(100.0, 4000.0));
   verb.add_option("--seed", arguments.seed, "another seed, other aims of the same hand")
-      ->check(refuse_no_seed)
+      ->check(whole_number())
       ->capture_default_str();
 }
 

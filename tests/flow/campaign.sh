@@ -21,4 +21,10 @@ check "another campaign's folder is refused" [ $? -eq 1 ] && grep -q "another ca
 check "one case alone" "$gearshift" campaign --seed 11 --case 1 --out one
 check "its trace replays" sh -c '"$1" replay one/case_1.trace | grep -q "^bit for bit"' sh "$gearshift"
 
+for number in -1 99999999999999999999 1.5; do
+  for option in --case --seed; do
+    "$gearshift" campaign $option $number --out bad >out 2>err
+    check "$option $number is refused in a sentence" [ $? -eq 2 ] && [ "$(wc -l <err)" = 1 ] && [ ! -e bad ]
+  done
+done
 finish

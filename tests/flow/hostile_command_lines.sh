@@ -93,6 +93,9 @@ refuse 2 "damping = 20000" tour --out t --hand 1,20000,300
 refuse 2 "stiffness = 2000000" tour --out t --hand 1,1,2000000
 refuse 2 "--seed" tour --out t --seed -1
 refuse 2 "--seed" tour --out t --seed 1.5
+refuse 2 "--seed" lesson moving_off --seed -1
+refuse 2 "--seed" lesson moving_off --seed 99999999999999999999
+refuse 2 "--seed" identify --seed -1
 refuse 2 "--hand" tour --out t --hand fist --gate spaceship
 refuse 1 "nameless.toml" tour --out t --gate nameless.toml
 refuse 1 "two_lines.toml" tour --out t --gate two_lines.toml
