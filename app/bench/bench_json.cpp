@@ -48,7 +48,7 @@ Json row_json(const BenchRow& row) {
   add_spread(json, row.spread);
   if (row.goal) json["goal"] = *row.goal;
   if (row.goal) json["goal_is"] = row.at_least ? "at least" : "at most";
-  if (row.goal && row.measured) json["met"] = meets_goal(row);
+  if (row.goal && row.measured) json["verdict"] = verdict_words(row);
   if (row.design != Design::none) json["design"] = design_name(row.design);
   for (const Beside& more : row.beside) json["beside"].push_back(figure_json(more));
   if (row.trade) json["trade"] = trade_json(*row.trade);

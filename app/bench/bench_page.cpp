@@ -18,6 +18,7 @@ th { vertical-align: bottom; }
 .number { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 .soft { color: #6b7785; }
 .met { color: #2e7d4f; font-weight: bold; white-space: nowrap; }
+.open { color: #9a6700; font-weight: bold; white-space: nowrap; }
 .missed { color: #c5303b; font-weight: bold; white-space: nowrap; }
 .changed { background: #fdf3e1; }
 table.figures td:first-child { min-width: 15rem; }
@@ -62,10 +63,17 @@ std::string facts(const BenchRun& run) {
 }
 
 std::string verdict_cell(const BenchRow& row) {
-  const std::string_view words = verdict_words(row);
-  if (words.empty()) return "<td></td>";
-  return fmt::format("<td class=\"{}\">{}</td>", meets_goal(row) ? "met" : "missed",
-                     meets_goal(row) ? "met" : "not met");
+  switch (verdict_of(row)) {
+    case Verdict::none:
+      return "<td></td>";
+    case Verdict::met:
+      return "<td class=\"met\">met</td>";
+    case Verdict::open:
+      return "<td class=\"open\" title=\"its quartiles lie on both sides of the goal\">open</td>";
+    case Verdict::missed:
+      return "<td class=\"missed\">not met</td>";
+  }
+  return {};
 }
 
 std::string figure_words(const BenchRow& row) {
@@ -176,6 +184,32 @@ std::string family_section(const std::string& family, const BenchRun& run) {
   return text + "</tbody>\n</table>\n</section>\n";
 }
 
+std::size_t count_of(const BenchRun& run, Verdict verdict) {
+  return static_cast<std::size_t>(std::count_if(run.rows.begin(), run.rows.end(), [&](const MeasuredRow& measured) {
+    return verdict_of(measured.row) == verdict;
+  }));
+}
+
+// What a reader wants to know first: how many goals are met, and which are not.
+std::string summary(const BenchRun& run) {
+  const std::size_t met = count_of(run, Verdict::met), open = count_of(run, Verdict::open);
+  const std::size_t goals = met + open + count_of(run, Verdict::missed);
+  if (goals == 0) return {};
+  std::string text = fmt::format("<p id=\"summary\"><b>{} of {} goals are met</b>", met, goals);
+  if (open > 0) text += fmt::format(", {} open: quartiles on both sides of the goal", open);
+  text += met == goals ? ".</p>\n" : ":</p>\n<table class=\"figures\">\n<tbody>\n";
+  if (met == goals) return text;
+  for (const MeasuredRow& measured : run.rows) {
+    const BenchRow& row = measured.row;
+    const Verdict verdict = verdict_of(row);
+    if (verdict != Verdict::missed && verdict != Verdict::open) continue;
+    text += fmt::format("<tr><td><a href=\"#family-{0}\">{0}</a>: {1}</td>{2}{3}{4}</tr>\n", html_text(row.family),
+                        html_text(row.name), number_cell(figure_words(row)), number_cell(goal_words(row)),
+                        verdict_cell(row));
+  }
+  return text + "</tbody>\n</table>\n";
+}
+
 std::string contents(const BenchRun& run) {
   std::string links;
   for (const std::string& family : families_of(run))
@@ -191,7 +225,7 @@ std::string bench_page(const BenchRun& run) {
       "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n<title>Speed against error</title>\n"
       "<style>{}{}</style>\n</head>\n<body>\n<h1>Speed against error</h1>\n",
       html_style(), kBenchStyle);
-  page += facts(run) + contents(run) + design_section(run) + changes_section(run) + trades_section(run);
+  page += facts(run) + contents(run) + summary(run) + trades_section(run) + design_section(run) + changes_section(run);
   for (const std::string& family : families_of(run)) page += family_section(family, run);
   return page + "</body>\n</html>\n";
 }

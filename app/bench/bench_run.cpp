@@ -1,6 +1,7 @@
 #include "app/bench/bench_run.h"
 
 #include <cmath>
+#include <cstddef>
 
 #include <fmt/format.h>
 
@@ -14,9 +15,15 @@ std::string goal_words(const BenchRow& row) {
   return row.goal ? fmt::format("{} {:g}", row.at_least ? ">=" : "<=", *row.goal) : "";
 }
 
+Verdict verdict_of(const BenchRow& row) noexcept {
+  if (!row.goal || !row.measured) return Verdict::none;
+  if (row.spread && row.spread->low < *row.goal && row.spread->high > *row.goal) return Verdict::open;
+  return meets_goal(row) ? Verdict::met : Verdict::missed;
+}
+
 std::string_view verdict_words(const BenchRow& row) {
-  if (!row.goal || !row.measured) return "";
-  return meets_goal(row) ? "met" : "NOT MET";
+  static constexpr std::string_view kWords[] = {"", "met", "open", "NOT MET"};
+  return kWords[static_cast<std::size_t>(verdict_of(row))];
 }
 
 std::string spread_words(const std::optional<Quartiles>& spread) {

@@ -36,9 +36,13 @@ struct BenchRun {
   std::vector<MeasuredRow> rows;
 };
 
+// Open: the goal lies between the quartiles, so that the next run may say otherwise.
+enum class Verdict { none, met, open, missed };  // none: no goal, or not measured
+Verdict verdict_of(const BenchRow& row) noexcept;
+
 std::string value_words(double value);                             // four digits
 std::string goal_words(const BenchRow& row);                       // "<= 0.1"; empty without a goal
-std::string_view verdict_words(const BenchRow& row);               // "met", "NOT MET"; empty without a goal
+std::string_view verdict_words(const BenchRow& row);               // "met", "open", "NOT MET"; empty without a goal
 std::string spread_words(const std::optional<Quartiles>& spread);  // "180 to 195"; empty without
 std::string since_words(const std::optional<SinceLast>& since);    // "1.03 x", " *" behind what changed
 std::string since_words(const MeasuredRow& measured);              // of the value, and of the cost where there is one

@@ -78,14 +78,14 @@ TEST_CASE("JSON: every field comes back; what was not measured is null and neith
   const auto& row = json["rows"][0];
   CHECK(row["value"] == 0.125);
   CHECK(row["quartiles"] == nlohmann::json{0.1, 0.2});
-  CHECK(row["met"] == true);
+  CHECK(row["verdict"] == "met");
   CHECK(row["design"] == "plant");
   CHECK(row["trade"]["chosen"] == true);
   CHECK(row["trade"]["cost"]["value"] == 3.0);
   CHECK(row["last"]["ratio"] == 0.25);
   CHECK(row["last"]["changed"] == true);
   CHECK(json["rows"][1]["value"].is_null());
-  CHECK_FALSE(json["rows"][1].contains("met"));
+  CHECK_FALSE(json["rows"][1].contains("verdict"));
 }
 
 TEST_CASE("JSON: what is not finite is null, and the file stays JSON") {
@@ -112,4 +112,19 @@ TEST_CASE("a goal is met at its very figure, from either side") {
   row.at_least = true;
   CHECK(verdict_words(row) == "met");
   CHECK(goal_words(row) == ">= 1");
+}
+
+TEST_CASE("a goal between the quartiles is open, whatever the median says; at a quartile it is not") {
+  BenchRow row = plain_row("walk", "a", 1.0);
+  row.goal = 1.1;
+  row.spread = Quartiles{0.9, 1.2};
+  CHECK(verdict_words(row) == "open");
+  row.value = 1.15;
+  CHECK(verdict_words(row) == "open");
+  row.spread = Quartiles{0.9, 1.1};
+  row.value = 1.0;
+  CHECK(verdict_words(row) == "met");
+  row.spread = Quartiles{1.15, 1.2};
+  row.value = 1.18;
+  CHECK(verdict_words(row) == "NOT MET");
 }
