@@ -1,6 +1,6 @@
 #include "app/headset/seat.h"
 
-#include <Eigen/Dense>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -30,6 +30,10 @@ EyePose placed(double turn, glm::dvec3 room, glm::dvec3 cabin) {
   return {cabin - orientation * room, orientation};
 }
 
+Eigen::Matrix3d rotation(const glm::dquat& held) {
+  return Eigen::Quaterniond(held.w, held.x, held.y, held.z).toRotationMatrix();
+}
+
 }  // namespace
 
 void check_knob(const KnobDistance& knob, DriveSide drive) {
@@ -54,24 +58,27 @@ EyePose seat_at_lever(const EyePose& head, const SeatPlaces& places, const KnobD
 // turn is linear in e, and its least RMS over all directions the least singular value (pivot calibration).
 double LeverTouches::tip_share() const {
   if (touches_.size() < 3) return 0.0;
-  const auto count = static_cast<Eigen::Index>(touches_.size());
+  const double count = static_cast<double>(touches_.size());
   glm::dvec3 middle(0.0);
-  for (const Touch& touch : touches_) middle += touch.cabin / static_cast<double>(count);
-  Eigen::MatrixXd left(3 * count, 3);
-  Eigen::VectorXd turn(3 * count);
   Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
-  for (Eigen::Index i = 0; i < count; ++i) {
-    const Touch& touch = touches_[static_cast<std::size_t>(i)];
-    const glm::dvec3 along = glm::cross(kUp, touch.cabin - middle);
-    turn.segment<3>(3 * i) << along.x, along.y, along.z;
-    const Eigen::Quaterniond held(touch.held.w, touch.held.x, touch.held.y, touch.held.z);
-    left.block<3, 3>(3 * i, 0) = held.toRotationMatrix();
-    mean += held.toRotationMatrix() / static_cast<double>(count);
+  for (const Touch& touch : touches_) {
+    middle += touch.cabin / count;
+    mean += rotation(touch.held) / count;
   }
-  for (Eigen::Index i = 0; i < count; ++i) left.block<3, 3>(3 * i, 0) -= mean;
-  if (turn.squaredNorm() > 0.0) left -= turn * (turn.transpose() * left) / turn.squaredNorm();
-  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> squares(left.transpose() * left, Eigen::EigenvaluesOnly);
-  return std::sqrt(std::max(0.0, squares.eigenvalues()[0]) / static_cast<double>(count));
+  Eigen::Matrix3d squares = Eigen::Matrix3d::Zero();
+  Eigen::Vector3d by_turn = Eigen::Vector3d::Zero();
+  double turn_squares = 0.0;
+  for (const Touch& touch : touches_) {
+    const glm::dvec3 along = glm::cross(kUp, touch.cabin - middle);
+    const Eigen::Vector3d turn(along.x, along.y, along.z);
+    const Eigen::Matrix3d left = rotation(touch.held) - mean;
+    squares += left.transpose() * left;
+    by_turn += left.transpose() * turn;
+    turn_squares += turn.squaredNorm();
+  }
+  if (turn_squares > 0.0) squares -= by_turn * by_turn.transpose() / turn_squares;
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(squares, Eigen::EigenvaluesOnly);
+  return std::sqrt(std::max(0.0, solver.eigenvalues()[0]) / count);
 }
 
 // Turned by a about y, (x, z) becomes (x cos a + z sin a, z cos a - x sin a): the sum of squares is least where the sum of

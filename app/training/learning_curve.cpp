@@ -1,9 +1,16 @@
 #include "app/training/learning_curve.h"
 
-#include <Eigen/Dense>
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <functional>
+#include <numeric>
+#include <vector>
+
+#include <glm/mat2x2.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec3.hpp>
 
 namespace gearshift {
 namespace {
@@ -15,29 +22,41 @@ constexpr int kGrid = 200;
 constexpr double kNoGain = 1e-6;         // [1] rounding
 constexpr double kNarrowEnough = 1e-10;  // [1] relative
 
-using Pair = Eigen::Vector2d;
-
 struct LinearFit {
-  Pair level_and_gain;
+  double level = 0.0, gain = 0.0;
   double square = 0.0;  // sum of squared residuals
   bool at_bound = false;
 };
 
+double mean(std::span<const double> values) {
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+// Sum of products, each value less its offset.
+double products(std::span<const double> a, double a_offset, std::span<const double> b, double b_offset) {
+  return std::transform_reduce(a.begin(), a.end(), b.begin(), 0.0, std::plus<>(),
+                               [&](double x, double y) { return (x - a_offset) * (y - b_offset); });
+}
+
 // For one rate the rest is linear (variable projection), and the squares are convex in the level: where the best one is
 // out of bounds, the best within is the nearer bound, with the gain that suits it.
 LinearFit fit_for(std::span<const double> grades, double trials, const LevelBounds& bounds) {
-  const auto count = static_cast<Eigen::Index>(grades.size());
-  Eigen::MatrixX2d shape(count, 2);
-  for (Eigen::Index n = 0; n < count; ++n) shape.row(n) << 1.0, std::exp(-static_cast<double>(n) / trials);
-  const Eigen::Map<const Eigen::VectorXd> seen(grades.data(), count);
-  Pair found = shape.householderQr().solve(seen);
-  const bool at_bound = found[0] < bounds.lowest || found[0] > bounds.highest;
-  if (at_bound) {
-    const auto decay = shape.col(1);
-    found[0] = std::clamp(found[0], bounds.lowest, bounds.highest);
-    found[1] = decay.dot(seen - found[0] * shape.col(0)) / decay.squaredNorm();
+  std::vector<double> decay(grades.size());
+  for (std::size_t n = 0; n < decay.size(); ++n) decay[n] = std::exp(-static_cast<double>(n) / trials);
+  const double middle = mean(decay), grade = mean(grades);
+  LinearFit fit;
+  fit.gain = products(decay, middle, grades, grade) / products(decay, middle, decay, middle);
+  fit.level = grade - fit.gain * middle;
+  fit.at_bound = fit.level < bounds.lowest || fit.level > bounds.highest;
+  if (fit.at_bound) {
+    fit.level = std::clamp(fit.level, bounds.lowest, bounds.highest);
+    fit.gain = products(decay, 0.0, grades, fit.level) / products(decay, 0.0, decay, 0.0);
   }
-  return {found, (shape * found - seen).squaredNorm(), at_bound};
+  for (std::size_t n = 0; n < decay.size(); ++n) {
+    const double residual = fit.level + fit.gain * decay[n] - grades[n];
+    fit.square += residual * residual;
+  }
+  return fit;
 }
 
 // Of log(trials), between two neighbours of the best of a grid: golden section.
@@ -72,23 +91,23 @@ std::optional<double> trials_of(std::span<const double> grades, const LevelBound
   return std::exp(narrowed(grades, bounds, fastest + step * (best - 1), fastest + step * (best + 1)));
 }
 
-// Covariance of level, gain, trials: noise^2 (J^T J)^-1. A level that is held has none.
-Eigen::Matrix3d covariance(const LearningCurve& curve, std::size_t count) {
-  Eigen::Matrix3d information = Eigen::Matrix3d::Zero();
+// Variances of level, gain, trials: the diagonal of noise^2 (J^T J)^-1. A level that is held has none.
+glm::dvec3 variances(const LearningCurve& curve, std::size_t count) {
+  glm::dmat3 information(0.0);
   const double trials = curve.trials.value;
   for (std::size_t i = 0; i < count; ++i) {
     const double n = static_cast<double>(i), decay = std::exp(-n / trials);
-    const Eigen::Vector3d slope(1.0, decay, curve.gain.value * decay * n / (trials * trials));
-    information += slope * slope.transpose();
+    const glm::dvec3 slope(1.0, decay, curve.gain.value * decay * n / (trials * trials));
+    information += glm::outerProduct(slope, slope);
   }
-  Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
+  const double square = curve.noise * curve.noise;
   if (curve.at_bound) {
-    const Eigen::Matrix2d free = information.bottomRightCorner<2, 2>();
-    spread.bottomRightCorner<2, 2>() = free.inverse();
-  } else {
-    spread = information.inverse();
+    const glm::dmat2 free =
+        glm::inverse(glm::dmat2(information[1][1], information[1][2], information[2][1], information[2][2]));
+    return square * glm::dvec3(0.0, free[0][0], free[1][1]);
   }
-  return curve.noise * curve.noise * spread;
+  const glm::dmat3 spread = glm::inverse(information);
+  return square * glm::dvec3(spread[0][0], spread[1][1], spread[2][2]);
 }
 
 }  // namespace
@@ -104,15 +123,15 @@ std::optional<LearningCurve> fit_learning_curve(std::span<const double> grades, 
   const std::optional<double> trials = trials_of(grades, bounds);
   if (!trials) return std::nullopt;
   const LinearFit fit = fit_for(grades, *trials, bounds);
-  LearningCurve curve{{fit.level_and_gain[0]}, {fit.level_and_gain[1]}, {*trials}};
+  LearningCurve curve{{fit.level}, {fit.gain}, {*trials}};
   curve.at_bound = fit.at_bound;
   const double free = fit.at_bound ? 2.0 : 3.0;
   curve.noise = std::sqrt(fit.square / (static_cast<double>(grades.size()) - free));
-  const Eigen::Matrix3d spread = covariance(curve, grades.size());
-  if (!spread.allFinite()) return std::nullopt;
-  curve.level.deviation = std::sqrt(std::max(0.0, spread(0, 0)));
-  curve.gain.deviation = std::sqrt(std::max(0.0, spread(1, 1)));
-  curve.trials.deviation = std::sqrt(std::max(0.0, spread(2, 2)));
+  const glm::dvec3 variance = variances(curve, grades.size());
+  if (!std::isfinite(variance.x + variance.y + variance.z)) return std::nullopt;
+  curve.level.deviation = std::sqrt(std::max(0.0, variance.x));
+  curve.gain.deviation = std::sqrt(std::max(0.0, variance.y));
+  curve.trials.deviation = std::sqrt(std::max(0.0, variance.z));
   if (std::abs(curve.gain.value) <= 2.0 * curve.gain.deviation + kNoGain) return std::nullopt;
   return curve;
 }
