@@ -1,4 +1,7 @@
+#include <algorithm>
 #include <fstream>
+#include <sstream>
+#include <vector>
 
 #include <fmt/core.h>
 
@@ -12,6 +15,7 @@ namespace gearshift {
 namespace {
 
 constexpr const char* kWalls = "gate_walls.dat";
+constexpr const char* kTable = "tour.csv";
 // Of two curves: the hand's lever and select are red, the drawn lever and shift are blue.
 constexpr const char* kRed = kLockoutColour;
 constexpr const char* kBlue = kGearColour;
@@ -37,7 +41,29 @@ std::string gear_labels(const Gate& gate) {
   return labels;
 }
 
-std::string trajectory_commands(const TourSetup& setup) {
+// Two columns of tour.csv for gnuplot's plot. It converts every cell of a line that it is given, and is given no others.
+class Curves {
+ public:
+  explicit Curves(const std::filesystem::path& folder) {
+    std::ifstream in(folder / kTable);
+    std::string line, name;
+    std::getline(in, line);
+    for (std::istringstream header(line); std::getline(header, name, ',');) names_.push_back(name);
+  }
+
+  std::string operator()(std::string_view x, std::string_view y) const {
+    return fmt::format(R"("< cut -d, -f{},{} {}" using "{}":"{}" with lines)", column(x), column(y), kTable, x, y);
+  }
+
+ private:
+  std::ptrdiff_t column(std::string_view name) const {
+    return std::find(names_.begin(), names_.end(), name) - names_.begin() + 1;
+  }
+
+  std::vector<std::string> names_;
+};
+
+std::string trajectory_commands(const TourSetup& setup, const Curves& curve) {
   return fmt::format(
       R"gp(set datafile separator comma
 set xlabel "select x [mm]"
@@ -47,11 +73,12 @@ set offsets 2, 2, 6, 6
 set key horizontal center tmargin
 set grid linecolor "{grid}"
 {labels}plot "{walls}" using 1:2 with lines linewidth 5 linecolor "{wall}" title "walls", \
-  "tour.csv" using "lever_x_mm":"lever_y_mm" with lines linewidth 1.2 linecolor "{red}" title "hand's lever point", \
-  "tour.csv" using "proxy_x_mm":"proxy_y_mm" with lines linewidth 1.2 linecolor "{blue}" title "drawn lever (proxy)"
+  {hand} linewidth 1.2 linecolor "{red}" title "hand's lever point", \
+  {drawn} linewidth 1.2 linecolor "{blue}" title "drawn lever (proxy)"
 )gp",
       fmt::arg("grid", kAisleShade), fmt::arg("labels", gear_labels(setup.gate)), fmt::arg("walls", kWalls),
-      fmt::arg("wall", kGridInk), fmt::arg("red", kRed), fmt::arg("blue", kBlue));
+      fmt::arg("wall", kGridInk), fmt::arg("red", kRed), fmt::arg("blue", kBlue),
+      fmt::arg("hand", curve("lever_x_mm", "lever_y_mm")), fmt::arg("drawn", curve("proxy_x_mm", "proxy_y_mm")));
 }
 
 // A dashed line with the gear's name in every panel where it was engaged.
@@ -69,16 +96,16 @@ std::string gear_marks(const TourResult& result, bool named) {
 
 // One panel of force.png: both axes of a quantity over time. Of what was 0 all the while gnuplot would complain: points
 // that are not seen give it a height.
-std::string panel(const char* label, const char* x, const char* y, double width) {
+std::string panel(const Curves& curve, const char* label, const char* x, const char* y, double width) {
   return fmt::format(R"gp(set ylabel "{}"
 plot sample [-1:1] "+" using (0):1 with points pointsize 0 notitle, \
-  "tour.csv" using "time_s":"{}" with lines linewidth {} linecolor "{}" title "select x", \
-  "tour.csv" using "time_s":"{}" with lines linewidth {} linecolor "{}" title "shift y"
+  {} linewidth {} linecolor "{}" title "select x", \
+  {} linewidth {} linecolor "{}" title "shift y"
 )gp",
-                     label, x, width, kRed, y, width, kBlue);
+                     label, curve("time_s", x), width, kRed, curve("time_s", y), width, kBlue);
 }
 
-std::string force_commands(const TourResult& result) {
+std::string force_commands(const TourResult& result, const Curves& curve) {
   return fmt::format(R"gp(set datafile separator comma
 set multiplot layout 3,1 margins 0.08, 0.86, 0.07, 0.95 spacing 0.04
 set grid linecolor "{}"
@@ -90,17 +117,19 @@ set xlabel "time [s]"
 {}unset multiplot
 )gp",
                      kAisleShade, result.duration, gear_marks(result, true),
-                     panel("position [mm]", "lever_x_mm", "lever_y_mm", 1.3), gear_marks(result, false),
-                     panel("hand f_h [N]", "f_h_x_n", "f_h_y_n", 1.0),
-                     panel("commanded [N]", "commanded_x_n", "commanded_y_n", 1.0));
+                     panel(curve, "position [mm]", "lever_x_mm", "lever_y_mm", 1.3), gear_marks(result, false),
+                     panel(curve, "hand f_h [N]", "f_h_x_n", "f_h_y_n", 1.0),
+                     panel(curve, "commanded [N]", "commanded_x_n", "commanded_y_n", 1.0));
 }
 
 }  // namespace
 
 void draw_tour(const TourSetup& setup, const TourResult& result, const TourProgress& progress) {
   write_walls(setup.folder / kWalls, setup.gate);
-  draw_figure(setup.folder, {"trajectory", 900, 820, trajectory_commands(setup)}, [&] { progress("figures", 0.0); });
-  draw_figure(setup.folder, {"force", 1100, 900, force_commands(result)}, [&] { progress("figures", 0.5); });
+  const Curves curve(setup.folder);
+  draw_figure(setup.folder, {"trajectory", 900, 820, trajectory_commands(setup, curve)},
+              [&] { progress("figures", 0.0); });
+  draw_figure(setup.folder, {"force", 1100, 900, force_commands(result, curve)}, [&] { progress("figures", 0.5); });
 }
 
 }  // namespace gearshift

@@ -63,7 +63,7 @@ std::vector<BenchRow> bench_contact(const BenchOptions& options) {
                               {1000, 3, .12, .3},        {1000, 4, .12, .3},        {500, 1, .12, .3},
                               {200, 0, .12, .3},         {100, 0, .12, .3}};
   constexpr double kPlaces = 17.0;
-  const int runs = options.quick ? 10 : 400;
+  const int runs = options.quick ? 6 : 400;
   std::vector<BenchRow> rows;
   double done = 0.0;
   for (const Setting& at : settings) {
@@ -81,7 +81,7 @@ std::vector<BenchRow> bench_contact(const BenchOptions& options) {
   // The same wall forced on a device that does not bear it: what the reversal limiter finds by itself.
   for (const Setting& at : {Setting{100, 0, .3, .3}, Setting{200, 0, .3, .3}, Setting{1000, 3, .3, .3}}) {
     if (options.progress) options.progress("contact", done++ / kPlaces);
-    Campaign campaign = push_of_20(at, options.quick ? 4 : 100);
+    Campaign campaign = push_of_20(at, options.quick ? 2 : 100);
     campaign.contact.haptics.contact.study = true;
     campaign.contact.haptics.contact.hold = ContactHold::half_sample;
     campaign.contact.duration = 4.0;

@@ -34,7 +34,7 @@ BenchRow spring_row(const std::string& at, ContactCase contact, EnergyControl co
 }  // namespace
 
 std::vector<BenchRow> bench_energy(const BenchOptions& options) {
-  const int phases = options.quick ? 20 : 400;
+  const int phases = options.quick ? 10 : 400;
   std::vector<BenchRow> rows;
   for (const double rate : {2000.0, 1000.0, 500.0}) {
     if (options.progress) options.progress("energy", static_cast<double>(rows.size()) / 15.0);
@@ -62,7 +62,7 @@ std::vector<BenchRow> bench_energy(const BenchOptions& options) {
     ContactCase contact;
     contact.haptics.rate = rate;
     contact.lever.delay = delay;
-    const ImpactEnergy energy = run_impacts(contact, options.quick ? 20 : 200);
+    const ImpactEnergy energy = run_impacts(contact, options.quick ? 10 : 200);
     rows.push_back(
         {"energy",
          "made by the wall, worst impact, " + std::to_string(static_cast<int>(rate)) + " Hz, delay " +

@@ -13,12 +13,11 @@ flows=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 source "$flows/checks.sh"
 root=$(mktemp -d -p /var/tmp)
 chmod 755 "$root"
-take_down() {
+end_all() {
   local place
   for place in proc sys dev; do umount -R "$root/$place" 2>/dev/null; done
-  rm -rf --one-file-system "$root" "$work"
+  rm -rf --one-file-system "$root"
 }
-trap take_down EXIT
 
 inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive "$@"; }
 as_user() { inside setpriv --reuid=1000 --regid=1000 --clear-groups env HOME=/home/user LANG=C.UTF-8 "$@"; }

@@ -8,10 +8,11 @@ unset DISPLAY WAYLAND_DISPLAY
 export GEARSHIFT_VALIDATION=1 XDG_CACHE_HOME=$work/cache XDG_RUNTIME_DIR=$work/runtime XDG_DATA_HOME=$work/data
 mkdir -m 700 runtime
 
+size=192x108
 demo() { # name of the result, arguments ...
   local name=$1
   shift
-  "$gearshift" demo --out "$name" --size 320x180 "$@" >"$name.txt" 2>"$name.err"
+  "$gearshift" demo --out "$name" --size $size "$@" >"$name.txt" 2>"$name.err"
 }
 same() { cmp -s "$1" "$2"; }
 shown_files_exist() {
@@ -68,7 +69,8 @@ fi
 check "and it says so" grep -q "^No display" stale.txt
 different() { ! same "$1" "$2"; }
 check "first and fifth gear do not look the same" different one/gear_1.png one/gear_5.png
-check "another gate, stereo and a film" demo film --gate six_speed_r_left_up --stereo --film 1 --samples 1
+size=64x36
+check "another gate, stereo and a film" demo film --gate six_speed_r_left_up --stereo --film 0.1 --samples 1
 check "the film has frames" is_png film/film/00003.png
 
 refused() { # sentence, arguments ...

@@ -8,7 +8,8 @@ in their order in one empty folder, with a home of their own, beside what make_f
 itself has in fenced blocks with a file's name (```toml my.toml). Words in capitals get a value from VALUES. Exit code
 0 is expected, or what the comment behind the command says: "# exits 1"; and what it says in words must be printed: #
 says "may not". What wants a person, a headset, a stick or many minutes stands in ELSEWHERE, with the reason and what
-shows it instead: its verb and options must exist all the same. Ranges and defaults in the tuning guide are compared
+shows it instead: its verb and options must exist all the same. What is only long stands in LONG, and is run by
+./test --full. Ranges and defaults in the tuning guide are compared
 with the program's, too.
 """
 import concurrent.futures
@@ -17,6 +18,7 @@ import pathlib
 import re
 import shlex
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
@@ -57,6 +59,13 @@ ELSEWHERE = {
     r"umockdev-wrapper ": ("an emulated stick in real time", "tests/flow/sticks.sh"),
     r"sudo ": ("changes the machine", "assets/udev/70-gearshift.rules"),
 }
+
+LONG = {
+    r"gearshift bench --(quick|out bench)$": ("all families", "tests/flow/bench.sh"),
+    r"gearshift campaign --shifts 1000 ": ("shorter there", "tests/flow/campaign.sh"),
+}
+if not os.environ.get("GEARSHIFT_FULL"):
+    ELSEWHERE |= LONG
 
 
 class Command:
@@ -156,8 +165,16 @@ class Runner:
         return env
 
     def shell(self, text, folder):
-        return subprocess.run(["bash", "-c", text], cwd=folder, env=self.environment(folder), text=True,
-                              stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, timeout=120)
+        process = subprocess.Popen(["bash", "-c", text], cwd=folder, env=self.environment(folder), text=True,
+                                   stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                                   start_new_session=True)
+        try:
+            printed, _ = process.communicate(timeout=120)
+        except subprocess.TimeoutExpired:
+            os.killpg(process.pid, signal.SIGKILL)  # bash and what it has started
+            process.communicate()
+            raise
+        return subprocess.CompletedProcess(text, process.returncode, printed)
 
     def make_fixtures(self):
         folder = self.work / "fixtures"

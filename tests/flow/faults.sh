@@ -159,6 +159,7 @@ else
   echo "skipped: no disk may be mounted"
 fi
 XDG_CONFIG_HOME=$work/config
+[ "$has_mounts" = no ] || umount small home
 
 whole && check "a day of lessons: nothing grows" "$flows/soak.sh" "$gearshift" "$2" week "$work/day.csv" 24
 finish

@@ -6,7 +6,7 @@ set -u
 gearshift=$1
 source=$2
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
-unset DISPLAY WAYLAND_DISPLAY XDG_DATA_HOME XDG_CONFIG_HOME XDG_CACHE_HOME XDG_RUNTIME_DIR LC_ALL
+unset DISPLAY WAYLAND_DISPLAY XDG_DATA_HOME XDG_CONFIG_HOME XDG_CACHE_HOME XDG_RUNTIME_DIR LC_ALL MESA_SHADER_CACHE_DIR
 
 # Of a user whom the system does not know, too: where this is root, without root's right to write everywhere. Not as
 # nobody, who may not enter a clone in root's home.

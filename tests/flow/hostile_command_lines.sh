@@ -4,17 +4,13 @@
 set -u
 gearshift=$1
 source=$2
-work=$(mktemp -d)
-trap 'rm -rf "$work"' EXIT
-cd "$work" || exit 1
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 printf 'name = "x"\n' >nameless.toml
 { printf 'name = """two\nlines"""\n'; grep -v '^name' "$source/assets/gates/paper.toml"; } >two_lines.toml
 head -c 64 /dev/zero >zeros.trace
 printf '\x89GSTRC\r\n\xff\xff\xff\xff' >newer.trace
 mkdir folder
 touch empty
-failed=0
-passed=0
 
 refuse() { # exit code, part of the sentence, arguments ...
   local code=$1 part=$2
@@ -138,5 +134,4 @@ refuse 1 "/nowhere/x.csv" bench --family plant --csv /nowhere/x.csv
 for left in t; do
   [ -e "$left" ] && { echo "FAILED: $left was left behind"; failed=$((failed + 1)); }
 done
-echo "$passed passed, $failed failed"
-[ $failed -eq 0 ]
+finish

@@ -20,9 +20,10 @@ gears = {gear["name"]: gear for gear in json.load(sys.stdin)["gears"]}
 x, y = gears["1"]["rest_mm"]
 print(round(x), round(y * 1.1))')
 
+size=320x200 # a picture that comes soon reads a key soon
 check "it starts with the lesson's goal" start drive --lesson moving_off --learner Ada --mode follow-me --no-help --no-panel
 check "and tells it" wait_for "lesson moving_off is offered: Move off smoothly"
-xdotool windowfocus "$window" mousemove --window "$window" 320 100 click 1
+xdotool windowfocus "$window" mousemove --window "$window" 160 50 click 1
 sleep 2 # until the mouse leads: nothing tells of it
 check "the key begins it" press_for Return "lesson moving_off begins" 1
 down a

@@ -8,9 +8,10 @@ flows=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 source "$flows/checks.sh"
 source "$flows/window.sh"
 
+size=320x200 # a picture that comes soon reads the mouse soon
 check "it starts" start drive --car none --gate paper --hand grip --no-panel
 check "its window is there" [ -n "$window" ]
-xdotool windowfocus "$window" mousemove --window "$window" 320 200 click 1
+xdotool windowfocus "$window" mousemove --window "$window" 160 100 click 1
 sleep 2 # until the mouse leads: nothing tells of it
 while read -r gear x y; do
   check "gear $gear by the mouse" shift_to "$gear" "$x" "$y"
@@ -21,7 +22,7 @@ for gear in "12345R":
     x, y = gears[gear]["rest_mm"]
     print(gear, round(x), round(y * 1.1))')
 check "in that order" [ "$(awk '/engaged/ && $3 != "N" {print $3}' drive.txt | tr '\n' ' ')" = "1 2 3 4 5 R " ]
-import -window root drive.png
+import -window "$window" drive.png
 check "the window shows a picture" [ "$(convert drive.png -resize 64x40 -format %k info:)" -gt 500 ]
 
 key Escape
@@ -73,7 +74,7 @@ check "its key ends it" ended_by End
 check "and it is told that it was left" said "lesson moving_off is over: not graded.*was left"
 
 check "a lesson in memory" "$gearshift" train --offscreen memory --hand "by itself" --lesson moving_off --seconds 60 \
-  --no-help --silent >memory.txt
+  --size 64x36 --no-help --silent >memory.txt
 for words in "lesson moving_off begins" "step 6 of 6" "lesson moving_off is over: grade .*, passed"; do
   check "tells: $words" grep -q "$words" memory.txt
 done

@@ -5,12 +5,7 @@ mkdir -m 700 runtime
 
 # Ended from outside, too, it leaves nothing running; where it cannot end them itself, their time is up soon.
 trainer= server=
-end_all() {
-  kill $trainer $server 2>/dev/null
-  rm -rf "$work"
-}
-trap end_all EXIT
-trap 'exit 1' HUP INT TERM
+end_all() { kill $trainer $server 2>/dev/null; }
 life=${life:-290} # [s] of server and trainer at most
 timeout "$life" Xvfb -displayfd 3 -screen 0 1280x720x24 -noreset 3>display 2>xvfb.err &
 server=$!

@@ -11,6 +11,7 @@
 #include "app/training/grade.h"
 #include "app/training/suggest.h"
 #include "tests/app/learner/lessons.h"
+#include "tests/support/whole_campaign.h"
 
 using namespace gearshift;
 
@@ -85,7 +86,7 @@ TEST_CASE(
     const Lesson lesson = shipped_drive(key).lesson;
     CHECK_FALSE(lesson.catches.empty());
     for (const FaultKind kind : lesson.catches) {
-      for (const std::uint64_t seed : {1u, 2u}) {
+      for (std::uint64_t seed = 1; seed <= (is_whole_campaign() ? 2u : 1u); ++seed) {
         const LessonResult result = drive_with(key, kind, seed);
         CAPTURE(key);
         CAPTURE(fault_key(kind));
@@ -112,7 +113,7 @@ TEST_CASE("each shipped lesson claims to catch what is written here") {
 
 TEST_CASE("each shipped lesson is passed with the best grade, prompted, by who reads each prompt before he obeys it") {
   for (const std::string_view key : kTeachingOrder) {
-    for (std::uint64_t seed = 1; seed <= 2; ++seed) {
+    for (std::uint64_t seed = 1; seed <= (is_whole_campaign() ? 2u : 1u); ++seed) {
       LessonDriveConfig config = shipped_drive(key, seed);
       config.mode = LessonMode::follow_me;
       config.skill.reading = 1.05 - config.skill.reaction;  // together as people have it: Green 2000
@@ -128,8 +129,10 @@ TEST_CASE("each shipped lesson is passed with the best grade, prompted, by who r
 }
 
 TEST_CASE("what a shipped lesson counts is named and costs points") {
+  std::size_t counted = 0;
   for (const std::string_view key : kTeachingOrder) {
     for (const FaultKind kind : shipped_drive(key).lesson.counts) {
+      if (!is_whole_campaign() && counted++ % 3 != 0) continue;
       const LessonResult result = drive_with(key, kind, 1);
       CAPTURE(key);
       CAPTURE(fault_key(kind));
@@ -143,7 +146,7 @@ TEST_CASE("what a shipped lesson counts is named and costs points") {
 TEST_CASE(
     "each shipped lesson is passed by a practised learner without a fault, prompted or by himself, by every seed") {
   for (const std::string_view key : kTeachingOrder) {
-    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+    for (std::uint64_t seed = 1; seed <= (is_whole_campaign() ? 4u : 2u); ++seed) {
       LessonDriveConfig config = shipped_drive(key, seed);
       config.mode = seed % 2 == 0 ? LessonMode::by_yourself : LessonMode::follow_me;
       const LessonResult result = drive_lesson(config);
@@ -180,7 +183,8 @@ TEST_CASE("who is practised waits for the ring with the left foot: no clutch too
   std::vector<Drive> drives{{"skip_shifts", 0.071, 16457714044703236328u},  // these three did
                             {"rev_matching", 0.137, 17042378558995876589u},
                             {"another_gate", 0.131, 14678223327695899131u}};
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) drives.push_back({"skip_shifts", 0.15, seed});
+  const std::uint64_t seeds = is_whole_campaign() ? 20 : 8;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) drives.push_back({"skip_shifts", 0.15, seed});
   for (const Drive& drive : drives) {
     LessonDriveConfig config = shipped_drive(drive.lesson, drive.seed);
     config.skill = skill_of(drive.error);
@@ -196,8 +200,9 @@ TEST_CASE("who is practised waits for the ring with the left foot: no clutch too
 }
 
 TEST_CASE("a clutch that comes up between the ring and the dogs grinds a sound box too, and is named as the cause") {
-  int ground = 0;
-  for (std::uint64_t seed = 1; seed <= 60; ++seed) {
+  const std::uint64_t seeds = is_whole_campaign() ? 60 : 24;
+  std::uint64_t ground = 0;
+  for (std::uint64_t seed = 1; seed <= seeds; ++seed) {
     LessonDriveConfig config = shipped_drive("skip_shifts", seed);
     config.skill = skill_of(0.9);
     bool grinds = false;
@@ -210,7 +215,8 @@ TEST_CASE("a clutch that comes up between the ring and the dogs grinds a sound b
     CHECK((names(result, FaultKind::clutch_early) || names(result, FaultKind::clutch_late)));
   }
   CHECK(ground > 0);
-  CHECK(ground < 15);
+  MESSAGE(ground << " of " << seeds);
+  CHECK(ground < seeds / 4);
 }
 
 TEST_CASE("the other car is driven by the same learner, in its own gate") {

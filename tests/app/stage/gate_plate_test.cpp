@@ -13,6 +13,7 @@
 #include "haptics/gate/gate_description.h"
 #include "tests/support/gates.h"
 #include "tests/support/random_layout.h"
+#include "tests/support/whole_campaign.h"
 
 namespace gearshift {
 namespace {
@@ -109,13 +110,14 @@ glm::dvec2 random_point(const Gate& gate, std::mt19937_64& dice) {
 TEST_CASE("the lever's rod meets the plate's metal exactly where the gate has a wall, but for rounded corners") {
   // 0.2 mm at the knob is at least 0.1 mm on the plate: more than a cell of the grid cuts off a corner.
   constexpr double kMargin = 0.0002;
+  const int share = is_whole_campaign() ? 1 : 4;
   int checked = 0, free = 0, rounded = 0;
   for (const NamedGate& named : all_gates()) {
     const bool shipped = named.name.rfind("random", 0) != 0;
     const GatePlate plate = make_gate_plate(named.gate, kYoke);
     const std::vector<Flat> metal = metal_seen_from_pivot(plate.metal);
     std::mt19937_64 dice(7);
-    for (int i = 0; i < (shipped ? 2000 : 200); ++i) {
+    for (int i = 0; i < (shipped ? 2000 : 200) / share; ++i) {
       const glm::dvec2 p = random_point(named.gate, dice);
       const bool surely_free = in_free_space(named.gate, p, -kMargin);
       const bool surely_wall = !in_free_space(named.gate, p, kMargin);
@@ -133,9 +135,9 @@ TEST_CASE("the lever's rod meets the plate's metal exactly where the gate has a 
       free += surely_free ? 1 : 0;
     }
   }
-  CHECK(checked > 15000);
-  CHECK(free > 4000);
-  CHECK(checked - free > 4000);
+  CHECK(checked > 15000 / share);
+  CHECK(free > 4000 / share);
+  CHECK(checked - free > 4000 / share);
   CHECK(rounded < checked / 50);
 }
 
@@ -202,7 +204,9 @@ TEST_CASE("every gear's sign stands on the plate at the end of its slot, on meta
     CHECK(plate.half.x < 0.064);  // it stands on its plinth
     CHECK(plate.half.y < 0.068);
     CHECK(distance_to_metal(metal, plate.lamp) == 0.0);
+    std::size_t counted = 0;
     for (const Vertex& v : plate.ink.vertices) {
+      if (counted++ % 4 != 0 && !is_whole_campaign()) continue;
       if (distance_to_metal(metal, {v.position.x, -v.position.z}) > 0.0) {
         CHECK(distance_to_metal(metal, {v.position.x, -v.position.z}) == 0.0);
       }

@@ -6,6 +6,7 @@
 
 #include "tests/app/vehicle/cars.h"
 #include "tests/bench/driveline/methods.h"
+#include "tests/support/whole_campaign.h"
 
 using namespace gearshift;
 
@@ -59,7 +60,9 @@ TEST_CASE("every hard drive follows the reference: at 1 ms to 0.01 rad/s and 0.0
 
 // Two methods that share no event logic agree: the reference is no image of the driveline.
 TEST_CASE("impulses without any event come to the reference as the step shrinks") {
+  int counted = 0;
   for (const Drive& drive : all_drives()) {
+    if (counted++ % 3 != 0 && !is_whole_campaign()) continue;
     CAPTURE(drive.name);
     const DriveOutcome should = reference_of(drive);
     const auto error = [&](double step) {

@@ -14,6 +14,7 @@
 
 #include "haptics/gate/gate_feel.h"
 #include "tests/support/gates.h"
+#include "tests/support/whole_campaign.h"
 
 using namespace gearshift;
 using glm::dvec2;
@@ -171,7 +172,7 @@ TEST_CASE("kinematic closed paths give back at most 1e-9 J of position-only work
     const Gate gate = shipped_gate(name);
     std::mt19937_64 random(5);
     const double scale = std::min(1.0, kStiffness / stiffest_feel(gate));
-    for (int trial = 0; trial < 12; ++trial) {
+    for (int trial = 0; trial < (is_whole_campaign() ? 12 : 3); ++trial) {
       CAPTURE(trial);
       const ClosedPath path(random);
       const int steps = 1'500'000;

@@ -18,6 +18,7 @@
 #include "tests/support/gates.h"
 #include "tests/support/hands.h"
 #include "tests/support/random_layout.h"
+#include "tests/support/whole_campaign.h"
 
 using namespace gearshift;
 using glm::dvec2;
@@ -225,7 +226,7 @@ TEST_CASE("the span always holds the drawn lever, and a free lever hardly feels 
   for (const int delay : {0, 3, 8}) {
     double strongest = 0.0;     // [N] of the device's walls on a lever that touches none
     double acceleration = 0.0;  // [m/s^2] of any
-    for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    for (std::uint64_t seed = 1; seed <= (is_whole_campaign() ? 20u : 5u); ++seed) {
       CAPTURE(delay);
       CAPTURE(seed);
       WanderingHand hand(seed);
@@ -254,7 +255,7 @@ TEST_CASE("the span always holds the drawn lever, and a free lever hardly feels 
 TEST_CASE("no hand is thrown where walls change: no faster than at a lever without delay and without such walls") {
   const auto fastest = [](double own, int delay, const HandImpedance& hand) {
     double most = 0.0;
-    for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    for (std::uint64_t seed = 1; seed <= (is_whole_campaign() ? 8u : 3u); ++seed) {
       WanderingHand wanders(seed);
       Rig rig(lever_of(own, delay, hand), wanders);
       rig.loop.arm();
