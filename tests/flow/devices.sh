@@ -3,6 +3,7 @@
 # tour, taken away by kill -9; one that may not be used, and none at all.
 # Usage: devices.sh GEARSHIFT SOURCE_FOLDER STICK_EMULATOR
 set -u
+needs_machine=yes
 source "$(dirname "${BASH_SOURCE[0]}")/sticks.sh"
 all_known
 

@@ -4,6 +4,7 @@
 # is preloaded; the disk is a small one of its own.
 # Usage: faults.sh GEARSHIFT SOURCE_FOLDER PRELOADED_FAULTS
 set -u
+needs_machine=yes
 gearshift=$1 preloaded=$3
 # Root's own disks are mounted where nobody else sees them; where that may not be, these faults are left out.
 has_mounts=${GEARSHIFT_OWN_MOUNTS:-}

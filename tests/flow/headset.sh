@@ -4,6 +4,7 @@
 # The headset is the OpenXR test runtime with a script for each run.
 # Usage: headset.sh GEARSHIFT SOURCE_FOLDER MANIFEST
 set -u
+needs_machine=yes
 gearshift=$1
 manifest=$3
 flows=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)

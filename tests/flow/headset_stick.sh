@@ -5,6 +5,7 @@
 # The stick is emulated beneath the real libusb, the headset is the OpenXR test runtime.
 # Usage: headset_stick.sh GEARSHIFT SOURCE_FOLDER STICK_EMULATOR MANIFEST
 set -u
+needs_machine=yes
 manifest=$4
 flows=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 source "$flows/sticks.sh"

@@ -3,6 +3,7 @@
 # learner, headless; both are in the report.
 # Usage: lesson_in_window.sh GEARSHIFT SOURCE_FOLDER
 set -u
+needs_machine=yes
 gearshift=$1
 flows=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 source "$flows/checks.sh"

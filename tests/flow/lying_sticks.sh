@@ -4,6 +4,7 @@
 # drive so far is kept.
 # Usage: lying_sticks.sh GEARSHIFT SOURCE_FOLDER STICK_EMULATOR
 set -u
+needs_machine=yes
 source "$(dirname "${BASH_SOURCE[0]}")/sticks.sh"
 all_known whole
 enters=1

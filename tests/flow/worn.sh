@@ -26,7 +26,7 @@ begin() { # what, command ...: without it there is nothing to wait for
   alive && return
   cat "$log.err"
   finish
-  exit 1
+  exit $?
 }
 # As within, while the trainer is there.
 is_so_or_gone() { "$@" || is_gone; }
