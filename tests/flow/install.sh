@@ -7,7 +7,7 @@ source=$2
 build=$3
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 export XDG_DATA_HOME=$work/data XDG_CACHE_HOME=$work/cache
-unset DISPLAY WAYLAND_DISPLAY DESTDIR
+unset DISPLAY WAYLAND_DISPLAY DESTDIR MESA_SHADER_CACHE_DIR # which is in the folder that is hidden
 lacks() { ! "$@"; }
 
 check "it is installed" cmake --install "$build" --prefix "$work/erste Größe" --strip >install.txt
