@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kTurn = 4.0;          // [counts] back from an extreme: more than the encoder makes by itself
 constexpr double kLeastStep = 20e-6;   // [m] taken for a count where the encoder is finer
-constexpr double kWithin = 0.2;        // [s] that the reversals fall into: 12.5 Hz
+constexpr double kWithin = 0.25;       // [s] that the reversals fall into
 constexpr double kPause = 0.5;         // [s] without chatter: it had calmed
 constexpr double kLower = 0.75;        // [1] of the stiffness, each time
 constexpr double kFloor = 0.3;         // [1] of m / tau^2, tau = (delay + 1) T

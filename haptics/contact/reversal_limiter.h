@@ -1,7 +1,6 @@
 // Softens a wall on which the lever chatters: what no model foresaw is seen in the motion.
 //
-// A hand does not reverse a lever six times in a fifth of a second, however it trembles (8 to 12 Hz; Elble 2003);
-// a wall that is too stiff for its device does.
+// A hand does not reverse a lever six times in a quarter of a second; a wall that is too stiff for its device does.
 // Each time, a quarter of the wall's stiffness is taken, down to 0.3 m / tau^2, which would hold if mass and delay were
 // what the device says. Where it chatters on all the same they are not: then half of it, and again, until it is still.
 // It stays there until the loop is armed anew or the wall is tuned. A bounce that dies away by itself takes little or
