@@ -282,29 +282,27 @@ for name in :memory: file:name.db?mode=memory; do
   check "$name: Kim is in it" report --learner Kim --database "$name"
 done
 
-# Held for longer than anybody waits, which takes its time: seen to at the end.
-learn held_on hill_start --learner Kim --database held_on.db
-python3 -c '
-import sqlite3, time
-held = sqlite3.connect("held_on.db", isolation_level=None)
+# Another program holds a history, which has a run of Kim's: $holder.
+hold() { # name, for so long [s]
+  learn "$1" hill_start --learner Kim --database "$1.db"
+  python3 -c '
+import sqlite3, sys, time
+held = sqlite3.connect(sys.argv[1], isolation_level=None)
 held.execute("BEGIN IMMEDIATE")
 print("held", flush=True)
-time.sleep(60)' >held_on.out &
-holder_on=$!
-until grep -qs held held_on.out; do sleep 0.05; done
+time.sleep(float(sys.argv[2]))' "$1.db" "$2" >"$1.out" &
+  holder=$!
+  until grep -qs held "$1.out"; do sleep 0.05; done
+}
+
+# For longer than anybody waits, which takes its time: seen to at the end.
+hold held_on 60
+holder_on=$holder
 learn held_on hill_start --learner Kim --database held_on.db &
 held_on=$!
 
-# Held by another program for all of the lesson, and released a second after its end.
-learn held hill_start --learner Kim --database held.db
-python3 -c '
-import os, sqlite3, sys, time
-held = sqlite3.connect("held.db", isolation_level=None)
-held.execute("BEGIN IMMEDIATE")
-print("held", flush=True)
-time.sleep(5)' >held.out &
-holder=$!
-until grep -qs held held.out; do sleep 0.05; done
+# For all of the lesson, and released a second after its end.
+hold held 5
 check "held by another program: passed" learn held hill_start --learner Kim --database held.db
 wait $holder
 check "held: told, and nothing is lost, got: $(cat held.err)" test "$(wc -l <held.err)" -eq 1
