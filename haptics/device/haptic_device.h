@@ -65,7 +65,7 @@ inline double own_wall_damping(const DeviceSpec& spec) noexcept {
 class HapticDevice {
  public:
   virtual ~HapticDevice() = default;
-  virtual const DeviceSpec& spec() const noexcept = 0;
+  virtual const DeviceSpec& spec() const noexcept = 0;  // one and the same for as long as the device lives
 
   // Newest sample. now_ns is the deadline of this cycle on the loop's clock; it never waits. Real-time safe.
   virtual LeverReading read(std::int64_t now_ns) noexcept = 0;

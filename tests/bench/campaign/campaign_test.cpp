@@ -228,6 +228,12 @@ TEST_CASE("planted: a gear that toggles while nothing moves") {
   CHECK(book.seen(CampaignLaw::gear_holds).broken());
 }
 
+TEST_CASE("a hand has the time that its effort takes to grow beyond an aisle's spring of four times its force") {
+  const CampaignCase drawn = drawn_case(1, 6714, static_cast<int>(layouts().size()));
+  REQUIRE(drawn.haptics.tuning.feel_scale > 3.5);
+  CHECK_FALSE(broken(run_case(drawn, layouts()), CampaignLaw::reached));
+}
+
 TEST_CASE("planted: a lever that is stuck misses the gears that are cleanly aimed at") {
   CampaignCase drawn = plain_case(4);
   CHECK_FALSE(broken(run_case(drawn, layouts()), CampaignLaw::reached));
