@@ -3,11 +3,8 @@
 #include <cstdint>
 #include <cstdio>
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <optional>
-#include <set>
-#include <stdexcept>
 #include <string>
 #include <thread>
 #include <vector>
@@ -16,16 +13,17 @@
 
 #include "app/assets_path.h"
 #include "app/output_folder.h"
+#include "app/program_name.h"
 #include "app/verbs/campaign_words.h"
 #include "app/verbs/progress_bar.h"
 #include "app/verbs/verbs.h"
 #include "app/verbs/whole_number.h"
+#include "app/version/version_text.h"
+#include "haptics/files/part_file.h"
 #include "tests/bench/campaign/shift_campaign.h"
 
 namespace gearshift {
 namespace {
-
-constexpr std::size_t kMostTraces = 100;  // of failed cases
 
 constexpr const char* kCampaignFooter =
     "A case is a random gate, hand, rate, delay, jitter, encoder and tuning, drawn from seed and number; the loop's "
@@ -33,7 +31,7 @@ constexpr const char* kCampaignFooter =
     "checks limit or refuse it. Some dozens of shifts are driven, and every law is looked at in every cycle.\n"
     "\n"
     "The folder keeps what is done (cases.csv): stopped, the same command goes on where it was. At the end it has\n"
-    "summary.json, and failures/SEED.trace of each failed case, for gearshift replay.\n"
+    "summary.json, and failures/SEED.trace of each failed case (100 at most), for gearshift replay.\n"
     "\n"
     "Exit code: 0 every law holds, 1 one is broken or the work failed, 2 bad usage.\n"
     "\n"
@@ -55,38 +53,18 @@ int run_one_case(const CampaignArguments& arguments, const std::vector<GateLayou
   return outcome.laws.any_broken() ? 1 : 0;
 }
 
-// Run again, recorded.
-void keep_failures(const CampaignPlan& plan, const CampaignSummary& summary, const std::vector<GateLayout>& shipped,
-                   ProgressBar& bar) {
-  std::set<std::uint64_t> cases;
-  for (const LawBroken& one : summary.broken) cases.insert(one.number);
-  if (cases.empty()) return;
-  make_folder(plan.folder / "failures");
-  std::size_t kept = 0;
-  for (const std::uint64_t number : cases) {
-    if (kept++ == kMostTraces) return;
-    const CampaignCase drawn = drawn_case(plan.seed, number, static_cast<int>(shipped.size()));
-    run_case(drawn, shipped, plan.folder / "failures" / fmt::format("{:016x}.trace", drawn.seed));
-    bar.show("traces", static_cast<double>(kept) / static_cast<double>(cases.size()));
-  }
-}
-
-void write_json(const std::filesystem::path& file, const CampaignSummary& summary) {
-  std::ofstream out(file);
-  out << campaign_json(summary);
-  out.close();
-  if (!out) throw std::runtime_error(file.string() + ": cannot be written");
-}
-
-int run_cases(const CampaignPlan& plan, const std::vector<GateLayout>& shipped) {
+int run_cases(CampaignPlan plan, const std::vector<GateLayout>& shipped) {
+  plan.program = program_name() + " " + commit_text();
   ProgressBar bar;
   const std::vector<CaseOutcome> outcomes =
       drive_campaign(plan, shipped, [&](double share) { bar.show("campaign", share); });
   const CampaignSummary summary = summarise(plan.seed, outcomes, static_cast<int>(shipped.size()));
-  write_json(plan.folder / "summary.json", summary);
-  keep_failures(plan, summary, shipped, bar);
+  write_text_file(plan.folder / "summary.json", campaign_json(summary, plan.program));
+  const std::size_t failed =
+      record_failures(plan, summary.broken, shipped, [&](double share) { bar.show("traces", share); });
   bar.clear();
   fmt::print("{}", campaign_text(summary));
+  if (failed > kMostTraces) fmt::print("Of {} failed cases {} are recorded in failures/\n", failed, kMostTraces);
   return summary.broken.empty() ? 0 : 1;
 }
 

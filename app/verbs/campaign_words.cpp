@@ -83,14 +83,14 @@ std::string campaign_text(const CampaignSummary& summary) {
              summary.shifts, summary.cases, summary.seed, summary.cycles, summary.seconds / 3600.0, summary.clean,
              summary.refused) +
          laws_text(summary) + "\n" + failures_text(summary) + "\n" + groups_text(summary) +
-         "\nHeld still, back and forth in the last 0.2 s of 3, where quiet is promised:\n\n" + ripple_text(summary) +
+         "\nHeld still, back and forth in the last 0.5 s of 3, where quiet is promised:\n\n" + ripple_text(summary) +
          "\n" + refusals_text(summary);
 }
 
-std::string campaign_json(const CampaignSummary& summary) {
-  nlohmann::ordered_json json{{"seed", summary.seed},      {"cases", summary.cases}, {"refused", summary.refused},
-                              {"shifts", summary.shifts},  {"clean", summary.clean}, {"cycles", summary.cycles},
-                              {"seconds", summary.seconds}};
+std::string campaign_json(const CampaignSummary& summary, const std::string& program) {
+  nlohmann::ordered_json json{{"program", program},         {"seed", summary.seed},      {"cases", summary.cases},
+                              {"refused", summary.refused}, {"shifts", summary.shifts},  {"clean", summary.clean},
+                              {"cycles", summary.cycles},   {"seconds", summary.seconds}};
   for (std::size_t i = 0; i < kCampaignLaws; ++i) {
     const LawSummary& law = summary.laws[i];
     const LawWords& words = law_words(static_cast<CampaignLaw>(i));

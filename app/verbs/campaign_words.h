@@ -8,7 +8,8 @@
 namespace gearshift {
 
 std::string campaign_text(const CampaignSummary& summary);  // Markdown
-std::string campaign_json(const CampaignSummary& summary);
+// program: that drove it, and its commit.
+std::string campaign_json(const CampaignSummary& summary, const std::string& program);
 
 // One case: what was drawn, and every law.
 std::string case_text(const CampaignCase& drawn, const CaseOutcome& outcome);

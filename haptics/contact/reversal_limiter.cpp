@@ -9,7 +9,9 @@ namespace {
 
 constexpr double kTurn = 4.0;          // [counts] back from an extreme: more than the encoder makes by itself
 constexpr double kLeastStep = 20e-6;   // [m] taken for a count where the encoder is finer
-constexpr double kWithin = 0.25;       // [s] that the reversals fall into
+constexpr double kWithin = 0.3;        // [s] that the reversals fall into: 8.3 Hz
+constexpr double kTremor = 0.8e-3;     // [m] from turn to turn: as wide as a hand's tremor swings a lever
+constexpr double kFaster = 0.2;        // [s] that they fall into if one is no wider: 12.5 Hz, faster than any tremor
 constexpr double kPause = 0.5;         // [s] without chatter: it had calmed
 constexpr double kLower = 0.75;        // [1] of the stiffness, each time
 constexpr double kFloor = 0.3;         // [1] of m / tau^2, tau = (delay + 1) T
@@ -61,9 +63,11 @@ bool ReversalLimiter::Swing::turns(double value, double back) noexcept {
 
 bool ReversalLimiter::chatters(Axis& axis, double position) noexcept {
   if (!axis.lever.turns(position, turn_) || is_shaken(axis)) return false;
+  if (axis.lever.width < kTremor) axis.narrow = now_;
+  const double within = now_ - axis.narrow < kWithin ? kFaster : kWithin;
   axis.turned[axis.count++ % kReversals] = now_;
   const double first = axis.turned[axis.count % kReversals];  // of the last kReversals
-  return axis.count >= kReversals && now_ - first < kWithin;
+  return axis.count >= kReversals && now_ - first < within;
 }
 
 // Whatever the lever stands in, a force of amplitude F at w feeds at most pi F X a period into a swing of X, and the lever's

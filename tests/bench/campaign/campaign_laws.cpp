@@ -18,6 +18,7 @@ namespace {
 using glm::dvec2;
 
 constexpr double kRounding = 1e-9;     // [m], [N], [J] below what anybody could feel
+constexpr double kObeyed = 1e-6;       // [N] between what was commanded and what acted, rounding in the yoke
 constexpr double kQuietRipple = 1e-3;  // [m] of any one case; DESIGN grants a p95 of 0.3 mm, which the summary shows
 constexpr double kQuietCounts =
     6.0;  // the reversal limiter sees a lever that comes back by four, a count more or less at each end
@@ -25,11 +26,11 @@ constexpr double kQuietCounts =
 constexpr std::array<LawWords, kCampaignLaws> kWords{{
     {"finite", "every number that comes out is finite", "bad cycles"},
     {"free space", "the drawn lever is in free space", "cycles outside"},
-    {"no wall", "the drawn lever crosses no wall, and goes no further than |lever step| + 0.5 m/s T", "of that way"},
+    {"no wall", "the drawn lever crosses no wall, and goes no further than the lever and 0.5 m/s T", "of that way"},
     {"lockout", "the drawn lever passes no closed lockout", "crossings"},
     {"force", "the command is within the device's force", "N"},
     {"slew", "the command changes by no more than the guard's slew", "N"},
-    {"energy", "bounded: no energy beyond half of what the device's own damping took", "J"},
+    {"energy", "bounded: no energy beyond what was stored and the device's own damping took", "J"},
     {"guard", "the guard has nothing to stop", "as GuardFault"},
     {"quiet", "held still, the lever is still", "m"},
     {"gear holds", "held still, the gear changes once at most; one that comes again was really left", "changes"},
@@ -78,7 +79,7 @@ const LawWords& law_words(CampaignLaw law) noexcept {
 void LawBook::note(CampaignLaw law, double value, double bound, double time) noexcept {
   LawSeen& seen = seen_[static_cast<std::size_t>(law)];
   const bool is_first = seen.looks++ == 0;
-  const bool is_worse = !(value - bound <= seen.value - seen.bound);
+  const bool is_worse = !std::isnan(seen.value) && !(value - bound <= seen.value - seen.bound);
   if (is_first || is_worse) seen.value = value, seen.bound = bound, seen.time = time;
 }
 
@@ -86,7 +87,7 @@ bool LawBook::any_broken() const noexcept {
   return std::any_of(seen_.begin(), seen_.end(), [](const LawSeen& seen) { return seen.broken(); });
 }
 
-LawLimits law_limits(const HapticConfig& config, const DeviceSpec& spec) noexcept {
+LawLimits law_limits(const HapticConfig& config, const SimulatedLeverConfig& lever, const DeviceSpec& spec) noexcept {
   LawLimits limits;
   limits.period = period_s(config);
   limits.max_force = spec.max_force;
@@ -95,6 +96,9 @@ LawLimits law_limits(const HapticConfig& config, const DeviceSpec& spec) noexcep
   limits.falls_at_once = config.contact.energy_control == EnergyControl::energy_bounding;
   limits.energy_bounded = limits.falls_at_once && spec.delay == 0 && spec.own_stiffness == dvec2(0.0);
   limits.damping = {spec.axis_x.damping, spec.axis_y.damping};
+  limits.least_damping = (1.0 - lever.model_error) * limits.damping;
+  limits.longest = (1.0 + lever.period_jitter) * limits.period;
+  limits.count = lever.encoder_counts > 0.0 ? spec.position_step : 0.0;
   limits.ripple = std::max(kQuietRipple, kQuietCounts * spec.position_step);
   return limits;
 }
@@ -146,7 +150,9 @@ void force_law(const SeenCycle& cycle, const LawLimits& limits, LawBook& book) n
 void slew_law(const SeenCycle& cycle, const LawLimits& limits, LawBook& book) noexcept {
   if (!is_up(cycle.now.guard) || !is_up(cycle.before.guard)) return;
   const dvec2 now = cycle.now.commanded, before = cycle.before.commanded;
-  const dvec2 change = limits.falls_at_once ? glm::abs(now) - glm::abs(before) : glm::abs(now - before);
+  // What falls at once falls to nothing, and not to the other side.
+  const dvec2 kept = glm::max(dvec2(0.0), glm::sign(now) * before);
+  const dvec2 change = limits.falls_at_once ? glm::abs(now) - kept : glm::abs(now - before);
   const bool is_ramping = cycle.before.guard != GuardState::running;
   const double most = std::max(limits.max_force.x, limits.max_force.y);
   const double bound = limits.slew + (is_ramping ? limits.ramp * most : 0.0) + kRounding;
@@ -160,15 +166,26 @@ void guard_law(const SeenCycle& cycle, LawBook& book) noexcept {
             1e-9 * static_cast<double>(cycle.now.time_ns));
 }
 
-void EnergyLaw::look(const SeenCycle& cycle, const LawLimits& limits, LawBook& book) noexcept {
-  if (!limits.energy_bounded || !is_up(cycle.now.guard)) return;
+void EnergyLaw::look(const SeenCycle& cycle, dvec2 true_travel, const LawLimits& limits, LawBook& book) noexcept {
+  const dvec2 was = cycle.before.commanded, is = cycle.now.commanded, acted = -cycle.now.f_a;
+  const bool is_obeyed = glm::length(acted - was) < kObeyed;  // a motor that tires keeps less than it is told to
+  if (!limits.energy_bounded || !is_up(cycle.now.guard) || !is_obeyed) return begin_anew();
   const dvec2 slope = limits.damping / limits.period;  // [N/m] c
-  const dvec2 travel = cycle.now.lever - cycle.before.lever;
-  const dvec2 was = cycle.before.commanded, is = cycle.now.commanded;
-  const dvec2 given = was * travel + (is * is - was * was) / (2.0 * slope);
-  surplus_ = glm::max(dvec2(0.0), surplus_ + given - 0.5 * slope * travel * travel);
-  book.note(CampaignLaw::energy, std::max(surplus_.x, surplus_.y), kRounding,
-            1e-9 * static_cast<double>(cycle.now.time_ns));
+  const dvec2 taken = limits.least_damping / limits.longest * true_travel * true_travel;
+  const dvec2 net = acted * true_travel + (is * is - was * was) / (2.0 * slope) - taken;
+  const dvec2 told = cycle.now.lever - cycle.before.lever;
+  const dvec2 mistaken =
+      glm::abs(is - was) + slope * (glm::abs(true_travel - last_travel_) + glm::abs(true_travel) + glm::abs(told));
+  if (surplus_ == 0.0) allowed_ = limits.count * (glm::abs(was.x) + glm::abs(was.y));
+  surplus_ = std::max(0.0, surplus_ + net.x + net.y);
+  allowed_ += 0.5 * limits.count * (mistaken.x + mistaken.y);
+  last_travel_ = true_travel;
+  book.note(CampaignLaw::energy, surplus_, allowed_ + kRounding, 1e-9 * static_cast<double>(cycle.now.time_ns));
+}
+
+void EnergyLaw::begin_anew() noexcept {
+  surplus_ = allowed_ = 0.0;
+  last_travel_ = dvec2(0.0);
 }
 
 void GearLaw::look(const SeenCycle& cycle, const Gate& gate, bool held_still, LawBook& book) noexcept {

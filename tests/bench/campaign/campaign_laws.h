@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "haptics/device/simulated_lever.h"
 #include "haptics/gate/gate.h"
 #include "haptics/loop/haptic_config.h"
 #include "haptics/loop/haptic_snapshot.h"
@@ -19,7 +20,7 @@ enum class CampaignLaw : std::size_t {
   lockout,     // it never passed a closed lockout
   force,       // the command is within the device
   slew,        // and grows no faster than the guard lets it
-  energy,      // bounded: the motors never give what the device's own damping had not taken
+  energy,      // bounded: the motors never give what the device's own damping did not take
   guard,       // no fault: nothing that was admitted has to be stopped
   quiet,       // held still, it is still
   gear_holds,  // held still, the gear does not toggle: a lever let go may slide out; one that comes again was really left
@@ -43,7 +44,7 @@ struct LawSeen {
 
 class LawBook {
  public:
-  // Keeps what is worst: furthest beyond its bound, or else the largest share of it.
+  // Keeps what is worst: furthest beyond its bound, or nearest to it; a number that is none before all.
   void note(CampaignLaw law, double value, double bound, double time) noexcept;
   const LawSeen& seen(CampaignLaw law) const noexcept { return seen_[static_cast<std::size_t>(law)]; }
   LawSeen& seen(CampaignLaw law) noexcept { return seen_[static_cast<std::size_t>(law)]; }
@@ -55,16 +56,20 @@ class LawBook {
 
 // What is promised of a case.
 struct LawLimits {
-  double period = 0.001;        // [s]
-  glm::dvec2 max_force{0.0};    // [N]
-  double slew = 0.0;            // [N] a cycle
-  double ramp = 0.0;            // [1] a cycle, of the guard's ramp
-  bool falls_at_once = false;   // energy bounding does not wait for the slew
-  bool energy_bounded = false;  // by the guard, of a device without delay and without walls of its own
-  glm::dvec2 damping{0.0};      // [N s/m] of the bare handle
-  double ripple = 0.0;          // [m] peak to peak, held still
+  double period = 0.001;          // [s]
+  glm::dvec2 max_force{0.0};      // [N]
+  double slew = 0.0;              // [N] a cycle
+  double ramp = 0.0;              // [1] a cycle, of the guard's ramp
+  bool falls_at_once = false;     // energy bounding does not wait for the slew
+  bool energy_bounded = false;    // by the guard, of a device without delay and without walls of its own
+  glm::dvec2 damping{0.0};        // [N s/m] of the bare handle, as the loop believes it
+  glm::dvec2 least_damping{0.0};  // [N s/m] that the true handle has at least
+  double longest = 0.001;         // [s] that a period lasts at most
+  double count = 0.0;             // [m] of the encoder, 0: none
+  double ripple = 0.0;            // [m] peak to peak, held still
+  double frame = 0.1;             // [s] between two looks at the events: a slow frame of the window
 };
-LawLimits law_limits(const HapticConfig& config, const DeviceSpec& spec) noexcept;
+LawLimits law_limits(const HapticConfig& config, const SimulatedLeverConfig& lever, const DeviceSpec& spec) noexcept;
 
 // One cycle and the one before it.
 struct SeenCycle {
@@ -89,15 +94,20 @@ class LockoutLaw {
   std::uint32_t after_gear_ = 0;  // bit per lockout
 };
 
-// With F held over the travel dx that the encoder tells, and S = F^2 / (2 c), c = b / T, the energy that a wall may still
-// give back: what was given and what may still be, F dx + S, never exceeds (c / 2) dx^2, half of what the handle's own
-// damping takes over that travel at least (Kim & Ryu 2010). The other half is for count, jitter and plant error.
+// Passivity of the whole device, by the truth that no encoder tells: over any stretch of time the force that acted gives
+// no more than what was stored at its beginning, S = sum F^2 / (2 c) of both axes with c = b / T (Kim & Ryu 2010), and
+// what the handle's own damping took meanwhile, b dx^2 / T a period at least (Cauchy and Schwarz: a steady speed takes
+// least). The encoder's count q lets the loop mistake the travel by up to q at either end of it: summed by parts that is
+// (q / 2) (|dF| + c |d dx|) a period, and q c / 2 of the way itself, true or told.
 class EnergyLaw {
  public:
-  void look(const SeenCycle& cycle, const LawLimits& limits, LawBook& book) noexcept;
+  void look(const SeenCycle& cycle, glm::dvec2 true_travel, const LawLimits& limits, LawBook& book) noexcept;
 
  private:
-  glm::dvec2 surplus_{0.0};  // [J] per axis, since it was last none
+  void begin_anew() noexcept;
+
+  double surplus_ = 0.0, allowed_ = 0.0;  // [J] since there last was none
+  glm::dvec2 last_travel_{0.0};           // [m]
 };
 
 // A gear that comes again was left by at least the way between its two depths.

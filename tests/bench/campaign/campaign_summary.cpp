@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cstddef>
 
+#include "tests/bench/bench.h"
+
 namespace gearshift {
 namespace {
 
@@ -70,18 +72,13 @@ std::string without_values(const std::string& refusal) {
   return refusal.substr(0, refusal.find(" ="));
 }
 
-double quantile_of(std::vector<double>& sorted, double q) {
-  return sorted[static_cast<std::size_t>(q * static_cast<double>(sorted.size() - 1))];
-}
-
 void add_ripple(CampaignSummary& summary, std::map<std::pair<std::string, int>, std::vector<double>>& samples) {
   for (std::size_t band = 0; band + 1 < kRateBands.size(); ++band) {
     for (int delay = 0; delay <= 3; ++delay) {
       std::vector<double>& sample = samples[{band_name(kRateBands[band]), delay}];
       if (sample.empty()) continue;
-      std::sort(sample.begin(), sample.end());
-      summary.ripple.push_back({kRateBands[band], kRateBands[band + 1], delay, sample.size(), quantile_of(sample, 0.5),
-                                quantile_of(sample, 0.95), sample.back()});
+      summary.ripple.push_back({kRateBands[band], kRateBands[band + 1], delay, sample.size(), quantile(sample, 0.5),
+                                quantile(sample, 0.95), quantile(sample, 1.0)});
     }
   }
 }

@@ -1,20 +1,23 @@
 #include "tests/bench/campaign/case_file.h"
 
+#include <algorithm>
 #include <charconv>
 #include <fstream>
-#include <iterator>
-#include <optional>
+#include <limits>
 #include <stdexcept>
 #include <string_view>
+#include <system_error>
+#include <utility>
+#include <vector>
 
 #include <fmt/core.h>
+
+#include "haptics/files/printable.h"
 
 namespace gearshift {
 namespace {
 
-std::string first_line(std::uint64_t seed) {
-  return fmt::format("# gearshift campaign, seed {}\n", seed);
-}
+constexpr int kMostShifts = 1000;  // of a case
 
 std::string column_line() {
   std::string line =
@@ -39,48 +42,69 @@ std::string case_line(const CaseOutcome& out) {
   return line + "\n";
 }
 
-// Field by field; what does not read is remembered.
+std::vector<std::string_view> fields_of(std::string_view line) {
+  std::vector<std::string_view> fields;
+  for (std::size_t comma = 0; comma != std::string_view::npos;) {
+    comma = line.find(',');
+    fields.push_back(line.substr(0, comma));
+    line.remove_prefix(comma == std::string_view::npos ? line.size() : comma + 1);
+  }
+  return fields;
+}
+
+// Field by field. Throws std::runtime_error: column, value, what it may be.
 class LineReader {
  public:
-  explicit LineReader(std::string_view line) : rest_(line) {}
+  LineReader(std::string_view line, const std::vector<std::string_view>& columns)
+      : columns_(columns), fields_(fields_of(line)) {
+    if (fields_.size() == columns.size()) return;
+    throw std::runtime_error(fmt::format("{} fields, not {}", fields_.size(), columns.size()));
+  }
 
   std::string_view text() {
-    good = good && !at_end_;
-    const std::size_t comma = rest_.find(',');
-    const std::string_view field = rest_.substr(0, comma);
-    at_end_ = comma == std::string_view::npos;
-    rest_ = at_end_ ? std::string_view() : rest_.substr(comma + 1);
-    return field;
+    if (!is_printable(fields_[at_])) refuse("text without control characters");
+    return fields_[at_++];
   }
   template <typename Number>
-  void number(Number& value) {
-    const std::string_view field = text();
+  void number(Number& value, Number least = 0, Number most = std::numeric_limits<Number>::max()) {
+    const std::string_view field = fields_[at_];
     const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-    good = good && error == std::errc() && end == field.data() + field.size();
+    const bool is_number = error == std::errc() && end == field.data() + field.size();
+    if (!is_number || !(value >= least && value <= most)) refuse(fmt::format("a number from {} to {}", least, most));
+    ++at_;
   }
-  bool is_whole() const { return good && at_end_; }
-
-  bool good = true;
+  void any_number(double& value) {  // what is looked at may be none
+    const std::string_view field = fields_[at_];
+    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+    if (error != std::errc() || end != field.data() + field.size()) refuse("a number");
+    ++at_;
+  }
 
  private:
-  std::string_view rest_;
-  bool at_end_ = false;
+  [[noreturn]] void refuse(const std::string& allowed) const {
+    throw std::runtime_error(
+        fmt::format("{} is \"{}\", not {}", columns_[at_], printable(fields_[at_].substr(0, 40)), allowed));
+  }
+
+  const std::vector<std::string_view>& columns_;
+  std::vector<std::string_view> fields_;
+  std::size_t at_ = 0;
 };
 
-std::optional<CaseOutcome> read_case(std::string_view line) {
-  LineReader in(line);
+CaseOutcome read_case(std::string_view line, const std::vector<std::string_view>& columns) {
+  LineReader in(line, columns);
   CaseOutcome out;
   in.number(out.number);
   out.refused = in.text();
-  in.number(out.shifts);
-  in.number(out.clean);
-  in.number(out.reached);
+  in.number(out.shifts, 0, out.refused.empty() ? kMostShifts : 0);
+  in.number(out.clean, 0, out.shifts);
+  in.number(out.reached, 0, out.shifts);
   in.number(out.cycles);
   in.number(out.seconds);
   in.number(out.stiffness);
   in.number(out.limited);
   int promised = 0;
-  in.number(promised);
+  in.number(promised, 0, 1);
   out.promised = promised == 1;
   in.number(out.stopped);
   in.number(out.ripple);
@@ -89,37 +113,65 @@ std::optional<CaseOutcome> read_case(std::string_view line) {
   for (std::size_t i = 0; i < kCampaignLaws; ++i) {
     LawSeen& seen = out.laws.seen(static_cast<CampaignLaw>(i));
     in.number(seen.looks);
-    in.number(seen.value);
-    in.number(seen.bound);
+    in.any_number(seen.value);
+    in.any_number(seen.bound);
     in.number(seen.time);
   }
-  if (!in.is_whole()) return std::nullopt;
   return out;
 }
 
+// Empty where there is none.
 std::string whole_text(const std::filesystem::path& file) {
+  std::error_code error;
+  const auto status = std::filesystem::status(file, error);
+  if (status.type() == std::filesystem::file_type::not_found) return {};
+  if (!std::filesystem::is_regular_file(status)) throw std::runtime_error(file.string() + ": is no plain file");
+  std::string text(std::filesystem::file_size(file), '\0');
   std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
+  if (!in.read(text.data(), static_cast<std::streamsize>(text.size())))
+    throw std::runtime_error(file.string() + ": cannot be read");
+  return text;
+}
+
+std::string first_line_of(std::string_view text) {
+  return printable(text.substr(0, std::min<std::size_t>(text.find('\n'), 200)));
 }
 
 }  // namespace
 
-CaseFile::CaseFile(const std::filesystem::path& file, std::uint64_t seed) : name_(file.string()) {
-  const std::string head = first_line(seed) + column_line();
+CaseFile::CaseFile(const std::filesystem::path& file, const std::string& of) : name_(file.string()) {
+  const std::string columns = column_line(), head = "# " + of + "\n" + columns;
   std::string text = whole_text(file);
   if (text.size() < head.size() && head.starts_with(text)) text.clear();  // stopped in its first moment
-  if (!text.empty() && !text.starts_with(head))
-    throw std::runtime_error(name_ + ": of another campaign: another seed, or another program made it");
-  std::size_t good = text.empty() ? 0 : head.size();
-  for (std::size_t end = 0; good > 0 && (end = text.find('\n', good)) != std::string::npos; good = end + 1) {
-    std::optional<CaseOutcome> out = read_case(std::string_view(text).substr(good, end - good));
-    if (!out) throw std::runtime_error(fmt::format("{}: byte {}: a line that is no case", name_, good));
-    cases_[out->number] = std::move(*out);
+  if (!text.empty() && !text.starts_with(head)) {
+    throw std::runtime_error(
+        fmt::format("{}: of another campaign: \"{}\", this one is \"# {}\"", name_, first_line_of(text), of));
   }
-  if (!text.empty()) std::filesystem::resize_file(file, good);
+  const std::size_t good = text.empty() ? 0 : read_cases(text, head.size());
+  std::error_code error;
+  if (good < text.size()) std::filesystem::resize_file(file, good, error);
+  if (error) throw std::runtime_error(name_ + ": cannot be written: " + error.message());
   file_.reset(std::fopen(name_.c_str(), text.empty() ? "wb" : "ab"));
   if (!file_) throw std::runtime_error(name_ + ": cannot be written");
   if (text.empty()) std::fputs(head.c_str(), file_.get());
+}
+
+// Returns where the last whole line ends.
+std::size_t CaseFile::read_cases(std::string_view text, std::size_t begin) {
+  const std::string line = column_line();
+  const std::vector<std::string_view> columns = fields_of(std::string_view(line).substr(0, line.size() - 1));
+  int number = 3;  // of the line
+  for (std::size_t end = 0; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1, ++number) {
+    try {
+      CaseOutcome out = read_case(text.substr(begin, end - begin), columns);
+      const std::uint64_t of_case = out.number;
+      if (!cases_.emplace(of_case, std::move(out)).second)
+        throw std::runtime_error(fmt::format("case {} is there twice", of_case));
+    } catch (const std::runtime_error& problem) {
+      throw std::runtime_error(fmt::format("{}: line {}: {}", name_, number, problem.what()));
+    }
+  }
+  return begin;
 }
 
 void CaseFile::add(const CaseOutcome& outcome) {

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 
 #include "tests/bench/campaign/campaign_run.h"
 
@@ -14,14 +15,17 @@ namespace gearshift {
 
 class CaseFile {
  public:
-  // Reads what is there, drops a line that was not finished, and goes on behind it. Throws std::runtime_error in one
-  // sentence where the file is of another campaign, is not one, or cannot be written.
-  CaseFile(const std::filesystem::path& file, std::uint64_t seed);
+  // Reads what is there, drops a line that was not finished, and goes on behind it. of: the campaign, in one line: its
+  // seed, its gates, the program. Throws std::runtime_error in one sentence where the file is of another campaign, is not
+  // one (line, column, value, range), or cannot be read or written: then nothing of it is touched.
+  CaseFile(const std::filesystem::path& file, const std::string& of);
 
   const std::map<std::uint64_t, CaseOutcome>& cases() const noexcept { return cases_; }
   void add(const CaseOutcome& outcome);  // Throws std::runtime_error
 
  private:
+  std::size_t read_cases(std::string_view text, std::size_t begin);
+
   struct Close {
     void operator()(std::FILE* file) const noexcept { std::fclose(file); }
   };

@@ -4,23 +4,35 @@
 #include <chrono>
 #include <condition_variable>
 #include <exception>
+#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
+#include <set>
 #include <thread>
 #include <utility>
+
+#include <fmt/core.h>
 
 #include "tests/bench/campaign/case_file.h"
 
 namespace gearshift {
 namespace {
 
+// What a case follows from: another program or other gates make other cases of the same numbers.
+std::string words_of(const CampaignPlan& plan, std::span<const GateLayout> shipped) {
+  std::string gates;
+  for (const GateLayout& layout : shipped) gates += layout.text;
+  return fmt::format("gearshift campaign, seed {}, gates {:016x}, by {}", plan.seed, std::hash<std::string>()(gates),
+                     plan.program);
+}
+
 // Hands out cases in order and takes what came of them, in any.
 class CampaignWork {
  public:
-  explicit CampaignWork(const CampaignPlan& plan) : plan_(plan) {
+  CampaignWork(const CampaignPlan& plan, std::span<const GateLayout> shipped) : plan_(plan) {
     if (plan.folder.empty()) return;
-    file_.emplace(plan.folder / "cases.csv", plan.seed);
+    file_.emplace(plan.folder / "cases.csv", words_of(plan, shipped));
     cases_ = file_->cases();
     count_whole();
   }
@@ -106,13 +118,29 @@ void work(CampaignWork& work, const CampaignPlan& plan, std::span<const GateLayo
 
 std::vector<CaseOutcome> drive_campaign(const CampaignPlan& plan, std::span<const GateLayout> shipped,
                                         const CampaignProgress& progress) {
-  CampaignWork shared(plan);
+  CampaignWork shared(plan, shipped);
   std::vector<std::jthread> threads;
   for (int i = 0; i < plan.threads; ++i) threads.emplace_back([&] { work(shared, plan, shipped); });
   while (!shared.wait(std::chrono::milliseconds(100)))
     if (progress) progress(shared.share());
   threads.clear();
   return shared.take();
+}
+
+std::size_t record_failures(const CampaignPlan& plan, std::span<const LawBroken> broken,
+                            std::span<const GateLayout> shipped, const CampaignProgress& progress) {
+  std::set<std::uint64_t> cases;
+  for (const LawBroken& one : broken) cases.insert(one.number);
+  if (!cases.empty()) std::filesystem::create_directories(plan.folder / "failures");
+  std::size_t kept = 0;
+  for (const std::uint64_t number : cases) {
+    if (kept == kMostTraces) break;
+    const CampaignCase drawn = drawn_case(plan.seed, number, static_cast<int>(shipped.size()));
+    run_case(drawn, shipped, plan.folder / "failures" / fmt::format("{:016x}.trace", drawn.seed));
+    ++kept;
+    if (progress) progress(static_cast<double>(kept) / static_cast<double>(std::min(cases.size(), kMostTraces)));
+  }
+  return cases.size();
 }
 
 }  // namespace gearshift

@@ -2,18 +2,21 @@
 // result does not depend on the number of threads or on when it was stopped.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <span>
+#include <string>
 #include <vector>
 
-#include "tests/bench/campaign/campaign_run.h"
+#include "tests/bench/campaign/campaign_summary.h"
 
 namespace gearshift {
 
 struct CampaignPlan {
   std::uint64_t seed = 1;
+  std::string program;               // that drives it: no other one goes on with what the folder has
   std::uint64_t shifts = 1'000'000;  // that are tried at least: cases are run whole, in order
   std::filesystem::path folder;  // exists; receives cases.csv: one line a case, as they come. Empty: nothing is kept
   int threads = 1;
@@ -25,5 +28,12 @@ using CampaignProgress = std::function<void(double share)>;  // 0 to 1; on the c
 // the folder holds another campaign, or cannot be written.
 std::vector<CaseOutcome> drive_campaign(const CampaignPlan& plan, std::span<const GateLayout> shipped,
                                         const CampaignProgress& progress);
+
+inline constexpr std::size_t kMostTraces = 100;
+
+// Drives the cases that broke a law again, kMostTraces at most, recorded as failures/SEED.trace in the plan's folder, for
+// `gearshift replay`. Returns how many there are to record. Throws FileError.
+std::size_t record_failures(const CampaignPlan& plan, std::span<const LawBroken> broken,
+                            std::span<const GateLayout> shipped, const CampaignProgress& progress);
 
 }  // namespace gearshift

@@ -69,10 +69,17 @@ TEST_CASE("a fast rattle in a wall lowers it by a quarter, within a quarter of a
 TEST_CASE("not a hand's own shaking, not the encoder's counts, not what happens in free space") {
   ReversalLimiter limiter(paper_spec(), kLimiterPeriod);
   CHECK(lowered(limiter, 8.0, 0.02, 5.0) == 0);            // 16 reversals a second: the fastest of hands
+  CHECK(lowered(limiter, 12.0, 0.0007, 5.0) == 0);         // the fastest of tremors (Elble 2003)
   CHECK(lowered(limiter, 100.0, 3.0 * kCount, 5.0) == 0);  // less than 4 counts
   CHECK(limiter.share() == 1.0);
   ReversalLimiter free(paper_spec(), kLimiterPeriod);
   CHECK(lowered(free, 40.0, 0.002, 5.0, false) == 0);  // no wall
+  ReversalLimiter slow(paper_spec(), kLimiterPeriod);
+  CHECK(lowered(slow, 9.0, 0.0011, 5.0) > 0);  // an arm's swing in a wall of 3 samples' delay
+  ReversalLimiter wide(paper_spec(), kLimiterPeriod);
+  CHECK(lowered(wide, 12.0, 0.001, 5.0) > 0);  // no tremor
+  ReversalLimiter fast(paper_spec(), kLimiterPeriod);
+  CHECK(lowered(fast, 13.0, 0.0007, 5.0) > 0);
 }
 
 TEST_CASE(

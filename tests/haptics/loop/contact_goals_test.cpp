@@ -18,6 +18,7 @@ void check_rows(std::vector<BenchRow> (*family)(const BenchOptions&)) {
   int goals = 0;
   for (const BenchRow& row : family(options)) {
     INFO(row.name << ": " << row.value << ' ' << row.unit << ", " << row.note);
+    CHECK(row.measured);
     CHECK(meets_goal(row));
     goals += row.goal.has_value();
   }
