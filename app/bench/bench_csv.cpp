@@ -31,19 +31,19 @@ std::string row_fields(const MeasuredRow& measured) {
   const auto number = [](bool there, double value) { return there ? fmt::format("{}", value) : std::string(); };
   const Quartiles spread = row.spread.value_or(Quartiles{});
   return fmt::format(
-      "{},{},{},{},{},{},{},{},{},{},{}", row.family, quoted_field(row.name), number(row.measured, row.value),
-      quoted_field(row.unit), number(row.goal.has_value(), row.goal.value_or(0.0)), quoted_field(row.note),
-      beside_field(row), number(row.spread.has_value(), spread.low), number(row.spread.has_value(), spread.high),
-      trade_fields(row.trade), number(measured.since.has_value(), measured.since ? measured.since->value : 0.0));
+      "{},{},{},{},{},{},{},{},{},{},{},{},{},{}", row.family, quoted_field(row.name), number(row.measured, row.value),
+      quoted_field(row.unit), number(row.goal.has_value(), row.goal.value_or(0.0)), direction_words(row),
+      verdict_words(row), design_words(row), quoted_field(row.note), beside_field(row),
+      number(row.spread.has_value(), spread.low), number(row.spread.has_value(), spread.high), trade_fields(row.trade),
+      number(measured.since.has_value(), measured.since ? measured.since->value : 0.0));
 }
 
 }  // namespace
 
 std::string bench_csv(const BenchRun& run) {
   std::string text =
-      "family,what,value,unit,goal,note,beside,quartile_low,quartile_high,contest,method,cost,cost_unit,error,error_"
-      "unit,"
-      "chosen,last\n";
+      "family,what,value,unit,goal,goal_is,verdict,design,note,beside,quartile_low,quartile_high,contest,method,cost,"
+      "cost_unit,error,error_unit,chosen,last\n";
   for (const MeasuredRow& measured : run.rows) text += row_fields(measured) + "\n";
   return text;
 }

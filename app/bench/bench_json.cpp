@@ -1,5 +1,3 @@
-#include <algorithm>
-
 #include "app/bench/bench_files.h"
 #include "app/bench/row_json.h"
 
@@ -30,11 +28,6 @@ Json since_json(const SinceLast& since) {
   return {{"date", since.date}, {"value", since.value}, {"ratio", since.ratio}, {"changed", since.changed}};
 }
 
-std::string design_name(Design key) {
-  const auto* row = std::find_if(kDesignRows.begin(), kDesignRows.end(), [&](const auto& r) { return r.key == key; });
-  return row == kDesignRows.end() ? "" : std::string(row->name);
-}
-
 Json machine_json(const Machine& machine) {
   return {{"cpu", machine.cpu},       {"cores", machine.cores},       {"gpu", machine.gpu},
           {"system", machine.system}, {"compiler", machine.compiler}, {"build", machine.build}};
@@ -47,9 +40,9 @@ Json row_json(const BenchRow& row) {
   json["value"] = row.measured ? Json(row.value) : Json();
   add_spread(json, row.spread);
   if (row.goal) json["goal"] = *row.goal;
-  if (row.goal) json["goal_is"] = row.at_least ? "at least" : "at most";
+  if (row.goal) json["goal_is"] = direction_words(row);
   if (row.goal && row.measured) json["verdict"] = verdict_words(row);
-  if (row.design != Design::none) json["design"] = design_name(row.design);
+  if (row.design != Design::none) json["design"] = design_words(row);
   for (const Beside& more : row.beside) json["beside"].push_back(figure_json(more));
   if (row.trade) json["trade"] = trade_json(*row.trade);
   return json;
@@ -62,11 +55,9 @@ std::string bench_json(const BenchRun& run) {
     if (measured.since) rows.back()["last"] = since_json(*measured.since);
     if (measured.cost_since) rows.back()["last_cost"] = since_json(*measured.cost_since);
   }
-  const Json json{{"program", run.program},
-                  {"date", run.date},
-                  {"quick", run.quick},
-                  {"machine", machine_json(run.machine)},
-                  {"rows", rows}};
+  Json json{{"program", run.program}, {"date", run.date}, {"quick", run.quick}, {"machine", machine_json(run.machine)}};
+  if (run.taken) json["taken"] = {{"by_host", run.taken->by_host}, {"by_programs", run.taken->by_programs}};
+  json["rows"] = rows;
   return json.dump(2) + "\n";
 }
 

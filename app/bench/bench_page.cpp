@@ -59,6 +59,7 @@ std::string facts(const BenchRun& run) {
   return "<table class=\"facts\">\n" + row("Date", run.date) + row("Program", run.program) +
          row("Processor", fmt::format("{}, {} cores", m.cpu, m.cores)) + row("GPU", m.gpu) + row("System", m.system) +
          row("Build", fmt::format("{}, {}", m.build, m.compiler)) +
+         row("Taken meanwhile", run.taken ? taken_words(*run.taken) : "") +
          row("Run", run.quick ? "quick: a look, not figures to quote" : "full") + "</table>\n";
 }
 

@@ -1,5 +1,6 @@
 #include "app/bench/bench_run.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 
@@ -24,6 +25,16 @@ Verdict verdict_of(const BenchRow& row) noexcept {
 std::string_view verdict_words(const BenchRow& row) {
   static constexpr std::string_view kWords[] = {"", "met", "open", "NOT MET"};
   return kWords[static_cast<std::size_t>(verdict_of(row))];
+}
+
+std::string_view direction_words(const BenchRow& row) {
+  return !row.goal ? "" : row.at_least ? "at least" : "at most";
+}
+
+std::string_view design_words(const BenchRow& row) {
+  const auto* asked =
+      std::find_if(kDesignRows.begin(), kDesignRows.end(), [&](const auto& r) { return r.key == row.design; });
+  return asked == kDesignRows.end() ? "" : asked->name;
 }
 
 std::string spread_words(const std::optional<Quartiles>& spread) {

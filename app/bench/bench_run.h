@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "app/bench/machine.h"
+#include "app/bench/taken_elsewhere.h"
 #include "tests/bench/bench.h"
 
 namespace gearshift {
@@ -33,6 +34,7 @@ struct BenchRun {
   std::string program, date;
   bool quick = false;
   Machine machine;
+  std::optional<TakenElsewhere> taken = {};  // meanwhile
   std::vector<MeasuredRow> rows;
 };
 
@@ -43,6 +45,8 @@ Verdict verdict_of(const BenchRow& row) noexcept;
 std::string value_words(double value);                             // four digits
 std::string goal_words(const BenchRow& row);                       // "<= 0.1"; empty without a goal
 std::string_view verdict_words(const BenchRow& row);               // "met", "open", "NOT MET"; empty without a goal
+std::string_view direction_words(const BenchRow& row);             // "at most", "at least"; empty without a goal
+std::string_view design_words(const BenchRow& row);                // name of the row of the design; empty without one
 std::string spread_words(const std::optional<Quartiles>& spread);  // "180 to 195"; empty without
 std::string since_words(const std::optional<SinceLast>& since);    // "1.03 x", " *" behind what changed
 std::string since_words(const MeasuredRow& measured);              // of the value, and of the cost where there is one

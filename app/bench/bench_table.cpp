@@ -32,6 +32,7 @@ std::string bench_table(const BenchRun& run) {
                          row.measured ? value_words(row.value) : "-", row.unit, goal_words(row),
                          last(" " + since_words(measured)), verdict_words(row), row_note(row));
   }
+  if (run.taken) table += fmt::format("of the processors meanwhile: {}\n", taken_words(*run.taken));
   return table;
 }
 

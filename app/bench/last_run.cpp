@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <stdexcept>
 #include <system_error>
 
 #include <fmt/format.h>
@@ -17,25 +18,37 @@ namespace {
 namespace fs = std::filesystem;
 using Json = nlohmann::ordered_json;
 
+bool is_bounded(const Quartiles& spread) {
+  return std::isfinite(spread.low) && std::isfinite(spread.high);
+}
+
 Json to_json(const LastRun& last) {
   Json families = Json::object();
   for (const auto& [name, family] : last) {
     Json figures = Json::object();
     for (const auto& [row, figure] : family.figures) {
       figures[row]["value"] = figure.value;
-      if (figure.spread) figures[row]["quartiles"] = {figure.spread->low, figure.spread->high};
+      if (figure.spread && is_bounded(*figure.spread))
+        figures[row]["quartiles"] = {figure.spread->low, figure.spread->high};
     }
     families[name] = {{"date", family.date}, {"figures", figures}};
   }
   return {{"families", families}};
 }
 
-// Throws nlohmann's exceptions for what is none of ours.
+// "2026-01-02T03:04:05Z": it goes to pages and terminals as it is.
+bool is_date(std::string text) {
+  for (char& c : text) c = c >= '0' && c <= '9' ? '0' : c;
+  return text == "0000-00-00T00:00:00Z";
+}
+
+// Throws nlohmann's exceptions, or std::invalid_argument, for what is none of ours.
 LastRun from_json(const Json& json) {
   LastRun last;
   for (const auto& [name, family] : json.at("families").items()) {
     LastFamily& into = last[name];
     into.date = family.at("date").get<std::string>();
+    if (!is_date(into.date)) throw std::invalid_argument("no date");
     for (const auto& [row, figure] : family.at("figures").items()) {
       LastFigure& kept = into.figures[row];
       kept.value = figure.at("value").get<double>();
@@ -47,9 +60,13 @@ LastRun from_json(const Json& json) {
 }
 
 std::string set_aside(const fs::path& file) {
+  std::error_code problem;
   fs::path aside = file;
   aside += ".unreadable";
-  std::error_code problem;
+  for (int n = 2; fs::exists(fs::symlink_status(aside, problem)); ++n) {
+    aside = file;
+    aside += fmt::format(".unreadable{}", n);
+  }
   fs::rename(file, aside, problem);
   return problem ? "it cannot be moved aside: " + problem.message() : "it is kept as " + aside.string();
 }
@@ -78,14 +95,16 @@ fs::path last_run_file(const fs::path& folder, const Machine& machine) {
 
 LastRun read_last_run(const fs::path& file, const std::function<void(const std::string&)>& tell) {
   std::error_code unknown;
-  if (!fs::exists(file, unknown) && !unknown) return {};
+  if (fs::symlink_status(file, unknown).type() == fs::file_type::not_found) return {};
+  std::string problem;
   try {
     return from_json(Json::parse(read_text_file(file)));
-  } catch (const Json::exception&) {
-    tell(fmt::format("{}: not a run of the bench, so nothing is compared with it; {}", file.string(), set_aside(file)));
-  } catch (const FileError& problem) {
-    tell(fmt::format("{}, so nothing is compared with the last run", problem.what()));
+  } catch (const FileError& error) {
+    problem = error.what();
+  } catch (const std::exception&) {
+    problem = file.string() + ": not a run of the bench";
   }
+  tell(fmt::format("{}, so nothing is compared with it; {}", problem, set_aside(file)));
   return {};
 }
 

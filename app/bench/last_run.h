@@ -25,8 +25,8 @@ struct LastFamily {
 };
 using LastRun = std::map<std::string, LastFamily, std::less<>>;  // by family
 
-// Empty where there is no such file. What cannot be read is told in one sentence; a file that makes no sense is kept
-// aside as FILE.unreadable, so that the next run has a file.
+// Empty where there is no such file. What cannot be read or makes no sense is told in one sentence and kept aside as
+// FILE.unreadable, FILE.unreadable2 and so on, so that the next run has a file.
 LastRun read_last_run(const std::filesystem::path& file, const std::function<void(const std::string&)>& tell);
 
 // Nothing for a row that was not measured, or not there.

@@ -10,7 +10,7 @@ class LogAxis {
   // What is zero or below stands at the axis' beginning, a decade below the least that is not.
   explicit LogAxis(const std::vector<double>& figures);
 
-  double share(double figure) const noexcept;  // [1] 0 at the beginning, 1 at the end
+  double share(double figure) const noexcept;  // [1] 0 at the beginning, 1 at the end; of what is finite
   struct Tick {
     double value = 0.0;
     bool named = true;

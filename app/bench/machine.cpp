@@ -53,7 +53,8 @@ Machine this_machine(const std::string& gpu) {
 }
 
 std::string machine_key(const Machine& m) {
-  return fmt::format("{:016x}", fnv_1a(fmt::format("{}\n{}\n{}\n{}\n{}", m.cpu, m.cores, m.gpu, m.host, m.build)));
+  return fmt::format("{:016x}",
+                     fnv_1a(fmt::format("{}\n{}\n{}\n{}\n{}\n{}", m.cpu, m.cores, m.gpu, m.host, m.build, m.compiler)));
 }
 
 }  // namespace gearshift

@@ -1,4 +1,4 @@
-// On which machine and by which build figures were taken: figures of two are never compared.
+// On which machine and by which kind of build figures were taken: figures of two are never compared.
 #pragma once
 
 #include <filesystem>
@@ -21,8 +21,8 @@ Machine this_machine(const std::string& gpu);
 // "model name" of the first processor in /proc/cpuinfo's text; "unknown" where it has none.
 std::string cpu_model(std::string_view cpuinfo);
 
-// 16 hexadecimal digits of what makes figures incomparable: processor, cores, GPU, host, build type. The same in every
-// run of the program; the host's name cannot be read from it.
+// 16 hexadecimal digits of what makes figures incomparable: processor, cores, GPU, host, build type, compiler. The
+// same in every run of the program; the host's name cannot be read from it.
 std::string machine_key(const Machine& machine);
 
 }  // namespace gearshift

@@ -38,8 +38,20 @@ std::vector<Contest> contests_of(std::string_view family, const std::vector<Benc
   return contests;
 }
 
+bool has_place(const Trade& trade) {
+  return std::isfinite(trade.cost.value) && std::isfinite(trade.error.value);
+}
+
+bool has_bar(const Beside& figure) {
+  return figure.spread && std::isfinite(figure.spread->low) && std::isfinite(figure.spread->high);
+}
+
 std::string figure_text(double value) {
   return std::abs(value) >= 1000.0 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
+}
+
+std::string name_of(const Trade& trade) {
+  return trade.method + (trade.chosen ? " (the default)" : "") + (has_place(trade) ? "" : ", not in the plot");
 }
 
 std::string axis_name(const Beside& figure) {
@@ -74,8 +86,10 @@ class Panel {
     svg_.text(corner_ + glm::dvec2(0.0, 18.0), {14.0, kInk, "start", true}, contest_.front()->contest);
     grid();
     front_line();
-    for (std::size_t i = 0; i < contest_.size(); ++i) dot(i);
-    for (std::size_t i = 0; i < contest_.size(); ++i) number(i);
+    for (std::size_t i = 0; i < contest_.size(); ++i)
+      if (has_place(*contest_[i])) dot(i);
+    for (std::size_t i = 0; i < contest_.size(); ++i)
+      if (has_place(*contest_[i])) number(i);
     names();
   }
 
@@ -125,9 +139,9 @@ class Panel {
   void dot(std::size_t i) {
     const Trade& trade = *contest_[i];
     const Pen pen{colour_of(i), 1.2};
-    if (trade.cost.spread)
+    if (has_bar(trade.cost))
       svg_.line(at(trade.cost.spread->low, trade.error.value), at(trade.cost.spread->high, trade.error.value), pen);
-    if (trade.error.spread)
+    if (has_bar(trade.error))
       svg_.line(at(trade.cost.value, trade.error.spread->low), at(trade.cost.value, trade.error.spread->high), pen);
     svg_.dot(at(trade), kDot, colour_of(i), trade.method);
     if (trade.chosen) svg_.ring(at(trade), kDot + 3.0, {kChosen, 1.6});
@@ -153,7 +167,7 @@ class Panel {
     constexpr double kEnough = 14.0;
     double least = kEnough;
     for (std::size_t i = 0; i < contest_.size(); ++i) {
-      if (i != own) least = std::min(least, glm::distance(place, at(*contest_[i])));
+      if (i != own && has_place(*contest_[i])) least = std::min(least, glm::distance(place, at(*contest_[i])));
     }
     for (const glm::dvec2 number : numbers_) least = std::min(least, glm::distance(place, number));
     const bool outside = place.x < box_.x + 6.0 || place.x > box_.right() - 6.0 || place.y < box_.y + 6.0 ||
@@ -171,8 +185,7 @@ class Panel {
       const Trade& trade = *contest_[i];
       const char* ink = trade.chosen ? kChosen : on_front(i) ? kInk : kSoftInk;
       svg_.text({corner_.x + 20.0, y}, {12.0, ink, "end", trade.chosen}, std::to_string(i + 1));
-      svg_.text({corner_.x + 30.0, y}, {12.0, ink, "start", trade.chosen},
-                trade.chosen ? trade.method + " (the default)" : trade.method);
+      svg_.text({corner_.x + 30.0, y}, {12.0, ink, "start", trade.chosen}, name_of(trade));
       svg_.text({corner_.x + kPanelWidth - 88.0, y}, {12.0, ink, "end"}, figure_text(trade.cost.value));
       svg_.text({corner_.x + kPanelWidth - kRight, y}, {12.0, ink, "end"}, figure_text(trade.error.value));
     }

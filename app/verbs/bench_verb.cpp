@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <fstream>
 #include <memory>
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <string_view>
@@ -14,6 +15,7 @@
 #include "app/bench/bench_page.h"
 #include "app/bench/last_run.h"
 #include "app/bench/trade_svg.h"
+#include "app/devices/stop_signals.h"
 #include "app/history/date_text.h"
 #include "app/output_folder.h"
 #include "app/program_name.h"
@@ -37,15 +39,17 @@ struct BenchArguments {
   BenchOptions options;
 };
 
-// Opened before the first measurement: a wrong path must not cost the results.
+// Opened before the first measurement: a wrong path must not cost the results, nor a run that comes to nothing what the
+// file has.
 std::ofstream open_csv(const std::string& file) {
   std::ofstream out;
-  if (!file.empty()) out.open(file);
+  if (!file.empty()) out.open(file, std::ios::app);
   if (!file.empty() && !out) throw std::runtime_error(file + ": cannot be written");
   return out;
 }
 
 void write_csv(std::ofstream& out, const std::string& file, const BenchRun& run) {
+  if (fs::is_regular_file(file)) fs::resize_file(file, 0);
   out << bench_csv(run);
   out.flush();
   if (!out) throw std::runtime_error(file + ": cannot be written");
@@ -60,21 +64,34 @@ std::string gpu_words() {
   }
 }
 
+void tell(const std::string& problem) {
+  fmt::print(stderr, "gearshift: {}\n", problem);
+}
+
+struct EndedEarly {};
+
+// Ctrl-C and the like end it: whole families are kept, and a family is left where it next tells how far it is.
 std::vector<MeasuredRow> measure(const BenchArguments& arguments) {
   ProgressBar progress;
   BenchOptions options = arguments.options;
-  options.progress = [&](std::string_view family, double share) { progress.show(family, share); };
+  options.progress = [&](std::string_view family, double share) {
+    if (StopSignals::asked()) throw EndedEarly();
+    progress.show(family, share);
+  };
   std::vector<MeasuredRow> rows;
   for (const NamedFamily& family : bench_families()) {
     const auto& wanted = arguments.families;
     if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), family.name) == wanted.end()) continue;
-    for (BenchRow& row : run_family(family, options)) rows.push_back({std::move(row)});
+    try {
+      options.progress(family.name, 0.0);
+      for (BenchRow& row : run_family(family, options)) rows.push_back({std::move(row)});
+    } catch (const EndedEarly&) {
+      progress.clear();
+      tell(fmt::format("ended in the family {}: what was measured before it is kept", family.name));
+      return rows;
+    }
   }
   return rows;
-}
-
-void tell(const std::string& problem) {
-  fmt::print(stderr, "gearshift: {}\n", problem);
 }
 
 // What cannot be compared or kept is told: it never costs the results.
@@ -102,13 +119,16 @@ std::vector<ReportFile> files_of(const BenchRun& run) {
 }
 
 int run_bench(const BenchArguments& arguments) {
+  const StopSignals signals;
   std::ofstream csv = open_csv(arguments.csv_file);
   if (!arguments.out.empty()) make_folder(arguments.out);
   BenchRun run{.program = program_name(),
                .date = date_text(system_seconds()),
                .quick = arguments.options.quick,
-               .machine = this_machine(gpu_words()),
-               .rows = measure(arguments)};
+               .machine = this_machine(gpu_words())};
+  const std::optional<ProcessorTime> begin = processor_time_now();
+  run.rows = measure(arguments);
+  run.taken = taken_elsewhere(begin, processor_time_now());
   if (!run.quick) compare_and_keep(run);
   fmt::print("{}", arguments.json ? bench_json(run) : bench_table(run));
   if (csv.is_open()) write_csv(csv, arguments.csv_file, run);
@@ -117,7 +137,7 @@ int run_bench(const BenchArguments& arguments) {
       if (!arguments.json) fmt::print("{}\n", file.string());
     });
   }
-  return 0;
+  return StopSignals::asked() ? 1 : 0;
 }
 
 }  // namespace
@@ -125,13 +145,16 @@ int run_bench(const BenchArguments& arguments) {
 void add_bench_verb(CLI::App& app, VerbAction& action) {
   auto arguments = std::make_shared<BenchArguments>();
   CLI::App* verb = app.add_subcommand("bench", "Speed against error: what the haptic loop costs and how good it is");
+  verb->footer(
+      "Examples:\n"
+      "  gearshift bench --quick\n"
+      "  gearshift bench --family plant\n");
   std::vector<std::string> names;
   for (const NamedFamily& family : bench_families()) names.emplace_back(family.name);
   verb->add_option("--family", arguments->families, "only these families; may be repeated")
       ->check(CLI::IsMember(names));
-  verb->add_flag(
-      "--quick", arguments->options.quick,
-      "fewer repetitions, within a minute: a look, not figures to quote, nor to compare with the last run's");
+  verb->add_flag("--quick", arguments->options.quick,
+                 "fewer repetitions, about a minute: a look, not figures to quote, nor to compare with the last run's");
   verb->add_flag("--json", arguments->json, "JSON on stdout");
   verb->add_option("--csv", arguments->csv_file, "also write the rows as CSV")->type_name("FILE");
   verb->add_option("--out", arguments->out, "also write bench.html with plots, bench.csv, bench.json, FAMILY.svg")

@@ -1,6 +1,7 @@
 // Cost of the whole haptic cycle, and of its stages.
 #include <algorithm>
 #include <array>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -69,18 +70,30 @@ struct Medians {
   CycleTimes last;
 };
 
-Medians run_tours(const Gate& gate, const Tape& tape, int runs, const BenchOptions& options) {
+void run_tour(const Gate& gate, const Tape& tape, Medians& medians) {
   TapeDevice device(tape.spec, tape.readings);
-  Medians medians;
+  medians.last.whole.clear();
+  run_tape(gate, device, tape.readings.size(), medians.last);
+  for (double& t : medians.last.whole) t /= ticks_per_ns();
+  medians.p50.push_back(quantile(medians.last.whole, 0.5));
+  medians.p99.push_back(quantile(medians.last.whole, 0.99));
+}
+
+// Tour by tour of all tapes in turn, so that a busy machine slows them alike.
+std::vector<Medians> run_tours(const Gate& gate, std::span<const Tape> tapes, int runs, const BenchOptions& options) {
+  std::vector<Medians> medians(tapes.size());
   for (int i = 0; i < runs; ++i) {
     if (options.progress) options.progress("cycle", static_cast<double>(i) / runs);
-    medians.last.whole.clear();
-    run_tape(gate, device, tape.readings.size(), medians.last);
-    for (double& t : medians.last.whole) t /= ticks_per_ns();
-    medians.p50.push_back(quantile(medians.last.whole, 0.5));
-    medians.p99.push_back(quantile(medians.last.whole, 0.99));
+    for (std::size_t t = 0; t < tapes.size(); ++t) run_tour(gate, tapes[t], medians[t]);
   }
   return medians;
+}
+
+// Of neighbours in time.
+Timed ratio_of(const std::vector<double>& above, const std::vector<double>& below) {
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < above.size(); ++i) ratios.push_back(above[i] / below[i]);
+  return timed(ratios);
 }
 
 BenchRow timed_row(const std::string& name, const Timed& ns, std::optional<double> goal, const std::string& note) {
@@ -103,9 +116,11 @@ Tape silent(Tape tape) {
 
 std::vector<BenchRow> bench_cycle(const BenchOptions& options) {
   const Gate gate = bench_gate(options.gate_folder, "paper");
-  const Tape tape = record_tour(gate);
+  const Tape tape = record_tour(gate), tapes[] = {tape, with_own_walls(tape), silent(tape)};
   const int runs = options.quick ? 5 : 50;
-  Medians medians = run_tours(gate, tape, runs, options);
+  std::vector<Medians> tours = run_tours(gate, tapes, runs, options);
+  Medians &medians = tours[0], &walls = tours[1], &lost = tours[2];
+  const Timed lost_ratio = ratio_of(lost.p50, medians.p50);
   const Timed p50 = timed(medians.p50), p99 = timed(medians.p99);
   const std::string note = "median of " + std::to_string(runs) + " tours; every 64th cycle carries nine clock reads";
   std::vector<BenchRow> rows{timed_row("whole cycle p50", p50, 200.0, note),
@@ -113,11 +128,9 @@ std::vector<BenchRow> bench_cycle(const BenchOptions& options) {
                              {"cycle", "cycles in contact", 100.0 * tape.contact_share, "%", 30.0, true,
                               "gripping hand, paper's gate, 1 kHz"}};
   for (BenchRow& row : rows) row.design = Design::cycle;
-  Medians walls = run_tours(gate, with_own_walls(tape), runs, options);
   rows.push_back(timed_row("whole cycle p50, walls that the device keeps", timed(walls.p50), {}, note));
-  Medians lost = run_tours(gate, silent(tape), runs, options);
-  rows.push_back({"cycle", "never a fresh reading, over whole cycle p50", timed(lost.p50).median / p50.median, "ratio",
-                  1.0, false, "no more than with fresh ones"});
+  rows.push_back(repeated(lost_ratio.spread, {"cycle", "never a fresh reading, over whole cycle p50", lost_ratio.median,
+                                              "ratio", 1.0, false, "no more than with fresh ones"}));
   for (std::size_t s = 0; s < kStages; ++s) {
     const std::string stage = std::string("stage ") + kStageNames[s];
     rows.push_back(timed_row(stage, timed(medians.last.stages[s]), {}, "with one clock read, about 25 ns"));

@@ -21,7 +21,8 @@ namespace {
 
 using glm::dvec2;
 
-constexpr double kWanted = 5000.0;  // [N/m]
+constexpr double kWanted = 5000.0;     // [N/m]
+constexpr double kDisplayedOf = 0.97;  // [1] of it, by the design's table: a wall that gives way is still for nothing
 
 struct Method {
   std::string name;
@@ -133,6 +134,7 @@ BenchRow row_of(const Method& method, const Place& at, const Timed& ns, const Be
   const std::vector<HandOutcome> outcomes = run_campaign(campaign);
   const HandOutcome& worst = worst_ripple(outcomes);
   const ImpactEnergy energy = run_impacts(contact_of(method, at), options.quick ? 5 : 100);
+  const double displayed = least_displayed(outcomes);
   const Beside cycle{"cost", ns.median, "ns", ns.spread};
   BenchRow row{"methods",
                words(at) + ": " + method.name,
@@ -142,11 +144,17 @@ BenchRow row_of(const Method& method, const Place& at, const Timed& ns, const Be
                false,
                "last peak-to-peak p95, 20 N, worst hand: " + worst.hand,
                true,
-               {{"displayed error", 100.0 * (1.0 - least_displayed(outcomes)), "%"},
+               {{"displayed error", 100.0 * (1.0 - displayed), "%"},
                 {"energy per contact, mean", 100.0 * energy.mean_share, "% of the impact"},
                 {"worst", 100.0 * energy.worst_share, "%"},
                 cycle}};
-  row.trade = Trade{words(at), method.name, cycle, {"last peak-to-peak, p95", row.value, "mm"}, is_default(method, at)};
+  if (displayed >= kDisplayedOf) {
+    row.trade = Trade{words(at) + ": walls that display 97 %",
+                      method.name,
+                      cycle,
+                      {"last peak-to-peak, p95", row.value, "mm"},
+                      is_default(method, at)};
+  }
   if (method.control == EnergyControl::none) row.beside.push_back({"K limit", stiffest(method, at), "N/m"});
   return row;
 }

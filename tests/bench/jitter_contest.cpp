@@ -2,6 +2,7 @@
 
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -82,6 +83,11 @@ Lateness run_cyclictest(double seconds, int core) {
   return result;
 }
 
+// As cyclictest's figure is: the upper edge of its whole microsecond.
+double upper_edge(double us) {
+  return std::floor(us) + 1.0;
+}
+
 struct Contest {
   std::array<std::vector<double>, 2> theirs, sleeping, spinning, sleeping_ratio, spinning_ratio;
   std::vector<double> cycle_us;  // spinning, as shipped
@@ -103,8 +109,8 @@ Contest compete(const Gate& gate, const BenchOptions& options, const std::functi
       contest.theirs[i].push_back(theirs.us[i]);
       contest.sleeping[i].push_back(sleeping.us[i]);
       contest.spinning[i].push_back(spinning.us[i]);
-      contest.sleeping_ratio[i].push_back(sleeping.us[i] / theirs.us[i]);
-      contest.spinning_ratio[i].push_back(spinning.us[i] / theirs.us[i]);
+      contest.sleeping_ratio[i].push_back(upper_edge(sleeping.us[i]) / theirs.us[i]);
+      contest.spinning_ratio[i].push_back(upper_edge(spinning.us[i]) / theirs.us[i]);
     }
   }
   return contest;
@@ -116,7 +122,8 @@ BenchRow block_row(const std::string& family, const std::string& what, std::vect
   return repeated(blocks.spread, {family, what, blocks.median, unit, {}, false, note});
 }
 
-// Ours beside theirs: the figure itself, and the median of the blocks' ratios, which is what is compared.
+// Ours beside theirs: the figure itself, and the median of the blocks' ratios, both in whole microseconds, which is what
+// is compared.
 void add_ours(std::vector<BenchRow>& rows, const std::string& family, const std::string& what, std::vector<double>& us,
               std::vector<double>& ratio, const std::string& note) {
   rows.push_back(block_row(family, "ours, " + what, us, "us", note));

@@ -28,6 +28,19 @@ check "JSON: the design's rows are answered" \
   in_json '{r["design"] for r in run["rows"] if "design" in r} == {"delivered", "plant"}'
 check "a quick run is not kept" test ! -e data/gearshift/bench
 
+# Walls: still is no merit in one that gives way.
+check "ways to make a wall" bench --quick --family methods --out x
+check "JSON: among those that display 97 % alone" in_json 'all(
+    [b["value"] <= 3 for b in r["beside"] if b["what"] == "displayed error"] == [True]
+    for r in run["rows"] if "peak-to-peak" in r.get("trade", {}).get("error", {}).get("what", ""))'
+check "JSON: the default is one of them" in_json '"1000 Hz, delay 0: half-sample hold, B = 10" in
+    [r["name"] for r in run["rows"] if r.get("trade", {}).get("chosen")]'
+check "JSON: the rest stands beside" in_json 'any(r["name"].endswith("energy bounding") and "trade" not in r for r in run["rows"])'
+
+# The whole look. Its seconds are told and not judged: the machine may be anyone's.
+quick_seconds() { TIMEFORMAT='bench --quick took %R s, the processors %U + %S s'; time bench --quick --json; }
+if whole; then check "a look at everything" quick_seconds; fi
+
 check "a full run" bench --family feel
 check "has nothing to be compared with" test -z "$(grep 'since last' out)"
 check "and is kept" test "$(ls data/gearshift/bench | wc -l)" -eq 1
@@ -39,6 +52,26 @@ check "a last run that makes no sense costs nothing" bench --family feel
 check "but one sentence" test "$(wc -l <err)" -eq 1
 check "which says where it is now" complains "$last.unreadable"
 check "and the next has one again" test -n "$(grep feel "$last")"
+
+# Ended early: a file keeps what it had until there is something to put there.
+running() { # signal, argument ...
+  local signal=$1
+  shift
+  rm -rf begun
+  "$gearshift" bench --family cycle --family headless --out begun "$@" >out 2>err &
+  until [ -d begun ] || ! kill -0 $! 2>/dev/null; do sleep 0.02; done
+  kill -"$signal" $!
+  wait $! 2>/dev/null
+}
+echo "of old" >kept.csv
+running KILL --csv kept.csv
+check "killed, it has taken nothing" test "$(cat kept.csv)" = "of old"
+running TERM --csv kept.csv
+check "asked to end, it does" test $? -eq 1
+check "and says where" complains "ended in the family"
+check "whole families are kept" test "$(head -c 12 kept.csv)" = "family,what,"
+check "the page, too" is_xml begun/bench.html
+
 rm -r data && echo "a file" >data
 check "nowhere to keep it costs nothing" bench --family feel --csv rows.csv
 check "but one sentence" test "$(wc -l <err)" -eq 1

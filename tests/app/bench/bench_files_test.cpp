@@ -59,22 +59,45 @@ TEST_CASE("CSV: as many fields on each line as the head names, and text as it wa
   const auto lines = parse_csv(bench_csv(run));
   REQUIRE(lines.size() == 3);
   for (const auto& line : lines) CHECK(line.size() == lines[0].size());
-  CHECK(lines[1] == std::vector<std::string>{"walk", "a \"good\" one, cheap", "0.125", "mm", "0.25", "by hand",
-                                             "cost = 3 ns", "0.1", "0.2", "walks", "a \"good\" one, cheap", "3", "ns",
-                                             "0.125", "mm", "yes", "0.5"});
+  CHECK(lines[1] == std::vector<std::string>{"walk",    "a \"good\" one, cheap",
+                                             "0.125",   "mm",
+                                             "0.25",    "at most",
+                                             "met",     "plant",
+                                             "by hand", "cost = 3 ns",
+                                             "0.1",     "0.2",
+                                             "walks",   "a \"good\" one, cheap",
+                                             "3",       "ns",
+                                             "0.125",   "mm",
+                                             "yes",     "0.5"});
   CHECK(lines[2][2].empty());
-  CHECK(lines[2][5] == "not measurable: no path");
+  CHECK(lines[2][4] == "1");
+  CHECK(lines[2][6].empty());
+  CHECK(lines[2][8] == "not measurable: no path");
+}
+
+TEST_CASE("CSV alone tells a goal's direction and what came of it") {
+  BenchRow slow = plain_row("walk", "slow", 1.0);
+  slow.goal = 2.0;
+  slow.at_least = true;
+  const auto lines = parse_csv(bench_csv(made_run({slow, plain_row("walk", "free", 1.0)})));
+  CHECK(std::vector<std::string>(lines[0].begin() + 4, lines[0].begin() + 8) ==
+        std::vector<std::string>{"goal", "goal_is", "verdict", "design"});
+  CHECK(std::vector<std::string>(lines[1].begin() + 4, lines[1].begin() + 8) ==
+        std::vector<std::string>{"2", "at least", "NOT MET", ""});
+  CHECK(std::vector<std::string>(lines[2].begin() + 4, lines[2].begin() + 8) == std::vector<std::string>(4));
 }
 
 TEST_CASE("JSON: every field comes back; what was not measured is null and neither met nor missed") {
   BenchRun run = made_run({full_row(), row_not_measured()});
   run.rows[0].since = SinceLast{"2025-01-01T00:00:00Z", 0.5, 0.25, true};
+  run.taken = TakenElsewhere{.by_host = 0.25, .by_programs = 0.0};
   const auto json = nlohmann::json::parse(bench_json(run));
   CHECK(json["program"] == "gearshift 9.9");
   CHECK(json["date"] == "2026-01-02T03:04:05Z");
   CHECK(json["quick"] == false);
   CHECK(json["machine"]["cpu"] == "Abacus");
   CHECK_FALSE(json["machine"].contains("host"));
+  CHECK(json["taken"]["by_host"] == 0.25);
   const auto& row = json["rows"][0];
   CHECK(row["value"] == 0.125);
   CHECK(row["quartiles"] == nlohmann::json{0.1, 0.2});

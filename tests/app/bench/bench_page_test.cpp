@@ -2,6 +2,7 @@
 #include "app/bench/bench_page.h"
 
 #include <algorithm>
+#include <limits>
 
 #include <doctest/doctest.h>
 #include <glm/vec2.hpp>
@@ -143,6 +144,27 @@ TEST_CASE("a front of two is a line of two steps: from the top, down at each, on
     CHECK(line[i].x >= line[i - 1].x);
     CHECK(line[i].y >= line[i - 1].y);  // down the page: less error
   }
+}
+
+TEST_CASE("what is not finite has no place in the plot, and stands below it among the others") {
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN(), kEndless = std::numeric_limits<double>::infinity();
+  std::vector<BenchRow> rows = three_walks();
+  rows.push_back(trade_row("free of charge", kNone, 0.5));
+  rows.push_back(trade_row("endless", 20.0, kEndless, true));
+  BenchRow wide = trade_row("wide", 30.0, 0.4);
+  wide.trade->cost.spread = Quartiles{25.0, kEndless};
+  rows.push_back(wide);
+  const std::string svg = trade_svg("walk", rows);
+  CHECK(is_well_formed(svg));
+  for (const char* coordinate : {"=\"nan", "=\"-nan", "=\"inf", "=\"-inf", ",inf", ",nan"}) {
+    CAPTURE(coordinate);
+    CHECK(svg.find(coordinate) == std::string::npos);
+  }
+  CHECK(svg.find("<title>free of charge") == std::string::npos);
+  CHECK(svg.find("<title>endless") == std::string::npos);
+  CHECK(svg.find("<title>wide") != std::string::npos);
+  CHECK(svg.find(">free of charge, not in the plot</text>") != std::string::npos);
+  CHECK(svg.find(">endless (the default), not in the plot</text>") != std::string::npos);
 }
 
 TEST_CASE("no plot of a family without methods, of another's or of what was not measured; one alone has one") {

@@ -6,6 +6,7 @@
 
 #include <cmath>
 #include <fstream>
+#include <functional>
 #include <sstream>
 
 #include <doctest/doctest.h>
@@ -109,8 +110,11 @@ TEST_CASE("a run of some families leaves what is known of the others") {
 }
 
 TEST_CASE("a file that makes no sense is told in one sentence and kept aside, and the next run has a file") {
-  for (const char* text : {"", "no JSON", "[]", "{\"families\": 3}", "{\"families\": {\"walk\": {\"date\": 1}}}",
-                           "{\"families\": {\"walk\": {\"date\": \"d\", \"figures\": {\"a\": {\"value\": null}}}}}"}) {
+  for (const char* text :
+       {"", "no JSON", "[]", "{\"families\": 3}", "{\"families\": {\"walk\": {\"date\": 1}}}",
+        "{\"families\": {\"walk\": {\"date\": \"d\", \"figures\": {\"a\": {\"value\": null}}}}}",
+        "{\"families\": {\"walk\": {\"date\": \"x\\u0001\\u001b[31m\", \"figures\": {}}}}",
+        "{\"families\": {\"walk\": {\"date\": \"2026-01-02T03:04:05Z\\uffff\", \"figures\": {}}}}"}) {
     CAPTURE(text);
     const TempFolder folder;
     const fs::path file = folder / "last.json";
@@ -124,6 +128,48 @@ TEST_CASE("a file that makes no sense is told in one sentence and kept aside, an
     keep_run(file, {}, made_run({plain_row("walk", "a", 1.0)}));
     CHECK(read_last_run(file, never_told).size() == 1);
   }
+}
+
+TEST_CASE(
+    "what is no text file of ours is kept aside, too: one too large, a link to a pipe, a folder, a link to nothing") {
+  const auto too_large = [](const fs::path& file) { std::ofstream(file) << std::string(2'700'000, ' '); };
+  const auto pipe = [](const fs::path& file) {
+    REQUIRE(mkfifo((file.parent_path() / "pipe").c_str(), 0600) == 0);
+    fs::create_symlink("pipe", file);
+  };
+  const auto a_folder = [](const fs::path& file) { fs::create_directories(file / "with"); };
+  const auto to_nothing = [](const fs::path& file) { fs::create_symlink("nothing", file); };
+  for (const std::function<void(const fs::path&)>& make :
+       std::vector<std::function<void(const fs::path&)>>{too_large, pipe, a_folder, to_nothing}) {
+    const TempFolder folder;
+    const fs::path file = folder / "last.json";
+    make(file);
+    const fs::file_type kind = fs::symlink_status(file).type();
+    std::vector<std::string> told;
+    CHECK(read_last_run(file, [&](const std::string& problem) { told.push_back(problem); }).empty());
+    REQUIRE(told.size() == 1);
+    CAPTURE(told[0]);
+    CHECK(told[0].find((folder / "last.json.unreadable").string()) != std::string::npos);
+    CHECK(fs::symlink_status(folder / "last.json.unreadable").type() == kind);
+    keep_run(file, {}, made_run({plain_row("walk", "a", 1.0)}));
+    CHECK(read_last_run(file, never_told).size() == 1);
+  }
+}
+
+TEST_CASE("the second file that makes no sense leaves the first where it is") {
+  const TempFolder folder;
+  for (const char* text : {"first", "second", "third"}) {
+    std::ofstream(folder / "last.json") << text;
+    read_last_run(folder / "last.json", [](const std::string&) {});
+  }
+  CHECK(text_of(folder / "last.json.unreadable") == "first");
+  CHECK(text_of(folder / "last.json.unreadable2") == "second");
+  CHECK(text_of(folder / "last.json.unreadable3") == "third");
+}
+
+TEST_CASE("a spread without end is none, and the file stays readable") {
+  const SinceLast found = since(timed_row(1.0, 0.5, INFINITY), plain_row("walk", "timed", 1.0));
+  CHECK(found.ratio == 1.0);
 }
 
 TEST_CASE("where nothing can be written, that is said, and what was there still is") {
@@ -141,13 +187,13 @@ TEST_CASE("where nothing can be written, that is said, and what was there still 
   CHECK(since_last(read_last_run(file, never_told), plain_row("walk", "a", 1.0))->value == 1.0);
 }
 
-TEST_CASE(
-    "another processor, number of cores, GPU, host or build is another machine; its compiler and kernel are not") {
+TEST_CASE("another processor, number of cores, GPU, host, build or compiler is another machine; its kernel is not") {
   const Machine machine = made_run({}).machine;
   const std::string key = machine_key(machine);
   CHECK(key.size() == 16);
   CHECK(key.find_first_not_of("0123456789abcdef") == std::string::npos);
-  for (std::string Machine::*part : {&Machine::cpu, &Machine::gpu, &Machine::host, &Machine::build}) {
+  for (std::string Machine::*part :
+       {&Machine::cpu, &Machine::gpu, &Machine::host, &Machine::build, &Machine::compiler}) {
     Machine other = machine;
     other.*part += "x";
     CHECK(machine_key(other) != key);
@@ -155,11 +201,9 @@ TEST_CASE(
   Machine more = machine;
   more.cores = 3;
   CHECK(machine_key(more) != key);
-  for (std::string Machine::*part : {&Machine::system, &Machine::compiler}) {
-    Machine same = machine;
-    same.*part += "x";
-    CHECK(machine_key(same) == key);
-  }
+  Machine same = machine;
+  same.system += "x";
+  CHECK(machine_key(same) == key);
 }
 
 TEST_CASE("the processor's model as the kernel tells it") {

@@ -59,34 +59,37 @@ Error brdf_error(const Method& method) {
   return error;
 }
 
-// Made again and again: what it takes, and the last of them.
-template <class Make>
-auto bake(const BenchOptions& options, const Make& make, Timed& ms) {
-  std::vector<double> taken;
-  for (int i = 1;; ++i) {
-    const auto start = Clock::now();
-    auto baked = make();
-    taken.push_back(ms_since(start));
-    if (i < (options.quick ? 1 : 9)) continue;
-    ms = timed(taken);
-    return baked;
+// One of several ways, made again and again: what it takes, and the last of them.
+template <class Settings, class Made>
+struct Baked {
+  Settings settings;
+  Made made = {};
+  std::vector<double> taken = {};  // [ms] of each time
+};
+
+// In turn, so that a busy machine slows all of them alike.
+template <class Settings, class Made, class Make>
+void bake_in_turn(const BenchOptions& options, std::vector<Baked<Settings, Made>>& ways, const Make& make) {
+  for (int round = 0; round < (options.quick ? 1 : 9); ++round) {
+    for (Baked<Settings, Made>& way : ways) {
+      const auto start = Clock::now();
+      way.made = make(way.settings);
+      way.taken.push_back(ms_since(start));
+    }
   }
 }
 
-// What the default arguments of its function say.
-bool is_default_brdf(int side, int samples) {
-  return side == kBrdfSide && samples == kBrdfSamples;
-}
-
-Trade brdf_trade(const std::string& method, const Timed& ms, const Error& error) {
-  return {"environment BRDF", method, {"bake", ms.median, "ms", ms.spread}, {"RMS", error.rms(), ""}};
-}
+struct BrdfSettings {
+  int side, samples;
+  // What the default arguments of its function say.
+  bool is_default() const { return side == kBrdfSide && samples == kBrdfSamples; }
+};
 
 // facts/rendering.md: RMS .0010, worst .0055 for a table from 1024 samples.
-BenchRow brdf_row(const BenchOptions& options, int side, int samples) {
-  Timed ms;
-  const BrdfTable table = bake(
-      options, [&] { return bake_brdf(side, samples); }, ms);
+BenchRow brdf_row(Baked<BrdfSettings, BrdfTable>& baked) {
+  const auto [side, samples] = baked.settings;
+  const Timed ms = timed(baked.taken);
+  const BrdfTable& table = baked.made;
   const Error error = brdf_error([&](double n_dot_v, double roughness) {
     return glm::dvec2(table.sample(static_cast<float>(n_dot_v), static_cast<float>(roughness)));
   });
@@ -94,13 +97,16 @@ BenchRow brdf_row(const BenchOptions& options, int side, int samples) {
                fmt::format("environment BRDF, {0}x{0} table, {1} samples: RMS", side, samples),
                error.rms(),
                "",
-               is_default_brdf(side, samples) ? std::optional<double>(0.0010) : std::nullopt,
+               baked.settings.is_default() ? std::optional<double>(0.0010) : std::nullopt,
                false,
                "",
                true,
                {{"worst", error.worst, ""}, {"bake", ms.median, "ms", ms.spread}}};
-  row.trade = brdf_trade(fmt::format("{0}x{0} table, {1} samples", side, samples), ms, error);
-  row.trade->chosen = is_default_brdf(side, samples);
+  row.trade = Trade{"environment BRDF",
+                    fmt::format("{0}x{0} table, {1} samples", side, samples),
+                    {"bake", ms.median, "ms", ms.spread},
+                    {"RMS", error.rms(), ""},
+                    baked.settings.is_default()};
   return row;
 }
 
@@ -111,19 +117,18 @@ glm::dvec2 mobile_fit(double n_dot_v, double roughness) {
   return {-1.04 * a + r.z, 1.04 * a + r.w};
 }
 
+// No contestant of the tables: it bakes nothing and costs some instructions in each pixel.
 BenchRow brdf_fit_row() {
   const Error error = brdf_error(mobile_fit);
-  BenchRow row{"light",
-               "environment BRDF, analytic fit (Karis 2014): RMS",
-               error.rms(),
-               "",
-               {},
-               false,
-               "",
-               true,
-               {{"worst", error.worst, ""}}};
-  row.trade = brdf_trade("analytic fit (Karis 2014)", {}, error);
-  return row;
+  return {"light",
+          "environment BRDF, analytic fit (Karis 2014): RMS",
+          error.rms(),
+          "",
+          {},
+          false,
+          "no table to bake or read, but paid for in each pixel: beside the tables, not among them",
+          true,
+          {{"worst", error.worst, ""}}};
 }
 
 // Irradiance / pi by midpoint quadrature over the hemisphere around n: independent of any basis.
@@ -147,11 +152,11 @@ Radiance bench_sky() {
   return day_sky(glm::normalize(glm::vec3(0.35f, 0.80f, -0.48f)));
 }
 
-BenchRow irradiance_row(const BenchOptions& options, int samples) {
+BenchRow irradiance_row(Baked<int, Irradiance>& baked) {
   const Radiance sky = bench_sky();
-  Timed ms;
-  const Irradiance fast = bake(
-      options, [&] { return project_irradiance(sky, samples); }, ms);
+  const int samples = baked.settings;
+  const Timed ms = timed(baked.taken);
+  const Irradiance& fast = baked.made;
   std::mt19937 chance(1);
   std::normal_distribution<float> normal;
   Error relative;
@@ -193,11 +198,10 @@ double prefilter_error(const PrefilteredCube& cube, const PrefilteredCube& truth
   return std::sqrt(off / all);
 }
 
-BenchRow prefilter_row(const BenchOptions& options, int samples, const PrefilteredCube& truth) {
-  const Radiance sky = bench_sky();
-  Timed ms;
-  const PrefilteredCube cube = bake(
-      options, [&] { return prefilter(sky, truth.side, static_cast<int>(truth.levels.size()), samples); }, ms);
+BenchRow prefilter_row(Baked<int, PrefilteredCube>& baked, const PrefilteredCube& truth) {
+  const int samples = baked.settings;
+  const Timed ms = timed(baked.taken);
+  const PrefilteredCube& cube = baked.made;
   const double error = 100.0 * prefilter_error(cube, truth);
   BenchRow row{"light",
                fmt::format("reflections prefiltered, 64^2 x 6 x {} levels, {} samples", cube.levels.size(), samples),
@@ -216,16 +220,36 @@ BenchRow prefilter_row(const BenchOptions& options, int samples, const Prefilter
   return repeated(ms.spread, std::move(row));
 }
 
+void add_brdf(std::vector<BenchRow>& rows, const BenchOptions& options) {
+  std::vector<Baked<BrdfSettings, BrdfTable>> ways;
+  for (const int samples : {16, 64, 128, 256, 1024}) ways.push_back({{64, samples}});
+  for (const int samples : {64, 128, 256}) ways.push_back({{32, samples}});
+  bake_in_turn(options, ways, [](const BrdfSettings& way) { return bake_brdf(way.side, way.samples); });
+  for (auto& way : ways) rows.push_back(brdf_row(way));
+}
+
+void add_irradiance(std::vector<BenchRow>& rows, const BenchOptions& options) {
+  std::vector<Baked<int, Irradiance>> ways{{8}, {32}, {64}};
+  bake_in_turn(options, ways, [sky = bench_sky()](int samples) { return project_irradiance(sky, samples); });
+  for (auto& way : ways) rows.push_back(irradiance_row(way));
+}
+
+void add_reflections(std::vector<BenchRow>& rows, const BenchOptions& options) {
+  constexpr int kSide = 64, kLevels = 6;
+  const PrefilteredCube truth = prefilter(bench_sky(), kSide, kLevels, kTruthSamples);
+  std::vector<Baked<int, PrefilteredCube>> ways{{16}, {64}, {256}};
+  bake_in_turn(options, ways, [sky = bench_sky()](int samples) { return prefilter(sky, kSide, kLevels, samples); });
+  for (auto& way : ways) rows.push_back(prefilter_row(way, truth));
+}
+
 }  // namespace
 
 std::vector<BenchRow> bench_light(const BenchOptions& options) {
   std::vector<BenchRow> rows;
-  for (const int samples : {16, 64, 128, 256, 1024}) rows.push_back(brdf_row(options, 64, samples));
-  for (const int samples : {64, 128, 256}) rows.push_back(brdf_row(options, 32, samples));
+  add_brdf(rows, options);
   rows.push_back(brdf_fit_row());
-  for (const int samples : {8, 32, 64}) rows.push_back(irradiance_row(options, samples));
-  const PrefilteredCube truth = prefilter(bench_sky(), 64, 6, kTruthSamples);
-  for (const int samples : {16, 64, 256}) rows.push_back(prefilter_row(options, samples, truth));
+  add_irradiance(rows, options);
+  add_reflections(rows, options);
   return rows;
 }
 

@@ -52,8 +52,15 @@ RenderConfig sized(int scale, int samples) {
 }
 
 double linear(std::uint8_t value) {
-  const double s = value / 255.0;
-  return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+  static const std::array<double, 256> kLinear = [] {
+    std::array<double, 256> table{};
+    for (std::size_t i = 0; i < table.size(); ++i) {
+      const double s = static_cast<double>(i) / 255.0;
+      table[i] = s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
+    }
+    return table;
+  }();
+  return kLinear[value];
 }
 
 std::uint8_t srgb(double value) {
@@ -80,23 +87,48 @@ Image shrunk(const Image& picture, int scale) {
   return out;
 }
 
+struct Way {
+  RenderConfig config;
+  int reduced = 1;  // the picture, on the processor, by so many pixels along a side: what is shown costs that, too
+};
+
 struct Taken {
   Image picture;
-  Timed ms;  // a frame
+  Timed ms, reduction;  // a frame with its reduction; that alone
   Beside frame() const { return {"frame", ms.median, "ms", ms.spread}; }
 };
 
-Taken take(PaperCabin& cabin, const RenderConfig& config, const View& view, int frames) {
-  cabin.renderer.resize(config);
-  const Timed ms = time_frames(cabin.gpu, cabin.renderer, cabin.stage.scene(), {&view, 1}, frames, 1).host;
-  return {cabin.renderer.read_eye(0), ms};
+// One frame of each way in turn, so that a busy machine slows all of them alike.
+std::vector<Taken> take_in_turn(PaperCabin& cabin, const std::vector<Way>& ways, const View& view, int frames) {
+  std::vector<Taken> taken(ways.size());
+  std::vector<std::vector<double>> ms(ways.size()), reductions(ways.size());
+  for (int round = 0; round < frames; ++round) {
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+      cabin.renderer.resize(ways[i].config);
+      const FrameCost cost = time_frames(cabin.gpu, cabin.renderer, cabin.stage.scene(), {&view, 1}, 1, 1);
+      taken[i].picture = cabin.renderer.read_eye(0);
+      const auto start = std::chrono::steady_clock::now();
+      if (ways[i].reduced > 1) taken[i].picture = shrunk(taken[i].picture, ways[i].reduced);
+      reductions[i].push_back(ms_since(start));
+      ms[i].push_back(cost.host.median + reductions[i].back());
+    }
+  }
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    taken[i].ms = timed(ms[i]);
+    taken[i].reduction = timed(reductions[i]);
+  }
+  return taken;
+}
+
+Image picture_of(PaperCabin& cabin, const Way& way, const View& view) {
+  return take_in_turn(cabin, {way}, view, 1).front().picture;
 }
 
 std::vector<BenchRow> anti_aliasing_rows(const BenchOptions& options, PaperCabin& cabin) {
   const View view = seen_from(cabin.stage.driver_eye(), sized(1, 1));
   const int frames = options.quick ? 2 : 9;
   const int fine = options.quick ? 4 : 8;  // times as many samples along a side
-  const Image reference = shrunk(take(cabin, sized(fine, 1), view, 1).picture, fine);
+  const Image reference = picture_of(cabin, {sized(fine, 1), fine}, view);
   std::vector<BenchRow> rows;
   const auto add = [&](const char* name, int samples, const Taken& taken) {
     const double apart_seen = flip(reference, taken.picture).mean;
@@ -117,11 +149,11 @@ std::vector<BenchRow> anti_aliasing_rows(const BenchOptions& options, PaperCabin
                               {fmt::format("FLIP against {} samples a pixel", fine * fine), apart_seen, ""},
                               samples == RenderConfig{}.samples};
   };
-  add("1x", 1, take(cabin, sized(1, 1), view, frames));
-  Taken super = take(cabin, sized(2, 1), view, frames);
-  super.picture = shrunk(super.picture, 2);
-  add("2x2 supersampling", 0, super);
-  add("4x", 4, take(cabin, sized(1, 4), view, frames));
+  const std::vector<Taken> taken = take_in_turn(cabin, {{sized(1, 1)}, {sized(2, 1), 2}, {sized(1, 4)}}, view, frames);
+  add("1x", 1, taken[0]);
+  add("2x2 supersampling", 0, taken[1]);
+  rows.back().beside.push_back({"of it reducing the picture", taken[1].reduction.median, "ms"});
+  add("4x", 4, taken[2]);
   return rows;
 }
 
@@ -225,15 +257,21 @@ std::vector<BenchRow> shadow_rows(const BenchOptions& options, PaperCabin& cabin
   RenderConfig config = sized(1, 1);
   config.mirror_height = 0;
   config.shadow_side = 0;
-  const Image unshadowed = take(cabin, config, view, 1).picture;
+  const Image unshadowed = picture_of(cabin, {config}, view);
   FrameScene dark = cabin.stage.scene();
   dark.sun.irradiance = glm::vec3(0.0f);
   cabin.gpu.wait(cabin.renderer.draw(dark, {&view, 1}));
   const Image sunless = cabin.renderer.read_eye(0);
-  std::vector<BenchRow> rows;
+  std::vector<Way> ways;
   for (const int side : {512, 1024, 2048, 4096}) {
     config.shadow_side = side;
-    const Taken taken = take(cabin, config, view, options.quick ? 2 : 9);
+    ways.push_back({config});
+  }
+  const std::vector<Taken> all = take_in_turn(cabin, ways, view, options.quick ? 2 : 9);
+  std::vector<BenchRow> rows;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    const int side = ways[i].config.shadow_side;
+    const Taken& taken = all[i];
     int wrong = 0, judged = 0;
     for (const LitPixel& pixel : truth) {
       const double full = luminance(unshadowed, pixel), none = luminance(sunless, pixel);
@@ -266,11 +304,17 @@ std::vector<BenchRow> mirror_rows(const BenchOptions& options, PaperCabin& cabin
   const View view = seen_from(eye, sized(1, 1), 0.35);
   RenderConfig config = sized(1, 1);
   config.mirror_height = 384;
-  const Image reference = take(cabin, config, view, 1).picture;
-  std::vector<BenchRow> rows;
+  const Image reference = picture_of(cabin, {config}, view);
+  std::vector<Way> ways;
   for (const int height : {48, 96, 192}) {
     config.mirror_height = height;
-    const Taken taken = take(cabin, config, view, options.quick ? 2 : 9);
+    ways.push_back({config});
+  }
+  const std::vector<Taken> all = take_in_turn(cabin, ways, view, options.quick ? 2 : 9);
+  std::vector<BenchRow> rows;
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    const int height = ways[i].config.mirror_height;
+    const Taken& taken = all[i];
     const double apart = flip(reference, taken.picture).mean;
     rows.push_back({"quality",
                     fmt::format("mirror of {} lines, seen close, against 384: FLIP", height),
