@@ -81,6 +81,7 @@ class WindowTrainer {
   int finish() {
     tell_unkept(session_.settle());
     print_lines(lines_.news(session_.coach().view()), session_.lever_time());
+    if (!session_.take_new_trainer()) health_ = session_.trainer().health();  // since the newest frame, too
     print_health(health_);
     if (!session_.recording()) return 0;
     const bool whole = session_.end_recording();

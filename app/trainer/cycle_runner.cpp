@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <numeric>
 
 namespace gearshift {
 namespace {
@@ -26,9 +27,10 @@ void CycleRunner::cycle(const CycleCall& call, const CycleStatistics* statistics
 
 // Deadlines skipped for an overrun were not slept for: the thread was at work. All others it slept through.
 std::int64_t CycleRunner::lateness(const CycleCall& call, const CycleStatistics& statistics) noexcept {
-  const bool was_at_work = statistics.overruns != overruns_;
-  overruns_ = statistics.overruns;
-  skipped_ = statistics.skipped;
+  const bool was_at_work = statistics.overruns != told_.overruns;
+  has_news_ = was_at_work || statistics.skipped != told_.skipped;
+  told_.overruns = statistics.overruns;
+  told_.skipped = statistics.skipped;
   const std::int64_t slept_for = was_at_work ? 0 : call.skipped * period_ns_;
   return std::max<std::int64_t>(0, clock_ns() - call.deadline_ns) + slept_for;
 }
@@ -46,21 +48,20 @@ void CycleRunner::publish(std::int64_t late_ns) noexcept {
   (void)records.push(record_);
   if (for_driver) (void)for_driver->push(now);
   const StageStamps& stamps = run_->loop.stamps();
-  if (stamps.cycle == now.lever.cycle) add_stamps(stamps);
+  const bool is_stamped = stamps.cycle == now.lever.cycle;
+  if (is_stamped) add_stamps(stamps);
+  if (is_stamped || has_news_) figures.write(told_);
 }
 
 void CycleRunner::add_stamps(const StageStamps& stamps) noexcept {
   std::array<std::int64_t, 8>& newest = stage_ns_[stamps_++ % kStamps];
   for (std::size_t i = 0; i < newest.size(); ++i) newest[i] = stamps.ns[i + 1] - stamps.ns[i];
   const double count = static_cast<double>(std::min(stamps_, kStamps));
-  LoopFigures told;
-  told.overruns = overruns_;
-  told.skipped = skipped_;
+  told_.stage_ns = {};
   for (const auto& stages : stage_ns_) {
-    for (std::size_t i = 0; i < stages.size(); ++i) told.stage_ns[i] += static_cast<double>(stages[i]) / count;
+    for (std::size_t i = 0; i < stages.size(); ++i) told_.stage_ns[i] += static_cast<double>(stages[i]) / count;
   }
-  for (const double stage : told.stage_ns) told.cycle_ns += stage;
-  figures.write(told);
+  told_.cycle_ns = std::accumulate(told_.stage_ns.begin(), told_.stage_ns.end(), 0.0);
 }
 
 }  // namespace gearshift

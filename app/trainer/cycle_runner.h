@@ -64,7 +64,8 @@ class CycleRunner {
   std::atomic<std::int64_t> now_ns_{0};
   LoopRun* run_ = nullptr;
   CycleRecord record_;
-  std::uint64_t overruns_ = 0, skipped_ = 0;
+  LoopFigures told_;       // with each stamp, and at once when a deadline was missed
+  bool has_news_ = false;  // of missed deadlines, in this cycle
   std::array<std::array<std::int64_t, 8>, kStamps> stage_ns_{};  // the last ones, in a ring
   std::size_t stamps_ = 0;                                       // so far
 };

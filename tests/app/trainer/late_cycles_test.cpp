@@ -21,14 +21,17 @@ TEST_CASE("every skipped deadline is told, and apart from them the cycles that t
   std::int64_t deadline = 0;
   std::uint64_t skipped = 0, overruns = 0;
   for (int i = 0; i < 2000; ++i) {
-    const std::int64_t missed = i % 500 == 0 ? 3 : 0;
-    const bool too_long = i % 1000 == 0;
+    const std::int64_t missed = i % 500 == 37 ? 3 : 0;
+    const bool too_long = i % 1000 == 41;
     skipped += static_cast<std::uint64_t>(missed);
     overruns += too_long ? 1u : 0u;
     statistics.skipped = skipped;
     statistics.overruns = overruns;
     deadline += (1 + missed) * period_ns(config);
     runner.cycle({deadline, missed}, &statistics);
+    runner.figures.update();
+    CHECK(runner.figures.value().skipped == skipped);  // at once: the program may end before the next stamp
+    CHECK(runner.figures.value().overruns == overruns);
   }
   runner.figures.update();
   CHECK(runner.figures.value().skipped == 12);
