@@ -30,6 +30,7 @@ CoachConfig coach_config(const SessionChoice& choice) {
   CoachConfig config;
   config.lessons = shipped_lessons();
   config.history = choice.history;
+  config.no_history = choice.no_history;
   config.learner = learner_of(choice);
   config.program = program_name();
   return config;
@@ -61,6 +62,11 @@ std::string_view changed_by(const PanelRequests& requests) {
 }
 
 }  // namespace
+
+// What else ends may take its time: OpenAL without a card does after a step of the clock. No motor waits for that.
+Session::~Session() {
+  trainer_.reset();
+}
 
 Session::Session(const SessionChoice& choice)
     : choice_(choice),

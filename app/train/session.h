@@ -36,6 +36,7 @@ class Session {
  public:
   // Throws FileError, GltfError, std::invalid_argument or std::runtime_error with one sentence.
   explicit Session(const SessionChoice& choice);
+  ~Session();  // the lever ends first
 
   // A frame, in this order. Nothing here throws: a refusal becomes message(). Keys move pedals on the car's clock from
   // here to the next lead(); each is as deep as the deeper of keys and controls.

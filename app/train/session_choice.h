@@ -40,6 +40,7 @@ struct SessionChoice {
   bool help = true;                // guidance as needed; else no trial is guided
   std::string learner;             // empty: nobody, nothing is remembered; nor of a hand by itself
   std::filesystem::path history;   // where it is remembered; empty: nowhere
+  std::string no_history;          // and why not, where the person is to be told
 };
 
 // Who learns: what a hand shows by itself is nobody's.

@@ -13,6 +13,7 @@
 #include "app/training/lesson_world.h"
 #include "haptics/loop/replay.h"
 #include "haptics/loop/trace_reader.h"
+#include "tests/support/memory_in_use.h"
 #include "tests/support/small_files.h"
 #include "tests/support/temp_folder.h"
 #include "tests/support/variable.h"
@@ -286,4 +287,19 @@ TEST_CASE("the cabin is laid open for the cameras that look into it") {
   rig.session.look_from("gate");
   CHECK(rig.session.take_new_model());
   CHECK_FALSE(rig.session.take_new_model());
+}
+
+TEST_CASE("from gate to gate and back: a session keeps no more in use than before") {
+  Rig rig;
+  const auto there_and_back = [&](int times) {
+    for (int i = 0; i < times; ++i) {
+      for (const char* gate : {"six_speed_r_left_up", "four_speed"}) {
+        rig.ask(&PanelRequests::gate, gate);
+        rig.go(0.1);
+      }
+    }
+    return memory_in_use();
+  };
+  const std::size_t once = there_and_back(2), often = there_and_back(6);
+  CHECK(often < once + 64 * 1024);
 }

@@ -1,6 +1,7 @@
 // Faults of what lies beneath a program, on demand: preloaded, it stands before clock, files, OpenAL and Vulkan. The files of
 // the folder $INJECTED_FAULTS say which: clock (seconds that the wall clock is wrong by), write (the errno of every write to
-// a file), sound (the card is gone while it is there), gpu (the device is lost; 1: once, more: at each submission).
+// a file), sound (the card is gone while it is there), gpu (the device is lost; 1: once, more: at each submission). Each
+// loss is a byte of the file gpu_lost there.
 #include <AL/alc.h>
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -40,6 +41,13 @@ long number_in(const char* fault) {
   const ssize_t count = read(file, text, sizeof text - 1);
   close(file);
   return count > 0 ? std::strtol(text, nullptr, 10) : 0;
+}
+
+void count_loss() {
+  const int file = open(path_of("gpu_lost").c_str(), O_WRONLY | O_CREAT | O_APPEND | O_CLOEXEC, 0600);
+  if (file < 0) return;
+  (void)!next<ssize_t (*)(int, const void*, size_t)>("write")(file, "x", 1);
+  close(file);
 }
 
 bool is_refused(int file) {
@@ -112,6 +120,7 @@ VkResult vkQueueSubmit2(VkQueue queue, uint32_t count, const VkSubmitInfo2* subm
   static const auto real = next<PFN_vkQueueSubmit2>("vkQueueSubmit2");
   const long losses = number_in("gpu");
   if (losses == 0) return real(queue, count, submits, fence);
+  count_loss();
   if (losses == 1) unlink(path_of("gpu").c_str());
   return VK_ERROR_DEVICE_LOST;
 }
