@@ -1,6 +1,5 @@
 // Whatever a device says of itself: parse_report_descriptor() refuses it or gives lawful fields, and what find_lever_report()
-// and find_pid() make of these is encoded and decoded within the reports. Run:
-// hid_descriptor_fuzz -max_len=4096 <new inputs> tests/fuzz/hid_corpus
+// and find_pid() make of these is encoded and decoded within the reports.
 #include <cstdio>
 #include <cstdlib>
 
