@@ -40,7 +40,9 @@ LessonStanding standing_in(const Lesson& lesson, const std::vector<PastResult>& 
 
 struct Coach::State {
   explicit State(const CoachConfig& a_config)
-      : config(a_config), memory(config.history, config.program, config.now, config.patience) {}
+      : config(a_config), memory(config.history, config.program, config.now, config.patience) {
+    if (!config.no_history.empty()) untold = config.no_history;
+  }
 
   void look_at_learner();
   void stand();
@@ -63,6 +65,7 @@ struct Coach::State {
 
   CoachConfig config;
   LearnerMemory memory;
+  std::optional<std::string> untold;  // why there is no history
   CoachView view;
   std::optional<Lesson> lesson;
   std::optional<LessonMode> chosen_mode;  // by the person, for this lesson
@@ -93,6 +96,7 @@ const Lesson* Coach::lesson() const noexcept {
 }
 
 std::optional<std::string> Coach::take_problem() {
+  if (state_->untold) return std::exchange(state_->untold, std::nullopt);
   return state_->memory.take_problem();
 }
 

@@ -25,6 +25,7 @@ namespace gearshift {
 struct CoachConfig {
   std::vector<Lesson> lessons;             // in the order of teaching: what is suggested
   std::filesystem::path history;           // empty: nothing is remembered
+  std::string no_history;                  // and why not, where somebody is to be told
   std::string learner;                     // empty: nobody
   std::string program;                     // its name and version, for the history
   Clock now = system_seconds;              // [s] since 1970: when a day has passed, and the dates of what is remembered

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <utility>
 
 #include <glm/geometric.hpp>
@@ -35,7 +34,7 @@ class Presses {
   void add(const DriveSample& sample, double time) {
     if (!has_car_) return;
     pedal_.update(sample.car.clutch, time);
-    if (pedal_.went_down()) down_ = pedal_.down_at();
+    if (pedal_.went_down()) is_down_ = true, down_at_ = pedal_.down_at();
     if (pedal_.went_up()) end(pedal_.up_at());
   }
   std::vector<ClutchPress> up_to(double time) {
@@ -45,13 +44,14 @@ class Presses {
 
  private:
   void end(double time) {
-    if (down_ && time > 0.0) presses_.push_back({std::max(0.0, *down_), time});
-    down_.reset();
+    if (is_down_ && time > 0.0) presses_.push_back({std::max(0.0, down_at_), time});
+    is_down_ = false;
   }
 
   PedalEdge pedal_;
   bool has_car_;
-  std::optional<double> down_;
+  bool is_down_ = false;
+  double down_at_ = 0.0;  // [s] of the shift
   std::vector<ClutchPress> presses_;
 };
 

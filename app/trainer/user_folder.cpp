@@ -48,4 +48,13 @@ fs::path user_presets_folder() {
   return user_config_folder() / "presets";
 }
 
+HistoryPlace history_place(const std::string& given) {
+  if (!given.empty()) return {given, ""};
+  try {
+    return {user_data_folder() / "history.db", ""};
+  } catch (const std::runtime_error& no_home) {
+    return {"", no_home.what()};
+  }
+}
+
 }  // namespace gearshift

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 namespace gearshift {
 
@@ -11,5 +12,13 @@ std::filesystem::path user_config_folder();
 std::filesystem::path user_data_folder();
 
 std::filesystem::path user_presets_folder();  // in the config folder
+
+struct HistoryPlace {
+  std::filesystem::path file;  // empty: there is none
+  std::string problem;         // then one sentence why
+};
+
+// The given file, or where that is empty the user's own: history.db in the data folder.
+HistoryPlace history_place(const std::string& given);
 
 }  // namespace gearshift

@@ -21,21 +21,32 @@ void add_verbs(CLI::App& app, VerbAction& action) {
   add_bench_verb(app, action);
 }
 
+std::string verb_names(const CLI::App& app) {
+  std::string names;
+  for (const CLI::App* verb : app.get_subcommands({})) names += (names.empty() ? "" : ", ") + verb->get_name();
+  return names;
+}
+
+void refuse_unknown_verb(const CLI::App& app, const std::string& word) {
+  const bool is_option = !word.empty() && word.front() == '-';
+  const auto is_it = [&](const CLI::App* verb) { return verb->get_name() == word; };
+  if (is_option || !app.get_subcommands(is_it).empty()) return;
+  throw CLI::ParseError("no such verb: \"" + word + "\"; there are " + verb_names(app), CLI::ExitCodes::ExtrasError);
+}
+
 }  // namespace
 
 VerbAction parse_command_line(CLI::App& app, int argc, const char* const* argv) {
   app.require_subcommand(0, 1);  // an unknown verb shall be named, so that none is refused below
   VerbAction action;
   add_verbs(app, action);
-  if (argc == 1) {
+  if (argc < 2) {
     app.parse("train");
   } else {
+    refuse_unknown_verb(app, argv[1]);
     app.parse(argc, argv);
   }
-  if (!action)
-    throw CLI::RequiredError(
-        "A subcommand: train, demo, lesson, tour, render, gate, identify, stability, reproduce, replay, report, "
-        "devices, campaign or bench (see --help)");
+  if (!action) throw CLI::RequiredError("A verb of " + verb_names(app) + " (see --help)");
   return action;
 }
 

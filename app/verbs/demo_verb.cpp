@@ -66,7 +66,12 @@ void add_demo_verb(CLI::App& app, VerbAction& action) {
   auto arguments = std::make_shared<DemoArguments>();
   CLI::App* verb = app.add_subcommand(
       "demo", "Simulated drives in the cabin, offscreen: every gear, two lessons; pictures, sound, report, page");
+  verb->footer(
+      "Examples:\n"
+      "  gearshift demo --out demo\n"
+      "  gearshift demo --gate dog_leg_five --out dog_leg\n");
   add_tour_options(*verb, arguments->tour);
+  verb->get_option("--out")->description("folder for page, pictures, sound, traces and plots; made where missing");
   verb->add_option("--size", arguments->size, "of a picture [px]")->type_name("WxH")->capture_default_str();
   verb->add_option("--samples", arguments->samples, "a pixel: 1 or 4")
       ->check(CLI::IsMember({1, 4}))

@@ -38,10 +38,19 @@ std::filesystem::path calibrations_folder() {
   return user_config_folder() / "devices";
 }
 
+// Where no home folder is known nothing was calibrated.
+std::filesystem::path calibrations_to_read() {
+  try {
+    return calibrations_folder();
+  } catch (const std::runtime_error&) {
+    return {};
+  }
+}
+
 // What may be told of a machine without USB, too.
 std::vector<ListedStick> plugged_sticks() {
   try {
-    return list_sticks(UsbBus().hid_devices(), calibrations_folder());
+    return list_sticks(UsbBus().hid_devices(), calibrations_to_read());
   } catch (const HidError& no_usb) {
     fmt::print(stderr, "gearshift: {}\n", no_usb.what());
     return {};
@@ -126,7 +135,7 @@ void print_rule(const std::vector<ListedStick>& sticks) {
 int list_devices(bool as_json) {
   const std::vector<ListedStick> sticks = plugged_sticks();
   const std::vector<PadState> pads = glfw_pads();
-  const std::vector<std::string> absent = absent_problems(sticks, calibrations_folder());
+  const std::vector<std::string> absent = absent_problems(sticks, calibrations_to_read());
   if (as_json) {
     DeviceJson all = DeviceJson::array();
     for (const ListedStick& stick : sticks) all.push_back(stick_json(stick));
@@ -167,6 +176,10 @@ int run_devices(const DevicesArguments& arguments) {
 void add_devices_verb(CLI::App& app, VerbAction& action) {
   auto arguments = std::make_shared<DevicesArguments>();
   CLI::App* verb = app.add_subcommand("devices", "Sticks that are plugged in, what they can do, and their calibration");
+  verb->footer(
+      "Examples:\n"
+      "  gearshift devices\n"
+      "  gearshift devices --calibrate NAME    any part of its name; asks step by step\n");
   CLI::Option* json = verb->add_flag("--json", arguments->json, "the list for a script");
   CLI::Option* calibrate =
       verb->add_option(

@@ -69,6 +69,10 @@ void add_identify_verb(CLI::App& app, VerbAction& action) {
   auto arguments = std::make_shared<IdentifyArguments>();
   CLI::App* verb =
       app.add_subcommand("identify", "Mass, damping, stiffness and bandwidth of a lever by its frequency response");
+  verb->footer(
+      "Examples:\n"
+      "  gearshift identify\n"
+      "  gearshift identify --axis x --out lever\n");
   verb->add_option("--preset", arguments->preset, "shipped preset or file: which lever, at which rate")
       ->type_name("NAME|FILE")
       ->capture_default_str();

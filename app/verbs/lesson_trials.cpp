@@ -80,7 +80,8 @@ class Trials {
   CoachConfig coach_config() const {
     CoachConfig config;
     config.lessons = shipped_lessons();
-    config.history = trials_.learner.empty() ? fs::path() : trials_.history;
+    config.history = trials_.learner.empty() ? fs::path() : trials_.history.file;
+    if (!trials_.learner.empty()) config.no_history = trials_.history.problem;
     config.learner = trials_.learner;
     config.program = program_name();
     config.patience = kHistoryPatience;  // nobody waits for a frame
@@ -156,7 +157,7 @@ class Trials {
   fs::path recording() {
     if (!coach_.view().remembers || trials_.learner.empty()) return {};
     try {
-      const fs::path folder = fs::absolute(trials_.history).parent_path() / "recordings";
+      const fs::path folder = fs::absolute(trials_.history.file).parent_path() / "recordings";
       make_folder(folder);
       return free_trace(folder, drive_name(trials_.drive.lesson.key));
     } catch (const std::runtime_error& problem) {

@@ -1,11 +1,11 @@
 // Trials of a lesson by a simulated learner, one after another, through the same coach as a person's.
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 
 #include "app/learner/lesson_drive.h"
+#include "app/trainer/user_folder.h"
 
 namespace gearshift {
 
@@ -15,7 +15,7 @@ struct LessonTrials {
   bool help = false;               // guided as the coach's policy says, in place of drive.guidance
   std::optional<LessonMode> mode;  // else the coach's
   std::string learner;             // empty: nobody, nothing is remembered
-  std::filesystem::path history;   // empty: nothing is remembered
+  HistoryPlace history;            // none: nothing is remembered, and is told why
   std::string settings;            // for the history
   bool tells_shifts = false;       // a line for each, when it is written
 };

@@ -74,10 +74,6 @@ LessonDriveConfig make_drive(const LessonArguments& arguments) {
   return config;
 }
 
-fs::path history_file(const LessonArguments& arguments) {
-  return arguments.database.empty() ? user_data_folder() / "history.db" : fs::path(arguments.database);
-}
-
 LessonTrials make_trials(const LessonArguments& arguments) {
   LessonTrials trials;
   trials.drive = make_drive(arguments);
@@ -85,7 +81,7 @@ LessonTrials make_trials(const LessonArguments& arguments) {
   trials.help = arguments.guided;
   trials.mode = arguments.mode;
   trials.learner = arguments.learner;
-  if (!arguments.learner.empty()) trials.history = history_file(arguments);
+  if (!arguments.learner.empty()) trials.history = history_place(arguments.database);
   trials.settings = settings_of(trials.drive, arguments);
   trials.tells_shifts = arguments.verbose;
   return trials;

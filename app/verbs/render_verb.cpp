@@ -54,6 +54,10 @@ int run_render(const RenderArguments& arguments) {
 void add_render_verb(CLI::App& app, VerbAction& action) {
   auto arguments = std::make_shared<RenderArguments>();
   CLI::App* verb = app.add_subcommand("render", "Any glTF file as a picture, mono or stereo");
+  verb->footer(
+      "Examples:\n"
+      "  gearshift render FILE --out PNG\n"
+      "  gearshift render FILE --stereo --out PNG\n");
   verb->add_option("file", arguments->file, "glTF 2.0 file, .gltf or .glb")->type_name("FILE")->required();
   verb->add_option("--out", arguments->out, "the picture")->type_name("PNG")->required();
   verb->add_option("--size", arguments->size, "of the picture [px]")->type_name("WxH")->capture_default_str();

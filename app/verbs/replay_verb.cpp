@@ -139,7 +139,7 @@ int run_replay(const ReplayOptions& options) {
 void add_replay_verb(CLI::App& app, VerbAction& action) {
   auto options = std::make_shared<ReplayOptions>();
   CLI::App* verb =
-      app.add_subcommand("replay", "run a recorded trace again, bit for bit; list its shifts, or export it");
+      app.add_subcommand("replay", "Run a recorded trace again, bit for bit; list its shifts, or export it");
   verb->footer(kFooter);
   verb->add_option("trace", options->trace, "trace file to run again")->required()->type_name("TRACE");
   CLI::Option* csv =

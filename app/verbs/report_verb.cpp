@@ -7,6 +7,7 @@
 #include <optional>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -57,7 +58,9 @@ bool instructs(const ReportArguments& arguments) {
 }
 
 fs::path history_file(const ReportArguments& arguments) {
-  return arguments.database.empty() ? user_data_folder() / "history.db" : fs::path(arguments.database);
+  const HistoryPlace place = history_place(arguments.database);
+  if (!place.problem.empty()) throw std::runtime_error(place.problem);
+  return place.file;
 }
 
 std::string known_names(History& history) {
@@ -131,6 +134,10 @@ bool is_confirmed(const ReportArguments& arguments, const LearnerRow& learner) {
   return again == learner.name;
 }
 
+std::string counted(std::size_t number, std::string_view what) {
+  return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s");
+}
+
 // What keeps deleted rows in the file, where anything does.
 int tell_left(const std::string& left) {
   if (!left.empty()) fmt::print(stderr, "gearshift: {}\n", printable(left));
@@ -162,9 +169,9 @@ int erase(const ReportArguments& arguments, History& history, const std::vector<
   Deleted gone = delete_learner(history, learner);
   std::erase_if(gone.missing,
                 [&](const std::string& file) { return std::find(first.begin(), first.end(), file) != first.end(); });
-  fmt::print("{} is gone: {} sessions, {} runs, {} shifts, {} faults, {} comments, {} recordings\n",
-             printable(learner.name), gone.sessions, gone.runs, gone.shifts, gone.faults, gone.comments,
-             gone.recordings.size() + first.size());
+  fmt::print("{} is gone: {}, {}, {}, {}, {}, {}\n", printable(learner.name), counted(gone.sessions, "session"),
+             counted(gone.runs, "run"), counted(gone.shifts, "shift"), counted(gone.faults, "fault"),
+             counted(gone.comments, "comment"), counted(gone.recordings.size() + first.size(), "recording"));
   tell_recordings(gone);
   const int code = tell_left(gone.left);
   return gone.kept.empty() ? code : 1;

@@ -72,6 +72,9 @@ void add_reproduce_verb(CLI::App& app, VerbAction& action) {
   auto arguments = std::make_shared<ReproduceArguments>();
   CLI::App* verb =
       app.add_subcommand("reproduce", "Every figure and table of the paper, beside what it says, as one page");
+  verb->footer(
+      "Examples:\n"
+      "  gearshift reproduce --out paper\n");
   verb->add_option("--out", arguments->folder, "folder for page, pictures and data; made where missing")
       ->type_name("DIR")
       ->required();

@@ -91,6 +91,11 @@ void add_tour_verb(CLI::App& app, VerbAction& action) {
   auto arguments = std::make_shared<TourVerbArguments>();
   CLI::App* verb =
       app.add_subcommand("tour", "A hand, simulated or on a stick, through every gear of a gate: trace and plots");
+  verb->footer(
+      "Examples:\n"
+      "  gearshift tour --out drive\n"
+      "  gearshift tour --gate dog_leg_five --out dog_leg\n"
+      "  gearshift tour --device NAME --out drive    whoever holds that stick shifts\n");
   add_tour_options(*verb, arguments->tour);
   CLI::Option* device =
       verb->add_option("--device", arguments->device,

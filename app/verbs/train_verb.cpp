@@ -39,16 +39,7 @@ struct TrainArguments {
   double seconds = 5.0;  // [s]
 };
 
-// Without a home folder there is no history.
-std::filesystem::path history_file() {
-  try {
-    return user_data_folder() / "history.db";
-  } catch (const std::runtime_error&) {
-    return {};
-  }
-}
-
-// Nor are there any bindings of one's own.
+// Without a home folder there are no bindings of one's own.
 std::filesystem::path config_folder() {
   try {
     return user_config_folder();
@@ -87,7 +78,9 @@ TrainSetup make_setup(const TrainArguments& arguments) {
   TrainSetup setup;
   setup.choice = arguments.choice;
   setup.choice.help = !arguments.no_help;
-  setup.choice.history = arguments.database.empty() ? history_file() : std::filesystem::path(arguments.database);
+  const HistoryPlace place = history_place(arguments.database);
+  setup.choice.history = place.file;
+  setup.choice.no_history = place.problem;
   if (arguments.silent) setup.choice.sound = SoundOutput::none;
   const PictureSize size = picture_size(arguments.size, arguments.stereo);
   setup.view.width = size.width;
@@ -156,6 +149,11 @@ int run_train(const TrainArguments& arguments) {
 void add_train_verb(CLI::App& app, VerbAction& action) {
   auto arguments = std::make_shared<TrainArguments>();
   CLI::App* verb = app.add_subcommand("train", "The trainer: a hand at mouse, keys or pad, or the simulated one");
+  verb->footer(
+      "Examples:\n"
+      "  gearshift train --learner Ada\n"
+      "  gearshift train --learner Ada --lesson hill_start\n"
+      "  gearshift train --offscreen pictures    a few seconds, without a display\n");
   verb->add_option("--lesson", arguments->choice.lesson,
                    "shipped lesson or file, or none; else the one that is suggested");
   verb->add_option("--learner", arguments->choice.learner,

@@ -12,4 +12,8 @@ std::string version_text() {
                      kLibraries);
 }
 
+std::string commit_text() {
+  return kCommit;
+}
+
 }  // namespace gearshift

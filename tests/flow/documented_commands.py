@@ -8,9 +8,9 @@ in their order in one empty folder, with a home of their own, beside what make_f
 itself has in fenced blocks with a file's name (```toml my.toml). Words in capitals get a value from VALUES. Exit code
 0 is expected, or what the comment behind the command says: "# exits 1"; and what it says in words must be printed: #
 says "may not". What wants a person, a headset, a stick or many minutes stands in ELSEWHERE, with the reason and what
-shows it instead: its verb and options must exist all the same. What is only long stands in LONG, and is run by
-./test --full. Ranges and defaults in the tuning guide are compared
-with the program's, too.
+shows it instead: its verb and options must exist all the same, and a guide says "# not run: why". What is only long
+stands in LONG, and is run by ./test --full. Ranges and defaults in the tuning guide are compared with the program's,
+too.
 """
 import concurrent.futures
 import os
@@ -27,6 +27,7 @@ PROGRAM = (r"(cp|sed|sudo|gearshift|ctest|cmake|python3|blender|umockdev-wrapper
            r"|tests/\S+\.sh|build/\S+)")
 PROGRAMS = re.compile(rf"^(\./run|\./test|{PROGRAM})( |$)")
 BARE = re.compile(rf"^{PROGRAM}$")  # in prose that is a name
+GUIDES = ("TUNING.md", "GUIDE.md", "BUILDING.md")  # a reader is told which commands are only read
 SKIPPED_FOLDERS = {"build", "out", ".git"}
 
 # What a word in capitals stands for, in a verb or in all of them.
@@ -48,8 +49,8 @@ ELSEWHERE = {
     r"gearshift bench --family learning": ("the same", "tests/app/learner/learner_model_test.cpp"),
     r"gearshift bench($| --family (jitter|beside|picture|quality|light))":
         ("takes minutes, and the machine for itself", "tests/bench/README.md"),
-    r"gearshift campaign --out \S+$": ("a million shifts", "tests/flow/campaign.sh"),
-    r"cmake --preset release && cmake --build": ("builds all of it anew", "tests/flow/deb_in_chroot.sh"),
+    r"gearshift campaign (--seed 1 )?--out \S+$": ("a million shifts", "tests/flow/campaign.sh"),
+    r"cmake --preset (release|dev) && cmake --build": ("builds all of it anew", "tests/flow/deb_in_chroot.sh"),
     r"cmake --install": ("installs what was built", "tests/flow/install.sh"),
     r"gearshift report .*--delete$": ("asks for the name", "tests/flow/report.sh"),
     r"blender ": ("Blender is not installed for the tests", "assets/models/build.py"),
@@ -75,6 +76,7 @@ class Command:
         code = re.search(r"exits (\d)", comment)
         self.code = int(code.group(1)) if code else 0
         self.says = re.findall(r'says "([^"]*)"', comment)
+        self.is_said_not_run = "not run" in comment
 
     def where(self):
         return f"{self.document}:{self.line}: {self.text}"
@@ -226,6 +228,8 @@ class Runner:
                 if not (self.sources / shown_by).exists():
                     self.fail(command, f"{shown_by}, which is to show it, does not exist")
                 self.parses(command)
+                if command.document.endswith(GUIDES) and not (command.inline or command.is_said_not_run):
+                    self.fail(command, 'is not run, and does not say so: "# not run: why"')
                 self.elsewhere += 1
                 return True
         return False

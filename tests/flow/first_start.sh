@@ -47,9 +47,15 @@ nameless() { # arguments ...: without HOME, as a user whom the system does not k
 }
 if unshare --user --map-user=4242 "$gearshift" --version >/dev/null 2>&1; then
   check "no home at all: a gate is shown" nameless gate paper
-  nameless lesson hill_start --learner Ada
-  check "no home at all: who cannot be remembered is told so, got: $(cat nameless.err)" \
-    one_sentence nameless.err "no folder for the user's files"
+  no_home() { one_sentence nameless.err "no folder for the user's files"; }
+  check "no home at all: a lesson is passed" nameless lesson hill_start --learner Ada
+  check "no home at all: that it is not remembered is told, got: $(cat nameless.err)" no_home
+  check "no home at all: devices are listed" nameless devices
+  check "no home at all: the cabin is drawn" nameless train --offscreen nameless --seconds 0.1 --size 320x180
+  check "no home at all: and told, got: $(cat nameless.err)" no_home
+  nameless report --learner Ada --out page
+  check "no home at all: a report fails" test $? -eq 1
+  check "no home at all: in one sentence, got: $(cat nameless.err)" no_home
 fi
 
 # The same files from the same commands, in a folder that is hard to quote.

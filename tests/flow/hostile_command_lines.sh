@@ -43,6 +43,8 @@ refuse 2 "--calibrate: the name of a stick is empty" devices --calibrate ""
 refuse 2 "?[31m" $'\e[31m'
 refuse 2 "?[31m" tour --out t --rate $'\e[31m'
 refuse 1 "?[31m" gate $'\e[31m'
+refuse 2 'no such verb: "tuor"; there are train, demo, lesson, tour, ' tuor --out t
+refuse 2 'no such verb: ""' ""
 refuse 1 "no display"
 refuse 1 "no display" train
 DISPLAY=:987 WAYLAND_DISPLAY=wayland-0 refuse 1 "no display" train

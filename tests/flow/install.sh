@@ -65,6 +65,25 @@ check "build and compiler" said "^[A-Za-z]+ build by [A-Za-z]+ [0-9.]+$"
 check "libraries" said "fmt [0-9.]+, glfw3 [0-9.]+, .*vulkan [0-9.]+$"
 changes="$prefix/share/doc/gearshift/changelog.gz"
 check "the changelog begins with this version" grep -q "^gearshift ($number) " <(zcat "$changes" | head -n 1)
+page() { zcat "$prefix/share/man/man1/gearshift.1.gz"; }
+verbs_of_the_page() { page | sed -n '/^.SH VERBS/,/^.SH OPTIONS/ {/^.TP/ {n; s/^.B //p}}'; }
+verbs_of_the_program() { "$prefix/bin/gearshift" --help | sed -n '/^Subcommands:/,$ s/^  \([a-z]*\)  .*/\1/p'; }
+check "the manual page has a line for each verb" diff <(verbs_of_the_page) <(verbs_of_the_program)
+check "and is of this version" grep -q "^.TH GEARSHIFT 1 \"[A-Z][a-z]* 20[0-9]*\" \"gearshift $number\"" <(page)
+dead_links() { # "PAGE: TARGET" of each relative link in an installed page that leads to no installed file
+  local page target
+  find "$prefix/share/doc" -name "*.md" | while read -r page; do
+    sed '/^```/,/^```/d; s/`[^`]*`//g' "$page" | grep -oP '\]\(\K[^)\s]+' | grep -vE '^[a-z]+:|^#' | while read -r target; do
+      [ -e "$(dirname "$page")/${target%%#*}" ] || echo "$page: $target"
+    done
+  done
+}
+check "every page is there" test "$(find "$prefix/share/doc" -name "*.md" | wc -l)" -ge 15
+check "no link of theirs is dead, got: $(dead_links)" test -z "$(dead_links)"
+named_pages() { grep -oP '^\| `.*' "$prefix/share/doc/gearshift/README.md" | grep -oP '`\K[^`]+\.md(?=`)'; }
+all_are_there() { named_pages | while read -r page; do test -s "$prefix/share/doc/gearshift/$page" || return 1; done; }
+check "the first page names others" test "$(named_pages | wc -l)" -ge 8
+check "which are installed" all_are_there
 facts() { # source folder
   cmake -D "source=$1" -D header="$PWD/facts.h" -D type=t -D compiler=c -D libraries=l \
     -P "$source/app/version/build_facts.cmake"

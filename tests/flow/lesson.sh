@@ -235,7 +235,7 @@ if unshare -rm true 2>/dev/null; then
     test "$(grep -c ',done,' filling_page/runs.csv)" -eq 6
   check "a disk that fills: with all shifts" test "$(rows filling_page/shifts.csv)" -eq 24
   check "a disk that fills: recordings went with the rows, got: $(cat filling_gone.txt)" \
-    grep -q "Kim is gone: 1 sessions, 6 runs, 24 shifts" filling_gone.txt
+    grep -q "Kim is gone: 1 session, 6 runs, 24 shifts" filling_gone.txt
 fi
 
 # Written by a newer program, or removed, while lessons are driven: told, and what is lost with it.

@@ -96,7 +96,7 @@ check "nor does no name" test "$(report --learner "$ada" --delete; echo $?)" -eq
 report --learner "$ada"
 check "all runs are there" test "$(grep -c up_through_the_gears out)" -eq 12
 check "the name deletes" deletes "$ada"
-check "and it is told what went" says "1 sessions, 12 runs, 36 shifts, 12 faults, 1 comments, 1 recordings"
+check "and it is told what went" says "1 session, 12 runs, 36 shifts, 12 faults, 1 comment, 1 recording"
 check "the recording went" test ! -e data/gearshift/near.trace
 check "no byte of the name is left" test "$(cat data/gearshift/* | grep -ac Löwe)" -eq 0
 report

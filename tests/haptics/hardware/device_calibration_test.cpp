@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <fstream>
+#include <iterator>
 #include <random>
 #include <sstream>
 #include <stdexcept>
@@ -217,7 +218,27 @@ TEST_CASE("what the loop may know of it") {
   CHECK(spec_of(weak, 0.001).own_stiffness == glm::dvec2(0.0));
 }
 
-// Facts, 7a and 9: 1 ms and three samples of delay admit 873 N/m (X axis, exact, B = 0), 2078 with the half-sample hold.
+TEST_CASE("the builder's guide shows a calibration as the program writes it") {
+  std::ifstream file(GEARSHIFT_TEST_DATA "/../../haptics/hardware/BUILDING.md");
+  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  const std::string fence = "```toml 1209_ffb0_EMULATED01.toml\n";
+  const auto begin = page.find(fence);
+  REQUIRE(begin != std::string::npos);
+  const std::string shown = page.substr(begin + fence.size(), page.find("```\n", begin + 3) - begin - fence.size());
+  const TempFolder folder;
+  std::ofstream(folder / "shown.toml") << shown;
+
+  const auto known = read_calibration(folder / "shown.toml");
+  REQUIRE(known);
+  CHECK(calibration_text(*known) == shown);
+  CHECK(known->product == 0xffb0);
+  CHECK(known->shift.low == 32767.0);
+  CHECK(known->select.handle.mass == 0.2483);
+  CHECK(known->timing.output_interval == 0.001131);
+  CHECK(known->lift_button == 2);
+}
+
+// 1 ms and three samples of delay admit 873 N/m (X axis, exact, B = 0), 2078 with the half-sample hold.
 TEST_CASE("a 3 ms device gets parameters that hold on a 3 ms device, and says so") {
   DeviceCalibration known = measured({0.001, 0.001, 0.002, 0.0});
   known.select.spring_sign = known.shift.spring_sign = 0;
