@@ -19,6 +19,7 @@ namespace {
 constexpr int kColumns = 2;
 constexpr double kPanelWidth = 480.0, kPlotHeight = 230.0;  // [px]
 constexpr double kLeft = 64.0, kRight = 24.0, kTop = 54.0, kBelow = 50.0, kLine = 18.0;
+constexpr double kNames = 30.0, kCostColumn = 104.0;  // [px] names from the left, costs' end from the right
 constexpr double kDot = 4.5, kNumber = 11.0;
 constexpr const char* kBeaten = "#a9b4bf";
 constexpr const char* kOnFront = kInk;
@@ -178,15 +179,15 @@ class Panel {
   void names() {
     double y = box_.bottom() + kBelow + 8.0;
     const Type heading{11.0, kSoftInk, "end"};
-    svg_.text({corner_.x + kPanelWidth - 88.0, y}, heading, "cost");
+    svg_.text({corner_.x + kPanelWidth - kCostColumn, y}, heading, "cost");
     svg_.text({corner_.x + kPanelWidth - kRight, y}, heading, "error");
     y += kLine;
     for (std::size_t i = 0; i < contest_.size(); ++i, y += kLine) {
       const Trade& trade = *contest_[i];
       const char* ink = trade.chosen ? kChosen : on_front(i) ? kInk : kSoftInk;
       svg_.text({corner_.x + 20.0, y}, {12.0, ink, "end", trade.chosen}, std::to_string(i + 1));
-      svg_.text({corner_.x + 30.0, y}, {12.0, ink, "start", trade.chosen}, name_of(trade));
-      svg_.text({corner_.x + kPanelWidth - 88.0, y}, {12.0, ink, "end"}, figure_text(trade.cost.value));
+      svg_.text({corner_.x + kNames, y}, {12.0, ink, "start", trade.chosen}, name_of(trade));
+      svg_.text({corner_.x + kPanelWidth - kCostColumn, y}, {12.0, ink, "end"}, figure_text(trade.cost.value));
       svg_.text({corner_.x + kPanelWidth - kRight, y}, {12.0, ink, "end"}, figure_text(trade.error.value));
     }
   }

@@ -4,7 +4,6 @@
 // shaft's drag where it stands, and the engine, which does not turn backwards. Each slips or holds; the step is cut where
 // one changes (event location), a grip that begins to hold conserves momentum, and inside a mode the step is the midpoint
 // rule. More than a bounded number of changes in a step falls back to impulses over what is left of it.
-// Facts: training.md section 3.
 #pragma once
 
 #include <array>

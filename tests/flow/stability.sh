@@ -25,7 +25,7 @@ refuse() { # exit code, part of the sentence, arguments ...
     test $got -eq "$code" -a "$(wc -l <err)" -eq 1 -a ! -s out -a -n "$(grep -F -- "$part" err)"
 }
 
-# facts: 6032 N/m exact and 6000 passive at 1 kHz; 217 with one sample of delay at 100 Hz.
+# tests/haptics/analysis/stability_table_test.cpp: 6032 N/m exact and 6000 passive at 1 kHz; 217 with one sample of delay at 100 Hz.
 check "1 kHz answers" answers --json
 check "1 kHz: exact" near k_max_n_per_m 6032 0.001
 check "1 kHz: passive" near passive_k_max_n_per_m 6000 1e-9

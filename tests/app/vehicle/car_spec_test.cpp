@@ -110,7 +110,7 @@ TEST_CASE("a file that is not there is refused by its name") {
   CHECK(refusal("no_such_car.toml").find("no_such_car.toml") == 0);
 }
 
-TEST_CASE("the hatchback is the car of the facts, in SI units") {
+TEST_CASE("the hatchback is the car that the other methods were run with, in SI units") {
   const CarSpec car = shipped_car("hatchback");
   CHECK(car.name == "hatchback");
   CHECK(car.gate == "five_speed_r_right_down");

@@ -295,7 +295,7 @@ TEST_CASE("the reference itself: converged, closed form on the plateau, heat fro
   CHECK(coarse.touch == doctest::Approx(fine.touch).epsilon(1e-7));
   CHECK(coarse.heat == doctest::Approx(fine.heat).epsilon(1e-7));
 
-  // t = J dw / (T + drag), T = n F mu R / sin a through the lever, over the ratio: facts, section 4.
+  // t = J dw / (T + drag), T = n F mu R / sin a through the lever, over the ratio.
   const double inertia = car.clutch.disc_inertia, drag = car.gearbox.drag, ratio = ratio_of(car, 2);
   const double torque = 30.0 * 9.0 * 0.8 * 0.10 * 0.030 / std::sin(6.5 * std::numbers::pi / 180.0) / ratio;
   const ConeLeverSample& still = fine.samples[160];

@@ -98,7 +98,7 @@ TEST_CASE("the drives do what they are called") {
 }
 
 // training.md section 3: 2.02 kJ, locked after 1.303 s, by a Runge-Kutta of its own.
-TEST_CASE("the launch is that of the facts") {
+TEST_CASE("the launch is what another program made of it") {
   const DriveOutcome runs = reference_of(launch());
   CHECK(runs.slip_energy == doctest::Approx(2020.0).epsilon(0.003));
   const auto locks = std::find_if(runs.samples.begin() + 1, runs.samples.end(),

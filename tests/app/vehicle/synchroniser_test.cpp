@@ -72,7 +72,7 @@ struct Bench {
 
 struct TimedShift {
   int from, to;
-  double push, facts;  // [N], [s] of shared facts, training.md section 4
+  double push, time;  // [N], [s] as another program has it
 };
 const TimedShift kShifts[] = {{1, 2, 60.0, 0.109}, {2, 3, 60.0, 0.057}, {3, 4, 60.0, 0.032}, {4, 5, 60.0, 0.022},
                               {1, 2, 30.0, 0.205}, {2, 3, 30.0, 0.109}, {3, 4, 30.0, 0.062}, {4, 5, 30.0, 0.043},
@@ -125,7 +125,7 @@ TEST_CASE("a synchroniser takes J dw i^2 / (T_c +- T_drag i): up and down, 60 N 
     const double road = road_speed_at(car, shift.from, 2500.0 * kRpm);
     const double target = shaft_per_road(car, shift.to) * road;
     const double difference = std::abs(2500.0 * kRpm - target) / ratio_of(car, shift.to);
-    CHECK(closed_form(car, shift, difference) == doctest::Approx(shift.facts).epsilon(0.025));
+    CHECK(closed_form(car, shift, difference) == doctest::Approx(shift.time).epsilon(0.025));
     bench.enter(shift.to, 2500.0 * kRpm, road);
     const double took = synchronising_time(bench, shift.push);
     const double wanted = closed_form(car, shift, difference - car.synchro.dog_speed);

@@ -1,4 +1,4 @@
-// The exact limits as another program found them before there was this code: ../shared/facts/haptics.md, 7a and 1.
+// The exact limits as another program found them before there was this code.
 #include <cmath>
 #include <limits>
 

@@ -129,7 +129,7 @@ TEST_CASE("solved hold, true model, no damping: the wall gives back what it took
       }
     }
   }
-  // With damping it takes; and the textbook's spring, which is no solved hold, gives 33 % at 1 ms (facts, 7b).
+  // With damping it takes; and the textbook's spring, which is no solved hold, gives 33 % at 1 ms (energy_control_test).
   CHECK(energy_share(kPaperAxisX, {5000.0, 50.0, 0.001}, 0.3, 0.5) < -0.3);
 }
 

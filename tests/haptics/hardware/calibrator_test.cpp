@@ -226,7 +226,7 @@ TEST_CASE("what is missing, in order; a step that is done is not asked for again
   CHECK(missing_steps(known, true) == std::vector{polarity, timing, handle, springs});
 }
 
-// Twice the mass and thirty times the stiffness: walls that are admitted for them shake without the hand (facts 7a).
+// Twice the mass and thirty times the stiffness: walls that are admitted for them shake without the hand.
 TEST_CASE("a hand that holds the lever while its handle is measured is refused") {
   EmulatedStickConfig config = of(StickFamily::openffboard);
   DeviceCalibration known = calibration_of(config);

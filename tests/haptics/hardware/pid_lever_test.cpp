@@ -172,7 +172,7 @@ TEST_CASE("nothing drives before a force is asked for, nor after a release until
   CHECK(bench.stick.force().y == doctest::Approx(3.0).epsilon(0.03));
 }
 
-// Facts 2J: centre in the middle of the aisle, dead band of half its width, coefficient K, saturation: two walls.
+// A PID condition (USB PID 1.0, 5.3): centre in the middle of the aisle, dead band of half its width, coefficient K, saturation: two walls.
 TEST_CASE(
     "walls that the device keeps: nothing between them, a spring of share x stiffness beyond, whichever way it "
     "counts") {

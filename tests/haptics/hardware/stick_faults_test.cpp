@@ -231,7 +231,7 @@ TEST_CASE("who leans on a wall for half a minute is not taken for a dead sensor,
   }
 }
 
-// Facts, 7a: what is stable on a fast device is not on a late one, so its delay must be known.
+// What is stable on a fast device is not on a late one, so its delay must be known.
 TEST_CASE("a stick that is 3 ms late: quiet on the wall with its own calibration, not with a faster one's") {
   const auto shaking = [](double claimed) {
     EmulatedStickConfig config = gripped(StickFamily::openffboard);

@@ -1,4 +1,4 @@
-// The goals of DESIGN's table for a contact, each on a sample of what `gearshift bench` runs: nothing here is timed.
+// The goals of the design's table for a contact, each on a sample of what `gearshift bench` runs: nothing here is timed.
 #include <algorithm>
 
 #include <doctest/doctest.h>
@@ -56,17 +56,17 @@ TEST_CASE("time from a fault to no force") {
   check_rows(bench_faults);
 }
 
-TEST_CASE("what a textbook spring of 5000 N/m makes of an impact (facts 7b), through the whole cycle") {
+TEST_CASE("what a textbook spring of 5000 N/m makes of an impact by another program, through the whole cycle") {
   ContactCase contact;
   contact.haptics.contact = {ContactHold::zero_order, EnergyControl::none, false, true};
   contact.haptics.tuning.wall_damping = 0.0;
   contact.haptics.guard.slew = 100.0;
   contact.lever.encoder_counts = 0.0;
-  const struct { double rate, percent; } facts[] = {{4000.0, 8.0}, {2000.0, 16.0}, {1000.0, 33.0}, {500.0, 74.0}};
-  for (const auto& fact : facts) {
-    contact.haptics.rate = fact.rate;
+  const struct { double rate, percent; } found[] = {{4000.0, 8.0}, {2000.0, 16.0}, {1000.0, 33.0}, {500.0, 74.0}};
+  for (const auto& other : found) {
+    contact.haptics.rate = other.rate;
     CHECK(100.0 * run_impacts(contact, is_whole_campaign() ? 50 : 20).mean_share ==
-          doctest::Approx(fact.percent).epsilon(0.12));
+          doctest::Approx(other.percent).epsilon(0.12));
   }
 }
 

@@ -175,7 +175,7 @@ TEST_CASE("a textbook spring is held below the exact boundary, and the hand that
   spring.wall_damping = 0.0;
   spring.aisle_damping = 0.0;
   const AdmittedTuning used = admitted(spring, 1000.0, 0, ContactHold::zero_order);
-  // facts: 6032 N/m on the X axis, bare; Y is 2 b / T = 5800 and the same 32 beyond it.
+  // The exact limit, stability_table_test: 6032 N/m on the X axis, bare; Y is 2 b / T = 5800 and the same 32 beyond it.
   CHECK(used.tuning.wall_stiffness == doctest::Approx(5832.0 / 1.1).epsilon(0.001));
   REQUIRE(used.limited.size() >= 1);
   CHECK(used.limited[0].hand == "bare");

@@ -105,7 +105,7 @@ double impact_energy(double period, bool controlled) {
 
 }  // namespace
 
-TEST_CASE("passivity control: what a spring of 5000 N/m makes of an impact, with and without (facts 7b, in %)") {
+TEST_CASE("passivity control: what a spring of 5000 N/m makes of an impact, with and without, beside another program") {
   CHECK(impact_energy(0.001, false) == doctest::Approx(33.0).epsilon(0.1));
   CHECK(impact_energy(0.002, false) == doctest::Approx(74.0).epsilon(0.1));
   CHECK(impact_energy(0.005, false) == doctest::Approx(231.0).epsilon(0.1));
