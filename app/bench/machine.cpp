@@ -1,5 +1,3 @@
-// This work is based on:
-// Glenn Fowler, Landon Curt Noll, Kiem-Phong Vo. FNV hash, 64 bit, variant 1a. 1991
 #include "app/bench/machine.h"
 
 #include <sys/utsname.h>
@@ -11,6 +9,8 @@
 
 #include <fmt/format.h>
 
+#include "haptics/files/fnv_1a.h"
+
 namespace gearshift {
 namespace {
 
@@ -20,12 +20,6 @@ std::string compiler_words() {
 #else
   return "g++ " __VERSION__;
 #endif
-}
-
-std::uint64_t fnv_1a(std::string_view text) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  return hash;
 }
 
 }  // namespace

@@ -1,21 +1,17 @@
-// This work is based on:
-// Glenn Fowler, Landon Curt Noll, Kiem-Phong Vo, Donald Eastlake. The FNV Non-Cryptographic Hash Algorithm. 2019
 #include "app/coach/planned_trial.h"
 
 #include <optional>
 #include <string>
 
 #include "app/training/grade.h"
+#include "haptics/files/fnv_1a.h"
 
 namespace gearshift {
 namespace {
 
-// FNV-1a. The name tells learners apart, with a history or without; no name has a zero in it.
+// The name tells learners apart, with a history or without; no name has a zero in it.
 std::uint64_t seed_of(std::string_view learner, std::string_view lesson) {
-  std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const char c : std::string(learner) + '\0' + std::string(lesson))
-    hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
-  return hash;
+  return fnv_1a(std::string(learner) + '\0' + std::string(lesson));
 }
 
 bool is_after_pause(const std::optional<std::int64_t>& last, std::int64_t now) {

@@ -70,28 +70,35 @@ void tell(const std::string& problem) {
 
 struct EndedEarly {};
 
-// Ctrl-C and the like end it: whole families are kept, and a family is left where it next tells how far it is.
-std::vector<MeasuredRow> measure(const BenchArguments& arguments) {
+struct Measured {
+  std::vector<MeasuredRow> rows;  // of whole families
+  bool ended_early = false;
+};
+
+// Ctrl-C and the like end it: a family is left where it next tells how far it is.
+Measured measure(const BenchArguments& arguments) {
   ProgressBar progress;
   BenchOptions options = arguments.options;
   options.progress = [&](std::string_view family, double share) {
     if (StopSignals::asked()) throw EndedEarly();
     progress.show(family, share);
   };
-  std::vector<MeasuredRow> rows;
+  Measured measured;
   for (const NamedFamily& family : bench_families()) {
     const auto& wanted = arguments.families;
     if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), family.name) == wanted.end()) continue;
     try {
       options.progress(family.name, 0.0);
-      for (BenchRow& row : run_family(family, options)) rows.push_back({std::move(row)});
+      for (BenchRow& row : run_family(family, options)) measured.rows.push_back({std::move(row)});
     } catch (const EndedEarly&) {
       progress.clear();
-      tell(fmt::format("ended in the family {}: what was measured before it is kept", family.name));
-      return rows;
+      tell(fmt::format("ended in the family {}: {}", family.name,
+                       measured.rows.empty() ? "nothing was measured" : "what was measured before it is told"));
+      measured.ended_early = true;
+      break;
     }
   }
-  return rows;
+  return measured;
 }
 
 // What cannot be compared or kept is told: it never costs the results.
@@ -127,7 +134,9 @@ int run_bench(const BenchArguments& arguments) {
                .quick = arguments.options.quick,
                .machine = this_machine(gpu_words())};
   const std::optional<ProcessorTime> begin = processor_time_now();
-  run.rows = measure(arguments);
+  Measured measured = measure(arguments);
+  if (measured.rows.empty() && measured.ended_early) return 1;
+  run.rows = std::move(measured.rows);
   run.taken = taken_elsewhere(begin, processor_time_now());
   if (!run.quick) compare_and_keep(run);
   fmt::print("{}", arguments.json ? bench_json(run) : bench_table(run));
@@ -137,7 +146,7 @@ int run_bench(const BenchArguments& arguments) {
       if (!arguments.json) fmt::print("{}\n", file.string());
     });
   }
-  return StopSignals::asked() ? 1 : 0;
+  return measured.ended_early ? 1 : 0;
 }
 
 }  // namespace

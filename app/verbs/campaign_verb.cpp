@@ -60,10 +60,12 @@ int run_cases(CampaignPlan plan, const std::vector<GateLayout>& shipped) {
       drive_campaign(plan, shipped, [&](double share) { bar.show("campaign", share); });
   const CampaignSummary summary = summarise(plan.seed, outcomes, static_cast<int>(shipped.size()));
   write_text_file(plan.folder / "summary.json", campaign_json(summary, plan.program));
+  bar.clear();
+  fmt::print("{}", campaign_text(summary));
+  std::fflush(stdout);
   const std::size_t failed =
       record_failures(plan, summary.broken, shipped, [&](double share) { bar.show("traces", share); });
   bar.clear();
-  fmt::print("{}", campaign_text(summary));
   if (failed > kMostTraces) fmt::print("Of {} failed cases {} are recorded in failures/\n", failed, kMostTraces);
   return summary.broken.empty() ? 0 : 1;
 }

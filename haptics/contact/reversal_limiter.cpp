@@ -12,6 +12,7 @@ constexpr double kLeastStep = 20e-6;   // [m] taken for a count where the encode
 constexpr double kWithin = 0.3;        // [s] that the reversals fall into: 8.3 Hz
 constexpr double kTremor = 0.8e-3;     // [m] from turn to turn: as wide as a hand's tremor swings a lever
 constexpr double kFaster = 0.2;        // [s] that they fall into if one is no wider: 12.5 Hz, faster than any tremor
+constexpr double kShakeLasts = 0.25;   // [s] after its last turn; slower than 2 Hz it is taken for 2 Hz
 constexpr double kPause = 0.5;         // [s] without chatter: it had calmed
 constexpr double kLower = 0.75;        // [1] of the stiffness, each time
 constexpr double kFloor = 0.3;         // [1] of m / tau^2, tau = (delay + 1) T
@@ -74,12 +75,12 @@ bool ReversalLimiter::chatters(Axis& axis, double position) noexcept {
 // own damping takes pi b w X^2 of it: X <= F / (b w). What swings wider is fed by its wall.
 // A shake along one axis moves the tip along both: the yoke turns them into each other in the corners.
 void ReversalLimiter::watch_shake(glm::dvec2 shake) noexcept {
-  const bool is_over = now_ - shaken_ > kWithin;
+  const bool is_over = now_ - shaken_ > kShakeLasts;
   for (Axis& axis : axis_) axis.shakes = is_over ? 0 : axis.shakes;
   for (int i = 0; i < 2; ++i) {
     Swing& swing = shake_[static_cast<std::size_t>(i)];
     if (!swing.turns(shake[i], kLeastShake)) continue;
-    const double omega = std::numbers::pi / std::clamp(now_ - shaken_, period_, kWithin);
+    const double omega = std::numbers::pi / std::clamp(now_ - shaken_, period_, kShakeLasts);
     shaken_by_ = kMargin * swing.width / (damping_ * omega);
     shaken_ = now_;
     for (Axis& axis : axis_) axis.shakes = std::min(axis.shakes + 1, kMostShakes);

@@ -1,3 +1,6 @@
+// This work is based on:
+// Rodger J. Elble. Characteristics of physiologic tremor in young and elderly adults. Clinical Neurophysiology 114. 2003
+//
 // Softens a wall on which the lever chatters: what no model foresaw is seen in the motion.
 //
 // A hand does not reverse a lever six times in three tenths of a second; a wall that is too stiff for its device does. But

@@ -1,4 +1,4 @@
-// Speed against error, one row a figure: what was measured, in which unit, and where DESIGN puts it.
+// Speed against error, one row a figure: what was measured, in which unit, and where the design puts it.
 #pragma once
 
 #include <functional>

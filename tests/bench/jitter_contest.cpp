@@ -113,6 +113,7 @@ Contest compete(const Gate& gate, const BenchOptions& options, const std::functi
       contest.spinning_ratio[i].push_back(upper_edge(spinning.us[i]) / theirs.us[i]);
     }
   }
+  progress(1.0);  // ended in the last block, the family does not count as whole
   return contest;
 }
 

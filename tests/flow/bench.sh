@@ -54,22 +54,28 @@ check "which says where it is now" complains "$last.unreadable"
 check "and the next has one again" test -n "$(grep feel "$last")"
 
 # Ended early: a file keeps what it had until there is something to put there.
-running() { # signal, argument ...
-  local signal=$1
-  shift
+running() { # signal, seconds after the folder is there, argument ...
+  local signal=$1 after=$2
+  shift 2
   rm -rf begun
-  "$gearshift" bench --family cycle --family headless --out begun "$@" >out 2>err &
+  "$gearshift" bench --out begun --csv kept.csv "$@" >out 2>err &
   until [ -d begun ] || ! kill -0 $! 2>/dev/null; do sleep 0.02; done
+  sleep "$after"
   kill -"$signal" $!
   wait $! 2>/dev/null
 }
+as_of_old() { [ "$(cat kept.csv)" = "of old" ] && [ ! -e begun/bench.html ]; }
 echo "of old" >kept.csv
-running KILL --csv kept.csv
-check "killed, it has taken nothing" test "$(cat kept.csv)" = "of old"
-running TERM --csv kept.csv
-check "asked to end, it does" test $? -eq 1
-check "and says where" complains "ended in the family"
-check "whole families are kept" test "$(head -c 12 kept.csv)" = "family,what,"
+running KILL 0 --family cycle
+check "killed, it has taken nothing" as_of_old
+running TERM 0 --family contact
+check "asked to end in the first family, it does" test $? -eq 1
+check "and says so" complains "ended in the family contact: nothing was measured"
+check "and has taken nothing" as_of_old
+running TERM 4 --family plant --family contact # seconds, and minutes
+check "asked to end in another, it does" test $? -eq 1
+check "and says where" complains "ended in the family contact: what was measured before it is told"
+check "the whole family is kept" test "$(grep -c '^plant,' kept.csv) $(grep -c '^contact,' kept.csv)" = "6 0"
 check "the page, too" is_xml begun/bench.html
 
 rm -r data && echo "a file" >data

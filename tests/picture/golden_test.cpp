@@ -13,7 +13,7 @@ using namespace gearshift;
 
 namespace {
 
-// facts/rendering.md: at most 3/255 per channel on 99.5 % of the pixels.
+// The goal of the design: at most 3/255 per channel on 99.5 % of the pixels.
 constexpr int kTolerance = 3;
 constexpr double kMostBeyond = 0.005;
 

@@ -251,6 +251,16 @@ TEST_CASE("begun again, it is left and another trial; the lesson of one's own is
   CHECK(coach.view().runs.size() == 1);  // the second had no sample: it never was
 }
 
+TEST_CASE("why there is no history is told once, and lessons are given without one") {
+  CoachBench bench;
+  bench.config.no_history = "no folder for the user's files";
+  Coach coach(bench.config);
+  CHECK(coach.take_problem() == "no folder for the user's files");
+  CHECK_FALSE(coach.take_problem().has_value());
+  coach.offer(bench.config.lessons.front());
+  CHECK(coach.view().phase == LessonPhase::offered);
+}
+
 TEST_CASE("what is no name is refused; nobody is a name") {
   CoachBench bench;
   Coach coach(bench.config);

@@ -123,7 +123,7 @@ TEST_CASE("the hatchback is the car that the other methods were run with, in SI 
   CHECK(car.synchro.cone_angle == doctest::Approx(0.11345).epsilon(1e-4));
   CHECK(car.synchro.radius == doctest::Approx(0.03));
   CHECK(car.body.wheel_radius == doctest::Approx(0.3032));
-  const double kmh_per_krpm[] = {8.1, 14.4, 21.7, 28.9, 36.8};  // facts, training.md section 3
+  const double kmh_per_krpm[] = {8.1, 14.4, 21.7, 28.9, 36.8};  // by hand, of ratios and wheel
   for (int gear = 1; gear <= 5; ++gear)
     CHECK(3.6 * road_speed_at(car, gear, 1000.0 * kRpm) == doctest::Approx(kmh_per_krpm[gear - 1]).epsilon(0.007));
   CHECK(shaft_per_road(car, 6) == 0.0);

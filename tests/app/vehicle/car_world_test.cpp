@@ -225,7 +225,7 @@ TEST_CASE("without the clutch a gear goes in where the revs match, as in a real 
   }
 }
 
-// Complaints of users of other simulators: training.md section 2.
+// Complaints of users of other simulators.
 TEST_CASE(
     "a worn synchroniser grinds behind a hard wall, louder with more push, and no gear is accepted before it fits") {
   CarSpec car = shipped_car("hatchback");

@@ -1,6 +1,6 @@
 // The answer that cone and lever together are held against: hand, lever, ring and driveline as one set of ordinary
 // differential equations in continuous time. Runge-Kutta of order four, 2 us; every jump of a force is located to
-// 1e-13 s. Written from the laws of the READMEs (training.md section 4): it shares with the product the car's curves,
+// 1e-13 s. Written from the laws of the READMEs: it shares with the product the car's curves,
 // the paper's axis and nothing else. No samples, no holds, no filter of the push: what the product differs by is what
 // sampling costs.
 //

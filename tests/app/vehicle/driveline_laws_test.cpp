@@ -1,4 +1,4 @@
-// The driveline against closed forms (training.md section 3): each law with the others switched off.
+// The driveline against closed forms: each law with the others switched off.
 #include <algorithm>
 #include <cmath>
 

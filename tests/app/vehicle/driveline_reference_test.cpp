@@ -97,7 +97,7 @@ TEST_CASE("the drives do what they are called") {
   CHECK(reference_of(first_backwards()).samples.back().road > 1.0);
 }
 
-// training.md section 3: 2.02 kJ, locked after 1.303 s, by a Runge-Kutta of its own.
+// 2.02 kJ, locked after 1.303 s, by a Runge-Kutta of its own.
 TEST_CASE("the launch is what another program made of it") {
   const DriveOutcome runs = reference_of(launch());
   CHECK(runs.slip_energy == doctest::Approx(2020.0).epsilon(0.003));

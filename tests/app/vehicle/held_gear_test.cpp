@@ -1,6 +1,5 @@
 // A gear that is in stays in, and a lever in a slot stays in the middle of it: every slot, every load, for as long as it
-// lasts, and nothing of it is taken for a wall that chatters. Complaints of users of other simulators: training.md
-// section 2.
+// lasts, and nothing of it is taken for a wall that chatters. Both are complaints of users of other simulators.
 #include <algorithm>
 #include <cmath>
 #include <map>

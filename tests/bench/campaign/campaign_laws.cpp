@@ -19,9 +19,8 @@ using glm::dvec2;
 
 constexpr double kRounding = 1e-9;     // [m], [N], [J] below what anybody could feel
 constexpr double kObeyed = 1e-6;       // [N] between what was commanded and what acted, rounding in the yoke
-constexpr double kQuietRipple = 1e-3;  // [m] of any one case; DESIGN grants a p95 of 0.3 mm, which the summary shows
-constexpr double kQuietCounts =
-    6.0;  // the reversal limiter sees a lever that comes back by four, a count more or less at each end
+constexpr double kQuietRipple = 1e-3;  // [m] of any one case; the goal is a p95 of 0.3 mm, which the summary shows
+constexpr double kQuietCounts = 6.0;   // the limiter sees a lever come back by four, one more or less at each end
 
 constexpr std::array<LawWords, kCampaignLaws> kWords{{
     {"finite", "every number that comes out is finite", "bad cycles"},
@@ -79,7 +78,8 @@ const LawWords& law_words(CampaignLaw law) noexcept {
 void LawBook::note(CampaignLaw law, double value, double bound, double time) noexcept {
   LawSeen& seen = seen_[static_cast<std::size_t>(law)];
   const bool is_first = seen.looks++ == 0;
-  const bool is_worse = !std::isnan(seen.value) && !(value - bound <= seen.value - seen.bound);
+  const double worst = seen.value - seen.bound;
+  const bool is_worse = !std::isnan(worst) && !(value - bound <= worst);
   if (is_first || is_worse) seen.value = value, seen.bound = bound, seen.time = time;
 }
 
@@ -177,7 +177,8 @@ void EnergyLaw::look(const SeenCycle& cycle, dvec2 true_travel, const LawLimits&
   const dvec2 mistaken =
       glm::abs(is - was) + slope * (glm::abs(true_travel - last_travel_) + glm::abs(true_travel) + glm::abs(told));
   if (surplus_ == 0.0) allowed_ = limits.count * (glm::abs(was.x) + glm::abs(was.y));
-  surplus_ = std::max(0.0, surplus_ + net.x + net.y);
+  const double sum = surplus_ + net.x + net.y;
+  surplus_ = sum < 0.0 ? 0.0 : sum;  // what is none stays none
   allowed_ += 0.5 * limits.count * (mistaken.x + mistaken.y);
   last_travel_ = true_travel;
   book.note(CampaignLaw::energy, surplus_, allowed_ + kRounding, 1e-9 * static_cast<double>(cycle.now.time_ns));

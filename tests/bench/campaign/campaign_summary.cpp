@@ -107,7 +107,8 @@ CampaignSummary summarise(std::uint64_t campaign_seed, std::span<const CaseOutco
     summary.seconds += outcome.seconds;
     add_laws(summary, drawn, outcome);
     add_groups(summary, drawn, outcome);
-    if (outcome.promised) ripple[{band_name(drawn.haptics.rate), drawn.lever.delay}].push_back(outcome.ripple);
+    if (outcome.laws.seen(CampaignLaw::quiet).looks > 0)
+      ripple[{band_name(drawn.haptics.rate), drawn.lever.delay}].push_back(outcome.ripple);
   }
   std::sort(summary.groups.begin(), summary.groups.end(), by_kind_and_name);
   add_ripple(summary, ripple);

@@ -67,20 +67,21 @@ class LineReader {
   }
   template <typename Number>
   void number(Number& value, Number least = 0, Number most = std::numeric_limits<Number>::max()) {
-    const std::string_view field = fields_[at_];
-    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-    const bool is_number = error == std::errc() && end == field.data() + field.size();
-    if (!is_number || !(value >= least && value <= most)) refuse(fmt::format("a number from {} to {}", least, most));
+    if (!parse(value) || !(value >= least && value <= most)) refuse(fmt::format("a number from {} to {}", least, most));
     ++at_;
   }
-  void any_number(double& value) {  // what is looked at may be none
-    const std::string_view field = fields_[at_];
-    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
-    if (error != std::errc() || end != field.data() + field.size()) refuse("a number");
+  void any_number(double& value) {  // of what ran away: infinite, or none
+    if (!parse(value)) refuse("a number");
     ++at_;
   }
 
  private:
+  template <typename Number>
+  bool parse(Number& value) const {
+    const std::string_view field = fields_[at_];
+    const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), value);
+    return error == std::errc() && end == field.data() + field.size();
+  }
   [[noreturn]] void refuse(const std::string& allowed) const {
     throw std::runtime_error(
         fmt::format("{} is \"{}\", not {}", columns_[at_], printable(fields_[at_].substr(0, 40)), allowed));
@@ -107,9 +108,9 @@ CaseOutcome read_case(std::string_view line, const std::vector<std::string_view>
   in.number(promised, 0, 1);
   out.promised = promised == 1;
   in.number(out.stopped);
-  in.number(out.ripple);
+  in.any_number(out.ripple);
   in.number(out.softened);
-  in.number(out.fastest);
+  in.any_number(out.fastest);
   for (std::size_t i = 0; i < kCampaignLaws; ++i) {
     LawSeen& seen = out.laws.seen(static_cast<CampaignLaw>(i));
     in.number(seen.looks);

@@ -4,16 +4,18 @@
 #include <chrono>
 #include <condition_variable>
 #include <exception>
-#include <functional>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <set>
+#include <system_error>
 #include <thread>
 #include <utility>
 
 #include <fmt/core.h>
 
+#include "haptics/files/file_error.h"
+#include "haptics/files/fnv_1a.h"
 #include "tests/bench/campaign/case_file.h"
 
 namespace gearshift {
@@ -23,8 +25,7 @@ namespace {
 std::string words_of(const CampaignPlan& plan, std::span<const GateLayout> shipped) {
   std::string gates;
   for (const GateLayout& layout : shipped) gates += layout.text;
-  return fmt::format("gearshift campaign, seed {}, gates {:016x}, by {}", plan.seed, std::hash<std::string>()(gates),
-                     plan.program);
+  return fmt::format("gearshift campaign, seed {}, gates {:016x}, by {}", plan.seed, fnv_1a(gates), plan.program);
 }
 
 // Hands out cases in order and takes what came of them, in any.
@@ -131,12 +132,15 @@ std::size_t record_failures(const CampaignPlan& plan, std::span<const LawBroken>
                             std::span<const GateLayout> shipped, const CampaignProgress& progress) {
   std::set<std::uint64_t> cases;
   for (const LawBroken& one : broken) cases.insert(one.number);
-  if (!cases.empty()) std::filesystem::create_directories(plan.folder / "failures");
+  const std::filesystem::path folder = plan.folder / "failures";
+  std::error_code error;
+  if (!cases.empty()) std::filesystem::create_directories(folder, error);
+  if (error) throw FileError(folder.string(), 0, "cannot be made: " + error.message());
   std::size_t kept = 0;
   for (const std::uint64_t number : cases) {
     if (kept == kMostTraces) break;
     const CampaignCase drawn = drawn_case(plan.seed, number, static_cast<int>(shipped.size()));
-    run_case(drawn, shipped, plan.folder / "failures" / fmt::format("{:016x}.trace", drawn.seed));
+    run_case(drawn, shipped, folder / fmt::format("{:016x}.trace", drawn.seed));
     ++kept;
     if (progress) progress(static_cast<double>(kept) / static_cast<double>(std::min(cases.size(), kMostTraces)));
   }

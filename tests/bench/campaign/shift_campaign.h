@@ -16,7 +16,8 @@ namespace gearshift {
 
 struct CampaignPlan {
   std::uint64_t seed = 1;
-  std::string program;               // that drives it: no other one goes on with what the folder has
+  std::string program;  // that drives it: no other one goes on with what the folder has. Trees that were changed since
+                        // one commit are not told apart
   std::uint64_t shifts = 1'000'000;  // that are tried at least: cases are run whole, in order
   std::filesystem::path folder;  // exists; receives cases.csv: one line a case, as they come. Empty: nothing is kept
   int threads = 1;
@@ -32,7 +33,8 @@ std::vector<CaseOutcome> drive_campaign(const CampaignPlan& plan, std::span<cons
 inline constexpr std::size_t kMostTraces = 100;
 
 // Drives the cases that broke a law again, kMostTraces at most, recorded as failures/SEED.trace in the plan's folder, for
-// `gearshift replay`. Returns how many there are to record. Throws FileError.
+// `gearshift replay`. Returns how many there are to record. Throws FileError or std::runtime_error
+// in one sentence.
 std::size_t record_failures(const CampaignPlan& plan, std::span<const LawBroken> broken,
                             std::span<const GateLayout> shipped, const CampaignProgress& progress);
 

@@ -11,7 +11,7 @@ namespace gearshift {
 
 inline constexpr double kDriveGravity = 9.81;  // [m/s^2]
 
-// 1.6 l petrol hatchback of training.md section 3.
+// The 1.6 l petrol hatchback that another program drove.
 CarSpec hatchback();
 
 struct Drive {
@@ -22,7 +22,7 @@ struct Drive {
   std::function<DrivelineInput(double seconds)> input;
 };
 
-Drive launch();  // clutch let up within 1.5 s, some throttle: 2.02 kJ, locked after 1.303 s (training.md)
+Drive launch();  // clutch let up within 1.5 s, some throttle: 2.02 kJ, locked after 1.303 s by that
 // The same foot with a little more throttle: that car stalls with launch's. car: the shipped hatchback.
 Drive launch_of(const CarSpec& car);
 Drive dump_at_idle();     // let up within 30 ms: it stalls

@@ -15,7 +15,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-// facts/rendering.md, on this kind of machine: pbrbasic, 221k untextured GGX triangles, 74 to 104 ms.
+// The goal, another renderer on this kind of machine: pbrbasic, 221k untextured GGX triangles, 74 to 104 ms.
 constexpr double kPbrBasic = 104.0;  // [ms]
 constexpr int kSpheres = 20;
 constexpr int kRings = 75, kSegments = 75;  // 20 x 75 x 74 x 2 = 222,000 triangles

@@ -1,0 +1,20 @@
+// This work is based on:
+// Glenn Fowler, Landon Curt Noll, Kiem-Phong Vo, Donald Eastlake. The FNV Non-Cryptographic Hash Algorithm. 2019
+//
+// A hash for what is kept on a disk: the same on every machine, unlike std::hash. Against accidents, not against people.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+namespace gearshift {
+
+constexpr std::uint64_t fnv_1a(std::string_view text) noexcept {
+  std::uint64_t hash = 0xcbf29ce484222325u;
+  for (const char c : text) hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3u;
+  return hash;
+}
+
+static_assert(fnv_1a("") == 0xcbf29ce484222325u && fnv_1a("foobar") == 0x85944171f73967e8u);  // its authors'
+
+}  // namespace gearshift
