@@ -84,7 +84,7 @@ class Panel {
   }
 
   void draw() {
-    svg_.text(corner_ + glm::dvec2(0.0, 18.0), {14.0, kInk, "start", true}, contest_.front()->contest);
+    svg_.text(corner_ + glm::dvec2(kNames, 18.0), {14.0, kInk, "start", true}, contest_.front()->contest);
     grid();
     front_line();
     for (std::size_t i = 0; i < contest_.size(); ++i)
