@@ -16,6 +16,7 @@
 #include "haptics/loop/trace_reader.h"
 #include "tests/bench/bench.h"
 #include "tests/bench/campaign/campaign_summary.h"
+#include "tests/bench/campaign/case_file.h"
 #include "tests/bench/campaign/shift_campaign.h"
 #include "tests/support/gates.h"
 #include "tests/support/temp_folder.h"
@@ -171,6 +172,23 @@ TEST_CASE("a file of cases that was edited is refused with line, column, value a
   std::filesystem::remove(file);
   std::filesystem::create_directory(file);
   CHECK_THROWS_WITH_AS(drive_campaign(plan, layouts(), {}), doctest::Contains("is no plain file"), std::runtime_error);
+}
+
+TEST_CASE("two campaigns in one folder: the second is refused, and goes on when the first has ended") {
+  CampaignPlan plan;
+  plan.shifts = 1;
+  const TempFolder folder;
+  plan.folder = folder.path();
+  drive_campaign(plan, layouts(), {});
+  const std::vector<std::string> lines = lines_of(folder / "cases.csv");
+  {
+    const CaseFile first(folder / "cases.csv", lines[0].substr(2));
+    CHECK_THROWS_WITH_AS(drive_campaign(plan, layouts(), {}), doctest::Contains("another campaign is at work there"),
+                         std::runtime_error);
+  }
+  plan.shifts = 100;
+  CHECK(drive_campaign(plan, layouts(), {}).size() > 1);
+  CHECK(lines_of(folder / "cases.csv")[2] == lines[2]);
 }
 
 TEST_CASE("a case that broke a law is driven again, and its trace replays") {

@@ -1,6 +1,9 @@
 #include "tests/bench/campaign/case_file.h"
 
+#include <sys/file.h>
+
 #include <algorithm>
+#include <cerrno>
 #include <charconv>
 #include <fstream>
 #include <limits>
@@ -121,12 +124,15 @@ CaseOutcome read_case(std::string_view line, const std::vector<std::string_view>
   return out;
 }
 
-// Empty where there is none.
-std::string whole_text(const std::filesystem::path& file) {
+void check_plain(const std::filesystem::path& file) {
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
-  if (status.type() == std::filesystem::file_type::not_found) return {};
-  if (!std::filesystem::is_regular_file(status)) throw std::runtime_error(file.string() + ": is no plain file");
+  const bool is_there = status.type() != std::filesystem::file_type::not_found;
+  if (is_there && !std::filesystem::is_regular_file(status))
+    throw std::runtime_error(file.string() + ": is no plain file");
+}
+
+std::string whole_text(const std::filesystem::path& file) {
   std::string text(std::filesystem::file_size(file), '\0');
   std::ifstream in(file, std::ios::binary);
   if (!in.read(text.data(), static_cast<std::streamsize>(text.size())))
@@ -141,8 +147,14 @@ std::string first_line_of(std::string_view text) {
 }  // namespace
 
 CaseFile::CaseFile(const std::filesystem::path& file, const std::string& of) : name_(file.string()) {
-  const std::string columns = column_line(), head = "# " + of + "\n" + columns;
+  const std::string head = "# " + of + "\n" + column_line();
+  check_plain(file);
+  file_.reset(std::fopen(name_.c_str(), "ab"));
+  if (!file_) throw std::runtime_error(name_ + ": cannot be written");
+  if (flock(fileno(file_.get()), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
+    throw std::runtime_error(name_ + ": another campaign is at work there");
   std::string text = whole_text(file);
+  const std::size_t had = text.size();
   if (text.size() < head.size() && head.starts_with(text)) text.clear();  // stopped in its first moment
   if (!text.empty() && !text.starts_with(head)) {
     throw std::runtime_error(
@@ -150,10 +162,8 @@ CaseFile::CaseFile(const std::filesystem::path& file, const std::string& of) : n
   }
   const std::size_t good = text.empty() ? 0 : read_cases(text, head.size());
   std::error_code error;
-  if (good < text.size()) std::filesystem::resize_file(file, good, error);
+  if (good < had) std::filesystem::resize_file(file, good, error);
   if (error) throw std::runtime_error(name_ + ": cannot be written: " + error.message());
-  file_.reset(std::fopen(name_.c_str(), text.empty() ? "wb" : "ab"));
-  if (!file_) throw std::runtime_error(name_ + ": cannot be written");
   if (text.empty()) std::fputs(head.c_str(), file_.get());
 }
 

@@ -17,7 +17,8 @@ class CaseFile {
  public:
   // Reads what is there, drops a line that was not finished, and goes on behind it. of: the campaign, in one line: its
   // seed, its gates, the program. Throws std::runtime_error in one sentence where the file is of another campaign, is not
-  // one (line, column, value, range), or cannot be read or written: then nothing of it is touched.
+  // one (line, column, value, range), is being written by another program, or cannot be read or written: then nothing of
+  // it is touched.
   CaseFile(const std::filesystem::path& file, const std::string& of);
 
   const std::map<std::uint64_t, CaseOutcome>& cases() const noexcept { return cases_; }
