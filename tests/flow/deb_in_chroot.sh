@@ -5,6 +5,7 @@
 #   tests/flow/deb_in_chroot.sh build/release/gearshift_*.deb
 # Usage: deb_in_chroot.sh PACKAGE
 set -u
+command -v debootstrap >/dev/null || { echo "deb_in_chroot.sh: debootstrap is missing: apt-get install debootstrap" >&2; exit 2; }
 # What it mounts is seen by nobody else, and is gone with it.
 [ "$1" = --in-own-mounts ] || exec unshare --mount "$0" --in-own-mounts "$1"
 shift
