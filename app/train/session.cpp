@@ -1,7 +1,6 @@
 #include "app/train/session.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -16,6 +15,7 @@
 #include "app/train/preset_shelf.h"
 #include "app/train/seen_history.h"
 #include "haptics/loop/preset_writer.h"
+#include "haptics/rt/monotonic_clock.h"
 
 namespace gearshift {
 namespace {
@@ -75,8 +75,7 @@ Session::Session(const SessionChoice& choice)
       sound_(choice.sound),
       cabin_sound_(sound_, CabinSoundConfig{}) {
   controls_.ignition = true;
-  if (choice.clock == TrainerClock::real_time)
-    start_ns_ = std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
+  if (choice.clock == TrainerClock::real_time) start_ns_ = monotonic_ns();
   offer_first(choice);
   if (choice.hand == kByItself && coach_.lesson())
     begin_lesson();

@@ -1,19 +1,11 @@
 #include "app/trainer/cycle_runner.h"
 
 #include <algorithm>
-#include <chrono>
 #include <numeric>
 
+#include "haptics/rt/monotonic_clock.h"
+
 namespace gearshift {
-namespace {
-
-// RealtimeThread's clock: steady_clock is CLOCK_MONOTONIC here.
-std::int64_t clock_ns() noexcept {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
-
-}  // namespace
 
 void CycleRunner::cycle(const CycleCall& call, const CycleStatistics* statistics) noexcept {
   const std::int64_t late_ns = statistics != nullptr ? lateness(call, *statistics) : 0;
@@ -32,7 +24,7 @@ std::int64_t CycleRunner::lateness(const CycleCall& call, const CycleStatistics&
   told_.overruns = statistics.overruns;
   told_.skipped = statistics.skipped;
   const std::int64_t slept_for = was_at_work ? 0 : call.skipped * period_ns_;
-  return std::max<std::int64_t>(0, clock_ns() - call.deadline_ns) + slept_for;
+  return std::max<std::int64_t>(0, monotonic_ns() - call.deadline_ns) + slept_for;
 }
 
 void CycleRunner::publish(std::int64_t late_ns) noexcept {

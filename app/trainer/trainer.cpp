@@ -207,10 +207,10 @@ TraceHeader Trainer::State::header(const char* world, bool armed) const {
   return {config.program, as_it_runs(), lever.spec(), config.layout.file, config.layout.text, world, armed};
 }
 
-// A fault has taken the forces, and only a person may give them back.
+// A fault has taken the forces, and only a person may give them back: HapticLoop::watch_guard has the same law.
 bool Trainer::State::waits_for_person() const {
-  return newest.guard == GuardState::released ||
-         (newest.guard == GuardState::damped && newest.fault == GuardFault::chatter);
+  const bool may_rearm = lever.spec().simulated && newest.fault != GuardFault::chatter;
+  return newest.guard == GuardState::released || (newest.guard == GuardState::damped && !may_rearm);
 }
 
 // Returns when the next loop has run its first cycle: what is sent from then on goes to it, and its recording is whole.

@@ -16,8 +16,10 @@ InputWatch::InputWatch(const LeverReport& report, std::array<std::size_t, 2> axe
 
 void InputWatch::see(const LeverCounts& counts, std::array<double, 2> force, std::array<PidSpring, 2> springs,
                      std::int64_t time_ns) noexcept {
+  const double since = started_ ? 1e-9 * static_cast<double>(time_ns - time_ns_) : 0.0;
+  const double passed = std::min(since, kUnwatched);
+  if (since > kUnwatched) unsure_ns_ = time_ns + static_cast<std::int64_t>(1e9 * kJumpTime);
   watch_jump(counts, time_ns);
-  const double passed = started_ ? 1e-9 * static_cast<double>(time_ns - time_ns_) : 0.0;
   for (std::size_t i = 0; i < 2; ++i) {
     const std::int64_t place = counts.axis[axes_[i]];
     const double deflection = (static_cast<double>(place) - axis_[i].middle) / axis_[i].half_range;
@@ -37,7 +39,8 @@ void InputWatch::forget_force() noexcept {
 
 void InputWatch::watch_jump(const LeverCounts& counts, std::int64_t time_ns) noexcept {
   jump_ = 0.0;
-  if (!started_ || static_cast<double>(time_ns - time_ns_) > 1e9 * kJumpTime) return;
+  const bool are_neighbours = started_ && static_cast<double>(time_ns - time_ns_) <= 1e9 * kJumpTime;
+  if (!are_neighbours || time_ns < unsure_ns_) return;
   for (std::size_t i = 0; i < 2; ++i) {
     const auto moved = static_cast<double>(counts.axis[axes_[i]] - axis_[i].place);
     const double share = 0.5 * std::abs(moved) / axis_[i].half_range;

@@ -11,6 +11,7 @@ namespace gearshift {
 
 inline constexpr double kJump = 0.25;         // [1] of the range between two reports: no hand is that fast
 inline constexpr double kJumpTime = 0.020;    // [s] at most between the two
+inline constexpr double kUnwatched = 0.1;     // [s] between two reports: nobody has looked meanwhile
 inline constexpr double kFrozenTime = 2.0;    // [s] under force in one place, to the count,
 inline constexpr double kFrozenForce = 0.30;  // [1] of the full force, by which the force varied meanwhile
 inline constexpr double kYieldForce = 0.05;   // [1] of the full force: less is none
@@ -62,7 +63,8 @@ class InputWatch {
   std::array<std::size_t, 2> axes_;
   std::array<Axis, 2> axis_{};
   bool started_ = false;
-  std::int64_t time_ns_ = 0;  // of the newest report
+  std::int64_t time_ns_ = 0;    // of the newest report
+  std::int64_t unsure_ns_ = 0;  // until then a report may be older than it looks
   double jump_ = 0.0;
 };
 

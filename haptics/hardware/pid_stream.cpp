@@ -241,6 +241,7 @@ StickLapse PidStream::heard(const PidStatus& status, std::int64_t now_ns) noexce
     return StickLapse::switched_off;
   }
   if (!told.playing.exists() || !told.block.exists() || status.playing) return StickLapse::none;
+  expire(now_ns);
   for (std::size_t i = 0; i < kStickEffects; ++i) {
     Effect& effect = effect_[i];
     if (effect.block != status.block || !effect.playing || !is_wanted(i)) continue;

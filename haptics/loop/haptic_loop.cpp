@@ -1,7 +1,6 @@
 #include "haptics/loop/haptic_loop.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <stdexcept>
@@ -14,6 +13,7 @@
 #include "haptics/device/checked.h"
 #include "haptics/gate/gate_feel.h"
 #include "haptics/joystick/finite.h"
+#include "haptics/rt/monotonic_clock.h"
 
 namespace gearshift {
 namespace {
@@ -25,11 +25,6 @@ constexpr double kContactApart = 0.030;    // [s] off the wall before a touch co
 constexpr double kSaturationHold = 0.050;  // [s] below the limit before saturation is over
 constexpr double kShortfall = 1.0;         // [N] between commanded and delivered force that a hand would notice
 constexpr std::int64_t kMostSkipped = 10;  // cycles that the world catches up after an overrun
-
-std::int64_t clock_ns() noexcept {
-  return std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now().time_since_epoch())
-      .count();
-}
 
 const HapticConfig& checked(const HapticConfig& config, const DeviceSpec& spec) {
   check_config(config);
@@ -46,7 +41,7 @@ class StageClock {
     stamp();
   }
   void stamp() noexcept {
-    if (on_) stamps_.ns[stage_++] = clock_ns();
+    if (on_) stamps_.ns[stage_++] = monotonic_ns();
   }
 
  private:
@@ -168,10 +163,10 @@ void HapticLoop::retune(const HapticTuning& tuning) noexcept {
   tuning_ = tuning;
 }
 
-// At arming the proxy starts anew at the lever, so that an old penetration cannot pull.
+// At arming the proxy starts anew at the lever, so that an old penetration cannot pull. While there are forces it is the
+// wall's: a key must not carry it through.
 void HapticLoop::arm() noexcept {
-  if (reading_.stop) return;
-  guard_.arm();
+  if (reading_.stop || !guard_.arm()) return;
   let_go_ = false;
   placed_ = false;
   limiter_.reset();
@@ -240,7 +235,7 @@ GuardInput HapticLoop::guard_input(std::int64_t skipped) const noexcept {
   in.velocity = motion_.smooth_velocity;
   in.fresh = motion_.fresh;
   in.touches = motion_.position != proxy_.position;
-  in.overrun = skipped > 0;
+  in.skipped = skipped;
   return in;
 }
 
@@ -366,13 +361,15 @@ void HapticLoop::watch_chatter() noexcept {
 }
 
 // A simulated lever arms itself again once it has been healthy for a while since the fall; a real one waits for a
-// person, and so does one that chattered whatever its wall did. Motors are off in every state without force.
+// person, and so does one that chattered whatever its wall did. Motors are off in every state without force, and from the
+// first cycle on: what a loop before this one left is nobody's.
 void HapticLoop::watch_guard(std::int64_t skipped) noexcept {
   const bool has_changed = guard_.state() != out_.guard;
+  const bool is_new = has_changed || out_.cycle == 0;
   const bool is_off = guard_.state() == GuardState::idle || guard_.state() == GuardState::released;
   const bool is_faded = guard_.state() == GuardState::damped && !spec_.simulated && out_.commanded == dvec2{0.0, 0.0} &&
                         !std::exchange(let_go_, true);
-  if ((has_changed && is_off) || is_faded) device_.release();
+  if ((is_new && is_off) || is_faded) device_.release();
   const bool is_healthy = motion_.fresh && skipped == 0 && !has_changed;
   healthy_ = is_healthy ? healthy_ + period_ : 0.0;
   const bool may_rearm = spec_.simulated && guard_.fault() != GuardFault::chatter;

@@ -18,23 +18,17 @@
 #include <stdexcept>
 #include <utility>
 
+#include "haptics/rt/monotonic_clock.h"
 #include "haptics/rt/realtime_scope.h"
 
 namespace gearshift {
 namespace {
 
-constexpr std::int64_t kSecond = 1'000'000'000;               // [ns]
 constexpr std::size_t kStackBytes = std::size_t{256} * 1024;  // touched before the first cycle
 constexpr std::size_t kPageBytes = 4096;
 
-std::int64_t now_ns() noexcept {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return now.tv_sec * kSecond + now.tv_nsec;
-}
-
 void sleep_until(std::int64_t wake_ns) noexcept {
-  const timespec wake{wake_ns / kSecond, wake_ns % kSecond};
+  const timespec wake{wake_ns / kSecondNs, wake_ns % kSecondNs};
   while (clock_nanosleep(CLOCK_MONOTONIC, TIMER_ABSTIME, &wake, nullptr) == EINTR) continue;
 }
 
@@ -172,19 +166,19 @@ void RealtimeThread::prepare() {
 
 // Sleeps as long as it is safe to, then spins: the scheduler's wake-up latency falls into the spin.
 std::int64_t RealtimeThread::wait_until(std::int64_t deadline) const noexcept {
-  std::int64_t now = now_ns();
+  std::int64_t now = monotonic_ns();
   if (deadline - now > config_.spin_ns) {
     sleep_until(deadline - config_.spin_ns);
-    now = now_ns();
+    now = monotonic_ns();
   }
-  for (; now < deadline; now = now_ns()) cpu_relax();
+  for (; now < deadline; now = monotonic_ns()) cpu_relax();
   return now;
 }
 
 void RealtimeThread::run() noexcept {
   const AwakeCores awake;
   const std::int64_t period = config_.period_ns;
-  CycleCall next{now_ns() + period, 0};
+  CycleCall next{monotonic_ns() + period, 0};
   while (true) {
     const std::int64_t woke = wait_until(next.deadline_ns);
     if (stop_.load(std::memory_order_relaxed)) return;
@@ -193,7 +187,7 @@ void RealtimeThread::run() noexcept {
     statistics_.skipped += static_cast<std::uint64_t>(next.skipped);
 
     cycle_(next);
-    const std::int64_t done = now_ns();
+    const std::int64_t done = monotonic_ns();
     statistics_.duration.add(done - woke);
     ++statistics_.cycles;
     next = first_ahead(next, done, period);

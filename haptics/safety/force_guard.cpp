@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <glm/common.hpp>
 
@@ -12,7 +13,11 @@ namespace {
 
 using glm::dvec2;
 
-constexpr long kArmedPatience = 10;  // times stale_time: a device takes a while to say its first word
+constexpr std::int64_t kArmedPatience = 10;  // times stale_time: a device takes a while to say its first word
+
+// After so long without a cycle (the process was stopped, the machine slept) the lever may be anywhere, and so may the
+// hand: a force of before must not come back by itself. As long as the stick's driver waits for an order.
+constexpr double kMostLate = 0.1;  // [s]
 
 }  // namespace
 
@@ -37,7 +42,8 @@ ForceGuard::ForceGuard(const GuardConfig& config, const DeviceSpec& spec, double
       bounder_{EnergyBounder(spec.axis_x, spec.delay, period), EnergyBounder(spec.axis_y, spec.delay, period)},
       controller_{PassivityController(spec.axis_x, period), PassivityController(spec.axis_y, period)},
       delay_(static_cast<std::size_t>(spec.delay)),
-      stale_limit_(std::lround(config.stale_time / period)) {}
+      stale_limit_(std::llround(config.stale_time / period)),
+      late_limit_(spec.simulated ? std::numeric_limits<std::int64_t>::max() : std::llround(kMostLate / period)) {}
 
 GuardOutput ForceGuard::guard(const GuardInput& in) noexcept {
   watch(in);
@@ -65,14 +71,16 @@ GuardOutput ForceGuard::allowed(const GuardInput& in, dvec2 travel) noexcept {
 
 // Looks for every fault before a force is let through. What is worse wins.
 void ForceGuard::watch(const GuardInput& in) noexcept {
-  stale_ = in.fresh ? 0 : stale_ + 1;
-  overruns_ = in.overrun ? overruns_ + 1 : 0;
+  stale_ = in.fresh ? 0 : stale_ + 1 + in.skipped;
+  late_ = in.skipped > 0 ? late_ + in.skipped : 0;
+  overruns_ = in.skipped > 0 ? overruns_ + 1 : 0;
   const bool is_outside = std::abs(in.position.x) > position_limit_.x || std::abs(in.position.y) > position_limit_.y;
   if (!is_finite(in.force) || !is_finite(in.position) || !is_finite(in.velocity)) {
     return fall(GuardState::released, GuardFault::not_finite);
   }
   if (is_outside) return fall(GuardState::released, GuardFault::limit_broken);
-  const long patience = state_ == GuardState::armed ? kArmedPatience * stale_limit_ : stale_limit_;
+  if (late_ > late_limit_) return fall(GuardState::released, GuardFault::overruns);
+  const std::int64_t patience = state_ == GuardState::armed ? kArmedPatience * stale_limit_ : stale_limit_;
   if (stale_ > patience) return fall(GuardState::damped, GuardFault::stale_reading);
   if (overruns_ >= config_.overruns_in_row) return fall(GuardState::damped, GuardFault::overruns);
 }
@@ -120,16 +128,18 @@ double ForceGuard::ramp_gain() noexcept {
   return ramp_;
 }
 
-void ForceGuard::arm() noexcept {
-  if (state_ == GuardState::armed || state_ == GuardState::ramping || state_ == GuardState::running) return;
+bool ForceGuard::arm() noexcept {
+  if (state_ == GuardState::armed || state_ == GuardState::ramping || state_ == GuardState::running) return false;
   state_ = GuardState::armed;
   fault_ = GuardFault::none;
   last_ = {0.0, 0.0};
   ramp_ = 0.0;
   stale_ = 0;
+  late_ = 0;
   overruns_ = 0;
   applied_.fill({0.0, 0.0});
   for (PassivityController& controller : controller_) controller.reset();
+  return true;
 }
 
 void ForceGuard::disarm() noexcept {

@@ -4,7 +4,7 @@
 //   idle -> armed -> ramping -> running      up: by a person only, or by itself on a simulated lever
 //   damped    reading stale, too many overruns in a row, or a chatter that softening the wall did not calm: the force
 //             dies away, damping alone is left
-//   released  a limit broken, device lost, force not finite: motors off
+//   released  a limit broken, device lost, force not finite, or a real device left alone for 0.1 s: motors off
 #pragma once
 
 #include <array>
@@ -40,7 +40,7 @@ struct GuardInput {
   glm::dvec2 velocity{0.0};  // [m/s] smoothed
   bool fresh = false;        // reading fresh this cycle
   bool touches = false;      // the lever is pressed into a wall
-  bool overrun = false;      // this cycle came late by a period or more
+  std::int64_t skipped = 0;  // [cycles] that had no turn before this one, which came late
 };
 
 struct GuardOutput {
@@ -58,7 +58,7 @@ class ForceGuard {
   GuardOutput guard(const GuardInput& in) noexcept;  // once per cycle. Real-time safe
 
   // Steps of the ladder, on the haptic thread between cycles.
-  void arm() noexcept;     // idle, damped or released -> armed (then ramping as soon as readings are fresh)
+  bool arm() noexcept;     // idle, damped or released -> armed (then ramping as soon as readings are fresh); else false
   void disarm() noexcept;  // any -> idle, force 0
   void stop() noexcept;    // armed or higher -> released: the large red button
   void damp() noexcept;    // armed or higher -> damped: the lever chatters whatever the wall does
@@ -92,8 +92,10 @@ class ForceGuard {
   double ramp_ = 0.0;          // [1] 0 to 1
   glm::dvec2 fade_from_{0.0};  // [N] commanded when it fell to damped
   double fade_ = 0.0;          // [1] 1 to 0 of that
-  long stale_limit_;           // [cycles] without a fresh reading
-  long stale_ = 0;             // [cycles] since the last fresh reading
+  std::int64_t stale_limit_;   // [cycles] without a fresh reading
+  std::int64_t late_limit_;    // [cycles] skipped in a row
+  std::int64_t stale_ = 0;     // [cycles] since the last fresh reading
+  std::int64_t late_ = 0;      // [cycles] skipped by the overruns in a row
   int overruns_ = 0;           // in a row
 };
 

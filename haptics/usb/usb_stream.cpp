@@ -9,21 +9,15 @@
 #include <string>
 #include <utility>
 
+#include "haptics/rt/monotonic_clock.h"
 #include "haptics/usb/hid_request.h"
 
 namespace gearshift {
 namespace {
 
-constexpr std::int64_t kSecond = 1'000'000'000;   // [ns]
 constexpr std::int64_t kErrorsFor = 250'000'000;  // [ns] a hub takes so long to say that a device is gone
-constexpr std::int64_t kTakingBack = kSecond;     // [ns] the most that cancelled transfers are waited for
+constexpr std::int64_t kTakingBack = kSecondNs;   // [ns] the most that cancelled transfers are waited for
 constexpr std::size_t kSetup = LIBUSB_CONTROL_SETUP_SIZE;
-
-std::int64_t now_ns() noexcept {
-  timespec now{};
-  clock_gettime(CLOCK_MONOTONIC, &now);
-  return now.tv_sec * kSecond + now.tv_nsec;
-}
 
 // A sleep of this thread ends when it is over, not up to 50 us later.
 class FineSleep {
@@ -86,9 +80,9 @@ UsbStream::UsbStream(libusb_context& context, libusb_device_handle& handle, cons
 
 UsbStream::~UsbStream() {
   leaving_ = true;
-  const std::int64_t end = now_ns() + kTakingBack;
+  const std::int64_t end = monotonic_ns() + kTakingBack;
   cancel_all();
-  while (any_pending() && now_ns() < end) {
+  while (any_pending() && monotonic_ns() < end) {
     timeval wait{0, 20'000};
     libusb_handle_events_timeout_completed(&context_, &wait, nullptr);
   }
@@ -104,12 +98,12 @@ void UsbStream::run() {
   const HidRequest idle = set_idle(interface_.number);
   libusb_control_transfer(&handle_, idle.type, idle.request, idle.value, idle.index, nullptr, 0, kUsbTimeout);
   if (interface_.in == 0) fail(false, "has no interrupt endpoint to report by");
-  lever_ns_ = now_ns();
+  lever_ns_ = monotonic_ns();
   for (Slot& slot : slots_->in) {
     if (!failure_) fill_input(slot);
   }
   while (!stream_.should_end()) {
-    const std::int64_t now = now_ns();
+    const std::int64_t now = monotonic_ns();
     look(now);
     if (failure_) throw_failure();
     wait(next_look(now));
@@ -196,7 +190,7 @@ void UsbStream::output_arrived(const libusb_transfer& transfer) noexcept {
   switch (transfer.status) {
     case LIBUSB_TRANSFER_COMPLETED:
       out_ = {};
-      stream_.on_sent(now_ns());
+      stream_.on_sent(monotonic_ns());
       break;
     case LIBUSB_TRANSFER_STALL:
       out_.stalled = true;
@@ -228,7 +222,7 @@ void UsbStream::answer_arrived(const libusb_transfer& transfer) noexcept {
 }
 
 void UsbStream::bus_error(Trouble& pipe, const char* what) noexcept {
-  const std::int64_t now = now_ns();
+  const std::int64_t now = monotonic_ns();
   if (pipe.first_error == 0) pipe.first_error = now;
   pipe.retry = now + config_.tick_ns;
   if (now - pipe.first_error > kErrorsFor) fail(false, what);
@@ -240,7 +234,7 @@ void UsbStream::deliver(std::span<const std::uint8_t> wire) noexcept {
   const std::size_t offset = wire_offset(reports_);
   std::copy(wire.begin(), wire.end(), report.bytes.begin() + static_cast<std::ptrdiff_t>(offset));
   report.size = wire.size() + offset;
-  const std::int64_t now = now_ns();
+  const std::int64_t now = monotonic_ns();
   silent_timeouts_ = 0;
   if (report.id() == config_.lever_report) lever_ns_ = now;
   stream_.on_input(report.view(), now);
@@ -353,8 +347,8 @@ void UsbStream::list_fds() {
 
 void UsbStream::wait(std::int64_t until) {
   if (fds_changed_) list_fds();
-  const std::int64_t left = std::max<std::int64_t>(until - now_ns(), 0);
-  const timespec wait{left / kSecond, left % kSecond};
+  const std::int64_t left = std::max<std::int64_t>(until - monotonic_ns(), 0);
+  const timespec wait{left / kSecondNs, left % kSecondNs};
   if (ppoll(fds_.data(), fds_.size(), &wait, nullptr) > 0 && (fds_[0].revents & POLLIN) != 0) {
     std::uint64_t count = 0;
     woken_ = read(config_.wake_fd, &count, sizeof count) == sizeof count || woken_;

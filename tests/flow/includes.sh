@@ -13,7 +13,7 @@ declare -A sees=(
   [haptics/contact]="haptics/gate haptics/device haptics/files haptics/joystick haptics/rt"
   [haptics/analysis]="haptics/contact haptics/safety haptics/gate haptics/device haptics/files haptics/joystick haptics/rt"
   [haptics/safety]="haptics/device haptics/joystick haptics/rt" [haptics/loop]="haptics/files haptics/rt haptics/joystick haptics/gate haptics/device haptics/contact haptics/analysis haptics/safety"
-  [haptics/hid]="" [haptics/usb]="haptics/files haptics/hid"
+  [haptics/hid]="" [haptics/usb]="haptics/files haptics/hid haptics/rt"
   [haptics/hardware]="haptics/device haptics/joystick haptics/files haptics/hid haptics/rt"
   [engine/image]="" [engine/model]="engine/image" [engine/scene]="engine/model engine/image"
   [engine/light]="engine/image" [engine/gpu]="engine/image"

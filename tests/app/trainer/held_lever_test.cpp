@@ -27,6 +27,7 @@ struct Stick {
   int made = 0, driven = 0;  // levers; times that one was read
   glm::dvec2 force{0.0};     // [N] as written last
   double strongest = 0.0;    // [N] ever
+  bool on = false;           // its motors
 };
 
 // The simulated lever as a device that nobody knows to be simulated.
@@ -45,6 +46,7 @@ class HeldLever final : public HapticDevice {
     if (!stick_.silent) last_ = now;
     return last_;
   }
+  void switch_on() noexcept override { stick_.on = true; }
   void write(glm::dvec2 force) noexcept override {
     stick_.force = force;
     stick_.strongest = std::max(stick_.strongest, glm::length(force));
@@ -52,6 +54,7 @@ class HeldLever final : public HapticDevice {
   }
   void release() noexcept override {
     stick_.force = {};
+    stick_.on = false;
     lever_.release();
   }
 
@@ -125,6 +128,34 @@ TEST_CASE("after a fault nobody gives the forces back but a person") {
   trainer.arm();
   trainer.advance(1.0);
   CHECK(trainer.snapshot().guard == GuardState::running);
+}
+
+TEST_CASE("a recording that begins after a fault, or in the middle of it, gives no forces back: a person does") {
+  for (const double after : {0.005, 0.5}) {  // while the last force dies away, and long after
+    CAPTURE(after);
+    const TempFolder folder;
+    Stick stick;
+    Trainer trainer(held(stick));
+    trainer.arm();
+    trainer.advance(1.0);
+    REQUIRE(stick.on);
+    stick.silent = true;
+    while (trainer.snapshot().guard == GuardState::running) trainer.advance(0.001);
+    stick.silent = false;
+    trainer.advance(after);
+    trainer.start_recording(folder / "after.trace");
+    trainer.advance(0.001);
+    stick.strongest = 0.0;
+    CHECK_FALSE(stick.on);
+    trainer.advance(1.0);
+    CHECK_FALSE(trainer.stop_recording().has_value());
+    trainer.advance(1.0);
+    CHECK(stick.strongest == 0.0);
+    CHECK_FALSE(stick.on);
+    trainer.arm();
+    trainer.advance(1.0);
+    CHECK(trainer.snapshot().guard == GuardState::running);
+  }
 }
 
 TEST_CASE("a recording begun while it runs, with a fault in it, replays bit for bit: the device is in the trace") {

@@ -317,6 +317,28 @@ TEST_CASE("one sensor of two is dead; and one that has only rested") {
   }
 }
 
+// While the program stood still nobody looked, and what waits on the bus then is of before, whatever it is stamped with.
+TEST_CASE("a pause of the program is no dead sensor, and where the lever has gone meanwhile no jump") {
+  StillHand hand;
+  StickBench bench(held(StickFamily::openffboard), hand);
+  const LeverReport report = bench.driver.lever_report();
+  const auto far = static_cast<std::int64_t>(0.7 * static_cast<double>(report.axes[0].field.max));
+  InputWatch watch(report, {0, 1});
+  LeverCounts counts;
+  const auto see = [&](std::int64_t ms) { watch.see(counts, {0.5, 0.5}, {}, 1'000'000 * ms); };
+  for (std::int64_t ms = 0; ms < 500; ++ms) see(ms);
+  see(3500);
+  see(3500);  // two that had waited
+  CHECK(watch.force_share(0) == 1.0);
+  counts.axis[0] = far;
+  see(3501);
+  CHECK(watch.jump() == 0.0);
+  for (std::int64_t ms = 3502; ms < 4000; ++ms) see(ms);
+  counts.axis[0] = -far;
+  see(4000);
+  CHECK(watch.jump() == doctest::Approx(0.7).epsilon(0.01));  // of the range, between neighbours
+}
+
 TEST_CASE("a wall that the device keeps yields under a dead sensor, too, however strong its springs are") {
   StillHand hand;
   StickBench bench(held(StickFamily::vjoy), hand);

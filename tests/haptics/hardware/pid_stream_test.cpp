@@ -224,6 +224,15 @@ TEST_CASE("a device that says its motors are off, or an effect ended, is put rig
   CHECK(wire.stream.heard(status, wire.now_ns + 1000 * kMs) == StickLapse::none);  // off as it was wished
 }
 
+TEST_CASE("an effect that ran out while nobody renewed it was not stopped by the device") {
+  Wire wire(StickFamily::sidewinder);
+  for (int i = 0; i < 80; ++i) wire.tick(pushing(0.5, 0.5));
+  PidStatus status;
+  status.actuators_enabled = true;
+  status.block = 1;
+  CHECK(wire.stream.heard(status, wire.now_ns + 400 * kMs) == StickLapse::none);
+}
+
 // Random wishes, losses and gaps against a device's firmware, which knows nothing of us.
 TEST_CASE("whatever was lost before: 20 quiet milliseconds, and the device does what is wished") {
   constexpr double kHalfStep = 0.5 * 20.0 / 255.0 + 1e-9;  // [N] of the coarsest magnitude, the SideWinder's

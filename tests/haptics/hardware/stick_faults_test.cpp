@@ -110,6 +110,39 @@ TEST_CASE("from a fault to silent motors: in the stated time, whenever it happen
   MESSAGE(table);
 }
 
+TEST_CASE("the program stands still and goes on, whoever of its threads wakes first: no force until a person arms it") {
+  for (const StickFamily family : kStickFamilies) {
+    for (const std::int64_t ms : {150, 400, 3000}) {
+      for (const bool loop_first : {false, true}) {
+        CAPTURE(name_of(family));
+        CAPTURE(ms);
+        CAPTURE(loop_first);
+        StillHand hand(hand_at({0.0, 0.0}));
+        StickLoop run(gripped(family), hand);
+        run.loop.arm();
+        run.cycle_for(0.8);
+        hand.target = hand_at({0.012, 0.020});
+        run.cycle_for(0.5);
+        REQUIRE(glm::length(run.stick.force()) > 3.0);
+        run.stick.advance(run.now_ns += 1'000'000 * ms);
+        if (ms > 300) CHECK(glm::length(run.stick.force()) < kSilent);  // an effect lasts no longer
+        run.now_ns += run.period_ns;
+        if (!loop_first) tick_stick(run.stick, run.stream, run.driver, run.now_ns);
+        run.loop.cycle(run.now_ns, ms);
+        for (int i = 0; i < 1000; ++i) {
+          run.cycle();
+          if (i > 4 || ms > 300) CHECK(glm::length(run.stick.force()) < kSilent);
+        }
+        CHECK(run.loop.snapshot().guard == GuardState::released);
+        CHECK_FALSE(run.stick.actuators_on());
+        run.loop.arm();
+        run.cycle_for(0.6);
+        CHECK(run.loop.snapshot().guard == GuardState::running);
+      }
+    }
+  }
+}
+
 TEST_CASE("unplugged at any moment of a tour: silent until a person arms it again, and then the tour goes on") {
   for (const StickFamily family : kStickFamilies) {
     CAPTURE(name_of(family));

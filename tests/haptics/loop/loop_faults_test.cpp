@@ -306,6 +306,55 @@ TEST_CASE("arming starts anew where the lever is: no pull from where it was") {
   CHECK(slot_at(rig.gate, rig.loop.snapshot().proxy) == slot_of_gear(rig.gate, 1));
 }
 
+// A lever that a hand has brought to a place by force: it is there whatever the motors do.
+class PlacedLever final : public HapticDevice {
+ public:
+  const DeviceSpec& spec() const noexcept override { return spec_; }
+  LeverReading read(std::int64_t now_ns) noexcept override {
+    LeverReading reading;
+    reading.sequence = static_cast<std::uint64_t>(now_ns / kPeriodNs) + 1;
+    reading.time_ns = now_ns;
+    reading.position = place;
+    return reading;
+  }
+  void write(dvec2) noexcept override {}
+  void release() noexcept override {}
+
+  dvec2 place{0.0};
+
+ private:
+  DeviceSpec spec_{.workspace = kPaperWorkspace};
+};
+
+TEST_CASE("arming what has forces changes nothing: the proxy stays before the lockout that the lever presses into") {
+  const Gate gate =
+      compile_gate(read_gate_layout(GEARSHIFT_ASSETS "/gates/five_speed_r_left_up.toml"), kPaperWorkspace);
+  PlacedLever lever;
+  NullWorld world;
+  LoopChannels channels;
+  HapticLoop loop(HapticConfig{}, gate, lever, world, channels);
+  loop.arm();
+  std::int64_t now = 0;
+  for (int i = 0; i < 1000; ++i) loop.cycle(now += kPeriodNs, 0);
+  REQUIRE(loop.snapshot().guard == GuardState::running);
+  const double reverse = rest_position(gate, kReverseGear).x;
+  while (lever.place.x > reverse) {  // 20 mm/s
+    lever.place.x -= 2e-5;
+    loop.cycle(now += kPeriodNs, 0);
+  }
+  const double held = loop.snapshot().proxy.x;
+  REQUIRE(held > reverse + 0.003);  // the wall that opens for the ring stands between
+  const double force = loop.snapshot().wall_force.x;
+  REQUIRE(force > 5.0);
+  for (int i = 0; i < 100; ++i) {
+    channels.commands.push(LoopCommand::arm);
+    loop.cycle(now += kPeriodNs, 0);
+  }
+  CHECK(loop.snapshot().guard == GuardState::running);
+  CHECK(loop.snapshot().proxy.x == doctest::Approx(held));
+  CHECK(loop.snapshot().wall_force.x == doctest::Approx(force).epsilon(0.01));
+}
+
 TEST_CASE("with whole samples of delay the coupling looks (1 + 2 d) periods ahead") {
   for (const int delay : {0, 1, 3}) {
     CAPTURE(delay);

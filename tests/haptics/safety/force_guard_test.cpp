@@ -141,7 +141,7 @@ TEST_CASE("outside on either axis and either side, or a speed that is not finite
 TEST_CASE("arming forgets old faults: it does not fall again for what is over") {
   ForceGuard guard = running_guard();
   GuardInput late = wanting({5.0, 0.0});
-  late.overrun = true;
+  late.skipped = 1;
   for (int i = 0; i < 8; ++i) guard.guard(late);
   REQUIRE(guard.state() == GuardState::damped);
   guard.arm();
@@ -153,7 +153,7 @@ TEST_CASE("arming forgets old faults: it does not fall again for what is over") 
 TEST_CASE("one overrun is counted, eight in a row are damped") {
   ForceGuard guard = running_guard();
   GuardInput late = wanting({5.0, 0.0});
-  late.overrun = true;
+  late.skipped = 1;
   for (int round = 0; round < 20; ++round) {
     for (int i = 0; i < 7; ++i) guard.guard(late);
     guard.guard(wanting({5.0, 0.0}));
@@ -164,10 +164,46 @@ TEST_CASE("one overrun is counted, eight in a row are damped") {
   CHECK(guard.fault() == GuardFault::overruns);
 }
 
+TEST_CASE("left alone for 0.1 s, at once or in parts: motors off, no force comes back; a simulated lever goes on") {
+  const auto falls = [](ForceGuard guard, std::initializer_list<int> skipped) {
+    GuardOutput out;
+    for (const int cycles : skipped) {
+      GuardInput late = wanting({5.0, 0.0});
+      late.skipped = cycles;
+      out = guard.guard(late);
+    }
+    CHECK((out.force == dvec2{0.0, 0.0}) == (guard.state() == GuardState::released));
+    return guard.state() == GuardState::released && guard.fault() == GuardFault::overruns;
+  };
+  CHECK_FALSE(falls(running_guard(), {100}));
+  CHECK(falls(running_guard(), {101}));
+  CHECK(falls(running_guard(), {2999}));
+  CHECK(falls(running_guard(), {60, 60}));
+  CHECK_FALSE(falls(running_guard(), {60, 0, 60}));
+  DeviceSpec simulated = paper_spec();
+  simulated.simulated = true;
+  ForceGuard guard(GuardConfig{}, simulated, kPeriod);
+  guard.arm();
+  for (int i = 0; i < 1000; ++i) guard.guard(wanting({5.0, 0.0}));
+  CHECK_FALSE(falls(guard, {2999}));
+}
+
+TEST_CASE("a reading is old by the time that has passed, not by the cycles that had a turn") {
+  ForceGuard guard = running_guard();
+  GuardInput old = wanting({5.0, 0.0});
+  old.fresh = false;
+  old.skipped = 10;
+  guard.guard(old);
+  CHECK(guard.state() == GuardState::running);
+  guard.guard(old);  // 22 ms
+  CHECK(guard.state() == GuardState::damped);
+  CHECK(guard.fault() == GuardFault::stale_reading);
+}
+
 TEST_CASE("damped: the old force fades and what is left opposes motion") {
   ForceGuard guard = running_guard();
   GuardInput late = wanting({5.0, 0.0});
-  late.overrun = true;
+  late.skipped = 1;
   late.velocity = {0.2, -0.1};
   GuardOutput out;
   for (int i = 0; i < 100; ++i) out = guard.guard(late);
