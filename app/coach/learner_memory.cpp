@@ -57,7 +57,7 @@ void LearnerMemory::open(milliseconds patience) {
   } catch (const HistoryFull& problem) {
     is_full_ = true;
     why_ = problem.what();
-    tell(why_ + kWaitsForRoom);
+    tell(promise_ = why_ + kWaitsForRoom);
   } catch (const HistoryError& problem) {
     why_ = problem.what();
     tell(why_);

@@ -161,6 +161,7 @@ class LearnerMemory {
   bool gave_up_ = false;                        // settling, and nothing has come since
   std::string told_, why_;                      // the last problem; the last reason why something waits
   std::string loss_;                            // what the last settling has told
+  std::string promise_;                         // to wait, as it was told last
   std::optional<std::string> problem_;
 
   PersonHere person_ = std::make_shared<Person>();  // who was chosen last

@@ -44,12 +44,12 @@ LearnerMemory::Given LearnerMemory::give(Person& of, std::int64_t at, const Work
   } catch (const HistoryBusy& problem) {
     is_held_ = true;
     why_ = problem.what();
-    tell(why_ + "; what is to be remembered waits for that");
+    tell(promise_ = why_ + "; what is to be remembered waits for that");
   } catch (const HistoryFull& problem) {
     works_ = false;
     is_full_ = true;
     why_ = problem.what();
-    tell(why_ + kWaitsForRoom);
+    tell(promise_ = why_ + kWaitsForRoom);
   } catch (const HistoryError& problem) {
     works_ = false;
     why_ = problem.what();
@@ -123,7 +123,7 @@ void LearnerMemory::settle() {
   settles_until_.reset();
   gave_up_ = anything_waits();
   const std::string lost = what_waits();
-  if (!gave_up_ && problem_ == loss_) problem_.reset();  // an earlier settling's: it was taken after all
+  if (!gave_up_ && (problem_ == loss_ || problem_ == promise_)) problem_.reset();  // it was taken after all
   if (!lost.empty()) tell(loss_ = fmt::format("{}; lost with this program: {}", why_, lost));
 }
 

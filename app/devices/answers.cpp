@@ -3,6 +3,7 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <cerrno>
 #include <cmath>
 #include <utility>
 
@@ -26,13 +27,17 @@ void Answers::read_more(int milliseconds) {
   char bytes[256];
   const ssize_t count = read(file_, bytes, sizeof bytes);
   if (count > 0) buffer_.append(bytes, static_cast<std::size_t>(count));
-  if (count == 0) ended_ = true;
+  ended_ = count == 0 || (count < 0 && errno != EINTR && errno != EAGAIN);
 }
 
 std::optional<std::string> Answers::line(double seconds) {
   if (std::optional<std::string> line = take_line()) return line;
-  if (ended_) return std::nullopt;
-  read_more(static_cast<int>(std::ceil(1e3 * seconds)));
+  const int milliseconds = static_cast<int>(std::ceil(1e3 * seconds));
+  if (ended_) {
+    poll(nullptr, 0, milliseconds);  // who waits here for a line waits with it for the rest of the world
+    return std::nullopt;
+  }
+  read_more(milliseconds);
   return take_line();
 }
 

@@ -86,13 +86,17 @@ std::string ask_line(Answers& answers, const std::string& question, const std::f
   }
 }
 
-Bindings start_with(const std::filesystem::path& file, const std::filesystem::path& usual) {
+}  // namespace
+
+Bindings bindings_before(const std::filesystem::path& file, const std::filesystem::path& usual, bool again) {
   std::error_code ignored;
-  if (std::filesystem::exists(file, ignored)) return read_bindings(file);
+  if (!again && std::filesystem::exists(file, ignored)) return read_bindings(file);
   Bindings bindings = read_bindings(usual);
   for (const Control& control : kControls) (bindings.*control.axis).reset();
   return bindings;
 }
+
+namespace {
 
 void keep(const Bindings& bindings, const std::filesystem::path& file) {
   std::error_code error;
@@ -113,7 +117,7 @@ Bindings learn_axes(Bindings bindings, const PadTalk& talk) {
   return bindings;
 }
 
-int calibrate_pads(const std::filesystem::path& file, const std::filesystem::path& usual, int descriptor) {
+int calibrate_pads(const std::filesystem::path& file, const std::filesystem::path& usual, bool again, int descriptor) {
   const StopSignals signals;
   const GlfwUse glfw;
   Answers answers(descriptor);
@@ -127,7 +131,7 @@ int calibrate_pads(const std::filesystem::path& file, const std::filesystem::pat
     return read_pads();
   };
   try {
-    keep(learn_axes(start_with(file, usual), talk), file);
+    keep(learn_axes(bindings_before(file, usual, again), talk), file);
   } catch (const CalibrationEnded& ended) {
     say_line(ended.what());
     return 1;

@@ -21,8 +21,12 @@ struct PadTalk {
 // These bindings with the axes that were shown; one that is left out stays as it is. Throws what talk throws.
 Bindings learn_axes(Bindings bindings, const PadTalk& talk);
 
-// devices --calibrate for them: starts from the bindings in that file, or, where there are none, from `usual` without its
-// axes. answers: a file descriptor. Returns the exit code. Throws FileError, std::runtime_error with one sentence.
-int calibrate_pads(const std::filesystem::path& file, const std::filesystem::path& usual, int answers);
+// What that starts from: the bindings in that file, or, where there are none or all is shown again, `usual` without its
+// axes. Throws FileError.
+Bindings bindings_before(const std::filesystem::path& file, const std::filesystem::path& usual, bool again);
+
+// devices --calibrate for them. The file stays as it was until all was shown. answers: a file descriptor. Returns the exit
+// code. Throws FileError, std::runtime_error with one sentence.
+int calibrate_pads(const std::filesystem::path& file, const std::filesystem::path& usual, bool again, int answers);
 
 }  // namespace gearshift

@@ -17,6 +17,7 @@ namespace {
 
 constexpr double kLookEvery = 0.02;    // [s]
 constexpr double kOpeningTakes = 2.0;  // [s] at most, where it is plugged in
+constexpr double kArmingTakes = 0.1;   // [s] at most, until the loop has taken it
 
 TrainerConfig trainer_config(const TourSetup& setup, StickLever& stick) {
   TrainerConfig config;
@@ -65,6 +66,7 @@ class HeldDrive {
     take_answer();
     follow_stick();
     follow_lever();
+    watch_arming();
     if (const std::optional<std::string> problem = trainer_.take_recording_problem()) {
       (void)trainer_.stop_recording();
       throw std::runtime_error(*problem);
@@ -92,6 +94,7 @@ class HeldDrive {
     if (!std::exchange(asked_, false)) return;
     trainer_.arm();
     armed_ = true;
+    armed_at_ = trainer_.time();
     ask_for_gear();
   }
 
@@ -147,14 +150,25 @@ class HeldDrive {
     ask_to_arm();
   }
 
+  // Refused in the very cycle that takes it, of which no event tells: its stop button is held, or it lies too far out.
+  void watch_arming() {
+    const HapticSnapshot now = trainer_.snapshot();
+    if (!armed_ || !is_off(now.guard) || trainer_.time() < armed_at_ + kArmingTakes) return;
+    armed_ = false;
+    say_(fmt::format("no forces: {}",
+                     now.fault == GuardFault::none ? "its stop button is held" : reason_words(now.fault)));
+    ask_to_arm();
+  }
+
   Trainer& trainer_;
   StickLever& stick_;
   Answers& answers_;
   const TourWords& say_;
   TourResult& result_;
   std::int64_t begin_ns_;
-  std::size_t next_ = 0;  // of the gears that are wanted
-  bool armed_ = false;    // by a person, and not fallen since
+  std::size_t next_ = 0;   // of the gears that are wanted
+  bool armed_ = false;     // by a person, and not fallen since
+  double armed_at_ = 0.0;  // [s]
   bool is_there_ = false;
   bool was_missed_ = false;  // and it was said; or has been there
   bool asked_ = false;       // to arm, and not answered yet

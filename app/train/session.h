@@ -146,6 +146,7 @@ class Session {
   void toggle_recording();
   void start_recording(const std::string& name);
   void end_lesson_recording();
+  bool remove_unnamed();
   void tell_recording_problem();
 
   SessionChoice choice_;   // a person's
@@ -186,6 +187,7 @@ class Session {
   bool armed_now_ = false;       // by a person, in this frame
   bool stick_is_there_ = false;  // in the frame before
   bool records_lesson_ = false;  // the recording that runs
+  bool is_torn_ = false;         // of a lesson, and the last one
   std::int64_t start_ns_ = 0;    // [ns] of this session, on the lever's clock
   std::int64_t newest_ns_ = 0;   // [ns] of its newest snapshot, on the same
   double time_ = 0.0;            // [s]

@@ -148,14 +148,28 @@ void Session::hold() {
   feet_->ask({});
 }
 
-// A recording that no history names is nobody's.
+// Rows before recordings: where a run lacks room, what no history names leaves its own to it, and then the lesson's that
+// was torn.
 std::string Session::settle() {
-  const std::string not_kept = coach_.settle();
+  std::string not_kept = coach_.settle();
   end_lesson_recording();
+  if (remove_unnamed() && coach_.needs_room()) not_kept = coach_.settle();
+  if (!is_torn_ || !coach_.needs_room()) return not_kept;
+  coach_.forget_recording();
+  std::error_code ignored;
+  fs::remove(last_recording_, ignored);
+  not_kept = coach_.settle();
+  remove_unnamed();
+  return not_kept;
+}
+
+// A recording that no history names is nobody's. True: there was one.
+bool Session::remove_unnamed() {
+  bool any = false;
   std::error_code ignored;
   for (const std::string& file : coach_.forget_recordings())
-    if (lesson_recordings_.contains(file)) fs::remove(file, ignored);
-  return not_kept;
+    any = (lesson_recordings_.contains(file) && fs::remove(file, ignored)) || any;
+  return any;
 }
 
 // The person's, on the lesson's road, with the teacher's hand; after it with the teacher's feet, to a stand.

@@ -33,7 +33,7 @@ void Session::start_recording(const std::string& name) {
   const fs::path file = free_trace(folder, name);
   trainer_->start_recording(file);
   last_recording_ = file;
-  records_lesson_ = false;
+  records_lesson_ = is_torn_ = false;
   message_ = fmt::format("recording to {}", file.string());
 }
 
@@ -46,7 +46,10 @@ bool Session::end_recording() {
 // It is found in the history.
 void Session::end_lesson_recording() {
   if (!recording() || !records_lesson_) return;
-  if (const std::optional<std::string> problem = trainer_->stop_recording()) message_ = *problem;
+  const std::optional<std::string> problem = trainer_->stop_recording();
+  if (!problem) return;
+  is_torn_ = true;
+  message_ = *problem;
 }
 
 // One that dies is over.
@@ -54,6 +57,7 @@ void Session::tell_recording_problem() {
   const std::optional<std::string> problem = trainer_->take_recording_problem();
   if (!problem) return;
   (void)trainer_->stop_recording();
+  is_torn_ = records_lesson_;
   message_ = *problem;
 }
 

@@ -163,8 +163,7 @@ int calibrate(const std::string& wanted, bool again) {
   const bool is_pad = std::any_of(pads.begin(), pads.end(), [&](const PadState& pad) { return is_meant(pad, name); });
   if (!is_pad) return calibrate_stick(wanted, calibrations_folder(), again, STDIN_FILENO);
   const std::filesystem::path file = own_bindings_file(user_config_folder(), std::string(kOwnBindings));
-  if (again) std::filesystem::remove(file);
-  return calibrate_pads(file, find_asset("bindings", "default"), STDIN_FILENO);
+  return calibrate_pads(file, find_asset("bindings", "default"), again, STDIN_FILENO);
 }
 
 int run_devices(const DevicesArguments& arguments) {

@@ -44,6 +44,11 @@ lie() { # fault, family, when [s]; 0: before the stick is prepared
     was_busy "$1" || return
   done
 }
+stop_and_go() { # the program stands still for 3 s, its hand at a wall
+  rm -rf stopped stopped.in
+  tour stopped openffboard --stop-at 1.7 --continue-at 4.7
+  echo $? >stopped.status
+}
 ended() { [ "$(cat "$1.status")" -le 1 ]; } # 1: not every gear, in so short a time
 
 # Three at a time: sticks that keep their own time need the machine.
@@ -51,7 +56,7 @@ tour_seconds=4
 lie jump sidewinder 2 & lie wrong-length openffboard 2 & lie stalls-outputs vjoy 2 & wait
 lie silent sidewinder 2 & lie pool-full vjoy 0 & lie refuses-effects sidewinder 0 & wait
 tour_seconds=5.5 # a dead sensor's force yields in 3 s
-lie slow vjoy 2 & hand_gate=$work/elsewhere.toml lie stuck vjoy 1.55 & wait
+lie slow vjoy 2 & hand_gate=$work/elsewhere.toml lie stuck vjoy 1.55 & hand_gate=$work/elsewhere.toml stop_and_go & wait
 
 for fault in "${!due[@]}"; do
   check "$fault: the program ends as it should" ended $fault
@@ -68,8 +73,15 @@ done
 check "a tour without forces is drawn without a word" bash -c '! grep -i warning "$0"' pool-full.err
 check "jump: the tour goes on" said "2 engaged at" jump
 check "a stick that has become slow is driven no longer" silent_within 1200 slow "the fault"
-for fault in "${!due[@]}"; do
+check "stopped: the program ends as it should" ended stopped
+check "stopped: it pushed, and its last effect ends, and none comes again" silent_within 330 stopped "the stop"
+check "not at once" [ "$(zero_force stopped "the stop")" -gt 0 ]
+# Which of its threads wakes first tells its own.
+check "stopped: it tells that, and nothing of the stick, got: $(told stopped)" \
+  [ -z "$(told stopped | grep -v -e "^forces off: " -e "^no force was commanded for 100 ms: ")" ]
+check "stopped: the drive is kept" replays stopped
+for fault in "${!due[@]}" stopped; do
   check "$fault: its motors are off when the program has ended" silent_within 330 $fault "the program's end"
 done
-sed -n 's/^stick_emulator: \(zero force .* the fault .*\)/\1/p' *.err
+sed -n 's/^stick_emulator: \(zero force .* the \(fault\|stop\).*\)/\1/p' *.err
 finish

@@ -382,6 +382,11 @@ TEST_CASE("settled in vain for want of room, then there is room: the loss is tol
   CHECK_FALSE(coach.take_problem().has_value());
   CHECK_FALSE(coach.needs_room());
   CHECK(runs_in(bench.config.history).size() == 2);
+  disk_is_full = true;
+  bench.trial(coach, "one");
+  disk_is_full = false;
+  CHECK(coach.settle().empty());  // nor is what nobody has heard of yet: it waits no more
+  CHECK(runs_in(bench.config.history).size() == 3);
 }
 
 TEST_CASE(

@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <array>
+#include <chrono>
 #include <string_view>
 
 #include <doctest/doctest.h>
@@ -45,4 +46,22 @@ TEST_CASE("lines come one by one, cut anywhere, and an end of file ends the last
     if (const auto line = answers.line(1.0)) CHECK(*line == "left");
   }
   CHECK_FALSE(answers.line(1.0).has_value());
+}
+
+// Who looks at the world between two lines would do it without a pause, on the core that the loop needs.
+TEST_CASE("at the end the time that was given passes, and what cannot be read is at its end") {
+  const auto waits = [](Answers& answers) {
+    const auto begin = std::chrono::steady_clock::now();
+    CHECK_FALSE(answers.line(0.05).has_value());
+    return std::chrono::steady_clock::now() - begin >= std::chrono::milliseconds(50);
+  };
+  Pipe pipe;
+  pipe.shut();
+  Answers answers(pipe.ends[0]);
+  while (!answers.ended()) CHECK_FALSE(answers.line(1.0).has_value());
+  CHECK(waits(answers));
+  Answers closed(1'000'000);  // no such file
+  (void)closed.line(0.0);
+  CHECK(closed.ended());
+  CHECK(waits(closed));
 }

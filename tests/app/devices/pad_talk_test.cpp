@@ -2,12 +2,14 @@
 #include "app/devices/pad_talk.h"
 
 #include <algorithm>
+#include <filesystem>
 #include <functional>
 #include <string>
 
 #include <doctest/doctest.h>
 
 #include "app/devices/calibration_talk.h"
+#include "tests/support/temp_folder.h"
 
 using namespace gearshift;
 
@@ -97,4 +99,18 @@ TEST_CASE(
   };
   CHECK(has_said("\"what\" is no answer"));
   CHECK(has_said("Not taken: "));
+}
+
+TEST_CASE("all of it again begins without the person's axes, and does not touch what is kept") {
+  const TempFolder folder;
+  const std::filesystem::path own = folder / "own.toml", usual = GEARSHIFT_ASSETS "/bindings/default.toml";
+  CHECK_FALSE(bindings_before(own, usual, false).clutch.has_value());  // there is none
+  Bindings kept = read_bindings(usual);
+  kept.clutch = AxisBinding{};
+  kept.clutch->stick = "Pedals";
+  write_bindings(kept, own);
+  REQUIRE(bindings_before(own, usual, false).clutch.has_value());
+  CHECK(bindings_before(own, usual, false).clutch->stick == "Pedals");
+  CHECK_FALSE(bindings_before(own, usual, true).clutch.has_value());
+  CHECK(read_bindings(own).clutch->stick == "Pedals");
 }

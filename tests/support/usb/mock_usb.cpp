@@ -45,13 +45,13 @@ std::string padded(const char* format, unsigned number) {
 // One that is plugged in, or was.
 struct Plugged {
   Plugged(UsbGadget& gadget, const UsbPlug& how, unsigned its_number, std::shared_ptr<std::mutex> lock)
-      : node(gadget, how.driver_bound, how.taken), plug(how), number(its_number), mutex(std::move(lock)) {}
+      : mutex(std::move(lock)), node(gadget, *mutex, how.driver_bound, how.taken), plug(how), number(its_number) {}
 
+  std::shared_ptr<std::mutex> mutex;  // the bus'
   UsbfsNode node;
   UsbPlug plug;
   unsigned number;  // on its bus
   bool there = true;
-  std::shared_ptr<std::mutex> mutex;  // the bus'
 
   unsigned bus() const { return static_cast<unsigned>(std::stoul(plug.place)); }
   std::string device_node() const { return "/dev/bus/usb/" + padded("%03u", bus()) + "/" + padded("%03u", number); }
@@ -79,9 +79,7 @@ PluggedPtr& plugged_of(UMockdevIoctlBase* handler) {
 }
 
 gboolean handle_ioctl(UMockdevIoctlBase* self, UMockdevIoctlClient* client) {
-  Plugged& plugged = *plugged_of(self);
-  const std::lock_guard<std::mutex> lock(*plugged.mutex);
-  plugged.node.ioctl(client);
+  plugged_of(self)->node.ioctl(client);
   return TRUE;
 }
 

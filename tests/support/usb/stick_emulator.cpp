@@ -3,8 +3,8 @@
 //   umockdev-wrapper stick_emulator --family sidewinder [options] -- PROGRAM ARGUMENTS
 //
 // Times are seconds from the program's start, with --tour from when the motors first came on; at 0 it happens before the
-// program looks. Its exit status is the program's; at the end it says on stderr how long after the last fault, unplug or
-// the program's end the emulated motors still pushed.
+// program looks. Its exit status is the program's; at the end it says on stderr how long after the last fault, unplug, stop
+// or the program's end the emulated motors still pushed.
 
 #include <fcntl.h>
 #include <signal.h>
@@ -15,6 +15,7 @@
 #include <algorithm>
 #include <chrono>
 #include <csignal>
+#include <cstdint>
 #include <cstdio>
 #include <exception>
 #include <filesystem>
@@ -50,7 +51,7 @@ constexpr double kLongest = 5.0;       // [s] that it is watched after its end
 
 struct Options {
   std::string family = "sidewinder", tour;
-  std::vector<double> unplug_at, replug_at;
+  std::vector<double> unplug_at, replug_at, stop_at, continue_at;
   std::vector<std::string> faults, command;
   std::filesystem::path log, orders;
   bool own_power = false;
@@ -173,6 +174,8 @@ void Emulation::plan() {
   for (const std::string& fault : options_.faults) plan_fault(fault);
   for (const double at : options_.unplug_at) events_.push_back({at, "the unplug", [this] { plug(false); }});
   for (const double at : options_.replug_at) events_.push_back({at, "", [this] { plug(true); }});
+  for (const double at : options_.stop_at) events_.push_back({at, "the stop", [this] { kill(child_, SIGSTOP); }});
+  for (const double at : options_.continue_at) events_.push_back({at, "", [this] { kill(child_, SIGCONT); }});
   std::stable_sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) { return a.at < b.at; });
 }
 
@@ -205,11 +208,15 @@ void Emulation::obey(const std::string& order, double time) {
   std::istringstream words(order);
   std::string what;
   glm::dvec2 to{0.0};
+  int button = 0;
   words >> what;
   const auto next = events_.begin() + static_cast<std::ptrdiff_t>(happened_);
   if (what == "go" && words >> to.x >> to.y) {
     const std::lock_guard<std::mutex> lock(usb_->mutex());
     ordered_->go(1e-3 * to);
+  } else if (what == "hold" && words >> button && button >= 1 && button <= 64) {
+    const std::lock_guard<std::mutex> lock(usb_->mutex());
+    stick_->held_buttons |= std::uint64_t{1} << (button - 1);
   } else if (what == "unplug") {
     events_.insert(next, {time, "the unplug", [this] { plug(false); }});
   } else if (what == "plug") {
@@ -308,11 +315,14 @@ int main(int count, char** arguments) {
   each(cli.add_option("--unplug-at", options.unplug_at, "[s] may be given again"));
   each(cli.add_option("--replug-at", options.replug_at, "[s]"));
   each(cli.add_option("--fault", options.faults, "NAME@S: from then on"));
+  each(cli.add_option("--stop-at", options.stop_at, "[s] SIGSTOP to the program"));
+  each(cli.add_option("--continue-at", options.continue_at, "[s] SIGCONT"));
   cli.add_flag("--own-power", options.own_power,
                "its motors are fed from the wall: unplugged, its effects go on to their end");
   cli.add_option("--log", options.log, "file for all that the stick is told, a message a line after its time [s]");
-  cli.add_option("--orders", options.orders,
-                 "a pipe whose lines say what happens next: go X Y [mm], unplug, plug; a hand holds the lever");
+  cli.add_option(
+      "--orders", options.orders,
+      "a pipe whose lines say what happens next: go X Y [mm], hold BUTTON, unplug, plug; a hand holds the lever");
   cli.add_option("program", options.command, "and its arguments, after --")->required();
   CLI11_PARSE(cli, count, arguments);
   try {

@@ -51,8 +51,8 @@ UsbSetup setup_of(std::span<const std::uint8_t> bytes) {
 
 }  // namespace
 
-UsbfsNode::UsbfsNode(UsbGadget& gadget, bool driver_bound, bool taken)
-    : gadget_(gadget), driver_bound_(driver_bound && !taken), taken_(taken) {}
+UsbfsNode::UsbfsNode(UsbGadget& gadget, std::mutex& bus, bool driver_bound, bool taken)
+    : gadget_(gadget), bus_(bus), driver_bound_(driver_bound && !taken), taken_(taken) {}
 
 // As close() of the file: its transfers are killed, its claims go; the kernel's driver does not come back by itself.
 void UsbfsNode::closed(UMockdevIoctlClient* client) {
@@ -65,8 +65,15 @@ void UsbfsNode::closed(UMockdevIoctlClient* client) {
 }
 
 void UsbfsNode::ioctl(UMockdevIoctlClient* client) {
-  const Answer told = answer(client, umockdev_ioctl_client_get_request(client), umockdev_ioctl_client_get_arg(client));
-  umockdev_ioctl_client_complete(client, told.result, told.error);
+  const unsigned long request = umockdev_ioctl_client_get_request(client);
+  UMockdevIoctlData* const argument = umockdev_ioctl_client_get_arg(client);
+  Told told = read(client, request, argument);
+  Answer answered;
+  {
+    const std::lock_guard<std::mutex> lock(bus_);
+    answered = answer(client, request, argument, std::move(told));
+  }
+  umockdev_ioctl_client_complete(client, answered.result, answered.error);
 }
 
 void UsbfsNode::advance(std::int64_t now_ns) {
@@ -87,13 +94,33 @@ void UsbfsNode::disconnect() {
 
 // ----------------------------------------------------------------------------------------------------------- ioctls
 
-UsbfsNode::Answer UsbfsNode::answer(UMockdevIoctlClient* client, unsigned long request, UMockdevIoctlData* argument) {
-  if (request == USBDEVFS_REAPURBNDELAY) return reap(client, argument);
+// Out of the client's memory, for which the client is asked. A process that was stopped does not answer: the bus goes on,
+// its lock is not held.
+UsbfsNode::Told UsbfsNode::read(UMockdevIoctlClient* client, unsigned long request, UMockdevIoctlData* argument) {
+  if (request == USBDEVFS_DISCARDURB) return {};  // an address is all
+  if (request == USBDEVFS_REAPURBNDELAY) {
+    const std::lock_guard<std::mutex> lock(bus_);
+    if (done_for(client) == done_.end()) return {};
+  }
+  const std::size_t size = request == USBDEVFS_REAPURBNDELAY ? sizeof(void*)
+                           : request == USBDEVFS_SUBMITURB   ? sizeof(usbdevfs_urb)
+                                                             : _IOC_SIZE(request);
+  Told told;
+  if (size > 0) told.data = resolve(argument, 0, size);
+  if (request == USBDEVFS_SUBMITURB && told.data != nullptr) {
+    const auto length = static_cast<std::size_t>(as<usbdevfs_urb>(told.data)->buffer_length);
+    if (length > 0) told.buffer = resolve(told.data.get(), offsetof(usbdevfs_urb, buffer), length);
+  }
+  return told;
+}
+
+UsbfsNode::Answer UsbfsNode::answer(UMockdevIoctlClient* client, unsigned long request, UMockdevIoctlData* argument,
+                                    Told told) {
+  const IoctlData& data = told.data;
+  if (request == USBDEVFS_REAPURBNDELAY) return reap(client, data.get());
   if (gone_) return {-1, ENODEV};
-  const std::size_t size = _IOC_SIZE(request);
-  if (request == USBDEVFS_SUBMITURB) return submit(client, argument);
+  if (request == USBDEVFS_SUBMITURB) return submit(client, std::move(told));
   if (request == USBDEVFS_DISCARDURB) return discard(argument);
-  const IoctlData data = size > 0 ? resolve(argument, 0, size) : nullptr;
   switch (request) {
     case USBDEVFS_GET_CAPABILITIES:
       *as<std::uint32_t>(data) =
@@ -150,16 +177,14 @@ UsbfsNode::Answer UsbfsNode::drive(unsigned code) {
   return {1, 0};
 }
 
-UsbfsNode::Answer UsbfsNode::submit(UMockdevIoctlClient* client, UMockdevIoctlData* argument) {
+UsbfsNode::Answer UsbfsNode::submit(UMockdevIoctlClient* client, Told told) {
+  if (told.data == nullptr) return {-1, EFAULT};
   Urb urb;
   urb.client = client;
-  urb.urb = resolve(argument, 0, sizeof(usbdevfs_urb));
-  if (urb.urb == nullptr) return {-1, EFAULT};
-  const auto* told = as<usbdevfs_urb>(urb.urb);
-  urb.type = told->type;
-  urb.endpoint = told->endpoint;
-  const std::size_t length = static_cast<std::size_t>(told->buffer_length);
-  if (length > 0) urb.buffer = resolve(urb.urb.get(), offsetof(usbdevfs_urb, buffer), length);
+  urb.urb = std::move(told.data);
+  urb.buffer = std::move(told.buffer);
+  urb.type = as<usbdevfs_urb>(urb.urb)->type;
+  urb.endpoint = as<usbdevfs_urb>(urb.urb)->endpoint;
   if (!may_use(client, urb)) {
     ++counts_.misuses;
     return {-1, EBUSY};
@@ -186,13 +211,15 @@ UsbfsNode::Answer UsbfsNode::discard(UMockdevIoctlData* argument) {
   return {};
 }
 
-UsbfsNode::Answer UsbfsNode::reap(UMockdevIoctlClient* client, UMockdevIoctlData* argument) {
-  const auto found =
-      std::find_if(done_.begin(), done_.end(), [client](const Urb& urb) { return urb.client == client; });
+std::deque<UsbfsNode::Urb>::iterator UsbfsNode::done_for(UMockdevIoctlClient* client) {
+  return std::find_if(done_.begin(), done_.end(), [client](const Urb& urb) { return urb.client == client; });
+}
+
+UsbfsNode::Answer UsbfsNode::reap(UMockdevIoctlClient* client, UMockdevIoctlData* where) {
+  const auto found = done_for(client);
   if (found == done_.end()) return {-1, gone_ ? ENODEV : EAGAIN};
-  const IoctlData where = resolve(argument, 0, sizeof(void*));
-  if (where == nullptr) return {-1, EFAULT};  // the client has died
-  umockdev_ioctl_data_set_ptr(where.get(), 0, found->urb.get());
+  if (where == nullptr) return {-1, EAGAIN};  // done since it was looked, or the client has died
+  umockdev_ioctl_data_set_ptr(where, 0, found->urb.get());
   done_.erase(found);
   ++counts_.given_back;
   terminal_.set_writable(!done_.empty());

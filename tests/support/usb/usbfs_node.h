@@ -11,6 +11,7 @@
 #include <deque>
 #include <map>
 #include <memory>
+#include <mutex>
 #include <set>
 
 #include "tests/support/usb/held_terminal.h"
@@ -24,11 +25,11 @@ struct Unref {
 };
 using IoctlData = std::unique_ptr<UMockdevIoctlData, Unref>;
 
-// Not thread-safe: who calls it holds the bus' lock.
+// Not thread-safe: who calls it holds the bus' lock, but for ioctl(), which takes it.
 class UsbfsNode {
  public:
-  // The gadget must outlive it. driver_bound: the kernel's HID driver has the interface; taken: another program has it.
-  UsbfsNode(UsbGadget& gadget, bool driver_bound, bool taken);
+  // Gadget and lock must outlive it. driver_bound: the kernel's HID driver has the interface; taken: another program has it.
+  UsbfsNode(UsbGadget& gadget, std::mutex& bus, bool driver_bound, bool taken);
 
   const std::string& path() const noexcept { return terminal_.path(); }
   UsbGadget& gadget() noexcept { return gadget_; }
@@ -50,19 +51,25 @@ class UsbfsNode {
     std::uint8_t type = 0, endpoint = 0;
     std::int64_t due_ns = 0;
   };
+  // What a request brings along.
+  struct Told {
+    IoctlData data, buffer;
+  };
   struct Answer {
     long result = 0;
     int error = 0;
   };
 
-  Answer answer(UMockdevIoctlClient* client, unsigned long request, UMockdevIoctlData* argument);
+  Told read(UMockdevIoctlClient* client, unsigned long request, UMockdevIoctlData* argument);
+  Answer answer(UMockdevIoctlClient* client, unsigned long request, UMockdevIoctlData* argument, Told told);
   Answer claim(UMockdevIoctlClient* client, unsigned interface, bool detach);
   Answer release(UMockdevIoctlClient* client, unsigned interface);
   Answer clear_halt(unsigned endpoint);
   Answer drive(unsigned code);
-  Answer submit(UMockdevIoctlClient* client, UMockdevIoctlData* argument);
+  Answer submit(UMockdevIoctlClient* client, Told told);
   Answer discard(UMockdevIoctlData* argument);
-  Answer reap(UMockdevIoctlClient* client, UMockdevIoctlData* argument);
+  std::deque<Urb>::iterator done_for(UMockdevIoctlClient* client);
+  Answer reap(UMockdevIoctlClient* client, UMockdevIoctlData* where);
 
   bool may_use(UMockdevIoctlClient* client, const Urb& urb);
   bool carry(Urb& urb);  // false: not yet
@@ -75,6 +82,7 @@ class UsbfsNode {
   void carry_all();
 
   UsbGadget& gadget_;
+  std::mutex& bus_;
   HeldTerminal terminal_;
   UsbNodeCounts counts_;
   bool driver_bound_ = false, taken_ = false, gone_ = false;
