@@ -116,12 +116,11 @@ std::string talk_through(OpenStick& stick, KnownStick& known, const fs::path& fo
 
 int calibrate_stick(const std::string& wanted, const fs::path& folder, bool again, int answers) {
   const StopSignals signals;
-  const auto bus = std::make_shared<UsbBus>();
-  const std::vector<ListedStick> plugged = list_sticks(bus->hid_devices(), again ? fs::path() : folder);
+  const std::vector<ListedStick> plugged = list_sticks(usb_hid_devices(), again ? fs::path() : folder);
   const ListedStick stick = chosen_stick(wanted, plugged);
   check_can_push(stick);
-  const auto open = [bus, identity = stick.identity, interface = stick.interface] {
-    return bus->open(identity, interface);
+  const auto open = [identity = stick.identity, interface = stick.interface] {
+    return open_usb_hid(identity, interface);
   };
   KnownStick known = start_from(stick, folder, again);
   OpenStick held(known, open);

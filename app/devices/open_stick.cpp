@@ -143,10 +143,9 @@ WantedStick wanted_stick(const std::string& wanted, std::span<const ListedStick>
 }
 
 std::shared_ptr<StickLever> open_stick(const std::string& wanted, const std::filesystem::path& folder) {
-  auto bus = std::make_shared<UsbBus>();
-  const WantedStick stick = wanted_stick(wanted, list_sticks(bus->hid_devices(), folder), folder);
-  const auto open = [bus, identity = stick.identity, interface = stick.interface] {
-    return bus->open(identity, interface);
+  const WantedStick stick = wanted_stick(wanted, list_sticks(usb_hid_devices(), folder), folder);
+  const auto open = [identity = stick.identity, interface = stick.interface] {
+    return open_usb_hid(identity, interface);
   };
   return std::make_shared<StickLever>(stick.known, open);
 }

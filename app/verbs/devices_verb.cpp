@@ -50,7 +50,7 @@ std::filesystem::path calibrations_to_read() {
 // What may be told of a machine without USB, too.
 std::vector<ListedStick> plugged_sticks() {
   try {
-    return list_sticks(UsbBus().hid_devices(), calibrations_to_read());
+    return list_sticks(usb_hid_devices(), calibrations_to_read());
   } catch (const HidError& no_usb) {
     fmt::print(stderr, "gearshift: {}\n", no_usb.what());
     return {};

@@ -1,9 +1,6 @@
 #include "haptics/usb/usb_hid.h"
 
-#include <sys/time.h>
-
 #include <algorithm>
-#include <chrono>
 #include <tuple>
 #include <utility>
 
@@ -13,9 +10,6 @@
 
 namespace gearshift {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-constexpr std::chrono::milliseconds kLookEvery{500};
 
 // Of an interface that no driver has. It is free again afterwards, and offered to the kernel's drivers: one that came to
 // bind while it was taken would have been refused.
@@ -63,42 +57,9 @@ std::pair<UsbHandle, UsbInterface> open_wanted(libusb_context& context, const Hi
   throw HidGone(usb_name(wanted) + " is not plugged in");
 }
 
-using Plugged = std::vector<std::pair<int, int>>;  // bus and number: a new number with every plug
-
-Plugged plugged_in() {
-  const UsbContext context = new_usb_context();
-  Plugged plugged;
-  for (const UsbDevice& device : usb_devices(*context)) {
-    plugged.emplace_back(libusb_get_bus_number(device.get()), libusb_get_device_address(device.get()));
-  }
-  std::sort(plugged.begin(), plugged.end());
-  return plugged;
-}
-
-int LIBUSB_CALL note_change(libusb_context*, libusb_device*, libusb_hotplug_event, void* changed) {
-  *static_cast<int*>(changed) = 1;
-  return 0;  // go on telling
-}
-
 }  // namespace
 
-struct UsbBus::State {
-  UsbContext context = new_usb_context();
-  int changed = 0;
-  Plugged plugged = plugged_in();
-};
-
-UsbBus::UsbBus() : state_(std::make_unique<State>()) {
-  if (libusb_has_capability(LIBUSB_CAP_HAS_HOTPLUG) == 0) return;
-  libusb_hotplug_register_callback(state_->context.get(),
-                                   LIBUSB_HOTPLUG_EVENT_DEVICE_ARRIVED | LIBUSB_HOTPLUG_EVENT_DEVICE_LEFT, 0,
-                                   LIBUSB_HOTPLUG_MATCH_ANY, LIBUSB_HOTPLUG_MATCH_ANY, LIBUSB_HOTPLUG_MATCH_ANY,
-                                   note_change, &state_->changed, nullptr);
-}
-
-UsbBus::~UsbBus() = default;
-
-std::vector<UsbHidDevice> UsbBus::hid_devices() const {
+std::vector<UsbHidDevice> usb_hid_devices() {
   const UsbContext context = new_usb_context();
   std::vector<UsbHidDevice> seen;
   for (const UsbDevice& device : usb_devices(*context)) {
@@ -110,24 +71,10 @@ std::vector<UsbHidDevice> UsbBus::hid_devices() const {
   return seen;
 }
 
-std::unique_ptr<HidPort> UsbBus::open(const HidIdentity& wanted, int interface) const {
+std::unique_ptr<HidPort> open_usb_hid(const HidIdentity& wanted, int interface) {
   UsbContext context = new_usb_context();
   auto [handle, found] = open_wanted(*context, wanted, interface);
   return std::make_unique<UsbPort>(std::move(context), std::move(handle), found);
-}
-
-bool UsbBus::wait_for_change(int milliseconds) {
-  const Clock::time_point end = Clock::now() + std::chrono::milliseconds(milliseconds);
-  for (;;) {
-    const auto left = std::max(Clock::duration::zero(), std::min<Clock::duration>(kLookEvery, end - Clock::now()));
-    const auto whole = std::chrono::duration_cast<std::chrono::microseconds>(left).count();
-    timeval wait{whole / 1'000'000, whole % 1'000'000};
-    libusb_handle_events_timeout_completed(state_->context.get(), &wait, &state_->changed);
-    const bool told = std::exchange(state_->changed, 0) != 0;
-    const Plugged before = std::exchange(state_->plugged, plugged_in());
-    if (told || state_->plugged != before) return true;
-    if (Clock::now() >= end) return false;
-  }
 }
 
 }  // namespace gearshift

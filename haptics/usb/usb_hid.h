@@ -1,7 +1,8 @@
 // HID devices by libusb: which are plugged in, and a port to one of them. No other room sees libusb.
 //
-// Threads: a bus is used by one thread at a time, and so is a port. They share nothing: each has a libusb context of its
-// own, so that a port streams on its thread while the bus lists on another, and may outlive it.
+// Threads: a port is used by one thread at a time. Nothing is shared: each look and each port has a libusb context of its
+// own, so that a port streams on its thread while another one lists. A context that no udev tells (containers, guests)
+// never sees a new device: who waits for one looks again.
 #pragma once
 
 #include <cstdint>
@@ -23,29 +24,13 @@ struct UsbHidDevice {
 
 inline constexpr int kFirstInterface = -1;
 
-class UsbBus {
- public:
-  UsbBus();  // throws HidError: no USB here
-  ~UsbBus();
-  UsbBus(const UsbBus&) = delete;
-  UsbBus& operator=(const UsbBus&) = delete;
+// In the order of their places. Opens each for a moment, detaches nothing. Throws HidError: no USB here.
+std::vector<UsbHidDevice> usb_hid_devices();
 
-  // In the order of their places. Opens each for a moment, detaches nothing. Throws HidError: no USB here.
-  std::vector<UsbHidDevice> hid_devices() const;
-
-  // Takes the interface: the kernel's driver is detached, and given back when the port goes. Throws HidGone where no such
-  // device is plugged in, HidError where it may not be used (the sentence names the udev rule), is used by another program
-  // or tells no report descriptor. Serial empty: the first of that vendor and product. place, where not empty, must be the
-  // same, too. interface: as hid_devices() says; kFirstInterface: the first HID interface of the device.
-  std::unique_ptr<HidPort> open(const HidIdentity& wanted, int interface = kFirstInterface) const;
-
-  // True as soon as a device has come or gone, or may be used now, since the last call; waits at most that long [ms]. Told
-  // by udev; where nobody tells (containers, guests) the list is looked at every 500 ms.
-  bool wait_for_change(int milliseconds);
-
- private:
-  struct State;
-  std::unique_ptr<State> state_;
-};
+// Takes the interface: the kernel's driver is detached, and given back when the port goes. Throws HidGone where no such
+// device is plugged in, HidError where it may not be used (the sentence names the udev rule), is used by another program
+// or tells no report descriptor. Serial empty: the first of that vendor and product. place, where not empty, must be the
+// same, too. interface: as usb_hid_devices() says; kFirstInterface: the first HID interface of the device.
+std::unique_ptr<HidPort> open_usb_hid(const HidIdentity& wanted, int interface = kFirstInterface);
 
 }  // namespace gearshift

@@ -54,7 +54,7 @@ struct Driven {
   explicit Driven(const PluggedStick& plugged)
       : driver(plugged.stick.report_descriptor()),
         keeper(
-            driver, [identity = identity_of(plugged)] { return UsbBus().open(identity); }, kTick) {
+            driver, [identity = identity_of(plugged)] { return open_usb_hid(identity); }, kTick) {
     REQUIRE(comes_true([&] { return keeper.connected(); }, 20.0));
   }
   PidDriver driver;

@@ -22,60 +22,12 @@ std::ptrdiff_t threads() {
 
 }  // namespace
 
-TEST_CASE("a change is told as soon as it comes, and then there is silence") {
-  UsbRig rig;
-  UsbBus bus;
-  CHECK_FALSE(bus.wait_for_change(0));
-  rig.usb.plug(rig.gadget);
-  CHECK(bus.wait_for_change(5000));
-  CHECK(bus.hid_devices().size() == 1);
-  // Seen in the list before udev said so: then it is told twice.
-  CHECK(becomes_true([&] { return !bus.wait_for_change(20); }));
-  rig.usb.unplug(rig.gadget);
-  CHECK(bus.wait_for_change(5000));
-  CHECK(bus.hid_devices().empty());
-  rig.usb.plug(rig.gadget);  // and gone and back again between two looks
-  rig.usb.unplug(rig.gadget);
-  rig.usb.plug(rig.gadget);
-  CHECK(bus.wait_for_change(5000));
-  CHECK(bus.hid_devices().size() == 1);
-}
-
-// A look at the list comes every 500 ms: what is told before is told by udev.
-TEST_CASE("udev's word is heard before the next look at the list") {
-  UsbRig rig;
-  UsbBus bus;
-  auto quickest = std::chrono::steady_clock::duration::max();
-  for (int i = 0; i < 3; ++i) {
-    rig.usb.plug(rig.gadget);
-    const auto start = std::chrono::steady_clock::now();
-    CHECK(bus.wait_for_change(5000));
-    quickest = std::min(quickest, std::chrono::steady_clock::now() - start);
-    rig.usb.unplug(rig.gadget);
-    CHECK(becomes_true([&] { return !bus.wait_for_change(20); }));
-  }
-  CHECK(quickest < std::chrono::milliseconds(450));
-}
-
-TEST_CASE("a change is seen where no udev tells of it") {
-  UsbRig rig;
-  UsbBus bus;
-  rig.usb.plug(rig.gadget, {.told = false});
-  CHECK(bus.wait_for_change(5000));
-  CHECK(bus.hid_devices().size() == 1);
-  CHECK(rig.open() != nullptr);
-  rig.usb.unplug(rig.gadget);
-  CHECK(bus.wait_for_change(5000));
-  CHECK(bus.hid_devices().empty());
-}
-
 TEST_CASE("a device that is plugged in again is opened again, at its place") {
   UsbRig rig;
-  const UsbBus bus;
   HidIdentity wanted = plain_identity();
   for (int i = 0; i < 3; ++i) {
     rig.usb.plug(rig.gadget, {.place = "1-4"});
-    const auto port = bus.open(wanted);
+    const auto port = open_usb_hid(wanted);
     wanted.place = port->identity().place;
     wanted.serial = port->identity().serial;
     rig.usb.unplug(rig.gadget);
@@ -83,15 +35,13 @@ TEST_CASE("a device that is plugged in again is opened again, at its place") {
   CHECK(wanted.place == "1-4");
 }
 
-TEST_CASE("a port outlives its bus, and lists beside a stream disturb neither") {
+TEST_CASE("lists beside a stream disturb neither") {
   UsbRig rig;
   rig.usb.plug(rig.gadget);
-  auto bus = std::make_unique<UsbBus>();
-  const auto port = bus->open(plain_identity());
+  const auto port = open_usb_hid(plain_identity());
   RecordingStream stream;
   Streaming streaming(*port, stream.config(), stream);
-  for (int i = 0; i < 5; ++i) CHECK(bus->hid_devices().size() == 1);
-  bus.reset();
+  for (int i = 0; i < 5; ++i) CHECK(usb_hid_devices().size() == 1);
   const std::size_t before = stream.input_count();
   CHECK(becomes_true([&] { return stream.input_count() > before + 10; }));
   streaming.end();

@@ -36,7 +36,7 @@ TEST_CASE("a device is listed as it calls itself, and stays the kernel's") {
   hub.interface_class = 9;
   rig.usb.plug(hub, {.place = "1-1"});
   rig.usb.plug(rig.gadget, {.place = "1-1.2"});
-  const std::vector<UsbHidDevice> seen = UsbBus().hid_devices();
+  const std::vector<UsbHidDevice> seen = usb_hid_devices();
   REQUIRE(seen.size() == 1);
   CHECK(seen[0].identity.vendor == 0x1209);
   CHECK(seen[0].identity.product == 0x0001);
@@ -55,7 +55,7 @@ TEST_CASE("a device is listed as it calls itself, and stays the kernel's") {
 TEST_CASE("a device that no driver has is asked itself, and offered to the kernel's drivers afterwards") {
   UsbRig rig;
   rig.usb.plug(rig.gadget, {.driver_bound = false});
-  const std::vector<UsbHidDevice> seen = UsbBus().hid_devices();
+  const std::vector<UsbHidDevice> seen = usb_hid_devices();
   REQUIRE(seen.size() == 1);
   CHECK(seen[0].problem.empty());
   CHECK(seen[0].report_descriptor == rig.gadget.report_descriptor());
@@ -70,13 +70,12 @@ TEST_CASE("a device that no driver has is asked itself, and offered to the kerne
 TEST_CASE("a missing permission is one sentence that names the udev rule; the device is known all the same") {
   UsbRig rig;
   rig.usb.plug(rig.gadget, {.permitted = false});
-  const UsbBus bus;
   std::vector<UsbHidDevice> seen;
   std::string refused;
   {
     const Nobody nobody;
-    seen = bus.hid_devices();
-    refused = sentence_of<HidError>([&] { static_cast<void>(bus.open(plain_identity())); });
+    seen = usb_hid_devices();
+    refused = sentence_of<HidError>([&] { static_cast<void>(open_usb_hid(plain_identity())); });
   }
   const std::string expected =
       "Plain joystick (1209:0001) may not be used by this user: install the udev rule assets/udev/70-gearshift.rules "
@@ -100,13 +99,12 @@ TEST_CASE("the udev rule ships, and lists the emulated sticks that people own") 
 TEST_CASE("a device that another program has is said to be so") {
   UsbRig rig;
   rig.usb.plug(rig.gadget, {.taken = true});
-  const UsbBus bus;
   const std::string expected = "Plain joystick (1209:0001) is used by another program";
-  const std::vector<UsbHidDevice> seen = bus.hid_devices();
+  const std::vector<UsbHidDevice> seen = usb_hid_devices();
   REQUIRE(seen.size() == 1);
   CHECK(seen[0].problem == expected);
   CHECK(seen[0].report_descriptor.empty());
-  CHECK(sentence_of<HidError>([&] { static_cast<void>(bus.open(plain_identity())); }) == expected);
+  CHECK(sentence_of<HidError>([&] { static_cast<void>(open_usb_hid(plain_identity())); }) == expected);
 }
 
 TEST_CASE("what a device calls itself is made printable") {
@@ -114,7 +112,7 @@ TEST_CASE("what a device calls itself is made printable") {
   rig.gadget.name = "Evil\x1b[2J stick";
   rig.gadget.serial = "";
   rig.usb.plug(rig.gadget);
-  const std::vector<UsbHidDevice> seen = UsbBus().hid_devices();
+  const std::vector<UsbHidDevice> seen = usb_hid_devices();
   REQUIRE(seen.size() == 1);
   CHECK(seen[0].identity.name == "Evil?[2J stick");
   CHECK(seen[0].identity.serial.empty());
@@ -128,7 +126,7 @@ TEST_CASE("only HID interfaces are listed, in the order of their places") {
   rig.usb.plug(second, {.place = "1-3"});
   rig.usb.plug(disk, {.place = "1-2"});
   rig.usb.plug(rig.gadget, {.place = "1-1"});
-  const std::vector<UsbHidDevice> seen = UsbBus().hid_devices();
+  const std::vector<UsbHidDevice> seen = usb_hid_devices();
   REQUIRE(seen.size() == 2);
   CHECK(seen[0].identity.serial == "A1");
   CHECK(seen[1].identity.serial == "B2");
@@ -140,18 +138,17 @@ TEST_CASE("of two alike, serial number or place say which one is opened") {
   second.serial = "B2";
   rig.usb.plug(rig.gadget, {.place = "1-1"});
   rig.usb.plug(second, {.place = "1-2"});
-  const UsbBus bus;
   HidIdentity wanted = plain_identity();
   wanted.serial = "B2";
-  CHECK(bus.open(wanted)->identity().place == "1-2");
+  CHECK(open_usb_hid(wanted)->identity().place == "1-2");
   wanted.serial.clear();
   wanted.place = "1-1";
-  CHECK(bus.open(wanted)->identity().serial == "A1");
+  CHECK(open_usb_hid(wanted)->identity().serial == "A1");
   wanted.place = "1-7";
-  CHECK(sentence_of<HidGone>([&] { static_cast<void>(bus.open(wanted)); }) ==
+  CHECK(sentence_of<HidGone>([&] { static_cast<void>(open_usb_hid(wanted)); }) ==
         "the USB device 1209:0001 is not plugged in");
   wanted.place.clear();
-  CHECK(sentence_of<HidGone>([&] { static_cast<void>(bus.open(wanted, 1)); }) ==
+  CHECK(sentence_of<HidGone>([&] { static_cast<void>(open_usb_hid(wanted, 1)); }) ==
         "the USB device 1209:0001 is not plugged in");
 }
 

@@ -49,14 +49,13 @@ TEST_CASE("the loop beside no stick, an absent one and a slow one") {
   EmulatedStick stick({}, hand);
   StickGadget gadget(stick);
   MockUsb usb;
-  const UsbBus bus;
   PidDriver driver(stick.report_descriptor());
   tell("no stick", loop_with(driver));
   HidIdentity identity;
   identity.vendor = 0x045e;
   identity.product = 0x001b;
   LeverKeeper keeper(
-      driver, [&] { return bus.open(identity); }, 1'000'000);
+      driver, [&] { return open_usb_hid(identity); }, 1'000'000);
   tell("an absent one", loop_with(driver));
   CHECK_FALSE(keeper.connected());
   usb.plug(gadget);

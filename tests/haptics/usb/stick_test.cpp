@@ -46,12 +46,11 @@ TEST_CASE("a stick hears the same over USB as it hears without: nothing is added
     StickGadget gadget(plugged);
     MockUsb usb;
     usb.plug(gadget);
-    const UsbBus bus;
-    const std::vector<UsbHidDevice> seen = bus.hid_devices();
+    const std::vector<UsbHidDevice> seen = usb_hid_devices();
     REQUIRE(seen.size() == 1);
     CHECK(seen[0].report_descriptor == direct.report_descriptor());
     CHECK(seen[0].identity.name == direct_port.identity().name);
-    const auto port = bus.open(seen[0].identity);
+    const auto port = open_usb_hid(seen[0].identity);
     const std::string expected = told_through(direct_port, direct);
     CHECK(told_through(*port, plugged) == expected);
     CHECK(expected.size() > 100);
@@ -70,8 +69,7 @@ TEST_CASE("a wish becomes a force on the knob, and a release ends it") {
       const std::lock_guard<std::mutex> lock(usb.mutex());
       return glm::length(stick.force());
     };
-    const UsbBus bus;
-    const auto port = bus.open(bus.hid_devices().at(0).identity);
+    const auto port = open_usb_hid(usb_hid_devices().at(0).identity);
     PidDriver driver(port->report_descriptor());
     driver.prepare(*port);
     std::string error;

@@ -64,7 +64,7 @@ struct UsbRig {
     const std::lock_guard<std::mutex> lock(usb.mutex());
     return look(gadget);
   }
-  std::unique_ptr<HidPort> open() { return UsbBus().open(plain_identity()); }
+  std::unique_ptr<HidPort> open() { return open_usb_hid(plain_identity()); }
 };
 
 // A stream on a thread of its own.

@@ -140,7 +140,6 @@ struct MockUsb::State {
   }
 
   void run();
-  void deafen();
   void make_node(const Plugged& plugged);
   void serve(const PluggedPtr& plugged);
   void describe(Plugged& plugged);
@@ -171,13 +170,6 @@ void MockUsb::State::make_node(const Plugged& plugged) {
   fs::create_directories(link.parent_path());
   fs::create_symlink(plugged.node.path(), link);
   chmod(plugged.node.path().c_str(), plugged.plug.permitted ? 0666 : 0);
-}
-
-// umockdev sends udev's events to the sockets of those who listen: to none now, nor later to whoever listens now.
-void MockUsb::State::deafen() {
-  for (const fs::directory_entry& each : fs::directory_iterator(root)) {
-    if (each.path().filename().string().starts_with("event")) fs::remove(each.path());
-  }
 }
 
 void MockUsb::State::serve(const PluggedPtr& plugged) {
@@ -238,7 +230,7 @@ MockUsb::MockUsb() : state_(std::make_unique<State>()) {
   gchar* root = umockdev_testbed_get_root_dir(state_->bed());
   state_->root = root;
   g_free(root);
-  chmod(state_->root.c_str(), 0755);  // for a user who may not open a device, but sees it
+  chmod(state_->root.c_str(), 0777);  // for a user who may not open a device, but sees it, and listens to udev
   state_->frames = std::thread([this] { state_->run(); });
 }
 
@@ -258,7 +250,6 @@ void MockUsb::plug(UsbGadget& gadget, const UsbPlug& plug) {
     const std::lock_guard<std::mutex> lock(*state_->mutex);
     state_->all.push_back(plugged);
   }
-  if (!plug.told) state_->deafen();
   state_->describe(*plugged);  // and with that udev's "add"
 }
 
@@ -271,7 +262,6 @@ void MockUsb::unplug(UsbGadget& gadget) {
     plugged.node.disconnect();
   }
   fs::remove(state_->root + plugged.device_node());
-  if (!plugged.plug.told) state_->deafen();
   umockdev_testbed_uevent(state_->bed(), plugged.system_path().c_str(), "remove");
   for (const std::string& path : {plugged.driver_path(), plugged.interface_path(), plugged.system_path()}) {
     if (fs::exists(state_->root + path)) umockdev_testbed_remove_device(state_->bed(), path.c_str());

@@ -10,7 +10,6 @@ struct UsbPlug {
   bool driver_bound = true;   // the kernel's HID driver takes it
   bool taken = false;         // another program has it
   bool permitted = true;      // else nobody but root may open its node
-  bool told = true;           // udev tells of it; else it comes and goes as where no udevd runs
 };
 
 // What goes wrong between controller and device.
