@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <charconv>
 #include <stdexcept>
 
 #include <fmt/core.h>
@@ -8,27 +7,12 @@
 #include "app/input/key_names.h"
 #include "haptics/files/printable.h"
 #include "haptics/files/readable_file.h"
+#include "haptics/files/toml_text.h"
 
 namespace gearshift {
 namespace {
 
 namespace fs = std::filesystem;
-
-// A basic string of TOML: quotes and backslashes are escaped; control characters are the reader's to refuse.
-std::string in_quotes(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += c;
-  }
-  return out + '"';
-}
-
-// The shortest that reads back to the bit, whatever the locale.
-std::string digits_of(double value) {
-  char digits[64];
-  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
-}
 
 std::string line(std::string_view key, const std::string& value) {
   return fmt::format("{} = {}\n", key, value);
@@ -42,7 +26,7 @@ std::string actions_text(const std::map<Action, std::vector<int>>& bound, const 
     if (found == bound.end()) continue;
     std::string list;
     for (const int code : found->second) list += (list.empty() ? "" : ", ") + name(code);
-    text += line(action.key, in_quotes(list));
+    text += line(action.key, toml_string(list));
   }
   return text;
 }
@@ -50,28 +34,28 @@ std::string actions_text(const std::map<Action, std::vector<int>>& bound, const 
 std::string axis_text(std::string_view key, const std::optional<AxisBinding>& axis) {
   if (!axis) return {};
   std::string text = fmt::format("\n[pad_axes.{}]\n", key);
-  if (!axis->stick.empty()) text += line("stick", in_quotes(axis->stick));
+  if (!axis->stick.empty()) text += line("stick", toml_string(axis->stick));
   text += line("pad", std::to_string(axis->pad)) + line("axis", std::to_string(axis->axis));
-  text += line("from", digits_of(axis->from)) + line("to", digits_of(axis->to));
-  if (axis->centre) text += line("centre", digits_of(*axis->centre));
-  return text + line("dead_zone", digits_of(axis->dead_zone)) + line("end_zone", digits_of(axis->end_zone));
+  text += line("from", toml_number(axis->from)) + line("to", toml_number(axis->to));
+  if (axis->centre) text += line("centre", toml_number(*axis->centre));
+  return text + line("dead_zone", toml_number(axis->dead_zone)) + line("end_zone", toml_number(axis->end_zone));
 }
 
 }  // namespace
 
 std::string bindings_text(const Bindings& bindings) {
   std::string text = "[keys]\n" + actions_text(bindings.keys, key_name) + "\n[pad_buttons]\n";
-  if (!bindings.button_stick.empty()) text += line("stick", in_quotes(bindings.button_stick));
+  if (!bindings.button_stick.empty()) text += line("stick", toml_string(bindings.button_stick));
   text += actions_text(bindings.pad_buttons, [](int button) { return std::to_string(button); });
   text += axis_text("lever_select", bindings.lever_select) + axis_text("lever_shift", bindings.lever_shift) +
           axis_text("throttle", bindings.throttle) + axis_text("brake", bindings.brake) +
           axis_text("clutch", bindings.clutch);
   text += "\n[lever]\n" + line("mode", bindings.lever_mode == LeverMode::moves ? "\"moves\"" : "\"places\"") +
-          line("full_speed_m_per_s", digits_of(bindings.stick_speed));
-  return text + "\n[pace]\n" + line("mouse_mm_per_px", digits_of(bindings.mouse_mm_per_px)) +
-         line("lever_key_m_per_s", digits_of(bindings.key_speed)) +
-         line("pedal_key_s", digits_of(bindings.pedal_time)) +
-         line("clutch_key_slip_s", digits_of(bindings.clutch_slip_time));
+          line("full_speed_m_per_s", toml_number(bindings.stick_speed));
+  return text + "\n[pace]\n" + line("mouse_mm_per_px", toml_number(bindings.mouse_mm_per_px)) +
+         line("lever_key_m_per_s", toml_number(bindings.key_speed)) +
+         line("pedal_key_s", toml_number(bindings.pedal_time)) +
+         line("clutch_key_slip_s", toml_number(bindings.clutch_slip_time));
 }
 
 void write_bindings(const Bindings& bindings, const fs::path& file) {

@@ -14,6 +14,7 @@
 #include "haptics/files/readable_file.h"
 #include "haptics/files/text_file.h"
 #include "haptics/files/toml_reader.h"
+#include "haptics/files/toml_text.h"
 #include "haptics/hardware/device_calibration.h"
 
 namespace gearshift {
@@ -101,26 +102,11 @@ void read_buttons(const TomlTable& table, DeviceCalibration& calibration) {
   table.refuse_unknown_keys();
 }
 
-std::string digits_of(double value) {
-  char digits[64];
-  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
-}
-
 std::string hex_of(std::uint16_t value) {
   char digits[8] = "0000";
   const std::string_view all(digits,
                              static_cast<std::size_t>(std::to_chars(digits, digits + 8, value, 16).ptr - digits));
   return std::string(4 - all.size(), '0') + std::string(all);
-}
-
-// A basic string of TOML: quotes and backslashes are escaped; control characters are the reader's to refuse.
-std::string in_quotes(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += c;
-  }
-  return out + '"';
 }
 
 // Lines with what they mean beside them.
@@ -134,7 +120,7 @@ class CommentedText {
   void put(std::string_view key, const std::string& value, std::string_view words) {
     line(std::string(key) + " = " + value, words);
   }
-  void put(std::string_view key, double value, std::string_view words) { put(key, digits_of(value), words); }
+  void put(std::string_view key, double value, std::string_view words) { put(key, toml_number(value), words); }
   std::string take() { return std::move(text_); }
 
  private:
@@ -155,7 +141,7 @@ std::string axis_name(int usage) {
 
 void put_axis(CommentedText& out, const std::string& section, const LeverAxisCalibration& axis, bool is_select) {
   out.section(section, is_select ? "the lever to the right (+) and the left" : "the lever forward (+) and back");
-  out.put("axis", in_quotes(axis_name(axis.usage)), "of the device; x and y have motors");
+  out.put("axis", toml_string(axis_name(axis.usage)), "of the device; x and y have motors");
   out.put("low_counts", axis.low, is_select ? "at the left stop" : "at the back stop");
   out.put("centre_counts", axis.centre, "at rest");
   out.put("high_counts", axis.high, is_select ? "at the right stop" : "at the forward stop");
@@ -208,10 +194,10 @@ std::optional<DeviceCalibration> read_calibration(const std::filesystem::path& f
 std::string calibration_text(const DeviceCalibration& calibration) {
   CommentedText out;
   out.comment("What is known of this stick. Counts are its own, metres and newtons are at the knob.");
-  if (!calibration.name.empty()) out.put("name", in_quotes(calibration.name), "as it calls itself");
+  if (!calibration.name.empty()) out.put("name", toml_string(calibration.name), "as it calls itself");
   out.put("vendor", "0x" + hex_of(calibration.vendor), "");
   out.put("product", "0x" + hex_of(calibration.product), "");
-  if (!calibration.serial.empty()) out.put("serial", in_quotes(calibration.serial), "");
+  if (!calibration.serial.empty()) out.put("serial", toml_string(calibration.serial), "");
   put_axis(out, "select", calibration.select, true);
   put_axis(out, "shift", calibration.shift, false);
   const DeviceTiming& timing = calibration.timing;

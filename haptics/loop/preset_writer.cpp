@@ -1,6 +1,5 @@
 #include "haptics/loop/preset_writer.h"
 
-#include <charconv>
 #include <cmath>
 #include <concepts>
 #include <cstdint>
@@ -8,24 +7,10 @@
 #include <string_view>
 
 #include "haptics/files/readable_file.h"
+#include "haptics/files/toml_text.h"
 
 namespace gearshift {
 namespace {
-
-std::string digits_of(auto value) {
-  char digits[64];
-  return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
-}
-
-// A basic string of TOML: quotes and backslashes are escaped; control characters are the reader's to refuse.
-std::string in_quotes(std::string_view text) {
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"' || c == '\\') out += '\\';
-    out += c;
-  }
-  return out + '"';
-}
 
 // The reader multiplies by pi / 180. Of the neighbours, the number of degrees that gives the angle to the bit.
 double degrees_of(double radians) {
@@ -38,10 +23,10 @@ double degrees_of(double radians) {
 class TomlText {
  public:
   void section(std::string_view name) { text_ += "\n[" + std::string(name) + "]\n"; }
-  void put(std::string_view key, const std::string& words) { line(key, in_quotes(words)); }
+  void put(std::string_view key, const std::string& words) { line(key, toml_string(words)); }
   void put(std::string_view key, bool flag) { line(key, flag ? "true" : "false"); }
-  void put(std::string_view key, double number) { line(key, digits_of(number)); }
-  void put(std::string_view key, std::integral auto number) { line(key, digits_of(number)); }
+  void put(std::string_view key, double number) { line(key, toml_number(number)); }
+  void put(std::string_view key, std::integral auto number) { line(key, toml_number(number)); }
   std::string take() { return std::move(text_); }
 
  private:
@@ -54,7 +39,7 @@ std::string hand_text(const HandImpedance& hand) {
   for (const auto& [name, named] : kNamedHands)
     if (named.mass == hand.mass && named.damping == hand.damping && named.stiffness == hand.stiffness)
       return std::string(name);
-  return digits_of(hand.mass) + ',' + digits_of(hand.damping) + ',' + digits_of(hand.stiffness);
+  return toml_number(hand.mass) + ',' + toml_number(hand.damping) + ',' + toml_number(hand.stiffness);
 }
 
 std::string word_of(ContactHold hold) {
