@@ -143,7 +143,8 @@ PracticeOutcome practise(const LessonDriveConfig& drive, Practice practice, cons
   }
   outcome.retention_grade = mean(retained);
   outcome.guided_share = static_cast<double>(guided) / (static_cast<double>(learners) * trials);
-  outcome.guided_early = static_cast<double>(early) / (static_cast<double>(learners) * (trials / 2));
+  const int first_half = trials / 2;
+  outcome.guided_early = static_cast<double>(early) / (static_cast<double>(learners) * first_half);
   return outcome;
 }
 

@@ -29,7 +29,7 @@ struct GuidanceConfig {
 };
 
 // From so long a pause on a trial shows what was kept: a night lies between. [engineering value]
-inline constexpr std::int64_t kRetentionPause = 20 * 3600;  // [s]
+inline constexpr std::int64_t kRetentionPause = std::int64_t{20} * 3600;  // [s]
 
 struct TrialPlan {
   double guidance = 0.0;  // [1] 0 to 1 for DriverControls and LessonRunConfig; 0: the trial is graded

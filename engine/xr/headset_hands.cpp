@@ -1,6 +1,7 @@
 #include "engine/xr/headset_hands.h"
 
 #include <algorithm>
+#include <cstdio>
 #include <cstring>
 #include <string>
 
@@ -64,8 +65,8 @@ XrPath HeadsetHands::path(const char* text) const {
 XrAction HeadsetHands::make_action(const char* name, const char* words, XrActionType type) {
   XrActionCreateInfo info{XR_TYPE_ACTION_CREATE_INFO};
   info.actionType = type;
-  std::strcpy(info.actionName, name);
-  std::strcpy(info.localizedActionName, words);
+  std::snprintf(info.actionName, sizeof info.actionName, "%s", name);
+  std::snprintf(info.localizedActionName, sizeof info.localizedActionName, "%s", words);
   info.countSubactionPaths = static_cast<std::uint32_t>(hand_.size());
   info.subactionPaths = hand_.data();
   XrAction action = XR_NULL_HANDLE;
