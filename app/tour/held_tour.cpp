@@ -15,9 +15,9 @@
 namespace gearshift {
 namespace {
 
-constexpr double kLookEvery = 0.02;    // [s]
-constexpr double kOpeningTakes = 2.0;  // [s] at most, where it is plugged in
-constexpr double kArmingTakes = 0.1;   // [s] at most, until the loop has taken it
+constexpr double kLookEvery = 0.02;                 // [s]
+constexpr double kOpeningTakes = 2.0;               // [s] at most, where it is plugged in
+constexpr std::int64_t kArmingTakes = 100'000'000;  // [ns] at most, until the loop has taken it
 
 TrainerConfig trainer_config(const TourSetup& setup, StickLever& stick) {
   TrainerConfig config;
@@ -65,8 +65,9 @@ class HeldDrive {
   void look() {
     take_answer();
     follow_stick();
+    const HapticSnapshot now = trainer_.snapshot();  // before the events: of a fall these tell
     follow_lever();
-    watch_arming();
+    watch_arming(now);
     if (const std::optional<std::string> problem = trainer_.take_recording_problem()) {
       (void)trainer_.stop_recording();
       throw std::runtime_error(*problem);
@@ -94,7 +95,7 @@ class HeldDrive {
     if (!std::exchange(asked_, false)) return;
     trainer_.arm();
     armed_ = true;
-    armed_at_ = trainer_.time();
+    armed_at_ns_ = trainer_.snapshot().time_ns;
     ask_for_gear();
   }
 
@@ -151,12 +152,11 @@ class HeldDrive {
   }
 
   // Refused in the very cycle that takes it, of which no event tells: its stop button is held, or it lies too far out.
-  void watch_arming() {
-    const HapticSnapshot now = trainer_.snapshot();
-    if (!armed_ || !is_off(now.guard) || trainer_.time() < armed_at_ + kArmingTakes) return;
+  void watch_arming(const HapticSnapshot& now) {
+    if (!armed_ || !is_off(now.guard) || now.time_ns < armed_at_ns_ + kArmingTakes) return;
     armed_ = false;
-    say_(fmt::format("no forces: {}",
-                     now.fault == GuardFault::none ? "its stop button is held" : reason_words(now.fault)));
+    const bool is_held = now.fault == GuardFault::stopped;
+    say_(fmt::format("no forces: {}", is_held ? "its stop button is held" : reason_words(now.fault)));
     ask_to_arm();
   }
 
@@ -166,9 +166,9 @@ class HeldDrive {
   const TourWords& say_;
   TourResult& result_;
   std::int64_t begin_ns_;
-  std::size_t next_ = 0;   // of the gears that are wanted
-  bool armed_ = false;     // by a person, and not fallen since
-  double armed_at_ = 0.0;  // [s]
+  std::size_t next_ = 0;  // of the gears that are wanted
+  bool armed_ = false;    // by a person, and not fallen since
+  std::int64_t armed_at_ns_ = 0;
   bool is_there_ = false;
   bool was_missed_ = false;  // and it was said; or has been there
   bool asked_ = false;       // to arm, and not answered yet

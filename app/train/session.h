@@ -118,6 +118,7 @@ class Session {
   // session_lessons.cpp
   void obey_instructor(const LessonRequests& requests);
   void offer_first(const SessionChoice& choice);
+  void offer(const Lesson& lesson);
   void change_comment(const LessonRequests::CommentChange& change);
   void change_learner(const std::string& name);
   void leave_lesson();
@@ -128,6 +129,7 @@ class Session {
   void hold();
   void look_whether_lost();
   DriverControls led() const;
+  bool remove_unnamed();
 
   // session_replay.cpp
   void obey_viewer(const ReplayRequests& requests);
@@ -146,7 +148,6 @@ class Session {
   void toggle_recording();
   void start_recording(const std::string& name);
   void end_lesson_recording();
-  bool remove_unnamed();
   void tell_recording_problem();
 
   SessionChoice choice_;   // a person's

@@ -32,7 +32,7 @@ void Session::offer_first(const SessionChoice& choice) {
   const bool suggested = name.empty();
   if (suggested && choice.hand != kByItself && choice.car != kNoCar) name = coach_.view().next;
   if (name.empty() || name == kNoLesson) return;
-  coach_.offer(read_lesson(find_asset("lessons", name)));
+  offer(read_lesson(find_asset("lessons", name)));
   coach_.want_help(choice.help);
   if (choice.mode) coach_.set_mode(*choice.mode);
 }
@@ -42,7 +42,7 @@ void Session::obey_instructor(const LessonRequests& requests) {
   if (requests.next) coach_.set_next(*requests.next);
   if (requests.comment_change) change_comment(*requests.comment_change);
   if (requests.comment) coach_.comment(requests.comment->run, requests.comment->author, requests.comment->text);
-  if (requests.offer) coach_.offer(read_lesson(find_asset("lessons", *requests.offer)));
+  if (requests.offer) offer(read_lesson(find_asset("lessons", *requests.offer)));
   if (requests.mode) coach_.set_mode(*requests.mode);
   if (requests.help) coach_.want_help(*requests.help);
   if (requests.leave) leave_lesson();
@@ -89,7 +89,7 @@ void Session::change_comment(const LessonRequests::CommentChange& change) {
 // What lay before the trial's first cycle is not the coach's.
 void Session::begin_lesson() {
   const Lesson lesson = *coach_.lesson();
-  if (coach_.view().phase == LessonPhase::over) coach_.offer(lesson);
+  if (coach_.view().phase == LessonPhase::over) offer(lesson);
   SessionChoice wanted = with_lesson(choice_, lesson);
   if (trainer_) wanted.haptics = trainer_->config().preset.haptics;
   change_to(wanted, &lesson);
@@ -102,6 +102,12 @@ void Session::begin_lesson() {
   coach_.begin(*trainer_->config().car, trainer_->gate(),
                settings_text(running_, trainer_->config().preset.haptics.tuning), recording);
   trainer_->set_controls(led());
+}
+
+// What the last one left is as it is.
+void Session::offer(const Lesson& lesson) {
+  coach_.offer(lesson);
+  is_torn_ = false;
 }
 
 // A lesson can be driven without.

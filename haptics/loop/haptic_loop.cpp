@@ -166,7 +166,8 @@ void HapticLoop::retune(const HapticTuning& tuning) noexcept {
 // At arming the proxy starts anew at the lever, so that an old penetration cannot pull. While there are forces it is the
 // wall's: a key must not carry it through.
 void HapticLoop::arm() noexcept {
-  if (reading_.stop || !guard_.arm()) return;
+  if (reading_.stop) return guard_.refuse();
+  if (!guard_.arm()) return;
   let_go_ = false;
   placed_ = false;
   limiter_.reset();

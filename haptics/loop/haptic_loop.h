@@ -76,7 +76,7 @@ class HapticLoop {
   const AdmittedTuning& admitted() const noexcept { return admitted_; }  // at the start
 
   // Allows forces, ramped up from zero. Before the first cycle, or by LoopCommand::arm while it runs. Nothing while the
-  // device's panic button is held.
+  // device's panic button is held (fault: stopped), nor while there are forces.
   void arm() noexcept;
 
   // While the loop runs, on the thread that owns the channels' writing end: the same check as at the start, and what

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <glm/common.hpp>
 
@@ -15,9 +14,15 @@ using glm::dvec2;
 
 constexpr std::int64_t kArmedPatience = 10;  // times stale_time: a device takes a while to say its first word
 
-// After so long without a cycle (the process was stopped, the machine slept) the lever may be anywhere, and so may the
+// After so long without a cycle in time (the process was stopped) the lever may be anywhere, and so may the
 // hand: a force of before must not come back by itself. As long as the stick's driver waits for an order.
 constexpr double kMostLate = 0.1;  // [s]
+
+constexpr std::int64_t kForever = 1'000'000'000'000;  // [cycles] a trace may say any number
+
+std::int64_t sum(std::int64_t cycles, std::int64_t more) noexcept {
+  return std::min(cycles + std::min(more, kForever), kForever);
+}
 
 }  // namespace
 
@@ -43,7 +48,7 @@ ForceGuard::ForceGuard(const GuardConfig& config, const DeviceSpec& spec, double
       controller_{PassivityController(spec.axis_x, period), PassivityController(spec.axis_y, period)},
       delay_(static_cast<std::size_t>(spec.delay)),
       stale_limit_(std::llround(config.stale_time / period)),
-      late_limit_(spec.simulated ? std::numeric_limits<std::int64_t>::max() : std::llround(kMostLate / period)) {}
+      late_limit_(spec.simulated ? kForever : std::llround(kMostLate / period)) {}
 
 GuardOutput ForceGuard::guard(const GuardInput& in) noexcept {
   watch(in);
@@ -71,8 +76,10 @@ GuardOutput ForceGuard::allowed(const GuardInput& in, dvec2 travel) noexcept {
 
 // Looks for every fault before a force is let through. What is worse wins.
 void ForceGuard::watch(const GuardInput& in) noexcept {
-  stale_ = in.fresh ? 0 : stale_ + 1 + in.skipped;
-  late_ = in.skipped > 0 ? late_ + in.skipped : 0;
+  const std::int64_t passed =
+      stale_ > 0 ? sum(1, in.skipped) : 1;  // who reads had no turn, either: one cycle to catch up
+  stale_ = in.fresh ? 0 : sum(stale_, passed);
+  late_ = in.skipped > 0 ? sum(late_, in.skipped) : 0;
   overruns_ = in.skipped > 0 ? overruns_ + 1 : 0;
   const bool is_outside = std::abs(in.position.x) > position_limit_.x || std::abs(in.position.y) > position_limit_.y;
   if (!is_finite(in.force) || !is_finite(in.position) || !is_finite(in.velocity)) {
@@ -140,6 +147,10 @@ bool ForceGuard::arm() noexcept {
   applied_.fill({0.0, 0.0});
   for (PassivityController& controller : controller_) controller.reset();
   return true;
+}
+
+void ForceGuard::refuse() noexcept {
+  fault_ = GuardFault::stopped;
 }
 
 void ForceGuard::disarm() noexcept {

@@ -4,7 +4,7 @@
 //   idle -> armed -> ramping -> running      up: by a person only, or by itself on a simulated lever
 //   damped    reading stale, too many overruns in a row, or a chatter that softening the wall did not calm: the force
 //             dies away, damping alone is left
-//   released  a limit broken, device lost, force not finite, or a real device left alone for 0.1 s: motors off
+//   released  a limit broken, device lost, force not finite, or a real device left alone for 0.1 s in a row: motors off
 #pragma once
 
 #include <array>
@@ -59,12 +59,13 @@ class ForceGuard {
 
   // Steps of the ladder, on the haptic thread between cycles.
   bool arm() noexcept;     // idle, damped or released -> armed (then ramping as soon as readings are fresh); else false
+  void refuse() noexcept;  // to be armed: stopped, still
   void disarm() noexcept;  // any -> idle, force 0
   void stop() noexcept;    // armed or higher -> released: the large red button
   void damp() noexcept;    // armed or higher -> damped: the lever chatters whatever the wall does
 
   GuardState state() const noexcept { return state_; }
-  GuardFault fault() const noexcept { return fault_; }  // why it last went down
+  GuardFault fault() const noexcept { return fault_; }  // why it last went down, or was not armed
 
  private:
   void fall(GuardState state, GuardFault fault) noexcept;

@@ -27,8 +27,14 @@ pushes_nothing() {
   said "Not taken: no axis moved" again && said "Still missing: range" again
 }
 pulled_out() { # between two questions
-  sleep 5 | again pulled_out --unplug-at 2 --replug-at 3
-  said "was unplugged" pulled_out && said "is back" pulled_out
+  mkfifo orders
+  exec 8<>orders
+  sleep 12 | again pulled_out --orders orders & running+=($!)
+  within 8 said "Enter" pulled_out
+  echo unplug >&8
+  within 5 said "was unplugged" pulled_out
+  echo plug >&8
+  within 5 said "is back" pulled_out
 }
 elsewhere=$work/another/gearshift/devices
 mkdir -p "$elsewhere"

@@ -94,8 +94,8 @@ code_kb() { awk '$2 ~ /^rwx/ {own = 1; next} /^[0-9a-f]+-/ {own = 0} own && /^Si
 
 # --- lost, in two ways, or in four, and found again; nothing is left behind
 begin "it starts" wear losses --lesson none --hand "by itself" < <(
-  at 4 instance_loss
-  fails 40 xrEndFrame XR_ERROR_RUNTIME_FAILURE
+  fails 25 xrEndFrame XR_ERROR_RUNTIME_FAILURE
+  at 12 instance_loss
   whole && at 24 loss_pending
   whole && fails 110 xrWaitFrame XR_ERROR_RUNTIME_FAILURE)
 seen=0 losses=2
@@ -122,7 +122,7 @@ check "it broke no rule" broke_no_rule
 check "each frame is whole" each_frame_is_whole
 check "a sentence each, no more" [ "$(wc -l <losses.err)" = $((2 * losses + 1)) ]
 # By the event or by the first call after it.
-ways=("\(the OpenXR runtime goes away\|.* failed: XR_ERROR_INSTANCE_LOST\)" "xrEndFrame failed: XR_ERROR_RUNTIME_FAILURE"
+ways=("xrEndFrame failed: XR_ERROR_RUNTIME_FAILURE" "\(the OpenXR runtime goes away\|.* failed: XR_ERROR_INSTANCE_LOST\)"
   "\(the headset is lost\|.* failed: XR_ERROR_SESSION_LOST\)" "xrWaitFrame failed: XR_ERROR_RUNTIME_FAILURE")
 for what in "${ways[@]:0:losses}"; do
   check "told: $what" told_so_often "^gearshift: $what$lost" 1

@@ -143,6 +143,29 @@ TEST_CASE("the program stands still and goes on, whoever of its threads wakes fi
   }
 }
 
+TEST_CASE("a stall of up to 0.1 s is ridden out, whoever wakes first") {
+  for (const StickFamily family : kStickFamilies) {
+    for (const std::int64_t ms : {15, 25, 60, 95}) {
+      for (const bool loop_first : {false, true}) {
+        CAPTURE(name_of(family));
+        CAPTURE(ms);
+        CAPTURE(loop_first);
+        StillHand hand(hand_at({0.0, 0.0}));
+        StickLoop run(gripped(family), hand);
+        run.loop.arm();
+        run.cycle_for(0.8);
+        run.stick.advance(run.now_ns += 1'000'000 * ms);
+        run.now_ns += run.period_ns;
+        if (!loop_first) tick_stick(run.stick, run.stream, run.driver, run.now_ns);
+        run.loop.cycle(run.now_ns, ms);
+        run.cycle_for(0.2);
+        CHECK(run.loop.snapshot().guard == GuardState::running);
+        CHECK(run.problems().empty());
+      }
+    }
+  }
+}
+
 TEST_CASE("unplugged at any moment of a tour: silent until a person arms it again, and then the tour goes on") {
   for (const StickFamily family : kStickFamilies) {
     CAPTURE(name_of(family));

@@ -193,11 +193,29 @@ TEST_CASE("a reading is old by the time that has passed, not by the cycles that 
   GuardInput old = wanting({5.0, 0.0});
   old.fresh = false;
   old.skipped = 10;
-  guard.guard(old);
+  guard.guard(old);  // whoever reads had no turn, either
+  guard.guard(old);  // 12 ms
   CHECK(guard.state() == GuardState::running);
-  guard.guard(old);  // 22 ms
+  guard.guard(old);  // 23 ms
   CHECK(guard.state() == GuardState::damped);
   CHECK(guard.fault() == GuardFault::stale_reading);
+}
+
+TEST_CASE("whatever a trace says that was skipped: a real device is released, a simulated one goes on") {
+  for (const bool simulated : {false, true}) {
+    DeviceSpec spec = paper_spec();
+    spec.simulated = simulated;
+    ForceGuard guard(GuardConfig{}, spec, kPeriod);
+    guard.arm();
+    for (int i = 0; i < 1000; ++i) guard.guard(wanting({5.0, 0.0}));
+    GuardInput late = wanting({5.0, 0.0});
+    late.skipped = std::numeric_limits<std::int64_t>::max();
+    for (int i = 0; i < 5; ++i) guard.guard(late);
+    CHECK(guard.state() == (simulated ? GuardState::running : GuardState::released));
+    late.fresh = false;
+    for (int i = 0; i < 2; ++i) guard.guard(late);
+    CHECK(guard.state() == (simulated ? GuardState::damped : GuardState::released));
+  }
 }
 
 TEST_CASE("damped: the old force fades and what is left opposes motion") {

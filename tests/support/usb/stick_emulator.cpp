@@ -3,8 +3,8 @@
 //   umockdev-wrapper stick_emulator --family sidewinder [options] -- PROGRAM ARGUMENTS
 //
 // Times are seconds from the program's start, with --tour from when the motors first came on; at 0 it happens before the
-// program looks. Its exit status is the program's; at the end it says on stderr how long after the last fault, unplug, stop
-// or the program's end the emulated motors still pushed.
+// program looks. Its exit status is the program's; at the end it says on stderr how long after the start, each fault, unplug,
+// stop and continue, and the program's end the emulated motors still pushed.
 
 #include <fcntl.h>
 #include <signal.h>
@@ -171,11 +171,13 @@ void Emulation::plug(bool in) {
 }
 
 void Emulation::plan() {
+  events_.push_back({0.0, "the start", {}});
   for (const std::string& fault : options_.faults) plan_fault(fault);
   for (const double at : options_.unplug_at) events_.push_back({at, "the unplug", [this] { plug(false); }});
   for (const double at : options_.replug_at) events_.push_back({at, "", [this] { plug(true); }});
   for (const double at : options_.stop_at) events_.push_back({at, "the stop", [this] { kill(child_, SIGSTOP); }});
-  for (const double at : options_.continue_at) events_.push_back({at, "", [this] { kill(child_, SIGCONT); }});
+  for (const double at : options_.continue_at)
+    events_.push_back({at, "the continue", [this] { kill(child_, SIGCONT); }});
   std::stable_sort(events_.begin(), events_.end(), [](const Event& a, const Event& b) { return a.at < b.at; });
 }
 
@@ -265,7 +267,10 @@ void Emulation::watch() {
 }
 
 bool Emulation::has_ended() {
-  if (asked_to_end != 0) kill(child_, SIGTERM);
+  if (asked_to_end != 0) {
+    kill(child_, SIGTERM);
+    kill(child_, SIGCONT);  // one that stands still would not hear it
+  }
   asked_to_end = 0;
   return waitpid(child_, &status_, WNOHANG) == child_;
 }
