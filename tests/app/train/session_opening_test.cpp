@@ -53,7 +53,7 @@ ReplayRequests open(const fs::path& file) {
 // Frames until nothing is read any more; how many.
 int wait(Session& session) {
   int frames = 0;
-  for (; frames < 1000 && !session.panel_input().opening.empty(); ++frames) {
+  for (; frames < 6000 && !session.panel_input().opening.empty(); ++frames) {
     session.advance(0.01);
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
