@@ -85,8 +85,8 @@ void HistoryView::draw(Controls& controls, const CoachView& coach, PanelRequests
     const RunRow& run = coach.runs[i];
     draw_run(controls, coach, run);
     if (run.id != opened_) continue;
-    static const std::vector<CommentRow> kNone;
-    draw_opened(controls, run, i < coach.comments.size() ? coach.comments[i] : kNone, out);
+    static const std::vector<CommentRow> none;
+    draw_opened(controls, run, i < coach.comments.size() ? coach.comments[i] : none, out);
   }
 }
 

@@ -15,7 +15,7 @@ inline constexpr std::string_view kOwnBindings = "own";
 
 // Empty: the person's own where there are some, else "default". config_folder: the user's; empty: there is none. Throws std::runtime_error with one sentence.
 inline std::filesystem::path bindings_file(const std::string& name, const std::filesystem::path& config_folder) {
-  const std::filesystem::path own = own_bindings_file(config_folder, std::string(kOwnBindings));
+  std::filesystem::path own = own_bindings_file(config_folder, std::string(kOwnBindings));
   std::error_code ignored;
   const bool has_own = !config_folder.empty() && std::filesystem::exists(own, ignored);
   if (has_own && (name.empty() || name == kOwnBindings)) return own;

@@ -121,8 +121,8 @@ class WindowTrainer {
   std::unique_ptr<CabinView> desktop_view() { return std::make_unique<CabinView>(setup_.view, &window_, &ui_); }
 
   std::unique_ptr<CabinView> first_view() {
-    const bool worn = headset_ && headset_->is_found() && headset_->open();
-    return worn ? nullptr : desktop_view();
+    if (headset_ && headset_->is_found() && headset_->open()) return nullptr;
+    return desktop_view();
   }
 
   // A headset where one is found, else the window alone: the window shows one of them.
