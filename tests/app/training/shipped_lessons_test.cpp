@@ -31,8 +31,8 @@ bool has(const LessonResult& result, FaultKind kind) {
 }
 
 // Shows the first drive in gear for `seconds` from `after` on as `change` makes it.
-Misdeed for_a_while(double seconds, std::function<bool(const DriveSample&)> when,
-                    std::function<void(DriveSample&, double)> change) {
+Misdeed for_a_while(double seconds, const std::function<bool(const DriveSample&)>& when,
+                    const std::function<void(DriveSample&, double)>& change) {
   return [=, since = -1.0](DriveSample& s) mutable {
     if (since < 0.0 && s.time() > 100.05 && when(s)) since = s.time();
     if (since >= 0.0 && s.time() - since < seconds) change(s, s.time() - since);

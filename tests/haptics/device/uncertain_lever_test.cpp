@@ -183,8 +183,8 @@ TEST_CASE("errors and jitter out of range are refused") {
     StillHand nobody;
     try {
       SimulatedLever(config, kMs, nobody);
-    } catch (const std::invalid_argument& error_) {
-      return error_.what();
+    } catch (const std::invalid_argument& refused) {
+      return refused.what();
     }
     return "accepted";
   };

@@ -225,11 +225,11 @@ class ScriptedPort final : public HidPort {
   const std::vector<std::uint8_t>& report_descriptor() const noexcept override { return descriptor_; }
   HidBytes get_feature(std::uint8_t id, std::size_t size) override {
     ++gets;
-    if (loads.empty()) throw HidError("no answer");
+    if (loads_.empty()) throw HidError("no answer");
     HidBytes answer;
     answer.size = size;
-    answer.bytes = {id, loads.front().first, loads.front().second};
-    if (loads.size() > 1) loads.pop_front();
+    answer.bytes = {id, loads_.front().first, loads_.front().second};
+    if (loads_.size() > 1) loads_.pop_front();
     return answer;
   }
   void set_feature(const HidBytes& report) override { told.push_back(report.id()); }
@@ -241,14 +241,14 @@ class ScriptedPort final : public HidPort {
 
   // Of each question for a feature report; the last one for ever.
   void answer(int block, int status) {
-    loads.push_back({static_cast<std::uint8_t>(block), static_cast<std::uint8_t>(status)});
+    loads_.push_back({static_cast<std::uint8_t>(block), static_cast<std::uint8_t>(status)});
   }
 
   int gets = 0, gone_after = -1;
   std::vector<int> told;
 
  private:
-  std::deque<std::pair<std::uint8_t, std::uint8_t>> loads;
+  std::deque<std::pair<std::uint8_t, std::uint8_t>> loads_;
   HidIdentity identity_;
   std::vector<std::uint8_t> descriptor_;
 };
