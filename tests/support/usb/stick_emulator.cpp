@@ -307,11 +307,8 @@ int Emulation::run() {
   return WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
 }
 
-}  // namespace
-}  // namespace gearshift
-
-int main(int count, char** arguments) {
-  gearshift::Options options;
+int run(int count, char** arguments) {
+  Options options;
   CLI::App cli("Runs a program with an emulated force-feedback stick beneath its libusb");
   cli.add_option("--family", options.family, "sidewinder, openffboard or vjoy");
   cli.add_option("--tour", options.tour, "a hand shifts through every gear of this gate while the motors are on");
@@ -330,10 +327,17 @@ int main(int count, char** arguments) {
       "a pipe whose lines say what happens next: go X Y [mm], hold BUTTON, unplug, plug; a hand holds the lever");
   cli.add_option("program", options.command, "and its arguments, after --")->required();
   CLI11_PARSE(cli, count, arguments);
+  return Emulation(options).run();
+}
+
+}  // namespace
+}  // namespace gearshift
+
+int main(int count, char** arguments) {
   try {
-    return gearshift::Emulation(options).run();
+    return gearshift::run(count, arguments);
   } catch (const std::exception& error) {
-    std::cerr << "stick_emulator: " << error.what() << '\n';
+    std::fprintf(stderr, "stick_emulator: %s\n", error.what());
     return 2;
   }
 }

@@ -288,7 +288,7 @@ bool UsbfsNode::carry_input(Urb& urb) {
     finish(urb, -EPROTO, 0);
     return true;
   }
-  report->resize(static_cast<std::size_t>(static_cast<int>(report->size()) + faults.extra_bytes), 0xee);
+  report->resize(static_cast<std::size_t>(static_cast<std::ptrdiff_t>(report->size()) + faults.extra_bytes), 0xee);
   const std::span<std::uint8_t> room = bytes_of(urb.buffer);
   const std::size_t length = std::min(report->size(), room.size());
   std::copy_n(report->begin(), length, room.begin());
