@@ -1,6 +1,8 @@
 // What goes wrong while a person holds the lever: how soon the motors are silent, and what it takes to have them back.
 #include <algorithm>
+#include <cstdint>
 #include <functional>
+#include <initializer_list>
 #include <random>
 #include <string>
 #include <vector>
@@ -89,6 +91,41 @@ double time_to_silence(StickFamily family, const Fault& fault, double before) {
   return 1e-9 * static_cast<double>(loud - begin);
 }
 
+// The whole process has no turn for a while; then one of its threads has the first.
+struct Stall {
+  std::int64_t ms = 0;
+  bool loop_first = false;
+};
+
+void stand_still(StickLoop& run, const Stall& stall) {
+  run.stick.advance(run.now_ns += 1'000'000 * stall.ms);
+}
+
+void wake(StickLoop& run, const Stall& stall) {
+  run.now_ns += run.period_ns;
+  if (!stall.loop_first) tick_stick(run.stick, run.stream, run.driver, run.now_ns);
+  run.loop.cycle(run.now_ns, stall.ms);
+}
+
+// Of each family, held and running.
+template <class Work>
+void on_each_stall(std::initializer_list<std::int64_t> lengths, const Work& work) {
+  for (const StickFamily family : kStickFamilies) {
+    for (const std::int64_t ms : lengths) {
+      for (const bool loop_first : {false, true}) {
+        CAPTURE(name_of(family));
+        CAPTURE(ms);
+        CAPTURE(loop_first);
+        StillHand hand(hand_at({0.0, 0.0}));
+        StickLoop run(gripped(family), hand);
+        run.loop.arm();
+        run.cycle_for(0.8);
+        work(run, hand, Stall{ms, loop_first});
+      }
+    }
+  }
+}
+
 }  // namespace
 
 TEST_CASE("from a fault to silent motors: in the stated time, whenever it happens") {
@@ -111,59 +148,34 @@ TEST_CASE("from a fault to silent motors: in the stated time, whenever it happen
 }
 
 TEST_CASE("the program stands still and goes on, whoever of its threads wakes first: no force until a person arms it") {
-  for (const StickFamily family : kStickFamilies) {
-    for (const std::int64_t ms : {150, 400, 3000}) {
-      for (const bool loop_first : {false, true}) {
-        CAPTURE(name_of(family));
-        CAPTURE(ms);
-        CAPTURE(loop_first);
-        StillHand hand(hand_at({0.0, 0.0}));
-        StickLoop run(gripped(family), hand);
-        run.loop.arm();
-        run.cycle_for(0.8);
-        hand.target = hand_at({0.012, 0.020});
-        run.cycle_for(0.5);
-        REQUIRE(glm::length(run.stick.force()) > 3.0);
-        run.stick.advance(run.now_ns += 1'000'000 * ms);
-        if (ms > 300) CHECK(glm::length(run.stick.force()) < kSilent);  // an effect lasts no longer
-        run.now_ns += run.period_ns;
-        if (!loop_first) tick_stick(run.stick, run.stream, run.driver, run.now_ns);
-        run.loop.cycle(run.now_ns, ms);
-        for (int i = 0; i < 1000; ++i) {
-          run.cycle();
-          if (i > 4 || ms > 300) CHECK(glm::length(run.stick.force()) < kSilent);
-        }
-        CHECK(run.loop.snapshot().guard == GuardState::released);
-        CHECK_FALSE(run.stick.actuators_on());
-        run.loop.arm();
-        run.cycle_for(0.6);
-        CHECK(run.loop.snapshot().guard == GuardState::running);
-      }
+  on_each_stall({150, 400, 3000}, [](StickLoop& run, StillHand& hand, const Stall& stall) {
+    hand.target = hand_at({0.012, 0.020});
+    run.cycle_for(0.5);
+    REQUIRE(glm::length(run.stick.force()) > 3.0);
+    stand_still(run, stall);
+    const bool has_ended = stall.ms > 300;  // an effect lasts no longer
+    if (has_ended) CHECK(glm::length(run.stick.force()) < kSilent);
+    wake(run, stall);
+    for (int i = 0; i < 1000; ++i) {
+      run.cycle();
+      if (i > 4 || has_ended) CHECK(glm::length(run.stick.force()) < kSilent);
     }
-  }
+    CHECK(run.loop.snapshot().guard == GuardState::released);
+    CHECK_FALSE(run.stick.actuators_on());
+    run.loop.arm();
+    run.cycle_for(0.6);
+    CHECK(run.loop.snapshot().guard == GuardState::running);
+  });
 }
 
 TEST_CASE("a stall of up to 0.1 s is ridden out, whoever wakes first") {
-  for (const StickFamily family : kStickFamilies) {
-    for (const std::int64_t ms : {15, 25, 60, 95}) {
-      for (const bool loop_first : {false, true}) {
-        CAPTURE(name_of(family));
-        CAPTURE(ms);
-        CAPTURE(loop_first);
-        StillHand hand(hand_at({0.0, 0.0}));
-        StickLoop run(gripped(family), hand);
-        run.loop.arm();
-        run.cycle_for(0.8);
-        run.stick.advance(run.now_ns += 1'000'000 * ms);
-        run.now_ns += run.period_ns;
-        if (!loop_first) tick_stick(run.stick, run.stream, run.driver, run.now_ns);
-        run.loop.cycle(run.now_ns, ms);
-        run.cycle_for(0.2);
-        CHECK(run.loop.snapshot().guard == GuardState::running);
-        CHECK(run.problems().empty());
-      }
-    }
-  }
+  on_each_stall({15, 25, 60, 95}, [](StickLoop& run, StillHand&, const Stall& stall) {
+    stand_still(run, stall);
+    wake(run, stall);
+    run.cycle_for(0.2);
+    CHECK(run.loop.snapshot().guard == GuardState::running);
+    CHECK(run.problems().empty());
+  });
 }
 
 TEST_CASE("unplugged at any moment of a tour: silent until a person arms it again, and then the tour goes on") {
