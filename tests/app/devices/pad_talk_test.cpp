@@ -35,7 +35,7 @@ struct Person {
     talk.next_frame = [this] { return sticks; };
     talk.ask = [this, types](const std::string& question, const std::function<void()>& frame) {
       ++asked;
-      const std::string answer = types(question);
+      std::string answer = types(question);
       float* axis = answer.empty() ? moved(question) : nullptr;
       const float rest = axis != nullptr ? *axis : 0.0f;
       const bool lever = question.find("LEVER") != std::string::npos;

@@ -29,7 +29,7 @@ struct OpeningRig {
   }
   // So long a drive, recorded in no time.
   fs::path recorded(double seconds) const {
-    const fs::path file = folder / "long.trace";
+    fs::path file = folder / "long.trace";
     Session driven = session(TrainerClock::virtual_time);
     driven.trainer().start_recording(file);
     for (double time = 0.0; time < seconds; time += 0.5) driven.trainer().advance(0.5);
