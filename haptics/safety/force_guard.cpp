@@ -14,8 +14,8 @@ using glm::dvec2;
 
 constexpr std::int64_t kArmedPatience = 10;  // times stale_time: a device takes a while to say its first word
 
-// After so long without a cycle in time (the process was stopped) the lever may be anywhere, and so may the
-// hand: a force of before must not come back by itself. As long as the stick's driver waits for an order.
+// After so long without a cycle in time (the process was stopped) the lever may be anywhere, and so may the hand: a force
+// of before must not come back by itself. The stick's driver waits as long for an order.
 constexpr double kMostLate = 0.1;  // [s]
 
 constexpr std::int64_t kForever = 1'000'000'000'000;  // [cycles] a trace may say any number
