@@ -144,7 +144,7 @@ void History::State::copy_from(SQLite::Database& source) {
 // Absolute: "file:x" and ":memory:" are names of files, too.
 std::string History::State::place() const {
   std::error_code problem;
-  const std::string absolute = fs::absolute(file, problem).string();
+  std::string absolute = fs::absolute(file, problem).string();
   if (problem) refuse(fmt::format("it cannot be found: {}", problem.message()));
   if (fs::is_directory(absolute, problem)) refuse("it cannot be read: it is a folder");
   return absolute;

@@ -17,7 +17,7 @@ constexpr double kMoved = 0.02;       // [1] of an axis: less is noise
 constexpr double kPushTravel = 0.05;  // [m] of the mouse beyond reach, from no push to most_push
 constexpr double kBeyondGate = 0.02;  // [m]
 
-enum Watched : std::size_t { kLeverSelect, kLeverShift, kThrottle, kBrake, kClutch };
+enum WatchedAxis : std::size_t { select_axis, shift_axis, throttle_axis, brake_axis, clutch_axis };
 
 bool is_once(Action action) {
   const auto& actions = all_actions();
@@ -163,8 +163,7 @@ void DriverInput::move_hand(const WindowInput& input, double seconds) {
   if (led_ && mouse_leads_) aim_by_mouse(input.mouse_moved);
   led_ = mouse_leads_;
   const Bindings& bindings = config_.bindings;
-  const glm::dvec2 at{stick(input, bindings.lever_select, kLeverSelect),
-                      stick(input, bindings.lever_shift, kLeverShift)};
+  const glm::dvec2 at{stick(input, bindings.lever_select, select_axis), stick(input, bindings.lever_shift, shift_axis)};
   const bool moves = bindings.lever_mode == LeverMode::moves;
   aim_by_speed(key_speed() + (moves ? bindings.stick_speed * at * glm::abs(at) : glm::dvec2(0.0)), seconds);
   if (!moves) place_by_stick(at);
@@ -261,9 +260,9 @@ double DriverInput::pedal_axis(const WindowInput& input, const std::optional<Axi
 
 void DriverInput::read_pedals(const WindowInput& input) {
   const Bindings& bindings = config_.bindings;
-  controls_.throttle = pedal_axis(input, bindings.throttle, kThrottle);
-  controls_.brake = pedal_axis(input, bindings.brake, kBrake);
-  controls_.clutch = pedal_axis(input, bindings.clutch, kClutch);
+  controls_.throttle = pedal_axis(input, bindings.throttle, throttle_axis);
+  controls_.brake = pedal_axis(input, bindings.brake, brake_axis);
+  controls_.clutch = pedal_axis(input, bindings.clutch, clutch_axis);
   controls_.starter = is_held(Action::starter);
 }
 

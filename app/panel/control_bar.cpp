@@ -166,8 +166,8 @@ void draw_lamps(const Parts& parts, int columns, const PanelInput& input) {
 // As much of it as has room [px].
 std::string loop_line(const PanelInput& input, float width) {
   const LoopHealth& health = input.health;
-  const std::string rate = fmt::format("{:.0f} Hz", health.rate),
-                    late = fmt::format("p99 late {:.0f} µs", 1e6 * health.late_p99),
+  std::string rate = fmt::format("{:.0f} Hz", health.rate);
+  const std::string late = fmt::format("p99 late {:.0f} µs", 1e6 * health.late_p99),
                     missed = fmt::format("{} missed", health.skipped),
                     frame = input.frame_ms > 0.0 ? fmt::format(" · {:.0f} ms a frame", input.frame_ms) : std::string();
   const std::string lines[] = {fmt::format("{} · {} · {}{}", rate, late, missed, frame),

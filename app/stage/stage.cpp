@@ -273,7 +273,7 @@ glm::dvec3 Stage::knob_top() const noexcept {
   return state_->pivot + (kDrawnLever + kKnobRadius) / kDrawnLever * lever;
 }
 
-EyePose Stage::driver_eye() const noexcept {
+EyePose Stage::driver_eye() const {
   return camera("driver", state_->config.drive);
 }
 

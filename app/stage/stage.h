@@ -62,7 +62,7 @@ class Stage {
   // [m] world: centre of the knob of the upright lever, and the middle of the knob's top where the lever point is.
   glm::dvec3 knob_at_rest() const noexcept;
   glm::dvec3 knob_top() const noexcept;
-  EyePose driver_eye() const noexcept;  // at rest, looking ahead and a little down
+  EyePose driver_eye() const;  // at rest, looking ahead and a little down
 
  private:
   struct State;

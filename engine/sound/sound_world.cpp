@@ -254,7 +254,7 @@ void SoundWorld::play(ClipId clip, const Voice& voice) {
 }
 
 VoiceId SoundWorld::loop(ClipId clip, const Voice& voice) {
-  state_->clips.at(static_cast<std::size_t>(clip));
+  static_cast<void>(state_->clips.at(static_cast<std::size_t>(clip)));
   Loop& loop = state_->loops.emplace_back(Loop{clip, voice});
   if (state_->device) {
     state_->device->make_current();

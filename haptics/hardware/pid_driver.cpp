@@ -22,7 +22,7 @@ LeverReport lever_of(const ReportDescriptor& descriptor) {
 }
 
 PidLayout pid_of(const ReportDescriptor& descriptor) {
-  if (std::optional<PidLayout> pid = find_pid(descriptor)) return *std::move(pid);
+  if (const std::optional<PidLayout> pid = find_pid(descriptor)) return *pid;
   throw HidError("this stick has no force feedback: its descriptor has no reports that push (PID class)");
 }
 

@@ -9,12 +9,12 @@
 
 namespace fs = std::filesystem;
 
-// NOLINTBEGIN(readability-identifier-naming): libFuzzer gives the names
+// NOLINTBEGIN(readability-identifier-naming,readability-redundant-declaration): libFuzzer gives the names
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t*, std::size_t size, std::size_t) {  // nothing is searched here
   return size;
 }
-// NOLINTEND(readability-identifier-naming)
+// NOLINTEND(readability-identifier-naming,readability-redundant-declaration)
 
 int main(int argc, char** argv) {
   int inputs = 0;

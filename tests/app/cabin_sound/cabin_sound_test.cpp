@@ -98,8 +98,9 @@ TEST_CASE("between two bands their loops stay in phase: the level is steady, and
     Cabin cabin;
     const std::vector<float> stereo = engine_sound(cabin, middle, 1.0, 6.0);
     double softest = 1e9, loudest = 0.0;
+    constexpr std::size_t kSecond = std::size_t{2} * kSoundRate;
     for (std::size_t n = 0; n < 6; ++n) {
-      const double second = level(std::span(stereo).subspan(n * 2 * kSoundRate, 2 * kSoundRate));
+      const double second = level(std::span(stereo).subspan(n * kSecond, kSecond));
       softest = std::min(softest, second);
       loudest = std::max(loudest, second);
     }
@@ -180,7 +181,7 @@ TEST_CASE("a gear that goes in sounds other than one that goes out, both at once
     Cabin cabin;
     cabin.run(kFrame);
     cabin.hear(kind, 3.0);
-    const std::vector<float> first = cabin.run(0.2);
+    std::vector<float> first = cabin.run(0.2);
     CHECK(peak(doubles(std::span(first).first(2 * kSoundRate / 50))) > 0.05);  // within 20 ms
     CHECK(peak(doubles(cabin.run(0.3))) == 0.0);
     return first;

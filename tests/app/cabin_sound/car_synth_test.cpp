@@ -52,11 +52,12 @@ TEST_CASE("each loop beats as often as its law says, and not in between") {
     std::vector<float> (*make)();
     double rate;  // [Hz]
   };
-  for (const auto& [make, rate] : {Beats{grind_loop, 150.0},                 // teeth
-                                   Beats{starter_loop, 240.0 / 60.0 * 2.0},  // compressions of four cylinders
-                                   Beats{judder_loop, 400.0 / 60.0 * 2.0},   // firings
-                                   Beats{limiter_loop, 12.0}, Beats{over_rev_loop, 4.0}}) {
-    const std::vector<double> x = rounds(make(), 8);
+  for (const Beats& beats : {Beats{grind_loop, 150.0},                 // teeth
+                             Beats{starter_loop, 240.0 / 60.0 * 2.0},  // compressions of four cylinders
+                             Beats{judder_loop, 400.0 / 60.0 * 2.0},   // firings
+                             Beats{limiter_loop, 12.0}, Beats{over_rev_loop, 4.0}}) {
+    const std::vector<double> x = rounds(beats.make(), 8);
+    const double rate = beats.rate;
     CAPTURE(rate);
     CHECK(modulation(x, rate) > 0.25);
     CHECK(modulation(x, rate) > 4.0 * modulation(x, 0.73 * rate));

@@ -112,7 +112,7 @@ TEST_CASE(
     CHECK(whole.whole);
     CHECK(whole.passed);
   }
-  const auto torn = [&](std::vector<DriveSample> samples) {
+  const auto torn = [&](const std::vector<DriveSample>& samples) {
     const LessonResult result = driven(samples);
     CHECK_FALSE(result.passed);
     CHECK(result.grade == 0.0);

@@ -143,7 +143,7 @@ TEST_CASE("the first trial after 20 hours is a test: no help, nothing said on th
   CHECK_FALSE(other.view().retention);
   bench.begin(coach);
   CHECK_FALSE(coach.view().retention);
-  bench.now -= 100 * 3600;  // a clock that was put back is no pause
+  bench.now -= 360'000;  // a clock that was put back is no pause
   coach.offer(bench.config.lessons[0]);
   CHECK_FALSE(coach.view().retention);
 }

@@ -80,7 +80,7 @@ struct Rig {
       };
     }
     if (!lines.empty()) {
-      const std::string line = lines.front();
+      std::string line = lines.front();
       lines.pop_front();
       return line;
     }
@@ -155,7 +155,7 @@ TEST_CASE("what cannot be is told and asked again: a stick that was not pushed, 
   talk.say = [&](const std::string& line) { rig.said.push_back(line); };
   talk.keep = [&](const DeviceCalibration& calibration) { rig.kept.push_back(calibration); };
   talk.ask = [&](const std::string& next) {
-    const std::string line = rig.answer(next);
+    std::string line = rig.answer(next);
     if (rig.asked.size() == 2) {
       rig.does = {};
       slept = true;

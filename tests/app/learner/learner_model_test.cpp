@@ -13,7 +13,7 @@ using namespace gearshift;
 namespace {
 
 // Area under the ROC curve by walking the threshold down and adding trapezoids.
-double area_by_threshold(std::vector<double> good, std::vector<double> bad) {
+double area_by_threshold(const std::vector<double>& good, const std::vector<double>& bad) {
   std::vector<double> thresholds(good);
   thresholds.insert(thresholds.end(), bad.begin(), bad.end());
   std::sort(thresholds.rbegin(), thresholds.rend());

@@ -58,8 +58,8 @@ TEST_CASE("the best: the quickest of those in which nothing was wrong, whatever 
       {"a fault that cost nothing", fault(FaultKind::over_push, Severity::minor)},
       {"a note", fault(FaultKind::jerk, Severity::note)},
   };
-  for (const auto& [name, spoil] : wrong) {
-    CAPTURE(name);
+  for (const auto& each : wrong) {
+    CAPTURE(each.first);
     LearnerHistory history;
     history.runs = {run_with(1, 1, 10.0), run_with(2, 1, 10.0)};
     LessonResult& quick = history.runs[1].row.result;
@@ -67,7 +67,7 @@ TEST_CASE("the best: the quickest of those in which nothing was wrong, whatever 
     quick.shifts[0].block_time = 0.3;  // a synchroniser's ordinary work is no block
     REQUIRE(choose_shifts(history).best.size() == 2);
     CHECK(choose_shifts(history).best[0].run == 2);
-    spoil(quick);
+    each.second(quick);
     const ChosenShifts chosen = choose_shifts(history);
     REQUIRE(chosen.best.size() == 1);
     CHECK(chosen.best[0].run == 1);

@@ -23,14 +23,19 @@ glm::dvec3 above_knob(glm::dvec2 p) {
   return kSphere / 0.12 * knob;
 }
 
+glm::dvec3 side_of(const std::vector<Vertex>& tube, int ring, int side) {
+  const int at = ring * kWaySides + side;
+  return glm::dvec3(tube[static_cast<std::size_t>(at)].position);
+}
+
 glm::dvec3 middle_of(const std::vector<Vertex>& tube, int ring) {
   glm::dvec3 sum{0.0};
-  for (int k = 0; k < kWaySides; ++k) sum += glm::dvec3(tube[static_cast<std::size_t>(ring * kWaySides + k)].position);
+  for (int side = 0; side < kWaySides; ++side) sum += side_of(tube, ring, side);
   return sum / static_cast<double>(kWaySides);
 }
 
 double radius_of(const std::vector<Vertex>& tube, int ring) {
-  return glm::distance(glm::dvec3(tube[static_cast<std::size_t>(ring * kWaySides)].position), middle_of(tube, ring));
+  return glm::distance(side_of(tube, ring, 0), middle_of(tube, ring));
 }
 
 const NodeState& way_state(const Stage& stage, const char* name) {

@@ -301,5 +301,5 @@ TEST_CASE("from gate to gate and back: a session keeps no more in use than befor
     return memory_in_use();
   };
   const std::size_t once = there_and_back(2), often = there_and_back(6);
-  CHECK(often < once + 64 * 1024);
+  CHECK(often < once + 65'536);
 }

@@ -478,7 +478,8 @@ TEST_CASE("missed shift: the gear that the lever was pushed to; neutral by inten
 
 // As a box has it: out of gear before the lever is at the release depth.
 TEST_CASE("missed shift: never the gear that was left, nor one that was in") {
-  const auto goes = [](std::function<void(DriveSample&, double, const ConstructedShift&)> on_the_way, int wanted) {
+  const auto goes = [](const std::function<void(DriveSample&, double, const ConstructedShift&)>& on_the_way,
+                       int wanted) {
     return in_shift(
         [=](DriveSample& s, double t) {
           const ConstructedShift plain;

@@ -17,7 +17,7 @@ Lesson lesson_that_catches(std::vector<FaultKind> kinds) {
   return lesson;
 }
 
-LessonResult done_with(std::vector<Severity> severities) {
+LessonResult done_with(const std::vector<Severity>& severities) {
   LessonResult result;
   result.end = LessonEnd::done;
   for (const Severity severity : severities) result.faults.push_back({FaultKind::jerk, severity, 1.0, 60.0, 0});

@@ -2,8 +2,9 @@
 #include "app/training/guided_world.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
-#include <cstring>
+#include <cstdint>
 #include <limits>
 #include <random>
 #include <string>
@@ -59,7 +60,7 @@ class OddWorld final : public LeverWorld {
 };
 
 bool same_bits(double a, double b) {
-  return std::memcmp(&a, &b, sizeof a) == 0;
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
 }
 
 LeverInput at(dvec2 p, int gear, double guidance) {

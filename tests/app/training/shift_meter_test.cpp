@@ -311,7 +311,7 @@ TEST_CASE("the drive ends in the middle of a shift: what was left or tried by th
     shift.to = at;
     ShiftMeter meter(shift.car, shift.gate);
     for (const DriveSample& s : shift.samples()) CHECK_FALSE(meter.add(s).has_value());
-    const std::optional<ShiftRecord> record = meter.finish();
+    std::optional<ShiftRecord> record = meter.finish();
     CHECK_FALSE(meter.is_open());
     CHECK_FALSE(meter.finish().has_value());
     return record;

@@ -57,7 +57,7 @@ TEST_CASE("weak is what was not passed lately, whatever the grade: a fault fails
 }
 
 TEST_CASE("who fails more of them is weaker, and of two who fail as many the one with the lower grade") {
-  const auto runs = [](const char* lesson, std::vector<double> grades) {
+  const auto runs = [](const char* lesson, const std::vector<double>& grades) {
     std::vector<PastResult> list{{lesson, lesson, 10.0, true}};
     for (const double grade : grades) list.push_back({lesson, lesson, grade, false});
     return list;

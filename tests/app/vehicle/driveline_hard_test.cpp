@@ -42,17 +42,17 @@ bool same_bits(const VehicleState& a, const VehicleState& b) {
 TEST_CASE("on a hill the slipping clutch holds the car to the bit, and not beyond the rolling resistance") {
   CarSpec car = hatchback();
   car.gearbox.drag = car.gearbox.drag_slope = 0.0;
-  const double G = shaft_per_road(car, 1), slope = std::atan(0.2);
+  const double ratio = shaft_per_road(car, 1), slope = std::atan(0.2);
   const double pull = car.body.mass * kGravity * std::sin(slope), roll = car.body.resistance;
   struct Case {
     double torque;
     int goes;
   };
-  const Case cases[] = {{(pull - roll) / G * (1.0 - 1e-6), -1},
-                        {(pull - roll) / G * (1.0 + 1e-6), 0},
-                        {pull / G, 0},
-                        {(pull + roll) / G * (1.0 - 1e-6), 0},
-                        {(pull + roll) / G * (1.0 + 1e-6), 1}};
+  const Case cases[] = {{(pull - roll) / ratio * (1.0 - 1e-6), -1},
+                        {(pull - roll) / ratio * (1.0 + 1e-6), 0},
+                        {pull / ratio, 0},
+                        {(pull + roll) / ratio * (1.0 - 1e-6), 0},
+                        {(pull + roll) / ratio * (1.0 + 1e-6), 1}};
   for (const Case& c : cases) {
     CAPTURE(c.torque);
     Driveline line = at_rest(car);

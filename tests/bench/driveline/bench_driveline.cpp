@@ -79,7 +79,8 @@ BenchRow headless_step(const std::vector<Drive>& drives, int rounds) {
   for (int i = 0; i < rounds; ++i) {
     for (const Drive& drive : drives) {
       std::vector<DrivelineInput> inputs;
-      for (int n = 0; n < std::lround(1e3 * drive.duration); ++n) inputs.push_back(drive.input(0.001 * n));
+      const auto steps = std::lround(1e3 * drive.duration);
+      for (int n = 0; n < steps; ++n) inputs.push_back(drive.input(0.001 * n));
       Driveline line(drive.car);
       line.place(drive.engine, drive.shaft, drive.road, true);
       const std::uint64_t before = ticks();

@@ -45,9 +45,9 @@ class PlainStepper {
     force[2] += chain_.per_road * cone;
     PerBody to = speed_;
     if (chain_.link == GearLink::dogs) {
-      const double G = chain_.per_road;
-      to[2] += h * (force[2] + G * force[1]) / (chain_.inertia[2] + G * G * chain_.inertia[1]);
-      to[1] = G * to[2];
+      const double ratio = chain_.per_road;
+      to[2] += h * (force[2] + ratio * force[1]) / (chain_.inertia[2] + ratio * ratio * chain_.inertia[1]);
+      to[1] = ratio * to[2];
     } else {
       to[1] += h * force[1] / chain_.inertia[1];
       to[2] += h * force[2] / chain_.inertia[2];

@@ -77,9 +77,9 @@ class Reference {
   // [m/s^2] of the car and what turns with it: `inertia` at the shaft, driven by `torque`, through teeth that take their
   // share of what they pass on, in the direction in which it goes.
   double through_teeth(double force, double torque, double inertia) const {
-    const double M = car_.body.mass + car_.body.rotating;
+    const double m = car_.body.mass + car_.body.rotating;
     const auto solved = [&](double passed) {
-      return (force + passed * G_ * torque) / (M + passed * G_ * G_ * inertia);
+      return (force + passed * G_ * torque) / (m + passed * G_ * G_ * inertia);
     };
     const double driven = solved(teeth());
     const bool drives = (torque - inertia * G_ * driven) * G_ * road_ >= 0.0;
@@ -90,38 +90,38 @@ class Reference {
   // What clutch and gear carry goes to carried_.
   Y slope(const Y& y, double t) {
     const Forces f = forces(y, t);
-    const double Je = car_.engine.inertia, Js = car_.clutch.disc_inertia, M = car_.body.mass + car_.body.rotating;
+    const double je = car_.engine.inertia, js = car_.clutch.disc_inertia, m = car_.body.mass + car_.body.rotating;
     const double drag = car_.gearbox.drag;
-    const double Te = f.spark - f.friction;
-    const double Ts = f.shaft - drag * shaft_;
-    const double Fr = f.air - f.hold * road_;
-    double Tc = clutch_ * f.capacity, Tk = cone_ * f.cone;
+    const double te = f.spark - f.friction;
+    const double ts = f.shaft - drag * shaft_;
+    const double fr = f.air - f.hold * road_;
+    double tc = clutch_ * f.capacity, tk = cone_ * f.cone;
     Y d;
     if (car_rests_ && geared_) {
-      d.engine = engine_rests_ || locked_ ? 0.0 : (Te - Tc) / Je;
-      Tk = Tc;
+      d.engine = engine_rests_ || locked_ ? 0.0 : (te - tc) / je;
+      tk = tc;
     } else if (!locked_ && !geared_) {
-      d.engine = engine_rests_ ? 0.0 : (Te - Tc) / Je;
-      d.shaft = shaft_rests_ ? 0.0 : (Ts + Tc - Tk) / Js;
-      d.road = car_rests_ ? 0.0 : (Fr + G_ * Tk) / M;
+      d.engine = engine_rests_ ? 0.0 : (te - tc) / je;
+      d.shaft = shaft_rests_ ? 0.0 : (ts + tc - tk) / js;
+      d.road = car_rests_ ? 0.0 : (fr + G_ * tk) / m;
     } else if (!locked_) {
-      d.engine = engine_rests_ ? 0.0 : (Te - Tc) / Je;
-      d.road = through_teeth(Fr, Ts + Tc, Js);
+      d.engine = engine_rests_ ? 0.0 : (te - tc) / je;
+      d.road = through_teeth(fr, ts + tc, js);
       d.shaft = G_ * d.road;
-      Tk = Ts + Tc - Js * d.shaft;
+      tk = ts + tc - js * d.shaft;
     } else if (!geared_) {
-      d.engine = d.shaft = (Te + Ts - Tk) / (Je + Js);
-      d.road = car_rests_ ? 0.0 : (Fr + G_ * Tk) / M;
-      Tc = Te - Je * d.engine;
+      d.engine = d.shaft = (te + ts - tk) / (je + js);
+      d.road = car_rests_ ? 0.0 : (fr + G_ * tk) / m;
+      tc = te - je * d.engine;
     } else {
-      d.road = through_teeth(Fr, Ts + Te, Js + Je);
+      d.road = through_teeth(fr, ts + te, js + je);
       d.engine = d.shaft = G_ * d.road;
-      Tc = Te - Je * d.engine;
-      Tk = Ts + Tc - Js * d.shaft;
+      tc = te - je * d.engine;
+      tk = ts + tc - js * d.shaft;
     }
-    d.clutch_heat = locked_ ? 0.0 : Tc * (y.engine - y.shaft);
-    d.cone_heat = dogs_ || geared_ ? 0.0 : Tk * (y.shaft - G_ * y.road);
-    carried_clutch_ = Tc, carried_gear_ = Tk;
+    d.clutch_heat = locked_ ? 0.0 : tc * (y.engine - y.shaft);
+    d.cone_heat = dogs_ || geared_ ? 0.0 : tk * (y.shaft - G_ * y.road);
+    carried_clutch_ = tc, carried_gear_ = tk;
     return d;
   }
 
@@ -154,20 +154,20 @@ class Reference {
   What happened(const Y& y, double t) {
     const Forces f = forces(y, t);
     slope(y, t);
-    const double Tc = carried_clutch_, Tk = carried_gear_;
+    const double tc = carried_clutch_, tk = carried_gear_;
     if (running_ && y.engine < car_.engine.stall) return What::dies;
     if (running_ && !cut_ && y.engine > car_.engine.limiter) return What::cuts;
     if (cut_ && y.engine < car_.engine.limiter - car_.engine.limiter_band) return What::fires;
     if (!engine_rests_ && !locked_ && y.engine < 0.0) return What::engine;
-    if (engine_rests_ && !locked_ && f.spark - Tc > f.friction) return What::engine_breaks;
+    if (engine_rests_ && !locked_ && f.spark - tc > f.friction) return What::engine_breaks;
     if (!locked_ && f.capacity > 0.0 && clutch_ * (y.engine - y.shaft) < 0.0) return What::clutch_meets;
-    if (locked_ && !car_rests_ && std::abs(Tc) > f.capacity) return What::clutch_breaks;
+    if (locked_ && !car_rests_ && std::abs(tc) > f.capacity) return What::clutch_breaks;
     if (!geared_ && f.cone > 0.0 && cone_ * (y.shaft - G_ * y.road) < 0.0) return What::cone_meets;
-    if (geared_ && !dogs_ && std::abs(Tk) > f.cone) return What::cone_breaks;
+    if (geared_ && !dogs_ && std::abs(tk) > f.cone) return What::cone_breaks;
     if (!car_rests_ && road_ * y.road < 0.0) return What::road;
     if (car_rests_ && !locked_ && std::abs(pull(f)) > grip(f)) return What::road_breaks;
     if (!geared_ && !shaft_rests_ && !locked_ && shaft_ * y.shaft < 0.0) return What::shaft;
-    if (shaft_rests_ && std::abs(Tc - Tk) > car_.gearbox.drag) return What::shaft_breaks;
+    if (shaft_rests_ && std::abs(tc - tk) > car_.gearbox.drag) return What::shaft_breaks;
     return What::nothing;
   }
 
@@ -178,15 +178,15 @@ class Reference {
   double grip(const Forces& f) const { return f.hold + (geared_ ? teeth() * std::abs(G_) * car_.gearbox.drag : 0.0); }
 
   void apply(What what, double t) {
-    const double Je = car_.engine.inertia, Js = car_.clutch.disc_inertia, M = car_.body.mass + car_.body.rotating;
+    const double je = car_.engine.inertia, js = car_.clutch.disc_inertia, m = car_.body.mass + car_.body.rotating;
     if (what == What::dies) running_ = false;
     if (what == What::cuts) cut_ = true;
     if (what == What::fires) cut_ = false;
     if (what == What::engine) y_.engine = 0.0, engine_rests_ = true, clutch_ = side(-y_.shaft);
     if (what == What::engine_breaks) engine_rests_ = false;
     if (what == What::clutch_meets) {
-      const double Jr = geared_ ? Js + M / (G_ * G_) : Js;
-      y_.engine = y_.shaft = (Je * y_.engine + Jr * y_.shaft) / (Je + Jr);
+      const double jr = geared_ ? js + m / (G_ * G_) : js;
+      y_.engine = y_.shaft = (je * y_.engine + jr * y_.shaft) / (je + jr);
       if (geared_) y_.road = y_.shaft / G_;
       locked_ = true;
       slope(y_, t);
@@ -194,8 +194,8 @@ class Reference {
     }
     if (what == What::clutch_breaks) clutch_ = side(carried_clutch_), locked_ = false;
     if (what == What::cone_meets) {
-      const double Jl = locked_ ? Js + Je : Js;
-      y_.road = (Jl * G_ * y_.shaft + M * y_.road) / (Jl * G_ * G_ + M);
+      const double jl = locked_ ? js + je : js;
+      y_.road = (jl * G_ * y_.shaft + m * y_.road) / (jl * G_ * G_ + m);
       y_.shaft = G_ * y_.road;
       if (locked_) y_.engine = y_.shaft;
       geared_ = true;

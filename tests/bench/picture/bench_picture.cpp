@@ -155,8 +155,9 @@ void add_sphere(Model& model, glm::vec3 centre, float radius) {
 Model many_spheres() {
   Model model;
   for (int i = 0; i < kSpheres; ++i) {
-    const auto column = static_cast<float>(i % 5), row = static_cast<float>(i / 5);
-    add_sphere(model, {1.1f * (column - 2.0f), 1.1f * (row - 1.5f), 0.0f}, 0.5f);
+    const int column = i % 5, row = i / 5;
+    add_sphere(model, {1.1f * (static_cast<float>(column) - 2.0f), 1.1f * (static_cast<float>(row) - 1.5f), 0.0f},
+               0.5f);
   }
   Primitive all;
   all.index_count = static_cast<std::uint32_t>(model.indices.size());

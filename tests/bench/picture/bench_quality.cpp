@@ -52,7 +52,7 @@ RenderConfig sized(int scale, int samples) {
 }
 
 double linear(std::uint8_t value) {
-  static const std::array<double, 256> kLinear = [] {
+  static const std::array<double, 256> of_value = [] {
     std::array<double, 256> table{};
     for (std::size_t i = 0; i < table.size(); ++i) {
       const double s = static_cast<double>(i) / 255.0;
@@ -60,7 +60,7 @@ double linear(std::uint8_t value) {
     }
     return table;
   }();
-  return kLinear[value];
+  return of_value[value];
 }
 
 std::uint8_t srgb(double value) {
@@ -360,9 +360,10 @@ Model marks() {
   disc.high = {kMarkRadius, kMarkRadius, 0.0f};
   model.meshes.push_back({"Mark", {disc}, 0, static_cast<std::uint32_t>(model.vertices.size())});
   for (int i = 0; i < kMarks; ++i) {
+    const int column = i % 3 - 1, row = i / 3 - 1;
     Node node;
     node.mesh = 0;
-    node.translation = {0.37f * static_cast<float>(i % 3 - 1) + 0.013f, 0.21f * static_cast<float>(i / 3 - 1) + 0.007f,
+    node.translation = {0.37f * static_cast<float>(column) + 0.013f, 0.21f * static_cast<float>(row) + 0.007f,
                         -1.0f - 0.17f * static_cast<float>(i)};
     model.nodes.push_back(node);
   }

@@ -69,7 +69,8 @@ TEST_CASE("more evaluations converge") {
   for (const int samples : {8, 32, 128, 512}) {
     double squares = 0.0;
     for (int i = 0; i < 64; ++i) {
-      const double v = (i % 8 + 0.5) / 8.0, r = (i / 8 + 0.5) / 8.0;
+      const int column = i % 8, row = i / 8;
+      const double v = (column + 0.5) / 8.0, r = (row + 0.5) / 8.0;
       const dvec2 off = environment_brdf(v, r, samples) - environment_brdf(v, r, 32768);
       squares += glm::dot(off, off) / 128.0;
     }

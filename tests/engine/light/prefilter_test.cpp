@@ -15,8 +15,7 @@ using glm::vec3;
 namespace {
 
 vec3 texel(const PrefilteredCube& cube, int level, int face, int x, int y) {
-  const int side = cube.side >> level;
-  const auto at = static_cast<std::size_t>(((face * side + y) * side + x) * 4);
+  const int side = cube.side >> level, at = ((face * side + y) * side + x) * 4;
   const std::uint16_t* half = cube.levels[static_cast<std::size_t>(level)].data() + at;
   return {glm::unpackHalf1x16(half[0]), glm::unpackHalf1x16(half[1]), glm::unpackHalf1x16(half[2])};
 }

@@ -12,7 +12,7 @@ namespace {
 // Copies the picture of its frame aside before the next one overwrites it.
 struct Keep final : Renderer::Finish {
   Keep(Gpu& gpu, int width, int height)
-      : buffer(gpu, 4u * static_cast<unsigned>(width * height), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+      : buffer(gpu, VkDeviceSize{4} * static_cast<unsigned>(width * height), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                MemoryKind::read_back) {}
   void record(VkCommandBuffer commands, GpuImage& colour, int) override {
     expect(colour, ImageUse::copy_from);

@@ -112,7 +112,8 @@ TEST_CASE("a frame that keeps its depth has near plane / distance at each pixel 
         int sign = 0;
         for (int y = 0; y < config.height; ++y) {
           for (int x = 0; x < config.width; ++x) {
-            const double seen = depth[static_cast<std::size_t>(y * config.width + x)];
+            const int at = y * config.width + x;
+            const double seen = depth[static_cast<std::size_t>(at)];
             const glm::dvec3 left = project(views[eye], {-0.2, 0.2, -0.8}, {config.width, config.height});
             const glm::dvec3 right = project(views[eye], {0.2, -0.2, -0.8}, {config.width, config.height});
             const bool inside = x > left.x + 1 && x + 2 < right.x && y > left.y + 1 && y + 2 < right.y;

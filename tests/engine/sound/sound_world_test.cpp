@@ -176,12 +176,12 @@ TEST_CASE("restart begins a loop at its first sample") {
   for (std::size_t n = 0; n < ramp.size(); ++n) ramp[n] = static_cast<float>(n) / 4800.0f;
   SoundWorld world(SoundOutput::memory);
   const VoiceId voice = world.loop(world.add_clip(ramp), {kAhead});
-  std::vector<float> stereo(2 * 2400);
+  std::vector<float> stereo(4800);
   world.render(stereo);
   const float half_way = stereo[stereo.size() - 2];
   CHECK(half_way > 0.1f);
   world.restart(voice);
-  stereo.resize(2 * 480);
+  stereo.resize(960);
   world.render(stereo);
   CHECK(stereo[stereo.size() - 2] == doctest::Approx(0.2 * half_way).epsilon(0.02));  // 480 of 2400 samples on
 }

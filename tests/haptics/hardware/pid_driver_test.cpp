@@ -401,7 +401,7 @@ TEST_CASE("a port that never says that an output arrived is told of") {
   StickBench bench(held(StickFamily::vjoy), hand);
   bench.prepare();
   bench.driver.see();
-  for (int ms = 0; ms < 200; ++ms) {
+  for (std::int64_t ms = 0; ms < 200; ++ms) {
     bench.driver.wish(pushing(0.5, 0.0));
     bench.driver.next_output(ms * 1'000'000);
   }

@@ -43,10 +43,11 @@ TEST_CASE("the port's side takes no lock and allocates nothing either") {
   const RealtimeProof proof = prove_realtime(
       [&] {
         for (int i = 0; i < 1000; ++i) {
-          bench.driver.on_input(report, 1'000'000 * i);
-          bench.driver.on_input(unknown, 1'000'000 * i);
+          const std::int64_t now = std::int64_t{1'000'000} * i;
+          bench.driver.on_input(report, now);
+          bench.driver.on_input(unknown, now);
           bench.driver.wish(pushing(0.001 * i, 0.5));
-          if (bench.driver.next_output(1'000'000 * i).size > 0) bench.driver.on_sent(1'000'000 * i);
+          if (bench.driver.next_output(now).size > 0) bench.driver.on_sent(now);
         }
       },
       bench.stream.wake_fd);

@@ -16,8 +16,8 @@ constexpr int kBytesPerBlock = 32;                 // of its memory
 constexpr std::int64_t kEndlessDuration = 0x7fff;  // [ms] the greatest logical value, and beyond
 constexpr std::int64_t kMillisecond = 1'000'000;   // [ns]
 constexpr int kConstantType = 1, kSpringType = 8, kDamperType = 9;
-enum Control { kEnable = 1, kDisable, kStopAll, kReset, kPause, kContinue };
-enum Operation { kStart = 1, kStartSolo, kStop };
+enum Control { enable_actuators = 1, disable_actuators, stop_all, reset_all, pause_all, continue_all };
+enum Operation { start_effect = 1, start_solo, stop_effect };
 
 // Where a constant force pushes, on the device's axes. A direction is where the force comes from, clockwise from the far
 // side (PID 1.0 section 4.2): from the right (90 degrees) pushes left, from the far side (0) towards the user, which is
@@ -150,9 +150,9 @@ void StickFirmware::set_condition(std::span<const std::uint8_t> report) noexcept
 void StickFirmware::operate(std::span<const std::uint8_t> report, std::int64_t now_ns) {
   DeviceEffect* effect = effects_.find(report[1]);
   const int operation = report[2];
-  if (effect == nullptr || operation < kStart || operation > kStop) return;
-  if (operation == kStartSolo) effects_.stop_all();
-  if (operation == kStop) {
+  if (effect == nullptr || operation < start_effect || operation > stop_effect) return;
+  if (operation == start_solo) effects_.stop_all();
+  if (operation == stop_effect) {
     effect->playing = false;
   } else {
     effects_.start(*effect, report[3], now_ns);
@@ -164,7 +164,7 @@ void StickFirmware::control(std::uint8_t told) {
   if (!family_.habits.control_bits) {
     control_by_number(told);
   } else {
-    for (int number = kEnable; number <= kContinue; ++number) {
+    for (int number = enable_actuators; number <= continue_all; ++number) {
       if ((told >> (number - 1) & 1) != 0) control_by_switch(number);
     }
   }
@@ -173,22 +173,22 @@ void StickFirmware::control(std::uint8_t told) {
 
 void StickFirmware::control_by_number(int number) {
   switch (number) {
-    case kEnable:
+    case enable_actuators:
       actuators_ = true;
       break;
-    case kDisable:
+    case disable_actuators:
       actuators_ = false;
       break;
-    case kStopAll:
+    case stop_all:
       effects_.stop_all();
       break;
-    case kReset:
+    case reset_all:
       reset();
       break;
-    case kPause:
+    case pause_all:
       paused_ = true;
       break;
-    case kContinue:
+    case continue_all:
       paused_ = false;
       break;
     default:
@@ -197,8 +197,8 @@ void StickFirmware::control_by_number(int number) {
 }
 
 void StickFirmware::control_by_switch(int number) {
-  if (number == kReset) reset();
-  actuators_ = number == kEnable || number == kContinue;
+  if (number == reset_all) reset();
+  actuators_ = number == enable_actuators || number == continue_all;
 }
 
 bool StickFirmware::set_feature(std::span<const std::uint8_t> report) {
