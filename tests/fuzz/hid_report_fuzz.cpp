@@ -34,8 +34,8 @@ std::vector<Device> known_devices() {
 std::int64_t slow_bits(std::span<const std::uint8_t> report, const BitField& field) {
   std::int64_t value = 0;
   for (int i = 0; i < field.bits; ++i) {
-    const auto at = static_cast<std::size_t>(8 + field.offset + i);
-    const std::int64_t bit = report[at / 8] >> (at % 8) & 1;
+    const int at = 8 + field.offset + i;
+    const std::int64_t bit = report[static_cast<std::size_t>(at / 8)] >> (at % 8) & 1;
     value += (i == field.bits - 1 && field.min < 0 ? -bit : bit) * (std::int64_t{1} << i);
   }
   return value;

@@ -2,7 +2,6 @@
 // same, and run again as `replay` and the trainer do. The mutator changes what the blocks hold and keeps their checksums
 // true, or every input would end there; it begins from a lever alone and from a car.
 #include <algorithm>
-#include <cstring>
 #include <optional>
 #include <random>
 #include <vector>
@@ -183,7 +182,7 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
   const std::optional<Trace> trace = trace_in(text_of(data, size));
   const std::string file = mutated(trace ? *trace : made_trace(random() % 2 == 0), random);
   const std::size_t kept = std::min(file.size(), max_size);
-  std::memcpy(data, file.data(), kept);
+  std::copy_n(file.begin(), kept, data);
   return kept;
 }
 
