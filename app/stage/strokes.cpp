@@ -151,7 +151,7 @@ std::vector<Stroke> gear_sign(int gear, glm::dvec2 centre, double height, double
 }
 
 std::vector<Stroke> shift_pattern(const Gate& gate, glm::vec3 colour, glm::vec3 reverse_colour) {
-  constexpr double kSign = 0.15, kLine = 0.030;
+  constexpr double kSignHeight = 0.15, kLine = 0.030;
   constexpr glm::dvec2 kHalf{0.25, 0.19};  // of the lines; the signs stand beyond
   const double left = column_of(gate, 0).center, right = column_of(gate, gate.column_count - 1).center;
   double deepest = gate.half_aisle;
@@ -166,8 +166,9 @@ std::vector<Stroke> shift_pattern(const Gate& gate, glm::vec3 colour, glm::vec3 
     const glm::vec3 ink = slot.gear == kReverseGear ? reverse_colour : colour;
     const glm::dvec2 end = at(x, side * deepest);
     strokes.push_back({{at(x, 0.0), end}, kLine, colour});
-    const glm::dvec2 sign = end + glm::dvec2(0.0, side * (0.5 * kSign + 1.5 * kLine));
-    for (Stroke& stroke : gear_sign(slot.gear, sign, kSign, 0.8 * kLine, ink)) strokes.push_back(std::move(stroke));
+    const glm::dvec2 sign = end + glm::dvec2(0.0, side * (0.5 * kSignHeight + 1.5 * kLine));
+    for (Stroke& stroke : gear_sign(slot.gear, sign, kSignHeight, 0.8 * kLine, ink))
+      strokes.push_back(std::move(stroke));
   }
   return strokes;
 }

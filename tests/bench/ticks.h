@@ -21,11 +21,11 @@ inline std::uint64_t ticks() noexcept {
 // Measured once against the steady clock over 50 ms.
 inline double ticks_per_ns() {
   static const double rate = [] {
-    using Clock = std::chrono::steady_clock;
-    const auto start = Clock::now();
+    const auto start = std::chrono::steady_clock::now();
     const std::uint64_t first = ticks();
-    while (Clock::now() - start < std::chrono::milliseconds(50)) continue;
-    const auto ns = std::chrono::duration_cast<std::chrono::nanoseconds>(Clock::now() - start).count();
+    while (std::chrono::steady_clock::now() - start < std::chrono::milliseconds(50)) continue;
+    const auto ns =
+        std::chrono::duration_cast<std::chrono::nanoseconds>(std::chrono::steady_clock::now() - start).count();
     return static_cast<double>(ticks() - first) / static_cast<double>(ns);
   }();
   return rate;

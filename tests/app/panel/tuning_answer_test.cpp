@@ -163,18 +163,18 @@ TEST_CASE("the judge asks once for one question, and again for anything that mat
 }
 
 TEST_CASE("what an answer costs, at the worst of delays and rates") {
-  using Clock = std::chrono::steady_clock;
+  using Steady = std::chrono::steady_clock;
   double verdict = 0.0, ranges = 0.0;  // [ms]
   for (const int delay : {0, 1, 2, 3}) {
     for (const double rate : {1000.0, 200.0}) {
       TuningQuestion question = ask_at(rate, delay);
       question.config.tuning = most_stable(question).value();
-      const auto begin = Clock::now();
+      const auto begin = Steady::now();
       CHECK(answer(question).admissible);
-      const auto between = Clock::now();
+      const auto between = Steady::now();
       CHECK(stable_ranges(question)[0].most > 0.0);
       verdict = std::max(verdict, std::chrono::duration<double, std::milli>(between - begin).count());
-      ranges = std::max(ranges, std::chrono::duration<double, std::milli>(Clock::now() - between).count());
+      ranges = std::max(ranges, std::chrono::duration<double, std::milli>(Steady::now() - between).count());
     }
   }
   MESSAGE("a verdict " << verdict << " ms, all ranges " << ranges << " ms at worst");

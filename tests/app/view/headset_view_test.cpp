@@ -110,7 +110,7 @@ EyePose eye_at(double seconds, int eye) {
 }
 
 Fov fov_of_script(int eye) {
-  const xr_test::Fov& fov = xr_test::control().script.fov[eye];
+  const xr_test::Fov& fov = xr_test::control().script.fov[static_cast<std::size_t>(eye)];
   return {fov.left, fov.right, fov.down, fov.up};
 }
 

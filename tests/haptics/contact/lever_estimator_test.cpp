@@ -13,33 +13,33 @@ using glm::dvec2;
 
 namespace {
 
-constexpr double kPeriod = 0.001;
-constexpr std::int64_t kPeriodNs = 1'000'000;
+constexpr double kCycle = 0.001;
+constexpr std::int64_t kCycleNs = 1'000'000;
 
 LeverReading reading(std::uint64_t sequence, dvec2 position) {
   LeverReading r;
   r.sequence = sequence;
-  r.time_ns = static_cast<std::int64_t>(sequence) * kPeriodNs;
+  r.time_ns = static_cast<std::int64_t>(sequence) * kCycleNs;
   r.position = position;
   return r;
 }
 
 LeverEstimator moving_estimator(double speed, int samples) {
-  LeverEstimator estimator({}, kPeriod);
+  LeverEstimator estimator({}, kCycle);
   for (int i = 1; i <= samples; ++i)
-    estimator.update(reading(static_cast<std::uint64_t>(i), {speed * kPeriod * i, 0.0}));
+    estimator.update(reading(static_cast<std::uint64_t>(i), {speed * kCycle * i, 0.0}));
   return estimator;
 }
 
 }  // namespace
 
 TEST_CASE("constant speed is measured exactly; the smooth one follows 1 - exp(-t / tau)") {
-  LeverEstimator estimator({}, kPeriod);
+  LeverEstimator estimator({}, kCycle);
   estimator.update(reading(1, {0.0, 0.0}));
   for (int i = 1; i <= 40; ++i) {
-    const LeverMotion m = estimator.update(reading(static_cast<std::uint64_t>(i) + 1, {0.3 * kPeriod * i, 0.0}));
+    const LeverMotion m = estimator.update(reading(static_cast<std::uint64_t>(i) + 1, {0.3 * kCycle * i, 0.0}));
     CHECK(m.velocity.x == doctest::Approx(0.3));
-    CHECK(m.smooth_velocity.x == doctest::Approx(0.3 * (1.0 - std::exp(-i * kPeriod / 0.004))));
+    CHECK(m.smooth_velocity.x == doctest::Approx(0.3 * (1.0 - std::exp(-i * kCycle / 0.004))));
   }
 }
 
@@ -51,32 +51,32 @@ TEST_CASE("a device with its own clock: faster, slower or late samples, the spee
     r.position = {0.3e-9 * static_cast<double>(time_ns), 0.0};
     return r;
   };
-  LeverEstimator fast_loop({}, kPeriod / 4.0);  // 1 kHz device, 4 kHz loop: three of four readings are repeated
+  LeverEstimator fast_loop({}, kCycle / 4.0);  // 1 kHz device, 4 kHz loop: three of four readings are repeated
   for (int cycle = 0; cycle < 100; ++cycle) {
-    const LeverMotion m = fast_loop.update(sample(static_cast<std::uint64_t>(cycle / 4) + 1, (cycle / 4) * kPeriodNs));
+    const LeverMotion m = fast_loop.update(sample(static_cast<std::uint64_t>(cycle / 4) + 1, (cycle / 4) * kCycleNs));
     if (m.fresh && cycle > 4) CHECK(m.velocity.x == doctest::Approx(0.3));
   }
-  LeverEstimator slow_loop({}, kPeriod);  // 2 kHz device, 1 kHz loop: every second sample is seen
+  LeverEstimator slow_loop({}, kCycle);  // 2 kHz device, 1 kHz loop: every second sample is seen
   for (int cycle = 0; cycle < 100; ++cycle) {
-    const LeverMotion m = slow_loop.update(sample(2 * static_cast<std::uint64_t>(cycle) + 1, cycle * kPeriodNs));
+    const LeverMotion m = slow_loop.update(sample(2 * static_cast<std::uint64_t>(cycle) + 1, cycle * kCycleNs));
     if (cycle > 1) CHECK(m.velocity.x == doctest::Approx(0.3));
   }
-  LeverEstimator late({}, kPeriod);  // one sample a millisecond late
+  LeverEstimator late({}, kCycle);  // one sample a millisecond late
   late.update(sample(1, 0));
-  late.update(sample(2, kPeriodNs));
-  CHECK(late.update(sample(3, 3 * kPeriodNs)).velocity.x == doctest::Approx(0.3));
+  late.update(sample(2, kCycleNs));
+  CHECK(late.update(sample(3, 3 * kCycleNs)).velocity.x == doctest::Approx(0.3));
 }
 
 TEST_CASE("a dropped sample does not double the speed") {
   LeverEstimator estimator = moving_estimator(0.3, 10);
-  CHECK(estimator.update(reading(12, {0.3 * kPeriod * 12, 0.0})).velocity.x == doctest::Approx(0.3));
+  CHECK(estimator.update(reading(12, {0.3 * kCycle * 12, 0.0})).velocity.x == doctest::Approx(0.3));
 }
 
 TEST_CASE("repeated, backward, impossible and not finite readings are not fresh and change nothing") {
   const double nan = std::numeric_limits<double>::quiet_NaN(), inf = std::numeric_limits<double>::infinity();
-  const dvec2 last{0.3 * kPeriod * 10, 0.0};
+  const dvec2 last{0.3 * kCycle * 10, 0.0};
   LeverReading backward = reading(11, last);
-  backward.time_ns = 5 * kPeriodNs;
+  backward.time_ns = 5 * kCycleNs;
   for (const LeverReading& bad : {reading(10, last), backward, reading(9, last), reading(11, {0.06, 0.0}),
                                   reading(11, {nan, 0.0}), reading(11, {0.0, inf})}) {
     LeverEstimator estimator = moving_estimator(0.3, 10);
@@ -115,12 +115,12 @@ TEST_CASE("a lever that really is elsewhere is taken up again after 50 ms, at re
 TEST_CASE("a longer window: the difference over it, of what there is at first, and nothing from before a loss") {
   EstimatorConfig config;
   config.window = 5;
-  LeverEstimator estimator(config, kPeriod);
+  LeverEstimator estimator(config, kCycle);
   const auto at = [](int n) { return 1e-6 * n * n; };  // [m], so that every window has its own speed
   for (int n = 1; n <= 30; ++n) {
     const LeverMotion m = estimator.update(reading(static_cast<std::uint64_t>(n), {at(n), 0.0}));
     const int back = std::min(5, n - 1);
-    if (back > 0) CHECK(m.velocity.x == doctest::Approx((at(n) - at(n - back)) / (back * kPeriod)));
+    if (back > 0) CHECK(m.velocity.x == doctest::Approx((at(n) - at(n - back)) / (back * kCycle)));
   }
   for (int n = 0; n < 60; ++n) estimator.update(reading(30, {at(30), 0.0}));  // lost, and found elsewhere
   CHECK(estimator.update(reading(91, {0.03, 0.0})).velocity.x == 0.0);

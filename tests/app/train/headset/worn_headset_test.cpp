@@ -459,10 +459,10 @@ TEST_CASE(
   xr_test::Control& xr = xr_test::control();
   xr.script.pacing = xr_test::Pacing::real;
   worn.frame();
-  const std::size_t frames = xr.record.calls["xrBeginFrame"];
+  const int frames = xr.record.calls["xrBeginFrame"];
   using Clock = std::chrono::steady_clock;
   xr.script.timeline = {xr_test::stall(xr.record.frames.back().time + 0.05, 450)};  // 5 s
-  while (xr.record.calls["xrWaitFrame"] <= static_cast<int>(frames) + 30 && !worn.headset->is_held()) worn.turn();
+  while (xr.record.calls["xrWaitFrame"] <= frames + 30 && !worn.headset->is_held()) worn.turn();
   REQUIRE(worn.headset->is_held());
   injected_faults.next_present = VK_ERROR_DEVICE_LOST;
   double longest = 0.0;
