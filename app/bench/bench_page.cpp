@@ -196,7 +196,8 @@ std::string summary(const BenchRun& run) {
   const std::size_t met = count_of(run, Verdict::met), open = count_of(run, Verdict::open);
   const std::size_t goals = met + open + count_of(run, Verdict::missed);
   if (goals == 0) return {};
-  std::string text = fmt::format("<p id=\"summary\"><b>{} of {} goals are met</b>", met, goals);
+  std::string text = fmt::format("<p id=\"summary\"><b>{} of {} goals are met</b>{}", met, goals,
+                                 run.quick ? " as far as a quick look tells, of fewer samples than they are of" : "");
   if (open > 0) text += fmt::format(", {} open: quartiles on both sides of the goal", open);
   text += met == goals ? ".</p>\n" : ":</p>\n<table class=\"figures\">\n<tbody>\n";
   if (met == goals) return text;

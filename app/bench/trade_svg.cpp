@@ -19,8 +19,8 @@ namespace {
 constexpr int kColumns = 2;
 constexpr double kPanelWidth = 480.0, kPlotHeight = 230.0;  // [px]
 constexpr double kLeft = 64.0, kRight = 24.0, kTop = 54.0, kBelow = 50.0, kLine = 18.0;
-constexpr double kNames = 30.0, kCostColumn = 104.0;  // [px] names from the left, costs' end from the right
-constexpr double kDot = 4.5, kNumber = 11.0;
+constexpr double kNames = 30.0, kCostColumn = 104.0;      // [px] names from the left, costs' end from the right
+constexpr double kDot = 4.5, kNumber = 11.0, kCap = 3.5;  // [px]
 constexpr const char* kBeaten = "#a9b4bf";
 constexpr const char* kOnFront = kInk;
 constexpr const char* kChosen = kGearColour;
@@ -137,13 +137,22 @@ class Panel {
     svg_.polyline(line, {kSoftInk, 1.4});
   }
 
+  // Its ends are told from the front, on which it may lie.
+  void bar(glm::dvec2 from, glm::dvec2 to, glm::dvec2 cap, const Pen& pen) {
+    svg_.line(from, to, pen);
+    svg_.line(from - cap, from + cap, pen);
+    svg_.line(to - cap, to + cap, pen);
+  }
+
   void dot(std::size_t i) {
     const Trade& trade = *contest_[i];
     const Pen pen{colour_of(i), 1.2};
     if (has_bar(trade.cost))
-      svg_.line(at(trade.cost.spread->low, trade.error.value), at(trade.cost.spread->high, trade.error.value), pen);
+      bar(at(trade.cost.spread->low, trade.error.value), at(trade.cost.spread->high, trade.error.value), {0.0, kCap},
+          pen);
     if (has_bar(trade.error))
-      svg_.line(at(trade.cost.value, trade.error.spread->low), at(trade.cost.value, trade.error.spread->high), pen);
+      bar(at(trade.cost.value, trade.error.spread->low), at(trade.cost.value, trade.error.spread->high), {kCap, 0.0},
+          pen);
     svg_.dot(at(trade), kDot, colour_of(i), trade.method);
     if (trade.chosen) svg_.ring(at(trade), kDot + 3.0, {kChosen, 1.6});
   }

@@ -24,6 +24,7 @@
 #include "app/verbs/number_between.h"
 #include "app/verbs/progress_bar.h"
 #include "app/verbs/verbs.h"
+#include "app/version/version_text.h"
 #include "engine/gpu/gpu.h"
 #include "tests/bench/bench.h"
 
@@ -125,11 +126,32 @@ std::vector<ReportFile> files_of(const BenchRun& run) {
   return files;
 }
 
+// Minutes were measured: a file that fails is told and costs no other. Before stdout, whose reader may be gone. Files of
+// the folder that are whole.
+std::vector<fs::path> write_files(const BenchArguments& arguments, std::ofstream& csv, const BenchRun& run, bool& all) {
+  std::vector<fs::path> written;
+  const auto attempt = [&](const auto& write) {
+    try {
+      write();
+    } catch (const std::exception& problem) {
+      tell(problem.what());
+      all = false;
+    }
+  };
+  if (!arguments.out.empty()) {
+    attempt([&] {
+      write_report_files(arguments.out, files_of(run), [&](const fs::path& file) { written.push_back(file); });
+    });
+  }
+  if (csv.is_open()) attempt([&] { write_csv(csv, arguments.csv_file, run); });
+  return written;
+}
+
 int run_bench(const BenchArguments& arguments) {
   const StopSignals signals;
   std::ofstream csv = open_csv(arguments.csv_file);
   if (!arguments.out.empty()) make_folder(arguments.out);
-  BenchRun run{.program = program_name(),
+  BenchRun run{.program = program_name() + " " + commit_text(),
                .date = date_text(system_seconds()),
                .quick = arguments.options.quick,
                .machine = this_machine(gpu_words())};
@@ -139,14 +161,12 @@ int run_bench(const BenchArguments& arguments) {
   run.rows = std::move(measured.rows);
   run.taken = taken_elsewhere(begin, processor_time_now());
   if (!run.quick) compare_and_keep(run);
+  bool is_whole = !measured.ended_early;
+  const std::vector<fs::path> written = write_files(arguments, csv, run, is_whole);
   fmt::print("{}", arguments.json ? bench_json(run) : bench_table(run));
-  if (csv.is_open()) write_csv(csv, arguments.csv_file, run);
-  if (!arguments.out.empty()) {
-    write_report_files(arguments.out, files_of(run), [&](const fs::path& file) {
-      if (!arguments.json) fmt::print("{}\n", file.string());
-    });
-  }
-  return measured.ended_early ? 1 : 0;
+  for (const fs::path& file : written)
+    if (!arguments.json) fmt::print("{}\n", file.string());
+  return is_whole ? 0 : 1;
 }
 
 }  // namespace

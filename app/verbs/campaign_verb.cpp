@@ -84,9 +84,9 @@ void add_campaign_verb(CLI::App& app, VerbAction& action) {
   CLI::App* verb = app.add_subcommand(
       "campaign", "A million random shifts: gates, hands, rates, delays, tunings against the laws that always hold");
   verb->footer(kCampaignFooter);
-  verb->add_option("--shifts", arguments->plan.shifts, "that are tried at least")
-      ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
-      ->capture_default_str();
+  CLI::Option* shifts = verb->add_option("--shifts", arguments->plan.shifts, "that are tried at least")
+                            ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
+                            ->capture_default_str();
   verb->add_option("--seed", arguments->plan.seed, "of the whole campaign")
       ->check(whole_number())
       ->capture_default_str();
@@ -98,6 +98,7 @@ void add_campaign_verb(CLI::App& app, VerbAction& action) {
       ->capture_default_str();
   verb->add_option("--case", arguments->number, "this one alone, recorded as DIR/case_K.trace")
       ->check(whole_number())
+      ->excludes(shifts)
       ->type_name("K");
   verb->callback([arguments, &action] { action = [arguments] { return run_campaign_verb(*arguments); }; });
 }

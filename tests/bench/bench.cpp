@@ -16,8 +16,10 @@ bool meets_goal(const BenchRow& row) noexcept {
 double quantile(std::vector<double>& sample, double q) {
   if (sample.empty()) return 0.0;
   std::sort(sample.begin(), sample.end());
-  const double rank = q * static_cast<double>(sample.size() - 1);
-  return sample[static_cast<std::size_t>(std::lround(rank))];
+  const double rank = q * static_cast<double>(sample.size() - 1), below = std::floor(rank);
+  const auto at = static_cast<std::size_t>(below);
+  const double next = sample[std::min(at + 1, sample.size() - 1)];
+  return sample[at] + (rank - below) * (next - sample[at]);
 }
 
 Timed timed(std::vector<double>& sample) {

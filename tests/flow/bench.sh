@@ -53,6 +53,18 @@ check "but one sentence" test "$(wc -l <err)" -eq 1
 check "which says where it is now" complains "$last.unreadable"
 check "and the next has one again" test -n "$(grep feel "$last")"
 
+# An output that cannot be written costs no other.
+is_refused() { ! "$@"; }
+check "a full disk for the CSV" is_refused bench --family feel --csv /dev/full --out full
+check "is told" complains "/dev/full: cannot be written"
+check "the page is there all the same" is_xml full/bench.html
+check "the table, too" says "feel"
+check "with the commit that it is of" grep -q "gearshift [0-9.]* \([0-9a-f]\{12\}\|unknown\)" full/bench.html
+"$gearshift" bench --family feel --out unread --csv unread.csv >/dev/full 2>err
+check "a standard output that is full is a failure" test $? -eq 1
+check "and costs no page" is_xml unread/bench.html
+check "nor the CSV" test "$(wc -l <unread.csv)" -eq 2
+
 # Ended early: a file keeps what it had until there is something to put there.
 running() { # signal, seconds after the folder is there, argument ...
   local signal=$1 after=$2

@@ -41,7 +41,7 @@ class Documents:
             linked = path.parent / file if file else path
             self.check(name, linked.exists(), f"links to {target}, which is not there")
             if heading and linked.exists():
-                self.check(name, heading in anchors(linked.read_text()), f"{file} has no heading {heading}")
+                self.check(name, heading in anchors(linked.read_text()), f"{file} has no place named {heading}")
 
     def paths(self, name, text):
         """Inline code that begins with a room's name and a slash is a file, with or without its ending, or a folder."""
@@ -121,7 +121,8 @@ class Documents:
 
 def anchors(text):
     """As the usual renderers make them of headings."""
-    return {re.sub(r"[^\w\- ]", "", h.lower()).replace(" ", "-") for h in re.findall(r"^#+ (.*?)\s*$", text, re.M)}
+    named = set(re.findall(r'<a id="([^"]+)">', text))
+    return named | {re.sub(r"[^\w\- ]", "", h.lower()).replace(" ", "-") for h in re.findall(r"^#+ (.*?)\s*$", text, re.M)}
 
 
 def main():

@@ -40,6 +40,9 @@ done
 
 unset DISPLAY WAYLAND_DISPLAY
 refuse 2 "--calibrate: the name of a stick is empty" devices --calibrate ""
+refuse 2 "--csv: is empty" bench --family feel --csv ""
+refuse 2 "--out: is empty" campaign --out ""
+refuse 2 "--shifts excludes --case" campaign --out c --case 5 --shifts 10
 refuse 2 "?[31m" $'\e[31m'
 refuse 2 "?[31m" tour --out t --rate $'\e[31m'
 refuse 1 "?[31m" gate $'\e[31m'

@@ -7,6 +7,8 @@
 #include <iterator>
 #include <vector>
 
+#include "tests/fuzz/fuzz_laws.h"
+
 namespace fs = std::filesystem;
 
 // NOLINTBEGIN(readability-identifier-naming,readability-redundant-declaration): libFuzzer gives the names
@@ -29,6 +31,6 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape): what th
       ++inputs;
     }
   }
-  std::printf("%d inputs\n", inputs);
+  std::printf("%d inputs, %d read whole\n", inputs, gearshift::read_whole);
   return inputs > 0 ? 0 : 1;
 }

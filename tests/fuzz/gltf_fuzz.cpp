@@ -65,6 +65,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   static FuzzedFile file("model.glb");
   try {
     hold(lawful(read_gltf(file.put(text_of(data, size)))), "what is read is lawful");
+    ++read_whole;
   } catch (const GltfError& refusal) {  // the only thing that it may throw
     hold_sentence(refusal, file.path().string() + ":");
   }

@@ -45,6 +45,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const LastRun last = read_last_run(file.put(text_of(data, size)), tell);
   hold(told <= 1 && (told == 0 || last.empty()), "what cannot be read is told once");
   if (told > 0) return hold_aside(file.path(), text_of(data, size)), 0;
+  ++read_whole;
   keep_run(file.path(), last, {});
   hold(same(read_last_run(file.path(), tell), last) && told == 0, "a run is kept and read back the same");
   return 0;

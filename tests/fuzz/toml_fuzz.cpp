@@ -112,6 +112,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   if (size == 0) return 0;
   try {
     read_as(static_cast<char>(data[0]), text_of(data + 1, size - 1));
+    ++read_whole;
   } catch (const FileError& refusal) {  // the only thing that they may throw
     hold_sentence(refusal, the_file().path().string() + ":");
   }

@@ -196,6 +196,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   });
   is_done(check_drive);
   if (!is_whole) return 0;
+  ++read_whole;
   check_csv(trace);
   check_again(trace);
   is_done([&] { check_replay(trace); });

@@ -1,0 +1,18 @@
+// Median and quartiles of what was timed.
+#include <doctest/doctest.h>
+
+#include "tests/bench/bench.h"
+
+using namespace gearshift;
+
+// Hyndman and Fan (1996), definition 7, which R has for its default: between two samples lies what is between them.
+TEST_CASE("quantiles of few samples lie between them: half way of two is no sample") {
+  std::vector<double> two{3.0, 1.0}, four{4.0, 1.0, 3.0, 2.0}, one{5.0};
+  CHECK(timed(two).median == doctest::Approx(2.0));
+  const Timed of_four = timed(four);
+  CHECK(of_four.median == doctest::Approx(2.5));
+  CHECK(of_four.spread.low == doctest::Approx(1.75));
+  CHECK(of_four.spread.high == doctest::Approx(3.25));
+  CHECK(timed(one).median == 5.0);
+  CHECK(quantile(four, 1.0) == 4.0);
+}
