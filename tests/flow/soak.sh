@@ -20,7 +20,8 @@ sample() { # what, process, seconds driven, lessons, deadlines missed, cycles to
 }
 
 # Of each process its second half: what it has learnt to need is not growth. 1 MB an hour is 24 in a day; what is
-# remembered of a learner's lessons is less than that. A headless process may keep one loop's channels that are free
+# remembered of a learner's lessons is less than that: of sixty, which take a person an hour, and a simulated learner ten
+# minutes. A headless process may keep one loop's channels that are free
 # again, 3.4 MB: a step, which in a short run looks like a slope.
 grows_nowhere() { # kB of a step that is none
   python3 - "$csv" "$1" <<'END_OF_PYTHON'
@@ -30,8 +31,11 @@ rows = collections.defaultdict(list)
 for row in csv.DictReader(open(sys.argv[1])):
     rows[row["what"]].append(row)
 
+def hours(row):
+    return float(row["seconds"]) / 3600 if row["what"] == "window" else float(row["lessons"]) / 60
+
 def slope(half, column):  # an hour, and its standard error
-    x = [float(row["seconds"]) / 3600 for row in half]
+    x = [hours(row) for row in half]
     y = [float(row[column]) for row in half]
     mx, my = sum(x) / len(x), sum(y) / len(y)
     spread = sum((a - mx) ** 2 for a in x)
