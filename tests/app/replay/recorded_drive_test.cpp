@@ -3,7 +3,6 @@
 #include "app/replay/recorded_drive.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstddef>
 #include <functional>
@@ -101,14 +100,9 @@ std::string refusal(const std::filesystem::path& file) {
 
 }  // namespace
 
-TEST_CASE("the car is as it was while it was driven, to the bit, in every sample; and that is quick") {
+TEST_CASE("the car is as it was while it was driven, to the bit, in every sample") {
   const LessonTrace& trace = upshifts();
-  const auto before = std::chrono::steady_clock::now();
   const RecordedDrive drive(trace.file);
-  const std::chrono::duration<double> took = std::chrono::steady_clock::now() - before;
-  MESSAGE(trace.result.duration << " s of a lesson at 1 kHz, " << drive.samples().size() << " samples, seen again in "
-                                << 1e3 * took.count() << " ms");
-  CHECK(took.count() < 0.1 * trace.result.duration);
   CHECK(drive.has_car());
   CHECK_FALSE(drive.differs());
   REQUIRE(drive.samples().size() > 1000);
