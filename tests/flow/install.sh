@@ -29,7 +29,8 @@ check "nothing else" lacks grep -q . <(find . -type f ! -path "./share/gearshift
   ! -path "./share/doc/*" ! -path "./share/man/*" ! -name gearshift.desktop ! -name gearshift.svg ! -name "*.rules")
 check "the rule for udev" cmp lib/udev/rules.d/70-gearshift.rules "$source/assets/udev/70-gearshift.rules"
 # Assertions, which a release has not, name the files that hold them.
-check "the source tree is not named in the program" lacks grep -q . \
+[ -n "${GEARSHIFT_SANITIZED:-}" ] || # reports name its lines
+  check "the source tree is not named in the program" lacks grep -q . \
   <(strings -a bin/gearshift | grep -F "$source/" | grep -vE "\.(h|cpp)$")
 
 # Where mounts may be made, with nothing to be found in the source tree, nor in the build.
