@@ -65,10 +65,11 @@ class ContactCycle {
 
     const double velocity = past.empty() ? 0.0 : (lever.position - past.back()) / (law_.window * period_);
     remember(past, lever.position);
+    const double damped = free_damping_force(smooth);  // of the cycle before
     for (double& v : smooth) v += blend_ * (velocity - v);
-    const double wall =
-        estimate.empty() ? sampled_force(lever.position, velocity) : observed_force(estimate, sent, lever.position);
-    const double force = wall - law_.free_damping * (smooth.empty() ? 0.0 : smooth.front());
+    const double wall = estimate.empty() ? sampled_force(lever.position, velocity)
+                                         : observed_force(estimate, sent, lever.position, damped);
+    const double force = wall + free_damping_force(smooth);
     const AxisState next = plant_.step(lever, send(sent, force));
     state[0] = next.position;
     state[1] = next.velocity;
@@ -90,12 +91,18 @@ class ContactCycle {
     if (!past.empty()) past.front() = position;
   }
 
+  double free_damping_force(std::span<const double> smooth) const {
+    return smooth.empty() ? 0.0 : -law_.free_damping * smooth.front();
+  }
+
   double sampled_force(double position, double velocity) const {
     return -law_.stiffness * (position + 0.5 * horizon_ * velocity) - law_.damping * velocity;
   }
 
-  // As LeverObserver and couple() do it. sent: the force of the last period, then those under way.
-  double observed_force(std::span<double> estimate, std::span<const double> sent, double position) const {
+  // As LeverObserver, HapticLoop and couple() do it. sent: the force of the last period, then those under way; beside:
+  // what else is commanded [N].
+  double observed_force(std::span<double> estimate, std::span<const double> sent, double position,
+                        double beside) const {
     const AxisEstimate before{estimate[0], estimate[1], estimate[2]};
     const AxisEstimate now = observer_.correct(observer_.predict(before, sent.front()), position);
     estimate[0] = now.position;
@@ -103,7 +110,8 @@ class ContactCycle {
     estimate[2] = now.hand;
     AxisEstimate begin = now;
     for (const double force : sent.subspan(1)) begin = observer_.predict(begin, force);
-    return -solved_force_inside(wall_, begin.position, observer_.predict(begin, 0.0).position, observer_.compliance());
+    return -solved_force_inside(wall_, begin.position, observer_.predict(begin, beside).position,
+                                observer_.compliance());
   }
 
   // The force that acts now, written `delay` cycles ago. An observer keeps that one, too, for the next cycle.

@@ -62,6 +62,7 @@ Coupled couple(const Coupling& coupling, const Gate& gate, const Passage& passag
 
 // By the observed motion: force and motion over the coming hold are solved together, so that with a true model the
 // spring gives back what it took and nothing else, at any stiffness and rate. The damping is that of the mean velocity.
+// motion.end: with what else is commanded, the wall alone left out.
 Coupled couple(const Coupling& coupling, const Gate& gate, const Passage& passage, const Proxy& proxy,
                const ObservedMotion& motion) noexcept;
 

@@ -200,7 +200,10 @@ Coupled HapticLoop::couple_lever(std::int64_t skipped) noexcept {
   const double damping = tuning_.wall_damping - device_damping(tuning_, admitted_.hold, spec_);
   const Coupling coupling{stiffness, damping, period_, spec_.delay, admitted_.hold};
   if (admitted_.hold != ContactHold::observer) return couple(coupling, gate_, passage_, proxy_, motion_);
-  return couple(coupling, gate_, passage_, proxy_, observer_.update(motion_, out_.commanded, skipped));
+  ObservedMotion observed = observer_.update(motion_, out_.commanded, skipped);
+  // Feel and world of the cycle before move the lever as well: taken for depth, they would make a step of the wall's edge.
+  observed.end += observed.compliance * (out_.feel_force + world_out_.force);
+  return couple(coupling, gate_, passage_, proxy_, observed);
 }
 
 dvec2 HapticLoop::mechanism_feel(dvec2 mean_proxy) const noexcept {

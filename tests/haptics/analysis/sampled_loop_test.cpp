@@ -248,10 +248,13 @@ class SimulatedWall {
     const bool observes = coupling.hold == ContactHold::observer;
     if (observes) coupling.damping = std::max(coupling.damping, kObservedDamping);  // as HapticLoop does
     const LeverMotion motion = estimator_.update(lever_.read(now_ns_ += period_ns_));
-    const ObservedMotion observed = observer_.update(motion, command_);
+    ObservedMotion observed = observer_.update(motion, command_);
+    observed.end += observed.compliance * damping_;
     proxy_ = move_proxy(gate_, passage_, proxy_, motion.position, 0.0);
-    command_ = observes ? couple(coupling, gate_, passage_, proxy_, observed).force
-                        : couple(coupling, gate_, passage_, proxy_, motion).force;
+    damping_ = -case_.law.free_damping * motion.smooth_velocity;
+    const Coupled coupled = observes ? couple(coupling, gate_, passage_, proxy_, observed)
+                                     : couple(coupling, gate_, passage_, proxy_, motion);
+    command_ = coupled.force + damping_;
     lever_.write(command_);
   }
 
@@ -265,7 +268,7 @@ class SimulatedWall {
   LeverEstimator estimator_;
   LeverObserver observer_;
   Proxy proxy_;
-  glm::dvec2 command_{0.0};  // [N]
+  glm::dvec2 damping_{0.0}, command_{0.0};  // [N] free, and all together
 };
 
 }  // namespace
@@ -396,6 +399,7 @@ TEST_CASE("so does the simulated lever, under every hold and in every hand, with
         c.law.damping =
             hold == ContactHold::observer && delay == 3 ? 80.0 : 12.0;  // 12 is raised to 50 under an observer
         c.law.window = delay == 3 ? 2 : 1;
+        c.law.free_damping = delay == 1 ? 5.0 : 0.0;
         const double limit = limit_of(c);
         CAPTURE(named.name);
         CAPTURE(delay);

@@ -57,6 +57,21 @@ std::ptrdiff_t count(const std::vector<HapticEvent>& events, EventKind kind) {
   return std::count_if(events.begin(), events.end(), [kind](const HapticEvent& e) { return e.kind == kind; });
 }
 
+// Pulls the lever along the shift, whatever it does.
+class PullingWorld final : public LeverWorld {
+ public:
+  explicit PullingWorld(double newton) : newton_(newton) {}
+  LeverOutput step(const LeverInput&, double) noexcept override {
+    LeverOutput out;
+    out.force = {0.0, newton_};
+    return out;
+  }
+  const char* name() const noexcept override { return "pulling"; }
+
+ private:
+  double newton_;
+};
+
 double span_of(SimulatedRun& run, double seconds) {
   double low = 1.0, high = -1.0;
   const double end = run.time() + seconds;
@@ -71,7 +86,7 @@ double span_of(SimulatedRun& run, double seconds) {
 }  // namespace
 
 TEST_CASE("a wall forced on a device that does not bear it is softened until it is still, and says so") {
-  PushingHand hand = push_of(15.0);
+  PushingHand hand = push_of(25.0);
   SimulatedRunConfig config = pushed(walled_gate(), 100.0, 0);
   config.haptics.contact = {ContactHold::half_sample, EnergyControl::none, true, true};
   SimulatedRun run(config, hand);
@@ -255,7 +270,7 @@ TEST_CASE("every hold, energy control and the limiter replay bit for bit") {
   for (const auto& c : cases) {
     CAPTURE(c.rate);
     CAPTURE(c.delay);
-    PushingHand hand = push_of(15.0);
+    PushingHand hand = push_of(25.0);
     SimulatedRunConfig config = pushed(paper_gate(), c.rate, c.delay);
     config.haptics.contact = c.contact;
     config.haptics.estimator.window = c.window;
@@ -320,4 +335,36 @@ TEST_CASE("shaking in free space takes nothing from the walls") {
   for (int n = 1; n < 5000; ++n) loop.cycle(n * std::int64_t{1'000'000}, 0);
   CHECK(loop.snapshot().wall_stiffness == 5000.0);
   CHECK(loop.snapshot().guard == GuardState::running);
+}
+
+// What else is commanded is no depth: an observed wall that took it for one began with a step of K T^2 / (4 m) + B T / (2 m)
+// of it, late by the delay, and fed the swing of a heavy hand at the end of a slot, beside the lock's spring.
+TEST_CASE("at rest a wall gives K x, whatever feel and world pull beside it") {
+  const Gate aisle = walled_gate(), gate = paper_gate();
+  for (const ContactHold hold : {ContactHold::half_sample, ContactHold::observer}) {
+    for (const double pull : {-8.0, 0.0, 8.0}) {
+      for (const bool in_gear : {false, true}) {
+        CAPTURE(static_cast<int>(hold));
+        CAPTURE(pull);
+        CAPTURE(in_gear);
+        SimulatedRunConfig config = pushed(in_gear ? gate : aisle, 1000.0, 2);
+        if (in_gear) config.start = rest_position(gate, 1);
+        config.haptics.contact.hold = hold;
+        config.haptics.tuning.wall_stiffness = 2000.0;
+        PushingHand hand = push_of(25.0);
+        PullingWorld world(pull);
+        SimulatedRun run(config, hand, &world);
+        run_events(run, 2.0);
+        double depth = 0.0, force = 0.0;  // [m], [N] the mean: it hums on the encoder's counts
+        for (int i = 0; i < 500; ++i) {
+          const HapticSnapshot& now = run.step();
+          depth += (now.lever.y - now.proxy.y) / 500.0;
+          force -= now.wall_force.y / 500.0;
+        }
+        REQUIRE(depth > 1e-3);
+        CHECK((std::abs(run.loop().snapshot().feel_force.y) > 1.0) == in_gear);
+        CHECK(force == doctest::Approx(2000.0 * depth).epsilon(0.02));
+      }
+    }
+  }
 }
