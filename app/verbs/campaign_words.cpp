@@ -42,11 +42,12 @@ std::string groups_text(const CampaignSummary& summary) {
   return text;
 }
 
-std::string ripple_text(const CampaignSummary& summary) {
+std::string ripple_text(const CampaignSummary& summary, bool promised) {
   std::string text = "| rate | delay | cases | median mm | p95 mm | worst mm |\n|---|---|---|---|---|---|\n";
   for (const RippleCell& cell : summary.ripple)
-    text += fmt::format("| {:g} to {:g} Hz | {} | {} | {:.3f} | {:.3f} | {:.3f} |\n", cell.slowest, cell.fastest,
-                        cell.delay, cell.cases, 1e3 * cell.median, 1e3 * cell.p95, 1e3 * cell.most);
+    if (cell.promised == promised)
+      text += fmt::format("| {:g} to {:g} Hz | {} | {} | {:.3f} | {:.3f} | {:.3f} |\n", cell.slowest, cell.fastest,
+                          cell.delay, cell.cases, 1e3 * cell.median, 1e3 * cell.p95, 1e3 * cell.most);
   return text;
 }
 
@@ -83,8 +84,9 @@ std::string campaign_text(const CampaignSummary& summary) {
              summary.shifts, summary.cases, summary.seed, summary.cycles, summary.seconds / 3600.0, summary.clean,
              summary.refused) +
          laws_text(summary) + "\n" + failures_text(summary) + "\n" + groups_text(summary) +
-         "\nHeld still, back and forth in the last 0.5 s of 3, where quiet is promised:\n\n" + ripple_text(summary) +
-         "\n" + refusals_text(summary);
+         "\nHeld still, back and forth in the last 0.5 s of 3, where quiet is promised:\n\n" +
+         ripple_text(summary, true) + "\nWhere it is not:\n\n" + ripple_text(summary, false) + "\n" +
+         refusals_text(summary);
 }
 
 std::string campaign_json(const CampaignSummary& summary, const std::string& program) {
@@ -123,6 +125,7 @@ std::string campaign_json(const CampaignSummary& summary, const std::string& pro
     json["ripple"].push_back({{"from_hz", cell.slowest},
                               {"to_hz", cell.fastest},
                               {"delay", cell.delay},
+                              {"promised", cell.promised},
                               {"cases", cell.cases},
                               {"median_m", cell.median},
                               {"p95_m", cell.p95},

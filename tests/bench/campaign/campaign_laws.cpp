@@ -22,6 +22,8 @@ constexpr double kObeyed = 1e-6;       // [N] between what was commanded and wha
 constexpr double kQuietRipple = 1e-3;  // [m] of any one case; the goal is a p95 of 0.3 mm, which the summary shows
 constexpr double kQuietCounts = 6.0;   // the limiter sees a lever come back by four, one more or less at each end
 
+constexpr double kFaint = 0.8e-3;  // [m] as wide as a hand's own tremor swings a lever: reversal_limiter.cpp
+
 constexpr std::array<LawWords, kCampaignLaws> kWords{{
     {"finite", "every number that comes out is finite", "bad cycles"},
     {"free space", "the drawn lever is in free space", "cycles outside"},
@@ -32,6 +34,7 @@ constexpr std::array<LawWords, kCampaignLaws> kWords{{
     {"energy", "bounded: no energy beyond what was stored and the device's own damping took", "J"},
     {"guard", "the guard has nothing to stop", "as GuardFault"},
     {"quiet", "held still, the lever is still", "m"},
+    {"fades", "held still, a swing dies away within seconds, in every case", "m"},
     {"gear holds", "held still, the gear changes once at most; one that comes again was really left", "changes"},
     {"reached", "a gear that a gripping hand cleanly aims at is in", "missed"},
     {"told", "no event is lost", "events"},
@@ -63,6 +66,11 @@ bool is_out_of_column(const Gate& gate, int gear, dvec2 p) noexcept {
 
 bool is_up(GuardState state) noexcept {
   return state == GuardState::armed || state == GuardState::ramping || state == GuardState::running;
+}
+
+// [1/s] By which handle and hand let a swing die away.
+double own_decay(AxisModel handle, const HandImpedance& hand) noexcept {
+  return 0.5 * (handle.damping + hand.damping) / (handle.mass + hand.mass);
 }
 
 double bad(bool is_bad) noexcept {
@@ -100,6 +108,9 @@ LawLimits law_limits(const HapticConfig& config, const SimulatedLeverConfig& lev
   limits.longest = (1.0 + lever.period_jitter) * limits.period;
   limits.count = lever.encoder_counts > 0.0 ? spec.position_step : 0.0;
   limits.ripple = std::max(kQuietRipple, kQuietCounts * spec.position_step);
+  limits.faint = std::max(kFaint, kQuietCounts * spec.position_step);
+  const double decay = std::min(own_decay(spec.axis_x, lever.hand), own_decay(spec.axis_y, lever.hand));
+  limits.kept = std::exp(-0.5 * decay * kFading);
   return limits;
 }
 
@@ -221,6 +232,10 @@ double HeldSwing::span() const noexcept {
 
 void quiet_law(double span, const LawLimits& limits, double time, LawBook& book) noexcept {
   book.note(CampaignLaw::quiet, span, limits.ripple, time);
+}
+
+void fades_law(double before, double after, const LawLimits& limits, double time, LawBook& book) noexcept {
+  book.note(CampaignLaw::fades, after, std::max(limits.faint, limits.kept * before), time);
 }
 
 }  // namespace gearshift

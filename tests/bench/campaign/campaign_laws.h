@@ -23,11 +23,12 @@ enum class CampaignLaw : std::size_t {
   energy,      // bounded: the motors never give what the device's own damping did not take
   guard,       // no fault: nothing that was admitted has to be stopped
   quiet,       // held still, it is still
+  fades,       // held still, a swing dies away, whoever holds it and whatever was promised
   gear_holds,  // held still, the gear does not toggle: a lever let go may slide out; one that comes again was really left
   reached,     // a gear that was cleanly aimed at is in
   told         // no event is lost
 };
-inline constexpr std::size_t kCampaignLaws = 12;
+inline constexpr std::size_t kCampaignLaws = 13;
 
 struct LawWords {
   std::string_view name, says, unit;
@@ -67,6 +68,8 @@ struct LawLimits {
   double longest = 0.001;         // [s] that a period lasts at most
   double count = 0.0;             // [m] of the encoder, 0: none
   double ripple = 0.0;            // [m] peak to peak, held still
+  double faint = 0.0;             // [m] peak to peak: no wider than a hand's own tremor, or what the encoder tells
+  double kept = 1.0;              // [1] of a wider swing that may be left after kFading
   double frame = 0.1;             // [s] between two looks at the events: a slow frame of the window
 };
 LawLimits law_limits(const HapticConfig& config, const SimulatedLeverConfig& lever, const DeviceSpec& spec) noexcept;
@@ -132,5 +135,10 @@ class HeldSwing {
   glm::dvec2 rise_{0.0}, fall_{0.0};  // [m] the most since it was lowest, highest
 };
 void quiet_law(double span, const LawLimits& limits, double time, LawBook& book) noexcept;
+
+// On any spring handle and hand let a swing die away by exp(-b t / (2 m)), b and m of both together. Half of that decay is
+// asked: a wall stiffens, and is not passive to the last. One that lasts, or grows, is fed.
+inline constexpr double kFading = 1.0;  // [s] from the span before to the span after
+void fades_law(double before, double after, const LawLimits& limits, double time, LawBook& book) noexcept;
 
 }  // namespace gearshift

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <fmt/core.h>
 #include <glm/geometric.hpp>
 
 #include "haptics/gate/gate_compiler.h"
@@ -76,8 +77,11 @@ class CaseRun {
   void drive(TraceRecorder* recorder) {
     HapticSnapshot before = run_.step();
     true_position_ = run_.lever().true_position();
+    const double most = 1.0 + 2.0 * hand_.duration() / run_.period();  // a period lasts half of it at least
     while (hand_.time() < hand_.duration()) {
       const HapticSnapshot& now = run_.step();
+      if (static_cast<double>(now.cycle) > most)
+        throw std::runtime_error(fmt::format("case {} does not end", out.number));
       look({now, before, hand_.last().pressed_down, hand_.last().lifted});
       if (recorder && now.cycle % kPump == 0) recorder->pump();
       before = now;
@@ -143,11 +147,14 @@ class CaseRun {
     if (hand_.time() >= hold.end) {
       out.ripple = std::max(out.ripple, may_tire_ ? 0.0 : quiet_.span());
       if (!may_tire_ && out.promised) quiet_law(quiet_.span(), limits_, run_.time(), out.laws);
-      quiet_ = {};
+      if (!may_tire_) fades_law(before_.span(), quiet_.span(), limits_, run_.time(), out.laws);
+      quiet_ = before_ = {};
       may_tire_ = false;
       ++hold_;
     } else if (hand_.time() >= hold.end - kLook) {
       quiet_.look(run_.lever().true_position());
+    } else if (hand_.time() >= hold.end - kLook - kFading && hand_.time() < hold.end - kFading) {
+      before_.look(run_.lever().true_position());
     }
   }
 
@@ -185,7 +192,7 @@ class CaseRun {
   LockoutLaw lockouts_;
   EnergyLaw energy_;
   GearLaw gears_;
-  HeldSwing quiet_;
+  HeldSwing quiet_, before_;  // at the end of a hold, and kFading before
   std::size_t hold_ = 0;
   glm::dvec2 true_position_{0.0};
   bool before_reached_ = true;

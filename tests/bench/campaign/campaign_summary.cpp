@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstddef>
+#include <tuple>
 
 #include "tests/bench/bench.h"
 
@@ -72,13 +73,15 @@ std::string without_values(const std::string& refusal) {
   return refusal.substr(0, refusal.find(" ="));
 }
 
-void add_ripple(CampaignSummary& summary, std::map<std::pair<std::string, int>, std::vector<double>>& samples) {
+using RippleSamples = std::map<std::tuple<bool, std::string, int>, std::vector<double>>;
+
+void add_ripple(CampaignSummary& summary, RippleSamples& samples, bool promised) {
   for (std::size_t band = 0; band + 1 < kRateBands.size(); ++band) {
     for (int delay = 0; delay <= 3; ++delay) {
-      std::vector<double>& sample = samples[{band_name(kRateBands[band]), delay}];
+      std::vector<double>& sample = samples[{promised, band_name(kRateBands[band]), delay}];
       if (sample.empty()) continue;
-      summary.ripple.push_back({kRateBands[band], kRateBands[band + 1], delay, sample.size(), quantile(sample, 0.5),
-                                quantile(sample, 0.95), quantile(sample, 1.0)});
+      summary.ripple.push_back({kRateBands[band], kRateBands[band + 1], delay, promised, sample.size(),
+                                quantile(sample, 0.5), quantile(sample, 0.95), quantile(sample, 1.0)});
     }
   }
 }
@@ -92,7 +95,7 @@ bool by_kind_and_name(const CaseGroup& a, const CaseGroup& b) {
 CampaignSummary summarise(std::uint64_t campaign_seed, std::span<const CaseOutcome> outcomes, int shipped_gates) {
   CampaignSummary summary;
   summary.seed = campaign_seed;
-  std::map<std::pair<std::string, int>, std::vector<double>> ripple;
+  RippleSamples ripple;
   for (const CaseOutcome& outcome : outcomes) {
     ++summary.cases;
     if (!outcome.refused.empty()) {
@@ -107,11 +110,11 @@ CampaignSummary summarise(std::uint64_t campaign_seed, std::span<const CaseOutco
     summary.seconds += outcome.seconds;
     add_laws(summary, drawn, outcome);
     add_groups(summary, drawn, outcome);
-    if (outcome.laws.seen(CampaignLaw::quiet).looks > 0)
-      ripple[{band_name(drawn.haptics.rate), drawn.lever.delay}].push_back(outcome.ripple);
+    if (outcome.laws.seen(CampaignLaw::fades).looks > 0)
+      ripple[{outcome.promised, band_name(drawn.haptics.rate), drawn.lever.delay}].push_back(outcome.ripple);
   }
   std::sort(summary.groups.begin(), summary.groups.end(), by_kind_and_name);
-  add_ripple(summary, ripple);
+  for (const bool promised : {true, false}) add_ripple(summary, ripple, promised);
   return summary;
 }
 

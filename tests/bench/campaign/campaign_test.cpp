@@ -1,5 +1,6 @@
 // A sample of the campaign; that it does not matter when and on how many threads it ran; and that each law can be broken.
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <limits>
@@ -154,7 +155,7 @@ TEST_CASE("a file of cases that was edited is refused with line, column, value a
     const std::size_t name = sentence.find("cases.csv: ");
     return name == std::string::npos ? sentence : sentence.substr(name + 11);
   };
-  CHECK(refused("0,,-5") == "line 3: 3 fields, not 62");
+  CHECK(refused("0,,-5") == "line 3: 3 fields, not 66");
   const std::string rest = ",0,0,1,1.0,2000,0,1,0,0,0,1.0";
   std::string laws;
   for (std::size_t i = 0; i < kCampaignLaws; ++i) laws += ",1,0,0,0";
@@ -269,6 +270,44 @@ TEST_CASE("planted: the paper's 5000 N/m at 100 Hz, forced by a study, is not qu
   CAPTURE(outcome.ripple);
   CHECK(broken(outcome, CampaignLaw::quiet));
   CHECK(replays(trace));
+}
+
+TEST_CASE("a swing ends in every case: half as fast as handle and hand let it die away, or no wider than a tremor") {
+  CampaignCase drawn = plain_case(1);
+  drawn.lever.hand = {2.19, 12.2, 1468.0};
+  const LawLimits limits = law_limits(drawn.haptics, drawn.lever, DeviceSpec{});
+  const double decay = (12.2 + 2.9) / (2.0 * (2.19 + 0.086));  // [1/s] b / (2 m) of the slower axis
+  CHECK(limits.kept == doctest::Approx(std::exp(-0.5 * decay)));
+  const auto is_broken = [&](double before, double after) {
+    LawBook book;
+    fades_law(before, after, limits, 1.0, book);
+    return book.seen(CampaignLaw::fades).broken();
+  };
+  CHECK(is_broken(2.19e-3, 2.19e-3));
+  CHECK(is_broken(1e-5, 1e-3));
+  CHECK(is_broken(0.0, std::numeric_limits<double>::quiet_NaN()));
+  CHECK_FALSE(is_broken(20e-3, 3.7e-3));
+  CHECK_FALSE(is_broken(0.7e-3, 0.75e-3));
+}
+
+TEST_CASE("planted: a heavy hand in the paper's 5000 N/m at 100 Hz: it is promised nothing, and its swing is found") {
+  CampaignCase drawn = plain_case(1);
+  drawn.hand = CaseHand::heavy;
+  drawn.lever.hand = {1.0, 10.0, 1000.0};
+  drawn.haptics.rate = 100.0;
+  drawn.haptics.contact = {ContactHold::zero_order, EnergyControl::none, false, true};
+  const CaseOutcome outcome = run_case(drawn, layouts());
+  CAPTURE(outcome.ripple);
+  CHECK_FALSE(outcome.promised);
+  CHECK(broken(outcome, CampaignLaw::fades));
+}
+
+TEST_CASE("a heavy hand that leans on the end of a slot, beside its lock's spring, comes to rest") {
+  const CampaignCase drawn = drawn_case(1, 297, static_cast<int>(layouts().size()));
+  REQUIRE(drawn.hand == CaseHand::heavy);
+  const CaseOutcome outcome = run_case(drawn, layouts());
+  CHECK(outcome.ripple < 0.3e-3);
+  CHECK_FALSE(broken(outcome, CampaignLaw::fades));
 }
 
 TEST_CASE("planted: the same with the limiter's last word is stopped by the guard") {
