@@ -34,11 +34,12 @@ void refuse_unknown_verb(const CLI::App& app, const std::string& word) {
   throw CLI::ParseError("no such verb: \"" + word + "\"; there are " + verb_names(app), CLI::ExitCodes::ExtrasError);
 }
 
-// A shell's variable that nobody set: what it should name would go elsewhere, or nowhere.
-void refuse_empty_values(const CLI::App& verb) {
+// A shell's variable that nobody set: what would be written goes elsewhere, or nowhere.
+void refuse_unnamed_files(const CLI::App& verb) {
+  const auto is_file = [](const std::string& type) { return type == "FILE" || type == "DIR" || type == "PNG"; };
   for (const CLI::Option* option : verb.get_options()) {
     for (const std::string& value : option->results())
-      if (value.empty()) throw CLI::ValidationError(option->get_name(), "is empty");
+      if (value.empty() && is_file(option->get_type_name())) throw CLI::ValidationError(option->get_name(), "is empty");
   }
 }
 
@@ -53,7 +54,7 @@ VerbAction parse_command_line(CLI::App& app, int argc, const char* const* argv) 
   } else {
     refuse_unknown_verb(app, argv[1]);
     app.parse(argc, argv);
-    for (const CLI::App* verb : app.get_subcommands()) refuse_empty_values(*verb);
+    for (const CLI::App* verb : app.get_subcommands()) refuse_unnamed_files(*verb);
   }
   if (!action) throw CLI::RequiredError("A verb of " + verb_names(app) + " (see --help)");
   return action;
