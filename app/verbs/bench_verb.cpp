@@ -26,6 +26,7 @@
 #include "app/verbs/verbs.h"
 #include "app/version/version_text.h"
 #include "engine/gpu/gpu.h"
+#include "haptics/files/part_file.h"
 #include "tests/bench/bench.h"
 
 namespace gearshift {
@@ -139,9 +140,12 @@ std::vector<fs::path> write_files(const BenchArguments& arguments, std::ofstream
     }
   };
   if (!arguments.out.empty()) {
-    attempt([&] {
-      write_report_files(arguments.out, files_of(run), [&](const fs::path& file) { written.push_back(file); });
-    });
+    for (const ReportFile& file : files_of(run)) {
+      attempt([&] {
+        write_text_file(fs::path(arguments.out) / file.name, file.text);
+        written.push_back(fs::path(arguments.out) / file.name);
+      });
+    }
   }
   if (csv.is_open()) attempt([&] { write_csv(csv, arguments.csv_file, run); });
   return written;

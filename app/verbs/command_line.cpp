@@ -36,7 +36,10 @@ void refuse_unknown_verb(const CLI::App& app, const std::string& word) {
 
 // A shell's variable that nobody set: what would be written goes elsewhere, or nowhere.
 void refuse_unnamed_files(const CLI::App& verb) {
-  const auto is_file = [](const std::string& type) { return type == "FILE" || type == "DIR" || type == "PNG"; };
+  const auto is_file = [](const std::string& type) {
+    const std::string kind = type.substr(0, type.find(':'));  // before what its checks add
+    return kind == "FILE" || kind == "DIR" || kind == "FOLDER" || kind == "PNG" || kind == "TRACE";
+  };
   for (const CLI::Option* option : verb.get_options()) {
     for (const std::string& value : option->results())
       if (value.empty() && is_file(option->get_type_name())) throw CLI::ValidationError(option->get_name(), "is empty");

@@ -51,8 +51,8 @@ class AxisObserver {
 
 // What the observer knows of the period over which the next command will act.
 struct ObservedMotion {
-  glm::dvec2 position{0.0};    // [m] at its beginning
-  glm::dvec2 end{0.0};         // [m] at its end, if the motors gave nothing
+  glm::dvec2 position{0.0};  // [m] at its beginning
+  glm::dvec2 end{0.0};       // [m] at its end, if the motors gave nothing; the loop adds what they give beside the wall
   glm::dvec2 compliance{0.0};  // [m/N] how much a force held over it moves that end, per axis
 };
 

@@ -202,7 +202,8 @@ Coupled HapticLoop::couple_lever(std::int64_t skipped) noexcept {
   if (admitted_.hold != ContactHold::observer) return couple(coupling, gate_, passage_, proxy_, motion_);
   ObservedMotion observed = observer_.update(motion_, out_.commanded, skipped);
   // Feel and world of the cycle before move the lever as well: taken for depth, they would make a step of the wall's edge.
-  observed.end += observed.compliance * (out_.feel_force + world_out_.force);
+  const dvec2 beside = out_.feel_force + world_out_.force;
+  if (is_finite(beside)) observed.end += observed.compliance * beside;
   return couple(coupling, gate_, passage_, proxy_, observed);
 }
 

@@ -18,8 +18,8 @@ double quantile(std::vector<double>& sample, double q) {
   std::sort(sample.begin(), sample.end());
   const double rank = q * static_cast<double>(sample.size() - 1), below = std::floor(rank);
   const auto at = static_cast<std::size_t>(below);
-  const double next = sample[std::min(at + 1, sample.size() - 1)];
-  return sample[at] + (rank - below) * (next - sample[at]);
+  if (rank == below) return sample[at];  // which may be infinite
+  return sample[at] + (rank - below) * (sample[at + 1] - sample[at]);
 }
 
 Timed timed(std::vector<double>& sample) {

@@ -60,6 +60,9 @@ check "is told" complains "/dev/full: cannot be written"
 check "the page is there all the same" is_xml full/bench.html
 check "the table, too" says "feel"
 check "with the commit that it is of" grep -q "gearshift [0-9.]* \([0-9a-f]\{12\}\|unknown\)" full/bench.html
+mkdir -p blocked/bench.html
+check "a page that cannot be written" is_refused bench --family feel --out blocked
+check "is told, and the JSON is there" test -s blocked/bench.json
 "$gearshift" bench --family feel --out unread --csv unread.csv >/dev/full 2>err
 check "a standard output that is full is a failure" test $? -eq 1
 check "and costs no page" is_xml unread/bench.html

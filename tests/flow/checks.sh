@@ -8,6 +8,7 @@ end_all() { :; } # what a flow has started
 leave() {
   local code=$?
   end_all
+  [ -n "$is_finished" ] || is_reported
   rm -rf "$work"
   [ -n "$is_finished" ] && exit $code
   echo "FAILED: ended before its finish, $passed passed so far"
@@ -35,10 +36,11 @@ host_took() { # [%] of the cores' time since the flow began
   awk -v ticks=$(($(stolen_ticks) - began_stolen)) -v from="$began_at" -v to="$EPOCHREALTIME" -v cores="$(nproc)" \
     -v rate="$(getconf CLK_TCK)" 'BEGIN {printf "%.0f", 100 * ticks / (rate * cores * (to - from))}'
 }
-# Under a sanitizer a program is late: what counts there is that it has nothing to report.
+# Under a sanitizer a program is late: what counts there is that it has nothing to report, an abort among it.
 if [ -n "${GEARSHIFT_SANITIZED:-}" ]; then
-  export ASAN_OPTIONS=${ASAN_OPTIONS:-}:log_path=$work/sanitizer UBSAN_OPTIONS=log_path=$work/sanitizer
-  export TSAN_OPTIONS=${TSAN_OPTIONS:-}:log_path=$work/sanitizer
+  for sanitizer in ASAN_OPTIONS UBSAN_OPTIONS TSAN_OPTIONS; do
+    export $sanitizer="${!sanitizer:-}:handle_abort=1:log_path=$work/sanitizer"
+  done
 fi
 is_reported() { cat "$work"/sanitizer.* 2>/dev/null; }
 whole() { [ -n "${GEARSHIFT_FULL:-}" ]; } # ./test --full
@@ -46,12 +48,13 @@ is_png() { [ "$(head -c 4 "$1" | tail -c 3)" = PNG ]; }
 finish() { # the script's exit code
   is_finished=yes
   echo "$passed passed, $failed failed"
+  [ -z "${GEARSHIFT_SANITIZED:-}" ] || { end_all; wait; } # they report when they end
   if is_reported; then
     echo "FAILED: a sanitizer's report"
     return 1
   fi
   if [ $failed -gt 0 ] && [ -n "${needs_machine:-}" ]; then
-    [ -z "${GEARSHIFT_SANITIZED:-}" ] || { echo "judged by its reports alone: none"; return 77; }
+    [ -z "${GEARSHIFT_SANITIZED:-}" ] || [ $passed = 0 ] || { echo "judged by its reports alone: none"; return 77; }
     [ "$(host_took)" -lt 15 ] || { echo "not judged: the host took $(host_took) % of the cores meanwhile"; return 77; }
   fi
   [ $failed -eq 0 ]

@@ -3,6 +3,7 @@
 # a window as ever, or one sentence.
 # Usage: no_headset.sh GEARSHIFT SOURCE_FOLDER MANIFEST
 set -u
+needs_machine=yes
 gearshift=$1
 manifest=$3
 flows=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -34,7 +35,7 @@ refused() { # exit code, part of the sentence, arguments of train ...
   [ $? -eq "$1" ] && [ ! -s refused.txt ] && [ "$(wc -l <refused.err)" = 1 ] && grep -q -- "$2" refused.err
 }
 mkdir -p "$(dirname "$seat")"
-echo "seat_height_m = 0.05" >"$seat"
+printf '# as it is kept\n\ndrive = "left"\nseat_height_m = 0.05\n' >"$seat"
 check "a seat beyond its range" refused 2 "seat-height.*5.*0\.3" --xr --seat-height 5
 check "a knob of two numbers" refused 2 "knob" --xr --knob 0.3,0.5
 check "a knob beyond its range" refused 2 "knob.*9.*1\.5" --xr --knob 0.3,0.5,9
@@ -43,8 +44,9 @@ for option in "--seat-height 0.1" "--knob 0.3,0.5,0.3" "--xr-scale 1.2"; do
 done
 check "the seat stays as it was" grep -q '^seat_height_m = 0.05$' "$seat"
 sed -i 's/^seat_height_m.*/seat_height_m = 7.5/' "$seat"
-check "a bad seat in the file" refused 1 "headset.toml:1.*seat_height_m.*7\.5.*-0\.3.*0\.3" --xr --silent
+check "a bad seat in the file" refused 1 "headset.toml:4.*seat_height_m.*7\.5.*-0\.3.*0\.3" --xr --silent
 check "the file stays" grep -q "7.5" "$seat"
 
 check "validation has nothing to say" validates
+[ -n "${GEARSHIFT_PICTURES:-}" ] && cp ./*.png ./*.txt ./*.err "$GEARSHIFT_PICTURES"
 finish

@@ -20,8 +20,8 @@ sample() { # what, process, seconds driven, lessons, deadlines missed, cycles to
 }
 
 # Of each process its second half: what it has learnt to need is not growth. 1 MB an hour is 24 in a day; what is
-# remembered of a learner's lessons is less than that: of sixty, which take a person an hour, and a simulated learner ten
-# minutes. A headless process may keep one loop's channels that are free
+# remembered of a learner's lessons is less than that: of sixty, which take a person an hour, and a simulated learner a
+# quarter of it. A headless process may keep one loop's channels that are free
 # again, 3.4 MB: a step, which in a short run looks like a slope.
 grows_nowhere() { # kB of a step that is none
   python3 - "$csv" "$1" <<'END_OF_PYTHON'

@@ -138,7 +138,7 @@ void quiet_law(double span, const LawLimits& limits, double time, LawBook& book)
 
 // On any spring handle and hand let a swing die away by exp(-b t / (2 m)), b and m of both together. Half of that decay is
 // asked: a wall stiffens, and is not passive to the last. One that lasts, or grows, is fed.
-inline constexpr double kFading = 1.0;  // [s] from the span before to the span after
+inline constexpr double kFading = 1.0;  // [s] from the end of the span before to the end of the hold
 void fades_law(double before, double after, const LawLimits& limits, double time, LawBook& book) noexcept;
 
 }  // namespace gearshift

@@ -147,13 +147,14 @@ class CaseRun {
     if (hand_.time() >= hold.end) {
       out.ripple = std::max(out.ripple, may_tire_ ? 0.0 : quiet_.span());
       if (!may_tire_ && out.promised) quiet_law(quiet_.span(), limits_, run_.time(), out.laws);
-      if (!may_tire_) fades_law(before_.span(), quiet_.span(), limits_, run_.time(), out.laws);
+      if (!may_tire_ && is_believed_ && out.stopped == 0)
+        fades_law(before_.span(), quiet_.span(), limits_, run_.time(), out.laws);
       quiet_ = before_ = {};
       may_tire_ = false;
       ++hold_;
     } else if (hand_.time() >= hold.end - kLook) {
       quiet_.look(run_.lever().true_position());
-    } else if (hand_.time() >= hold.end - kLook - kFading && hand_.time() < hold.end - kFading) {
+    } else if (hand_.time() >= hold.end - 2.0 * kFading && hand_.time() < hold.end - kFading) {
       before_.look(run_.lever().true_position());
     }
   }
@@ -192,7 +193,7 @@ class CaseRun {
   LockoutLaw lockouts_;
   EnergyLaw energy_;
   GearLaw gears_;
-  HeldSwing quiet_, before_;  // at the end of a hold, and kFading before
+  HeldSwing quiet_, before_;  // at the end of a hold; from 2 kFading to kFading before: a heavy hand's turn
   std::size_t hold_ = 0;
   glm::dvec2 true_position_{0.0};
   bool before_reached_ = true;

@@ -13,6 +13,7 @@
 
 #include "haptics/device/simulated_lever.h"
 #include "haptics/gate/gate_feel.h"
+#include "haptics/joystick/finite.h"
 #include "haptics/loop/haptic_loop.h"
 #include "tests/support/gates.h"
 #include "tests/support/hands.h"
@@ -408,12 +409,18 @@ TEST_CASE("a world that returns nonsense releases the motors") {
    private:
     int steps_ = 0;
   };
-  PressedRig rig(paper_gate());
-  MadWorld mad;
-  HapticLoop loop(HapticConfig{}, rig.gate, rig.lever, mad, rig.channels);
-  loop.arm();
-  for (int i = 0; i < 710; ++i) loop.cycle(rig.now += kPeriodNs, 0);
-  CHECK(loop.snapshot().guard == GuardState::released);
-  CHECK(loop.snapshot().fault == GuardFault::not_finite);
-  CHECK(rig.lever.written == dvec2{0.0, 0.0});
+  for (const ContactHold hold : {ContactHold::half_sample, ContactHold::observer}) {
+    CAPTURE(static_cast<int>(hold));
+    PressedRig rig(paper_gate());
+    MadWorld mad;
+    HapticConfig config;
+    config.contact.hold = hold;
+    HapticLoop loop(config, rig.gate, rig.lever, mad, rig.channels);
+    loop.arm();
+    for (int i = 0; i < 710; ++i) loop.cycle(rig.now += kPeriodNs, 0);
+    CHECK(loop.snapshot().guard == GuardState::released);
+    CHECK(loop.snapshot().fault == GuardFault::not_finite);
+    CHECK(rig.lever.written == dvec2{0.0, 0.0});
+    CHECK(is_finite(loop.snapshot().wall_force));  // an observed wall knows of the world's force
+  }
 }

@@ -86,7 +86,7 @@ double span_of(SimulatedRun& run, double seconds) {
 }  // namespace
 
 TEST_CASE("a wall forced on a device that does not bear it is softened until it is still, and says so") {
-  PushingHand hand = push_of(25.0);
+  PushingHand hand = push_of(15.0);
   SimulatedRunConfig config = pushed(walled_gate(), 100.0, 0);
   config.haptics.contact = {ContactHold::half_sample, EnergyControl::none, true, true};
   SimulatedRun run(config, hand);
@@ -270,7 +270,7 @@ TEST_CASE("every hold, energy control and the limiter replay bit for bit") {
   for (const auto& c : cases) {
     CAPTURE(c.rate);
     CAPTURE(c.delay);
-    PushingHand hand = push_of(25.0);
+    PushingHand hand = push_of(15.0);
     SimulatedRunConfig config = pushed(paper_gate(), c.rate, c.delay);
     config.haptics.contact = c.contact;
     config.haptics.estimator.window = c.window;
