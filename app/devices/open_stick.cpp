@@ -71,7 +71,6 @@ std::optional<KnownStick> absent_stick(const std::string& wanted, const std::fil
   const std::vector<const KnownStick*> found = meant(wanted, known, identity);
   if (found.empty()) return std::nullopt;
   std::vector<KnownStick> candidates;
-  candidates.reserve(found.size());
   for (const KnownStick* stick : found) candidates.push_back(*stick);
   if (candidates.size() > 1) refuse_several(wanted, all_words(candidates, identity));
   return candidates.front();
@@ -103,7 +102,6 @@ const ListedStick* found_stick(const std::string& wanted, std::span<const Listed
   const std::vector<const ListedStick*> found = meant(wanted, plugged, listed_identity);
   if (found.size() < 2) return found.empty() ? nullptr : found.front();
   std::vector<ListedStick> candidates;
-  candidates.reserve(found.size());
   for (const ListedStick* stick : found) candidates.push_back(*stick);
   refuse_several(wanted, all_words(candidates, listed_identity));
 }

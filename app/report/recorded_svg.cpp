@@ -166,7 +166,6 @@ Rect below(const Rect& box, double gap, double height) {
 
 std::vector<glm::dvec2> line_on_page(const std::vector<glm::dvec2>& way) {
   std::vector<glm::dvec2> points;
-  points.reserve(way.size());
   for (const glm::dvec2 place : way) points.push_back(on_page(place));
   return points;
 }

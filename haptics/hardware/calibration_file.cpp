@@ -45,7 +45,6 @@ void read_whole(const TomlTable& table, std::string_view key, Integer& value, Ra
 
 int read_axis_name(const TomlTable& table) {
   std::vector<std::string> words;
-  words.reserve(kAxisNames.size());
   for (const AxisName& name : kAxisNames) words.emplace_back(name.first);
   const std::string word = table.choice("axis", words);
   const auto found =

@@ -39,7 +39,6 @@ void check_folders(const std::string& value) {
 
 void check_arguments(const std::vector<std::string>& arguments) {
   std::vector<const char*> argv;
-  argv.reserve(arguments.size());
   for (const std::string& argument : arguments) argv.push_back(argument.c_str());
   CLI::App app{"gearshift"};
   app.set_version_flag("--version", "1.2.3");

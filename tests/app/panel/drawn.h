@@ -115,7 +115,6 @@ inline std::vector<std::string> right_of(const std::string& label) {
   std::sort(texts.begin(), texts.end(),
             [](const DrawnText& a, const DrawnText& b) { return a.box.min.x < b.box.min.x; });
   std::vector<std::string> line;
-  line.reserve(texts.size());
   for (const DrawnText& text : texts) line.push_back(text.text);
   return line;
 }

@@ -34,7 +34,7 @@ constexpr std::array<LawWords, kCampaignLaws> kWords{{
     {"energy", "bounded: no energy beyond what was stored and the device's own damping took", "J"},
     {"guard", "the guard has nothing to stop", "as GuardFault"},
     {"quiet", "held still, the lever is still", "m"},
-    {"fades", "held still, a swing dies away within seconds, in every case", "m"},
+    {"fades", "held still, a swing dies away within seconds, whatever is promised", "m"},
     {"gear holds", "held still, the gear changes once at most; one that comes again was really left", "changes"},
     {"reached", "a gear that a gripping hand cleanly aims at is in", "missed"},
     {"told", "no event is lost", "events"},
