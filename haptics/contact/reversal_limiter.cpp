@@ -9,7 +9,7 @@ namespace {
 
 constexpr double kTurn = 4.0;          // [counts] back from an extreme: more than the encoder makes by itself
 constexpr double kLeastStep = 20e-6;   // [m] taken for a count where the encoder is finer
-constexpr double kWithin = 0.3;        // [s] that the reversals fall into: 8.3 Hz
+constexpr double kWithin = 0.25;       // [s] that the reversals fall into: 10 Hz
 constexpr double kTremor = 0.8e-3;     // [m] from turn to turn: as wide as a hand's tremor swings a lever
 constexpr double kFaster = 0.2;        // [s] that they fall into if one is no wider: 12.5 Hz, faster than any tremor
 constexpr double kShakeLasts = 0.25;   // [s] after its last turn; slower than 2 Hz it is taken for 2 Hz

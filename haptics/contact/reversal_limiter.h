@@ -3,7 +3,7 @@
 //
 // Softens a wall on which the lever chatters: what no model foresaw is seen in the motion.
 //
-// A hand does not reverse a lever six times in three tenths of a second; a wall that is too stiff for its device does. But
+// A hand does not reverse a lever six times in a quarter of a second; a wall that is too stiff for its device does. But
 // it trembles, at 8 to 12 Hz (Elble 2003), by less than a millimetre: so little counts in a fifth of a second only.
 // Each time, a quarter of the wall's stiffness is taken, down to 0.3 m / tau^2, which would hold if mass and delay were
 // what the device says. Where it chatters on all the same they are not: then half of it, and again, until it is still.
