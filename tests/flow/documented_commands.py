@@ -24,8 +24,8 @@ import sys
 import tempfile
 
 PROGRAM = (r"(cp|sed|sudo|gearshift|ctest|cmake|python3|blender|umockdev-wrapper|\w+_fuzz|\w+_tests"
-           r"|tests/\S+\.sh|build/\S+)")
-PROGRAMS = re.compile(rf"^(\./run|\./test|{PROGRAM})( |$)")
+           r"|tests/\S+\.sh|tests/fuzz/run|tests/coverage|build/\S+)")
+PROGRAMS = re.compile(rf"^([A-Z_]+=\S+ )*(\./run|\./test|{PROGRAM})( |$)")
 BARE = re.compile(rf"^{PROGRAM}$")  # in prose that is a name
 GUIDES = ("TUNING.md", "GUIDE.md", "BUILDING.md")  # a reader is told which commands are only read
 SKIPPED_FOLDERS = {"build", "out", ".git"}
@@ -54,6 +54,8 @@ ELSEWHERE = {
     r"cmake --install": ("installs what was built", "tests/flow/install.sh"),
     r"gearshift report .*--delete$": ("asks for the name", "tests/flow/report.sh"),
     r"blender ": ("Blender is not installed for the tests", "assets/models/build.py"),
+    r"tests/(fuzz/run|coverage)": ("takes minutes: ./test --full", "test"),
+    r"GEARSHIFT_\w+=": ("writes pictures", "tests/README.md"),
     r"hid_descriptor_fuzz|gltf_fuzz": ("searches for ever", "tests/fuzz/CMakeLists.txt"),
     r"tests/guest/run_guest\.sh": ("boots a kernel: ./test --full", "tests/guest/run_guest.sh"),
     r"tests/flow/\w+\.sh": ("a flow itself", "tests/flow/CMakeLists.txt"),
