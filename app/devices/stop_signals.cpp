@@ -1,5 +1,6 @@
 #include "app/devices/stop_signals.h"
 
+#include <atomic>
 #include <csignal>
 
 namespace gearshift {
@@ -7,17 +8,19 @@ namespace {
 
 constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
-volatile std::sig_atomic_t is_asked = 0;
+// Any thread may be the one that takes the signal: sig_atomic_t would hold within that one only.
+std::atomic<bool> is_asked{false};
+static_assert(std::atomic<bool>::is_always_lock_free);  // else no handler may write it
 
 void ask(int) {
-  is_asked = 1;
+  is_asked = true;
 }
 
 }  // namespace
 
 // Calls that wait are not taken up again: whoever waits for an answer learns of it.
 StopSignals::StopSignals() {
-  is_asked = 0;
+  is_asked = false;
   struct sigaction once = {};
   once.sa_handler = ask;
   once.sa_flags = static_cast<int>(SA_RESETHAND);
@@ -29,7 +32,7 @@ StopSignals::~StopSignals() {
 }
 
 bool StopSignals::asked() noexcept {
-  return is_asked != 0;
+  return is_asked;
 }
 
 }  // namespace gearshift
