@@ -1,4 +1,5 @@
 // gearshift: one program, plain verbs.
+#include <csignal>
 #include <cstdio>
 #include <exception>
 
@@ -38,6 +39,7 @@ int with_output(int code) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  std::signal(SIGXFSZ, SIG_IGN);  // a file as long as it may be is told by who writes it, as a full disk is
   try {
     return with_output(run(argc, argv));
   } catch (const std::exception& error) {

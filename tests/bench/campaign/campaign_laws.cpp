@@ -40,12 +40,32 @@ constexpr std::array<LawWords, kCampaignLaws> kWords{{
     {"told", "no event is lost", "events"},
 }};
 
-// [m] How far a way through free space from a to b is at least: from one slot to another by the neutral aisle.
+// [m] How far it is at least from in that slot to b outside it: through its mouth, as a mirror's ray where b is on this
+// side of the mouth, too.
+double way_out(const Gate& gate, int slot_number, dvec2 in, dvec2 b) noexcept {
+  const Slot& slot = slot_of(gate, slot_number);
+  const double side = static_cast<int>(slot.side), mouth = side * gate.half_aisle;
+  const double before = std::abs(in.y - mouth), behind = std::abs(b.y - mouth);
+  const Column& column = column_of(gate, slot.column);
+  const double half = column.half_width + gate.chamfer;
+  const double straight = in.x + (b.x - in.x) * before / std::max(before + behind, kRounding);
+  const dvec2 through{std::clamp(straight, column.center - half, column.center + half), mouth};
+  return glm::distance(in, through) + glm::distance(through, b);
+}
+
+// [m] How far a way through free space from a to b is at least.
 double free_way(const Gate& gate, dvec2 a, dvec2 b) noexcept {
-  const double straight = glm::distance(a, b);
-  const int from = slot_at(gate, a), to = slot_at(gate, b);
-  if (from == kNoSlot || to == kNoSlot || from == to) return straight;
-  return std::max(straight, std::abs(a.y) + std::abs(b.y) - 2.0 * gate.half_aisle);
+  // Along the aisle's wall the last bit may have it in a slot: that is no slot yet.
+  const auto slot_of_point = [&](dvec2 p) {
+    return std::abs(p.y) <= gate.half_aisle + kRounding ? kNoSlot : slot_at(gate, p);
+  };
+  const int from = slot_of_point(a), to = slot_of_point(b);
+  double way = glm::distance(a, b);
+  if (from == to) return way;
+  if (from != kNoSlot) way = std::max(way, way_out(gate, from, a, b));
+  if (to != kNoSlot) way = std::max(way, way_out(gate, to, b, a));
+  if (from == kNoSlot || to == kNoSlot) return way;
+  return std::max(way, std::abs(a.y) + std::abs(b.y) - 2.0 * gate.half_aisle);
 }
 
 // Beyond that lockout's wall?

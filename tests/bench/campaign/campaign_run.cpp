@@ -49,6 +49,13 @@ bool is_promised(const CampaignCase& drawn) {
 }
 
 // A hand that lags may come back before the lever has left the column that the lockout asks for: it is shut by rights.
+// What the loop's checks must refuse, and nothing else: a study's, and a slew that they do not allow.
+bool is_forbidden(const CampaignCase& drawn) {
+  const HapticConfig& config = drawn.haptics;
+  return config.estimator.window > 1 || config.contact.energy_control == EnergyControl::passivity_controller ||
+         config.guard.slew < 2.0;
+}
+
 bool has_detour(const Gate& gate, int gear) {
   return std::any_of(lockouts(gate).begin(), lockouts(gate).end(), [&](const Lockout& lockout) {
     return lockout.kind == LockoutKind::after_gear && slot_of(gate, lockout.slot).gear == gear;
@@ -210,12 +217,14 @@ CaseOutcome run_case(const CampaignCase& drawn, std::span<const GateLayout> ship
   try {
     run.emplace(drawn, layout);
   } catch (const std::invalid_argument& refusal) {
+    if (!is_forbidden(drawn)) throw std::runtime_error(std::string("refused without a reason: ") + refusal.what());
     CaseOutcome out;
     out.number = drawn.number;
     out.refused = refusal.what();
     std::replace(out.refused.begin(), out.refused.end(), ',', ';');  // a field of cases.csv
     return out;
   }
+  if (is_forbidden(drawn)) throw std::runtime_error("admitted, though the checks forbid it");
   if (planted) run->plant(planted);
   if (trace.empty()) {
     run->drive(nullptr);

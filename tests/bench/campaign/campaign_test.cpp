@@ -205,7 +205,20 @@ TEST_CASE("a case that broke a law is driven again, and its trace replays") {
   const std::vector<LawBroken> broken{{number, seed, CampaignLaw::quiet, {}}, {number, seed, CampaignLaw::slew, {}}};
   CHECK(record_failures(plan, broken, layouts(), {}) == 1);
   CHECK(replays(folder / fmt::format("failures/{:016x}.trace", seed)));
+  const std::vector<std::string> told = lines_of(folder / fmt::format("failures/{:016x}.txt", seed));
+  REQUIRE(told.size() == 2);
+  CHECK(told[0].starts_with(fmt::format("case {} of seed 11 breaks quiet (", number)));
+  CHECK(told[1].starts_with(fmt::format("case {} of seed 11 breaks slew (", number)));
   CHECK(record_failures(plan, {}, layouts(), {}) == 0);
+}
+
+TEST_CASE("planted: checks that refuse what nothing forbids") {
+  CampaignCase drawn = plain_case(5);
+  drawn.haptics.rate = 50.0;  // never drawn
+  CHECK_THROWS_AS(run_case(drawn, layouts()), std::runtime_error);
+  drawn = plain_case(5);
+  drawn.haptics.guard.slew = 1.9;
+  CHECK(run_case(drawn, layouts()).refused.find("slew") != std::string::npos);
 }
 
 TEST_CASE("planted: nobody looks at the events, and some are lost") {
@@ -361,6 +374,15 @@ TEST_CASE("planted: a proxy in a wall, or carried through one, and a number that
   REQUIRE(in_free_space(gate, through.now.proxy));
   no_wall_law(through.seen(), gate, limits, book);
   CHECK(book.seen(CampaignLaw::no_wall).broken());
+
+  // From deep in a slot to the aisle before the next, and back: the wall's corner lies between.
+  for (const bool is_back : {false, true}) {
+    LawBook round;
+    TwoCycles corner = through;
+    (is_back ? corner.before : corner.now).proxy.y = (is_back ? corner.before : corner.now).lever.y = 0.0;
+    no_wall_law(corner.seen(), gate, limits, round);
+    CHECK(round.seen(CampaignLaw::no_wall).broken());
+  }
 
   TwoCycles none;
   none.now.commanded.x = std::numeric_limits<double>::quiet_NaN();

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cerrno>
 #include <charconv>
+#include <cstring>
 #include <fstream>
 #include <limits>
 #include <stdexcept>
@@ -150,7 +151,7 @@ CaseFile::CaseFile(const std::filesystem::path& file, const std::string& of) : n
   const std::string head = "# " + of + "\n" + column_line();
   check_plain(file);
   file_.reset(std::fopen(name_.c_str(), "ab"));
-  if (!file_) throw std::runtime_error(name_ + ": cannot be written");
+  if (!file_) throw std::runtime_error(fmt::format("{}: cannot be written: {}", name_, std::strerror(errno)));
   if (flock(fileno(file_.get()), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK)
     throw std::runtime_error(name_ + ": another campaign is at work there");
   std::string text = whole_text(file);
@@ -188,7 +189,7 @@ std::size_t CaseFile::read_cases(std::string_view text, std::size_t begin) {
 void CaseFile::add(const CaseOutcome& outcome) {
   const std::string line = case_line(outcome);
   const bool is_written = std::fputs(line.c_str(), file_.get()) >= 0 && std::fflush(file_.get()) == 0;
-  if (!is_written) throw std::runtime_error(name_ + ": cannot be written");
+  if (!is_written) throw std::runtime_error(fmt::format("{}: cannot be written: {}", name_, std::strerror(errno)));
 }
 
 }  // namespace gearshift

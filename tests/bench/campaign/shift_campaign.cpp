@@ -4,10 +4,12 @@
 #include <chrono>
 #include <condition_variable>
 #include <exception>
+#include <fstream>
 #include <map>
 #include <mutex>
 #include <optional>
 #include <set>
+#include <stdexcept>
 #include <system_error>
 #include <thread>
 #include <utility>
@@ -63,10 +65,10 @@ class CampaignWork {
     changed_.notify_all();
   }
 
-  // True when all threads are through.
-  bool wait(std::chrono::milliseconds patience) {
+  // True when so many threads are through.
+  bool wait(std::chrono::milliseconds patience, std::size_t threads) {
     std::unique_lock lock(mutex_);
-    return changed_.wait_for(lock, patience, [this] { return left_ == plan_.threads; });
+    return changed_.wait_for(lock, patience, [&] { return left_ == threads; });
   }
 
   double share() {
@@ -101,14 +103,22 @@ class CampaignWork {
   std::uint64_t next_ = 0;    // to be handed out
   std::uint64_t whole_ = 0;   // all before it are done
   std::uint64_t shifts_ = 0;  // in these
-  int left_ = 0;              // threads that are through
+  std::size_t left_ = 0;      // threads that are through
   std::exception_ptr problem_;
 };
 
+// What is no law's and no admission's ends the campaign, with the number by which it can be looked at alone.
+CaseOutcome outcome_of(std::uint64_t number, const CampaignPlan& plan, std::span<const GateLayout> shipped) {
+  try {
+    return run_case(drawn_case(plan.seed, number, static_cast<int>(shipped.size())), shipped);
+  } catch (const std::exception& problem) {
+    throw std::runtime_error(fmt::format("case {}: {}", number, problem.what()));
+  }
+}
+
 void work(CampaignWork& work, const CampaignPlan& plan, std::span<const GateLayout> shipped) {
   try {
-    while (const std::optional<std::uint64_t> number = work.next())
-      work.done(run_case(drawn_case(plan.seed, *number, static_cast<int>(shipped.size())), shipped));
+    while (const std::optional<std::uint64_t> number = work.next()) work.done(outcome_of(*number, plan, shipped));
   } catch (...) {
     work.fail(std::current_exception());
   }
@@ -121,12 +131,34 @@ std::vector<CaseOutcome> drive_campaign(const CampaignPlan& plan, std::span<cons
                                         const CampaignProgress& progress) {
   CampaignWork shared(plan, shipped);
   std::vector<std::jthread> threads;
-  for (int i = 0; i < plan.threads; ++i) threads.emplace_back([&] { work(shared, plan, shipped); });
-  while (!shared.wait(std::chrono::milliseconds(100)))
+  try {
+    while (static_cast<int>(threads.size()) < plan.threads) threads.emplace_back([&] { work(shared, plan, shipped); });
+  } catch (const std::system_error&) {
+    if (threads.empty()) throw;  // else fewer do it as well
+  }
+  while (!shared.wait(std::chrono::milliseconds(100), threads.size()))
     if (progress) progress(shared.share());
   threads.clear();
   return shared.take();
 }
+
+namespace {
+
+// Which laws the trace beside it breaks, where: a replay says only that it is the same drive.
+void tell_broken(std::uint64_t number, const CampaignPlan& plan, std::span<const LawBroken> broken,
+                 const std::filesystem::path& file) {
+  std::ofstream text(file);
+  for (const LawBroken& one : broken) {
+    if (one.number != number) continue;
+    const LawWords& words = law_words(one.law);
+    text << fmt::format("case {} of seed {} breaks {} ({}): {:.4g} {}, bound {:.4g}, at {:.3f} s\n", number, plan.seed,
+                        std::string(words.name), std::string(words.says), one.seen.value, std::string(words.unit),
+                        one.seen.bound, one.seen.time);
+  }
+  if (!text.flush()) throw FileError(file.string(), 0, "cannot be written");
+}
+
+}  // namespace
 
 std::size_t record_failures(const CampaignPlan& plan, std::span<const LawBroken> broken,
                             std::span<const GateLayout> shipped, const CampaignProgress& progress) {
@@ -141,6 +173,7 @@ std::size_t record_failures(const CampaignPlan& plan, std::span<const LawBroken>
     if (kept == kMostTraces) break;
     const CampaignCase drawn = drawn_case(plan.seed, number, static_cast<int>(shipped.size()));
     run_case(drawn, shipped, folder / fmt::format("{:016x}.trace", drawn.seed));
+    tell_broken(number, plan, broken, folder / fmt::format("{:016x}.txt", drawn.seed));
     ++kept;
     if (progress) progress(static_cast<double>(kept) / static_cast<double>(std::min(cases.size(), kMostTraces)));
   }
