@@ -26,16 +26,17 @@ std::string trade_fields(const std::optional<Trade>& trade) {
                      quoted_field(trade->error.unit), trade->chosen ? "yes" : "no");
 }
 
-std::string row_fields(const MeasuredRow& measured) {
+std::string row_fields(const BenchRun& run, const MeasuredRow& measured) {
   const BenchRow& row = measured.row;
   const auto number = [](bool there, double value) { return there ? fmt::format("{}", value) : std::string(); };
   const Quartiles spread = row.spread.value_or(Quartiles{});
   return fmt::format(
-      "{},{},{},{},{},{},{},{},{},{},{},{},{},{}", row.family, quoted_field(row.name), number(row.measured, row.value),
-      quoted_field(row.unit), number(row.goal.has_value(), row.goal.value_or(0.0)), direction_words(row),
-      verdict_words(row), design_words(row), quoted_field(row.note), beside_field(row),
+      "{},{},{},{},{},{},{},{},{},{},{},{},{},{},{},{}", row.family, quoted_field(row.name),
+      number(row.measured, row.value), quoted_field(row.unit), number(row.goal.has_value(), row.goal.value_or(0.0)),
+      direction_words(row), verdict_words(row), design_words(row), quoted_field(row.note), beside_field(row),
       number(row.spread.has_value(), spread.low), number(row.spread.has_value(), spread.high), trade_fields(row.trade),
-      number(measured.since.has_value(), measured.since ? measured.since->value : 0.0));
+      number(measured.since.has_value(), measured.since ? measured.since->value : 0.0), quoted_field(run.program),
+      run.date);
 }
 
 }  // namespace
@@ -43,8 +44,8 @@ std::string row_fields(const MeasuredRow& measured) {
 std::string bench_csv(const BenchRun& run) {
   std::string text =
       "family,what,value,unit,goal,goal_is,verdict,design,note,beside,quartile_low,quartile_high,contest,method,cost,"
-      "cost_unit,error,error_unit,chosen,last\n";
-  for (const MeasuredRow& measured : run.rows) text += row_fields(measured) + "\n";
+      "cost_unit,error,error_unit,chosen,last,program,date\n";
+  for (const MeasuredRow& measured : run.rows) text += row_fields(run, measured) + "\n";
   return text;
 }
 

@@ -8,7 +8,7 @@
 namespace gearshift {
 
 std::string bench_table(const BenchRun& run);
-std::string bench_csv(const BenchRun& run);  // a line a row; RFC 4180, but for the line ends; of the run itself nothing
+std::string bench_csv(const BenchRun& run);   // a line a row; RFC 4180, but for the line ends; program and date on each
 std::string bench_json(const BenchRun& run);  // what is not finite is null
 
 }  // namespace gearshift

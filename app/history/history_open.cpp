@@ -147,6 +147,7 @@ std::string History::State::place() const {
   std::string absolute = fs::absolute(file, problem).string();
   if (problem) refuse(fmt::format("it cannot be found: {}", problem.message()));
   if (fs::is_directory(absolute, problem)) refuse("it cannot be read: it is a folder");
+  if (is_there(absolute) && !fs::is_regular_file(absolute, problem)) refuse("it is no plain file");
   return absolute;
 }
 

@@ -103,6 +103,11 @@ Measured measure(const BenchArguments& arguments) {
   return measured;
 }
 
+// Of other runs' figures: neither fewer repetitions nor other blocks are.
+bool is_comparable(const BenchOptions& options) {
+  return !options.quick && options.jitter_block == BenchOptions{}.jitter_block;
+}
+
 // What cannot be compared or kept is told: it never costs the results.
 void compare_and_keep(BenchRun& run) {
   try {
@@ -164,7 +169,7 @@ int run_bench(const BenchArguments& arguments) {
   if (measured.rows.empty() && measured.ended_early) return 1;
   run.rows = std::move(measured.rows);
   run.taken = taken_elsewhere(begin, processor_time_now());
-  if (!run.quick) compare_and_keep(run);
+  if (is_comparable(arguments.options)) compare_and_keep(run);
   bool is_whole = !measured.ended_early;
   const std::vector<fs::path> written = write_files(arguments, csv, run, is_whole);
   fmt::print("{}", arguments.json ? bench_json(run) : bench_table(run));
@@ -192,8 +197,10 @@ void add_bench_verb(CLI::App& app, VerbAction& action) {
   verb->add_option("--csv", arguments->csv_file, "also write the rows as CSV")->type_name("FILE");
   verb->add_option("--out", arguments->out, "also write bench.html with plots, bench.csv, bench.json, FAMILY.svg")
       ->type_name("DIR");
-  verb->add_option("--block", arguments->options.jitter_block,
-                   "seconds of each block of the families jitter and beside; 1 with --quick")
+  verb->add_option(
+          "--block", arguments->options.jitter_block,
+          "seconds of each block of the families jitter and beside, 1 with --quick: shorter ones get no verdict, and a "
+          "run with others than usual is not compared with the last")
       ->check(number_between(1.0, 600.0))
       ->capture_default_str();
   verb->callback([arguments, verb, &action] {

@@ -2,16 +2,19 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
+#include <cstdlib>
 #include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
 #include <fmt/core.h>
 
 #include "app/assets_path.h"
+#include "app/devices/stop_signals.h"
 #include "app/output_folder.h"
 #include "app/program_name.h"
 #include "app/verbs/campaign_words.h"
@@ -30,11 +33,12 @@ constexpr const char* kCampaignFooter =
     "own\n"
     "checks limit or refuse it. Some dozens of shifts are driven, and every law is looked at in every cycle.\n"
     "\n"
-    "The folder keeps what is done (cases.csv): stopped, the same command goes on where it was. At the end it has\n"
+    "The folder keeps what is done (cases.csv): stopped, by Ctrl-C too, the same command goes on where it was. At the "
+    "end it has\n"
     "summary.json, and failures/SEED.trace of each failed case (100 at most), for gearshift replay,\n"
     "with SEED.txt, what it breaks.\n"
     "\n"
-    "Exit code: 0 every law holds, 1 one is broken or the work failed, 2 bad usage.\n"
+    "Exit code: 0 every law holds, 1 one is broken, or the work failed or was stopped, 2 bad usage.\n"
     "\n"
     "  gearshift campaign --shifts 1000 --out look\n"
     "  gearshift campaign --case 42 --out look";
@@ -54,18 +58,41 @@ int run_one_case(const CampaignArguments& arguments, const std::vector<GateLayou
   return outcome.laws.any_broken() ? 1 : 0;
 }
 
+// Its thread cannot be ended from outside, so the program is: what is done is in the folder.
+[[noreturn]] void leave_hanging(ProgressBar& bar, const CampaignPlan& plan, std::uint64_t number) {
+  bar.clear();
+  fmt::print(
+      stderr,
+      "gearshift: case {} has not ended after {:g} s: gearshift campaign --seed {} --case {} --out DIR drives it "
+      "alone; what is done is kept\n",
+      number, plan.patience, plan.seed, number);
+  std::_Exit(1);
+}
+
 int run_cases(CampaignPlan plan, const std::vector<GateLayout>& shipped) {
   plan.program = program_name() + " " + commit_text();
+  const StopSignals signals;
   ProgressBar bar;
+  const auto show = [&](std::string_view what, const CampaignStand& stand) {
+    if (stand.overdue) leave_hanging(bar, plan, *stand.overdue);
+    bar.show(what, stand.share);
+    return !StopSignals::asked();
+  };
   const std::vector<CaseOutcome> outcomes =
-      drive_campaign(plan, shipped, [&](double share) { bar.show("campaign", share); });
+      drive_campaign(plan, shipped, [&](const CampaignStand& stand) { return show("campaign", stand); });
+  if (StopSignals::asked()) {
+    bar.clear();
+    fmt::print(stderr, "gearshift: ended with {} cases in a row done; the same command goes on there\n",
+               outcomes.size());
+    return 1;
+  }
   const CampaignSummary summary = summarise(plan.seed, outcomes, static_cast<int>(shipped.size()));
   write_text_file(plan.folder / "summary.json", campaign_json(summary, plan.program));
   bar.clear();
   fmt::print("{}", campaign_text(summary));
   std::fflush(stdout);
   const std::size_t failed =
-      record_failures(plan, summary.broken, shipped, [&](double share) { bar.show("traces", share); });
+      record_failures(plan, summary.broken, shipped, [&](const CampaignStand& stand) { return show("traces", stand); });
   bar.clear();
   if (failed > kMostTraces) fmt::print("Of {} failed cases {} are recorded in failures/\n", failed, kMostTraces);
   return summary.broken.empty() ? 0 : 1;

@@ -25,6 +25,24 @@ cp -r once again
 check "stopped in the middle of a line" cut_short again/cases.csv
 check "gone on with" campaign --out again --threads 1
 check "with the same result" same once again
+# Not enough room for eight threads: three stacks of 1 GB, and the rest.
+if [ -z "${ASAN_OPTIONS-}${TSAN_OPTIONS-}" ]; then
+  fewer() { (ulimit -s 1000000 -v 4000000 && campaign --out fewer --threads 8); }
+  check "where not all threads can be had, fewer do it" fewer
+  check "with the same result" cmp -s once/summary.json fewer/summary.json
+fi
+ended() { # by Ctrl-C: in the background a shell's children do not hear that
+  env --default-signal=INT "$gearshift" campaign --seed 11 --out ended >out 2>err &
+  until [ -s ended/cases.csv ]; do sleep 0.05; done
+  sleep 1
+  kill -INT $!
+  wait $!
+  [ $? -eq 1 ]
+}
+check "ended by Ctrl-C" ended
+check "it says so, and how to go on" grep -q "^gearshift: ended with [0-9]* cases in a row done; the same command goes on" err
+check "and goes on" campaign --out ended --threads 1
+check "with the same result" cmp -s once/summary.json ended/summary.json
 refused() { # exit code, words of the one sentence, arguments ...
   local code=$1 words=$2
   shift 2

@@ -1,6 +1,7 @@
 // What was written comes back, whole, from another opening of the file; what may not be used is left as it is.
 #include "app/history/history.h"
 
+#include <sys/stat.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -277,6 +278,8 @@ TEST_CASE("a folder in the file's place, or a place that cannot be, is refused i
   CHECK(is_refused(folder / "history.db", "it is a folder"));
   write_bytes(folder / "plain", "");
   CHECK(is_refused(folder / "plain/history.db", "folder"));
+  REQUIRE(mkfifo((folder / "pipe").c_str(), 0600) == 0);
+  CHECK(is_refused(folder / "pipe", "it is no plain file"));
 }
 
 // As a user without the right to write, which root never is.

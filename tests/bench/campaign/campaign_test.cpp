@@ -135,6 +135,37 @@ TEST_CASE("the result does not depend on the number of threads, nor on where it 
                        std::runtime_error);
 }
 
+TEST_CASE("asked to end, a campaign begins no other case, and goes on from there") {
+  CampaignPlan plan;
+  plan.shifts = 1'000'000;
+  plan.threads = 2;
+  const TempFolder folder;
+  plan.folder = folder.path();
+  const std::vector<CaseOutcome> first = drive_campaign(plan, layouts(), [](const CampaignStand&) { return false; });
+  CHECK(first.size() < 1000);  // 30,000 are a million
+  plan.shifts = 300;
+  const std::size_t resumed = drive_campaign(plan, layouts(), {}).size();
+  plan.folder.clear();
+  CHECK(resumed == drive_campaign(plan, layouts(), {}).size());
+}
+
+TEST_CASE("a case that has had more processor time than the patience is told by its number, and others are not") {
+  CampaignPlan plan;
+  plan.shifts = 2000;
+  std::size_t patient = 0, overdue = 0;
+  const auto see = [&](std::size_t& seen) {
+    return [&seen](const CampaignStand& stand) {
+      seen += stand.overdue.has_value();
+      return true;
+    };
+  };
+  drive_campaign(plan, layouts(), see(patient));
+  CHECK(patient == 0);
+  plan.patience = -1.0;  // whatever runs is late
+  drive_campaign(plan, layouts(), see(overdue));
+  CHECK(overdue > 0);
+}
+
 TEST_CASE("a file of cases that was edited is refused with line, column, value and range, and stays as it was") {
   CampaignPlan plan;
   plan.shifts = 1;

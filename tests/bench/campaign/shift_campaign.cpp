@@ -1,8 +1,11 @@
 #include "tests/bench/campaign/shift_campaign.h"
 
+#include <pthread.h>
+
 #include <algorithm>
 #include <chrono>
 #include <condition_variable>
+#include <ctime>
 #include <exception>
 #include <fstream>
 #include <map>
@@ -30,6 +33,19 @@ std::string words_of(const CampaignPlan& plan, std::span<const GateLayout> shipp
   return fmt::format("gearshift campaign, seed {}, gates {:016x}, by {}", plan.seed, fnv_1a(gates), plan.program);
 }
 
+// [s] of a thread's own: it stands still where the program is stopped, or another one has the core.
+double processor_time(clockid_t clock) {
+  timespec time{};
+  clock_gettime(clock, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+clockid_t clock_of_this_thread() {
+  clockid_t clock{};
+  pthread_getcpuclockid(pthread_self(), &clock);
+  return clock;
+}
+
 // Hands out cases in order and takes what came of them, in any.
 class CampaignWork {
  public:
@@ -43,7 +59,9 @@ class CampaignWork {
   std::optional<std::uint64_t> next() {
     const std::lock_guard lock(mutex_);
     while (cases_.contains(next_)) ++next_;
-    if (is_enough() || problem_) return std::nullopt;
+    if (is_enough() || problem_ || is_ended_) return std::nullopt;
+    const clockid_t clock = clock_of_this_thread();
+    running_[std::this_thread::get_id()] = {next_, clock, processor_time(clock)};
     return next_++;
   }
 
@@ -59,8 +77,14 @@ class CampaignWork {
     problem_ = std::move(problem);
   }
 
+  void end() {
+    const std::lock_guard lock(mutex_);
+    is_ended_ = true;
+  }
+
   void leave() {
     const std::lock_guard lock(mutex_);
+    running_.erase(std::this_thread::get_id());
     ++left_;
     changed_.notify_all();
   }
@@ -71,9 +95,12 @@ class CampaignWork {
     return changed_.wait_for(lock, patience, [&] { return left_ == threads; });
   }
 
-  double share() {
+  CampaignStand stand() {
     const std::lock_guard lock(mutex_);
-    return static_cast<double>(shifts_) / static_cast<double>(plan_.shifts);
+    CampaignStand stand{static_cast<double>(shifts_) / static_cast<double>(plan_.shifts), std::nullopt};
+    for (const auto& [thread, running] : running_)
+      if (processor_time(running.clock) - running.begin > plan_.patience) stand.overdue = running.number;
+    return stand;
   }
 
   std::vector<CaseOutcome> take() {
@@ -85,6 +112,12 @@ class CampaignWork {
   }
 
  private:
+  struct Running {
+    std::uint64_t number = 0;  // of the case
+    clockid_t clock{};
+    double begin = 0.0;  // [s] on that clock
+  };
+
   bool is_enough() const { return shifts_ >= plan_.shifts; }
 
   // How far the cases are done without a gap.
@@ -103,7 +136,9 @@ class CampaignWork {
   std::uint64_t next_ = 0;    // to be handed out
   std::uint64_t whole_ = 0;   // all before it are done
   std::uint64_t shifts_ = 0;  // in these
-  std::size_t left_ = 0;      // threads that are through
+  std::map<std::thread::id, Running> running_;
+  bool is_ended_ = false;
+  std::size_t left_ = 0;  // threads that are through
   std::exception_ptr problem_;
 };
 
@@ -137,7 +172,7 @@ std::vector<CaseOutcome> drive_campaign(const CampaignPlan& plan, std::span<cons
     if (threads.empty()) throw;  // else fewer do it as well
   }
   while (!shared.wait(std::chrono::milliseconds(100), threads.size()))
-    if (progress) progress(shared.share());
+    if (progress && !progress(shared.stand())) shared.end();
   threads.clear();
   return shared.take();
 }
@@ -175,7 +210,8 @@ std::size_t record_failures(const CampaignPlan& plan, std::span<const LawBroken>
     run_case(drawn, shipped, folder / fmt::format("{:016x}.trace", drawn.seed));
     tell_broken(number, plan, broken, folder / fmt::format("{:016x}.txt", drawn.seed));
     ++kept;
-    if (progress) progress(static_cast<double>(kept) / static_cast<double>(std::min(cases.size(), kMostTraces)));
+    const double share = static_cast<double>(kept) / static_cast<double>(std::min(cases.size(), kMostTraces));
+    if (progress && !progress({share, std::nullopt})) break;
   }
   return cases.size();
 }

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -21,12 +22,19 @@ struct CampaignPlan {
   std::uint64_t shifts = 1'000'000;  // that are tried at least: cases are run whole, in order
   std::filesystem::path folder;  // exists; receives cases.csv: one line a case, as they come. Empty: nothing is kept
   int threads = 1;
+  double patience = 60.0;  // [s] of processor time for a case, which takes a tenth of one
 };
 
-using CampaignProgress = std::function<void(double share)>;  // 0 to 1; on the calling thread
+struct CampaignStand {
+  double share = 0.0;                    // 0 to 1
+  std::optional<std::uint64_t> overdue;  // a case that has had more than the patience: its cycle may never end
+};
 
-// The first cases that together try that many shifts, in order. Throws FileError or std::runtime_error in one sentence:
-// the folder holds another campaign, or cannot be written.
+// On the calling thread, some times a second. False: no other case is begun.
+using CampaignProgress = std::function<bool(const CampaignStand& stand)>;
+
+// The first cases that together try that many shifts, in order; fewer where it was to end. Throws FileError or
+// std::runtime_error in one sentence: the folder holds another campaign, or cannot be written.
 std::vector<CaseOutcome> drive_campaign(const CampaignPlan& plan, std::span<const GateLayout> shipped,
                                         const CampaignProgress& progress);
 
