@@ -89,7 +89,7 @@ std::string answer_row(const BenchRow& row) {
   return fmt::format("<tr class=\"row\"><td>{}: {}</td>{}{}{}{}<td class=\"soft\">{}</td></tr>\n",
                      html_text(row.family), html_text(row.name), number_cell(figure_words(row)),
                      number_cell(spread_words(row.spread)), number_cell(goal_words(row)), verdict_cell(row),
-                     row.measured ? "" : html_text(row.note));
+                     verdict_of(row) == Verdict::none ? html_text(row.note) : "");
 }
 
 // One row of the design, and what this run has to say to it.

@@ -94,12 +94,14 @@ TEST_CASE("rows, goals and what was not measured stand in the table of their fam
 TEST_CASE("every row of the design is on the page: its answer, or that this run has none") {
   BenchRow answer = plain_row("walk", "as asked", 1.0);
   answer.design = Design::plant;
+  answer.note = "too few for a verdict";
   const auto rows = table_of(section_of(bench_page(made_run({answer})), "design"), "design");
   CHECK(rows.size() == kDesignRows.size() + 1);
   CHECK(std::count_if(rows.begin(), rows.end(), [](const auto& r) { return r.back() == "not in this run"; }) ==
         static_cast<long>(kDesignRows.size()) - 1);
-  CHECK(
-      std::any_of(rows.begin(), rows.end(), [](const auto& r) { return r[0] == "walk: as asked" && r[1] == "1 ns"; }));
+  CHECK(std::any_of(rows.begin(), rows.end(), [](const auto& r) {
+    return r[0] == "walk: as asked" && r[1] == "1 ns" && r.back() == "too few for a verdict";
+  }));
 }
 
 TEST_CASE("what changed since the last run has a section where there was one") {
