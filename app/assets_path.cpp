@@ -30,6 +30,16 @@ std::vector<std::string> shipped_names(std::string_view kind) {
   return names;
 }
 
+fs::path shipped_folder(std::string_view kind) {
+  std::error_code error;
+  if (!fs::is_directory(assets_folder() / kind, error))
+    throw std::runtime_error(
+        fmt::format("{}: the program's own files are not there: gates, cars, lessons, models. "
+                    "Install it again, whole",
+                    printable(assets_folder().string())));
+  return assets_folder() / kind;
+}
+
 fs::path find_asset(std::string_view kind, const std::string& name_or_path) {
   const auto names = shipped_names(kind);
   if (std::find(names.begin(), names.end(), name_or_path) != names.end()) {
@@ -39,11 +49,7 @@ fs::path find_asset(std::string_view kind, const std::string& name_or_path) {
   fs::path path(name_or_path);
   std::error_code error;
   if (path.has_parent_path() || path.has_extension() || fs::exists(path, error)) return path;
-  if (!fs::is_directory(assets_folder(), error))
-    throw std::runtime_error(
-        fmt::format("{}: the program's own files are not there: gates, cars, lessons, models. "
-                    "Install it again, whole",
-                    printable(assets_folder().string())));
+  shipped_folder(kind);
   throw std::runtime_error(fmt::format("\"{}\" is neither a file nor one of the shipped {}: {}",
                                        printable(name_or_path), kind, fmt::join(names, ", ")));
 }

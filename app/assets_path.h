@@ -12,6 +12,9 @@ namespace gearshift {
 // a link to the source tree's. Whether it is there is not looked at. Throws std::runtime_error where there is no /proc.
 std::filesystem::path assets_folder();
 
+// assets_folder()/kind. Throws std::runtime_error in one sentence where it is not there.
+std::filesystem::path shipped_folder(std::string_view kind);
+
 // Names of the shipped files of a kind ("gates"), sorted: "paper" for assets/gates/paper.toml.
 std::vector<std::string> shipped_names(std::string_view kind);
 

@@ -11,6 +11,7 @@
 #include "app/devices/calibration_talk.h"
 #include "app/devices/open_stick.h"
 #include "app/devices/stop_signals.h"
+#include "app/print_out.h"
 
 namespace gearshift {
 namespace {
@@ -20,11 +21,6 @@ using Clock = std::chrono::steady_clock;
 
 constexpr std::chrono::milliseconds kTick{1};
 constexpr std::chrono::seconds kOpensWithin{10};
-
-void say(const std::string& line) {
-  fmt::print("{}\n", line);
-  std::fflush(stdout);
-}
 
 void end_where_asked() {
   if (StopSignals::asked()) throw CalibrationEnded("ended: the motors are off");
@@ -43,7 +39,7 @@ KnownStick start_from(const ListedStick& stick, const fs::path& folder, bool aga
   if (!known) return fresh;
   const bool is_same = known->report_descriptor.empty() || known->report_descriptor == fresh.report_descriptor;
   if (is_same) return KnownStick{known->calibration, fresh.report_descriptor};
-  say("It reports otherwise than when it was calibrated: nothing of that counts any more.");
+  print_line("It reports otherwise than when it was calibrated: nothing of that counts any more.");
   return fresh;
 }
 
@@ -66,7 +62,7 @@ class OpenStick {
   PidDriver& driver() { return driver_; }
   PidAbility ability() const { return keeper_.ability().value_or(PidAbility{}); }
   void tell_news() {
-    while (const std::optional<std::string> news = keeper_.take_news()) say(*news);
+    while (const std::optional<std::string> news = keeper_.take_news()) print_line(*news);
   }
 
  private:
@@ -82,7 +78,7 @@ std::int64_t tick(OpenStick& stick) {
 }
 
 std::string ask(OpenStick& stick, Answers& answers, const std::string& question) {
-  say(question);
+  print_line(question);
   for (;;) {
     if (const std::optional<std::string> line = answers.line(0.2)) return *line;
     end_where_asked();
@@ -95,7 +91,7 @@ std::string ask(OpenStick& stick, Answers& answers, const std::string& question)
 std::string talk_through(OpenStick& stick, KnownStick& known, const fs::path& folder, int file) {
   Answers answers(file);
   CalibrationTalk talk;
-  talk.say = say;
+  talk.say = print_line;
   talk.ask = [&](const std::string& question) { return ask(stick, answers, question); };
   talk.keep = [&](const DeviceCalibration& calibration) {
     known.calibration = calibration;
@@ -103,11 +99,11 @@ std::string talk_through(OpenStick& stick, KnownStick& known, const fs::path& fo
   };
   Calibrator calibrator(
       stick.driver(), [&stick] { return tick(stick); }, known.calibration);
-  for (const std::string& note : stick.ability().notes) say(note);
+  for (const std::string& note : stick.ability().notes) print_line(note);
   try {
     calibrate(calibrator, stick.ability().spring, talk);
   } catch (const CalibrationEnded& ended) {
-    say(ended.what());
+    print_line(ended.what());
   }
   return missing_words(calibrator.calibration());
 }
@@ -124,15 +120,15 @@ int calibrate_stick(const std::string& wanted, const fs::path& folder, bool agai
   };
   KnownStick known = start_from(stick, folder, again);
   OpenStick held(known, open);
-  say(fmt::format("{} ({}). Ctrl-C ends at any time: its motors are off then, and what was measured is kept.",
-                  stick_name(stick.identity), stick_id(stick.identity)));
+  print_line(fmt::format("{} ({}). Ctrl-C ends at any time: its motors are off then, and what was measured is kept.",
+                         stick_name(stick.identity), stick_id(stick.identity)));
   const std::string missing = talk_through(held, known, folder, answers);
   const std::string file = calibration_file(folder, stick.identity).string();
   if (missing.empty()) {
-    say(fmt::format("Calibrated: {}", file));
+    print_line(fmt::format("Calibrated: {}", file));
     return 0;
   }
-  say(fmt::format("Still missing: {}. The same command goes on from here.", missing));
+  print_line(fmt::format("Still missing: {}. The same command goes on from here.", missing));
   return 1;
 }
 

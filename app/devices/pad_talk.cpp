@@ -13,6 +13,7 @@
 #include "app/devices/calibration_talk.h"
 #include "app/devices/stop_signals.h"
 #include "app/input/axis_learner.h"
+#include "app/print_out.h"
 #include "engine/window/glfw_use.h"
 #include "haptics/files/file_error.h"
 #include "haptics/files/printable.h"
@@ -70,13 +71,8 @@ LeverMode asked_mode(const PadTalk& talk) {
   }
 }
 
-void say_line(const std::string& line) {
-  fmt::print("{}\n", line);
-  std::fflush(stdout);
-}
-
 std::string ask_line(Answers& answers, const std::string& question, const std::function<void()>& frame) {
-  say_line(question);
+  print_line(question);
   for (;;) {
     if (const std::optional<std::string> line = answers.line(0.0)) return *line;
     if (StopSignals::asked()) throw CalibrationEnded("ended: nothing is changed");
@@ -122,7 +118,7 @@ int calibrate_pads(const std::filesystem::path& file, const std::filesystem::pat
   const GlfwUse glfw;
   Answers answers(descriptor);
   PadTalk talk;
-  talk.say = say_line;
+  talk.say = print_line;
   talk.ask = [&](const std::string& question, const std::function<void()>& frame) {
     return ask_line(answers, question, frame);
   };
@@ -133,10 +129,10 @@ int calibrate_pads(const std::filesystem::path& file, const std::filesystem::pat
   try {
     keep(learn_axes(bindings_before(file, usual, again), talk), file);
   } catch (const CalibrationEnded& ended) {
-    say_line(ended.what());
+    print_line(ended.what());
     return 1;
   }
-  say_line(fmt::format("Kept: {}", file.string()));
+  print_line(fmt::format("Kept: {}", file.string()));
   return 0;
 }
 

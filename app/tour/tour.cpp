@@ -60,7 +60,9 @@ void drive(SimulatedRun& run, double duration, TraceRecorder& recorder, const To
            const TourWatch& watch, TourResult& result) {
   double next_watch = 0.0;
   while (run.time() < duration) {
-    measure(run.step(), result);
+    const HapticSnapshot& now = run.step();
+    measure(now, result);
+    if (!result.lost && now.fault != GuardFault::none) result.lost = LostForces{now.fault, run.time()};
     if (run.time() >= next_watch) {
       next_watch += kWatchPeriod;
       const std::vector<HapticEvent> events = take_events(run.channels(), result);

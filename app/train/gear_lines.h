@@ -6,9 +6,8 @@
 #include <optional>
 #include <span>
 
-#include <fmt/core.h>
-
 #include "app/event_words.h"
+#include "app/print_out.h"
 #include "app/trainer/trainer.h"
 #include "haptics/loop/haptic_snapshot.h"
 
@@ -20,7 +19,7 @@ inline void print_events(std::span<const HapticEvent> events, bool push_estimate
     const bool told = event.kind == EventKind::gear_engaged || event.kind == EventKind::over_push_begin ||
                       event.kind == EventKind::guard_changed;
     if (told)
-      fmt::print("{:8.3f} s  {}\n", 1e-9 * static_cast<double>(event.time_ns), event_words(event, push_estimated));
+      print_out("{:8.3f} s  {}\n", 1e-9 * static_cast<double>(event.time_ns), event_words(event, push_estimated));
   }
   if (!events.empty()) std::fflush(stdout);
 }
@@ -28,8 +27,8 @@ inline void print_events(std::span<const HapticEvent> events, bool push_estimate
 // How a lever kept its time from its first cycle to its last.
 inline void print_health(const std::optional<LoopHealth>& health) {
   if (!health) return;
-  fmt::print("loop: {} deadlines missed, {} cycles too long, {} events lost, {}\n", health->skipped, health->overruns,
-             health->events_lost, health->realtime ? "real-time" : "not real-time");
+  print_out("loop: {} deadlines missed, {} cycles too long, {} events lost, {}\n", health->skipped, health->overruns,
+            health->events_lost, health->realtime ? "real-time" : "not real-time");
   std::fflush(stdout);
 }
 

@@ -5,6 +5,7 @@
 
 #include <fmt/core.h>
 
+#include "app/print_out.h"
 #include "app/training/grade.h"
 
 namespace gearshift {
@@ -66,7 +67,7 @@ void LessonLines::tell_said(const CoachView& coach) {
 }
 
 void print_lines(const std::vector<std::string>& lines, double time) {
-  for (const std::string& line : lines) fmt::print("{:8.3f} s  {}\n", time, line);
+  for (const std::string& line : lines) print_out("{:8.3f} s  {}\n", time, line);
   if (!lines.empty()) std::fflush(stdout);
 }
 

@@ -9,6 +9,7 @@
 
 #include "app/devices/stop_signals.h"
 #include "app/output_folder.h"
+#include "app/print_out.h"
 #include "app/train/gear_lines.h"
 #include "app/train/lesson_lines.h"
 #include "app/train/look_around.h"
@@ -51,7 +52,7 @@ std::vector<KeyHint> key_hints(const Bindings& bindings) {
 }
 
 void tell_unkept(const std::string& problem) {
-  if (!problem.empty()) fmt::print(stderr, "gearshift: {}\n", printable(problem));
+  if (!problem.empty()) print_problem("{}", printable(problem));
 }
 
 // One frame after another in a window: poll, lead, read, panel, place, show.
@@ -85,7 +86,8 @@ class WindowTrainer {
     print_health(health_);
     if (!session_.recording()) return 0;
     const bool whole = session_.end_recording();
-    fmt::print(whole ? stdout : stderr, "{}{}\n", whole ? "" : "gearshift: ", session_.message());
+    if (whole) print_out("{}\n", session_.message());
+    if (!whole) print_problem("{}", session_.message());
     return whole ? 0 : 1;
   }
 
@@ -152,8 +154,7 @@ class WindowTrainer {
   void lose_view(const GpuLost& lost) {
     view_.reset();
     const Clock::time_point now = Clock::now();
-    if (now > view_quiet_until_)
-      fmt::print(stderr, "gearshift: {}; the picture is made anew, the lever goes on\n", lost.what());
+    if (now > view_quiet_until_) print_problem("{}; the picture is made anew, the lever goes on", lost.what());
     view_quiet_until_ = now + kViewHolds;
   }
 
@@ -166,7 +167,7 @@ class WindowTrainer {
 
   void tell_news(const std::string& news) {
     if (news.empty()) return;
-    fmt::print(stderr, "gearshift: {}\n", printable(news));
+    print_problem("{}", printable(news));
     session_.tell(news);
   }
 
@@ -397,7 +398,7 @@ int train_in_window(const TrainSetup& setup) {
 
 int train_offscreen(const TrainSetup& setup, const OffscreenSetup& offscreen) {
   Session session(setup.choice);
-  if (!session.message().empty()) fmt::print(stderr, "gearshift: {}\n", session.message());
+  if (!session.message().empty()) print_problem("{}", session.message());
   const LookAround look(setup.choice.camera, setup.choice.drive);
   UiContext ui;
   Panel panel;
@@ -429,7 +430,7 @@ int train_offscreen(const TrainSetup& setup, const OffscreenSetup& offscreen) {
   view.draw(session.stage().scene(), look.pose(), look.field(), seen_beside(panel, eye));
   const std::filesystem::path picture = offscreen.folder / "train.png";
   write_png(picture, view.picture());
-  fmt::print("{}\n", picture.string());
+  print_out("{}\n", picture.string());
   return 0;
 }
 

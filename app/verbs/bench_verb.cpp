@@ -18,15 +18,18 @@
 #include "app/devices/stop_signals.h"
 #include "app/history/date_text.h"
 #include "app/output_folder.h"
+#include "app/print_out.h"
 #include "app/program_name.h"
 #include "app/report/report_files.h"
 #include "app/trainer/user_folder.h"
 #include "app/verbs/number_between.h"
 #include "app/verbs/progress_bar.h"
+#include "app/verbs/two_files.h"
 #include "app/verbs/verbs.h"
 #include "app/version/version_text.h"
 #include "engine/gpu/gpu.h"
 #include "haptics/files/part_file.h"
+#include "haptics/files/printable.h"
 #include "tests/bench/bench.h"
 
 namespace gearshift {
@@ -67,17 +70,18 @@ std::string gpu_words() {
 }
 
 void tell(const std::string& problem) {
-  fmt::print(stderr, "gearshift: {}\n", problem);
+  print_problem("{}", problem);
 }
 
 struct EndedEarly {};
 
 struct Measured {
-  std::vector<MeasuredRow> rows;  // of whole families
-  bool ended_early = false;
+  std::vector<MeasuredRow> rows;  // of whole families, and why others have none
+  bool is_whole = true;
 };
 
-// Ctrl-C and the like end it: a family is left where it next tells how far it is.
+// A family that cannot be measured costs no other. Ctrl-C and the like end all: a family is left where it next tells how
+// far it is.
 Measured measure(const BenchArguments& arguments) {
   ProgressBar progress;
   BenchOptions options = arguments.options;
@@ -92,11 +96,16 @@ Measured measure(const BenchArguments& arguments) {
     try {
       options.progress(family.name, 0.0);
       for (BenchRow& row : run_family(family, options)) measured.rows.push_back({std::move(row)});
+    } catch (const std::exception& problem) {
+      progress.clear();
+      tell(fmt::format("the family {} cannot be measured: {}", family.name, printable(problem.what())));
+      for (BenchRow& row : unmeasured_family(family, problem.what())) measured.rows.push_back({std::move(row)});
+      measured.is_whole = false;
     } catch (const EndedEarly&) {
       progress.clear();
       tell(fmt::format("ended in the family {}: {}", family.name,
                        measured.rows.empty() ? "nothing was measured" : "what was measured before it is told"));
-      measured.ended_early = true;
+      measured.is_whole = false;
       break;
     }
   }
@@ -156,7 +165,14 @@ std::vector<fs::path> write_files(const BenchArguments& arguments, std::ofstream
   return written;
 }
 
+void check_csv(const BenchArguments& arguments) {
+  if (arguments.csv_file.empty() || arguments.out.empty()) return;
+  for (const char* written : {"bench.html", "bench.csv", "bench.json"})
+    check_two_files("--csv", "the table and what --out writes", arguments.csv_file, fs::path(arguments.out) / written);
+}
+
 int run_bench(const BenchArguments& arguments) {
+  check_csv(arguments);
   const StopSignals signals;
   std::ofstream csv = open_csv(arguments.csv_file);
   if (!arguments.out.empty()) make_folder(arguments.out);
@@ -166,15 +182,15 @@ int run_bench(const BenchArguments& arguments) {
                .machine = this_machine(gpu_words())};
   const std::optional<ProcessorTime> begin = processor_time_now();
   Measured measured = measure(arguments);
-  if (measured.rows.empty() && measured.ended_early) return 1;
+  if (measured.rows.empty()) return 1;
   run.rows = std::move(measured.rows);
   run.taken = taken_elsewhere(begin, processor_time_now());
   if (is_comparable(arguments.options)) compare_and_keep(run);
-  bool is_whole = !measured.ended_early;
+  bool is_whole = measured.is_whole;
   const std::vector<fs::path> written = write_files(arguments, csv, run, is_whole);
-  fmt::print("{}", arguments.json ? bench_json(run) : bench_table(run));
+  print_out("{}", arguments.json ? bench_json(run) : bench_table(run));
   for (const fs::path& file : written)
-    if (!arguments.json) fmt::print("{}\n", file.string());
+    if (!arguments.json) print_out("{}\n", file.string());
   return is_whole ? 0 : 1;
 }
 

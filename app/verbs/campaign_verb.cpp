@@ -16,6 +16,7 @@
 #include "app/assets_path.h"
 #include "app/devices/stop_signals.h"
 #include "app/output_folder.h"
+#include "app/print_out.h"
 #include "app/program_name.h"
 #include "app/verbs/campaign_words.h"
 #include "app/verbs/progress_bar.h"
@@ -53,20 +54,25 @@ int run_one_case(const CampaignArguments& arguments, const std::vector<GateLayou
   const CampaignCase drawn = drawn_case(arguments.plan.seed, *arguments.number, gates);
   const std::filesystem::path trace = arguments.plan.folder / fmt::format("case_{}.trace", drawn.number);
   const CaseOutcome outcome = run_case(drawn, shipped, trace);
-  fmt::print("{}", case_text(drawn, outcome));
-  if (outcome.refused.empty()) fmt::print("trace {}\n", trace.string());
+  print_out("{}", case_text(drawn, outcome));
+  if (outcome.refused.empty()) print_out("trace {}\n", trace.string());
   return outcome.laws.any_broken() ? 1 : 0;
 }
 
 // Its thread cannot be ended from outside, so the program is: what is done is in the folder.
 [[noreturn]] void leave_hanging(ProgressBar& bar, const CampaignPlan& plan, std::uint64_t number) {
   bar.clear();
-  fmt::print(
-      stderr,
-      "gearshift: case {} has not ended after {:g} s: gearshift campaign --seed {} --case {} --out DIR drives it "
-      "alone; what is done is kept\n",
+  print_problem(
+      "case {} has not ended after {:g} s: gearshift campaign --seed {} --case {} --out DIR drives it "
+      "alone; what is done is kept",
       number, plan.patience, plan.seed, number);
   std::_Exit(1);
+}
+
+int end_early(ProgressBar& bar, std::string_view where) {
+  bar.clear();
+  print_problem("ended {}; the same command goes on there", where);
+  return 1;
 }
 
 int run_cases(CampaignPlan plan, const std::vector<GateLayout>& shipped) {
@@ -80,26 +86,22 @@ int run_cases(CampaignPlan plan, const std::vector<GateLayout>& shipped) {
   };
   const std::vector<CaseOutcome> outcomes =
       drive_campaign(plan, shipped, [&](const CampaignStand& stand) { return show("campaign", stand); });
-  if (StopSignals::asked()) {
-    bar.clear();
-    fmt::print(stderr, "gearshift: ended with {} cases in a row done; the same command goes on there\n",
-               outcomes.size());
-    return 1;
-  }
+  if (StopSignals::asked()) return end_early(bar, fmt::format("with {} cases in a row done", outcomes.size()));
   const CampaignSummary summary = summarise(plan.seed, outcomes, static_cast<int>(shipped.size()));
   write_text_file(plan.folder / "summary.json", campaign_json(summary, plan.program));
   bar.clear();
-  fmt::print("{}", campaign_text(summary));
+  print_out("{}", campaign_text(summary));
   std::fflush(stdout);
   const std::size_t failed =
       record_failures(plan, summary.broken, shipped, [&](const CampaignStand& stand) { return show("traces", stand); });
+  if (StopSignals::asked()) return end_early(bar, "before every failed case was recorded");
   bar.clear();
-  if (failed > kMostTraces) fmt::print("Of {} failed cases {} are recorded in failures/\n", failed, kMostTraces);
+  if (failed > kMostTraces) print_out("Of {} failed cases {} are recorded in failures/\n", failed, kMostTraces);
   return summary.broken.empty() ? 0 : 1;
 }
 
 int run_campaign_verb(const CampaignArguments& arguments) {
-  const std::vector<GateLayout> shipped = shipped_layouts(assets_folder() / "gates");
+  const std::vector<GateLayout> shipped = shipped_layouts(shipped_folder("gates"));
   make_folder(arguments.plan.folder);
   return arguments.number ? run_one_case(arguments, shipped) : run_cases(arguments.plan, shipped);
 }

@@ -3,10 +3,9 @@
 #include <string>
 #include <string_view>
 
-#include <fmt/core.h>
-
 #include "app/demo/demo.h"
 #include "app/output_folder.h"
+#include "app/print_out.h"
 #include "app/verbs/number_between.h"
 #include "app/verbs/picture_size.h"
 #include "app/verbs/progress_bar.h"
@@ -40,18 +39,18 @@ int run(const DemoArguments& arguments) {
   const DemoResult result = run_demo(setup, [&](std::string_view what, double share) { bar.show(what, share); });
   bar.clear();
   print_tour(setup.tour, result.tour);
-  fmt::print("{} pictures of {} by {}, {:.0f} ms each\n", result.pictures(), arguments.size, result.device,
-             result.picture_ms);
-  fmt::print("{0}/index.html shows pictures, sound, traces and plots; {0}/contact_sheet.png all pictures on one\n",
-             setup.tour.folder.string());
+  print_out("{} pictures of {} by {}, {:.0f} ms each\n", result.pictures(), arguments.size, result.device,
+            result.picture_ms);
+  print_out("{0}/index.html shows pictures, sound, traces and plots; {0}/contact_sheet.png all pictures on one\n",
+            setup.tour.folder.string());
   for (const DemoChapter& chapter : result.chapters) {
-    fmt::print("{}\n", chapter.title);
-    for (const std::string& sentence : chapter.text) fmt::print("  {}\n", sentence);
+    print_out("{}\n", chapter.title);
+    for (const std::string& sentence : chapter.text) print_out("  {}\n", sentence);
   }
-  if (result.has_report) fmt::print("{}/report.html is the learner's report\n", setup.tour.folder.string());
-  if (!result.tour.complete()) fmt::print(stderr, "gearshift: the hand did not engage every gear in order\n");
-  if (!result.passed) fmt::print(stderr, "gearshift: the simulated learner did not pass every lesson\n");
-  return result.tour.complete() && result.passed ? 0 : 1;
+  if (result.has_report) print_out("{}/report.html is the learner's report\n", setup.tour.folder.string());
+  if (!result.tour.complete()) print_problem("the hand did not engage every gear in order");
+  if (!result.passed) print_problem("the simulated learner did not pass every lesson");
+  return result.tour.complete() && !result.tour.lost && result.passed ? 0 : 1;
 }
 
 }  // namespace

@@ -18,6 +18,7 @@
 #include "app/devices/open_stick.h"
 #include "app/devices/pad_talk.h"
 #include "app/devices/stick_list.h"
+#include "app/print_out.h"
 #include "app/train/own_bindings.h"
 #include "app/trainer/user_folder.h"
 #include "app/verbs/verbs.h"
@@ -52,7 +53,7 @@ std::vector<ListedStick> plugged_sticks() {
   try {
     return list_sticks(usb_hid_devices(), calibrations_to_read());
   } catch (const HidError& no_usb) {
-    fmt::print(stderr, "gearshift: {}\n", no_usb.what());
+    print_problem("{}", no_usb.what());
     return {};
   }
 }
@@ -92,7 +93,7 @@ void print_rows(const std::vector<DevicesRow>& rows) {
   for (const DevicesRow& row : rows) {
     std::string line;
     for (std::size_t i = 0; i < row.size(); ++i) line += fmt::format("{:<{}}  ", row[i], widths[i]);
-    fmt::print("{}\n", line.substr(0, line.find_last_not_of(' ') + 1));
+    print_out("{}\n", line.substr(0, line.find_last_not_of(' ') + 1));
   }
 }
 
@@ -106,12 +107,12 @@ void print_sticks(const std::vector<ListedStick>& sticks) {
   }
   print_rows(rows);
   for (const ListedStick& stick : sticks)
-    if (!stick.problem.empty()) fmt::print("  {}\n", stick.problem);
+    if (!stick.problem.empty()) print_out("  {}\n", stick.problem);
 }
 
 void print_pads(const std::vector<PadState>& pads) {
   if (pads.empty()) return;
-  fmt::print("\nWithout force, for hand and feet:\n");
+  print_out("\nWithout force, for hand and feet:\n");
   std::vector<DevicesRow> rows{{"name", "axes", "buttons"}};
   for (const PadState& pad : pads)
     rows.push_back({printable(pad.name), std::to_string(pad.axes.size()), std::to_string(pad.buttons.size())});
@@ -124,7 +125,7 @@ void print_rule(const std::vector<ListedStick>& sticks) {
       std::any_of(sticks.begin(), sticks.end(), [](const ListedStick& stick) { return is_forbidden(stick); });
   if (!forbidden) return;
   const std::string rule = (assets_folder() / "udev" / "70-gearshift.rules").string();
-  fmt::print(
+  print_out(
       "To let whoever sits at this machine use them, once:\n"
       "  sudo cp \"{}\" /etc/udev/rules.d/\n"
       "  sudo udevadm control --reload\n"
@@ -142,12 +143,12 @@ int list_devices(bool as_json) {
     DeviceJson seen = DeviceJson::array();
     for (const PadState& pad : pads) seen.push_back(pad_json(pad));
     const DeviceJson listed{{"sticks", all}, {"seen_by_glfw", seen}, {"problems_of_absent", absent}};
-    fmt::print("{}\n", listed.dump(2));
+    print_out("{}\n", listed.dump(2));
     return 0;
   }
-  if (sticks.empty()) fmt::print("No USB stick is plugged in: the simulated lever needs none.\n");
+  if (sticks.empty()) print_out("No USB stick is plugged in: the simulated lever needs none.\n");
   if (!sticks.empty()) print_sticks(sticks);
-  for (const std::string& problem : absent) fmt::print("  {}\n", problem);
+  for (const std::string& problem : absent) print_out("  {}\n", problem);
   print_rule(sticks);
   print_pads(pads);
   return 0;

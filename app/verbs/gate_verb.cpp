@@ -5,11 +5,11 @@
 #include <string>
 #include <system_error>
 
-#include <fmt/core.h>
-
 #include "app/assets_path.h"
 #include "app/draw/gate_svg.h"
+#include "app/print_out.h"
 #include "app/verbs/gate_report.h"
+#include "app/verbs/two_files.h"
 #include "app/verbs/verbs.h"
 #include "haptics/files/file_error.h"
 #include "haptics/gate/gate_compiler.h"
@@ -33,9 +33,9 @@ struct GateOptions {
   bool json = false;
 };
 
-GateReport make_report(const std::string& name_or_path) {
+GateReport make_report(const std::filesystem::path& layout) {
   GateReport report;
-  report.layout = read_gate_layout(find_asset("gates", name_or_path));
+  report.layout = read_gate_layout(layout);
   const YokeGeometry yoke;
   report.gate = compile_gate(report.layout, workspace_half_extent(yoke), yoke.radius);
   report.description = describe_gate(report.gate);
@@ -50,16 +50,14 @@ void write_file(const std::string& path, const std::string& text) {
 }
 
 int show_gate(const GateOptions& options) {
-  std::error_code not_there;
-  if (!options.svg.empty() && std::filesystem::equivalent(options.layout, options.svg, not_there)) {
-    throw CLI::ValidationError("--svg", "the drawing and the layout must be two files");
-  }
-  const GateReport report = make_report(options.layout);
+  const std::filesystem::path layout = find_asset("gates", options.layout);
+  check_two_files("--svg", "the drawing and the layout", options.svg, layout);
+  const GateReport report = make_report(layout);
   if (!options.svg.empty()) {
     write_file(options.svg, gate_svg(report.gate, report.description, report.layout.name));
-    fmt::print(stderr, "gearshift: drew {}\n", options.svg);
+    print_problem("drew {}", options.svg);
   }
-  fmt::print("{}", options.json ? gate_json(report) : gate_table(report));
+  print_out("{}", options.json ? gate_json(report) : gate_table(report));
   return 0;
 }
 

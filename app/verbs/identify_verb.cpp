@@ -6,11 +6,10 @@
 #include <string_view>
 #include <vector>
 
-#include <fmt/core.h>
-
 #include "app/assets_path.h"
 #include "app/identify/identify.h"
 #include "app/output_folder.h"
+#include "app/print_out.h"
 #include "app/verbs/number_between.h"
 #include "app/verbs/progress_bar.h"
 #include "app/verbs/verbs.h"
@@ -54,12 +53,12 @@ int run_identify(const IdentifyArguments& arguments) {
   if (!arguments.folder.empty()) draw(arguments.folder, found, progress);
   bar.clear();
   if (arguments.json) {
-    fmt::print("{}", identification_json(found));
+    print_out("{}", identification_json(found));
     return 0;
   }
-  fmt::print("{}: sinusoids on {:g} samples a second, hand off the lever\n\n{}", preset.name, found.rate,
-             identification_table(found));
-  if (!arguments.folder.empty()) fmt::print("\n{}/bode_*.png (also .svg), test points as .csv\n", arguments.folder);
+  print_out("{}: sinusoids on {:g} samples a second, hand off the lever\n\n{}", preset.name, found.rate,
+            identification_table(found));
+  if (!arguments.folder.empty()) print_out("\n{}/bode_*.png (also .svg), test points as .csv\n", arguments.folder);
   return 0;
 }
 

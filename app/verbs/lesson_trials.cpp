@@ -13,6 +13,7 @@
 #include "app/coach/coach.h"
 #include "app/coach/shipped_lessons.h"
 #include "app/output_folder.h"
+#include "app/print_out.h"
 #include "app/program_name.h"
 #include "app/train/recording_file.h"
 #include "app/training/grade.h"
@@ -38,25 +39,25 @@ void print_faults(const LessonResult& result) {
     const double points = costs ? result.deductions[next++].points : 0.0;
     const DriveFault& fault = result.faults[i];
     if (fault.severity == Severity::note) continue;
-    fmt::print("  {:6.1f} s  {:<11}  {:4}  {}\n", fault.time, severity_key(fault.severity),
-               points_words(result, points), fault_sentence(fault));
+    print_out("  {:6.1f} s  {:<11}  {:4}  {}\n", fault.time, severity_key(fault.severity), points_words(result, points),
+              fault_sentence(fault));
   }
 }
 
 void print_result(const LessonResult& result, std::int64_t run) {
   print_faults(result);
-  if (run > 0) fmt::print("Run {}: ", run);
+  if (run > 0) print_out("Run {}: ", run);
   const std::size_t shifts = result.shifts.size();
-  fmt::print("{} {} in {:.1f} s. ", shifts, shifts == 1 ? "shift" : "shifts", result.duration);
-  if (is_graded(result)) fmt::print("Grade {:.1f} of 10. ", result.grade);
-  fmt::print("{}\n", result.passed ? "Passed." : "Not passed: " + result.why);
+  print_out("{} {} in {:.1f} s. ", shifts, shifts == 1 ? "shift" : "shifts", result.duration);
+  if (is_graded(result)) print_out("Grade {:.1f} of 10. ", result.grade);
+  print_out("{}\n", result.passed ? "Passed." : "Not passed: " + result.why);
 }
 
 void print_shift(const ShiftRecord& shift, std::int64_t run) {
   const std::int64_t number = shift.number + 1;  // people count from 1
-  if (run > 0) fmt::print("  run {}, shift {} written: ", run, number);
-  if (run == 0) fmt::print("  shift {}: ", number);
-  fmt::print("{} to {} in {:.2f} s\n", gear_name(shift.from), gear_name(shift.to), shift.end - shift.begin);
+  if (run > 0) print_out("  run {}, shift {} written: ", run, number);
+  if (run == 0) print_out("  shift {}: ", number);
+  print_out("{} to {} in {:.2f} s\n", gear_name(shift.from), gear_name(shift.to), shift.end - shift.begin);
   std::fflush(stdout);
 }
 
@@ -112,16 +113,16 @@ class Trials {
 
   // With the first cycles: what cannot begin is told alone.
   void tell_begin() {
-    if (!std::exchange(told_goal_, true)) fmt::print("{}: {}\n", trials_.drive.lesson.title, trials_.drive.lesson.goal);
+    if (!std::exchange(told_goal_, true)) print_out("{}: {}\n", trials_.drive.lesson.title, trials_.drive.lesson.goal);
     if (!std::exchange(told_help_, true)) say_help();
   }
 
   void say_help() const {
     if (!trials_.help) return;
     const CoachView& view = coach_.view();
-    if (view.retention) fmt::print("A test after a day: without help.\n");
-    if (!view.retention && view.guidance == 0.0) fmt::print("Without help.\n");
-    if (view.guidance > 0.0) fmt::print("With help, {:.2f}.\n", view.guidance);
+    if (view.retention) print_out("A test after a day: without help.\n");
+    if (!view.retention && view.guidance == 0.0) print_out("Without help.\n");
+    if (view.guidance > 0.0) print_out("With help, {:.2f}.\n", view.guidance);
   }
 
   // Recordings of runs that no history names; what was asked for stays. Whether there was one.
@@ -210,7 +211,7 @@ class Trials {
 
   void tell(const std::string& problem) {
     told_problems_.push_back(problem);
-    fmt::print(stderr, "gearshift: {}\n", printable(problem));
+    print_problem("{}", printable(problem));
   }
 
   static bool remove(const fs::path& file) {

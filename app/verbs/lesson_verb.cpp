@@ -13,6 +13,7 @@
 #include "app/verbs/lesson_options.h"
 #include "app/verbs/lesson_trials.h"
 #include "app/verbs/number_between.h"
+#include "app/verbs/two_files.h"
 #include "app/verbs/verbs.h"
 #include "app/verbs/whole_number.h"
 
@@ -70,6 +71,8 @@ LessonDriveConfig make_drive(const LessonArguments& arguments) {
     config.faults.amount[static_cast<std::size_t>(*fault_of(key))] = arguments.amount;
   config.guidance = arguments.guidance;
   config.seed = arguments.seed;
+  for (const std::string& read : {config.lesson.file, config.car.file, config.gate.file})
+    check_two_files("--trace", "the recording and what is driven", arguments.trace, read);
   config.trace = arguments.trace;
   return config;
 }

@@ -12,6 +12,8 @@
 
 #include <fmt/core.h>
 
+#include "app/print_out.h"
+
 namespace gearshift {
 
 class ProgressBar {
@@ -30,13 +32,13 @@ class ProgressBar {
     drawn_ = true;
     const double done = std::clamp(share, 0.0, 1.0);
     const std::string bar(static_cast<std::size_t>(kWidth * done), '=');
-    fmt::print(stderr, "\r{:<10} [{:{}}] {:3.0f} %", what, bar, kWidth, 100.0 * done);
+    print_to(stderr, fmt::format("\r{:<10} [{:{}}] {:3.0f} %", what, bar, kWidth, 100.0 * done));
     std::fflush(stderr);
   }
 
   // Before anything else is printed.
   void clear() {
-    if (drawn_) fmt::print(stderr, "\r{:{}}\r", "", kWidth + 24);
+    if (drawn_) print_to(stderr, fmt::format("\r{:{}}\r", "", kWidth + 24));
     drawn_ = false;
   }
 

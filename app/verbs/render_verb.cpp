@@ -4,11 +4,11 @@
 #include <stdexcept>
 #include <string>
 
-#include <fmt/core.h>
-
+#include "app/print_out.h"
 #include "app/render/render_file.h"
 #include "app/verbs/number_between.h"
 #include "app/verbs/picture_size.h"
+#include "app/verbs/two_files.h"
 #include "app/verbs/verbs.h"
 
 namespace gearshift {
@@ -41,11 +41,12 @@ RenderFileSetup make_setup(const RenderArguments& arguments) {
 }
 
 int run_render(const RenderArguments& arguments) {
+  check_two_files("--out", "the picture and what it is of", arguments.out, arguments.file);
   const RenderFileSetup setup = make_setup(arguments);
   const RenderFileResult result = render_file(setup);
-  for (const std::string& skipped : result.skipped) fmt::print(stderr, "gearshift: not drawn: {}\n", skipped);
-  fmt::print("{}: {} triangles in {} draws, read in {:.0f} ms, drawn {:.0f} ms after the start on {}\n",
-             setup.out.string(), result.triangles, result.draws, result.load_ms, result.first_frame_ms, result.device);
+  for (const std::string& skipped : result.skipped) print_problem("not drawn: {}", skipped);
+  print_out("{}: {} triangles in {} draws, read in {:.0f} ms, drawn {:.0f} ms after the start on {}\n",
+            setup.out.string(), result.triangles, result.draws, result.load_ms, result.first_frame_ms, result.device);
   return 0;
 }
 

@@ -10,10 +10,12 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
+#include "app/print_out.h"
 #include "app/program_name.h"
 #include "app/replay/recorded_drive.h"
 #include "app/training/lesson_world.h"
 #include "app/verbs/progress_bar.h"
+#include "app/verbs/two_files.h"
 #include "app/verbs/verbs.h"
 #include "haptics/loop/replay.h"
 #include "haptics/loop/trace_csv.h"
@@ -42,13 +44,6 @@ struct ReplayOptions {
   bool shifts = false;
 };
 
-// Opening the CSV file empties it: it must not be the trace that is being read.
-void check_paths(const ReplayOptions& options) {
-  std::error_code not_there;
-  if (!options.csv.empty() && std::filesystem::equivalent(options.trace, options.csv, not_there))
-    throw CLI::ValidationError("--csv", "the CSV file and the trace must be two files");
-}
-
 std::optional<TraceCsvFile> open_csv(const ReplayOptions& options) {
   if (options.csv.empty()) return std::nullopt;
   return TraceCsvFile(options.csv);
@@ -60,18 +55,18 @@ double share(std::uint64_t cycles, const TraceReader& reader) {
 
 int say(const ReplayResult& result, const TraceReader& reader) {
   if (result.bit_for_bit()) {
-    fmt::print("bit for bit: {} cycles, {:.3f} s, hash {:016x}\n", result.cycles, result.seconds, result.replayed_hash);
+    print_out("bit for bit: {} cycles, {:.3f} s, hash {:016x}\n", result.cycles, result.seconds, result.replayed_hash);
     return 0;
   }
   if (!result.first) {
-    fmt::print("not the recorded parameters: the hash is {:016x}, recorded was {:016x}\n", result.replayed_hash,
-               result.recorded_hash);
+    print_out("not the recorded parameters: the hash is {:016x}, recorded was {:016x}\n", result.replayed_hash,
+              result.recorded_hash);
     return 1;
   }
-  fmt::print("differs first in cycle {}: {} is {}, recorded was {}\n", result.first->cycle, result.first->field,
-             result.first->replayed, result.first->recorded);
+  print_out("differs first in cycle {}: {} is {}, recorded was {}\n", result.first->cycle, result.first->field,
+            result.first->replayed, result.first->recorded);
   if (reader.header().program != program_name())
-    fmt::print("it was recorded by {}, this is {}\n", reader.header().program, program_name());
+    print_out("it was recorded by {}, this is {}\n", reader.header().program, program_name());
   return 1;
 }
 
@@ -105,27 +100,27 @@ int export_torn(const ReplayOptions& options) {
   for (TraceSample sample; reader.next(sample); progress.show("export", share(++cycles, reader))) csv.add(sample);
   progress.clear();
   csv.finish();
-  fmt::print("{}: {} cycles exported, not replayed\n", reader.torn() ? "torn" : "whole", cycles);
+  print_out("{}: {} cycles exported, not replayed\n", reader.torn() ? "torn" : "whole", cycles);
   return 0;
 }
 
 void print_shift(const ShiftRecord& shift, double begin) {
   const std::string change = fmt::format("{} -> {}", gear_name(shift.from), gear_name(shift.to));
-  fmt::print("{:>5}  {:>8.2f}  {:<7}  {:>8.2f} {:>8.2f} {:>8.2f}  {}\n", shift.number + 1, shift.begin - begin, change,
-             shift.clutch_time, shift.lever_time, shift.end - shift.begin, shift.missed ? "missed" : "");
+  print_out("{:>5}  {:>8.2f}  {:<7}  {:>8.2f} {:>8.2f} {:>8.2f}  {}\n", shift.number + 1, shift.begin - begin, change,
+            shift.clutch_time, shift.lever_time, shift.end - shift.begin, shift.missed ? "missed" : "");
 }
 
 // Of what is whole. A second run that differs ends the list.
 int list_shifts(const ReplayOptions& options) {
   const RecordedDrive drive(options.trace);
-  if (!drive.has_car()) fmt::print("a drive without a car: it has no shifts\n");
-  if (!drive.shifts().empty()) fmt::print("shift   begin s  gears    clutch s  lever s  whole s\n");
+  if (!drive.has_car()) print_out("a drive without a car: it has no shifts\n");
+  if (!drive.shifts().empty()) print_out("shift   begin s  gears    clutch s  lever s  whole s\n");
   for (const RecordedShift& shift : drive.shifts()) print_shift(shift.record, drive.begin());
   const std::size_t shifts = drive.shifts().size();
   if (drive.has_car())
-    fmt::print("{} {} in {:.1f} s\n", shifts, shifts == 1 ? "shift" : "shifts", drive.end() - drive.begin());
+    print_out("{} {} in {:.1f} s\n", shifts, shifts == 1 ? "shift" : "shifts", drive.end() - drive.begin());
   if (!drive.differs()) return 0;
-  fmt::print("it differs from the recording: gearshift replay without --shifts says where\n");
+  print_out("it differs from the recording: gearshift replay without --shifts says where\n");
   return 1;
 }
 
@@ -150,7 +145,7 @@ void add_replay_verb(CLI::App& app, VerbAction& action) {
   verb->add_flag("--shifts", options->shifts, "list the shifts of the drive: when, which gears, how long")
       ->excludes(csv);
   verb->callback([options, &action] {
-    check_paths(*options);
+    check_two_files("--csv", "the CSV file and the trace", options->csv, options->trace);
     action = [options] { return run_replay(*options); };
   });
 }

@@ -16,6 +16,7 @@
 #include "app/coach/shipped_lessons.h"
 #include "app/history/history.h"
 #include "app/output_folder.h"
+#include "app/print_out.h"
 #include "app/report/delete_learner.h"
 #include "app/report/instructor.h"
 #include "app/report/learner_table.h"
@@ -78,7 +79,7 @@ LearnerRow known_learner(History& history, const std::string& name) {
 int list_learners(History& history) {
   std::vector<LearnerHistory> all;
   for (const LearnerRow& row : history.learners()) all.push_back(read_learner(history, row));
-  fmt::print("{}", learner_table(all, shipped_lessons()));
+  print_out("{}", learner_table(all, shipped_lessons()));
   return 0;
 }
 
@@ -92,7 +93,7 @@ void write_report(const ReportArguments& arguments, History& history, const Lear
     files.push_back({"faults.csv", faults_csv(all)});
   }
   make_folder(arguments.out);
-  write_report_files(arguments.out, files, [](const fs::path& file) { fmt::print("{}\n", file.string()); });
+  write_report_files(arguments.out, files, [](const fs::path& file) { print_out("{}\n", file.string()); });
 }
 
 // By its key, as the coach knows it.
@@ -104,31 +105,31 @@ void set_next(const std::string& lesson, History& history, const LearnerRow& lea
   if (!lesson.empty() && !is_known)
     throw std::runtime_error(fmt::format("\"{}\" is none of the shipped lessons: {}", printable(lesson), keys));
   history.set_next_lesson(learner.id, lesson);
-  fmt::print("{}: next lesson {}\n", printable(learner.name), lesson.empty() ? "as suggested" : printable(lesson));
+  print_out("{}: next lesson {}\n", printable(learner.name), lesson.empty() ? "as suggested" : printable(lesson));
 }
 
 void obey_instructor(const ReportArguments& arguments, History& history, const LearnerRow& learner) {
   if (arguments.comment) {
     const auto& [run, text] = *arguments.comment;
     const std::int64_t number = comment_on_run(history, learner, run, arguments.by, text);
-    fmt::print("run {}, comment {}: {}, {}\n", run, number, printable(text), printable(arguments.by));
+    print_out("run {}, comment {}: {}, {}\n", run, number, printable(text), printable(arguments.by));
   }
   if (arguments.edit) {
     const auto& [number, text] = *arguments.edit;
     edit_comment(history, learner, number, text);
-    fmt::print("comment {}: {}\n", number, printable(text));
+    print_out("comment {}: {}\n", number, printable(text));
   }
   if (arguments.taken_back) {
     delete_comment(history, learner, *arguments.taken_back);
-    fmt::print("comment {} is gone\n", *arguments.taken_back);
+    print_out("comment {} is gone\n", *arguments.taken_back);
   }
   if (arguments.sets_next) set_next(arguments.next, history, learner);
 }
 
 bool is_confirmed(const ReportArguments& arguments, const LearnerRow& learner) {
   if (arguments.yes) return true;
-  fmt::print(stderr,
-             "All that is remembered of {} goes, recordings too, for good. The name again: ", printable(learner.name));
+  print_to(stderr, fmt::format("All that is remembered of {} goes, recordings too, for good. The name again: ",
+                               printable(learner.name)));
   std::string again;
   std::getline(std::cin, again);
   return again == learner.name;
@@ -140,14 +141,14 @@ std::string counted(std::size_t number, std::string_view what) {
 
 // What keeps deleted rows in the file, where anything does.
 int tell_left(const std::string& left) {
-  if (!left.empty()) fmt::print(stderr, "gearshift: {}\n", printable(left));
+  if (!left.empty()) print_problem("{}", printable(left));
   return left.empty() ? 0 : 1;
 }
 
 void tell_recordings(const Deleted& gone) {
-  for (const std::string& file : gone.recordings) fmt::print("  {}\n", printable(file));
-  for (const std::string& file : gone.missing) fmt::print("  not found: {}\n", printable(file));
-  for (const std::string& kept : gone.kept) fmt::print(stderr, "gearshift: not removed: {}\n", printable(kept));
+  for (const std::string& file : gone.recordings) print_out("  {}\n", printable(file));
+  for (const std::string& file : gone.missing) print_out("  not found: {}\n", printable(file));
+  for (const std::string& kept : gone.kept) print_problem("not removed: {}", printable(kept));
 }
 
 void confirm(const ReportArguments& arguments, const LearnerRow& learner) {
@@ -161,7 +162,7 @@ int erase(const ReportArguments& arguments, History& history, const std::vector<
   if (!history.find_learner(arguments.learner) && history.erasure_is_pending()) {
     const std::string left = history.finish_erasure();
     if (left.empty())
-      fmt::print("nobody here is called {}; what an earlier deletion had left is gone\n", printable(arguments.learner));
+      print_out("nobody here is called {}; what an earlier deletion had left is gone\n", printable(arguments.learner));
     return tell_left(left);
   }
   const LearnerRow learner = known_learner(history, arguments.learner);
@@ -169,9 +170,9 @@ int erase(const ReportArguments& arguments, History& history, const std::vector<
   Deleted gone = delete_learner(history, learner);
   std::erase_if(gone.missing,
                 [&](const std::string& file) { return std::find(first.begin(), first.end(), file) != first.end(); });
-  fmt::print("{} is gone: {}, {}, {}, {}, {}, {}\n", printable(learner.name), counted(gone.sessions, "session"),
-             counted(gone.runs, "run"), counted(gone.shifts, "shift"), counted(gone.faults, "fault"),
-             counted(gone.comments, "comment"), counted(gone.recordings.size() + first.size(), "recording"));
+  print_out("{} is gone: {}, {}, {}, {}, {}, {}\n", printable(learner.name), counted(gone.sessions, "session"),
+            counted(gone.runs, "run"), counted(gone.shifts, "shift"), counted(gone.faults, "fault"),
+            counted(gone.comments, "comment"), counted(gone.recordings.size() + first.size(), "recording"));
   tell_recordings(gone);
   const int code = tell_left(gone.left);
   return gone.kept.empty() ? code : 1;
@@ -195,7 +196,7 @@ int delete_for_good(ReportArguments arguments, const fs::path& file) {
     confirm(arguments, learner);
     arguments.yes = true;
     const Deleted gone = remove_recordings(copy, learner);
-    fmt::print("The disk is full: {} recordings are gone first\n", gone.recordings.size());
+    print_out("The disk is full: {} recordings are gone first\n", gone.recordings.size());
     tell_recordings(gone);
     first = gone.recordings;
     history = std::make_unique<History>(file);
@@ -208,7 +209,7 @@ int report_learner(const ReportArguments& arguments, History& history) {
   const LearnerRow learner = known_learner(history, arguments.learner);
   obey_instructor(arguments, history, learner);
   if (!arguments.out.empty()) write_report(arguments, history, learner);
-  if (arguments.out.empty() && !instructs(arguments)) fmt::print("{}", run_table(read_learner(history, learner)));
+  if (arguments.out.empty() && !instructs(arguments)) print_out("{}", run_table(read_learner(history, learner)));
   return 0;
 }
 
@@ -219,7 +220,7 @@ int run_report(const ReportArguments& arguments) {
   if (!fs::exists(file, error) && !error) {
     if (!arguments.database.empty() || !arguments.learner.empty())
       throw std::runtime_error(fmt::format("{}: there is no such history", printable(file.string())));
-    fmt::print("Nobody has driven a lesson yet.\n");
+    print_out("Nobody has driven a lesson yet.\n");
     return 0;
   }
   if (arguments.deletes) return delete_for_good(arguments, file);

@@ -10,6 +10,7 @@
 #include "app/assets_path.h"
 #include "app/limited_words.h"
 #include "app/output_folder.h"
+#include "app/print_out.h"
 #include "app/reproduce/page.h"
 #include "app/reproduce/reproduce.h"
 #include "app/verbs/progress_bar.h"
@@ -40,15 +41,15 @@ std::string refuse_unknown_section(const std::string& id) {
 
 void print_result(const Study& study, const std::vector<Section>& sections) {
   for (const Limited& limited : study.admitted.limited) {
-    fmt::print(stderr, "gearshift: {}\n", limited_words(limited));
+    print_problem("{}", limited_words(limited));
   }
   for (const Section& section : sections) {
-    if (!section.problem.empty()) fmt::print(stderr, "gearshift: {}: {}\n", section.id, section.problem);
+    if (!section.problem.empty()) print_problem("{}: {}", section.id, section.problem);
     if (section.findings.empty()) continue;
     const Finding& main = section.findings.front();
-    fmt::print("{:<14}  {}: {}\n", section.id, main.paper, main.ours);
+    print_out("{:<14}  {}: {}\n", section.id, main.paper, main.ours);
   }
-  fmt::print("{}\n", (study.folder / "index.html").string());
+  print_out("{}\n", (study.folder / "index.html").string());
 }
 
 // All that can be refused is refused before the folder is made.

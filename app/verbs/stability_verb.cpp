@@ -11,11 +11,13 @@
 #include <fmt/core.h>
 
 #include "app/hold_words.h"
+#include "app/print_out.h"
 #include "app/stability/stability.h"
 #include "app/stability/stability_report.h"
 #include "app/stability/stability_svg.h"
 #include "app/verbs/number_between.h"
 #include "app/verbs/progress_bar.h"
+#include "app/verbs/two_files.h"
 #include "app/verbs/verbs.h"
 #include "haptics/device/simulated_lever.h"
 #include "haptics/files/file_error.h"
@@ -113,7 +115,7 @@ void write(std::ofstream& out, const std::string& file, const std::string& text)
   out << text;
   out.close();
   if (!out) throw FileError(file, 0, "cannot be written");
-  fmt::print(stderr, "gearshift: wrote {}\n", file);
+  print_problem("wrote {}", file);
 }
 
 void write_map(const StabilityArguments& arguments, const StabilityQuestion& question, const StabilityAnswer& answer) {
@@ -127,15 +129,14 @@ void write_map(const StabilityArguments& arguments, const StabilityQuestion& que
 }
 
 int run_stability(const StabilityArguments& arguments) {
-  if (!arguments.svg_file.empty() && arguments.svg_file == arguments.csv_file)
-    throw CLI::ValidationError("--csv", "drawing and table must be two files");
+  check_two_files("--csv", "drawing and table", arguments.csv_file, arguments.svg_file);
   const StabilityQuestion question{device_name(arguments), handle_of(arguments), arguments.rate, wall_of(arguments),
                                    hands_of(arguments.hand)};
   const StabilityAnswer answer = answer_or_refuse(question, arguments.hand);
   write_map(arguments, question, answer);
   const TrainerAnswer trainer = ask_trainer(question);
-  fmt::print("{}",
-             arguments.json ? stability_json(question, answer, trainer) : stability_text(question, answer, trainer));
+  print_out("{}",
+            arguments.json ? stability_json(question, answer, trainer) : stability_text(question, answer, trainer));
   return 0;
 }
 

@@ -11,6 +11,7 @@
 #include "app/devices/open_stick.h"
 #include "app/devices/stop_signals.h"
 #include "app/output_folder.h"
+#include "app/print_out.h"
 #include "app/tour/held_tour.h"
 #include "app/tour/tour.h"
 #include "app/trainer/user_folder.h"
@@ -32,13 +33,13 @@ struct TourVerbArguments {
 };
 
 void print_files(const TourSetup& setup) {
-  fmt::print("{0}/trajectory.png and {0}/force.png (also .svg), trace {0}/tour.trace, table {0}/tour.csv\n",
-             setup.folder.string());
+  print_out("{0}/trajectory.png and {0}/force.png (also .svg), trace {0}/tour.trace, table {0}/tour.csv\n",
+            setup.folder.string());
 }
 
 // People and scripts that hold the stick wait for these lines.
 void tell_person(const std::string& line) {
-  fmt::print("{}\n", line);
+  print_out("{}\n", line);
   std::fflush(stdout);
 }
 
@@ -64,7 +65,7 @@ int run_held_tour(const TourVerbArguments& arguments) {
   bar.clear();
   print_files(setup);
   if (result.came_in_order()) return 0;
-  fmt::print(stderr, "gearshift: not every gear was engaged in order\n");
+  print_problem("not every gear was engaged in order");
   return 1;
 }
 
@@ -80,9 +81,8 @@ int run_tour(const TourArguments& arguments) {
   draw_tour(setup, result, progress);
   bar.clear();
   print_files(setup);
-  if (result.complete()) return 0;
-  fmt::print(stderr, "gearshift: the hand did not engage every gear in order\n");
-  return 1;
+  if (!result.complete()) print_problem("the hand did not engage every gear in order");
+  return result.complete() && !result.lost ? 0 : 1;
 }
 
 }  // namespace

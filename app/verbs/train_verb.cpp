@@ -6,10 +6,9 @@
 #include <stdexcept>
 #include <string>
 
-#include <fmt/core.h>
-
 #include "app/assets_path.h"
 #include "app/devices/open_stick.h"
+#include "app/print_out.h"
 #include "app/train/own_bindings.h"
 #include "app/train/train.h"
 #include "app/trainer/user_folder.h"
@@ -104,7 +103,7 @@ TrainSetup make_setup(const TrainArguments& arguments) {
 int run_demo_instead(const TrainArguments& arguments) {
   if (arguments.or_demo.empty())
     throw std::runtime_error("there is no display: train --offscreen DIR needs none, and demo --out DIR shows a tour");
-  fmt::print("No display: a simulated hand drives the gate in the cabin instead.\n");
+  print_out("No display: a simulated hand drives the gate in the cabin instead.\n");
   std::fflush(stdout);  // the demo takes a minute
   TourArguments tour;
   tour.folder = arguments.or_demo;
@@ -116,7 +115,7 @@ int run_demo_instead(const TrainArguments& arguments) {
 // A hand that drives by itself is nobody's, whoever is named.
 void tell_nobody_learns(const SessionChoice& choice) {
   if (choice.learner.empty() || !learner_of(choice).empty()) return;
-  fmt::print(stderr, "gearshift: the hand drives by itself: nothing is remembered of {}\n", printable(choice.learner));
+  print_problem("the hand drives by itself: nothing is remembered of {}", printable(choice.learner));
 }
 
 // A person holds it: nobody else leads it, and it has its own time.

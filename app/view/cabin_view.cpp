@@ -7,8 +7,7 @@
 #include <numbers>
 #include <vector>
 
-#include <fmt/core.h>
-
+#include "app/print_out.h"
 #include "app/user_cache.h"
 #include "engine/window/swapchain.h"
 
@@ -79,7 +78,7 @@ GpuConfig gpu_config(bool with_window) {
   config.swapchain = with_window;
   if (with_window) config.instance_extensions = Window::instance_extensions();
   config.validation = std::getenv("GEARSHIFT_VALIDATION") != nullptr;
-  config.on_validation = [](std::string_view text) { fmt::print(stderr, "gearshift: validation: {}\n", text); };
+  config.on_validation = [](std::string_view text) { print_problem("validation: {}", text); };
   config.pipeline_cache = user_cache_file("pipelines.bin");
   return config;
 }

@@ -47,4 +47,15 @@ std::vector<BenchRow> run_family(const NamedFamily& family, const BenchOptions& 
   return rows;
 }
 
+std::vector<BenchRow> unmeasured_family(const NamedFamily& family, const std::string& why) {
+  std::vector<BenchRow> rows;
+  for (const DesignRow& asked : kDesignRows) {
+    if (std::find(family.answers.begin(), family.answers.end(), asked.key) == family.answers.end()) continue;
+    rows.push_back(answering(asked.key, {std::string(family.name), std::string(asked.name), 0.0, "", {}, false, why}));
+  }
+  if (rows.empty()) rows.push_back({std::string(family.name), "all of it", 0.0, "", {}, false, why});
+  for (BenchRow& row : rows) row.measured = false;
+  return rows;
+}
+
 }  // namespace gearshift

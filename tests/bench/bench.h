@@ -72,6 +72,9 @@ const std::vector<NamedFamily>& bench_families();
 // without a claim.
 std::vector<BenchRow> run_family(const NamedFamily& family, const BenchOptions& options);
 
+// Where it cannot be run: why, in place of each of those answers; a row at least.
+std::vector<BenchRow> unmeasured_family(const NamedFamily& family, const std::string& why);
+
 std::vector<BenchRow> bench_cycle(const BenchOptions& options);      // cost of the haptic cycle and of its stages
 std::vector<BenchRow> bench_headless(const BenchOptions& options);   // simulated seconds per second
 std::vector<BenchRow> bench_plant(const BenchOptions& options);      // exact step against the closed form

@@ -7,6 +7,7 @@ source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 export XDG_DATA_HOME=$work/data XDG_CACHE_HOME=$work/cache XDG_RUNTIME_DIR=$work/runtime
 mkdir -m 700 runtime
 
+is_refused() { ! "$@"; }
 bench() { "$gearshift" bench "$@" >out 2>err; }
 says() { grep -qF -- "$1" out; }
 complains() { grep -qF -- "$1" err; }
@@ -41,6 +42,16 @@ check "JSON: the rest stands beside" in_json 'any(r["name"].endswith("energy bou
 quick_seconds() { TIMEFORMAT='bench --quick took %R s, the processors %U + %S s'; time bench --quick --json; }
 if whole; then check "a look at everything" quick_seconds; fi
 
+# A family that cannot be measured costs its own rows.
+check "without a driver" is_refused env VK_ICD_FILENAMES=/nonexistent.json \
+  "$gearshift" bench --quick --family plant --family picture --family feel --out x >out 2>err
+check "it is told, once" test "$(grep -c "^gearshift: the family picture cannot be measured: " err)" -eq 1 -a \
+  "$(wc -l <err)" -eq 1
+check "JSON: the others are there, and why it has none" in_json \
+  '{r["family"] for r in run["rows"] if r["value"] is not None} == {"plant", "feel"} and
+   {r.get("design") for r in run["rows"] if r["value"] is None and r["note"]} == {"first_frame", "cabin"}'
+check "the page is whole" is_xml x/bench.html
+
 check "a full run" bench --family feel
 check "has nothing to be compared with" test -z "$(grep 'since last' out)"
 check "and is kept" test "$(ls data/gearshift/bench | wc -l)" -eq 1
@@ -54,7 +65,6 @@ check "which says where it is now" complains "$last.unreadable"
 check "and the next has one again" test -n "$(grep feel "$last")"
 
 # An output that cannot be written costs no other.
-is_refused() { ! "$@"; }
 check "a full disk for the CSV" is_refused bench --family feel --csv /dev/full --out full
 check "is told" complains "/dev/full: cannot be written"
 check "the page is there all the same" is_xml full/bench.html

@@ -94,7 +94,7 @@ print(*sqlite3.connect(sys.argv[1]).execute("SELECT duration_s FROM lesson_run O
 check "clock: the lesson lasted as long as it did, got $(span) s" awk -v s="$(span)" 'BEGIN {exit !(s > 1 && s < 200)}'
 check "and nothing else is told, got: $(grep -v picture picture.err)" [ "$(wc -l <picture.err)" -eq 1 ]
 
-# The same step while OpenAL plays to nowhere: it mixes an hour first, and the program ends late. The lever does not wait.
+# The same step while OpenAL plays to nowhere, as it was asked to above and never does by itself: it mixes an hour first, and the program ends late. The lever does not wait.
 check "late end: a lesson begins" lesson late
 check "late end: it has forces" in_time 10 has_forces
 check "late end: it runs" find_program

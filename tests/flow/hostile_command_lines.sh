@@ -38,6 +38,20 @@ for verb in "gate paper" "lesson hill_start" "tour --help"; do
   fi
 done
 
+# Who cannot be told why learns the code.
+for way in '2>/dev/full' '2>&-' '>&- 2>&-' '<&- >&- 2>&-'; do
+  for wanted in "2 tour --out t --rate 99" "1 gate no_such_gate" "2 fly"; do
+    bash -c "\"\$@\" $way" - "$gearshift" ${wanted#* }
+    got=$?
+    if [ $got -ne "${wanted%% *}" ]; then
+      echo "FAILED: gearshift ${wanted#* } $way: exit $got"
+      failed=$((failed + 1))
+    else
+      passed=$((passed + 1))
+    fi
+  done
+done
+
 unset DISPLAY WAYLAND_DISPLAY
 refuse 2 "--calibrate: the name of a stick is empty" devices --calibrate ""
 refuse 2 "--csv: is empty" bench --family feel --csv ""
@@ -113,6 +127,21 @@ refuse 1 "folder" gate folder
 refuse 1 "empty" gate ./empty
 refuse 1 "zeros.trace" gate zeros.trace
 refuse 1 "/nowhere/x.svg" gate paper --svg /nowhere/x.svg
+cp "$source/assets/gates/paper.toml" own.toml
+ln own.toml other_name.svg
+refuse 2 "two files" gate own.toml --svg other_name.svg
+refuse 2 "two files" gate "$source/assets/gates/paper.toml" --svg "$source/./assets/gates/paper.toml"
+cp "$source/assets/lessons/hill_start.toml" hill.toml
+refuse 2 "two files" lesson ./hill.toml --trace hill.toml
+refuse 2 "two files" lesson hill_start --gate own.toml --trace folder/../own.toml
+cp "$source/assets/models/gearbox.glb" box.glb
+refuse 2 "two files" render box.glb --out folder/../box.glb
+refuse 2 "two files" stability --svg both --csv ./both
+refuse 2 "two files" bench --family plant --out t --csv t/bench.csv
+refuse 2 "two files" bench --family plant --out folder --csv folder/../folder/bench.html
+for one in "own.toml gates/paper.toml" "hill.toml lessons/hill_start.toml" "box.glb models/gearbox.glb"; do
+  cmp ${one% *} "$source/assets/${one#* }" || failed=$((failed + 1))
+done
 refuse 2 "required" replay
 refuse 1 "missing.trace" replay missing.trace
 refuse 1 "zeros.trace" replay zeros.trace

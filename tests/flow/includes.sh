@@ -5,7 +5,7 @@ set -u
 cd "$1" || exit 1
 
 haptics="haptics/files haptics/rt haptics/joystick haptics/gate haptics/device haptics/contact haptics/analysis haptics/safety haptics/loop haptics/hid haptics/usb haptics/hardware"
-shared="app/assets_path app/energy_words app/event_words app/hold_words app/limited_words app/output_folder app/program_name app/user_cache"
+shared="app/assets_path app/energy_words app/event_words app/hold_words app/limited_words app/output_folder app/print_out app/program_name app/user_cache"
 pictures="engine/gpu engine/image engine/model engine/render engine/scene engine/ui engine/window engine/xr"
 declare -A sees=(
   [haptics/files]="" [haptics/rt]="" [haptics/joystick]=""
@@ -27,7 +27,7 @@ declare -A sees=(
   [app/draw]="$haptics" [app/bench]="$haptics app/draw tests/bench"
   [app/report]="$haptics $shared app/history app/training app/vehicle app/draw app/replay"
   [app/learner]="$haptics app/training app/vehicle"
-  [app/devices]="$haptics app/input engine/window engine/gpu engine/image"
+  [app/devices]="$haptics $shared app/input engine/window engine/gpu engine/image"
   [app/trainer]="$haptics app/vehicle app/training" [app/input]="$haptics engine/window engine/gpu engine/image"
   [app/stage]="$haptics app/vehicle engine/scene engine/model engine/image"
   [app/cabin_sound]="$haptics app/vehicle engine/scene engine/model engine/image engine/sound"

@@ -53,6 +53,13 @@ fi
 check "nothing on stderr, got: $(cat use.err)" test ! -s use.err
 check "the gate is the installed one" grep -qF "($prefix/share/gearshift/assets/gates/paper.toml)" gate.txt
 check "the cabin is drawn" is_png drawn/train.png
+mkdir -p alone/bin && cp "$prefix/bin/gearshift" alone/bin
+for verb in "gate paper" "campaign --out c"; do
+  alone/bin/gearshift $verb >alone.txt 2>alone.err
+  code=$?
+  check "$verb without its files: one sentence, got: $(cat alone.err)" \
+    test $code -eq 1 -a "$(grep -c "^gearshift: .*Install it again, whole$" alone.err)" -eq 1 -a ! -s alone.txt
+done
 ln -s "$prefix/bin/gearshift" link
 check "a link to the program finds its files, too" ./link gate paper >gate.txt
 

@@ -266,6 +266,30 @@ check "removed: told, with what is lost, got: $(cat taken.err)" test "$(wc -l <t
   -n "$(grep "it was removed" taken.err)" -a -n "$(grep "lost with this program: [0-9]* runs" taken.err)"
 check "removed: not made anew" test ! -e taken/h.db
 
+# What is said does not arrive: full, closed, nobody reads any more. All is remembered, the exit code tells it.
+unheard() { # name, exit code, script around "$@" that drives three runs
+  local runs="$gearshift lesson skip_shifts --runs 3 --verbose --learner Kim --database $1.db"
+  check "$1: exit $2" exits "$2" bash -c "$3" - $runs
+  check "$1: three runs that are over" report --learner Kim --database "$1.db" --out "$1" --csv
+  check "$1: to their ends" test "$(grep -c ',done,' "$1/runs.csv")" -eq 3
+}
+unheard said_to_full 1 '"$@" >/dev/full 2>unheard.err'
+check "said_to_full: told, got: $(cat unheard.err)" grep -q "standard output cannot be written" unheard.err
+unheard said_to_nobody 1 '{ "$@" 2>unheard.err; echo $? >unheard.code; } | head -n 1 >/dev/null; exit "$(cat unheard.code)"'
+check "said_to_nobody: told, got: $(cat unheard.err)" grep -q "standard output cannot be written" unheard.err
+unheard said_to_closed 1 '"$@" >&- 2>unheard.err'
+check "said_to_closed: told, got: $(cat unheard.err)" grep -q "standard output cannot be written" unheard.err
+mkdir no_folder && touch no_folder/recordings # no recording has a place there: that is told, where it can be
+for way in '2>/dev/full' '2>&-'; do
+  cp good.db no_folder/h.db
+  check "told to $way: passed" bash -c "\"\$@\" >unheard.txt $way" - \
+    "$gearshift" lesson hill_start --runs 2 --learner Kim --database no_folder/h.db
+  check "told to $way: both runs" test "$(grep -c 'Passed\.$' unheard.txt)" -eq 2
+done
+check "closed output: passed, and told" exits 1 bash -c '"$@" >&- 2>/dev/null' - \
+  "$gearshift" lesson skip_shifts --verbose --trace closed.trace
+check "closed output: what was said is not in the trace" bit_for_bit closed.trace
+
 # Moved with its recordings: they are found, drawn and deleted where they are now.
 learn moved skip_shifts --learner Kim --database before/h.db
 mv before after_the_move
