@@ -46,8 +46,9 @@ std::string ripple_text(const CampaignSummary& summary, bool promised) {
   std::string text = "| rate | delay | cases | median mm | p95 mm | worst mm |\n|---|---|---|---|---|---|\n";
   for (const RippleCell& cell : summary.ripple)
     if (cell.promised == promised)
-      text += fmt::format("| {:g} to {:g} Hz | {} | {} | {:.3f} | {:.3f} | {:.3f} |\n", cell.slowest, cell.fastest,
-                          cell.delay, cell.cases, 1e3 * cell.median, 1e3 * cell.p95, 1e3 * cell.most);
+      text += fmt::format("| {:g} to {:g} Hz | {}{} | {} | {:.3f} | {:.3f} | {:.3f} |\n", cell.slowest, cell.fastest,
+                          cell.delay, cell.delay == 4 ? " to 8" : "", cell.cases, 1e3 * cell.median, 1e3 * cell.p95,
+                          1e3 * cell.most);
   return text;
 }
 
@@ -137,14 +138,14 @@ std::string campaign_json(const CampaignSummary& summary, const std::string& pro
 std::string case_text(const CampaignCase& drawn, const CaseOutcome& outcome) {
   const HapticConfig& haptics = drawn.haptics;
   std::string text = fmt::format(
-      "case {}, seed {:016x}: {} hand ({:.3g} kg, {:.3g} N s/m, {:.4g} N/m), {} gate, {:.1f} Hz, delay {}, jitter "
+      "case {}, seed {:016x}: {} hand ({:.3g} kg, {:.3g} N s/m, {:.4g} N/m), {} gate, {}{:.1f} Hz, delay {}, jitter "
       "{:.1f} "
       "%, plant error {:.1f} %, count {:.1f} um, {}, {}, K {:.0f} N/m wanted, {:.0f} used, last push {:.0f} "
       "N\n",
       drawn.number, drawn.seed, std::string(kCaseHandNames[static_cast<std::size_t>(drawn.hand)]),
       drawn.lever.hand.mass, drawn.lever.hand.damping, drawn.lever.hand.stiffness,
-      drawn.shipped_gate >= 0 ? "shipped" : "random", haptics.rate, drawn.lever.delay,
-      100.0 * drawn.lever.period_jitter, 100.0 * drawn.lever.model_error, 1e6 * count_of(drawn),
+      drawn.shipped_gate >= 0 ? "shipped" : "random", drawn.has_car ? "a car behind it, " : "", haptics.rate,
+      drawn.lever.delay, 100.0 * drawn.lever.period_jitter, 100.0 * drawn.lever.model_error, 1e6 * count_of(drawn),
       hold_words(haptics.contact.hold), energy_words(haptics.contact.energy_control), haptics.tuning.wall_stiffness,
       outcome.stiffness, drawn.manner.last_push);
   if (!outcome.refused.empty()) return text + "refused: " + outcome.refused + "\n";

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include <glm/geometric.hpp>
 
@@ -12,10 +13,15 @@ namespace {
 
 constexpr double kReacquireAfter = 0.050;  // [s] without a believed sample, then the next one is a new start
 
+constexpr double kRounding = 1e-6;  // [1] of a count
+
 }  // namespace
 
-LeverEstimator::LeverEstimator(const EstimatorConfig& config, double period) noexcept
-    : config_(config), period_(period), blend_(1.0 - std::exp(-period / config.smoothing)) {}
+LeverEstimator::LeverEstimator(const EstimatorConfig& config, double period, double count) noexcept
+    : config_(config),
+      period_(period),
+      edge_(std::numbers::sqrt2 * count * (1.0 + kRounding)),
+      blend_(1.0 - std::exp(-period / config.smoothing)) {}
 
 LeverMotion LeverEstimator::update(const LeverReading& reading) noexcept {
   motion_.fresh = false;
@@ -31,7 +37,7 @@ LeverMotion LeverEstimator::update(const LeverReading& reading) noexcept {
   const double since_believed = seconds(time_ns_, reading.time_ns);
   seen_sequence_ = reading.sequence;
   seen_time_ns_ = reading.time_ns;
-  if (glm::length(travel) > config_.speed_limit * since_seen) return hold();
+  if (glm::length(travel) > edge_ + config_.speed_limit * since_seen) return hold();
   accept(reading, window_velocity(reading, travel / since_believed));
   return motion_;
 }

@@ -28,7 +28,8 @@ struct EstimatorConfig {
 
 class LeverEstimator {
  public:
-  LeverEstimator(const EstimatorConfig& config, double period) noexcept;  // period [s]
+  // period [s]; count [m]: of the encoder at the tip, a jump by which says nothing of a speed
+  LeverEstimator(const EstimatorConfig& config, double period, double count = 0.0) noexcept;
 
   // Motion after one reading. Not finite, jumping, backward or repeated readings are not fresh: position and
   // velocity are held. After 50 ms without a believed sample the next finite one is a new start, whatever its place
@@ -45,6 +46,7 @@ class LeverEstimator {
 
   EstimatorConfig config_;
   double period_;
+  double edge_;   // [m] a count on both axes at once
   double blend_;  // [1] of the newest sample in smooth_velocity
   LeverMotion motion_;
   std::int64_t time_ns_ = 0;         // of the last believed sample

@@ -7,9 +7,9 @@ A command is a line of a code block, or inline code, that begins with one of PRO
 in their order in one empty folder, with a home of their own, beside what make_fixtures() makes and what the document
 itself has in fenced blocks with a file's name (```toml my.toml). Words in capitals get a value from VALUES. Exit code
 0 is expected, or what the comment behind the command says: "# exits 1"; and what it says in words must be printed: #
-says "may not". What wants a person, a headset, a stick or many minutes stands in ELSEWHERE, with the reason and what
-shows it instead: its verb and options must exist all the same, and a guide says "# not run: why". What is only long
-stands in LONG, and is run by ./test --full. Ranges and defaults in the tuning guide are compared with the program's,
+says "may not". What wants a person, a headset, a stick or many minutes stands in ELSEWHERE, with the reason and what runs
+it instead, if not a person: its verb and options must exist all the same, and a guide says "# not run: why". What is only
+long stands in LONG, and is run by ./test --full. Ranges and defaults in the tuning guide are compared with the program's,
 too.
 """
 import concurrent.futures
@@ -35,37 +35,40 @@ VALUES = {"gate NAME": "paper", "gate LAYOUT": "dog_leg_five", "lesson NAME": "m
           "replay TRACE": "tour.trace", "replay FILE": "killed.trace", "render FILE": "assets/models/hand.glb",
           "FILE": "bindings.toml", "DIR": "made", "PNG": "made.png", "OUT": "out.csv", "WHO": "Ada"}
 
-# pattern of a command: reason, and the flow, or the other file, that shows it.
+# pattern of a command: reason; the file that runs it, and the words there that do. Without: a person runs it.
 ELSEWHERE = {
-    r"\./run$": ("installs and opens a window", "tests/flow/window.sh"),
-    r"\./test|ctest|cmake --workflow|cmake --build": ("runs this test", "CMakePresets.json"),
-    r"gearshift .*--device ": ("wants a stick and who holds it", "tests/flow/devices.sh"),
-    r"gearshift devices --calibrate": ("wants a stick and a person", "tests/flow/devices.sh"),
-    r"gearshift train.* --xr": ("wants a headset", "tests/flow/headset.sh"),
-    r"gearshift demo ": ("takes minutes on a busy machine", "tests/flow/demo.sh"),
-    r"gearshift reproduce --out \S+$": ("takes long", "tests/flow/reproduce.sh"),
+    r"\./run$": ("installs and opens a window",),
+    r"\./test|ctest|cmake --workflow|cmake --build": ("runs this test", "test", "ctest --preset dev"),
+    r"gearshift .*--device ": ("wants a stick and who holds it", "tests/flow/devices.sh", "--device"),
+    r"gearshift devices --calibrate": ("wants a stick and a person", "tests/flow/calibrate.sh", "devices --calibrate"),
+    r"gearshift train.* --xr": ("wants a headset", "tests/flow/no_headset.sh", "--xr"),
+    r"gearshift demo ": ("takes minutes on a busy machine", "tests/flow/demo.sh", '"$gearshift" demo'),
+    r"gearshift reproduce --out \S+$": ("takes long", "tests/flow/reproduce.sh", '"$gearshift" reproduce'),
     r"gearshift bench --family (contact|boundary|methods|hard)":
-        ("takes minutes; its campaigns are this test's", "tests/haptics/loop/contact_goals_test.cpp"),
-    r"gearshift bench --family learning": ("the same", "tests/app/learner/learner_model_test.cpp"),
+        ("takes minutes; its campaigns are this test's", "tests/haptics/loop/contact_goals_test.cpp", "run_impacts("),
+    r"gearshift bench --family learning": ("takes minutes",),
     r"gearshift bench($| --family (jitter|beside|picture|quality|light))":
-        ("takes minutes, and the machine for itself", "tests/bench/README.md"),
-    r"gearshift campaign (--seed 1 )?--out \S+$": ("a million shifts", "tests/flow/campaign.sh"),
-    r"cmake --preset (release|dev) && cmake --build": ("builds all of it anew", "tests/flow/deb_in_chroot.sh"),
-    r"cmake --install": ("installs what was built", "tests/flow/install.sh"),
-    r"gearshift report .*--delete$": ("asks for the name", "tests/flow/report.sh"),
-    r"blender ": ("Blender is not installed for the tests", "assets/models/build.py"),
-    r"tests/(fuzz/run|coverage)": ("takes minutes: ./test --full", "test"),
-    r"GEARSHIFT_\w+=": ("writes pictures", "tests/README.md"),
-    r"hid_descriptor_fuzz|gltf_fuzz": ("searches for ever", "tests/fuzz/CMakeLists.txt"),
-    r"tests/guest/run_guest\.sh": ("boots a kernel: ./test --full", "tests/guest/run_guest.sh"),
-    r"tests/flow/\w+\.sh": ("a flow itself", "tests/flow/CMakeLists.txt"),
-    r"umockdev-wrapper ": ("an emulated stick in real time", "tests/flow/sticks.sh"),
-    r"sudo ": ("changes the machine", "assets/udev/70-gearshift.rules"),
+        ("takes minutes, and the machine for itself",),
+    r"gearshift campaign (--seed 1 )?--out \S+$": ("a million shifts; fewer there", "tests/flow/campaign.sh", " campaign "),
+    r"cmake --preset (release|dev) && cmake --build": ("builds all of it anew", "test", "cmake --build --preset"),
+    r"cmake --install": ("installs what was built", "tests/flow/install.sh", "cmake --install"),
+    r"gearshift report .*--delete$": ("asks for the name", "tests/flow/report.sh", "--delete"),
+    r"blender ": ("Blender is not installed for the tests",),
+    r"tests/fuzz/run": ("takes minutes: ./test --full", "test", "tests/fuzz/run"),
+    r"tests/coverage": ("takes minutes: ./test --full", "test", "tests/coverage"),
+    r"GEARSHIFT_\w+=": ("writes pictures",),
+    r"hid_descriptor_fuzz|gltf_fuzz": ("searches for ever; for a minute there", "tests/fuzz/run", "_fuzz"),
+    r"tests/guest/run_guest\.sh": ("boots a kernel: ./test --full", "tests/guest/CMakeLists.txt", "run_guest.sh"),
+    r"tests/flow/deb_in_chroot\.sh": ("makes a Debian of its own",),
+    r"tests/flow/soak\.sh": ("takes hours",),
+    r"tests/flow/\w+\.sh": ("a flow itself", "tests/flow/CMakeLists.txt", "flow("),
+    r"umockdev-wrapper ": ("an emulated stick in real time", "tests/flow/sticks.sh", "umockdev-wrapper"),
+    r"sudo ": ("changes the machine",),
 }
 
 LONG = {
-    r"gearshift bench --(quick|out bench)$": ("all families", "tests/flow/bench.sh"),
-    r"gearshift campaign --shifts 1000 ": ("shorter there", "tests/flow/campaign.sh"),
+    r"gearshift bench --(quick|out bench)$": ("all families", "tests/flow/bench.sh", "bench --quick"),
+    r"gearshift campaign --shifts 1000 ": ("shorter there", "tests/flow/campaign.sh", "--shifts"),
 }
 if not os.environ.get("GEARSHIFT_FULL"):
     ELSEWHERE |= LONG
@@ -225,16 +228,20 @@ class Runner:
         return True
 
     def shown_elsewhere(self, command):
-        for pattern, (_, shown_by) in ELSEWHERE.items():
+        for pattern, (_, *shown_by) in ELSEWHERE.items():
             if re.match(pattern, command.text):
-                if not (self.sources / shown_by).exists():
-                    self.fail(command, f"{shown_by}, which is to show it, does not exist")
+                if shown_by and shown_by[1] not in self.text_of(shown_by[0]):
+                    self.fail(command, f"{shown_by[0]}, which is to show it, has no {shown_by[1]}")
                 self.parses(command)
                 if command.document.endswith(GUIDES) and not (command.inline or command.is_said_not_run):
                     self.fail(command, 'is not run, and does not say so: "# not run: why"')
                 self.elsewhere += 1
                 return True
         return False
+
+    def text_of(self, name):
+        path = self.sources / name
+        return path.read_text() if path.exists() else ""
 
     def as_run(self, command):
         text = command.text

@@ -96,4 +96,5 @@ for locale in de_DE.UTF-8 tr_TR.UTF-8; do
   # The session's own history holds the hour, what the driver compiled its own mind.
   check "and is the same, byte for byte" diff -rq -x .local -x .cache C.UTF-8 $locale
 done
-finish
+finish || exit
+[ -n "$locked" ] || exit 77

@@ -4,8 +4,13 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 #include <random>
 #include <vector>
+
+#include "haptics/files/file_error.h"
+#include "haptics/gate/gate_compiler.h"
+#include "haptics/joystick/kinematics.h"
 
 namespace gearshift {
 namespace {
@@ -66,6 +71,19 @@ void plan_sizes(Dice& dice, Plan& plan) {
   plan.buffer = dice.between(0, static_cast<int>(0.95 * plan.center / pull));
 }
 
+// Valid by chance only.
+void plan_wide_sizes(Dice& dice, Plan& plan) {
+  plan.aisle = dice.between(40, 400);
+  plan.slot_width = dice.between(40, 300);
+  plan.chamfer = dice.between(0, 100);
+  plan.center = dice.between(5, 100);
+  plan.aisle_force = dice.between(0, 50);
+  plan.mouth = dice.between(0, 150);
+  plan.detent = dice.between(0, 200);
+  plan.lock = dice.between(10, 250);
+  plan.buffer = dice.between(0, 100);
+}
+
 // A smooth step of height F over a length l is nowhere steeper than 1.5 F/l: the slot must be long enough.
 // From mouth to end stop the bump takes 0.14, the detent's rise 0.14, the lock's rise 0.24, its fall 0.20.
 void plan_length(Dice& dice, Plan& plan) {
@@ -88,10 +106,12 @@ int reach_aside(int slot_length) {
   return static_cast<int>(std::min(side(kHalfX, kRadius), side(kRadius, kHalfY))) - kMargin;
 }
 
-void plan_positions(Dice& dice, Plan& plan) {
+// False: there is no room for two columns.
+bool plan_positions(Dice& dice, Plan& plan) {
   const int least = plan.slot_width + 2 * plan.chamfer + kWall;
   const int reach = reach_aside(plan.slot_length);
   const int span = 2 * reach - plan.slot_width - 1;
+  if (span < least) return false;
   const int count = dice.between(2, std::min(5, span / least + 1));
   int spare = span - (count - 1) * least;
   std::vector<int> gaps;
@@ -104,6 +124,7 @@ void plan_positions(Dice& dice, Plan& plan) {
   plan.position.push_back(x);
   for (const int gap : gaps) plan.position.push_back(x += gap);
   plan.neutral = static_cast<std::size_t>(dice.between(0, count - 1));
+  return true;
 }
 
 void plan_gears(Dice& dice, Plan& plan) {
@@ -161,22 +182,52 @@ std::string lockouts_text(Dice& dice, const Plan& plan) {
   return text;
 }
 
-}  // namespace
-
-std::string random_layout_text(std::uint64_t seed) {
-  Dice dice(seed);
-  Plan plan;
-  plan_sizes(dice, plan);
+// What is left to draw once sizes and forces are; empty: it has no room.
+std::string layout_text(Dice& dice, Plan& plan, std::uint64_t seed) {
   plan_length(dice, plan);
-  plan_positions(dice, plan);
+  if (!plan_positions(dice, plan)) return {};
   plan_gears(dice, plan);
   std::string text = entry("name", quoted("Random gate " + std::to_string(seed))) + "\n" + sizes_text(plan);
   for (std::size_t i = 0; i < plan.position.size(); ++i) text += column_text(dice, plan, i);
   return text + lockouts_text(dice, plan);
 }
 
+std::optional<GateLayout> accepted(const std::string& text, const std::string& file) {
+  constexpr YokeGeometry kYoke;
+  try {
+    GateLayout layout = parse_gate_layout(text, file);
+    (void)compile_gate(layout, workspace_half_extent(kYoke), kYoke.radius);
+    return layout;
+  } catch (const FileError&) {
+    return std::nullopt;
+  }
+}
+
+std::string file_of(std::uint64_t seed) {
+  return "random_" + std::to_string(seed) + ".toml";
+}
+
+}  // namespace
+
+std::string random_layout_text(std::uint64_t seed) {
+  Dice dice(seed);
+  Plan plan;
+  plan_sizes(dice, plan);
+  return layout_text(dice, plan, seed);
+}
+
 GateLayout random_layout(std::uint64_t seed) {
-  return parse_gate_layout(random_layout_text(seed), "random_" + std::to_string(seed) + ".toml");
+  return parse_gate_layout(random_layout_text(seed), file_of(seed));
+}
+
+GateLayout random_wide_layout(std::uint64_t seed) {
+  Dice dice(~seed);
+  for (;;) {
+    Plan plan;
+    plan_wide_sizes(dice, plan);
+    const std::string text = layout_text(dice, plan, seed);
+    if (std::optional<GateLayout> layout = accepted(text, file_of(seed))) return *layout;
+  }
 }
 
 }  // namespace gearshift

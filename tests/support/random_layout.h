@@ -12,4 +12,7 @@ namespace gearshift {
 std::string random_layout_text(std::uint64_t seed);
 GateLayout random_layout(std::uint64_t seed);  // the same, read; in messages its file is "random_SEED.toml"
 
+// Sizes and forces from anywhere within their ranges, drawn until the gate compiler accepts them.
+GateLayout random_wide_layout(std::uint64_t seed);
+
 }  // namespace gearshift

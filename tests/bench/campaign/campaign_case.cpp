@@ -5,27 +5,14 @@
 #include <cmath>
 #include <cstddef>
 #include <numbers>
-#include <random>
+
+#include "tests/bench/campaign/chance.h"
 
 namespace gearshift {
 namespace {
 
+constexpr std::uint64_t kWideSeed = 0x8f14e45fceea167a;  // apart from what every case draws
 constexpr double kCountPerDegree = YokeGeometry{}.radius * std::numbers::pi / 180.0;  // [m] of one count a degree
-
-// The engine's output is standardised, the library's distributions are not.
-class Chance {
- public:
-  explicit Chance(std::uint64_t seed) : engine_(seed) {}
-  double between(double low, double high) {
-    return low + (high - low) * 0x1p-53 * static_cast<double>(engine_() >> 11);
-  }
-  double decades(double low, double high) { return low * std::exp(between(0.0, std::log(high / low))); }
-  int below(int count) { return static_cast<int>(engine_() % static_cast<std::uint64_t>(count)); }
-  bool happens(double share) { return between(0.0, 1.0) < share; }
-
- private:
-  std::mt19937_64 engine_;
-};
 
 HandImpedance hand_of(CaseHand kind, Chance& chance) {
   switch (kind) {
@@ -125,6 +112,26 @@ SimulatedLeverConfig lever_of(CaseHand kind, std::uint64_t seed, Chance& chance)
   return lever;
 }
 
+// What is drawn narrowly above, from all that its check allows; readings are believed up to any speed in a fifth.
+void widen(CampaignCase& drawn, Chance& chance) {
+  drawn.is_wide = true;
+  HapticConfig& haptics = drawn.haptics;
+  haptics.rate = chance.decades(100.0, 4000.0);
+  haptics.gear_debounce = chance.between(0.0, 0.5);
+  haptics.ghost_offset = chance.between(0.0, 1.0);
+  haptics.guard.ramp_time = chance.decades(0.001, 60.0);
+  haptics.guard.fade_time = chance.decades(0.001, 1.0);
+  haptics.guard.overruns_in_row = 1 + chance.below(1000);
+  haptics.guard.damped_damping = chance.between(0.0, 50.0);
+  haptics.guard.position_margin = chance.between(0.0, 1.0);
+  haptics.over_push.warn_above = chance.decades(1.0, 1000.0);
+  haptics.over_push.clear_below = chance.between(0.0, haptics.over_push.warn_above);
+  if (chance.happens(0.2)) haptics.estimator.speed_limit = chance.decades(0.1, 1000.0);
+  drawn.lever.delay = chance.below(9);
+  if (chance.happens(0.3)) drawn.lever.model_error = chance.between(0.0, 0.5);
+  drawn.has_car = chance.happens(0.5);
+}
+
 }  // namespace
 
 std::uint64_t case_seed(std::uint64_t campaign_seed, std::uint64_t number) noexcept {
@@ -145,6 +152,8 @@ CampaignCase drawn_case(std::uint64_t campaign_seed, std::uint64_t number, int s
   drawn.manner = manner_of(drawn.hand, chance);
   drawn.haptics = haptics_of(chance);
   drawn.lever = lever_of(drawn.hand, drawn.seed, chance);
+  Chance apart(drawn.seed ^ kWideSeed);
+  if (number % kWideEvery == kFirstWide) widen(drawn, apart);
   return drawn;
 }
 

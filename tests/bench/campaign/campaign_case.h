@@ -48,8 +48,13 @@ struct CampaignCase {
   CaseManner manner;
   HapticConfig haptics;
   SimulatedLeverConfig lever;
-  int shifts = 40;  // that are tried; 0 for nobody's hand
+  int shifts = 40;       // that are tried; 0 for nobody's hand
+  bool is_wide = false;  // gate, rate, delay and all else from anywhere within their ranges
+  bool has_car = false;  // behind the lever: random_car() of this seed
 };
+
+// Each seventh case is wide: number 4, 11, ...; the others are what they were before there were any.
+inline constexpr std::uint64_t kWideEvery = 7, kFirstWide = 4;
 
 // The case's seed: the n-th output of splitmix64 that begins with the campaign's.
 std::uint64_t case_seed(std::uint64_t campaign_seed, std::uint64_t number) noexcept;

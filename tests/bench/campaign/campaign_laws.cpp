@@ -122,7 +122,9 @@ LawLimits law_limits(const HapticConfig& config, const SimulatedLeverConfig& lev
   limits.slew = config.guard.slew;
   limits.ramp = std::min(1.0, limits.period / config.guard.ramp_time);
   limits.falls_at_once = config.contact.energy_control == EnergyControl::energy_bounding;
-  limits.energy_bounded = limits.falls_at_once && spec.delay == 0 && spec.own_stiffness == dvec2(0.0);
+  // Bounding may give back half of what the believed damping takes in a period of the believed length.
+  const bool is_enough = 1.0 - lever.model_error >= 0.5 * (1.0 + lever.period_jitter);
+  limits.energy_bounded = limits.falls_at_once && is_enough && spec.delay == 0 && spec.own_stiffness == dvec2(0.0);
   limits.damping = {spec.axis_x.damping, spec.axis_y.damping};
   limits.least_damping = (1.0 - lever.model_error) * limits.damping;
   limits.longest = (1.0 + lever.period_jitter) * limits.period;
@@ -157,13 +159,19 @@ void LockoutLaw::look(const SeenCycle& cycle, const Gate& gate, LawBook& book) n
   const double time = 1e-9 * static_cast<double>(cycle.now.time_ns);
   std::uint32_t bit = 1u;
   for (const Lockout& lockout : lockouts(gate)) {
-    bool closed = false;  // a speed lockout is open: nothing drives
+    bool closed = false;
+    if (lockout.kind == LockoutKind::speed) {
+      const double speed = std::abs(cycle.before.road_speed);
+      if (speed > lockout.close_above) closed_ |= bit;
+      if (speed < lockout.open_below) closed_ &= ~bit;
+      closed = (closed_ & bit) != 0;
+    }
     if (lockout.kind == LockoutKind::push_down) closed = !cycle.pressed_down;
     if (lockout.kind == LockoutKind::lift) closed = !cycle.lifted;
     if (lockout.kind == LockoutKind::after_gear) {
-      if (is_out_of_column(gate, lockout.after_gear, cycle.before.proxy)) after_gear_ &= ~bit;
-      if (cycle.before.gear == lockout.after_gear) after_gear_ |= bit;
-      closed = (after_gear_ & bit) != 0;
+      if (is_out_of_column(gate, lockout.after_gear, cycle.before.proxy)) closed_ &= ~bit;
+      if (cycle.before.gear == lockout.after_gear) closed_ |= bit;
+      closed = (closed_ & bit) != 0;
     }
     const bool crossed = is_past(gate, lockout, cycle.now.proxy) && !is_past(gate, lockout, cycle.before.proxy);
     if (crossed) book.note(CampaignLaw::lockout, bad(closed), 0.0, time);
@@ -177,9 +185,9 @@ void force_law(const SeenCycle& cycle, const LawLimits& limits, LawBook& book) n
   book.note(CampaignLaw::force, force[axis], limits.max_force[axis], 1e-9 * static_cast<double>(cycle.now.time_ns));
 }
 
-// While the guard's ramp is rising it adds its own part.
+// While the guard's ramp is rising it adds its own part. Armed it has nothing yet: what it tells is the last of a fall.
 void slew_law(const SeenCycle& cycle, const LawLimits& limits, LawBook& book) noexcept {
-  if (!is_up(cycle.now.guard) || !is_up(cycle.before.guard)) return;
+  if (!is_up(cycle.now.guard) || !is_up(cycle.before.guard) || cycle.before.guard == GuardState::armed) return;
   const dvec2 now = cycle.now.commanded, before = cycle.before.commanded;
   // What falls at once falls to nothing, and not to the other side.
   const dvec2 kept = glm::max(dvec2(0.0), glm::sign(now) * before);

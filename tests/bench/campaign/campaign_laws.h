@@ -62,7 +62,7 @@ struct LawLimits {
   double slew = 0.0;              // [N] a cycle
   double ramp = 0.0;              // [1] a cycle, of the guard's ramp
   bool falls_at_once = false;     // energy bounding does not wait for the slew
-  bool energy_bounded = false;    // by the guard, of a device without delay and without walls of its own
+  bool energy_bounded = false;    // by the guard: no delay, no walls of the device's own, damping enough for the proof
   glm::dvec2 damping{0.0};        // [N s/m] of the bare handle, as the loop believes it
   glm::dvec2 least_damping{0.0};  // [N s/m] that the true handle has at least
   double longest = 0.001;         // [s] that a period lasts at most
@@ -88,13 +88,13 @@ void force_law(const SeenCycle& cycle, const LawLimits& limits, LawBook& book) n
 void slew_law(const SeenCycle& cycle, const LawLimits& limits, LawBook& book) noexcept;
 void guard_law(const SeenCycle& cycle, LawBook& book) noexcept;
 
-// Remembers which lockouts the last gear has closed.
+// Remembers which lockouts the last gear or the road speed has closed.
 class LockoutLaw {
  public:
   void look(const SeenCycle& cycle, const Gate& gate, LawBook& book) noexcept;
 
  private:
-  std::uint32_t after_gear_ = 0;  // bit per lockout
+  std::uint32_t closed_ = 0;  // bit per lockout
 };
 
 // Passivity of the whole device, by the truth that no encoder tells: over any stretch of time the force that acted gives

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <stdexcept>
 
 #include <fmt/core.h>
@@ -11,6 +12,7 @@
 #include "haptics/joystick/kinematics.h"
 #include "haptics/loop/simulated_run.h"
 #include "haptics/loop/trace_recorder.h"
+#include "tests/bench/campaign/campaign_car.h"
 #include "tests/bench/campaign/campaign_hand.h"
 #include "tests/support/random_layout.h"
 
@@ -23,7 +25,7 @@ constexpr std::uint64_t kPump = 4096;  // [cycles]
 
 GateLayout layout_of(const CampaignCase& drawn, std::span<const GateLayout> shipped) {
   if (drawn.shipped_gate >= 0) return shipped[static_cast<std::size_t>(drawn.shipped_gate)];
-  return random_layout(drawn.seed);
+  return drawn.is_wide ? random_wide_layout(drawn.seed) : random_layout(drawn.seed);
 }
 
 SimulatedRunConfig run_config(const CampaignCase& drawn, const GateLayout& layout) {
@@ -35,9 +37,9 @@ SimulatedRunConfig run_config(const CampaignCase& drawn, const GateLayout& layou
   return config;
 }
 
-// A gripping hand's clean aim: its own inertia does not ring, and it is as strong as the gate.
+// A gripping hand's clean aim: its own inertia does not ring, and it is as strong as the gate; not as a synchroniser.
 bool can_shift(const CampaignCase& drawn) {
-  return drawn.hand == CaseHand::grip;
+  return drawn.hand == CaseHand::grip && !drawn.has_car;
 }
 
 // Quiet, and nothing for the guard to stop, is what the loop's checks promise: of the plant error and jitter that they were
@@ -48,7 +50,6 @@ bool is_promised(const CampaignCase& drawn) {
   return drawn.lever.model_error <= 0.05 && drawn.lever.period_jitter <= 0.1 && is_listed && !is_bounded;
 }
 
-// A hand that lags may come back before the lever has left the column that the lockout asks for: it is shut by rights.
 // What the loop's checks must refuse, and nothing else: a study's, and a slew that they do not allow.
 bool is_forbidden(const CampaignCase& drawn) {
   const HapticConfig& config = drawn.haptics;
@@ -56,10 +57,17 @@ bool is_forbidden(const CampaignCase& drawn) {
          config.guard.slew < 2.0;
 }
 
+// A hand that lags may come back before the lever has left the column that the lockout asks for: it is shut by rights.
 bool has_detour(const Gate& gate, int gear) {
   return std::any_of(lockouts(gate).begin(), lockouts(gate).end(), [&](const Lockout& lockout) {
     return lockout.kind == LockoutKind::after_gear && slot_of(gate, lockout.slot).gear == gear;
   });
+}
+
+std::unique_ptr<LeverWorld> world_of(const CampaignCase& drawn, const Gate& gate) {
+  if (!drawn.has_car) return std::make_unique<NullWorld>();
+  return std::make_unique<CarWorld>(random_car(drawn.seed), gate, drawn.lever.actuator.peak_force,
+                                    random_start(drawn.seed), drawn.seed);
 }
 
 // One case while it runs.
@@ -71,7 +79,9 @@ class CaseRun {
         config_(run_config(drawn, layout)),
         script_(make_script(config_.gate, drawn, config_.start)),
         hand_(drawn, script_, config_.start),
-        run_(config_, hand_),
+        feet_(drawn.seed),
+        world_(world_of(drawn, config_.gate)),
+        run_(config_, hand_, world_.get()),
         limits_(law_limits(drawn.haptics, drawn.lever, run_.lever().spec())) {
     out.number = drawn.number;
     out.promised = is_promised(drawn);
@@ -86,6 +96,7 @@ class CaseRun {
     true_position_ = run_.lever().true_position();
     const double most = 1.0 + 2.0 * hand_.duration() / run_.period();  // a period lasts half of it at least
     while (hand_.time() < hand_.duration()) {
+      if (drawn_.has_car) run_.channels().controls.write(feet_.at(run_.time()));
       const HapticSnapshot& now = run_.step();
       if (static_cast<double>(now.cycle) > most)
         throw std::runtime_error(fmt::format("case {} does not end", out.number));
@@ -100,13 +111,8 @@ class CaseRun {
   }
 
   TraceHeader header() {
-    return {"gearshift campaign",
-            drawn_.haptics,
-            run_.lever().spec(),
-            layout_.file,
-            layout_.text,
-            NullWorld{}.name(),
-            true};
+    return {
+        "gearshift campaign", drawn_.haptics, run_.lever().spec(), layout_.file, layout_.text, world_->name(), true};
   }
   LoopChannels& channels() { return run_.channels(); }
 
@@ -128,7 +134,8 @@ class CaseRun {
     // Who does not believe a reading keeps the last one: of that travel nothing bounds the energy.
     if (is_believed_) energy_.look(cycle, run_.lever().true_position() - true_position_, limits_, out.laws);
     true_position_ = run_.lever().true_position();
-    gears_.look(cycle, gate, is_held_still(), out.laws);
+    const bool is_in_or_out = is_held_still() && !drawn_.has_car;  // a synchroniser lets it in when it is due
+    gears_.look(cycle, gate, is_in_or_out, out.laws);
     look_at_hold(cycle.now);
     look_at_shift(cycle.now);
     if (cycle.now.cycle % events_every() == 0) count_events();
@@ -153,8 +160,10 @@ class CaseRun {
     may_tire_ = may_tire_ || is_tired(now);
     if (hand_.time() >= hold.end) {
       out.ripple = std::max(out.ripple, may_tire_ ? 0.0 : quiet_.span());
-      if (!may_tire_ && out.promised) quiet_law(quiet_.span(), limits_, run_.time(), out.laws);
-      if (!may_tire_ && is_believed_ && out.stopped == 0)
+      const bool is_shaken = drawn_.has_car;  // an engine that dies shakes the lever on purpose
+      if (!may_tire_ && !is_shaken && is_believed_ && out.promised)
+        quiet_law(quiet_.span(), limits_, run_.time(), out.laws);
+      if (!may_tire_ && !is_shaken && is_believed_ && out.stopped == 0)
         fades_law(before_.span(), quiet_.span(), limits_, run_.time(), out.laws);
       quiet_ = before_ = {};
       may_tire_ = false;
@@ -195,6 +204,8 @@ class CaseRun {
   SimulatedRunConfig config_;
   HandScript script_;
   CampaignHand hand_;
+  CampaignFeet feet_;
+  std::unique_ptr<LeverWorld> world_;
   SimulatedRun run_;
   LawLimits limits_;
   LockoutLaw lockouts_;

@@ -9,7 +9,8 @@
 namespace gearshift {
 namespace {
 
-constexpr std::array<double, 5> kRateBands{250.0, 500.0, 1000.0, 2000.0, 4000.0};  // [Hz]
+constexpr std::array<double, 6> kRateBands{100.0, 250.0, 500.0, 1000.0, 2000.0, 4000.0};  // [Hz]
+constexpr int kLongDelay = 4;  // [cycles] from here on they are counted together
 
 // Nearer to its bound, or further beyond it.
 bool is_worse(const LawSeen& a, const LawSeen& b) {
@@ -60,11 +61,13 @@ void add_groups(CampaignSummary& summary, const CampaignCase& drawn, const CaseO
   add("hand", std::string(kCaseHandNames[static_cast<std::size_t>(drawn.hand)]));
   add("gate", drawn.shipped_gate >= 0 ? "shipped" : "random");
   add("rate", band_name(drawn.haptics.rate));
-  add("delay", std::to_string(drawn.lever.delay));
+  add("delay", drawn.lever.delay < kLongDelay ? std::to_string(drawn.lever.delay) : "4 to 8");
+  add("drawn from", drawn.is_wide ? "all that is allowed" : "as ever");
+  add("behind the lever", drawn.has_car ? "a car" : "nothing");
   add("hold", kHolds[static_cast<int>(drawn.haptics.contact.hold)]);
   add("energy", is_bounded ? "bounded" : "free");
   add("count", count == 0.0 ? "none" : count < 20e-6 ? "below 20 um" : count < 150e-6 ? "20 to 150 um" : "coarser");
-  add("plant error, jitter", is_beyond ? "up to 20 %, 50 %" : "up to 5 %, 10 %");
+  add("plant error, jitter", is_beyond ? "more" : "up to 5 %, 10 %");
   add("promised quiet", outcome.promised ? "yes" : "no");
   add("walls of its own", drawn.lever.own_stiffness > 0.0 ? "yes" : "no");
 }
@@ -77,7 +80,7 @@ using RippleSamples = std::map<std::tuple<bool, std::string, int>, std::vector<d
 
 void add_ripple(CampaignSummary& summary, RippleSamples& samples, bool promised) {
   for (std::size_t band = 0; band + 1 < kRateBands.size(); ++band) {
-    for (int delay = 0; delay <= 3; ++delay) {
+    for (int delay = 0; delay <= kLongDelay; ++delay) {
       std::vector<double>& sample = samples[{promised, band_name(kRateBands[band]), delay}];
       if (sample.empty()) continue;
       summary.ripple.push_back({kRateBands[band], kRateBands[band + 1], delay, promised, sample.size(),
@@ -111,7 +114,8 @@ CampaignSummary summarise(std::uint64_t campaign_seed, std::span<const CaseOutco
     add_laws(summary, drawn, outcome);
     add_groups(summary, drawn, outcome);
     if (outcome.laws.seen(CampaignLaw::fades).looks > 0)
-      ripple[{outcome.promised, band_name(drawn.haptics.rate), drawn.lever.delay}].push_back(outcome.ripple);
+      ripple[{outcome.promised, band_name(drawn.haptics.rate), std::min(drawn.lever.delay, kLongDelay)}].push_back(
+          outcome.ripple);
   }
   std::sort(summary.groups.begin(), summary.groups.end(), by_kind_and_name);
   for (const bool promised : {true, false}) add_ripple(summary, ripple, promised);

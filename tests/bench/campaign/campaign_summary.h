@@ -34,7 +34,7 @@ struct CaseGroup {
 
 struct RippleCell {
   double slowest = 0.0, fastest = 0.0;  // [Hz] of the loop
-  int delay = 0;                        // [cycles]
+  int delay = 0;                        // [cycles] 4: 4 or more
   bool promised = true;                 // quiet is
   std::uint64_t cases = 0;
   double median = 0.0, p95 = 0.0, most = 0.0;  // [m] back and forth, in the worst hold of each case

@@ -1,9 +1,14 @@
 // A sample of the campaign; that it does not matter when and on how many threads it ran; and that each law can be broken.
+#include <sys/resource.h>
+
 #include <algorithm>
 #include <cmath>
+#include <csignal>
 #include <filesystem>
 #include <fstream>
+#include <initializer_list>
 #include <limits>
+#include <memory>
 #include <stdexcept>
 #include <string>
 #include <utility>
@@ -16,6 +21,7 @@
 #include "haptics/loop/replay.h"
 #include "haptics/loop/trace_reader.h"
 #include "tests/bench/bench.h"
+#include "tests/bench/campaign/campaign_car.h"
 #include "tests/bench/campaign/campaign_summary.h"
 #include "tests/bench/campaign/case_file.h"
 #include "tests/bench/campaign/shift_campaign.h"
@@ -76,6 +82,24 @@ struct TwoCycles {
   }
   SeenCycle seen() const { return {now, before, false, false}; }
 };
+
+// The drawn lever goes through the first lockout of one of these kinds.
+TwoCycles through_lockout(const Gate& gate, std::initializer_list<LockoutKind> kinds) {
+  const auto all = lockouts(gate);
+  const auto lockout = std::find_if(all.begin(), all.end(), [&](const Lockout& one) {
+    return std::find(kinds.begin(), kinds.end(), one.kind) != kinds.end();
+  });
+  REQUIRE(lockout != all.end());
+  const Slot& slot = slot_of(gate, lockout->slot);
+  const double x = lockout->lateral ? lockout->barrier : column_of(gate, slot.column).center;
+  const double mouth = lockout->lateral ? 0.0 : static_cast<int>(slot.side) * (gate.half_aisle + gate.chamfer);
+  const dvec2 step =
+      lockout->lateral ? dvec2(1e-4 * lockout->beyond, 0.0) : dvec2(0.0, 1e-4 * static_cast<int>(slot.side));
+  TwoCycles through;
+  through.before.proxy = dvec2(x, mouth) - step;
+  through.now.proxy = dvec2(x, mouth) + step;
+  return through;
+}
 
 }  // namespace
 
@@ -152,18 +176,43 @@ TEST_CASE("asked to end, a campaign begins no other case, and goes on from there
 TEST_CASE("a case that has had more processor time than the patience is told by its number, and others are not") {
   CampaignPlan plan;
   plan.shifts = 2000;
-  std::size_t patient = 0, overdue = 0;
-  const auto see = [&](std::size_t& seen) {
-    return [&seen](const CampaignStand& stand) {
-      seen += stand.overdue.has_value();
-      return true;
-    };
+  std::vector<std::uint64_t> overdue;  // as they were told: one thread drives one after the other
+  const auto see = [&](const CampaignStand& stand) {
+    if (stand.overdue) overdue.push_back(*stand.overdue);
+    return true;
   };
-  drive_campaign(plan, layouts(), see(patient));
-  CHECK(patient == 0);
+  drive_campaign(plan, layouts(), see);
+  CHECK(overdue.empty());
   plan.patience = -1.0;  // whatever runs is late
-  drive_campaign(plan, layouts(), see(overdue));
-  CHECK(overdue > 0);
+  const std::size_t cases = drive_campaign(plan, layouts(), see).size();
+  REQUIRE(overdue.size() > 3);
+  CHECK(std::is_sorted(overdue.begin(), overdue.end()));
+  CHECK(overdue.front() < cases / 2);
+  CHECK(overdue.back() > cases / 2);
+  CHECK(overdue.back() < cases);
+}
+
+TEST_CASE("a line that the disk cut short is the last one, whatever other threads have done") {
+  const TempFolder folder;
+  const std::filesystem::path name = folder / "cases.csv";
+  CaseOutcome outcome;
+  {
+    CaseFile file(name, "one campaign");
+    file.add(outcome);
+    rlimit before{};
+    REQUIRE(getrlimit(RLIMIT_FSIZE, &before) == 0);
+    std::signal(SIGXFSZ, SIG_IGN);
+    rlimit tight = before;
+    tight.rlim_cur = std::filesystem::file_size(name) + 10;
+    REQUIRE(setrlimit(RLIMIT_FSIZE, &tight) == 0);
+    outcome.number = 1;
+    CHECK_THROWS_WITH_AS(file.add(outcome), doctest::Contains("cannot be written"), std::runtime_error);
+    setrlimit(RLIMIT_FSIZE, &before);  // there is room again
+    outcome.number = 2;
+    CHECK_THROWS_WITH_AS(file.add(outcome), doctest::Contains("cannot be written"), std::runtime_error);
+  }
+  CaseFile again(name, "one campaign");
+  CHECK(again.cases().size() == 1);
 }
 
 TEST_CASE("a file of cases that was edited is refused with line, column, value and range, and stays as it was") {
@@ -241,6 +290,71 @@ TEST_CASE("a case that broke a law is driven again, and its trace replays") {
   CHECK(told[0].starts_with(fmt::format("case {} of seed 11 breaks quiet (", number)));
   CHECK(told[1].starts_with(fmt::format("case {} of seed 11 breaks slew (", number)));
   CHECK(record_failures(plan, {}, layouts(), {}) == 0);
+}
+
+TEST_CASE("each seventh case comes from all that the checks allow, half of them with a car; no other does") {
+  double slowest = 1e9, longest_ramp = 0.0, widest_margin = 0.0;
+  int longest_delay = 0, cars = 0, wide = 0;
+  constexpr int kCases = 7000;
+  for (std::uint64_t number = 0; number < kCases; ++number) {
+    const CampaignCase drawn = drawn_case(1, number, 8);
+    CHECK(drawn.is_wide == (number % 7 == 4));
+    if (!drawn.is_wide) {
+      CHECK(drawn.haptics.rate >= 250.0);
+      CHECK_FALSE(drawn.has_car);
+      continue;
+    }
+    ++wide;
+    cars += drawn.has_car;
+    slowest = std::min(slowest, drawn.haptics.rate);
+    longest_ramp = std::max(longest_ramp, drawn.haptics.guard.ramp_time);
+    widest_margin = std::max(widest_margin, drawn.haptics.guard.position_margin);
+    longest_delay = std::max(longest_delay, drawn.lever.delay);
+  }
+  CHECK(wide == kCases / 7);
+  CHECK(std::abs(cars - wide / 2) < 80);  // five standard deviations of a thousand coins
+  CHECK(slowest < 101.0);
+  CHECK(longest_ramp > 59.0);
+  CHECK(widest_margin > 0.99);
+  CHECK(longest_delay == 8);
+}
+
+// The reader of cars says what a car may be; here it reads 500 of them.
+TEST_CASE("random cars are cars, of every size, and the same again") {
+  double lightest = 1e9, heaviest = 0.0, most_torque = 0.0;
+  for (std::uint64_t seed = 0; seed < 500; ++seed) {
+    const CarSpec car = random_car(seed);
+    CHECK(car.gearbox.ratio[kMaxGear - 1] > 0.0);
+    lightest = std::min(lightest, car.body.mass);
+    heaviest = std::max(heaviest, car.body.mass);
+    most_torque = std::max(most_torque, full_torque(car.engine, car.engine.idle));
+  }
+  CHECK(lightest < 110.0);
+  CHECK(heaviest > 55000.0);
+  CHECK(most_torque > 1000.0);
+  CHECK(random_car(7).text == random_car(7).text);
+}
+
+TEST_CASE("a case with a car: its feet move, its lockouts hear of its speed, and its trace replays") {
+  CampaignCase drawn = plain_case(6);
+  drawn.has_car = true;
+  const TempFolder folder;
+  const std::filesystem::path trace = folder / "case.trace";
+  CHECK_FALSE(run_case(drawn, layouts(), trace).laws.any_broken());
+  TraceReader reader(trace);
+  const auto car = [](const std::string& name, const Gate& gate) -> std::unique_ptr<LeverWorld> {
+    return make_car_world(name, gate);
+  };
+  Replayer replayer(reader.header(), trace.string(), car);
+  double fastest = 0.0, most_clutch = 0.0;
+  for (TraceSample sample; reader.next(sample);) {
+    REQUIRE(replayer.step(sample));
+    fastest = std::max(fastest, std::abs(sample.out.road_speed));
+    most_clutch = std::max(most_clutch, sample.controls.clutch);
+  }
+  CHECK(replayer.finish(reader.hash()).bit_for_bit());
+  CHECK(fastest > 0.1);
+  CHECK(most_clutch == 1.0);
 }
 
 TEST_CASE("planted: checks that refuse what nothing forbids") {
@@ -423,24 +537,38 @@ TEST_CASE("planted: a proxy in a wall, or carried through one, and a number that
 
 TEST_CASE("planted: through a lockout that is closed, not through one that the hand opens") {
   const Gate gate = shipped_gate("six_speed_r_left_up");
-  const auto pressed = std::find_if(lockouts(gate).begin(), lockouts(gate).end(), [](const Lockout& lockout) {
-    return lockout.kind == LockoutKind::push_down || lockout.kind == LockoutKind::lift;
-  });
-  REQUIRE(pressed != lockouts(gate).end());
-  const Slot& slot = slot_of(gate, pressed->slot);
-  TwoCycles through;
-  const double x = pressed->lateral ? pressed->barrier : column_of(gate, slot.column).center;
-  const double mouth = pressed->lateral ? 0.0 : static_cast<int>(slot.side) * (gate.half_aisle + gate.chamfer);
-  const dvec2 step =
-      pressed->lateral ? dvec2(1e-4 * pressed->beyond, 0.0) : dvec2(0.0, 1e-4 * static_cast<int>(slot.side));
-  through.before.proxy = dvec2(x, mouth) - step;
-  through.now.proxy = dvec2(x, mouth) + step;
+  const TwoCycles through = through_lockout(gate, {LockoutKind::push_down, LockoutKind::lift});
   LawBook book;
   LockoutLaw law;
   law.look({through.now, through.before, true, true}, gate, book);
   CHECK_FALSE(book.seen(CampaignLaw::lockout).broken());
   law.look(through.seen(), gate, book);
   CHECK(book.seen(CampaignLaw::lockout).broken());
+}
+
+// The gate's file says 20 and 15 km/h.
+TEST_CASE("planted: through a lockout that the road speed shut, and has not opened yet") {
+  const Gate gate = shipped_gate("dog_leg_five");
+  TwoCycles through = through_lockout(gate, {LockoutKind::speed});
+  const auto is_broken = [&](std::initializer_list<double> speeds) {  // [km/h] the last as it goes through
+    LawBook book;
+    LockoutLaw law;
+    TwoCycles stays = through;
+    stays.now.proxy = stays.before.proxy;
+    for (const double& speed : speeds) {
+      const bool is_last = &speed == speeds.end() - 1;
+      TwoCycles& cycles = is_last ? through : stays;
+      cycles.before.road_speed = speed / 3.6;
+      law.look({cycles.now, cycles.before, true, true}, gate, book);
+    }
+    return book.seen(CampaignLaw::lockout).broken();
+  };
+  CHECK_FALSE(is_broken({0.0}));
+  CHECK(is_broken({21.0}));
+  CHECK(is_broken({-21.0}));
+  CHECK(is_broken({21.0, 18.0}));
+  CHECK_FALSE(is_broken({19.0, 18.0}));
+  CHECK_FALSE(is_broken({21.0, 14.0, 18.0}));
 }
 
 TEST_CASE("planted: a gear that toggles while nothing moves") {

@@ -188,8 +188,11 @@ std::size_t CaseFile::read_cases(std::string_view text, std::size_t begin) {
 
 void CaseFile::add(const CaseOutcome& outcome) {
   const std::string line = case_line(outcome);
-  const bool is_written = std::fputs(line.c_str(), file_.get()) >= 0 && std::fflush(file_.get()) == 0;
-  if (!is_written) throw std::runtime_error(fmt::format("{}: cannot be written: {}", name_, std::strerror(errno)));
+  const bool is_written = file_ && std::fputs(line.c_str(), file_.get()) >= 0 && std::fflush(file_.get()) == 0;
+  if (is_written) return;
+  if (file_) why_ = std::strerror(errno);
+  file_.reset();  // a line that was cut short stays the last one
+  throw std::runtime_error(fmt::format("{}: cannot be written: {}", name_, why_));
 }
 
 }  // namespace gearshift

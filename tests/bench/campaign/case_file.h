@@ -31,7 +31,7 @@ class CaseFile {
     void operator()(std::FILE* file) const noexcept { std::fclose(file); }
   };
 
-  std::string name_;
+  std::string name_, why_;  // it is not written any more
   std::map<std::uint64_t, CaseOutcome> cases_;
   std::unique_ptr<std::FILE, Close> file_;
 };

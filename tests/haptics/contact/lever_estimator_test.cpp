@@ -43,6 +43,22 @@ TEST_CASE("constant speed is measured exactly; the smooth one follows 1 - exp(-t
   }
 }
 
+// A lever that rests on the edge of a count flips by it: that is no speed (campaign, case 3394 of seed 1).
+TEST_CASE("a jump by one count is believed at any rate, one by two counts faster than anything is not") {
+  constexpr double kCount = 1e-4, kFastCycle = 2.5e-4;  // [m], [s]: 0.4 m/s
+  EstimatorConfig config;
+  config.speed_limit = 0.1;
+  for (const dvec2 edge : {dvec2{kCount, 0.0}, dvec2{0.0, -kCount}, dvec2{kCount, kCount}}) {
+    for (const double counts : {1.0, 2.0}) {
+      LeverEstimator estimator(config, kFastCycle, kCount);
+      LeverReading first = reading(1, {0.0, 0.0}), second = reading(2, counts * edge);
+      first.time_ns = 250'000, second.time_ns = 500'000;
+      CHECK(estimator.update(first).fresh);
+      CHECK(estimator.update(second).fresh == (counts == 1.0));
+    }
+  }
+}
+
 TEST_CASE("a device with its own clock: faster, slower or late samples, the speed is the true one") {
   const auto sample = [](std::uint64_t sequence, std::int64_t time_ns) {
     LeverReading r;

@@ -377,17 +377,44 @@ TEST_CASE("a column with a gear on one side only is closed on the other") {
 
 TEST_CASE("any valid layout compiles to a gate that keeps the laws") {
   for (std::uint64_t seed = 1; seed <= kRandomLayouts; ++seed) {
-    CAPTURE(seed);
-    const Gate gate = compile_gate(random_layout(seed), kPaperWorkspace);
-    check_places(gate);
-    check_lockouts(gate);
-    check_description(gate);
-    check_constant_at_mouths(gate);
-    for (const Slot& slot : slots(gate)) check_lock(gate, slot);
-    check_smooth(gate.slot[0].feel, 0.0, gate.slot[0].end);
-    check_smooth(gate.select_feel, gate.select_min, gate.select_max);
-    CHECK(floods_to_every_gear(gate));
+    for (const GateLayout& layout : {random_layout(seed), random_wide_layout(seed)}) {
+      CAPTURE(layout.file);
+      const Gate gate = compile_gate(layout, kPaperWorkspace);
+      check_places(gate);
+      check_lockouts(gate);
+      check_description(gate);
+      check_constant_at_mouths(gate);
+      for (const Slot& slot : slots(gate)) check_lock(gate, slot);
+      check_smooth(gate.slot[0].feel, 0.0, gate.slot[0].end);
+      check_smooth(gate.select_feel, gate.select_min, gate.select_max);
+      CHECK(floods_to_every_gear(gate));
+    }
   }
+}
+
+// The reader's ranges are 4 to 40, 4 to 30 and up to 10 mm, 1 to 25, up to 20 and up to 15 N.
+TEST_CASE("wide random layouts use what the reader allows") {
+  double aisle = 0.0, slot = 0.0, chamfer = 0.0, lock = 0.0, detent = 0.0, mouth = 0.0, narrowest = 1.0,
+         least_lock = 99.0;
+  for (std::uint64_t seed = 1; seed <= kRandomLayouts; ++seed) {
+    const GateLayout layout = random_wide_layout(seed);
+    aisle = std::max(aisle, layout.aisle_width);
+    slot = std::max(slot, layout.slot_width);
+    chamfer = std::max(chamfer, layout.chamfer);
+    lock = std::max(lock, layout.feel.lock_force);
+    detent = std::max(detent, layout.feel.detent_force);
+    mouth = std::max(mouth, layout.feel.mouth_force);
+    narrowest = std::min({narrowest, layout.aisle_width, layout.slot_width});
+    least_lock = std::min(least_lock, layout.feel.lock_force);
+  }
+  CHECK(narrowest < 0.005);
+  CHECK(aisle > 0.035);
+  CHECK(slot > 0.025);
+  CHECK(chamfer > 0.009);
+  CHECK(least_lock < 2.0);
+  CHECK(lock > 23.0);
+  CHECK(detent > 18.0);
+  CHECK(mouth > 13.0);
 }
 
 TEST_CASE("random layouts are the same everywhere and differ from each other") {
