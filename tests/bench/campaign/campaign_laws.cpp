@@ -151,7 +151,7 @@ void free_space_law(const SeenCycle& cycle, const Gate& gate, LawBook& book) noe
 
 void no_wall_law(const SeenCycle& cycle, const Gate& gate, const LawLimits& limits, LawBook& book) noexcept {
   const double may_go = glm::distance(cycle.now.lever, cycle.before.lever) + kHandOverSpeed * limits.period;
-  const double goes = free_way(gate, cycle.before.proxy, cycle.now.proxy);
+  const double goes = free_way(gate, cycle.before.proxy, cycle.now.proxy) - kRounding;
   book.note(CampaignLaw::no_wall, goes / may_go, 1.0 + kRounding, 1e-9 * static_cast<double>(cycle.now.time_ns));
 }
 

@@ -529,6 +529,19 @@ TEST_CASE("planted: a proxy in a wall, or carried through one, and a number that
     CHECK(round.seen(CampaignLaw::no_wall).broken());
   }
 
+  // Along the mouth's chamfer to where the slot ends to the last bit (case 6661 of seed 1): no way round anything.
+  for (const bool is_back : {false, true}) {
+    LawBook along;
+    TwoCycles mouth;
+    const double x = gate.column[0].center;
+    mouth.before.proxy = mouth.before.lever = {x, gate.half_aisle + 1.1e-6};
+    mouth.now.proxy = mouth.now.lever = {x + 1e-4, gate.half_aisle + 1.5e-10};
+    if (is_back) std::swap(mouth.before, mouth.now);
+    limits.period = 0.0;
+    no_wall_law(mouth.seen(), gate, limits, along);
+    CHECK_FALSE(along.seen(CampaignLaw::no_wall).broken());
+  }
+
   TwoCycles none;
   none.now.commanded.x = std::numeric_limits<double>::quiet_NaN();
   finite_law(none.seen(), book);
