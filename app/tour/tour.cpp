@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <utility>
 
 #include <glm/geometric.hpp>
 
@@ -56,13 +57,20 @@ ScriptedHand hand_through(const std::vector<int>& gears, const TourSetup& setup,
   return {config, shift_strokes(setup.gate, start, gears, setup.style), period_s(setup.haptics)};
 }
 
+// before: the cycle before had that fault; a guard that is armed again has none.
+void note_fall(const HapticSnapshot& now, GuardFault before, double time, LostForces& lost) {
+  if (now.fault == GuardFault::none || now.fault == before) return;
+  if (lost.times++ == 0) lost.fault = now.fault, lost.time = time;
+}
+
 void drive(SimulatedRun& run, double duration, TraceRecorder& recorder, const TourProgress& progress,
            const TourWatch& watch, TourResult& result) {
   double next_watch = 0.0;
+  GuardFault fault = GuardFault::none;
   while (run.time() < duration) {
     const HapticSnapshot& now = run.step();
     measure(now, result);
-    if (!result.lost && now.fault != GuardFault::none) result.lost = LostForces{now.fault, run.time()};
+    note_fall(now, std::exchange(fault, now.fault), run.time(), result.lost);
     if (run.time() >= next_watch) {
       next_watch += kWatchPeriod;
       const std::vector<HapticEvent> events = take_events(run.channels(), result);

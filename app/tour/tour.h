@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <filesystem>
 #include <functional>
-#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -34,25 +33,26 @@ struct GearTime {
   double time = 0.0;  // [s]
 };
 
-// Why the guard let no force through any more, and when. A simulated hand arms no lever again.
+// How often the guard took the forces, and why and when it first did. A simulated lever has them back by itself.
 struct LostForces {
+  int times = 0;
   GuardFault fault = GuardFault::none;
   double time = 0.0;  // [s]
 };
 
 struct TourResult {
-  std::vector<int> wanted;              // gears in the order of the tour
-  std::vector<GearTime> engaged;        // as they came
-  std::vector<Limited> limited;         // parameters that the device did not admit as wanted
-  double admitted = 0.0;                // [N/m] wall stiffness at the start
-  double softest = 0.0;                 // [N/m] the least in use: lowered where the lever chattered
-  double duration = 0.0;                // [s] simulated
-  double deepest = 0.0;                 // [m] lever beyond the drawn lever
-  double strongest = 0.0;               // [N] largest push of the hand
-  std::uint64_t cycles = 0;             // driven
-  std::uint64_t contacts = 0;           // cycles in contact with a wall
-  std::uint64_t hash = 0;               // of the recording
-  std::optional<LostForces> lost = {};  // of a simulated hand's tour
+  std::vector<int> wanted;        // gears in the order of the tour
+  std::vector<GearTime> engaged;  // as they came
+  std::vector<Limited> limited;   // parameters that the device did not admit as wanted
+  double admitted = 0.0;          // [N/m] wall stiffness at the start
+  double softest = 0.0;           // [N/m] the least in use: lowered where the lever chattered
+  double duration = 0.0;          // [s] simulated
+  double deepest = 0.0;           // [m] lever beyond the drawn lever
+  double strongest = 0.0;         // [N] largest push of the hand
+  std::uint64_t cycles = 0;       // driven
+  std::uint64_t contacts = 0;     // cycles in contact with a wall
+  std::uint64_t hash = 0;         // of the recording
+  LostForces lost;                // of a simulated hand's tour
 
   bool complete() const;         // engaged is wanted, in order and nothing else
   bool came_in_order() const;    // the same, with others between: as a person drives

@@ -98,8 +98,9 @@ Measured measure(const BenchArguments& arguments) {
       for (BenchRow& row : run_family(family, options)) measured.rows.push_back({std::move(row)});
     } catch (const std::exception& problem) {
       progress.clear();
-      tell(fmt::format("the family {} cannot be measured: {}", family.name, printable(problem.what())));
-      for (BenchRow& row : unmeasured_family(family, problem.what())) measured.rows.push_back({std::move(row)});
+      const std::string why = printable(problem.what());
+      tell(fmt::format("the family {} cannot be measured: {}", family.name, why));
+      for (BenchRow& row : unmeasured_family(family, why)) measured.rows.push_back({std::move(row)});
       measured.is_whole = false;
     } catch (const EndedEarly&) {
       progress.clear();
@@ -129,6 +130,10 @@ void compare_and_keep(BenchRun& run) {
   }
 }
 
+std::string plot_name(const NamedFamily& family) {
+  return std::string(family.name) + ".svg";
+}
+
 std::vector<ReportFile> files_of(const BenchRun& run) {
   std::vector<ReportFile> files{
       {"bench.html", bench_page(run)}, {"bench.csv", bench_csv(run)}, {"bench.json", bench_json(run)}};
@@ -136,7 +141,7 @@ std::vector<ReportFile> files_of(const BenchRun& run) {
   for (const MeasuredRow& measured : run.rows) rows.push_back(measured.row);
   for (const NamedFamily& family : bench_families()) {
     std::string svg = trade_svg(family.name, rows);
-    if (!svg.empty()) files.push_back({std::string(family.name) + ".svg", std::move(svg)});
+    if (!svg.empty()) files.push_back({plot_name(family), std::move(svg)});
   }
   return files;
 }
@@ -167,8 +172,10 @@ std::vector<fs::path> write_files(const BenchArguments& arguments, std::ofstream
 
 void check_csv(const BenchArguments& arguments) {
   if (arguments.csv_file.empty() || arguments.out.empty()) return;
-  for (const char* written : {"bench.html", "bench.csv", "bench.json"})
-    check_two_files("--csv", "the table and what --out writes", arguments.csv_file, fs::path(arguments.out) / written);
+  std::vector<std::string> written{"bench.html", "bench.csv", "bench.json"};
+  for (const NamedFamily& family : bench_families()) written.push_back(plot_name(family));
+  for (const std::string& name : written)
+    check_two_files("--csv", "the table and what --out writes", arguments.csv_file, fs::path(arguments.out) / name);
 }
 
 int run_bench(const BenchArguments& arguments) {
@@ -221,9 +228,11 @@ void add_bench_verb(CLI::App& app, VerbAction& action) {
       ->capture_default_str();
   verb->callback([arguments, verb, &action] {
     if (arguments->options.quick && verb->count("--block") == 0) arguments->options.jitter_block = 1.0;
-    arguments->options.gate_folder = (assets_folder() / "gates").string();
-    arguments->options.model_folder = (assets_folder() / "models").string();
-    action = [arguments] { return run_bench(*arguments); };
+    action = [arguments] {
+      arguments->options.gate_folder = shipped_folder("gates").string();
+      arguments->options.model_folder = shipped_folder("models").string();
+      return run_bench(*arguments);
+    };
   });
 }
 

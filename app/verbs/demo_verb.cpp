@@ -50,7 +50,7 @@ int run(const DemoArguments& arguments) {
   if (result.has_report) print_out("{}/report.html is the learner's report\n", setup.tour.folder.string());
   if (!result.tour.complete()) print_problem("the hand did not engage every gear in order");
   if (!result.passed) print_problem("the simulated learner did not pass every lesson");
-  return result.tour.complete() && !result.tour.lost && result.passed ? 0 : 1;
+  return result.tour.complete() && result.tour.lost.times == 0 && result.passed ? 0 : 1;
 }
 
 }  // namespace

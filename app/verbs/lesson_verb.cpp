@@ -1,5 +1,7 @@
 // gearshift lesson: a simulated learner drives a lesson, no graphics, and the coach says what it was.
+#include <array>
 #include <filesystem>
+#include <fstream>
 #include <memory>
 #include <stdexcept>
 #include <string>
@@ -16,6 +18,8 @@
 #include "app/verbs/two_files.h"
 #include "app/verbs/verbs.h"
 #include "app/verbs/whole_number.h"
+#include "haptics/files/printable.h"
+#include "haptics/loop/trace_format.h"
 
 namespace gearshift {
 namespace {
@@ -61,6 +65,17 @@ std::string settings_of(const LessonDriveConfig& drive, const LessonArguments& a
   return text;
 }
 
+// Whoever mistypes a name must not lose a history for it, nor anything else that is no recording.
+void check_recording(const std::string& trace) {
+  std::error_code error;
+  if (trace.empty() || !std::filesystem::is_regular_file(trace, error) || std::filesystem::is_empty(trace, error))
+    return;
+  std::array<char, kTraceMagic.size()> first{};
+  std::ifstream(trace, std::ios::binary).read(first.data(), first.size());
+  if (first != kTraceMagic)
+    throw CLI::ValidationError("--trace", printable(trace) + " is there, and is no recording: it is not written over");
+}
+
 LessonDriveConfig make_drive(const LessonArguments& arguments) {
   LessonDriveConfig config;
   config.lesson = read_lesson(find_asset("lessons", arguments.lesson));
@@ -73,6 +88,7 @@ LessonDriveConfig make_drive(const LessonArguments& arguments) {
   config.seed = arguments.seed;
   for (const std::string& read : {config.lesson.file, config.car.file, config.gate.file})
     check_two_files("--trace", "the recording and what is driven", arguments.trace, read);
+  check_recording(arguments.trace);
   config.trace = arguments.trace;
   return config;
 }

@@ -82,7 +82,7 @@ int run_tour(const TourArguments& arguments) {
   bar.clear();
   print_files(setup);
   if (!result.complete()) print_problem("the hand did not engage every gear in order");
-  return result.complete() && !result.lost ? 0 : 1;
+  return result.complete() && result.lost.times == 0 ? 0 : 1;
 }
 
 }  // namespace

@@ -16,9 +16,10 @@ void print_tour(const TourSetup& setup, const TourResult& result) {
     print_problem("the lever chattered on a wall: its stiffness was lowered from {:g} to {:g} N/m", result.admitted,
                   result.softest);
   }
-  if (result.lost) {
-    print_problem("its forces ended after {:.3f} s: {}; what follows was driven without", result.lost->time,
-                  guard_fault_name(result.lost->fault));
+  if (result.lost.times > 0) {
+    print_problem("its forces were gone {}, first after {:.3f} s: {}",
+                  result.lost.times == 1 ? "once" : fmt::format("{} times", result.lost.times), result.lost.time,
+                  guard_fault_name(result.lost.fault));
   }
   print_out(
       "in contact {:.0f} % of the cycles, deepest {:.2f} mm beyond a wall, strongest push {:.1f} N, hash "

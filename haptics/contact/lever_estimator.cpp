@@ -11,22 +11,24 @@
 namespace gearshift {
 namespace {
 
-constexpr double kReacquireAfter = 0.050;  // [s] without a believed sample, then the next one is a new start
+constexpr double kLostAfter = 0.050;   // [s] without a believed sample, then the next one is a new start
+constexpr double kGuardFirst = 0.030;  // [s] but the guard falls so long before: a lying sensor is not fresh to it
 
 constexpr double kRounding = 1e-6;  // [1] of a count
 
 }  // namespace
 
-LeverEstimator::LeverEstimator(const EstimatorConfig& config, double period, double count) noexcept
+LeverEstimator::LeverEstimator(const EstimatorConfig& config, double period, double count, double stale_time) noexcept
     : config_(config),
       period_(period),
       edge_(std::numbers::sqrt2 * count * (1.0 + kRounding)),
+      lost_after_(std::max(kLostAfter, stale_time + kGuardFirst)),
       blend_(1.0 - std::exp(-period / config.smoothing)) {}
 
 LeverMotion LeverEstimator::update(const LeverReading& reading) noexcept {
   motion_.fresh = false;
   if (!is_finite(reading.position)) return hold();
-  const bool is_lost = !started_ || unbelieved_ >= kReacquireAfter;
+  const bool is_lost = !started_ || unbelieved_ >= lost_after_;
   if (is_lost && (!started_ || reading.sequence != seen_sequence_)) return restart(reading);
   if (reading.sequence <= seen_sequence_ || reading.time_ns <= seen_time_ns_) return hold();
 

@@ -28,12 +28,14 @@ struct EstimatorConfig {
 
 class LeverEstimator {
  public:
-  // period [s]; count [m]: of the encoder at the tip, a jump by which says nothing of a speed
-  LeverEstimator(const EstimatorConfig& config, double period, double count = 0.0) noexcept;
+  // period [s]; count [m]: of the encoder at the tip, a jump by which says nothing of a speed; stale_time [s]: after
+  // which the guard falls
+  LeverEstimator(const EstimatorConfig& config, double period, double count = 0.0, double stale_time = 0.0) noexcept;
 
   // Motion after one reading. Not finite, jumping, backward or repeated readings are not fresh: position and
-  // velocity are held. After 50 ms without a believed sample the next finite one is a new start, whatever its place
-  // and number, with zero velocity. Real-time safe.
+  // velocity are held. After 50 ms without a believed sample, and not before the guard has seen that for its stale
+  // time and 30 ms more, the next finite one is a new start, whatever its place and number, with zero velocity.
+  // Real-time safe.
   LeverMotion update(const LeverReading& reading) noexcept;
 
  private:
@@ -46,8 +48,9 @@ class LeverEstimator {
 
   EstimatorConfig config_;
   double period_;
-  double edge_;   // [m] a count on both axes at once
-  double blend_;  // [1] of the newest sample in smooth_velocity
+  double edge_;        // [m] a count on both axes at once
+  double lost_after_;  // [s]
+  double blend_;       // [1] of the newest sample in smooth_velocity
   LeverMotion motion_;
   std::int64_t time_ns_ = 0;         // of the last believed sample
   std::uint64_t seen_sequence_ = 0;  // of the last one, believed or not

@@ -73,7 +73,7 @@ HapticLoop::HapticLoop(const HapticConfig& config, const Gate& gate, HapticDevic
       own_walls_(own_wall_stiffness(device.spec())),
       own_dampers_(own_wall_damping(device.spec())),
       tuning_(admitted_.tuning),
-      estimator_(config.estimator, period_, spec_.position_step),
+      estimator_(config.estimator, period_, spec_.position_step, config.guard.stale_time),
       observer_(device.spec(), period_),
       limiter_(device.spec(), period_),
       selector_(config.gear_debounce),

@@ -46,10 +46,10 @@ ELSEWHERE = {
     r"gearshift reproduce --out \S+$": ("takes long", "tests/flow/reproduce.sh", '"$gearshift" reproduce'),
     r"gearshift bench --family (contact|boundary|methods|hard)":
         ("takes minutes; its campaigns are this test's", "tests/haptics/loop/contact_goals_test.cpp", "run_impacts("),
-    r"gearshift bench --family learning": ("takes minutes",),
     r"gearshift bench($| --family (jitter|beside|picture|quality|light))":
         ("takes minutes, and the machine for itself",),
     r"gearshift campaign (--seed 1 )?--out \S+$": ("a million shifts; fewer there", "tests/flow/campaign.sh", " campaign "),
+    r"cmake --preset release .*--target package": ("makes the package",),
     r"cmake --preset (release|dev) && cmake --build": ("builds all of it anew", "test", "cmake --build --preset"),
     r"cmake --install": ("installs what was built", "tests/flow/install.sh", "cmake --install"),
     r"gearshift report .*--delete$": ("asks for the name", "tests/flow/report.sh", "--delete"),
@@ -232,6 +232,9 @@ class Runner:
             if re.match(pattern, command.text):
                 if shown_by and shown_by[1] not in self.text_of(shown_by[0]):
                     self.fail(command, f"{shown_by[0]}, which is to show it, has no {shown_by[1]}")
+                program = command.text.split()[0]
+                if program.startswith("tests/") and not (self.sources / program).exists():
+                    self.fail(command, "is not there")
                 self.parses(command)
                 if command.document.endswith(GUIDES) and not (command.inline or command.is_said_not_run):
                     self.fail(command, 'is not run, and does not say so: "# not run: why"')

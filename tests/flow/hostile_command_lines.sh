@@ -139,6 +139,11 @@ refuse 2 "two files" render box.glb --out folder/../box.glb
 refuse 2 "two files" stability --svg both --csv ./both
 refuse 2 "two files" bench --family plant --out t --csv t/bench.csv
 refuse 2 "two files" bench --family plant --out folder --csv folder/../folder/bench.html
+refuse 2 "two files" bench --family plant --out t --csv t/plant.svg
+ln -s map both
+refuse 2 "two files" stability --svg both --csv map
+long=$(printf 'x%.0s' {1..300})
+refuse 1 "cannot be written" stability --svg "$long.svg" --csv "$long.csv"
 for one in "own.toml gates/paper.toml" "hill.toml lessons/hill_start.toml" "box.glb models/gearbox.glb"; do
   cmp ${one% *} "$source/assets/${one#* }" || failed=$((failed + 1))
 done

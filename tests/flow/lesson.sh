@@ -290,6 +290,15 @@ check "closed output: passed, and told" exits 1 bash -c '"$@" >&- 2>/dev/null' -
   "$gearshift" lesson skip_shifts --verbose --trace closed.trace
 check "closed output: what was said is not in the trace" bit_for_bit closed.trace
 
+# A name that was mistyped costs nobody a history; a recording is written over.
+cp good.db theirs.db
+check "a history is no place for a recording" exits 2 learn over hill_start --learner Kim --database good.db --trace theirs.db
+check "in a sentence, got: $(cat over.err)" \
+  test "$(wc -l <over.err)" -eq 1 -a -n "$(grep "theirs.db is there, and is no recording" over.err)"
+check "and it is as it was" cmp -s good.db theirs.db
+check "a recording is written over" learn over skip_shifts --trace closed.trace
+check "by the new one" bit_for_bit closed.trace
+
 # Moved with its recordings: they are found, drawn and deleted where they are now.
 learn moved skip_shifts --learner Kim --database before/h.db
 mv before after_the_move

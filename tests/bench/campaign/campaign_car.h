@@ -1,4 +1,4 @@
-// A car behind the lever: any that its file may say, with feet that do anything at any time.
+// A car behind the lever, from a moped's to a lorry's, with feet that do anything at any time.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace gearshift {
 
-// Nine gears and reverse, so that it fits every gate; every value from anywhere within its range. The same seed gives the
-// same file on every machine.
+// Nine gears and reverse, so that it fits every gate; its values over the decades that its file may say. The same seed
+// gives the same file on every machine.
 CarSpec random_car(std::uint64_t seed);
 CarStart random_start(std::uint64_t seed);
 

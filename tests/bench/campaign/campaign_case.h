@@ -49,7 +49,7 @@ struct CampaignCase {
   HapticConfig haptics;
   SimulatedLeverConfig lever;
   int shifts = 40;       // that are tried; 0 for nobody's hand
-  bool is_wide = false;  // gate, rate, delay and all else from anywhere within their ranges
+  bool is_wide = false;  // gate, rate, delay, plant error, configuration from within their whole ranges
   bool has_car = false;  // behind the lever: random_car() of this seed
 };
 

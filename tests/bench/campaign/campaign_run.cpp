@@ -135,7 +135,7 @@ class CaseRun {
     if (is_believed_) energy_.look(cycle, run_.lever().true_position() - true_position_, limits_, out.laws);
     true_position_ = run_.lever().true_position();
     const bool is_in_or_out = is_held_still() && !drawn_.has_car;  // a synchroniser lets it in when it is due
-    gears_.look(cycle, gate, is_in_or_out, out.laws);
+    if (!is_placed_anew) gears_.look(cycle, gate, is_in_or_out, out.laws);
     look_at_hold(cycle.now);
     look_at_shift(cycle.now);
     if (cycle.now.cycle % events_every() == 0) count_events();
@@ -146,7 +146,7 @@ class CaseRun {
 
   void look_at_guard(const SeenCycle& cycle) {
     const bool fell = cycle.now.fault != GuardFault::none && cycle.before.fault == GuardFault::none;
-    out.stopped += fell && is_believed_;
+    out.stopped += fell;
     if (is_believed_ && out.promised) guard_law(cycle, out.laws);
   }
 

@@ -62,7 +62,7 @@ void add_groups(CampaignSummary& summary, const CampaignCase& drawn, const CaseO
   add("gate", drawn.shipped_gate >= 0 ? "shipped" : "random");
   add("rate", band_name(drawn.haptics.rate));
   add("delay", drawn.lever.delay < kLongDelay ? std::to_string(drawn.lever.delay) : "4 to 8");
-  add("drawn from", drawn.is_wide ? "all that is allowed" : "as ever");
+  add("drawn from", drawn.is_wide ? "wide" : "narrow");
   add("behind the lever", drawn.has_car ? "a car" : "nothing");
   add("hold", kHolds[static_cast<int>(drawn.haptics.contact.hold)]);
   add("energy", is_bounded ? "bounded" : "free");

@@ -292,7 +292,7 @@ TEST_CASE("a case that broke a law is driven again, and its trace replays") {
   CHECK(record_failures(plan, {}, layouts(), {}) == 0);
 }
 
-TEST_CASE("each seventh case comes from all that the checks allow, half of them with a car; no other does") {
+TEST_CASE("each seventh case is wide, half of them with a car; no other is") {
   double slowest = 1e9, longest_ramp = 0.0, widest_margin = 0.0;
   int longest_delay = 0, cars = 0, wide = 0;
   constexpr int kCases = 7000;

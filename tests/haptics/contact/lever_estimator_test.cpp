@@ -43,6 +43,22 @@ TEST_CASE("constant speed is measured exactly; the smooth one follows 1 - exp(-t
   }
 }
 
+// Else a guard with that much patience would never fall: each new start is fresh to it.
+TEST_CASE("a sensor that lies all the time is a new start 30 ms after the guard's patience, 50 ms at the earliest") {
+  for (const double patience : {0.0, 0.02, 0.06, 1.0}) {
+    LeverEstimator estimator({}, kCycle, 0.0, patience);
+    CHECK(estimator.update(reading(1, {0.0, 0.0})).fresh);
+    int silent = 0;  // [cycles]
+    while (
+        silent < 2000 &&
+        !estimator.update(reading(static_cast<std::uint64_t>(silent) + 2, {silent % 2 == 0 ? 1.0 : -1.0, 0.0})).fresh)
+      ++silent;
+    const double late = silent * kCycle - std::max(0.05, patience + 0.03);  // [s] by the sum's rounding a cycle at most
+    CHECK(late > -1e-9);
+    CHECK(late < kCycle + 1e-9);
+  }
+}
+
 // A lever that rests on the edge of a count flips by it: that is no speed (campaign, case 3394 of seed 1).
 TEST_CASE("a jump by one count is believed at any rate, one by two counts faster than anything is not") {
   constexpr double kCount = 1e-4, kFastCycle = 2.5e-4;  // [m], [s]: 0.4 m/s
