@@ -13,6 +13,7 @@
 #include <glm/geometric.hpp>
 
 #include "app/render/still_scene.h"
+#include "app/same_file.h"
 #include "app/stage/stage.h"
 #include "engine/model/gltf.h"
 
@@ -55,6 +56,15 @@ EyePose chosen_eye(const std::string& text) {
   return look_at((*points)[0], (*points)[1]);
 }
 
+// Its buffers and textures are known only when it has been read.
+void check_not_written_over(const Model& model, const std::filesystem::path& picture) {
+  for (const std::filesystem::path& file : model.files) {
+    if (is_same_file(picture, file))
+      throw std::runtime_error(
+          fmt::format("--out: the picture and {}, of which the model is made, must be two files", file.string()));
+  }
+}
+
 }  // namespace
 
 void check_camera(const std::string& text) {
@@ -64,6 +74,7 @@ void check_camera(const std::string& text) {
 RenderFileResult render_file(const RenderFileSetup& setup) {
   const Clock::time_point start = Clock::now();
   const Model model = read_gltf(setup.file);
+  check_not_written_over(model, setup.out);
   RenderFileResult result;
   result.triangles = model.triangle_count();
   result.skipped = model.skipped;

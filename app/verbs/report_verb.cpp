@@ -24,6 +24,7 @@
 #include "app/report/report_files.h"
 #include "app/report/report_page.h"
 #include "app/trainer/user_folder.h"
+#include "app/verbs/two_files.h"
 #include "app/verbs/verbs.h"
 #include "haptics/files/printable.h"
 
@@ -44,6 +45,8 @@ constexpr const char* kReportExamples =
     "  gearshift report --learner Ada --delete-comment 3\n"
     "  gearshift report --learner Ada --next hill_start      instead of what the grades suggest; \"\" gives it back\n"
     "  gearshift report --learner Ada --delete               for good, with the recordings\n";
+
+constexpr const char *kPage = "index.html", *kRuns = "runs.csv", *kShifts = "shifts.csv", *kFaults = "faults.csv";
 
 using NumberedText = std::pair<std::int64_t, std::string>;
 
@@ -83,14 +86,20 @@ int list_learners(History& history) {
   return 0;
 }
 
+void check_out(const ReportArguments& arguments, const fs::path& history) {
+  if (arguments.out.empty()) return;
+  for (const char* name : {kPage, kRuns, kShifts, kFaults})
+    check_two_files("--out", "the report and the history", fs::path(arguments.out) / name, history);
+}
+
 void write_report(const ReportArguments& arguments, History& history, const LearnerRow& learner) {
   const LearnerHistory all = read_learner(history, learner);
   std::vector<ReportFile> files{
-      {"index.html", report_page(all, show_shifts(all, history.file().parent_path()), shipped_lessons())}};
+      {kPage, report_page(all, show_shifts(all, history.file().parent_path()), shipped_lessons())}};
   if (arguments.csv) {
-    files.push_back({"runs.csv", runs_csv(all)});
-    files.push_back({"shifts.csv", shifts_csv(all)});
-    files.push_back({"faults.csv", faults_csv(all)});
+    files.push_back({kRuns, runs_csv(all)});
+    files.push_back({kShifts, shifts_csv(all)});
+    files.push_back({kFaults, faults_csv(all)});
   }
   make_folder(arguments.out);
   write_report_files(arguments.out, files, [](const fs::path& file) { print_out("{}\n", file.string()); });
@@ -216,6 +225,7 @@ int report_learner(const ReportArguments& arguments, History& history) {
 // A report makes no history: where there is none, that is said. What only reads needs no right to write.
 int run_report(const ReportArguments& arguments) {
   const fs::path file = history_file(arguments);
+  check_out(arguments, file);
   std::error_code error;
   if (!fs::exists(file, error) && !error) {
     if (!arguments.database.empty() || !arguments.learner.empty())

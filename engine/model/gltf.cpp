@@ -67,6 +67,7 @@ class GltfReader {
     check_joints();
     if (drop_flat_meshes(model_)) skip("meshes scaled to no volume, or to more than a number can hold");
     model_.skipped.assign(skipped_.begin(), skipped_.end());
+    model_.files = std::move(document_.files);
     return std::move(model_);
   }
 

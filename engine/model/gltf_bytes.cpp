@@ -152,11 +152,12 @@ GltfChunks chunks_of(std::span<const std::uint8_t> bytes) {
   return chunks;
 }
 
-std::vector<std::uint8_t> bytes_at(std::string_view uri, const std::filesystem::path& folder) {
+std::vector<std::uint8_t> bytes_at(std::string_view uri, const std::filesystem::path& folder,
+                                   std::vector<std::filesystem::path>& files) {
   if (!uri.starts_with("data:")) {
-    const std::filesystem::path file = file_beside(percent_decoded(uri), folder);
+    files.push_back(file_beside(percent_decoded(uri), folder));
     try {
-      return whole_file(file);
+      return whole_file(files.back());
     } catch (const GltfError& e) {
       throw GltfError(fmt::format("'{}' beside it: {}", shown_name(uri), e.what()));
     }

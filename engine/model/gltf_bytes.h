@@ -23,7 +23,8 @@ struct GltfChunks {
 // Of a .glb or a .gltf, told apart by their first bytes; views into `bytes`.
 GltfChunks chunks_of(std::span<const std::uint8_t> bytes);
 
-// A base64 data URI, or a relative path to a file in `folder` or below it.
-std::vector<std::uint8_t> bytes_at(std::string_view uri, const std::filesystem::path& folder);
+// A base64 data URI, or a relative path to a file in `folder` or below it, which is added to `files`.
+std::vector<std::uint8_t> bytes_at(std::string_view uri, const std::filesystem::path& folder,
+                                   std::vector<std::filesystem::path>& files);
 
 }  // namespace gearshift

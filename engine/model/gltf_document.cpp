@@ -46,11 +46,13 @@ json parsed(std::string_view text) {
   }
 }
 
-std::vector<std::uint8_t> buffer_bytes(const json& buffer, std::size_t index, std::span<const std::uint8_t> binary,
-                                       const std::filesystem::path& folder) {
+std::vector<std::uint8_t> buffer_bytes(GltfDocument& document, std::size_t index,
+                                       std::span<const std::uint8_t> binary) {
+  const json& buffer = document.json.at("buffers").at(index);
   const std::size_t size = buffer.at("byteLength").get<std::size_t>();
   if (!buffer.contains("uri")) return {binary.begin(), binary.begin() + static_cast<std::ptrdiff_t>(size)};
-  std::vector<std::uint8_t> bytes = bytes_at(buffer.at("uri").get_ref<const std::string&>(), folder);
+  std::vector<std::uint8_t> bytes =
+      bytes_at(buffer.at("uri").get_ref<const std::string&>(), document.folder, document.files);
   if (bytes.size() < size) {
     throw GltfError(fmt::format("buffers[{}] has {} bytes, not {}", index, bytes.size(), size));
   }
@@ -66,9 +68,8 @@ GltfDocument open_gltf(const std::filesystem::path& file) {
   GltfDocument document{parsed(chunks.json), {}, file.parent_path()};
   check_gltf(document.json, chunks.binary.size());
   if (!document.json.contains("buffers")) return document;
-  const json& buffers = document.json["buffers"];
-  for (std::size_t i = 0; i < buffers.size(); ++i) {
-    document.buffers.push_back(buffer_bytes(buffers[i], i, chunks.binary, document.folder));
+  for (std::size_t i = 0; i < document.json["buffers"].size(); ++i) {
+    document.buffers.push_back(buffer_bytes(document, i, chunks.binary));
   }
   return document;
 }
@@ -76,7 +77,8 @@ GltfDocument open_gltf(const std::filesystem::path& file) {
 std::span<const std::uint8_t> image_bytes(GltfDocument& document, std::size_t image) {
   const json& description = document.json.at("images").at(image);
   if (description.contains("uri")) {
-    document.images.push_back(bytes_at(description.at("uri").get_ref<const std::string&>(), document.folder));
+    const std::string& uri = description.at("uri").get_ref<const std::string&>();
+    document.images.push_back(bytes_at(uri, document.folder, document.files));
     std::uint64_t bytes = 0;
     for (const auto& read : document.images) bytes += read.size();
     if (bytes > kMostGltfBytes) throw GltfError("its images have too many bytes together");

@@ -17,6 +17,7 @@ struct GltfDocument {
   nlohmann::json json;
   std::vector<std::vector<std::uint8_t>> buffers;   // as long as the JSON says, one a buffer
   std::filesystem::path folder;                     // where files beside it lie
+  std::vector<std::filesystem::path> files{};       // those of them that were read
   std::vector<std::vector<std::uint8_t>> images{};  // encoded, of those that lie in no buffer and were asked for
 };
 

@@ -4,6 +4,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -114,7 +115,8 @@ struct Model {
   std::vector<Material> materials;
   std::vector<Texture> textures;
   std::vector<Skin> skins;
-  std::vector<std::string> skipped;  // what the file asks for and is not drawn, each named once
+  std::vector<std::string> skipped;          // what the file asks for and is not drawn, each named once
+  std::vector<std::filesystem::path> files;  // that it names, buffers and textures, and that were read
 
   int node(std::string_view name) const;  // first of that name, or kNone
   std::uint64_t triangle_count() const;   // over the nodes that carry a mesh

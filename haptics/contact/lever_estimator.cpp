@@ -13,8 +13,7 @@ namespace {
 
 constexpr double kLostAfter = 0.050;   // [s] without a believed sample, then the next one is a new start
 constexpr double kGuardFirst = 0.030;  // [s] but the guard falls so long before: a lying sensor is not fresh to it
-
-constexpr double kRounding = 1e-6;  // [1] of a count
+constexpr double kRounding = 1e-6;     // [1] of a count
 
 }  // namespace
 

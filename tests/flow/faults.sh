@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Faults of what lies beneath the program while a person's lesson is driven and recorded: the lever goes on or stands
-# without force, what is due is told once, run and recording are kept. Clock, GPU, sound and writes fail by a library that
-# is preloaded; the disk is a small one of its own.
+# without force, what is due is told once, run and recording are kept. Clock, GPU, sound and writes fail by a library
+# that is preloaded; the disk is a small one of its own.
 # Usage: faults.sh GEARSHIFT SOURCE_FOLDER PRELOADED_FAULTS
 set -u
 gearshift=$1 preloaded=$3
@@ -94,7 +94,8 @@ print(*sqlite3.connect(sys.argv[1]).execute("SELECT duration_s FROM lesson_run O
 check "clock: the lesson lasted as long as it did, got $(span) s" awk -v s="$(span)" 'BEGIN {exit !(s > 1 && s < 200)}'
 check "and nothing else is told, got: $(grep -v picture picture.err)" [ "$(wc -l <picture.err)" -eq 1 ]
 
-# The same step while OpenAL plays to nowhere, as it was asked to above and never does by itself: it mixes an hour first, and the program ends late. The lever does not wait.
+# The same step while OpenAL plays to nowhere, as it was asked to above and never does by itself: it mixes an hour
+# first, and the program ends late. The lever does not wait.
 check "late end: a lesson begins" lesson late
 check "late end: it has forces" in_time 10 has_forces
 check "late end: it runs" find_program
@@ -146,7 +147,8 @@ mend clock
 begun_behind() { # [s] of the true time, as the history has it
   python3 - "$XDG_DATA_HOME/gearshift" <<'END_OF_PYTHON'
 import datetime, sqlite3, sys
-begun, = sqlite3.connect(sys.argv[1] + "/history.db").execute("SELECT begun_at FROM lesson_run ORDER BY id DESC").fetchone()
+history = sqlite3.connect(sys.argv[1] + "/history.db")
+begun, = history.execute("SELECT begun_at FROM lesson_run ORDER BY id DESC").fetchone()
 begun = datetime.datetime.fromisoformat(begun.replace("Z", "+00:00"))
 print((datetime.datetime.now(datetime.timezone.utc) - begun.replace(tzinfo=datetime.timezone.utc)).total_seconds())
 END_OF_PYTHON
@@ -170,7 +172,8 @@ check "one core: beside who never sleeps" kill $hog
 taskset -acp "0-$(($(nproc) - 1))" "$pid" >/dev/null
 check "one core: kept" kept
 check "one core: forces to the end, if they were gone again" has_forces
-check "one core: what the loop missed is counted" said "^loop: [0-9]* deadlines missed, [0-9]* cycles too long, 0 events lost"
+check "one core: what the loop missed is counted" \
+  said "^loop: [0-9]* deadlines missed, [0-9]* cycles too long, 0 events lost"
 check "one core: nothing on stderr, got: $(cat hog.err)" [ ! -s hog.err ]
 
 # The disk's errors make it read-only, and somebody mends it before the end.

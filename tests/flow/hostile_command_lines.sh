@@ -136,6 +136,28 @@ refuse 2 "two files" lesson ./hill.toml --trace hill.toml
 refuse 2 "two files" lesson hill_start --gate own.toml --trace folder/../own.toml
 cp "$source/assets/models/gearbox.glb" box.glb
 refuse 2 "two files" render box.glb --out folder/../box.glb
+python3 - <<'TEXTURED' # a triangle whose buffer and texture lie beside it
+import json, struct, zlib
+def chunk(kind, data):
+    return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
+open("triangle.bin", "wb").write(struct.pack("<9f6f", 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 0, 1, 0, 0, 1))
+open("skin.png", "wb").write(b"\x89PNG\r\n\x1a\n" + chunk(b"IHDR", struct.pack(">IIBBBBB", 1, 1, 8, 2, 0, 0, 0)) +
+                             chunk(b"IDAT", zlib.compress(b"\0\xff\x80\0")) + chunk(b"IEND", b""))
+json.dump({"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}],
+           "buffers": [{"byteLength": 60, "uri": "triangle.bin"}], "images": [{"uri": "skin.png"}],
+           "bufferViews": [{"buffer": 0, "byteLength": 36}, {"buffer": 0, "byteOffset": 36, "byteLength": 24}],
+           "accessors": [{"bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3",
+                          "min": [0, 0, 0], "max": [1, 1, 0]},
+                         {"bufferView": 1, "componentType": 5126, "count": 3, "type": "VEC2"}],
+           "textures": [{"source": 0}], "materials": [{"pbrMetallicRoughness": {"baseColorTexture": {"index": 0}}}],
+           "meshes": [{"primitives": [{"attributes": {"POSITION": 0, "TEXCOORD_0": 1}, "material": 0}]}]},
+          open("triangle.gltf", "w"))
+TEXTURED
+cp triangle.bin triangle.bin.kept
+cp skin.png skin.png.kept
+refuse 1 "two files" render triangle.gltf --out folder/../triangle.bin
+refuse 1 "two files" render triangle.gltf --out skin.png
+for one in triangle.bin skin.png; do cmp $one $one.kept || failed=$((failed + 1)); done
 refuse 2 "two files" stability --svg both --csv ./both
 refuse 2 "two files" bench --family plant --out t --csv t/bench.csv
 refuse 2 "two files" bench --family plant --out folder --csv folder/../folder/bench.html

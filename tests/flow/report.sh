@@ -71,6 +71,10 @@ refuse 2 "--comment" --learner "$ada" --by Bo
 refuse 2 "--comment" --learner "$ada" --comment one text --by Bo
 refuse 1 "none of the shipped lessons: start_and_stop, " --learner "$ada" --next flying
 refuse 1 "none of the shipped lessons" --learner "$ada" --next "$2/assets/lessons/reverse.toml"
+cp data/gearshift/history.db a\ folder/runs.csv
+refuse 2 "two files" --database "a folder/runs.csv" --learner "$ada" --out "a folder/../a folder" --csv
+check "no report over its history" cmp -s data/gearshift/history.db "a folder/runs.csv"
+rm "a folder/runs.csv"
 mkdir folder.db
 refuse 1 "it is a folder" --database folder.db
 refuse 2 "--learner" --out t
