@@ -1,12 +1,10 @@
 #include "app/devices/stop_signals.h"
 
 #include <atomic>
-#include <csignal>
+#include <cstddef>
 
 namespace gearshift {
 namespace {
-
-constexpr int kSignals[] = {SIGINT, SIGTERM, SIGHUP};
 
 // Any thread may be the one that takes the signal: sig_atomic_t would hold within that one only.
 std::atomic<bool> is_asked{false};
@@ -24,11 +22,14 @@ StopSignals::StopSignals() {
   struct sigaction once = {};
   once.sa_handler = ask;
   once.sa_flags = static_cast<int>(SA_RESETHAND);
-  for (const int signal : kSignals) sigaction(signal, &once, nullptr);
+  for (std::size_t i = 0; i < kSignals.size(); ++i) {
+    sigaction(kSignals[i], nullptr, &before_[i]);
+    if (before_[i].sa_handler != SIG_IGN) sigaction(kSignals[i], &once, nullptr);
+  }
 }
 
 StopSignals::~StopSignals() {
-  for (const int signal : kSignals) std::signal(signal, SIG_DFL);
+  for (std::size_t i = 0; i < kSignals.size(); ++i) sigaction(kSignals[i], &before_[i], nullptr);
 }
 
 bool StopSignals::asked() noexcept {

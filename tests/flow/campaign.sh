@@ -39,6 +39,13 @@ ended() { # by Ctrl-C: in the background a shell's children do not hear that
   wait $!
   [ $? -eq 1 ]
 }
+hung_up() { # under nohup a closed terminal ends nothing
+  nohup "$gearshift" campaign --seed 11 --out hung_up --shifts 40 >out 2>err &
+  until [ -s hung_up/cases.csv ]; do sleep 0.05; done
+  kill -HUP $!
+  wait $!
+}
+check "under nohup it goes on when the terminal is closed" hung_up
 check "ended by Ctrl-C" ended
 check "it says so, and how to go on" grep -q "^gearshift: ended with [0-9]* cases in a row done; the same command goes on" err
 check "and goes on" campaign --out ended --threads 1

@@ -80,7 +80,7 @@ refused() {
   cp -r "$XDG_CONFIG_HOME" "$work/stop_button"
   sed -i 's/^stop = 0/stop = 3/' "$work"/stop_button/gearshift/devices/*
   XDG_CONFIG_HOME=$work/stop_button with_stick --family vjoy --orders refused.orders -- \
-    "$gearshift" tour --device vjoy --gate paper --seconds 20 --out refused <&9 >refused.txt 2>refused.err &
+    env --default-signal=INT "$gearshift" tour --device vjoy --gate paper --seconds 20 --out refused <&9 >refused.txt 2>refused.err &
   within 10 asked 1
   echo hold 3 >&8
   echo go 15 20 >&8 # where a lever with forces has a wall

@@ -22,6 +22,20 @@ TEST_CASE("a signal that another thread takes is heard by the one that asks") {
   other.join();
 }
 
+// POSIX, nohup: what was ignored when a program began stays so in it. A closed terminal must not end a run of hours.
+TEST_CASE("a signal that was ignored is not taken, and all are as they were in the end") {
+  std::signal(SIGHUP, SIG_IGN);
+  {
+    const StopSignals signals;
+    std::raise(SIGHUP);
+    CHECK_FALSE(StopSignals::asked());
+    std::raise(SIGTERM);
+    CHECK(StopSignals::asked());
+  }
+  const bool is_ignored = std::signal(SIGHUP, SIG_DFL) == SIG_IGN;
+  CHECK(is_ignored);
+}
+
 TEST_CASE("who begins anew was not asked, and a second signal ends the program at once") {
   {
     const StopSignals before;
