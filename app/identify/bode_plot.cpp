@@ -1,13 +1,13 @@
 #include <cmath>
-#include <fstream>
 #include <numbers>
+#include <string>
 
 #include <fmt/core.h>
 
 #include "app/draw/gate_colours.h"
 #include "app/identify/identify.h"
 #include "app/plot/gnuplot.h"
-#include "haptics/files/file_error.h"
+#include "haptics/files/part_file.h"
 
 namespace gearshift {
 namespace {
@@ -27,17 +27,17 @@ const char* end_name(PointEnd end) {
 }
 
 void write_points(const std::filesystem::path& file, const AxisIdentification& axis) {
-  std::ofstream out(file);
-  out << "frequency_hz,amplitude_n,bounded_by_stroke,gain_m_per_n,gain_uncertainty_m_per_n,phase_deg,"
-         "phase_uncertainty_deg,fitted_gain_m_per_n,fitted_phase_deg,end\n";
+  std::string text =
+      "frequency_hz,amplitude_n,bounded_by_stroke,gain_m_per_n,gain_uncertainty_m_per_n,phase_deg,"
+      "phase_uncertainty_deg,fitted_gain_m_per_n,fitted_phase_deg,end\n";
   for (const FrequencyPoint& point : axis.response.points) {
     const auto fitted = compliance(axis.fit.model, point.frequency);
     const double gain = std::abs(point.response);
-    out << fmt::format("{},{},{},{},{},{},{},{},{},{}\n", point.frequency, point.amplitude, point.bounded_by_stroke,
-                       gain, gain * point.deviation, std::arg(point.response) / kDegree, point.deviation / kDegree,
-                       std::abs(fitted), std::arg(fitted) / kDegree, end_name(point.end));
+    text += fmt::format("{},{},{},{},{},{},{},{},{},{}\n", point.frequency, point.amplitude, point.bounded_by_stroke,
+                        gain, gain * point.deviation, std::arg(point.response) / kDegree, point.deviation / kDegree,
+                        std::abs(fitted), std::arg(fitted) / kDegree, end_name(point.end));
   }
-  if (!out.flush()) throw FileError(file.string(), 0, "cannot be written");
+  write_text_file(file, text);
 }
 
 // Fig. 4: gain above, phase below, test points as *, and the curve through them.

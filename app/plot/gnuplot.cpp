@@ -5,11 +5,12 @@
 
 #include <chrono>
 #include <cstdlib>
-#include <fstream>
 #include <stdexcept>
 #include <thread>
 
 #include <fmt/core.h>
+
+#include "haptics/files/part_file.h"
 
 namespace gearshift {
 namespace {
@@ -50,10 +51,7 @@ int run_gnuplot(const std::filesystem::path& folder, const std::string& script, 
 
 void draw_figure(const std::filesystem::path& folder, const Figure& figure, const std::function<void()>& waiting) {
   const std::string script = figure.name + ".gp";
-  std::ofstream out(folder / script);
-  out << script_of(figure);
-  out.close();
-  if (!out) throw std::runtime_error(fmt::format("{}: cannot be written", (folder / script).string()));
+  write_text_file(folder / script, script_of(figure));
   const int code = run_gnuplot(folder, script, waiting);
   if (code == 127) throw std::runtime_error("gnuplot cannot be started: install the package gnuplot-nox");
   if (code != 0)

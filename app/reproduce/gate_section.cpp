@@ -12,7 +12,7 @@
 #include "app/draw/gate_svg.h"
 #include "app/reproduce/section.h"
 #include "app/reproduce/study_files.h"
-#include "haptics/files/file_error.h"
+#include "haptics/files/part_file.h"
 #include "haptics/gate/gate_description.h"
 #include "haptics/gate/gate_feel.h"
 #include "haptics/loop/simulated_run.h"
@@ -32,10 +32,7 @@ void write_walls(const Study& study, const GateDescription& list) {
 
 void draw_gate(const Study& study, const GateDescription& list) {
   write_walls(study, list);
-  const std::filesystem::path file = study.folder / "gate.svg";
-  std::ofstream out(file);
-  out << gate_svg(study.gate, list, study.layout.name);
-  if (!out.flush()) throw FileError(file.string(), 0, "cannot be written");
+  write_text_file(study.folder / "gate.svg", gate_svg(study.gate, list, study.layout.name));
 }
 
 constexpr double kView = 0.020;        // [m] of a junction, to each side of its centre

@@ -1,6 +1,5 @@
 #include "app/reproduce/page.h"
 
-#include <fstream>
 #include <string>
 #include <string_view>
 
@@ -10,7 +9,7 @@
 #include "app/hold_words.h"
 #include "app/limited_words.h"
 #include "app/program_name.h"
-#include "haptics/files/file_error.h"
+#include "haptics/files/part_file.h"
 
 namespace gearshift {
 namespace {
@@ -111,16 +110,17 @@ constexpr const char* kIntroduction =
 }  // namespace
 
 void write_page(const Study& study, const std::vector<Section>& sections) {
-  const std::filesystem::path file = study.folder / "index.html";
-  std::ofstream out(file);
-  out << "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-         "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>The paper, "
-         "reproduced</title>\n<style>"
-      << html_style() << "</style>\n</head>\n<body>\n<h1>The paper, reproduced</h1>\n<p>" << kIntroduction << "</p>\n"
-      << configuration(study) << contents(sections);
-  for (const Section& section : sections) out << section_text(study, section);
-  out << "<p>" << program_name() << "</p>\n</body>\n</html>\n";
-  if (!out.flush()) throw FileError(file.string(), 0, "cannot be written");
+  std::string text =
+      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
+      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>The paper, "
+      "reproduced</title>\n<style>";
+  text += html_style();
+  text += "</style>\n</head>\n<body>\n<h1>The paper, reproduced</h1>\n<p>";
+  text += kIntroduction;
+  text += "</p>\n" + configuration(study) + contents(sections);
+  for (const Section& section : sections) text += section_text(study, section);
+  text += "<p>" + program_name() + "</p>\n</body>\n</html>\n";
+  write_text_file(study.folder / "index.html", text);
 }
 
 }  // namespace gearshift

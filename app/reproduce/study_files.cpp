@@ -6,12 +6,12 @@
 #include <fmt/format.h>
 
 #include "app/draw/gate_colours.h"
-#include "haptics/files/file_error.h"
+#include "haptics/files/part_file.h"
 
 namespace gearshift {
 
 CsvFile::CsvFile(const Study& study, std::string_view name, std::string_view header)
-    : file_(study.folder / fmt::format("{}.csv", name)), out_(file_) {
+    : file_(study.folder / fmt::format("{}.csv", name)) {
   line(header);
 }
 
@@ -20,11 +20,12 @@ void CsvFile::row(std::initializer_list<double> cells) {
 }
 
 void CsvFile::line(std::string_view cells) {
-  out_ << cells << '\n';
+  text_ += cells;
+  text_ += '\n';
 }
 
 void CsvFile::finish() {
-  if (!out_.flush()) throw FileError(file_.string(), 0, "cannot be written");
+  write_text_file(file_, text_);
 }
 
 void draw(const Study& study, Figure figure) {

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <initializer_list>
 #include <string>
 #include <string_view>
@@ -23,7 +22,7 @@ class CsvFile {
 
  private:
   std::filesystem::path file_;
-  std::ofstream out_;
+  std::string text_;
 };
 
 // NAME.gp, NAME.svg and NAME.png, telling the study meanwhile. The commands follow a prelude that reads CSV files and

@@ -1,6 +1,6 @@
 #include <algorithm>
-#include <fstream>
 #include <sstream>
+#include <string>
 #include <vector>
 
 #include <fmt/core.h>
@@ -8,7 +8,7 @@
 #include "app/draw/gate_colours.h"
 #include "app/plot/gnuplot.h"
 #include "app/tour/tour.h"
-#include "haptics/files/file_error.h"
+#include "haptics/files/part_file.h"
 #include "haptics/gate/gate_description.h"
 
 namespace gearshift {
@@ -21,12 +21,11 @@ constexpr const char* kRed = kLockoutColour;
 constexpr const char* kBlue = kGearColour;
 
 void write_walls(const std::filesystem::path& file, const Gate& gate) {
-  std::ofstream out(file);
-  out << "# x_mm,y_mm; a blank line between walls\n";
+  std::string text = "# x_mm,y_mm; a blank line between walls\n";
   for (const WallInfo& wall : describe_gate(gate).walls) {
-    out << fmt::format("{},{}\n{},{}\n\n", 1e3 * wall.from.x, 1e3 * wall.from.y, 1e3 * wall.to.x, 1e3 * wall.to.y);
+    text += fmt::format("{},{}\n{},{}\n\n", 1e3 * wall.from.x, 1e3 * wall.from.y, 1e3 * wall.to.x, 1e3 * wall.to.y);
   }
-  if (!out.flush()) throw FileError(file.string(), 0, "cannot be written");
+  write_text_file(file, text);
 }
 
 std::string gear_labels(const Gate& gate) {

@@ -1,6 +1,5 @@
 // gearshift bench: speed against error, as a table, CSV, JSON or a page with plots.
 #include <algorithm>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -43,22 +42,6 @@ struct BenchArguments {
   bool json = false;
   BenchOptions options;
 };
-
-// Opened before the first measurement: a wrong path must not cost the results, nor a run that comes to nothing what the
-// file has.
-std::ofstream open_csv(const std::string& file) {
-  std::ofstream out;
-  if (!file.empty()) out.open(file, std::ios::app);
-  if (!file.empty() && !out) throw std::runtime_error(file + ": cannot be written");
-  return out;
-}
-
-void write_csv(std::ofstream& out, const std::string& file, const BenchRun& run) {
-  if (fs::is_regular_file(file)) fs::resize_file(file, 0);
-  out << bench_csv(run);
-  out.flush();
-  if (!out) throw std::runtime_error(file + ": cannot be written");
-}
 
 std::string gpu_words() {
   try {
@@ -148,7 +131,8 @@ std::vector<ReportFile> files_of(const BenchRun& run) {
 
 // Minutes were measured: a file that fails is told and costs no other. Before stdout, whose reader may be gone. Files of
 // the folder that are whole.
-std::vector<fs::path> write_files(const BenchArguments& arguments, std::ofstream& csv, const BenchRun& run, bool& all) {
+std::vector<fs::path> write_files(const BenchArguments& arguments, std::optional<PartFile>& csv, const BenchRun& run,
+                                  bool& all) {
   std::vector<fs::path> written;
   const auto attempt = [&](const auto& write) {
     try {
@@ -166,12 +150,27 @@ std::vector<fs::path> write_files(const BenchArguments& arguments, std::ofstream
       });
     }
   }
-  if (csv.is_open()) attempt([&] { write_csv(csv, arguments.csv_file, run); });
+  if (!csv) return written;
+  attempt([&] {
+    csv->write(bench_csv(run));
+    csv->keep();
+  });
   return written;
 }
 
-void check_csv(const BenchArguments& arguments) {
-  if (arguments.csv_file.empty() || arguments.out.empty()) return;
+// Where this machine's last run is kept; empty where nothing can be.
+fs::path kept_results(const Machine& machine) {
+  try {
+    return last_run_file(user_data_folder(), machine);
+  } catch (const std::exception&) {
+    return {};  // said when it is needed
+  }
+}
+
+void check_csv(const BenchArguments& arguments, const Machine& machine) {
+  if (arguments.csv_file.empty()) return;
+  check_two_files("--csv", "the table and the results kept of the last run", arguments.csv_file, kept_results(machine));
+  if (arguments.out.empty()) return;
   std::vector<std::string> written{"bench.html", "bench.csv", "bench.json"};
   for (const NamedFamily& family : bench_families()) written.push_back(plot_name(family));
   for (const std::string& name : written)
@@ -179,14 +178,16 @@ void check_csv(const BenchArguments& arguments) {
 }
 
 int run_bench(const BenchArguments& arguments) {
-  check_csv(arguments);
+  const Machine machine = this_machine(gpu_words());
+  check_csv(arguments, machine);
   const StopSignals signals;
-  std::ofstream csv = open_csv(arguments.csv_file);
+  std::optional<PartFile> csv;
+  if (!arguments.csv_file.empty()) csv.emplace(arguments.csv_file).prepare();  // a wrong path must not cost the results
   if (!arguments.out.empty()) make_folder(arguments.out);
   BenchRun run{.program = program_name() + " " + commit_text(),
                .date = date_text(system_seconds()),
                .quick = arguments.options.quick,
-               .machine = this_machine(gpu_words())};
+               .machine = machine};
   const std::optional<ProcessorTime> begin = processor_time_now();
   Measured measured = measure(arguments);
   if (measured.rows.empty()) return 1;

@@ -1,6 +1,5 @@
 // gearshift gate: what the gate compiler makes of a layout.
 #include <filesystem>
-#include <fstream>
 #include <memory>
 #include <string>
 #include <system_error>
@@ -11,7 +10,7 @@
 #include "app/verbs/gate_report.h"
 #include "app/verbs/two_files.h"
 #include "app/verbs/verbs.h"
-#include "haptics/files/file_error.h"
+#include "haptics/files/part_file.h"
 #include "haptics/gate/gate_compiler.h"
 #include "haptics/joystick/kinematics.h"
 
@@ -42,19 +41,12 @@ GateReport make_report(const std::filesystem::path& layout) {
   return report;
 }
 
-void write_file(const std::string& path, const std::string& text) {
-  std::ofstream out(path, std::ios::binary);
-  out << text;
-  out.close();
-  if (!out) throw FileError(path, 0, "cannot be written");
-}
-
 int show_gate(const GateOptions& options) {
   const std::filesystem::path layout = find_asset("gates", options.layout);
   check_two_files("--svg", "the drawing and the layout", options.svg, layout);
   const GateReport report = make_report(layout);
   if (!options.svg.empty()) {
-    write_file(options.svg, gate_svg(report.gate, report.description, report.layout.name));
+    write_text_file(options.svg, gate_svg(report.gate, report.description, report.layout.name));
     print_problem("drew {}", options.svg);
   }
   print_out("{}", options.json ? gate_json(report) : gate_table(report));

@@ -1,7 +1,6 @@
 // gearshift stability: may I use this wall at this rate on this device?
 #include <algorithm>
 #include <array>
-#include <fstream>
 #include <memory>
 #include <optional>
 #include <stdexcept>
@@ -20,7 +19,7 @@
 #include "app/verbs/two_files.h"
 #include "app/verbs/verbs.h"
 #include "haptics/device/simulated_lever.h"
-#include "haptics/files/file_error.h"
+#include "haptics/files/part_file.h"
 
 namespace gearshift {
 namespace {
@@ -103,29 +102,23 @@ StabilityAnswer answer_or_refuse(const StabilityQuestion& question, const std::s
   }
 }
 
-// Opened before the map is made: a wrong path must not cost it.
-std::ofstream open(const std::string& file) {
-  std::ofstream out;
-  if (!file.empty()) out.open(file, std::ios::binary);
-  if (!file.empty() && !out) throw FileError(file, 0, "cannot be written");
-  return out;
-}
-
-void write(std::ofstream& out, const std::string& file, const std::string& text) {
-  out << text;
-  out.close();
-  if (!out) throw FileError(file, 0, "cannot be written");
+void write(PartFile& out, const std::string& file, const std::string& text) {
+  out.write(text);
+  out.keep();
   print_problem("wrote {}", file);
 }
 
 void write_map(const StabilityArguments& arguments, const StabilityQuestion& question, const StabilityAnswer& answer) {
   if (arguments.svg_file.empty() && arguments.csv_file.empty()) return;
-  std::ofstream svg = open(arguments.svg_file), csv = open(arguments.csv_file);
+  // Before the map is made: a wrong path must not cost it.
+  std::optional<PartFile> svg, csv;
+  if (!arguments.svg_file.empty()) svg.emplace(arguments.svg_file).prepare();
+  if (!arguments.csv_file.empty()) csv.emplace(arguments.csv_file).prepare();
   ProgressBar bar;
   const StabilityMap map = stability_map(question, [&](double share) { bar.show("map", share); });
   bar.clear();
-  if (svg.is_open()) write(svg, arguments.svg_file, stability_svg(question, answer, map));
-  if (csv.is_open()) write(csv, arguments.csv_file, stability_csv(question, map));
+  if (svg) write(*svg, arguments.svg_file, stability_svg(question, answer, map));
+  if (csv) write(*csv, arguments.csv_file, stability_csv(question, map));
 }
 
 int run_stability(const StabilityArguments& arguments) {

@@ -70,23 +70,43 @@ std::vector<std::uint8_t> file_bytes(const std::filesystem::path& file) {
   return bytes;
 }
 
+// /dev/null, /dev/stdout: written to, never replaced.
+bool is_device_or_pipe(const std::filesystem::path& file) {
+  std::error_code unknown;
+  const std::filesystem::file_status found = std::filesystem::status(file, unknown);
+  return std::filesystem::exists(found) && !std::filesystem::is_regular_file(found) &&
+         !std::filesystem::is_directory(found);
+}
+
+// A link stays one: what it leads to is written.
+std::filesystem::path place_of(const std::filesystem::path& file) {
+  const bool is_link = std::filesystem::is_symlink(file) && !is_device_or_pipe(file);
+  return is_link ? std::filesystem::canonical(file) : file;
+}
+
+// A name of this process's own: who looks at the file sees the old picture or the new one.
+std::filesystem::path part_of(std::filesystem::path place) {
+  if (!is_device_or_pipe(place)) place += fmt::format(".{}.part", getpid());
+  return place;
+}
+
 }  // namespace
 
 void write_png(const std::filesystem::path& file, const Image& image) {
-  // A name of this process's own: who looks at `file` sees the old picture or the new one.
-  std::filesystem::path part = file;
-  part += fmt::format(".{}.part", getpid());
+  std::filesystem::path part;
   try {
     check_shape(image);
     const std::vector<std::uint8_t> bytes = encoded_png(image);
+    const std::filesystem::path place = place_of(file);
+    part = part_of(place);
     std::ofstream out(part, std::ios::binary | std::ios::trunc);
     out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     out.close();
     if (!out) throw std::runtime_error(std::strerror(errno));
-    std::filesystem::rename(part, file);
+    if (part != place) std::filesystem::rename(part, place);
   } catch (const std::exception& e) {
     std::error_code ignored;
-    std::filesystem::remove(part, ignored);
+    if (!is_device_or_pipe(file)) std::filesystem::remove(part, ignored);
     const auto* system = dynamic_cast<const std::system_error*>(&e);
     throw std::runtime_error(fmt::format("{}: the picture cannot be written: {}", file.string(),
                                          system != nullptr ? system->code().message() : e.what()));

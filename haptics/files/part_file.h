@@ -1,4 +1,5 @@
-// A file that is there whole or not at all: written beside its place, then renamed.
+// A file that is there whole or not at all: written beside its place, then renamed. A link stays one: what it leads to is
+// written. A device or a pipe (/dev/null, /dev/stdout) is written to and stays what it is.
 #pragma once
 
 #include <filesystem>
@@ -15,11 +16,12 @@ class PartFile {
   PartFile& operator=(const PartFile&) = delete;
 
   const std::filesystem::path& path() const noexcept { return part_; }  // where it is written
-  void write(std::string_view text);                                    // all of it. Throws FileError
-  void keep();                                                          // under its name. Throws FileError
+  void prepare();                     // before long work. Throws FileError where it cannot be written
+  void write(std::string_view text);  // all of it. Throws FileError
+  void keep();                        // under its name. Throws FileError
 
  private:
-  std::filesystem::path file_, part_;
+  std::filesystem::path file_, place_, part_;
 };
 
 // Throws FileError; then what was there before still is.

@@ -103,6 +103,26 @@ check "and says where" complains "ended in the family contact: what was measured
 check "the whole family is kept" test "$(grep -c '^plant,' kept.csv) $(grep -c '^contact,' kept.csv)" = "6 0"
 check "the page, too" is_xml begun/bench.html
 
+# The name counts that the file has in the end, whatever another program did to it meanwhile.
+meanwhile() { # what is done after the first look at the file
+  echo "of old" >moving.csv
+  "$gearshift" bench --family contact --quick --csv moving.csv >out 2>err &
+  sleep 0.7
+  "$@"
+  wait $!
+}
+check "its file was moved" meanwhile mv moving.csv moved.csv
+check "what was moved is as it was" test "$(cat moved.csv)" = "of old"
+check "the results have their name" grep -q '^contact,' moving.csv
+another() { echo other >other.csv && mv other.csv moving.csv; }
+check "its file was replaced" meanwhile another
+check "the results are there" grep -q '^contact,' moving.csv
+kept=$(ls data/gearshift/bench/*.json)
+cp "$kept" as_kept
+check "over the results of the last run" is_refused bench --family feel --csv "$kept"
+check "no table is written" cmp "$kept" as_kept
+check "it says so" complains "must be two files"
+
 rm -r data && echo "a file" >data
 check "nowhere to keep it costs nothing" bench --family feel --csv rows.csv
 check "but one sentence" test "$(wc -l <err)" -eq 1

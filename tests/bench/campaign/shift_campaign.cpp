@@ -21,6 +21,7 @@
 
 #include "haptics/files/file_error.h"
 #include "haptics/files/fnv_1a.h"
+#include "haptics/files/part_file.h"
 #include "tests/bench/campaign/case_file.h"
 
 namespace gearshift {
@@ -182,15 +183,15 @@ namespace {
 // Which laws the trace beside it breaks, where: a replay says only that it is the same drive.
 void tell_broken(std::uint64_t number, const CampaignPlan& plan, std::span<const LawBroken> broken,
                  const std::filesystem::path& file) {
-  std::ofstream text(file);
+  std::string text;
   for (const LawBroken& one : broken) {
     if (one.number != number) continue;
     const LawWords& words = law_words(one.law);
-    text << fmt::format("case {} of seed {} breaks {} ({}): {:.4g} {}, bound {:.4g}, at {:.3f} s\n", number, plan.seed,
+    text += fmt::format("case {} of seed {} breaks {} ({}): {:.4g} {}, bound {:.4g}, at {:.3f} s\n", number, plan.seed,
                         std::string(words.name), std::string(words.says), one.seen.value, std::string(words.unit),
                         one.seen.bound, one.seen.time);
   }
-  if (!text.flush()) throw FileError(file.string(), 0, "cannot be written");
+  write_text_file(file, text);
 }
 
 }  // namespace

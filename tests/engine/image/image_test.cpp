@@ -1,6 +1,10 @@
 // Pictures: to a file and back, cut, joined, compared; files that are none.
 #include "engine/image/image.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -89,6 +93,27 @@ TEST_CASE("the file is a PNG as the standard has it: signature, size, eight bits
   CHECK(big_endian(bytes, 20) == 3);
   CHECK(bytes[24] == 8);
   CHECK(bytes[25] == 6);
+}
+
+TEST_CASE("a link stays one and a pipe stays one: what they lead to is written") {
+  namespace fs = std::filesystem;
+  TempFolder folder;
+  const Image first = noise(4, 4, 1), second = noise(5, 5, 2);
+  write_png(folder / "image.png", first);
+  fs::create_symlink("image.png", folder / "link.png");
+  write_png(folder / "link.png", second);
+  CHECK(fs::is_symlink(folder / "link.png"));
+  CHECK(read_png(folder / "image.png").rgba == second.rgba);
+  const fs::path pipe = folder / "pipe";
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  REQUIRE(reader >= 0);
+  write_png(pipe, second);
+  CHECK(fs::is_fifo(pipe));
+  std::vector<std::uint8_t> got(2 * fs::file_size(folder / "image.png"));
+  CHECK(read(reader, got.data(), got.size()) == static_cast<ssize_t>(fs::file_size(folder / "image.png")));
+  close(reader);
+  CHECK(std::distance(fs::directory_iterator(folder.path()), {}) == 3);
 }
 
 TEST_CASE("a write replaces the file and leaves nothing beside it; a failed one leaves the old picture") {

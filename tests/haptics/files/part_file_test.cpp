@@ -1,5 +1,10 @@
 #include "haptics/files/part_file.h"
 
+#include <fcntl.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <filesystem>
 #include <string>
 
@@ -49,6 +54,46 @@ TEST_CASE("a folder that is not there, and a name that is a folder, are refused"
   CHECK_THROWS_AS(write_text_file(folder / "none" / "page.html", "x"), FileError);
   fs::create_directory(folder / "page.html");
   CHECK_THROWS_AS(write_text_file(folder / "page.html", "x"), FileError);
+  CHECK(files_in(folder) == 1);
+}
+
+TEST_CASE("a link stays one, whether what it leads to is there or not") {
+  const TempFolder folder;
+  fs::create_directory(folder / "elsewhere");
+  fs::create_symlink("elsewhere/page.html", folder / "link.html");
+  for (const std::string text : {"first", "second"}) {
+    write_text_file(folder / "link.html", text);
+    CHECK(fs::is_symlink(folder / "link.html"));
+    CHECK(read_text_file(folder / "elsewhere" / "page.html") == text);
+  }
+  CHECK(files_in(folder) == 2);
+}
+
+TEST_CASE("a pipe is written to, once, and stays one") {
+  const TempFolder folder;
+  const fs::path pipe = folder / "pipe";
+  REQUIRE(mkfifo(pipe.c_str(), 0600) == 0);
+  const int reader = open(pipe.c_str(), O_RDONLY | O_NONBLOCK);
+  REQUIRE(reader >= 0);
+  {
+    PartFile part(pipe);
+    part.prepare();
+    part.write("whole");
+    part.keep();
+  }
+  char got[16];
+  CHECK(std::string(got, static_cast<std::size_t>(std::max<ssize_t>(0, read(reader, got, sizeof got)))) == "whole");
+  CHECK(fs::is_fifo(pipe));
+  CHECK(files_in(folder) == 1);
+  close(reader);
+}
+
+TEST_CASE("what cannot be written is refused before the work, with the reason, and costs nothing") {
+  const TempFolder folder;
+  CHECK_THROWS_WITH_AS(PartFile(folder / "none" / "page.html").prepare(), doctest::Contains("No such file"), FileError);
+  write_text_file(folder / "page.html", "first");
+  PartFile(folder / "page.html").prepare();
+  CHECK(read_text_file(folder / "page.html") == "first");
   CHECK(files_in(folder) == 1);
 }
 
