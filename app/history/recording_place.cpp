@@ -5,6 +5,7 @@
 #include <system_error>
 
 #include "app/history/history_state.h"
+#include "haptics/files/place_of.h"
 
 namespace gearshift {
 namespace {
@@ -31,9 +32,7 @@ fs::path without_links(const fs::path& place) {
 }
 
 fs::path folder_of(const fs::path& history) {
-  std::error_code problem;
-  const fs::path absolute = fs::absolute(history, problem);
-  return (problem ? history : absolute).parent_path();
+  return absolute_place(history).parent_path();
 }
 
 }  // namespace

@@ -10,6 +10,7 @@
 #include "app/train/recording_file.h"
 #include "app/train/session.h"
 #include "app/training/grade.h"
+#include "haptics/files/place_of.h"
 
 namespace gearshift {
 namespace {
@@ -116,9 +117,9 @@ fs::path Session::record_lesson(const Lesson& lesson) {
   try {
     start_recording(drive_name(lesson.key));
     records_lesson_ = true;
-    lesson_recordings_.insert(fs::absolute(last_recording_).string());
+    lesson_recordings_.insert(absolute_place(last_recording_).string());
     message_ = news;  // nobody asked for it
-    return fs::absolute(last_recording_);
+    return absolute_place(last_recording_);
   } catch (const std::exception& refused) {
     message_ = refused.what();
     return {};

@@ -7,6 +7,7 @@
 #include "app/train/recording_file.h"
 #include "app/train/session.h"
 #include "app/trainer/user_folder.h"
+#include "haptics/files/place_of.h"
 
 namespace gearshift {
 
@@ -23,7 +24,7 @@ void Session::toggle_recording() {
 
 // Beside the history that names them.
 fs::path Session::recordings_folder() const {
-  const fs::path data = choice_.history.empty() ? user_data_folder() : fs::absolute(choice_.history).parent_path();
+  const fs::path data = choice_.history.empty() ? user_data_folder() : absolute_place(choice_.history).parent_path();
   return data / "recordings";
 }
 

@@ -18,6 +18,7 @@
 #include "app/train/recording_file.h"
 #include "app/training/grade.h"
 #include "haptics/files/file_error.h"
+#include "haptics/files/place_of.h"
 #include "haptics/files/printable.h"
 
 namespace gearshift {
@@ -97,9 +98,9 @@ class Trials {
     const bool own_recording = drive.trace.empty();
     if (own_recording) {
       drive.trace = recording();
-      if (!drive.trace.empty()) own_recordings_.insert(fs::absolute(drive.trace).string());
+      if (!drive.trace.empty()) own_recordings_.insert(absolute_place(drive.trace).string());
     }
-    coach_.begin(drive.car, gate_, trials_.settings, drive.trace.empty() ? fs::path() : fs::absolute(drive.trace));
+    coach_.begin(drive.car, gate_, trials_.settings, drive.trace.empty() ? fs::path() : absolute_place(drive.trace));
     if (trials_.help) drive.guidance = coach_.guidance();
     told_ = 0;
     told_help_ = false;
@@ -158,7 +159,7 @@ class Trials {
   fs::path recording() {
     if (!coach_.view().remembers || trials_.learner.empty()) return {};
     try {
-      const fs::path folder = fs::absolute(trials_.history.file).parent_path() / "recordings";
+      const fs::path folder = absolute_place(trials_.history.file).parent_path() / "recordings";
       make_folder(folder);
       return free_trace(folder, drive_name(trials_.drive.lesson.key));
     } catch (const std::runtime_error& problem) {

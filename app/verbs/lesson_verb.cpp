@@ -65,6 +65,13 @@ std::string settings_of(const LessonDriveConfig& drive, const LessonArguments& a
   return text;
 }
 
+// SQLite has files of its own beside it.
+void check_history(const std::string& trace, const fs::path& history) {
+  if (history.empty()) return;
+  for (const char* own : {"", "-wal", "-shm", "-journal"})
+    check_two_files("--trace", "the recording and the history", trace, history.string() + own);
+}
+
 // Whoever mistypes a name must not lose a history for it, nor anything else that is no recording.
 void check_recording(const std::string& trace) {
   std::error_code error;
@@ -101,6 +108,7 @@ LessonTrials make_trials(const LessonArguments& arguments) {
   trials.mode = arguments.mode;
   trials.learner = arguments.learner;
   if (!arguments.learner.empty()) trials.history = history_place(arguments.database);
+  check_history(arguments.trace, trials.history.file);
   trials.settings = settings_of(trials.drive, arguments);
   trials.tells_shifts = arguments.verbose;
   return trials;

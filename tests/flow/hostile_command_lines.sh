@@ -134,6 +134,15 @@ refuse 2 "two files" gate "$source/assets/gates/paper.toml" --svg "$source/./ass
 cp "$source/assets/lessons/hill_start.toml" hill.toml
 refuse 2 "two files" lesson ./hill.toml --trace hill.toml
 refuse 2 "two files" lesson hill_start --gate own.toml --trace folder/../own.toml
+ln -s new.db link.db
+for own in new.db ./new.db link.db new.db-wal new.db-shm new.db-journal; do
+  refuse 2 "two files" lesson hill_start --learner A --database new.db --trace $own
+done
+mkdir gone && cd gone && rmdir ../gone
+gone=$({ "$gearshift" lesson hill_start --trace x.trace >/dev/null; } 2>&1)
+cd ..
+grep -q '^gearshift: x.trace: .*: No such file or directory$' <<<"$gone" ||
+  { echo "FAILED: where the working folder is gone: $gone"; failed=$((failed + 1)); }
 cp "$source/assets/models/gearbox.glb" box.glb
 refuse 2 "two files" render box.glb --out folder/../box.glb
 python3 - <<'TEXTURED' # a triangle whose buffer and texture lie beside it
