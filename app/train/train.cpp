@@ -384,8 +384,7 @@ bool is_done(const Session& session) {
 }  // namespace
 
 int train_in_window(const TrainSetup& setup) {
-  std::optional<StopSignals> signals;
-  if (setup.choice.stick) signals.emplace();
+  const StopSignals signals;
   WindowTrainer trainer(setup);
   try {
     while (!trainer.done()) trainer.frame();

@@ -5,6 +5,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -58,12 +59,12 @@ void write_wav(const std::filesystem::path& path, std::span<const float> stereo,
   std::ofstream file(part, std::ios::binary);
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
   file.close();
-  std::error_code problem;
-  if (file) std::filesystem::rename(part, path, problem);
-  if (file && !problem) return;
+  std::error_code problem(file ? 0 : errno, std::generic_category());
+  if (!problem) std::filesystem::rename(part, path, problem);
+  if (!problem) return;
   std::error_code ignored;
   std::filesystem::remove(part, ignored);
-  throw std::runtime_error(path.string() + ": cannot be written");
+  throw std::runtime_error(path.string() + ": cannot be written: " + problem.message());
 }
 
 }  // namespace gearshift

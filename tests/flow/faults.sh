@@ -49,10 +49,11 @@ END_OF_PYTHON
 }
 ended() { ended_by End || { needs_machine=yes; kill "$trainer" && wait "$trainer"; false; }; }
 runs=0
-kept() {
+hung_up() { find_program && kill -HUP "$pid" && wait "$trainer"; } # its terminal is closed
+kept() { # how it is ended, where not by the key
   local rows recording
   runs=$((runs + 1))
-  ended || return 1
+  "${@:-ended}" || return 1
   said "lesson moving_off is over: not graded.*was left" || return 1
   rows=$(left_runs) || return 1
   [ "$(head -n 1 <<<"$rows")" -eq $runs ] || return 1
@@ -63,6 +64,9 @@ has_forces() { [ "$(grep 'guard: ' "$log.txt" | tail -n 1 | sed 's/.*guard: //')
 missed() { sed -n 's/^loop: \([0-9]*\) deadlines missed, .*/\1/p' "$log.txt" | tail -n 1; }
 find_program() { pid=$(pgrep -P "$trainer" -x gearshift) && [ -n "$pid" ]; }
 lever_goes_on() { ! grep -q "guard: damped\|guard: released" "$log.txt"; }
+
+check "closed terminal: a lesson begins" lesson hung_up
+check "closed terminal: run and recording are kept" kept hung_up
 
 # The picture, the sound and the wall clock.
 check "picture: a lesson begins" lesson picture

@@ -69,7 +69,8 @@ TEST_CASE("a WAVE file says what it holds and holds it to half a step of 16 bits
 TEST_CASE("what cannot be written is refused in a sentence that names the file") {
   const std::vector<float> frame = {0.0f, 0.0f};
   CHECK_THROWS_AS(write_wav("/nonexistent/a.wav", frame, 48000), std::runtime_error);
-  CHECK_THROWS_WITH(write_wav("/nonexistent/a.wav", frame, 48000), doctest::Contains("/nonexistent/a.wav"));
+  CHECK_THROWS_WITH(write_wav("/nonexistent/a.wav", frame, 48000),
+                    "/nonexistent/a.wav: cannot be written: No such file or directory");
   CHECK_THROWS_AS(write_wav(own_file(), std::span(frame).first(1), 48000), std::runtime_error);
   CHECK_THROWS_AS(write_wav(own_file(), frame, 0), std::runtime_error);
 }
