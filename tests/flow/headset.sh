@@ -98,7 +98,7 @@ begin "it starts" wear losses --lesson none --hand "by itself" < <(
   at 12 instance_loss
   whole && at 24 loss_pending
   whole && fails 110 xrWaitFrame XR_ERROR_RUNTIME_FAILURE)
-seen=0 losses=2
+seen=0 losses=2 is_spoiled=
 whole && losses=4
 for i in $(seq $losses); do
   check "$i. found" soon 30 told "$found" $i
@@ -108,13 +108,15 @@ for i in $(seq $losses); do
   check "$i. found again" soon 30 told "$found" $((i + 1))
   # As many frames as it takes to be settled: two of a headset that is worn.
   check "$i. and shown again" soon 20 has_more_frames $((drawn + 1))
-  [ $i = 1 ] && files=$(open_files) tasks=$(threads) code=$(code_kb)
+  [ $i = 1 ] && files=$(open_files) tasks=$(threads) code=$(code_kb) && told "$lost" 2 && is_spoiled=yes
 done
-check "no more open files ($files, $(open_files))" [ "$(open_files)" -le "$files" ]
 # A view that is owed a frame leaves on a thread of its own, when it gets it.
 no_more_threads() { now=$(threads) && alive && [ "$now" -le "$tasks" ]; }
-check "no more threads than $tasks" within 20 no_more_threads
-check "no driver left its code behind ($code, $(code_kb) KiB)" [ "$(code_kb)" -le $((code + 4096)) ]
+if [ -z "$is_spoiled" ]; then # else lost while it was counted: sanitizers are as slow
+  check "no more open files ($files, $(open_files))" [ "$(open_files)" -le "$files" ]
+  check "no more threads than $tasks" within 20 no_more_threads
+  check "no driver left its code behind ($code, $(code_kb) KiB)" [ "$(code_kb)" -le $((code + 4096)) ]
+fi
 check "meanwhile the window showed the cabin ($seen times)" [ "$seen" -ge 1 ]
 check "the lever shifts on" soon 30 shifts_after "$shifts"
 xdotool windowfocus "$window"
