@@ -107,7 +107,7 @@ check "the page, too" is_xml begun/bench.html
 meanwhile() { # what is done after the first look at the file
   echo "of old" >moving.csv
   "$gearshift" bench --family contact --quick --csv moving.csv >out 2>err &
-  sleep 0.7
+  until compgen -G "moving.csv.part*" >/dev/null || ! kill -0 $! 2>/dev/null; do sleep 0.01; done
   "$@"
   wait $!
 }

@@ -34,7 +34,7 @@ TEST_CASE("where there is no room for the third file, two are there whole, and t
     } catch (const std::runtime_error& problem) {
       const std::string wanted =
           (folder / "shifts.csv").string() +
-          ": cannot be written; written: index.html, runs.csv; not written: shifts.csv, faults.csv";
+          ": cannot be written: File too large; written: index.html, runs.csv; not written: shifts.csv, faults.csv";
       _exit(told == 2 && problem.what() == wanted ? 0 : 2);
     }
     _exit(1);
