@@ -1,8 +1,16 @@
 #include "tests/bench/jitter_contest.h"
 
+#include <fcntl.h>
+#include <poll.h>
+#include <sys/prctl.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <algorithm>
 #include <array>
 #include <chrono>
 #include <cmath>
+#include <csignal>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -25,8 +33,18 @@ struct Lateness {
   double overruns = 0.0;       // ours alone
 };
 
+// Called several times a second, so that who is asked to end does so within a block; it may throw.
+using Pulse = std::function<void()>;
+constexpr std::chrono::milliseconds kPulse{250};
+
+void wait_for(double seconds, const Pulse& pulse) {
+  using Clock = std::chrono::steady_clock;
+  const auto end = Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds));
+  for (; Clock::now() < end; pulse()) std::this_thread::sleep_until(std::min(end, Clock::now() + kPulse));
+}
+
 // The shipped loop with the simulated lever on the real-time thread, for `seconds`.
-Lateness run_ours(const Gate& gate, double seconds, std::int64_t spin_ns, int core) {
+Lateness run_ours(const Gate& gate, double seconds, std::int64_t spin_ns, int core, const Pulse& pulse) {
   SimulatedRunConfig config = touring_config(gate);
   ScriptedHand driver = touring_driver(gate, 0.001);
   SimulatedRun run(config, driver);
@@ -37,7 +55,7 @@ Lateness run_ours(const Gate& gate, double seconds, std::int64_t spin_ns, int co
   realtime.core = core;
   RealtimeThread thread;
   thread.start(realtime, [&](const CycleCall& call) { run.loop().cycle(call.deadline_ns, call.skipped); });
-  std::this_thread::sleep_for(std::chrono::duration<double>(seconds));
+  wait_for(seconds, pulse);
   thread.stop();
   Lateness result;
   for (std::size_t i = 0; i < 2; ++i) {
@@ -48,10 +66,47 @@ Lateness run_ours(const Gate& gate, double seconds, std::int64_t spin_ns, int co
   return result;
 }
 
-std::vector<std::uint64_t> read_histogram(std::FILE* pipe) {
+// cyclictest at work; it ends with us, however we end.
+class Cyclictest {
+ public:
+  Cyclictest(double seconds, int core) {
+    const std::string priority = std::to_string(kPriority), on = std::to_string(core);
+    const std::string duration = std::to_string(static_cast<int>(seconds));
+    int ends[2];
+    if (pipe2(ends, O_CLOEXEC) != 0) return;
+    child_ = fork();
+    if (child_ == 0) {
+      prctl(PR_SET_PDEATHSIG, SIGTERM);
+      dup2(ends[1], STDOUT_FILENO);
+      dup2(open("/dev/null", O_WRONLY | O_CLOEXEC), STDERR_FILENO);
+      execlp("cyclictest", "cyclictest", "--policy=fifo", "-p", priority.c_str(), "-t", "1", "-a", on.c_str(), "-i",
+             "1000", "-m", "-q", "-D", duration.c_str(), "-h", "100000", static_cast<char*>(nullptr));
+      _exit(127);
+    }
+    close(ends[1]);
+    output_ = fdopen(ends[0], "r");
+  }
+  ~Cyclictest() {
+    if (output_) std::fclose(output_);
+    if (child_ <= 0) return;
+    kill(child_, SIGTERM);
+    waitpid(child_, nullptr, 0);
+  }
+  Cyclictest(const Cyclictest&) = delete;
+  Cyclictest& operator=(const Cyclictest&) = delete;
+
+  std::FILE* output() const noexcept { return output_; }
+
+ private:
+  pid_t child_ = -1;
+  std::FILE* output_ = nullptr;
+};
+
+std::vector<std::uint64_t> read_histogram(std::FILE* pipe, const Pulse& pulse) {
   std::vector<std::uint64_t> histogram;
   char line[512];
   unsigned long long us = 0, count = 0;
+  for (pollfd first{fileno(pipe), POLLIN, 0}; poll(&first, 1, static_cast<int>(kPulse.count())) != 1;) pulse();
   while (std::fgets(line, sizeof line, pipe)) {
     if (line[0] == '#' || std::sscanf(line, "%llu %llu", &us, &count) != 2) continue;
     if (histogram.size() <= us) histogram.resize(us + 1);
@@ -60,14 +115,11 @@ std::vector<std::uint64_t> read_histogram(std::FILE* pipe) {
   return histogram;
 }
 
-// cyclictest prints how often each whole microsecond of lateness was seen.
-Lateness run_cyclictest(double seconds, int core) {
-  char command[256];
-  std::snprintf(command, sizeof command,
-                "cyclictest --policy=fifo -p %d -t 1 -a %d -i 1000 -m -q -D %d -h 100000 2>/dev/null", kPriority, core,
-                static_cast<int>(seconds));
-  std::unique_ptr<std::FILE, int (*)(std::FILE*)> pipe(popen(command, "r"), pclose);
-  const std::vector<std::uint64_t> histogram = pipe ? read_histogram(pipe.get()) : std::vector<std::uint64_t>{};
+// cyclictest prints at its end how often each whole microsecond of lateness was seen.
+Lateness run_cyclictest(double seconds, int core, const Pulse& pulse) {
+  const Cyclictest cyclictest(seconds, core);
+  std::vector<std::uint64_t> histogram;
+  if (cyclictest.output()) histogram = read_histogram(cyclictest.output(), pulse);
   std::uint64_t total = 0;
   for (const std::uint64_t n : histogram) total += n;
   Lateness result;
@@ -99,10 +151,10 @@ Contest compete(const Gate& gate, const BenchOptions& options, const std::functi
   const int blocks = options.quick ? 1 : kBlocks;
   Contest contest;
   for (int b = 0; b < blocks; ++b) {
-    progress(static_cast<double>(b) / blocks);
-    const Lateness theirs = run_cyclictest(options.jitter_block, core);
-    const Lateness sleeping = run_ours(gate, options.jitter_block, 0, core);
-    const Lateness spinning = run_ours(gate, options.jitter_block, RealtimeConfig{}.spin_ns, core);
+    const Pulse pulse = [&] { progress(static_cast<double>(b) / blocks); };
+    const Lateness theirs = run_cyclictest(options.jitter_block, core, pulse);
+    const Lateness sleeping = run_ours(gate, options.jitter_block, 0, core, pulse);
+    const Lateness spinning = run_ours(gate, options.jitter_block, RealtimeConfig{}.spin_ns, core, pulse);
     contest.cycle_us.push_back(spinning.cycle_us);
     contest.overruns += spinning.overruns + sleeping.overruns;
     for (std::size_t i = 0; i < 2; ++i) {
@@ -140,8 +192,10 @@ void add_ours(std::vector<BenchRow>& rows, const std::string& family, const std:
 std::vector<BenchRow> rows_of(Contest& contest, const BenchOptions& options, const std::string& family,
                               const std::string& where) {
   const bool judged = is_judged(options);
-  const std::string note = "median of " + std::to_string(contest.theirs[0].size()) + " alternating blocks of " +
-                           std::to_string(static_cast<int>(options.jitter_block)) + " s" +
+  const std::size_t blocks = contest.theirs[0].size();
+  const std::string each = std::to_string(static_cast<int>(options.jitter_block)) + " s";
+  const std::string note = (blocks == 1 ? "one block of " + each
+                                        : "median of " + std::to_string(blocks) + " alternating blocks of " + each) +
                            (judged ? "" : ": too few or too short for a verdict");
   std::vector<BenchRow> rows;
   for (std::size_t i = 0; i < kQuantiles.size(); ++i) {

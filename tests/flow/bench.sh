@@ -103,6 +103,14 @@ check "and says where" complains "ended in the family contact: what was measured
 check "the whole family is kept" test "$(grep -c '^plant,' kept.csv) $(grep -c '^contact,' kept.csv)" = "6 0"
 check "the page, too" is_xml begun/bench.html
 
+# Blocks of a minute: who is asked to end does not wait for one, and takes cyclictest along.
+if command -v cyclictest >/dev/null; then
+  running TERM 2 --family jitter
+  check "what waits for wake-ups ends within a block" test $? -eq 1
+  check "and says so" complains "ended in the family jitter: nothing was measured"
+  check "and leaves nobody behind" is_refused pgrep -s 0 cyclictest
+fi
+
 # The name counts that the file has in the end, whatever another program did to it meanwhile.
 meanwhile() { # what is done after the first look at the file
   echo "of old" >moving.csv
