@@ -25,7 +25,8 @@ Json trade_json(const Trade& trade) {
 }
 
 Json since_json(const SinceLast& since) {
-  return {{"date", since.date}, {"value", since.value}, {"ratio", since.ratio}, {"changed", since.changed}};
+  return {{"date", since.date},   {"program", since.program}, {"taken", since.taken},
+          {"value", since.value}, {"ratio", since.ratio},     {"changed", since.changed}};
 }
 
 Json machine_json(const Machine& machine) {

@@ -18,16 +18,21 @@ th { vertical-align: bottom; }
 .number { text-align: right; font-variant-numeric: tabular-nums; white-space: nowrap; }
 .soft { color: #6b7785; }
 .met { color: #2e7d4f; font-weight: bold; white-space: nowrap; }
-.open { color: #9a6700; font-weight: bold; white-space: nowrap; }
+.met span, .missed span { color: #9a6700; font-weight: normal; }
 .missed { color: #c5303b; font-weight: bold; white-space: nowrap; }
 .changed { background: #fdf3e1; }
 table.figures td:first-child { min-width: 15rem; }
 table.design tr.ask td { border-top: 2px solid #6b7785; background: #f1f3f6; }
 table.design tr.ask td:first-child { font-weight: bold; padding-left: 0.4rem; }
-table.design tr.row td:first-child { padding-left: 1.4rem; width: 46%; }
+table.design tr.row td:first-child { padding-left: 1.4rem; width: 50%; }
+table.design tr.why td { padding-left: 2.8rem; border-top: none; }
 figure { margin: 2.2rem 0; }
 figcaption { font-size: 1.1rem; font-weight: bold; color: #1f2933; margin-bottom: 0.6rem; }
 svg { max-width: 100%; height: auto; }
+@media screen and (max-width: 700px) {
+  table, figure { display: block; overflow-x: auto; }
+  svg { max-width: none; }
+}
 @media print {
   @page { margin: 12mm; }
   thead { display: table-header-group; }
@@ -64,17 +69,12 @@ std::string facts(const BenchRun& run) {
 }
 
 std::string verdict_cell(const BenchRow& row) {
-  switch (verdict_of(row)) {
-    case Verdict::none:
-      return "<td></td>";
-    case Verdict::met:
-      return "<td class=\"met\">met</td>";
-    case Verdict::open:
-      return "<td class=\"open\" title=\"its quartiles lie on both sides of the goal\">open</td>";
-    case Verdict::missed:
-      return "<td class=\"missed\">not met</td>";
-  }
-  return {};
+  const Verdict verdict = verdict_of(row);
+  if (verdict == Verdict::none) return "<td></td>";
+  const bool met = verdict == Verdict::met;
+  return fmt::format(
+      "<td class=\"{}\">{}{}</td>", met ? "met" : "missed", met ? "met" : "not met",
+      is_open(row) ? "<br/><span title=\"its quartiles lie on both sides of the goal\">open</span>" : "");
 }
 
 std::string figure_words(const BenchRow& row) {
@@ -85,11 +85,18 @@ std::string number_cell(const std::string& words) {
   return fmt::format("<td class=\"number\">{}</td>", html_text(words));
 }
 
+// Where there is no verdict, why.
 std::string answer_row(const BenchRow& row) {
-  return fmt::format("<tr class=\"row\"><td>{}: {}</td>{}{}{}{}<td class=\"soft\">{}</td></tr>\n",
-                     html_text(row.family), html_text(row.name), number_cell(figure_words(row)),
-                     number_cell(spread_words(row.spread)), number_cell(goal_words(row)), verdict_cell(row),
-                     verdict_of(row) == Verdict::none ? html_text(row.note) : "");
+  const bool is_judged = verdict_of(row) != Verdict::none;
+  const std::string why = is_judged || row.note.empty() ? ""
+                                                        : fmt::format(
+                                                              "<tr class=\"why\"><td colspan=\"5\" "
+                                                              "class=\"soft\">{}</td></tr>\n",
+                                                              html_text(row.note));
+  return fmt::format("<tr class=\"row\"><td>{}: {}</td>{}{}{}{}</tr>\n", html_text(row.family), html_text(row.name),
+                     number_cell(figure_words(row)), number_cell(spread_words(row.spread)),
+                     number_cell(goal_words(row)), verdict_cell(row)) +
+         why;
 }
 
 // One row of the design, and what this run has to say to it.
@@ -99,7 +106,7 @@ std::string answers_to(const DesignRow& asked, const BenchRun& run) {
     if (measured.row.design == asked.key) answers += answer_row(measured.row);
   }
   return fmt::format(
-             "<tr class=\"ask\" id=\"design-{}\"><td>{}</td><td colspan=\"3\">{}</td><td colspan=\"2\" "
+             "<tr class=\"ask\" id=\"design-{}\"><td>{}</td><td colspan=\"3\">{}</td><td "
              "class=\"soft\">{}</td></tr>\n",
              asked.name, html_text(asked.what), html_text(asked.figure), answers.empty() ? "not in this run" : "") +
          answers;
@@ -109,7 +116,7 @@ std::string design_section(const BenchRun& run) {
   std::string text =
       "<section id=\"design\">\n<h2>Where it must stand</h2>\n<table class=\"design\">\n<thead><tr><th>Asked for</th>"
       "<th class=\"number\">Seen</th><th class=\"number\">Quartiles</th><th "
-      "class=\"number\">Goal</th><th></th><th></th>"
+      "class=\"number\">Goal</th><th></th>"
       "</tr></thead>\n<tbody>\n";
   for (const DesignRow& asked : kDesignRows) text += answers_to(asked, run);
   return text + "</tbody>\n</table>\n</section>\n";
@@ -135,9 +142,11 @@ std::string trades_section(const BenchRun& run) {
 
 std::string change_row(const BenchRow& row, const std::optional<SinceLast>& since) {
   if (!since || !since->changed) return {};
+  const std::string taken = since->taken.empty() ? "" : fmt::format("; taken {}", since->taken);
   return fmt::format("<tr><td>{}: {}</td>{}{}{}<td>{}</td></tr>\n", html_text(row.family), html_text(row.name),
                      number_cell(fmt::format("{} {}", value_words(since->value), row.unit)),
-                     number_cell(figure_words(row)), number_cell(since_words(since)), html_text(since->date));
+                     number_cell(figure_words(row)), number_cell(since_words(since)),
+                     html_text(fmt::format("{}, {}{}", since->date, since->program, taken)));
 }
 
 std::string changes_section(const BenchRun& run) {
@@ -193,23 +202,22 @@ std::size_t count_of(const BenchRun& run, Verdict verdict) {
 
 // What a reader wants to know first: how many goals are met, and which are not.
 std::string summary(const BenchRun& run) {
-  const std::size_t met = count_of(run, Verdict::met), open = count_of(run, Verdict::open);
-  const std::size_t goals = met + open + count_of(run, Verdict::missed);
+  const auto is_told = [](const BenchRow& row) { return verdict_of(row) == Verdict::missed || is_open(row); };
+  const std::size_t met = count_of(run, Verdict::met), goals = met + count_of(run, Verdict::missed);
   if (goals == 0) return {};
-  std::string text = fmt::format("<p id=\"summary\"><b>{} of {} goals are met</b>{}", met, goals,
-                                 run.quick ? " as far as a quick look tells, of fewer samples than they are of" : "");
-  if (open > 0) text += fmt::format(", {} open: quartiles on both sides of the goal", open);
-  text += met == goals ? ".</p>\n" : ":</p>\n<table class=\"figures\">\n<tbody>\n";
-  if (met == goals) return text;
+  std::string table;
   for (const MeasuredRow& measured : run.rows) {
     const BenchRow& row = measured.row;
-    const Verdict verdict = verdict_of(row);
-    if (verdict != Verdict::missed && verdict != Verdict::open) continue;
-    text += fmt::format("<tr><td><a href=\"#family-{0}\">{0}</a>: {1}</td>{2}{3}{4}</tr>\n", html_text(row.family),
-                        html_text(row.name), number_cell(figure_words(row)), number_cell(goal_words(row)),
-                        verdict_cell(row));
+    if (!is_told(row)) continue;
+    table += fmt::format("<tr><td><a href=\"#family-{0}\">{0}</a>: {1}</td>{2}{3}{4}</tr>\n", html_text(row.family),
+                         html_text(row.name), number_cell(figure_words(row)), number_cell(goal_words(row)),
+                         verdict_cell(row));
   }
-  return text + "</tbody>\n</table>\n";
+  std::string text = fmt::format("<p id=\"summary\"><b>{} of {} goals are met</b>{}.", met, goals,
+                                 run.quick ? " in a quick look, of fewer samples than a full run takes" : "");
+  if (table.empty()) return text + "</p>\n";
+  return text + " Open: the goal lies between the quartiles, and the next run may say otherwise.</p>\n" +
+         "<table class=\"figures\">\n<tbody>\n" + table + "</tbody>\n</table>\n";
 }
 
 std::string contents(const BenchRun& run) {

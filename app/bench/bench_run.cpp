@@ -18,13 +18,16 @@ std::string goal_words(const BenchRow& row) {
 
 Verdict verdict_of(const BenchRow& row) noexcept {
   if (!row.goal || !row.measured) return Verdict::none;
-  if (row.spread && row.spread->low < *row.goal && row.spread->high > *row.goal) return Verdict::open;
   return meets_goal(row) ? Verdict::met : Verdict::missed;
 }
 
-std::string_view verdict_words(const BenchRow& row) {
-  static constexpr std::string_view kWords[] = {"", "met", "open", "NOT MET"};
-  return kWords[static_cast<std::size_t>(verdict_of(row))];
+bool is_open(const BenchRow& row) noexcept {
+  return verdict_of(row) != Verdict::none && row.spread && row.spread->low < *row.goal && row.spread->high > *row.goal;
+}
+
+std::string verdict_words(const BenchRow& row) {
+  static constexpr std::string_view kWords[] = {"", "met", "NOT MET"};
+  return fmt::format("{}{}", kWords[static_cast<std::size_t>(verdict_of(row))], is_open(row) ? " (open)" : "");
 }
 
 std::string_view direction_words(const BenchRow& row) {

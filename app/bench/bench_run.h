@@ -14,9 +14,9 @@ namespace gearshift {
 
 // The same row against the last full run on this machine.
 struct SinceLast {
-  std::string date;
-  double value = 0.0;  // then
-  double ratio = 1.0;  // [1] now over then; not finite where then it was 0
+  std::string date, program, taken;  // of that run: taken as taken_words() says it, or empty
+  double value = 0.0;                // then
+  double ratio = 1.0;                // [1] now over then; not finite where then it was 0
   // By more than the spread: the quartiles then and now share nothing. Of a figure without spread: its first four digits.
   bool changed = false;
 };
@@ -38,13 +38,13 @@ struct BenchRun {
   std::vector<MeasuredRow> rows;
 };
 
-// Open: the goal lies between the quartiles, so that the next run may say otherwise.
-enum class Verdict { none, met, open, missed };  // none: no goal, or not measured
+enum class Verdict { none, met, missed };  // none: no goal, or not measured
 Verdict verdict_of(const BenchRow& row) noexcept;
+bool is_open(const BenchRow& row) noexcept;  // the goal lies between the quartiles: the next run may say otherwise
 
 std::string value_words(double value);                             // four digits
 std::string goal_words(const BenchRow& row);                       // "<= 0.1"; empty without a goal
-std::string_view verdict_words(const BenchRow& row);               // "met", "open", "NOT MET"; empty without a goal
+std::string verdict_words(const BenchRow& row);                    // "met", "NOT MET (open)"; empty without a goal
 std::string_view direction_words(const BenchRow& row);             // "at most", "at least"; empty without a goal
 std::string_view design_words(const BenchRow& row);                // name of the row of the design; empty without one
 std::string spread_words(const std::optional<Quartiles>& spread);  // "180 to 195"; empty without

@@ -28,7 +28,7 @@ std::string bench_table(const BenchRun& run) {
                                   "goal", last(" since last"), "");
   for (const MeasuredRow& measured : run.rows) {
     const BenchRow& row = measured.row;
-    table += fmt::format("{:<9} {:<58} {:>12} {:<20} {:>10}{}  {:<8}{}\n", row.family, row.name,
+    table += fmt::format("{:<9} {:<58} {:>12} {:<20} {:>10}{}  {:<14} {}\n", row.family, row.name,
                          row.measured ? value_words(row.value) : "-", row.unit, goal_words(row),
                          last(" " + since_words(measured)), verdict_words(row), row_note(row));
   }

@@ -10,6 +10,7 @@
 
 #include "haptics/files/file_error.h"
 #include "haptics/files/part_file.h"
+#include "haptics/files/printable.h"
 #include "haptics/files/text_file.h"
 
 namespace gearshift {
@@ -31,7 +32,8 @@ Json to_json(const LastRun& last) {
       if (figure.spread && is_bounded(*figure.spread))
         figures[row]["quartiles"] = {figure.spread->low, figure.spread->high};
     }
-    families[name] = {{"date", family.date}, {"figures", figures}};
+    families[name] = {
+        {"date", family.date}, {"program", family.program}, {"taken", family.taken}, {"figures", figures}};
   }
   return {{"families", families}};
 }
@@ -49,6 +51,8 @@ LastRun from_json(const Json& json) {
     LastFamily& into = last[name];
     into.date = family.at("date").get<std::string>();
     if (!is_date(into.date)) throw std::invalid_argument("no date");
+    into.program = printable(family.value("program", ""));
+    into.taken = printable(family.value("taken", ""));
     for (const auto& [row, figure] : family.at("figures").items()) {
       LastFigure& kept = into.figures[row];
       kept.value = figure.at("value").get<double>();
@@ -114,7 +118,12 @@ std::optional<SinceLast> since_last(const LastRun& last, const BenchRow& row) {
   const auto figure = family->second.figures.find(row.name);
   if (figure == family->second.figures.end()) return std::nullopt;
   const LastFigure& then = figure->second;
-  return SinceLast{family->second.date, then.value, ratio_of(row.value, then.value), beyond_spread(then, row)};
+  return SinceLast{.date = family->second.date,
+                   .program = family->second.program,
+                   .taken = family->second.taken,
+                   .value = then.value,
+                   .ratio = ratio_of(row.value, then.value),
+                   .changed = beyond_spread(then, row)};
 }
 
 void compare(BenchRun& run, const LastRun& last) {
@@ -131,8 +140,11 @@ void keep_run(const fs::path& file, LastRun last, const BenchRun& run) {
   }
   const auto keep = [&](const BenchRow& row) {
     if (!counts(row)) return;
-    last[row.family].date = run.date;
-    last[row.family].figures[row.name] = {row.value, row.spread};
+    LastFamily& family = last[row.family];
+    family.date = run.date;
+    family.program = run.program;
+    family.taken = run.taken ? taken_words(*run.taken) : "";
+    family.figures[row.name] = {row.value, row.spread};
   };
   for (const MeasuredRow& measured : run.rows) {
     keep(measured.row);

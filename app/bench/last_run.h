@@ -20,7 +20,7 @@ struct LastFigure {
 };
 
 struct LastFamily {
-  std::string date;
+  std::string date, program, taken;                        // of the run: taken by others, as taken_words() says it
   std::map<std::string, LastFigure, std::less<>> figures;  // by the row's name
 };
 using LastRun = std::map<std::string, LastFamily, std::less<>>;  // by family

@@ -36,6 +36,7 @@ std::vector<Contest> contests_of(std::string_view family, const std::vector<Benc
     if (contest == contests.end()) contest = contests.insert(contests.end(), Contest{});
     contest->push_back(&*row.trade);
   }
+  std::erase_if(contests, [](const Contest& contest) { return contest.size() < 2; });  // nobody to be better than
   return contests;
 }
 

@@ -23,7 +23,9 @@ double quantile(std::vector<double>& sample, double q) {
 }
 
 Timed timed(std::vector<double>& sample) {
-  return {quantile(sample, 0.5), {quantile(sample, 0.25), quantile(sample, 0.75)}};
+  const double median = quantile(sample, 0.5);
+  if (sample.size() < 2) return {median, {}};
+  return {median, Quartiles{quantile(sample, 0.25), quantile(sample, 0.75)}};
 }
 
 BenchRow answering(Design design, BenchRow row) {
@@ -31,7 +33,7 @@ BenchRow answering(Design design, BenchRow row) {
   return row;
 }
 
-BenchRow repeated(const Quartiles& spread, BenchRow row) {
+BenchRow repeated(const std::optional<Quartiles>& spread, BenchRow row) {
   row.spread = spread;
   return row;
 }

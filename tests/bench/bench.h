@@ -99,14 +99,14 @@ std::vector<BenchRow> bench_beside(const BenchOptions& options);     // the same
 // Value at quantile q in [0, 1] of an unsorted sample; sorts it. Empty: 0.
 double quantile(std::vector<double>& sample, double q);
 
-// What was timed repeatedly: its median and its quartiles. Sorts the sample.
+// What was timed repeatedly: its median, and its quartiles where there are two at least. Sorts the sample.
 struct Timed {
   double median = 0.0;
-  Quartiles spread;
+  std::optional<Quartiles> spread;
 };
 Timed timed(std::vector<double>& sample);
 
-BenchRow answering(Design design, BenchRow row);           // marked with what it answers
-BenchRow repeated(const Quartiles& spread, BenchRow row);  // marked with the spread of its value
+BenchRow answering(Design design, BenchRow row);                          // marked with what it answers
+BenchRow repeated(const std::optional<Quartiles>& spread, BenchRow row);  // marked with the spread of its value
 
 }  // namespace gearshift

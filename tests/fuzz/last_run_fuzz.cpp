@@ -15,6 +15,7 @@ bool same(const LastFigure& a, const LastFigure& b) {
 bool same(const LastRun& a, const LastRun& b) {
   const auto families = [](const auto& left, const auto& right) {
     return left.first == right.first && left.second.date == right.second.date &&
+           left.second.program == right.second.program && left.second.taken == right.second.taken &&
            std::equal(left.second.figures.begin(), left.second.figures.end(), right.second.figures.begin(),
                       right.second.figures.end(),
                       [](const auto& x, const auto& y) { return x.first == y.first && same(x.second, y.second); });

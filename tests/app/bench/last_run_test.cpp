@@ -55,6 +55,18 @@ TEST_CASE("the first run has nothing to be compared with") {
   CHECK_FALSE(since_last({}, plain_row("walk", "a", 1.0)));
 }
 
+TEST_CASE("the next one knows which program it is compared with, and what was taken from that one") {
+  const TempFolder folder;
+  const BenchRow row = plain_row("walk", "a", 1.0);
+  BenchRun run = made_run({row});
+  run.taken = TakenElsewhere{0.25, 0.5};
+  keep_run(folder / "last.json", {}, run);
+  const auto found = since_last(read_last_run(folder / "last.json", never_told), row);
+  REQUIRE(found);
+  CHECK(found->program == "gearshift 9.9");
+  CHECK(found->taken == "25 % by the host, 50 % by other programs");
+}
+
 TEST_CASE("the next one has the ratio and the date of the last") {
   const SinceLast found = since(plain_row("walk", "a", 4.0), plain_row("walk", "a", 3.0));
   CHECK(found.value == 4.0);

@@ -39,7 +39,8 @@ bool knows_plain_methods(const Drive& drive) {
 // Per simulated second, so that steps of both lengths compare.
 Trade trade_of(const BenchRow& row, const Drive& drive, DriveMethod method, double step, const Timed& ns) {
   const double us = 1e-3 / step;  // of a second's steps, a nanosecond each
-  const Quartiles spread{us * ns.spread.low, us * ns.spread.high};
+  std::optional<Quartiles> spread;
+  if (ns.spread) spread = Quartiles{us * ns.spread->low, us * ns.spread->high};
   const std::string name = name_of(method) + (", " + std::to_string(std::lround(1e3 * step)) + " ms");
   return {drive.name,
           name,
