@@ -215,9 +215,11 @@ std::string summary(const BenchRun& run) {
   }
   std::string text = fmt::format("<p id=\"summary\"><b>{} of {} goals are met</b>{}.", met, goals,
                                  run.quick ? " in a quick look, of fewer samples than a full run takes" : "");
-  if (table.empty()) return text + "</p>\n";
-  return text + " Open: the goal lies between the quartiles, and the next run may say otherwise.</p>\n" +
-         "<table class=\"figures\">\n<tbody>\n" + table + "</tbody>\n</table>\n";
+  const bool any_open = std::any_of(run.rows.begin(), run.rows.end(), [](const auto& m) { return is_open(m.row); });
+  if (any_open) text += " Open: the goal lies between the quartiles, and the next run may say otherwise.";
+  text += "</p>\n";
+  if (table.empty()) return text;
+  return text + "<table class=\"figures\">\n<tbody>\n" + table + "</tbody>\n</table>\n";
 }
 
 std::string contents(const BenchRun& run) {

@@ -1,0 +1,118 @@
+#!/usr/bin/env python3
+"""What README.md quotes of the bench stands in tests/bench/run.csv, to the digit, and the rows that
+tests/bench/README.md names are there. Usage: quoted_figures.py SOURCE_FOLDER
+"""
+import csv
+import pathlib
+import re
+import sys
+
+ALONE, BUSY, CABIN = ("jitter", "alone"), ("jitter", "beside one busy thread per core"), ("beside", "beside the cabin drawn flat out")
+# What stands for any words in the name of a row.
+ANY_WORDS = ("RATE", "DRIVE", "LOAD", "...", "N")
+
+
+class Rows:
+    def __init__(self, file):
+        self.rows = {(row["family"], row["what"]): row for row in csv.DictReader(file.open())}
+
+    def of(self, family, name, field="value"):
+        return float(self.rows[family, name][field])
+
+    def beside(self, family, name, what):
+        return float(re.search(rf"(?:^|; ){re.escape(what)} = (\S+)", self.rows[family, name]["beside"])[1])
+
+    def all(self, family, name):
+        return [float(row["value"]) for (f, n), row in self.rows.items() if f == family and re.search(name, n)]
+
+    def all_beside(self, family, what):
+        return [self.beside(*key, what) for key in self.rows if key[0] == family and f"{what} = " in self.rows[key]["beside"]]
+
+    def missed(self, *names):
+        """How the goal's cell ends."""
+        return ": not met" if any(self.rows[name]["verdict"].startswith("NOT MET") for name in names) else ""
+
+
+def lateness(rows, how):
+    """Over cyclictest's, and itself: alone, beside busy threads, beside the cabin."""
+    words = []
+    for (family, where), said in ((ALONE, "alone"), (BUSY, "beside a busy thread per core"), (CABIN, "beside the cabin")):
+        ratios = [rows.of(family, f"ours / cyclictest, {how}, {q}, {where}") for q in ("p99", "p99.9")]
+        us = [rows.of(family, f"ours, {how}, {q}, {where}") for q in ("p99", "p99.9")]
+        words.append("{:.2f} and {:.2f} {} ({:.0f} and {:.0f} us)".format(*ratios, said, *us))
+    return ", ".join(words)
+
+
+def quoted(rows):
+    """The cells, as README.md has to say them."""
+    of, beside = rows.of, rows.beside
+    ripple = lambda place: of("contact", f"{place}: last peak-to-peak, p95")
+    taken = [-beside("energy", f"made by the wall, worst impact, {rate} Hz", "worst share of the impact") for rate in (500, 1000, 2000)]
+    p50, p99 = ("cycle", "whole cycle p50"), ("cycle", "whole cycle p99")
+    cabin, driver = (("picture", f"cabin 1280x720, 1x, {what}") for what in ("shadow and mirror", "as the driver sees it"))
+    at_once = max(value for value in rows.all("faults", "^(?!overruns)"))
+    yield "p50 {:.0f} ns, p99 {:.0f} ns | 200, 500 ns{} |".format(of(*p50), of(*p99), rows.missed(p50, p99))
+    yield "{:.0f} x real time | 1000 x |".format(of("headless", "simulation at 1 kHz"))
+    yield "{:.3f}, {:.3f}, {:.3f} mm | 0.02, 0.04, 0.10 |".format(*map(ripple, ("2000 Hz", "1000 Hz", "500 Hz")))
+    yield "{:.3f}, {:.3f}, {:.3f} mm; with two".format(*(ripple(f"1000 Hz, delay {n}") for n in (1, 2, 3)))
+    yield "at least {:.1f} % | 97 % |".format(min(rows.all_beside("contact", "displayed")))
+    yield "it takes {:.0f} to {:.0f} % of it".format(min(taken), max(taken))
+    yield "within {:.1f} % | 3 % |".format(of("delivered", "tip force against a steady push of 6 to 31 N, mean over 50 ms"))
+    levers = ("boundary", "predicted against simulated, 100 random levers")
+    yield "{:.2f} % median, {:.1f} % worst | 2 % |".format(beside(*levers, "median"), of(*levers))
+    yield "at most {:.0f} ms: [each]".format(at_once)
+    yield "{:.0f} ms | 1000 ms |".format(of("picture", "start to first frame, cabin loaded, no pipeline cache"))
+    yield "{:.0f} ms (quartiles {:.0f} and {:.0f}); as the driver sees it {:.0f} ms | 60 ms{} |".format(
+        of(*cabin), of(*cabin, "quartile_low"), of(*cabin, "quartile_high"), of(*driver), rows.missed(cabin, driver))
+    yield "{:.3f} px at most | 0.1 px |".format(*rows.all("quality", "^projected points"))
+    yield "{:.0f} ms | 104 ms |".format(of("picture", "222000 untextured GGX triangles, 1280x720, 1x"))
+    yield "within {:.4f} % of the reference; {:.0f} ns a step | 0.01 % |".format(
+        max(rows.all("driveline", ", 1 ms: event midpoint$")), of("driveline", "a step of 1 ms, headless"))
+    yield "{:.0e} and {:.0e} %; {:.0e} and {:.0e} | 0.01 %; rounding |".format(
+        *(of("driveline", name) for name in ("lock-up time against Jr dw / T", "slip energy against Jr dw^2 / 2",
+                                             "momentum balance", "energy balance, worst drive")))
+    yield "{:.0f} x, {:.0f} x real time | 400 x |".format(of("headless", "the same with the driveline"), of("headless", "a whole lesson"))
+    yield "{:.1e} relative at 1 ms, {:.1f} ns a step | 1e-12 |".format(of("plant", "exact at 1 ms"), beside("plant", "exact at 1 ms", "cost"))
+    yield "within {:.2f} % of the peak | 3 % |".format(of("feel", "commanded force along a slot, worst error"))
+    yield "{:.2f} % (worst gate) to {:g} % | 99 % |".format(min(rows.all("intent", "")), max(rows.all("intent", "")))
+    yield lateness(rows, "sleep only")
+    yield lateness(rows, "spin 50 us")
+    for fault in ("frozen", "drifts out of the workspace", "far outside the workspace"):
+        yield "| reading {} | {:.0f} |".format(fault, of("faults", f"reading {fault}: to zero force"))
+
+
+def named_rows(page):
+    """(families, name) of what the tables of the design and of the defaults name in the column of the rows."""
+    for row in re.findall(r"^\|.*\|$", page[page.index("## The design's table"):], re.M):
+        for families, names in re.findall(r"((?:`?[a-z]+`?, )*`?[a-z]+`?): ((?:(?:RATE|a row)?[^|:`]*`[^`]+`)+)", row):
+            for name in re.findall(r"`([^`]+)`", names):
+                if name != "feel":  # a family, named among rows
+                    yield re.findall(r"[a-z]+", families), name
+
+
+def pattern(name):
+    """Of a name with places: the whole name, or its beginning."""
+    words = re.split(r"(\.\.\.|\b(?:RATE|DRIVE|LOAD|N)\b)", name)
+    return "".join(".*" if word in ANY_WORDS else re.escape(word) for word in words)
+
+
+def main():
+    sources = pathlib.Path(sys.argv[1]).resolve()
+    rows = Rows(sources / "tests/bench/run.csv")
+    front, page = (" ".join((sources / file).read_text().split()) for file in ("README.md", "tests/bench/README.md"))
+    failures = [f'README.md does not say "{words}", as run.csv does' for words in quoted(rows) if words not in front]
+    named = list(named_rows((sources / "tests/bench/README.md").read_text()))
+    if len(named) < 25:
+        failures.append(f"tests/bench/README.md names {len(named)} rows: the page is not read as it was meant")
+    for families, name in named:
+        there = [what for family, what in rows.rows if family in families]
+        if not any(re.search(pattern(name), what) for what in there):
+            failures.append(f'no row of {", ".join(families)} is named "{name}"')
+    checks = len(list(quoted(rows))) + len(named) + 1
+    print("".join(f"FAILED: {failure}\n" for failure in failures), end="")
+    print(f"{checks - len(failures)} passed, {len(failures)} failed")
+    return 1 if failures else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
