@@ -12,6 +12,7 @@
 
 #include "app/coach/coach.h"
 #include "app/coach/shipped_lessons.h"
+#include "app/devices/stop_signals.h"
 #include "app/output_folder.h"
 #include "app/print_out.h"
 #include "app/program_name.h"
@@ -71,11 +72,14 @@ class Trials {
   }
 
   bool to_the_end() {
-    for (int number = 0; number < trials_.runs; ++number) drive(number);
+    int number = 0;
+    while (number < trials_.runs && !StopSignals::asked()) drive(number++);
     coach_.settle();
     if (remove_unnamed() && coach_.needs_room()) coach_.settle();  // rows before recordings
     tell_problem();
-    return coach_.view().result.passed;
+    if (number == trials_.runs && !is_cut_) return coach_.view().result.passed;
+    print_problem("ended {} run {} of {}", is_cut_ ? "in" : "before", number + (is_cut_ ? 0 : 1), trials_.runs);
+    return false;
   }
 
  private:
@@ -106,7 +110,7 @@ class Trials {
     told_help_ = false;
     run(drive, own_recording);
     hand_over();
-    coach_.leave();  // where the learner has given up
+    coach_.leave();  // where the learner has given up, or was asked to end
     tell_shifts();
     tell_problem();
     print_result(coach_.view().result, coach_.view().run);
@@ -171,7 +175,8 @@ class Trials {
   LessonJudge judge() {
     return [this](const DriveSample& sample) {
       const LessonRun& run = coach_.judge(sample);
-      const LessonStand stand{run.view().step, run.view().guided_gear, run.is_over()};
+      is_cut_ = !run.is_over() && StopSignals::asked();
+      const LessonStand stand{run.view().step, run.view().guided_gear, run.is_over() || is_cut_};
       if (++unseen_ == kLot || stand.over) hand_over();
       return stand;
     };
@@ -221,12 +226,14 @@ class Trials {
   }
 
   const LessonTrials& trials_;
+  const StopSignals signals_;  // before there is a history that could be left open
   Gate gate_;
   Coach coach_;
   std::size_t unseen_ = 0;  // cycles that were judged since the last lot
   std::size_t told_ = 0;    // shifts of the trial
   std::set<std::string> own_recordings_;
   std::vector<std::string> told_problems_;
+  bool is_cut_ = false;  // a run was ended in its midst: it counts as left
   bool has_remembered_ = false, told_recording_ = false, told_goal_ = false, told_help_ = false;
 };
 

@@ -21,8 +21,9 @@ struct LessonTrials {
 };
 
 // Prints what the coach says, and problems of the history as one sentence on stderr; the trials go on. What is
-// remembered is recorded in the history's folder, below recordings/. Returns whether the last one was passed. Throws as
-// drive_lesson() does, but not for a recording that nobody asked for.
+// remembered is recorded in the history's folder, below recordings/. Ctrl-C, kill and a closed terminal leave the lesson
+// that is driven, in one sentence on stderr. Returns whether the last one was passed, and none was left for that. Throws
+// as drive_lesson() does, but not for a recording that nobody asked for.
 bool drive_trials(const LessonTrials& trials);
 
 }  // namespace gearshift

@@ -30,7 +30,7 @@ constexpr const char* kLessonHelp =
     "A simulated learner drives a lesson, as fast as it goes: what the coach says, the grade. With --learner it is "
     "remembered and recorded, as a person's.";
 constexpr const char* kLessonExamples =
-    "\nExit code: 0 passed (of several runs: the last), 1 not passed or a bad file, 2 bad usage.\n"
+    "\nExit code: 0 passed (of several runs: the last), 1 not passed, ended early or a bad file, 2 bad usage.\n"
     "A history that cannot be used is told in one sentence, and the lesson is driven without it.\n"
     "\nExamples:\n"
     "  gearshift lesson hill_start                               by someone who can\n"

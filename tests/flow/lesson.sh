@@ -112,6 +112,32 @@ import sqlite3
 print(sqlite3.connect("kill/h.db").execute("SELECT count(*) FROM lesson_run WHERE ended = 0").fetchone()[0])')" -gt $((kills * 2 / 5))
 check "all others are over" learn after skip_shifts --learner K --database kill/h.db
 
+# Ended by who waits no longer, in a lesson or between two: no run stays open, each recording is whole.
+stopped() { # signal: in the background a shell's children do not hear Ctrl-C
+  rm -f stopped.txt
+  env --default-signal=INT "$gearshift" lesson up_through_the_gears --runs 5000 --learner S --database stop/h.db \
+    --verbose >stopped.txt 2>stopped.err </dev/null &
+  timeout 20 sh -c 'until grep -qs "shift 2" stopped.txt; do sleep 0.005; done'
+  kill -"$1" $!
+  wait $!
+}
+newest_recording() { # of a history whose runs are all over
+  python3 -c '
+import sqlite3, sys
+rows = sqlite3.connect(sys.argv[1]).execute("SELECT ended, recording FROM lesson_run ORDER BY id").fetchall()
+print("stop/" + rows[-1][1] if all(row[0] for row in rows) else "a run is open")' stop/h.db
+}
+for signal in INT TERM HUP; do
+  check "$signal: exit 1" exits 1 stopped $signal
+  check "$signal: one sentence, got: $(cat stopped.err)" test "$(wc -l <stopped.err)" -eq 1
+  check "$signal: which says where" grep -q "^gearshift: ended \(in\|before\) run [0-9]* of 5000$" stopped.err
+  check "$signal: the newest recording replays, got: $(newest_recording)" bit_for_bit "$(newest_recording)"
+  grep -h "was left" stopped.txt >>told_left
+done
+report --learner S --database stop/h.db --out stop --csv
+check "a lesson that was under way counts as left" test "$(grep -c ',left,' stop/runs.csv)" -eq "$(wc -l <told_left)"
+check "with as many recordings as runs" test "$(ls stop/recordings | wc -l)" -eq "$(rows stop/runs.csv)"
+
 # Two programs at once on a database that is not there yet; the same learner and two.
 learn one skip_shifts --runs 12 --learner Ada --database both/h.db &
 one=$!
