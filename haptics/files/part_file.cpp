@@ -39,12 +39,19 @@ PartFile::~PartFile() {
   if (part_ != place_) fs::remove(part_, ignored);
 }
 
+// A name can be taken from a file that may not be written; whoever locked it did not mean that.
+void PartFile::refuse_locked() const {
+  if (access(place_.c_str(), W_OK) == 0 || errno == ENOENT) return;
+  throw FileError(file_.string(), 0, std::string("cannot be written: ") + std::strerror(errno));
+}
+
 // Who reads a pipe would take an empty text for the whole one.
 void PartFile::prepare() {
   if (part_ != place_) write("");
 }
 
 void PartFile::write(std::string_view text) {
+  refuse_locked();
   std::ofstream out(part_, std::ios::binary | std::ios::trunc);
   out.write(text.data(), static_cast<std::streamsize>(text.size()));
   out.close();
@@ -53,6 +60,7 @@ void PartFile::write(std::string_view text) {
 
 void PartFile::keep() {
   if (part_ == place_) return;
+  refuse_locked();
   std::error_code error;
   fs::rename(part_, place_, error);
   if (error) throw FileError(file_.string(), 0, "cannot be written: " + error.message());

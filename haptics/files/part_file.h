@@ -1,5 +1,6 @@
 // A file that is there whole or not at all: written beside its place, then renamed. A link stays one: what it leads to is
-// written. A device or a pipe (/dev/null, /dev/stdout) is written to and stays what it is.
+// written. A device or a pipe (/dev/null, /dev/stdout) is written to and stays what it is. What may not be written keeps
+// its name, too.
 #pragma once
 
 #include <filesystem>
@@ -21,6 +22,8 @@ class PartFile {
   void keep();                        // under its name. Throws FileError
 
  private:
+  void refuse_locked() const;
+
   std::filesystem::path file_, place_, part_;
 };
 

@@ -41,6 +41,12 @@ if [ -n "$locked" ]; then
   start refused HOME=/ tour --out "$work/locked/tour"
   check "a folder that may not be written: refused" test $? -eq 1
   check "in one sentence, got: $(cat refused.err)" one_sentence refused.err "locked/tour: cannot be created: Permission denied"
+  echo mine >locked.svg
+  chmod 444 locked.svg
+  start refused HOME=/ gate paper --svg locked.svg
+  check "a file that may not be written, in a folder that may: refused" test $? -eq 1
+  check "in one sentence, got: $(cat refused.err)" one_sentence refused.err "locked.svg: cannot be written: Permission denied"
+  check "and it is as it was" test "$(cat locked.svg)" = mine
 fi
 nameless() { # arguments ...: without HOME, as a user whom the system does not know
   unshare --user --map-user=4242 env -u HOME "$gearshift" "$@" >nameless.txt 2>nameless.err </dev/null

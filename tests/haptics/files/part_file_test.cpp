@@ -97,6 +97,20 @@ TEST_CASE("what cannot be written is refused before the work, with the reason, a
   CHECK(files_in(folder) == 1);
 }
 
+TEST_CASE("a file that may not be written is refused before the work, and when it is locked meanwhile") {
+  if (geteuid() == 0) return;  // root may write everything
+  const TempFolder folder;
+  write_text_file(folder / "page.html", "first");
+  PartFile begun(folder / "page.html");
+  begun.write("second");
+  fs::permissions(folder / "page.html", fs::perms::owner_read);
+  const auto refusal = doctest::Contains("page.html: cannot be written: Permission denied");
+  CHECK_THROWS_WITH_AS(begun.keep(), refusal, FileError);
+  CHECK_THROWS_WITH_AS(PartFile(folder / "page.html").prepare(), refusal, FileError);
+  CHECK_THROWS_WITH_AS(write_text_file(folder / "page.html", "third"), refusal, FileError);
+  CHECK(read_text_file(folder / "page.html") == "first");
+}
+
 TEST_CASE("what is not kept is gone") {
   const TempFolder folder;
   {
