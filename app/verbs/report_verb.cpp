@@ -1,4 +1,6 @@
 // gearshift report: what is remembered of learners, as a table, a page, CSV; comments, the next lesson, deletion.
+#include <unistd.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <filesystem>
@@ -135,15 +137,6 @@ void obey_instructor(const ReportArguments& arguments, History& history, const L
   if (arguments.sets_next) set_next(arguments.next, history, learner);
 }
 
-bool is_confirmed(const ReportArguments& arguments, const LearnerRow& learner) {
-  if (arguments.yes) return true;
-  print_to(stderr, fmt::format("All that is remembered of {} goes, recordings too, for good. The name again: ",
-                               printable(learner.name)));
-  std::string again;
-  std::getline(std::cin, again);
-  return again == learner.name;
-}
-
 std::string counted(std::size_t number, std::string_view what) {
   return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s");
 }
@@ -161,8 +154,15 @@ void tell_recordings(const Deleted& gone) {
 }
 
 void confirm(const ReportArguments& arguments, const LearnerRow& learner) {
-  if (!is_confirmed(arguments, learner))
-    throw std::runtime_error(fmt::format("{} was not deleted: that is another name", printable(learner.name)));
+  if (arguments.yes) return;
+  print_to(stderr, fmt::format("All that is remembered of {} goes, recordings too, for good. The name again: ",
+                               printable(learner.name)));
+  std::string again;
+  const bool is_answered = static_cast<bool>(std::getline(std::cin, again));
+  if (again == learner.name) return;
+  if (!is_answered || isatty(STDIN_FILENO) == 0) print_to(stderr, "\n");  // nobody's Enter has ended the question's line
+  throw std::runtime_error(fmt::format("{} was not deleted: {}", printable(learner.name),
+                                       is_answered ? "that is another name" : "nobody has answered"));
 }
 
 // Of a learner who is not there (any more), what an earlier deletion could not do. `first`: recordings that have gone

@@ -96,7 +96,11 @@ deletes() { # name that is typed
   printf '%s\n' "$1" | "$gearshift" report --learner "$ada" --delete >out 2>err
 }
 check "another name deletes nothing" test "$(deletes Bob; echo $?)" -eq 1
+refusal_alone() { [ "$(tail -n 1 err)" = "gearshift: $ada was not deleted: $1" ]; } # not behind the question
+check "and it says so, got: $(tail -n 1 err)" refusal_alone "that is another name"
 check "nor does no name" test "$(report --learner "$ada" --delete; echo $?)" -eq 1
+report --learner "$ada" --delete
+check "and it says so, got: $(tail -n 1 err)" refusal_alone "nobody has answered"
 report --learner "$ada"
 check "all runs are there" test "$(grep -c up_through_the_gears out)" -eq 12
 check "the name deletes" deletes "$ada"
