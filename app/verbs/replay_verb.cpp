@@ -44,11 +44,6 @@ struct ReplayOptions {
   bool shifts = false;
 };
 
-std::optional<TraceCsvFile> open_csv(const ReplayOptions& options) {
-  if (options.csv.empty()) return std::nullopt;
-  return TraceCsvFile(options.csv);
-}
-
 double share(std::uint64_t cycles, const TraceReader& reader) {
   return static_cast<double>(cycles) / static_cast<double>(reader.cycles());
 }
@@ -79,7 +74,8 @@ std::unique_ptr<LeverWorld> make_world(const std::string& name, const Gate& gate
 int replay_file(const ReplayOptions& options) {
   TraceReader reader(options.trace);
   Replayer replayer(reader.header(), options.trace.string(), make_world);
-  std::optional<TraceCsvFile> csv = open_csv(options);
+  std::optional<TraceCsvFile> csv;
+  if (!options.csv.empty()) csv.emplace(options.csv);
   ProgressBar progress;
   std::uint64_t cycles = 0;
   bool same = true;

@@ -144,9 +144,10 @@ std::string trace_csv_line(const TraceSample& sample, std::int64_t first_ns) {
   return row_of(sample, first_ns, false);
 }
 
-TraceCsvFile::TraceCsvFile(const std::filesystem::path& file) : name_(file.string()) {
+TraceCsvFile::TraceCsvFile(const std::filesystem::path& file) : name_(file.string()), part_(file) {
+  part_.prepare();
   errno = 0;
-  stream_.open(file, std::ios::binary);
+  stream_.open(part_.path(), std::ios::binary);
   if (!stream_) throw FileError(name_, 0, std::string("cannot be written: ") + std::strerror(errno));
   stream_ << trace_csv_header() << '\n';
 }
@@ -160,6 +161,7 @@ void TraceCsvFile::finish() {
   errno = 0;
   stream_.close();
   if (!stream_) throw FileError(name_, 0, std::string("could not be written: ") + std::strerror(errno));
+  part_.keep();
 }
 
 }  // namespace gearshift

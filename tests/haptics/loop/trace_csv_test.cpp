@@ -111,6 +111,16 @@ TEST_CASE("csv: the same in any locale") {
   CHECK_FALSE(std::getline(stream, line));
 }
 
+TEST_CASE("csv: what is not finished takes no table's place") {
+  const TempFolder folder;
+  std::ofstream(folder / "t.csv") << "of old";
+  TraceCsvFile(folder / "t.csv").add(known_sample());
+  std::string line;
+  std::getline(std::ifstream(folder / "t.csv"), line);
+  CHECK(line == "of old");
+  CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 1);
+}
+
 TEST_CASE("csv: a file that cannot be written is told in one sentence") {
   const TempFolder folder;
   CHECK_THROWS_WITH_AS(TraceCsvFile(folder / "no/folder.csv"), doctest::Contains("cannot be written"), FileError);
