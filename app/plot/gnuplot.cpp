@@ -4,6 +4,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <stdexcept>
 #include <thread>
@@ -27,24 +28,42 @@ std::string script_of(const Figure& figure) {
   return script;
 }
 
+// Ctrl-C at a terminal is heard by all of its programs: this one ends soon by itself, and a figure that it leaves torn
+// would have its name.
+void heed_no_terminal() {
+  sigset_t signals;
+  sigemptyset(&signals);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) sigaddset(&signals, signal);
+  sigprocmask(SIG_BLOCK, &signals, nullptr);
+}
+
+// Whoever waits may be ended: not before the figure is whole.
+int wait_for(pid_t child, const std::function<void()>& waiting) {
+  int status = 0;
+  pid_t ended = 0;
+  try {
+    while ((ended = waitpid(child, &status, WNOHANG)) == 0) {
+      waiting();
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    }
+  } catch (...) {
+    waitpid(child, &status, 0);
+    throw;
+  }
+  return ended >= 0 && WIFEXITED(status) ? WEXITSTATUS(status) : 127;
+}
+
 // Runs gnuplot inside the folder, so that no path has to be quoted. 127 when it cannot be started.
 int run_gnuplot(const std::filesystem::path& folder, const std::string& script, const std::function<void()>& waiting) {
   const std::string directory = folder.string();
   const pid_t child = fork();
   if (child == 0) {
+    heed_no_terminal();
     setenv("LC_ALL", "C.UTF-8", 1);  // a bare system has no other: without it gnuplot complains of its degree sign
     if (chdir(directory.c_str()) == 0) execlp("gnuplot", "gnuplot", script.c_str(), static_cast<char*>(nullptr));
     _exit(127);
   }
-  if (child < 0) return 127;
-  int status = 0;
-  pid_t ended = 0;
-  while ((ended = waitpid(child, &status, WNOHANG)) == 0) {
-    waiting();
-    std::this_thread::sleep_for(std::chrono::milliseconds(5));
-  }
-  if (ended < 0) return 127;
-  return WIFEXITED(status) ? WEXITSTATUS(status) : 127;
+  return child < 0 ? 127 : wait_for(child, waiting);
 }
 
 }  // namespace

@@ -4,8 +4,6 @@
 #include <array>
 #include <exception>
 
-#include <fmt/format.h>
-
 #include "haptics/gate/gate_compiler.h"
 #include "haptics/joystick/kinematics.h"
 #include "haptics/loop/simulated_run.h"
@@ -79,8 +77,7 @@ std::vector<Section> make_sections(Study study, const std::vector<std::string>& 
   const std::vector<NamedSection> chosen = chosen_sections(only);
   std::vector<Section> made;
   study.doing = [&](std::string_view) {  // a terminal's line has no room for more than the section
-    const double share = static_cast<double>(made.size()) / static_cast<double>(chosen.size());
-    progress(fmt::format("{:<14}", chosen[made.size()].id), share);
+    progress(chosen[made.size()].id, static_cast<double>(made.size()) / static_cast<double>(chosen.size()));
   };
   for (const NamedSection& section : chosen) {
     study.doing("run");

@@ -1,16 +1,16 @@
 // gearshift demo: the tour and two lessons in the cabin, offscreen: pictures, sound, traces, plots, a page.
 #include <memory>
+#include <optional>
 #include <string>
-#include <string_view>
 
 #include "app/demo/demo.h"
 #include "app/output_folder.h"
 #include "app/print_out.h"
 #include "app/verbs/number_between.h"
 #include "app/verbs/picture_size.h"
-#include "app/verbs/progress_bar.h"
 #include "app/verbs/tour_arguments.h"
 #include "app/verbs/tour_words.h"
+#include "app/verbs/unless_ended.h"
 #include "app/verbs/verbs.h"
 
 namespace gearshift {
@@ -35,9 +35,10 @@ int run(const DemoArguments& arguments) {
   setup.view.stereo = arguments.stereo;
   setup.film_rate = arguments.film_rate;
   make_folder(setup.tour.folder);
-  ProgressBar bar;
-  const DemoResult result = run_demo(setup, [&](std::string_view what, double share) { bar.show(what, share); });
-  bar.clear();
+  const std::optional<DemoResult> made =
+      unless_ended<DemoResult>([&](const TourProgress& progress) { return run_demo(setup, progress); });
+  if (!made) return 1;
+  const DemoResult& result = *made;
   print_tour(setup.tour, result.tour);
   print_out("{} pictures of {} by {}, {:.0f} ms each\n", result.pictures(), arguments.size, result.device,
             result.picture_ms);

@@ -32,7 +32,7 @@ class ProgressBar {
     drawn_ = true;
     const double done = std::clamp(share, 0.0, 1.0);
     const std::string bar(static_cast<std::size_t>(kWidth * done), '=');
-    print_to(stderr, fmt::format("\r{:<10} [{:{}}] {:3.0f} %", what, bar, kWidth, 100.0 * done));
+    print_to(stderr, fmt::format("\r{:<14} [{:{}}] {:3.0f} %", what, bar, kWidth, 100.0 * done));
     std::fflush(stderr);
   }
 

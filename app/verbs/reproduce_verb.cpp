@@ -13,7 +13,7 @@
 #include "app/print_out.h"
 #include "app/reproduce/page.h"
 #include "app/reproduce/reproduce.h"
-#include "app/verbs/progress_bar.h"
+#include "app/verbs/unless_ended.h"
 #include "app/verbs/verbs.h"
 #include "haptics/gate/gate_layout.h"
 
@@ -57,13 +57,13 @@ int run_reproduce(const ReproduceArguments& arguments) {
   const Preset preset = read_preset(find_asset("presets", arguments.preset).string());
   const Study study = make_study(preset, read_gate_layout(find_asset("gates", "paper")), arguments.folder);
   make_folder(study.folder);
-  ProgressBar bar;
-  const std::vector<Section> sections =
-      make_sections(study, arguments.only, [&](std::string_view what, double share) { bar.show(what, share); });
-  write_page(study, sections);
-  bar.clear();
-  print_result(study, sections);
-  const bool whole = std::all_of(sections.begin(), sections.end(), [](const Section& s) { return s.problem.empty(); });
+  const auto sections = unless_ended<std::vector<Section>>(
+      [&](const ReproduceProgress& progress) { return make_sections(study, arguments.only, progress); });
+  if (!sections) return 1;
+  write_page(study, *sections);
+  print_result(study, *sections);
+  const bool whole =
+      std::all_of(sections->begin(), sections->end(), [](const Section& s) { return s.problem.empty(); });
   return whole ? 0 : 1;
 }
 

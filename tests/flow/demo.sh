@@ -57,14 +57,22 @@ begins() {
   DISPLAY=:987 WAYLAND_DISPLAY=wayland-0 "$gearshift" train --or-demo stale >stale.txt 2>stale.err &
   for _ in $(seq 600); do [ -s stale/cabin.png ] && break; sleep 0.1; done
   kill $!
-  wait $! 2>/dev/null
-  is_png stale/cabin.png
+  wait $!
+  [ $? -eq 1 ]
+}
+whole_pictures() { # what is there, is whole
+  local picture
+  for picture in stale/*.png; do tail -c 8 "$picture" | grep -qa IEND || { echo "torn: $picture"; return 1; }; done
+  is_png stale/cabin.png && [ ! -e stale/index.html ] && ! compgen -G "stale/*part*" >/dev/null
 }
 if whole; then
   check "train beside a display that is gone: the demo" stale
   check "its page is there" [ -s stale/index.html ]
 else
-  check "train beside a display that is gone: the demo" begins
+  check "train beside a display that is gone: the demo, ended early" begins
+  check "it says where, got: $(cat stale.err)" [ "$(cat stale.err)" = \
+    "gearshift: ended in the part pictures: what is whole stays, the page is not made" ]
+  check "no half of a file is left" whole_pictures
 fi
 check "and it says so" grep -q "^No display" stale.txt
 different() { ! same "$1" "$2"; }

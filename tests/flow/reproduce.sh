@@ -81,6 +81,31 @@ sed 's/^rate_hz = .*/rate_hz = 1/' "$presets/default.toml" >slow.toml
 check "a rate out of range" refuses 1 --preset slow.toml
 sed 's/^radius_m = .*/radius_m = 0.03/' "$presets/default.toml" >small.toml
 check "a lever that is too small for the gate" refuses 1 --preset small.toml
+
+# Ended early, by Ctrl-C at a terminal: all of its programs hear it, and no figure is torn.
+ended() { # while gnuplot draws, what is there
+  setsid env --default-signal=INT "$gearshift" reproduce --out ended --only wall tour >ended.txt 2>ended.err &
+  until [ -e "ended/$1" ] || ! kill -0 $!; do sleep 0.001; done
+  kill -INT -- -$!
+  wait $!
+  [ $? -eq 1 ]
+}
+for begun in wall.svg tour.csv; do
+  rm -rf ended
+  check "ended at $begun" ended $begun
+  check "it says where, got: $(cat ended.err)" [ "$(cat ended.err)" = \
+    "gearshift: ended in the part ${begun%.*}: what is whole stays, the page is not made" ]
+  check "there is no page" [ ! -e ended/index.html ]
+  check "nothing is half written, got: $(ls ended)" [ -z "$(ls ended | grep part)" ]
+  for file in ended/*; do
+    case $file in
+      *.svg) check "$file is whole" is_svg "$file" ;;
+      *.png) check "$file is whole" grep -qa IEND "$file" ;;
+      *.trace) check "$file replays" "$gearshift" replay "$file" ;;
+      *.csv) check "$file is whole" cmp -s "$file" "whole/${file#*/}" ;;
+    esac
+  done
+done
 touch file
 "$gearshift" reproduce --out file/below --only table >/dev/null 2>err
 check "no folder below a file" [ $? -eq 1 ]
