@@ -396,6 +396,7 @@ int train_in_window(const TrainSetup& setup) {
 }
 
 int train_offscreen(const TrainSetup& setup, const OffscreenSetup& offscreen) {
+  const StopSignals signals;
   Session session(setup.choice);
   if (!session.message().empty()) print_problem("{}", session.message());
   const LookAround look(setup.choice.camera, setup.choice.drive);
@@ -414,13 +415,15 @@ int train_offscreen(const TrainSetup& setup, const OffscreenSetup& offscreen) {
     session.obey(panel.draw(session.panel_input()));
     ui.end();
   };
-  while (session.time() < offscreen.seconds && !is_done(session)) {
+  const auto wants_more = [&] { return session.time() < offscreen.seconds && !is_done(session); };
+  while (wants_more() && !StopSignals::asked()) {
     session.advance(seconds);
     print_events(session.events(), !session.trainer().device().measures_hand_force);
     print_lines(lines.news(session.coach().view()), session.lever_time());
     draw();
     session.place();
   }
+  const bool is_cut = wants_more();
   for (int i = 0; i < kSettling; ++i) draw();
   tell_unkept(session.settle());
   print_lines(lines.news(session.coach().view()), session.lever_time());
@@ -430,7 +433,8 @@ int train_offscreen(const TrainSetup& setup, const OffscreenSetup& offscreen) {
   const std::filesystem::path picture = offscreen.folder / "train.png";
   write_png(picture, view.picture());
   print_out("{}\n", picture.string());
-  return 0;
+  if (is_cut) print_problem("ended after {:.1f} of {:g} s", session.time(), offscreen.seconds);
+  return is_cut ? 1 : 0;
 }
 
 }  // namespace gearshift

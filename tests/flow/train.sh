@@ -78,4 +78,17 @@ check "a lesson in memory" "$gearshift" train --offscreen memory --hand "by itse
 for words in "lesson moving_off begins" "step 6 of 6" "lesson moving_off is over: grade .*, passed"; do
   check "tells: $words" grep -q "$words" memory.txt
 done
+ended_in_memory() {
+  "$gearshift" train --offscreen ended --lesson up_through_the_gears --seconds 600 --size 64x36 --no-help --silent \
+    >ended.txt 2>ended.err &
+  until [ -d ended ] || ! kill -0 $!; do sleep 0.005; done # then it drives
+  kill $!
+  wait $!
+  [ $? -eq 1 ]
+}
+check "ended early" ended_in_memory
+check "it says when, got: $(cat ended.err)" grep -q "^gearshift: ended after [0-9.]* of 600 s$" ended.err
+check "in one sentence" [ "$(wc -l <ended.err)" -eq 1 ]
+check "the lesson counts as left" grep -q "is over: not graded.*was left" ended.txt
+check "its last picture is there" is_png ended/train.png
 finish
