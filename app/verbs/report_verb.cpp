@@ -160,7 +160,8 @@ void confirm(const ReportArguments& arguments, const LearnerRow& learner) {
   std::string again;
   const bool is_answered = static_cast<bool>(std::getline(std::cin, again));
   if (again == learner.name) return;
-  if (!is_answered || isatty(STDIN_FILENO) == 0) print_to(stderr, "\n");  // nobody's Enter has ended the question's line
+  const bool is_line_open = !is_answered || isatty(STDIN_FILENO) == 0;  // a person's Enter ends the question's line
+  if (is_line_open) print_to(stderr, "\n");
   throw std::runtime_error(fmt::format("{} was not deleted: {}", printable(learner.name),
                                        is_answered ? "that is another name" : "nobody has answered"));
 }
