@@ -98,6 +98,8 @@ void write_png(const std::filesystem::path& file, const Image& image) {
     check_shape(image);
     const std::vector<std::uint8_t> bytes = encoded_png(image);
     const std::filesystem::path place = place_of(file);
+    // Its name could be taken from a file that may not be written; whoever locked it did not mean that.
+    if (access(place.c_str(), W_OK) != 0 && errno != ENOENT) throw std::runtime_error(std::strerror(errno));
     part = part_of(place);
     std::ofstream out(part, std::ios::binary | std::ios::trunc);
     out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));

@@ -47,6 +47,11 @@ if [ -n "$locked" ]; then
   check "a file that may not be written, in a folder that may: refused" test $? -eq 1
   check "in one sentence, got: $(cat refused.err)" one_sentence refused.err "locked.svg: cannot be written: Permission denied"
   check "and it is as it was" test "$(cat locked.svg)" = mine
+  cp drawn/train.png train.png
+  chmod 444 train.png
+  start refused HOME=/ train --offscreen . --seconds 0.1 --size 320x180
+  check "nor a picture: in one sentence, got: $(cat refused.err)" one_sentence refused.err "train.png: the picture cannot be written: Permission denied"
+  check "which is as it was" cmp train.png drawn/train.png
 fi
 nameless() { # arguments ...: without HOME, as a user whom the system does not know
   unshare --user --map-user=4242 env -u HOME "$gearshift" "$@" >nameless.txt 2>nameless.err </dev/null
