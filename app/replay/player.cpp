@@ -4,6 +4,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include <fmt/core.h>
+
 namespace gearshift {
 namespace {
 
@@ -33,6 +35,13 @@ bool Player::advance(double seconds) {
 
 void Player::seek(double time) {
   jump_to(time);
+}
+
+void Player::begin_at(double time) {
+  const double length = drive_.end() - drive_.begin();
+  if (!(time >= 0.0 && time <= length))
+    throw std::invalid_argument(fmt::format("the drive lasts {:.3f} s: {:g} s is not in it", length, time));
+  jump_to(drive_.begin() + time);
 }
 
 void Player::play(bool on) {

@@ -27,6 +27,7 @@ class Player {
   // it plays no more. Within a shift it stops at the shift's end.
   bool advance(double seconds);
   void seek(double time);      // [s] on the loop's clock; clamped to what is looked at
+  void begin_at(double time);  // [s] of the drive. Throws std::invalid_argument naming how long it is
   void play(bool on);          // at the end: from the begin again
   void set_pace(double pace);  // kSlowest to kFastest; clamped
   // Looks at that shift, from kShiftMargin before it to kShiftMargin after it, and plays it from there. Nothing: at all

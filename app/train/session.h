@@ -47,9 +47,10 @@ class Session {
 
   void set_foot_pace(const FootPace& pace) { feet_->set_pace(pace); }
 
-  // Looks at a recorded drive, at one of its shifts or at all of it. Throws FileError, std::invalid_argument or
-  // std::runtime_error with one sentence.
-  void look_at(const std::filesystem::path& recording, std::optional<std::size_t> shift = std::nullopt);
+  // Looks at a recorded drive: at one of its shifts, or at all of it from then on [s]. Throws FileError,
+  // std::invalid_argument or std::runtime_error with one sentence.
+  void look_at(const std::filesystem::path& recording, std::optional<std::size_t> shift = std::nullopt,
+               double from = 0.0);
 
   const Stage& stage() const { return *stage_; }
   void look_from(std::string_view camera);     // see cabin_seen_from()
@@ -87,6 +88,7 @@ class Session {
   void set_keys(std::vector<KeyHint> keys) { panel_.keys = std::move(keys); }
   void set_mouse_leads(bool leads) { panel_.mouse_leads = leads; }
   bool replays() const { return player_.has_value(); }
+  bool replay_is_over() const { return player_ && !player_->plays(); }
   bool replays_shift() const { return player_ && player_->shift(); }
 
  private:

@@ -66,9 +66,10 @@ void Session::check_free_to_look() const {
     throw std::runtime_error("a lesson is being driven: leave it before looking at a recording");
 }
 
-void Session::look_at(const fs::path& recording, std::optional<std::size_t> shift) {
+void Session::look_at(const fs::path& recording, std::optional<std::size_t> shift, double from) {
   check_free_to_look();
   Player player(recording);
+  player.begin_at(from);
   if (shift) player.look_at(shift);
   look_at(std::move(player));
 }

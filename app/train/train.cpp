@@ -70,7 +70,7 @@ class WindowTrainer {
         last_frame_(Clock::now()) {
     panel_.set_visible(setup.panel);
     session_.set_keys(key_hints(setup.bindings));
-    if (!setup.replay.empty()) session_.look_at(setup.replay, setup.shift);
+    if (!setup.replay.empty()) session_.look_at(setup.replay, setup.shift, setup.from);
   }
 
   bool done() const {
@@ -376,9 +376,9 @@ class WindowTrainer {
   std::string told_message_;
 };
 
-// A hand that drives a lesson by itself has nothing to do after it.
+// A hand that drives a lesson by itself has nothing to do after it, and who looks at a drive has seen it.
 bool is_done(const Session& session) {
-  return session.coach().view().phase == LessonPhase::over;
+  return session.coach().view().phase == LessonPhase::over || session.replay_is_over();
 }
 
 }  // namespace
@@ -403,7 +403,7 @@ int train_offscreen(const TrainSetup& setup, const OffscreenSetup& offscreen) {
   UiContext ui;
   Panel panel;
   panel.set_visible(setup.panel);
-  if (!setup.replay.empty()) session.look_at(setup.replay, setup.shift);
+  if (!setup.replay.empty()) session.look_at(setup.replay, setup.shift, setup.from);
   CabinView view(setup.view, nullptr, &ui);
   make_folder(offscreen.folder);
   const double seconds = 1.0 / kOffscreenRate;

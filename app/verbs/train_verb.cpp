@@ -22,6 +22,8 @@
 namespace gearshift {
 namespace {
 
+constexpr double kUsualSeconds = 5.0, kMostSeconds = 600.0;  // offscreen
+
 struct TrainArguments {
   SessionChoice choice;
   std::string device{kSimulatedDevice}, bindings, size = "1280x720", offscreen, or_demo;
@@ -35,7 +37,8 @@ struct TrainArguments {
   std::optional<double> height;  // [m]
   std::vector<double> knob;      // [m] right, down, ahead
   bool no_help = false;
-  double seconds = 5.0;  // [s]
+  double from = 0.0;              // [s]
+  std::optional<double> seconds;  // [s] none: kUsualSeconds, or to the end of what is replayed
 };
 
 // Without a home folder there are no bindings of one's own.
@@ -91,6 +94,7 @@ TrainSetup make_setup(const TrainArguments& arguments) {
   setup.replay = arguments.replay;
   if (!setup.replay.empty() && setup.choice.lesson.empty()) setup.choice.lesson = kNoLesson;
   if (arguments.shift) setup.shift = *arguments.shift - 1;
+  setup.from = arguments.from;
   setup.choice.drive = drive_side(arguments, DriveSide::left);
   if (arguments.xr) {
     setup.headset = headset_setup(arguments);
@@ -136,7 +140,8 @@ int run_train(const TrainArguments& arguments) {
     setup.choice.sound = SoundOutput::none;
     if (setup.choice.hand.empty()) setup.choice.hand = kByItself;
     tell_nobody_learns(setup.choice);
-    return train_offscreen(setup, {arguments.offscreen, arguments.seconds});
+    const double usual = arguments.replay.empty() ? kUsualSeconds : kMostSeconds;
+    return train_offscreen(setup, {arguments.offscreen, arguments.seconds.value_or(usual)});
   }
   if (!has_display()) return run_demo_instead(arguments);
   tell_nobody_learns(setup.choice);
@@ -179,9 +184,14 @@ void add_train_verb(CLI::App& app, VerbAction& action) {
       ->check(CLI::IsMember({1, 4}));
   CLI::Option* replay =
       verb->add_option("--replay", arguments->replay, "a recorded drive to be looked at")->type_name("TRACE");
-  verb->add_option("--shift", arguments->shift, "of the recorded drive: from 1, as replay --shifts lists them")
-      ->check(CLI::PositiveNumber)
-      ->needs(replay);
+  CLI::Option* shift =
+      verb->add_option("--shift", arguments->shift, "of the recorded drive: from 1, as replay --shifts lists them")
+          ->check(CLI::PositiveNumber)
+          ->needs(replay);
+  verb->add_option("--from", arguments->from, "of the recorded drive, where it begins [s]")
+      ->check(number_between(0.0, 1e6))
+      ->needs(replay)
+      ->excludes(shift);
   verb->add_option("--camera", arguments->choice.camera, "driver, ahead, lever, gate, cluster or gearbox")
       ->check(CLI::IsMember({"driver", "ahead", "lever", "gate", "cluster", "gearbox"}))
       ->capture_default_str();
@@ -211,9 +221,9 @@ void add_train_verb(CLI::App& app, VerbAction& action) {
   xr->excludes(stereo)->excludes(offscreen);
   verb->add_option("--or-demo", arguments->or_demo, "where there is no display: the demo into this folder")
       ->type_name("DIR");
-  verb->add_option("--seconds", arguments->seconds, "of simulated time offscreen [s]")
-      ->check(number_between(0.1, 600.0))
-      ->capture_default_str();
+  verb->add_option("--seconds", arguments->seconds,
+                   "of simulated time offscreen [s]: else 5, or to the end of what is replayed")
+      ->check(number_between(0.1, kMostSeconds));
   verb->callback([arguments, &action] { action = [arguments] { return run_train(*arguments); }; });
 }
 

@@ -57,6 +57,20 @@ TEST_CASE("the drive's time goes on by the person's, times the pace; paused it s
   CHECK(player.time() == doctest::Approx(begin + 1.25).epsilon(1e-12));
 }
 
+TEST_CASE("it begins where it is asked to, and nowhere beyond the drive") {
+  Player player(upshifts().file);
+  const double begin = player.drive().begin(), length = player.drive().end() - begin;
+  for (const double time : {0.0, length, 0.5 * length}) {
+    player.begin_at(time);
+    CHECK(player.time() == begin + time);
+    CHECK(player.from() == begin);
+    CHECK(player.plays());
+  }
+  for (const double beyond : {-0.001, length + 0.001, kNan})
+    CHECK_THROWS_WITH_AS(player.begin_at(beyond), doctest::Contains("the drive lasts"), std::invalid_argument);
+  CHECK(player.time() == begin + 0.5 * length);
+}
+
 TEST_CASE("pace and place are clamped to what there is") {
   Player player(upshifts().file);
   player.set_pace(1e9);
