@@ -24,6 +24,7 @@
 #include "app/verbs/whole_number.h"
 #include "app/version/version_text.h"
 #include "haptics/files/part_file.h"
+#include "tests/bench/campaign/broken_laws.h"
 #include "tests/bench/campaign/shift_campaign.h"
 
 namespace gearshift {
@@ -36,13 +37,14 @@ constexpr const char* kCampaignFooter =
     "\n"
     "The folder keeps what is done (cases.csv): stopped, by Ctrl-C too, the same command goes on where it was. At the "
     "end it has\n"
-    "summary.json, and failures/SEED.trace of each failed case (100 at most), for gearshift replay,\n"
-    "with SEED.txt, what it breaks.\n"
+    "summary.json, and failures/SEED.trace of each failed case (100 at most) with SEED.txt, what it breaks: gearshift\n"
+    "replay says it, and the command that shows it. A case alone that breaks a law has them, too.\n"
     "\n"
     "Exit code: 0 every law holds, 1 one is broken, or the work failed or was stopped, 2 bad usage.\n"
     "\n"
     "  gearshift campaign --shifts 1000 --out look\n"
-    "  gearshift campaign --case 42 --out look";
+    "  gearshift campaign --case 1 --out look    says \"trace look/case_1.trace\"\n"
+    "  gearshift replay look/case_1.trace";
 
 struct CampaignArguments {
   CampaignPlan plan;
@@ -55,7 +57,12 @@ int run_one_case(const CampaignArguments& arguments, const std::vector<GateLayou
   const std::filesystem::path trace = arguments.plan.folder / fmt::format("case_{}.trace", drawn.number);
   const CaseOutcome outcome = run_case(drawn, shipped, trace);
   print_out("{}", case_text(drawn, outcome));
-  if (outcome.refused.empty()) print_out("trace {}\n", trace.string());
+  if (!outcome.refused.empty()) {
+    print_out("it was not driven, so nothing is recorded\n");
+    return 0;
+  }
+  tell_broken(trace, arguments.plan.seed, summarise(arguments.plan.seed, {&outcome, 1}, gates).broken);
+  print_out("trace {}\n{}", trace.string(), told_of(trace));
   return outcome.laws.any_broken() ? 1 : 0;
 }
 

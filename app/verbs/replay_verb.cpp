@@ -20,13 +20,15 @@
 #include "haptics/loop/replay.h"
 #include "haptics/loop/trace_csv.h"
 #include "haptics/loop/trace_reader.h"
+#include "tests/bench/campaign/broken_laws.h"
 
 namespace gearshift {
 namespace {
 
 constexpr const char* kFooter =
     "A trace holds everything that came into each haptic cycle, the configuration and the gate.\n"
-    "replay feeds the inputs to the same cycle again and compares every output by its exact bits.\n"
+    "replay feeds the inputs to the same cycle again and compares every output by its exact bits. What the campaign\n"
+    "has written beside a trace, which law it breaks, is said with the command that shows it.\n"
     "\n"
     "Exit code: 0 bit for bit (or exported, with --torn; or listed, with --shifts), 1 a difference or a bad file, 2 "
     "bad "
@@ -85,7 +87,9 @@ int replay_file(const ReplayOptions& options) {
   }
   progress.clear();
   if (csv) csv->finish();
-  return say(replayer.finish(reader.hash()), reader);
+  const int code = say(replayer.finish(reader.hash()), reader);
+  print_out("{}", told_of(options.trace));
+  return code;
 }
 
 int export_torn(const ReplayOptions& options) {

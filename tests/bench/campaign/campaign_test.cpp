@@ -16,6 +16,7 @@
 #include <fmt/core.h>
 
 #include "tests/bench/bench.h"
+#include "tests/bench/campaign/broken_laws.h"
 #include "tests/bench/campaign/campaign_car.h"
 #include "tests/bench/campaign/campaign_fixtures.h"
 #include "tests/bench/campaign/campaign_summary.h"
@@ -226,10 +227,30 @@ TEST_CASE("a case that broke a law is driven again, and its trace replays") {
   CHECK(record_failures(plan, broken, layouts(), {}) == 1);
   CHECK(replays(folder / fmt::format("failures/{:016x}.trace", seed)));
   const std::vector<std::string> told = lines_of(folder / fmt::format("failures/{:016x}.txt", seed));
-  REQUIRE(told.size() == 2);
-  CHECK(told[0].starts_with(fmt::format("case {} of seed 11 breaks quiet (", number)));
-  CHECK(told[1].starts_with(fmt::format("case {} of seed 11 breaks slew (", number)));
+  REQUIRE(told.size() == 4);
+  CHECK(told[0].starts_with(fmt::format("{:016x}.trace: case {} of seed 11 breaks quiet (", seed, number)));
+  CHECK(told[1] == fmt::format("gearshift train --replay {:016x}.trace --from 0.0", seed));
+  CHECK(told[2].starts_with(fmt::format("{:016x}.trace: case {} of seed 11 breaks slew (", seed, number)));
   CHECK(record_failures(plan, {}, layouts(), {}) == 0);
+}
+
+TEST_CASE("what a trace breaks is said of it alone, with the command that shows it two seconds before") {
+  const TempFolder folder;
+  const std::filesystem::path trace = folder / "it's one.trace", text = folder / "it's one.txt";
+  LawBroken one{3, 4, CampaignLaw::fades, {1, 0.002, 0.001, 42.57}};
+  tell_broken(trace, 1, std::vector{one});
+  const std::string told = told_of(trace);
+  CHECK(told.starts_with("it's one.trace: case 3 of seed 1 breaks fades ("));
+  CHECK(told.find("): 0.002 m, bound 0.001, at 42.570 s\ngearshift train --replay '") != std::string::npos);
+  CHECK(told.ends_with("/it'\\''s one.trace' --from 40.5\n"));
+  std::filesystem::rename(text, folder / "other.txt");
+  CHECK(told_of(trace).empty());
+  CHECK(told_of(folder / "other.trace").empty());
+  std::ofstream(text) << "a note\nit's one.trace: \x1b[31m\n"
+                      << std::string(1'000'000, '\n') << "it's one.trace: late\n";
+  CHECK(told_of(trace) == "it's one.trace: ?[31m\n");
+  tell_broken(trace, 1, {});
+  CHECK_FALSE(std::filesystem::exists(text));
 }
 
 TEST_CASE("each seventh case is wide, half of them with a car; no other is") {

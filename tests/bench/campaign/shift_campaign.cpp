@@ -11,7 +11,6 @@
 #include <map>
 #include <mutex>
 #include <optional>
-#include <set>
 #include <stdexcept>
 #include <system_error>
 #include <thread>
@@ -21,7 +20,7 @@
 
 #include "haptics/files/file_error.h"
 #include "haptics/files/fnv_1a.h"
-#include "haptics/files/part_file.h"
+#include "tests/bench/campaign/broken_laws.h"
 #include "tests/bench/campaign/case_file.h"
 
 namespace gearshift {
@@ -178,38 +177,21 @@ std::vector<CaseOutcome> drive_campaign(const CampaignPlan& plan, std::span<cons
   return shared.take();
 }
 
-namespace {
-
-// Which laws the trace beside it breaks, where: a replay says only that it is the same drive.
-void tell_broken(std::uint64_t number, const CampaignPlan& plan, std::span<const LawBroken> broken,
-                 const std::filesystem::path& file) {
-  std::string text;
-  for (const LawBroken& one : broken) {
-    if (one.number != number) continue;
-    const LawWords& words = law_words(one.law);
-    text += fmt::format("case {} of seed {} breaks {} ({}): {:.4g} {}, bound {:.4g}, at {:.3f} s\n", number, plan.seed,
-                        std::string(words.name), std::string(words.says), one.seen.value, std::string(words.unit),
-                        one.seen.bound, one.seen.time);
-  }
-  write_text_file(file, text);
-}
-
-}  // namespace
-
 std::size_t record_failures(const CampaignPlan& plan, std::span<const LawBroken> broken,
                             std::span<const GateLayout> shipped, const CampaignProgress& progress) {
-  std::set<std::uint64_t> cases;
-  for (const LawBroken& one : broken) cases.insert(one.number);
+  std::map<std::uint64_t, std::vector<LawBroken>> cases;
+  for (const LawBroken& one : broken) cases[one.number].push_back(one);
   const std::filesystem::path folder = plan.folder / "failures";
   std::error_code error;
   if (!cases.empty()) std::filesystem::create_directories(folder, error);
   if (error) throw FileError(folder.string(), 0, "cannot be made: " + error.message());
   std::size_t kept = 0;
-  for (const std::uint64_t number : cases) {
+  for (const auto& [number, of_case] : cases) {
     if (kept == kMostTraces) break;
     const CampaignCase drawn = drawn_case(plan.seed, number, static_cast<int>(shipped.size()));
-    run_case(drawn, shipped, folder / fmt::format("{:016x}.trace", drawn.seed));
-    tell_broken(number, plan, broken, folder / fmt::format("{:016x}.txt", drawn.seed));
+    const std::filesystem::path trace = folder / fmt::format("{:016x}.trace", drawn.seed);
+    run_case(drawn, shipped, trace);
+    tell_broken(trace, plan.seed, of_case);
     ++kept;
     const double share = static_cast<double>(kept) / static_cast<double>(std::min(cases.size(), kMostTraces));
     if (progress && !progress({share, std::nullopt})) break;
