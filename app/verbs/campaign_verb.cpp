@@ -122,7 +122,7 @@ void add_campaign_verb(CLI::App& app, VerbAction& action) {
       "campaign", "A million random shifts: gates, hands, rates, delays, tunings against the laws that always hold");
   verb->footer(kCampaignFooter);
   CLI::Option* shifts = verb->add_option("--shifts", arguments->plan.shifts, "that are tried at least")
-                            ->check(CLI::Range(std::uint64_t{1}, std::uint64_t{1'000'000'000}))
+                            ->check(whole_number(1, 1'000'000'000))
                             ->capture_default_str();
   verb->add_option("--seed", arguments->plan.seed, "of the whole campaign")
       ->check(whole_number())
@@ -131,7 +131,7 @@ void add_campaign_verb(CLI::App& app, VerbAction& action) {
       ->required()
       ->type_name("DIR");
   verb->add_option("--threads", arguments->plan.threads, "at a time; the result is the same with any number")
-      ->check(CLI::Range(1, 256))
+      ->check(whole_number(1, 256))
       ->capture_default_str();
   verb->add_option("--case", arguments->number, "this one alone, recorded as DIR/case_K.trace")
       ->check(whole_number())

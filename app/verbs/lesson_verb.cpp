@@ -157,7 +157,7 @@ void add_lesson_verb(CLI::App& app, VerbAction& action) {
       ->type_name("FILE")
       ->needs(learner);
   verb->add_option("--runs", arguments->runs, "one after another")
-      ->check(CLI::Range(1, 1'000'000))
+      ->check(whole_number(1, 1'000'000))
       ->capture_default_str()
       ->excludes(trace);
   add_mode_option(*verb, arguments->mode);

@@ -18,6 +18,7 @@
 #include "app/verbs/progress_bar.h"
 #include "app/verbs/two_files.h"
 #include "app/verbs/verbs.h"
+#include "app/verbs/whole_number.h"
 #include "haptics/device/simulated_lever.h"
 #include "haptics/files/part_file.h"
 
@@ -144,7 +145,7 @@ void add_device_options(CLI::App& verb, StabilityArguments& arguments) {
       ->check(number_between(50.0, 20000.0))
       ->capture_default_str();
   verb.add_option("--delay", arguments.delay, "whole samples until a command acts")
-      ->check(number_between(0, kMaxDelay))
+      ->check(whole_number(0, kMaxDelay))
       ->capture_default_str();
   verb.add_option("--hand", arguments.hand, "bare, light, grip, arm, all, or M,B,K in kg, N s/m, N/m")
       ->capture_default_str();
@@ -158,7 +159,7 @@ void add_wall_options(CLI::App& verb, StabilityArguments& arguments) {
       ->check(number_between(0.0, 1e5))
       ->capture_default_str();
   verb.add_option("--window", arguments.window, "samples that the velocity is the difference over")
-      ->check(number_between(1, kMostWindow))
+      ->check(whole_number(1, kMostWindow))
       ->capture_default_str();
   verb.add_option("--hold", arguments.hold, "zero_order (the textbook's spring), half_sample or observer")
       ->check(CLI::IsMember(hold_names()))

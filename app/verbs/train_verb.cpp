@@ -17,6 +17,7 @@
 #include "app/verbs/picture_size.h"
 #include "app/verbs/tour_arguments.h"
 #include "app/verbs/verbs.h"
+#include "app/verbs/whole_number.h"
 #include "haptics/files/printable.h"
 
 namespace gearshift {
@@ -186,7 +187,7 @@ void add_train_verb(CLI::App& app, VerbAction& action) {
       verb->add_option("--replay", arguments->replay, "a recorded drive to be looked at")->type_name("TRACE");
   CLI::Option* shift =
       verb->add_option("--shift", arguments->shift, "of the recorded drive: from 1, as replay --shifts lists them")
-          ->check(CLI::PositiveNumber)
+          ->check(whole_number(1, 1'000'000))
           ->needs(replay);
   verb->add_option("--from", arguments->from, "of the recorded drive, where it begins [s]")
       ->check(number_between(0.0, 1e6))

@@ -111,6 +111,17 @@ refuse 2 "--seed" tour --out t --seed 1.5
 refuse 2 "--seed" lesson moving_off --seed -1
 refuse 2 "--seed" lesson moving_off --seed 99999999999999999999
 refuse 2 "--seed" identify --seed -1
+for number in 0 1e3 0x10 " 5" 5. 010 -1 "" 1000000001 9999999999999999999999; do
+  refuse 2 "--shifts: \"$number\" is not a whole number from 1 to 1000000000" campaign --out c --shifts "$number"
+  refuse 2 "--runs: \"$number\" is not a whole number from 1 to 1000000" lesson moving_off --runs "$number"
+  refuse 2 "--threads: \"$number\" is not a whole number from 1 to 256" campaign --out c --shifts 1 --threads "$number"
+  refuse 2 "--shift: \"$number\" is not a whole number from 1 to 1000000" train --replay x --shift "$number"
+  refuse 2 "--window: \"$number\" is not a whole number from 1 to 64" stability --window "$number"
+done
+for number in 010 0x10 "5 "; do
+  refuse 2 "--seed: \"$number\" is not a whole number from 0 to 999999999999999" campaign --out c --shifts 1 --seed "$number"
+  refuse 2 "--delay: \"$number\" is not a whole number from 0 to 8" stability --delay "$number"
+done
 refuse 2 "--hand" tour --out t --hand fist --gate spaceship
 refuse 1 "nameless.toml" tour --out t --gate nameless.toml
 refuse 1 "two_lines.toml" tour --out t --gate two_lines.toml
@@ -201,7 +212,7 @@ refuse 2 "--block" bench --block x
 refuse 1 "nameless.toml/x" bench --family plant --out nameless.toml/x
 refuse 1 "/nowhere/x.csv" bench --family plant --csv /nowhere/x.csv
 
-for left in t; do
+for left in t c; do
   [ -e "$left" ] && { echo "FAILED: $left was left behind"; failed=$((failed + 1)); }
 done
 finish
