@@ -25,6 +25,7 @@
 #include "app/version/version_text.h"
 #include "haptics/files/part_file.h"
 #include "tests/bench/campaign/broken_laws.h"
+#include "tests/bench/campaign/case_file.h"
 #include "tests/bench/campaign/shift_campaign.h"
 
 namespace gearshift {
@@ -131,7 +132,7 @@ void add_campaign_verb(CLI::App& app, VerbAction& action) {
       ->required()
       ->type_name("DIR");
   verb->add_option("--threads", arguments->plan.threads, "at a time; the result is the same with any number")
-      ->check(whole_number(1, 256))
+      ->check(whole_number(1, kMostThreads))
       ->capture_default_str();
   verb->add_option("--case", arguments->number, "this one alone, recorded as DIR/case_K.trace")
       ->check(whole_number())

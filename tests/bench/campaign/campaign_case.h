@@ -41,6 +41,8 @@ struct CaseManner {
   bool leans_aside = false;    // at the end: sideways, else on into the gear's end
 };
 
+inline constexpr int kCaseShifts = 40;  // that a hand tries
+
 struct CampaignCase {
   std::uint64_t number = 0, seed = 0;
   int shipped_gate = -1;  // index of the shipped layouts, sorted by name; -1: the random layout of this seed
@@ -48,9 +50,9 @@ struct CampaignCase {
   CaseManner manner;
   HapticConfig haptics;
   SimulatedLeverConfig lever;
-  int shifts = 40;       // that are tried; 0 for nobody's hand
-  bool is_wide = false;  // gate, rate, delay, plant error, configuration from within their whole ranges
-  bool has_car = false;  // behind the lever: random_car() of this seed
+  int shifts = kCaseShifts;  // that are tried; 0 for nobody's hand
+  bool is_wide = false;      // gate, rate, delay, plant error, configuration from within their whole ranges
+  bool has_car = false;      // behind the lever: random_car() of this seed
 };
 
 // Each seventh case is wide: number 4, 11, ...; the others are what they were before there were any.

@@ -180,8 +180,13 @@ TEST_CASE("a file of cases that was edited is refused with line, column, value a
   const std::string rest = ",0,0,1,1.0,2000,0,1,0,0,0,1.0";
   std::string laws;
   for (std::size_t i = 0; i < kCampaignLaws; ++i) laws += ",1,0,0,0";
-  CHECK(refused("0,,-5" + rest + laws) == "line 3: shifts is \"-5\", not a number from 0 to 1000");
-  CHECK(refused("0,,99999" + rest + laws) == "line 3: shifts is \"99999\", not a number from 0 to 1000");
+  CHECK(refused("0,,-5" + rest + laws) == "line 3: shifts is \"-5\", not a number from 0 to 40");
+  CHECK(refused("0,,41" + rest + laws) == "line 3: shifts is \"41\", not a number from 0 to 40");
+  // A case that no thread can have had yet, after no line or after one.
+  CHECK(refused("256,,1" + rest + laws) == "line 3: case is \"256\", not a number from 0 to 255");
+  CHECK(refused("255,,1" + rest + laws + "\n257,,1" + rest + laws) ==
+        "line 4: case is \"257\", not a number from 0 to 256");
+  CHECK(refused("18446744073709551615,,1" + rest + laws).starts_with("line 3: case is \"18446744073709551615\", not"));
   CHECK(refused("0,,1,0,3,1,1.0,2000,0,1,0,0,0,1.0" + laws) == "line 3: reached is \"3\", not a number from 0 to 1");
   CHECK(refused("0,,1,0,0,1,1.0,2000,0,7,0,0,0,1.0" + laws) == "line 3: promised is \"7\", not a number from 0 to 1");
   CHECK(refused("0,\x1b[31m,0" + rest + laws).find("text without control characters") != std::string::npos);

@@ -21,8 +21,6 @@
 namespace gearshift {
 namespace {
 
-constexpr int kMostShifts = 1000;  // of a case
-
 std::string column_line() {
   std::string line =
       "case,refused,shifts,clean,reached,cycles,seconds,stiffness_n_per_m,limited,promised,stopped,ripple_m,softened,"
@@ -96,12 +94,13 @@ class LineReader {
   std::size_t at_ = 0;
 };
 
-CaseOutcome read_case(std::string_view line, const std::vector<std::string_view>& columns) {
+// before: lines that stand above it. Cases are handed out in order, gaps first.
+CaseOutcome read_case(std::string_view line, const std::vector<std::string_view>& columns, std::uint64_t before) {
   LineReader in(line, columns);
   CaseOutcome out;
-  in.number(out.number);
+  in.number(out.number, std::uint64_t{0}, before + kMostThreads - 1);
   out.refused = in.text();
-  in.number(out.shifts, 0, out.refused.empty() ? kMostShifts : 0);
+  in.number(out.shifts, 0, out.refused.empty() ? kCaseShifts : 0);
   in.number(out.clean, 0, out.shifts);
   in.number(out.reached, 0, out.shifts);
   in.number(out.cycles);
@@ -175,7 +174,7 @@ std::size_t CaseFile::read_cases(std::string_view text, std::size_t begin) {
   int number = 3;  // of the line
   for (std::size_t end = 0; (end = text.find('\n', begin)) != std::string::npos; begin = end + 1, ++number) {
     try {
-      CaseOutcome out = read_case(text.substr(begin, end - begin), columns);
+      CaseOutcome out = read_case(text.substr(begin, end - begin), columns, cases_.size());
       const std::uint64_t of_case = out.number;
       if (!cases_.emplace(of_case, std::move(out)).second)
         throw std::runtime_error(fmt::format("case {} is there twice", of_case));

@@ -13,11 +13,13 @@
 
 namespace gearshift {
 
+inline constexpr int kMostThreads = 256;  // that drive a campaign
+
 class CaseFile {
  public:
   // Reads what is there, drops a line that was not finished, and goes on behind it. of: the campaign, in one line: its
   // seed, its gates, the program. Throws std::runtime_error in one sentence where the file is of another campaign, is not
-  // one (line, column, value, range), is being written by another program, or cannot be read or written: then nothing of
+  // one (line, column, value, range; a case is never further ahead of the lines than threads can be), is being written by another program, or cannot be read or written: then nothing of
   // it is touched.
   CaseFile(const std::filesystem::path& file, const std::string& of);
 

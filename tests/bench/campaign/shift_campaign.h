@@ -21,8 +21,8 @@ struct CampaignPlan {
                         // one commit are not told apart
   std::uint64_t shifts = 1'000'000;  // that are tried at least: cases are run whole, in order
   std::filesystem::path folder;  // exists; receives cases.csv: one line a case, as they come. Empty: nothing is kept
-  int threads = 1;
-  double patience = 60.0;  // [s] of processor time for a case, which takes a tenth of one
+  int threads = 1;               // kMostThreads at most
+  double patience = 60.0;        // [s] of processor time for a case, which takes a tenth of one
 };
 
 struct CampaignStand {
