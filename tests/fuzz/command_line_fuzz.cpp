@@ -1,10 +1,15 @@
-// Whatever arguments, one a line: they are parsed, or refused in one sentence. Nothing is run. The first line is what the
-// environment says of the user's folders.
+// Whatever arguments, one a line: they are parsed, or refused in one sentence. Nothing is run; the texts that a verb reads
+// only then, a hand, a size and a camera, are tried with every line. The first line is what the environment says of the
+// user's folders.
 #include <stdlib.h>
 
+#include <cmath>
 #include <vector>
 
+#include "app/render/render_file.h"
 #include "app/trainer/user_folder.h"
+#include "app/verbs/picture_size.h"
+#include "app/verbs/tour_arguments.h"
 #include "app/verbs/verbs.h"
 #include "tests/fuzz/fuzz_laws.h"
 
@@ -52,12 +57,52 @@ void check_arguments(const std::vector<std::string>& arguments) {
   }
 }
 
+// read: throws CLI::ValidationError for what it refuses.
+template <class Read>
+void check_text(const Read& read) {
+  try {
+    read();
+  } catch (const CLI::ValidationError& refusal) {
+    hold_sentence(std::runtime_error(usage_sentence(refusal)), "");
+  }
+}
+
+void check_hand(const std::string& text) {
+  const HandImpedance hand = driving_hand(text);
+  hold(std::isfinite(hand.mass) && std::isfinite(hand.damping) && std::isfinite(hand.stiffness) && hand.mass >= 0.0 &&
+           hand.damping >= 0.0 && hand.stiffness > 0.0,
+       "a hand that leads the lever is one");
+}
+
+void check_size(const std::string& text, bool stereo) {
+  const PictureSize size = picture_size(text, stereo);
+  for (const int side : {size.width, size.height})
+    hold(side >= kLeastPictureSide && side <= kMostPictureSide, "a picture has a size that can be drawn");
+  hold(!stereo || size.width % 2 == 0, "two eyes have the same whole width");
+}
+
+void check_camera_text(const std::string& text) {
+  try {
+    check_camera(text);
+  } catch (const std::invalid_argument& refusal) {  // as the verb takes it
+    throw CLI::ValidationError(refusal.what());
+  }
+}
+
+void check_texts(const std::string& line) {
+  check_text([&] { check_hand(line); });
+  check_text([&] { check_size(line, false); });
+  check_text([&] { check_size(line, true); });
+  check_text([&] { check_camera_text(line); });
+}
+
 }  // namespace
 
 // NOLINTNEXTLINE(readability-identifier-naming): libFuzzer gives the name
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   std::vector<std::string> lines = lines_of(text_of(data, size));
   check_folders(lines[0]);
+  for (const std::string& line : lines) check_texts(line);
   lines[0] = "gearshift";
   check_arguments(lines);
   return 0;
