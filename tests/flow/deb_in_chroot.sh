@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
 # The Debian package in a fresh Debian 12: it installs with what it depends on, an ordinary user without a display runs the
-# demo, and purged it leaves nothing behind. By hand, as root and with a network, some minutes:
+# demo, and purged it leaves nothing behind. A tier of ./test --full; by hand, as root and with a network, some minutes:
 #   cmake --preset release && cmake --build --preset release --target package
 #   tests/flow/deb_in_chroot.sh build/release/gearshift_*.deb
 # Usage: deb_in_chroot.sh PACKAGE

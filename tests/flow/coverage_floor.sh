@@ -1,0 +1,22 @@
+#!/usr/bin/env bash
+# The floor of tests/coverage: a table of a line is below it, on it, or empty.
+# Usage: coverage_floor.sh GEARSHIFT SOURCE_FOLDER
+set -u
+source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
+table=$2/tests/coverage_table.py
+
+counted() { # lines that are reached, of 100 in each of two rooms
+  echo "filename,line_total,line_covered,branch_total,branch_covered"
+  printf 'app/%s/x.cpp,100,%s,,\n' a "$1" b "$2"
+}
+floor() { counted "$1" "$2" >counted.csv; python3 "$table" counted.csv 95 >out 2>err; }
+check "on the floor" floor 100 90
+check "without a word" [ ! -s err ]
+check "each room has its row, and all of them" grep -qE "^all +200 +95\.0 % +-$" out
+floor 100 89
+check "a line below it: exit 1" [ $? -eq 1 ]
+check "in one sentence" grep -qx "coverage: 189 of 200 lines are less than 95 %" err
+head -n 1 counted.csv >empty.csv
+python3 "$table" empty.csv 95 >out 2>err
+check "nothing counted: exit 1" [ $? -eq 1 ]
+finish
