@@ -35,40 +35,48 @@ VALUES = {"gate NAME": "paper", "gate LAYOUT": "dog_leg_five", "lesson NAME": "m
           "replay TRACE": "tour.trace", "replay FILE": "killed.trace", "render FILE": "assets/models/hand.glb",
           "FILE": "bindings.toml", "DIR": "made", "PNG": "made.png", "OUT": "out.csv", "WHO": "Ada"}
 
-# pattern of a command: reason; the file that runs it, and the words there that do. Without: a person runs it.
+# pattern of a command: reason; the file that runs it, and the words there that do (\1: the pattern's first group), among
+# them a word of the command. Without: a person runs it.
 ELSEWHERE = {
     r"\./run$": ("installs and opens a window",),
-    r"\./test|ctest|cmake --workflow|cmake --build": ("runs this test", "test", "ctest --preset dev"),
-    r"gearshift .*--device ": ("wants a stick and who holds it", "tests/flow/devices.sh", "--device"),
+    r"\./test": ("runs this test",),
+    r"ctest": ("runs this test", "test", "ctest --preset dev"),
+    r"cmake --workflow": ("builds and tests all of it",),
+    r"cmake --(preset release|build) .*--target package": ("makes the package: ./test --full", "test", "--target package"),
+    r"cmake --build": ("builds all of it anew", "test", "cmake --build --preset"),
+    r"gearshift tour .*--device ": ("wants a stick and who holds it", "tests/flow/devices.sh", "tour --device"),
+    r"gearshift .*--device ": ("the same, and a window", "tests/flow/headset_stick.sh", "--device ffboard"),
     r"gearshift devices --calibrate": ("wants a stick and a person", "tests/flow/calibrate.sh", "devices --calibrate"),
-    r"gearshift train.* --xr": ("wants a headset", "tests/flow/no_headset.sh", "--xr"),
+    r"gearshift train.* --xr": ("wants a headset", "tests/flow/no_headset.sh", "--xr --silent"),
     r"gearshift demo ": ("takes minutes on a busy machine", "tests/flow/demo.sh", '"$gearshift" demo'),
     r"gearshift reproduce --out \S+$": ("takes long", "tests/flow/reproduce.sh", '"$gearshift" reproduce'),
-    r"gearshift bench --family (contact|boundary|methods|hard)":
-        ("takes minutes; its campaigns are this test's", "tests/haptics/loop/contact_goals_test.cpp", "run_impacts("),
+    r"gearshift bench --family (contact|boundary)":
+        ("takes minutes; its campaign is this test's", "tests/haptics/loop/contact_goals_test.cpp", r"bench_\1"),
+    r"gearshift bench --family methods": ("takes minutes", "tests/flow/bench.sh", "bench --quick --family methods"),
+    r"gearshift bench --family hard": ("takes minutes",),
     r"gearshift bench($| --family (jitter|beside|picture|quality|light))":
         ("takes minutes, and the machine for itself",),
-    r"gearshift campaign (--seed 1 )?--out \S+$": ("a million shifts; fewer there", "tests/flow/campaign.sh", " campaign "),
-    r"cmake --preset release .*--target package": ("makes the package",),
+    r"gearshift campaign (--seed 1 )?--out \S+$": ("a million shifts; fewer there", "tests/flow/campaign.sh",
+                                                  '"$gearshift" campaign --seed'),
     r"cmake --preset (release|dev) && cmake --build": ("builds all of it anew", "test", "cmake --build --preset"),
     r"cmake --install": ("installs what was built", "tests/flow/install.sh", "cmake --install"),
-    r"gearshift report .*--delete$": ("asks for the name", "tests/flow/report.sh", "--delete"),
+    r"gearshift report .*--delete$": ("asks for the name", "tests/flow/report.sh", 'report --learner "$ada" --delete'),
     r"blender ": ("Blender is not installed for the tests",),
     r"tests/fuzz/run": ("takes minutes: ./test --full", "test", "tests/fuzz/run"),
     r"tests/coverage": ("takes minutes: ./test --full", "test", "tests/coverage"),
     r"GEARSHIFT_\w+=": ("writes pictures",),
-    r"hid_descriptor_fuzz|gltf_fuzz": ("searches for ever; for a minute there", "tests/fuzz/run", "_fuzz"),
+    r"(hid_descriptor|gltf)_fuzz": ("searches for ever; for a minute there", "tests/fuzz/run", r"\1"),
     r"tests/guest/run_guest\.sh": ("boots a kernel: ./test --full", "tests/guest/CMakeLists.txt", "run_guest.sh"),
-    r"tests/flow/deb_in_chroot\.sh": ("makes a Debian of its own",),
+    r"tests/flow/deb_in_chroot\.sh": ("makes a Debian of its own: ./test --full", "test", "tests/flow/deb_in_chroot.sh"),
     r"tests/flow/soak\.sh": ("takes hours",),
-    r"tests/flow/\w+\.sh": ("a flow itself", "tests/flow/CMakeLists.txt", "flow("),
+    r"tests/flow/(\w+)\.sh": ("a flow itself", "tests/flow/CMakeLists.txt", r"\1"),
     r"umockdev-wrapper ": ("an emulated stick in real time", "tests/flow/sticks.sh", "umockdev-wrapper"),
     r"sudo ": ("changes the machine",),
 }
 
 LONG = {
     r"gearshift bench --(quick|out bench)$": ("all families", "tests/flow/bench.sh", "bench --quick"),
-    r"gearshift campaign --shifts 1000 ": ("shorter there", "tests/flow/campaign.sh", "--shifts"),
+    r"gearshift campaign --shifts 1000 ": ("shorter there", "tests/flow/campaign.sh", "campaign --seed 11 --shifts"),
 }
 if not os.environ.get("GEARSHIFT_FULL"):
     ELSEWHERE |= LONG
@@ -227,11 +235,20 @@ class Runner:
             self.fail(command, "is no verb")
         return True
 
+    def is_shown(self, command, file, words):
+        """Words that stand in any file, or have nothing of the command, show nothing."""
+        own = set(re.findall(r"[a-z]{2,}", words)) - {"gearshift", "tests", "flow", "build"}
+        if len(words) < 4 or not any(re.search(rf"(?<![a-z]){word}(?![a-z])", command.text) for word in own):
+            self.fail(command, f'"{words}", by which {file} is to show it, is nothing of its own')
+        if words not in self.text_of(file):
+            self.fail(command, f"{file}, which is to show it, has no {words}")
+
     def shown_elsewhere(self, command):
         for pattern, (_, *shown_by) in ELSEWHERE.items():
-            if re.match(pattern, command.text):
-                if shown_by and shown_by[1] not in self.text_of(shown_by[0]):
-                    self.fail(command, f"{shown_by[0]}, which is to show it, has no {shown_by[1]}")
+            found = re.match(pattern, command.text)
+            if found:
+                if shown_by:
+                    self.is_shown(command, shown_by[0], found.expand(shown_by[1]))
                 program = command.text.split()[0]
                 if program.startswith("tests/") and not (self.sources / program).exists():
                     self.fail(command, "is not there")
