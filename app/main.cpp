@@ -1,4 +1,4 @@
-// gearshift: one program, plain verbs.
+// Entry point of the gearshift program: parses the command line and runs the chosen verb.
 #include <fcntl.h>
 
 #include <csignal>
@@ -7,9 +7,9 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app/print_out.h"
+#include "app/base/console.h"
 #include "app/verbs/verbs.h"
-#include "app/version/version_text.h"
+#include "app/verbs/version_text.h"
 #include "haptics/files/printable.h"
 
 namespace {
@@ -17,49 +17,50 @@ namespace {
 constexpr int kFailed = 1;
 constexpr int kBadUsage = 2;
 
-// The number of a standard stream that is closed would go to the first file that is opened, and what is said into that
-// file. Nothing can be written to what stands there now: it is told as a full disk is.
-void hold_standard_streams() {
+// If stdin, stdout or stderr is closed, the next file opened would reuse its descriptor and receive our output.
+// /dev/null is opened read-only in its place, so that output to it fails and is reported like output to a full disk.
+void reserve_standard_streams() {
   for (const int stream : {0, 1, 2})
-    if (fcntl(stream, F_GETFD) == -1) open("/dev/null", O_RDONLY);  // the lowest free number: this one
+    if (fcntl(stream, F_GETFD) == -1) open("/dev/null", O_RDONLY);  // open() returns the lowest free descriptor
 }
 
-// A fault of a file or of a reader is told by who writes, and ends nothing.
-void ignore_signals_of_files() {
-  std::signal(SIGXFSZ, SIG_IGN);  // a file as long as it may be
-  std::signal(SIGPIPE, SIG_IGN);  // nobody reads any more
+// With these signals ignored, the failing write returns an error that its caller reports; the program keeps running.
+void ignore_write_signals() {
+  std::signal(SIGXFSZ, SIG_IGN);  // file size limit reached
+  std::signal(SIGPIPE, SIG_IGN);  // the reader has closed the pipe
 }
 
 int run(int argc, char** argv) {
   CLI::App app{"gearshift: a trainer for manual shifting"};
-  app.set_version_flag("--version", gearshift::version_text());
+  app.set_version_flag("--version", gearshift::verbs::version_text());
   try {
-    const gearshift::VerbAction action = gearshift::parse_command_line(app, argc, argv);
+    const gearshift::verbs::VerbAction action = gearshift::verbs::parse_command_line(app, argc, argv);
     return action();
   } catch (const CLI::Success& help) {
     return app.exit(help);
   } catch (const CLI::ParseError& error) {
-    gearshift::print_problem("{}", gearshift::usage_sentence(error));
+    gearshift::base::print_message("{}", gearshift::verbs::usage_sentence(error));
     return kBadUsage;
   }
 }
 
-// What was printed has arrived: a script must not take a cut table for a whole one.
-int with_output(int code) {
+// Turns success into failure if not all output was written: a script must not take a truncated table for a complete
+// one.
+int check_output(int code) {
   if (std::fflush(stdout) == 0 && !std::ferror(stdout)) return code;
-  gearshift::print_problem("standard output cannot be written");
+  gearshift::base::print_message("cannot write to standard output");
   return code == 0 ? kFailed : code;
 }
 
 }  // namespace
 
 int main(int argc, char** argv) {
-  hold_standard_streams();
-  ignore_signals_of_files();
+  reserve_standard_streams();
+  ignore_write_signals();
   try {
-    return with_output(run(argc, argv));
+    return check_output(run(argc, argv));
   } catch (const std::exception& error) {
-    gearshift::print_problem("{}", gearshift::printable(error.what()));
+    gearshift::base::print_message("{}", gearshift::haptics::printable(error.what()));
     return kFailed;
   }
 }

@@ -1,6 +1,6 @@
 #version 460
 #extension GL_GOOGLE_include_directive : require
-// The holes of a masked material, where mesh.frag has them: light falls through.
+// Discards the holes of a masked material exactly as mesh.frag does, so that light passes through them.
 #include "shared.h"
 
 layout(constant_id = 0) const uint features = 0u;

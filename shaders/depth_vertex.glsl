@@ -1,4 +1,5 @@
-// Depth alone: from the sun, or from the eyes before anything is shaded. gl_Position as in mesh_vertex.glsl, to the bit.
+// Depth only: seen from the sun, or from the eyes in the depth prepass. gl_Position must be bit-identical to that in
+// mesh_vertex.glsl.
 layout(constant_id = 0) const uint features = 0u;
 
 layout(set = 0, binding = kBindPass) uniform Pass { PassData pass; };
@@ -10,7 +11,7 @@ layout(location = 3) in vec2 in_uv0;
 layout(location = 4) in vec2 in_uv1;
 layout(location = 5) in vec4 in_colour;
 layout(location = 0) out vec2 uv;
-layout(location = 1) out float alpha;  // of the vertex' colour
+layout(location = 1) out float alpha;  // of the vertex colour
 invariant gl_Position;
 
 void main() {

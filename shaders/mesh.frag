@@ -1,4 +1,4 @@
-// Metal-rough surface under a sky and one sun.
+// Metallic-roughness surface lit by a sky and a sun.
 //
 // This work is based on:
 // Khronos. glTF 2.0 Specification, appendix B (BRDF)
@@ -52,7 +52,7 @@ layout(location = 0) out vec4 seen;
 
 const float kPi = 3.14159265;
 const float kDielectricF0 = 0.04;
-const float kLeastRoughness = 0.06;  // of the sun's highlight: the sun is no point
+const float kMinSunRoughness = 0.06;  // for the sun's highlight, because the sun is not a point
 
 bool has(uint feature) { return (features & feature) != 0u; }
 
@@ -72,7 +72,7 @@ vec3 shading_normal() {
   return normalize(n * sqrt(max(1.0 - dot(slope, slope), 0.01)) + (gl_FrontFacing ? bent : -bent));
 }
 
-// Spherical harmonics of degree 2 as a polynomial.
+// Degree-2 spherical harmonics as a polynomial.
 vec3 irradiance(vec3 n) {
   vec3 e = SKY(0) + SKY(1) * n.y + SKY(2) * n.z + SKY(3) * n.x;
   e += (SKY(4) * n.x + SKY(5) * n.z) * n.y + SKY(6) * (n.z * n.z) + SKY(7) * (n.x * n.z) +
@@ -86,12 +86,13 @@ vec3 surroundings(vec3 direction, float roughness) {
                        : textureLod(reflections, direction, level).rgb;
 }
 
-// Share of the sun that arrives: the mean over 3x3 texels of bilinear comparisons, by 4x4 comparisons in four gathers.
-// The weights are worked out here: a driver need not filter depth, and a software one does not.
+// Fraction of the sun's light that arrives: the mean of bilinear comparisons over 3x3 texels, computed from 4x4
+// comparisons in four gathers. The weights are applied here because drivers need not filter depth, and a software
+// driver does not.
 float sunlit() {
   float side = pass.shadow_texel.y, depth = max(place.z, 0.0);
   vec2 at = place.xy * side - 0.5, texel = floor(at), f = at - texel, e = 1.0 - f;
-  vec4 low = vec4(texel, texel + 2.0) / side;  // where four texels meet
+  vec4 low = vec4(texel, texel + 2.0) / side;  // the corner between four texels
   vec4 a = textureGather(shadow, low.xy, depth), b = textureGather(shadow, low.zy, depth);
   vec4 c = textureGather(shadow, low.xw, depth), d = textureGather(shadow, low.zw, depth);
   float rows = dot(vec4(e.x, 1.0, 1.0, f.x), vec4(a.x, a.y, b.x, b.y) + vec4(c.w, c.z, d.w, d.z));
@@ -117,7 +118,7 @@ void main() {
   vec3 n = shading_normal(), v = normalize(to_eye);
   float n_dot_v = clamp(dot(n, v), 1e-3, 1.0);
 
-  // The sky: split sum, and what is not reflected enters.
+  // Sky: split sum. Light that is not reflected enters the surface.
   vec2 ab = texture(brdf, vec2(n_dot_v, roughness)).xy;
   vec3 reflectance = f0 * ab.x + ab.y;
   vec3 diffuse = base.rgb * (1.0 - metallic) * (1.0 - reflectance);
@@ -130,12 +131,12 @@ void main() {
     reflected *= clamp(pow(n_dot_v + open, exp2(-16.0 * roughness - 1.0)) - 1.0 + open, 0.0, 1.0);
   }
 
-  // The sun.
+  // Sun.
   vec3 l = pass.towards_sun.xyz;
   float n_dot_l = max(dot(n, l), 0.0);
   vec3 h = normalize(l + v);
   float n_dot_h = max(dot(n, h), 0.0), away = 1.0 - max(dot(v, h), 0.0);
-  float alpha = max(roughness, kLeastRoughness);
+  float alpha = max(roughness, kMinSunRoughness);
   alpha *= alpha;
   float a2 = alpha * alpha, d = n_dot_h * n_dot_h * (a2 - 1.0) + 1.0;
   float visibility = 0.5 / (n_dot_l * sqrt(n_dot_v * n_dot_v * (1.0 - a2) + a2) +
@@ -153,8 +154,8 @@ void main() {
     scattered += emissive;
   }
 
-  // Glass lets through what it does not reflect: its coverage grows towards grazing angles, and the blend must not dim
-  // the reflection by it.
+  // Glass transmits what it does not reflect. Its coverage grows towards grazing angles, and blending must not dim the
+  // reflection by it.
   float cover = 1.0;
   vec3 radiance = scattered + reflected;
   if (has(kBlended)) {

@@ -1,4 +1,4 @@
-// A vertex of a mesh, for one eye: instance i is eye i, and where LAYERED is defined it lands in layer i.
+// Vertex shader of a mesh: instance i is eye i. If LAYERED is defined, instance i is drawn to layer i.
 layout(constant_id = 0) const uint features = 0u;
 
 layout(set = 0, binding = kBindPass) uniform Pass { PassData pass; };
@@ -14,14 +14,15 @@ layout(location = 5) in vec4 in_colour;
 
 layout(location = 0) out vec3 to_eye;  // [m]
 layout(location = 1) out vec3 normal;
-layout(location = 2) out vec4 uv;      // both sets
-layout(location = 3) out vec3 place;   // in the shadow map, or in the mirror's picture
+layout(location = 2) out vec4 uv;      // both UV sets
+layout(location = 3) out vec3 place;   // in the shadow map or in the mirror's picture
 layout(location = 4) out vec4 tangent;
 layout(location = 5) out vec4 colour;
 layout(location = 6) flat out uint eye;
 invariant gl_Position;
 
-// A receiver is looked up this far off its surface, in texels: what a texel of a sloped surface spans in depth.
+// The shadow lookup is offset from the surface by this many texels, to cover the depth range within one texel of a
+// sloped surface.
 const float kNormalOffset = 1.5;
 
 void main() {
@@ -33,7 +34,7 @@ void main() {
   gl_Layer = gl_InstanceIndex;
 #endif
   to_eye = pass.eye[eye].xyz - world.xyz;
-  // Unit vectors, whatever the node's scale: the normal map's slopes are measured by them.
+  // Unit vectors for any scale of the node, because the slopes of the normal map are relative to them.
   normal = normalize(mat3(object.normal[0].xyz, object.normal[1].xyz, object.normal[2].xyz) * in_normal);
   uv = vec4(in_uv0 + object.uv_shift.xy, in_uv1);
   if ((features & (kHasMap << kMapNormal)) != 0u)
@@ -43,7 +44,7 @@ void main() {
     place = vec3(dot(pass.mirror_u, world), dot(pass.mirror_v, world), float(eye));
   } else if ((features & kShadowed) != 0u) {
     vec3 off = normal * (kNormalOffset * pass.shadow_texel.x);
-    if (draw.thin > 0.0 && dot(normal, to_eye) < 0.0) off = -off;  // to the side that is seen
+    if (draw.thin > 0.0 && dot(normal, to_eye) < 0.0) off = -off;  // towards the visible side
     place = (pass.shadow_from_world * vec4(world.xyz + off, 1.0)).xyz;
   }
 }

@@ -1,4 +1,4 @@
-// From radiance to what a display shows, linear in [0, 1]: a rational fit of the ACES reference and sRGB output
+// Converts radiance to linear display values in [0, 1]: a rational fit of the ACES reference and sRGB output
 // transforms. Stephen Hill's fit as published in MJP's BakingLab, ACES.hlsl, 2016: sRGB to a desaturated working space,
 // curve, back.
 vec3 tone_map(vec3 radiance) {

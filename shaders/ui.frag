@@ -1,4 +1,4 @@
-// Text, lines and areas of Dear ImGui: the font's texture is coverage alone.
+// Text, lines and areas of Dear ImGui; the font's texture contains only coverage.
 #version 460
 
 layout(set = 0, binding = 0) uniform sampler2D font;

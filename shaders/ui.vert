@@ -1,4 +1,4 @@
-// A vertex of Dear ImGui: pixels to clip space.
+// Vertex shader for Dear ImGui: pixels to clip space.
 #version 460
 
 layout(push_constant) uniform Picture {

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""Lines and branches that tests reach, room by room, of gcovr's CSV. Exits 1 where all rooms together have less than FLOOR
-percent of their lines. Usage: coverage_table.py CSV FLOOR
+"""Prints the lines and branches covered by tests, per folder, from gcovr's CSV. Exits 1 if less than FLOOR percent of all
+lines are covered. Usage: coverage_table.py CSV FLOOR
 """
 import collections
 import csv

@@ -3,10 +3,10 @@
 #include <cstddef>
 #include <stdexcept>
 
-namespace gearshift {
+namespace gearshift::demo {
 namespace {
 
-void paste_shrunk(Image& sheet, const Image& picture, int left, int top, int shrink) {
+void paste_shrunk(engine::Image& sheet, const engine::Image& picture, int left, int top, int shrink) {
   const int width = picture.width / shrink, height = picture.height / shrink;
   for (int y = 0; y < height; ++y) {
     for (int x = 0; x < width; ++x) {
@@ -24,17 +24,17 @@ void paste_shrunk(Image& sheet, const Image& picture, int left, int top, int shr
 
 }  // namespace
 
-Image contact_sheet(std::span<const Image> pictures, int columns, int shrink, int margin) {
+engine::Image contact_sheet(std::span<const engine::Image> pictures, int columns, int shrink, int margin) {
   if (pictures.empty() || columns < 1 || shrink < 1) throw std::invalid_argument("a contact sheet needs pictures");
   const int width = pictures[0].width / shrink, height = pictures[0].height / shrink;
   const int count = static_cast<int>(pictures.size());
   const int rows = (count + columns - 1) / columns;
-  Image sheet;
+  engine::Image sheet;
   sheet.width = margin + columns * (width + margin);
   sheet.height = margin + rows * (height + margin);
   sheet.rgba.assign(4 * static_cast<std::size_t>(sheet.width) * static_cast<std::size_t>(sheet.height), 255);
   for (int i = 0; i < count; ++i) {
-    const Image& picture = pictures[static_cast<std::size_t>(i)];
+    const engine::Image& picture = pictures[static_cast<std::size_t>(i)];
     if (picture.width != pictures[0].width || picture.height != pictures[0].height)
       throw std::invalid_argument("the pictures of a contact sheet must have one size");
     paste_shrunk(sheet, picture, margin + (i % columns) * (width + margin), margin + (i / columns) * (height + margin),
@@ -43,4 +43,4 @@ Image contact_sheet(std::span<const Image> pictures, int columns, int shrink, in
   return sheet;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::demo

@@ -1,14 +1,14 @@
-// Many pictures on one.
+// Combines many pictures into one.
 #pragma once
 
 #include <span>
 
 #include "engine/image/image.h"
 
-namespace gearshift {
+namespace gearshift::demo {
 
-// Same-sized pictures in rows of `columns`, each shrunk by a whole factor (the mean of its pixels), with a margin [px].
-// Throws std::invalid_argument where they differ in size or there is none.
-Image contact_sheet(std::span<const Image> pictures, int columns, int shrink, int margin = 8);
+// Arranges pictures of equal size in rows of `columns`, each reduced by a whole factor (averaging pixels), with a
+// margin [px]. Throws std::invalid_argument if the sizes differ or there are no pictures.
+engine::Image contact_sheet(std::span<const engine::Image> pictures, int columns, int shrink, int margin = 8);
 
-}  // namespace gearshift
+}  // namespace gearshift::demo

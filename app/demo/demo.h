@@ -1,27 +1,27 @@
-// The tour and two lessons in the cabin, offscreen and deterministic: pictures, sound, traces, plots, a learner's report,
-// and a page that shows them.
+// Renders the tour and two lessons offscreen, deterministically: pictures, sound, traces, plots, a learner's report and
+// a page that shows them.
 #pragma once
 
 #include <cstdint>
 #include <string>
 #include <vector>
 
-#include "app/tour/tour.h"
-#include "app/view/cabin_view.h"
+#include "app/cabin/view/cabin_view.h"
+#include "app/lab/tour/tour.h"
 
-namespace gearshift {
+namespace gearshift::demo {
 
 struct DemoSetup {
-  TourSetup tour;
-  ViewConfig view;
-  double film_rate = 0.0;  // [1/s] pictures of the drive from the driver's eye; 0: none, the key pictures alone
+  lab::TourSetup tour;
+  cabin::ViewConfig view;
+  double film_rate = 0.0;  // [1/s] pictures of the whole drive from the driver's eye; 0: only the key pictures
 };
 
 struct DemoPicture {
   std::string file, caption;
 };
 
-// A drive with its pictures.
+// One drive and its pictures.
 struct DemoChapter {
   std::string title;
   std::vector<std::string> text;  // sentences
@@ -30,21 +30,21 @@ struct DemoChapter {
 };
 
 struct DemoResult {
-  TourResult tour;
+  lab::TourResult tour;
   std::vector<DemoChapter> chapters;  // the drive through every gear, then the lessons
   bool has_report = false;            // report.html: there was a lesson
-  bool passed = true;                 // each lesson that is shown
+  bool passed = true;                 // every lesson was passed
   int film_frames = 0;
-  double picture_ms = 0.0;  // [ms] median of a picture, drawn and read back
-  std::string device;       // that drew them
+  double picture_ms = 0.0;  // [ms] median time to draw a picture and read it back
+  std::string device;       // GPU that drew the pictures
   std::uint64_t validation_messages = 0;
 
   std::size_t pictures() const;
 };
 
-// Into setup.tour.folder, which exists: NAME.png for each moment, contact_sheet.png, film/00000.png ..., demo.wav,
-// tour.trace, tour.csv, trajectory and force (svg, png), LESSON.trace, report.html, index.html. A gate with a gear that
-// no shipped car has is shown with a car that stands, and without lessons. Throws FileError, GltfError, GpuError.
-DemoResult run_demo(const DemoSetup& setup, const TourProgress& progress);
+// Writes to setup.tour.folder, which must exist: NAME.png for each moment, contact_sheet.png, film/00000.png ...,
+// demo.wav, tour.trace, tour.csv, trajectory and force (svg, png), LESSON.trace, report.html, index.html. If no shipped
+// car has all gears of the gate, the car stands still and there are no lessons. Throws FileError, GltfError, GpuError.
+DemoResult run_demo(const DemoSetup& setup, const lab::TourProgress& progress);
 
-}  // namespace gearshift
+}  // namespace gearshift::demo

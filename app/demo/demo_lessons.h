@@ -1,4 +1,4 @@
-// The lessons of the demo: driven by a simulated learner who gets better from trial to trial, the last one filmed.
+// The lessons of the demo, driven by a simulated driver whose skill improves from trial to trial; the last is filmed.
 #pragma once
 
 #include <string>
@@ -7,21 +7,22 @@
 #include "app/demo/demo.h"
 #include "app/demo/filmed_drive.h"
 
-namespace gearshift {
+namespace gearshift::demo {
 
 struct DemoLesson {
-  std::vector<LessonResult> trials;  // oldest first, the filmed one too
+  std::vector<lessons::LessonResult> trials;  // oldest first, the filmed one too
   FilmedDrive last;
   std::string trace;  // its file, in the demo's folder
 };
 
-// Those that the gate has the gears for. Throws FileError.
-std::vector<DemoLesson> drive_demo_lessons(const DemoSetup& setup, const CarSpec& car, const TourProgress& progress);
+// Drives the lessons for which the gate has the gears. Throws FileError.
+std::vector<DemoLesson> drive_demo_lessons(const DemoSetup& setup, const vehicle::CarSpec& car,
+                                           const lab::TourProgress& progress);
 
-// What came of it, in sentences.
-std::vector<std::string> result_words(const FilmedDrive& drive);
+// The result of a drive, in sentences.
+std::vector<std::string> describe_result(const FilmedDrive& drive);
 
-// report.html, of that learner and of nobody else: the user's own history is not touched. Throws FileError.
+// Writes report.html for the simulated learner only; does not touch the user's history. Throws FileError.
 void write_demo_report(const DemoSetup& setup, const std::vector<DemoLesson>& lessons);
 
-}  // namespace gearshift
+}  // namespace gearshift::demo

@@ -4,16 +4,15 @@
 
 #include <fmt/format.h>
 
-#include "app/draw/html.h"
-#include "app/limited_words.h"
-#include "app/program_name.h"
-#include "haptics/files/part_file.h"
+#include "app/base/html.h"
+#include "app/base/program_name.h"
+#include "haptics/files/atomic_file.h"
+#include "haptics/loop/haptic_config.h"
 
-namespace gearshift {
+namespace gearshift::demo {
 namespace {
 
-// What this page has beyond the look of all pages: pictures side by side, as many as fit, and two beside each other on
-// paper.
+// Additions to the common page style: a grid with as many pictures per row as fit on the screen, two on paper.
 constexpr const char* kStyle = R"css(
 .sentences { margin: 0 0 1rem; padding: 0; list-style: none; max-width: 52rem; }
 .pictures { display: grid; grid-template-columns: repeat(auto-fill, minmax(18rem, 1fr)); gap: 1.4rem 1.2rem; }
@@ -33,48 +32,49 @@ audio { width: 100%; max-width: 32rem; vertical-align: middle; }
 std::string figure(const std::string& file, const std::string& caption) {
   return fmt::format(
       "<figure><a href=\"{0}\"><img src=\"{0}\" alt=\"{1}\"></a>\n<figcaption>{1}</figcaption></figure>\n",
-      html_text(file), html_text(caption));
+      base::html_text(file), base::html_text(caption));
 }
 
 std::string facts(const DemoSetup& setup, const DemoResult& result) {
   const auto row = [](std::string_view what, const std::string& value) {
-    return fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", what, html_text(value));
+    return fmt::format("<tr><th>{}</th><td>{}</td></tr>\n", what, base::html_text(value));
   };
-  const TourResult& tour = result.tour;
+  const lab::TourResult& tour = result.tour;
   std::string table = "<table class=\"facts\">\n";
   table += row("Gate", setup.tour.layout.name);
   table += row("Drive", fmt::format("{:.2f} s at {:g} Hz, {} cycles, hash {:016x}", tour.duration,
                                     setup.tour.haptics.rate, tour.cycles, tour.hash));
-  table += row("In contact", fmt::format("{:.0f} % of the cycles", 100.0 * tour.contact_share()));
+  table += row("In contact", fmt::format("{:.0f} % of the cycles", 100.0 * tour.contact_fraction()));
   table += row("Deepest beyond a wall", fmt::format("{:.2f} mm", 1e3 * tour.deepest));
   table += row("Strongest push", fmt::format("{:.1f} N", tour.strongest));
-  for (const Limited& limited : tour.limited) table += row("Limited", limited_words(limited));
+  for (const haptics::TuningLimit& limit : tour.limits) table += row("Limited", haptics::describe(limit));
   table += row("Drawn by", result.device);
   return table + "</table>\n";
 }
 
-std::string gear_table(const TourResult& tour) {
+std::string gear_table(const lab::TourResult& tour) {
   std::string table = "<table>\n<tr><th>Gear</th><th>engaged at</th></tr>\n";
-  for (const GearTime& gear : tour.engaged)
-    table += fmt::format("<tr><td>{}</td><td>{:.3f} s</td></tr>\n", gear_name(gear.gear), gear.time);
+  for (const lab::GearTime& gear : tour.engaged)
+    table += fmt::format("<tr><td>{}</td><td>{:.3f} s</td></tr>\n", haptics::gear_name(gear.gear), gear.time);
   return table + "</table>\n";
 }
 
 std::string chapter_html(const DemoChapter& chapter) {
-  std::string html = fmt::format("<section>\n<h2>{}</h2>\n<ul class=\"sentences\">\n", html_text(chapter.title));
-  for (const std::string& sentence : chapter.text) html += fmt::format("<li>{}</li>\n", html_text(sentence));
-  if (!chapter.trace.empty()) html += fmt::format("<li><a href=\"{}\">Trace</a></li>\n", html_text(chapter.trace));
+  std::string html = fmt::format("<section>\n<h2>{}</h2>\n<ul class=\"sentences\">\n", base::html_text(chapter.title));
+  for (const std::string& sentence : chapter.text) html += fmt::format("<li>{}</li>\n", base::html_text(sentence));
+  if (!chapter.trace.empty())
+    html += fmt::format("<li><a href=\"{}\">Trace</a></li>\n", base::html_text(chapter.trace));
   html += "</ul>\n<div class=\"pictures\">\n";
   for (const DemoPicture& picture : chapter.pictures) html += figure(picture.file, picture.caption);
   return html + "</div>\n</section>\n";
 }
 
 constexpr const char* kDriven =
-    "A simulated learner drives through every gear of the gate, then lessons; a car's driveline is behind the lever. ";
+    "A simulated learner drives through every gear of the gate and then two lessons, in a car with a full driveline. ";
 constexpr const char* kIntroduction =
-    "The lever that is drawn is the proxy, which never leaves the slots. At the end, a scripted hand shifts through "
-    "the same gate without a car: it pushes through the walls and is held by the force that is plotted. Everything on "
-    "this page is deterministic: the traces replay bit for bit.";
+    "The drawn lever is the proxy, which never leaves the slots. At the end, a scripted hand shifts through the same "
+    "gate without a car; it pushes into the walls and is held by the plotted force. Everything on this page is "
+    "deterministic: the traces replay bit for bit.";
 
 }  // namespace
 
@@ -83,14 +83,14 @@ void write_demo_page(const DemoSetup& setup, const DemoResult& result) {
   out << "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
          "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n<title>gearshift: a drive</title>\n"
          "<style>"
-      << html_style() << kStyle << "</style>\n</head>\n<body>\n<h1>" << html_text(setup.tour.layout.name)
+      << base::html_style() << kStyle << "</style>\n</head>\n<body>\n<h1>" << base::html_text(setup.tour.layout.name)
       << ", driven</h1>\n<p>" << (result.has_report ? kDriven : "") << kIntroduction
       << "</p>\n<p class=\"sound\">Sound of the drive through every gear:<br><audio controls "
          "src=\"demo.wav\"></audio></p>\n";
   if (result.has_report) {
-    out << "<p>The learner drove each lesson several times, each time with smaller errors of its own, which a grade "
-           "need "
-           "not follow. The last time is shown here, all are in <a href=\"report.html\">the learner's "
+    out << "<p>The learner drove each lesson several times with increasing skill, though the grade need not rise every "
+           "time. "
+           "The last attempt is shown here; all attempts are in <a href=\"report.html\">the learner's "
            "report</a>.</p>\n";
   }
   for (const DemoChapter& chapter : result.chapters) out << chapter_html(chapter);
@@ -100,8 +100,8 @@ void write_demo_page(const DemoSetup& setup, const DemoResult& result) {
       << figure("force.svg", "Position and force against time (Fig. 9 b of the paper)")
       << "</div>\n<p><a href=\"tour.csv\">Table</a>, <a href=\"tour.trace\">trace</a>, "
          "<a href=\"contact_sheet.png\">contact sheet</a></p>\n</section>\n<p>"
-      << program_name() << "</p>\n</body>\n</html>\n";
-  write_text_file(setup.tour.folder / "index.html", out.str());
+      << base::program_name() << "</p>\n</body>\n</html>\n";
+  haptics::write_text_file(setup.tour.folder / "index.html", out.str());
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::demo

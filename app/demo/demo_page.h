@@ -1,11 +1,11 @@
-// The demo as one page for people: index.html beside the pictures it shows.
+// Writes the demo page: index.html beside the pictures that it shows.
 #pragma once
 
 #include "app/demo/demo.h"
 
-namespace gearshift {
+namespace gearshift::demo {
 
-// No script, nothing from outside the folder. Throws FileError.
+// The page has no script and loads nothing from outside its folder. Throws FileError.
 void write_demo_page(const DemoSetup& setup, const DemoResult& result);
 
-}  // namespace gearshift
+}  // namespace gearshift::demo

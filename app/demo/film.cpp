@@ -3,13 +3,14 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gearshift {
+namespace gearshift::demo {
 
-std::vector<GearTime> gears_of(std::span<const FilmFrame> film) {
-  std::vector<GearTime> gears;
-  int gear = kNeutralGear;
+std::vector<lab::GearTime> gears_of(std::span<const FilmFrame> film) {
+  std::vector<lab::GearTime> gears;
+  int gear = haptics::kNeutralGear;
   for (const FilmFrame& frame : film) {
-    if (frame.lever.gear != gear && frame.lever.gear != kNeutralGear) gears.push_back({frame.lever.gear, frame.time});
+    if (frame.lever.gear != gear && frame.lever.gear != haptics::kNeutralGear)
+      gears.push_back({frame.lever.gear, frame.time});
     gear = frame.lever.gear;
   }
   return gears;
@@ -21,4 +22,4 @@ const FilmFrame& frame_at(std::span<const FilmFrame> film, double time) {
   });
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::demo

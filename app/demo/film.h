@@ -1,25 +1,25 @@
-// A drive as the cabin sees it: one frame every 1/60 s, lever and car together.
+// A recorded drive for rendering: the state of lever and car every 1/60 s.
 #pragma once
 
 #include <span>
 #include <vector>
 
-#include "app/tour/tour.h"
+#include "app/lab/tour/tour.h"
 #include "app/vehicle/vehicle_state.h"
 
-namespace gearshift {
+namespace gearshift::demo {
 
 struct FilmFrame {
   double time = 0.0;  // [s]
-  HapticSnapshot lever;
-  std::vector<HapticEvent> events;  // since the frame before
-  VehicleState car;
+  haptics::HapticSnapshot lever;
+  std::vector<haptics::HapticEvent> events;  // since the previous frame
+  vehicle::VehicleState car;
 };
 
-// Each change of the gear that the lever is in, neutral left out.
-std::vector<GearTime> gears_of(std::span<const FilmFrame> film);
+// Every gear that the lever enters, without neutral.
+std::vector<lab::GearTime> gears_of(std::span<const FilmFrame> film);
 
-// The frame nearest to that time. The film is not empty.
+// The frame nearest to that time. The film must not be empty.
 const FilmFrame& frame_at(std::span<const FilmFrame> film, double time);
 
-}  // namespace gearshift
+}  // namespace gearshift::demo

@@ -3,17 +3,17 @@
 #include <stdexcept>
 #include <utility>
 
-#include "app/assets_path.h"
-#include "app/vehicle/car_world.h"
+#include "app/base/assets_path.h"
+#include "app/vehicle/car_load.h"
 
-namespace gearshift {
+namespace gearshift::demo {
 namespace {
 
-constexpr const char* kUsualCar = "hatchback";
+constexpr const char* kDefaultCar = "hatchback";
 
-bool fits(const CarSpec& car, const Gate& gate) {
+bool fits(const vehicle::CarSpec& car, const haptics::Gate& gate) {
   try {
-    check_car_fits(car, gate);
+    vehicle::check_car_fits(car, gate);
     return true;
   } catch (const std::invalid_argument&) {
     return false;
@@ -22,27 +22,27 @@ bool fits(const CarSpec& car, const Gate& gate) {
 
 }  // namespace
 
-FilmedDrive film_drive(LessonDriveConfig config) {
+FilmedDrive film_drive(lessons::LessonDriveConfig config) {
   FilmedDrive drive;
   drive.lesson = config.lesson;
-  std::vector<HapticEvent> events;
-  config.hear = [&](const HapticEvent& event) { events.push_back(event); };
-  config.watch = [&](const DriveSample& now) {
-    const double time = static_cast<double>(drive.film.size()) * kWatchPeriod;
+  std::vector<haptics::HapticEvent> events;
+  config.on_event = [&](const haptics::HapticEvent& event) { events.push_back(event); };
+  config.on_cycle = [&](const vehicle::DriveSample& now) {
+    const double time = static_cast<double>(drive.film.size()) * lab::kWatchPeriod;
     if (now.time() >= time) drive.film.push_back({time, now.lever, std::exchange(events, {}), now.car});
   };
-  drive.result = drive_lesson(config);
+  drive.result = lessons::drive_lesson(config);
   return drive;
 }
 
-std::optional<CarSpec> fitting_car(const Gate& gate) {
-  std::vector<std::string> names = shipped_names("cars");
-  names.insert(names.begin(), kUsualCar);
+std::optional<vehicle::CarSpec> fitting_car(const haptics::Gate& gate) {
+  std::vector<std::string> names = base::shipped_names("cars");
+  names.insert(names.begin(), kDefaultCar);
   for (const std::string& name : names) {
-    CarSpec car = read_car(find_asset("cars", name));
+    vehicle::CarSpec car = vehicle::read_car(base::find_asset("cars", name));
     if (fits(car, gate)) return car;
   }
   return std::nullopt;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::demo

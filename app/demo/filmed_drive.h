@@ -1,4 +1,4 @@
-// A simulated learner's drive with a car behind the lever, filmed.
+// Films a simulated driver's lesson with a car behind the lever.
 #pragma once
 
 #include <filesystem>
@@ -7,20 +7,20 @@
 #include <vector>
 
 #include "app/demo/film.h"
-#include "app/learner/lesson_drive.h"
+#include "app/lessons/simulated_driver/lesson_drive.h"
 
-namespace gearshift {
+namespace gearshift::demo {
 
 struct FilmedDrive {
-  Lesson lesson;
-  LessonResult result;
+  lessons::Lesson lesson;
+  lessons::LessonResult result;
   std::vector<FilmFrame> film;
 };
 
-// As drive_lesson(), whose watch and hear are taken.
-FilmedDrive film_drive(LessonDriveConfig config);
+// Like drive_lesson(); replaces the watch and on_event callbacks of the config.
+FilmedDrive film_drive(lessons::LessonDriveConfig config);
 
 // The first shipped car that has every gear of the gate.
-std::optional<CarSpec> fitting_car(const Gate& gate);
+std::optional<vehicle::CarSpec> fitting_car(const haptics::Gate& gate);
 
-}  // namespace gearshift
+}  // namespace gearshift::demo

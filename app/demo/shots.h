@@ -1,4 +1,4 @@
-// Which moments of a drive are worth a picture, and from where.
+// Selects the moments of a drive to picture, and the camera for each.
 #pragma once
 
 #include <span>
@@ -7,22 +7,22 @@
 
 #include "app/demo/film.h"
 
-namespace gearshift {
+namespace gearshift::demo {
 
 struct Shot {
   std::string name;     // of the file, without extension
   std::string caption;  // one sentence
   const FilmFrame* frame = nullptr;
-  std::string camera;  // see camera(); how far the cabin is laid open: cabin_seen_from()
+  std::string camera;  // see camera(); cabin_for_camera() tells how far the cabin is cut open for it
 };
 
-// In the order of the drive. The film is not empty and outlives the shots.
+// Both functions return shots in the order of the drive. The film must not be empty and must outlive the shots.
 //
-// Of a drive through every gear: the cabin, each gear as it comes, the hand pushing through a wall, the gearbox in the
-// middle of a shift, the instruments.
+// Shots of a drive through every gear: the cabin, each gear as it engages, the hand pushing into a wall, the gearbox in
+// the middle of a shift, the instruments.
 std::vector<Shot> tour_shots(std::span<const FilmFrame> film);
-// Of a lesson: where the clutch takes hold while a brake still holds the car, the ring that blocks and the dogs that are
-// in, the end. What the drive has not is left out. `lesson` begins the pictures' names.
+// Shots of a lesson: the bite point while a brake still holds the car, a blocking synchroniser ring and the engaged
+// dogs, the end. Moments that the drive does not have are left out. `lesson`: prefix of the picture names.
 std::vector<Shot> lesson_shots(std::span<const FilmFrame> film, const std::string& lesson);
 
-}  // namespace gearshift
+}  // namespace gearshift::demo

@@ -1,15 +1,15 @@
-// What a car's figures mean: curves and ratios.
+// Curves and ratios derived from a car's data.
 #include <algorithm>
 
 #include "app/vehicle/car_spec.h"
 
-namespace gearshift {
+namespace gearshift::vehicle {
 
 double shaft_per_road(const CarSpec& car, int gear) noexcept {
   const GearboxSpec& box = car.gearbox;
   double ratio = 0.0;
-  if (gear == kReverseGear) ratio = -box.reverse;
-  if (gear >= 1 && gear <= kMaxGear) ratio = box.ratio[static_cast<std::size_t>(gear - 1)];
+  if (gear == haptics::kReverseGear) ratio = -box.reverse;
+  if (gear >= 1 && gear <= haptics::kMaxGear) ratio = box.ratio[static_cast<std::size_t>(gear - 1)];
   return ratio * box.final_drive / car.body.wheel_radius;
 }
 
@@ -18,10 +18,10 @@ double full_torque(const EngineSpec& engine, double speed) noexcept {
   if (engine.points == 0 || !(speed >= point[0].speed) || speed > point[engine.points - 1].speed) return 0.0;
   for (std::size_t i = 1; i < engine.points; ++i) {
     if (speed > point[i].speed) continue;
-    const double share = (speed - point[i - 1].speed) / (point[i].speed - point[i - 1].speed);
-    return point[i - 1].torque + share * (point[i].torque - point[i - 1].torque);
+    const double fraction = (speed - point[i - 1].speed) / (point[i].speed - point[i - 1].speed);
+    return point[i - 1].torque + fraction * (point[i].torque - point[i - 1].torque);
   }
-  return point[engine.points - 1].torque;  // a table of one point, at it
+  return point[engine.points - 1].torque;  // a table with a single point
 }
 
 double friction_torque(const EngineSpec& engine, double speed) noexcept {
@@ -31,8 +31,8 @@ double friction_torque(const EngineSpec& engine, double speed) noexcept {
 double clutch_capacity(const ClutchSpec& clutch, double pedal) noexcept {
   if (pedal >= clutch.bite) return 0.0;
   if (pedal <= clutch.closed) return clutch.capacity;
-  const double share = (clutch.bite - pedal) / (clutch.bite - clutch.closed);
-  return clutch.capacity * share * share;
+  const double fraction = (clutch.bite - pedal) / (clutch.bite - clutch.closed);
+  return clutch.capacity * fraction * fraction;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::vehicle

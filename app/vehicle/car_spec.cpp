@@ -10,7 +10,7 @@
 #include "haptics/files/text_file.h"
 #include "haptics/files/toml_reader.h"
 
-namespace gearshift {
+namespace gearshift::vehicle {
 namespace {
 
 constexpr double kPerRpm = std::numbers::pi / 30.0;  // [rad/s]
@@ -18,63 +18,63 @@ constexpr double kPerKrpm = 1000.0 * kPerRpm;        // [rad/s]
 constexpr double kPerDegree = std::numbers::pi / 180.0;
 constexpr double kMetresPerMillimetre = 1e-3;
 
-// Ranges of the file's values, in the file's units: from a moped's engine to a lorry's.
-constexpr Range kSpeedRpm{50.0, 20000.0};
-constexpr Range kTorquePointRpm{0.0, 20000.0};
-constexpr Range kTorqueNm{0.0, 5000.0};
-constexpr Range kEngineInertia{0.01, 10.0};
-constexpr Range kIdleThrottle{0.1, 100.0};
-constexpr Range kLimiterBandRpm{1.0, 1000.0};
-constexpr Range kStarterNm{1.0, 1000.0};
-constexpr Range kShudderN{0.0, 10.0};
+// Ranges of the file's values in the file's units, from a moped's engine to a lorry's.
+constexpr haptics::Range kSpeedRpm{50.0, 20000.0};
+constexpr haptics::Range kTorquePointRpm{0.0, 20000.0};
+constexpr haptics::Range kTorqueNm{0.0, 5000.0};
+constexpr haptics::Range kEngineInertia{0.01, 10.0};
+constexpr haptics::Range kIdleThrottle{0.1, 100.0};
+constexpr haptics::Range kLimiterBandRpm{1.0, 1000.0};
+constexpr haptics::Range kStarterNm{1.0, 1000.0};
+constexpr haptics::Range kShudderN{0.0, 10.0};
 
-constexpr Range kCapacityNm{1.0, 10000.0};
-constexpr Range kPedal{0.0, 1.0};
-constexpr Range kDiscInertia{0.0005, 1.0};
+constexpr haptics::Range kCapacityNm{1.0, 10000.0};
+constexpr haptics::Range kPedal{0.0, 1.0};
+constexpr haptics::Range kDiscInertia{0.0005, 1.0};
 
-constexpr Range kRatio{0.1, 20.0};
-constexpr Range kDragNm{0.0, 20.0};
-constexpr Range kEfficiency{0.5, 1.0};
+constexpr haptics::Range kRatio{0.1, 20.0};
+constexpr haptics::Range kDragNm{0.0, 20.0};
+constexpr haptics::Range kEfficiency{0.5, 1.0};
 
-constexpr Range kFriction{0.01, 0.5};
-constexpr Range kRadiusMm{5.0, 200.0};
-constexpr Range kConeDeg{3.0, 20.0};
-constexpr Range kCones{1.0, 4.0};
-constexpr Range kPointingDeg{30.0, 70.0};
-constexpr Range kTeeth{6.0, 120.0};
-constexpr Range kDogRpm{0.5, 100.0};
-constexpr Range kLeverRatio{1.0, 30.0};
+constexpr haptics::Range kFriction{0.01, 0.5};
+constexpr haptics::Range kRadiusMm{5.0, 200.0};
+constexpr haptics::Range kConeDeg{3.0, 20.0};
+constexpr haptics::Range kCones{1.0, 4.0};
+constexpr haptics::Range kPointingDeg{30.0, 70.0};
+constexpr haptics::Range kTeeth{6.0, 120.0};
+constexpr haptics::Range kDogRpm{0.5, 100.0};
+constexpr haptics::Range kLeverRatio{1.0, 30.0};
 
-constexpr Range kMassKg{100.0, 60000.0};
-constexpr Range kRotatingKg{0.0, 5000.0};
-constexpr Range kWheelMm{100.0, 1000.0};
-constexpr Range kResistanceN{0.0, 20000.0};
-constexpr Range kResistanceSlope{0.0, 100.0};
-constexpr Range kResistanceSquare{0.0, 20.0};
-constexpr Range kBrakeN{0.0, 1e6};
+constexpr haptics::Range kMassKg{100.0, 60000.0};
+constexpr haptics::Range kRotatingKg{0.0, 5000.0};
+constexpr haptics::Range kWheelMm{100.0, 1000.0};
+constexpr haptics::Range kResistanceN{0.0, 20000.0};
+constexpr haptics::Range kResistanceSlope{0.0, 100.0};
+constexpr haptics::Range kResistanceSquare{0.0, 20.0};
+constexpr haptics::Range kBrakeN{0.0, 1e6};
 
-void read_full_load(const TomlTable& table, EngineSpec& engine) {
-  const std::vector<TomlTable> points = table.tables("full_load");
-  if (points.size() < 2 || points.size() > kMostTorquePoints)
+void read_full_load(const haptics::TomlTable& table, EngineSpec& engine) {
+  const std::vector<haptics::TomlTable> points = table.tables("full_load");
+  if (points.size() < 2 || points.size() > kMaxTorquePoints)
     table.fail("full_load",
                fmt::format("must have between 2 and {} points, each {{ rpm = ..., nm = ... }}, this has {}",
-                           kMostTorquePoints, points.size()));
-  for (const TomlTable& point : points) {
+                           kMaxTorquePoints, points.size()));
+  for (const haptics::TomlTable& point : points) {
     const double speed = point.number("rpm", kTorquePointRpm) * kPerRpm;
     if (engine.points > 0 && speed <= engine.full_load[engine.points - 1].speed)
-      point.fail("rpm", "must be larger than that of the point before");
+      point.fail("rpm", "must be larger than the rpm of the point before");
     engine.full_load[engine.points++] = {speed, point.number("nm", kTorqueNm)};
-    point.refuse_unknown_keys();
+    point.reject_unknown_keys();
   }
 }
 
-// `less` must lie below `more`; both are keys of the table.
-void require_order(const TomlTable& table, const char* less, const char* more) {
-  const Range any{-1e9, 1e9};
+// Requires table[less] < table[more].
+void require_order(const haptics::TomlTable& table, const char* less, const char* more) {
+  const haptics::Range any{-1e9, 1e9};
   if (table.number(less, any) >= table.number(more, any)) table.fail(less, fmt::format("must be less than {}", more));
 }
 
-void check_engine(const TomlTable& table, const EngineSpec& engine) {
+void check_engine(const haptics::TomlTable& table, const EngineSpec& engine) {
   require_order(table, "stall_rpm", "idle_rpm");
   require_order(table, "idle_rpm", "shift_from_rpm");
   require_order(table, "shift_from_rpm", "shift_to_rpm");
@@ -85,11 +85,12 @@ void check_engine(const TomlTable& table, const EngineSpec& engine) {
     table.fail("limiter_band_rpm", "must not reach from limiter_rpm down to idle_rpm");
   const double first = engine.full_load[0].speed, last = engine.full_load[engine.points - 1].speed;
   if (first > engine.idle || last < engine.limiter)
-    table.fail("full_load", fmt::format("must reach from idle_rpm or below to limiter_rpm or above, this has {} to {}",
-                                        number_text(first / kPerRpm, 3), number_text(last / kPerRpm, 3)));
+    table.fail("full_load",
+               fmt::format("must reach from idle_rpm or below to limiter_rpm or above, this has {} to {}",
+                           haptics::number_text(first / kPerRpm, 3), haptics::number_text(last / kPerRpm, 3)));
 }
 
-EngineSpec read_engine(const TomlTable& table) {
+EngineSpec read_engine(const haptics::TomlTable& table) {
   const auto speed = [&](const char* key) { return table.number(key, kSpeedRpm) * kPerRpm; };
   EngineSpec engine;
   read_full_load(table, engine);
@@ -110,24 +111,24 @@ EngineSpec read_engine(const TomlTable& table) {
   engine.lug_below = speed("lug_below_rpm");
   engine.shudder = table.number("shudder_n", kShudderN);
   check_engine(table, engine);
-  table.refuse_unknown_keys();
+  table.reject_unknown_keys();
   return engine;
 }
 
-ClutchSpec read_clutch(const TomlTable& table) {
+ClutchSpec read_clutch(const haptics::TomlTable& table) {
   ClutchSpec clutch;
   clutch.capacity = table.number("capacity_nm", kCapacityNm);
   clutch.bite = table.number("bite_pedal", kPedal);
   clutch.closed = table.number("closed_pedal", kPedal);
   clutch.disc_inertia = table.number("disc_inertia_kgm2", kDiscInertia);
   require_order(table, "closed_pedal", "bite_pedal");
-  table.refuse_unknown_keys();
+  table.reject_unknown_keys();
   return clutch;
 }
 
-// Forward ratios count from 1 without a gap, and fall.
-void read_ratios(const TomlTable& table, GearboxSpec& gearbox) {
-  for (int gear = 1; gear <= kMaxGear; ++gear) {
+// Forward ratios are numbered from 1 without gaps and decrease.
+void read_ratios(const haptics::TomlTable& table, GearboxSpec& gearbox) {
+  for (int gear = 1; gear <= haptics::kMaxGear; ++gear) {
     const std::string key = fmt::format("ratio_{}", gear);
     if (gear > 1 && !table.has(key)) continue;
     const std::size_t at = static_cast<std::size_t>(gear - 1);
@@ -139,7 +140,7 @@ void read_ratios(const TomlTable& table, GearboxSpec& gearbox) {
   }
 }
 
-GearboxSpec read_gearbox(const TomlTable& table) {
+GearboxSpec read_gearbox(const haptics::TomlTable& table) {
   GearboxSpec gearbox;
   read_ratios(table, gearbox);
   gearbox.reverse = table.number("ratio_r", kRatio);
@@ -147,18 +148,17 @@ GearboxSpec read_gearbox(const TomlTable& table) {
   gearbox.drag = table.number("drag_nm", kDragNm);
   gearbox.drag_slope = table.number("drag_nm_per_krpm", kDragNm) / kPerKrpm;
   gearbox.efficiency = table.number("efficiency", kEfficiency);
-  table.refuse_unknown_keys();
+  table.reject_unknown_keys();
   return gearbox;
 }
 
-// Of things that are counted.
-double whole_number(const TomlTable& table, const char* key, Range range) {
+double whole_number(const haptics::TomlTable& table, const char* key, haptics::Range range) {
   const double value = table.number(key, range);
   if (value != std::floor(value)) table.fail(key, "must be a whole number");
   return value;
 }
 
-SynchroSpec read_synchro(const TomlTable& table) {
+SynchroSpec read_synchro(const haptics::TomlTable& table) {
   SynchroSpec synchro;
   synchro.friction = table.number("friction", kFriction);
   synchro.radius = table.number("radius_mm", kRadiusMm) * kMetresPerMillimetre;
@@ -171,11 +171,11 @@ SynchroSpec read_synchro(const TomlTable& table) {
   synchro.dog_speed = table.number("dog_rpm", kDogRpm) * kPerRpm;
   synchro.lever_ratio = table.number("lever_ratio", kLeverRatio);
   synchro.efficiency = table.number("efficiency", kEfficiency);
-  table.refuse_unknown_keys();
+  table.reject_unknown_keys();
   return synchro;
 }
 
-BodySpec read_body(const TomlTable& table) {
+BodySpec read_body(const haptics::TomlTable& table) {
   BodySpec body;
   body.mass = table.number("mass_kg", kMassKg);
   body.rotating = table.number("rotating_kg", kRotatingKg);
@@ -185,14 +185,14 @@ BodySpec read_body(const TomlTable& table) {
   body.resistance_square = table.number("resistance_n_per_mps2", kResistanceSquare);
   body.brake_force = table.number("brake_n", kBrakeN);
   body.hand_brake_force = table.number("hand_brake_n", kBrakeN);
-  table.refuse_unknown_keys();
+  table.reject_unknown_keys();
   return body;
 }
 
 }  // namespace
 
 CarSpec read_car(const std::filesystem::path& file) {
-  return parse_car(read_text_file(file), file.string());
+  return parse_car(haptics::read_text_file(file), file.string());
 }
 
 CarSpec parse_car(std::string_view text, const std::string& file_name) {
@@ -200,7 +200,7 @@ CarSpec parse_car(std::string_view text, const std::string& file_name) {
   car.name = std::filesystem::path(file_name).stem().string();
   car.text = text;
   car.file = file_name;
-  const TomlTable root = TomlTable::parse(text, file_name);
+  const haptics::TomlTable root = haptics::TomlTable::parse(text, file_name);
   car.title = root.text("title");
   car.gate = root.text("gate");
   car.engine = read_engine(root.table("engine"));
@@ -208,8 +208,8 @@ CarSpec parse_car(std::string_view text, const std::string& file_name) {
   car.gearbox = read_gearbox(root.table("gearbox"));
   car.synchro = read_synchro(root.table("synchro"));
   car.body = read_body(root.table("body"));
-  root.refuse_unknown_keys();
+  root.reject_unknown_keys();
   return car;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::vehicle

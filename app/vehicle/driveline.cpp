@@ -1,19 +1,20 @@
-// A step: what it takes in, and what it shows. How it moves: driveline_motion.cpp.
+// One step: its inputs and the published state. The motion itself is in driveline_motion.cpp.
 #include "app/vehicle/driveline.h"
 
 #include <algorithm>
 #include <cmath>
 
+#include "app/vehicle/engine_shudder.h"
 #include "app/vehicle/shift_advice.h"
-#include "app/vehicle/shudder.h"
 
-namespace gearshift {
+namespace gearshift::vehicle {
 namespace {
 
-constexpr double kLongestStep = 0.5;     // [s]
-constexpr double kLongestPiece = 0.002;  // [s] of the midpoint rule
-constexpr double kGravity = 9.81;        // [m/s^2]
-constexpr double kMostTorque = 1e5;      // [N m] of a grip: any two speeds here are one within microseconds
+constexpr double kMaxStep = 0.5;       // [s]
+constexpr double kMaxSubstep = 0.002;  // [s] for the midpoint rule
+constexpr double kGravity = 9.81;      // [m/s^2]
+// [N m] of one friction element: more than any two bodies need to reach one speed within microseconds
+constexpr double kMaxTorque = 1e5;
 
 double finite(double value) noexcept {
   return std::isfinite(value) ? value : 0.0;
@@ -26,7 +27,7 @@ double pedal(double value) noexcept {
 }  // namespace
 
 Driveline::Driveline(const CarSpec& car) : car_(car), engine_(car.engine) {
-  car_.clutch.capacity = std::min(car.clutch.capacity, kMostTorque);
+  car_.clutch.capacity = std::min(car.clutch.capacity, kMaxTorque);
   chain_.inertia = {car.engine.inertia, car.clutch.disc_inertia, car.body.mass + car.body.rotating};
   chain_.efficiency = car.gearbox.efficiency;
   state_.red_line = car.engine.red_line;
@@ -38,11 +39,11 @@ Driveline::Driveline(const CarSpec& car) : car_(car), engine_(car.engine) {
 void Driveline::place(double engine_speed, double shaft_speed, double road_speed, bool running, bool stalled) noexcept {
   speed_ = {std::max(0.0, finite(engine_speed)), finite(shaft_speed), finite(road_speed)};
   engine_.set(running, stalled);
-  meshed_ = cone_gear_ = kNeutralGear;
+  meshed_ = cone_gear_ = haptics::kNeutralGear;
   chain_.link = GearLink::open;
   now_ = {};
   energy_ = {};
-  fresh_ = true;
+  is_first_step_ = true;
   state_.engine_speed = speed_[engine_body];
   state_.shaft_speed = speed_[shaft_body];
   state_.road_speed = speed_[car_body];
@@ -54,25 +55,25 @@ void Driveline::place(double engine_speed, double shaft_speed, double road_speed
 }
 
 double Driveline::kinetic_energy() const noexcept {
-  return gearshift::kinetic_energy(chain_, speed_);
+  return vehicle::kinetic_energy(chain_, speed_);
 }
 
 void Driveline::step(const DrivelineInput& in, double seconds) noexcept {
   time_ = 0.0;
-  length_ = seconds > 0.0 ? std::min(seconds, kLongestStep) : 0.0;
-  take(in);
-  if (!(length_ > 0.0)) settle_here();
+  length_ = seconds > 0.0 ? std::min(seconds, kMaxStep) : 0.0;
+  set_input(in);
+  if (!(length_ > 0.0)) update_modes();
   const double before = speed_[engine_body];
   while (time_ < length_) {
-    const double next = std::min({length_, time_ + kLongestPiece, next_kink(time_)});
+    const double next = std::min({length_, time_ + kMaxSubstep, next_kink(time_)});
     advance(next - time_);
     time_ = next;
   }
-  engine_.turn(0.5 * length_ * (before + speed_[engine_body]));
-  show(clutch_capacity(car_.clutch, pedal_.to));
+  engine_.add_crank_angle(0.5 * length_ * (before + speed_[engine_body]));
+  publish_state(clutch_capacity(car_.clutch, pedal_.to));
 }
 
-void Driveline::take(const DrivelineInput& in) noexcept {
+void Driveline::set_input(const DrivelineInput& in) noexcept {
   engine_.turn_key(in.ignition, in.starter);
   engine_.update(speed_[engine_body]);
   const bool same_cone = in.cone_gear == cone_gear_;
@@ -85,7 +86,7 @@ void Driveline::take(const DrivelineInput& in) noexcept {
   state_.ignition = in.ignition;
   const BodySpec& body = car_.body;
   const auto go_to = [this](Ramp& ramp, double to, bool jump) {
-    ramp.from = jump || fresh_ || !(length_ > 0.0) ? to : ramp.to;
+    ramp.from = jump || is_first_step_ || !(length_ > 0.0) ? to : ramp.to;
     ramp.to = to;
   };
   go_to(throttle_, state_.throttle, false);
@@ -93,13 +94,13 @@ void Driveline::take(const DrivelineInput& in) noexcept {
   go_to(brakes_, body.brake_force * state_.brake + body.hand_brake_force * state_.hand_brake, false);
   go_to(lift_, body.mass * kGravity * std::sin(state_.slope), false);
   const bool rubs = chain_.link == GearLink::cone;
-  const double cone = rubs ? std::clamp(finite(in.cone_torque) / cone_ratio_, 0.0, kMostTorque) : 0.0;
+  const double cone = rubs ? std::clamp(finite(in.cone_torque) / cone_ratio_, 0.0, kMaxTorque) : 0.0;
   go_to(cone_, cone, !same_cone);
-  fresh_ = false;
+  is_first_step_ = false;
 }
 
-// Dogs that meet bring shaft and car to one speed. The clutch carries a limited torque, so none within no time: the
-// engine goes on, and the clutch slips.
+// Engaging dogs bring shaft and car to one speed. The clutch torque is limited, so it transmits no impulse: the engine
+// keeps its speed and the clutch slips.
 void Driveline::mesh(int gear, int cone_gear) noexcept {
   const double per_road = shaft_per_road(car_, gear), cone_per_road = shaft_per_road(car_, cone_gear);
   if (per_road == 0.0) {
@@ -116,11 +117,11 @@ void Driveline::mesh(int gear, int cone_gear) noexcept {
       energy_.mesh += before - kinetic_energy();
     }
   }
-  meshed_ = per_road != 0.0 ? gear : kNeutralGear;
+  meshed_ = per_road != 0.0 ? gear : haptics::kNeutralGear;
   cone_gear_ = cone_gear;
 }
 
-// The clutch's capacity has a kink where it begins to carry and where it carries all: a piece ends there.
+// The clutch capacity has kinks where it starts to carry torque and where it reaches its maximum: a substep ends there.
 double Driveline::next_kink(double after) const noexcept {
   double next = length_;
   if (pedal_.from == pedal_.to) return next;
@@ -131,9 +132,9 @@ double Driveline::next_kink(double after) const noexcept {
   return next;
 }
 
-void Driveline::show(double capacity) noexcept {
+void Driveline::publish_state(double capacity) noexcept {
   const ChainMotion& motion = now_.motion;
-  const double engine = std::max(0.0, speed_[engine_body]);  // nor -0, where it was stopped from behind
+  const double engine = std::max(0.0, speed_[engine_body]);  // avoids -0 after the engine was stopped from behind
   state_.engine_speed = engine;
   state_.engine_load = engine_.load(engine, state_.throttle);
   state_.engine_torque = engine_.torque(engine, state_.throttle) - friction_torque(car_.engine, engine);
@@ -141,7 +142,7 @@ void Driveline::show(double capacity) noexcept {
   state_.stalled = engine_.stalled();
   state_.over_revved = engine > car_.engine.red_line;
   state_.fuel_cut = engine_.fuel_cut();
-  state_.cranking = engine_.cranks(engine);
+  state_.cranking = engine_.is_cranking_at(engine);
 
   state_.clutch_capacity = capacity;
   state_.clutch_torque = motion.clutch;
@@ -159,4 +160,4 @@ void Driveline::show(double capacity) noexcept {
   state_.shift_advice = shift_advice(car_, state_, state_.shift_advice);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::vehicle

@@ -1,9 +1,9 @@
-// Engine, clutch, gearbox shaft and car as rigid inertias with Coulomb grips between them.
+// Engine, clutch, gearbox shaft and car as rigid inertias with Coulomb friction between them.
 //
-// Grips: clutch (capacity by the pedal), synchroniser's cone, rolling resistance with brakes where the car stands, the
-// shaft's drag where it stands, and the engine, which does not turn backwards. Each slips or holds; the step is cut where
-// one changes (event location), a grip that begins to hold conserves momentum, and inside a mode the step is the midpoint
-// rule. More than a bounded number of changes in a step falls back to impulses over what is left of it.
+// Friction elements: the clutch (capacity set by the pedal), the synchroniser's cone, rolling resistance and brakes at
+// the car, drag at the shaft, and the engine, which cannot turn backwards. Each one sticks or slips. A step is cut
+// where one of them changes (event location); an element that starts to stick conserves momentum; between changes the
+// midpoint rule is used. After a fixed number of changes in one step, the rest of the step is solved by impulses.
 #pragma once
 
 #include <array>
@@ -11,57 +11,59 @@
 
 #include "app/vehicle/car_spec.h"
 #include "app/vehicle/engine_control.h"
-#include "app/vehicle/grip_chain.h"
+#include "app/vehicle/friction_chain.h"
 #include "app/vehicle/vehicle_state.h"
 
-namespace gearshift {
+namespace gearshift::vehicle {
 
 struct DrivelineInput {
   double throttle = 0.0, brake = 0.0, clutch = 0.0, hand_brake = 0.0;  // [1] 0 to 1
   bool ignition = true;
   bool starter = false;
-  double slope = 0.0;        // [rad] uphill +
-  int meshed = 0;            // gear whose dogs are in
-  int cone_gear = 0;         // gear whose cone rubs; 0 none. Never together with meshed
-  double cone_torque = 0.0;  // [N m] the most that the cone carries, at the gear's side, >= 0
+  double slope = 0.0;        // [rad] uphill is positive
+  int meshed = 0;            // gear whose dogs are engaged
+  int cone_gear = 0;         // gear whose cone rubs; 0: none. Never together with meshed
+  double cone_torque = 0.0;  // [N m] capacity of the cone, on the gear's side, >= 0
 };
 
-// Where the energy went since the start: comes = goes to rounding. [J]
+// [J] Energy since the start. Energy put in equals energy spent, up to rounding.
 struct EnergyLedger {
   double engine = 0.0;    // combustion and starter
-  double friction = 0.0;  // engine's own
+  double friction = 0.0;  // inside the engine
   double clutch = 0.0;
   double cone = 0.0;
   double shaft_drag = 0.0;
-  double rolling = 0.0;  // with air drag
+  double rolling = 0.0;  // including air drag
   double brakes = 0.0;
-  double slope = 0.0;  // lifted
-  double teeth = 0.0;  // of the gear, by its efficiency
-  double mesh = 0.0;   // lost when dogs met at unequal speeds
+  double slope = 0.0;  // gained by climbing
+  double teeth = 0.0;  // lost in the gear's teeth (efficiency)
+  double mesh = 0.0;   // lost when dogs engaged at unequal speeds
 };
 
 class Driveline {
  public:
   explicit Driveline(const CarSpec& car);
-  // Moves on by `seconds` (0 to 0.5). noexcept, no allocation. What is not finite in the input is taken as 0.
-  // `in` is how things stand at the end of the step: pedals, slope and cone go there in straight lines from the step
-  // before (the first step and the first after place() have them so from the start); gear and key change at its start.
-  // When dogs meet at unequal speeds, shaft and car share their momentum at once, and the clutch slips if it must.
+  // Advances by `seconds` (0 to 0.5). noexcept, no allocation. Inputs that are not finite count as 0.
+  // `in` holds the values at the end of the step. Pedals, slope and cone torque change linearly from the previous
+  // step's values (constant in the first step and in the first one after place()); gear and key change at the start of
+  // the step. If dogs engage at unequal speeds, shaft and car exchange momentum at once, and the clutch slips if it has
+  // to.
   void step(const DrivelineInput& in, double seconds) noexcept;
 
-  // Puts the car there at once, in neutral, and begins the ledger anew: for the start of a lesson and for tests.
-  // stalled: of an engine that does not run, that it did.
+  // Sets the speeds directly, in neutral, and resets the energy ledger: for the start of a lesson and for tests.
+  // stalled: the engine is off because it stalled; ignored if running.
   void place(double engine_speed, double shaft_speed, double road_speed, bool running, bool stalled = false) noexcept;
 
-  const VehicleState& state() const noexcept { return state_; }  // engine, clutch, car; the lever's part is untouched
+  // engine, clutch and car; the lever's fields keep their defaults
+  const VehicleState& state() const noexcept { return state_; }
   const EnergyLedger& energy() const noexcept { return energy_; }
   double kinetic_energy() const noexcept;                          // [J]
-  std::uint64_t fallbacks() const noexcept { return fallbacks_; }  // steps that needed the impulses
+  std::uint64_t fallbacks() const noexcept { return fallbacks_; }  // number of steps that used impulses
 
  private:
   struct Ramp {
     double from = 0.0, to = 0.0;
-    double at(double share) const noexcept { return from + (to - from) * share; }
+    double at(double fraction) const noexcept { return from + (to - from) * fraction; }
   };
   struct Loads {
     ChainLoads chain;
@@ -75,38 +77,38 @@ class Driveline {
   struct Trial {
     PerBody speed;
     Loads loads;
-    ChainMotion motion;  // both half-way
-    Settled end;
-    bool changes;
+    ChainMotion motion;  // loads and motion are those of the midpoint
+    Solution end;
+    bool ends_mode;
   };
 
-  void take(const DrivelineInput& in) noexcept;
+  void set_input(const DrivelineInput& in) noexcept;
   void mesh(int gear, int cone_gear) noexcept;
   double next_kink(double after) const noexcept;
   void advance(double seconds) noexcept;
   void advance_by_impulses(double seconds) noexcept;
   Loads loads_at(const PerBody& speed, double time) const noexcept;
-  Trial tried(double seconds) const noexcept;
+  Trial try_step(double seconds) const noexcept;
   Reversed reversed(const PerBody& speed, const Loads& loads) const noexcept;
   void accept(const Trial& trial, double seconds) noexcept;
   void snap(const Reversed& is) noexcept;
-  void settle_here() noexcept;
-  void book(const Loads& loads, const ChainMotion& motion, const PerBody& to, double seconds) noexcept;
-  void show(double clutch_capacity) noexcept;
+  void update_modes() noexcept;
+  void account_energy(const Loads& loads, const ChainMotion& motion, const PerBody& to, double seconds) noexcept;
+  void publish_state(double clutch_capacity) noexcept;
 
   CarSpec car_;
   EngineControl engine_;
-  GripChain chain_;
+  FrictionChain chain_;
   PerBody speed_{};
-  Settled now_;  // mode, and motion at this moment
+  Solution now_;  // current mode and motion
   Ramp throttle_, pedal_, brakes_, lift_, cone_;
-  double time_ = 0.0, length_ = 1.0;  // [s] in this step, and of it
+  double time_ = 0.0, length_ = 1.0;  // [s] time within this step, and the step's length
   int meshed_ = 0, cone_gear_ = 0;
-  double cone_ratio_ = 1.0;  // [1] of its gear
-  bool fresh_ = true;        // no step before this one
+  double cone_ratio_ = 1.0;  // [1] ratio of the cone's gear
+  bool is_first_step_ = true;
   VehicleState state_;
   EnergyLedger energy_;
   std::uint64_t fallbacks_ = 0;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::vehicle

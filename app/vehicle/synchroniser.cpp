@@ -9,36 +9,37 @@
 #include <limits>
 #include <numbers>
 
-namespace gearshift {
+namespace gearshift::vehicle {
 namespace {
 
-// Stations as shares of the way from the detent's crest to where the gear counts.
+// Stations as fractions of the distance from the detent's crest to the depth at which the gear counts as engaged.
 constexpr double kBlock = 0.20;
 constexpr double kOut = 0.35;
 constexpr double kDogs = 0.45;
 constexpr double kHome = 0.95;
 
-constexpr double kTouch = 1e-6;            // [m] a lever this near to a wall is at it
-constexpr double kStrutForce = 80.0;       // [N] on the ring by its struts, while the sleeve is on its way through it
-constexpr double kBackTaper = 0.07;        // [1] of the dogs, tangent: holds the sleeve under load
-constexpr double kDrawOut = 20.0;          // [N s/m] a pull beyond the load's friction draws the sleeve out that slowly
-constexpr double kLeastLock = 0.2;         // [N] nobody feels less
-constexpr double kPushTime = 0.010;        // [s] of the filter of the push
-constexpr double kBumpShare = 1.0 / 3.0;   // [1] of the effort, the most that the second bump may have
-constexpr double kBumpStiffness = 2000.0;  // [N/m] the most that the bump rises by
-constexpr double kQuietMass = 0.03;        // [kg] 0.35 of the lever's: K <= 0.35 m / T^2 keeps a bare lever quiet
-constexpr double kRattleShare = 0.25;      // [1] of the push
-constexpr double kLeastRattle = 0.01;      // [N] and then it is over
-constexpr double kRattleMost = 4.0;        // [N]
-constexpr double kRattleRate = 120.0;      // [Hz] a hand feels nothing above
-constexpr double kRattleSamples = 8.0;     // [cycles] of a rattle's period, at least
+constexpr double kContactTolerance = 1e-6;  // [m] a lever this close to a wall touches it
+constexpr double kStrutForce = 80.0;        // [N] of the struts on the ring while the sleeve moves through it
+constexpr double kBackTaper = 0.07;         // [1] tangent of the dogs' back taper, which holds the sleeve under load
+// [N s/m] a pull beyond the holding force draws the sleeve out with this damping
+constexpr double kDrawOutDamping = 20.0;
+constexpr double kMinLockForce = 0.2;         // [N] below what a hand can feel
+constexpr double kPushFilterTime = 0.010;     // [s] time constant of the push filter
+constexpr double kBumpFraction = 1.0 / 3.0;   // [1] largest second bump, as a fraction of the peak push
+constexpr double kMaxBumpStiffness = 2000.0;  // [N/m] largest slope of the bump
+constexpr double kQuietMass = 0.03;  // [kg] 0.35 times the lever's mass: K <= 0.35 m / T^2 keeps a bare lever quiet
+constexpr double kRattleFraction = 0.25;   // [1] of the push
+constexpr double kMinRattle = 0.01;        // [N] below this the rattle ends
+constexpr double kMaxRattle = 4.0;         // [N]
+constexpr double kMaxRattleRate = 120.0;   // [Hz] a hand feels nothing above
+constexpr double kMinRattleSamples = 8.0;  // [cycles] smallest period of a rattle
 
 double smooth_step(double u) noexcept {
   u = std::clamp(u, 0.0, 1.0);
   return u * u * (3.0 - 2.0 * u);
 }
 
-// SplitMix64: the next number of a row, 0 to 1.
+// SplitMix64: the next pseudorandom number, 0 to 1.
 double draw(std::uint64_t& state) noexcept {
   std::uint64_t z = state += 0x9E3779B97F4A7C15;
   z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9;
@@ -48,9 +49,9 @@ double draw(std::uint64_t& state) noexcept {
 
 }  // namespace
 
-SleeveStations sleeve_stations(const Slot& slot) noexcept {
-  const double way = slot.engage_depth - slot.release_depth;
-  const auto at = [&](double share) { return slot.release_depth + share * way; };
+SleeveStations sleeve_stations(const haptics::Slot& slot) noexcept {
+  const double length = slot.engage_depth - slot.release_depth;
+  const auto at = [&](double fraction) { return slot.release_depth + fraction * length; };
   return {slot.release_depth, at(kBlock), at(kOut), at(kDogs), at(kHome)};
 }
 
@@ -66,33 +67,33 @@ double index_gain(const SynchroSpec& synchro) noexcept {
   return synchro.index_radius * (cosine - mu * sine) / (sine + mu * cosine);
 }
 
-// Both torques grow with the push: which of them is larger does not depend on it.
+// Both torques are proportional to the push, so the push does not decide which one is larger.
 double critical_friction(const SynchroSpec& synchro) noexcept {
   return synchro.friction * index_gain(synchro) / cone_gain(synchro);
 }
 
-Synchroniser::Synchroniser(const SynchroSpec& synchro, const Gate& gate, double force_scale, int meshed,
+Synchroniser::Synchroniser(const SynchroSpec& synchro, const haptics::Gate& gate, double force_scale, int meshed,
                            std::uint64_t seed)
     : synchro_(synchro),
       gate_(gate),
       scale_(force_scale),
       cone_gain_(cone_gain(synchro)),
-      ring_holds_(cone_gain(synchro) > index_gain(synchro)),
-      chance_(seed),
+      ring_can_block_(cone_gain(synchro) > index_gain(synchro)),
+      random_(seed),
       meshed_(meshed) {}
 
 SleeveOutput Synchroniser::step(const SleeveInput& in, double period) noexcept {
-  if (!started_ || in.slot != slot_) enter(in.slot);
-  started_ = true;
-  filter(in, period);
-  if (slot_ != kNoSlot) follow(in);
+  if (!has_started_ || in.slot != slot_) enter_slot(in.slot);
+  has_started_ = true;
+  filter_push(in, period);
+  if (slot_ != haptics::kNoSlot) update_mesh(in);
   SleeveOutput out;
   out.depth_max = std::numeric_limits<double>::max();
   out.meshed = meshed_;
   out.phase = phase(in);
-  if (slot_ != kNoSlot && !is_meshed()) {
+  if (slot_ != haptics::kNoSlot && !is_meshed()) {
     out.cone_torque = cone_torque(in) + rattle_torque(in);
-    out.cone_gear = out.cone_torque > 0.0 ? slot_of(gate_, slot_).gear : kNeutralGear;
+    out.cone_gear = out.cone_torque > 0.0 ? haptics::slot_of(gate_, slot_).gear : haptics::kNeutralGear;
     out.depth_max = ring_blocks(in) ? at_.block : at_.dogs;
     out.grind_power = rattle_torque(in) * std::abs(in.difference);
   }
@@ -102,129 +103,130 @@ SleeveOutput Synchroniser::step(const SleeveInput& in, double period) noexcept {
   return out;
 }
 
-void Synchroniser::enter(int slot) noexcept {
+void Synchroniser::enter_slot(int slot) noexcept {
   slot_ = slot;
-  if (!is_meshed()) meshed_ = kNeutralGear;
-  at_ = slot != kNoSlot ? sleeve_stations(slot_of(gate_, slot)) : SleeveStations{};
-  passed_ = false;
-  effort_ = bump_ = hold_ = 0.0;
+  if (!is_meshed()) meshed_ = haptics::kNeutralGear;
+  at_ = slot != haptics::kNoSlot ? sleeve_stations(haptics::slot_of(gate_, slot)) : SleeveStations{};
+  has_passed_ring_ = false;
+  peak_push_ = bump_ = held_depth_ = 0.0;
 }
 
-// The sleeve's history in its slot: through the ring, in the dogs, out of them.
-void Synchroniser::follow(const SleeveInput& in) noexcept {
+// Tracks the sleeve in its slot: through the ring, into the dogs and out of them.
+void Synchroniser::update_mesh(const SleeveInput& in) noexcept {
   if (is_meshed()) {
-    if (in.depth < at_.out) meshed_ = kNeutralGear;
+    if (in.depth < at_.out) meshed_ = haptics::kNeutralGear;
     if (in.depth >= at_.home) bump_ = 0.0;
-    passed_ = true;
+    has_passed_ring_ = true;
   }
-  if (in.depth < at_.block) passed_ = false;
-  if (in.depth > at_.block + kTouch && !ring_blocks(in)) passed_ = true;
-  effort_ = in.depth < at_.crest ? 0.0 : std::max(effort_, push_);
-  if (!is_meshed() && in.depth >= at_.dogs - kTouch && matches(in)) mesh(in.depth);
+  if (in.depth < at_.block) has_passed_ring_ = false;
+  if (in.depth > at_.block + kContactTolerance && !ring_blocks(in)) has_passed_ring_ = true;
+  peak_push_ = in.depth < at_.crest ? 0.0 : std::max(peak_push_, push_);
+  if (!is_meshed() && in.depth >= at_.dogs - kContactTolerance && speeds_match(in)) mesh(in.depth);
 }
 
-// Where tooth meets tooth is chance: the gear has to be turned aside by up to half a tooth, one way or the other.
+// The relative position of the teeth is random: the gear must turn aside by up to half a tooth, in either direction.
 void Synchroniser::mesh(double depth) noexcept {
-  meshed_ = slot_of(gate_, slot_).gear;
-  hold_ = depth;
-  const double aside = std::abs(2.0 * draw(chance_) - 1.0);
-  const double stiffness = std::min(kBumpStiffness, kQuietMass / (period_ * period_));
-  const double most = stiffness * (at_.home - at_.dogs) / std::numbers::pi;  // see bump_force
-  bump_ = depth < at_.home ? std::min(kBumpShare * effort_ * aside, most) : 0.0;
+  meshed_ = haptics::slot_of(gate_, slot_).gear;
+  held_depth_ = depth;
+  const double aside = std::abs(2.0 * draw(random_) - 1.0);
+  const double stiffness = std::min(kMaxBumpStiffness, kQuietMass / (period_ * period_));
+  const double limit = stiffness * (at_.home - at_.dogs) / std::numbers::pi;  // see bump_force
+  bump_ = depth < at_.home ? std::min(kBumpFraction * peak_push_ * aside, limit) : 0.0;
 }
 
-void Synchroniser::filter(const SleeveInput& in, double period) noexcept {
+void Synchroniser::filter_push(const SleeveInput& in, double period) noexcept {
   if (period != period_) {
     period_ = period;
-    follows_ = 1.0 - std::exp(-period / kPushTime);
+    filter_gain_ = 1.0 - std::exp(-period / kPushFilterTime);
   }
-  push_ += (std::max(0.0, in.push) - push_) * follows_;
+  push_ += (std::max(0.0, in.push) - push_) * filter_gain_;
 }
 
 bool Synchroniser::is_meshed() const noexcept {
-  return slot_ != kNoSlot && meshed_ == slot_of(gate_, slot_).gear;
+  return slot_ != haptics::kNoSlot && meshed_ == haptics::slot_of(gate_, slot_).gear;
 }
 
-bool Synchroniser::matches(const SleeveInput& in) const noexcept {
+bool Synchroniser::speeds_match(const SleeveInput& in) const noexcept {
   return std::abs(in.difference) <= synchro_.dog_speed;
 }
 
-// The cone's torque keeps the ring turned into the sleeve's way as long as there is a difference of speeds. A lever that
-// is past it within one cycle was not let through: it is held where it is. Reverse has no ring.
+// The cone torque keeps the ring in the sleeve's way as long as the speeds differ. A lever that passes the ring within
+// one cycle was not let through: it is held where it is. Reverse has no ring.
 bool Synchroniser::ring_blocks(const SleeveInput& in) const noexcept {
-  return ring_holds_ && !passed_ && !matches(in) && slot_of(gate_, slot_).gear != kReverseGear;
+  return ring_can_block_ && !has_passed_ring_ && !speeds_match(in) &&
+         haptics::slot_of(gate_, slot_).gear != haptics::kReverseGear;
 }
 
-bool Synchroniser::clashes(const SleeveInput& in) const noexcept {
-  return slot_ != kNoSlot && !is_meshed() && in.depth >= at_.dogs - kTouch && !ring_blocks(in);
+bool Synchroniser::dogs_clash(const SleeveInput& in) const noexcept {
+  return slot_ != haptics::kNoSlot && !is_meshed() && in.depth >= at_.dogs - kContactTolerance && !ring_blocks(in);
 }
 
 SyncPhase Synchroniser::phase(const SleeveInput& in) const noexcept {
-  if (slot_ == kNoSlot || in.depth < at_.crest) return SyncPhase::free;
+  if (slot_ == haptics::kNoSlot || in.depth < at_.crest) return SyncPhase::free;
   if (is_meshed()) return bump_ > 0.0 ? SyncPhase::second_bump : SyncPhase::meshed;
-  if (clashes(in)) return SyncPhase::clashing;
-  if (slot_of(gate_, slot_).gear == kReverseGear) return SyncPhase::free;
-  if (passed_) return SyncPhase::passing;
-  if (in.depth < at_.block - kTouch) return SyncPhase::indexing;
+  if (dogs_clash(in)) return SyncPhase::clashing;
+  if (haptics::slot_of(gate_, slot_).gear == haptics::kReverseGear) return SyncPhase::free;
+  if (has_passed_ring_) return SyncPhase::passing;
+  if (in.depth < at_.block - kContactTolerance) return SyncPhase::indexing;
   return ring_blocks(in) ? SyncPhase::synchronising : SyncPhase::passing;
 }
 
-// [N] on the sleeve in the real box, by a push at the device's knob.
+// [N] on the sleeve of the real gearbox, for a push at the device's knob.
 double Synchroniser::sleeve_force(double push) const noexcept {
   return std::max(0.0, push) / scale_ * synchro_.lever_ratio * synchro_.efficiency;
 }
 
-// The push, once the detent has given way, growing smoothly until the ring blocks; then, on the way through the ring,
-// what its struts press: enough to hold the shaft's speed against the oil.
+// Proportional to the push past the detent, fading in smoothly until the ring blocks. On the way through the ring the
+// struts supply it: enough to hold the shaft's speed against oil drag.
 double Synchroniser::cone_torque(const SleeveInput& in) const noexcept {
-  if (slot_of(gate_, slot_).gear == kReverseGear || in.depth < at_.crest) return 0.0;
-  if (passed_) return cone_gain_ * kStrutForce;
+  if (haptics::slot_of(gate_, slot_).gear == haptics::kReverseGear || in.depth < at_.crest) return 0.0;
+  if (has_passed_ring_) return cone_gain_ * kStrutForce;
   return cone_gain_ * sleeve_force(in.push) * smooth_step((in.depth - at_.crest) / (at_.block - at_.crest));
 }
 
-// Dogs that slip on each other rub. So reverse goes in at last with the clutch down, and a worn gear too.
+// Slipping dogs rub on each other. So reverse goes in eventually with the clutch down, and so does a worn gear.
 double Synchroniser::rattle_torque(const SleeveInput& in) const noexcept {
-  if (!clashes(in)) return 0.0;
+  if (!dogs_clash(in)) return 0.0;
   return synchro_.index_friction * synchro_.index_radius * sleeve_force(in.push);
 }
 
-// [N] at the device's knob, to draw the gear out against the friction and the taper of its loaded dogs.
+// [N] at the device's knob, needed to pull the gear out against friction and back taper of its loaded dogs.
 double Synchroniser::lock_force(const SleeveInput& in) const noexcept {
   if (in.clutch_open) return 0.0;
   const double sleeve = std::abs(in.load) * (synchro_.index_friction + kBackTaper) / synchro_.index_radius;
   return scale_ * sleeve / (synchro_.lever_ratio * synchro_.efficiency);
 }
 
-// A friction that holds the sleeve where it is: a wall that follows the lever inwards, and gives way outwards only to a
-// pull that overcomes it.
+// Friction that holds the sleeve in place: a wall that follows the lever inwards and yields outwards only to a pull
+// that overcomes it.
 void Synchroniser::hold_under_load(const SleeveInput& in, double period, SleeveOutput& out) noexcept {
   const double lock = lock_force(in);
-  out.torque_locked = lock > scale_ * kHandMost;
-  hold_ = std::max(hold_, in.depth);
+  out.torque_locked = lock > scale_ * kMaxHandForce;
+  held_depth_ = std::max(held_depth_, in.depth);
   const double beyond = -(in.push + in.feel) - lock;
-  if (beyond > 0.0 && !out.torque_locked) hold_ -= period * beyond / kDrawOut;
-  if (lock < kLeastLock) hold_ = in.depth;
-  out.depth_min = lock < kLeastLock ? 0.0 : hold_;
+  if (beyond > 0.0 && !out.torque_locked) held_depth_ -= period * beyond / kDrawOutDamping;
+  if (lock < kMinLockForce) held_depth_ = in.depth;
+  out.depth_min = lock < kMinLockForce ? 0.0 : held_depth_;
 }
 
-// A bump sin^2 over depth, continuous with its slope, felt on the way in alone: steepest pi peak / width.
+// A sin^2 bump over depth with continuous slope, felt only on the way in. Largest slope: pi peak / width.
 double Synchroniser::bump_force(double depth) const noexcept {
   if (bump_ == 0.0 || depth <= at_.dogs || depth >= at_.home) return 0.0;
   const double sine = std::sin(std::numbers::pi * (depth - at_.dogs) / (at_.home - at_.dogs));
   return -bump_ * sine * sine;
 }
 
-// Of dogs that clash, at the rate at which teeth pass, as far as a hand feels it. It only ever pushes back.
+// Rattle of clashing dogs at the rate at which teeth pass, limited to what a hand can feel. It only ever pushes back.
 double Synchroniser::rattle_force(const SleeveInput& in, double period) noexcept {
-  const bool on = clashes(in);
-  const double target = on ? std::min(kRattleShare * push_, kRattleMost) : 0.0;
-  rattle_ += (target - rattle_) * follows_;
-  if (!on && rattle_ < kLeastRattle) return rattle_ = 0.0;
+  const bool on = dogs_clash(in);
+  const double target = on ? std::min(kRattleFraction * push_, kMaxRattle) : 0.0;
+  rattle_ += (target - rattle_) * filter_gain_;
+  if (!on && rattle_ < kMinRattle) return rattle_ = 0.0;
   const double teeth_pass = std::abs(in.difference) * synchro_.teeth / (2.0 * std::numbers::pi);
-  const double most = period > 0.0 ? std::min(kRattleRate, 1.0 / (kRattleSamples * period)) : kRattleRate;
-  if (on) rattle_phase_ += 2.0 * std::numbers::pi * period * std::min(teeth_pass, most);
+  const double limit = period > 0.0 ? std::min(kMaxRattleRate, 1.0 / (kMinRattleSamples * period)) : kMaxRattleRate;
+  if (on) rattle_phase_ += 2.0 * std::numbers::pi * period * std::min(teeth_pass, limit);
   rattle_phase_ = std::remainder(rattle_phase_, 2.0 * std::numbers::pi);
   return 0.5 * rattle_ * (1.0 - std::cos(rattle_phase_));
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::vehicle

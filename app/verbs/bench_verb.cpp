@@ -1,4 +1,4 @@
-// gearshift bench: speed against error, as a table, CSV, JSON or a page with plots.
+// gearshift bench: measures speed and error; prints a table, CSV, JSON or a page with plots.
 #include <algorithm>
 #include <memory>
 #include <optional>
@@ -9,29 +9,29 @@
 
 #include <fmt/core.h>
 
-#include "app/assets_path.h"
-#include "app/bench/bench_files.h"
-#include "app/bench/bench_page.h"
-#include "app/bench/last_run.h"
-#include "app/bench/trade_svg.h"
-#include "app/devices/stop_signals.h"
-#include "app/history/date_text.h"
-#include "app/output_folder.h"
-#include "app/print_out.h"
-#include "app/program_name.h"
-#include "app/report/report_files.h"
-#include "app/trainer/user_folder.h"
+#include "app/base/assets_path.h"
+#include "app/base/console.h"
+#include "app/base/output_folder.h"
+#include "app/base/program_name.h"
+#include "app/base/progress_bar.h"
+#include "app/base/stop_signals.h"
+#include "app/base/user_folders.h"
+#include "app/lab/bench/bench_files.h"
+#include "app/lab/bench/bench_page.h"
+#include "app/lab/bench/last_run.h"
+#include "app/lab/bench/rows/bench.h"
+#include "app/lab/bench/trade_svg.h"
+#include "app/lessons/history/utc_time.h"
+#include "app/lessons/report/report_files.h"
+#include "app/verbs/distinct_outputs.h"
 #include "app/verbs/number_between.h"
-#include "app/verbs/progress_bar.h"
-#include "app/verbs/two_files.h"
 #include "app/verbs/verbs.h"
-#include "app/version/version_text.h"
+#include "app/verbs/version_text.h"
 #include "engine/gpu/gpu.h"
-#include "haptics/files/part_file.h"
+#include "haptics/files/atomic_file.h"
 #include "haptics/files/printable.h"
-#include "tests/bench/bench.h"
 
-namespace gearshift {
+namespace gearshift::verbs {
 namespace {
 
 namespace fs = std::filesystem;
@@ -40,201 +40,205 @@ struct BenchArguments {
   std::vector<std::string> families;
   std::string csv_file, out;
   bool json = false;
-  BenchOptions options;
+  lab::BenchOptions options;
 };
 
-std::string gpu_words() {
+std::string describe_gpu() {
   try {
-    const GpuTraits traits = Gpu({}).traits();
+    const engine::GpuTraits traits = engine::Gpu({}).traits();
     return traits.name + ", " + traits.driver;
   } catch (const std::exception&) {
-    return {};  // who measures a lever needs none
+    return {};  // most families need no GPU
   }
 }
 
-void tell(const std::string& problem) {
-  print_problem("{}", problem);
+void report_problem(const std::string& problem) {
+  base::print_message("{}", problem);
 }
 
-struct EndedEarly {};
+struct Interrupted {};
 
-struct Measured {
-  std::vector<MeasuredRow> rows;  // of whole families, and why others have none
-  bool is_whole = true;
+struct BenchMeasurement {
+  std::vector<lab::MeasuredRow> rows;  // of complete families; for the others, rows that say why they were not measured
+  bool is_complete = true;
 };
 
-// A family that cannot be measured costs no other. Ctrl-C and the like end all: a family is left where it next tells how
-// far it is.
-Measured measure(const BenchArguments& arguments) {
-  ProgressBar progress;
-  BenchOptions options = arguments.options;
+// A family that fails does not stop the others. Ctrl-C and similar signals stop the run the next time a family reports
+// its progress.
+BenchMeasurement measure(const BenchArguments& arguments) {
+  base::ProgressBar progress;
+  lab::BenchOptions options = arguments.options;
   options.progress = [&](std::string_view family, double share) {
-    if (StopSignals::asked()) throw EndedEarly();
+    if (base::StopSignals::requested()) throw Interrupted();
     progress.show(family, share);
   };
-  Measured measured;
-  for (const NamedFamily& family : bench_families()) {
+  BenchMeasurement measured;
+  for (const lab::NamedFamily& family : lab::bench_families()) {
     const auto& wanted = arguments.families;
     if (!wanted.empty() && std::find(wanted.begin(), wanted.end(), family.name) == wanted.end()) continue;
     try {
       options.progress(family.name, 0.0);
-      for (BenchRow& row : run_family(family, options)) measured.rows.push_back({std::move(row)});
+      for (lab::BenchRow& row : lab::run_family(family, options)) measured.rows.push_back({std::move(row)});
     } catch (const std::exception& problem) {
       progress.clear();
-      const std::string why = printable(problem.what());
-      tell(fmt::format("the family {} cannot be measured: {}", family.name, why));
-      for (BenchRow& row : unmeasured_family(family, why)) measured.rows.push_back({std::move(row)});
-      measured.is_whole = false;
-    } catch (const EndedEarly&) {
+      const std::string why = haptics::printable(problem.what());
+      report_problem(fmt::format("cannot measure family {}: {}", family.name, why));
+      for (lab::BenchRow& row : lab::unmeasured_family(family, why)) measured.rows.push_back({std::move(row)});
+      measured.is_complete = false;
+    } catch (const Interrupted&) {
       progress.clear();
-      tell(fmt::format("ended in the family {}: {}", family.name,
-                       measured.rows.empty() ? "nothing was measured" : "what was measured before it is told"));
-      measured.is_whole = false;
+      report_problem(
+          fmt::format("interrupted in family {}: {}", family.name,
+                      measured.rows.empty() ? "nothing was measured" : "only the families before it are reported"));
+      measured.is_complete = false;
       break;
     }
   }
   return measured;
 }
 
-// Of other runs' figures: neither fewer repetitions nor other blocks are.
-bool is_comparable(const BenchOptions& options) {
-  return !options.quick && options.jitter_block == BenchOptions{}.jitter_block;
+// A run with fewer repetitions or other block lengths cannot be compared with full runs.
+bool is_comparable(const lab::BenchOptions& options) {
+  return !options.quick && options.jitter_block == lab::BenchOptions{}.jitter_block;
 }
 
-// What cannot be compared or kept is told: it never costs the results.
-void compare_and_keep(BenchRun& run) {
+// Failing to compare or to save is reported, but the results are kept.
+void compare_and_save(lab::BenchRun& run) {
   try {
-    const fs::path file = last_run_file(user_data_folder(), run.machine);
-    const LastRun last = read_last_run(file, tell);
-    compare(run, last);
-    keep_run(file, last, run);
+    const fs::path file = lab::last_run_file(base::user_data_folder(), run.machine);
+    const lab::LastRun last = lab::read_last_run(file, report_problem);
+    lab::compare(run, last);
+    lab::save_run(file, last, run);
   } catch (const std::exception& problem) {
-    tell(fmt::format("{}; this run is not kept to compare the next with", problem.what()));
+    report_problem(fmt::format("{}; this run is not saved for the next comparison", problem.what()));
   }
 }
 
-std::string plot_name(const NamedFamily& family) {
+std::string plot_name(const lab::NamedFamily& family) {
   return std::string(family.name) + ".svg";
 }
 
-std::vector<ReportFile> files_of(const BenchRun& run) {
-  std::vector<ReportFile> files{
-      {"bench.html", bench_page(run)}, {"bench.csv", bench_csv(run)}, {"bench.json", bench_json(run)}};
-  std::vector<BenchRow> rows;
-  for (const MeasuredRow& measured : run.rows) rows.push_back(measured.row);
-  for (const NamedFamily& family : bench_families()) {
-    std::string svg = trade_svg(family.name, rows);
+std::vector<lessons::ReportFile> format_files(const lab::BenchRun& run) {
+  std::vector<lessons::ReportFile> files{
+      {"bench.html", lab::bench_page(run)}, {"bench.csv", lab::bench_csv(run)}, {"bench.json", lab::bench_json(run)}};
+  std::vector<lab::BenchRow> rows;
+  for (const lab::MeasuredRow& measured : run.rows) rows.push_back(measured.row);
+  for (const lab::NamedFamily& family : lab::bench_families()) {
+    std::string svg = lab::trade_svg(family.name, rows);
     if (!svg.empty()) files.push_back({plot_name(family), std::move(svg)});
   }
   return files;
 }
 
-// Minutes were measured: a file that fails is told and costs no other. Before stdout, whose reader may be gone. Files of
-// the folder that are whole.
-std::vector<fs::path> write_files(const BenchArguments& arguments, std::optional<PartFile>& csv, const BenchRun& run,
-                                  bool& all) {
+// The measurement took minutes, so a file that cannot be written is reported and the others are still written. Called
+// before printing to stdout, which may be a closed pipe. Returns the files of the folder that were written completely.
+std::vector<fs::path> write_files(const BenchArguments& arguments, std::optional<haptics::AtomicFile>& csv,
+                                  const lab::BenchRun& run, bool& all) {
   std::vector<fs::path> written;
   const auto attempt = [&](const auto& write) {
     try {
       write();
     } catch (const std::exception& problem) {
-      tell(problem.what());
+      report_problem(problem.what());
       all = false;
     }
   };
   if (!arguments.out.empty()) {
-    for (const ReportFile& file : files_of(run)) {
+    for (const lessons::ReportFile& file : format_files(run)) {
       attempt([&] {
-        write_text_file(fs::path(arguments.out) / file.name, file.text);
+        haptics::write_text_file(fs::path(arguments.out) / file.name, file.text);
         written.push_back(fs::path(arguments.out) / file.name);
       });
     }
   }
   if (!csv) return written;
   attempt([&] {
-    csv->write(bench_csv(run));
-    csv->keep();
+    csv->write(lab::bench_csv(run));
+    csv->commit();
   });
   return written;
 }
 
-// Where this machine's last run is kept; empty where nothing can be.
-fs::path kept_results(const Machine& machine) {
+// The file with this machine's last run; empty if there is no user data folder.
+fs::path last_run_path(const lab::Machine& machine) {
   try {
-    return last_run_file(user_data_folder(), machine);
+    return lab::last_run_file(base::user_data_folder(), machine);
   } catch (const std::exception&) {
-    return {};  // said when it is needed
+    return {};  // reported when the run is saved
   }
 }
 
-void check_csv(const BenchArguments& arguments, const Machine& machine) {
+void check_csv(const BenchArguments& arguments, const lab::Machine& machine) {
   if (arguments.csv_file.empty()) return;
-  check_two_files("--csv", "the table and the results kept of the last run", arguments.csv_file, kept_results(machine));
+  check_distinct_outputs("--csv", "the table and the saved results of the last run", arguments.csv_file,
+                         last_run_path(machine));
   if (arguments.out.empty()) return;
   std::vector<std::string> written{"bench.html", "bench.csv", "bench.json"};
-  for (const NamedFamily& family : bench_families()) written.push_back(plot_name(family));
+  for (const lab::NamedFamily& family : lab::bench_families()) written.push_back(plot_name(family));
   for (const std::string& name : written)
-    check_two_files("--csv", "the table and what --out writes", arguments.csv_file, fs::path(arguments.out) / name);
+    check_distinct_outputs("--csv", "the table and what --out writes", arguments.csv_file,
+                           fs::path(arguments.out) / name);
 }
 
 int run_bench(const BenchArguments& arguments) {
-  const Machine machine = this_machine(gpu_words());
+  const lab::Machine machine = lab::this_machine(describe_gpu());
   check_csv(arguments, machine);
-  const StopSignals signals;
-  std::optional<PartFile> csv;
-  if (!arguments.csv_file.empty()) csv.emplace(arguments.csv_file).prepare();  // a wrong path must not cost the results
-  if (!arguments.out.empty()) make_folder(arguments.out);
-  BenchRun run{.program = program_name() + " " + commit_text(),
-               .date = date_text(system_seconds()),
-               .quick = arguments.options.quick,
-               .machine = machine};
-  const std::optional<ProcessorTime> begin = processor_time_now();
-  Measured measured = measure(arguments);
+  const base::StopSignals signals;
+  std::optional<haptics::AtomicFile> csv;
+  if (!arguments.csv_file.empty()) csv.emplace(arguments.csv_file).prepare();  // detect a wrong path before measuring
+  if (!arguments.out.empty()) base::make_folder(arguments.out);
+  lab::BenchRun run{.program = base::program_name() + " " + commit_text(),
+                    .date = lessons::format_utc(lessons::system_seconds()),
+                    .quick = arguments.options.quick,
+                    .machine = machine};
+  const std::optional<lab::ProcessorTime> begin = lab::processor_time_now();
+  BenchMeasurement measured = measure(arguments);
   if (measured.rows.empty()) return 1;
   run.rows = std::move(measured.rows);
-  run.taken = taken_elsewhere(begin, processor_time_now());
-  if (is_comparable(arguments.options)) compare_and_keep(run);
-  bool is_whole = measured.is_whole;
-  const std::vector<fs::path> written = write_files(arguments, csv, run, is_whole);
-  print_out("{}", arguments.json ? bench_json(run) : bench_table(run));
+  run.contention = lab::cpu_contention(begin, lab::processor_time_now());
+  if (is_comparable(arguments.options)) compare_and_save(run);
+  bool is_complete = measured.is_complete;
+  const std::vector<fs::path> written = write_files(arguments, csv, run, is_complete);
+  base::print_out("{}", arguments.json ? lab::bench_json(run) : lab::bench_table(run));
   for (const fs::path& file : written)
-    if (!arguments.json) print_out("{}\n", file.string());
-  return is_whole ? 0 : 1;
+    if (!arguments.json) base::print_out("{}\n", file.string());
+  return is_complete ? 0 : 1;
 }
 
 }  // namespace
 
 void add_bench_verb(CLI::App& app, VerbAction& action) {
   auto arguments = std::make_shared<BenchArguments>();
-  CLI::App* verb = app.add_subcommand("bench", "Speed against error: what the haptic loop costs and how good it is");
+  CLI::App* verb =
+      app.add_subcommand("bench", "Measure speed against error: haptic loop, driveline, graphics, learning");
   verb->footer(
       "Examples:\n"
       "  gearshift bench --quick\n"
       "  gearshift bench --family plant\n");
   std::vector<std::string> names;
-  for (const NamedFamily& family : bench_families()) names.emplace_back(family.name);
+  for (const lab::NamedFamily& family : lab::bench_families()) names.emplace_back(family.name);
   verb->add_option("--family", arguments->families, "only these families; may be repeated")
       ->check(CLI::IsMember(names));
   verb->add_flag("--quick", arguments->options.quick,
-                 "fewer repetitions, about a minute: a look, not figures to quote, nor to compare with the last run's");
-  verb->add_flag("--json", arguments->json, "JSON on stdout");
+                 "fewer repetitions, about a minute: for a quick check, not for figures to quote or compare");
+  verb->add_flag("--json", arguments->json, "print JSON to stdout");
   verb->add_option("--csv", arguments->csv_file, "also write the rows as CSV")->type_name("FILE");
   verb->add_option("--out", arguments->out, "also write bench.html with plots, bench.csv, bench.json, FAMILY.svg")
       ->type_name("DIR");
   verb->add_option(
           "--block", arguments->options.jitter_block,
-          "seconds of each block of the families jitter and beside, 1 with --quick: shorter ones get no verdict, and a "
-          "run with others than usual is not compared with the last")
+          "length of each measuring block in the families jitter and beside [s]; 1 with --quick. Shorter blocks get no "
+          "verdict, and a run with another length is not compared with the last")
       ->check(number_between(1.0, 600.0))
       ->capture_default_str();
   verb->callback([arguments, verb, &action] {
     if (arguments->options.quick && verb->count("--block") == 0) arguments->options.jitter_block = 1.0;
     action = [arguments] {
-      arguments->options.gate_folder = shipped_folder("gates").string();
-      arguments->options.model_folder = shipped_folder("models").string();
+      arguments->options.gate_folder = base::shipped_folder("gates").string();
+      arguments->options.model_folder = base::shipped_folder("models").string();
       return run_bench(*arguments);
     };
   });
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::verbs

@@ -1,7 +1,7 @@
 #include "app/verbs/verbs.h"
 #include "haptics/files/printable.h"
 
-namespace gearshift {
+namespace gearshift::verbs {
 namespace {
 
 void add_verbs(CLI::App& app, VerbAction& action) {
@@ -27,17 +27,17 @@ std::string verb_names(const CLI::App& app) {
   return names;
 }
 
-void refuse_unknown_verb(const CLI::App& app, const std::string& word) {
+void reject_unknown_verb(const CLI::App& app, const std::string& word) {
   const bool is_option = !word.empty() && word.front() == '-';
   const auto is_it = [&](const CLI::App* verb) { return verb->get_name() == word; };
   if (is_option || !app.get_subcommands(is_it).empty()) return;
-  throw CLI::ParseError("no such verb: \"" + word + "\"; there are " + verb_names(app), CLI::ExitCodes::ExtrasError);
+  throw CLI::ParseError("unknown verb \"" + word + "\"; the verbs are " + verb_names(app), CLI::ExitCodes::ExtrasError);
 }
 
-// A shell's variable that nobody set: what would be written goes elsewhere, or nowhere.
-void refuse_unnamed_files(const CLI::App& verb) {
+// An empty path usually comes from an unset shell variable; the output would go to the wrong place or be lost.
+void reject_empty_paths(const CLI::App& verb) {
   const auto is_file = [](const std::string& type) {
-    const std::string kind = type.substr(0, type.find(':'));  // before what its checks add
+    const std::string kind = type.substr(0, type.find(':'));  // validators append ":..." to the type name
     return kind == "FILE" || kind == "DIR" || kind == "FOLDER" || kind == "PNG" || kind == "TRACE";
   };
   for (const CLI::Option* option : verb.get_options()) {
@@ -49,22 +49,22 @@ void refuse_unnamed_files(const CLI::App& verb) {
 }  // namespace
 
 VerbAction parse_command_line(CLI::App& app, int argc, const char* const* argv) {
-  app.require_subcommand(0, 1);  // an unknown verb shall be named, so that none is refused below
+  app.require_subcommand(0, 1);  // a missing or unknown verb is reported below, with a better message than CLI11's
   VerbAction action;
   add_verbs(app, action);
   if (argc < 2) {
     app.parse("train");
   } else {
-    refuse_unknown_verb(app, argv[1]);
+    reject_unknown_verb(app, argv[1]);
     app.parse(argc, argv);
-    for (const CLI::App* verb : app.get_subcommands()) refuse_unnamed_files(*verb);
+    for (const CLI::App* verb : app.get_subcommands()) reject_empty_paths(*verb);
   }
-  if (!action) throw CLI::RequiredError("A verb of " + verb_names(app) + " (see --help)");
+  if (!action) throw CLI::RequiredError("A verb (" + verb_names(app) + "; see --help)");
   return action;
 }
 
 std::string usage_sentence(const CLI::ParseError& refusal) {
-  return printable(refusal.what());
+  return haptics::printable(refusal.what());
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::verbs

@@ -1,19 +1,19 @@
-// gearshift demo: the tour and two lessons in the cabin, offscreen: pictures, sound, traces, plots, a page.
+// gearshift demo: renders the tour and two lessons offscreen: pictures, sound, traces, plots and a page.
 #include <memory>
 #include <optional>
 #include <string>
 
+#include "app/base/console.h"
+#include "app/base/output_folder.h"
+#include "app/base/run_until_signal.h"
 #include "app/demo/demo.h"
-#include "app/output_folder.h"
-#include "app/print_out.h"
 #include "app/verbs/number_between.h"
 #include "app/verbs/picture_size.h"
+#include "app/verbs/print_tour.h"
 #include "app/verbs/tour_arguments.h"
-#include "app/verbs/tour_words.h"
-#include "app/verbs/unless_ended.h"
 #include "app/verbs/verbs.h"
 
-namespace gearshift {
+namespace gearshift::verbs {
 namespace {
 
 struct DemoArguments {
@@ -24,9 +24,9 @@ struct DemoArguments {
   double film_rate = 0.0;  // [1/s]
 };
 
-// All that can be refused is refused before the folder is made.
+// All arguments are checked before the folder is created.
 int run(const DemoArguments& arguments) {
-  DemoSetup setup;
+  demo::DemoSetup setup;
   setup.tour = make_tour_setup(arguments.tour);
   const PictureSize size = picture_size(arguments.size, arguments.stereo);
   setup.view.width = size.width;
@@ -34,23 +34,24 @@ int run(const DemoArguments& arguments) {
   setup.view.samples = arguments.samples;
   setup.view.stereo = arguments.stereo;
   setup.film_rate = arguments.film_rate;
-  make_folder(setup.tour.folder);
-  const std::optional<DemoResult> made =
-      unless_ended<DemoResult>([&](const TourProgress& progress) { return run_demo(setup, progress); });
+  base::make_folder(setup.tour.folder);
+  const std::optional<demo::DemoResult> made = base::run_until_signal<demo::DemoResult>(
+      [&](const lab::TourProgress& progress) { return demo::run_demo(setup, progress); });
   if (!made) return 1;
-  const DemoResult& result = *made;
+  const demo::DemoResult& result = *made;
   print_tour(setup.tour, result.tour);
-  print_out("{} pictures of {} by {}, {:.0f} ms each\n", result.pictures(), arguments.size, result.device,
-            result.picture_ms);
-  print_out("{0}/index.html shows pictures, sound, traces and plots; {0}/contact_sheet.png all pictures on one\n",
-            setup.tour.folder.string());
-  for (const DemoChapter& chapter : result.chapters) {
-    print_out("{}\n", chapter.title);
-    for (const std::string& sentence : chapter.text) print_out("  {}\n", sentence);
+  base::print_out("{} pictures of {} rendered by {}, {:.0f} ms each\n", result.pictures(), arguments.size,
+                  result.device, result.picture_ms);
+  base::print_out(
+      "{0}/index.html: pictures, sound, traces and plots; {0}/contact_sheet.png: all pictures on one sheet\n",
+      setup.tour.folder.string());
+  for (const demo::DemoChapter& chapter : result.chapters) {
+    base::print_out("{}\n", chapter.title);
+    for (const std::string& sentence : chapter.text) base::print_out("  {}\n", sentence);
   }
-  if (result.has_report) print_out("{}/report.html is the learner's report\n", setup.tour.folder.string());
-  if (!result.tour.complete()) print_problem("the hand did not engage every gear in order");
-  if (!result.passed) print_problem("the simulated learner did not pass every lesson");
+  if (result.has_report) base::print_out("{}/report.html: the learner's report\n", setup.tour.folder.string());
+  if (!result.tour.complete()) base::print_message("the hand did not engage every gear in order");
+  if (!result.passed) base::print_message("the simulated learner did not pass every lesson");
   return result.tour.complete() && result.tour.lost.times == 0 && result.passed ? 0 : 1;
 }
 
@@ -65,21 +66,21 @@ int run_demo(const TourArguments& tour) {
 void add_demo_verb(CLI::App& app, VerbAction& action) {
   auto arguments = std::make_shared<DemoArguments>();
   CLI::App* verb = app.add_subcommand(
-      "demo", "Simulated drives in the cabin, offscreen: every gear, two lessons; pictures, sound, report, page");
+      "demo", "Render simulated drives offscreen: every gear and two lessons; pictures, sound, report and page");
   verb->footer(
       "Examples:\n"
       "  gearshift demo --out demo\n"
       "  gearshift demo --gate dog_leg_five --out dog_leg\n");
   add_tour_options(*verb, arguments->tour);
-  verb->get_option("--out")->description("folder for page, pictures, sound, traces and plots; made where missing");
-  verb->add_option("--size", arguments->size, "of a picture [px]")->type_name("WxH")->capture_default_str();
-  verb->add_option("--samples", arguments->samples, "a pixel: 1 or 4")
+  verb->get_option("--out")->description("folder for page, pictures, sound, traces and plots; created if missing");
+  verb->add_option("--size", arguments->size, "picture size [px]")->type_name("WxH")->capture_default_str();
+  verb->add_option("--samples", arguments->samples, "samples per pixel: 1 or 4")
       ->check(CLI::IsMember({1, 4}))
       ->capture_default_str();
   verb->add_flag("--stereo", arguments->stereo, "both eyes, side by side");
-  verb->add_option("--film", arguments->film_rate, "pictures a second of the whole drive, too [1/s]")
+  verb->add_option("--film", arguments->film_rate, "also save the whole drive as pictures, this many per second [1/s]")
       ->check(number_between(0.1, 60.0));
   verb->callback([arguments, &action] { action = [arguments] { return run(*arguments); }; });
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::verbs

@@ -1,4 +1,4 @@
-// gearshift devices: which sticks are plugged in and what they can do; calibration.
+// gearshift devices: lists the connected sticks and their capabilities; calibrates them.
 #include <unistd.h>
 
 #include <algorithm>
@@ -13,19 +13,19 @@
 #include <fmt/core.h>
 #include <nlohmann/json.hpp>
 
-#include "app/assets_path.h"
-#include "app/devices/calibrate_stick.h"
-#include "app/devices/open_stick.h"
-#include "app/devices/pad_talk.h"
-#include "app/devices/stick_list.h"
-#include "app/print_out.h"
-#include "app/train/own_bindings.h"
-#include "app/trainer/user_folder.h"
+#include "app/base/assets_path.h"
+#include "app/base/console.h"
+#include "app/base/user_folders.h"
+#include "app/runtime/devices/calibrate_stick.h"
+#include "app/runtime/devices/open_stick.h"
+#include "app/runtime/devices/stick_list.h"
+#include "app/session/bindings_file.h"
+#include "app/ui/input/axis_dialog.h"
 #include "app/verbs/verbs.h"
 #include "engine/window/window.h"
 #include "haptics/files/printable.h"
 
-namespace gearshift {
+namespace gearshift::verbs {
 namespace {
 
 using DeviceJson = nlohmann::ordered_json;
@@ -36,10 +36,10 @@ struct DevicesArguments {
 };
 
 std::filesystem::path calibrations_folder() {
-  return user_config_folder() / "devices";
+  return base::user_config_folder() / "devices";
 }
 
-// Where no home folder is known nothing was calibrated.
+// Empty if no home folder is known: then nothing can have been calibrated.
 std::filesystem::path calibrations_to_read() {
   try {
     return calibrations_folder();
@@ -48,40 +48,41 @@ std::filesystem::path calibrations_to_read() {
   }
 }
 
-// What may be told of a machine without USB, too.
-std::vector<ListedStick> plugged_sticks() {
+// Works on a machine without USB, too: prints the problem and returns an empty list.
+std::vector<runtime::ListedStick> plugged_sticks() {
   try {
-    return list_sticks(usb_hid_devices(), calibrations_to_read());
-  } catch (const HidError& no_usb) {
-    print_problem("{}", no_usb.what());
+    return runtime::list_sticks(haptics::usb_hid_devices(), calibrations_to_read());
+  } catch (const haptics::HidError& no_usb) {
+    base::print_message("{}", no_usb.what());
     return {};
   }
 }
 
-// Where there is a display. A stick that pushes is among them, too.
-std::vector<PadState> glfw_pads() {
-  return has_display() ? glfw_sticks() : std::vector<PadState>{};
+// GLFW needs a display. The list includes force-feedback sticks.
+std::vector<engine::PadState> glfw_pads() {
+  return engine::has_display() ? engine::glfw_sticks() : std::vector<engine::PadState>{};
 }
 
-DeviceJson pad_json(const PadState& pad) {
+DeviceJson pad_json(const engine::PadState& pad) {
   return {{"name", pad.name}, {"guid", pad.guid}, {"axes", pad.axes.size()}, {"buttons", pad.buttons.size()}};
 }
 
-DeviceJson stick_json(const ListedStick& stick) {
+DeviceJson stick_json(const runtime::ListedStick& stick) {
   DeviceJson effects = DeviceJson::array();
-  for (const PidEffect effect : stick.effects) effects.push_back(pid_effect_name(effect));
-  return {{"name", stick_name(stick.identity)},
-          {"id", stick_id(stick.identity)},
-          {"serial", stick.identity.serial},
-          {"maker", stick.identity.maker},
-          {"place", stick.identity.place},
-          {"axes", stick.axes},
-          {"buttons", stick.buttons},
-          {"force", stick.force == StickForce::pushes ? "pushes" : force_words(stick)},
-          {"effects", effects},
-          {"calibrated", stick.force == StickForce::pushes ? DeviceJson(stick.calibrated) : DeviceJson()},
-          {"calibration_lacks", stick.missing},
-          {"problem", stick.problem}};
+  for (const haptics::PidEffect effect : stick.effects) effects.push_back(haptics::pid_effect_name(effect));
+  return {
+      {"name", runtime::stick_name(stick.identity)},
+      {"id", runtime::stick_id(stick.identity)},
+      {"serial", stick.identity.serial},
+      {"maker", stick.identity.maker},
+      {"place", stick.identity.place},
+      {"axes", stick.axes},
+      {"buttons", stick.buttons},
+      {"force", stick.force == runtime::StickForce::force_feedback ? "pushes" : runtime::describe_forces(stick)},
+      {"effects", effects},
+      {"calibrated", stick.force == runtime::StickForce::force_feedback ? DeviceJson(stick.calibrated) : DeviceJson()},
+      {"calibration_lacks", stick.missing},
+      {"problem", stick.problem}};
 }
 
 using DevicesRow = std::vector<std::string>;
@@ -93,78 +94,82 @@ void print_rows(const std::vector<DevicesRow>& rows) {
   for (const DevicesRow& row : rows) {
     std::string line;
     for (std::size_t i = 0; i < row.size(); ++i) line += fmt::format("{:<{}}  ", row[i], widths[i]);
-    print_out("{}\n", line.substr(0, line.find_last_not_of(' ') + 1));
+    base::print_out("{}\n", line.substr(0, line.find_last_not_of(' ') + 1));
   }
 }
 
-void print_sticks(const std::vector<ListedStick>& sticks) {
+void print_sticks(const std::vector<runtime::ListedStick>& sticks) {
   std::vector<DevicesRow> rows{{"stick", "id", "place", "axes", "buttons", "forces", "calibrated"}};
-  for (const ListedStick& stick : sticks) {
-    const bool seen = stick.force != StickForce::unknown;
-    rows.push_back({stick_name(stick.identity), stick_id(stick.identity), stick.identity.place,
+  for (const runtime::ListedStick& stick : sticks) {
+    const bool seen = stick.force != runtime::StickForce::unknown;
+    rows.push_back({runtime::stick_name(stick.identity), runtime::stick_id(stick.identity), stick.identity.place,
                     seen ? fmt::format("{}", stick.axes) : "?", seen ? fmt::format("{}", stick.buttons) : "?",
-                    force_words(stick), calibration_words(stick)});
+                    runtime::describe_forces(stick), runtime::describe_calibration(stick)});
   }
   print_rows(rows);
-  for (const ListedStick& stick : sticks)
-    if (!stick.problem.empty()) print_out("  {}\n", stick.problem);
+  for (const runtime::ListedStick& stick : sticks)
+    if (!stick.problem.empty()) base::print_out("  {}\n", stick.problem);
 }
 
-void print_pads(const std::vector<PadState>& pads) {
+void print_pads(const std::vector<engine::PadState>& pads) {
   if (pads.empty()) return;
-  print_out("\nWithout force, for hand and feet:\n");
+  base::print_out("\nWithout force feedback, for hand and pedals:\n");
   std::vector<DevicesRow> rows{{"name", "axes", "buttons"}};
-  for (const PadState& pad : pads)
-    rows.push_back({printable(pad.name), std::to_string(pad.axes.size()), std::to_string(pad.buttons.size())});
+  for (const engine::PadState& pad : pads)
+    rows.push_back({haptics::printable(pad.name), std::to_string(pad.axes.size()), std::to_string(pad.buttons.size())});
   print_rows(rows);
 }
 
-// Once for all of them.
-void print_rule(const std::vector<ListedStick>& sticks) {
-  const bool forbidden =
-      std::any_of(sticks.begin(), sticks.end(), [](const ListedStick& stick) { return is_forbidden(stick); });
+// Printed once, for all sticks that the user may not open.
+void print_rule(const std::vector<runtime::ListedStick>& sticks) {
+  const bool forbidden = std::any_of(
+      sticks.begin(), sticks.end(), [](const runtime::ListedStick& stick) { return runtime::lacks_permission(stick); });
   if (!forbidden) return;
-  const std::string rule = (assets_folder() / "udev" / "70-gearshift.rules").string();
-  print_out(
-      "To let whoever sits at this machine use them, once:\n"
+  const std::string rule = (base::assets_folder() / "udev" / "70-gearshift.rules").string();
+  base::print_out(
+      "To let the user at this machine use them, run once:\n"
       "  sudo cp \"{}\" /etc/udev/rules.d/\n"
       "  sudo udevadm control --reload\n"
-      "and plug the stick in again.\n",
+      "Then plug the stick in again.\n",
       rule);
 }
 
 int list_devices(bool as_json) {
-  const std::vector<ListedStick> sticks = plugged_sticks();
-  const std::vector<PadState> pads = glfw_pads();
-  const std::vector<std::string> absent = absent_problems(sticks, calibrations_to_read());
+  const std::vector<runtime::ListedStick> sticks = plugged_sticks();
+  const std::vector<engine::PadState> pads = glfw_pads();
+  const std::vector<std::string> absent = runtime::absent_problems(sticks, calibrations_to_read());
   if (as_json) {
     DeviceJson all = DeviceJson::array();
-    for (const ListedStick& stick : sticks) all.push_back(stick_json(stick));
+    for (const runtime::ListedStick& stick : sticks) all.push_back(stick_json(stick));
     DeviceJson seen = DeviceJson::array();
-    for (const PadState& pad : pads) seen.push_back(pad_json(pad));
+    for (const engine::PadState& pad : pads) seen.push_back(pad_json(pad));
     const DeviceJson listed{{"sticks", all}, {"seen_by_glfw", seen}, {"problems_of_absent", absent}};
-    print_out("{}\n", listed.dump(2));
+    base::print_out("{}\n", listed.dump(2));
     return 0;
   }
-  if (sticks.empty()) print_out("No USB stick is plugged in: the simulated lever needs none.\n");
+  if (sticks.empty()) base::print_out("No USB stick is plugged in. The simulated lever works without one.\n");
   if (!sticks.empty()) print_sticks(sticks);
-  for (const std::string& problem : absent) print_out("  {}\n", problem);
+  for (const std::string& problem : absent) base::print_out("  {}\n", problem);
   print_rule(sticks);
   print_pads(pads);
   return 0;
 }
 
-// A stick that pushes is measured; the axes of others are shown, where a display lets GLFW see them.
+// A force-feedback stick is measured; for other sticks and pads the user assigns the axes, which needs a display for
+// GLFW.
 int calibrate(const std::string& wanted, bool again) {
-  const std::vector<ListedStick> plugged = plugged_sticks();
-  const ListedStick* stick = found_stick(wanted, plugged);
-  const bool may_be_pad = stick == nullptr || stick->force == StickForce::none || stick->force == StickForce::rumble;
-  const std::vector<PadState> pads = may_be_pad ? glfw_pads() : std::vector<PadState>{};
+  const std::vector<runtime::ListedStick> plugged = plugged_sticks();
+  const runtime::ListedStick* stick = runtime::find_plugged_stick(wanted, plugged);
+  const bool may_be_pad =
+      stick == nullptr || stick->force == runtime::StickForce::none || stick->force == runtime::StickForce::rumble;
+  const std::vector<engine::PadState> pads = may_be_pad ? glfw_pads() : std::vector<engine::PadState>{};
   const std::string name = stick == nullptr ? wanted : stick->identity.name;
-  const bool is_pad = std::any_of(pads.begin(), pads.end(), [&](const PadState& pad) { return is_meant(pad, name); });
-  if (!is_pad) return calibrate_stick(wanted, calibrations_folder(), again, STDIN_FILENO);
-  const std::filesystem::path file = own_bindings_file(user_config_folder(), std::string(kOwnBindings));
-  return calibrate_pads(file, find_asset("bindings", "default"), again, STDIN_FILENO);
+  const bool is_pad =
+      std::any_of(pads.begin(), pads.end(), [&](const engine::PadState& pad) { return ui::matches_stick(pad, name); });
+  if (!is_pad) return runtime::calibrate_stick(wanted, calibrations_folder(), again, STDIN_FILENO);
+  const std::filesystem::path file =
+      ui::user_bindings_file(base::user_config_folder(), std::string(session::kOwnBindings));
+  return ui::calibrate_pads(file, base::find_asset("bindings", "default"), again, STDIN_FILENO);
 }
 
 int run_devices(const DevicesArguments& arguments) {
@@ -175,21 +180,21 @@ int run_devices(const DevicesArguments& arguments) {
 
 void add_devices_verb(CLI::App& app, VerbAction& action) {
   auto arguments = std::make_shared<DevicesArguments>();
-  CLI::App* verb = app.add_subcommand("devices", "Sticks that are plugged in, what they can do, and their calibration");
+  CLI::App* verb = app.add_subcommand("devices", "List connected sticks and what they can do; calibrate them");
   verb->footer(
       "Examples:\n"
       "  gearshift devices\n"
-      "  gearshift devices --calibrate NAME    any part of its name; asks step by step\n");
-  CLI::Option* json = verb->add_flag("--json", arguments->json, "the list for a script");
+      "  gearshift devices --calibrate NAME    any part of the stick's name; guides you step by step\n");
+  CLI::Option* json = verb->add_flag("--json", arguments->json, "print the list as JSON");
   CLI::Option* calibrate =
       verb->add_option(
               "--calibrate", arguments->calibrate,
-              "measure that stick (name, VENDOR:PRODUCT, serial or place): asks step by step, keeps every step")
+              "calibrate this stick (name, VENDOR:PRODUCT, serial or place) step by step; each finished step is saved")
           ->type_name("NAME")
-          ->check([](const std::string& name) { return name.empty() ? "the name of a stick is empty" : ""; })
+          ->check([](const std::string& name) { return name.empty() ? "the stick's name must not be empty" : ""; })
           ->excludes(json);
-  verb->add_flag("--again", arguments->again, "measure all of it anew")->needs(calibrate);
+  verb->add_flag("--again", arguments->again, "calibrate from scratch")->needs(calibrate);
   verb->callback([arguments, &action] { action = [arguments] { return run_devices(*arguments); }; });
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::verbs

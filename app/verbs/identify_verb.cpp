@@ -1,4 +1,4 @@
-// gearshift identify: frequency response, mass, damping and stiffness of a lever, and its force sensor.
+// gearshift identify: measures a lever's frequency response, mass, damping, stiffness and force sensor.
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -6,16 +6,16 @@
 #include <string_view>
 #include <vector>
 
-#include "app/assets_path.h"
-#include "app/identify/identify.h"
-#include "app/output_folder.h"
-#include "app/print_out.h"
+#include "app/base/assets_path.h"
+#include "app/base/console.h"
+#include "app/base/output_folder.h"
+#include "app/base/progress_bar.h"
+#include "app/lab/identify/identify.h"
 #include "app/verbs/number_between.h"
-#include "app/verbs/progress_bar.h"
 #include "app/verbs/verbs.h"
 #include "app/verbs/whole_number.h"
 
-namespace gearshift {
+namespace gearshift::verbs {
 namespace {
 
 struct IdentifyArguments {
@@ -27,38 +27,39 @@ struct IdentifyArguments {
   bool json = false;
 };
 
-Preset make_preset(const IdentifyArguments& arguments) {
-  Preset preset = read_preset(find_asset("presets", arguments.preset).string());
+haptics::Preset make_preset(const IdentifyArguments& arguments) {
+  haptics::Preset preset = haptics::read_preset(base::find_asset("presets", arguments.preset).string());
   preset.haptics.rate = arguments.rate.value_or(preset.haptics.rate);
   preset.lever.seed = arguments.seed.value_or(preset.lever.seed);
   return preset;
 }
 
-std::vector<LeverAxis> axes_of(const std::string& word) {
-  if (word == "both") return {LeverAxis::x, LeverAxis::y};
-  return {word == "x" ? LeverAxis::x : LeverAxis::y};
+std::vector<haptics::LeverAxis> axes_of(const std::string& word) {
+  if (word == "both") return {haptics::LeverAxis::x, haptics::LeverAxis::y};
+  return {word == "x" ? haptics::LeverAxis::x : haptics::LeverAxis::y};
 }
 
-void draw(const std::string& folder, const Identification& found, const IdentifyProgress& progress) {
-  for (const AxisIdentification& axis : found.axes)
-    draw_bode(folder, axis, "device says", [&] { progress("figures", 0.0); });
+void draw(const std::string& folder, const lab::Identification& found, const lab::IdentifyProgress& progress) {
+  for (const lab::AxisIdentification& axis : found.axes)
+    lab::draw_bode(folder, axis, "nominal", [&] { progress("figures", 0.0); });
 }
 
 int run_identify(const IdentifyArguments& arguments) {
-  const Preset preset = make_preset(arguments);
-  if (!arguments.folder.empty()) make_folder(arguments.folder);
-  ProgressBar bar;
-  const IdentifyProgress progress = [&](std::string_view what, double share) { bar.show(what, share); };
-  const Identification found = identify_lever(preset, axes_of(arguments.axis), progress);
+  const haptics::Preset preset = make_preset(arguments);
+  if (!arguments.folder.empty()) base::make_folder(arguments.folder);
+  base::ProgressBar bar;
+  const lab::IdentifyProgress progress = [&](std::string_view what, double share) { bar.show(what, share); };
+  const lab::Identification found = lab::identify_lever(preset, axes_of(arguments.axis), progress);
   if (!arguments.folder.empty()) draw(arguments.folder, found, progress);
   bar.clear();
   if (arguments.json) {
-    print_out("{}", identification_json(found));
+    base::print_out("{}", lab::identification_json(found));
     return 0;
   }
-  print_out("{}: sinusoids on {:g} samples a second, hand off the lever\n\n{}", preset.name, found.rate,
-            identification_table(found));
-  if (!arguments.folder.empty()) print_out("\n{}/bode_*.png (also .svg), test points as .csv\n", arguments.folder);
+  base::print_out("{}: sine sweep sampled at {:g} Hz, hand off the lever\n\n{}", preset.name, found.rate,
+                  lab::identification_table(found));
+  if (!arguments.folder.empty())
+    base::print_out("\n{}/bode_*.png (also .svg), test points as .csv\n", arguments.folder);
   return 0;
 }
 
@@ -66,26 +67,26 @@ int run_identify(const IdentifyArguments& arguments) {
 
 void add_identify_verb(CLI::App& app, VerbAction& action) {
   auto arguments = std::make_shared<IdentifyArguments>();
-  CLI::App* verb =
-      app.add_subcommand("identify", "Mass, damping, stiffness and bandwidth of a lever by its frequency response");
+  CLI::App* verb = app.add_subcommand(
+      "identify", "Measure a lever's mass, damping, stiffness and bandwidth by its frequency response");
   verb->footer(
       "Examples:\n"
       "  gearshift identify\n"
       "  gearshift identify --axis x --out lever\n");
-  verb->add_option("--preset", arguments->preset, "shipped preset or file: which lever, at which rate")
+  verb->add_option("--preset", arguments->preset, "shipped preset or file: lever and rate")
       ->type_name("NAME|FILE")
       ->capture_default_str();
   verb->add_option("--axis", arguments->axis, "x (select), y (shift) or both")
       ->check(CLI::IsMember({"x", "y", "both"}))
       ->capture_default_str();
-  verb->add_option("--rate", arguments->rate, "rate of the cycle [Hz], else the preset's")
+  verb->add_option("--rate", arguments->rate, "cycle rate [Hz]; default: the preset's")
       ->check(number_between(100.0, 4000.0));
-  verb->add_option("--seed", arguments->seed, "of the sensor's noise and the lever's errors, else the preset's")
+  verb->add_option("--seed", arguments->seed, "seed of the sensor noise and the lever's errors; default: the preset's")
       ->check(whole_number());
-  verb->add_option("--out", arguments->folder, "folder for Bode plots and test points; made where missing")
+  verb->add_option("--out", arguments->folder, "folder for Bode plots and test points; created if missing")
       ->type_name("DIR");
-  verb->add_flag("--json", arguments->json, "JSON on stdout");
+  verb->add_flag("--json", arguments->json, "print JSON to stdout");
   verb->callback([arguments, &action] { action = [arguments] { return run_identify(*arguments); }; });
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::verbs

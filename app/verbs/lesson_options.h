@@ -1,4 +1,4 @@
-// Options of every verb with lessons.
+// Command-line options shared by the verbs that run lessons.
 #pragma once
 
 #include <optional>
@@ -6,24 +6,24 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app/history/typed_text.h"
-#include "app/training/lesson_result.h"
+#include "app/lessons/assessment/lesson_result.h"
+#include "app/lessons/history/user_text.h"
 
-namespace gearshift {
+namespace gearshift::verbs {
 
-// A check: what is wrong with the name, or nothing.
-inline std::string learner_name(const std::string& name) {
-  return typed_text_problem(TypedText::name, "a learner's name", name);
+// CLI11 validator: returns what is wrong with the name, or an empty string.
+inline std::string validate_learner_name(const std::string& name) {
+  return lessons::user_text_problem(lessons::UserText::name, "a learner's name", name);
 }
 
-inline void add_mode_option(CLI::App& verb, std::optional<LessonMode>& mode) {
+inline void add_mode_option(CLI::App& verb, std::optional<lessons::LessonMode>& mode) {
   verb.add_option_function<std::string>(
           "--mode",
           [&mode](const std::string& name) {
-            mode = name == "follow-me" ? LessonMode::follow_me : LessonMode::by_yourself;
+            mode = name == "follow-me" ? lessons::LessonMode::follow_me : lessons::LessonMode::by_yourself;
           },
-          "each step is prompted, or only the goal; else follow-me until it was passed")
+          "prompt each step, or only state the goal; default: follow-me until the lesson is passed")
       ->check(CLI::IsMember({"follow-me", "by-yourself"}));
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::verbs

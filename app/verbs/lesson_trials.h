@@ -1,29 +1,29 @@
-// Trials of a lesson by a simulated learner, one after another, through the same coach as a person's.
+// Runs of a lesson by a simulated driver, one after another, judged by the same coach as a person's.
 #pragma once
 
 #include <optional>
 #include <string>
 
-#include "app/learner/lesson_drive.h"
-#include "app/trainer/user_folder.h"
+#include "app/base/user_folders.h"
+#include "app/lessons/simulated_driver/lesson_drive.h"
 
-namespace gearshift {
+namespace gearshift::verbs {
 
 struct LessonTrials {
-  LessonDriveConfig drive;         // of the first; each next one has the next seed
-  int runs = 1;                    // > 0
-  bool help = false;               // guided as the coach's policy says, in place of drive.guidance
-  std::optional<LessonMode> mode;  // else the coach's
-  std::string learner;             // empty: nobody, nothing is remembered
-  HistoryPlace history;            // none: nothing is remembered, and is told why
-  std::string settings;            // for the history
-  bool tells_shifts = false;       // a line for each, when it is written
+  lessons::LessonDriveConfig drive;         // of the first run; the seed increases by 1 per run
+  int runs = 1;                             // > 0
+  bool help = false;                        // use the coach's guidance policy instead of drive.guidance
+  std::optional<lessons::LessonMode> mode;  // default: the coach's choice
+  std::string learner;                      // empty: nothing is saved
+  base::HistoryLocation history;            // if it is unavailable, nothing is saved and the reason is reported
+  std::string settings;                     // saved with each run
+  bool prints_shifts = false;               // print a line for each shift once it is saved
 };
 
-// Prints what the coach says, and problems of the history as one sentence on stderr; the trials go on. What is
-// remembered is recorded in the history's folder, below recordings/. Ctrl-C, kill and a closed terminal leave the lesson
-// that is driven, in one sentence on stderr. Returns whether the last one was passed, and none was left for that. Throws
-// as drive_lesson() does, but not for a recording that nobody asked for.
+// Prints the coach's results. Problems with the history are printed to stderr and the runs continue. Saved runs are
+// recorded in recordings/ beside the history. Ctrl-C, SIGTERM and a closed terminal end the current run with a message
+// on stderr. Returns true if all runs finished and the last one was passed. Throws like drive_lesson(), except for
+// automatic recordings.
 bool drive_trials(const LessonTrials& trials);
 
-}  // namespace gearshift
+}  // namespace gearshift::verbs

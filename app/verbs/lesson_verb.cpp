@@ -1,4 +1,4 @@
-// gearshift lesson: a simulated learner drives a lesson, no graphics, and the coach says what it was.
+// gearshift lesson: a simulated driver drives a lesson without graphics, and the coach prints errors and grade.
 #include <array>
 #include <filesystem>
 #include <fstream>
@@ -9,92 +9,94 @@
 
 #include <fmt/core.h>
 
-#include "app/assets_path.h"
-#include "app/history/history.h"
-#include "app/trainer/user_folder.h"
+#include "app/base/assets_path.h"
+#include "app/base/user_folders.h"
+#include "app/lessons/history/history.h"
+#include "app/verbs/distinct_outputs.h"
 #include "app/verbs/lesson_options.h"
 #include "app/verbs/lesson_trials.h"
 #include "app/verbs/number_between.h"
-#include "app/verbs/two_files.h"
 #include "app/verbs/verbs.h"
 #include "app/verbs/whole_number.h"
 #include "haptics/files/printable.h"
 #include "haptics/loop/trace_format.h"
 
-namespace gearshift {
+namespace gearshift::verbs {
 namespace {
 
 namespace fs = std::filesystem;
 
 constexpr const char* kLessonHelp =
-    "A simulated learner drives a lesson, as fast as it goes: what the coach says, the grade. With --learner it is "
-    "remembered and recorded, as a person's.";
+    "Run a lesson with a simulated driver, faster than real time: driving errors and grade. With --learner the run is "
+    "saved and recorded like a person's.";
 constexpr const char* kLessonExamples =
-    "\nExit code: 0 passed (of several runs: the last), 1 not passed, ended early or a bad file, 2 bad usage.\n"
-    "A history that cannot be used is told in one sentence, and the lesson is driven without it.\n"
+    "\nExit code: 0 passed (with --runs: the last run), 1 not passed, interrupted or a bad file, 2 bad usage.\n"
+    "If the history cannot be used, a message says why and the lesson runs without saving.\n"
     "\nExamples:\n"
-    "  gearshift lesson hill_start                               by someone who can\n"
-    "  gearshift lesson hill_start --skill-error 1 --seed 4      by someone who begins: exits 1\n"
-    "  gearshift lesson hill_start --fault rollback              by someone who can, but for that: exits 1\n"
-    "  gearshift lesson skip_shifts --trace drive.trace          for gearshift replay\n"
-    "  gearshift lesson reverse --learner Kim --runs 8 --guided  for gearshift report, and for the trainer\n";
+    "  gearshift lesson hill_start                               a skilled driver\n"
+    "  gearshift lesson hill_start --skill-error 1 --seed 4      a beginner: exits 1\n"
+    "  gearshift lesson hill_start --fault rollback              a skilled driver who rolls back: exits 1\n"
+    "  gearshift lesson skip_shifts --trace drive.trace          record it for gearshift replay\n"
+    "  gearshift lesson reverse --learner Kim --runs 8 --guided  save it for gearshift report and the trainer\n";
 
 struct LessonArguments {
   std::string lesson, car, gate, trace;
-  std::vector<std::string> faults;
+  std::vector<std::string> errors;
   double skill_error = 0.0, amount = 1.0, guidance = 0.0;
   std::uint64_t seed = 1;
   std::string learner, database;
-  std::optional<LessonMode> mode;
+  std::optional<lessons::LessonMode> mode;
   int runs = 1;
   bool guided = false, verbose = false;
 };
 
-// An option goes before the lesson's own words, these before what is usual.
-std::string first_of(const std::string& option, const std::string& lesson, const std::string& usual) {
+// The command-line option if given, otherwise the lesson's value, otherwise the default.
+std::string first_of(const std::string& option, const std::string& lesson, const std::string& fallback) {
   if (!option.empty()) return option;
-  return lesson.empty() ? usual : lesson;
+  return lesson.empty() ? fallback : lesson;
 }
 
-// Of gate and car their files, of the learner what a person could not be asked for.
-std::string settings_of(const LessonDriveConfig& drive, const LessonArguments& arguments) {
+// The settings saved with a run: gate and car file, skill and deliberate errors of the simulated driver.
+std::string settings_of(const lessons::LessonDriveConfig& drive, const LessonArguments& arguments) {
   std::string text = fmt::format("gate = \"{}\"\ncar = \"{}\"\nsimulated_skill_error = {:g}\n", drive.gate.file,
                                  drive.car.file, arguments.skill_error);
-  for (const std::string& key : arguments.faults)
+  for (const std::string& key : arguments.errors)
     text += fmt::format("simulated_fault = \"{}\"  # {:g}\n", key, arguments.amount);
   return text;
 }
 
-// SQLite has files of its own beside it.
+// SQLite keeps more files beside the database.
 void check_history(const std::string& trace, const fs::path& history) {
   if (history.empty()) return;
-  for (const char* own : {"", "-wal", "-shm", "-journal"})
-    check_two_files("--trace", "the recording and the history", trace, history.string() + own);
+  for (const char* suffix : {"", "-wal", "-shm", "-journal"})
+    check_distinct_outputs("--trace", "the recording and the history", trace, history.string() + suffix);
 }
 
-// Whoever mistypes a name must not lose a history for it, nor anything else that is no recording.
+// Overwrites only recordings: a mistyped name must not destroy a history or any other file.
 void check_recording(const std::string& trace) {
   std::error_code error;
   if (trace.empty() || !std::filesystem::is_regular_file(trace, error) || std::filesystem::is_empty(trace, error))
     return;
-  std::array<char, kTraceMagic.size()> first{};
+  std::array<char, haptics::kTraceMagic.size()> first{};
   std::ifstream(trace, std::ios::binary).read(first.data(), first.size());
-  if (first != kTraceMagic)
-    throw CLI::ValidationError("--trace", printable(trace) + " is there, and is no recording: it is not written over");
+  if (first != haptics::kTraceMagic)
+    throw CLI::ValidationError("--trace",
+                               haptics::printable(trace) + " exists and is not a recording, so it is not overwritten");
 }
 
-LessonDriveConfig make_drive(const LessonArguments& arguments) {
-  LessonDriveConfig config;
-  config.lesson = read_lesson(find_asset("lessons", arguments.lesson));
-  config.car = read_car(find_asset("cars", first_of(arguments.car, config.lesson.car, "hatchback")));
-  config.gate = read_gate_layout(find_asset("gates", first_of(arguments.gate, config.lesson.gate, config.car.gate)));
-  config.skill = skill_of(arguments.skill_error);
-  for (const std::string& key : arguments.faults)
-    config.faults.amount[static_cast<std::size_t>(*fault_of(key))] = arguments.amount;
+lessons::LessonDriveConfig make_drive(const LessonArguments& arguments) {
+  lessons::LessonDriveConfig config;
+  config.lesson = lessons::read_lesson(base::find_asset("lessons", arguments.lesson));
+  config.car = vehicle::read_car(base::find_asset("cars", first_of(arguments.car, config.lesson.car, "hatchback")));
+  config.gate = haptics::read_gate_layout(
+      base::find_asset("gates", first_of(arguments.gate, config.lesson.gate, config.car.gate)));
+  config.skill = lessons::skill_of(arguments.skill_error);
+  for (const std::string& key : arguments.errors)
+    config.errors.amount[static_cast<std::size_t>(*lessons::error_kind_of(key))] = arguments.amount;
   config.guidance = arguments.guidance;
   config.seed = arguments.seed;
   for (const std::string& read : {config.lesson.file, config.car.file, config.gate.file})
-    check_two_files("--trace", "the recording and what is driven", arguments.trace, read);
+    check_distinct_outputs("--trace", "the recording and the lesson, car and gate", arguments.trace, read);
   check_recording(arguments.trace);
   config.trace = arguments.trace;
   return config;
@@ -107,10 +109,10 @@ LessonTrials make_trials(const LessonArguments& arguments) {
   trials.help = arguments.guided;
   trials.mode = arguments.mode;
   trials.learner = arguments.learner;
-  if (!arguments.learner.empty()) trials.history = history_place(arguments.database);
+  if (!arguments.learner.empty()) trials.history = base::history_location(arguments.database);
   check_history(arguments.trace, trials.history.file);
   trials.settings = settings_of(trials.drive, arguments);
-  trials.tells_shifts = arguments.verbose;
+  trials.prints_shifts = arguments.verbose;
   return trials;
 }
 
@@ -120,7 +122,8 @@ int run_lesson(const LessonArguments& arguments) {
 
 std::vector<std::string> fault_keys() {
   std::vector<std::string> keys;
-  for (int i = 0; i < kFaultKinds; ++i) keys.emplace_back(fault_key(static_cast<FaultKind>(i)));
+  for (int i = 0; i < lessons::kErrorKindCount; ++i)
+    keys.emplace_back(lessons::error_key(static_cast<lessons::ErrorKind>(i)));
   return keys;
 }
 
@@ -130,41 +133,42 @@ void add_lesson_verb(CLI::App& app, VerbAction& action) {
   const auto arguments = std::make_shared<LessonArguments>();
   CLI::App* verb = app.add_subcommand("lesson", kLessonHelp);
   verb->footer(kLessonExamples);
-  verb->add_option("lesson", arguments->lesson, "a shipped lesson, or a file")->required();
-  verb->add_option("--car", arguments->car, "a shipped car, or a file; else the lesson's");
-  verb->add_option("--gate", arguments->gate, "a shipped gate, or a file; else the lesson's or the car's");
-  verb->add_option("--skill-error", arguments->skill_error, "0 practised to 1 a beginner")
+  verb->add_option("lesson", arguments->lesson, "shipped lesson or lesson file")->required();
+  verb->add_option("--car", arguments->car, "shipped car or car file; default: the lesson's");
+  verb->add_option("--gate", arguments->gate, "shipped gate or layout file; default: the lesson's or the car's");
+  verb->add_option("--skill-error", arguments->skill_error, "the driver's skill: 0 skilled to 1 beginner")
       ->check(number_between(0.0, 1.0))
       ->capture_default_str();
-  verb->add_option("--fault", arguments->faults, "done on purpose; may be repeated")
+  verb->add_option("--fault", arguments->errors, "driving error to make on purpose; may be repeated")
       ->check(CLI::IsMember(fault_keys()));
-  verb->add_option("--fault-amount", arguments->amount, "of these; 1: nobody would overlook it")
+  verb->add_option("--fault-amount", arguments->amount, "size of the deliberate errors; 1 is obvious")
       ->check(number_between(0.0, 3.0))
       ->capture_default_str();
-  CLI::Option* guidance =
-      verb->add_option("--guidance", arguments->guidance, "strength of the teacher's hand; such a drive is not graded")
-          ->check(number_between(0.0, 1.0))
-          ->capture_default_str();
-  verb->add_option("--seed", arguments->seed, "of the learner; each next run has the next one")
+  CLI::Option* guidance = verb->add_option("--guidance", arguments->guidance,
+                                           "strength of the lever's guidance; guided runs are not graded")
+                              ->check(number_between(0.0, 1.0))
+                              ->capture_default_str();
+  verb->add_option("--seed", arguments->seed, "seed of the driver; increases by 1 per run")
       ->check(whole_number())
       ->capture_default_str();
   CLI::Option* trace =
-      verb->add_option("--trace", arguments->trace, "record the drive into this file")->type_name("FILE");
-  CLI::Option* learner = verb->add_option("--learner", arguments->learner, "who drives: remembered and recorded")
+      verb->add_option("--trace", arguments->trace, "record the drive to this file")->type_name("FILE");
+  CLI::Option* learner = verb->add_option("--learner", arguments->learner, "save and record the runs under this name")
                              ->type_name("NAME")
-                             ->check(learner_name);
-  verb->add_option("--database", arguments->database, "another history than the user's own; recordings/ lies beside it")
+                             ->check(validate_learner_name);
+  verb->add_option("--database", arguments->database,
+                   "history file to use instead of your own; recordings go to recordings/ beside it")
       ->type_name("FILE")
       ->needs(learner);
-  verb->add_option("--runs", arguments->runs, "one after another")
+  verb->add_option("--runs", arguments->runs, "number of runs, one after another")
       ->check(whole_number(1, 1'000'000))
       ->capture_default_str()
       ->excludes(trace);
   add_mode_option(*verb, arguments->mode);
-  verb->add_flag("--guided", arguments->guided, "the coach helps as this learner's past runs ask for")
+  verb->add_flag("--guided", arguments->guided, "let the coach choose the guidance from this learner's past runs")
       ->excludes(guidance);
-  verb->add_flag("--verbose", arguments->verbose, "a line for each shift, when it is written");
+  verb->add_flag("--verbose", arguments->verbose, "print a line for each shift once it is saved");
   verb->callback([arguments, &action] { action = [arguments] { return run_lesson(*arguments); }; });
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::verbs

@@ -8,7 +8,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
-namespace gearshift {
+namespace gearshift::verbs {
 
 inline CLI::Validator number_between(double min, double max) {
   const std::string range = fmt::format("{:g} to {:g}", min, max);
@@ -21,4 +21,4 @@ inline CLI::Validator number_between(double min, double max) {
   return CLI::Validator(check, "FROM " + range);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::verbs

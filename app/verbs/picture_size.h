@@ -1,4 +1,4 @@
-// "1280x720" on a command line.
+// Parses a picture size like "1280x720" from the command line.
 #pragma once
 
 #include <charconv>
@@ -7,28 +7,28 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
-namespace gearshift {
+namespace gearshift::verbs {
 
-inline constexpr int kLeastPictureSide = 16, kMostPictureSide = 8192;  // [px]
+inline constexpr int kMinPictureSide = 16, kMaxPictureSide = 8192;  // [px]
 
 struct PictureSize {
   int width = 0, height = 0;  // [px]
 };
 
-// Throws CLI::ValidationError. stereo: two eyes of the same whole number of pixels stand side by side.
+// stereo: both eyes share the width, so it must be even. Throws CLI::ValidationError.
 inline PictureSize picture_size(const std::string& text, bool stereo) {
   PictureSize size;
   const char* const end = text.data() + text.size();
   const auto width = std::from_chars(text.data(), end, size.width);
-  const bool crossed = width.ec == std::errc{} && width.ptr != end && *width.ptr == 'x';
-  const auto height = crossed ? std::from_chars(width.ptr + 1, end, size.height) : width;
-  const auto fits = [](int side) { return side >= kLeastPictureSide && side <= kMostPictureSide; };
-  if (!crossed || height.ec != std::errc{} || height.ptr != end || !fits(size.width) || !fits(size.height))
-    throw CLI::ValidationError(fmt::format("--size {}: must be WIDTHxHEIGHT, each {} to {} pixels", text,
-                                           kLeastPictureSide, kMostPictureSide));
+  const bool has_x = width.ec == std::errc{} && width.ptr != end && *width.ptr == 'x';
+  const auto height = has_x ? std::from_chars(width.ptr + 1, end, size.height) : width;
+  const auto fits = [](int side) { return side >= kMinPictureSide && side <= kMaxPictureSide; };
+  if (!has_x || height.ec != std::errc{} || height.ptr != end || !fits(size.width) || !fits(size.height))
+    throw CLI::ValidationError(
+        fmt::format("--size {}: must be WIDTHxHEIGHT, each {} to {} pixels", text, kMinPictureSide, kMaxPictureSide));
   if (stereo && size.width % 2 != 0)
-    throw CLI::ValidationError(fmt::format("--size {}: must be of even width for two eyes side by side", text));
+    throw CLI::ValidationError(fmt::format("--size {}: the width must be even for two eyes side by side", text));
   return size;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::verbs

@@ -1,4 +1,4 @@
-// gearshift report: what is remembered of learners, as a table, a page, CSV; comments, the next lesson, deletion.
+// gearshift report: learners' results as a table, a page or CSV; comments, next lesson, deletion.
 #include <unistd.h>
 
 #include <algorithm>
@@ -15,38 +15,39 @@
 
 #include <fmt/format.h>
 
-#include "app/coach/shipped_lessons.h"
-#include "app/history/history.h"
-#include "app/output_folder.h"
-#include "app/print_out.h"
-#include "app/report/delete_learner.h"
-#include "app/report/instructor.h"
-#include "app/report/learner_table.h"
-#include "app/report/report_csv.h"
-#include "app/report/report_files.h"
-#include "app/report/report_page.h"
-#include "app/trainer/user_folder.h"
-#include "app/verbs/two_files.h"
+#include "app/base/console.h"
+#include "app/base/output_folder.h"
+#include "app/base/user_folders.h"
+#include "app/lessons/coach/shipped_lessons.h"
+#include "app/lessons/history/history.h"
+#include "app/lessons/report/delete_learner.h"
+#include "app/lessons/report/instructor.h"
+#include "app/lessons/report/learner_table.h"
+#include "app/lessons/report/report_csv.h"
+#include "app/lessons/report/report_files.h"
+#include "app/lessons/report/report_page.h"
+#include "app/verbs/distinct_outputs.h"
 #include "app/verbs/verbs.h"
 #include "haptics/files/printable.h"
 
-namespace gearshift {
+namespace gearshift::verbs {
 namespace {
 
 namespace fs = std::filesystem;
 
 constexpr const char* kReportHelp =
-    "What is remembered of learners: a table; of one learner a page with curves, weaknesses, shifts and runs, and CSV.";
+    "Show learners' results: a table of all, or for one learner a page with curves, weaknesses, shifts and runs, or "
+    "CSV.";
 constexpr const char* kReportExamples =
     "\nExamples:\n"
     "  gearshift report                                      all learners\n"
     "  gearshift report --learner Ada                        Ada's runs\n"
     "  gearshift report --learner Ada --out ada --csv        ada/index.html, runs.csv, shifts.csv, faults.csv\n"
     "  gearshift report --learner Ada --comment 12 \"Much calmer.\" --by Bo\n"
-    "  gearshift report --learner Ada --edit-comment 3 \"Calmer.\"   by the number that the table of runs shows\n"
+    "  gearshift report --learner Ada --edit-comment 3 \"Calmer.\"   3: number shown in the table of runs\n"
     "  gearshift report --learner Ada --delete-comment 3\n"
-    "  gearshift report --learner Ada --next hill_start      instead of what the grades suggest; \"\" gives it back\n"
-    "  gearshift report --learner Ada --delete               for good, with the recordings\n";
+    "  gearshift report --learner Ada --next hill_start      overrides the suggested lesson; \"\" removes it again\n"
+    "  gearshift report --learner Ada --delete               permanently, with the recordings\n";
 
 constexpr const char *kPage = "index.html", *kRuns = "runs.csv", *kShifts = "shifts.csv", *kFaults = "faults.csv";
 
@@ -54,85 +55,92 @@ using NumberedText = std::pair<std::int64_t, std::string>;
 
 struct ReportArguments {
   std::string learner, database, out, by, next;
-  std::optional<NumberedText> comment, edit;  // by the number of the run, of the comment
-  std::optional<std::int64_t> taken_back;     // a comment's number
-  bool csv = false, sets_next = false, deletes = false, yes = false;
+  std::optional<NumberedText> comment, edit;    // number of the run; number of the comment
+  std::optional<std::int64_t> deleted_comment;  // number of the comment
+  bool csv = false, sets_next = false, deletes_learner = false, yes = false;
 };
 
-bool instructs(const ReportArguments& arguments) {
-  return arguments.comment || arguments.edit || arguments.taken_back || arguments.sets_next;
+bool has_instructor_options(const ReportArguments& arguments) {
+  return arguments.comment || arguments.edit || arguments.deleted_comment || arguments.sets_next;
 }
 
 fs::path history_file(const ReportArguments& arguments) {
-  const HistoryPlace place = history_place(arguments.database);
+  const base::HistoryLocation place = base::history_location(arguments.database);
   if (!place.problem.empty()) throw std::runtime_error(place.problem);
   return place.file;
 }
 
-std::string known_names(History& history) {
+std::string known_names(lessons::History& history) {
   std::string names;
-  for (const LearnerRow& row : history.learners()) names += (names.empty() ? "" : ", ") + printable(row.name);
-  return names.empty() ? "nobody yet" : names;
+  for (const lessons::LearnerRow& row : history.learners())
+    names += (names.empty() ? "" : ", ") + haptics::printable(row.name);
+  return names.empty() ? "none yet" : names;
 }
 
-LearnerRow known_learner(History& history, const std::string& name) {
-  if (std::optional<LearnerRow> row = history.find_learner(name)) return *row;
+lessons::LearnerRow known_learner(lessons::History& history, const std::string& name) {
+  if (std::optional<lessons::LearnerRow> row = history.find_learner(name)) return *row;
   throw std::runtime_error(
-      fmt::format("\"{}\" is no learner of this history; known: {}", printable(name), known_names(history)));
+      fmt::format("no learner named \"{}\"; known learners: {}", haptics::printable(name), known_names(history)));
 }
 
-int list_learners(History& history) {
-  std::vector<LearnerHistory> all;
-  for (const LearnerRow& row : history.learners()) all.push_back(read_learner(history, row));
-  print_out("{}", learner_table(all, shipped_lessons()));
+int list_learners(lessons::History& history) {
+  std::vector<lessons::LearnerHistory> all;
+  for (const lessons::LearnerRow& row : history.learners()) all.push_back(lessons::read_learner(history, row));
+  base::print_out("{}", lessons::learner_table(all, lessons::shipped_lessons()));
   return 0;
 }
 
 void check_out(const ReportArguments& arguments, const fs::path& history) {
   if (arguments.out.empty()) return;
   for (const char* name : {kPage, kRuns, kShifts, kFaults})
-    check_two_files("--out", "the report and the history", fs::path(arguments.out) / name, history);
+    check_distinct_outputs("--out", "the report and the history", fs::path(arguments.out) / name, history);
 }
 
-void write_report(const ReportArguments& arguments, History& history, const LearnerRow& learner) {
-  const LearnerHistory all = read_learner(history, learner);
-  std::vector<ReportFile> files{
-      {kPage, report_page(all, show_shifts(all, history.file().parent_path()), shipped_lessons())}};
+void write_report(const ReportArguments& arguments, lessons::History& history, const lessons::LearnerRow& learner) {
+  const lessons::LearnerHistory all = lessons::read_learner(history, learner);
+  std::vector<lessons::ReportFile> files{
+      {kPage,
+       lessons::report_page(all, lessons::show_shifts(all, history.file().parent_path()), lessons::shipped_lessons())}};
   if (arguments.csv) {
-    files.push_back({kRuns, runs_csv(all)});
-    files.push_back({kShifts, shifts_csv(all)});
-    files.push_back({kFaults, faults_csv(all)});
+    files.push_back({kRuns, lessons::runs_csv(all)});
+    files.push_back({kShifts, lessons::shifts_csv(all)});
+    files.push_back({kFaults, lessons::faults_csv(all)});
   }
-  make_folder(arguments.out);
-  write_report_files(arguments.out, files, [](const fs::path& file) { print_out("{}\n", file.string()); });
+  base::make_folder(arguments.out);
+  lessons::write_report_files(arguments.out, files,
+                              [](const fs::path& file) { base::print_out("{}\n", file.string()); });
 }
 
-// By its key, as the coach knows it.
-void set_next(const std::string& lesson, History& history, const LearnerRow& learner) {
-  const std::vector<Lesson> lessons = shipped_lessons();
+// lesson: key of a shipped lesson; empty: return to the suggested one.
+void set_next(const std::string& lesson, lessons::History& history, const lessons::LearnerRow& learner) {
+  const std::vector<lessons::Lesson> lessons = lessons::shipped_lessons();
   std::string keys;
-  for (const Lesson& each : lessons) keys += (keys.empty() ? "" : ", ") + each.key;
-  const bool is_known = std::any_of(lessons.begin(), lessons.end(), [&](const Lesson& l) { return l.key == lesson; });
+  for (const lessons::Lesson& each : lessons) keys += (keys.empty() ? "" : ", ") + each.key;
+  const bool is_known =
+      std::any_of(lessons.begin(), lessons.end(), [&](const lessons::Lesson& l) { return l.key == lesson; });
   if (!lesson.empty() && !is_known)
-    throw std::runtime_error(fmt::format("\"{}\" is none of the shipped lessons: {}", printable(lesson), keys));
+    throw std::runtime_error(fmt::format("no lesson \"{}\"; shipped lessons: {}", haptics::printable(lesson), keys));
   history.set_next_lesson(learner.id, lesson);
-  print_out("{}: next lesson {}\n", printable(learner.name), lesson.empty() ? "as suggested" : printable(lesson));
+  base::print_out("{}: next lesson {}\n", haptics::printable(learner.name),
+                  lesson.empty() ? "as suggested" : haptics::printable(lesson));
 }
 
-void obey_instructor(const ReportArguments& arguments, History& history, const LearnerRow& learner) {
+void apply_instructor_options(const ReportArguments& arguments, lessons::History& history,
+                              const lessons::LearnerRow& learner) {
   if (arguments.comment) {
     const auto& [run, text] = *arguments.comment;
-    const std::int64_t number = comment_on_run(history, learner, run, arguments.by, text);
-    print_out("run {}, comment {}: {}, {}\n", run, number, printable(text), printable(arguments.by));
+    const std::int64_t number = lessons::comment_on_run(history, learner, run, arguments.by, text);
+    base::print_out("run {}, comment {}: {}, {}\n", run, number, haptics::printable(text),
+                    haptics::printable(arguments.by));
   }
   if (arguments.edit) {
     const auto& [number, text] = *arguments.edit;
-    edit_comment(history, learner, number, text);
-    print_out("comment {}: {}\n", number, printable(text));
+    lessons::edit_comment(history, learner, number, text);
+    base::print_out("comment {}: {}\n", number, haptics::printable(text));
   }
-  if (arguments.taken_back) {
-    delete_comment(history, learner, *arguments.taken_back);
-    print_out("comment {} is gone\n", *arguments.taken_back);
+  if (arguments.deleted_comment) {
+    lessons::delete_comment(history, learner, *arguments.deleted_comment);
+    base::print_out("comment {} deleted\n", *arguments.deleted_comment);
   }
   if (arguments.sets_next) set_next(arguments.next, history, learner);
 }
@@ -141,102 +149,106 @@ std::string counted(std::size_t number, std::string_view what) {
   return fmt::format("{} {}{}", number, what, number == 1 ? "" : "s");
 }
 
-// What keeps deleted rows in the file, where anything does.
-int tell_left(const std::string& left) {
-  if (!left.empty()) print_problem("{}", printable(left));
+// left: why deleted rows are still in the file; empty if they are not. Returns the exit code.
+int report_leftovers(const std::string& left) {
+  if (!left.empty()) base::print_message("{}", haptics::printable(left));
   return left.empty() ? 0 : 1;
 }
 
-void tell_recordings(const Deleted& gone) {
-  for (const std::string& file : gone.recordings) print_out("  {}\n", printable(file));
-  for (const std::string& file : gone.missing) print_out("  not found: {}\n", printable(file));
-  for (const std::string& kept : gone.kept) print_problem("not removed: {}", printable(kept));
+void print_recordings(const lessons::DeletionReport& gone) {
+  for (const std::string& file : gone.recordings) base::print_out("  {}\n", haptics::printable(file));
+  for (const std::string& file : gone.missing) base::print_out("  not found: {}\n", haptics::printable(file));
+  for (const std::string& kept : gone.not_deleted) base::print_message("not deleted: {}", haptics::printable(kept));
 }
 
-void confirm(const ReportArguments& arguments, const LearnerRow& learner) {
+void confirm(const ReportArguments& arguments, const lessons::LearnerRow& learner) {
   if (arguments.yes) return;
-  print_to(stderr, fmt::format("All that is remembered of {} goes, recordings too, for good. The name again: ",
-                               printable(learner.name)));
+  base::print_to(stderr,
+                 fmt::format("This permanently deletes all results and recordings of {}. Type the name to confirm: ",
+                             haptics::printable(learner.name)));
   std::string again;
   const bool is_answered = static_cast<bool>(std::getline(std::cin, again));
   if (again == learner.name) return;
-  const bool is_line_open = !is_answered || isatty(STDIN_FILENO) == 0;  // a person's Enter ends the question's line
-  if (is_line_open) print_to(stderr, "\n");
-  throw std::runtime_error(fmt::format("{} was not deleted: {}", printable(learner.name),
-                                       is_answered ? "that is another name" : "nobody has answered"));
+  const bool is_line_open = !is_answered || isatty(STDIN_FILENO) == 0;  // on a terminal, Enter ends the prompt's line
+  if (is_line_open) base::print_to(stderr, "\n");
+  throw std::runtime_error(fmt::format("{} was not deleted: {}", haptics::printable(learner.name),
+                                       is_answered ? "the name does not match" : "no answer given"));
 }
 
-// Of a learner who is not there (any more), what an earlier deletion could not do. `first`: recordings that have gone
-// already.
-int erase(const ReportArguments& arguments, History& history, const std::vector<std::string>& first) {
+// If the learner no longer exists, finishes an earlier deletion that was left incomplete. `first`: recordings that have
+// already been deleted.
+int erase_learner(const ReportArguments& arguments, lessons::History& history, const std::vector<std::string>& first) {
   if (!history.find_learner(arguments.learner) && history.erasure_is_pending()) {
     const std::string left = history.finish_erasure();
     if (left.empty())
-      print_out("nobody here is called {}; what an earlier deletion had left is gone\n", printable(arguments.learner));
-    return tell_left(left);
+      base::print_out("no learner named {}; an earlier, incomplete deletion is now finished\n",
+                      haptics::printable(arguments.learner));
+    return report_leftovers(left);
   }
-  const LearnerRow learner = known_learner(history, arguments.learner);
+  const lessons::LearnerRow learner = known_learner(history, arguments.learner);
   confirm(arguments, learner);
-  Deleted gone = delete_learner(history, learner);
+  lessons::DeletionReport gone = lessons::delete_learner(history, learner);
   std::erase_if(gone.missing,
                 [&](const std::string& file) { return std::find(first.begin(), first.end(), file) != first.end(); });
-  print_out("{} is gone: {}, {}, {}, {}, {}, {}\n", printable(learner.name), counted(gone.sessions, "session"),
-            counted(gone.runs, "run"), counted(gone.shifts, "shift"), counted(gone.faults, "fault"),
-            counted(gone.comments, "comment"), counted(gone.recordings.size() + first.size(), "recording"));
-  tell_recordings(gone);
-  const int code = tell_left(gone.left);
-  return gone.kept.empty() ? code : 1;
+  base::print_out("deleted {}: {}, {}, {}, {}, {}, {}\n", haptics::printable(learner.name),
+                  counted(gone.sessions, "session"), counted(gone.runs, "run"), counted(gone.shifts, "shift"),
+                  counted(gone.errors, "fault"), counted(gone.comments, "comment"),
+                  counted(gone.recordings.size() + first.size(), "recording"));
+  print_recordings(gone);
+  const int code = report_leftovers(gone.remaining_data);
+  return gone.not_deleted.empty() ? code : 1;
 }
 
-std::unique_ptr<History> open_where_there_is_room(const fs::path& file) {
+std::unique_ptr<lessons::History> try_open_history(const fs::path& file) {
   try {
-    return std::make_unique<History>(file);
-  } catch (const HistoryFull&) {
+    return std::make_unique<lessons::History>(file);
+  } catch (const lessons::HistoryFull&) {
     return nullptr;
   }
 }
 
-// A disk so full that the history cannot even be opened to be written: the recordings go first and leave it room.
-int delete_for_good(ReportArguments arguments, const fs::path& file) {
-  std::unique_ptr<History> history = open_where_there_is_room(file);
+// If the disk is too full to open the history for writing, deletes the recordings first to make room.
+int delete_history(ReportArguments arguments, const fs::path& file) {
+  std::unique_ptr<lessons::History> history = try_open_history(file);
   std::vector<std::string> first;
   if (!history) {
-    History copy(file, system_seconds, kHistoryPatience, HistoryUse::read);
-    const LearnerRow learner = known_learner(copy, arguments.learner);
+    lessons::History copy(file, lessons::system_seconds, lessons::kHistoryLockTimeout, lessons::HistoryUse::read);
+    const lessons::LearnerRow learner = known_learner(copy, arguments.learner);
     confirm(arguments, learner);
     arguments.yes = true;
-    const Deleted gone = remove_recordings(copy, learner);
-    print_out("The disk is full: {} recordings are gone first\n", gone.recordings.size());
-    tell_recordings(gone);
+    const lessons::DeletionReport gone = lessons::remove_recordings(copy, learner);
+    base::print_out("The disk is full, so {} recordings were deleted first\n", gone.recordings.size());
+    print_recordings(gone);
     first = gone.recordings;
-    history = std::make_unique<History>(file);
+    history = std::make_unique<lessons::History>(file);
   }
-  return erase(arguments, *history, first);
+  return erase_learner(arguments, *history, first);
 }
 
-// Of one learner.
-int report_learner(const ReportArguments& arguments, History& history) {
-  const LearnerRow learner = known_learner(history, arguments.learner);
-  obey_instructor(arguments, history, learner);
+int report_learner(const ReportArguments& arguments, lessons::History& history) {
+  const lessons::LearnerRow learner = known_learner(history, arguments.learner);
+  apply_instructor_options(arguments, history, learner);
   if (!arguments.out.empty()) write_report(arguments, history, learner);
-  if (arguments.out.empty() && !instructs(arguments)) print_out("{}", run_table(read_learner(history, learner)));
+  if (arguments.out.empty() && !has_instructor_options(arguments))
+    base::print_out("{}", lessons::run_table(lessons::read_learner(history, learner)));
   return 0;
 }
 
-// A report makes no history: where there is none, that is said. What only reads needs no right to write.
+// Never creates a history. Opens it read-only if possible, so that no write permission is needed.
 int run_report(const ReportArguments& arguments) {
   const fs::path file = history_file(arguments);
   check_out(arguments, file);
   std::error_code error;
   if (!fs::exists(file, error) && !error) {
     if (!arguments.database.empty() || !arguments.learner.empty())
-      throw std::runtime_error(fmt::format("{}: there is no such history", printable(file.string())));
-    print_out("Nobody has driven a lesson yet.\n");
+      throw std::runtime_error(fmt::format("{}: history not found", haptics::printable(file.string())));
+    base::print_out("No lesson has been driven yet.\n");
     return 0;
   }
-  if (arguments.deletes) return delete_for_good(arguments, file);
-  const bool writes = instructs(arguments);
-  History history(file, system_seconds, kHistoryPatience, writes ? HistoryUse::write : HistoryUse::read);
+  if (arguments.deletes_learner) return delete_history(arguments, file);
+  const bool writes = has_instructor_options(arguments);
+  lessons::History history(file, lessons::system_seconds, lessons::kHistoryLockTimeout,
+                           writes ? lessons::HistoryUse::write : lessons::HistoryUse::read);
   if (arguments.learner.empty()) return list_learners(history);
   return report_learner(arguments, history);
 }
@@ -245,12 +257,13 @@ std::string not_empty(const std::string& value) {
   return value.empty() ? "must not be empty" : std::string();
 }
 
-std::string author_name(const std::string& name) {
-  return typed_text_problem(TypedText::name, "an instructor's name", name);
+std::string check_author_name(const std::string& name) {
+  return lessons::user_text_problem(lessons::UserText::name, "an instructor's name", name);
 }
 
 void check_comment(const char* option, const std::optional<NumberedText>& said) {
-  const std::string problem = said ? typed_text_problem(TypedText::comment, "a comment", said->second) : std::string();
+  const std::string problem =
+      said ? lessons::user_text_problem(lessons::UserText::comment, "a comment", said->second) : std::string();
   if (!problem.empty()) throw CLI::ValidationError(option, problem);
 }
 
@@ -261,38 +274,42 @@ void add_report_verb(CLI::App& app, VerbAction& action) {
   CLI::App* verb = app.add_subcommand("report", kReportHelp);
   verb->footer(kReportExamples);
   CLI::Option* learner =
-      verb->add_option("--learner", arguments->learner, "whose history")->type_name("NAME")->check(not_empty);
-  verb->add_option("--database", arguments->database, "another file than the user's own")
+      verb->add_option("--learner", arguments->learner, "learner to report on")->type_name("NAME")->check(not_empty);
+  verb->add_option("--database", arguments->database, "history file to use instead of your own")
       ->type_name("FILE")
       ->check(not_empty);
-  CLI::Option* out = verb->add_option("--out", arguments->out, "write the page into this folder")
+  CLI::Option* out = verb->add_option("--out", arguments->out, "write the page to this folder")
                          ->type_name("FOLDER")
                          ->check(not_empty)
                          ->needs(learner);
-  verb->add_flag("--csv", arguments->csv, "and runs, shifts and faults as CSV")->needs(out);
-  CLI::Option* comment = verb->add_option("--comment", arguments->comment, "stands beside the run's grade from now on")
+  verb->add_flag("--csv", arguments->csv, "also write runs, shifts and driving errors as CSV")->needs(out);
+  CLI::Option* comment = verb->add_option("--comment", arguments->comment, "add a comment to a run")
                              ->type_name("RUN TEXT")
                              ->needs(learner);
-  CLI::Option* by =
-      verb->add_option("--by", arguments->by, "who says so")->type_name("NAME")->check(author_name)->needs(comment);
+  CLI::Option* by = verb->add_option("--by", arguments->by, "comment author")
+                        ->type_name("NAME")
+                        ->check(check_author_name)
+                        ->needs(comment);
   comment->needs(by);
-  CLI::Option* edit = verb->add_option("--edit-comment", arguments->edit, "another text in the place of that comment's")
+  CLI::Option* edit = verb->add_option("--edit-comment", arguments->edit, "replace the text of a comment")
                           ->type_name("COMMENT TEXT")
                           ->needs(learner);
-  CLI::Option* taken_back = verb->add_option("--delete-comment", arguments->taken_back, "that comment goes, for good")
-                                ->type_name("COMMENT")
-                                ->needs(learner);
-  CLI::Option* next = verb->add_option("--next", arguments->next, "the next lesson; empty: as the grades suggest")
+  CLI::Option* deleted_comment =
+      verb->add_option("--delete-comment", arguments->deleted_comment, "permanently delete a comment")
+          ->type_name("COMMENT")
+          ->needs(learner);
+  CLI::Option* next = verb->add_option("--next", arguments->next, "set the next lesson; empty: the suggested one")
                           ->type_name("LESSON")
                           ->needs(learner);
-  CLI::Option* erases = verb->add_flag("--delete", arguments->deletes, "all of it, recordings too, for good")
-                            ->needs(learner)
-                            ->excludes(out)
-                            ->excludes(comment)
-                            ->excludes(edit)
-                            ->excludes(taken_back)
-                            ->excludes(next);
-  verb->add_flag("--yes", arguments->yes, "delete without the name being asked for again")->needs(erases);
+  CLI::Option* erases =
+      verb->add_flag("--delete", arguments->deletes_learner, "permanently delete this learner's results and recordings")
+          ->needs(learner)
+          ->excludes(out)
+          ->excludes(comment)
+          ->excludes(edit)
+          ->excludes(deleted_comment)
+          ->excludes(next);
+  verb->add_flag("--yes", arguments->yes, "delete without asking for confirmation")->needs(erases);
   verb->callback([=, &action] {
     check_comment("--comment", arguments->comment);
     check_comment("--edit-comment", arguments->edit);
@@ -301,4 +318,4 @@ void add_report_verb(CLI::App& app, VerbAction& action) {
   });
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::verbs

@@ -1,4 +1,4 @@
-// The command line of a drive through every gear: what `tour` and `demo` share.
+// Command-line options of a drive through every gear, shared by `tour` and `demo`.
 #pragma once
 
 #include <cstdint>
@@ -7,24 +7,25 @@
 
 #include <CLI/CLI.hpp>
 
-#include "app/tour/tour.h"
+#include "app/lab/tour/tour.h"
 
-namespace gearshift {
+namespace gearshift::verbs {
 
 struct TourArguments {
   std::string folder;
   std::string gate = "paper";
   std::string preset = "default";
-  std::string hand;            // empty: the preset's, or a grip where that cannot lead
-  std::optional<double> rate;  // [Hz] none: the preset's
+  std::string hand;            // empty: the preset's, or a grip if that is too soft to move the lever
+  std::optional<double> rate;  // [Hz] empty: the preset's
   std::uint64_t seed = 1;
 };
 
-HandImpedance driving_hand(const std::string& text);  // one that can lead a lever. Throws CLI::ValidationError
+// Parses a hand that is stiff enough to move the lever. Throws CLI::ValidationError.
+haptics::HandImpedance driving_hand(const std::string& text);
 
 void add_tour_options(CLI::App& verb, TourArguments& arguments);
 
 // Throws FileError, CLI::ValidationError.
-TourSetup make_tour_setup(const TourArguments& arguments);
+lab::TourSetup make_tour_setup(const TourArguments& arguments);
 
-}  // namespace gearshift
+}  // namespace gearshift::verbs

@@ -1,4 +1,5 @@
-// gearshift tour: the simulated hand, or who holds a stick, through every gear of a layout, no graphics: trace and plots.
+// gearshift tour: a simulated hand, or a person at a stick, shifts through every gear without graphics: trace and
+// plots.
 #include <unistd.h>
 
 #include <cstdio>
@@ -8,20 +9,20 @@
 
 #include <fmt/core.h>
 
-#include "app/devices/open_stick.h"
-#include "app/devices/stop_signals.h"
-#include "app/output_folder.h"
-#include "app/print_out.h"
-#include "app/tour/held_tour.h"
-#include "app/tour/tour.h"
-#include "app/trainer/user_folder.h"
+#include "app/base/console.h"
+#include "app/base/output_folder.h"
+#include "app/base/progress_bar.h"
+#include "app/base/stop_signals.h"
+#include "app/base/user_folders.h"
+#include "app/lab/tour/held_tour.h"
+#include "app/lab/tour/tour.h"
+#include "app/runtime/devices/open_stick.h"
 #include "app/verbs/number_between.h"
-#include "app/verbs/progress_bar.h"
+#include "app/verbs/print_tour.h"
 #include "app/verbs/tour_arguments.h"
-#include "app/verbs/tour_words.h"
 #include "app/verbs/verbs.h"
 
-namespace gearshift {
+namespace gearshift::verbs {
 namespace {
 
 constexpr std::string_view kNoStick = "simulated";
@@ -29,59 +30,62 @@ constexpr std::string_view kNoStick = "simulated";
 struct TourVerbArguments {
   TourArguments tour;
   std::string device{kNoStick};
-  double seconds = 300.0;  // [s] for a person at most
+  double seconds = 300.0;  // [s] longest tour with a stick
 };
 
-void print_files(const TourSetup& setup) {
-  print_out("{0}/trajectory.png and {0}/force.png (also .svg), trace {0}/tour.trace, table {0}/tour.csv\n",
-            setup.folder.string());
+void print_files(const lab::TourSetup& setup) {
+  base::print_out("{0}/trajectory.png and {0}/force.png (also .svg), trace {0}/tour.trace, table {0}/tour.csv\n",
+                  setup.folder.string());
 }
 
-// People and scripts that hold the stick wait for these lines.
-void tell_person(const std::string& line) {
-  print_out("{}\n", line);
+// Flushes, because the person or script at the stick is waiting for these lines.
+void print_now(const std::string& line) {
+  base::print_out("{}\n", line);
   std::fflush(stdout);
 }
 
-// The stick is given back before the plots are drawn.
-TourResult drive_by_person(TourSetup& setup, const TourVerbArguments& arguments, const TourProgress& progress) {
-  const StopSignals signals;
-  const std::shared_ptr<StickLever> stick = open_stick(arguments.device, user_config_folder() / "devices");
-  make_folder(setup.folder);
-  Answers answers(STDIN_FILENO);
-  tell_person(fmt::format("{} answers after {:.1f} ms.", stick->name(), 1e3 * stick->answer_time()));
-  return drive_held_tour(setup, *stick, arguments.seconds, answers, tell_person, progress);
+// Returns after releasing the stick, so that it is free while the plots are drawn.
+lab::TourResult drive_by_person(lab::TourSetup& setup, const TourVerbArguments& arguments,
+                                const lab::TourProgress& progress) {
+  const base::StopSignals signals;
+  const std::shared_ptr<runtime::StickLever> stick =
+      runtime::open_stick(arguments.device, base::user_config_folder() / "devices");
+  base::make_folder(setup.folder);
+  base::LineReader answers(STDIN_FILENO);
+  print_now(fmt::format("{} answers after {:.1f} ms.", stick->name(), 1e3 * stick->answer_time()));
+  return lab::drive_held_tour(setup, *stick, arguments.seconds, answers, print_now, progress);
 }
 
 int run_held_tour(const TourVerbArguments& arguments) {
-  if (!arguments.tour.hand.empty()) throw CLI::ValidationError("--hand: a person's own hand holds the stick");
-  TourSetup setup = make_tour_setup(arguments.tour);
-  ProgressBar bar;
-  const TourProgress progress = [&](std::string_view what, double share) { bar.show(what, share); };
-  const TourResult result = drive_by_person(setup, arguments, progress);
+  if (!arguments.tour.hand.empty())
+    throw CLI::ValidationError("--hand: not with --device, your own hand holds the stick");
+  lab::TourSetup setup = make_tour_setup(arguments.tour);
+  base::ProgressBar bar;
+  const lab::TourProgress progress = [&](std::string_view what, double share) { bar.show(what, share); };
+  const lab::TourResult result = drive_by_person(setup, arguments, progress);
   bar.clear();
   print_tour(setup, result);
-  draw_tour(setup, result, progress);
+  lab::draw_tour(setup, result, progress);
   bar.clear();
   print_files(setup);
-  if (result.came_in_order()) return 0;
-  print_problem("not every gear was engaged in order");
+  if (result.visited_in_order()) return 0;
+  base::print_message("not all gears were engaged in order");
   return 1;
 }
 
-// All that can be refused is refused before the folder is made.
+// All arguments are checked before the folder is created.
 int run_tour(const TourArguments& arguments) {
-  const TourSetup setup = make_tour_setup(arguments);
-  make_folder(setup.folder);
-  ProgressBar bar;
-  const TourProgress progress = [&](std::string_view what, double share) { bar.show(what, share); };
-  const TourResult result = drive_tour(setup, progress);
+  const lab::TourSetup setup = make_tour_setup(arguments);
+  base::make_folder(setup.folder);
+  base::ProgressBar bar;
+  const lab::TourProgress progress = [&](std::string_view what, double share) { bar.show(what, share); };
+  const lab::TourResult result = lab::drive_tour(setup, progress);
   bar.clear();
   print_tour(setup, result);
-  draw_tour(setup, result, progress);
+  lab::draw_tour(setup, result, progress);
   bar.clear();
   print_files(setup);
-  if (!result.complete()) print_problem("the hand did not engage every gear in order");
+  if (!result.complete()) base::print_message("the hand did not engage every gear in order");
   return result.complete() && result.lost.times == 0 ? 0 : 1;
 }
 
@@ -90,20 +94,19 @@ int run_tour(const TourArguments& arguments) {
 void add_tour_verb(CLI::App& app, VerbAction& action) {
   auto arguments = std::make_shared<TourVerbArguments>();
   CLI::App* verb =
-      app.add_subcommand("tour", "A hand, simulated or on a stick, through every gear of a gate: trace and plots");
+      app.add_subcommand("tour", "Shift through every gear with a simulated hand or your stick: trace and plots");
   verb->footer(
       "Examples:\n"
       "  gearshift tour --out drive\n"
       "  gearshift tour --gate dog_leg_five --out dog_leg\n"
-      "  gearshift tour --device NAME --out drive    whoever holds that stick shifts\n");
+      "  gearshift tour --device NAME --out drive    you shift with that stick\n");
   add_tour_options(*verb, arguments->tour);
   CLI::Option* device =
       verb->add_option("--device", arguments->device,
-                       "a calibrated force-feedback stick by name, VENDOR:PRODUCT, serial or place: whoever holds it "
-                       "shifts")
+                       "shift with a calibrated force-feedback stick, given by name, VENDOR:PRODUCT, serial or place")
           ->type_name("NAME")
           ->capture_default_str();
-  verb->add_option("--seconds", arguments->seconds, "after which a tour with a stick ends [s]")
+  verb->add_option("--seconds", arguments->seconds, "time limit of a tour with a stick [s]")
       ->check(number_between(1.0, 3600.0))
       ->needs(device)
       ->capture_default_str();
@@ -114,4 +117,4 @@ void add_tour_verb(CLI::App& app, VerbAction& action) {
   });
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::verbs

@@ -1,4 +1,4 @@
-// gearshift train: the trainer, in a window or offscreen.
+// gearshift train: the trainer, in a window, in a headset or offscreen.
 #include <cstdint>
 #include <cstdio>
 #include <memory>
@@ -6,12 +6,12 @@
 #include <stdexcept>
 #include <string>
 
-#include "app/assets_path.h"
-#include "app/devices/open_stick.h"
-#include "app/print_out.h"
-#include "app/train/own_bindings.h"
-#include "app/train/train.h"
-#include "app/trainer/user_folder.h"
+#include "app/base/assets_path.h"
+#include "app/base/console.h"
+#include "app/base/user_folders.h"
+#include "app/runtime/devices/open_stick.h"
+#include "app/session/bindings_file.h"
+#include "app/session/train.h"
 #include "app/verbs/lesson_options.h"
 #include "app/verbs/number_between.h"
 #include "app/verbs/picture_size.h"
@@ -20,83 +20,83 @@
 #include "app/verbs/whole_number.h"
 #include "haptics/files/printable.h"
 
-namespace gearshift {
+namespace gearshift::verbs {
 namespace {
 
-constexpr double kUsualSeconds = 5.0, kMostSeconds = 600.0;  // offscreen
+constexpr double kDefaultSeconds = 5.0, kMaxSeconds = 600.0;  // offscreen
 
 struct TrainArguments {
-  SessionChoice choice;
-  std::string device{kSimulatedDevice}, bindings, size = "1280x720", offscreen, or_demo;
+  session::SessionChoice choice;
+  std::string device{session::kSimulatedDevice}, bindings, size = "1280x720", offscreen, or_demo;
   int samples = 0;  // 0: 4 on a GPU, 1 on a software driver
   std::string database, replay;
   std::optional<std::size_t> shift;
   bool stereo = false, no_panel = false, silent = false;
   bool xr = false;
   double xr_scale = 1.0;         // [1]
-  std::string drive;             // left, right; empty: as it was kept for the headset, else left
+  std::string drive;             // left, right; empty: as saved for the headset, otherwise left
   std::optional<double> height;  // [m]
   std::vector<double> knob;      // [m] right, down, ahead
   bool no_help = false;
   double from = 0.0;              // [s]
-  std::optional<double> seconds;  // [s] none: kUsualSeconds, or to the end of what is replayed
+  std::optional<double> seconds;  // [s] empty: kDefaultSeconds, or to the end of the replay
 };
 
-// Without a home folder there are no bindings of one's own.
+// Empty if there is no home folder: then the user has no bindings.
 std::filesystem::path config_folder() {
   try {
-    return user_config_folder();
+    return base::user_config_folder();
   } catch (const std::runtime_error&) {
     return {};
   }
 }
 
-DriveSide drive_side(const TrainArguments& arguments, DriveSide else_where) {
-  if (arguments.drive.empty()) return else_where;
-  return arguments.drive == "right" ? DriveSide::right : DriveSide::left;
+cabin::DriveSide drive_side(const TrainArguments& arguments, cabin::DriveSide fallback) {
+  if (arguments.drive.empty()) return fallback;
+  return arguments.drive == "right" ? cabin::DriveSide::right : cabin::DriveSide::left;
 }
 
-// What is given counts from now on: it is kept with what was set before.
-HeadsetSetup headset_setup(const TrainArguments& arguments) {
-  HeadsetSetup setup;
+// Values given on the command line replace the saved ones and are saved with them.
+session::HeadsetSetup headset_setup(const TrainArguments& arguments) {
+  session::HeadsetSetup setup;
   setup.view.scale = arguments.xr_scale;
   setup.view.samples = arguments.samples;
   const std::filesystem::path folder = config_folder();
   if (!folder.empty()) setup.seat_file = folder / "headset.toml";
-  if (!setup.seat_file.empty()) setup.seat = read_seat(setup.seat_file);
-  const DriveSide kept = setup.seat.drive;
-  setup.seat.drive = drive_side(arguments, kept);
-  if (setup.seat.drive != kept) setup.seat.touched.reset();  // the lever was at his other hand
+  if (!setup.seat_file.empty()) setup.seat = cabin::read_seat(setup.seat_file);
+  const cabin::DriveSide saved = setup.seat.drive;
+  setup.seat.drive = drive_side(arguments, saved);
+  if (setup.seat.drive != saved) setup.seat.touched.reset();  // it was measured with the lever at the other hand
   if (arguments.height) setup.seat.height = *arguments.height;
   if (arguments.knob.size() == 3)
-    setup.seat.knob = KnobDistance{arguments.knob[0], arguments.knob[1], arguments.knob[2]};
-  if (setup.seat.knob) check_knob(*setup.seat.knob, setup.seat.drive);
+    setup.seat.knob = cabin::KnobDistance{arguments.knob[0], arguments.knob[1], arguments.knob[2]};
+  if (setup.seat.knob) cabin::check_knob(*setup.seat.knob, setup.seat.drive);
   setup.is_new = !arguments.drive.empty() || arguments.height || !arguments.knob.empty();
   return setup;
 }
 
-TrainSetup make_setup(const TrainArguments& arguments) {
+session::TrainSetup make_setup(const TrainArguments& arguments) {
   const std::string& hand = arguments.choice.hand;
-  if (!hand.empty() && hand != kByItself) (void)driving_hand(hand);  // refuses
-  TrainSetup setup;
+  if (!hand.empty() && hand != session::kAutomaticHand) (void)driving_hand(hand);  // throws if the hand is not valid
+  session::TrainSetup setup;
   setup.choice = arguments.choice;
   setup.choice.help = !arguments.no_help;
-  const HistoryPlace place = history_place(arguments.database);
+  const base::HistoryLocation place = base::history_location(arguments.database);
   setup.choice.history = place.file;
   setup.choice.no_history = place.problem;
-  if (arguments.silent) setup.choice.sound = SoundOutput::none;
+  if (arguments.silent) setup.choice.sound = engine::SoundOutput::none;
   const PictureSize size = picture_size(arguments.size, arguments.stereo);
   setup.view.width = size.width;
   setup.view.height = size.height;
   setup.view.samples = arguments.samples;
   setup.view.stereo = arguments.stereo;
-  setup.bindings = read_bindings(bindings_file(arguments.bindings, config_folder()));
-  setup.panel = !arguments.no_panel && !arguments.stereo;  // an eye has little room: F2 shows it
+  setup.bindings = ui::read_bindings(session::bindings_file(arguments.bindings, config_folder()));
+  setup.panel = !arguments.no_panel && !arguments.stereo;  // an eye has only half the width; F2 shows the panel
   setup.replay = arguments.replay;
-  if (!setup.replay.empty() && setup.choice.lesson.empty()) setup.choice.lesson = kNoLesson;
+  if (!setup.replay.empty() && setup.choice.lesson.empty()) setup.choice.lesson = session::kNoLesson;
   if (arguments.shift) setup.shift = *arguments.shift - 1;
   setup.from = arguments.from;
-  setup.choice.drive = drive_side(arguments, DriveSide::left);
+  setup.choice.drive = drive_side(arguments, cabin::DriveSide::left);
   if (arguments.xr) {
     setup.headset = headset_setup(arguments);
     setup.choice.drive = setup.headset->seat.drive;
@@ -104,11 +104,11 @@ TrainSetup make_setup(const TrainArguments& arguments) {
   return setup;
 }
 
-// A hand that needs nobody drives the same gate.
+// Runs the demo, which needs no display and no person, with the same gate.
 int run_demo_instead(const TrainArguments& arguments) {
   if (arguments.or_demo.empty())
-    throw std::runtime_error("there is no display: train --offscreen DIR needs none, and demo --out DIR shows a tour");
-  print_out("No display: a simulated hand drives the gate in the cabin instead.\n");
+    throw std::runtime_error("no display found: use train --offscreen DIR, or demo --out DIR for a tour");
+  base::print_out("No display found: running the demo with a simulated hand instead.\n");
   std::fflush(stdout);  // the demo takes a minute
   TourArguments tour;
   tour.folder = arguments.or_demo;
@@ -117,79 +117,84 @@ int run_demo_instead(const TrainArguments& arguments) {
   return run_demo(tour);
 }
 
-// A hand that drives by itself is nobody's, whoever is named.
-void tell_nobody_learns(const SessionChoice& choice) {
-  if (choice.learner.empty() || !learner_of(choice).empty()) return;
-  print_problem("the hand drives by itself: nothing is remembered of {}", printable(choice.learner));
+// Runs of the automatic hand are not saved, even if a learner is named.
+void warn_nothing_is_saved(const session::SessionChoice& choice) {
+  if (choice.learner.empty() || !session::learner_of(choice).empty()) return;
+  base::print_message("the hand drives by itself, so nothing is saved for {}", haptics::printable(choice.learner));
 }
 
-// A person holds it: nobody else leads it, and it has its own time.
-std::shared_ptr<StickLever> held_stick(const TrainArguments& arguments) {
-  if (arguments.device == kSimulatedDevice) return nullptr;
+// Opens the stick given with --device; null for the simulated lever. A person holds it, in real time, so it excludes a
+// simulated hand and offscreen frames.
+std::shared_ptr<runtime::StickLever> held_stick(const TrainArguments& arguments) {
+  if (arguments.device == session::kSimulatedDevice) return nullptr;
   if (!arguments.offscreen.empty())
-    throw CLI::ValidationError("--device: frames in memory have the simulated lever alone");
-  if (!arguments.choice.hand.empty()) throw CLI::ValidationError("--hand: a person's own hand holds the stick");
-  if (!has_display()) throw std::runtime_error("there is no display: tour --device needs none");
-  return open_stick(arguments.device, user_config_folder() / "devices");
+    throw CLI::ValidationError("--device: not with --offscreen, which has only the simulated lever");
+  if (!arguments.choice.hand.empty())
+    throw CLI::ValidationError("--hand: not with --device, your own hand holds the stick");
+  if (!engine::has_display()) throw std::runtime_error("no display found: use tour --device, which needs none");
+  return runtime::open_stick(arguments.device, base::user_config_folder() / "devices");
 }
 
 int run_train(const TrainArguments& arguments) {
-  TrainSetup setup = make_setup(arguments);
+  session::TrainSetup setup = make_setup(arguments);
   setup.choice.stick = held_stick(arguments);
   if (!arguments.offscreen.empty()) {
-    setup.choice.clock = TrainerClock::virtual_time;
-    setup.choice.sound = SoundOutput::none;
-    if (setup.choice.hand.empty()) setup.choice.hand = kByItself;
-    tell_nobody_learns(setup.choice);
-    const double usual = arguments.replay.empty() ? kUsualSeconds : kMostSeconds;
-    return train_offscreen(setup, {arguments.offscreen, arguments.seconds.value_or(usual)});
+    setup.choice.clock = runtime::RuntimeClock::virtual_time;
+    setup.choice.sound = engine::SoundOutput::none;
+    if (setup.choice.hand.empty()) setup.choice.hand = session::kAutomaticHand;
+    warn_nothing_is_saved(setup.choice);
+    const double usual = arguments.replay.empty() ? kDefaultSeconds : kMaxSeconds;
+    return session::train_offscreen(setup, {arguments.offscreen, arguments.seconds.value_or(usual)});
   }
-  if (!has_display()) return run_demo_instead(arguments);
-  tell_nobody_learns(setup.choice);
-  return train_in_window(setup);
+  if (!engine::has_display()) return run_demo_instead(arguments);
+  warn_nothing_is_saved(setup.choice);
+  return session::train_in_window(setup);
 }
 
 }  // namespace
 
 void add_train_verb(CLI::App& app, VerbAction& action) {
   auto arguments = std::make_shared<TrainArguments>();
-  CLI::App* verb = app.add_subcommand("train", "The trainer: a hand at mouse, keys or pad, or the simulated one");
+  CLI::App* verb = app.add_subcommand("train", "Start the trainer: drive with a stick, mouse, keys or pad, or watch");
   verb->footer(
       "Examples:\n"
       "  gearshift train --learner Ada\n"
       "  gearshift train --learner Ada --lesson hill_start\n"
-      "  gearshift train --offscreen pictures    a few seconds, without a display\n");
+      "  gearshift train --offscreen pictures    a few seconds without a display\n");
   verb->add_option("--lesson", arguments->choice.lesson,
-                   "shipped lesson or file, or none; else the one that is suggested");
+                   "shipped lesson, lesson file, or none; default: the suggested one");
   verb->add_option("--learner", arguments->choice.learner,
-                   "who learns: remembered, but not of a hand by itself; else nothing is")
+                   "save results under this name (not for --hand \"by itself\")")
       ->type_name("NAME")
-      ->check(learner_name);
-  verb->add_option("--database", arguments->database, "another history than the user's own")->type_name("FILE");
+      ->check(validate_learner_name);
+  verb->add_option("--database", arguments->database, "history file to use instead of your own")->type_name("FILE");
   add_mode_option(*verb, arguments->choice.mode);
-  verb->add_flag("--no-help", arguments->no_help, "no force leads the lever to a gear: each trial is graded");
-  verb->add_option("--car", arguments->choice.car, "shipped car or file, or none; else the lesson's, or hatchback");
-  verb->add_option("--gate", arguments->choice.gate, "shipped gate or layout file; else the lesson's or the car's");
-  verb->add_option("--preset", arguments->choice.preset, "shipped or saved preset, or a file")->capture_default_str();
+  verb->add_flag("--no-help", arguments->no_help, "never guide the lever, so that every attempt is graded");
+  verb->add_option("--car", arguments->choice.car,
+                   "shipped car, car file, or none; default: the lesson's, or hatchback");
+  verb->add_option("--gate", arguments->choice.gate, "shipped gate or layout file; default: the lesson's or the car's");
+  verb->add_option("--preset", arguments->choice.preset, "shipped or saved preset, or preset file")
+      ->capture_default_str();
   verb->add_option(
           "--device", arguments->device,
-          "the lever: a calibrated force-feedback stick by name, VENDOR:PRODUCT, serial or place (see devices)")
+          "calibrated force-feedback stick to use as the lever: name, VENDOR:PRODUCT, serial or place (see devices)")
       ->type_name("NAME")
       ->capture_default_str();
   verb->add_option("--hand", arguments->choice.hand,
-                   "light, grip, arm, M,B,K in kg, N s/m, N/m, or \"by itself\": drives without a person");
-  verb->add_option("--bindings", arguments->bindings,
-                   "shipped bindings of keys, mouse and pad, or a file; else your own (see devices), or default");
-  verb->add_option("--size", arguments->size, "of the window [px]")->type_name("WxH")->capture_default_str();
-  verb->add_option("--samples", arguments->samples, "a pixel: 1 or 4; 4 where the GPU is one")
+                   "light, grip, arm, M,B,K in kg, N s/m, N/m, or \"by itself\" to drive without a person");
+  verb->add_option(
+      "--bindings", arguments->bindings,
+      "shipped bindings of keys, mouse and pad, or a file; default: your own (see devices), or \"default\"");
+  verb->add_option("--size", arguments->size, "window size [px]")->type_name("WxH")->capture_default_str();
+  verb->add_option("--samples", arguments->samples,
+                   "samples per pixel: 1 or 4; default: 4, or 1 with a software renderer")
       ->check(CLI::IsMember({1, 4}));
-  CLI::Option* replay =
-      verb->add_option("--replay", arguments->replay, "a recorded drive to be looked at")->type_name("TRACE");
-  CLI::Option* shift =
-      verb->add_option("--shift", arguments->shift, "of the recorded drive: from 1, as replay --shifts lists them")
-          ->check(whole_number(1, 1'000'000))
-          ->needs(replay);
-  verb->add_option("--from", arguments->from, "of the recorded drive, where it begins [s]")
+  CLI::Option* replay = verb->add_option("--replay", arguments->replay, "show this recorded drive")->type_name("TRACE");
+  CLI::Option* shift = verb->add_option("--shift", arguments->shift,
+                                        "start the recorded drive at this shift, numbered as in replay --shifts")
+                           ->check(whole_number(1, 1'000'000))
+                           ->needs(replay);
+  verb->add_option("--from", arguments->from, "start the recorded drive at this time [s]")
       ->check(number_between(0.0, 1e6))
       ->needs(replay)
       ->excludes(shift);
@@ -197,35 +202,36 @@ void add_train_verb(CLI::App& app, VerbAction& action) {
       ->check(CLI::IsMember({"driver", "ahead", "lever", "gate", "cluster", "gearbox"}))
       ->capture_default_str();
   CLI::Option* stereo = verb->add_flag("--stereo", arguments->stereo, "both eyes, side by side");
-  verb->add_option("--drive", arguments->drive, "where the driver sits: left or right; in a headset it is kept")
+  verb->add_option("--drive", arguments->drive,
+                   "side of the car on which the driver sits: left or right; saved with --xr")
       ->check(CLI::IsMember({"left", "right"}));
   CLI::Option* xr =
-      verb->add_flag("--xr", arguments->xr, "in a headset, through OpenXR; the window shows it to others");
-  verb->add_option("--xr-scale", arguments->xr_scale, "of the headset's picture: more is sharper and slower")
+      verb->add_flag("--xr", arguments->xr, "use a headset through OpenXR; the window shows what it shows");
+  verb->add_option("--xr-scale", arguments->xr_scale, "resolution scale of the headset; higher is sharper and slower")
       ->needs(xr)
       ->check(number_between(0.3, 2.0))
       ->capture_default_str();
-  verb->add_option("--seat-height", arguments->height, "the seat is raised by [m]; kept")
+  verb->add_option("--seat-height", arguments->height, "raise the seat by this much [m]; saved")
       ->needs(xr)
       ->check(number_between(-0.3, 0.3));
-  verb->add_option("--knob", arguments->knob, "from the eyes of who sits to the real knob [m]; kept")
+  verb->add_option("--knob", arguments->knob, "position of the real knob relative to your eyes [m]; saved")
       ->type_name("RIGHT,DOWN,AHEAD")
       ->delimiter(',')
       ->expected(3)
       ->needs(xr)
       ->check(number_between(-1.5, 1.5));
-  verb->add_flag("--no-panel", arguments->no_panel, "the cabin alone; F2 shows the panel");
+  verb->add_flag("--no-panel", arguments->no_panel, "start with only the cabin; F2 shows the panel");
   verb->add_flag("--silent", arguments->silent, "no sound");
   CLI::Option* offscreen = verb->add_option("--offscreen", arguments->offscreen,
-                                            "no window: the last picture into this folder, the gears on stdout")
+                                            "no window: write the last picture to this folder, print the gears")
                                ->type_name("DIR");
   xr->excludes(stereo)->excludes(offscreen);
-  verb->add_option("--or-demo", arguments->or_demo, "where there is no display: the demo into this folder")
+  verb->add_option("--or-demo", arguments->or_demo, "if there is no display, run the demo into this folder")
       ->type_name("DIR");
   verb->add_option("--seconds", arguments->seconds,
-                   "of simulated time offscreen [s]: else 5, or to the end of what is replayed")
-      ->check(number_between(0.1, kMostSeconds));
+                   "simulated time with --offscreen [s]; default: 5, or to the end of the replay")
+      ->check(number_between(0.1, kMaxSeconds));
   verb->callback([arguments, &action] { action = [arguments] { return run_train(*arguments); }; });
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::verbs

@@ -1,4 +1,4 @@
-// The verbs of the program. Each adds its subcommand and, when chosen, sets the action to run.
+// The verbs of the program. Each function adds a subcommand; when chosen, it sets the action to run.
 #pragma once
 
 #include <functional>
@@ -6,19 +6,19 @@
 
 #include <CLI/CLI.hpp>
 
-namespace gearshift {
+namespace gearshift::verbs {
 
-// Returns the exit code: 0 done, 1 the work failed. main turns what is thrown into one sentence on stderr:
-// bad usage, a CLI::ParseError, exits 2; anything else, a FileError included, exits 1.
+// Returns the exit code: 0 done, 1 the work failed. main() prints an exception as one sentence to stderr; it exits with
+// 2 for bad usage (CLI::ParseError) and with 1 for anything else, including FileError.
 using VerbAction = std::function<int()>;
 
-// What a command line asks for; without a verb it is the trainer. Throws CLI::ParseError: bad usage, or help that is asked
-// for.
+// Parses the command line and returns the action of its verb; without a verb, that of `train`. Throws CLI::ParseError
+// for bad usage and for --help.
 VerbAction parse_command_line(CLI::App& app, int argc, const char* const* argv);
-std::string usage_sentence(const CLI::ParseError& refusal);  // what it names may be shown on a terminal
+std::string usage_sentence(const CLI::ParseError& refusal);  // with control characters made printable
 
 struct TourArguments;
-int run_demo(const TourArguments& tour);  // as `demo` does with nothing but these
+int run_demo(const TourArguments& tour);  // `demo` with its other options at their defaults
 
 void add_train_verb(CLI::App& app, VerbAction& action);
 void add_demo_verb(CLI::App& app, VerbAction& action);
@@ -35,4 +35,4 @@ void add_devices_verb(CLI::App& app, VerbAction& action);
 void add_campaign_verb(CLI::App& app, VerbAction& action);
 void add_bench_verb(CLI::App& app, VerbAction& action);
 
-}  // namespace gearshift
+}  // namespace gearshift::verbs

@@ -1,4 +1,4 @@
-// A check of seeds and counts, which CLI alone reads as C does: of -1 it makes 2^64 - 1, of 010 eight.
+// A check for seeds and counts. CLI11 itself parses like C: it reads -1 as 2^64 - 1 and 010 as 8.
 #pragma once
 
 #include <cstdint>
@@ -7,19 +7,19 @@
 #include <CLI/CLI.hpp>
 #include <fmt/core.h>
 
-namespace gearshift {
+namespace gearshift::verbs {
 
-inline constexpr std::uint64_t kMostWhole = 999'999'999'999'999;  // every double tells it from its neighbours
+inline constexpr std::uint64_t kMaxWholeNumber = 999'999'999'999'999;  // below 2^53, so a double holds it exactly
 
-// most: kMostWhole or less.
-inline CLI::Validator whole_number(std::uint64_t least = 0, std::uint64_t most = kMostWhole) {
-  const auto check = [least, most](std::string& text) {
+// max: at most kMaxWholeNumber.
+inline CLI::Validator whole_number(std::uint64_t min = 0, std::uint64_t max = kMaxWholeNumber) {
+  const auto check = [min, max](std::string& text) {
     const bool is_whole = text == "0" || (!text.empty() && text.size() <= 15 && text.front() != '0' &&
                                           text.find_first_not_of("0123456789") == std::string::npos);
-    const bool is_it = is_whole && std::stoull(text) >= least && std::stoull(text) <= most;
-    return is_it ? std::string{} : fmt::format("\"{}\" is not a whole number from {} to {}", text, least, most);
+    const bool is_in_range = is_whole && std::stoull(text) >= min && std::stoull(text) <= max;
+    return is_in_range ? std::string{} : fmt::format("\"{}\" is not a whole number from {} to {}", text, min, max);
   };
-  return CLI::Validator(check, fmt::format("{} TO {}", least, most));
+  return CLI::Validator(check, fmt::format("{} TO {}", min, max));
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::verbs

@@ -3,7 +3,7 @@
 
     python3 assets/models/verify.py
 
-Plain Python. Prints what it sees; exit code 1 if anything is not as README.md says.
+Plain Python. Prints its measurements; exit code 1 if anything differs from README.md.
 """
 import json
 import math
@@ -77,7 +77,7 @@ def product(a, b):
 
 
 class Glb:
-    """A model file: nodes by name, world places, accessors."""
+    """A model file: nodes by name, world positions, accessors."""
 
     def __init__(self, name):
         self.path = os.path.join(HERE, name)
@@ -98,7 +98,7 @@ class Glb:
         return tuple(self.node(name).get("rotation", (0, 0, 0, 1)))
 
     def world(self, name, point=(0, 0, 0), extra=None, direction=False):
-        """World place of a point (or direction) of a node, which is turned by `extra` about its origin first."""
+        """World position of a node's point (or direction), after rotating the node by `extra` about its origin."""
         i, v = self.index[name], tuple(point)
         if extra:
             v = turned(extra, v)
@@ -150,7 +150,7 @@ def check_budget(glb, low, high, megabytes):
 
 
 def check_attributes(glb):
-    """Every texture finds its coordinates, every normal map its tangents."""
+    """Every texture has its coordinates, every normal map its tangents."""
     bad = []
     for p in glb.primitives():
         m, have = glb.material(p), p["attributes"]
@@ -179,7 +179,7 @@ PIVOTS = {
     "BootRing": (0.330, 0.037, -0.270),
     "Handbrake": (0.335, -0.030, 0.170),
 }
-LAMPS = {  # and the field of the print atlas that colours it: left edge [px]; 64 px square, from v = 580 px
+LAMPS = {  # and its area in the print atlas, which colours it: left edge [px]; 64 px square, from v = 580 px
     "TurnLeft": 1648,
     "TurnRight": 1648,
     "Oil": 1488,
@@ -210,7 +210,7 @@ def needle_tip(glb, name):
 
 
 def check_needle(glb, name, top, marks):
-    """Tip direction in the dial for values, against the printed marks: zero lower left, `top` lower right."""
+    """The needle tip's direction in the dial, compared with the printed marks: zero lower left, `top` lower right."""
     tip = needle_tip(glb, name)
     rest = glb.rotation(name)
     check(near(rest, about(2, 135), 1e-4), "%s rests at +135 deg about Z" % name)
@@ -268,7 +268,7 @@ def check_wheel_and_brake(glb):
 
 
 def check_gate(glb):
-    """The opening is free: no vertex of the frame lies inside the rounded rectangle."""
+    """The opening is free: no vertex of the frame is inside the rounded rectangle."""
     points = glb.attribute("GatePlate", "POSITION")
 
     def is_inside(p, margin=0.0003):
@@ -344,7 +344,7 @@ def check_cabin():
 
 
 def reach(glb, name):
-    """Least and greatest world z of a part."""
+    """Minimum and maximum world z of a part."""
     z = [glb.world(name, p)[2] for p in glb.attribute(name, "POSITION")]
     return min(z), max(z)
 
@@ -380,7 +380,7 @@ def check_hand():
     check(set(names) == wanted, "hand: %d joints" % len(names))
     worst = 0.0
     for name, m in zip(names, glb.read(skin["inverseBindMatrices"])):
-        origin = glb.world(name)  # inverse bind times the joint's place must be the joint's origin
+        origin = glb.world(name)  # inverse bind matrix times the joint's position must be the joint's origin
         back = [sum(m[4 * k + r] * (origin + (1,))[k] for k in range(4)) for r in range(3)]
         worst = max(worst, length(back))
     check(worst < 1e-5, "hand: the nodes stand in the bind pose (%.1e m)" % worst)

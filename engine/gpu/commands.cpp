@@ -1,6 +1,6 @@
 #include "engine/gpu/commands.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 namespace {
 
 CommandPool make_pool(const Gpu& gpu, VkCommandPoolCreateFlags flags) {
@@ -35,7 +35,7 @@ FrameRing::~FrameRing() {
   try {
     wait();
   } catch (const GpuError&) {
-    gpu_.wait_idle();  // a lost device: what was submitted is over
+    gpu_.wait_idle();  // the device is lost, so all submitted work has ended
   }
 }
 
@@ -47,7 +47,8 @@ VkCommandBuffer FrameRing::begin() {
     done_[index] = 0;
   }
   VkCommandBuffer commands = commands_[index];
-  check(vkResetCommandBuffer(commands, 0), "vkResetCommandBuffer");  // also of a frame that was never ended
+  // also resets a frame that began but was never ended
+  check(vkResetCommandBuffer(commands, 0), "vkResetCommandBuffer");
   begin_once(commands);
   return commands;
 }
@@ -72,4 +73,4 @@ void run_once(Gpu& gpu, const std::function<void(VkCommandBuffer)>& record) {
   gpu.wait(gpu.submit(commands));
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -1,4 +1,4 @@
-// Command buffers: a ring for frames in flight, and one-off work.
+// Command buffers: a ring for the frames in flight, and one-off submissions.
 #pragma once
 
 #include <array>
@@ -7,17 +7,17 @@
 
 #include "engine/gpu/gpu.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 inline constexpr int kFramesInFlight = 2;
 
 class FrameRing {
  public:
   explicit FrameRing(Gpu& gpu);
-  ~FrameRing();  // waits for what it has submitted
+  ~FrameRing();  // waits for all submitted frames
 
-  // Waits until the frame before last is done, then begins. slot(): which of the kFramesInFlight this is, for the
-  // buffers that the frame writes.
+  // Waits for the frame that last used this slot, then begins recording. slot() is the index (0 to kFramesInFlight - 1)
+  // of the buffers that this frame may write.
   VkCommandBuffer begin();
   int slot() const noexcept { return slot_; }
   std::uint64_t end(VkSemaphore wait_for = VK_NULL_HANDLE, VkSemaphore then_signal = VK_NULL_HANDLE);
@@ -31,7 +31,7 @@ class FrameRing {
   int slot_ = kFramesInFlight - 1;
 };
 
-// Records, submits, waits.
+// Records and submits a command buffer, then waits for it.
 void run_once(Gpu& gpu, const std::function<void(VkCommandBuffer)>& record);
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -1,7 +1,7 @@
-// What shaders see: layouts, sets and what is bound in them.
+// Descriptor set layouts, descriptor sets and the resources bound in them.
 #include "engine/gpu/pipeline.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 SetLayout make_set_layout(const Gpu& gpu, std::span<const Binding> bindings) {
   std::vector<VkDescriptorSetLayoutBinding> list;
@@ -76,4 +76,4 @@ void bind_texture(const Gpu& gpu, VkDescriptorSet set, std::uint32_t binding, Vk
   vkUpdateDescriptorSets(gpu.device(), 1, &write, 0, nullptr);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -7,27 +7,28 @@
 
 #include <fmt/format.h>
 
-namespace gearshift {
+namespace gearshift::engine {
 namespace {
 
-// What a device has.
+// Features that a device supports.
 struct Features {
   VkPhysicalDeviceVulkan13Features v13{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_3_FEATURES};
   VkPhysicalDeviceVulkan12Features v12{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_VULKAN_1_2_FEATURES, .pNext = &v13};
   VkPhysicalDeviceFeatures2 core{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &v12};
   Features() = default;
-  Features(const Features&) = delete;  // it points into itself
+  Features(const Features&) = delete;  // not copyable: the pNext chain points into this object
   Features& operator=(const Features&) = delete;
 
-  bool are_enough() const {
+  bool is_sufficient() const {
     return v13.dynamicRendering == VK_TRUE && v13.synchronization2 == VK_TRUE && v12.timelineSemaphore == VK_TRUE;
   }
 };
 
-// What is asked of it: one structure a feature. An XR runtime adds its own to the chain, and none may be in it twice, nor
-// beside the structure that holds all of a version's (VUID-VkDeviceCreateInfo-pNext-02830). The layer that a vertex shader
-// chooses has no structure of its own: its extension asks for it.
-struct Wanted {
+// Features requested from the device, one structure each. An XR runtime appends its own structures to the chain; a
+// structure must not appear twice, nor beside the VkPhysicalDeviceVulkan1xFeatures structure that includes it
+// (VUID-VkDeviceCreateInfo-pNext-02830). Layer selection in a vertex shader has no structure; enabling its extension is
+// enough.
+struct RequestedFeatures {
   VkPhysicalDeviceDynamicRenderingFeatures rendering{
       .sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_DYNAMIC_RENDERING_FEATURES, .dynamicRendering = VK_TRUE};
   VkPhysicalDeviceSynchronization2Features synchronization{
@@ -39,9 +40,9 @@ struct Wanted {
       .pNext = &synchronization,
       .timelineSemaphore = VK_TRUE};
   VkPhysicalDeviceFeatures2 core{.sType = VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2, .pNext = &timeline};
-  Wanted() = default;
-  Wanted(const Wanted&) = delete;  // it points into itself
-  Wanted& operator=(const Wanted&) = delete;
+  RequestedFeatures() = default;
+  RequestedFeatures(const RequestedFeatures&) = delete;  // not copyable: the pNext chain points into this object
+  RequestedFeatures& operator=(const RequestedFeatures&) = delete;
 };
 
 std::vector<VkPhysicalDevice> physical_devices(VkInstance instance) {
@@ -83,7 +84,7 @@ bool is_usable(VkPhysicalDevice physical, const VkPhysicalDeviceProperties& prop
   if (swapchain && !has_extension(physical, VK_KHR_SWAPCHAIN_EXTENSION_NAME)) return false;
   Features has;
   vkGetPhysicalDeviceFeatures2(physical, &has.core);
-  return has.are_enough();
+  return has.is_sufficient();
 }
 
 int rank(VkPhysicalDeviceType type) {
@@ -116,7 +117,7 @@ VkPhysicalDevice choose(VkInstance instance, bool swapchain, const std::string& 
     best_rank = rank(properties.deviceType);
   }
   if (names.empty()) {
-    throw GpuError("No Vulkan 1.3 device: the package mesa-vulkan-drivers brings one that needs no card.");
+    throw GpuError("No Vulkan 1.3 device: the package mesa-vulkan-drivers provides a software one.");
   }
   if (best == VK_NULL_HANDLE) {
     throw GpuError(
@@ -125,13 +126,13 @@ VkPhysicalDevice choose(VkInstance instance, bool swapchain, const std::string& 
   return best;
 }
 
-// Where the headset is there is no other choice.
-VkPhysicalDevice choose_by(GpuMaker& maker, VkInstance instance, bool swapchain) {
-  VkPhysicalDevice physical = maker.choose(instance);
+// The headset is connected to one device, so there is nothing to choose between.
+VkPhysicalDevice choose_with(GpuFactory& factory, VkInstance instance, bool swapchain) {
+  VkPhysicalDevice physical = factory.choose(instance);
   VkPhysicalDeviceProperties properties;
   vkGetPhysicalDeviceProperties(physical, &properties);
   if (is_usable(physical, properties, swapchain)) return physical;
-  throw GpuError(fmt::format("The headset is at {}, which is no Vulkan 1.3 device that we can use.",
+  throw GpuError(fmt::format("The headset is connected to {}, which is not a usable Vulkan 1.3 device.",
                              static_cast<const char*>(properties.deviceName)));
 }
 
@@ -158,7 +159,7 @@ GpuTraits traits_of(VkPhysicalDevice physical, const VkPhysicalDeviceProperties&
       (limits.framebufferColorSampleCounts & limits.framebufferDepthSampleCounts & VK_SAMPLE_COUNT_4_BIT) != 0;
   traits.depth_clamp = has.core.features.depthClamp == VK_TRUE;
   if (has.core.features.samplerAnisotropy == VK_TRUE && !traits.is_cpu) {
-    traits.most_anisotropy = limits.maxSamplerAnisotropy;
+    traits.max_anisotropy = limits.maxSamplerAnisotropy;
   }
   traits.tick_ns = static_cast<double>(limits.timestampPeriod);
   traits.timestamp_bits = family.timestampValidBits;
@@ -166,10 +167,10 @@ GpuTraits traits_of(VkPhysicalDevice physical, const VkPhysicalDeviceProperties&
 }
 
 VkDevice make_device(VkPhysicalDevice physical, std::uint32_t family, const GpuTraits& traits, const Features& has,
-                     bool swapchain, GpuMaker* maker) {
-  Wanted wanted;
+                     bool swapchain, GpuFactory* factory) {
+  RequestedFeatures wanted;
   wanted.core.features.depthClamp = has.core.features.depthClamp;
-  wanted.core.features.samplerAnisotropy = traits.most_anisotropy > 1.0f ? VK_TRUE : VK_FALSE;
+  wanted.core.features.samplerAnisotropy = traits.max_anisotropy > 1.0f ? VK_TRUE : VK_FALSE;
   const float priority = 1.0f;
   const VkDeviceQueueCreateInfo queue{.sType = VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO,
                                       .queueFamilyIndex = family,
@@ -185,22 +186,22 @@ VkDevice make_device(VkPhysicalDevice physical, std::uint32_t family, const GpuT
                                 .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
                                 .ppEnabledExtensionNames = extensions.data()};
   VkDevice device = VK_NULL_HANDLE;
-  check(maker != nullptr ? maker->make_device(physical, info, &device)
-                         : vkCreateDevice(physical, &info, nullptr, &device),
+  check(factory != nullptr ? factory->make_device(physical, info, &device)
+                           : vkCreateDevice(physical, &info, nullptr, &device),
         "vkCreateDevice");
   return device;
 }
 
 }  // namespace
 
-Device::Device(VkInstance instance, bool swapchain, const std::string& wanted, GpuMaker* maker)
-    : physical_(maker != nullptr ? choose_by(*maker, instance, swapchain) : choose(instance, swapchain, wanted)),
+Device::Device(VkInstance instance, bool swapchain, const std::string& wanted, GpuFactory* factory)
+    : physical_(factory != nullptr ? choose_with(*factory, instance, swapchain) : choose(instance, swapchain, wanted)),
       family_(graphics_family(physical_).value()) {
   vkGetPhysicalDeviceProperties(physical_, &properties_);
   Features has;
   vkGetPhysicalDeviceFeatures2(physical_, &has.core);
   traits_ = traits_of(physical_, properties_, has, queue_families(physical_)[family_]);
-  device_ = make_device(physical_, family_, traits_, has, swapchain, maker);
+  device_ = make_device(physical_, family_, traits_, has, swapchain, factory);
   vkGetDeviceQueue(device_, family_, 0, &queue_);
 }
 
@@ -208,4 +209,4 @@ Device::~Device() {
   vkDestroyDevice(device_, nullptr);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -1,17 +1,17 @@
-// Which device, what it can do, and its one queue.
+// Selects and creates the Vulkan device with its single queue, and records what it supports.
 #pragma once
 
 #include <string>
 
 #include "engine/gpu/gpu.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 class Device {
  public:
-  // A discrete device before an integrated before a software one; wanted: part of a name, empty for any. maker: chooses
-  // and makes it, where not null.
-  Device(VkInstance instance, bool swapchain, const std::string& wanted, GpuMaker* maker);
+  // Prefers a discrete device, then an integrated one, then a software one. wanted: substring of the device name, empty
+  // for any. factory: selects and creates the device if not null.
+  Device(VkInstance instance, bool swapchain, const std::string& wanted, GpuFactory* factory);
   ~Device();
   Device(const Device&) = delete;
   Device& operator=(const Device&) = delete;
@@ -32,4 +32,4 @@ class Device {
   VkQueue queue_ = VK_NULL_HANDLE;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -8,7 +8,7 @@
 #include "engine/gpu/memory.h"
 #include "engine/gpu/pipeline_cache.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 namespace {
 
 using PipelineCache = Handle<VkPipelineCache, vkDestroyPipelineCache>;
@@ -52,7 +52,7 @@ Semaphore make_timeline(VkDevice device) {
 struct Gpu::State {
   explicit State(const GpuConfig& config)
       : instance(config),
-        device(instance.get(), config.swapchain, wanted_device(), config.maker),
+        device(instance.get(), config.swapchain, wanted_device(), config.factory),
         memory(device.physical(), device.get()),
         cache_file(config.pipeline_cache),
         cache(make_cache(device, cache_file)),
@@ -64,7 +64,7 @@ struct Gpu::State {
   std::filesystem::path cache_file;
   PipelineCache cache;
   Semaphore timeline;
-  std::uint64_t submitted = 0;  // the newest value of the timeline
+  std::uint64_t submitted = 0;  // last value that a submission will signal on the timeline
 };
 
 Gpu::Gpu(const GpuConfig& config) : state_(std::make_unique<State>(config)) {}
@@ -117,7 +117,7 @@ VkDeviceSize Gpu::allocated() const noexcept {
 std::uint64_t Gpu::submit(VkCommandBuffer commands, VkSemaphore wait_for, VkSemaphore then_signal) {
   const VkCommandBufferSubmitInfo buffer{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_SUBMIT_INFO,
                                          .commandBuffer = commands};
-  // A swapchain's image is only ever copied to: rendering need not wait until it is free.
+  // Swapchain images are only written by copies, so rendering need not wait for the acquire semaphore.
   const VkSemaphoreSubmitInfo wait{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_SUBMIT_INFO,
                                    .semaphore = wait_for,
                                    .stageMask = VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT};
@@ -166,4 +166,4 @@ bool Gpu::supports(VkFormat format, VkFormatFeatureFlags2 features) const {
   return (optional.optimalTilingFeatures & features) == features;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

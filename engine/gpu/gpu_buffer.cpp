@@ -5,7 +5,7 @@
 
 #include "engine/gpu/commands.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 GpuBuffer::GpuBuffer(Gpu& gpu, VkDeviceSize size, VkBufferUsageFlags usage, MemoryKind kind) : gpu_(&gpu), size_(size) {
   const VkBufferCreateInfo info{.sType = VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO, .size = size, .usage = usage};
@@ -37,7 +37,7 @@ GpuBuffer& GpuBuffer::operator=(GpuBuffer&& other) noexcept {
 GpuBuffer::~GpuBuffer() {
   if (buffer_ == VK_NULL_HANDLE) return;
   vkDestroyBuffer(gpu_->device(), buffer_, nullptr);
-  gpu_->free(allocation_);  // NOLINT(clang-analyzer-unix.Malloc): this free is the device's
+  gpu_->free(allocation_);  // NOLINT(clang-analyzer-unix.Malloc): this is Gpu::free, not the C function
 }
 
 GpuBuffer make_device_buffer(Gpu& gpu, VkBufferUsageFlags usage, std::span<const std::byte> content) {
@@ -59,4 +59,4 @@ GpuBuffer make_device_buffer(Gpu& gpu, VkBufferUsageFlags usage, std::span<const
   return buffer;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

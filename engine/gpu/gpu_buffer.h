@@ -1,4 +1,4 @@
-// Buffers of the device, mapped where the host writes or reads them.
+// Device buffers, mapped if the host reads or writes them.
 #pragma once
 
 #include <cstddef>
@@ -6,7 +6,7 @@
 
 #include "engine/gpu/gpu.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 class GpuBuffer {
  public:
@@ -18,7 +18,8 @@ class GpuBuffer {
 
   VkBuffer get() const noexcept { return buffer_; }
   VkDeviceSize size() const noexcept { return size_; }
-  std::byte* mapped() const noexcept { return static_cast<std::byte*>(allocation_.mapped); }  // null: device memory
+  // null for device-local memory
+  std::byte* mapped() const noexcept { return static_cast<std::byte*>(allocation_.mapped); }
   explicit operator bool() const noexcept { return buffer_ != VK_NULL_HANDLE; }
 
  private:
@@ -28,7 +29,7 @@ class GpuBuffer {
   Allocation allocation_;
 };
 
-// Device-local and filled, by a staging copy that is waited for: for what is loaded once.
+// Creates a device-local buffer and fills it through a staging copy. Waits for the copy, so use it at load time only.
 GpuBuffer make_device_buffer(Gpu& gpu, VkBufferUsageFlags usage, std::span<const std::byte> content);
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -2,7 +2,7 @@
 
 #include <string>
 
-namespace gearshift {
+namespace gearshift::engine {
 namespace {
 
 std::string name_of(VkResult result) {
@@ -57,4 +57,4 @@ void check(VkResult result, const char* what) {
   throw GpuError(sentence);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -1,18 +1,18 @@
-// What a GPU can do wrong.
+// Errors of the GPU.
 #pragma once
 
 #include <stdexcept>
 
 #include "engine/gpu/vulkan.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
-// One sentence. No Vulkan device, no memory, a refused pipeline, ...
+// The message is one sentence: no Vulkan device, out of memory, pipeline rejected, ...
 struct GpuError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// The device is gone: the Gpu and all that was made with it must be made anew.
+// The device is lost: the Gpu and everything created from it must be recreated.
 struct GpuLost : GpuError {
   using GpuError::GpuError;
 };
@@ -20,4 +20,4 @@ struct GpuLost : GpuError {
 // Throws GpuLost for VK_ERROR_DEVICE_LOST, GpuError for any other error: "WHAT failed: VK_ERROR_...".
 void check(VkResult result, const char* what);
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -4,14 +4,14 @@
 #include <array>
 #include <utility>
 
-namespace gearshift {
+namespace gearshift::engine {
 namespace {
 
 VkImage make_image(VkDevice device, const ImageDesc& desc) {
-  const std::array<VkFormat, 2> formats{desc.format, desc.also};
+  const std::array<VkFormat, 2> formats{desc.format, desc.second_format};
   const VkImageFormatListCreateInfo list{
       .sType = VK_STRUCTURE_TYPE_IMAGE_FORMAT_LIST_CREATE_INFO, .viewFormatCount = 2, .pViewFormats = formats.data()};
-  const bool two_formats = desc.also != VK_FORMAT_UNDEFINED;
+  const bool two_formats = desc.second_format != VK_FORMAT_UNDEFINED;
   const VkImageCreateFlags cube = desc.cube ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0;
   const VkImageCreateFlags mutable_format = two_formats ? VK_IMAGE_CREATE_MUTABLE_FORMAT_BIT : 0;
   const VkImageCreateInfo info{.sType = VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO,
@@ -95,7 +95,7 @@ ImageView make_view(const Gpu& gpu, const GpuImage& image, VkImageViewType type,
 
 Sampler make_sampler(const Gpu& gpu, const SamplerDesc& desc) {
   const VkFilter filter = desc.linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST;
-  const float anisotropy = desc.anisotropic ? std::min(8.0f, gpu.traits().most_anisotropy) : 1.0f;
+  const float anisotropy = desc.anisotropic ? std::min(8.0f, gpu.traits().max_anisotropy) : 1.0f;
   const VkSamplerCreateInfo info{
       .sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
       .magFilter = filter,
@@ -114,4 +114,4 @@ Sampler make_sampler(const Gpu& gpu, const SamplerDesc& desc) {
   return {gpu.device(), sampler};
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -1,6 +1,7 @@
-// Images that know their own state: one helper moves them from use to use, and a use in the wrong state throws.
+// Images that track their own state: transition() moves them from one use to the next, and using one in the wrong state
+// throws.
 //
-// Synchronization validation is blind to the attachments of dynamic rendering: this is what stands in for it.
+// Synchronization validation does not check the attachments of dynamic rendering; this tracking covers them.
 #pragma once
 
 #include <cstdint>
@@ -11,16 +12,16 @@
 #include "engine/gpu/gpu.h"
 #include "engine/image/image.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
-// What an image is used for; layout, stages and accesses follow from it.
+// Use of an image; it determines layout, stages and accesses.
 enum class ImageUse : std::uint8_t {
-  none,           // undefined content
-  colour_target,  // written, blended, resolved into
+  none,           // content undefined
+  colour_target,  // render target, blend target or resolve destination
   depth_target,
-  depth_resolved,  // the samples of a depth target are resolved into it
-  sampled,         // in a fragment shader
-  copy_from,       // copied, blitted or resolved from
+  depth_resolved,  // destination of a depth resolve
+  sampled,         // by a fragment shader
+  copy_from,       // source of a copy, blit or resolve
   copy_to,
   present
 };
@@ -32,15 +33,15 @@ struct ImageDesc {
   VkFormat format = VK_FORMAT_R8G8B8A8_SRGB;
   VkImageUsageFlags usage = 0;
   VkSampleCountFlagBits samples = VK_SAMPLE_COUNT_1_BIT;
-  bool cube = false;                    // six layers
-  VkFormat also = VK_FORMAT_UNDEFINED;  // a second format that views may have (sRGB seen as UNORM)
+  bool cube = false;                             // six layers
+  VkFormat second_format = VK_FORMAT_UNDEFINED;  // additional view format (an sRGB image viewed as UNORM)
 };
 
 class GpuImage {
  public:
   GpuImage() = default;
   GpuImage(Gpu& gpu, const ImageDesc& desc);
-  GpuImage(VkImage foreign, const ImageDesc& desc);  // of a swapchain or an XR runtime: not owned
+  GpuImage(VkImage foreign, const ImageDesc& desc);  // image of a swapchain or an XR runtime: not owned
   GpuImage(GpuImage&& other) noexcept;
   GpuImage& operator=(GpuImage&& other) noexcept;
   ~GpuImage();
@@ -48,75 +49,79 @@ class GpuImage {
   VkImage get() const noexcept { return image_; }
   const ImageDesc& desc() const noexcept { return desc_; }
   VkExtent2D extent() const noexcept { return {desc_.width, desc_.height}; }
-  VkImageAspectFlags aspect() const noexcept;  // colour or depth, from the format
+  VkImageAspectFlags aspect() const noexcept;  // colour or depth, derived from the format
 
-  // State of a mip level; all layers share it.
+  // State of a mip level, common to all layers.
   ImageUse use(std::uint32_t level = 0) const noexcept { return states_[level].use; }
 
  private:
   friend void transition(VkCommandBuffer, GpuImage&, ImageUse, std::uint32_t, std::uint32_t);
-  friend void forget(GpuImage&) noexcept;
+  friend void discard_content(GpuImage&) noexcept;
   Gpu* gpu_ = nullptr;
   VkImage image_ = VK_NULL_HANDLE;
   ImageDesc desc_;
   Allocation allocation_;
   struct LevelState {
     ImageUse use = ImageUse::none;
-    ImageUse given_up = ImageUse::none;  // the use before forget(): a barrier still waits for it
+    ImageUse discarded_use = ImageUse::none;  // use before discard_content(): barriers still wait for it
   };
   std::vector<LevelState> states_;
 };
 
 inline constexpr std::uint32_t kAllLevels = ~0u;
 
-// Records the barrier that makes the image ready for the use, whatever it was used for before: its earlier writes are
-// made visible, its earlier reads are waited for. To the same use again: a barrier between two writes, nothing between
-// two reads.
+// Records the barrier that prepares the image for the given use, whatever its previous use: earlier writes become
+// visible and earlier reads are waited for. If the use does not change, records a barrier between two writes and
+// nothing between two reads.
 void transition(VkCommandBuffer commands, GpuImage& image, ImageUse use, std::uint32_t first_level = 0,
                 std::uint32_t level_count = kAllLevels);
 
-// The barrier alone, for all levels and layers of the aspect; image left null. Nothing where none is needed. A source
-// `none` with given_up: its content is dropped but that use is waited for. Throws std::logic_error to `none`.
+// Returns only the barrier, for all levels and layers of the aspect and with a null image; empty if no barrier is
+// needed. From `none` with a discarded_use: the content is dropped but that use is still waited for. Throws
+// std::logic_error if `to` is `none`.
 std::optional<VkImageMemoryBarrier2> barrier_between(ImageUse from, ImageUse to, VkImageAspectFlags aspect,
-                                                     ImageUse given_up = ImageUse::none);
+                                                     ImageUse discarded_use = ImageUse::none);
 
-// Throws std::logic_error naming both uses where the image is not in that state: call before each use.
+// Throws std::logic_error naming both uses if the image is not in that state. Call it before each use.
 void expect(const GpuImage& image, ImageUse use, std::uint32_t level = 0);
 
-// The content is given up (a swapchain image that was presented; a target about to be cleared).
-void forget(GpuImage& image) noexcept;
+// Marks the content as no longer needed (a swapchain image after present; a target about to be cleared).
+void discard_content(GpuImage& image) noexcept;
 
 VkImageLayout layout_of(ImageUse use) noexcept;
 
 ImageView make_view(const Gpu& gpu, const GpuImage& image, VkImageViewType type, std::uint32_t first_layer = 0,
-                    std::uint32_t layer_count = 1, VkFormat format = VK_FORMAT_UNDEFINED);  // undefined: its own
+                    // undefined: the image's format
+                    std::uint32_t layer_count = 1, VkFormat format = VK_FORMAT_UNDEFINED);
 
 struct SamplerDesc {
   bool linear = true;
   VkSamplerAddressMode u = VK_SAMPLER_ADDRESS_MODE_REPEAT, v = VK_SAMPLER_ADDRESS_MODE_REPEAT;
   bool mips = true;
-  bool anisotropic = false;  // as much as the device has, 8 at most; none on a software driver
+  bool anisotropic = false;  // up to 8, limited by the device; off on a software driver
   bool compare = false;      // depth compare, greater or equal (reverse-Z)
 };
 Sampler make_sampler(const Gpu& gpu, const SamplerDesc& desc);
 
-// Uploaded, with mips by blitting where levels > 1, left in ImageUse::sampled. Waits.
+// Uploads the pixels, generates mip levels by blitting if `mips`, and leaves the image in ImageUse::sampled. Waits for
+// the upload.
 GpuImage make_texture(Gpu& gpu, const Image& pixels, bool srgb, bool mips);
-// Raw texels for each level of each layer, level by level: tables and environments.
+// Takes raw texels for each level of each layer, level by level: for tables and environments.
 GpuImage make_texture(Gpu& gpu, const ImageDesc& desc, std::span<const std::vector<std::byte>> levels);
 
-// Records the copy of all layers at level 0 into an image of the same size, in whatever format it has. from in copy_from,
-// to in copy_to.
+// Records a copy of all layers of level 0 into an image of the same size; the formats may differ. `from` must be in
+// copy_from, `to` in copy_to.
 void copy_whole(VkCommandBuffer commands, const GpuImage& from, const GpuImage& to);
 
-// Records the blit of a layer, scaled into that place of another picture. from in copy_from, to in copy_to.
+// Records a blit of one layer, scaled into the rectangle `place` of another image. `from` must be in copy_from, `to` in
+// copy_to.
 void blit_into(VkCommandBuffer commands, const GpuImage& from, std::uint32_t layer, const GpuImage& to,
                const VkRect2D& place);
 
-// Records the barrier after which the host may read what copies have written, once the commands are done.
+// Records the barrier that lets the host read the results of copies once the commands have completed.
 void make_copies_visible_to_host(VkCommandBuffer commands);
 
-// Four bytes a pixel, of one layer at level 0; the image is left in copy_from. Waits.
+// Reads one layer of level 0 at four bytes per pixel and leaves the image in copy_from. Waits for the copy.
 Image read_back(Gpu& gpu, GpuImage& image, std::uint32_t layer = 0);
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

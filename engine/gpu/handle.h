@@ -1,13 +1,13 @@
-// A Vulkan object that dies with its owner.
+// A Vulkan object that is destroyed with its owner.
 #pragma once
 
 #include <utility>
 
 #include "engine/gpu/vulkan.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
-// Destroy: vkDestroySampler, vkDestroyPipeline, ...: all have the shape (VkDevice, handle, allocator).
+// Destroy: vkDestroySampler, vkDestroyPipeline, ... with the signature (VkDevice, handle, allocator).
 template <class T, auto Destroy>
 class Handle {
  public:
@@ -43,4 +43,4 @@ using CommandPool = Handle<VkCommandPool, vkDestroyCommandPool>;
 using QueryPool = Handle<VkQueryPool, vkDestroyQueryPool>;
 using Semaphore = Handle<VkSemaphore, vkDestroySemaphore>;
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

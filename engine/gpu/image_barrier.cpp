@@ -1,11 +1,11 @@
-// The table of uses, and the barriers that follow from it: the one place that knows layouts, stages and accesses.
+// The table of image uses and the barriers derived from it: the only place that knows layouts, stages and accesses.
 #include <array>
 #include <stdexcept>
 #include <string>
 
 #include "engine/gpu/gpu_image.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 namespace {
 
 struct Scope {
@@ -15,8 +15,8 @@ struct Scope {
   VkAccessFlags2 reads, writes;
 };
 
-// In the order of ImageUse. `none` as a source stands for whatever came before. `present` waits and signals at the stage
-// that Gpu::submit takes the swapchain's semaphore at, so that the next use of the image chains to its acquisition.
+// In the order of ImageUse. `none` as a source means any earlier use. `present` waits and signals at the stage where
+// Gpu::submit waits for the swapchain's semaphore, so that the next use of the image is ordered after its acquisition.
 constexpr std::array<Scope, 8> kScopes{{
     {"none", VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, 0, VK_ACCESS_2_MEMORY_WRITE_BIT},
     {"colour_target", VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT,
@@ -24,7 +24,7 @@ constexpr std::array<Scope, 8> kScopes{{
     {"depth_target", VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
      VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
      VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT, VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT},
-    // Vulkan resolves depth at the stage of colour (13.3, Render Pass Multisample Resolve Operations).
+    // Vulkan resolves depth in the colour output stage (13.3, Render Pass Multisample Resolve Operations).
     {"depth_resolved", VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
      VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT,
      VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT},
@@ -48,15 +48,16 @@ VkImageLayout layout_of(ImageUse use) noexcept {
 }
 
 std::optional<VkImageMemoryBarrier2> barrier_between(ImageUse from, ImageUse to, VkImageAspectFlags aspect,
-                                                     ImageUse given_up) {
-  if (to == ImageUse::none) throw std::logic_error("An image is moved to no use: forget() gives its content up.");
+                                                     ImageUse discarded_use) {
+  if (to == ImageUse::none)
+    throw std::logic_error("An image cannot transition to no use; call discard_content() instead.");
   const Scope& target = scope_of(to);
   if (from == to && target.writes == 0) return std::nullopt;
-  const Scope& source = scope_of(from == ImageUse::none ? given_up : from);
+  const Scope& source = scope_of(from == ImageUse::none ? discarded_use : from);
   return VkImageMemoryBarrier2{
       .sType = VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER_2,
       .srcStageMask = source.stages,
-      .srcAccessMask = source.writes,  // after a read nothing need be flushed, only waited for
+      .srcAccessMask = source.writes,  // after a read there is nothing to flush, only to wait for
       .dstStageMask = target.stages,
       .dstAccessMask = target.reads | target.writes,
       .oldLayout = layout_of(from),
@@ -70,11 +71,11 @@ std::optional<VkImageMemoryBarrier2> barrier_between(ImageUse from, ImageUse to,
 void transition(VkCommandBuffer commands, GpuImage& image, ImageUse use, std::uint32_t first_level,
                 std::uint32_t level_count) {
   const std::uint32_t end = level_count == kAllLevels ? image.desc().levels : first_level + level_count;
-  if (end > image.desc().levels) throw std::logic_error("A transition goes past an image's last level.");
+  if (end > image.desc().levels) throw std::logic_error("A transition exceeds the image's last level.");
   std::vector<VkImageMemoryBarrier2> barriers;
   for (std::uint32_t level = first_level; level < end; ++level) {
     auto& state = image.states_[level];
-    auto barrier = barrier_between(state.use, use, image.aspect(), state.given_up);
+    auto barrier = barrier_between(state.use, use, image.aspect(), state.discarded_use);
     state = {.use = use};
     if (!barrier) continue;
     barrier->image = image.get();
@@ -91,14 +92,14 @@ void transition(VkCommandBuffer commands, GpuImage& image, ImageUse use, std::ui
 
 void expect(const GpuImage& image, ImageUse use, std::uint32_t level) {
   if (image.use(level) == use) return;
-  throw std::logic_error(std::string("An image is used as ") + scope_of(use).name + " but stands as " +
+  throw std::logic_error(std::string("An image is used as ") + scope_of(use).name + " but is in state " +
                          scope_of(image.use(level)).name + ".");
 }
 
-void forget(GpuImage& image) noexcept {
+void discard_content(GpuImage& image) noexcept {
   for (auto& state : image.states_) {
-    if (state.use != ImageUse::none) state = {.use = ImageUse::none, .given_up = state.use};
+    if (state.use != ImageUse::none) state = {.use = ImageUse::none, .discarded_use = state.use};
   }
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -4,7 +4,7 @@
 #include <cstring>
 #include <vector>
 
-namespace gearshift {
+namespace gearshift::engine {
 namespace {
 
 constexpr const char* kLayer = "VK_LAYER_KHRONOS_validation";
@@ -17,10 +17,10 @@ bool is_layer_installed() {
   return std::any_of(layers.begin(), layers.end(), [](const auto& l) { return std::strcmp(l.layerName, kLayer) == 0; });
 }
 
-VKAPI_ATTR VkBool32 VKAPI_CALL heard(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
-                                     const VkDebugUtilsMessengerCallbackDataEXT* data, void* instance) {
+VKAPI_ATTR VkBool32 VKAPI_CALL on_debug_message(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
+                                                const VkDebugUtilsMessengerCallbackDataEXT* data, void* instance) {
   const bool has_text = data->pMessage != nullptr && *data->pMessage != '\0';
-  static_cast<Instance*>(instance)->count(has_text ? data->pMessage : "a validation message without text");
+  static_cast<Instance*>(instance)->count(has_text ? data->pMessage : "validation message without text");
   return VK_FALSE;
 }
 
@@ -42,10 +42,10 @@ Instance::Instance(const GpuConfig& config)
                                                .messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
                                                                   VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
                                                .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT,
-                                               .pfnUserCallback = heard,
+                                               .pfnUserCallback = on_debug_message,
                                                .pUserData = this};
   const VkValidationFeatureEnableEXT synchronization = VK_VALIDATION_FEATURE_ENABLE_SYNCHRONIZATION_VALIDATION_EXT;
-  // The messenger in the chain hears the making and the end of the instance itself.
+  // A messenger in the pNext chain also reports on vkCreateInstance and vkDestroyInstance themselves.
   const VkValidationFeaturesEXT features{.sType = VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT,
                                          .pNext = &messenger,
                                          .enabledValidationFeatureCount = 1,
@@ -66,10 +66,10 @@ Instance::Instance(const GpuConfig& config)
                                   .ppEnabledLayerNames = &kLayer,
                                   .enabledExtensionCount = static_cast<std::uint32_t>(extensions.size()),
                                   .ppEnabledExtensionNames = extensions.data()};
-  const VkResult result = config.maker != nullptr ? config.maker->make_instance(info, &instance_)
-                                                  : vkCreateInstance(&info, nullptr, &instance_);
+  const VkResult result = config.factory != nullptr ? config.factory->make_instance(info, &instance_)
+                                                    : vkCreateInstance(&info, nullptr, &instance_);
   if (result == VK_ERROR_INCOMPATIBLE_DRIVER) {
-    throw GpuError("No Vulkan driver is installed: the package mesa-vulkan-drivers brings one that needs no card.");
+    throw GpuError("No Vulkan driver is installed: the package mesa-vulkan-drivers provides a software one.");
   }
   check(result, "vkCreateInstance");
   if (!validates_) return;
@@ -87,4 +87,4 @@ Instance::~Instance() {
   vkDestroyInstance(instance_, nullptr);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

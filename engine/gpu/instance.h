@@ -1,4 +1,4 @@
-// The Vulkan instance, with the validation layers where they are asked for and installed.
+// The Vulkan instance, with the validation layer if requested and installed.
 #pragma once
 
 #include <cstdint>
@@ -7,7 +7,7 @@
 
 #include "engine/gpu/gpu.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 class Instance {
  public:
@@ -20,7 +20,7 @@ class Instance {
   bool validates() const noexcept { return validates_; }
   std::uint64_t messages() const noexcept { return messages_; }
 
-  void count(std::string_view message);  // of the layer
+  void count(std::string_view message);  // counts a message of the validation layer
 
  private:
   VkInstance instance_ = VK_NULL_HANDLE;
@@ -30,4 +30,4 @@ class Instance {
   bool validates_ = false;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

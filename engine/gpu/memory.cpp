@@ -7,14 +7,14 @@
 
 #include <fmt/format.h>
 
-namespace gearshift {
+namespace gearshift::engine {
 namespace {
 
 constexpr VkDeviceSize kBlockSize = VkDeviceSize{32} << 20;
 constexpr VkMemoryPropertyFlags kMapped = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
 
-// What is best, then what will do.
-std::array<VkMemoryPropertyFlags, 2> wishes(MemoryKind kind) {
+// Memory properties in order of preference: best first, then acceptable.
+std::array<VkMemoryPropertyFlags, 2> memory_preferences(MemoryKind kind) {
   switch (kind) {
     case MemoryKind::device:
       return {VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT, 0};
@@ -28,7 +28,7 @@ std::array<VkMemoryPropertyFlags, 2> wishes(MemoryKind kind) {
 
 }  // namespace
 
-std::optional<VkDeviceSize> FreeRanges::take(VkDeviceSize size, VkDeviceSize alignment) {
+std::optional<VkDeviceSize> FreeRanges::allocate(VkDeviceSize size, VkDeviceSize alignment) {
   for (const auto& [start, length] : free_) {
     const VkDeviceSize offset = (start + alignment - 1) & ~(alignment - 1);
     const VkDeviceSize end = start + length;
@@ -42,20 +42,20 @@ std::optional<VkDeviceSize> FreeRanges::take(VkDeviceSize size, VkDeviceSize ali
   return std::nullopt;
 }
 
-void FreeRanges::give(VkDeviceSize offset, VkDeviceSize size) {
+void FreeRanges::release(VkDeviceSize offset, VkDeviceSize size) {
   const auto next = free_.lower_bound(offset);
   assert(next == free_.end() || offset + size <= next->first);
   if (next != free_.end() && next->first == offset + size) {
     size += next->second;
     free_.erase(next);
   }
-  const auto here = free_.emplace(offset, size).first;
-  if (here == free_.begin()) return;
-  const auto previous = std::prev(here);
+  const auto inserted = free_.emplace(offset, size).first;
+  if (inserted == free_.begin()) return;
+  const auto previous = std::prev(inserted);
   assert(previous->first + previous->second <= offset);
   if (previous->first + previous->second != offset) return;
   previous->second += size;
-  free_.erase(here);
+  free_.erase(inserted);
 }
 
 DeviceMemory::DeviceMemory(VkPhysicalDevice physical, VkDevice device) : device_(device) {
@@ -67,18 +67,18 @@ DeviceMemory::~DeviceMemory() {
 }
 
 std::uint32_t DeviceMemory::type_for(std::uint32_t allowed, MemoryKind kind) const {
-  for (const VkMemoryPropertyFlags wish : wishes(kind)) {
+  for (const VkMemoryPropertyFlags preferred : memory_preferences(kind)) {
     for (std::uint32_t i = 0; i < properties_.memoryTypeCount; ++i) {
-      const bool fits = (properties_.memoryTypes[i].propertyFlags & wish) == wish;
+      const bool fits = (properties_.memoryTypes[i].propertyFlags & preferred) == preferred;
       if (fits && (allowed >> i & 1u) != 0) return i;
     }
   }
-  throw GpuError("No memory type of the device fits.");
+  throw GpuError("The device has no suitable memory type.");
 }
 
 MemoryBlock& DeviceMemory::add_block(VkDeviceSize size, std::uint32_t type, MemoryUser user) {
   const VkDeviceSize heap = properties_.memoryHeaps[properties_.memoryTypes[type].heapIndex].size;
-  if (size > heap) throw GpuError(fmt::format("{} MiB are more memory than the device has.", size >> 20));
+  if (size > heap) throw GpuError(fmt::format("{} MiB exceed the device's memory.", size >> 20));
   const VkMemoryAllocateInfo info{
       .sType = VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO, .allocationSize = size, .memoryTypeIndex = type};
   blocks_.reserve(blocks_.size() + 1);
@@ -97,34 +97,34 @@ MemoryBlock& DeviceMemory::add_block(VkDeviceSize size, std::uint32_t type, Memo
 
 Allocation DeviceMemory::allocate(const VkMemoryRequirements& needs, MemoryKind kind, MemoryUser user) {
   const std::uint32_t type = type_for(needs.memoryTypeBits, kind);
-  MemoryBlock* home = nullptr;
+  MemoryBlock* block_used = nullptr;
   std::optional<VkDeviceSize> offset;
   for (const auto& block : blocks_) {
     if (block->type != type || block->user != user) continue;
-    home = block.get();
-    if ((offset = home->ranges.take(needs.size, needs.alignment))) break;
+    block_used = block.get();
+    if ((offset = block_used->ranges.allocate(needs.size, needs.alignment))) break;
   }
   if (!offset) {
-    home = &add_block(std::max(needs.size, kBlockSize), type, user);
-    offset = home->ranges.take(needs.size, needs.alignment);
+    block_used = &add_block(std::max(needs.size, kBlockSize), type, user);
+    offset = block_used->ranges.allocate(needs.size, needs.alignment);
   }
   in_use_ += needs.size;
-  return {.memory = home->memory,
+  return {.memory = block_used->memory,
           .offset = *offset,
           .size = needs.size,
-          .mapped = home->mapped == nullptr ? nullptr : home->mapped + *offset,
-          .block = home};
+          .mapped = block_used->mapped == nullptr ? nullptr : block_used->mapped + *offset,
+          .block = block_used};
 }
 
 void DeviceMemory::free(const Allocation& allocation) noexcept {
   if (allocation.block == nullptr) return;
   in_use_ -= allocation.size;
-  allocation.block->ranges.give(allocation.offset, allocation.size);
-  if (!allocation.block->ranges.is_whole()) return;
+  allocation.block->ranges.release(allocation.offset, allocation.size);
+  if (!allocation.block->ranges.is_unused()) return;
   const auto block =
       std::find_if(blocks_.begin(), blocks_.end(), [&](const auto& b) { return b.get() == allocation.block; });
   vkFreeMemory(device_, (*block)->memory, nullptr);
   blocks_.erase(block);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

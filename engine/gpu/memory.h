@@ -8,25 +8,25 @@
 
 #include "engine/gpu/gpu.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
-// Free pieces of [0, size), neighbours merged.
+// Free ranges of [0, size), with adjacent ranges merged.
 class FreeRanges {
  public:
   explicit FreeRanges(VkDeviceSize size) : size_(size), free_{{0, size}} {}
-  // Offset of the first piece that fits. alignment: power of two
-  std::optional<VkDeviceSize> take(VkDeviceSize size, VkDeviceSize alignment);
-  void give(VkDeviceSize offset, VkDeviceSize size);  // what was taken
-  bool is_whole() const { return free_.size() == 1 && free_.begin()->second == size_; }
+  // Returns the offset of the first range that fits. alignment: power of two
+  std::optional<VkDeviceSize> allocate(VkDeviceSize size, VkDeviceSize alignment);
+  void release(VkDeviceSize offset, VkDeviceSize size);  // a range returned by allocate()
+  bool is_unused() const { return free_.size() == 1 && free_.begin()->second == size_; }
 
  private:
   VkDeviceSize size_;
-  std::map<VkDeviceSize, VkDeviceSize> free_;  // offset to size
+  std::map<VkDeviceSize, VkDeviceSize> free_;  // offset -> size
 };
 
 struct MemoryBlock {
   VkDeviceMemory memory;
-  std::byte* mapped;  // null: the host does not see it
+  std::byte* mapped;  // null: not host-visible
   std::uint32_t type;
   MemoryUser user;
   FreeRanges ranges;
@@ -52,4 +52,4 @@ class DeviceMemory {
   VkDeviceSize in_use_ = 0;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -1,19 +1,19 @@
-// What is drawn on top of a finished picture.
+// Interface for drawing on top of a finished picture.
 #pragma once
 
 #include "engine/gpu/vulkan.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
-inline constexpr VkFormat kColourFormat = VK_FORMAT_R8G8B8A8_SRGB;    // of a picture
-inline constexpr VkFormat kOverlayFormat = VK_FORMAT_R8G8B8A8_UNORM;  // as an overlay sees it
+inline constexpr VkFormat kColourFormat = VK_FORMAT_R8G8B8A8_SRGB;    // format of a picture
+inline constexpr VkFormat kOverlayFormat = VK_FORMAT_R8G8B8A8_UNORM;  // format in which an overlay sees it
 
 class Overlay {
  public:
   virtual ~Overlay() = default;
-  // Inside a rendering scope on a UNORM view of the picture (values are display-referred), 1 sample, no depth.
-  // slot: which of the kFramesInFlight this frame is.
+  // Called inside a rendering scope on a UNORM view of the picture (values are display-referred), 1 sample, no depth.
+  // slot: index of this frame among the kFramesInFlight.
   virtual void draw(VkCommandBuffer commands, VkExtent2D extent, int slot) = 0;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

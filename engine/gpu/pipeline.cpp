@@ -2,7 +2,7 @@
 
 #include <array>
 
-namespace gearshift {
+namespace gearshift::engine {
 namespace {
 
 ShaderModule make_module(const Gpu& gpu, std::span<const std::uint32_t> code) {
@@ -120,4 +120,4 @@ Pipeline make_pipeline(const Gpu& gpu, const PipelineDesc& desc) {
   return {gpu.device(), pipeline};
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

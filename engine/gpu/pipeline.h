@@ -1,4 +1,4 @@
-// Pipelines for dynamic rendering, from a few lines.
+// Compact description of graphics pipelines for dynamic rendering.
 #pragma once
 
 #include <cstdint>
@@ -7,14 +7,14 @@
 
 #include "engine/gpu/gpu.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 struct VertexInput {
-  std::uint32_t stride = 0;  // 0: the vertices are made in the shader
+  std::uint32_t stride = 0;  // 0: the shader generates the vertices
   std::vector<VkVertexInputAttributeDescription> attributes;
 };
 
-enum class Blend { none, alpha };        // alpha: source over, straight alpha
+enum class Blend { none, alpha };        // alpha: source over, with straight alpha
 enum class Depth { none, test, write };  // greater or equal: reverse-Z; write: test and write
 
 struct PipelineDesc {
@@ -28,10 +28,11 @@ struct PipelineDesc {
   Blend blend = Blend::none;
   Depth depth_use = Depth::none;
   float depth_bias = 0.0f, depth_slope = 0.0f;
-  bool depth_clamp = false;                  // where the device can: casters before a shadow's near plane
-  std::span<const std::uint32_t> constants;  // specialization constants 0, 1, 2, ..., of both stages
+  // if the device supports it; for casters in front of a shadow map's near plane
+  bool depth_clamp = false;
+  std::span<const std::uint32_t> constants;  // values of specialization constants 0, 1, 2, ... in both stages
 };
-// Triangle list. Dynamic: viewport, scissor, cull mode, front face.
+// Triangle list. Dynamic state: viewport, scissor, cull mode, front face.
 Pipeline make_pipeline(const Gpu& gpu, const PipelineDesc& desc);
 
 struct Binding {
@@ -44,7 +45,7 @@ SetLayout make_set_layout(const Gpu& gpu, std::span<const Binding> bindings);
 PipelineLayout make_pipeline_layout(const Gpu& gpu, std::span<const VkDescriptorSetLayout> sets,
                                     std::uint32_t push_constant_bytes);
 
-// Fixed in size: sets are made once and live as long as the pool.
+// Descriptor pool of fixed size: sets are allocated once and live as long as the pool.
 class SetPool {
  public:
   SetPool() = default;
@@ -60,4 +61,4 @@ void bind_buffer(const Gpu& gpu, VkDescriptorSet set, std::uint32_t binding, VkD
                  VkDeviceSize offset = 0, VkDeviceSize size = VK_WHOLE_SIZE);
 void bind_texture(const Gpu& gpu, VkDescriptorSet set, std::uint32_t binding, VkImageView view, VkSampler sampler);
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -9,10 +9,10 @@
 #include <fstream>
 #include <string>
 
-namespace gearshift {
+namespace gearshift::engine {
 namespace {
 
-// Ours, before the driver's bytes: drivers check device and version, but trust that the rest is whole.
+// Our header in front of the driver's data. Drivers check device and version but trust that the rest is complete.
 struct Frame {
   std::array<char, 8> magic{'g', 's', 'c', 'a', 'c', 'h', 'e', '1'};
   std::uint64_t size = 0;
@@ -26,13 +26,13 @@ std::uint64_t sum_of(std::span<const std::byte> bytes) {
   return sum;
 }
 
-constexpr std::uintmax_t kLargest = std::uintmax_t{256} << 20;  // [bytes] drivers keep a few MiB
+constexpr std::uintmax_t kMaxCacheBytes = std::uintmax_t{256} << 20;  // [bytes] drivers store a few MiB
 
 std::vector<std::byte> read_file(const std::filesystem::path& file) {
   std::error_code problem;
   if (!std::filesystem::is_regular_file(file, problem)) return {};
   const std::uintmax_t size = std::filesystem::file_size(file, problem);
-  if (problem || size > kLargest) return {};
+  if (problem || size > kMaxCacheBytes) return {};
   std::ifstream in(file, std::ios::binary);
   std::vector<std::byte> bytes(size);
   in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
@@ -80,8 +80,8 @@ void save_pipeline_cache(const std::filesystem::path& file, std::span<const std:
       std::filesystem::remove(part, ignored);
     }
   } catch (const std::exception&) {
-    return;  // the next start compiles again
+    return;  // not fatal: the next start compiles the pipelines again
   }
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

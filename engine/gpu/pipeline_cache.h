@@ -1,4 +1,4 @@
-// The driver's compiled pipelines on disk: what the next start need not compile again.
+// The driver's compiled pipelines on disk, so that the next start need not compile them again.
 #pragma once
 
 #include <cstddef>
@@ -8,12 +8,14 @@
 
 #include "engine/gpu/vulkan.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
-// What was saved for this very device and driver; empty when there is none, it is torn or it is another's.
+// Returns the data saved for exactly this device and driver; empty if there is none, if it is incomplete or if it
+// belongs to another device.
 std::vector<std::byte> load_pipeline_cache(const std::filesystem::path& file, const VkPhysicalDeviceProperties& device);
 
-// Whole or not at all: written beside the file and renamed. A cache that cannot be written is none: never throws.
+// Written beside the file and renamed, so that the file is never incomplete. Never throws: a cache that cannot be
+// written is skipped.
 void save_pipeline_cache(const std::filesystem::path& file, std::span<const std::byte> content) noexcept;
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

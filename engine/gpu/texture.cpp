@@ -1,4 +1,4 @@
-// Pictures into images of the device, and back.
+// Uploads images to the device and reads them back.
 #include <algorithm>
 #include <bit>
 #include <cstring>
@@ -8,7 +8,7 @@
 #include "engine/gpu/gpu_buffer.h"
 #include "engine/gpu/gpu_image.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 namespace {
 
 constexpr VkImageUsageFlags kTextureUsage =
@@ -24,7 +24,7 @@ VkBufferImageCopy whole_level(const GpuImage& image, std::uint32_t level, VkDevi
           .imageExtent = {side_at(image.desc().width, level), side_at(image.desc().height, level), 1}};
 }
 
-// From the level above, each texel from four.
+// Each texel is the mean of four texels of the level above.
 void make_level(VkCommandBuffer commands, GpuImage& image, std::uint32_t level) {
   transition(commands, image, ImageUse::copy_from, level - 1, 1);
   transition(commands, image, ImageUse::copy_to, level, 1);
@@ -67,12 +67,14 @@ GpuImage make_texture(Gpu& gpu, const Image& pixels, bool srgb, bool mips) {
 }
 
 GpuImage make_texture(Gpu& gpu, const ImageDesc& desc, std::span<const std::vector<std::byte>> levels) {
-  if (levels.size() != desc.levels) throw std::logic_error("A texture's levels and its description differ in number.");
+  if (levels.size() != desc.levels)
+    throw std::logic_error("The number of levels differs from the texture's description.");
   ImageDesc full = desc;
   full.usage |= kTextureUsage;
   GpuImage image(gpu, full);
   std::size_t size = 0;
-  for (const auto& level : levels) size += (level.size() + 15) / 16 * 16;  // an offset is a multiple of a texel
+  // copy offsets must be multiples of the texel size
+  for (const auto& level : levels) size += (level.size() + 15) / 16 * 16;
   GpuBuffer staging(gpu, size, VK_BUFFER_USAGE_TRANSFER_SRC_BIT, MemoryKind::upload);
   std::vector<VkBufferImageCopy> copies;
   std::size_t offset = 0;
@@ -152,4 +154,4 @@ Image read_back(Gpu& gpu, GpuImage& image, std::uint32_t layer) {
   return pixels;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

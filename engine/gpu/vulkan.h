@@ -1,7 +1,7 @@
-// Vulkan's C API, written with designated initializers.
+// Vulkan's C API, for use with designated initializers.
 #pragma once
 
 #include <vulkan/vulkan.h>
 
-// What a designated initializer leaves out is zero, as Vulkan wants its unused fields: no oversight to warn of.
+// Fields left out of a designated initializer are zero, which is what Vulkan requires of unused fields.
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"

@@ -6,11 +6,11 @@
 #include <limits>
 #include <stdexcept>
 
-namespace gearshift {
+namespace gearshift::engine {
 
 Image crop(const Image& image, int x, int y, int width, int height) {
   if (x < 0 || y < 0 || width < 1 || height < 1 || width > image.width - x || height > image.height - y) {
-    throw std::invalid_argument("crop: the rectangle does not lie inside the image");
+    throw std::invalid_argument("crop: the rectangle is not inside the image");
   }
   Image part{width, height, {}};
   part.rgba.reserve(4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
@@ -47,10 +47,10 @@ ImageDifference difference(const Image& a, const Image& b, int tolerance) {
     if (worst > tolerance) ++beyond;
   }
   const double pixels = std::max(1.0, static_cast<double>(a.rgba.size()) / 4.0);
-  result.share_beyond = static_cast<double>(beyond) / pixels;
+  result.fraction_beyond = static_cast<double>(beyond) / pixels;
   result.psnr = squares == 0.0 ? std::numeric_limits<double>::infinity()
                                : 10.0 * std::log10(255.0 * 255.0 * 3.0 * pixels / squares);
   return result;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

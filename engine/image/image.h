@@ -1,4 +1,4 @@
-// A picture in memory, as PNG, and how far apart two of them are.
+// An image in memory, PNG files, and the difference between two images.
 #pragma once
 
 #include <cstdint>
@@ -6,12 +6,12 @@
 #include <span>
 #include <vector>
 
-namespace gearshift {
+namespace gearshift::engine {
 
 struct Image {
   int width = 0;                   // [px]
   int height = 0;                  // [px]
-  std::vector<std::uint8_t> rgba;  // sRGB, 4 bytes a pixel, rows from the top
+  std::vector<std::uint8_t> rgba;  // sRGB, 4 bytes per pixel, rows from the top
 
   const std::uint8_t* pixel(int x, int y) const noexcept {
     return rgba.data() + 4 * (static_cast<long>(y) * width + x);
@@ -19,32 +19,33 @@ struct Image {
   std::uint8_t* pixel(int x, int y) noexcept { return rgba.data() + 4 * (static_cast<long>(y) * width + x); }
 };
 
-inline constexpr int kMostImageSide = 16384;  // [px] of a picture that is read
+inline constexpr int kMaxImageSide = 16384;  // [px] limit for images that are read
 
-// Throw std::runtime_error with one sentence: file and reason. A picture appears whole or not at all.
+// Throw std::runtime_error with one sentence: file and reason. write_png() replaces the file atomically.
 void write_png(const std::filesystem::path& file, const Image& image);
 Image read_png(const std::filesystem::path& file);
 
-// A PNG or JPEG file's bytes; no other kind is tried. Throw std::runtime_error with the reason alone. The size is read
-// from the header: nothing is allocated for the pixels before the caller has judged it.
+// For the bytes of a PNG or JPEG file; other formats are rejected. Throw std::runtime_error with only the reason.
+// encoded_size() reads the header, so a caller can check the size before any pixels are allocated.
 struct ImageSize {
   int width = 0, height = 0;  // [px]
 };
 ImageSize encoded_size(std::span<const std::uint8_t> bytes);
 Image decode_image(std::span<const std::uint8_t> bytes);
 
-// The part of an image inside the rectangle; the rectangle must lie inside it, or std::invalid_argument.
+// Returns the part inside the rectangle. Throws std::invalid_argument unless the rectangle lies inside the image.
 Image crop(const Image& image, int x, int y, int width, int height);
 
-// Halves of one picture, for stereo on a desktop. Same height, or std::invalid_argument.
+// Places two images of equal height next to each other, for stereo on a desktop. Throws std::invalid_argument if
+// heights differ.
 Image side_by_side(const Image& left, const Image& right);
 
 struct ImageDifference {
-  double psnr = 0.0;          // [dB] of the colour channels; infinite when equal
-  double share_beyond = 0.0;  // [1] of the pixels that differ by more than `tolerance` in some channel
-  int worst = 0;              // [1/255] largest difference of a channel
+  double psnr = 0.0;             // [dB] over the colour channels; infinite if equal
+  double fraction_beyond = 0.0;  // [1] fraction of pixels that differ by more than `tolerance` in some channel
+  int worst = 0;                 // [1/255] largest difference in any channel
 };
-// Same size, or std::invalid_argument. Alpha is not compared. tolerance [1/255]
+// Throws std::invalid_argument if sizes differ. Ignores alpha. tolerance [1/255]
 ImageDifference difference(const Image& a, const Image& b, int tolerance = 3);
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

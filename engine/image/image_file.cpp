@@ -1,4 +1,4 @@
-// PNG and JPEG through stb, which is believed only after its input has been looked at.
+// PNG and JPEG through stb; the input is checked before stb sees it.
 #include <stb_image.h>
 #include <stb_image_write.h>
 #include <unistd.h>
@@ -17,11 +17,11 @@
 
 #include "engine/image/image.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 namespace {
 
-constexpr std::uintmax_t kMostImageBytes = 1u << 30;
+constexpr std::uintmax_t kMaxImageBytes = 1u << 30;
 
 bool starts_with(std::span<const std::uint8_t> bytes, std::initializer_list<std::uint8_t> magic) {
   return bytes.size() > magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
@@ -50,7 +50,7 @@ std::vector<std::uint8_t> encoded_png(const Image& image) {
 
 void check_shape(const Image& image) {
   const bool sized =
-      image.width > 0 && image.height > 0 && image.width <= kMostImageSide && image.height <= kMostImageSide;
+      image.width > 0 && image.height > 0 && image.width <= kMaxImageSide && image.height <= kMaxImageSide;
   if (!sized ||
       image.rgba.size() != 4 * static_cast<std::size_t>(image.width) * static_cast<std::size_t>(image.height)) {
     throw std::runtime_error("the picture has no pixels or the wrong number of them");
@@ -61,7 +61,7 @@ std::vector<std::uint8_t> file_bytes(const std::filesystem::path& file) {
   std::error_code error;
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   if (error) throw std::runtime_error(error.message());
-  if (size > kMostImageBytes) throw std::runtime_error("the file is too large");
+  if (size > kMaxImageBytes) throw std::runtime_error("the file is too large");
   std::ifstream in(file, std::ios::binary);
   std::vector<std::uint8_t> bytes(size);
   if (!in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size))) {
@@ -70,7 +70,7 @@ std::vector<std::uint8_t> file_bytes(const std::filesystem::path& file) {
   return bytes;
 }
 
-// /dev/null, /dev/stdout: written to, never replaced.
+// Devices and pipes (/dev/null, /dev/stdout) are written to, never replaced.
 bool is_device_or_pipe(const std::filesystem::path& file) {
   std::error_code unknown;
   const std::filesystem::file_status found = std::filesystem::status(file, unknown);
@@ -78,13 +78,13 @@ bool is_device_or_pipe(const std::filesystem::path& file) {
          !std::filesystem::is_directory(found);
 }
 
-// A link stays one: what it leads to is written.
-std::filesystem::path place_of(const std::filesystem::path& file) {
+// Follows a symbolic link, so that the target is written and the link stays.
+std::filesystem::path resolve_path(const std::filesystem::path& file) {
   const bool is_link = std::filesystem::is_symlink(file) && !is_device_or_pipe(file);
   return is_link ? std::filesystem::canonical(file) : file;
 }
 
-// A name of this process's own: who looks at the file sees the old picture or the new one.
+// Temporary name that is unique to this process: readers see either the old picture or the new one.
 std::filesystem::path part_of(std::filesystem::path place) {
   if (!is_device_or_pipe(place)) place += fmt::format(".{}.part", getpid());
   return place;
@@ -97,8 +97,8 @@ void write_png(const std::filesystem::path& file, const Image& image) {
   try {
     check_shape(image);
     const std::vector<std::uint8_t> bytes = encoded_png(image);
-    const std::filesystem::path place = place_of(file);
-    // Its name could be taken from a file that may not be written; whoever locked it did not mean that.
+    const std::filesystem::path place = resolve_path(file);
+    // Renaming would replace even a write-protected file, against the intention of whoever protected it.
     if (access(place.c_str(), W_OK) != 0 && errno != ENOENT) throw std::runtime_error(std::strerror(errno));
     part = part_of(place);
     std::ofstream out(part, std::ios::binary | std::ios::trunc);
@@ -124,17 +124,17 @@ Image read_png(const std::filesystem::path& file) try {
 }
 
 ImageSize encoded_size(std::span<const std::uint8_t> bytes) {
-  // stb knows more kinds, and knows them less well.
+  // stb supports more formats, but less robustly.
   if (!is_png(bytes) && !is_jpeg(bytes)) throw std::runtime_error("it is neither PNG nor JPEG");
-  if (bytes.size() > kMostImageBytes) throw std::runtime_error("it is too large");
+  if (bytes.size() > kMaxImageBytes) throw std::runtime_error("it is too large");
   ImageSize size;
   int channels = 0;
   if (stbi_info_from_memory(bytes.data(), static_cast<int>(bytes.size()), &size.width, &size.height, &channels) == 0) {
-    throw std::runtime_error("its header is broken");
+    throw std::runtime_error("its header is corrupt");
   }
-  if (size.width < 1 || size.height < 1 || size.width > kMostImageSide || size.height > kMostImageSide) {
+  if (size.width < 1 || size.height < 1 || size.width > kMaxImageSide || size.height > kMaxImageSide) {
     throw std::runtime_error(
-        fmt::format("{} x {} pixels are more than {} a side", size.width, size.height, kMostImageSide));
+        fmt::format("{} x {} pixels exceed the limit of {} per side", size.width, size.height, kMaxImageSide));
   }
   return size;
 }
@@ -147,10 +147,10 @@ Image decode_image(std::span<const std::uint8_t> bytes) {
       stbi_load_from_memory(bytes.data(), static_cast<int>(bytes.size()), &width, &height, &channels, 4),
       stbi_image_free);
   if (pixels == nullptr || width != size.width || height != size.height)
-    throw std::runtime_error("its pixels are broken");
+    throw std::runtime_error("its pixel data is corrupt");
   image.rgba.assign(pixels.get(),
                     pixels.get() + 4 * static_cast<std::size_t>(width) * static_cast<std::size_t>(height));
   return image;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -5,11 +5,11 @@
 
 #include "engine/light/environment.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 namespace {
 
-// Radiances, in units in which a clear sky is about 1. Chosen by eye, for a sun 45 to 60 degrees high.
+// Radiances, in units in which a clear sky is about 1. Chosen by eye for a sun 45 to 60 degrees high.
 constexpr glm::vec3 kZenith{0.25f, 0.42f, 0.74f};
 constexpr glm::vec3 kHaze{1.00f, 1.02f, 1.04f};
 constexpr glm::vec3 kGlow{0.70f, 0.58f, 0.42f};
@@ -18,7 +18,7 @@ constexpr glm::vec3 kVerge{0.17f, 0.21f, 0.09f};
 
 constexpr float kEyeHeight = 1.1f;      // [m] above the road
 constexpr float kRoadHalfWidth = 6.0f;  // [m] the road runs along z
-constexpr float kSoftEdge = 2.0f;       // [m] from road to verge: what is reflected shows no seam
+constexpr float kSoftEdge = 2.0f;       // [m] blend from road to verge, so that reflections show no seam
 
 glm::vec3 above(glm::vec3 direction, glm::vec3 towards_sun) {
   // Haze thickens with the air mass towards the horizon.
@@ -32,7 +32,7 @@ glm::vec3 below(glm::vec3 direction, glm::vec3 horizon) {
   const float metres_per_unit = kEyeHeight / -direction.y;
   const float aside = std::abs(direction.x) * metres_per_unit;
   const float verge = glm::smoothstep(kRoadHalfWidth, kRoadHalfWidth + kSoftEdge, aside);
-  const float haze = std::exp(40.0f * direction.y);  // what is far away takes the horizon's colour
+  const float haze = std::exp(40.0f * direction.y);  // distant ground takes the colour of the horizon
   return glm::mix(glm::mix(kAsphalt, kVerge, verge), horizon, haze);
 }
 
@@ -46,4 +46,4 @@ Radiance day_sky(glm::vec3 towards_sun) {
   };
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

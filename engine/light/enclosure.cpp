@@ -12,21 +12,21 @@
 
 #include "engine/light/cube.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 namespace {
 
-constexpr int kWindowSide = 16;  // [texels] of the cube map's faces that windows are summed over
-constexpr int kLiningSide = 4;   // [texels] that their light is sampled at: it is smooth
+constexpr int kWindowSide = 16;  // [texels] face side of the cube map over which the windows are integrated
+constexpr int kLiningSide = 4;   // [texels] face side at which the light of the windows is sampled: it is smooth
 
 // A window by azimuth (0 ahead, 90 to the right) and elevation. [deg] Both sides of the car are alike.
 struct Pane {
-  float from, to;  // azimuth, of the right half
+  float from, to;  // azimuth, in the right half
   float low, high;
 };
 
-// What (0.335, 0.56, -0.12) of cabin.glb sees, between the heads and the lever: windscreen, doors, rear window between
-// the headrests (tests/picture/cabin_light_test.cpp compares them by rays).
+// Windows as seen from (0.335, 0.56, -0.12) in cabin.glb, between the heads and the lever: windscreen, doors, and rear
+// window between the headrests (tests/picture/cabin_light_test.cpp compares them with rays).
 constexpr Pane kPanes[] = {{0.0f, 24.0f, -9.0f, 38.0f},
                            {24.0f, 54.0f, -9.0f, 28.0f},
                            {61.0f, 122.0f, -9.0f, 25.0f},
@@ -35,7 +35,7 @@ constexpr glm::vec3 kAbove{0.57f, 0.54f, 0.49f};     // above the sills: headlin
 constexpr glm::vec3 kBelow{0.060f, 0.058f, 0.055f};  // below: dash, seats, doors, carpet
 constexpr float kSill = -9.0f;                       // [deg] elevation
 
-// Directions that stand for their share of the sphere. [sr]
+// A direction and the solid angle [sr] that it represents.
 struct Ray {
   glm::vec3 direction;
   float angle = 0.0f;
@@ -49,10 +49,10 @@ std::vector<Ray> all_around(int side) {
   return rays;
 }
 
-// What reaches the lining without having met lining before. [E / pi]
-class FirstLight {
+// Light that reaches the lining directly, without a reflection at the lining before. [E / pi]
+class DirectLight {
  public:
-  FirstLight(const Enclosure& room, const Radiance& open, glm::vec3 towards_sun, glm::vec3 irradiance)
+  DirectLight(const Enclosure& room, const Radiance& open, glm::vec3 towards_sun, glm::vec3 irradiance)
       : window_(room.window), towards_sun_(towards_sun), sun_(irradiance / glm::pi<float>()) {
     std::vector<Ray> windows;
     for (const Ray& ray : all_around(kWindowSide))
@@ -60,9 +60,9 @@ class FirstLight {
     const auto from_windows = [&](glm::vec3 at) {
       glm::vec3 sum(0.0f);
       for (const Ray& window : windows) {
-        const glm::vec3 way = window.direction - at;
-        const float length = glm::length(way);
-        if (length > 1e-3f) sum += window.angle * open(way / length);
+        const glm::vec3 to_window = window.direction - at;
+        const float length = glm::length(to_window);
+        if (length > 1e-3f) sum += window.angle * open(to_window / length);
       }
       return sum / (4.0f * glm::pi<float>());
     };
@@ -85,18 +85,18 @@ class FirstLight {
 }  // namespace
 
 Radiance inside(const Enclosure& room, const Radiance& open, glm::vec3 towards_sun, glm::vec3 irradiance) {
-  const FirstLight first(room, open, glm::normalize(towards_sun), irradiance);
-  glm::vec3 once(0.0f), albedo(0.0f);
+  const DirectLight first(room, open, glm::normalize(towards_sun), irradiance);
+  glm::vec3 first_bounce(0.0f), albedo(0.0f);
   for (const Ray& ray : all_around(kWindowSide)) {
     if (room.window(ray.direction)) continue;
-    const glm::vec3 share = ray.angle / (4.0f * glm::pi<float>()) * room.albedo(ray.direction);
-    once += share * first(ray.direction);
-    albedo += share;
+    const glm::vec3 weight = ray.angle / (4.0f * glm::pi<float>()) * room.albedo(ray.direction);
+    first_bounce += weight * first(ray.direction);
+    albedo += weight;
   }
-  const glm::vec3 again = once / (1.0f - albedo);
+  const glm::vec3 interreflected = first_bounce / (1.0f - albedo);
   return [=](glm::vec3 direction) {
     if (room.window(direction)) return open(direction);
-    return room.albedo(direction) * (first(direction) + again);
+    return room.albedo(direction) * (first(direction) + interreflected);
   };
 }
 
@@ -109,7 +109,7 @@ Enclosure car_cabin() {
   for (const Pane& pane : kPanes) openings.push_back({pane.from, pane.to, height_of(pane.low), height_of(pane.high)});
   const auto is_window = [=](glm::vec3 d) {
     const auto at_height = [&](const Opening& opening) { return d.y >= opening.low && d.y < opening.high; };
-    if (std::none_of(openings.begin(), openings.end(), at_height)) return false;  // spares the azimuth
+    if (std::none_of(openings.begin(), openings.end(), at_height)) return false;  // avoids computing the azimuth
     const float azimuth = glm::degrees(std::atan2(std::abs(d.x), -d.z));
     return std::any_of(openings.begin(), openings.end(), [&](const Opening& opening) {
       return at_height(opening) && azimuth >= opening.from && azimuth <= opening.to;
@@ -119,4 +119,4 @@ Enclosure car_cabin() {
   return {is_window, [=](glm::vec3 d) { return d.y > sill ? kAbove : kBelow; }};
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

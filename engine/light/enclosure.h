@@ -1,11 +1,11 @@
-// Light in a room with windows: sky and road through the windows, and what lining scatters of it.
+// Light in a room with windows: sky and road seen through the windows, and the light that the lining scatters.
 //
-// The room is taken for a sphere about the point that the light is wanted at, its windows and lining told by direction,
-// the lining matt. In a sphere a patch lights every other one alike, whatever lies between them in angle (form factor =
-// its share of the sphere), so that the light is known in closed form:
+// The room is modelled as a sphere around the point where the light is wanted. Windows and lining are given by
+// direction, and the lining is matt. In a sphere, a patch lights every other patch equally, whatever the angle between
+// them (form factor = fraction of the sphere's area), so there is a closed form:
 //   E1(x) = 1/4 int_W L(x -> w) dw                sky, w over the windows: cos cos' / r^2 = 1/4 on the unit sphere
 //         + S (-x.s)  where the sun's ray enters through a window
-//   M     = mean(albedo E1) + mean(albedo) M      what the lining gives back to itself, again and again
+//   M     = mean(albedo E1) + mean(albedo) M      all interreflections within the lining
 //   L(x)  = albedo(x) (E1(x) + M) / pi            x a direction of the lining
 //
 // This work is based on:
@@ -18,18 +18,19 @@
 
 #include "engine/light/environment.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
-// What a point inside has around it, by direction (unit, +Y up).
+// Surroundings of a point inside a room, by direction (unit vector, +Y up).
 struct Enclosure {
   std::function<bool(glm::vec3 direction)> window;
-  std::function<glm::vec3(glm::vec3 direction)> albedo;  // [0, 1) linear, of the lining; asked where there is no window
+  // [0, 1) linear albedo of the lining; not called for window directions
+  std::function<glm::vec3(glm::vec3 direction)> albedo;
 };
 
-// irradiance: of the sun, on a surface that faces it. A sun has no size here: its patch has a sharp edge.
+// irradiance: of the sun, on a surface facing it. The sun is treated as a point, so its patch has a sharp edge.
 Radiance inside(const Enclosure& room, const Radiance& open, glm::vec3 towards_sun, glm::vec3 irradiance);
 
-// The cabin of assets/models, seen from its middle.
+// The cabin of assets/models, seen from its centre.
 Enclosure car_cabin();
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

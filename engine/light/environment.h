@@ -1,4 +1,4 @@
-// Light from all around: a sky over a road, its irradiance as spherical harmonics, its reflections prefiltered.
+// Environment light: a sky over a road, its irradiance as spherical harmonics, its prefiltered reflections.
 //
 // This work is based on:
 // Ravi Ramamoorthi, Pat Hanrahan. An Efficient Representation for Irradiance Environment Maps. 2001
@@ -13,46 +13,46 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-namespace gearshift {
+namespace gearshift::engine {
 
-// Radiance that comes from a direction (unit, +Y up). The sun itself is not in it: it is a light of its own.
+// Radiance arriving from a direction (unit vector, +Y up), without the sun, which is a separate light.
 using Radiance = std::function<glm::vec3(glm::vec3 direction)>;
 
-// The sky that the cabin drives under: zenith, horizon haze, sun's glow, asphalt and verge below the horizon.
+// The sky outside the cabin: zenith, haze at the horizon, glow of the sun, asphalt and verge below the horizon.
 Radiance day_sky(glm::vec3 towards_sun);
 
-// Something smooth by direction, from nine coefficients: sum_i c_i Y_i, real spherical harmonics to degree 2.
+// A smooth function of direction from nine coefficients: sum_i c_i Y_i, real spherical harmonics up to degree 2.
 struct Harmonics {
   std::array<glm::vec3, 9> c{};
   glm::vec3 operator()(glm::vec3 direction) const;
 };
-inline constexpr int kIrradianceSamples = 32;  // along a face's side
+inline constexpr int kIrradianceSamples = 32;  // along one side of a face
 Harmonics project(const Radiance& radiance, int samples_per_face_side = kIrradianceSamples);
 
-// Irradiance / pi by normal: the cosine lobe is folded in.
+// Irradiance / pi as a function of the normal: the cosine lobe is folded in.
 using Irradiance = Harmonics;
 Irradiance project_irradiance(const Radiance& radiance, int samples_per_face_side = kIrradianceSamples);
 
-// Cube map of prefiltered radiance: level 0 a mirror, the last level roughness 1; roughness of level i = i / (levels - 1).
-// Faces in Vulkan's order (+X -X +Y -Y +Z -Z), texels as linear RGB half floats with alpha 1, rows from the top.
+// Cube map of prefiltered radiance. Level 0 is a mirror, the last level has roughness 1; level i has roughness i /
+// (levels - 1). Faces in Vulkan's order (+X -X +Y -Y +Z -Z), texels are linear RGB half floats with alpha 1, rows from
+// the top.
 struct PrefilteredCube {
-  int side = 0;                                    // [texels] of level 0
+  int side = 0;                                    // [texels] at level 0
   std::vector<std::vector<std::uint16_t>> levels;  // 6 faces of (side >> level)^2 texels, 4 halves each
 };
-inline constexpr int kPrefilterSamples = 64;  // a texel
+inline constexpr int kPrefilterSamples = 64;  // per texel
 PrefilteredCube prefilter(const Radiance& radiance, int side = 64, int levels = 6, int samples = kPrefilterSamples);
 
-// Split sum: scale and bias of F0 for (n.v, roughness), GGX with height-correlated Smith visibility. n.v > 0. The table is
-// sampled
-// at texel centres: u = n.v, v = roughness.
-glm::dvec2 environment_brdf(double n_dot_v, double roughness, int samples);  // the integral itself
+// Split sum: scale and bias of F0 for (n.v, roughness), GGX with height-correlated Smith visibility. n.v > 0. The table
+// is sampled at texel centres: u = n.v, v = roughness.
+glm::dvec2 environment_brdf(double n_dot_v, double roughness, int samples);  // evaluates the integral
 struct BrdfTable {
   int side = 0;                                            // [texels]
-  std::vector<std::uint16_t> texels;                       // 2 unorm16 a texel, rows from roughness 0
-  glm::vec2 sample(float n_dot_v, float roughness) const;  // bilinear, as a GPU does it
+  std::vector<std::uint16_t> texels;                       // 2 unorm16 per texel, rows from roughness 0
+  glm::vec2 sample(float n_dot_v, float roughness) const;  // bilinear, like a GPU
 };
 inline constexpr int kBrdfSide = 64;      // [texels]
-inline constexpr int kBrdfSamples = 128;  // a texel
+inline constexpr int kBrdfSamples = 128;  // per texel
 BrdfTable bake_brdf(int side = kBrdfSide, int samples = kBrdfSamples);
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -1,4 +1,4 @@
-// The split sum's integral, by a quadrature that is made for it.
+// The split-sum integral, by a dedicated quadrature.
 //
 // This work is based on:
 // Brian Karis. Real Shading in Unreal Engine 4. 2013 (the split sum)
@@ -16,11 +16,11 @@
 
 #include "engine/light/environment.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 namespace {
 
-// Gauss-Legendre on [0, 1]: nodes are the roots of P_n, by Newton from Tricomi's guess.
+// Gauss-Legendre quadrature on [0, 1]. The nodes are the roots of P_n, found by Newton's method from Tricomi's guess.
 struct Quadrature {
   std::vector<double> node, weight;
 };
@@ -44,8 +44,8 @@ Quadrature gauss_legendre(int n) {
   return q;
 }
 
-// GGX's visible normals seen from `view`: in the frame in which the ellipsoid of roughness is a sphere, half vectors are
-// the sums of the view direction and a point of the cap z > -view.z, each as likely as its solid angle.
+// GGX's visible normals seen from `view`. In the frame in which the ellipsoid of the given roughness is a sphere, half
+// vectors are the sum of the view direction and a point of the spherical cap z > -view.z, uniform in solid angle.
 class VisibleNormals {
  public:
   VisibleNormals(double n_dot_v, double alpha)
@@ -56,7 +56,7 @@ class VisibleNormals {
 
   double cap_low() const { return -sphere_.z; }
 
-  // Light reflected by the normal at height z of the cap, azimuth by its cosine and sine.
+  // Light reflected by the normal at height z of the cap; the azimuth is given by its cosine and sine.
   struct Reflection {
     double n_dot_l = 0.0, v_dot_h = 0.0;
   };
@@ -68,8 +68,8 @@ class VisibleNormals {
     return {2.0 * v_dot_h * half.z - view_.z, v_dot_h};
   }
 
-  // Lowest height whose normal still reflects above the surface: below it the integrand is zero, with a kink there that
-  // a quadrature must not straddle.
+  // Lowest height whose normal still reflects above the surface. Below it the integrand is zero; the quadrature must
+  // not straddle the kink there.
   double horizon(double cos_phi, double sin_phi) const {
     double low = cap_low(), high = 1.0;
     for (int i = 0; i < 20; ++i) {
@@ -79,7 +79,7 @@ class VisibleNormals {
     return high;
   }
 
-  // G2 / G1, split by Schlick's Fresnel term into the part that F0 scales and the part that is added.
+  // G2 / G1, split by Schlick's Fresnel term into the part that F0 scales and the constant part.
   glm::dvec2 weight(const Reflection& r) const {
     if (r.n_dot_l <= 0.0) return glm::dvec2(0.0);
     const double shadowing = (1.0 + lambda_view_) / (1.0 + lambda_view_ + lambda(r.n_dot_l));
@@ -100,7 +100,7 @@ class VisibleNormals {
 glm::dvec2 integrate(double n_dot_v, double roughness, const Quadrature& heights, const Quadrature& azimuths) {
   const VisibleNormals normals(n_dot_v, std::max(roughness * roughness, 1e-6));
   glm::dvec2 sum(0.0);
-  for (std::size_t j = 0; j < azimuths.node.size(); ++j) {  // half a turn: the other half mirrors it
+  for (std::size_t j = 0; j < azimuths.node.size(); ++j) {  // half a turn: the other half is its mirror image
     const double phi = glm::pi<double>() * azimuths.node[j], cos_phi = std::cos(phi), sin_phi = std::sin(phi);
     const double low = normals.horizon(cos_phi, sin_phi), length = 1.0 - low;
     glm::dvec2 ring(0.0);
@@ -111,7 +111,7 @@ glm::dvec2 integrate(double n_dot_v, double roughness, const Quadrature& heights
   return sum / (1.0 - normals.cap_low());
 }
 
-// Twice as many heights as azimuths: the integrand is the smoother along the latter.
+// Twice as many heights as azimuths, because the integrand is smoother along the azimuth.
 struct Grid {
   Quadrature heights, azimuths;
 };
@@ -165,4 +165,4 @@ glm::vec2 BrdfTable::sample(float n_dot_v, float roughness) const {
                   t.y);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

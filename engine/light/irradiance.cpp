@@ -1,7 +1,7 @@
 #include "engine/light/cube.h"
 #include "engine/light/environment.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 namespace {
 
@@ -54,4 +54,4 @@ Irradiance project_irradiance(const Radiance& radiance, int samples_per_face_sid
   return irradiance;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

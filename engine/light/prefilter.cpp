@@ -14,11 +14,11 @@
 #include "engine/light/cube.h"
 #include "engine/light/environment.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 namespace {
 
-// A direction of the light, about a normal along z, and its share.
+// A light direction around a normal along z, and its weight.
 struct LobeSample {
   glm::vec3 towards_light;
   float weight = 0.0f;
@@ -30,8 +30,8 @@ double radical_inverse(std::uint32_t i) {
   return inverse;
 }
 
-// GGX's half vectors about the normal, as often as they reflect upwards (u < 1 / (1 + alpha^2), n.h > sqrt(1/2)): the
-// same for each texel of a level.
+// GGX half vectors around the normal, restricted to those that reflect upwards (u < 1 / (1 + alpha^2), n.h >
+// sqrt(1/2)). They are the same for each texel of a level.
 std::vector<LobeSample> ggx_lobe(double roughness, int samples) {
   if (roughness == 0.0) return {{glm::vec3(0.0f, 0.0f, 1.0f), 1.0f}};
   const double a2 = std::pow(roughness, 4.0);
@@ -50,7 +50,7 @@ std::vector<LobeSample> ggx_lobe(double roughness, int samples) {
   return lobe;
 }
 
-// Some frame whose z is the normal.
+// Any frame whose z axis is the normal.
 glm::mat3 frame_about(glm::vec3 normal) {
   const glm::vec3 up = std::abs(normal.y) < 0.9f ? glm::vec3(0.0f, 1.0f, 0.0f) : glm::vec3(1.0f, 0.0f, 0.0f);
   const glm::vec3 x = glm::normalize(glm::cross(up, normal));
@@ -96,4 +96,4 @@ PrefilteredCube prefilter(const Radiance& radiance, int side, int levels, int sa
   return cube;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -6,14 +6,14 @@
 
 #include "engine/model/gltf.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 namespace {
 
 template <typename T>
 T load(const std::uint8_t* at) {
   T value;
-  std::memcpy(&value, at, sizeof value);  // nothing in a file need be aligned
+  std::memcpy(&value, at, sizeof value);  // data in a file need not be aligned
   return value;
 }
 
@@ -62,7 +62,7 @@ std::vector<T> read(const AccessorData& data, Convert convert) {
   for (std::size_t i = 0; i < data.sparse_count; ++i) {
     const std::uint8_t* at = data.sparse_indices.first + i * data.sparse_indices.stride;
     const std::uint64_t index = as_integer(at, data.sparse_type);
-    if (index < next || index >= data.count) throw GltfError("it has a sparse accessor with broken indices");
+    if (index < next || index >= data.count) throw GltfError("it has a sparse accessor with invalid indices");
     next = index + 1;
     read_element(data, data.sparse_values.first + i * data.sparse_values.stride, &out[index * data.components],
                  convert);
@@ -85,4 +85,4 @@ std::vector<std::uint32_t> read_integers(const AccessorData& data) {
   return read<std::uint32_t>(data, [&](const std::uint8_t* at) { return as_integer(at, data.type); });
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

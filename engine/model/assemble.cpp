@@ -10,7 +10,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-namespace gearshift {
+namespace gearshift::engine {
 
 namespace {
 
@@ -35,7 +35,7 @@ void append_materials(Model& whole, const Model& part) {
   }
 }
 
-// `materials`: how many the whole had before.
+// `materials`: number of materials in `whole` before the append.
 void append_meshes(Model& whole, const Model& part, int materials) {
   const auto vertices = static_cast<std::uint32_t>(whole.vertices.size());
   const auto indices = static_cast<std::uint32_t>(whole.indices.size());
@@ -62,7 +62,7 @@ void append_skins(Model& whole, const Model& part, int nodes) {
   }
 }
 
-// What merge_static() makes: the nodes of the model it is given, and only the meshes that still stand.
+// Implements merge_static(): keeps the nodes of the model and only the meshes that are still referenced.
 class StaticMerge {
  public:
   StaticMerge(const Model& model, std::span<const std::string_view> moving)
@@ -78,7 +78,7 @@ class StaticMerge {
       Node& node = out_.nodes[i];
       if (node.mesh == kNone) continue;
       if (moves_[i] || node.skin != kNone) {
-        node.mesh = kept_mesh(node.mesh);
+        node.mesh = copy_mesh(node.mesh);
       } else {
         parts_.push_back(i);
         node.mesh = kNone;
@@ -101,9 +101,9 @@ class StaticMerge {
     return moves;
   }
 
-  // Copied on its first use; returns its place in the result.
-  int kept_mesh(int index) {
-    const auto [known, is_new] = kept_.try_emplace(index, size_of(out_.meshes));
+  // Copies a mesh on its first use; returns its index in the result.
+  int copy_mesh(int index) {
+    const auto [known, is_new] = copied_.try_emplace(index, size_of(out_.meshes));
     if (!is_new) return known->second;
     Mesh mesh = model_.meshes[static_cast<std::size_t>(index)];
     const std::uint32_t shift = static_cast<std::uint32_t>(out_.vertices.size()) - mesh.first_vertex;  // modulo 2^32
@@ -128,17 +128,17 @@ class StaticMerge {
 
   void append_static_mesh() {
     Mesh mesh{"Static", {}, static_cast<std::uint32_t>(out_.vertices.size()), 0};
-    std::map<int, std::vector<std::pair<std::size_t, const Primitive*>>> by_material;  // with the node each stands at
+    std::map<int, std::vector<std::pair<std::size_t, const Primitive*>>> by_material;  // with the node that carries it
     for (const std::size_t node : parts_) {
       for (const Primitive& p : model_.meshes[static_cast<std::size_t>(model_.nodes[node].mesh)].primitives) {
         if (p.index_count > 0) by_material[p.material].emplace_back(node, &p);
       }
     }
-    for (const auto& [material, pieces] : by_material) {
+    for (const auto& [material, primitives] : by_material) {
       Primitive joined;
       joined.material = material;
       joined.first_index = static_cast<std::uint32_t>(out_.indices.size());
-      for (const auto& [node, piece] : pieces) append_placed(*piece, world_[node]);
+      for (const auto& [node, primitive] : primitives) append_transformed(*primitive, world_[node]);
       joined.index_count = static_cast<std::uint32_t>(out_.indices.size()) - joined.first_index;
       measure(joined);
       mesh.primitives.push_back(joined);
@@ -152,15 +152,15 @@ class StaticMerge {
     out_.nodes.push_back(std::move(root));
   }
 
-  // A mirroring world turns triangles inside out and swaps the side of the bitangent.
-  void append_placed(const Primitive& piece, const glm::mat4& world) {
+  // A mirroring transform turns triangles inside out and swaps the side of the bitangent.
+  void append_transformed(const Primitive& primitive, const glm::mat4& world) {
     const glm::mat3 linear(world);
     const glm::mat3 for_normals = glm::transpose(glm::inverse(linear));
     const bool mirrored = glm::determinant(linear) < 0.0f;
     std::unordered_map<std::uint32_t, std::uint32_t> placed;
-    for (std::uint32_t i = 0; i < piece.index_count; ++i) {
+    for (std::uint32_t i = 0; i < primitive.index_count; ++i) {
       const std::uint32_t corner = mirrored ? i - i % 3 + 2 - i % 3 : i;
-      const std::uint32_t from = model_.indices[piece.first_index + corner];
+      const std::uint32_t from = model_.indices[primitive.first_index + corner];
       const auto [known, is_new] = placed.try_emplace(from, static_cast<std::uint32_t>(out_.vertices.size()));
       if (is_new) {
         Vertex vertex = model_.vertices[from];
@@ -186,8 +186,8 @@ class StaticMerge {
   const Model& model_;
   std::vector<glm::mat4> world_;
   std::vector<bool> moves_;
-  std::map<int, int> kept_;         // mesh of the model: mesh of the result
-  std::vector<std::size_t> parts_;  // nodes whose meshes are joined
+  std::map<int, int> copied_;       // mesh in the model -> mesh in the result
+  std::vector<std::size_t> parts_;  // nodes whose meshes are merged
   Model out_;
 };
 
@@ -226,4 +226,4 @@ int draw_count(const Model& model) {
   return count;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -1,4 +1,4 @@
-// One model out of several, and few draws out of many.
+// Combines models into one, and merges static meshes to reduce draw calls.
 #pragma once
 
 #include <span>
@@ -6,19 +6,19 @@
 
 #include "engine/model/model.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 // Appends `part` to `whole` with all its nodes; its root nodes become children of `parent` (kNone: roots). Returns the
 // index of its first node.
 int append_model(Model& whole, const Model& part, int parent = kNone);
 
-// Joins all that never moves: every mesh of a node that is neither named in `moving`, nor a descendant of one, nor
-// skinned, becomes part of one mesh per material at a new root node "Static"; the nodes stay, without a mesh. A node
-// whose name ends in one of `moving` after a prefix is not meant: names are whole. Unknown names throw
-// std::invalid_argument with the name.
+// Merges everything static: every mesh whose node is not named in `moving`, not a descendant of such a node and not
+// skinned becomes part of a mesh at a new root node "Static", with one primitive per material. Its nodes stay, without
+// a mesh. Names must match completely: a node whose name merely ends in one of `moving` does not count. Throws
+// std::invalid_argument with the name if there is no such node.
 Model merge_static(const Model& model, std::span<const std::string_view> moving);
 
-// Draws of one frame: primitives over the nodes that carry a mesh.
+// Number of draws in one frame: the primitives of all nodes that carry a mesh.
 int draw_count(const Model& model);
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -1,6 +1,6 @@
-// From a checked document to a Model, through tinygltf's structs. Only here is tinygltf seen, and it sees only JSON that
-// check_gltf() has passed: no file, no buffer, no picture. Left alone it reads images beyond their buffers, a binary
-// chunk eight bytes too far, and files of the working folder.
+// Builds a Model from a checked document, using tinygltf's structs. This is the only file that includes tinygltf, and
+// tinygltf is given only JSON that check_gltf() has passed: no file, no buffer, no image. Its own loader reads images
+// beyond their buffers, a binary chunk eight bytes too far, and files from the working folder.
 #include "engine/model/gltf.h"
 
 #include <algorithm>
@@ -20,11 +20,11 @@
 #include "engine/model/gltf_bytes.h"
 #include "engine/model/gltf_document.h"
 #include "engine/model/gltf_extensions.h"
-#include "engine/model/node_place.h"
+#include "engine/model/image_decode.h"
+#include "engine/model/node_transform.h"
 #include "engine/model/surface.h"
-#include "engine/model/texture_load.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 namespace {
 
@@ -44,7 +44,7 @@ tinygltf::Model structs_of(const GltfDocument& document) {
   std::string errors, warnings;
   if (!tinygltf::TinyGLTF().LoadASCIIFromString(&model, &errors, &warnings, text.data(),
                                                 static_cast<unsigned>(text.size()), "")) {
-    throw GltfError(fmt::format("it is not understood: {}", shown_name(errors)));
+    throw GltfError(fmt::format("the glTF parser failed: {}", printable_name(errors)));
   }
   return model;
 }
@@ -65,7 +65,7 @@ class GltfReader {
     read_skins();
     for (const tinygltf::Mesh& mesh : source_.meshes) read_mesh(mesh);
     check_joints();
-    if (drop_flat_meshes(model_)) skip("meshes scaled to no volume, or to more than a number can hold");
+    if (drop_flat_meshes(model_)) skip("meshes scaled to no volume or out of range");
     model_.skipped.assign(skipped_.begin(), skipped_.end());
     model_.files = std::move(document_.files);
     return std::move(model_);
@@ -78,12 +78,12 @@ class GltfReader {
     const nlohmann::json& json = document_.json;
     if (json.contains("extensionsUsed")) {
       for (const std::string name : json["extensionsUsed"]) {
-        if (!knows_extension(name)) skip(fmt::format("extension {}", shown_name(name)));
+        if (!is_supported_extension(name)) skip(fmt::format("extension {}", printable_name(name)));
       }
     }
     if (json.contains("animations")) skip("animations");
     if (json.contains("cameras")) skip("cameras");
-    if (source_.scenes.size() > 1) skip("scenes but the default one");
+    if (source_.scenes.size() > 1) skip("scenes other than the default one");
   }
 
   // --- materials ---
@@ -116,7 +116,7 @@ class GltfReader {
     return static_cast<float>(std::max(0.0, found->second.Get("emissiveStrength").GetNumberAsDouble()));
   }
 
-  template <typename TextureInfo>  // tinygltf has three of them, alike in what is asked here
+  template <typename TextureInfo>  // tinygltf has three such types with the same members
   TextureUse texture_use(const TextureInfo& in, bool srgb) {
     TextureUse out;
     if (in.index == -1) return out;
@@ -132,7 +132,7 @@ class GltfReader {
     return out;
   }
 
-  // Returns the UV set, which the extension may replace.
+  // Returns the UV set, which the extension may override.
   static int read_transform(const tinygltf::Value& in, TextureUse& out, int uv_set) {
     const auto number = [](const tinygltf::Value& v) { return static_cast<float>(v.GetNumberAsDouble()); };
     if (in.Has("offset")) out.offset = {number(in.Get("offset").Get(0)), number(in.Get("offset").Get(1))};
@@ -141,7 +141,7 @@ class GltfReader {
     return in.Has("texCoord") ? in.Get("texCoord").GetNumberAsInt() : uv_set;
   }
 
-  // --- textures: one for every image, sampler and colour space in use ---
+  // --- textures: one for every combination of image, sampler and colour space in use ---
 
   int texture(int index, bool srgb) {
     const tinygltf::Texture& in = at(source_.textures, index);
@@ -172,7 +172,7 @@ class GltfReader {
   }
 
   void read_textures() {
-    std::map<int, std::size_t> place;  // of an image in `encoded`
+    std::map<int, std::size_t> place;  // index in `encoded`, by image
     std::vector<EncodedImage> encoded;
     for (const int image : image_of_texture_) {
       const auto [known, is_new] = place.try_emplace(image, encoded.size());
@@ -190,17 +190,17 @@ class GltfReader {
     }
   }
 
-  // --- nodes: those of the scene, parents first ---
+  // --- nodes of the scene, parents first ---
 
   void read_nodes() {
     place_of_node_.assign(source_.nodes.size(), kNone);
-    std::vector<std::pair<int, int>> waiting;  // node of the file, its parent in the model
+    std::vector<std::pair<int, int>> waiting;  // node in the file, its parent in the model
     const std::vector<int> roots = scene_roots();
     for (auto root = roots.rbegin(); root != roots.rend(); ++root) waiting.emplace_back(*root, kNone);
     while (!waiting.empty()) {
       const auto [index, parent] = waiting.back();
       waiting.pop_back();
-      if (at(place_of_node_, index) != kNone) continue;  // a scene may name a root twice
+      if (at(place_of_node_, index) != kNone) continue;  // a scene may list a root twice
       at(place_of_node_, index) = static_cast<int>(model_.nodes.size());
       const tinygltf::Node& in = at(source_.nodes, index);
       model_.nodes.push_back(read_node(in, index, parent));
@@ -222,7 +222,7 @@ class GltfReader {
   }
 
   Node read_node(const tinygltf::Node& in, int index, int parent) const {
-    const auto refuse = [&](const char* why) { throw GltfError(fmt::format("nodes[{}] {}", index, why)); };
+    const auto reject = [&](const char* why) { throw GltfError(fmt::format("nodes[{}] {}", index, why)); };
     Node out;
     out.name = in.name;
     out.parent = parent;
@@ -230,15 +230,15 @@ class GltfReader {
     out.skin = in.mesh == kNone ? kNone : in.skin;
     if (!in.matrix.empty()) {
       glm::dmat4 matrix;
-      std::copy(in.matrix.begin(), in.matrix.end(), glm::value_ptr(matrix));  // both by columns
-      if (!place_by_matrix(matrix, out)) refuse("has a matrix that is no translation, rotation and scale");
+      std::copy(in.matrix.begin(), in.matrix.end(), glm::value_ptr(matrix));  // both are column-major
+      if (!set_node_transform(matrix, out)) reject("has a matrix that is not made of translation, rotation and scale");
     }
     if (!in.translation.empty()) out.translation = vec3_of(in.translation);
     if (!in.scale.empty()) out.scale = vec3_of(in.scale);
     if (!in.rotation.empty()) {
       const std::vector<double>& r = in.rotation;
       const glm::dquat q(r[3], r[0], r[1], r[2]);
-      if (!(glm::length(q) > 1e-6)) refuse("has a rotation of length zero");
+      if (!(glm::length(q) > 1e-6)) reject("has a rotation of length zero");
       out.rotation = glm::quat(glm::normalize(q));
     }
     return out;
@@ -297,14 +297,14 @@ class GltfReader {
     out.indices = triangle_list(read_indices(in, out.vertices.size()), static_cast<TriangleMode>(in.mode));
     const bool has_normals = in.attributes.count("NORMAL") != 0;
     if (has_normals) {
-      mend_normals(out);
+      repair_normals(out);
     } else {
       make_flat_normals(out);
     }
     const TextureUse normal_map = in.material == -1 ? TextureUse{} : at(model_.materials, in.material).normal_map;
     const bool has_tangents = has_normals && in.attributes.count("TANGENT") != 0;
     if (has_tangents || normal_map.texture == kNone) {
-      mend_tangents(out);
+      repair_tangents(out);
     } else {
       make_tangents(out, normal_map);
     }
@@ -335,7 +335,7 @@ class GltfReader {
       } else if (name == "WEIGHTS_0") {
         weights = read_floats(accessor(index));
       } else if (!read_vertex_attribute(name, index, out.vertices) && !name.starts_with('_')) {
-        skip(fmt::format("attribute {}", shown_name(name)));
+        skip(fmt::format("attribute {}", printable_name(name)));
       }
     }
     if (joints.empty() != weights.empty())
@@ -377,7 +377,7 @@ class GltfReader {
         if (weights[4 * i + k] < 0.0f) throw GltfError("a mesh has a negative joint weight");
         sum += weights[4 * i + k];
       }
-      if (sum < 1e-6) continue;  // without weights: the first joint holds it
+      if (sum < 1e-6) continue;  // no weights: the first joint gets all
       for (std::size_t k = 0; k < 4; ++k) {
         out[i].weight[k] = static_cast<float>(weights[4 * i + k] / sum);
         const bool used = out[i].weight[k] > 0.0f;
@@ -407,7 +407,7 @@ class GltfReader {
     model_.vertex_joints.insert(model_.vertex_joints.end(), surface.joints.begin(), surface.joints.end());
   }
 
-  // --- skins: those that the scene's nodes name; the others stay empty in their places ---
+  // --- skins used by the scene's nodes; the others stay in the list, empty ---
 
   void read_skins() {
     std::set<int> named;
@@ -418,7 +418,7 @@ class GltfReader {
       const tinygltf::Skin& in = source_.skins[i];
       if (named.count(static_cast<int>(i)) == 0) continue;
       if (in.inverseBindMatrices != -1) matrices += accessor(in.inverseBindMatrices).count;
-      if (matrices > kMostSkinMatrices) throw GltfError("its skins have too many matrices");
+      if (matrices > kMaxSkinMatrices) throw GltfError("its skins have too many matrices");
       model_.skins[i] = read_skin(in);
     }
   }
@@ -437,7 +437,7 @@ class GltfReader {
   }
 
   void check_joints() const {
-    std::set<std::pair<int, int>> checked;  // mesh and skin
+    std::set<std::pair<int, int>> checked;  // pairs of mesh and skin
     for (const Node& node : model_.nodes) {
       if (node.skin == kNone || !checked.emplace(node.mesh, node.skin).second) continue;
       if (without_joints_.count(node.mesh) != 0) throw GltfError("a skinned mesh has no joints");
@@ -445,7 +445,8 @@ class GltfReader {
       const std::size_t joints = at(model_.skins, node.skin).joints.size();
       for (std::uint32_t i = mesh.first_vertex; i < mesh.first_vertex + mesh.vertex_count; ++i) {
         for (const std::uint16_t joint : model_.vertex_joints[i].joint) {
-          if (joint >= joints) throw GltfError(fmt::format("a mesh has joint {}, its skin only {}", joint, joints));
+          if (joint >= joints)
+            throw GltfError(fmt::format("a mesh uses joint {}, but its skin has only {}", joint, joints));
         }
       }
     }
@@ -454,8 +455,8 @@ class GltfReader {
   std::set<std::string> skipped_;
   std::map<std::tuple<int, bool, Wrap, Wrap, bool>, int> textures_;
   std::vector<int> image_of_texture_;
-  std::vector<int> place_of_node_;  // of the file, in the model; kNone: not in the scene
-  std::set<int> without_joints_;    // meshes
+  std::vector<int> place_of_node_;  // index in the file -> index in the model; kNone: not in the scene
+  std::set<int> without_joints_;    // meshes without joints
   GltfDocument document_;
   tinygltf::Model source_;
   Model model_;
@@ -467,4 +468,4 @@ Model read_gltf(const std::filesystem::path& file) try { return GltfReader(file)
   throw GltfError(fmt::format("{}: the model cannot be read: {}", file.string(), e.what()));
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -11,11 +11,11 @@
 
 #include "engine/model/gltf.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 namespace {
 
-// glTF 2.0, 4.4: little-endian words, as on every machine this is built for.
+// glTF 2.0, 4.4: little-endian words, which matches every machine this is built for.
 constexpr std::uint32_t kMagic = 0x46546C67, kJsonChunk = 0x4E4F534A, kBinaryChunk = 0x004E4942;
 constexpr std::size_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
 
@@ -30,7 +30,7 @@ struct Chunk {
   std::span<const std::uint8_t> bytes;
 };
 
-Chunk take_chunk(std::span<const std::uint8_t>& rest) {
+Chunk read_chunk(std::span<const std::uint8_t>& rest) {
   if (rest.size() < kChunkHeaderBytes) throw GltfError("a chunk is cut off");
   const std::uint32_t length = word(rest, 0);
   const Chunk chunk{word(rest, 4), rest.subspan(kChunkHeaderBytes)};
@@ -60,7 +60,7 @@ std::vector<std::uint8_t> decoded_base64(std::string_view text) {
   int count = 0;
   for (const char c : text) {
     const int value = base64_value(c);
-    if (value < 0) throw GltfError("a data URI is no base64");
+    if (value < 0) throw GltfError("a data URI is not base64");
     bits = bits << 6 | static_cast<std::uint32_t>(value);
     count += 6;
     if (count < 8) continue;
@@ -85,7 +85,7 @@ std::string percent_decoded(std::string_view uri) {
     }
     const int high = i + 2 < uri.size() ? hex_value(uri[i + 1]) : -1;
     const int low = i + 2 < uri.size() ? hex_value(uri[i + 2]) : -1;
-    if (high < 0 || low < 0) throw GltfError("a URI has a broken percent sign");
+    if (high < 0 || low < 0) throw GltfError("a URI has an invalid percent escape");
     text += static_cast<char>(high << 4 | low);
     i += 2;
   }
@@ -103,30 +103,30 @@ std::filesystem::path file_beside(const std::string& name, const std::filesystem
   if (!plain || relative.is_absolute()) throw GltfError("a URI is neither base64 data nor a relative path");
   std::error_code error;
   const std::filesystem::path root = std::filesystem::canonical(folder.empty() ? "." : folder, error);
-  // Links are followed before the place is judged.
+  // Resolve links before checking that the path is inside the folder.
   std::filesystem::path file = error ? root : std::filesystem::weakly_canonical(root / relative, error);
-  if (error || !is_inside(file, root)) throw GltfError("a URI leads out of the file's folder");
+  if (error || !is_inside(file, root)) throw GltfError("a URI points outside the file's folder");
   return file;
 }
 
 }  // namespace
 
-std::string shown_name(std::string_view text) {
-  std::string shown(text.substr(0, 80));
-  for (char& c : shown) {
+std::string printable_name(std::string_view text) {
+  std::string printable(text.substr(0, 80));
+  for (char& c : printable) {
     if (c < 0x20 || c > 0x7e) c = '?';
   }
-  return shown;
+  return printable;
 }
 
-std::vector<std::uint8_t> whole_file(const std::filesystem::path& file) {
+std::vector<std::uint8_t> read_whole_file(const std::filesystem::path& file) {
   std::error_code error;
   const auto status = std::filesystem::status(file, error);
   if (!std::filesystem::exists(status)) throw GltfError("there is no such file");
-  if (!std::filesystem::is_regular_file(status)) throw GltfError("it is no file");
+  if (!std::filesystem::is_regular_file(status)) throw GltfError("it is not a file");
   const std::uintmax_t size = std::filesystem::file_size(file, error);
   if (error) throw GltfError(error.message());
-  if (size > kMostGltfBytes) throw GltfError("the file is too large");
+  if (size > kMaxGltfBytes) throw GltfError("the file is too large");
   std::ifstream in(file, std::ios::binary);
   std::vector<std::uint8_t> bytes(size);
   if (!in.read(reinterpret_cast<char*>(bytes.data()), static_cast<std::streamsize>(size))) {
@@ -135,38 +135,38 @@ std::vector<std::uint8_t> whole_file(const std::filesystem::path& file) {
   return bytes;
 }
 
-GltfChunks chunks_of(std::span<const std::uint8_t> bytes) {
+GltfChunks parse_chunks(std::span<const std::uint8_t> bytes) {
   if (bytes.size() < 4 || word(bytes, 0) != kMagic) return {as_text(bytes), {}};
   if (bytes.size() < kHeaderBytes + kChunkHeaderBytes) throw GltfError("the .glb header is cut off");
   if (word(bytes, 4) != 2) throw GltfError(fmt::format("it is .glb version {}, not 2", word(bytes, 4)));
   const std::uint32_t length = word(bytes, 8);
   if (length > bytes.size() || length < kHeaderBytes) throw GltfError("the file is cut off");
   std::span<const std::uint8_t> rest = bytes.first(length).subspan(kHeaderBytes);
-  const Chunk json = take_chunk(rest);
+  const Chunk json = read_chunk(rest);
   if (json.type != kJsonChunk) throw GltfError("its first chunk is not JSON");
   GltfChunks chunks{as_text(json.bytes), {}};
   if (!rest.empty()) {
-    const Chunk binary = take_chunk(rest);
-    if (binary.type == kBinaryChunk) chunks.binary = binary.bytes;  // others may follow and are to be ignored
+    const Chunk binary = read_chunk(rest);
+    if (binary.type == kBinaryChunk) chunks.binary = binary.bytes;  // further chunks may follow and must be ignored
   }
   return chunks;
 }
 
-std::vector<std::uint8_t> bytes_at(std::string_view uri, const std::filesystem::path& folder,
+std::vector<std::uint8_t> read_uri(std::string_view uri, const std::filesystem::path& folder,
                                    std::vector<std::filesystem::path>& files) {
   if (!uri.starts_with("data:")) {
     files.push_back(file_beside(percent_decoded(uri), folder));
     try {
-      return whole_file(files.back());
+      return read_whole_file(files.back());
     } catch (const GltfError& e) {
-      throw GltfError(fmt::format("'{}' beside it: {}", shown_name(uri), e.what()));
+      throw GltfError(fmt::format("'{}' beside it: {}", printable_name(uri), e.what()));
     }
   }
   const std::size_t comma = uri.find(',');
   if (comma == std::string_view::npos || !uri.substr(0, comma).ends_with(";base64")) {
-    throw GltfError("a data URI is no base64");
+    throw GltfError("a data URI is not base64");
   }
   return decoded_base64(uri.substr(comma + 1));
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

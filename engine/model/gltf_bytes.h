@@ -1,4 +1,5 @@
-// Where the bytes of a glTF file lie: the file, the chunks of a .glb, data URIs, files beside it.
+// Reads the bytes of a glTF file from where they are stored: the file itself, chunks of a .glb, data URIs, files beside
+// it.
 #pragma once
 
 #include <cstdint>
@@ -8,23 +9,23 @@
 #include <string_view>
 #include <vector>
 
-namespace gearshift {
+namespace gearshift::engine {
 
-// A name out of a file, fit for a sentence: short, and without what a terminal would obey.
-std::string shown_name(std::string_view text);
+// Prepares a name from a file for an error message: shortens it and removes control characters.
+std::string printable_name(std::string_view text);
 
-// All throw GltfError with the reason alone.
-std::vector<std::uint8_t> whole_file(const std::filesystem::path& file);
+// All of these throw GltfError with only the reason.
+std::vector<std::uint8_t> read_whole_file(const std::filesystem::path& file);
 
 struct GltfChunks {
   std::string_view json;
-  std::span<const std::uint8_t> binary;  // empty where there is none
+  std::span<const std::uint8_t> binary;  // empty if there is none
 };
-// Of a .glb or a .gltf, told apart by their first bytes; views into `bytes`.
-GltfChunks chunks_of(std::span<const std::uint8_t> bytes);
+// Splits a .glb or .gltf, recognised by its first bytes, into views into `bytes`.
+GltfChunks parse_chunks(std::span<const std::uint8_t> bytes);
 
-// A base64 data URI, or a relative path to a file in `folder` or below it, which is added to `files`.
-std::vector<std::uint8_t> bytes_at(std::string_view uri, const std::filesystem::path& folder,
+// Reads a base64 data URI, or a relative path to a file in or below `folder`; the file is added to `files`.
+std::vector<std::uint8_t> read_uri(std::string_view uri, const std::filesystem::path& folder,
                                    std::vector<std::filesystem::path>& files);
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -10,14 +10,14 @@
 #include "engine/model/gltf_extensions.h"
 #include "engine/model/json_item.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 namespace {
 
-// glTF's numbers.
+// glTF's component types.
 enum Component : std::uint64_t { i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126 };
 
-// glTF 2.0, 3.6.2.2: bytes of a component; 0 where the number names no type.
+// glTF 2.0, 3.6.2.2: bytes per component; 0 for an unknown type.
 std::uint64_t component_bytes(std::uint64_t type) {
   switch (type) {
     case i8:
@@ -34,7 +34,7 @@ std::uint64_t component_bytes(std::uint64_t type) {
   }
 }
 
-// glTF 2.0, 3.6.2.3; 0 where the word names no type.
+// glTF 2.0, 3.6.2.3: components per element; 0 for an unknown type.
 std::uint64_t component_count(std::string_view type) {
   constexpr std::array<std::pair<std::string_view, std::uint64_t>, 7> counts{
       {{"SCALAR", 1}, {"VEC2", 2}, {"VEC3", 3}, {"VEC4", 4}, {"MAT2", 4}, {"MAT3", 9}, {"MAT4", 16}}};
@@ -47,10 +47,10 @@ struct Accessor {
   std::uint64_t component = 0;
   std::uint64_t count = 0;
   bool normalized = false;
-  bool stored = false;  // in a buffer view, not just zeros
+  bool stored = false;  // in a buffer view, not implicit zeros
 };
 
-// Walks the lists in the order in which one refers to another.
+// Checks the top-level lists in the order of their references.
 class Check {
  public:
   Check(const nlohmann::json& json, std::size_t binary_bytes) : root_(json, ""), binary_bytes_(binary_bytes) {}
@@ -71,62 +71,64 @@ class Check {
 
  private:
   void check_asset() {
-    const JsonItem asset = root_.needed_item("asset");
-    const std::string version = asset.needed_text("version");
-    if (!version.starts_with("2.")) throw GltfError(fmt::format("it is glTF {}, not 2.0", shown_name(version)));
-    const std::string needs = asset.text("minVersion").value_or("2.0");  // glTF 2.0, 5.8: the target must support it
-    if (needs != "2.0") throw GltfError(fmt::format("it needs glTF {}, not 2.0", shown_name(needs)));
+    const JsonItem asset = root_.required_item("asset");
+    const std::string version = asset.required_text("version");
+    if (!version.starts_with("2.")) throw GltfError(fmt::format("it is glTF {}, not 2.0", printable_name(version)));
+    // glTF 2.0, 5.8: the reader must support this version
+    const std::string needs = asset.text("minVersion").value_or("2.0");
+    if (needs != "2.0") throw GltfError(fmt::format("it needs glTF {}, not 2.0", printable_name(needs)));
   }
 
   void check_extensions() {
     root_.texts("extensionsUsed");
     for (const std::string& name : root_.texts("extensionsRequired")) {
-      if (!knows_extension(name)) throw GltfError(fmt::format("it requires {}, which is not known", shown_name(name)));
+      if (!is_supported_extension(name))
+        throw GltfError(fmt::format("it requires {}, which is not supported", printable_name(name)));
     }
   }
 
   void check_buffers() {
     std::uint64_t total = 0;
     for (const JsonItem& item : root_.items("buffers")) {
-      const std::uint64_t size = item.needed_integer("byteLength", 1, kMostGltfBytes);
+      const std::uint64_t size = item.required_integer("byteLength", 1, kMaxGltfBytes);
       const bool in_chunk = buffer_bytes_.empty() && binary_bytes_ > 0 && !item.has("uri");
-      if (in_chunk && size > binary_bytes_) item.refuse("is longer than the binary chunk");
-      if (!in_chunk) item.needed_text("uri");
+      if (in_chunk && size > binary_bytes_) item.reject("is longer than the binary chunk");
+      if (!in_chunk) item.required_text("uri");
       total += size;
-      if (total > kMostGltfBytes) throw GltfError("its buffers are too large together");
+      if (total > kMaxGltfBytes) throw GltfError("its buffers are too large in total");
       buffer_bytes_.push_back(size);
     }
   }
 
   void check_views() {
     for (const JsonItem& item : root_.items("bufferViews")) {
-      const std::uint64_t whole = buffer_bytes_[item.needed_index("buffer", buffer_bytes_.size())];
+      const std::uint64_t whole = buffer_bytes_[item.required_index("buffer", buffer_bytes_.size())];
       const std::uint64_t offset = item.integer("byteOffset", 0, whole).value_or(0);
-      const std::uint64_t length = item.needed_integer("byteLength", 1, kMostGltfBytes);
-      if (length > whole - offset) item.refuse("reaches beyond its buffer");
+      const std::uint64_t length = item.required_integer("byteLength", 1, kMaxGltfBytes);
+      if (length > whole - offset) item.reject("extends beyond its buffer");
       const std::uint64_t stride = item.integer("byteStride", 4, 252).value_or(0);
-      if (stride % 4 != 0) item.refuse("has a stride that is no multiple of 4");
+      if (stride % 4 != 0) item.reject("has a stride that is not a multiple of 4");
       views_.push_back({length, stride});
     }
   }
 
-  // `count` elements from the item's byteOffset on must lie in its buffer view.
+  // `count` elements starting at the item's byteOffset must lie inside its buffer view.
   void check_range(const JsonItem& item, std::uint64_t count, std::uint64_t element) const {
-    const View& view = views_[item.needed_index("bufferView", views_.size())];
+    const View& view = views_[item.required_index("bufferView", views_.size())];
     const std::uint64_t offset = item.integer("byteOffset", 0, view.length).value_or(0);
     const std::uint64_t stride = view.stride == 0 ? element : view.stride;
-    if (stride < element) item.refuse("has elements longer than their stride");
-    // No product here can pass 2^64: count is below 2^24, stride below 2^8.
-    if ((count - 1) * stride + element > view.length - offset) item.refuse("reaches beyond its buffer view");
+    if (stride < element) item.reject("has elements longer than their stride");
+    // No product here can exceed 2^64: count is below 2^24, stride below 2^8.
+    if ((count - 1) * stride + element > view.length - offset) item.reject("extends beyond its buffer view");
   }
 
   Accessor checked_accessor(const JsonItem& item) const {
     Accessor accessor;
-    accessor.type = item.needed_text("type");
-    accessor.component = item.needed_integer("componentType", i8, f32);
-    accessor.count = item.needed_integer("count", 1, kMostGltfElements);
+    accessor.type = item.required_text("type");
+    accessor.component = item.required_integer("componentType", i8, f32);
+    accessor.count = item.required_integer("count", 1, kMaxGltfElements);
     const std::uint64_t element = component_count(accessor.type) * component_bytes(accessor.component);
-    if (element == 0) item.refuse("is of no type that glTF has");
+    if (element == 0) item.reject("has a type that glTF does not define");
     accessor.normalized = item.flag("normalized");
     if (item.has("bufferView")) check_range(item, accessor.count, element);
     if (const auto sparse = item.item("sparse")) check_sparse(*sparse, accessor.count, element);
@@ -135,18 +137,18 @@ class Check {
   }
 
   void check_sparse(const JsonItem& sparse, std::uint64_t most, std::uint64_t element) const {
-    const std::uint64_t count = sparse.needed_integer("count", 1, most);
-    const JsonItem indices = sparse.needed_item("indices");
-    const std::uint64_t type = indices.needed_integer("componentType", u8, u32);
-    if (type != u8 && type != u16 && type != u32) indices.refuse("is of no type that an index has");
+    const std::uint64_t count = sparse.required_integer("count", 1, most);
+    const JsonItem indices = sparse.required_item("indices");
+    const std::uint64_t type = indices.required_integer("componentType", u8, u32);
+    if (type != u8 && type != u16 && type != u32) indices.reject("has a type that indices cannot have");
     check_range(indices, count, component_bytes(type));
-    check_range(sparse.needed_item("values"), count, element);
+    check_range(sparse.required_item("values"), count, element);
   }
 
   void check_textures() {
     const std::vector<JsonItem> images = root_.items("images");
     for (const JsonItem& item : images) {
-      if (item.has("uri") == item.has("bufferView")) item.refuse("needs a URI or a buffer view, and not both");
+      if (item.has("uri") == item.has("bufferView")) item.reject("needs either a URI or a buffer view");
       item.text("uri");
       item.index("bufferView", views_.size());
     }
@@ -164,7 +166,7 @@ class Check {
   void check_texture_use(const JsonItem& parent, const char* key) const {
     const auto use = parent.item(key);
     if (!use) return;
-    use->needed_index("index", textures_);
+    use->required_index("index", textures_);
     use->integer("texCoord", 0, 0xffff);
     use->number("scale");
     use->number("strength");
@@ -184,7 +186,7 @@ class Check {
     item.number("alphaCutoff");
     item.flag("doubleSided");
     const std::string mode = item.text("alphaMode").value_or("OPAQUE");
-    if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND") item.refuse("has an alpha mode that glTF has not");
+    if (mode != "OPAQUE" && mode != "MASK" && mode != "BLEND") item.reject("has an unknown alpha mode");
     for (const char* key : {"normalTexture", "occlusionTexture", "emissiveTexture"}) check_texture_use(item, key);
     if (const auto surface = item.item("pbrMetallicRoughness")) {
       surface->numbers("baseColorFactor", 4);
@@ -203,7 +205,7 @@ class Check {
       ++meshes_;
       item.text("name");
       const std::vector<JsonItem> primitives = item.items("primitives");
-      if (primitives.empty()) item.refuse("has no primitives");
+      if (primitives.empty()) item.reject("has no primitives");
       for (const JsonItem& primitive : primitives) check_primitive(primitive);
     }
   }
@@ -216,35 +218,35 @@ class Check {
     if (const auto index = item.index("indices", accessors_.size())) {
       const Accessor& indices = accessors_[*index];
       const bool typed = indices.component == u8 || indices.component == u16 || indices.component == u32;
-      if (indices.type != "SCALAR" || !typed || indices.normalized) item.refuse("has indices that are no integers");
-      if (!indices.stored) item.refuse("has indices without a buffer view");
+      if (indices.type != "SCALAR" || !typed || indices.normalized) item.reject("has indices that are not integers");
+      if (!indices.stored) item.reject("has indices without a buffer view");
       corners = indices.count;
     }
-    if (mode == 4 && corners % 3 != 0) item.refuse("is no whole number of triangles");
-    if (mode > 4 && corners < 3) item.refuse("is no triangle");
+    if (mode == 4 && corners % 3 != 0) item.reject("is not a whole number of triangles");
+    if (mode > 4 && corners < 3) item.reject("is not a triangle");
     if (mode > 4) corners = 3 * (corners - 2);
     elements_ += std::max(vertices, corners);
-    if (elements_ > kMostGltfElements) throw GltfError("it has too many vertices or indices");
+    if (elements_ > kMaxGltfElements) throw GltfError("it has too many vertices or indices");
   }
 
-  // Their number of vertices.
+  // Returns the number of vertices.
   std::uint64_t checked_attributes(const JsonItem& item) const {
     const auto attributes = item.named_indices("attributes", accessors_.size());
     const auto position =
         std::find_if(attributes.begin(), attributes.end(), [](const auto& a) { return a.first == "POSITION"; });
-    if (position == attributes.end()) item.refuse("has no positions");
+    if (position == attributes.end()) item.reject("has no positions");
     for (const auto& [name, index] : attributes) {
       if (!fits(name, accessors_[index])) {
-        item.refuse(fmt::format("has a {} of a type that glTF does not allow", shown_name(name)));
+        item.reject(fmt::format("has a {} of a type that glTF does not allow", printable_name(name)));
       }
       if (accessors_[index].count != accessors_[position->second].count) {
-        item.refuse("has attributes of different lengths");
+        item.reject("has attributes of different lengths");
       }
     }
     return accessors_[position->second].count;
   }
 
-  // glTF 2.0, 3.7.2.1, the table of attributes. Names that are not in it are not read.
+  // glTF 2.0, 3.7.2.1, table of attributes. Names that are not in the table are not read.
   static bool fits(std::string_view name, const Accessor& a) {
     const bool is_float = a.component == f32;
     const bool is_fraction = is_float || ((a.component == u8 || a.component == u16) && a.normalized);
@@ -280,7 +282,7 @@ class Check {
     check_no_cycle(children);
   }
 
-  // With at most one parent each, whatever no root leads to lies on or behind a cycle.
+  // Each node has at most one parent, so any node not reachable from a root lies on or behind a cycle.
   void check_no_cycle(const std::vector<std::vector<std::size_t>>& children) const {
     std::vector<std::size_t> reached;
     for (std::size_t i = 0; i < children.size(); ++i) {
@@ -290,19 +292,19 @@ class Check {
       const std::vector<std::size_t>& next = children[reached[i]];
       reached.insert(reached.end(), next.begin(), next.end());
     }
-    if (reached.size() != children.size()) throw GltfError("its nodes are their own ancestors");
+    if (reached.size() != children.size()) throw GltfError("its node hierarchy has a cycle");
   }
 
   void check_skins() const {
-    constexpr std::size_t most_joints = 0xffff;
+    constexpr std::size_t max_joints = 0xffff;
     for (const JsonItem& item : root_.items("skins")) {
       const std::vector<std::size_t> joints = item.indices("joints", has_parent_.size());
-      if (joints.empty() || joints.size() > most_joints) item.refuse("has no joints, or too many");
+      if (joints.empty() || joints.size() > max_joints) item.reject("has no joints, or too many");
       const auto index = item.index("inverseBindMatrices", accessors_.size());
       if (!index) continue;
       const Accessor& matrices = accessors_[*index];
       if (matrices.type != "MAT4" || matrices.component != f32 || matrices.count < joints.size()) {
-        item.refuse("has not one bind matrix a joint");
+        item.reject("does not have one bind matrix per joint");
       }
     }
   }
@@ -311,14 +313,14 @@ class Check {
     const std::vector<JsonItem> scenes = root_.items("scenes");
     for (const JsonItem& item : scenes) {
       for (const std::size_t node : item.indices("nodes", has_parent_.size())) {
-        if (has_parent_[node]) item.refuse(fmt::format("has node {}, which is no root", node));
+        if (has_parent_[node]) item.reject(fmt::format("has node {}, which is not a root", node));
       }
     }
     root_.index("scene", scenes.size());
   }
 
   struct View {
-    std::uint64_t length = 0, stride = 0;  // stride 0: none given
+    std::uint64_t length = 0, stride = 0;  // stride 0: not specified
   };
   JsonItem root_;
   std::size_t binary_bytes_;
@@ -326,7 +328,7 @@ class Check {
   std::vector<View> views_;
   std::vector<Accessor> accessors_;
   std::size_t textures_ = 0, materials_ = 0, meshes_ = 0;
-  std::vector<bool> has_parent_;  // of the nodes
+  std::vector<bool> has_parent_;  // by node
   std::uint64_t elements_ = 0;
 };
 
@@ -336,4 +338,4 @@ void check_gltf(const nlohmann::json& root, std::size_t binary_bytes) {
   Check(root, binary_bytes).all();
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

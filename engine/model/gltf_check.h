@@ -1,14 +1,15 @@
-// What glTF 2.0 asks of a file's JSON, as far as it is read here: types, ranges, references, byte ranges.
+// Checks the JSON of a glTF 2.0 file, as far as it is read here: types, ranges, references, byte ranges.
 #pragma once
 
 #include <cstddef>
 
 #include <nlohmann/json.hpp>
 
-namespace gearshift {
+namespace gearshift::engine {
 
-// binary_bytes: of the .glb's binary chunk, 0 where there is none. Throws GltfError with the reason alone. What passes
-// refers to nothing that is not there and asks for no more than gltf.h allows; what the bytes say is still unchecked.
+// binary_bytes: size of the .glb's binary chunk, 0 if there is none. Throws GltfError with only the reason. After it
+// returns, all references are valid and all sizes are within the limits of gltf.h; the content of the buffers is still
+// unchecked.
 void check_gltf(const nlohmann::json& root, std::size_t binary_bytes);
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -5,16 +5,16 @@
 #include "engine/model/gltf_bytes.h"
 #include "engine/model/gltf_check.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 using nlohmann::json;
 
 namespace {
 
-constexpr int kMostDepth = 64;  // of JSON; glTF itself needs about ten, extensions a few more
+constexpr int kMaxJsonDepth = 64;  // of the JSON; glTF itself needs about ten, extensions a few more
 
-// Before a parser builds anything: how deep it would have to go, and how much it would have to build. Base64 lies in
-// strings and counts as one value. Text that is no JSON may be counted wrongly; the parser refuses it then.
+// Checks, before a parser builds anything, how deeply the text is nested and how many values it has. Base64 is inside
+// strings and counts as one value. Text that is not JSON may be counted wrongly; the parser then rejects it.
 void check_extent(std::string_view text) {
   int depth = 0;
   std::uint64_t values = 1;
@@ -30,8 +30,8 @@ void check_extent(std::string_view text) {
     if (c == '{' || c == '[') ++depth;
     if (c == '}' || c == ']') --depth;
     if (c == '{' || c == '[' || c == ',' || c == ':') ++values;
-    if (depth > kMostDepth) throw GltfError("its JSON is nested too deeply");
-    if (values > kMostGltfValues) throw GltfError("its JSON has too many values");
+    if (depth > kMaxJsonDepth) throw GltfError("its JSON is nested too deeply");
+    if (values > kMaxGltfValues) throw GltfError("its JSON has too many values");
   }
 }
 
@@ -42,7 +42,7 @@ json parsed(std::string_view text) {
   } catch (const json::parse_error& e) {
     throw GltfError(fmt::format("it is neither .glb nor JSON, or broken at byte {}", e.byte));
   } catch (const json::exception&) {
-    throw GltfError("its JSON has a number that does not fit");
+    throw GltfError("its JSON has a number that is out of range");
   }
 }
 
@@ -52,7 +52,7 @@ std::vector<std::uint8_t> buffer_bytes(GltfDocument& document, std::size_t index
   const std::size_t size = buffer.at("byteLength").get<std::size_t>();
   if (!buffer.contains("uri")) return {binary.begin(), binary.begin() + static_cast<std::ptrdiff_t>(size)};
   std::vector<std::uint8_t> bytes =
-      bytes_at(buffer.at("uri").get_ref<const std::string&>(), document.folder, document.files);
+      read_uri(buffer.at("uri").get_ref<const std::string&>(), document.folder, document.files);
   if (bytes.size() < size) {
     throw GltfError(fmt::format("buffers[{}] has {} bytes, not {}", index, bytes.size(), size));
   }
@@ -63,8 +63,8 @@ std::vector<std::uint8_t> buffer_bytes(GltfDocument& document, std::size_t index
 }  // namespace
 
 GltfDocument open_gltf(const std::filesystem::path& file) {
-  const std::vector<std::uint8_t> bytes = whole_file(file);
-  const GltfChunks chunks = chunks_of(bytes);
+  const std::vector<std::uint8_t> bytes = read_whole_file(file);
+  const GltfChunks chunks = parse_chunks(bytes);
   GltfDocument document{parsed(chunks.json), {}, file.parent_path()};
   check_gltf(document.json, chunks.binary.size());
   if (!document.json.contains("buffers")) return document;
@@ -78,10 +78,10 @@ std::span<const std::uint8_t> image_bytes(GltfDocument& document, std::size_t im
   const json& description = document.json.at("images").at(image);
   if (description.contains("uri")) {
     const std::string& uri = description.at("uri").get_ref<const std::string&>();
-    document.images.push_back(bytes_at(uri, document.folder, document.files));
+    document.images.push_back(read_uri(uri, document.folder, document.files));
     std::uint64_t bytes = 0;
     for (const auto& read : document.images) bytes += read.size();
-    if (bytes > kMostGltfBytes) throw GltfError("its images have too many bytes together");
+    if (bytes > kMaxGltfBytes) throw GltfError("its images have too many bytes in total");
     return document.images.back();
   }
   const json& view = document.json.at("bufferViews").at(description.at("bufferView").get<std::size_t>());
@@ -89,4 +89,4 @@ std::span<const std::uint8_t> image_bytes(GltfDocument& document, std::size_t im
   return std::span(buffer).subspan(view.value("byteOffset", std::size_t{0}), view.at("byteLength").get<std::size_t>());
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -1,4 +1,4 @@
-// A glTF file taken apart: its JSON and the bytes it refers to, all checked. What is made of them: gltf.cpp.
+// A glTF file split into its JSON and the bytes it refers to, all checked. gltf.cpp builds the model from it.
 #pragma once
 
 #include <cstdint>
@@ -11,21 +11,21 @@
 
 #include "engine/model/gltf.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 struct GltfDocument {
   nlohmann::json json;
-  std::vector<std::vector<std::uint8_t>> buffers;   // as long as the JSON says, one a buffer
-  std::filesystem::path folder;                     // where files beside it lie
-  std::vector<std::filesystem::path> files{};       // those of them that were read
-  std::vector<std::vector<std::uint8_t>> images{};  // encoded, of those that lie in no buffer and were asked for
+  std::vector<std::vector<std::uint8_t>> buffers;   // one per buffer, as long as the JSON says
+  std::filesystem::path folder;                     // folder of the file, for relative paths
+  std::vector<std::filesystem::path> files{};       // files that were read from it
+  std::vector<std::vector<std::uint8_t>> images{};  // encoded images that are not in a buffer, loaded on demand
 };
 
-// All of these throw GltfError with the reason alone.
+// All of these throw GltfError with only the reason.
 GltfDocument open_gltf(const std::filesystem::path& file);
 
-// The encoded bytes of an image of the document, from wherever they lie; as long as the document. At most
-// kMostGltfBytes of those that lie in no buffer.
+// Returns the encoded bytes of an image, wherever they are stored; valid as long as the document. Images outside of
+// buffers may have at most kMaxGltfBytes in total.
 std::span<const std::uint8_t> image_bytes(GltfDocument& document, std::size_t image);
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -8,7 +8,7 @@
 #include "engine/model/gltf.h"
 #include "engine/model/gltf_bytes.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 using nlohmann::json;
 
@@ -17,13 +17,13 @@ namespace {
 std::uint64_t integer_of(const json& value, const std::string& place, std::uint64_t low, std::uint64_t high) {
   const bool whole = value.is_number_unsigned();
   if (!whole || value.get<std::uint64_t>() < low || value.get<std::uint64_t>() > high) {
-    throw GltfError(fmt::format("{} is no integer of {} to {}", place, low, high));
+    throw GltfError(fmt::format("{} is not an integer from {} to {}", place, low, high));
   }
   return value.get<std::uint64_t>();
 }
 
 std::size_t index_of(const json& value, const std::string& place, std::size_t count) {
-  if (!value.is_number_unsigned()) throw GltfError(fmt::format("{} is no index", place));
+  if (!value.is_number_unsigned()) throw GltfError(fmt::format("{} is not an index", place));
   if (value.get<std::uint64_t>() >= count) {
     throw GltfError(fmt::format("{} is {}, but there are only {}", place, value.get<std::uint64_t>(), count));
   }
@@ -33,7 +33,7 @@ std::size_t index_of(const json& value, const std::string& place, std::size_t co
 double number_of(const json& value, const std::string& place) {
   constexpr double most = std::numeric_limits<float>::max();
   if (!value.is_number() || !(std::abs(value.get<double>()) <= most)) {
-    throw GltfError(fmt::format("{} is no number that fits", place));
+    throw GltfError(fmt::format("{} is not a number in range", place));
   }
   return value.get<double>();
 }
@@ -41,7 +41,7 @@ double number_of(const json& value, const std::string& place) {
 }  // namespace
 
 JsonItem::JsonItem(const json& value, std::string path) : value_(&value), path_(std::move(path)) {
-  if (!value.is_object()) throw GltfError(fmt::format("{} is no JSON object", path_.empty() ? "it" : path_));
+  if (!value.is_object()) throw GltfError(fmt::format("{} is not a JSON object", path_.empty() ? "it" : path_));
 }
 
 const json* JsonItem::find(const char* key) const {
@@ -51,7 +51,7 @@ const json* JsonItem::find(const char* key) const {
 
 const json* JsonItem::list(const char* key) const {
   const json* value = find(key);
-  if (value != nullptr && !value->is_array()) throw GltfError(fmt::format("{} is no list", place(key)));
+  if (value != nullptr && !value->is_array()) throw GltfError(fmt::format("{} is not a list", place(key)));
   return value;
 }
 
@@ -63,7 +63,7 @@ bool JsonItem::has(const char* key) const {
   return find(key) != nullptr;
 }
 
-void JsonItem::refuse(std::string_view what) const {
+void JsonItem::reject(std::string_view what) const {
   throw GltfError(fmt::format("{} {}", path_, what));
 }
 
@@ -88,7 +88,7 @@ std::optional<double> JsonItem::number(const char* key) const {
 std::optional<std::string> JsonItem::text(const char* key) const {
   const json* value = find(key);
   if (value == nullptr) return std::nullopt;
-  if (!value->is_string()) throw GltfError(fmt::format("{} is no text", place(key)));
+  if (!value->is_string()) throw GltfError(fmt::format("{} is not a string", place(key)));
   return value->get<std::string>();
 }
 
@@ -108,27 +108,27 @@ bool JsonItem::flag(const char* key) const {
 void JsonItem::numbers(const char* key, std::size_t count) const {
   const json* value = list(key);
   if (value == nullptr) return;
-  if (value->size() != count) throw GltfError(fmt::format("{} is no list of {} numbers", place(key), count));
+  if (value->size() != count) throw GltfError(fmt::format("{} is not a list of {} numbers", place(key), count));
   for (const json& number : *value) number_of(number, place(key));
 }
 
 template <typename T>
-T JsonItem::needed(std::optional<T> value, const char* key) const {
+T JsonItem::required(std::optional<T> value, const char* key) const {
   if (!value) throw GltfError(fmt::format("{} is missing", place(key)));
   return std::move(*value);
 }
 
-std::uint64_t JsonItem::needed_integer(const char* key, std::uint64_t low, std::uint64_t high) const {
-  return needed(integer(key, low, high), key);
+std::uint64_t JsonItem::required_integer(const char* key, std::uint64_t low, std::uint64_t high) const {
+  return required(integer(key, low, high), key);
 }
-std::size_t JsonItem::needed_index(const char* key, std::size_t count) const {
-  return needed(index(key, count), key);
+std::size_t JsonItem::required_index(const char* key, std::size_t count) const {
+  return required(index(key, count), key);
 }
-std::string JsonItem::needed_text(const char* key) const {
-  return needed(text(key), key);
+std::string JsonItem::required_text(const char* key) const {
+  return required(text(key), key);
 }
-JsonItem JsonItem::needed_item(const char* key) const {
-  return needed(item(key), key);
+JsonItem JsonItem::required_item(const char* key) const {
+  return required(item(key), key);
 }
 
 std::vector<JsonItem> JsonItem::items(const char* key) const {
@@ -153,19 +153,19 @@ std::vector<std::string> JsonItem::texts(const char* key) const {
   std::vector<std::string> found;
   const json* value = list(key);
   for (std::size_t i = 0; value != nullptr && i < value->size(); ++i) {
-    if (!(*value)[i].is_string()) throw GltfError(fmt::format("{}[{}] is no text", place(key), i));
+    if (!(*value)[i].is_string()) throw GltfError(fmt::format("{}[{}] is not a string", place(key), i));
     found.push_back((*value)[i].get<std::string>());
   }
   return found;
 }
 
 std::vector<std::pair<std::string, std::size_t>> JsonItem::named_indices(const char* key, std::size_t count) const {
-  const JsonItem object = needed_item(key);
+  const JsonItem object = required_item(key);
   std::vector<std::pair<std::string, std::size_t>> found;
   for (const auto& [name, value] : object.value_->items()) {
-    found.emplace_back(name, index_of(value, object.place(shown_name(name)), count));
+    found.emplace_back(name, index_of(value, object.place(printable_name(name)), count));
   }
   return found;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -1,4 +1,4 @@
-// A JSON object that is believed nothing: every look at it names the place and the range, and refuses in one sentence.
+// Access to an untrusted JSON object: each accessor checks type and range, and its error names the place and the range.
 #pragma once
 
 #include <cstdint>
@@ -9,38 +9,38 @@
 
 #include <nlohmann/json.hpp>
 
-namespace gearshift {
+namespace gearshift::engine {
 
 class JsonItem {
  public:
-  // Throws GltfError where `value` is no object. path: "accessors[3]"; empty for the root.
+  // Throws GltfError if `value` is not an object. path: "accessors[3]"; empty for the root.
   JsonItem(const nlohmann::json& value, std::string path);
 
   bool has(const char* key) const;
   const std::string& path() const { return path_; }
-  // Throws GltfError: the place, then `what`.
-  [[noreturn]] void refuse(std::string_view what) const;
+  // Throws GltfError with the path followed by `what`.
+  [[noreturn]] void reject(std::string_view what) const;
 
-  // Nothing where the key is missing; refused where the value is no such thing.
+  // Empty if the key is missing; throw if the value has another type or is out of range.
   std::optional<std::uint64_t> integer(const char* key, std::uint64_t low, std::uint64_t high) const;
-  std::optional<std::size_t> index(const char* key, std::size_t count) const;  // into a list of `count`
-  std::optional<double> number(const char* key) const;                         // finite as float
+  std::optional<std::size_t> index(const char* key, std::size_t count) const;  // into a list of `count` items
+  std::optional<double> number(const char* key) const;                         // finite as a float
   std::optional<std::string> text(const char* key) const;
   std::optional<JsonItem> item(const char* key) const;
-  bool flag(const char* key) const;  // false where the key is missing
+  bool flag(const char* key) const;  // false if the key is missing
   void numbers(const char* key, std::size_t count) const;
 
-  // Refused where the key is missing.
-  std::uint64_t needed_integer(const char* key, std::uint64_t low, std::uint64_t high) const;
-  std::size_t needed_index(const char* key, std::size_t count) const;
-  std::string needed_text(const char* key) const;
-  JsonItem needed_item(const char* key) const;
+  // Throw if the key is missing.
+  std::uint64_t required_integer(const char* key, std::uint64_t low, std::uint64_t high) const;
+  std::size_t required_index(const char* key, std::size_t count) const;
+  std::string required_text(const char* key) const;
+  JsonItem required_item(const char* key) const;
 
-  // Empty where the key is missing.
+  // Empty if the key is missing.
   std::vector<JsonItem> items(const char* key) const;
   std::vector<std::size_t> indices(const char* key, std::size_t count) const;
   std::vector<std::string> texts(const char* key) const;
-  // The members of an object, each an index.
+  // The members of an object whose values are indices.
   std::vector<std::pair<std::string, std::size_t>> named_indices(const char* key, std::size_t count) const;
 
  private:
@@ -48,10 +48,10 @@ class JsonItem {
   const nlohmann::json* list(const char* key) const;
   std::string place(std::string_view key) const;
   template <typename T>
-  T needed(std::optional<T> value, const char* key) const;
+  T required(std::optional<T> value, const char* key) const;
 
   const nlohmann::json* value_;
   std::string path_;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <stdexcept>
 
-namespace gearshift {
+namespace gearshift::engine {
 
 glm::mat3 TextureUse::matrix() const {
   const float c = std::cos(rotation), s = std::sin(rotation);
@@ -40,7 +40,7 @@ std::vector<glm::mat4> rest_pose(const Model& model) {
 
 std::vector<glm::mat4> world_from_local(const Model& model, const std::vector<glm::mat4>& local) {
   if (local.size() != model.nodes.size())
-    throw std::invalid_argument("world_from_local: there is not one matrix a node");
+    throw std::invalid_argument("world_from_local: one matrix per node is needed");
   std::vector<glm::mat4> world(local);
   for (std::size_t i = 0; i < world.size(); ++i) {
     const int parent = model.nodes[i].parent;
@@ -49,4 +49,4 @@ std::vector<glm::mat4> world_from_local(const Model& model, const std::vector<gl
   return world;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -1,6 +1,6 @@
-// What can be drawn, on the CPU: the part of glTF 2.0 that a cabin needs. No GPU here.
+// A drawable model on the CPU: the subset of glTF 2.0 that a cabin needs. No GPU code here.
 //
-// Metres, right-handed, +Y up. Textures keep glTF's convention: row 0 on top, (0, 0) the upper left corner.
+// Metres, right-handed, +Y up. Textures follow glTF's convention: row 0 at the top, (0, 0) the upper left corner.
 #pragma once
 
 #include <cstdint>
@@ -18,17 +18,17 @@
 
 #include "engine/image/image.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 inline constexpr int kNone = -1;  // no node, mesh, texture, ...
 
-// As it lies in the GPU's vertex buffer: 60 bytes, no padding.
+// Layout of the GPU's vertex buffer: 60 bytes, no padding.
 struct Vertex {
-  glm::vec3 position{0.0f};                   // [m] in its mesh
-  glm::vec3 normal{0.0f, 0.0f, 1.0f};         // unit
-  glm::vec4 tangent{1.0f, 0.0f, 0.0f, 1.0f};  // unit; w: sign of the bitangent
+  glm::vec3 position{0.0f};                   // [m] in mesh space
+  glm::vec3 normal{0.0f, 0.0f, 1.0f};         // unit vector
+  glm::vec4 tangent{1.0f, 0.0f, 0.0f, 1.0f};  // unit vector; w: sign of the bitangent
   glm::vec2 uv0{0.0f};
-  glm::vec2 uv1{0.0f};                 // the second set: baked occlusion
+  glm::vec2 uv1{0.0f};                 // second UV set: baked occlusion
   std::uint32_t colour = 0xffffffffu;  // linear RGBA8, red in the lowest byte
 };
 static_assert(sizeof(Vertex) == 60);
@@ -42,9 +42,9 @@ struct VertexJoints {
 enum class Wrap : std::uint8_t { repeat, mirror, clamp };
 struct Texture {
   Image pixels;
-  bool srgb = false;  // colour; else data
+  bool srgb = false;  // false: linear data
   Wrap wrap_u = Wrap::repeat, wrap_v = Wrap::repeat;
-  bool linear = true;  // filter; false: nearest
+  bool linear = true;  // filtering; false: nearest
 };
 
 // One use of a texture by a material (KHR_texture_transform).
@@ -53,9 +53,9 @@ struct TextureUse {
   int uv_set = 0;  // 0 or 1
   glm::vec2 offset{0.0f};
   glm::vec2 scale{1.0f};
-  float rotation = 0.0f;  // [rad] as the extension defines it
-  // uv = matrix * vec3(uv of the set, 1). The rotation's sign is that of the Khronos sample viewer and of the
-  // extension's example; the GLSL in the extension's text turns the other way and fits neither.
+  float rotation = 0.0f;  // [rad] as defined by the extension
+  // uv = matrix * vec3(uv of the set, 1). The sign of the rotation is that of the Khronos sample viewer and of the
+  // extension's example; the GLSL in the extension's text rotates the other way and contradicts both.
   glm::mat3 matrix() const;
   bool plain() const { return offset == glm::vec2(0.0f) && scale == glm::vec2(1.0f) && rotation == 0.0f; }
 };
@@ -68,31 +68,31 @@ struct Material {
   float roughness = 1.0f;
   float normal_scale = 1.0f;
   float occlusion_strength = 1.0f;
-  glm::vec3 emissive{0.0f};  // linear; KHR_materials_emissive_strength is multiplied in
+  glm::vec3 emissive{0.0f};  // linear, including KHR_materials_emissive_strength
   AlphaMode alpha_mode = AlphaMode::opaque;
   float alpha_cutoff = 0.5f;
   bool double_sided = false;
   TextureUse base_colour_map, metal_rough_map, normal_map, occlusion_map, emissive_map;
 };
 
-// Triangles of one material. Indices are into Model::vertices, whole (no base vertex).
+// Triangles of one material. Indices refer to Model::vertices directly (no base vertex).
 struct Primitive {
   std::uint32_t first_index = 0;
   std::uint32_t index_count = 0;    // a multiple of 3
   int material = kNone;             // kNone: glTF's default material
-  glm::vec3 low{0.0f}, high{0.0f};  // [m] bounding box in its mesh
+  glm::vec3 low{0.0f}, high{0.0f};  // [m] bounding box in mesh space
 };
 
 struct Mesh {
   std::string name;
   std::vector<Primitive> primitives;
-  std::uint32_t first_vertex = 0;  // of the vertices that belong to this mesh alone
+  std::uint32_t first_vertex = 0;  // vertices used only by this mesh
   std::uint32_t vertex_count = 0;
 };
 
 struct Node {
   std::string name;
-  int parent = kNone;  // always before the node itself in Model::nodes
+  int parent = kNone;  // always before this node in Model::nodes
   glm::vec3 translation{0.0f};
   glm::quat rotation{1.0f, 0.0f, 0.0f, 0.0f};
   glm::vec3 scale{1.0f};
@@ -102,30 +102,30 @@ struct Node {
 };
 
 struct Skin {
-  std::vector<int> joints;              // nodes
-  std::vector<glm::mat4> inverse_bind;  // mesh space -> joint space, one a joint
+  std::vector<int> joints;              // node indices
+  std::vector<glm::mat4> inverse_bind;  // mesh space -> joint space, one per joint
 };
 
 struct Model {
   std::vector<Vertex> vertices;
-  std::vector<VertexJoints> vertex_joints;  // as many as vertices where a skin exists, else empty
+  std::vector<VertexJoints> vertex_joints;  // one per vertex if there is a skin, else empty
   std::vector<std::uint32_t> indices;
   std::vector<Mesh> meshes;
   std::vector<Node> nodes;  // parents before children
   std::vector<Material> materials;
   std::vector<Texture> textures;
   std::vector<Skin> skins;
-  std::vector<std::string> skipped;          // what the file asks for and is not drawn, each named once
-  std::vector<std::filesystem::path> files;  // that it names, buffers and textures, and that were read
+  std::vector<std::string> skipped;          // features used by the file but not drawn, each named once
+  std::vector<std::filesystem::path> files;  // buffer and texture files that were read
 
-  int node(std::string_view name) const;  // first of that name, or kNone
-  std::uint64_t triangle_count() const;   // over the nodes that carry a mesh
+  int node(std::string_view name) const;  // first node of that name, or kNone
+  std::uint64_t triangle_count() const;   // over all nodes that carry a mesh
 };
 
-// World matrix of every node as the file places it; one an entry of model.nodes.
+// World matrix of every node as placed by the file; one per entry of model.nodes.
 std::vector<glm::mat4> rest_pose(const Model& model);
 
-// World matrix of every node where node i stands at local[i] in its parent. Same length as model.nodes.
+// World matrix of every node, given its transform local[i] relative to its parent. Same length as model.nodes.
 std::vector<glm::mat4> world_from_local(const Model& model, const std::vector<glm::mat4>& local);
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -2,11 +2,11 @@
 
 #include <glm/geometric.hpp>
 
-namespace gearshift {
+namespace gearshift::engine {
 
 namespace {
 
-// Left as it is where it has no length.
+// A vector of zero length is returned unchanged.
 glm::vec3 unit(glm::vec3 v) {
   const float length = glm::length(v);
   return length > 0.0f ? v / length : v;
@@ -34,4 +34,4 @@ void skin_vertices(const Model& model, int node, std::span<const glm::mat4> worl
   }
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

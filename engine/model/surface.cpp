@@ -9,14 +9,15 @@
 
 #include <glm/geometric.hpp>
 
-namespace gearshift {
+namespace gearshift::engine {
 
 using glm::vec2;
 using glm::vec3;
 
 namespace {
 
-// Unit, or nothing near it: the squares of what a float holds may not fit a float.
+// Normalises, or returns false if the length is near zero. Uses double, since the squares of floats may overflow a
+// float.
 bool normalize_in_place(vec3& v) {
   const double length = std::sqrt(double{v.x} * v.x + double{v.y} * v.y + double{v.z} * v.z);
   if (!(length > 1e-30) || !std::isfinite(length)) return false;
@@ -24,7 +25,7 @@ bool normalize_in_place(vec3& v) {
   return true;
 }
 
-// Some unit vector across a unit vector.
+// Any unit vector perpendicular to a unit vector.
 vec3 across(vec3 n) {
   const vec3 axis = std::abs(n.x) < 0.7f ? vec3(1.0f, 0.0f, 0.0f) : vec3(0.0f, 1.0f, 0.0f);
   vec3 t = glm::cross(axis, n);
@@ -63,7 +64,7 @@ vec2 uv_of(const Vertex& v, const TextureUse& use, const glm::mat3& matrix) {
   return vec2(matrix * vec3(use.uv_set == 0 ? v.uv0 : v.uv1, 1.0f));
 }
 
-// How a triangle lies in its texture: the direction of growing u, and whether the texture is seen from behind.
+// Orientation of a triangle in its texture: the direction of growing u, and whether the texture is mirrored.
 struct TextureFrame {
   vec3 along_u{0.0f};
   bool valid = false;
@@ -74,19 +75,21 @@ TextureFrame texture_frame(const Corners& t, const TextureUse& use, const glm::m
   const vec2 uv = uv_of(t.a, use, matrix);
   const vec2 d1 = uv_of(t.b, use, matrix) - uv, d2 = uv_of(t.c, use, matrix) - uv;
   const vec3 e1 = t.b.position - t.a.position, e2 = t.c.position - t.a.position;
-  const float area = d1.x * d2.y - d2.x * d1.y;  // v grows downwards: negative where the texture faces the viewer
+  const float area = d1.x * d2.y - d2.x * d1.y;  // v grows downwards: negative if the texture faces the viewer
   TextureFrame frame{(e1 * d2.y - e2 * d1.y) * (area < 0.0f ? -1.0f : 1.0f), false, area > 0.0f};
   frame.valid = area != 0.0f && normalize_in_place(frame.along_u);
   return frame;
 }
 
-// Vertices that a mirrored and a plain triangle share are doubled: no tangent serves both.
+// Accumulates tangents per vertex. Vertices shared by a mirrored and an unmirrored triangle are duplicated, because one
+// tangent cannot serve both.
 class TangentSum {
  public:
   explicit TangentSum(Surface& surface)
       : surface_(surface), sum_(surface.vertices.size(), vec3(0.0f)), sign_(surface.vertices.size(), 0) {}
 
-  // The corner's share: its triangle's direction laid into the vertex's plane, weighted by the corner's angle.
+  // Adds a corner's contribution: its triangle's direction projected into the vertex's tangent plane, weighted by the
+  // angle of the corner.
   void add(std::size_t corner, const TextureFrame& frame, float angle) {
     const std::uint32_t vertex = vertex_for(corner, frame.mirrored ? -1 : 1);
     const vec3 n = surface_.vertices[vertex].normal;
@@ -105,21 +108,21 @@ class TangentSum {
     const std::uint32_t vertex = surface_.indices[corner];
     if (sign_[vertex] == 0) sign_[vertex] = sign;
     if (sign_[vertex] == sign) return vertex;
-    const auto [twin, is_new] = twins_.try_emplace(vertex, static_cast<std::uint32_t>(sum_.size()));
+    const auto [duplicate, is_new] = duplicates_.try_emplace(vertex, static_cast<std::uint32_t>(sum_.size()));
     if (is_new) {
       surface_.vertices.push_back(Vertex(surface_.vertices[vertex]));
       if (!surface_.joints.empty()) surface_.joints.push_back(VertexJoints(surface_.joints[vertex]));
       sum_.emplace_back(0.0f);
       sign_.push_back(sign);
     }
-    surface_.indices[corner] = twin->second;
-    return twin->second;
+    surface_.indices[corner] = duplicate->second;
+    return duplicate->second;
   }
 
   Surface& surface_;
   std::vector<vec3> sum_;
-  std::vector<int> sign_;  // 0: not seen yet
-  std::unordered_map<std::uint32_t, std::uint32_t> twins_;
+  std::vector<int> sign_;  // 0: not visited yet
+  std::unordered_map<std::uint32_t, std::uint32_t> duplicates_;
 };
 
 float angle_between(vec3 a, vec3 b) {
@@ -152,7 +155,7 @@ void make_flat_normals(Surface& surface) {
   }
 }
 
-void mend_normals(Surface& surface) {
+void repair_normals(Surface& surface) {
   std::vector<bool> broken(surface.vertices.size(), false);
   bool any = false;
   for (std::size_t i = 0; i < broken.size(); ++i) {
@@ -183,10 +186,10 @@ void make_tangents(Surface& surface, const TextureUse& normal_map) {
     for (std::size_t k = 0; k < 3; ++k) sum.add(i + k, frame, angles[k]);
   }
   sum.store();
-  mend_tangents(surface);
+  repair_tangents(surface);
 }
 
-void mend_tangents(Surface& surface) {
+void repair_tangents(Surface& surface) {
   for (Vertex& vertex : surface.vertices) {
     vec3 t = vec3(vertex.tangent);
     t -= vertex.normal * glm::dot(vertex.normal, t);
@@ -195,4 +198,4 @@ void mend_tangents(Surface& surface) {
   }
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -1,4 +1,4 @@
-// The triangles of one primitive, and what a file may leave to its reader: lists out of strips, normals, tangents.
+// The triangles of one primitive, and what glTF leaves to the reader: lists from strips and fans, normals, tangents.
 #pragma once
 
 #include <cstdint>
@@ -6,27 +6,28 @@
 
 #include "engine/model/model.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 struct Surface {
   std::vector<Vertex> vertices;
-  std::vector<VertexJoints> joints;    // one a vertex, or none
-  std::vector<std::uint32_t> indices;  // three a triangle, each below vertices.size()
+  std::vector<VertexJoints> joints;    // one per vertex, or empty
+  std::vector<std::uint32_t> indices;  // three per triangle, each below vertices.size()
 };
 
-enum class TriangleMode : int { list = 4, strip = 5, fan = 6 };  // as glTF counts
+enum class TriangleMode : int { list = 4, strip = 5, fan = 6 };  // glTF's values
 std::vector<std::uint32_t> triangle_list(const std::vector<std::uint32_t>& indices, TriangleMode mode);
 
-// One vertex a corner, with its triangle's normal; a triangle without area gets +Z.
+// One vertex per corner, with its triangle's normal; a triangle without area gets +Z.
 void make_flat_normals(Surface& surface);
 
-// Every normal of length 1; one without length becomes the mean of its triangles' normals, by area.
-void mend_normals(Surface& surface);
+// Normalises every normal; one of zero length becomes the area-weighted mean of its triangles' normals.
+void repair_normals(Surface& surface);
 
-// From positions, normals and the UV coordinates that the map uses; mirrored and plain triangles share no vertex after.
+// From positions, normals and the UV set of the normal map. Afterwards mirrored and unmirrored triangles share no
+// vertex.
 void make_tangents(Surface& surface, const TextureUse& normal_map);
 
-// Every tangent of length 1 and across its normal, its sign 1 or -1.
-void mend_tangents(Surface& surface);
+// Makes every tangent a unit vector perpendicular to its normal, with a sign of 1 or -1.
+void repair_tangents(Surface& surface);
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

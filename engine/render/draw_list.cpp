@@ -7,11 +7,11 @@
 
 #include "shaders/shared.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 namespace {
 
-const DeformedPlace* place_of(std::span<const DeformedPlace> deformed, int mesh, int node) {
+const DeformedRange* find_range(std::span<const DeformedRange> deformed, int mesh, int node) {
   const auto found = std::find_if(deformed.begin(), deformed.end(),
                                   [&](const auto& d) { return d.mesh == mesh && (d.node == node || d.node == kNone); });
   return found == deformed.end() ? nullptr : &*found;
@@ -21,37 +21,38 @@ float distance(const DrawItem& item, glm::vec3 eye) {
   return glm::distance(item.box.centre(), eye);
 }
 
-// Each set of features is a shader that a software driver compiles at its first use, slowly. So the
-// small mirror has few of them, for what is solid and what is blended, in the open and indoors: a map that a material
-// lacks is white there.
+// Each combination of features is a shader that a software driver compiles slowly at its first use. The mirror is
+// small, so it uses only a few combinations: solid or blended, outdoors or indoors. A map that a material lacks is
+// bound as white.
 std::uint32_t mirror_features(std::uint32_t features) {
   using namespace shader;
-  constexpr std::uint32_t kKept =
+  constexpr std::uint32_t kPreservedFeatures =
       kIndoors | kMasked | kBlended | kVertexColour | kTransformedUv | kMapOnUv1 << kMapBaseColour;
-  constexpr std::uint32_t kAlways = kHasMap << kMapBaseColour | kHasMap << kMapOcclusion | kMapOnUv1 << kMapOcclusion;
+  constexpr std::uint32_t kForcedFeatures =
+      kHasMap << kMapBaseColour | kHasMap << kMapOcclusion | kMapOnUv1 << kMapOcclusion;
   const bool occluded_by_uv0 =
       (features & kHasMap << kMapOcclusion) != 0 && (features & kMapOnUv1 << kMapOcclusion) == 0;
-  const std::uint32_t all = (features & kKept) | kAlways | kEmits | kLinearOut;
+  const std::uint32_t all = (features & kPreservedFeatures) | kForcedFeatures | kEmits | kLinearOut;
   return occluded_by_uv0 ? all & ~(kMapOnUv1 << kMapOcclusion) : all;
 }
 
 }  // namespace
 
 std::vector<DrawItem> list_items(const GpuModel& model, const FrameScene& scene,
-                                 std::span<const DeformedPlace> deformed) {
+                                 std::span<const DeformedRange> deformed) {
   std::vector<DrawItem> items;
   for (std::size_t node = 0; node < scene.nodes.size(); ++node) {
     const NodeState& state = scene.nodes[node];
     const int mesh_index = model.mesh_of_node[node];
     if (mesh_index == kNone || !state.visible || state.opacity <= 0.0f) continue;
     const GpuMesh& mesh = model.meshes[static_cast<std::size_t>(mesh_index)];
-    const DeformedPlace* place = place_of(deformed, mesh_index, static_cast<int>(node));
+    const DeformedRange* place = find_range(deformed, mesh_index, static_cast<int>(node));
     for (std::uint32_t i = 0; i < mesh.part_count; ++i) {
       DrawItem item;
       item.part = &model.parts[mesh.first_part + i];
       item.material = &model.materials[item.part->material];
       item.node = static_cast<std::uint32_t>(node);
-      item.box = moved(state.world, place != nullptr ? place->box : item.part->box);
+      item.box = transformed(state.world, place != nullptr ? place->box : item.part->box);
       item.deformed = place != nullptr;
       if (item.deformed)
         item.vertex_offset =
@@ -70,7 +71,7 @@ std::vector<DrawItem> list_items(const GpuModel& model, const FrameScene& scene,
 DrawList list_draws(std::span<const DrawItem> items, const Frusta& frusta, glm::vec3 eye) {
   DrawList list;
   for (const DrawItem& item : items) {
-    if (frusta.see(item.box)) (item.blended ? list.blended : list.solid).push_back(&item);
+    if (frusta.intersects(item.box)) (item.blended ? list.blended : list.solid).push_back(&item);
   }
   const auto solid_key = [&](const DrawItem* item) {
     return std::tuple(item->material->features, item->part->material, distance(*item, eye), item->part);
@@ -85,17 +86,17 @@ std::uint32_t features_in(PassKind pass, const DrawItem& item, const FeatureChoi
   using namespace shader;
   std::uint32_t features = item.material->features;
   if (pass == PassKind::shadow || pass == PassKind::depth) {
-    constexpr std::uint32_t kOfHoles =
+    constexpr std::uint32_t kAlphaTestFeatures =
         kMasked | kVertexColour | kHasMap << kMapBaseColour | kMapOnUv1 << kMapBaseColour;
-    return (features & kMasked) != 0 ? features & kOfHoles : 0u;
+    return (features & kMasked) != 0 ? features & kAlphaTestFeatures : 0u;
   }
   if (item.blended) features |= kBlended;
   if (item.indoors) features |= kIndoors;
   if (pass == PassKind::mirror) return mirror_features(features);
   if (!choice.normal_maps) features &= ~(kHasMap << kMapNormal);
-  if ((features & kAllMaps) == 0) features |= kEmits;  // lamps and what is plainly painted share a shader
+  if ((features & kAllMaps) == 0) features |= kEmits;  // lamps and unlit materials share one shader
   if (item.shows_mirror) return features | kShowsMirror;
   return choice.shadow ? features | kShadowed : features;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -1,4 +1,4 @@
-// What a frame shows, and in which order.
+// Lists what a frame draws, and in which order.
 #pragma once
 
 #include <cstdint>
@@ -9,12 +9,12 @@
 #include "engine/render/pipelines.h"
 #include "engine/scene/frame_scene.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
-// A mesh whose vertices of this frame lie in the frame's own buffer.
-struct DeformedPlace {
+// A mesh whose vertices for this frame are in the frame's own buffer.
+struct DeformedRange {
   int mesh = kNone;
-  int node = kNone;                // kNone: all that carry the mesh
+  int node = kNone;                // kNone: all nodes that carry the mesh
   std::uint32_t first_vertex = 0;  // in that buffer
   Box box;
 };
@@ -25,28 +25,28 @@ struct DrawItem {
   std::uint32_t node = 0;
   Box box;  // [m] world
   std::int32_t vertex_offset = 0;
-  bool deformed = false;  // vertices in the frame's own buffer
-  bool mirrored = false;  // the node turns the triangles inside out
+  bool deformed = false;  // vertices are in the frame's own buffer
+  bool mirrored = false;  // the node's transform turns the triangles inside out
   bool blended = false;
   bool indoors = false;
-  bool shows_mirror = false;  // the mirror of this frame, in the main pass
+  bool shows_mirror = false;  // shows this frame's mirror picture, in the main pass
   float emission = 1.0f, opacity = 1.0f;
 };
 
-// Every part of every visible node.
+// Lists every part of every visible node.
 std::vector<DrawItem> list_items(const GpuModel& model, const FrameScene& scene,
-                                 std::span<const DeformedPlace> deformed);
+                                 std::span<const DeformedRange> deformed);
 
 struct DrawList {
-  std::vector<const DrawItem*> solid;    // those of one pipeline and material together, near before far
+  std::vector<const DrawItem*> solid;    // sorted by pipeline and material, then front to back
   std::vector<const DrawItem*> blended;  // back to front
 };
 DrawList list_draws(std::span<const DrawItem> items, const Frusta& frusta, glm::vec3 eye);
 
-// The features that a pass uses of a material's.
+// Selects the material features that a pass uses.
 struct FeatureChoice {
   bool shadow = true, normal_maps = true;
 };
 std::uint32_t features_in(PassKind pass, const DrawItem& item, const FeatureChoice& choice);
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

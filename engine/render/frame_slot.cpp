@@ -8,14 +8,15 @@
 #include <glm/geometric.hpp>
 #include <glm/mat3x3.hpp>
 
-namespace gearshift {
+namespace gearshift::engine {
 
 namespace {
 
-// Offsets of uniform buffers: a multiple of 256 suits every device (Vulkan 1.3, required limits).
+// Offset of a uniform buffer: a multiple of 256 suits every device (Vulkan 1.3, required limits).
 constexpr VkDeviceSize kPassStride = (sizeof(shader::PassData) + 255) / 256 * 256;
 
-// Normals turn with the cofactor matrix: the inverse transpose times the determinant, whose sign is taken out.
+// Normals are transformed by the cofactor matrix: the inverse transpose times the determinant, with the determinant's
+// sign removed.
 shader::ObjectData object_data(const NodeState& state) {
   const glm::vec3 x(state.world[0]), y(state.world[1]), z(state.world[2]);
   const float sign = glm::dot(glm::cross(x, y), z) < 0.0f ? -1.0f : 1.0f;
@@ -69,15 +70,15 @@ void FrameSlot::write_objects(Gpu& gpu, const FrameScene& scene) {
   }
 }
 
-std::vector<DeformedPlace> FrameSlot::write_deformed(Gpu& gpu, const GpuModel& model,
+std::vector<DeformedRange> FrameSlot::write_deformed(Gpu& gpu, const GpuModel& model,
                                                      std::span<const DeformedMesh> meshes) {
-  std::vector<DeformedPlace> places;
+  std::vector<DeformedRange> places;
   std::uint32_t count = 0;
   for (const DeformedMesh& mesh : meshes) {
     const auto index = static_cast<std::size_t>(mesh.mesh);
     if (mesh.mesh < 0 || index >= model.meshes.size() || mesh.vertices.size() != model.meshes[index].vertex_count ||
         mesh.vertices.empty())
-      throw std::invalid_argument("A deformed mesh is none of the model's, or has another number of vertices.");
+      throw std::invalid_argument("A deformed mesh is not in the model, or has a different number of vertices.");
     places.push_back({mesh.mesh, mesh.node, count, box_of(mesh.vertices)});
     count += static_cast<std::uint32_t>(mesh.vertices.size());
   }
@@ -89,4 +90,4 @@ std::vector<DeformedPlace> FrameSlot::write_deformed(Gpu& gpu, const GpuModel& m
   return places;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

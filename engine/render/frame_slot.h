@@ -1,4 +1,4 @@
-// What a frame in flight writes for the GPU: nobody touches it until that frame is done.
+// Buffers that a frame in flight writes for the GPU. They must not be touched until that frame has completed.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 #include "engine/render/draw_list.h"
 #include "shaders/shared.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 class FrameSlot {
  public:
@@ -21,12 +21,12 @@ class FrameSlot {
 
   void write_pass(PassKind pass, const shader::PassData& data);
   void write_objects(Gpu& gpu, const FrameScene& scene);
-  // Throws std::invalid_argument where a mesh is unknown or has another number of vertices.
-  std::vector<DeformedPlace> write_deformed(Gpu& gpu, const GpuModel& model, std::span<const DeformedMesh> meshes);
+  // Throws std::invalid_argument for an unknown mesh or a wrong number of vertices.
+  std::vector<DeformedRange> write_deformed(Gpu& gpu, const GpuModel& model, std::span<const DeformedMesh> meshes);
 
  private:
   std::array<VkDescriptorSet, kPassKinds> sets_{};
   GpuBuffer passes_, objects_, vertices_;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -6,13 +6,13 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/matrix_access.hpp>
 
-namespace gearshift {
+namespace gearshift::engine {
 
 Box united(const Box& a, const Box& b) {
   return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
 }
 
-Box moved(const glm::mat4& world, const Box& box) {
+Box transformed(const glm::mat4& world, const Box& box) {
   const glm::vec3 centre = glm::vec3(world * glm::vec4(box.centre(), 1.0f)), half = 0.5f * (box.high - box.low);
   const glm::vec3 reach = glm::abs(glm::vec3(world[0])) * half.x + glm::abs(glm::vec3(world[1])) * half.y +
                           glm::abs(glm::vec3(world[2])) * half.z;
@@ -27,7 +27,7 @@ Frusta::Frusta(std::span<const glm::mat4> clip_from_world) {
   }
 }
 
-bool Frusta::see(const Box& box) const {
+bool Frusta::intersects(const Box& box) const {
   const glm::vec3 centre = box.centre(), half = 0.5f * (box.high - box.low);
   return std::any_of(planes_.begin(), planes_.end(), [&](const auto& planes) {
     return std::none_of(planes.begin(), planes.end(), [&](const glm::vec4& plane) {
@@ -37,4 +37,4 @@ bool Frusta::see(const Box& box) const {
   });
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

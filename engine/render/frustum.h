@@ -1,4 +1,4 @@
-// What can be seen of a box.
+// Visibility of bounding boxes.
 #pragma once
 
 #include <array>
@@ -9,7 +9,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
-namespace gearshift {
+namespace gearshift::engine {
 
 struct Box {
   glm::vec3 low{0.0f}, high{0.0f};
@@ -18,18 +18,18 @@ struct Box {
 
 Box united(const Box& a, const Box& b);
 
-// The axis-aligned box around a box that is moved.
-Box moved(const glm::mat4& world, const Box& box);
+// Axis-aligned bounding box of a transformed box.
+Box transformed(const glm::mat4& world, const Box& box);
 
-// The frusta of some clip spaces, depth in [0, 1]. A box is seen where at least one of them does not lie wholly beyond
-// one of its planes: a few boxes near the corners are seen though they are not.
+// The frusta of one or more clip spaces with depth in [0, 1]. A box counts as visible unless, for each frustum, it lies
+// completely outside one of its planes. A few boxes near the corners count as visible although they are not.
 class Frusta {
  public:
   explicit Frusta(std::span<const glm::mat4> clip_from_world);
-  bool see(const Box& box) const;
+  bool intersects(const Box& box) const;
 
  private:
   std::vector<std::array<glm::vec4, 6>> planes_;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

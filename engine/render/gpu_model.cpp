@@ -7,7 +7,7 @@
 #include "engine/render/material_data.h"
 #include "engine/render/samplers.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 namespace {
 
@@ -22,10 +22,10 @@ void upload_textures(Gpu& gpu, const Model& model, GpuModel& into) {
     into.samplers.push_back(texture_sampler(gpu, texture));
   };
   for (const Texture& texture : model.textures) add(texture);
-  add(Texture{.pixels = {1, 1, {255, 255, 255, 255}}});  // the last: bound where a material has no map
+  add(Texture{.pixels = {1, 1, {255, 255, 255, 255}}});  // the last texture: bound where a material has no map
 }
 
-// Do any of a material's triangles carry a colour of their own?
+// For each material: does any of its triangles have vertex colours?
 std::vector<bool> coloured_materials(const Model& model) {
   std::vector<bool> coloured(model.materials.size() + 1, false);
   for (const Mesh& mesh : model.meshes) {
@@ -97,7 +97,7 @@ Box box_at_rest(const Model& model, const GpuModel& made) {
   bool first = true;
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
     if (model.nodes[i].mesh == kNone) continue;
-    const Box box = moved(world[i], made.meshes[static_cast<std::size_t>(model.nodes[i].mesh)].box);
+    const Box box = transformed(world[i], made.meshes[static_cast<std::size_t>(model.nodes[i].mesh)].box);
     whole = first ? box : united(whole, box);
     first = false;
   }
@@ -121,4 +121,4 @@ GpuModel upload_model(Gpu& gpu, const Model& model, VkDescriptorSetLayout materi
   return made;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -1,4 +1,5 @@
-// A model on the GPU: one vertex and one index buffer, a texture and a sampler each, a descriptor set a material.
+// A model on the GPU: one vertex and one index buffer, an image and a sampler per texture, a descriptor set per
+// material.
 #pragma once
 
 #include <span>
@@ -10,13 +11,13 @@
 #include "engine/model/model.h"
 #include "engine/render/frustum.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
-// What is drawn at once: triangles of one material that lie close together.
+// The unit of drawing: triangles of one material that lie close together.
 struct Part {
   std::uint32_t first_index = 0, index_count = 0;
-  std::uint32_t material = 0;  // into GpuModel::materials: the default material is the last
-  Box box;                     // [m] in its mesh
+  std::uint32_t material = 0;  // index into GpuModel::materials, whose last entry is the default material
+  Box box;                     // [m] in mesh space
 };
 
 struct GpuMesh {
@@ -41,9 +42,9 @@ struct GpuModel {
   std::vector<GpuMesh> meshes;
   std::vector<GpuMaterial> materials;
   std::vector<int> mesh_of_node;  // or kNone
-  Box box;                        // [m] world, at rest
+  Box box;                        // [m] world, in the rest pose
 };
 
 GpuModel upload_model(Gpu& gpu, const Model& model, VkDescriptorSetLayout material_layout);
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -2,12 +2,12 @@
 
 #include "shaders/shared.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 namespace {
 
 constexpr int kReflectionSide = 64;  // [texels]
-constexpr int kSkySide = 256;        // [texels] 0.35 degrees each: the horizon is a line
+constexpr int kSkySide = 256;        // [texels] 0.35 degrees each, so that the horizon is a sharp line
 
 GpuImage upload_cube(Gpu& gpu, const PrefilteredCube& cube) {
   std::vector<std::vector<std::byte>> levels;
@@ -52,4 +52,4 @@ void upload_brdf(Gpu& gpu, const BrdfTable& table, LightTextures& into) {
   into.brdf_view = make_view(gpu, into.brdf, VK_IMAGE_VIEW_TYPE_2D);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

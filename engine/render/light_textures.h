@@ -1,18 +1,18 @@
-// Light on the GPU: the sky that is seen, what is reflected and what scatters, in the open and indoors, and the table
-// that both need.
+// Environment light on the GPU, outdoors and indoors: the visible sky, prefiltered reflections, irradiance, and the
+// BRDF table.
 #pragma once
 
 #include "engine/gpu/gpu_image.h"
 #include "engine/light/environment.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 struct LightMaps {
   PrefilteredCube sky;                   // sharp, one level
   PrefilteredCube reflections, indoors;  // by roughness
   Irradiance irradiance, irradiance_indoors;
 };
-LightMaps light_maps(const Radiance& open, const Radiance& indoors);  // needs no GPU
+LightMaps light_maps(const Radiance& open, const Radiance& indoors);  // CPU only
 
 struct LightTextures {
   GpuImage sky, reflections, indoors, brdf;
@@ -22,4 +22,4 @@ struct LightTextures {
 void upload_light(Gpu& gpu, const LightMaps& maps, LightTextures& into);
 void upload_brdf(Gpu& gpu, const BrdfTable& table, LightTextures& into);
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace gearshift {
+namespace gearshift::engine {
 
 std::array<const TextureUse*, shader::kMaps> maps_of(const Material& material) {
   return {&material.base_colour_map, &material.metal_rough_map, &material.normal_map, &material.occlusion_map,
@@ -31,7 +31,7 @@ shader::MaterialData data_of(const Material& material) {
   data.surface = {material.metallic, material.roughness, material.occlusion_strength, material.alpha_cutoff};
   const auto maps = maps_of(material);
   for (std::uint32_t map = 0; map < shader::kMaps; ++map) {
-    // Counter-clockwise as seen with v running down (KhronosGroup/glTF issue 1563: what loaders agree on).
+    // Counter-clockwise as seen with v pointing down, as loaders agree (KhronosGroup/glTF issue 1563).
     const float c = std::cos(maps[map]->rotation), s = std::sin(maps[map]->rotation);
     const glm::vec2 scale = maps[map]->scale;
     data.uv_matrix[map] = {c * scale.x, -s * scale.x, s * scale.y, c * scale.y};
@@ -40,4 +40,4 @@ shader::MaterialData data_of(const Material& material) {
   return data;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -8,11 +8,11 @@
 #include <glm/mat3x3.hpp>
 #include <glm/vec2.hpp>
 
-namespace gearshift {
+namespace gearshift::engine {
 
 namespace {
 
-constexpr float kNearest = 1e-3f;  // [m] of an eye to a mirror
+constexpr float kMinEyeDistance = 1e-3f;  // [m] minimum distance of an eye from a mirror
 
 glm::vec4 row(glm::vec3 axis, float at_zero, const MirrorWindow& window, float width) {
   return glm::vec4(axis, at_zero - glm::dot(axis, window.origin)) / width;
@@ -43,7 +43,7 @@ MirrorWindow mirror_window(const glm::mat4& world, const Box& mesh) {
 std::optional<View> mirror_view(const MirrorWindow& window, glm::vec3 eye) {
   const glm::vec3 from_origin = eye - window.origin;
   const float distance = glm::dot(from_origin, window.normal);
-  if (distance < kNearest || window.high.x <= window.low.x || window.high.y <= window.low.y) return std::nullopt;
+  if (distance < kMinEyeDistance || window.high.x <= window.low.x || window.high.y <= window.low.y) return std::nullopt;
   const double x = glm::dot(from_origin, window.right), y = glm::dot(from_origin, window.up);
   EyePose pose;
   pose.position = glm::dvec3(eye) - 2.0 * static_cast<double>(distance) * glm::dvec3(window.normal);
@@ -54,4 +54,4 @@ std::optional<View> mirror_view(const MirrorWindow& window, glm::vec3 eye) {
   return view_from(pose, through_window, d);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -4,7 +4,7 @@
 #include <glm/mat3x3.hpp>
 #include <glm/matrix.hpp>
 
-namespace gearshift {
+namespace gearshift::engine {
 
 glm::mat4 clip_from_world(const View& view) {
   return view.clip_from_view * view.view_from_world;
@@ -16,7 +16,7 @@ void set_views(shader::PassData& data, std::span<const View> views) {
     const glm::mat3 world_from_view = glm::transpose(glm::mat3(views[eye].view_from_world));
     data.clip_from_world[eye] = clip_from_world(views[eye]);
     data.eye[eye] = glm::vec4(views[eye].eye, 1.0f);
-    // x_clip = P00 x + P20 z and w = -z: at z = -1 the direction at x_clip is ((x_clip + P20) / P00, ...).
+    // x_clip = P00 x + P20 z and w = -z, so at z = -1 the direction for x_clip is ((x_clip + P20) / P00, ...).
     const glm::vec3 centre(clip[2][0] / clip[0][0], clip[2][1] / clip[1][1], -1.0f);
     data.sky_centre[eye] = glm::vec4(world_from_view * centre, 0.0f);
     data.sky_right[eye] = glm::vec4(world_from_view[0] / clip[0][0], 0.0f);
@@ -39,4 +39,4 @@ void set_mirror(shader::PassData& data, const MirrorWindow& window) {
   data.mirror_v = window.v_row();
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

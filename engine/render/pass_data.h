@@ -9,14 +9,14 @@
 #include "engine/scene/view.h"
 #include "shaders/shared.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 glm::mat4 clip_from_world(const View& view);
 
-// At most two views, one an eye: matrices, eyes, and the directions that the sky is seen in.
+// One or two views, one per eye: matrices, eye positions, and the directions for drawing the sky.
 void set_views(shader::PassData& data, std::span<const View> views);
 void set_sun(shader::PassData& data, const FrameScene& scene);
 void set_shadow(shader::PassData& data, const ShadowFit& fit, int side);
 void set_mirror(shader::PassData& data, const MirrorWindow& window);
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

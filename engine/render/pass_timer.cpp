@@ -1,6 +1,6 @@
 #include "engine/render/pass_timer.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 PassTimer::PassTimer(Gpu& gpu) : gpu_(gpu) {
   if (gpu.traits().timestamp_bits == 0) return;
@@ -20,7 +20,7 @@ void PassTimer::begin(VkCommandBuffer commands, int slot) {
   written_[index] = true;
   vkCmdResetQueryPool(commands, queries_.get(), first, kQueries);
   next_ = first;
-  next_nudge_ = first + kStamps;
+  next_flush_stamp_ = first + kStamps;
   end_ = first + kQueries;
   stamp(commands);
 }
@@ -30,14 +30,14 @@ void PassTimer::stamp(VkCommandBuffer commands) {
   vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_.get(), next_++);
 }
 
-void PassTimer::nudge(VkCommandBuffer commands) {
-  if (queries_ && next_nudge_ < end_)
-    vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_.get(), next_nudge_++);
+void PassTimer::stamp_to_flush(VkCommandBuffer commands) {
+  if (queries_ && next_flush_stamp_ < end_)
+    vkCmdWriteTimestamp2(commands, VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT, queries_.get(), next_flush_stamp_++);
 }
 
 void PassTimer::read(std::uint32_t first) {
   std::array<std::uint64_t, kStamps> stamps{};
-  // A frame that failed half-way left some unwritten: then the times stay what they were.
+  // A frame that failed half-way leaves some timestamps unwritten; the previous times are kept then.
   if (vkGetQueryPoolResults(gpu_.device(), queries_.get(), first, kStamps, sizeof stamps, stamps.data(),
                             sizeof stamps[0], VK_QUERY_RESULT_64_BIT) != VK_SUCCESS)
     return;
@@ -49,4 +49,4 @@ void PassTimer::read(std::uint32_t first) {
   times_ = {between(0, 1), between(1, 2), between(2, 3), between(3, 4), between(4, 5), between(0, 5)};
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

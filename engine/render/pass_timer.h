@@ -1,4 +1,4 @@
-// When the passes of a frame began and ended on the GPU.
+// Measures when the passes of a frame begin and end on the GPU.
 #pragma once
 
 #include <array>
@@ -6,27 +6,28 @@
 #include "engine/gpu/commands.h"
 #include "engine/render/renderer.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 class PassTimer {
  public:
   explicit PassTimer(Gpu& gpu);
 
-  // At the start of a frame: takes the times of the frame that used the slot before, which is finished.
+  // Call at the start of a frame. Reads the times of the previous, completed frame that used this slot.
   void begin(VkCommandBuffer commands, int slot);
-  void stamp(VkCommandBuffer commands);  // the end of a pass: shadow, depth, mirror, main, overlay
-  // A stamp that nobody reads: see Renderer::State::shade_soon(). Does nothing where a frame has too many.
-  void nudge(VkCommandBuffer commands);
+  void stamp(VkCommandBuffer commands);  // marks the end of a pass: shadow, depth, mirror, main, overlay
+  // Writes a timestamp that is not read, see Renderer::State::flush_collected_triangles(). Skipped once a frame has
+  // used all of its kFlushStamps.
+  void stamp_to_flush(VkCommandBuffer commands);
   const PassTimes& times() const noexcept { return times_; }
 
  private:
-  static constexpr std::uint32_t kStamps = 6, kNudges = 122, kQueries = kStamps + kNudges;
+  static constexpr std::uint32_t kStamps = 6, kFlushStamps = 122, kQueries = kStamps + kFlushStamps;
   void read(std::uint32_t first);
   Gpu& gpu_;
   QueryPool queries_;
   std::array<bool, kFramesInFlight> written_{};
-  std::uint32_t next_ = 0, next_nudge_ = 0, end_ = 0;
+  std::uint32_t next_ = 0, next_flush_stamp_ = 0, end_ = 0;
   PassTimes times_;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -1,4 +1,4 @@
-// A frame, pass by pass.
+// Draws a frame, pass by pass.
 #include <algorithm>
 #include <stdexcept>
 
@@ -9,13 +9,13 @@
 #include "engine/render/pass_data.h"
 #include "engine/render/renderer_state.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 namespace {
 
-constexpr std::uint32_t kCollected = 5000;  // [triangles]
+constexpr std::uint32_t kMaxCollectedTriangles = 5000;  // [triangles]
 
-// What the sun's shadow is looked up in: all of the model that lies in the scene's room for it.
+// The region that receives the sun's shadow: the part of the model inside the scene's shadow room.
 Box shadowed_box(const Box& model, const ShadowRoom& room) {
   const Box box{glm::max(model.low, room.low), glm::min(model.high, room.high)};
   return glm::all(glm::lessThan(box.low, box.high)) ? box : model;
@@ -25,13 +25,13 @@ VkRect2D whole(const GpuImage& image) {
   return {{0, 0}, image.extent()};
 }
 
-// The texels that an orthographic map may draw boxes on.
+// The texels that boxes can cover in an orthographic shadow map.
 VkRect2D texels_of(std::span<const DrawItem* const> items, const glm::mat4& clip_from_world, const GpuImage& map) {
   constexpr float kRounding = 2.0f;  // [texels]
   const glm::vec2 size(static_cast<float>(map.desc().width), static_cast<float>(map.desc().height));
   glm::vec2 low = size, high(0.0f);
   for (const DrawItem* item : items) {
-    const Box box = moved(clip_from_world, item->box);
+    const Box box = transformed(clip_from_world, item->box);
     low = glm::min(low, (0.5f * glm::vec2(box.low) + 0.5f) * size - kRounding);
     high = glm::max(high, (0.5f * glm::vec2(box.high) + 0.5f) * size + kRounding);
   }
@@ -58,13 +58,13 @@ void copy_depth(VkCommandBuffer commands, GpuImage& from, GpuImage& to, const Vk
 
 std::vector<glm::mat4> clips_of(std::span<const View> views, float margin) {
   std::vector<glm::mat4> clips;
-  const float share = 1.0f / (1.0f + margin);
-  const glm::mat4 wider = glm::scale(glm::mat4(1.0f), glm::vec3(share, share, 1.0f));
+  const float scale = 1.0f / (1.0f + margin);
+  const glm::mat4 wider = glm::scale(glm::mat4(1.0f), glm::vec3(scale, scale, 1.0f));
   for (const View& view : views) clips.push_back(wider * clip_from_world(view));
   return clips;
 }
 
-// Empty where some eye is behind the mirror.
+// Empty if either eye is behind the mirror.
 std::vector<View> mirrored_views(const MirrorWindow& window, std::span<const View> views) {
   std::vector<View> mirrored;
   for (const View& view : views) {
@@ -78,11 +78,11 @@ std::vector<View> mirrored_views(const MirrorWindow& window, std::span<const Vie
 void check_frame(const RenderConfig& config, const GpuModel& model, const FrameScene& scene,
                  std::span<const View> views) {
   if (views.size() != static_cast<std::size_t>(config.eyes))
-    throw std::invalid_argument("A frame needs one view an eye.");
+    throw std::invalid_argument("A frame needs one view per eye.");
   if (scene.nodes.size() != model.mesh_of_node.size())
-    throw std::invalid_argument("A frame's scene needs one state a node of the model.");
+    throw std::invalid_argument("A frame's scene needs one state per node of the model.");
   if (scene.mirror != kNone && (scene.mirror < 0 || static_cast<std::size_t>(scene.mirror) >= scene.nodes.size()))
-    throw std::invalid_argument("A frame's mirror is no node of the model.");
+    throw std::invalid_argument("A frame's mirror is not a node of the model.");
 }
 
 }  // namespace
@@ -104,7 +104,7 @@ std::uint64_t Renderer::State::draw(const FrameScene& scene, std::span<const Vie
   prepare(frame);
   draw_shadow(frame);
   timer.stamp(frame.commands);
-  ready_targets(frame);
+  prepare_targets(frame);
   draw_depth(frame);
   timer.stamp(frame.commands);
   draw_mirror(frame);
@@ -114,14 +114,14 @@ std::uint64_t Renderer::State::draw(const FrameScene& scene, std::span<const Vie
   draw_overlays(frame, overlays);
   timer.stamp(frame.commands);
   transition(frame.commands, picture.colour.image, ImageUse::copy_from);
-  if (picture.keeps_depth) transition(frame.commands, picture.kept_depth().image, ImageUse::copy_from);
+  if (picture.stores_depth) transition(frame.commands, picture.stored_depth().image, ImageUse::copy_from);
   if (finish == nullptr) return ring.end();
   finish->record(frame.commands, picture.colour.image, frame.slot_index);
-  follow(frame, finish->late_views());
+  apply_late_views(frame, finish->late_views());
   return ring.end(finish->wait_for, finish->then_signal);
 }
 
-// Empty where there is none, where no eye sees its box, or where some eye is behind it.
+// Empty if there is no mirror, if no eye sees its bounding box, or if either eye is behind it.
 std::optional<MirrorOfFrame> Renderer::State::mirror_of(const Frame& frame) const {
   const FrameScene& scene = *frame.scene;
   if (scene.mirror == kNone || config.mirror_height == 0) return std::nullopt;
@@ -129,33 +129,34 @@ std::optional<MirrorOfFrame> Renderer::State::mirror_of(const Frame& frame) cons
   const int mesh = model.mesh_of_node[node];
   if (mesh == kNone || !scene.nodes[node].visible) return std::nullopt;
   const Box& box = model.meshes[static_cast<std::size_t>(mesh)].box;
-  if (!Frusta(frame.clips).see(moved(scene.nodes[node].world, box))) return std::nullopt;
+  if (!Frusta(frame.clips).intersects(transformed(scene.nodes[node].world, box))) return std::nullopt;
   MirrorOfFrame mirrored{mirror_window(scene.nodes[node].world, box), {}};
   mirrored.views = mirrored_views(mirrored.window, frame.views);
   if (mirrored.views.empty()) return std::nullopt;
   return mirrored;
 }
 
-// What is recorded reads its views from memory when it runs: until it is submitted they may be written again.
-void Renderer::State::follow(Frame& frame, std::span<const View> late) {
+// The recorded commands read the views from memory when they execute, so the views may still be changed until the
+// submission.
+void Renderer::State::apply_late_views(Frame& frame, std::span<const View> late) {
   if (late.empty()) return;
-  if (late.size() != frame.views.size()) throw std::invalid_argument("A frame needs one late view an eye.");
+  if (late.size() != frame.views.size()) throw std::invalid_argument("A frame needs one late view per eye.");
   set_views(frame.data, late);
   frame.slot->write_pass(PassKind::depth, frame.data);
   frame.slot->write_pass(PassKind::main, frame.data);
   if (!frame.mirror) return;
   const std::vector<View> mirrored = mirrored_views(frame.mirror->window, late);
-  if (mirrored.empty()) return;  // an eye went behind it: it shows what it did
+  if (mirrored.empty()) return;  // an eye moved behind the mirror: keep its earlier picture
   shader::PassData data = frame.data;
   set_views(data, mirrored);
   frame.slot->write_pass(PassKind::mirror, data);
 }
 
-// Writes what the GPU reads of this frame, and lists what there is to draw.
+// Writes the buffers that the GPU reads in this frame, and lists the draws.
 void Renderer::State::prepare(Frame& frame) {
   for (const View& view : frame.views) frame.eye += view.eye / static_cast<float>(frame.views.size());
   frame.slot->write_objects(gpu, *frame.scene);
-  const std::vector<DeformedPlace> deformed = frame.slot->write_deformed(gpu, model, frame.scene->deformed);
+  const std::vector<DeformedRange> deformed = frame.slot->write_deformed(gpu, model, frame.scene->deformed);
   frame.items = list_items(model, *frame.scene, deformed);
   for (DrawItem& item : frame.items)
     item.shows_mirror = frame.mirror.has_value() && item.node == static_cast<std::uint32_t>(frame.scene->mirror);
@@ -166,29 +167,29 @@ void Renderer::State::prepare(Frame& frame) {
   if (frame.mirror) set_mirror(frame.data, frame.mirror->window);
 }
 
-// The casters that stand still are drawn when they change, and copied where others were drawn over them: most of a cabin
-// never moves.
+// Static casters are drawn into a map of their own when they change. That map is then copied over the texels where
+// moving casters were drawn, because most of a cabin never moves.
 void Renderer::State::draw_shadow(Frame& frame) {
   if (config.shadow_side == 0) return;
-  const std::vector<glm::vec3> seen = seen_corners(shadowed_box(model.box, frame.scene->shadow_room), frame.clips);
+  const std::vector<glm::vec3> seen = visible_corners(shadowed_box(model.box, frame.scene->shadow_room), frame.clips);
   const ShadowFit fit = fit_shadow(seen, frame.scene->sun.towards, config.shadow_side);
   set_shadow(frame.data, fit, config.shadow_side);
   shader::PassData data = frame.data;
   data.clip_from_world[0] = fit.clip_from_world;
   frame.slot->write_pass(PassKind::shadow, data);
 
-  const bool anew = still_casters.changed(fit, *frame.scene, frame.items);
+  const bool redraw_static = static_casters.update(fit, *frame.scene, frame.items);
   const DrawList casters = list_draws(frame.items, Frusta({&fit.clip_from_world, 1}), frame.eye);
   std::vector<const DrawItem*> still, moving;
-  for (const DrawItem* item : casters.solid) (still_casters.stands_still(item->node) ? still : moving).push_back(item);
-  if (anew) {
-    shadow_touched = whole(shadow.depth);
-    forget(shadow.still);
+  for (const DrawItem* item : casters.solid) (static_casters.is_static(item->node) ? still : moving).push_back(item);
+  if (redraw_static) {
+    dirty_shadow_texels = whole(shadow.depth);
+    discard_content(shadow.still);
     transition(frame.commands, shadow.still, ImageUse::depth_target);
     draw_casters(frame, shadow.still_view.get(), VK_ATTACHMENT_LOAD_OP_CLEAR, still);
   }
-  copy_depth(frame.commands, shadow.still, shadow.depth, shadow_touched);
-  shadow_touched = texels_of(moving, fit.clip_from_world, shadow.depth);
+  copy_depth(frame.commands, shadow.still, shadow.depth, dirty_shadow_texels);
+  dirty_shadow_texels = texels_of(moving, fit.clip_from_world, shadow.depth);
   if (!moving.empty()) {
     transition(frame.commands, shadow.depth, ImageUse::depth_target);
     draw_casters(frame, shadow.view.get(), VK_ATTACHMENT_LOAD_OP_LOAD, moving);
@@ -208,23 +209,23 @@ void Renderer::State::draw_casters(const Frame& frame, VkImageView view, VkAttac
   vkCmdEndRendering(frame.commands);
 }
 
-// All that depth, mirror and main pass draw into, before the first of them: between two passes a barrier makes a software
-// driver wait for the first.
-void Renderer::State::ready_targets(const Frame& frame) {
+// Prepares all targets of the depth, mirror and main passes before the first of them: a barrier between two passes
+// would make a software driver wait for the earlier pass.
+void Renderer::State::prepare_targets(const Frame& frame) {
   const auto ready = [&](GpuImage& image, ImageUse use) {
-    forget(image);
+    discard_content(image);
     transition(frame.commands, image, use);
   };
   ready(picture.drawn().image, ImageUse::colour_target);
   ready(picture.depth.image, ImageUse::depth_target);
-  if (picture.keeps_depth && picture.multisampled) ready(picture.one_depth.image, ImageUse::depth_resolved);
+  if (picture.stores_depth && picture.multisampled) ready(picture.one_depth.image, ImageUse::depth_resolved);
   if (!frame.mirror) return;
   ready(mirror.colour.image, ImageUse::colour_target);
   ready(mirror.depth.image, ImageUse::depth_target);
 }
 
-// Depth first, so that each pixel is shaded once. At four samples a software driver loses more by the second pass over
-// the triangles than it saves.
+// Depth prepass, so that each pixel is shaded once. With four samples, a software driver loses more time on the second
+// pass over the triangles than it saves.
 void Renderer::State::draw_depth(Frame& frame) {
   if (picture.multisampled) return;
   frame.slot->write_pass(PassKind::depth, frame.data);
@@ -241,7 +242,7 @@ void Renderer::State::draw_mirror(Frame& frame) {
   shader::PassData data = frame.data;
   set_views(data, frame.mirror->views);
   frame.slot->write_pass(PassKind::mirror, data);
-  std::vector<DrawItem> others = frame.items;  // a mirror does not see itself
+  std::vector<DrawItem> others = frame.items;  // the mirror is not visible in itself
   std::erase_if(others,
                 [&](const DrawItem& item) { return item.node == static_cast<std::uint32_t>(frame.scene->mirror); });
   const DrawList list =
@@ -261,7 +262,7 @@ void Renderer::State::resolve(VkCommandBuffer commands) {
   GpuImage& from = picture.samples.image;
   GpuImage& to = picture.colour.image;
   transition(commands, from, ImageUse::copy_from);
-  forget(to);
+  discard_content(to);
   transition(commands, to, ImageUse::copy_to);
   const VkImageSubresourceLayers layers{.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .layerCount = to.desc().layers};
   const VkImageResolve region{
@@ -284,7 +285,7 @@ void Renderer::State::draw_overlays(const Frame& frame, std::span<Overlay* const
   }
 }
 
-void Renderer::State::keep(Attachment& depth, EyeGroup eyes) const {
+void Renderer::State::store_depth(Attachment& depth, EyeGroup eyes) const {
   if (picture.multisampled)
     depth.resolved = view_of(picture.one_depth, eyes);
   else
@@ -295,14 +296,15 @@ VkImageView Renderer::State::view_of(const EyeImage& image, EyeGroup eyes) const
   return layered ? image.all.get() : image.one[eyes.first].get();
 }
 
-// Solid, sky, blended: for all eyes at once, or for each into its layer.
+// Draws solid items, sky and blended items: for all eyes at once, or for each eye into its layer.
 void Renderer::State::draw_eyes(const Frame& frame, PassKind pass, EyeImage& colour, EyeImage& depth,
                                 const DrawList& list) {
   for (const EyeGroup eyes : eye_groups()) {
     const Attachment drawn{.view = view_of(colour, eyes)};
     Attachment deep{.view = view_of(depth, eyes), .store = VK_ATTACHMENT_STORE_OP_DONT_CARE};
-    if (pass == PassKind::main && !picture.multisampled) deep.load = VK_ATTACHMENT_LOAD_OP_LOAD;  // draw_depth()
-    if (pass == PassKind::main && picture.keeps_depth) keep(deep, eyes);
+    // filled by draw_depth()
+    if (pass == PassKind::main && !picture.multisampled) deep.load = VK_ATTACHMENT_LOAD_OP_LOAD;
+    if (pass == PassKind::main && picture.stores_depth) store_depth(deep, eyes);
     begin_rendering(frame.commands, colour.image.extent(), eyes.count, &drawn, &deep);
     record(frame, pass, list.solid, eyes);
     const VkDescriptorSet set = frame.slot->set(pass);
@@ -328,22 +330,22 @@ void Renderer::State::record(const Frame& frame, PassKind pass, std::span<const 
     bind_item(frame, pass, *item, before);
     vkCmdDrawIndexed(frame.commands, item->part->index_count, eyes.count, item->part->first_index, item->vertex_offset,
                      eyes.first);
-    shade_soon(frame, item->part->index_count / 3 * eyes.count);
+    flush_collected_triangles(frame, item->part->index_count / 3 * eyes.count);
     before = item;
   }
 }
 
-// A software driver collects the triangles of a pass, on one thread, and begins to shade when there is no room for more;
-// a stamp makes it begin.
-void Renderer::State::shade_soon(const Frame& frame, std::uint32_t triangles) {
+// A software driver collects the triangles of a pass on one thread, and starts shading only when its buffer is full.
+// Writing a timestamp makes it start.
+void Renderer::State::flush_collected_triangles(const Frame& frame, std::uint32_t triangles) {
   if (!gpu.traits().is_cpu) return;
-  collected += triangles;
-  if (collected < kCollected) return;
-  timer.nudge(frame.commands);
-  collected = 0;
+  collected_triangles += triangles;
+  if (collected_triangles < kMaxCollectedTriangles) return;
+  timer.stamp_to_flush(frame.commands);
+  collected_triangles = 0;
 }
 
-// What differs from the item drawn before.
+// Binds only what differs from the previous item.
 void Renderer::State::bind_item(const Frame& frame, PassKind pass, const DrawItem& item, const DrawItem* before) {
   const FeatureChoice choice{config.shadow_side != 0, config.normal_maps};
   const std::uint32_t features = features_in(pass, item, choice);
@@ -357,8 +359,8 @@ void Renderer::State::bind_item(const Frame& frame, PassKind pass, const DrawIte
     const VkDeviceSize offset = 0;
     vkCmdBindVertexBuffers(frame.commands, 0, 1, &vertices, &offset);
   }
-  // The clip space's y runs down: what glTF winds counter-clockwise still is, seen in the framebuffer. A thin shell
-  // shadows with both its faces.
+  // Clip space has y down, so glTF's counter-clockwise triangles are still counter-clockwise in the framebuffer. For
+  // shadows, both faces of a thin shell are drawn.
   const bool both = item.material->double_sided || pass == PassKind::shadow;
   vkCmdSetCullMode(frame.commands, both ? VK_CULL_MODE_NONE : VK_CULL_MODE_BACK_BIT);
   vkCmdSetFrontFace(frame.commands, item.mirrored ? VK_FRONT_FACE_CLOCKWISE : VK_FRONT_FACE_COUNTER_CLOCKWISE);
@@ -367,4 +369,4 @@ void Renderer::State::bind_item(const Frame& frame, PassKind pass, const DrawIte
                      0, sizeof data, &data);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

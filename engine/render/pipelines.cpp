@@ -16,12 +16,12 @@
 #include "shaders/sky_layered_vert.h"
 #include "shaders/sky_vert.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 namespace {
 
-// Against a surface shadowing itself: away from the sun (reverse-Z: less), by the slope of the surface in the map.
-// What is left is the normal offset's in mesh_vertex.glsl.
+// Avoids self-shadowing: pushes depth away from the sun (reverse-Z: smaller) by the slope of the surface in the map.
+// The normal offset in mesh_vertex.glsl takes care of the rest.
 constexpr float kShadowSlopeBias = -1.5f;
 
 VertexInput vertex_input() {
@@ -59,7 +59,8 @@ SetLayout material_layout(const Gpu& gpu) {
   return make_set_layout(gpu, bindings);
 }
 
-// Spherical harmonics (engine/light/irradiance.cpp) multiplied out; c6 (3 z^2 - 1) gives a constant and a square.
+// Expands the spherical harmonics (engine/light/irradiance.cpp) to a polynomial; c6 (3 z^2 - 1) gives a constant and a
+// square.
 std::array<glm::vec3, shader::kIrradianceTerms> polynomial_of(const Irradiance& light) {
   constexpr std::array kFactor{0.282095f, 0.488603f, 0.488603f, 0.488603f, 1.092548f,
                                1.092548f, 0.946176f, 1.092548f, 0.546274f};
@@ -164,4 +165,4 @@ Pipeline Pipelines::make_sky(PassKind pass) const {
   return make_pipeline(gpu_, desc);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

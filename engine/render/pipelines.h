@@ -1,4 +1,4 @@
-// Pipelines by what a draw has to do, made when first needed.
+// Pipelines, chosen by what a draw needs and created on first use.
 #pragma once
 
 #include <array>
@@ -11,17 +11,17 @@
 #include "engine/light/environment.h"
 #include "shaders/shared.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
-enum class PassKind : std::uint8_t { shadow, mirror, main, depth };  // depth: the main pass's, before it
+enum class PassKind : std::uint8_t { shadow, mirror, main, depth };  // depth: prepass of the main pass
 inline constexpr std::array kPasses{PassKind::shadow, PassKind::mirror, PassKind::main, PassKind::depth};
 inline constexpr std::size_t kPassKinds = kPasses.size();
 
-inline constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;            // reverse-Z wants a float
-inline constexpr VkFormat kShadowFormat = VK_FORMAT_D16_UNORM;            // every device draws and samples it
+inline constexpr VkFormat kDepthFormat = VK_FORMAT_D32_SFLOAT;            // reverse-Z needs floating point
+inline constexpr VkFormat kShadowFormat = VK_FORMAT_D16_UNORM;            // every device can render to it and sample it
 inline constexpr VkFormat kMirrorFormat = VK_FORMAT_R16G16B16A16_SFLOAT;  // radiance
 
-// Set and pipeline layouts: those of shaders/shared.h.
+// Descriptor set and pipeline layouts that match shaders/shared.h.
 struct RenderLayouts {
   explicit RenderLayouts(const Gpu& gpu);
   SetLayout pass, material;
@@ -32,7 +32,7 @@ class Pipelines {
  public:
   Pipelines(const Gpu& gpu, const RenderLayouts& layouts, VkSampleCountFlagBits samples, bool layered,
             const Irradiance& open, const Irradiance& indoors);
-  VkPipeline mesh(PassKind pass, std::uint32_t features);  // features: of the pass, see features_in()
+  VkPipeline mesh(PassKind pass, std::uint32_t features);  // features: those of the pass, see features_in()
   VkPipeline sky(PassKind pass);
 
  private:
@@ -47,7 +47,7 @@ class Pipelines {
   const RenderLayouts& layouts_;
   VkSampleCountFlagBits samples_;
   bool layered_;
-  // Of a shader, the first is the features.
+  // Specialization constants of a shader; the first one is its features.
   using Constants = std::array<std::uint32_t, 1 + 3 * shader::kIrradianceTerms>;
   static Constants constants_of(const Irradiance& light);
   Constants open_, indoors_;
@@ -55,4 +55,4 @@ class Pipelines {
   std::map<PassKind, Pipeline> skies_;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -10,7 +10,7 @@
 #include "engine/render/renderer_state.h"
 #include "engine/render/samplers.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 namespace {
 
@@ -18,15 +18,15 @@ void check_config(const Gpu& gpu, const RenderConfig& config) {
   const auto within = [](int value, int low, int high) { return value >= low && value <= high; };
   if (!within(config.width, 1, 16384) || !within(config.height, 1, 16384))
     throw std::invalid_argument("A picture is 1 to 16384 pixels wide and high.");
-  if (!within(config.eyes, 1, 2)) throw std::invalid_argument("A picture has one eye or two.");
-  if (config.samples != 1 && config.samples != 4) throw std::invalid_argument("A pixel has 1 sample or 4.");
+  if (!within(config.eyes, 1, 2)) throw std::invalid_argument("A picture has one or two eyes.");
+  if (config.samples != 1 && config.samples != 4) throw std::invalid_argument("A pixel has 1 or 4 samples.");
   if (config.shadow_side != 0 && !within(config.shadow_side, 16, 8192))
-    throw std::invalid_argument("A shadow map has 16 to 8192 texels a side, or 0: none.");
+    throw std::invalid_argument("A shadow map has 16 to 8192 texels per side, or 0 for none.");
   if (!within(config.mirror_height, 0, 2048)) throw std::invalid_argument("A mirror is 0 to 2048 pixels high.");
   if (!(config.late_margin >= 0.0f && config.late_margin <= 1.0f))
-    throw std::invalid_argument("Late views have a margin of 0 to 1.");
+    throw std::invalid_argument("The margin of late views is 0 to 1.");
   if (config.samples == 4 && !gpu.traits().four_samples)
-    throw GpuError("The device has no four samples a pixel: " + gpu.traits().name + ".");
+    throw GpuError("The device does not support 4 samples per pixel: " + gpu.traits().name + ".");
   if (config.eyes == 2 && config.eye_passes == EyePasses::layered && !gpu.traits().layered_vertex)
     throw GpuError("The device cannot draw both eyes in one pass: " + gpu.traits().name + ".");
 }
@@ -78,8 +78,9 @@ Renderer::State::State(Gpu& device, const RenderConfig& wanted)
     }
     slot = FrameSlot(gpu, of_slot);
   }
-  no_mirror = MirrorTarget(gpu, {1, 1}, 1);
-  run_once(gpu, [&](VkCommandBuffer commands) { transition(commands, no_mirror.colour.image, ImageUse::sampled); });
+  mirror_placeholder = MirrorTarget(gpu, {1, 1}, 1);
+  run_once(gpu,
+           [&](VkCommandBuffer commands) { transition(commands, mirror_placeholder.colour.image, ImageUse::sampled); });
   make_picture();
   make_shadow();
   drop_mirror();
@@ -87,7 +88,7 @@ Renderer::State::State(Gpu& device, const RenderConfig& wanted)
   set_light(maps.get());
 }
 
-// These make images and pipelines for the configuration. No frame is in flight.
+// Create images and pipelines for the configuration. Must not be called while a frame is in flight.
 void Renderer::State::make_picture() {
   const auto eyes = static_cast<std::uint32_t>(config.eyes);
   const VkExtent2D extent{static_cast<std::uint32_t>(config.width), static_cast<std::uint32_t>(config.height)};
@@ -96,7 +97,7 @@ void Renderer::State::make_picture() {
 }
 
 void Renderer::State::make_shadow() {
-  still_casters.forget();
+  static_casters.reset();
   shadow = ShadowTarget(gpu, static_cast<std::uint32_t>(std::max(1, config.shadow_side)));
   run_once(gpu, [&](VkCommandBuffer commands) { transition(commands, shadow.depth, ImageUse::sampled); });
   for (const FrameSlot& slot : slots) {
@@ -105,13 +106,13 @@ void Renderer::State::make_shadow() {
   }
 }
 
-// It is made again when it is seen.
+// It is created again when a mirror is visible.
 void Renderer::State::drop_mirror() {
   mirror = MirrorTarget();
   bind_mirror();
 }
 
-// A window that is dragged compiles nothing: only what the change touches is made anew.
+// Recreates only what the change affects, so that dragging a window's border compiles nothing.
 void Renderer::State::resize(const RenderConfig& wanted) {
   const RenderConfig before = std::exchange(config, wanted);
   const bool was_layered = layered;
@@ -140,10 +141,11 @@ void Renderer::State::set_light(const LightMaps& maps) {
 
 void Renderer::State::set_model(const Model& content) {
   model = upload_model(gpu, content, layouts.material.get());
-  still_casters.forget();
+  static_casters.reset();
 }
 
-// The mirror's picture has the aspect of the mirror: made when a mirror is first seen, or another one.
+// The mirror's image has the aspect ratio of the mirror; it is created when a mirror is first visible or has another
+// shape.
 void Renderer::State::fit_mirror(const MirrorWindow& window) {
   const VkExtent2D extent = mirror_extent(window, config.mirror_height), now = mirror.colour.image.extent();
   if (mirror.colour.all && extent.width == now.width && extent.height == now.height) return;
@@ -154,7 +156,8 @@ void Renderer::State::fit_mirror(const MirrorWindow& window) {
 }
 
 void Renderer::State::bind_mirror() {
-  const VkImageView none = no_mirror.colour.all.get(), shown = mirror.colour.all ? mirror.colour.all.get() : none;
+  const VkImageView none = mirror_placeholder.colour.all.get(),
+                    shown = mirror.colour.all ? mirror.colour.all.get() : none;
   for (const FrameSlot& slot : slots) {
     for (const PassKind pass : kPasses)
       bind_texture(gpu, slot.set(pass), shader::kBindMirror, pass == PassKind::main ? shown : none, clamped.get());
@@ -206,7 +209,7 @@ GpuImage& Renderer::colour() noexcept {
 }
 
 GpuImage& Renderer::depth() noexcept {
-  return state_->picture.kept_depth().image;
+  return state_->picture.stored_depth().image;
 }
 
 Image Renderer::read_eye(int eye) {
@@ -226,4 +229,4 @@ bool Renderer::layered() const noexcept {
   return state_->layered;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -1,4 +1,4 @@
-// What a renderer keeps: renderer.cpp makes it, passes.cpp draws with it.
+// State of a renderer: set up by renderer.cpp, used for drawing by passes.cpp.
 #pragma once
 
 #include <array>
@@ -13,42 +13,42 @@
 #include "engine/render/mirror_view.h"
 #include "engine/render/pass_timer.h"
 #include "engine/render/renderer.h"
-#include "engine/render/still_casters.h"
+#include "engine/render/static_casters.h"
 #include "engine/render/targets.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
-// The mirror of this frame: its window, and the mirrored views by eye.
+// The mirror of this frame: its window, and the mirrored views of the eyes.
 struct MirrorOfFrame {
   MirrorWindow window;
   std::vector<View> views;
 };
 
-// What one frame works with.
+// Data of one frame while it is recorded.
 struct Frame {
   VkCommandBuffer commands = VK_NULL_HANDLE;
   FrameSlot* slot = nullptr;
   int slot_index = 0;
   const FrameScene* scene = nullptr;
   std::span<const View> views;
-  std::vector<glm::mat4> clips;  // what may be seen: of the views, a late margin wider
+  std::vector<glm::mat4> clips;  // clip matrices for culling: of the views, widened by late_margin
   std::optional<MirrorOfFrame> mirror;
   glm::vec3 eye{0.0f};  // midway between the eyes
   std::vector<DrawItem> items;
   DrawList list;            // of the main pass
-  shader::PassData data{};  // what the passes have in common
+  shader::PassData data{};  // uniforms common to the passes
 };
 
-// Eyes that are drawn by one recording: all of them into the layers of an image, or one into its layer.
+// Eyes that are drawn by one recording: all of them into the layers of an image, or a single one into its layer.
 struct EyeGroup {
   std::uint32_t first = 0, count = 1;
 };
 
 struct Renderer::State {
   State(Gpu& device, const RenderConfig& wanted);
-  ~State() { gpu.wait_idle(); }  // nothing dies while a frame uses it
+  ~State() { gpu.wait_idle(); }  // no object may be destroyed while a frame uses it
 
-  // renderer.cpp
+  // in renderer.cpp
   void make_picture();
   void make_shadow();
   void drop_mirror();
@@ -60,7 +60,7 @@ struct Renderer::State {
   void bind_mirror();
   std::vector<EyeGroup> eye_groups() const;
 
-  // passes.cpp
+  // in passes.cpp
   std::uint64_t draw(const FrameScene& scene, std::span<const View> views, std::span<Overlay* const> overlays,
                      Finish* finish);
   std::optional<MirrorOfFrame> mirror_of(const Frame& frame) const;
@@ -68,18 +68,18 @@ struct Renderer::State {
   void draw_shadow(Frame& frame);
   void draw_casters(const Frame& frame, VkImageView view, VkAttachmentLoadOp load,
                     std::span<const DrawItem* const> casters);
-  void ready_targets(const Frame& frame);
+  void prepare_targets(const Frame& frame);
   void draw_depth(Frame& frame);
   void draw_mirror(Frame& frame);
   void draw_main(Frame& frame);
   void resolve(VkCommandBuffer commands);
-  void follow(Frame& frame, std::span<const View> late);
+  void apply_late_views(Frame& frame, std::span<const View> late);
   void draw_overlays(const Frame& frame, std::span<Overlay* const> overlays);
-  void keep(Attachment& depth, EyeGroup eyes) const;
+  void store_depth(Attachment& depth, EyeGroup eyes) const;
   VkImageView view_of(const EyeImage& image, EyeGroup eyes) const;
   void draw_eyes(const Frame& frame, PassKind pass, EyeImage& colour, EyeImage& depth, const DrawList& list);
   void record(const Frame& frame, PassKind pass, std::span<const DrawItem* const> items, EyeGroup eyes);
-  void shade_soon(const Frame& frame, std::uint32_t triangles);
+  void flush_collected_triangles(const Frame& frame, std::uint32_t triangles);
   void bind_item(const Frame& frame, PassKind pass, const DrawItem& item, const DrawItem* before);
 
   Gpu& gpu;
@@ -92,15 +92,16 @@ struct Renderer::State {
   std::array<FrameSlot, kFramesInFlight> slots;
   LightTextures light;
   ShadowTarget shadow;
-  StillCasters still_casters;
-  VkRect2D shadow_touched{};       // what else than still casters the map shows lies in these texels
-  MirrorTarget no_mirror, mirror;  // no_mirror: one black texel, for the pass that draws the other
+  StaticCasters static_casters;
+  VkRect2D dirty_shadow_texels{};  // texels of the map that show moving casters
+  // mirror_placeholder: one black texel, bound while the mirror itself is drawn
+  MirrorTarget mirror_placeholder, mirror;
   PictureTarget picture;
   std::unique_ptr<Pipelines> pipelines;
   GpuModel model;
   bool layered = false;
   int draws = 0;
-  std::uint32_t collected = 0;  // [triangles] since the driver was last told to shade
+  std::uint32_t collected_triangles = 0;  // [triangles] since the last flush
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -1,6 +1,6 @@
 #include "engine/render/samplers.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 namespace {
 
@@ -30,7 +30,7 @@ Sampler picture_sampler(const Gpu& gpu) {
   return make_sampler(gpu, {.u = kClamp, .v = kClamp});
 }
 
-// Between two levels of roughness only where that is cheap, which it is not on a software driver.
+// Interpolating between two roughness levels is expensive on a software driver, so it is off there.
 Sampler reflection_sampler(const Gpu& gpu) {
   if (!gpu.traits().is_cpu) return picture_sampler(gpu);
   const VkSamplerCreateInfo info{.sType = VK_STRUCTURE_TYPE_SAMPLER_CREATE_INFO,
@@ -50,4 +50,4 @@ Sampler shadow_sampler(const Gpu& gpu) {
   return make_sampler(gpu, {.linear = false, .u = kClamp, .v = kClamp, .mips = false, .compare = true});
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

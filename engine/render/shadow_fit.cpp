@@ -10,14 +10,14 @@
 #include <glm/matrix.hpp>
 #include <glm/vector_relational.hpp>
 
-namespace gearshift {
+namespace gearshift::engine {
 
 namespace {
 
-constexpr int kSteps = 16;               // of the middle, a width
-constexpr double kNarrowest = 1e-3;      // [m]
-constexpr double kLadder = 1.189207115;  // 2^(1/4)
-constexpr double kDepthStep = 0.25;      // [m] of the deepest point
+constexpr int kStepsPerWidth = 16;           // positions of the map's centre per width
+constexpr double kMinWidth = 1e-3;           // [m]
+constexpr double kWidthRatio = 1.189207115;  // 2^(1/4), between consecutive map widths
+constexpr double kDepthStep = 0.25;          // [m] rounding of the deepest point
 
 struct Corner {
   glm::vec3 world;
@@ -39,7 +39,7 @@ Polygon clipped(const Polygon& polygon, glm::vec4 plane) {
   return kept;
 }
 
-// Left, right, top, bottom. The near plane is left out: the pyramid's tip stands for it.
+// Left, right, top, bottom. The near plane is omitted: the pyramid extends to its apex instead.
 constexpr std::array<glm::vec4, 4> kSides{{{1, 0, 0, 1}, {-1, 0, 0, 1}, {0, 1, 0, 1}, {0, -1, 0, 1}}};
 
 std::array<glm::vec3, 8> corners_of(const Box& box) {
@@ -51,20 +51,20 @@ std::array<glm::vec3, 8> corners_of(const Box& box) {
 
 constexpr int kFaces[6][4] = {{0, 1, 3, 2}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 3, 7, 6}, {0, 2, 6, 4}, {1, 3, 7, 5}};
 
-// Where all four sides meet: clip x = y = w = 0.
-glm::vec3 tip_of(const glm::mat4& clip_from_world) {
+// The point where all four sides meet: clip x = y = w = 0.
+glm::vec3 apex_of(const glm::mat4& clip_from_world) {
   const glm::mat4 rows = glm::transpose(clip_from_world);
   const glm::mat3 system = glm::transpose(glm::mat3(glm::vec3(rows[0]), glm::vec3(rows[1]), glm::vec3(rows[3])));
   return glm::inverse(system) * -glm::vec3(rows[0].w, rows[1].w, rows[3].w);
 }
 
-bool holds(const Box& box, glm::vec3 point) {
+bool contains(const Box& box, glm::vec3 point) {
   return glm::all(glm::lessThanEqual(box.low, point)) && glm::all(glm::lessThanEqual(point, box.high));
 }
 
 }  // namespace
 
-std::vector<glm::vec3> seen_corners(const Box& box, std::span<const glm::mat4> clip_from_world) {
+std::vector<glm::vec3> visible_corners(const Box& box, std::span<const glm::mat4> clip_from_world) {
   const std::array<glm::vec3, 8> corners = corners_of(box);
   std::vector<glm::vec3> seen;
   for (const glm::mat4& clip : clip_from_world) {
@@ -77,7 +77,7 @@ std::vector<glm::vec3> seen_corners(const Box& box, std::span<const glm::mat4> c
       for (const glm::vec4& side : kSides) polygon = clipped(polygon, side);
       for (const Corner& corner : polygon) seen.push_back(corner.world);
     }
-    if (const glm::vec3 tip = tip_of(clip); holds(box, tip)) seen.push_back(tip);
+    if (const glm::vec3 tip = apex_of(clip); contains(box, tip)) seen.push_back(tip);
   }
   if (seen.empty()) seen.assign(corners.begin(), corners.end());
   return seen;
@@ -85,8 +85,8 @@ std::vector<glm::vec3> seen_corners(const Box& box, std::span<const glm::mat4> c
 
 ShadowFit fit_shadow(std::span<const glm::vec3> points, glm::vec3 towards_sun, int side) {
   const glm::dvec3 z = glm::normalize(glm::dvec3(towards_sun));
-  const glm::dvec3 aside = std::abs(z.y) < 0.99 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(1.0, 0.0, 0.0);
-  const glm::dvec3 x = glm::normalize(glm::cross(aside, z)), y = glm::cross(z, x);
+  const glm::dvec3 not_parallel = std::abs(z.y) < 0.99 ? glm::dvec3(0.0, 1.0, 0.0) : glm::dvec3(1.0, 0.0, 0.0);
+  const glm::dvec3 x = glm::normalize(glm::cross(not_parallel, z)), y = glm::cross(z, x);
 
   glm::dvec3 low(1e30), high(-1e30);
   for (const glm::vec3& point : points) {
@@ -94,12 +94,12 @@ ShadowFit fit_shadow(std::span<const glm::vec3> points, glm::vec3 towards_sun, i
     low = glm::min(low, seen);
     high = glm::max(high, seen);
   }
-  // Wide enough for a middle that is rounded to whole steps.
-  const int inner = side - 2 * kShadowMargin, texels_a_step = std::max(1, inner / kSteps);
-  const double slack = 1.0 - static_cast<double>(texels_a_step) / inner;
-  const double needed = std::max({high.x - low.x, high.y - low.y, kNarrowest}) / slack;
-  const double width = std::pow(kLadder, std::ceil(std::log(needed) / std::log(kLadder)));
-  const double texel = width / inner, step = texel * texels_a_step, half = 0.5 * texel * side;
+  // Wide enough even after the centre is rounded to whole steps.
+  const int inner = side - 2 * kShadowMargin, texels_per_step = std::max(1, inner / kStepsPerWidth);
+  const double slack = 1.0 - static_cast<double>(texels_per_step) / inner;
+  const double needed = std::max({high.x - low.x, high.y - low.y, kMinWidth}) / slack;
+  const double width = std::pow(kWidthRatio, std::ceil(std::log(needed) / std::log(kWidthRatio)));
+  const double texel = width / inner, step = texel * texels_per_step, half = 0.5 * texel * side;
   const glm::dvec2 middle = step * glm::round(0.5 * glm::dvec2(low + high) / step);
   const double deepest = kDepthStep * std::floor(low.z / kDepthStep);
   const double highest = kDepthStep * std::ceil(high.z / kDepthStep);
@@ -119,4 +119,4 @@ ShadowFit fit_shadow(std::span<const glm::vec3> points, glm::vec3 towards_sun, i
   return {glm::mat4(clip), glm::mat4(texture * clip), static_cast<float>(texel)};
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -1,6 +1,6 @@
 #include "engine/render/targets.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 namespace {
 
@@ -22,7 +22,7 @@ VkRenderingAttachmentInfo attachment_info(const Attachment& attachment, ImageUse
           .resolveImageView = attachment.resolved,
           .resolveImageLayout = resolves ? layout_of(ImageUse::depth_resolved) : VK_IMAGE_LAYOUT_UNDEFINED,
           .loadOp = attachment.load,
-          .storeOp = attachment.store};  // cleared to zero: black, and reverse-Z's infinity
+          .storeOp = attachment.store};  // cleared to zero: black, and infinite distance in reverse-Z
 }
 
 }  // namespace
@@ -33,10 +33,10 @@ EyeImage::EyeImage(Gpu& gpu, const ImageDesc& desc)
 }
 
 PictureTarget::PictureTarget(Gpu& gpu, VkExtent2D extent, std::uint32_t eyes, VkSampleCountFlagBits count, bool keeps)
-    : multisampled(count != VK_SAMPLE_COUNT_1_BIT), keeps_depth(keeps) {
+    : multisampled(count != VK_SAMPLE_COUNT_1_BIT), stores_depth(keeps) {
   ImageDesc picture =
       target_desc(extent, eyes, kColourFormat, kColour | kSource | kSampled | VK_IMAGE_USAGE_TRANSFER_DST_BIT);
-  picture.also = kOverlayFormat;
+  picture.second_format = kOverlayFormat;
   colour = EyeImage(gpu, picture);
   for (std::uint32_t eye = 0; eye < eyes; ++eye)
     overlay[eye] = make_view(gpu, colour.image, VK_IMAGE_VIEW_TYPE_2D, eye, 1, kOverlayFormat);
@@ -79,4 +79,4 @@ void begin_rendering(VkCommandBuffer commands, VkExtent2D extent, std::uint32_t 
   vkCmdSetScissor(commands, 0, 1, &scissor);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -1,4 +1,4 @@
-// Images that are drawn into, and the views of their layers.
+// Render targets and the views of their layers.
 #pragma once
 
 #include <array>
@@ -8,9 +8,9 @@
 #include "engine/gpu/overlay.h"
 #include "engine/render/pipelines.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
-// One layer an eye; a pass draws into all of them or into one.
+// An image with one layer per eye; a pass draws into all layers or into one.
 struct EyeImage {
   EyeImage() = default;
   EyeImage(Gpu& gpu, const ImageDesc& desc);
@@ -21,15 +21,15 @@ struct EyeImage {
 
 struct PictureTarget {
   PictureTarget() = default;
-  PictureTarget(Gpu& gpu, VkExtent2D extent, std::uint32_t eyes, VkSampleCountFlagBits samples, bool keeps_depth);
-  EyeImage colour;   // what is shown: one sample
-  EyeImage samples;  // drawn into where there are several
+  PictureTarget(Gpu& gpu, VkExtent2D extent, std::uint32_t eyes, VkSampleCountFlagBits samples, bool stores_depth);
+  EyeImage colour;   // the final picture, single-sampled
+  EyeImage samples;  // multisampled target, if used
   EyeImage depth;
-  EyeImage one_depth;                // of several samples the first, where depth is kept
-  std::array<ImageView, 2> overlay;  // the layers of colour as kOverlayFormat
-  bool multisampled = false, keeps_depth = false;
+  EyeImage one_depth;                // first sample of a multisampled depth, if depth is stored
+  std::array<ImageView, 2> overlay;  // views of the layers of colour, in kOverlayFormat
+  bool multisampled = false, stores_depth = false;
   EyeImage& drawn() noexcept { return multisampled ? samples : colour; }
-  EyeImage& kept_depth() noexcept { return multisampled ? one_depth : depth; }
+  EyeImage& stored_depth() noexcept { return multisampled ? one_depth : depth; }
 };
 
 struct MirrorTarget {
@@ -41,20 +41,21 @@ struct MirrorTarget {
 struct ShadowTarget {
   ShadowTarget() = default;
   ShadowTarget(Gpu& gpu, std::uint32_t side);
-  GpuImage depth;  // what is looked up
+  GpuImage depth;  // the map that shaders sample
   ImageView view;
-  GpuImage still;  // of what never moves; copied into depth before the rest is drawn
+  GpuImage still;  // static casters only; copied into depth before the moving casters are drawn
   ImageView still_view;
 };
 
-// vkCmdBeginRendering over some layers; the attachments must stand ready. Viewport and scissor cover them.
+// Attachment for begin_rendering(), which calls vkCmdBeginRendering over one or more layers. The images must already be
+// in the matching use. Sets viewport and scissor to the whole extent.
 struct Attachment {
   VkImageView view = VK_NULL_HANDLE;
   VkAttachmentLoadOp load = VK_ATTACHMENT_LOAD_OP_CLEAR;
   VkAttachmentStoreOp store = VK_ATTACHMENT_STORE_OP_STORE;
-  VkImageView resolved = VK_NULL_HANDLE;  // gets the first sample of depth
+  VkImageView resolved = VK_NULL_HANDLE;  // destination for the first sample of depth
 };
 void begin_rendering(VkCommandBuffer commands, VkExtent2D extent, std::uint32_t layers, const Attachment* colour,
                      const Attachment* depth);
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

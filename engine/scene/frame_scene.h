@@ -1,4 +1,4 @@
-// All that changes from frame to frame.
+// Everything that can change from frame to frame.
 #pragma once
 
 #include <cstdint>
@@ -11,42 +11,42 @@
 
 #include "engine/model/model.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 struct NodeState {
   glm::mat4 world{1.0f};
-  float emissive = 1.0f;     // factor on the material's emission: a lamp is off at 0
-  glm::vec2 uv_shift{0.0f};  // added to uv0: a display shows another field of its atlas
-  float opacity = 1.0f;      // factor on alpha; below 1 the node is drawn blended: a ghost
+  float emissive = 1.0f;     // factor on the material's emission; a lamp is off at 0
+  glm::vec2 uv_shift{0.0f};  // added to uv0, e.g. to select another field of a display's atlas
+  float opacity = 1.0f;      // factor on alpha; below 1 the node is blended, e.g. for a ghost
   bool visible = true;
-  bool indoors = false;  // lit by what a point inside sees, not by the open sky
+  bool indoors = false;  // lit by the indoor environment instead of the open sky
 };
 
 struct Sun {
-  glm::vec3 towards{0.35f, 0.80f, -0.48f};  // unit vector is made of it
-  glm::vec3 irradiance{3.2f, 3.0f, 2.7f};   // on a surface that faces it, in units of the sky's radiance
+  glm::vec3 towards{0.35f, 0.80f, -0.48f};  // direction to the sun, normalised when used
+  glm::vec3 irradiance{3.2f, 3.0f, 2.7f};   // on a surface facing the sun, in units of the sky's radiance
 };
 
-// A deformed mesh: new vertices for a mesh of the model, from its first_vertex on, on one node or on all that carry it.
+// New vertices for a mesh of the model, for one node or for all nodes that carry it.
 struct DeformedMesh {
   int mesh = kNone;
-  std::vector<Vertex> vertices;  // Mesh::vertex_count of them
-  int node = kNone;              // kNone: all
+  std::vector<Vertex> vertices;  // Mesh::vertex_count entries
+  int node = kNone;              // kNone: all nodes that carry the mesh
 };
 
-// A box outside of which nothing is in shadow: the smaller, the sharper the shadows in it. [m] world
+// Shadows are computed only inside this box: the smaller it is, the sharper they are. [m] world
 struct ShadowRoom {
   glm::vec3 low{-std::numeric_limits<float>::max()}, high{std::numeric_limits<float>::max()};
 };
 
-// A mirror: the plane z = 0 of that node, seen from its +Z side.
+// The mirror is the plane z = 0 of its node, reflecting on the +Z side.
 struct FrameScene {
-  std::vector<NodeState> nodes;        // one a node of the model
+  std::vector<NodeState> nodes;        // one per node of the model
   std::vector<DeformedMesh> deformed;  // may be empty
   Sun sun;
   float exposure = 1.0f;
-  int mirror = kNone;  // node whose mesh shows what its plane mirrors
+  int mirror = kNone;  // node whose mesh is the mirror
   ShadowRoom shadow_room;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

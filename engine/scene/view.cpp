@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-namespace gearshift {
+namespace gearshift::engine {
 
 namespace {
 
@@ -25,8 +25,8 @@ glm::dvec3 operator*(const EyePose& pose, glm::dvec3 point) {
 
 // With tangents l, r, d, u of the half angles and the near plane n, a view point (x, y, z), z < 0 ahead, becomes
 //   w = -z,   x_clip = (2 x + (r + l) z) / (r - l),   y_clip = -(2 y + (u + d) z) / (u - d),   z_clip = n
-// so that depth is n / -z: 1 at the near plane, 0 at infinity. That spends a float's exponent where depth is crowded
-// (Upchurch, Desbrun. Tightening the Precision of Perspective Rendering. 2012).
+// so depth is n / -z: 1 at the near plane, 0 at infinity. This spends the exponent range of a float where depth values
+// are dense (Upchurch, Desbrun. Tightening the Precision of Perspective Rendering. 2012).
 glm::mat4 off_axis_projection(const Fov& fov, double near_plane) {
   const double left = std::tan(fov.left), right = std::tan(fov.right);
   const double down = std::tan(fov.down), up = std::tan(fov.up);
@@ -58,7 +58,7 @@ View view_from(const EyePose& eye, const Fov& fov, double near_plane) {
 
 EyePose look_at(glm::dvec3 eye, glm::dvec3 target, glm::dvec3 up) {
   const glm::dvec3 ahead = glm::normalize(target - eye);
-  // Straight up or down: any other direction will do as the picture's up.
+  // Looking straight up or down: any horizontal direction can serve as up.
   if (glm::length(glm::cross(ahead, up)) < 1e-6 * glm::length(up)) up = {0.0, 0.0, -1.0};
   if (glm::length(glm::cross(ahead, up)) < 1e-6) up = kRight;
   const glm::dvec3 right = glm::normalize(glm::cross(ahead, up));
@@ -70,7 +70,7 @@ StereoEyes stereo_eyes(const EyePose& head, const Fov& centre, double ipd, doubl
   for (std::size_t eye = 0; eye < 2; ++eye) {
     const double aside = eye == 0 ? -0.5 * ipd : 0.5 * ipd;
     eyes.pose[eye] = {head.position + head.orientation * (aside * kRight), head.orientation};
-    // The screen stands still: its edges move against the eye, in tangents by aside / distance.
+    // The screen is fixed, so its edges shift relative to the eye, in tangents by eye offset / distance.
     eyes.fov[eye] = centre;
     eyes.fov[eye].left = std::atan(std::tan(centre.left) - aside / distance);
     eyes.fov[eye].right = std::atan(std::tan(centre.right) - aside / distance);
@@ -80,8 +80,9 @@ StereoEyes stereo_eyes(const EyePose& head, const Fov& centre, double ipd, doubl
 
 glm::dvec3 project(const View& view, glm::dvec3 point, glm::dvec2 size_px) {
   const glm::dvec4 clip = glm::dmat4(view.clip_from_view) * (glm::dmat4(view.view_from_world) * glm::dvec4(point, 1.0));
-  // clip.z is the near plane's distance and clip.w the point's: their difference is how far beyond it lies.
+  // clip.z is the distance of the near plane and clip.w that of the point: the difference is how far the point is
+  // beyond the near plane.
   return {0.5 * size_px.x * (1.0 + clip.x / clip.w), 0.5 * size_px.y * (1.0 + clip.y / clip.w), clip.w - clip.z};
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

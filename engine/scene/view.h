@@ -1,4 +1,4 @@
-// From where a frame is seen. Reverse-Z: depth 1 at the near plane, 0 at infinity. Vulkan's clip space: y down.
+// The viewpoint of a frame. Reverse-Z: depth 1 at the near plane, 0 at infinity. Vulkan's clip space: y down.
 #pragma once
 
 #include <array>
@@ -8,9 +8,9 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-namespace gearshift {
+namespace gearshift::engine {
 
-// Half angles of an off-axis frustum, as OpenXR has them. [rad] left and down are negative
+// Half angles of an off-axis frustum, as in OpenXR. [rad] left and down are negative
 struct Fov {
   double left = 0.0, right = 0.0, down = 0.0, up = 0.0;
 };
@@ -20,7 +20,7 @@ struct EyePose {
   glm::dquat orientation{1.0, 0.0, 0.0, 0.0};  // looks along its -Z, +Y up
 };
 
-// A pose is also where a space stands in another: b in a's space becomes a * b outside of it.
+// A pose also describes a space within another one: pose b in the space of a is a * b outside of it.
 EyePose operator*(const EyePose& a, const EyePose& b);
 EyePose inverse(const EyePose& pose);
 glm::dvec3 operator*(const EyePose& pose, glm::dvec3 point);
@@ -31,24 +31,24 @@ struct View {
   glm::vec3 eye{0.0f};  // [m] world
 };
 
-// Infinite far plane. near_plane [m] > 0
+// With an infinite far plane. near_plane [m] > 0
 glm::mat4 off_axis_projection(const Fov& fov, double near_plane);
 
-// Symmetric, from the vertical field of view. [rad]
+// From the vertical field of view. [rad]
 Fov symmetric_fov(double vertical, double aspect);
 
 View view_from(const EyePose& eye, const Fov& fov, double near_plane);
 EyePose look_at(glm::dvec3 eye, glm::dvec3 target, glm::dvec3 up = {0.0, 1.0, 0.0});
 
-// Two eyes `ipd` apart [m] whose frusta meet in a screen `distance` [m] ahead: parallel axes, off-axis projections.
-// A point z ahead is seen with a disparity of f ipd (1/z - 1/distance), f the focal length in pixels.
+// Two eyes `ipd` [m] apart whose frusta coincide on a screen `distance` [m] ahead: parallel axes, off-axis projections.
+// A point z ahead has a disparity of f ipd (1/z - 1/distance), where f is the focal length in pixels.
 struct StereoEyes {
   std::array<EyePose, 2> pose;  // left, right
   std::array<Fov, 2> fov;
 };
 StereoEyes stereo_eyes(const EyePose& head, const Fov& centre, double ipd, double distance);
 
-// Where a world point is seen. [px] from the upper left corner; z > 0 in front of the near plane
+// Projects a world point: [px] from the upper left corner; z > 0 in front of the near plane
 glm::dvec3 project(const View& view, glm::dvec3 point, glm::dvec2 size_px);
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -6,29 +6,29 @@
 
 #include <stdexcept>
 
-namespace gearshift {
+namespace gearshift::engine {
 
 namespace {
 
-// Where there is no card, ALSA and OpenAL write ten lines to stderr, and again at each attempt to get a lost one back.
-// Neither can be told not to without linking ALSA.
+// Without a sound card, ALSA and OpenAL print ten lines to stderr, and again at each attempt to reopen a lost device.
+// This cannot be turned off without linking ALSA.
 class QuietStderr {
  public:
-  QuietStderr() : kept_(dup(STDERR_FILENO)) {
-    const int nowhere = open("/dev/null", O_WRONLY | O_CLOEXEC);
-    if (kept_ >= 0 && nowhere >= 0) dup2(nowhere, STDERR_FILENO);
-    if (nowhere >= 0) close(nowhere);
+  QuietStderr() : saved_stderr_(dup(STDERR_FILENO)) {
+    const int null_device = open("/dev/null", O_WRONLY | O_CLOEXEC);
+    if (saved_stderr_ >= 0 && null_device >= 0) dup2(null_device, STDERR_FILENO);
+    if (null_device >= 0) close(null_device);
   }
   ~QuietStderr() {
-    if (kept_ < 0) return;
-    dup2(kept_, STDERR_FILENO);
-    close(kept_);
+    if (saved_stderr_ < 0) return;
+    dup2(saved_stderr_, STDERR_FILENO);
+    close(saved_stderr_);
   }
   QuietStderr(const QuietStderr&) = delete;
   QuietStderr& operator=(const QuietStderr&) = delete;
 
  private:
-  int kept_;
+  int saved_stderr_;
 };
 
 template <typename Function>
@@ -47,8 +47,8 @@ ALCdevice* open_memory() {
   return open != nullptr ? open(nullptr) : nullptr;
 }
 
-// To the card the driver decides on headphones (HRTF) and limits what is too loud. Memory gets the plain stereo sum:
-// the same on every machine, and linear, so that it can be measured.
+// On a sound card, the driver decides about headphones (HRTF) and limits the volume. Memory gets the plain stereo sum,
+// which is the same on every machine and linear, so that it can be measured.
 ALCcontext* make_context(ALCdevice* device, SoundOutput output) {
   static constexpr ALCint card[] = {ALC_FREQUENCY, kSoundRate, 0};
   static constexpr ALCint memory[] = {ALC_FREQUENCY,
@@ -77,7 +77,7 @@ SoundDevice::SoundDevice(SoundOutput output) {
   device_.reset(is_card ? open_card() : open_memory());
   if (!device_) throw std::runtime_error(is_card ? "no sound card" : "OpenAL cannot render to memory");
   context_.reset(make_context(device_.get(), output));
-  if (!context_) throw std::runtime_error("the sound device takes no stereo at 48 kHz");
+  if (!context_) throw std::runtime_error("the sound device does not support stereo at 48 kHz");
   if (!is_card) render_samples_ = entry<LPALCRENDERSAMPLESSOFT>("alcRenderSamplesSOFT");
 }
 
@@ -96,4 +96,4 @@ void SoundDevice::render(std::span<float> stereo) {
   render_samples_(device_.get(), stereo.data(), static_cast<ALCsizei>(stereo.size() / 2));
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -1,4 +1,4 @@
-// A device of OpenAL with its context: a sound card, or memory.
+// An OpenAL device with its context: a sound card, or memory.
 #pragma once
 
 #include <AL/alc.h>
@@ -8,17 +8,18 @@
 
 #include "engine/sound/sound_world.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 class SoundDevice {
  public:
-  // card or memory, stereo floats at kSoundRate. Throws std::runtime_error, in a few words, when there is none.
+  // output: card or memory, as stereo floats at kSoundRate. Throws std::runtime_error with a short reason if there is
+  // none.
   explicit SoundDevice(SoundOutput output);
   virtual ~SoundDevice() = default;
   SoundDevice(const SoundDevice&) = delete;
   SoundDevice& operator=(const SoundDevice&) = delete;
 
-  virtual bool connected() const;  // false from when the card was pulled out or its server ended
+  virtual bool connected() const;  // false once the card was unplugged or its server ended
   void make_current() const;
   void render(std::span<float> stereo);  // memory only
 
@@ -28,8 +29,8 @@ class SoundDevice {
     void operator()(ALCcontext* context) const;
   };
   std::unique_ptr<ALCdevice, Close> device_;
-  std::unique_ptr<ALCcontext, Close> context_;  // goes before its device
+  std::unique_ptr<ALCcontext, Close> context_;  // must be destroyed before the device
   void (*render_samples_)(ALCdevice*, void*, ALCsizei) = nullptr;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -11,11 +11,11 @@
 
 #include "engine/sound/sound_device.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 namespace {
 
-constexpr double kRetryPeriod = 1.0;  // [s] between attempts to get a lost device back
+constexpr double kRetryPeriod = 1.0;  // [s] between attempts to reopen a lost device
 
 struct Clip {
   std::vector<float> samples;
@@ -25,13 +25,13 @@ struct Clip {
 struct Loop {
   ClipId clip = 0;
   Voice voice;
-  ALuint source = 0;  // 0: the device has no more
+  ALuint source = 0;  // 0: the device has no free source
   bool changed = true, starts = true;
 };
 
 struct OneShot {
   ALuint source = 0;
-  std::uint64_t number = 0;  // of the play() that it plays: the smallest is the oldest
+  std::uint64_t number = 0;  // number of the play() call; the smallest is the oldest
 };
 
 struct Listener {
@@ -39,7 +39,7 @@ struct Listener {
   float volume = 1.0f;
 };
 
-float within(float value, float low, float high) {
+float clamp_or_low(float value, float low, float high) {
   return std::isnan(value) ? low : std::clamp(value, low, high);
 }
 
@@ -49,9 +49,10 @@ bool is_finite(glm::vec3 v) {
 
 void write_voice(ALuint source, const Voice& voice) {
   if (is_finite(voice.position)) alSource3f(source, AL_POSITION, voice.position.x, voice.position.y, voice.position.z);
-  alSourcef(source, AL_GAIN, within(voice.gain, 0.0f, 1.0f));
-  alSourcef(source, AL_PITCH, within(voice.pitch, 0.25f, 4.0f));
-  alSourcef(source, AL_SOURCE_RADIUS, within(voice.radius, 0.0f, 1e3f));  // AL_EXT_SOURCE_RADIUS; without it a point
+  alSourcef(source, AL_GAIN, clamp_or_low(voice.gain, 0.0f, 1.0f));
+  alSourcef(source, AL_PITCH, clamp_or_low(voice.pitch, 0.25f, 4.0f));
+  // AL_EXT_SOURCE_RADIUS; if not supported, a point source
+  alSourcef(source, AL_SOURCE_RADIUS, clamp_or_low(voice.radius, 0.0f, 1e3f));
 }
 
 void write_listener(const Listener& listener) {
@@ -59,12 +60,12 @@ void write_listener(const Listener& listener) {
   const float orientation[6] = {forward.x, forward.y, forward.z, up.x, up.y, up.z};
   if (is_finite(position)) alListener3f(AL_POSITION, position.x, position.y, position.z);
   if (is_finite(forward) && is_finite(up)) alListenerfv(AL_ORIENTATION, orientation);
-  alListenerf(AL_GAIN, within(volume, 0.0f, 1.0f));
+  alListenerf(AL_GAIN, clamp_or_low(volume, 0.0f, 1.0f));
 }
 
-// Gain is reference / max(reference, distance). 0: the device has no more sources
+// The gain is reference / max(reference, distance). Returns 0 if the device has no free source.
 ALuint make_source() {
-  alGetError();  // an older error is not this one's
+  alGetError();  // clears earlier errors
   ALuint source = 0;
   alGenSources(1, &source);
   if (alGetError() != AL_NO_ERROR) return 0;
@@ -80,11 +81,11 @@ ALuint make_buffer(const std::vector<float>& samples) {
   return buffer;
 }
 
-// AL_SOFT_deferred_updates: what is written between the two reaches the mixer at one sample.
-struct AtOnce {
+// AL_SOFT_deferred_updates: all changes during its lifetime reach the mixer at the same sample.
+struct DeferredUpdates {
   using Function = void (*)();
-  AtOnce() { call("alDeferUpdatesSOFT"); }
-  ~AtOnce() { call("alProcessUpdatesSOFT"); }
+  DeferredUpdates() { call("alDeferUpdatesSOFT"); }
+  ~DeferredUpdates() { call("alProcessUpdatesSOFT"); }
   static void call(const char* name) {
     if (alIsExtensionPresent("AL_SOFT_deferred_updates") == AL_FALSE) return;
     if (const auto function = reinterpret_cast<Function>(alGetProcAddress(name))) function();
@@ -97,12 +98,12 @@ std::unique_ptr<SoundDevice> open_device(SoundOutput output) {
 
 }  // namespace
 
-// The book of what should be heard, and the device that plays it. The book outlives devices.
+// The desired sound state, and the device that plays it. The state survives the loss of a device.
 struct SoundWorld::State {
   SoundOutput wanted = SoundOutput::none;
   SoundDeviceOpener opener;
   std::unique_ptr<SoundDevice> device;
-  std::string why_silent = "sound is off";
+  std::string silence_reason = "sound is off";
   bool is_lost = false;
   double next_try = 0.0;  // [s]
 
@@ -114,7 +115,7 @@ struct SoundWorld::State {
   bool listener_changed = true;
 
   void open();
-  void lose() noexcept;
+  void mark_lost() noexcept;
   void reopen(double time) noexcept;
   void rebuild();
   void set_up(Loop& loop);
@@ -123,32 +124,32 @@ struct SoundWorld::State {
   OneShot& next_one_shot();
 };
 
-// Throws what the opener throws.
+// Rethrows exceptions of the opener.
 void SoundWorld::State::open() {
   device = opener(wanted);
   rebuild();
-  why_silent.clear();
+  silence_reason.clear();
   is_lost = false;
 }
 
-void SoundWorld::State::lose() noexcept {
+void SoundWorld::State::mark_lost() noexcept {
   device.reset();
   is_lost = true;
-  why_silent = "the sound device was lost";
+  silence_reason = "the sound device was lost";
 }
 
 void SoundWorld::State::reopen(double time) noexcept {
-  next_try = std::min(next_try, time + kRetryPeriod);  // a clock that was set back does not stop the attempts
+  next_try = std::min(next_try, time + kRetryPeriod);  // keeps retrying even if the clock was set back
   if (time < next_try) return;
   next_try = time + kRetryPeriod;
   try {
     open();
   } catch (const std::exception&) {
-    device.reset();  // the reason stays: it was lost
+    device.reset();  // silence_reason still says that it was lost
   }
 }
 
-// Gives a fresh device everything that the book holds. One-shots that were cut off are past.
+// Transfers the whole state to a new device. Interrupted one-shots are not restarted.
 void SoundWorld::State::rebuild() {
   device->make_current();
   alDistanceModel(AL_INVERSE_DISTANCE_CLAMPED);
@@ -168,7 +169,7 @@ void SoundWorld::State::set_up(Loop& loop) {
 void SoundWorld::State::apply_changes() {
   device->make_current();
   {
-    const AtOnce at_once;
+    const DeferredUpdates deferred;
     if (std::exchange(listener_changed, false)) write_listener(listener);
     for (Loop& loop : loops) {
       if (std::exchange(loop.changed, false)) write_voice(loop.source, loop.voice);
@@ -185,7 +186,7 @@ void SoundWorld::State::start_loops() {
   if (!sources.empty()) alSourcePlayv(static_cast<ALsizei>(sources.size()), sources.data());
 }
 
-// One that has ended, else the oldest.
+// Returns a source that has finished, or else the oldest one.
 OneShot& SoundWorld::State::next_one_shot() {
   for (OneShot& shot : one_shots) {
     ALint state = AL_STOPPED;
@@ -206,7 +207,7 @@ SoundWorld::SoundWorld(SoundOutput output, SoundDeviceOpener open) : state_(std:
     state_->open();
   } catch (const std::exception& error) {
     state_->device.reset();
-    state_->why_silent = error.what();
+    state_->silence_reason = error.what();
   }
 }
 
@@ -216,8 +217,8 @@ SoundOutput SoundWorld::output() const noexcept {
   return state_->device ? state_->wanted : SoundOutput::none;
 }
 
-const std::string& SoundWorld::why_silent() const noexcept {
-  return state_->why_silent;
+const std::string& SoundWorld::silence_reason() const noexcept {
+  return state_->silence_reason;
 }
 
 ClipId SoundWorld::add_clip(std::span<const float> samples) {
@@ -247,7 +248,7 @@ void SoundWorld::play(ClipId clip, const Voice& voice) {
   state_->device->make_current();
   OneShot& shot = state_->next_one_shot();
   shot.number = ++state_->played;
-  alSourceStop(shot.source);  // a playing source takes no other clip
+  alSourceStop(shot.source);  // the clip of a playing source cannot be changed
   alSourcei(shot.source, AL_BUFFER, static_cast<ALint>(buffer));
   write_voice(shot.source, voice);
   alSourcePlay(shot.source);
@@ -274,7 +275,7 @@ void SoundWorld::restart(VoiceId voice) {
 }
 
 void SoundWorld::update(double time) {
-  if (state_->device && !state_->device->connected()) state_->lose();
+  if (state_->device && !state_->device->connected()) state_->mark_lost();
   if (state_->is_lost) state_->reopen(time);
   if (state_->device) state_->apply_changes();
 }
@@ -288,4 +289,4 @@ void SoundWorld::render(std::span<float> stereo) {
   state_->device->render(stereo);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -14,11 +14,11 @@
 #include <string>
 #include <system_error>
 
-namespace gearshift {
+namespace gearshift::engine {
 
 namespace {
 
-// Little endian, whatever the machine is.
+// Little-endian on every machine.
 void put(std::string& bytes, std::uint32_t value, int count) {
   for (int n = 0; n < count; ++n) bytes.push_back(static_cast<char>(value >> (8 * n) & 0xffu));
 }
@@ -49,12 +49,12 @@ std::uint32_t sample_16(float sample) {
 
 void write_wav(const std::filesystem::path& path, std::span<const float> stereo, int rate) {
   if (stereo.size() % 2 != 0 || stereo.size() > 0x7fffff00u / 2 || rate <= 0) {
-    throw std::runtime_error(path.string() + ": not a stereo sound that a WAVE file can hold");
+    throw std::runtime_error(path.string() + ": not stereo, or too long for a WAVE file");
   }
   std::string bytes = header(static_cast<std::uint32_t>(stereo.size() * 2), static_cast<std::uint32_t>(rate));
   bytes.reserve(bytes.size() + stereo.size() * 2);
   for (const float sample : stereo) put(bytes, sample_16(sample), 2);
-  // Beside the old one and then in its place: a full disk leaves that whole.
+  // Written beside the old file and then renamed, so that a full disk leaves the old file intact.
   const std::filesystem::path part = path.string() + "." + std::to_string(getpid()) + ".part";
   std::ofstream file(part, std::ios::binary);
   file.write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
@@ -67,4 +67,4 @@ void write_wav(const std::filesystem::path& path, std::span<const float> stereo,
   throw std::runtime_error(path.string() + ": cannot be written: " + problem.message());
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -1,12 +1,13 @@
-// Sound as a file that every player and browser plays.
+// Writes sound files that every player and browser can play.
 #pragma once
 
 #include <filesystem>
 #include <span>
 
-namespace gearshift {
+namespace gearshift::engine {
 
-// Interleaved stereo in [-1, 1], clipped beyond, as 16-bit RIFF WAVE; rate in [Hz]. Throws std::runtime_error.
+// stereo: interleaved samples in [-1, 1], clipped if beyond; rate [Hz]. Writes 16-bit RIFF WAVE. Throws
+// std::runtime_error.
 void write_wav(const std::filesystem::path& path, std::span<const float> stereo, int rate);
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -1,4 +1,5 @@
-// Dear ImGui on our pipelines: context, font, draw data. Debian's 1.86 backend wants a VkRenderPass, we have none.
+// Dear ImGui with our own Vulkan pipelines: context, font, drawing. The Vulkan backend in Debian's 1.86 requires a
+// VkRenderPass, which we do not have.
 #pragma once
 
 #include <memory>
@@ -7,7 +8,7 @@
 #include "engine/gpu/overlay.h"
 #include "engine/ui/ui_input.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 struct UiInput {
   float width = 1280.0f, height = 720.0f;  // [px]
@@ -15,8 +16,8 @@ struct UiInput {
   float scale = 1.0f;                      // of text and widgets: 1 at 96 dpi, 3 on a 4K television
 };
 
-// One Dear ImGui context, with our style and font at the scale. Needs no GPU: what is drawn can be built, clicked and
-// looked at without one. Keyboard navigation is on; nothing is read from or written to a file.
+// One Dear ImGui context with our style and font at the given scale. Needs no GPU: windows can be built, clicked and
+// inspected without one. Keyboard navigation is on. No file is read or written.
 class UiContext {
  public:
   UiContext();  // makes the context current
@@ -25,11 +26,11 @@ class UiContext {
   UiContext& operator=(const UiContext&) = delete;
 
   void feed(const UiEvents& events);  // mouse, keys and text for the next begin()
-  void begin(const UiInput& input);   // makes the context current, ImGui::NewFrame
-  void end();                         // ImGui::Render
+  void begin(const UiInput& input);   // makes the context current and calls ImGui::NewFrame
+  void end();                         // calls ImGui::Render
 
-  // After begin(): what is fed belongs to the user interface and not to what lies behind it. The keyboard does while a
-  // field is edited or the navigation's frame is seen, not because a panel was clicked.
+  // After begin(): true if the input belongs to the user interface and not to the scene behind it. The keyboard belongs
+  // to it only while a field is edited or the navigation highlight is visible, not merely because a panel was clicked.
   bool wants_mouse() const;
   bool wants_keys() const;
 
@@ -39,8 +40,8 @@ class UiContext {
   friend class UiOverlay;
 };
 
-// Draws the context's last frame, once per frame and slot: each slot has buffers of its own, which grow with the frame.
-// The font is the only texture: another one throws std::logic_error.
+// Draws the context's last frame. Call at most once per frame and slot: each slot has its own buffers, which grow as
+// needed. The font is the only supported texture: any other throws std::logic_error.
 class UiOverlay final : public Overlay {
  public:
   UiOverlay(Gpu& gpu, UiContext& context);
@@ -52,4 +53,4 @@ class UiOverlay final : public Overlay {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

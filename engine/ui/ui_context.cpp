@@ -5,7 +5,7 @@
 #include "engine/ui/ui_state.h"
 #include "engine/ui/ui_style.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 UiContext::UiContext() : state_(std::make_unique<State>()) {
   IMGUI_CHECKVERSION();
@@ -14,7 +14,7 @@ UiContext::UiContext() : state_(std::make_unique<State>()) {
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;
   io.LogFilename = nullptr;
-  io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;  // more than 65536 vertices with 16-bit indices
+  io.BackendFlags |= ImGuiBackendFlags_RendererHasVtxOffset;  // allows more than 65536 vertices with 16-bit indices
   io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard | ImGuiConfigFlags_NavNoCaptureKeyboard;
   map_imgui_keys();
 }
@@ -41,7 +41,7 @@ void UiContext::begin(const UiInput& input) {
   ImGuiIO& io = ImGui::GetIO();
   io.DisplaySize = {input.width, input.height};
   io.DeltaTime = std::max(input.seconds, 1e-5f);
-  state_->keys.deal();
+  state_->keys.feed_next_frame();
   ImGui::NewFrame();
 }
 
@@ -61,4 +61,4 @@ bool UiContext::wants_keys() const {
   return io.WantTextInput || io.NavVisible;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <iterator>
 
-namespace gearshift {
+namespace gearshift::engine {
 namespace {
 
-// GLFW_KEY_..., from glfw3.h 3.3, "Keyboard keys": stable numbers, so that this room needs no window.
+// GLFW_KEY_... from glfw3.h 3.3, "Keyboard keys". The numbers are stable; using them directly avoids a dependency on
+// GLFW.
 struct KeyPair {
   ImGuiKey_ imgui;
   int glfw;
@@ -24,19 +25,19 @@ constexpr KeyPair kKeys[] = {
 constexpr int kSpace = 32, kLastPrintable = 96;  // GLFW_KEY_SPACE, GLFW_KEY_GRAVE_ACCENT
 constexpr int kLeftShift = 340, kRightShift = 344;
 
-// Shift, control, alt: 0, 1, 2; nothing for other keys.
+// Returns 0 for shift, 1 for control, 2 for alt, and -1 for other keys.
 int modifier_of(int key) {
   const int side = key >= kRightShift ? kRightShift : kLeftShift;
   return key >= side && key < side + 3 ? key - side : -1;
 }
 
-bool writes(int key) {
+bool writes_text(int key) {
   return key >= kSpace && key <= kLastPrintable;
 }
 
-// Would it be missed if it were down between two frames only? Letters come as text of their own.
-bool is_looked_at(int key, bool control) {
-  if (writes(key) && !control && (key != kSpace || ImGui::GetIO().WantTextInput)) return false;
+// Would Dear ImGui miss this key if it went down and up between two frames? Letters do not matter: they arrive as text.
+bool is_polled_by_imgui(int key, bool control) {
+  if (writes_text(key) && !control && (key != kSpace || ImGui::GetIO().WantTextInput)) return false;
   return std::any_of(std::begin(kKeys), std::end(kKeys), [&](const KeyPair& pair) { return pair.glfw == key; });
 }
 
@@ -46,16 +47,16 @@ bool is_key_of_imgui(int key) {
 
 }  // namespace
 
-// A letter comes after the key that wrote it where there are as many of both, else before all keys.
+// A letter is queued after the key that typed it if the numbers of both match, otherwise before all keys.
 void UiKeyQueue::push(const UiEvents& events) {
   if (!events.focused) {
     items_.clear();
     std::fill(std::begin(ImGui::GetIO().KeysDown), std::end(ImGui::GetIO().KeysDown), false);
   }
   bool held[3] = {shift_, control_, alt_};
-  const bool tells =
+  const bool has_modifier_events =
       std::any_of(events.keys.begin(), events.keys.end(), [](const UiKey& key) { return modifier_of(key.key) >= 0; });
-  if (!tells) {  // they are as they are at the end
+  if (!has_modifier_events) {  // no modifier changed in between: use the final state
     held[0] = events.shift;
     held[1] = events.control;
     held[2] = events.alt;
@@ -65,7 +66,7 @@ void UiKeyQueue::push(const UiEvents& events) {
   bool control = held[1];
   for (const UiKey& key : events.keys) {
     if (modifier_of(key.key) == 1) control = key.down;
-    writing += key.down && writes(key.key) && !control;
+    writing += key.down && writes_text(key.key) && !control;
   }
   const bool in_order = writing == events.text.size();
   if (!in_order)
@@ -73,14 +74,14 @@ void UiKeyQueue::push(const UiEvents& events) {
   for (const UiKey& key : events.keys) {
     if (const int modifier = modifier_of(key.key); modifier >= 0) held[modifier] = key.down;
     item(key, 0);
-    if (in_order && key.down && writes(key.key) && !held[1]) item({}, events.text[next++]);
+    if (in_order && key.down && writes_text(key.key) && !held[1]) item({}, events.text[next++]);
   }
   shift_ = events.shift;
   control_ = events.control;
   alt_ = events.alt;
 }
 
-// A frame has one state of each key and of the modifiers, and takes its letters before its keys.
+// A frame has a single state for each key and modifier, and processes its letters before its keys.
 bool UiKeyQueue::starts_frame(const Item& item) const {
   if (changed_.empty()) return false;
   const ImGuiIO& io = ImGui::GetIO();
@@ -89,7 +90,7 @@ bool UiKeyQueue::starts_frame(const Item& item) const {
   return std::find(changed_.begin(), changed_.end(), item.key.key) != changed_.end();
 }
 
-void UiKeyQueue::deal() {
+void UiKeyQueue::feed_next_frame() {
   ImGuiIO& io = ImGui::GetIO();
   changed_.clear();
   for (; !items_.empty() && !starts_frame(items_.front()); items_.pop_front()) {
@@ -100,13 +101,13 @@ void UiKeyQueue::deal() {
     if (item.letter != 0) {
       io.AddInputCharacter(static_cast<unsigned>(item.letter));
     } else if (is_key_of_imgui(item.key.key)) {
-      if (is_looked_at(item.key.key, item.control)) changed_.push_back(item.key.key);
+      if (is_polled_by_imgui(item.key.key, item.control)) changed_.push_back(item.key.key);
       io.KeysDown[item.key.key] = item.key.down;
     }
   }
   if (!items_.empty()) return;
   const bool same = io.KeyShift == shift_ && io.KeyCtrl == control_ && io.KeyAlt == alt_;
-  if (!changed_.empty() && !same) return;  // with the next frame
+  if (!changed_.empty() && !same) return;  // the modifiers change in the next frame
   io.KeyShift = shift_;
   io.KeyCtrl = control_;
   io.KeyAlt = alt_;
@@ -114,10 +115,10 @@ void UiKeyQueue::deal() {
 
 void feed_mouse(const UiEvents& events) {
   ImGuiIO& io = ImGui::GetIO();
-  constexpr float kNowhere = -3.4e38f;  // Dear ImGui's own "no mouse": -FLT_MAX
+  constexpr float kNoMousePosition = -3.4e38f;  // Dear ImGui's value for "no mouse": -FLT_MAX
   const ImVec2 place(static_cast<float>(events.mouse.x), static_cast<float>(events.mouse.y));
-  io.MouseDrawCursor = events.draws_mouse;
-  io.MousePos = events.mouse_here ? place : ImVec2(kNowhere, kNowhere);
+  io.MouseDrawCursor = events.draws_cursor;
+  io.MousePos = events.has_mouse ? place : ImVec2(kNoMousePosition, kNoMousePosition);
   std::copy(events.mouse_down.begin(), events.mouse_down.end(), io.MouseDown);
   io.MouseWheel += static_cast<float>(events.scroll.y);
   io.MouseWheelH += static_cast<float>(events.scroll.x);
@@ -127,4 +128,4 @@ void map_imgui_keys() {
   for (const KeyPair& pair : kKeys) ImGui::GetIO().KeyMap[pair.imgui] = pair.glfw;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -1,4 +1,4 @@
-// Mouse, keys and text as plain values, for whoever has a window.
+// Mouse, keys and text as plain values, independent of the window library.
 #pragma once
 
 #include <array>
@@ -8,50 +8,50 @@
 
 #include <glm/vec2.hpp>
 
-namespace gearshift {
+namespace gearshift::engine {
 
 struct UiKey {
-  int key = 0;  // as GLFW numbers them
+  int key = 0;  // GLFW's key code
   bool down = false;
 };
 
-// What happened since the last frame.
+// Input since the last frame.
 struct UiEvents {
   glm::dvec2 mouse{0.0};             // [px]
-  bool mouse_here = true;            // false: captured by something else, or outside
-  bool draws_mouse = false;          // nobody else shows where it is
-  std::array<bool, 5> mouse_down{};  // now: left, right, middle, ...
-  glm::dvec2 scroll{0.0};            // [lines] up +
-  std::vector<UiKey> keys;           // in order
+  bool has_mouse = true;             // false: the mouse is captured by something else, or outside the window
+  bool draws_cursor = false;         // draw a cursor, because the system shows none
+  std::array<bool, 5> mouse_down{};  // at present: left, right, middle, ...
+  glm::dvec2 scroll{0.0};            // [lines] up is positive
+  std::vector<UiKey> keys;           // in the order of the events
   bool shift = false, control = false, alt = false;
   std::u32string text;
-  bool focused = true;  // false: the window lost it, all keys are up
+  bool focused = true;  // false: the window has no focus, so all keys are up
 };
 
-// Keys and letters on their way into the current context's ImGuiIO. Dear ImGui 1.86 sees keys as they stand in a frame
-// alone: what goes down and up between two frames is dealt out over several of them, in its order.
+// Queues keys and letters for the current context's ImGuiIO. Dear ImGui 1.86 sees only the key states at each frame, so
+// presses and releases between two frames are spread over several frames, in order.
 class UiKeyQueue {
  public:
   void push(const UiEvents& events);
-  void deal();  // as much as one frame can tell, for the next NewFrame
+  void feed_next_frame();  // writes as many events as one frame can represent, for the next NewFrame
 
  private:
   struct Item {
     UiKey key;
-    char32_t letter = 0;  // not 0: a letter and no key
+    char32_t letter = 0;  // if not 0, a letter instead of a key
     bool shift = false, control = false, alt = false;
   };
   bool starts_frame(const Item& item) const;
 
   std::deque<Item> items_;
-  std::vector<int> changed_;                            // keys in this frame that Dear ImGui looks at
-  bool shift_ = false, control_ = false, alt_ = false;  // after the last push
+  std::vector<int> changed_;                            // keys changed in this frame that Dear ImGui polls
+  bool shift_ = false, control_ = false, alt_ = false;  // state after the last push
 };
 
-// Mouse and wheel into the current context's ImGuiIO, which reads them in the next NewFrame.
+// Writes mouse and wheel to the current context's ImGuiIO, which reads them in the next NewFrame.
 void feed_mouse(const UiEvents& events);
 
-// Tells Dear ImGui which of GLFW's keys are its own: once per context.
+// Tells Dear ImGui which GLFW key codes correspond to its own keys. Call once per context.
 void map_imgui_keys();
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -17,20 +17,20 @@
 #include "shaders/ui_frag.h"
 #include "shaders/ui_vert.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 namespace {
 
-constexpr VkDeviceSize kFirstSize = VkDeviceSize{64} * 1024;  // [bytes] of each buffer, before a frame needs more
+constexpr VkDeviceSize kInitialBufferBytes = VkDeviceSize{64} * 1024;  // [bytes] initial size of each buffer
 constexpr std::uint32_t kPushBytes = 2 * sizeof(float);
 
 struct FrameBuffers {
   GpuBuffer vertices, indices;
 };
 
-// The frame before the one that uses this slot has been waited for: the old buffer is nobody's.
-void make_room(Gpu& gpu, GpuBuffer& buffer, VkDeviceSize needed, VkBufferUsageFlags usage) {
+// The previous frame that used this slot has completed, so the old buffer can be replaced.
+void grow_buffer(Gpu& gpu, GpuBuffer& buffer, VkDeviceSize needed, VkBufferUsageFlags usage) {
   if (buffer && buffer.size() >= needed) return;
-  const VkDeviceSize size = std::max({kFirstSize, needed, buffer.size() * 3 / 2});
+  const VkDeviceSize size = std::max({kInitialBufferBytes, needed, buffer.size() * 3 / 2});
   buffer = GpuBuffer();
   buffer = GpuBuffer(gpu, size, usage, MemoryKind::upload);
 }
@@ -38,8 +38,8 @@ void make_room(Gpu& gpu, GpuBuffer& buffer, VkDeviceSize needed, VkBufferUsageFl
 void upload(Gpu& gpu, FrameBuffers& buffers, const ImDrawData& data) {
   const auto vertices = static_cast<VkDeviceSize>(data.TotalVtxCount) * sizeof(ImDrawVert);
   const auto indices = static_cast<VkDeviceSize>(data.TotalIdxCount) * sizeof(ImDrawIdx);
-  make_room(gpu, buffers.vertices, vertices, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
-  make_room(gpu, buffers.indices, indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
+  grow_buffer(gpu, buffers.vertices, vertices, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT);
+  grow_buffer(gpu, buffers.indices, indices, VK_BUFFER_USAGE_INDEX_BUFFER_BIT);
   std::byte* to_vertices = buffers.vertices.mapped();
   std::byte* to_indices = buffers.indices.mapped();
   for (const ImDrawList* list : std::span(data.CmdLists, static_cast<std::size_t>(data.CmdListsCount))) {
@@ -50,7 +50,7 @@ void upload(Gpu& gpu, FrameBuffers& buffers, const ImDrawData& data) {
   }
 }
 
-// Of the picture, whole pixels: nothing where the command lies outside of it.
+// In whole pixels inside the picture; empty if the command lies outside of it.
 VkRect2D scissor_of(const ImVec4& clip, VkExtent2D extent) {
   const auto pixel = [](float value, std::uint32_t most) {
     return static_cast<std::int32_t>(std::lround(std::clamp(value, 0.0f, static_cast<float>(most))));
@@ -100,7 +100,7 @@ struct UiOverlay::State {
   std::array<FrameBuffers, kFramesInFlight> buffers;
 
   State(Gpu& a_gpu, UiContext& a_context);
-  void renew_font(std::uint64_t version);
+  void rebuild_font(std::uint64_t version);
   void bind(VkCommandBuffer commands, const ImDrawData& data, const FrameBuffers& frame) const;
 };
 
@@ -126,8 +126,8 @@ UiOverlay::State::State(Gpu& a_gpu, UiContext& a_context) : gpu(a_gpu), context(
   sampler = make_sampler(gpu, smooth);
 }
 
-// Rare, so it may wait: frames in flight still read the old one.
-void UiOverlay::State::renew_font(std::uint64_t version) {
+// Waits for the GPU, because frames in flight still read the old texture; the font changes rarely.
+void UiOverlay::State::rebuild_font(std::uint64_t version) {
   if (font_version == version) return;
   gpu.wait_idle();
   GpuImage fresh = upload_font(gpu);
@@ -159,7 +159,7 @@ void draw_list(VkCommandBuffer commands, VkExtent2D extent, const ImDrawList& li
                std::int32_t first_vertex) {
   for (const ImDrawCmd& command : list.CmdBuffer) {
     if (command.UserCallback != nullptr || command.GetTexID() != font_texture())
-      throw std::logic_error("UiOverlay draws with the font's texture and without callbacks alone");
+      throw std::logic_error("UiOverlay supports only the font's texture and no callbacks");
     const VkRect2D scissor = scissor_of(command.ClipRect, extent);
     if (scissor.extent.width == 0 || scissor.extent.height == 0) continue;
     vkCmdSetScissor(commands, 0, 1, &scissor);
@@ -182,7 +182,7 @@ void UiOverlay::draw(VkCommandBuffer commands, VkExtent2D extent, int slot) {
   ImGui::SetCurrentContext(context.context);
   const ImDrawData* data = ImGui::GetDrawData();
   if (data == nullptr || data->TotalIdxCount == 0) return;
-  state.renew_font(context.font_version);
+  state.rebuild_font(context.font_version);
   FrameBuffers& frame = state.buffers.at(static_cast<std::size_t>(slot));
   upload(state.gpu, frame, *data);
   state.bind(commands, *data, frame);
@@ -195,4 +195,4 @@ void UiOverlay::draw(VkCommandBuffer commands, VkExtent2D extent, int slot) {
   }
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -1,4 +1,4 @@
-// What context and overlay share, within this room.
+// State shared by context and overlay, private to this room.
 #pragma once
 
 #include <imgui.h>
@@ -7,19 +7,19 @@
 
 #include "engine/ui/ui.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
-// The font's texture, as draw commands name it.
+// Id of the font's texture in draw commands.
 inline ImTextureID font_texture() {
-  static char is_the_font;  // its address stands for the texture
-  return &is_the_font;
+  static char font_marker;  // its address is the id
+  return &font_marker;
 }
 
 struct UiContext::State {
   ImGuiContext* context = nullptr;
   UiKeyQueue keys;
-  float scale = 0.0f;              // that style and font were made for
-  std::uint64_t font_version = 0;  // counts the builds of the atlas
+  float scale = 0.0f;              // scale for which style and font were built
+  std::uint64_t font_version = 0;  // number of times the atlas was built
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -5,14 +5,14 @@
 #include <filesystem>
 #include <iterator>
 
-namespace gearshift {
+namespace gearshift::engine {
 namespace {
 
-// Debian's fonts-dejavu-core. Its digits are all of one width: numbers that change do not dance.
+// From Debian's fonts-dejavu-core. Its digits have equal widths, so that changing numbers do not jitter.
 constexpr const char* kRegular = "/usr/share/fonts/truetype/dejavu/DejaVuSans.ttf";
 constexpr const char* kBold = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf";
 
-// Latin-1, dashes and ellipsis, arrows, comparisons. Pairs of first and last, ended by 0.
+// Latin-1, dashes and ellipsis, arrows, comparisons. Pairs of first and last code point, terminated by 0.
 constexpr ImWchar kLetters[] = {0x20, 0xff, 0x2010, 0x2026, 0x2190, 0x2193, 0x2264, 0x2265, 0};
 
 struct FontFile {
@@ -119,4 +119,4 @@ void apply_ui_style(float scale) {
   ImGui::GetStyle() = style;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -1,17 +1,17 @@
-// How everything looks: fonts, colours, spacing. Dark and quiet, so that picture and warnings stand out.
+// Fonts, colours and spacing. Dark and subdued, so that the picture and warnings stand out.
 #pragma once
 
 #include <imgui.h>
 
-namespace gearshift {
+namespace gearshift::engine {
 
-// In this order in the atlas. Sizes in pixels at scale 1, line height included.
+// In the order of the atlas. Sizes are in pixels at scale 1, including line spacing.
 enum class UiFont : int { body, small, title, prompt, digits };
 
-ImFont* ui_font(UiFont font);  // of the current context
-float ui_em();                 // [px] size of the body font: what everything is measured in
+ImFont* ui_font(UiFont font);  // in the current context
+float ui_em();                 // [px] size of the body font: the unit for all other sizes
 
-// For the scope of a block.
+// Sets a font for the enclosing block.
 class WithFont {
  public:
   explicit WithFont(UiFont font) { ImGui::PushFont(ui_font(font)); }
@@ -22,7 +22,7 @@ class WithFont {
 
 namespace ink {
 inline constexpr ImU32 kPanel = IM_COL32(21, 25, 31, 244);
-inline constexpr ImU32 kWell = IM_COL32(13, 16, 20, 255);  // what plots and fields stand in
+inline constexpr ImU32 kWell = IM_COL32(13, 16, 20, 255);  // background of plots and fields
 inline constexpr ImU32 kRaised = IM_COL32(42, 50, 60, 255);
 inline constexpr ImU32 kRaisedHover = IM_COL32(55, 66, 79, 255);
 inline constexpr ImU32 kLine = IM_COL32(52, 61, 72, 255);
@@ -36,9 +36,9 @@ inline constexpr ImU32 kBad = IM_COL32(226, 76, 66, 255);
 inline constexpr ImU32 kBadDeep = IM_COL32(190, 40, 35, 255);
 }  // namespace ink
 
-ImU32 with_alpha(ImU32 colour, float alpha);  // alpha 0 to 1, of what it has
+ImU32 with_alpha(ImU32 colour, float alpha);  // alpha 0 to 1, multiplies the colour's alpha
 
-// Loads the fonts into the current context's atlas and sets its style, for that scale.
+// Loads the fonts into the current context's atlas and sets its style for the given scale.
 void apply_ui_style(float scale);
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -6,16 +6,16 @@
 
 #include <fmt/format.h>
 
-namespace gearshift {
+namespace gearshift::engine {
 namespace {
 
-int users = 0;  // GLFW itself is of one thread
+int users = 0;  // no lock needed: GLFW is used from one thread only
 
 }  // namespace
 
 GlfwUse::GlfwUse() {
   if (users == 0 && glfwInit() == GLFW_FALSE) {
-    throw std::runtime_error(fmt::format("There is no display to open a window on ({}).", glfw_error()));
+    throw std::runtime_error(fmt::format("There is no display for a window ({}).", glfw_error()));
   }
   ++users;
 }
@@ -27,7 +27,7 @@ GlfwUse::~GlfwUse() {
 std::string glfw_error() {
   const char* text = nullptr;
   glfwGetError(&text);
-  return text == nullptr ? "GLFW gives no reason" : text;
+  return text == nullptr ? "GLFW gave no reason" : text;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

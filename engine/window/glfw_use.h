@@ -1,19 +1,19 @@
-// GLFW is initialised while somebody uses it.
+// Reference-counted initialisation of GLFW.
 #pragma once
 
 #include <string>
 
-namespace gearshift {
+namespace gearshift::engine {
 
 class GlfwUse {
  public:
-  GlfwUse();  // throws std::runtime_error with one sentence where there is no display
+  GlfwUse();  // throws std::runtime_error with one sentence if there is no display
   ~GlfwUse();
   GlfwUse(const GlfwUse&) = delete;
   GlfwUse& operator=(const GlfwUse&) = delete;
 };
 
-// The last error's text, taken; never empty.
+// Text of the last error, which is cleared; never empty.
 std::string glfw_error();
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

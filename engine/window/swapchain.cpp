@@ -9,11 +9,11 @@
 
 #include "engine/gpu/commands.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 namespace {
 
-// Longer than any display's period: a compositor that gives no image for so long shows none of ours.
-constexpr std::uint64_t kPatience = 100'000'000;  // [ns]
+// Longer than any display's period. If the compositor provides no image for that long, it is not showing our window.
+constexpr std::uint64_t kAcquireTimeout = 100'000'000;  // [ns]
 
 Semaphore make_semaphore(VkDevice device) {
   const VkSemaphoreCreateInfo info{.sType = VK_STRUCTURE_TYPE_SEMAPHORE_CREATE_INFO};
@@ -22,7 +22,7 @@ Semaphore make_semaphore(VkDevice device) {
   return {device, semaphore};
 }
 
-// A surface can be lost at any call that names it; it never leaves this file.
+// Any call that uses a surface can find it lost. This exception never leaves this file.
 struct SurfaceLost {};
 void check_surface(VkResult result, const char* what) {
   if (result == VK_ERROR_SURFACE_LOST_KHR) throw SurfaceLost{};
@@ -44,11 +44,11 @@ void require_present(const Gpu& gpu, VkSurfaceKHR surface) {
   check_surface(vkGetPhysicalDeviceSurfaceSupportKHR(gpu.physical(), gpu.queue_family(), surface, &can_present),
                 "vkGetPhysicalDeviceSurfaceSupportKHR");
   if (can_present == VK_FALSE) {
-    throw GpuError(fmt::format("{} cannot show pictures in this window.", gpu.traits().name));
+    throw GpuError(fmt::format("{} cannot present to this window.", gpu.traits().name));
   }
 }
 
-// sRGB, so that the blit encodes what it filtered.
+// sRGB, so that the blit encodes the filtered values.
 VkSurfaceFormatKHR choose_format(const Gpu& gpu, VkSurfaceKHR surface) {
   const auto formats = list<VkSurfaceFormatKHR>([&](auto* count, auto* items) {
     return vkGetPhysicalDeviceSurfaceFormatsKHR(gpu.physical(), surface, count, items);
@@ -60,7 +60,7 @@ VkSurfaceFormatKHR choose_format(const Gpu& gpu, VkSurfaceKHR surface) {
       return f;
     }
   }
-  throw GpuError(fmt::format("{} offers no sRGB picture for this window.", gpu.traits().name));
+  throw GpuError(fmt::format("{} offers no sRGB format for this window.", gpu.traits().name));
 }
 
 VkPresentModeKHR choose_mode(const Gpu& gpu, VkSurfaceKHR surface, bool vsync) {
@@ -76,8 +76,8 @@ VkPresentModeKHR choose_mode(const Gpu& gpu, VkSurfaceKHR surface, bool vsync) {
 
 VkExtent2D choose_extent(const VkSurfaceCapabilitiesKHR& can, glm::ivec2 framebuffer) {
   if (can.currentExtent.width != std::numeric_limits<std::uint32_t>::max()) return can.currentExtent;
-  const auto within = [](int wanted, std::uint32_t least, std::uint32_t most) {
-    return std::clamp(static_cast<std::uint32_t>(wanted), least, most);
+  const auto within = [](int wanted, std::uint32_t min, std::uint32_t max) {
+    return std::clamp(static_cast<std::uint32_t>(wanted), min, max);
   };
   return {within(framebuffer.x, can.minImageExtent.width, can.maxImageExtent.width),
           within(framebuffer.y, can.minImageExtent.height, can.maxImageExtent.height)};
@@ -85,12 +85,12 @@ VkExtent2D choose_extent(const VkSurfaceCapabilitiesKHR& can, glm::ivec2 framebu
 
 VkCompositeAlphaFlagBitsKHR choose_alpha(VkCompositeAlphaFlagsKHR can) {
   if ((can & VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR) != 0) return VK_COMPOSITE_ALPHA_OPAQUE_BIT_KHR;
-  return static_cast<VkCompositeAlphaFlagBitsKHR>(can & (~can + 1));  // the first of what it can
+  return static_cast<VkCompositeAlphaFlagBitsKHR>(can & (~can + 1));  // the lowest supported bit
 }
 
 }  // namespace
 
-VkRect2D place_of(const ShownLayer& layer, VkExtent2D picture, VkExtent2D window) {
+VkRect2D placement_of(const ShownLayer& layer, VkExtent2D picture, VkExtent2D window) {
   const auto at = [&](float share) {
     return std::lround(std::clamp(share, 0.0f, 1.0f) * static_cast<float>(window.width));
   };
@@ -119,8 +119,8 @@ struct Swapchain::State {
   void make_surface();
   void drop_surface() noexcept;
   void build();
-  bool make_ready();  // false: nothing to show on
-  bool take(VkResult result, const char* what);
+  bool make_ready();  // false if there is nothing to present to
+  bool handle_result(VkResult result, const char* what);
 
   Gpu& gpu;
   Window& window;
@@ -129,15 +129,15 @@ struct Swapchain::State {
   VkSwapchainKHR swapchain = VK_NULL_HANDLE;
   VkSurfaceFormatKHR format{};
   VkExtent2D extent{};
-  glm::ivec2 built_for{0};  // the framebuffer then
-  bool stale = true;        // to be built anew before the next frame
-  bool lost = false;        // the surface, too
+  glm::ivec2 built_for{0};  // framebuffer size at the last build
+  bool stale = true;        // must be rebuilt before the next frame
+  bool lost = false;        // the surface must be recreated, too
   std::vector<GpuImage> images;
-  std::vector<Semaphore> rendered;  // one an image: free again when the image is acquired again
-  // One more than frames in flight: an image is acquired before the frame waits for its slot.
+  std::vector<Semaphore> rendered;  // one per image: reusable once the image is acquired again
+  // One more than the frames in flight, because an image is acquired before the frame waits for its slot.
   std::array<Semaphore, kFramesInFlight + 1> acquired;
   std::size_t frame = 0;
-  std::uint32_t index = 0;  // of the acquired image
+  std::uint32_t index = 0;  // index of the acquired image
   std::uint64_t builds = 0;
 };
 
@@ -166,18 +166,18 @@ void Swapchain::State::build() {
   VkSurfaceCapabilitiesKHR can;
   check_surface(vkGetPhysicalDeviceSurfaceCapabilitiesKHR(gpu.physical(), surface, &can),
                 "vkGetPhysicalDeviceSurfaceCapabilitiesKHR");
-  stale = true;  // until all of it is there
+  stale = true;  // until the build has completed
   built_for = window.framebuffer();
   extent = choose_extent(can, built_for);
   if (extent.width == 0 || extent.height == 0) return;
-  gpu.wait_idle();  // the old images may still be drawn
+  gpu.wait_idle();  // frames in flight may still use the old images
   images.clear();
   rendered.clear();
-  const std::uint32_t most = can.maxImageCount == 0 ? std::numeric_limits<std::uint32_t>::max() : can.maxImageCount;
+  const std::uint32_t max = can.maxImageCount == 0 ? std::numeric_limits<std::uint32_t>::max() : can.maxImageCount;
   const VkSwapchainKHR old = swapchain;
   const VkSwapchainCreateInfoKHR info{.sType = VK_STRUCTURE_TYPE_SWAPCHAIN_CREATE_INFO_KHR,
                                       .surface = surface,
-                                      .minImageCount = std::min(can.minImageCount + 1, most),
+                                      .minImageCount = std::min(can.minImageCount + 1, max),
                                       .imageFormat = format.format,
                                       .imageColorSpace = format.colorSpace,
                                       .imageExtent = extent,
@@ -189,7 +189,7 @@ void Swapchain::State::build() {
                                       .clipped = VK_TRUE,
                                       .oldSwapchain = old};
   const VkResult made = vkCreateSwapchainKHR(gpu.device(), &info, nullptr, &swapchain);
-  vkDestroySwapchainKHR(gpu.device(), old, nullptr);  // retired, whether the new one was made or not
+  vkDestroySwapchainKHR(gpu.device(), old, nullptr);  // it is retired even if creating the new one failed
   if (made != VK_SUCCESS) swapchain = VK_NULL_HANDLE;
   check_surface(made, "vkCreateSwapchainKHR");
   const auto raw = list<VkImage>(
@@ -210,7 +210,7 @@ bool Swapchain::State::make_ready() {
       drop_surface();
       make_surface();
     }
-    // Not every driver says that its images have another size than the window.
+    // Not every driver reports that the image size no longer matches the window.
     if (stale || framebuffer != built_for) build();
   } catch (const SurfaceLost&) {
     lost = true;
@@ -219,8 +219,8 @@ bool Swapchain::State::make_ready() {
   return !stale;
 }
 
-// What the presentation engine says: true where the image can be used.
-bool Swapchain::State::take(VkResult result, const char* what) {
+// Handles the result of acquire or present; returns true if the image can be used.
+bool Swapchain::State::handle_result(VkResult result, const char* what) {
   switch (result) {
     case VK_SUBOPTIMAL_KHR:
       stale = true;
@@ -248,9 +248,10 @@ bool Swapchain::acquire() {
   State& s = *state_;
   if (!s.make_ready()) return false;
   const std::size_t next = (s.frame + 1) % s.acquired.size();
-  const VkResult result = vkAcquireNextImageKHR(s.gpu.device(), s.swapchain, s.vsync ? kPatience : 0,
+  const VkResult result = vkAcquireNextImageKHR(s.gpu.device(), s.swapchain, s.vsync ? kAcquireTimeout : 0,
                                                 s.acquired[next].get(), VK_NULL_HANDLE, &s.index);
-  if (!s.take(result, "vkAcquireNextImageKHR")) return false;  // the semaphore stays unused, and is the next one again
+  // the semaphore was not used, so the next call uses it again
+  if (!s.handle_result(result, "vkAcquireNextImageKHR")) return false;
   s.frame = next;
   return true;
 }
@@ -266,14 +267,14 @@ void Swapchain::record(VkCommandBuffer commands, GpuImage& picture, std::span<co
   State& s = *state_;
   expect(picture, ImageUse::copy_from);
   GpuImage& image = s.images[s.index];
-  forget(image);
+  discard_content(image);
   transition(commands, image, ImageUse::copy_to);
   const VkClearColorValue black{.float32 = {0.0f, 0.0f, 0.0f, 1.0f}};
   const VkImageSubresourceRange all{.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .levelCount = 1, .layerCount = 1};
   vkCmdClearColorImage(commands, image.get(), layout_of(ImageUse::copy_to), &black, 1, &all);
-  transition(commands, image, ImageUse::copy_to);  // the blit writes after the clear
+  transition(commands, image, ImageUse::copy_to);  // orders the blit after the clear
   for (const ShownLayer& layer : layers) {
-    const VkRect2D place = place_of(layer, picture.extent(), s.extent);
+    const VkRect2D place = placement_of(layer, picture.extent(), s.extent);
     blit_into(commands, picture, layer.layer, image, place);
   }
   transition(commands, image, ImageUse::present);
@@ -288,7 +289,7 @@ void Swapchain::present() {
                               .swapchainCount = 1,
                               .pSwapchains = &s.swapchain,
                               .pImageIndices = &s.index};
-  s.take(vkQueuePresentKHR(s.gpu.queue(), &info), "vkQueuePresentKHR");
+  s.handle_result(vkQueuePresentKHR(s.gpu.queue(), &info), "vkQueuePresentKHR");
 }
 
 VkExtent2D Swapchain::extent() const noexcept {
@@ -298,4 +299,4 @@ std::uint64_t Swapchain::rebuilt() const noexcept {
   return state_->builds;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -12,7 +12,7 @@
 
 #include "engine/window/glfw_use.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 namespace {
 
 struct Rectangle {
@@ -41,7 +41,7 @@ long overlap(const Rectangle& a, const Rectangle& b) {
   return width <= 0 || height <= 0 ? 0 : static_cast<long>(width) * height;
 }
 
-// The monitor that shows most of the window; null where there is none.
+// The monitor that shows the largest part of the window; null if there is none.
 GLFWmonitor* monitor_of(GLFWwindow* window) {
   int count = 0;
   GLFWmonitor** monitors = glfwGetMonitors(&count);
@@ -77,8 +77,8 @@ struct Window::State {
   GlfwUse use;
   GLFWwindow* window = nullptr;
   WindowInput input;
-  std::array<bool, 5> held{};  // mouse buttons, now
-  glm::dvec2 cursor{0.0};      // where GLFW has it: of the window's coordinates, unbounded while captured
+  std::array<bool, 5> held{};  // current mouse buttons
+  glm::dvec2 cursor{0.0};      // in GLFW's window coordinates, unbounded while captured
   bool captured = false;
   bool shown = true;
   Rectangle before_full_screen;
@@ -87,7 +87,7 @@ struct Window::State {
 Window::State::State(int width, int height, const std::string& title) {
   glfwWindowHint(GLFW_CLIENT_API, GLFW_NO_API);
   window = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
-  if (window == nullptr) throw std::runtime_error(fmt::format("No window can be opened: {}.", glfw_error()));
+  if (window == nullptr) throw std::runtime_error(fmt::format("Cannot open a window: {}.", glfw_error()));
   glfwSetWindowUserPointer(window, this);
   glfwGetCursorPos(window, &cursor.x, &cursor.y);
   listen();
@@ -130,7 +130,7 @@ void Window::State::pressed(int button, bool down) {
   if (down) input.mouse_down[index] = true;
 }
 
-// A window manager iconifies, or takes the window off the screen (another desktop): nothing to draw for in either case.
+// A window manager can iconify the window or unmap it (another desktop). Nothing needs to be drawn in either case.
 bool Window::State::is_shown() const {
   return glfwGetWindowAttrib(window, GLFW_ICONIFIED) == GLFW_FALSE &&
          glfwGetWindowAttrib(window, GLFW_VISIBLE) == GLFW_TRUE;
@@ -144,7 +144,7 @@ Window::~Window() = default;
 std::vector<const char*> Window::instance_extensions() {
   std::uint32_t count = 0;
   const char** names = glfwGetRequiredInstanceExtensions(&count);
-  if (names == nullptr) throw GpuError("No Vulkan driver here can draw into a window.");
+  if (names == nullptr) throw GpuError("No installed Vulkan driver can draw to a window.");
   return {names, names + count};
 }
 
@@ -203,7 +203,7 @@ void Window::capture_mouse(bool on) {
   if (glfwRawMouseMotionSupported() == GLFW_TRUE) glfwSetInputMode(s.window, GLFW_RAW_MOUSE_MOTION, on);
   glfwSetInputMode(s.window, GLFW_CURSOR, on ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
   s.captured = on;
-  glfwGetCursorPos(s.window, &s.cursor.x, &s.cursor.y);  // that it jumps here is no motion of the mouse
+  glfwGetCursorPos(s.window, &s.cursor.x, &s.cursor.y);  // the jump of the cursor is not a mouse movement
 }
 
 VkSurfaceKHR Window::make_surface(VkInstance instance) const {
@@ -212,4 +212,4 @@ VkSurfaceKHR Window::make_surface(VkInstance instance) const {
   return surface;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -1,30 +1,31 @@
-// What a headset's frames cost, and whether they came in time.
+// Statistics of headset frames: cost and punctuality.
 #pragma once
 
 #include <cstdint>
 
 #include "engine/xr/headset_session.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
-// Of the newest frame; the counts are since the session began.
+// Times of the newest frame; counts since the session began.
 struct HeadsetTiming {
   double period_ms = 0.0;
-  double cpu_ms = 0.0;  // from when the runtime asked for it until it was handed over
+  double cpu_ms = 0.0;  // from the runtime's request for the frame to its submission
   double gpu_ms = 0.0;
-  double spare_ms = 0.0;  // from when it was drawn until it was to be seen; negative: too late for that
-  // From when it was to be seen to when it could be: the first display period after it was drawn. OpenXR tells no more.
+  double spare_ms = 0.0;  // from the end of drawing to the display time; negative: too late
+  // From the planned display time to the actual one, taken as the first display period after drawing ended. OpenXR
+  // provides no more information.
   double late_ms = 0.0;
   std::uint64_t frames = 0;
   std::uint64_t dropped = 0;  // display periods without a new frame
-  std::uint64_t late = 0;     // frames that were not drawn in time
+  std::uint64_t late = 0;     // frames whose drawing did not end in time
 };
 
 class FrameTimes {
  public:
-  // A frame that was waited for and handed over at handed_ns; on the GPU it took gpu_ms from then on.
-  void take(const HeadsetFrame& frame, std::int64_t handed_ns, double gpu_ms);
-  void pause() { last_display_ns_ = 0; }  // frames are not paced for a while: what passes is not dropped
+  // Adds a frame that was submitted at handed_ns and then took gpu_ms on the GPU.
+  void add(const HeadsetFrame& frame, std::int64_t handed_ns, double gpu_ms);
+  void pause() { last_display_ns_ = 0; }  // frames are not paced for a while: do not count this time as dropped frames
   const HeadsetTiming& timing() const noexcept { return timing_; }
 
  private:
@@ -32,4 +33,4 @@ class FrameTimes {
   std::int64_t last_display_ns_ = 0;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -2,14 +2,14 @@
 
 #include "engine/xr/openxr.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 namespace {
 
 #define GEARSHIFT_XR_CASE(name, value) \
   case value:                          \
     return #name;
 
-// xrResultToString needs an instance, which is what may be missing.
+// xrResultToString needs an instance, which may not exist.
 const char* name_of(XrResult result) {
   switch (result) {
     XR_LIST_ENUM_XrResult(GEARSHIFT_XR_CASE);
@@ -37,4 +37,4 @@ void check(XrResult result, const char* what) {
   }
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -1,23 +1,23 @@
-// What a headset can do wrong.
+// Errors of the headset.
 #pragma once
 
 #include <stdexcept>
 
-namespace gearshift {
+namespace gearshift::engine {
 
-// One sentence.
+// The message is one sentence.
 struct HeadsetError : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// There is a runtime but no headset at it now: try again later.
+// A runtime is present, but no headset is connected: try again later.
 struct HeadsetAbsent : HeadsetError {
   using HeadsetError::HeadsetError;
 };
 
-// Session or runtime are gone: HeadsetSession, HeadsetRuntime and the Gpu that it made must be made anew.
+// Session or runtime are lost: HeadsetSession, HeadsetRuntime and the Gpu created through it must be recreated.
 struct HeadsetLost : HeadsetError {
   using HeadsetError::HeadsetError;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

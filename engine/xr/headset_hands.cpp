@@ -5,10 +5,10 @@
 #include <cstring>
 #include <string>
 
-namespace gearshift {
+namespace gearshift::engine {
 namespace {
 
-// What a hand's controller has, below /user/hand/left or right; null: nothing of that kind.
+// Input paths of a controller, below /user/hand/left or right; null: it has no such input.
 struct Profile {
   const char *name, *select, *menu, *scroll;
 };
@@ -20,7 +20,7 @@ constexpr Profile kProfiles[] = {
     {"/interaction_profiles/microsoft/motion_controller", "/input/trigger/value", "/input/menu/click",
      "/input/thumbstick"},
 };
-// The two hands of this one differ.
+// The menu buttons of the two hands differ on this controller.
 constexpr const char* kTouch = "/interaction_profiles/oculus/touch_controller";
 constexpr const char* kTouchMenus[] = {"/input/y/click", "/input/b/click"};
 constexpr const char* kHands[] = {"/user/hand/left", "/user/hand/right"};
@@ -53,7 +53,7 @@ HeadsetHands::HeadsetHands(XrInstance instance, XrSession session) : instance_(i
 
 HeadsetHands::~HeadsetHands() {
   for (const XrSpace space : aim_space_) xrDestroySpace(space);
-  xrDestroyActionSet(set_);  // and its actions
+  xrDestroyActionSet(set_);  // also destroys its actions
 }
 
 XrPath HeadsetHands::path(const char* text) const {
@@ -62,11 +62,11 @@ XrPath HeadsetHands::path(const char* text) const {
   return path;
 }
 
-XrAction HeadsetHands::make_action(const char* name, const char* words, XrActionType type) {
+XrAction HeadsetHands::make_action(const char* name, const char* label, XrActionType type) {
   XrActionCreateInfo info{XR_TYPE_ACTION_CREATE_INFO};
   info.actionType = type;
   std::snprintf(info.actionName, sizeof info.actionName, "%s", name);
-  std::snprintf(info.localizedActionName, sizeof info.localizedActionName, "%s", words);
+  std::snprintf(info.localizedActionName, sizeof info.localizedActionName, "%s", label);
   info.countSubactionPaths = static_cast<std::uint32_t>(hand_.size());
   info.subactionPaths = hand_.data();
   XrAction action = XR_NULL_HANDLE;
@@ -74,7 +74,7 @@ XrAction HeadsetHands::make_action(const char* name, const char* words, XrAction
   return action;
 }
 
-// A profile that a runtime does not know is no loss: it takes another.
+// Suggests bindings for each profile. A profile unknown to the runtime is skipped; others will match.
 void HeadsetHands::suggest() {
   for (const Profile& profile : kProfiles) {
     std::vector<XrActionSuggestedBinding> bindings;
@@ -109,11 +109,11 @@ std::array<HeadsetHand, 2> HeadsetHands::read(XrSpace space, XrTime time) {
 }
 
 bool HeadsetHands::is_pressed(XrAction action, XrPath hand) const {
-  XrActionStateGetInfo ask{XR_TYPE_ACTION_STATE_GET_INFO};
-  ask.action = action;
-  ask.subactionPath = hand;
+  XrActionStateGetInfo info{XR_TYPE_ACTION_STATE_GET_INFO};
+  info.action = action;
+  info.subactionPath = hand;
   XrActionStateBoolean state{XR_TYPE_ACTION_STATE_BOOLEAN};
-  check(xrGetActionStateBoolean(session_, &ask, &state), "xrGetActionStateBoolean");
+  check(xrGetActionStateBoolean(session_, &info, &state), "xrGetActionStateBoolean");
   return state.isActive == XR_TRUE && state.currentState == XR_TRUE;
 }
 
@@ -123,17 +123,17 @@ HeadsetHand HeadsetHands::read(std::size_t hand, XrSpace space, XrTime time) con
   check(xrLocateSpace(aim_space_[hand], space, time, &place), "xrLocateSpace");
   constexpr XrSpaceLocationFlags kBoth = XR_SPACE_LOCATION_POSITION_VALID_BIT | XR_SPACE_LOCATION_ORIENTATION_VALID_BIT;
   out.is_tracked = (place.locationFlags & kBoth) == kBoth;
-  out.is_seen = (place.locationFlags & XR_SPACE_LOCATION_POSITION_TRACKED_BIT) != 0;
+  out.is_position_tracked = (place.locationFlags & XR_SPACE_LOCATION_POSITION_TRACKED_BIT) != 0;
   if (out.is_tracked) out.aim = pose_of(place.pose);
   out.selects = is_pressed(select_, hand_[hand]);
   out.menu = is_pressed(menu_, hand_[hand]);
-  XrActionStateGetInfo ask{XR_TYPE_ACTION_STATE_GET_INFO};
-  ask.action = scroll_;
-  ask.subactionPath = hand_[hand];
+  XrActionStateGetInfo info{XR_TYPE_ACTION_STATE_GET_INFO};
+  info.action = scroll_;
+  info.subactionPath = hand_[hand];
   XrActionStateVector2f stick{XR_TYPE_ACTION_STATE_VECTOR2F};
-  check(xrGetActionStateVector2f(session_, &ask, &stick), "xrGetActionStateVector2f");
+  check(xrGetActionStateVector2f(session_, &info, &stick), "xrGetActionStateVector2f");
   if (stick.isActive == XR_TRUE) out.scroll = {stick.currentState.x, stick.currentState.y};
   return out;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

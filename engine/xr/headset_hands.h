@@ -1,4 +1,4 @@
-// Hands and their buttons: what OpenXR calls actions.
+// Hands and their buttons, as OpenXR actions.
 #pragma once
 
 #include <array>
@@ -6,7 +6,7 @@
 #include "engine/xr/headset_session.h"
 #include "engine/xr/openxr.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 class HeadsetHands {
  public:
@@ -18,7 +18,7 @@ class HeadsetHands {
   std::array<HeadsetHand, 2> read(XrSpace space, XrTime time);
 
  private:
-  XrAction make_action(const char* name, const char* words, XrActionType type);
+  XrAction make_action(const char* name, const char* label, XrActionType type);
   void suggest();
   XrPath path(const char* text) const;
   bool is_pressed(XrAction action, XrPath hand) const;
@@ -32,4 +32,4 @@ class HeadsetHands {
   std::array<XrSpace, 2> aim_space_{};
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-namespace gearshift {
+namespace gearshift::engine {
 namespace {
 
-constexpr XrDuration kAtTheEnd = 100'000'000;  // [ns] longer than a frame of any headset
+constexpr XrDuration kDestructionTimeout = 100'000'000;  // [ns] longer than a frame of any headset
 
 bool is_depth(VkFormat format) {
   return format == VK_FORMAT_D32_SFLOAT;
@@ -13,8 +13,8 @@ bool is_depth(VkFormat format) {
 
 VkFormat choose_picture_format(XrSession session, const Gpu& gpu, std::span<const VkFormat> wanted) {
   const auto offered = list_of<std::int64_t>("xrEnumerateSwapchainFormats", 0,
-                                             [&](std::uint32_t room, std::uint32_t* count, std::int64_t* items) {
-                                               return xrEnumerateSwapchainFormats(session, room, count, items);
+                                             [&](std::uint32_t capacity, std::uint32_t* count, std::int64_t* items) {
+                                               return xrEnumerateSwapchainFormats(session, capacity, count, items);
                                              });
   for (const VkFormat format : wanted) {
     const bool is_offered = std::find(offered.begin(), offered.end(), format) != offered.end();
@@ -22,8 +22,8 @@ VkFormat choose_picture_format(XrSession session, const Gpu& gpu, std::span<cons
         format, is_depth(format) ? VK_FORMAT_FEATURE_2_TRANSFER_DST_BIT : VK_FORMAT_FEATURE_2_BLIT_DST_BIT);
     if (is_offered && is_written) return format;
   }
-  throw HeadsetError(is_depth(wanted.front()) ? "the headset takes no depth of 32 bits"
-                                              : "the headset takes no picture of 8 bits in sRGB or 16 bits a channel");
+  throw HeadsetError(is_depth(wanted.front()) ? "the headset does not accept 32-bit depth images"
+                                              : "the headset accepts neither 8-bit sRGB nor 16-bit float images");
 }
 
 }  // namespace
@@ -47,8 +47,8 @@ HeadsetImages::HeadsetImages(XrSession session, const Gpu& gpu, glm::ivec2 size,
   try {
     const auto raw = list_of<XrSwapchainImageVulkanKHR>(
         "xrEnumerateSwapchainImages", {XR_TYPE_SWAPCHAIN_IMAGE_VULKAN_KHR},
-        [&](std::uint32_t room, std::uint32_t* count, XrSwapchainImageVulkanKHR* items) {
-          return xrEnumerateSwapchainImages(swapchain_, room, count,
+        [&](std::uint32_t capacity, std::uint32_t* count, XrSwapchainImageVulkanKHR* items) {
+          return xrEnumerateSwapchainImages(swapchain_, capacity, count,
                                             reinterpret_cast<XrSwapchainImageBaseHeader*>(items));
         });
     for (const XrSwapchainImageVulkanKHR& image : raw)
@@ -60,54 +60,55 @@ HeadsetImages::HeadsetImages(XrSession session, const Gpu& gpu, glm::ivec2 size,
   }
 }
 
-// An error in the middle of a frame leaves an image in our hands: it is given back first, as well as may be.
+// An exception in the middle of a frame can leave an image acquired. It is waited for and released first, if possible.
 HeadsetImages::~HeadsetImages() {
-  if (hold_ == Hold::acquired) {
+  if (image_state_ == ImageState::acquired) {
     XrSwapchainImageWaitInfo wait{XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO};
-    wait.timeout = kAtTheEnd;
-    if (xrWaitSwapchainImage(swapchain_, &wait) == XR_SUCCESS) hold_ = Hold::ours;
+    wait.timeout = kDestructionTimeout;
+    if (xrWaitSwapchainImage(swapchain_, &wait) == XR_SUCCESS) image_state_ = ImageState::waited;
   }
   const XrSwapchainImageReleaseInfo release{XR_TYPE_SWAPCHAIN_IMAGE_RELEASE_INFO};
-  if (hold_ == Hold::ours) xrReleaseSwapchainImage(swapchain_, &release);
+  if (image_state_ == ImageState::waited) xrReleaseSwapchainImage(swapchain_, &release);
   xrDestroySwapchain(swapchain_);
 }
 
-GpuImage* HeadsetImages::take(XrDuration patience) {
-  if (hold_ == Hold::none) {
+GpuImage* HeadsetImages::acquire(XrDuration timeout) {
+  if (image_state_ == ImageState::none) {
     const XrSwapchainImageAcquireInfo acquire{XR_TYPE_SWAPCHAIN_IMAGE_ACQUIRE_INFO};
     check(xrAcquireSwapchainImage(swapchain_, &acquire, &index_), "xrAcquireSwapchainImage");
-    hold_ = Hold::acquired;
+    image_state_ = ImageState::acquired;
   }
-  if (hold_ == Hold::acquired) {
+  if (image_state_ == ImageState::acquired) {
     XrSwapchainImageWaitInfo wait{XR_TYPE_SWAPCHAIN_IMAGE_WAIT_INFO};
-    wait.timeout = patience;
+    wait.timeout = timeout;
     const XrResult result = xrWaitSwapchainImage(swapchain_, &wait);
     check(result, "xrWaitSwapchainImage");
     if (result == XR_TIMEOUT_EXPIRED) return nullptr;
-    hold_ = Hold::ours;
+    image_state_ = ImageState::waited;
   }
   GpuImage& image = images_[index_];
-  forget(image);
+  discard_content(image);
   return &image;
 }
 
-// The runtime gets and gives its images as attachments (XR_KHR_vulkan_enable2, "Swapchain Image Layout").
-void HeadsetImages::ready_to_give(VkCommandBuffer commands) {
-  if (hold_ != Hold::ours) return;
+// The runtime provides its images in attachment layout and expects them back in it (XR_KHR_vulkan_enable2, "Swapchain
+// Image Layout").
+void HeadsetImages::transition_for_release(VkCommandBuffer commands) {
+  if (image_state_ != ImageState::waited) return;
   GpuImage& image = images_[index_];
   transition(commands, image, is_depth(image.desc().format) ? ImageUse::depth_target : ImageUse::colour_target);
 }
 
-void HeadsetImages::give() {
-  if (hold_ != Hold::ours) return;
+void HeadsetImages::release() {
+  if (image_state_ != ImageState::waited) return;
   const XrSwapchainImageReleaseInfo release{XR_TYPE_SWAPCHAIN_IMAGE_RELEASE_INFO};
   check(xrReleaseSwapchainImage(swapchain_, &release), "xrReleaseSwapchainImage");
-  hold_ = Hold::none;
-  ever_given_ = true;
+  image_state_ = ImageState::none;
+  has_been_released_ = true;
 }
 
 XrSwapchainSubImage HeadsetImages::layer(std::uint32_t index) const noexcept {
   return {swapchain_, {{0, 0}, {size_.x, size_.y}}, index};
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

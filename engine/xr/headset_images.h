@@ -1,4 +1,4 @@
-// Images that a runtime shows: taken, copied into, given back.
+// Images of an OpenXR swapchain: acquired, copied into, released.
 #pragma once
 
 #include <span>
@@ -6,24 +6,25 @@
 #include "engine/gpu/gpu_image.h"
 #include "engine/xr/openxr.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 class HeadsetImages {
  public:
-  // The first of wanted that the runtime offers; throws HeadsetError where it offers none. layers: 1, or one an eye.
+  // Uses the first of the wanted formats that the runtime offers; throws HeadsetError if it offers none. layers: 1, or
+  // one per eye.
   HeadsetImages(XrSession session, const Gpu& gpu, glm::ivec2 size, std::uint32_t layers,
                 std::span<const VkFormat> wanted);
   ~HeadsetImages();
   HeadsetImages(const HeadsetImages&) = delete;
   HeadsetImages& operator=(const HeadsetImages&) = delete;
 
-  // The next image, in copy_to after a transition; null where the runtime has none free for now: nothing is drawn then.
-  // Until give() it is ours.
-  GpuImage* take(XrDuration patience);  // [ns]
-  void give();  // after the submission that writes it, which leaves it as it was got: see ready_to_give()
-  void ready_to_give(VkCommandBuffer commands);
+  // Acquires and waits for the next image, which is then to be transitioned to copy_to. Returns null if the runtime has
+  // no free image within the timeout; then draw nothing. The image is ours until release().
+  GpuImage* acquire(XrDuration timeout);  // [ns]
+  void release();  // after the submission that writes the image and restores its layout, see transition_for_release()
+  void transition_for_release(VkCommandBuffer commands);
 
-  bool ever_given() const noexcept { return ever_given_; }
+  bool has_been_released() const noexcept { return has_been_released_; }
   XrSwapchain get() const noexcept { return swapchain_; }
   glm::ivec2 size() const noexcept { return size_; }
   XrSwapchainSubImage layer(std::uint32_t index) const noexcept;
@@ -33,8 +34,8 @@ class HeadsetImages {
   glm::ivec2 size_;
   std::vector<GpuImage> images_;
   std::uint32_t index_ = 0;
-  enum class Hold { none, acquired, ours } hold_ = Hold::none;
-  bool ever_given_ = false;
+  enum class ImageState { none, acquired, waited } image_state_ = ImageState::none;
+  bool has_been_released_ = false;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

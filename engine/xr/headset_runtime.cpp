@@ -8,33 +8,34 @@
 
 #include "engine/xr/headset_runtime_state.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 namespace {
 
 constexpr const char* kNoRuntime =
-    "no OpenXR runtime answers: start the headset's software, or name its manifest in XR_RUNTIME_JSON";
+    "no OpenXR runtime found: start the headset's software, or set XR_RUNTIME_JSON to its manifest";
 
-// Debian's loader tells on std::cerr in four lines, whatever XR_LOADER_DEBUG says, what we tell in a sentence.
+// Debian's loader prints four lines to std::cerr, whatever XR_LOADER_DEBUG says. We report the same in one sentence.
 class QuietLoader {
  public:
-  QuietLoader() : told_(std::cerr.rdbuf(nullptr)) {}
+  QuietLoader() : saved_buffer_(std::cerr.rdbuf(nullptr)) {}
   ~QuietLoader() {
-    std::cerr.rdbuf(told_);
+    std::cerr.rdbuf(saved_buffer_);
     std::cerr.clear();
   }
   QuietLoader(const QuietLoader&) = delete;
   QuietLoader& operator=(const QuietLoader&) = delete;
 
  private:
-  std::streambuf* told_;
+  std::streambuf* saved_buffer_;
 };
 
 std::vector<XrExtensionProperties> offered_extensions() {
   try {
-    return list_of<XrExtensionProperties>("xrEnumerateInstanceExtensionProperties", {XR_TYPE_EXTENSION_PROPERTIES},
-                                          [](std::uint32_t room, std::uint32_t* count, XrExtensionProperties* items) {
-                                            return xrEnumerateInstanceExtensionProperties(nullptr, room, count, items);
-                                          });
+    return list_of<XrExtensionProperties>(
+        "xrEnumerateInstanceExtensionProperties", {XR_TYPE_EXTENSION_PROPERTIES},
+        [](std::uint32_t capacity, std::uint32_t* count, XrExtensionProperties* items) {
+          return xrEnumerateInstanceExtensionProperties(nullptr, capacity, count, items);
+        });
   } catch (const HeadsetError&) {
     throw HeadsetError(kNoRuntime);
   }
@@ -76,7 +77,7 @@ HeadsetRuntime::State::~State() {
 void HeadsetRuntime::State::make_instance() {
   const std::vector<XrExtensionProperties> offered = offered_extensions();
   if (!has(offered, XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME))
-    throw HeadsetError("the OpenXR runtime shows no pictures of Vulkan (XR_KHR_vulkan_enable2)");
+    throw HeadsetError("the OpenXR runtime does not support Vulkan (XR_KHR_vulkan_enable2)");
   std::vector<const char*> wanted{XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME};
   traits.depth = has(offered, XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME);
   timespec = has(offered, XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME);
@@ -109,29 +110,30 @@ void HeadsetRuntime::State::find_headset() {
   traits.headset = properties.systemName;
   const auto views = list_of<XrViewConfigurationView>(
       "xrEnumerateViewConfigurationViews", {XR_TYPE_VIEW_CONFIGURATION_VIEW},
-      [&](std::uint32_t room, std::uint32_t* count, XrViewConfigurationView* items) {
-        return xrEnumerateViewConfigurationViews(instance, system, kTwoEyes, room, count, items);
+      [&](std::uint32_t capacity, std::uint32_t* count, XrViewConfigurationView* items) {
+        return xrEnumerateViewConfigurationViews(instance, system, kTwoEyes, capacity, count, items);
       });
-  if (views.size() != 2) throw HeadsetError(fmt::format("{} has not two eyes", traits.headset));
+  if (views.size() != 2) throw HeadsetError(fmt::format("{} does not have two eyes", traits.headset));
   traits.eye = size_of(views[0].recommendedImageRectWidth, views[0].recommendedImageRectHeight);
   traits.largest = size_of(views[0].maxImageRectWidth, views[0].maxImageRectHeight);
   const auto blends = list_of<XrEnvironmentBlendMode>(
       "xrEnumerateEnvironmentBlendModes", XR_ENVIRONMENT_BLEND_MODE_OPAQUE,
-      [&](std::uint32_t room, std::uint32_t* count, XrEnvironmentBlendMode* items) {
-        return xrEnumerateEnvironmentBlendModes(instance, system, kTwoEyes, room, count, items);
+      [&](std::uint32_t capacity, std::uint32_t* count, XrEnvironmentBlendMode* items) {
+        return xrEnumerateEnvironmentBlendModes(instance, system, kTwoEyes, capacity, count, items);
       });
-  const bool hides_the_room = std::find(blends.begin(), blends.end(), blend) != blends.end();
-  if (!hides_the_room && !blends.empty()) blend = blends.front();
+  const bool is_opaque_offered = std::find(blends.begin(), blends.end(), blend) != blends.end();
+  if (!is_opaque_offered && !blends.empty()) blend = blends.front();
 }
 
-// OpenXR wants it to be asked before a session is made.
+// OpenXR requires this query before a session is created.
 void HeadsetRuntime::State::check_vulkan() const {
   XrGraphicsRequirementsVulkan2KHR needs{XR_TYPE_GRAPHICS_REQUIREMENTS_VULKAN2_KHR};
-  const auto ask = load<PFN_xrGetVulkanGraphicsRequirements2KHR>(instance, "xrGetVulkanGraphicsRequirements2KHR");
-  check(ask(instance, system, &needs), "xrGetVulkanGraphicsRequirements2KHR");
+  const auto get_requirements =
+      load<PFN_xrGetVulkanGraphicsRequirements2KHR>(instance, "xrGetVulkanGraphicsRequirements2KHR");
+  check(get_requirements(instance, system, &needs), "xrGetVulkanGraphicsRequirements2KHR");
   if (needs.minApiVersionSupported > XR_MAKE_VERSION(1, 3, 0))
-    throw HeadsetError(
-        fmt::format("{} wants Vulkan {}; we use 1.3", traits.runtime, version_text(needs.minApiVersionSupported)));
+    throw HeadsetError(fmt::format("{} requires Vulkan {}; this program uses 1.3", traits.runtime,
+                                   version_text(needs.minApiVersionSupported)));
 }
 
 HeadsetRuntime::HeadsetRuntime() : state_(std::make_unique<State>()) {}
@@ -142,36 +144,36 @@ const HeadsetTraits& HeadsetRuntime::traits() const noexcept {
 }
 
 VkResult HeadsetRuntime::make_instance(const VkInstanceCreateInfo& info, VkInstance* instance) {
-  XrVulkanInstanceCreateInfoKHR ask{XR_TYPE_VULKAN_INSTANCE_CREATE_INFO_KHR};
-  ask.systemId = state_->system;
-  ask.pfnGetInstanceProcAddr = vkGetInstanceProcAddr;
-  ask.vulkanCreateInfo = &info;
+  XrVulkanInstanceCreateInfoKHR get_requirements{XR_TYPE_VULKAN_INSTANCE_CREATE_INFO_KHR};
+  get_requirements.systemId = state_->system;
+  get_requirements.pfnGetInstanceProcAddr = vkGetInstanceProcAddr;
+  get_requirements.vulkanCreateInfo = &info;
   VkResult result = VK_SUCCESS;
   const auto create = load<PFN_xrCreateVulkanInstanceKHR>(state_->instance, "xrCreateVulkanInstanceKHR");
-  check(create(state_->instance, &ask, instance, &result), "xrCreateVulkanInstanceKHR");
+  check(create(state_->instance, &get_requirements, instance, &result), "xrCreateVulkanInstanceKHR");
   return result;
 }
 
 VkPhysicalDevice HeadsetRuntime::choose(VkInstance instance) {
-  XrVulkanGraphicsDeviceGetInfoKHR ask{XR_TYPE_VULKAN_GRAPHICS_DEVICE_GET_INFO_KHR};
-  ask.systemId = state_->system;
-  ask.vulkanInstance = instance;
+  XrVulkanGraphicsDeviceGetInfoKHR get_requirements{XR_TYPE_VULKAN_GRAPHICS_DEVICE_GET_INFO_KHR};
+  get_requirements.systemId = state_->system;
+  get_requirements.vulkanInstance = instance;
   VkPhysicalDevice physical = VK_NULL_HANDLE;
   const auto get = load<PFN_xrGetVulkanGraphicsDevice2KHR>(state_->instance, "xrGetVulkanGraphicsDevice2KHR");
-  check(get(state_->instance, &ask, &physical), "xrGetVulkanGraphicsDevice2KHR");
+  check(get(state_->instance, &get_requirements, &physical), "xrGetVulkanGraphicsDevice2KHR");
   return physical;
 }
 
 VkResult HeadsetRuntime::make_device(VkPhysicalDevice physical, const VkDeviceCreateInfo& info, VkDevice* device) {
-  XrVulkanDeviceCreateInfoKHR ask{XR_TYPE_VULKAN_DEVICE_CREATE_INFO_KHR};
-  ask.systemId = state_->system;
-  ask.pfnGetInstanceProcAddr = vkGetInstanceProcAddr;
-  ask.vulkanPhysicalDevice = physical;
-  ask.vulkanCreateInfo = &info;
+  XrVulkanDeviceCreateInfoKHR get_requirements{XR_TYPE_VULKAN_DEVICE_CREATE_INFO_KHR};
+  get_requirements.systemId = state_->system;
+  get_requirements.pfnGetInstanceProcAddr = vkGetInstanceProcAddr;
+  get_requirements.vulkanPhysicalDevice = physical;
+  get_requirements.vulkanCreateInfo = &info;
   VkResult result = VK_SUCCESS;
   const auto create = load<PFN_xrCreateVulkanDeviceKHR>(state_->instance, "xrCreateVulkanDeviceKHR");
-  check(create(state_->instance, &ask, device, &result), "xrCreateVulkanDeviceKHR");
+  check(create(state_->instance, &get_requirements, device, &result), "xrCreateVulkanDeviceKHR");
   return result;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -1,4 +1,4 @@
-// An OpenXR runtime and the headset at it; makes the Vulkan objects that both can use.
+// An OpenXR runtime with its headset; creates the Vulkan objects that both can use.
 #pragma once
 
 #include <memory>
@@ -9,20 +9,20 @@
 #include "engine/gpu/gpu.h"
 #include "engine/xr/headset_error.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 struct HeadsetTraits {
   std::string runtime;    // name and version
   std::string headset;    // name
-  glm::ivec2 eye{0};      // [px] that the runtime recommends
-  glm::ivec2 largest{0};  // [px] that it takes
-  bool depth = false;     // it takes the depth of the picture, and projects with it
+  glm::ivec2 eye{0};      // [px] recommended size per eye
+  glm::ivec2 largest{0};  // [px] maximum size per eye
+  bool depth = false;     // it accepts depth images and uses them for reprojection
 };
 
-class HeadsetRuntime final : public GpuMaker {
+class HeadsetRuntime final : public GpuFactory {
  public:
-  // Throws HeadsetAbsent where no headset is at the runtime now, HeadsetError with one sentence where there is no runtime
-  // (XR_RUNTIME_JSON, or what the system has as its active one) or it cannot do what we need: two eyes, Vulkan 1.3.
+  // Throws HeadsetAbsent if no headset is connected to the runtime now. Throws HeadsetError with one sentence if there
+  // is no runtime (XR_RUNTIME_JSON, or the system's active runtime) or if it lacks a requirement: two eyes, Vulkan 1.3.
   HeadsetRuntime();
   ~HeadsetRuntime() override;
   HeadsetRuntime(const HeadsetRuntime&) = delete;
@@ -40,4 +40,4 @@ class HeadsetRuntime final : public GpuMaker {
   std::unique_ptr<State> state_;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -1,10 +1,10 @@
-// What a runtime keeps, within this room.
+// State of a runtime, private to this room.
 #pragma once
 
 #include "engine/xr/headset_runtime.h"
 #include "engine/xr/openxr.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 inline constexpr XrViewConfigurationType kTwoEyes = XR_VIEW_CONFIGURATION_TYPE_PRIMARY_STEREO;
 
@@ -17,7 +17,7 @@ struct HeadsetRuntime::State {
   XrInstance instance = XR_NULL_HANDLE;
   XrSystemId system = XR_NULL_SYSTEM_ID;
   XrEnvironmentBlendMode blend = XR_ENVIRONMENT_BLEND_MODE_OPAQUE;
-  bool timespec = false;  // the runtime's clock against ours
+  bool timespec = false;  // can convert our clock to the runtime's
   HeadsetTraits traits;
 
  private:
@@ -26,4 +26,4 @@ struct HeadsetRuntime::State {
   void check_vulkan() const;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -10,25 +10,26 @@
 #include "engine/xr/headset_images.h"
 #include "engine/xr/headset_runtime_state.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 namespace {
 
-// sRGB, so that the runtime filters light; 16 bits a channel hold light itself.
+// sRGB formats let the runtime filter linear light; 16 bits per channel store linear light directly.
 constexpr VkFormat kPictureFormats[] = {VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_B8G8R8A8_SRGB,
                                         VK_FORMAT_R16G16B16A16_SFLOAT};
 constexpr VkFormat kDepthFormats[] = {VK_FORMAT_D32_SFLOAT};
-constexpr double kEyeDistance = 0.063;            // [m] until the eyes are seen
-constexpr XrDuration kPatience = 100'000'000;     // [ns] for an image of the eyes: longer than a frame of any headset
-constexpr XrDuration kShortPatience = 5'000'000;  // [ns] for depth and panel, without which a frame is shown, too
+constexpr double kEyeDistance = 0.063;  // [m] until the runtime reports the eyes
+// [ns] wait for an eye image; longer than a frame of any headset
+constexpr XrDuration kEyeImageTimeout = 100'000'000;
+constexpr XrDuration kExtraImageTimeout = 5'000'000;  // [ns] wait for depth and panel, which a frame can do without
 
 std::vector<XrReferenceSpaceType> spaces_of(XrSession session) {
   return list_of<XrReferenceSpaceType>("xrEnumerateReferenceSpaces", XR_REFERENCE_SPACE_TYPE_VIEW,
-                                       [&](std::uint32_t room, std::uint32_t* count, XrReferenceSpaceType* items) {
-                                         return xrEnumerateReferenceSpaces(session, room, count, items);
+                                       [&](std::uint32_t capacity, std::uint32_t* count, XrReferenceSpaceType* items) {
+                                         return xrEnumerateReferenceSpaces(session, capacity, count, items);
                                        });
 }
 
-// One turn's event: the buffer holds any of them.
+// The buffer as the event that it contains.
 template <class Event>
 const Event& as(const XrEventDataBuffer& buffer) {
   return *reinterpret_cast<const Event*>(&buffer);
@@ -70,12 +71,12 @@ struct HeadsetSession::State {
   XrSpace make_space(XrReferenceSpaceType type) const;
   void make_images(const HeadsetConfig& config);
   void make_depth(const HeadsetConfig& config);
-  void take_event(const XrEventDataBuffer& event);
-  void take_state(XrSessionState told);
-  void take_space_change(const XrEventDataReferenceSpaceChangePending& change);
-  void keep_eyes(const XrView* views, XrViewStateFlags flags);
-  void move_kept(const EyePose& new_from_old);
-  void await_frame();
+  void handle_event(const XrEventDataBuffer& event);
+  void handle_state(XrSessionState next);
+  void queue_space_change(const XrEventDataReferenceSpaceChangePending& change);
+  void update_eyes(const XrView* views, XrViewStateFlags flags);
+  void move_last_eyes(const EyePose& new_from_old);
+  void start_wait_thread();
   std::int64_t runtime_time(const timespec& monotonic) const;
 
   struct Pending {
@@ -92,18 +93,18 @@ struct HeadsetSession::State {
   std::unique_ptr<HeadsetHands> hands;
   PFN_xrConvertTimespecTimeToTimeKHR to_runtime_time = nullptr;
   HeadsetState state = HeadsetState::idle;
-  bool runs = false;
-  bool depth_of_frame = false;        // depth was written in this frame
-  HeadsetEyes eyes;                   // as they were seen last
-  glm::dvec3 middle{0.0};             // [m] between them
-  std::array<glm::dvec3, 2> aside{};  // [m] from there, in the head
+  bool is_running = false;
+  bool depth_of_frame = false;             // depth was written for this frame
+  HeadsetEyes eyes;                        // as located last
+  glm::dvec3 eye_midpoint{0.0};            // [m] midpoint between the eyes
+  std::array<glm::dvec3, 2> eye_offset{};  // [m] offset of each eye from the midpoint, in head space
   std::vector<Pending> pending;
-  struct Awaited {
+  struct WaitResult {
     XrResult result;
-    XrFrameState told;
-    timespec woken;
+    XrFrameState frame_state;
+    timespec ended;
   };
-  std::future<Awaited> awaited;  // beside us: see wait()
+  std::future<WaitResult> wait_result;  // of the waiting thread, see wait()
 };
 
 HeadsetSession::State::State(HeadsetRuntime& runtime, Gpu& device, const HeadsetConfig& config)
@@ -123,19 +124,19 @@ HeadsetSession::State::State(HeadsetRuntime& runtime, Gpu& device, const Headset
     colour.reset();
     depth.reset();
     panel.reset();
-    xrDestroySession(session);  // and its spaces
+    xrDestroySession(session);  // also destroys its spaces
     throw;
   }
   for (std::size_t eye = 0; eye < 2; ++eye) {
-    aside[eye] = {(eye == 0 ? -0.5 : 0.5) * kEyeDistance, 0.0, 0.0};
-    eyes.pose[eye].position = aside[eye];
+    eye_offset[eye] = {(eye == 0 ? -0.5 : 0.5) * kEyeDistance, 0.0, 0.0};
+    eyes.pose[eye].position = eye_offset[eye];
     eyes.fov[eye] = symmetric_fov(1.5, static_cast<double>(config.eye.x) / config.eye.y);
   }
 }
 
 HeadsetSession::State::~State() {
-  if (awaited.valid()) awaited.wait();
-  gpu.wait_idle();  // the runtime's images may still be written
+  if (wait_result.valid()) wait_result.wait();
+  gpu.wait_idle();  // frames in flight may still write to the runtime's images
   hands.reset();
   colour.reset();
   depth.reset();
@@ -165,7 +166,7 @@ XrSpace HeadsetSession::State::make_space(XrReferenceSpaceType type) const {
   return made;
 }
 
-// Depth helps the runtime and is no must.
+// Depth helps the runtime, but is optional.
 void HeadsetSession::State::make_images(const HeadsetConfig& config) {
   colour = std::make_unique<HeadsetImages>(session, gpu, config.eye, 2, kPictureFormats);
   make_depth(config);
@@ -182,74 +183,75 @@ void HeadsetSession::State::make_depth(const HeadsetConfig& config) {
   }
 }
 
-void HeadsetSession::State::take_event(const XrEventDataBuffer& event) {
+void HeadsetSession::State::handle_event(const XrEventDataBuffer& event) {
   switch (event.type) {
     case XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING:
-      throw HeadsetLost("the OpenXR runtime goes away");
+      throw HeadsetLost("the OpenXR runtime is shutting down");
     case XR_TYPE_EVENT_DATA_SESSION_STATE_CHANGED: {
-      const auto& told = as<XrEventDataSessionStateChanged>(event);
-      if (told.session == session) take_state(told.state);
+      const auto& changed = as<XrEventDataSessionStateChanged>(event);
+      if (changed.session == session) handle_state(changed.state);
       break;
     }
     case XR_TYPE_EVENT_DATA_REFERENCE_SPACE_CHANGE_PENDING: {
       const auto& change = as<XrEventDataReferenceSpaceChangePending>(event);
-      if (change.session == session) take_space_change(change);
+      if (change.session == session) queue_space_change(change);
       break;
     }
     default:
-      break;  // hands are asked for each frame
+      break;  // input is polled each frame instead
   }
 }
 
-void HeadsetSession::State::take_state(XrSessionState told) {
-  state = state_of(told);
-  if (told == XR_SESSION_STATE_READY) {
+void HeadsetSession::State::handle_state(XrSessionState next) {
+  state = state_of(next);
+  if (next == XR_SESSION_STATE_READY) {
     XrSessionBeginInfo begin{XR_TYPE_SESSION_BEGIN_INFO};
     begin.primaryViewConfigurationType = kTwoEyes;
     check(xrBeginSession(session, &begin), "xrBeginSession");
-    runs = true;
-  } else if (told == XR_SESSION_STATE_STOPPING) {
+    is_running = true;
+  } else if (next == XR_SESSION_STATE_STOPPING) {
     check(xrEndSession(session), "xrEndSession");
-    runs = false;
-  } else if (told == XR_SESSION_STATE_LOSS_PENDING) {
-    throw HeadsetLost("the headset is lost");
+    is_running = false;
+  } else if (next == XR_SESSION_STATE_LOSS_PENDING) {
+    throw HeadsetLost("the headset was lost");
   }
 }
 
-// The event has the new origin in the old space.
-void HeadsetSession::State::take_space_change(const XrEventDataReferenceSpaceChangePending& event) {
+// The event contains the pose of the new origin in the old space.
+void HeadsetSession::State::queue_space_change(const XrEventDataReferenceSpaceChangePending& event) {
   if (event.referenceSpaceType == XR_REFERENCE_SPACE_TYPE_VIEW) return;
   SpaceChange change;
-  change.ours = event.referenceSpaceType == space_type;
+  change.is_session_space = event.referenceSpaceType == space_type;
   if (event.poseValid == XR_TRUE) change.new_from_old = inverse(pose_of(event.poseInPreviousSpace));
   pending.push_back({event.changeTime, change});
 }
 
-// As far as tracking is lost the head stays as it was: its place, or the way it looks. Both eyes stay on it.
-void HeadsetSession::State::keep_eyes(const XrView* views, XrViewStateFlags flags) {
-  const bool turned = (flags & XR_VIEW_STATE_ORIENTATION_VALID_BIT) != 0;
-  const bool placed = (flags & XR_VIEW_STATE_POSITION_VALID_BIT) != 0;
+// While tracking is lost, position or orientation of the head keep their last values, whichever is lost. Both eyes stay
+// attached to the head.
+void HeadsetSession::State::update_eyes(const XrView* views, XrViewStateFlags flags) {
+  const bool orientation_valid = (flags & XR_VIEW_STATE_ORIENTATION_VALID_BIT) != 0;
+  const bool position_valid = (flags & XR_VIEW_STATE_POSITION_VALID_BIT) != 0;
   std::array<glm::dvec3, 2> at{};
   for (std::size_t eye = 0; eye < 2; ++eye) {
     const Fov fov = fov_of(views[eye].fov);
     if (fov.left < fov.right && fov.down < fov.up) eyes.fov[eye] = fov;
-    if (turned) eyes.pose[eye].orientation = pose_of({views[eye].pose.orientation, {}}).orientation;
-    if (placed) at[eye] = {views[eye].pose.position.x, views[eye].pose.position.y, views[eye].pose.position.z};
+    if (orientation_valid) eyes.pose[eye].orientation = pose_of({views[eye].pose.orientation, {}}).orientation;
+    if (position_valid) at[eye] = {views[eye].pose.position.x, views[eye].pose.position.y, views[eye].pose.position.z};
   }
   const glm::dquat head = glm::slerp(eyes.pose[0].orientation, eyes.pose[1].orientation, 0.5);
-  if (placed) middle = 0.5 * (at[0] + at[1]);
+  if (position_valid) eye_midpoint = 0.5 * (at[0] + at[1]);
   for (std::size_t eye = 0; eye < 2; ++eye) {
-    if (placed && turned) aside[eye] = glm::conjugate(head) * (at[eye] - middle);
-    eyes.pose[eye].position = placed && turned ? at[eye] : middle + head * aside[eye];
+    if (position_valid && orientation_valid) eye_offset[eye] = glm::conjugate(head) * (at[eye] - eye_midpoint);
+    eyes.pose[eye].position = position_valid && orientation_valid ? at[eye] : eye_midpoint + head * eye_offset[eye];
   }
-  eyes.is_oriented = turned;
-  eyes.is_tracked = turned && placed;
+  eyes.is_oriented = orientation_valid;
+  eyes.is_tracked = orientation_valid && position_valid;
   eyes.is_known = eyes.is_known || eyes.is_tracked;
 }
 
-// Where nobody sees the head it moves with the room's origin.
-void HeadsetSession::State::move_kept(const EyePose& new_from_old) {
-  middle = new_from_old * middle;
+// While the head is not tracked, it moves with the origin of the space.
+void HeadsetSession::State::move_last_eyes(const EyePose& new_from_old) {
+  eye_midpoint = new_from_old * eye_midpoint;
   for (EyePose& eye : eyes.pose) eye = new_from_old * eye;
 }
 
@@ -259,13 +261,13 @@ HeadsetSession::~HeadsetSession() = default;
 
 void HeadsetSession::poll() {
   State& s = *state_;
-  if (s.awaited.valid()) return;
+  if (s.wait_result.valid()) return;
   while (true) {
     XrEventDataBuffer event{XR_TYPE_EVENT_DATA_BUFFER};
     const XrResult result = xrPollEvent(s.xr.instance, &event);
     check(result, "xrPollEvent");
     if (result == XR_EVENT_UNAVAILABLE) return;
-    s.take_event(event);
+    s.handle_event(event);
   }
 }
 
@@ -273,12 +275,12 @@ HeadsetState HeadsetSession::state() const noexcept {
   return state_->state;
 }
 
-bool HeadsetSession::awaits() const noexcept {
-  return state_->awaited.valid();
+bool HeadsetSession::is_waiting() const noexcept {
+  return state_->wait_result.valid();
 }
 
-bool HeadsetSession::runs() const noexcept {
-  return state_->runs;
+bool HeadsetSession::is_running() const noexcept {
+  return state_->is_running;
 }
 
 const HeadsetEyes& HeadsetSession::eyes() const noexcept {
@@ -302,45 +304,45 @@ std::int64_t HeadsetSession::State::runtime_time(const timespec& monotonic) cons
   return time;
 }
 
-void HeadsetSession::State::await_frame() {
+void HeadsetSession::State::start_wait_thread() {
   try {
-    awaited = std::async(std::launch::async, [session = session] {
-      Awaited frame{XR_SUCCESS, {XR_TYPE_FRAME_STATE}, {}};
-      frame.result = xrWaitFrame(session, nullptr, &frame.told);
-      clock_gettime(CLOCK_MONOTONIC, &frame.woken);
+    wait_result = std::async(std::launch::async, [session = session] {
+      WaitResult frame{XR_SUCCESS, {XR_TYPE_FRAME_STATE}, {}};
+      frame.result = xrWaitFrame(session, nullptr, &frame.frame_state);
+      clock_gettime(CLOCK_MONOTONIC, &frame.ended);
       return frame;
     });
   } catch (const std::system_error&) {
-    throw HeadsetError("there is no thread for the headset's frames");
+    throw HeadsetError("cannot start a thread for the headset's frames");
   }
 }
 
-std::optional<HeadsetFrame> HeadsetSession::wait(std::chrono::milliseconds patience) {
+std::optional<HeadsetFrame> HeadsetSession::wait(std::chrono::milliseconds timeout) {
   State& s = *state_;
-  if (!s.awaited.valid()) s.await_frame();
-  if (s.awaited.wait_for(patience) == std::future_status::timeout) return std::nullopt;
-  const auto [result, told, woken] = s.awaited.get();
+  if (!s.wait_result.valid()) s.start_wait_thread();
+  if (s.wait_result.wait_for(timeout) == std::future_status::timeout) return std::nullopt;
+  const auto [result, frame_state, ended] = s.wait_result.get();
   check(result, "xrWaitFrame");
   HeadsetFrame frame;
-  frame.woken_ns = s.runtime_time(woken);
+  frame.wait_end_ns = s.runtime_time(ended);
   check(xrBeginFrame(s.session, nullptr), "xrBeginFrame");
-  frame.display_ns = told.predictedDisplayTime;
-  frame.period = 1e-9 * static_cast<double>(told.predictedDisplayPeriod);
-  frame.is_shown = told.shouldRender == XR_TRUE;
+  frame.display_ns = frame_state.predictedDisplayTime;
+  frame.period = 1e-9 * static_cast<double>(frame_state.predictedDisplayPeriod);
+  frame.should_render = frame_state.shouldRender == XR_TRUE;
   return frame;
 }
 
 HeadsetEyes HeadsetSession::locate(const HeadsetFrame& frame) {
   State& s = *state_;
-  XrViewLocateInfo ask{XR_TYPE_VIEW_LOCATE_INFO};
-  ask.viewConfigurationType = kTwoEyes;
-  ask.displayTime = frame.display_ns;
-  ask.space = s.space;
-  XrViewState told{XR_TYPE_VIEW_STATE};
+  XrViewLocateInfo info{XR_TYPE_VIEW_LOCATE_INFO};
+  info.viewConfigurationType = kTwoEyes;
+  info.displayTime = frame.display_ns;
+  info.space = s.space;
+  XrViewState view_state{XR_TYPE_VIEW_STATE};
   XrView views[2] = {{XR_TYPE_VIEW}, {XR_TYPE_VIEW}};
   std::uint32_t count = 0;
-  check(xrLocateViews(s.session, &ask, &told, 2, &count, views), "xrLocateViews");
-  if (count == 2) s.keep_eyes(views, told.viewStateFlags);
+  check(xrLocateViews(s.session, &info, &view_state, 2, &count, views), "xrLocateViews");
+  if (count == 2) s.update_eyes(views, view_state.viewStateFlags);
   return s.eyes;
 }
 
@@ -348,36 +350,37 @@ std::array<HeadsetHand, 2> HeadsetSession::hands(const HeadsetFrame& frame) {
   return state_->hands->read(state_->space, frame.display_ns);
 }
 
-std::optional<SpaceChange> HeadsetSession::take_change(const HeadsetFrame& frame) {
+std::optional<SpaceChange> HeadsetSession::take_due_space_change(const HeadsetFrame& frame) {
   auto& pending = state_->pending;
   if (pending.empty() || frame.display_ns < pending.front().at) return std::nullopt;
   const SpaceChange change = pending.front().change;
   pending.erase(pending.begin());
-  if (change.ours && change.new_from_old && !state_->eyes.is_tracked) state_->move_kept(*change.new_from_old);
+  if (change.is_session_space && change.new_from_old && !state_->eyes.is_tracked)
+    state_->move_last_eyes(*change.new_from_old);
   return change;
 }
 
-HeadsetSession::Images HeadsetSession::take_images(bool with_panel) {
+HeadsetSession::Images HeadsetSession::acquire_images(bool with_panel) {
   State& s = *state_;
   Images images;
-  images.colour = s.colour->take(kPatience);
-  if (!images.colour) return {};  // nothing is drawn
-  if (s.depth) images.depth = s.depth->take(kShortPatience);
-  if (with_panel && s.panel) images.panel = s.panel->take(kShortPatience);
+  images.colour = s.colour->acquire(kEyeImageTimeout);
+  if (!images.colour) return {};  // draw nothing
+  if (s.depth) images.depth = s.depth->acquire(kExtraImageTimeout);
+  if (with_panel && s.panel) images.panel = s.panel->acquire(kExtraImageTimeout);
   s.depth_of_frame = images.depth != nullptr;
   return images;
 }
 
-void HeadsetSession::ready_to_give(VkCommandBuffer commands) {
+void HeadsetSession::transition_for_release(VkCommandBuffer commands) {
   for (const auto* images : {&state_->colour, &state_->depth, &state_->panel})
-    if (*images) (*images)->ready_to_give(commands);
+    if (*images) (*images)->transition_for_release(commands);
 }
 
 namespace {
 
 using LayerHeader = const XrCompositionLayerBaseHeader*;
 
-// What one frame shows: OpenXR's structures point at each other, so they stay where they are.
+// Composition layers of one frame. OpenXR's structures point at each other, so the object must not be moved.
 struct Layers {
   std::array<XrCompositionLayerDepthInfoKHR, 2> depth;
   std::array<XrCompositionLayerProjectionView, 2> views;
@@ -401,7 +404,7 @@ struct Layers {
     all.push_back(reinterpret_cast<LayerHeader>(&picture));
   }
 
-  // Depth is near plane / distance: 0 stands for the infinite, 1 for the near plane.
+  // Depth is near plane / distance: 0 is infinity, 1 is the near plane.
   void add_depth(const HeadsetImages& images, double near_plane) {
     for (std::uint32_t eye = 0; eye < 2; ++eye) {
       depth[eye] = {XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR};
@@ -414,17 +417,17 @@ struct Layers {
     }
   }
 
-  // Its colours have their alpha in them already.
-  void add_panel(XrSpace space, const HeadsetPanel& hung, const HeadsetImages& images) {
+  // The panel's colours are already multiplied by their alpha.
+  void add_panel(XrSpace space, const HeadsetPanel& placement, const HeadsetImages& images) {
     panel.layerFlags = XR_COMPOSITION_LAYER_BLEND_TEXTURE_SOURCE_ALPHA_BIT;
     panel.space = space;
     panel.eyeVisibility = XR_EYE_VISIBILITY_BOTH;
     panel.subImage = images.layer(0);
     const glm::dvec2 size(images.size());
-    const glm::ivec2 low(hung.low * size), high(hung.high * size);
+    const glm::ivec2 low(placement.low * size), high(placement.high * size);
     panel.subImage.imageRect = {{low.x, low.y}, {std::max(1, high.x - low.x), std::max(1, high.y - low.y)}};
-    panel.pose = xr_pose(hung.pose);
-    panel.size = {static_cast<float>(hung.size.x), static_cast<float>(hung.size.y)};
+    panel.pose = xr_pose(placement.pose);
+    panel.size = {static_cast<float>(placement.size.x), static_cast<float>(placement.size.y)};
     all.push_back(reinterpret_cast<LayerHeader>(&panel));
   }
 };
@@ -435,11 +438,11 @@ void HeadsetSession::end(const HeadsetFrame& frame, const HeadsetEyes* eyes, dou
                          const HeadsetPanel* panel) {
   State& s = *state_;
   for (const auto* images : {&s.colour, &s.depth, &s.panel})
-    if (*images) (*images)->give();
+    if (*images) (*images)->release();
   Layers layers;
-  if (eyes != nullptr && s.colour->ever_given()) layers.add_picture(s.space, *eyes, *s.colour);
+  if (eyes != nullptr && s.colour->has_been_released()) layers.add_picture(s.space, *eyes, *s.colour);
   if (eyes != nullptr && s.depth_of_frame) layers.add_depth(*s.depth, near_plane);
-  if (panel != nullptr && s.panel && s.panel->ever_given()) layers.add_panel(s.space, *panel, *s.panel);
+  if (panel != nullptr && s.panel && s.panel->has_been_released()) layers.add_panel(s.space, *panel, *s.panel);
   XrFrameEndInfo info{XR_TYPE_FRAME_END_INFO};
   info.displayTime = frame.display_ns;
   info.environmentBlendMode = s.xr.blend;
@@ -449,4 +452,4 @@ void HeadsetSession::end(const HeadsetFrame& frame, const HeadsetEyes* eyes, dou
   check(xrEndFrame(s.session, &info), "xrEndFrame");
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -1,6 +1,6 @@
-// A session at a headset: its life cycle, its frames, its images. One thread.
+// An OpenXR session: life cycle, frames, images. Must be used from one thread.
 //
-// A frame by the book: poll(), wait(), locate(), draw, locate() again just before it is submitted, end().
+// The order of a frame: poll(), wait(), locate(), draw, locate() again just before the submission, end().
 #pragma once
 
 #include <array>
@@ -14,103 +14,104 @@
 #include "engine/scene/view.h"
 #include "engine/xr/headset_runtime.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
 struct HeadsetConfig {
-  glm::ivec2 eye{0};    // [px] of each eye's picture
-  glm::ivec2 panel{0};  // [px] of the panel's; 0: there is none
+  glm::ivec2 eye{0};    // [px] per eye
+  glm::ivec2 panel{0};  // [px] 0: no panel
 };
 
-// What the runtime lets us do; in the order of getting there.
+// State of the session, in the order in which a session normally reaches them.
 enum class HeadsetState : std::uint8_t {
-  idle,          // nobody wears it, or another program has it
-  ready,         // begins with the next poll()
-  synchronised,  // frames are paced and not seen
-  visible,       // seen, but another program has hands and buttons: its menu is open
-  focused,       // all is ours
-  stopping,      // put down
-  exiting        // the person has asked us to leave
+  idle,          // not worn, or in use by another program
+  ready,         // the session begins with the next poll()
+  synchronised,  // frames are paced but not visible
+  visible,       // visible, but hands and buttons go to another program, e.g. the system menu
+  focused,       // visible and with input
+  stopping,      // taken off
+  exiting        // the user has asked us to exit
 };
 std::string_view name_of(HeadsetState state) noexcept;
 
-// One frame. Times are on the runtime's clock.
+// A frame. Times are on the runtime's clock.
 struct HeadsetFrame {
-  std::int64_t display_ns = 0;  // [ns] when it will be seen, as predicted
-  std::int64_t woken_ns = 0;    // [ns] when wait() was over; 0 where the runtime's clock is not told
-  double period = 0.0;          // [s] between two frames of the display
-  bool is_shown = false;        // false: nothing need be drawn
+  std::int64_t display_ns = 0;   // [ns] predicted display time
+  std::int64_t wait_end_ns = 0;  // [ns] when wait() ended; 0 if the runtime's clock is not available
+  double period = 0.0;           // [s] display period
+  bool should_render = false;    // false: drawing is unnecessary
 };
 
-// Eyes in the tracking space. Where tracking is lost the head stays where it was, or looks where it did, as far as it is
-// lost; both eyes stay on it.
+// Eyes in the tracking space. While tracking is lost, position or orientation keep their last values, whichever is
+// lost; both eyes stay attached to the head.
 struct HeadsetEyes {
   std::array<EyePose, 2> pose;
   std::array<Fov, 2> fov;
-  bool is_known = false;     // their place was told since the session began
-  bool is_tracked = false;   // place and orientation are told now
-  bool is_oriented = false;  // orientation is: all that some headsets ever tell
+  bool is_known = false;     // their pose was tracked at least once in this session
+  bool is_tracked = false;   // position and orientation are tracked now
+  bool is_oriented = false;  // orientation is tracked now; some headsets track only this
 };
 
-// The room's origin has moved: what stood at p in it stands at new_from_old p from now on.
+// The origin of the tracking space has moved: a point that had coordinates p now has coordinates new_from_old * p.
 struct SpaceChange {
-  bool ours = false;                    // the space that all poses are in; else the one that a person recentres
-  std::optional<EyePose> new_from_old;  // none: nobody knows
+  bool is_session_space = false;        // the space of all poses has changed; false: the one that the user recentres
+  std::optional<EyePose> new_from_old;  // empty: unknown
 };
 
 struct HeadsetHand {
   bool is_tracked = false;
-  bool is_seen = false;    // now: its place is no guess
-  EyePose aim;             // points along its -Z
-  bool selects = false;    // trigger
-  bool menu = false;       // button
-  glm::dvec2 scroll{0.0};  // [1] thumb stick, right and up +
+  bool is_position_tracked = false;  // position is tracked now, not estimated
+  EyePose aim;                       // points along its -Z
+  bool selects = false;              // trigger
+  bool menu = false;                 // button
+  glm::dvec2 scroll{0.0};            // [1] thumb stick, right and up are positive
 };
 
-// A part of the panel's picture that hangs in the room: its middle, facing along its +Z.
+// A rectangle of the panel's picture, placed in the room; its pose is that of its centre, facing +Z.
 struct HeadsetPanel {
   EyePose pose;
   glm::dvec2 size{0.0};            // [m]
-  glm::dvec2 low{0.0}, high{1.0};  // [1] of the picture, from its upper left corner
+  glm::dvec2 low{0.0}, high{1.0};  // [1] fractions of the picture, from its upper left corner
 };
 
 class HeadsetSession {
  public:
-  // Both outlive it. Throws HeadsetError, HeadsetLost.
+  // Runtime and Gpu must outlive the session. Throws HeadsetError, HeadsetLost.
   HeadsetSession(HeadsetRuntime& runtime, Gpu& gpu, const HeadsetConfig& config);
   ~HeadsetSession();  // waits until the device is idle
 
-  // What the runtime has told since the last poll: the session begins and ends as it asks. While a frame is waited for
-  // nothing is taken. Throws HeadsetLost.
+  // Handles the runtime's events since the last poll, and begins or ends the session as it requests. Does nothing while
+  // a wait for a frame is pending. Throws HeadsetLost.
   void poll();
   HeadsetState state() const noexcept;
-  bool awaits() const noexcept;              // a frame that wait() has not got yet: the end waits for it
-  bool runs() const noexcept;                // frames are wanted: wait() paces them
-  const HeadsetEyes& eyes() const noexcept;  // as they were located last; before that, side by side at the origin
-  bool is_stage() const noexcept;            // poses are in a room that stays from one day to the next
+  bool is_waiting() const noexcept;          // a wait for a frame is pending; the destructor waits for it to end
+  bool is_running() const noexcept;          // the runtime wants frames: wait() paces them
+  const HeadsetEyes& eyes() const noexcept;  // last located; before that, side by side at the origin
+  bool is_stage() const noexcept;            // poses are in a room-fixed space that persists from day to day
 
-  // Until the runtime wants the next frame, which it begins. None: it does not want one yet, the waiting goes on beside
-  // us, and the next call takes it up. A runtime may hold a frame back for as long as it likes. Throws HeadsetLost.
-  std::optional<HeadsetFrame> wait(std::chrono::milliseconds patience);
+  // Waits until the runtime wants the next frame, and begins it. Empty on timeout: the wait continues in the
+  // background, and the next call resumes it. A runtime may hold back a frame indefinitely. Throws HeadsetLost.
+  std::optional<HeadsetFrame> wait(std::chrono::milliseconds timeout);
   HeadsetEyes locate(const HeadsetFrame& frame);
-  std::array<HeadsetHand, 2> hands(const HeadsetFrame& frame);        // left, right; none while not focused
-  std::optional<SpaceChange> take_change(const HeadsetFrame& frame);  // once its time has come
+  std::array<HeadsetHand, 2> hands(const HeadsetFrame& frame);  // left, right; default values while not focused
+  std::optional<SpaceChange> take_due_space_change(const HeadsetFrame& frame);  // empty until its time has come
 
-  // The images of this frame, null where the runtime has none now (depth and panel also where there are none). Copied
-  // into between take and ready_to_give(), which is recorded; given back with end(), after the submission.
+  // Images of this frame; null if the runtime has none free now, or if there is no depth or panel. Copy into them
+  // between acquire_images() and transition_for_release(), which is recorded. end() releases them, after the
+  // submission.
   struct Images {
     GpuImage *colour = nullptr, *depth = nullptr, *panel = nullptr;
   };
-  Images take_images(bool panel);
-  void ready_to_give(VkCommandBuffer commands);
+  Images acquire_images(bool panel);
+  void transition_for_release(VkCommandBuffer commands);
 
-  // Shows what was drawn, from where it was drawn; null: nothing. near_plane [m]: of the depth's projection.
+  // Submits what was drawn with the views it was drawn from; null: nothing. near_plane [m]: of the depth's projection.
   void end(const HeadsetFrame& frame, const HeadsetEyes* eyes, double near_plane, const HeadsetPanel* panel);
 
-  std::int64_t now_ns() const;  // [ns] on the runtime's clock; 0 where it is not told
+  std::int64_t now_ns() const;  // [ns] on the runtime's clock; 0 if it is not available
 
  private:
   struct State;
   std::unique_ptr<State> state_;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -1,4 +1,4 @@
-// The OpenXR C API as this room sees it: errors as exceptions, poses as ours. Nobody else includes it.
+// The OpenXR C API for this room: errors as exceptions, conversions of poses. Not to be included elsewhere.
 #pragma once
 
 #include <time.h>
@@ -17,13 +17,13 @@
 #include "engine/scene/view.h"
 #include "engine/xr/headset_error.h"
 
-namespace gearshift {
+namespace gearshift::engine {
 
-// Throws HeadsetLost where session or instance are gone, HeadsetError for any other error: "WHAT failed: XR_ERROR_...".
-// What is no error passes: XR_TIMEOUT_EXPIRED, XR_SESSION_NOT_FOCUSED, XR_FRAME_DISCARDED, ...
+// Throws HeadsetLost if session or instance are lost, HeadsetError for any other error: "WHAT failed: XR_ERROR_...".
+// Success codes pass: XR_TIMEOUT_EXPIRED, XR_SESSION_NOT_FOCUSED, XR_FRAME_DISCARDED, ...
 void check(XrResult result, const char* what);
 
-// OpenXR's two calls for a list of unknown length. blank: an element with its type set.
+// OpenXR's two-call idiom for lists of unknown length. blank: an element with its type member set.
 template <class T, class Query>
 std::vector<T> list_of(const char* what, const T& blank, Query query) {
   std::uint32_t count = 0;
@@ -34,7 +34,7 @@ std::vector<T> list_of(const char* what, const T& blank, Query query) {
   return items;
 }
 
-// A function of an extension that is enabled.
+// Loads a function of an enabled extension.
 template <class Function>
 Function load(XrInstance instance, const char* name) {
   PFN_xrVoidFunction function = nullptr;
@@ -63,4 +63,4 @@ inline XrFovf xr_fov(const Fov& fov) {
           static_cast<float>(fov.down)};
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::engine

@@ -8,38 +8,38 @@
 
 #include <glm/geometric.hpp>
 
-#include "haptics/device/checked.h"
+#include "haptics/device/range_check.h"
 #include "haptics/joystick/finite.h"
 #include "haptics/joystick/plane_pose.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
 using Complex = std::complex<double>;
 
 constexpr double kTau = 2.0 * std::numbers::pi;
-constexpr double kShortestWindow = 1.0;   // [s]
-constexpr double kShortestRamp = 0.3;     // [s]
-constexpr int kMostWindows = 60;          // until a response counts as never settled
-constexpr double kAgreement = 1e-3;       // [1] between two windows, where their noise is smaller
-constexpr double kLeastDeviation = 1e-6;  // [1] of a response: no device is better
-constexpr double kNearStop = 0.9;         // [1] of the way to the stop: motors off
-constexpr double kTooFar = 1.15;          // [1] of the stroke asked for: amplitude back
+constexpr double kMinWindowTime = 1.0;  // [s]
+constexpr double kMinRampTime = 0.3;    // [s]
+constexpr int kMaxWindows = 60;         // after which a response counts as never settled
+constexpr double kAgreement = 1e-3;     // [1] allowed difference between two windows if their noise is smaller
+constexpr double kMinDeviation = 1e-6;  // [1] floor for the deviation of a response; no device is better
+constexpr double kStopFraction = 0.9;   // [1] of the distance to the stop: motors off
+constexpr double kMaxOvershoot = 1.15;  // [1] of the requested stroke: reduce the amplitude
 
 int axis_index(LeverAxis axis) {
   return axis == LeverAxis::x ? 0 : 1;
 }
 
-const SweepConfig& checked(const SweepConfig& config, const DeviceSpec& spec, int axis, double period) {
+const SweepConfig& validated(const SweepConfig& config, const DeviceSpec& spec, int axis, double period) {
   require_between("FrequencySweep: period", period, 1e-5, 0.02, "s");
   require_between("FrequencySweep: highest", config.highest, 0.01, 0.4 / period, "Hz");
   require_between("FrequencySweep: lowest", config.lowest, 0.01, config.highest, "Hz");
   require_between("FrequencySweep: points", config.points, 1, 200);
-  require_between("FrequencySweep: force_share", config.force_share, 0.001, 1.0);
-  require_between("FrequencySweep: stroke_share", config.stroke_share, 0.05, 0.7);
+  require_between("FrequencySweep: force_fraction", config.force_fraction, 0.001, 1.0);
+  require_between("FrequencySweep: stroke_fraction", config.stroke_fraction, 0.05, 0.7);
   require_between("FrequencySweep: max_force of the device", spec.max_force[axis], 1e-3, 1e4, "N");
   require_between("FrequencySweep: workspace of the device", spec.workspace[axis], 1e-4, 10.0, "m");
-  require_between("FrequencySweep: delay of the device", spec.delay, 0, kMostDelay, "cycles");
+  require_between("FrequencySweep: delay of the device", spec.delay, 0, kMaxLoopDelay, "cycles");
   if (config.literal && !spec.simulated) {
     throw std::invalid_argument("FrequencySweep: literal drives the lever to its stop: simulated devices only");
   }
@@ -51,7 +51,7 @@ double stop_on_arc(const DeviceSpec& spec, int axis) {
   return radius > 0.0 ? radius * std::asin(std::min(1.0, reach / radius)) : reach;
 }
 
-std::string_view fault_words(GuardFault fault) {
+std::string_view fault_text(GuardFault fault) {
   switch (fault) {
     case GuardFault::stale_reading:
       return "no fresh reading for 20 ms";
@@ -62,14 +62,14 @@ std::string_view fault_words(GuardFault fault) {
   }
 }
 
-// Fundamental of a sampled sinusoid that is held from sample to sample.
+// Fundamental of a sampled sinusoid that is held between samples, relative to the sinusoid.
 Complex hold(double omega, double period) {
   const Complex jwt{0.0, omega * period};
   return (1.0 - std::exp(-jwt)) / jwt;
 }
 
-// What rounding to an encoder does to a sinusoid's amplitude, one standard deviation: its harmonics fall back on the
-// fundamental with the Bessel function J1(2 pi A / q) at a phase that nobody knows.
+// Standard deviation of a sinusoid's amplitude due to encoder quantisation: the harmonics alias onto the fundamental
+// with the Bessel function J1(2 pi A / q) at an unknown phase.
 double rounding_deviation(double amplitude, double quantum) {
   return amplitude > 0.0 ? 0.1 * quantum * std::sqrt(quantum / amplitude) : 0.0;
 }
@@ -82,17 +82,17 @@ double FrequencySweep::Envelope::at(double time) const noexcept {
 }
 
 FrequencySweep::FrequencySweep(const SweepConfig& config, HapticDevice& device, LeverAxis axis, double period)
-    : config_(checked(config, device.spec(), axis_index(axis), period)),
+    : config_(validated(config, device.spec(), axis_index(axis), period)),
       device_(device),
       guard_({}, device.spec(), period),
       axis_(axis_index(axis)),
       period_(period),
       stop_(stop_on_arc(device.spec(), axis_)),
-      greatest_(config.force_share * device.spec().max_force[axis_]) {
+      max_amplitude_(config.force_fraction * device.spec().max_force[axis_]) {
   const double ratio = config.lowest / config.highest;
   for (int i = 0; i < config.points; ++i) {
-    const double share = config.points > 1 ? i / (config.points - 1.0) : 0.0;
-    tones_.push_back(make_tone(config.highest * std::pow(ratio, share), period));
+    const double fraction = config.points > 1 ? i / (config.points - 1.0) : 0.0;
+    tones_.push_back(make_tone(config.highest * std::pow(ratio, fraction), period));
   }
   response_.axis = axis;
   response_.period = period;
@@ -101,7 +101,7 @@ FrequencySweep::FrequencySweep(const SweepConfig& config, HapticDevice& device, 
 }
 
 FrequencySweep::Tone FrequencySweep::make_tone(double frequency, double period) {
-  const int periods = std::max(2, static_cast<int>(std::ceil(frequency * kShortestWindow)));
+  const int periods = std::max(2, static_cast<int>(std::ceil(frequency * kMinWindowTime)));
   int samples = static_cast<int>(std::lround(periods / (frequency * period)));
   while (std::gcd(samples, periods) != 1) ++samples;
   return {periods / (samples * period), samples};
@@ -123,9 +123,9 @@ bool FrequencySweep::step(std::int64_t now_ns) noexcept {
   if (!is_finite(reading.position) || !is_finite(reading.hand_force)) {
     finish("a reading is not a number");
   } else if (fresh && guard_.state() == GuardState::running) {
-    work(reading);
+    process_sample(reading);
   } else {
-    send(sent_[cycles_ % sent_.size()], reading, fresh);  // zero, until the guard runs
+    send(commands_[cycles_ % commands_.size()], reading, fresh);  // repeats the last command; zero until the guard runs
   }
   return !done_;
 }
@@ -136,31 +136,31 @@ bool FrequencySweep::is_fresh(const LeverReading& reading) noexcept {
   return fresh;
 }
 
-void FrequencySweep::work(const LeverReading& reading) noexcept {
-  keep_time(reading.time_ns);
+void FrequencySweep::process_sample(const LeverReading& reading) noexcept {
+  update_time(reading.time_ns);
   const ArcSample here = locate(reading.position);
-  watch_stroke(here.position);
-  if (!done_) send(wanted(here), reading, true);
+  check_stroke(here.position);
+  if (!done_) send(wanted_force(here), reading, true);
   if (!done_) measure(here, reading);
 }
 
-void FrequencySweep::keep_time(std::int64_t time_ns) noexcept {
+void FrequencySweep::update_time(std::int64_t time_ns) noexcept {
   if (!started_) origin_ns_ = time_ns;
   time_ = 1e-9 * static_cast<double>(time_ns - origin_ns_);
   if (!started_) next_tone();
   started_ = true;
 }
 
-// No velocity for the guard: it would damp with it, but where it falls the sweep is over.
+// The guard gets no velocity: it would only use it for damping after a fault, when the sweep is already over.
 void FrequencySweep::send(glm::dvec2 force, const LeverReading& reading, bool fresh) noexcept {
   GuardInput in;
   in.force = force;
   in.position = reading.position;
   in.fresh = fresh;
   const glm::dvec2 guarded = guard_.guard(in).force;
-  if (guard_.state() >= GuardState::damped) return finish(fault_words(guard_.fault()));
+  if (guard_.state() >= GuardState::damped) return finish(fault_text(guard_.fault()));
   device_.write(guarded);
-  sent_[++cycles_ % sent_.size()] = guarded;
+  commands_[++cycles_ % commands_.size()] = guarded;
 }
 
 FrequencySweep::ArcSample FrequencySweep::locate(glm::dvec2 plane) const noexcept {
@@ -171,47 +171,47 @@ FrequencySweep::ArcSample FrequencySweep::locate(glm::dvec2 plane) const noexcep
   const double z = std::sqrt(std::max(1e-6 * radius * radius, radius * radius - glm::dot(plane, plane)));
   const PlanePose pose = plane_pose(plane.x / z, -plane.y / z);
   const glm::dvec2 arc = radius * glm::dvec2(std::atan(pose.a), -std::atan(pose.b));
-  const glm::dvec2 back{arc_force(pose, {1.0, 0.0})[axis_], arc_force(pose, {0.0, 1.0})[axis_]};
-  return {arc[axis_], plane_force(pose, unit), back};
+  const glm::dvec2 to_arc{arc_force(pose, {1.0, 0.0})[axis_], arc_force(pose, {0.0, 1.0})[axis_]};
+  return {arc[axis_], plane_force(pose, unit), to_arc};
 }
 
-void FrequencySweep::watch_stroke(double position) noexcept {
-  const double place = std::abs(position);
+void FrequencySweep::check_stroke(double position) noexcept {
+  const double distance = std::abs(position);
   if (config_.literal) {
-    if (place >= stop_ - device_.spec().position_step && stage_ != Stage::fade) {
-      keep({tones_[current_].frequency, greatest_}, PointEnd::hit_stop);
+    if (distance >= stop_ - device_.spec().position_step && stage_ != Stage::fade) {
+      record_point({tones_[current_].frequency, max_amplitude_}, PointEnd::hit_stop);
     }
     return;
   }
-  if (place > kNearStop * stop_) {
+  if (distance > kStopFraction * stop_) {
     finish("the lever came near its stop");
-  } else if (place > kTooFar * config_.stroke_share * stop_ && !going_down()) {
-    eased_ = true;
-    swell_to(0.5 * envelope_.at(time_));
+  } else if (distance > kMaxOvershoot * config_.stroke_fraction * stop_ && !is_decreasing()) {
+    is_reduced_ = true;
+    ramp_to(0.5 * envelope_.at(time_));
   }
 }
 
-bool FrequencySweep::going_down() const noexcept {
-  return stage_ == Stage::fade || (stage_ == Stage::swell && envelope_.to < envelope_.from);
+bool FrequencySweep::is_decreasing() const noexcept {
+  return stage_ == Stage::fade || (stage_ == Stage::ramp && envelope_.to < envelope_.from);
 }
 
-// Along one arc only: the force in the plane that does no work on the other.
-glm::dvec2 FrequencySweep::wanted(const ArcSample& here) const noexcept {
+// A force along one arc only: the plane force that does no work on the other axis.
+glm::dvec2 FrequencySweep::wanted_force(const ArcSample& here) const noexcept {
   const double phase = kTau * tones_[current_].frequency * (time_ - tone_start_);
   return envelope_.at(time_) * std::sin(phase) * here.plane_per_arc;
 }
 
-// From here to the next sample acts what was sent `delay` samples ago, at the pose of now.
+// Until the next sample the command sent `delay` samples ago acts, at the present pose.
 void FrequencySweep::measure(const ArcSample& here, const LeverReading& reading) noexcept {
   if (stage_ == Stage::window) {
     const DeviceSpec& spec = device_.spec();
-    const std::uint64_t due = cycles_ + sent_.size() - static_cast<std::uint64_t>(spec.delay);
-    const double held = glm::dot(here.arc_per_plane, sent_[due % sent_.size()]);
+    const std::uint64_t due = cycles_ + commands_.size() - static_cast<std::uint64_t>(spec.delay);
+    const double held = glm::dot(here.arc_per_plane, commands_[due % commands_.size()]);
     const double hand = spec.measures_hand_force ? glm::dot(here.arc_per_plane, reading.hand_force) : 0.0;
     fit_.add(time_, {here.position, held, hand});
     if (fit_.samples() == tones_[current_].samples) end_window();
   } else if (time_ >= envelope_.start + envelope_.length) {
-    if (stage_ == Stage::swell) {
+    if (stage_ == Stage::ramp) {
       begin_window();
     } else if (++current_ < tones_.size()) {
       next_tone();
@@ -223,15 +223,15 @@ void FrequencySweep::measure(const ArcSample& here, const LeverReading& reading)
 
 void FrequencySweep::end_window() noexcept {
   FrequencyPoint window = evaluate();
-  const double apart = std::abs(window.response / last_window_.response - 1.0);
+  const double difference = std::abs(window.response / last_window_.response - 1.0);
   const double noise = 3.0 * std::hypot(window.deviation, last_window_.deviation);
-  const bool agrees = windows_ > 0 && apart <= std::max(kAgreement, noise);
+  const bool is_consistent = windows_ > 0 && difference <= std::max(kAgreement, noise);
   last_window_ = window;
-  window.deviation = std::max({window.deviation, 0.5 * apart, kLeastDeviation});
-  if (agrees) {
-    keep(window, PointEnd::measured);
-  } else if (++windows_ == kMostWindows) {
-    keep(window, PointEnd::never_settled);
+  window.deviation = std::max({window.deviation, 0.5 * difference, kMinDeviation});
+  if (is_consistent) {
+    record_point(window, PointEnd::measured);
+  } else if (++windows_ == kMaxWindows) {
+    record_point(window, PointEnd::never_settled);
   } else {
     begin_window();
   }
@@ -247,14 +247,14 @@ FrequencyPoint FrequencySweep::evaluate() const noexcept {
   FrequencyPoint point;
   point.frequency = frequency;
   point.amplitude = std::abs(sent.value);
-  point.bounded_by_stroke = eased_ || envelope_.to < greatest_;
+  point.bounded_by_stroke = is_reduced_ || envelope_.to < max_amplitude_;
   point.response = position.value / force;
   point.deviation = std::hypot(position.deviation / size, rounding / size, hand.deviation / std::abs(force));
   point.held = held / force;
   return point;
 }
 
-void FrequencySweep::keep(FrequencyPoint point, PointEnd end) noexcept {
+void FrequencySweep::record_point(FrequencyPoint point, PointEnd end) noexcept {
   point.end = end;
   response_.points.push_back(point);
   fade();
@@ -263,40 +263,41 @@ void FrequencySweep::keep(FrequencyPoint point, PointEnd end) noexcept {
 void FrequencySweep::next_tone() noexcept {
   const double omega = kTau * tones_[current_].frequency;
   tone_start_ = time_;
-  eased_ = false;
+  is_reduced_ = false;
   envelope_ = {};
-  swell_to(config_.literal ? greatest_ : std::min(greatest_, amplitude_for_stroke(omega)));
+  ramp_to(config_.literal ? max_amplitude_ : std::min(max_amplitude_, amplitude_for_stroke(omega)));
 }
 
-// Force whose answer is the stroke asked for. The two frequencies above this one foretell it: 1/G = k - m w^2 + j b w
-// has three unknowns. Above all resonances the answer grows with the square of the period.
+// Amplitude that should produce the requested stroke, predicted from the two frequencies above this one:
+// 1/G = k - m w^2 + j b w has three unknowns. With only one, the response is assumed to grow with the square of the
+// period, as above all resonances.
 double FrequencySweep::amplitude_for_stroke(double omega) const noexcept {
-  const double stroke = config_.stroke_share * stop_;
+  const double stroke = config_.stroke_fraction * stop_;
   const std::size_t known = response_.points.size();
-  if (known == 0) return greatest_;
-  const FrequencyPoint& near = response_.points[known - 1];
-  const double w1 = kTau * near.frequency;
-  const Complex z1 = 1.0 / near.response;
+  if (known == 0) return max_amplitude_;
+  const FrequencyPoint& nearest = response_.points[known - 1];
+  const double w1 = kTau * nearest.frequency;
+  const Complex z1 = 1.0 / nearest.response;
   if (known == 1) return stroke * std::abs(z1) * omega * omega / (w1 * w1);
-  const FrequencyPoint& far = response_.points[known - 2];
-  const double w0 = kTau * far.frequency;
-  const double mass = (z1.real() - (1.0 / far.response).real()) / (w0 * w0 - w1 * w1);
+  const FrequencyPoint& second = response_.points[known - 2];
+  const double w0 = kTau * second.frequency;
+  const double mass = (z1.real() - (1.0 / second.response).real()) / (w0 * w0 - w1 * w1);
   const double spring = z1.real() + mass * w1 * w1;
   return stroke * std::abs(Complex(spring - mass * omega * omega, z1.imag() * omega / w1));
 }
 
-void FrequencySweep::swell_to(double amplitude) noexcept {
-  stage_ = Stage::swell;
+void FrequencySweep::ramp_to(double amplitude) noexcept {
+  stage_ = Stage::ramp;
   windows_ = 0;
   envelope_ = {envelope_.length > 0.0 ? envelope_.at(time_) : 0.0, amplitude, time_,
-               std::max(kShortestRamp, 2.0 / tones_[current_].frequency)};
+               std::max(kMinRampTime, 2.0 / tones_[current_].frequency)};
 }
 
 void FrequencySweep::fade() noexcept {
   const bool at_stop = response_.points.back().end == PointEnd::hit_stop;
   stage_ = Stage::fade;
   envelope_ = {at_stop ? 0.0 : envelope_.at(time_), 0.0, time_,
-               std::max(kShortestRamp, 1.0 / tones_[current_].frequency)};
+               std::max(kMinRampTime, 1.0 / tones_[current_].frequency)};
 }
 
 void FrequencySweep::begin_window() noexcept {
@@ -323,4 +324,4 @@ FrequencyResponse sweep_frequencies(const SweepConfig& config, HapticDevice& dev
   return sweep.response();
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

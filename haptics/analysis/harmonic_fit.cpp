@@ -6,7 +6,7 @@
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 void HarmonicFit::begin(double omega, double start, double length) noexcept {
   *this = {};
@@ -27,8 +27,8 @@ void HarmonicFit::add(double time, glm::dvec3 values) noexcept {
 HarmonicFit::Phasor HarmonicFit::phasor(int i) const noexcept {
   const glm::dmat4 inverse = glm::inverse(normal_);
   const glm::dvec4 projected = projected_[i], weight = inverse * projected;
-  const double left = std::max(0.0, squares_[i] - glm::dot(weight, projected)) / (samples_ - 4);
-  return {{weight[0], -weight[1]}, std::sqrt(left * 0.5 * (inverse[0][0] + inverse[1][1]))};
+  const double variance = std::max(0.0, squares_[i] - glm::dot(weight, projected)) / (samples_ - 4);
+  return {{weight[0], -weight[1]}, std::sqrt(variance * 0.5 * (inverse[0][0] + inverse[1][1]))};
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

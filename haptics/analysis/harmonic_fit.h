@@ -1,4 +1,4 @@
-// Amplitude and phase of sampled signals at one known frequency, by least squares of cos, sin, 1 and t.
+// Amplitude and phase of sampled signals at one known frequency, by a least-squares fit of cos, sin, 1 and t.
 #pragma once
 
 #include <complex>
@@ -7,18 +7,19 @@
 #include <glm/mat4x4.hpp>
 #include <glm/vec3.hpp>
 
-namespace gearshift {
+namespace gearshift::haptics {
 
-// Three signals at once, in constant memory; the sampling need not be even. Real-time safe.
+// Fits three signals at once in constant memory; samples may be unevenly spaced. Real-time safe.
 class HarmonicFit {
  public:
-  // omega [rad/s]; the window starts at `start` [s] and is about `length` [s] long, a whole number of periods.
+  // Starts a new fit. omega [rad/s]; the window starts at `start` [s] and is about `length` [s] long, a whole number of
+  // periods.
   void begin(double omega, double start, double length) noexcept;
-  void add(double time, glm::dvec3 values) noexcept;  // [s], in any unit
+  void add(double time, glm::dvec3 values) noexcept;  // time [s], values in any unit
   int samples() const noexcept { return samples_; }
 
-  // Signal i is Re(phasor exp(j omega t)), t from the window's start, plus an offset and a drift.
-  // deviation: standard deviation of the phasor's real and of its imaginary part, from what the fit leaves.
+  // Signal i is Re(phasor exp(j omega t)), t from the window's start, plus an offset and a drift. deviation: standard
+  // deviation of the phasor's real and imaginary part, from the residuals.
   struct Phasor {
     std::complex<double> value;
     double deviation = 0.0;
@@ -33,4 +34,4 @@ class HarmonicFit {
   glm::dvec3 squares_{0.0};      // sum of values^2
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

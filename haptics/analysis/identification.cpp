@@ -14,12 +14,12 @@
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr double kTwoPi = 2.0 * std::numbers::pi;
 
 AxisModel model_of(glm::dvec3 p) {
   return {p[0], p[1], p[2]};
@@ -36,39 +36,39 @@ std::vector<FrequencyPoint> measured_points(const FrequencyResponse& response) {
   return points;
 }
 
-// Position at the samples per force held between them, over what a force that is not held would do: the step's own
-// transfer function C (z - A)^-1 B, with the fundamental of the hold taken out.
+// Compliance for a force that is held between samples: the discrete transfer function C (z - A)^-1 B of one step,
+// divided by the fundamental of the hold, so that it is comparable to compliance().
 Complex held_compliance(const AxisModel& axis, double frequency, double period) {
   const AxisStepper stepper(axis, period);
   const AxisState of_x = stepper.step({1.0, 0.0}, 0.0), of_v = stepper.step({0.0, 1.0}, 0.0);
   const AxisState of_f = stepper.step({}, 1.0);
-  const Complex jwt{0.0, kTurn * frequency * period}, z = std::exp(jwt);
+  const Complex jwt{0.0, kTwoPi * frequency * period}, z = std::exp(jwt);
   const Complex sampled = ((z - of_v.velocity) * of_f.position + of_v.position * of_f.velocity) /
                           ((z - of_x.position) * (z - of_v.velocity) - of_v.position * of_x.velocity);
   return sampled * jwt / (1.0 - 1.0 / z);
 }
 
-// What the experiment would report of this axis.
+// The response that the experiment would report for this axis.
 Complex expected_response(const AxisModel& axis, const FrequencyPoint& point, double period) {
   const Complex held = held_compliance(axis, point.frequency, period);
   return point.held * held + (1.0 - point.held) * compliance(axis, point.frequency);
 }
 
-// First guess, the hold's ripple left out: real and imaginary part of 1/G are linear in (k, m) and in b.
+// Initial guess that ignores the hold: real and imaginary part of 1/G are linear in (k, m) and in b.
 glm::dvec3 linear_fit(const std::vector<FrequencyPoint>& points) {
-  double s1 = 0.0, sw = 0.0, sww = 0.0, sz = 0.0, szw = 0.0, b_top = 0.0, b_bottom = 0.0;
+  double s1 = 0.0, sw = 0.0, sww = 0.0, sz = 0.0, szw = 0.0, b_numerator = 0.0, b_denominator = 0.0;
   for (const FrequencyPoint& point : points) {
     const Complex z = 1.0 / point.response;
-    const double weight = 1.0 / std::norm(z * point.deviation), w = kTurn * point.frequency, w2 = w * w;
+    const double weight = 1.0 / std::norm(z * point.deviation), w = kTwoPi * point.frequency, w2 = w * w;
     s1 += weight, sw += weight * w2, sww += weight * w2 * w2;
     sz += weight * z.real(), szw += weight * z.real() * w2;
-    b_top += weight * w * z.imag(), b_bottom += weight * w2;
+    b_numerator += weight * w * z.imag(), b_denominator += weight * w2;
   }
   const double mass = (sz * sw - szw * s1) / (s1 * sww - sw * sw);
-  return {mass, b_top / b_bottom, (sz + mass * sw) / s1};
+  return {mass, b_numerator / b_denominator, (sz + mass * sw) / s1};
 }
 
-// Sum over all points of r^2, gradient^T r and gradient^T gradient, of the residuals in standard deviations.
+// Sums of r^2, gradient^T r and gradient^T gradient over all points, with residuals r in standard deviations.
 struct NormalEquations {
   glm::dmat3 matrix{0.0};
   glm::dvec3 slope{0.0};
@@ -90,10 +90,10 @@ NormalEquations normal_equations(const std::vector<FrequencyPoint>& points, glm:
     const Complex here = residual(p);
     glm::dvec3 real{0.0}, imaginary{0.0};
     for (int i = 0; i < 3; ++i) {
-      glm::dvec3 beside = p;
+      glm::dvec3 shifted = p;
       const double step = 1e-6 * std::max(std::abs(p[i]), 1e-6);
-      beside[i] += step;
-      const Complex slope = (residual(beside) - here) / step;
+      shifted[i] += step;
+      const Complex slope = (residual(shifted) - here) / step;
       real[i] = slope.real(), imaginary[i] = slope.imag();
     }
     sum.add(here.real(), real);
@@ -103,8 +103,8 @@ NormalEquations normal_equations(const std::vector<FrequencyPoint>& points, glm:
 }
 
 double misfit_of(const NormalEquations& sum, std::size_t points) {
-  const double freedom = 2.0 * static_cast<double>(points) - 3.0;
-  return std::sqrt(sum.squares / freedom);
+  const double degrees_of_freedom = 2.0 * static_cast<double>(points) - 3.0;
+  return std::sqrt(sum.squares / degrees_of_freedom);
 }
 
 bool has_mass(glm::dvec3 p) {
@@ -114,26 +114,27 @@ bool has_mass(glm::dvec3 p) {
 }  // namespace
 
 Complex compliance(const AxisModel& axis, double frequency) noexcept {
-  const double w = kTurn * frequency;
+  const double w = kTwoPi * frequency;
   return 1.0 / Complex(axis.stiffness - axis.mass * w * w, axis.damping * w);
 }
 
 AxisFit fit_axis(const FrequencyResponse& response) {
-  constexpr int kMostRounds = 30;
-  constexpr double kDone =
-      1e-6;  // [1] length of a step in standard deviations: none of the three may be 0 to divide by
+  constexpr int kMaxIterations = 30;
+  constexpr double kConvergence =
+      1e-6;  // [1] step length in standard deviations; a relative criterion would fail for a parameter of 0
   const std::vector<FrequencyPoint> points = measured_points(response);
   glm::dvec3 p = linear_fit(points);
   NormalEquations sum;
   double change = 1.0;
-  for (int round = 0; round < kMostRounds && !(change <= kDone) && has_mass(p); ++round) {
+  for (int iteration = 0; iteration < kMaxIterations && !(change <= kConvergence) && has_mass(p); ++iteration) {
     sum = normal_equations(points, p, response.period);
     const glm::dvec3 step = glm::inverse(sum.matrix) * sum.slope;
     p -= step;
     change = std::sqrt(glm::dot(step, sum.slope)) / std::max(1.0, misfit_of(sum, points.size()));
   }
-  if (!has_mass(p)) throw std::invalid_argument("fit_axis: no axis of positive mass answers like this");
-  if (!(change <= kDone)) throw std::invalid_argument("fit_axis: no axis fits: 30 rounds did not settle");
+  if (!has_mass(p)) throw std::invalid_argument("fit_axis: no axis with positive mass has this response");
+  if (!(change <= kConvergence))
+    throw std::invalid_argument("fit_axis: no axis fits: not converged after 30 iterations");
 
   const double misfit = misfit_of(sum, points.size());
   const glm::dmat3 covariance = glm::inverse(sum.matrix);
@@ -149,7 +150,7 @@ double frequency_at_gain(const AxisModel& axis, double gain) noexcept {
   const double root = middle * middle - 4.0 * m * m * rest;
   if (root < 0.0) return 0.0;
   const double w2 = (std::sqrt(root) - middle) / (2.0 * m * m);
-  return w2 > 0.0 ? std::sqrt(w2) / kTurn : 0.0;
+  return w2 > 0.0 ? std::sqrt(w2) / kTwoPi : 0.0;
 }
 
 double bandwidth(const AxisModel& axis) noexcept {
@@ -180,4 +181,4 @@ DeviceRow device_row(const DeviceSpec& spec) noexcept {
   return row;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

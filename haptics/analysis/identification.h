@@ -1,4 +1,4 @@
-// Mass, damping and stiffness of an axis from its frequency response, and what follows from them.
+// Mass, damping and stiffness of an axis from its frequency response, and quantities derived from them.
 //
 // This work is based on:
 // Wei-Ching Lin, Kuu-Young Young. Design of Force-Reflection Joystick System for VR-Based Simulation.
@@ -14,41 +14,41 @@
 #include "haptics/device/haptic_device.h"
 #include "haptics/joystick/plant.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
-// Eq (8), G(j omega) of a force that does not stand still. [m/N] frequency [Hz]
+// Eq (8), G(j omega) for a continuous force, not held between samples. [m/N] frequency [Hz]
 std::complex<double> compliance(const AxisModel& axis, double frequency) noexcept;
 
 struct AxisFit {
   AxisModel model;
-  AxisModel deviation;  // standard uncertainty of each of its three numbers
-  double misfit = 0.0;  // [1] about 1 where the points scatter as their deviations say; above it, it is in `deviation`
-  int points = 0;       // that were used
+  AxisModel deviation;  // standard uncertainty of mass, damping and stiffness
+  double misfit = 0.0;  // [1] about 1 if the points scatter by their deviations; above 1 it scales `deviation`
+  int points = 0;       // number of points used
 };
 
-// Weighted least squares of 1/G = k - m w^2 + j b w over the measured points, then refined on what a sampled sinusoid
-// really does: the motors hold their force, exactly stepped. Delay is already in the response.
-// Throws std::invalid_argument in one sentence: fewer than three measured points, no positive mass in them, or a fit
-// that does not settle.
+// Weighted least squares of 1/G = k - m w^2 + j b w over the measured points, then refined with the exact response to a
+// force that the motors hold between samples. The response already accounts for the delay. Throws std::invalid_argument
+// with one sentence if there are fewer than three measured points, the fitted mass is not positive, or the fit does not
+// converge.
 AxisFit fit_axis(const FrequencyResponse& response);
 
-// Highest frequency at which the gain is still `gain` [m/N]; 0 where it never is. [Hz]
+// Highest frequency at which the gain still reaches `gain` [m/N]; 0 if it never does. [Hz]
 double frequency_at_gain(const AxisModel& axis, double gain) noexcept;
 
-// Where the gain has fallen to 1/sqrt 2 (-3 dB) of that at rest, 1/k. [Hz] 0 without a spring. The paper's "100 Hz"
-// does not follow from its own (11) and (12), whose bandwidths are 0.92 and 1.02 Hz.
+// Frequency at which the gain has fallen to 1/sqrt 2 (-3 dB) of its static value 1/k; 0 without a spring. [Hz] The
+// paper's "100 Hz" does not follow from its own (11) and (12), whose bandwidths are 0.92 and 1.02 Hz.
 double bandwidth(const AxisModel& axis) noexcept;
 
-double damping_ratio(const AxisModel& axis) noexcept;  // [1] above 1 over-damped, infinite without a spring
-std::array<std::complex<double>, 2> poles(const AxisModel& axis) noexcept;  // [rad/s] the slower first
+double damping_ratio(const AxisModel& axis) noexcept;  // [1] above 1: over-damped; infinite without a spring
+std::array<std::complex<double>, 2> poles(const AxisModel& axis) noexcept;  // [rad/s] slower pole first
 
-// The device's row of Table 2, of what spec() knows.
+// The device's row of Table 2, from its spec().
 struct DeviceRow {
   glm::dvec2 range_deg{0.0};      // [deg] from stop to stop, select and shift; 0 without a yoke
-  double continuous_force = 0.0;  // [N] at the tip, the weaker axis: what the paper prints as "10.83 Nm"
+  double continuous_force = 0.0;  // [N] at the tip, of the weaker axis; the paper prints it as "10.83 Nm"
   double counts_per_deg = 0.0;    // [1/deg] 0 without a yoke or an encoder
-  double step = 0.0;              // [m] of the encoder at the tip
+  double step = 0.0;              // [m] one encoder count at the tip
 };
 DeviceRow device_row(const DeviceSpec& spec) noexcept;
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -6,29 +6,29 @@
 #include <stdexcept>
 #include <utility>
 
-#include "haptics/device/checked.h"
+#include "haptics/device/range_check.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
 using Complex = std::complex<double>;
 
-constexpr double kLowest = 1e-4;                         // [rad] w T
-constexpr double kCoarsest = std::numbers::pi / 1024.0;  // [rad] between two tries: 7 per wave of the longest delay
+constexpr double kMinAngle = 1e-4;                           // [rad] w T
+constexpr double kMaxAngleStep = std::numbers::pi / 1024.0;  // [rad] search step: 7 per wave of the longest delay
 
-// (13) at w T = angle [rad]. With 1 - exp(-j a) = 2 sin(a/2) (sin(a/2) + j cos(a/2)) nothing cancels as w -> 0.
+// (13) at w T = angle [rad]. Using 1 - exp(-j a) = 2 sin(a/2) (sin(a/2) + j cos(a/2)) avoids cancellation as w -> 0.
 double demand_at(const Environment& environment, double period, double angle) {
   const Complex e = environment(std::polar(1.0, angle));
   return 0.5 * period * (e.real() - e.imag() / std::tan(0.5 * angle));
 }
 
-// Largest value between two angles around a single peak: golden section.
+// Largest value between two angles around a single peak, by golden-section search.
 template <typename Function>
 double peak(const Function& f, double low, double high) {
-  constexpr double kShare = 1.0 / std::numbers::phi;
+  constexpr double kInverseGoldenRatio = 1.0 / std::numbers::phi;
   double best = f(high);
   while (high - low > 1e-9) {
-    const double left = high - kShare * (high - low), right = low + kShare * (high - low);
+    const double left = high - kInverseGoldenRatio * (high - low), right = low + kInverseGoldenRatio * (high - low);
     const double at_left = f(left), at_right = f(right);
     best = std::max({best, at_left, at_right});
     (at_left < at_right ? low : high) = at_left < at_right ? left : right;
@@ -36,28 +36,28 @@ double peak(const Function& f, double low, double high) {
   return best;
 }
 
-// Largest value of an even function of the angle over 0 to pi, 0 included as a limit: it can be the largest, as for a
-// late spring. Tried finely enough to see every peak, each of which is then climbed.
+// Largest value of an even function of the angle over 0 to pi, including the limit at 0, which can be the largest, as
+// for a delayed spring. The search step is fine enough to find every peak; each is then refined.
 template <typename Function>
-double largest(const Function& f) {
-  double best = (4.0 * f(kLowest) - f(2.0 * kLowest)) / 3.0;
-  double before = kLowest, here = kLowest, at_before = f(kLowest), at_here = at_before;
+double max_over_angles(const Function& f) {
+  double best = (4.0 * f(kMinAngle) - f(2.0 * kMinAngle)) / 3.0;
+  double previous = kMinAngle, here = kMinAngle, at_previous = f(kMinAngle), at_here = at_previous;
   while (here < std::numbers::pi) {
-    const double next = std::min(std::numbers::pi, here + std::min(0.1 * here, kCoarsest));
+    const double next = std::min(std::numbers::pi, here + std::min(0.1 * here, kMaxAngleStep));
     const double at_next = f(next);
-    if (at_here >= at_before && at_here >= at_next) best = std::max(best, peak(f, before, next));
-    before = std::exchange(here, next);
-    at_before = std::exchange(at_here, at_next);
+    if (at_here >= at_previous && at_here >= at_next) best = std::max(best, peak(f, previous, next));
+    previous = std::exchange(here, next);
+    at_previous = std::exchange(at_here, at_next);
   }
   return std::max(best, at_here);
 }
 
-// Of an environment that is linear in its stiffness: K spring + beside.
-double limit_of(double device_damping, const Environment& spring, const Environment& beside, double period) {
+// Passive stiffness limit of an environment that is linear in its stiffness: K spring + rest.
+double stiffness_limit_of(double device_damping, const Environment& spring, const Environment& rest, double period) {
   require_between("device.damping", device_damping, 0.0, 1e9, "N s/m");
-  if (damping_demand(beside, period) >= device_damping) return 0.0;
-  const double per_stiffness = largest([&](double angle) {
-    return demand_at(spring, period, angle) / (device_damping - demand_at(beside, period, angle));
+  if (damping_demand(rest, period) >= device_damping) return 0.0;
+  const double per_stiffness = max_over_angles([&](double angle) {
+    return demand_at(spring, period, angle) / (device_damping - demand_at(rest, period, angle));
   });
   return 1.0 / per_stiffness;
 }
@@ -75,9 +75,9 @@ Environment delayed(Environment environment, int samples) {
   return [environment = std::move(environment), samples](Complex z) { return environment(z) * std::pow(z, -samples); };
 }
 
-Environment contact(const ContactLaw& law, double period) {
+Environment contact_environment(const ContactLaw& law, double period) {
   check_contact(law, period);
-  if (law.hold == ContactHold::observer) throw std::invalid_argument("the observed hold has no E(z) of the wall alone");
+  if (law.hold == ContactHold::observer) throw std::invalid_argument("the observer hold has no E(z) of its own");
   const double ahead = law.hold == ContactHold::zero_order ? 0.0 : period * (0.5 + law.delay);
   const double blend = -std::expm1(-period / law.smoothing);
   const auto wall = [=](Complex z) {
@@ -90,23 +90,24 @@ Environment contact(const ContactLaw& law, double period) {
 
 double damping_demand(const Environment& environment, double period) {
   require_between("period", period, 1e-6, 1.0, "s");
-  return largest([&](double angle) { return demand_at(environment, period, angle); });
+  return max_over_angles([&](double angle) { return demand_at(environment, period, angle); });
 }
 
 double passive_stiffness_limit(double device_damping, double damping, double mass, int delay, double period) {
   require_between("wall.damping", damping, 0.0, 1e6, "N s/m");
   require_between("wall.mass", mass, 0.0, 1e6, "kg");
-  require_between("delay", delay, 0, kMostDelay, "samples");
-  return limit_of(device_damping, delayed(impedance(1.0, 0.0, 0.0, period), delay),
-                  delayed(impedance(0.0, damping, mass, period), delay), period);
+  require_between("delay", delay, 0, kMaxLoopDelay, "samples");
+  return stiffness_limit_of(device_damping, delayed(impedance(1.0, 0.0, 0.0, period), delay),
+                            delayed(impedance(0.0, damping, mass, period), delay), period);
 }
 
 double passive_stiffness_limit(double device_damping, const ContactLaw& law, double period) {
-  ContactLaw spring = law, beside = law;
+  ContactLaw spring = law, rest = law;
   spring.stiffness = 1.0;
   spring.damping = spring.free_damping = 0.0;
-  beside.stiffness = 0.0;
-  return limit_of(device_damping, contact(spring, period), contact(beside, period), period);
+  rest.stiffness = 0.0;
+  return stiffness_limit_of(device_damping, contact_environment(spring, period), contact_environment(rest, period),
+                            period);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

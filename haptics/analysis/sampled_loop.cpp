@@ -8,18 +8,18 @@
 #include <span>
 
 #include "haptics/analysis/spectral_radius.h"
-#include "haptics/device/checked.h"
 #include "haptics/device/haptic_device.h"
+#include "haptics/device/range_check.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
-static_assert(2 + kMostWindow + 1 + 3 + kMostDelay + 1 <=
-              kMostStates);          // lever, past positions, smooth velocity, estimate, queue
-constexpr double kVanishing = 1e-7;  // [m / T^2] the softest wall that is tried
-constexpr double kStiffest = 1e9;    // [N/m]
-constexpr double kScanRatio = 1.25;  // between two stiffnesses tried
-constexpr double kAccuracy = 1e-9;   // relative
+static_assert(2 + kMaxWindow + 1 + 3 + kMaxLoopDelay + 1 <=
+              kMaxStates);                    // lever, past positions, smooth velocity, estimate, queue
+constexpr double kMinStiffnessFactor = 1e-7;  // [m / T^2] softest wall tested
+constexpr double kMaxStiffness = 1e9;         // [N/m]
+constexpr double kScanRatio = 1.25;           // between two tested stiffnesses
+constexpr double kAccuracy = 1e-9;            // relative
 
 void check(const AxisModel& handle, const HandImpedance& hand) {
   require_between("handle.mass", handle.mass, 1e-3, 1e3, "kg");
@@ -31,62 +31,63 @@ void check(const AxisModel& handle, const HandImpedance& hand) {
 }
 
 // One cycle of the loop in contact. Its state, in this order: the lever's position and velocity; the past positions
-// that the velocity estimate reaches back over, newest first; the smooth velocity; the observer's position, velocity
-// and hand; the forces under way, oldest first. What the law does not use is not in the state.
+// used by the velocity estimate, newest first; the smooth velocity; the observer's position, velocity and hand force;
+// the delayed forces, oldest first. Parts that the law does not use are omitted.
 class ContactCycle {
  public:
-  // The handle is what the observer knows of; the lever moves with the hand on it.
+  // The observer models only the handle; the lever moves with handle and hand.
   ContactCycle(const AxisModel& handle, const HandImpedance& hand, const ContactLaw& law, double period)
       : law_(law),
-        wall_{law.stiffness, std::max(law.damping, kObservedDamping), period, law.delay, law.hold},
+        wall_{law.stiffness, std::max(law.damping, kMinObserverDamping), period, law.delay, law.hold},
         period_(period),
         horizon_(law.hold == ContactHold::zero_order ? 0.0 : period * (1 + 2 * law.delay)),
         plant_({handle.mass + hand.mass, handle.damping + hand.damping, handle.stiffness + hand.stiffness}, period),
         observer_(handle, observer_bandwidth(period), period),
-        force_unit_((handle.mass + hand.mass) / (period * period)) {
-    const bool filters = law.free_damping > 0.0;
-    const bool observes = law.hold == ContactHold::observer;
-    const bool differs = !observes && (law.damping > 0.0 || (horizon_ > 0.0 && law.stiffness > 0.0));
-    past_ = filters || differs ? static_cast<std::size_t>(law.window) : 0;
-    smooth_ = filters ? 1 : 0;
-    estimate_ = observes ? 3 : 0;
-    sent_ = static_cast<std::size_t>(law.delay) + (observes ? 1 : 0);
+        force_scale_((handle.mass + hand.mass) / (period * period)) {
+    const bool uses_smooth = law.free_damping > 0.0;
+    const bool is_observed = law.hold == ContactHold::observer;
+    const bool uses_velocity = !is_observed && (law.damping > 0.0 || (horizon_ > 0.0 && law.stiffness > 0.0));
+    past_size_ = uses_smooth || uses_velocity ? static_cast<std::size_t>(law.window) : 0;
+    smooth_size_ = uses_smooth ? 1 : 0;
+    estimate_size_ = is_observed ? 3 : 0;
+    queue_size_ = static_cast<std::size_t>(law.delay) + (is_observed ? 1 : 0);
     blend_ = -std::expm1(-period / law.smoothing);
   }
 
-  std::size_t order() const { return 2 + past_ + smooth_ + estimate_ + sent_; }
+  std::size_t order() const { return 2 + past_size_ + smooth_size_ + estimate_size_ + queue_size_; }
 
   void run(std::span<double> state) const {
     const AxisState lever{state[0], state[1]};
-    const std::span<double> past = state.subspan(2, past_);
-    const std::span<double> smooth = state.subspan(2 + past_, smooth_);
-    const std::span<double> estimate = state.subspan(2 + past_ + smooth_, estimate_);
-    const std::span<double> sent = state.last(sent_);
+    const std::span<double> past = state.subspan(2, past_size_);
+    const std::span<double> smooth = state.subspan(2 + past_size_, smooth_size_);
+    const std::span<double> estimate = state.subspan(2 + past_size_ + smooth_size_, estimate_size_);
+    const std::span<double> queue = state.last(queue_size_);
 
     const double velocity = past.empty() ? 0.0 : (lever.position - past.back()) / (law_.window * period_);
-    remember(past, lever.position);
-    const double damped = free_damping_force(smooth);  // of the cycle before
+    shift_in(past, lever.position);
+    const double previous_damping = free_damping_force(smooth);  // of the previous cycle
     for (double& v : smooth) v += blend_ * (velocity - v);
     const double wall = estimate.empty() ? sampled_force(lever.position, velocity)
-                                         : observed_force(estimate, sent, lever.position, damped);
+                                         : observed_force(estimate, queue, lever.position, previous_damping);
     const double force = wall + free_damping_force(smooth);
-    const AxisState next = plant_.step(lever, send(sent, force));
+    const AxisState next = plant_.step(lever, advance_queue(queue, force));
     state[0] = next.position;
     state[1] = next.velocity;
   }
 
-  // In which each part of the state is of like size, so that the eigenvalues keep their digits.
-  double unit(std::size_t part) const {
+  // Scales the parts of the state to similar magnitudes, so that the eigenvalues stay accurate.
+  double scale(std::size_t part) const {
     if (part < 2) return part == 0 ? 1.0 : 1.0 / period_;
-    if (part < 2 + past_) return 1.0;
-    const std::size_t rest = part - 2 - past_;
-    if (rest < smooth_) return 1.0 / period_;
-    if (rest < smooth_ + estimate_) return std::array{1.0, 1.0 / period_, force_unit_}[rest - smooth_];
-    return force_unit_;
+    if (part < 2 + past_size_) return 1.0;
+    const std::size_t index = part - 2 - past_size_;
+    if (index < smooth_size_) return 1.0 / period_;
+    if (index < smooth_size_ + estimate_size_)
+      return std::array{1.0, 1.0 / period_, force_scale_}[index - smooth_size_];
+    return force_scale_;
   }
 
  private:
-  static void remember(std::span<double> past, double position) {
+  static void shift_in(std::span<double> past, double position) {
     std::shift_right(past.begin(), past.end(), 1);
     if (!past.empty()) past.front() = position;
   }
@@ -99,51 +100,52 @@ class ContactCycle {
     return -law_.stiffness * (position + 0.5 * horizon_ * velocity) - law_.damping * velocity;
   }
 
-  // As LeverObserver, HapticLoop and couple() do it. sent: the force of the last period, then those under way; beside:
-  // what else is commanded [N].
-  double observed_force(std::span<double> estimate, std::span<const double> sent, double position,
-                        double beside) const {
+  // As in LeverObserver, HapticLoop and contact_force(). queue: the force of the last period, then the delayed ones;
+  // other_force: commanded in addition to the wall's [N].
+  double observed_force(std::span<double> estimate, std::span<const double> queue, double position,
+                        double other_force) const {
     const AxisEstimate before{estimate[0], estimate[1], estimate[2]};
-    const AxisEstimate now = observer_.correct(observer_.predict(before, sent.front()), position);
+    const AxisEstimate now = observer_.correct(observer_.predict(before, queue.front()), position);
     estimate[0] = now.position;
     estimate[1] = now.velocity;
     estimate[2] = now.hand;
     AxisEstimate begin = now;
-    for (const double force : sent.subspan(1)) begin = observer_.predict(begin, force);
-    return -solved_force_inside(wall_, begin.position, observer_.predict(begin, beside).position,
+    for (const double force : queue.subspan(1)) begin = observer_.predict(begin, force);
+    return -solved_force_inside(wall_, begin.position, observer_.predict(begin, other_force).position,
                                 observer_.compliance());
   }
 
-  // The force that acts now, written `delay` cycles ago. An observer keeps that one, too, for the next cycle.
-  double send(std::span<double> sent, double force) const {
-    if (sent.empty()) return force;
-    const double oldest = sent.front();
-    std::shift_left(sent.begin(), sent.end(), 1);
-    sent.back() = force;
-    return estimate_ == 0 ? oldest : sent.front();
+  // Queues the force and returns the one that acts now, written `delay` cycles ago. With an observer the queue also
+  // keeps that one for the next cycle.
+  double advance_queue(std::span<double> queue, double force) const {
+    if (queue.empty()) return force;
+    const double oldest = queue.front();
+    std::shift_left(queue.begin(), queue.end(), 1);
+    queue.back() = force;
+    return estimate_size_ == 0 ? oldest : queue.front();
   }
 
   ContactLaw law_;
   Coupling wall_;
   double period_;
-  double horizon_;  // [s] over whose middle the position is predicted
+  double horizon_;  // [s] the position is predicted to its middle
   AxisStepper plant_;
   AxisObserver observer_;
-  double force_unit_;  // [N] moves the lever by about a metre in a period
-  std::size_t past_ = 0, smooth_ = 0, estimate_ = 0, sent_ = 0;
-  double blend_ = 0.0;  // [1] of the newest velocity in the smooth one
+  double force_scale_;  // [N] force that moves the lever by about one metre per period
+  std::size_t past_size_ = 0, smooth_size_ = 0, estimate_size_ = 0, queue_size_ = 0;
+  double blend_ = 0.0;  // [1] weight of the newest velocity in the smooth one
 };
 
-// The cycle is linear: its matrix is what it makes of each unit vector.
+// The cycle is linear, so the columns of its matrix are the images of the unit vectors.
 double radius_of(const ContactCycle& cycle) {
   const std::size_t n = cycle.order();
-  std::array<double, std::size_t{kMostStates} * kMostStates> matrix;
+  std::array<double, std::size_t{kMaxStates} * kMaxStates> matrix;
   for (std::size_t column = 0; column < n; ++column) {
     const std::span<double> state(matrix.data() + column * n, n);
     std::fill(state.begin(), state.end(), 0.0);
-    state[column] = cycle.unit(column);
+    state[column] = cycle.scale(column);
     cycle.run(state);
-    for (std::size_t row = 0; row < n; ++row) state[row] /= cycle.unit(row);
+    for (std::size_t row = 0; row < n; ++row) state[row] /= cycle.scale(row);
   }
   return largest_eigenvalue({matrix.data(), n * n}, static_cast<int>(n));
 }
@@ -151,12 +153,12 @@ double radius_of(const ContactCycle& cycle) {
 }  // namespace
 
 void check_contact(const ContactLaw& law, double period) {
-  require_between("wall.stiffness", law.stiffness, 0.0, kStiffest, "N/m");
+  require_between("wall.stiffness", law.stiffness, 0.0, kMaxStiffness, "N/m");
   require_between("wall.damping", law.damping, 0.0, 1e6, "N s/m");
-  require_between("window", law.window, 1, kMostWindow, "samples");
+  require_between("window", law.window, 1, kMaxWindow, "samples");
   require_between("free_damping", law.free_damping, 0.0, 1e6, "N s/m");
   require_between("smoothing", law.smoothing, 1e-6, 1e3, "s");
-  require_between("delay", law.delay, 0, kMostDelay, "samples");
+  require_between("delay", law.delay, 0, kMaxLoopDelay, "samples");
   require_between("period", period, 1e-6, 1.0, "s");
 }
 
@@ -174,11 +176,11 @@ double stiffness_limit(const AxisModel& handle, const HandImpedance& hand, const
     wall.stiffness = stiffness;
     return radius_of(ContactCycle(handle, hand, wall, period)) < 1.0;
   };
-  double stable = kVanishing * (handle.mass + hand.mass) / (period * period), unstable = stable;
+  double stable = kMinStiffnessFactor * (handle.mass + hand.mass) / (period * period), unstable = stable;
   while (is_stable(unstable)) {
-    if (unstable >= kStiffest) return std::numeric_limits<double>::infinity();
+    if (unstable >= kMaxStiffness) return std::numeric_limits<double>::infinity();
     stable = unstable;
-    unstable = std::min(unstable * kScanRatio, kStiffest);
+    unstable = std::min(unstable * kScanRatio, kMaxStiffness);
   }
   if (unstable == stable) return 0.0;
   while (unstable > stable * (1.0 + kAccuracy)) {
@@ -188,4 +190,4 @@ double stiffness_limit(const AxisModel& handle, const HandImpedance& hand, const
   return stable;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

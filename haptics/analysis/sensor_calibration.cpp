@@ -8,10 +8,10 @@
 
 #include <glm/geometric.hpp>
 
-#include "haptics/device/checked.h"
 #include "haptics/device/gaussian_noise.h"
+#include "haptics/device/range_check.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
 glm::dvec2 direction_of(const Weighing& weighing) {
@@ -32,29 +32,30 @@ SensorLine fit_line(std::span<const Weighing> weighings, int axis) {
   const double n = static_cast<double>(weighings.size());
   double mean_force = 0.0, mean_reading = 0.0;
   std::set<long> forces;  // [1/1000 gw]
-  for (const Weighing& one : weighings) {
-    const double force = one.weight * direction_of(one)[axis];
+  for (const Weighing& weighing : weighings) {
+    const double force = weighing.weight * direction_of(weighing)[axis];
     forces.insert(std::lround(1e3 * force));
     mean_force += force / n;
-    mean_reading += one.reading[axis] / n;
+    mean_reading += weighing.reading[axis] / n;
   }
   if (forces.size() < 3) throw std::invalid_argument("calibrate_sensor: an axis needs at least 3 different forces");
 
   double ff = 0.0, fr = 0.0;
-  for (const Weighing& one : weighings) {
-    const double force = one.weight * direction_of(one)[axis] - mean_force;
+  for (const Weighing& weighing : weighings) {
+    const double force = weighing.weight * direction_of(weighing)[axis] - mean_force;
     ff += force * force;
-    fr += force * (one.reading[axis] - mean_reading);
+    fr += force * (weighing.reading[axis] - mean_reading);
   }
   SensorLine line;
   line.gain = fr / ff;
   line.offset = mean_reading - line.gain * mean_force;
 
   double squares = 0.0;
-  for (const Weighing& one : weighings) {
-    const double left = one.reading[axis] - line.offset - line.gain * one.weight * direction_of(one)[axis];
-    squares += left * left;
-    line.nonlinearity = std::max(line.nonlinearity, std::abs(left / line.gain));
+  for (const Weighing& weighing : weighings) {
+    const double residual =
+        weighing.reading[axis] - line.offset - line.gain * weighing.weight * direction_of(weighing)[axis];
+    squares += residual * residual;
+    line.nonlinearity = std::max(line.nonlinearity, std::abs(residual / line.gain));
   }
   const double variance = squares / (n - 2.0);
   line.gain_deviation = std::sqrt(variance / ff);
@@ -70,10 +71,10 @@ std::vector<Weighing> weigh(const ForceSensorModel& x, const ForceSensorModel& y
   std::vector<Weighing> weighings;
   for (int direction = 0; direction < kCalibrationDirections; ++direction) {
     for (const double weight : kCalibrationWeights) {
-      Weighing one{weight, direction, {}};
-      const glm::dvec2 force = weight * direction_of(one);
-      one.reading = {mean_reading(x, force.x, samples, noise), mean_reading(y, force.y, samples, noise)};
-      weighings.push_back(one);
+      Weighing weighing{weight, direction, {}};
+      const glm::dvec2 force = weight * direction_of(weighing);
+      weighing.reading = {mean_reading(x, force.x, samples, noise), mean_reading(y, force.y, samples, noise)};
+      weighings.push_back(weighing);
     }
   }
   return weighings;
@@ -83,15 +84,15 @@ SensorCalibration calibrate_sensor(std::span<const Weighing> weighings) {
   SensorCalibration calibration{fit_line(weighings, 0), fit_line(weighings, 1)};
   const SensorLine &x = calibration.x, &y = calibration.y;
   for (int direction = 0; direction < kCalibrationDirections; ++direction) {
-    double along_sum = 0.0, weight_sum = 0.0;  // of the line through the origin
-    for (const Weighing& one : weighings) {
-      if (one.direction != direction) continue;
-      const glm::dvec2 force{(one.reading.x - x.offset) / x.gain, (one.reading.y - y.offset) / y.gain};
-      const glm::dvec2 along = direction_of(one);
-      along_sum += one.weight * glm::dot(along, force);
-      weight_sum += one.weight * one.weight;
+    double along_sum = 0.0, weight_sum = 0.0;  // for a line through the origin
+    for (const Weighing& weighing : weighings) {
+      if (weighing.direction != direction) continue;
+      const glm::dvec2 force{(weighing.reading.x - x.offset) / x.gain, (weighing.reading.y - y.offset) / y.gain};
+      const glm::dvec2 along = direction_of(weighing);
+      along_sum += weighing.weight * glm::dot(along, force);
+      weight_sum += weighing.weight * weighing.weight;
       const double across = along.x * force.y - along.y * force.x;
-      calibration.crosswise = std::max(calibration.crosswise, std::abs(across));
+      calibration.cross_force = std::max(calibration.cross_force, std::abs(across));
     }
     if (weight_sum == 0.0) continue;
     calibration.direction_spread = std::max(calibration.direction_spread, std::abs(along_sum / weight_sum - 1.0));
@@ -99,4 +100,4 @@ SensorCalibration calibrate_sensor(std::span<const Weighing> weighings) {
   return calibration;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

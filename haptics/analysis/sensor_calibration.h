@@ -1,4 +1,4 @@
-// Calibration of the force sensor with weights, as its own step.
+// Calibration of the force sensor with weights.
 //
 // This work is based on:
 // Wei-Ching Lin, Kuu-Young Young. Design of Force-Reflection Joystick System for VR-Based Simulation.
@@ -14,7 +14,7 @@
 
 #include "haptics/joystick/force_sensor.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 inline constexpr std::array<double, 7> kCalibrationWeights{0, 100, 200, 300, 500, 750, 1000};  // [gw]
 inline constexpr int kCalibrationDirections = 8;                                               // 45 deg apart
@@ -25,24 +25,24 @@ struct Weighing {
   glm::dvec2 reading{0.0};  // [raw] f_s of both axes
 };
 
-// All weights in all directions on two simulated sensors, each reading the mean of `samples` (1 to 100000).
-// Throws std::invalid_argument.
+// Simulates all weights in all directions on two sensors, each reading the mean of `samples` (1 to 100000). Throws
+// std::invalid_argument.
 std::vector<Weighing> weigh(const ForceSensorModel& x, const ForceSensorModel& y, int samples, std::uint64_t seed);
 
-// f_s = offset + gain f_e of one axis, the inverse of eq (7), by least squares.
+// Least-squares line f_s = offset + gain f_e of one axis, the inverse of eq (7).
 struct SensorLine {
-  double offset = 0.0, offset_deviation = 0.0;  // [raw] with its standard uncertainty
+  double offset = 0.0, offset_deviation = 0.0;  // [raw] and its standard uncertainty
   double gain = 0.0, gain_deviation = 0.0;      // [raw/gw]
-  double nonlinearity = 0.0;                    // [gw] the farthest reading from the line
+  double nonlinearity = 0.0;                    // [gw] largest deviation of a reading from the line
 };
 
 struct SensorCalibration {
   SensorLine x, y;
-  double direction_spread = 0.0;  // [1] the largest difference of a direction's own gain from 1, once calibrated
-  double crosswise = 0.0;         // [gw] the largest force read across the weight's direction
+  double direction_spread = 0.0;  // [1] largest deviation of a single direction's gain from 1 after calibration
+  double cross_force = 0.0;       // [gw] largest force read perpendicular to the weight
 };
 
-// Throws std::invalid_argument where an axis has fewer than three different forces.
+// Throws std::invalid_argument if an axis has fewer than three different forces.
 SensorCalibration calibrate_sensor(std::span<const Weighing> weighings);
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -5,12 +5,12 @@
 #include <cmath>
 #include <limits>
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
-using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMostStates, kMostStates>;
+using Matrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::ColMajor, kMaxStates, kMaxStates>;
 
-// Absolute value of both eigenvalues of the block at i, which are a conjugate pair, without overflow.
+// Absolute value of the conjugate pair of eigenvalues of the 2x2 block at i, computed without overflow.
 double pair_size(const Matrix& blocks, Eigen::Index i) {
   const double p = 0.5 * (blocks(i, i) - blocks(i + 1, i + 1)), low = blocks(i + 1, i), high = blocks(i, i + 1);
   const double unit = std::max({std::abs(p), std::abs(low), std::abs(high)});
@@ -20,28 +20,27 @@ double pair_size(const Matrix& blocks, Eigen::Index i) {
 
 }  // namespace
 
-// As Eigen::EigenSolver does it, to the bit, but without its way to the eigenvectors, which nobody asks for: that is half
-// of what it takes to compile.
+// Bit-identical to Eigen::EigenSolver, but without its eigenvectors, which are unused and double the compile time.
 double largest_eigenvalue(std::span<const double> entries, int order) noexcept {
-  constexpr double none = std::numeric_limits<double>::infinity();
+  constexpr double kNotFound = std::numeric_limits<double>::infinity();
   const Eigen::Map<const Eigen::MatrixXd> matrix(entries.data(), order, order);
-  if (!matrix.allFinite()) return none;
+  if (!matrix.allFinite()) return kNotFound;
   const double scale = matrix.cwiseAbs().maxCoeff();
   if (scale < std::numeric_limits<double>::min()) return 0.0;
   const Eigen::HessenbergDecomposition<Matrix> hessenberg(Matrix(matrix / scale));
   Eigen::RealSchur<Matrix> schur(order);
   schur.computeFromHessenberg(hessenberg.matrixH(), Matrix(), false);
-  if (schur.info() != Eigen::Success) return none;
-  const Matrix blocks = schur.matrixT() * scale;  // of one, or of two for a pair
+  if (schur.info() != Eigen::Success) return kNotFound;
+  const Matrix blocks = schur.matrixT() * scale;  // diagonal blocks of size 1, or 2 for a conjugate pair
   double largest = 0.0;
   for (Eigen::Index i = 0; i < order; ++i) {
-    const bool pair = i + 1 < order && blocks(i + 1, i) != 0.0;
-    const double size = pair ? pair_size(blocks, i) : std::abs(blocks(i, i));
-    if (!std::isfinite(size)) return none;
+    const bool is_pair = i + 1 < order && blocks(i + 1, i) != 0.0;
+    const double size = is_pair ? pair_size(blocks, i) : std::abs(blocks(i, i));
+    if (!std::isfinite(size)) return kNotFound;
     largest = std::max(largest, size);
-    if (pair) ++i;
+    if (is_pair) ++i;
   }
   return largest;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

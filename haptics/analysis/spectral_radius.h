@@ -1,15 +1,15 @@
-// Eigenvalues of a small real matrix, so that no other file includes Eigen.
+// Spectral radius of a small real matrix. The only place that uses Eigen.
 #pragma once
 
 #include <span>
 
-namespace gearshift {
+namespace gearshift::haptics {
 
-inline constexpr int kMostStates = 96;  // largest order
+inline constexpr int kMaxStates = 96;  // largest order
 
-// Largest absolute value of the eigenvalues of a square matrix. entries: column by column, order x order of them,
-// order 1 to kMostStates, not checked. Infinite where they are not found, as for entries that are
-// not finite: to be taken for unstable. Allocates nothing.
+// Largest absolute value of the eigenvalues of a square matrix. entries: order x order values, column by column; order
+// 1 to kMaxStates, not checked. Infinite, which counts as unstable, if the eigenvalues cannot be computed, for example
+// for entries that are not finite. Does not allocate.
 double largest_eigenvalue(std::span<const double> entries, int order) noexcept;
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -1,4 +1,4 @@
-// What free space is made of: convex aisles, one joined to the next.
+// The convex regions that make up free space: neutral aisle, vertical aisles and chamfered mouths.
 #pragma once
 
 #include <algorithm>
@@ -9,32 +9,32 @@
 #include "haptics/gate/gate.h"
 #include "haptics/gate/lockout.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
-inline constexpr double kTouch = 1e-12;  // [m] a point this near an aisle's edge is on it
+inline constexpr double kEdgeTolerance = 1e-12;  // [m] a point this close to an edge counts as inside
 
-struct Box {
+struct AisleBox {
   glm::dvec2 min, max;
 };
 
-inline bool contains(const Box& box, glm::dvec2 p) noexcept {
-  return p.x >= box.min.x - kTouch && p.x <= box.max.x + kTouch && p.y >= box.min.y - kTouch &&
-         p.y <= box.max.y + kTouch;
+inline bool contains(const AisleBox& box, glm::dvec2 p) noexcept {
+  return p.x >= box.min.x - kEdgeTolerance && p.x <= box.max.x + kEdgeTolerance && p.y >= box.min.y - kEdgeTolerance &&
+         p.y <= box.max.y + kEdgeTolerance;
 }
 
-inline glm::dvec2 nearest(const Box& box, glm::dvec2 p) noexcept {
+inline glm::dvec2 nearest(const AisleBox& box, glm::dvec2 p) noexcept {
   return {std::clamp(p.x, box.min.x, box.max.x), std::clamp(p.y, box.min.y, box.max.y)};
 }
 
-inline Box neutral_aisle(const Gate& gate, const Passage& passage) noexcept {
+inline AisleBox neutral_aisle(const Gate& gate, const Passage& passage) noexcept {
   return {{passage.select_min, -gate.half_aisle}, {passage.select_max, gate.half_aisle}};
 }
 
-// A vertical aisle, cut short where a lockout closes a slot's mouth or the gearbox limits its depth.
-inline Box vertical_aisle(const Gate& gate, const Passage& passage, const Column& column) noexcept {
+// A vertical aisle, shortened where a lockout closes a slot's mouth or the gearbox limits its depth.
+inline AisleBox vertical_aisle(const Gate& gate, const Passage& passage, const Column& column) noexcept {
   const double mouth = gate.half_aisle + gate.chamfer;
   const auto is_closed = [&](int slot) { return slot != kNoSlot && (passage.closed >> slot & 1u) != 0; };
-  Box box{{column.center - column.half_width, column.back}, {column.center + column.half_width, column.forward}};
+  AisleBox box{{column.center - column.half_width, column.back}, {column.center + column.half_width, column.forward}};
   if (is_closed(column.forward_slot)) box.max.y = mouth;
   if (is_closed(column.back_slot)) box.min.y = -mouth;
   if (passage.limited_slot == kNoSlot) return box;
@@ -48,9 +48,9 @@ inline Box vertical_aisle(const Gate& gate, const Passage& passage, const Column
   return box;
 }
 
-// The chamfered mouth of one slot, seen with the slot upwards and to the right of the column's centre line:
-// the convex region |u| <= reach, -half_aisle <= v <= top, |u| + v <= reach + half_aisle. The neutral aisle
-// may be narrower there (its ends, a lateral lockout), so the box is cut to it.
+// The chamfered mouth of one slot. In coordinates u = x - center and v = sign * y (the slot points towards +v) it is
+// the convex region |u| <= reach, -half_aisle <= v <= top, |u| + v <= reach + half_aisle, clipped to min_x..max_x: the
+// neutral aisle may be narrower there (its ends, a lateral lockout).
 struct Mouth {
   double center, sign;  // x of the column, +1 forward or -1 back
   double reach, half_aisle, top;
@@ -70,18 +70,18 @@ inline Mouth mouth_of(const Gate& gate, const Passage& passage, const Column& co
 
 inline bool contains(const Mouth& mouth, glm::dvec2 p) noexcept {
   const double v = mouth.sign * p.y;
-  if (p.x < mouth.min_x - kTouch || p.x > mouth.max_x + kTouch) return false;
-  if (v < -mouth.half_aisle - kTouch || v > mouth.top + kTouch) return false;
-  return std::abs(p.x - mouth.center) + v <= mouth.reach + mouth.half_aisle + kTouch;
+  if (p.x < mouth.min_x - kEdgeTolerance || p.x > mouth.max_x + kEdgeTolerance) return false;
+  if (v < -mouth.half_aisle - kEdgeTolerance || v > mouth.top + kEdgeTolerance) return false;
+  return std::abs(p.x - mouth.center) + v <= mouth.reach + mouth.half_aisle + kEdgeTolerance;
 }
 
 inline glm::dvec2 nearest(const Mouth& mouth, glm::dvec2 p) noexcept {
-  const Box box{{mouth.min_x, -mouth.half_aisle}, {mouth.max_x, mouth.top}};
+  const AisleBox box{{mouth.min_x, -mouth.half_aisle}, {mouth.max_x, mouth.top}};
   const glm::dvec2 upright{p.x, mouth.sign * p.y};
   glm::dvec2 q = nearest(box, upright);
   const double limit = mouth.reach + mouth.half_aisle;
   if (std::abs(q.x - mouth.center) + q.y > limit) {
-    // Beyond a chamfer: the foot on its 45 degree line, kept on the chamfer.
+    // Beyond a chamfer: project onto its 45 degree line and clamp to the chamfer.
     const double right = upright.x < mouth.center ? -1.0 : 1.0;
     const double u = right * (upright.x - mouth.center);
     const double end = right > 0.0 ? mouth.max_x - mouth.center : mouth.center - mouth.min_x;
@@ -91,4 +91,4 @@ inline glm::dvec2 nearest(const Mouth& mouth, glm::dvec2 p) noexcept {
   return {q.x, mouth.sign * q.y};
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

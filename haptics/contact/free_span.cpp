@@ -8,65 +8,65 @@
 
 #include "haptics/contact/free_space.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
-// A part of a line: none of it where high < low.
-struct Stretch {
+// An interval on a line; empty if high < low.
+struct Interval {
   double low = 1.0, high = -1.0;
 };
 
-// What an aisle holds of the line through p along that axis.
-Stretch stretch(const Box& box, glm::dvec2 p, int axis) noexcept {
+// The part of the line through p along `axis` that lies inside the aisle.
+Interval interval_in(const AisleBox& box, glm::dvec2 p, int axis) noexcept {
   const int other = 1 - axis;
-  if (p[other] < box.min[other] - kTouch || p[other] > box.max[other] + kTouch) return {};
+  if (p[other] < box.min[other] - kEdgeTolerance || p[other] > box.max[other] + kEdgeTolerance) return {};
   return {box.min[axis], box.max[axis]};
 }
 
-Stretch stretch(const Mouth& mouth, glm::dvec2 p, int axis) noexcept {
+Interval interval_in(const Mouth& mouth, glm::dvec2 p, int axis) noexcept {
   const double limit = mouth.reach + mouth.half_aisle;
   if (axis == 0) {
     const double v = mouth.sign * p.y;
-    if (v < -mouth.half_aisle - kTouch || v > mouth.top + kTouch) return {};
+    if (v < -mouth.half_aisle - kEdgeTolerance || v > mouth.top + kEdgeTolerance) return {};
     const double half = std::min(mouth.reach, limit - v);
     return {std::max(mouth.min_x, mouth.center - half), std::min(mouth.max_x, mouth.center + half)};
   }
-  if (p.x < mouth.min_x - kTouch || p.x > mouth.max_x + kTouch) return {};
+  if (p.x < mouth.min_x - kEdgeTolerance || p.x > mouth.max_x + kEdgeTolerance) return {};
   const double top = std::min(mouth.top, limit - std::abs(p.x - mouth.center));
-  return mouth.sign > 0.0 ? Stretch{-mouth.half_aisle, top} : Stretch{-top, mouth.half_aisle};
+  return mouth.sign > 0.0 ? Interval{-mouth.half_aisle, top} : Interval{-top, mouth.half_aisle};
 }
 
-// Goes on into a part that touches it.
-void grow(Stretch& span, Stretch part) noexcept {
-  if (part.high < part.low || part.low > span.high + kTouch || part.high < span.low - kTouch) return;
+// Extends the span by a part that touches it.
+void extend(Interval& span, Interval part) noexcept {
+  if (part.high < part.low || part.low > span.high + kEdgeTolerance || part.high < span.low - kEdgeTolerance) return;
   span = {std::min(span.low, part.low), std::max(span.high, part.high)};
 }
 
 }  // namespace
 
-// The nearest column's aisles and the neutral aisle are all that such a line can meet: columns lie apart, mouths
-// included, and between them the neutral aisle is all there is.
+// Such a line can only meet the nearest column's aisle and mouths and the neutral aisle: columns do not overlap, mouths
+// included, and between them there is only the neutral aisle.
 FreeSpan free_span(const Gate& gate, const Passage& passage, glm::dvec2 point) noexcept {
   const Column& column = column_of(gate, nearest_column(gate, point.x));
   const Mouth forward = mouth_of(gate, passage, column, Side::forward);
   const Mouth back = mouth_of(gate, passage, column, Side::back);
   FreeSpan span;
   for (int axis = 0; axis < 2; ++axis) {
-    const std::array parts{stretch(vertical_aisle(gate, passage, column), point, axis),
-                           column.forward_slot == kNoSlot ? Stretch{} : stretch(forward, point, axis),
-                           column.back_slot == kNoSlot ? Stretch{} : stretch(back, point, axis),
-                           stretch(neutral_aisle(gate, passage), point, axis)};
-    Stretch whole{point[axis], point[axis]};
-    for (int pass = 0; pass < 2; ++pass)  // from a mouth through the aisle into the one opposite
-      for (const Stretch& part : parts) grow(whole, part);
-    span.low[axis] = whole.low;
-    span.high[axis] = whole.high;
+    const std::array parts{interval_in(vertical_aisle(gate, passage, column), point, axis),
+                           column.forward_slot == kNoSlot ? Interval{} : interval_in(forward, point, axis),
+                           column.back_slot == kNoSlot ? Interval{} : interval_in(back, point, axis),
+                           interval_in(neutral_aisle(gate, passage), point, axis)};
+    Interval span_on_axis{point[axis], point[axis]};
+    for (int pass = 0; pass < 2; ++pass)  // two passes: from a mouth through the aisle into the opposite mouth
+      for (const Interval& part : parts) extend(span_on_axis, part);
+    span.low[axis] = span_on_axis.low;
+    span.high[axis] = span_on_axis.high;
   }
   return span;
 }
 
-FreeSpan joined(const FreeSpan& a, const FreeSpan& b) noexcept {
+FreeSpan bounding_span(const FreeSpan& a, const FreeSpan& b) noexcept {
   return {glm::min(a.low, b.low), glm::max(a.high, b.high)};
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

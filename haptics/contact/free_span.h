@@ -1,4 +1,4 @@
-// How far a point may go along each axis, straight, before a wall stops it.
+// How far a point can move straight along each axis before it meets a wall.
 #pragma once
 
 #include <glm/vec2.hpp>
@@ -6,17 +6,17 @@
 #include "haptics/gate/gate.h"
 #include "haptics/gate/lockout.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 struct FreeSpan {
-  glm::dvec2 low{0.0}, high{0.0};  // [m] left or back end, right or forward end; low <= point <= high
+  glm::dvec2 low{0.0}, high{0.0};  // [m] left/back end and right/forward end; low <= point <= high
 };
 
-// Of the straight line through the point along each axis the part that is free and holds the point: lockouts, chamfers
-// and depth limits as in move_proxy(). The point must be in free space. Real-time safe.
+// For each axis, the free interval containing the point on the line through it parallel to that axis. Respects
+// lockouts, chamfers and depth limits as move_proxy() does. The point must be in free space. Real-time safe.
 FreeSpan free_span(const Gate& gate, const Passage& passage, glm::dvec2 point) noexcept;
 
-// What either of them holds.
-FreeSpan joined(const FreeSpan& a, const FreeSpan& b) noexcept;
+// The smallest span that contains both.
+FreeSpan bounding_span(const FreeSpan& a, const FreeSpan& b) noexcept;
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -7,23 +7,23 @@
 #include <glm/matrix.hpp>
 #include <glm/vec3.hpp>
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
 using glm::dmat3;
 using glm::dvec3;
 
-constexpr std::int64_t kMostSkipped = 10;  // [cycles] that it catches up with
-constexpr int kMostBlind = 10;  // [cycles] that it goes on without a sample; then it begins anew with the next
+constexpr std::int64_t kMaxSkippedCycles = 10;  // [cycles] longer gaps are not caught up with
+constexpr int kMaxBlindCycles = 10;             // [cycles] without a sample, then it restarts at the next one
 
-// Transition of (position, velocity, hand) over one period: the columns are where unit states go.
+// Transition matrix of (position, velocity, hand) over one period: its columns are the images of the unit states.
 dmat3 transition(const AxisStepper& stepper) noexcept {
   const AxisState x = stepper.step({1.0, 0.0}, 0.0), v = stepper.step({0.0, 1.0}, 0.0), w = stepper.step({}, 1.0);
   return {dvec3{x.position, x.velocity, 0.0}, dvec3{v.position, v.velocity, 0.0}, dvec3{w.position, w.velocity, 1.0}};
 }
 
-// Ackermann's formula for an observer that corrects with the sample of the same instant: the error moves by
-// (I - L C) A, whose poles all lie at `pole`. L = (A - pole I)^3 [C A; C A^2; C A^3]^-1 (0, 0, 1).
+// Ackermann's formula for an observer that corrects with the sample of the same instant: the error evolves by
+// (I - L C) A with all poles at `pole`. L = (A - pole I)^3 [C A; C A^2; C A^3]^-1 (0, 0, 1).
 dvec3 correction_gain(const dmat3& a, double pole) noexcept {
   const dmat3 shifted = a - dmat3(pole);
   const dvec3 first{a[0][0], a[1][0], a[2][0]};  // C A, C = (1, 0, 0)
@@ -56,43 +56,44 @@ LeverObserver::LeverObserver(const DeviceSpec& spec, double period) noexcept
       delay_(static_cast<std::size_t>(spec.delay)) {}
 
 ObservedMotion LeverObserver::update(const LeverMotion& motion, glm::dvec2 commanded, std::int64_t skipped) noexcept {
-  for (std::int64_t n = std::min(skipped, kMostSkipped); n >= 0; --n) pass_period(commanded);
+  for (std::int64_t n = std::min(skipped, kMaxSkippedCycles); n >= 0; --n) advance_period(commanded);
   ObservedMotion out;
   for (int i = 0; i < 2; ++i) {
     Axis& axis = axis_[static_cast<std::size_t>(i)];
-    const AxisEstimate begin = observe(axis, i, motion);
+    const AxisEstimate begin = estimate_at_effect(axis, i, motion);
     out.position[i] = begin.position;
     out.end[i] = axis.observer.predict(begin, 0.0).position;
     out.compliance[i] = axis.observer.compliance();
   }
-  blind_ = motion.fresh ? 0 : std::min(blind_ + 1, kMostBlind);
-  started_ = motion.fresh || (started_ && blind_ < kMostBlind);
+  blind_cycles_ = motion.fresh ? 0 : std::min(blind_cycles_ + 1, kMaxBlindCycles);
+  started_ = motion.fresh || (started_ && blind_cycles_ < kMaxBlindCycles);
   return out;
 }
 
-// One period with the command that was due in it.
-void LeverObserver::pass_period(glm::dvec2 commanded) noexcept {
-  newest_ = (newest_ + 1) % sent_.size();
-  sent_[newest_] = commanded;
+// Advances the estimate by one period under the command that took effect in it.
+void LeverObserver::advance_period(glm::dvec2 commanded) noexcept {
+  newest_ = (newest_ + 1) % commands_.size();
+  commands_[newest_] = commanded;
   if (!started_) return;
   for (int i = 0; i < 2; ++i) {
     Axis& axis = axis_[static_cast<std::size_t>(i)];
-    axis.estimate = axis.observer.predict(axis.estimate, sent(delay_, i));
+    axis.estimate = axis.observer.predict(axis.estimate, command_before(delay_, i));
   }
 }
 
-double LeverObserver::sent(std::size_t age, int axis) const noexcept {
-  return sent_[(newest_ + sent_.size() - age) % sent_.size()][axis];
+double LeverObserver::command_before(std::size_t age, int axis) const noexcept {
+  return commands_[(newest_ + commands_.size() - age) % commands_.size()][axis];
 }
 
-// The estimate now, and from it, with the forces that are under way, that of the moment when the next command acts.
-AxisEstimate LeverObserver::observe(Axis& axis, int index, const LeverMotion& motion) noexcept {
+// Updates the estimate with the sample, then predicts it through the commands still in the delay line to the moment
+// when the next command takes effect.
+AxisEstimate LeverObserver::estimate_at_effect(Axis& axis, int index, const LeverMotion& motion) noexcept {
   const double sample = motion.position[index];
   if (!started_) axis.estimate = {sample, 0.0, 0.0};
   if (motion.fresh) axis.estimate = axis.observer.correct(axis.estimate, sample);
   AxisEstimate ahead = axis.estimate;
-  for (std::size_t age = delay_; age > 0; --age) ahead = axis.observer.predict(ahead, sent(age - 1, index));
+  for (std::size_t age = delay_; age > 0; --age) ahead = axis.observer.predict(ahead, command_before(age - 1, index));
   return ahead;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

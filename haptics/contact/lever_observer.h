@@ -1,12 +1,12 @@
-// Position, velocity and the hand's force, from samples and the forces that the motors gave: what a contact needs
-// that acts some samples late.
+// Estimates position, velocity and the hand's force from position samples and motor forces, predicted to the moment
+// when the next command takes effect. Used for contact on devices with delay.
 //
 // This work is based on:
 // D. G. Luenberger. An Introduction to Observers. 1971
 // J. Ackermann. Der Entwurf linearer Regelungssysteme im Zustandsraum. 1972
 //
-// Each axis is the device's m x'' + b x' + k x = u + w, u of the motors and known, w of the hand and taken as
-// constant. All three poles of the error lie at exp(-bandwidth T).
+// Each axis is modelled as m x'' + b x' + k x = u + w, with the known motor force u and the hand's force w, assumed
+// constant. All three poles of the estimation error are at exp(-bandwidth T).
 #pragma once
 
 #include <algorithm>
@@ -20,9 +20,9 @@
 #include "haptics/device/haptic_device.h"
 #include "haptics/joystick/plant.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
-// Of the estimate's error [1/s]. Faster, and the encoder's counts are heard; slower, and a heavy hand is not understood.
+// Decay rate of the estimation error [1/s]. Faster amplifies encoder quantisation; slower cannot track a heavy hand.
 inline double observer_bandwidth(double period) noexcept {
   return std::min(500.0, 1.25 / period);
 }
@@ -37,31 +37,31 @@ class AxisObserver {
  public:
   AxisObserver(const AxisModel& axis, double bandwidth, double period) noexcept;  // bandwidth [1/s], period [s]
 
-  // One period on, the motors giving `force` [N]: before the sample is known.
+  // The estimate one period later under the motor force `force` [N], before the sample is known.
   AxisEstimate predict(const AxisEstimate& estimate, double force) const noexcept;
-  // With the sample [m] of that instant.
+  // The prediction corrected by the sample [m] of that instant.
   AxisEstimate correct(AxisEstimate predicted, double position) const noexcept;
-  // How much a force held over a period moves its end. [m/N]
+  // Displacement at the end of a period per unit of force held over it. [m/N]
   double compliance() const noexcept { return stepper_.step({}, 1.0).position; }
 
  private:
   AxisStepper stepper_;
-  std::array<double, 3> gain_{};  // of the sample, on position, velocity and hand
+  std::array<double, 3> gain_{};  // from the sample's error to position, velocity and hand force
 };
 
-// What the observer knows of the period over which the next command will act.
+// Predicted motion over the period in which the next command acts.
 struct ObservedMotion {
-  glm::dvec2 position{0.0};  // [m] at its beginning
-  glm::dvec2 end{0.0};       // [m] at its end, if the motors gave nothing; the loop adds what they give beside the wall
-  glm::dvec2 compliance{0.0};  // [m/N] how much a force held over it moves that end, per axis
+  glm::dvec2 position{0.0};    // [m] at its beginning
+  glm::dvec2 end{0.0};         // [m] at its end without motor force; the loop adds all forces but the wall's
+  glm::dvec2 compliance{0.0};  // [m/N] displacement of that end per unit of held force, per axis
 };
 
 class LeverObserver {
  public:
   LeverObserver(const DeviceSpec& spec, double period) noexcept;  // period [s]
 
-  // commanded: the force that was written in the cycle before [N]; skipped: cycles missed since then, in which it was
-  // held. Real-time safe.
+  // commanded: the force written in the previous cycle [N]; skipped: cycles missed since then, over which that force
+  // was held. Real-time safe.
   ObservedMotion update(const LeverMotion& motion, glm::dvec2 commanded, std::int64_t skipped = 0) noexcept;
 
  private:
@@ -70,16 +70,16 @@ class LeverObserver {
     AxisEstimate estimate;
   };
 
-  double sent(std::size_t age, int axis) const noexcept;
-  void pass_period(glm::dvec2 commanded) noexcept;
-  AxisEstimate observe(Axis& axis, int index, const LeverMotion& motion) noexcept;
+  double command_before(std::size_t age, int axis) const noexcept;
+  void advance_period(glm::dvec2 commanded) noexcept;
+  AxisEstimate estimate_at_effect(Axis& axis, int index, const LeverMotion& motion) noexcept;
 
   std::array<Axis, 2> axis_;
-  std::array<glm::dvec2, kMostDelay + 1> sent_{};  // [N] the last commands
-  std::size_t newest_ = 0;                         // of them
+  std::array<glm::dvec2, kMaxLoopDelay + 1> commands_{};  // [N] ring buffer of the last commands
+  std::size_t newest_ = 0;                                // index of the newest command
   std::size_t delay_;
   bool started_ = false;
-  int blind_ = 0;  // [cycles] without a fresh sample
+  int blind_cycles_ = 0;  // [cycles] since the last fresh sample
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -9,23 +9,23 @@
 #include "haptics/contact/free_space.h"
 #include "haptics/joystick/finite.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
 using glm::dvec2;
 
-constexpr int kMaxLegs = 8;  // straight moves per cycle; stopping early is always safe
+constexpr int kMaxLegs = 8;  // straight moves per cycle; stopping early is safe
 
 double distance2(dvec2 a, dvec2 b) noexcept {
   const dvec2 d = a - b;
   return glm::dot(d, d);
 }
 
-// Where the proxy would go next: the nearest point to the lever in any one aisle that holds the proxy.
+// The proxy's next target: the point nearest to the lever in any aisle that contains the proxy.
 dvec2 next_leg(const Gate& gate, const Passage& passage, dvec2 p, dvec2 lever) noexcept {
   dvec2 best = p;
   double best2 = distance2(p, lever);
-  const auto offer = [&](dvec2 q) {
+  const auto consider = [&](dvec2 q) {
     const double d2 = distance2(q, lever);
     if (d2 < best2) {
       best = q;
@@ -33,17 +33,17 @@ dvec2 next_leg(const Gate& gate, const Passage& passage, dvec2 p, dvec2 lever) n
     }
   };
   const Column& column = gate.column[static_cast<std::size_t>(nearest_column(gate, p.x))];
-  const Box vertical = vertical_aisle(gate, passage, column);
-  if (contains(vertical, p)) offer(nearest(vertical, lever));
-  if (best2 == 0.0 || std::abs(p.y) > gate.half_aisle + gate.chamfer + kTouch) return best;
+  const AisleBox vertical = vertical_aisle(gate, passage, column);
+  if (contains(vertical, p)) consider(nearest(vertical, lever));
+  if (best2 == 0.0 || std::abs(p.y) > gate.half_aisle + gate.chamfer + kEdgeTolerance) return best;
 
-  const Box neutral = neutral_aisle(gate, passage);
-  if (contains(neutral, p)) offer(nearest(neutral, lever));
+  const AisleBox neutral = neutral_aisle(gate, passage);
+  if (contains(neutral, p)) consider(nearest(neutral, lever));
   if (best2 == 0.0 || gate.chamfer == 0.0) return best;
   for (const auto& [slot, side] : {std::pair{column.forward_slot, Side::forward}, {column.back_slot, Side::back}}) {
     if (slot == kNoSlot) continue;
     const Mouth mouth = mouth_of(gate, passage, column, side);
-    if (contains(mouth, p)) offer(nearest(mouth, lever));
+    if (contains(mouth, p)) consider(nearest(mouth, lever));
   }
   return best;
 }
@@ -53,14 +53,14 @@ dvec2 next_leg(const Gate& gate, const Passage& passage, dvec2 p, dvec2 lever) n
 Proxy place_proxy(const Gate& gate, dvec2 lever) noexcept {
   const Passage passage = open_passage(gate);
   dvec2 best = nearest(neutral_aisle(gate, passage), lever);
-  const auto offer = [&](dvec2 q) {
+  const auto consider = [&](dvec2 q) {
     if (distance2(q, lever) < distance2(best, lever)) best = q;
   };
   for (int i = 0; i < gate.column_count; ++i) {
     const Column& column = gate.column[static_cast<std::size_t>(i)];
-    offer(nearest(vertical_aisle(gate, passage, column), lever));
-    if (column.forward_slot != kNoSlot) offer(nearest(mouth_of(gate, passage, column, Side::forward), lever));
-    if (column.back_slot != kNoSlot) offer(nearest(mouth_of(gate, passage, column, Side::back), lever));
+    consider(nearest(vertical_aisle(gate, passage, column), lever));
+    if (column.forward_slot != kNoSlot) consider(nearest(mouth_of(gate, passage, column, Side::forward), lever));
+    if (column.back_slot != kNoSlot) consider(nearest(mouth_of(gate, passage, column, Side::back), lever));
   }
   return {best, lever};
 }
@@ -77,10 +77,10 @@ Proxy move_proxy(const Gate& gate, const Passage& passage, Proxy proxy, dvec2 le
       break;
     }
     proxy.position = to;
-    if (length < kTouch) break;
+    if (length < kEdgeTolerance) break;
     budget -= length;
   }
   return proxy;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -4,109 +4,110 @@
 #include <cmath>
 #include <numbers>
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
-constexpr double kTurn = 4.0;          // [counts] back from an extreme: more than the encoder makes by itself
-constexpr double kLeastStep = 20e-6;   // [m] taken for a count where the encoder is finer
-constexpr double kWithin = 0.25;       // [s] that the reversals fall into: 10 Hz
-constexpr double kTremor = 0.8e-3;     // [m] from turn to turn: as wide as a hand's tremor swings a lever
-constexpr double kFaster = 0.2;        // [s] that they fall into if one is no wider: 12.5 Hz, faster than any tremor
-constexpr double kShakeLasts = 0.25;   // [s] after its last turn; slower than 2 Hz it is taken for 2 Hz
-constexpr double kPause = 0.5;         // [s] without chatter: it had calmed
-constexpr double kLower = 0.75;        // [1] of the stiffness, each time
-constexpr double kFloor = 0.3;         // [1] of m / tau^2, tau = (delay + 1) T
-constexpr int kBounces = 3;            // times at the floor that may be a bounce dying away
-constexpr double kLowerBelow = 0.5;    // [1] of the stiffness, each further time
-constexpr double kLeast = 1.0 / 64.0;  // [1] of the stiffness: beyond softening
-constexpr double kLeastShake = 0.02;   // [N] back from an extreme: less moves no lever by four counts
-constexpr double kMargin = 1.25;       // [1] over what a sine would do: no shake is one
-constexpr int kMostShakes = 2;         // that the lever may be behind: a turn either way
+constexpr double kReversalCounts = 4.0;       // [counts] back from an extreme: more than quantisation alone produces
+constexpr double kMinCount = 20e-6;           // [m] used instead of the encoder's count if that is finer
+constexpr double kReversalWindow = 0.25;      // [s] all reversals must fall within it: 10 Hz
+constexpr double kTremorWidth = 0.8e-3;       // [m] between reversals: widest swing of a hand's tremor
+constexpr double kTremorWindow = 0.2;         // [s] the same if a swing is that narrow: 12.5 Hz, faster than any tremor
+constexpr double kVibrationTimeout = 0.25;    // [s] after its last reversal; a vibration below 2 Hz is treated as 2 Hz
+constexpr double kCalmTime = 0.5;             // [s] without chatter: counts as calm
+constexpr double kSoftening = 0.75;           // [1] factor on the stiffness per detection
+constexpr double kFloorFactor = 0.3;          // [1] of m / tau^2, tau = (delay + 1) T
+constexpr int kMaxBounces = 3;                // detections at the floor that may be a decaying bounce
+constexpr double kSofteningBelowFloor = 0.5;  // [1] factor on the stiffness per further detection
+constexpr double kMinFraction = 1.0 / 64.0;   // [1] of the stiffness; below it softening has failed
+constexpr double kMinVibration = 0.02;        // [N] back from an extreme; less cannot move a lever by four counts
+constexpr double kVibrationMargin = 1.25;     // [1] over the swing of a pure sine, which no real vibration is
+constexpr int kMaxPendingTurns = 2;           // vibration reversals that the lever may lag behind: one each way
 
 }  // namespace
 
 ReversalLimiter::ReversalLimiter(const DeviceSpec& spec, double period) noexcept
     : period_(period),
-      turn_(kTurn * std::max(spec.position_step, kLeastStep)),
+      reversal_step_(kReversalCounts * std::max(spec.position_step, kMinCount)),
       damping_(std::min(spec.axis_x.damping, spec.axis_y.damping)) {
   const double tau = (spec.delay + 1.0) * period;
-  floor_ = kFloor * std::min(spec.axis_x.mass, spec.axis_y.mass) / (tau * tau);
+  floor_ = kFloorFactor * std::min(spec.axis_x.mass, spec.axis_y.mass) / (tau * tau);
 }
 
 void ReversalLimiter::reset() noexcept {
-  share_ = 1.0;
-  at_floor_ = 0;
-  exhausted_ = false;
+  fraction_ = 1.0;
+  floor_count_ = 0;
+  is_exhausted_ = false;
   for (Axis& axis : axis_) axis.count = 0;
 }
 
-bool ReversalLimiter::update(glm::dvec2 position, bool touches, double wanted, glm::dvec2 shake) noexcept {
-  now_ += period_;
-  if (touches) touched_ = now_;
-  watch_shake(shake);
-  const bool chatter_x = chatters(axis_[0], position.x);
-  const bool chatter_y = chatters(axis_[1], position.y);
-  const bool at_wall = now_ - touched_ < kWithin;
+bool ReversalLimiter::update(glm::dvec2 position, bool in_contact, double wanted, glm::dvec2 vibration) noexcept {
+  time_ += period_;
+  if (in_contact) last_contact_ = time_;
+  track_vibration(vibration);
+  const bool chatter_x = detect_chatter(axis_[0], position.x);
+  const bool chatter_y = detect_chatter(axis_[1], position.y);
+  const bool at_wall = time_ - last_contact_ < kReversalWindow;
   if (!at_wall || (!chatter_x && !chatter_y)) return false;
-  return lower(wanted);
+  return soften(wanted);
 }
 
-bool ReversalLimiter::Swing::turns(double value, double back) noexcept {
+bool ReversalLimiter::Swing::reverses(double value, double back) noexcept {
   const double ahead = direction * (value - farthest);
   if (ahead > 0.0) farthest = value;
   if (ahead > -back) return false;
-  width = std::abs(farthest - turned_at);
-  turned_at = farthest;
+  width = std::abs(farthest - last_turn);
+  last_turn = farthest;
   farthest = value;
   direction = -direction;
   return true;
 }
 
-bool ReversalLimiter::chatters(Axis& axis, double position) noexcept {
-  if (!axis.lever.turns(position, turn_) || is_shaken(axis)) return false;
-  if (axis.lever.width < kTremor) axis.narrow = now_;
-  const double within = now_ - axis.narrow < kWithin ? kFaster : kWithin;
-  axis.turned[axis.count++ % kReversals] = now_;
-  const double first = axis.turned[axis.count % kReversals];  // of the last kReversals
-  return axis.count >= kReversals && now_ - first < within;
+bool ReversalLimiter::detect_chatter(Axis& axis, double position) noexcept {
+  if (!axis.lever.reverses(position, reversal_step_) || is_forced_turn(axis)) return false;
+  if (axis.lever.width < kTremorWidth) axis.narrow_time = time_;
+  const double window = time_ - axis.narrow_time < kReversalWindow ? kTremorWindow : kReversalWindow;
+  axis.reversal_times[axis.count++ % kReversals] = time_;
+  const double first = axis.reversal_times[axis.count % kReversals];  // oldest of the last kReversals
+  return axis.count >= kReversals && time_ - first < window;
 }
 
-// Whatever the lever stands in, a force of amplitude F at w feeds at most pi F X a period into a swing of X, and the lever's
-// own damping takes pi b w X^2 of it: X <= F / (b w). What swings wider is fed by its wall.
-// A shake along one axis moves the tip along both: the yoke turns them into each other in the corners.
-void ReversalLimiter::watch_shake(glm::dvec2 shake) noexcept {
-  const bool is_over = now_ - shaken_ > kShakeLasts;
-  for (Axis& axis : axis_) axis.shakes = is_over ? 0 : axis.shakes;
+// Against passive walls of any kind, a force of amplitude F at angular frequency w feeds at most pi F X per period into
+// a swing of amplitude X, and the lever's own damping dissipates pi b w X^2: X <= F / (b w). A wider swing gets its
+// energy from the wall. A vibration along one axis moves the tip along both, because the yoke couples the axes in the
+// corners.
+void ReversalLimiter::track_vibration(glm::dvec2 vibration) noexcept {
+  const bool is_over = time_ - last_vibration_turn_ > kVibrationTimeout;
+  for (Axis& axis : axis_) axis.pending_turns = is_over ? 0 : axis.pending_turns;
   for (int i = 0; i < 2; ++i) {
-    Swing& swing = shake_[static_cast<std::size_t>(i)];
-    if (!swing.turns(shake[i], kLeastShake)) continue;
-    const double omega = std::numbers::pi / std::clamp(now_ - shaken_, period_, kShakeLasts);
-    shaken_by_ = kMargin * swing.width / (damping_ * omega);
-    shaken_ = now_;
-    for (Axis& axis : axis_) axis.shakes = std::min(axis.shakes + 1, kMostShakes);
+    Swing& swing = vibration_[static_cast<std::size_t>(i)];
+    if (!swing.reverses(vibration[i], kMinVibration)) continue;
+    const double omega = std::numbers::pi / std::clamp(time_ - last_vibration_turn_, period_, kVibrationTimeout);
+    max_forced_swing_ = kVibrationMargin * swing.width / (damping_ * omega);
+    last_vibration_turn_ = time_;
+    for (Axis& axis : axis_) axis.pending_turns = std::min(axis.pending_turns + 1, kMaxPendingTurns);
   }
 }
 
-// Does a turn of the shake answer for this one of the lever? Each does for one.
-bool ReversalLimiter::is_shaken(Axis& axis) noexcept {
-  if (axis.shakes == 0 || axis.lever.width > shaken_by_) return false;
-  --axis.shakes;
+// True if a reversal of the vibration explains this one of the lever; each explains only one.
+bool ReversalLimiter::is_forced_turn(Axis& axis) noexcept {
+  if (axis.pending_turns == 0 || axis.lever.width > max_forced_swing_) return false;
+  --axis.pending_turns;
   return true;
 }
 
-bool ReversalLimiter::lower(double wanted) noexcept {
+bool ReversalLimiter::soften(double wanted) noexcept {
   for (Axis& axis : axis_) axis.count = 0;
-  if (now_ - chattered_ > kPause) at_floor_ = 0;
-  chattered_ = now_;
+  if (time_ - last_chatter_ > kCalmTime) floor_count_ = 0;
+  last_chatter_ = time_;
   const double floor = wanted > floor_ ? floor_ / wanted : 1.0;
-  if (share_ > floor) {
-    share_ = std::max(floor, kLower * share_);
+  if (fraction_ > floor) {
+    fraction_ = std::max(floor, kSoftening * fraction_);
     return true;
   }
-  if (++at_floor_ <= kBounces || exhausted_) return false;
-  share_ *= kLowerBelow;
-  exhausted_ = share_ < kLeast;
+  if (++floor_count_ <= kMaxBounces || is_exhausted_) return false;
+  fraction_ *= kSofteningBelowFloor;
+  is_exhausted_ = fraction_ < kMinFraction;
   return true;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

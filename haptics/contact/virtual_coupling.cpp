@@ -5,15 +5,15 @@
 
 #include <glm/geometric.hpp>
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
 using glm::dvec2;
 
-// Mean penetration over the coming hold, from the penetration now (s0) and predicted (s1). [m]
+// Mean penetration over the coming hold, from the present penetration (s0) and the predicted one (s1). [m]
 dvec2 mean_penetration(dvec2 now, dvec2 then, double depth_now, double depth_then, dvec2 step) noexcept {
   if (depth_now > 0.0 && depth_then > 0.0) return 0.5 * (now + then);
-  if (depth_then > 0.0) {  // entry: s1^2 / (2 (s1 - s0)), s0 <= 0 the way still to go
+  if (depth_then > 0.0) {  // entry: s1^2 / (2 (s1 - s0)); -s0 >= 0 is the distance to the wall
     const dvec2 normal = then / depth_then;
     const double travel = std::max(glm::dot(step, normal), depth_then);
     return then * (0.5 * depth_then / travel);
@@ -33,7 +33,7 @@ double solved_force_inside(const Coupling& coupling, double begin, double free_e
 double solved_force(const Coupling& coupling, double begin, double free_end, double compliance) noexcept {
   const double k = coupling.stiffness, d = coupling.damping / coupling.period;
   if (begin <= 0.0 && free_end <= 0.0) return 0.0;
-  if (begin < 0.0) {  // enters: the hold ends at x, the positive root of  stiff x^2 - p x + begin free_end = 0
+  if (begin < 0.0) {  // entry: the hold ends at x, the positive root of  stiff x^2 - p x + begin free_end = 0
     const double stiff = 1.0 + compliance * (0.5 * k + d);
     const double p = free_end + begin + compliance * d * begin;
     const double end = (p + std::sqrt(p * p - 4.0 * stiff * begin * free_end)) / (2.0 * stiff);
@@ -41,15 +41,15 @@ double solved_force(const Coupling& coupling, double begin, double free_end, dou
   }
   const double inside = solved_force_inside(coupling, begin, free_end, compliance);
   if (free_end - compliance * inside >= 0.0) return std::max(0.0, inside);
-  // Leaves: gives back what the spring holds, F (begin - end) = K begin^2 / 2, and no more.
-  const double way = begin - free_end;
-  return k * begin * begin / (way + std::sqrt(way * way + 2.0 * compliance * k * begin * begin));
+  // Exit: returns exactly the energy stored in the spring, F (begin - end) = K begin^2 / 2.
+  const double travel_out = begin - free_end;
+  return k * begin * begin / (travel_out + std::sqrt(travel_out * travel_out + 2.0 * compliance * k * begin * begin));
 }
 
-Coupled couple(const Coupling& coupling, const Gate& gate, const Passage& passage, const Proxy& proxy,
-               const LeverMotion& motion) noexcept {
-  const bool holds_ahead = coupling.hold == ContactHold::half_sample;
-  const double horizon = holds_ahead ? coupling.period * (1.0 + 2.0 * coupling.delay) : 0.0;
+ContactForce contact_force(const Coupling& coupling, const Gate& gate, const Passage& passage, const Proxy& proxy,
+                           const LeverMotion& motion) noexcept {
+  const bool predicts = coupling.hold == ContactHold::half_sample;
+  const double horizon = predicts ? coupling.period * (1.0 + 2.0 * coupling.delay) : 0.0;
   const dvec2 step = motion.velocity * horizon;
   const dvec2 predicted = motion.position + step;
   const Proxy ahead = move_proxy(gate, passage, proxy, predicted, 0.0);
@@ -57,7 +57,7 @@ Coupled couple(const Coupling& coupling, const Gate& gate, const Passage& passag
   const dvec2 then = predicted - ahead.position;
   const double depth_now = glm::length(now);
   const double depth_then = glm::length(then);
-  Coupled out{{0.0, 0.0}, 0.5 * (proxy.position + ahead.position)};
+  ContactForce out{{0.0, 0.0}, 0.5 * (proxy.position + ahead.position)};
   if (depth_now == 0.0 && depth_then == 0.0) return out;
 
   out.force = -coupling.stiffness * mean_penetration(now, then, depth_now, depth_then, step);
@@ -68,15 +68,15 @@ Coupled couple(const Coupling& coupling, const Gate& gate, const Passage& passag
   return out;
 }
 
-Coupled couple(const Coupling& coupling, const Gate& gate, const Passage& passage, const Proxy& proxy,
-               const ObservedMotion& motion) noexcept {
+ContactForce contact_force(const Coupling& coupling, const Gate& gate, const Passage& passage, const Proxy& proxy,
+                           const ObservedMotion& motion) noexcept {
   const Proxy begin = move_proxy(gate, passage, proxy, motion.position, 0.0);
   const Proxy end = move_proxy(gate, passage, begin, motion.end, 0.0);
   const dvec2 now = motion.position - begin.position;
   const dvec2 then = motion.end - end.position;
   const double depth_now = glm::length(now);
   const double depth_then = glm::length(then);
-  Coupled out{{0.0, 0.0}, 0.5 * (begin.position + end.position)};
+  ContactForce out{{0.0, 0.0}, 0.5 * (begin.position + end.position)};
   if (depth_now == 0.0 && depth_then == 0.0) return out;
 
   const dvec2 inward = depth_then > 0.0 ? then / depth_then : now / depth_now;
@@ -87,4 +87,14 @@ Coupled couple(const Coupling& coupling, const Gate& gate, const Passage& passag
   return out;
 }
 
-}  // namespace gearshift
+const char* hold_name(ContactHold hold) noexcept {
+  static constexpr const char* kNames[] = {"automatic", "zero_order", "half_sample", "observer"};
+  return kNames[static_cast<int>(hold)];
+}
+
+const char* to_string(ContactHold hold) noexcept {
+  static constexpr const char* kTexts[] = {"automatic hold", "zero-order hold", "half-sample hold", "observed hold"};
+  return kTexts[static_cast<int>(hold)];
+}
+
+}  // namespace gearshift::haptics

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <numbers>
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 double GaussianNoise::uniform() noexcept {
   constexpr double kStep = 1.0 / 9007199254740992.0;  // 2^-53
@@ -15,4 +15,4 @@ double GaussianNoise::next() noexcept {
   return radius * std::cos(2.0 * std::numbers::pi * uniform());
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

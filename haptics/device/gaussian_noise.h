@@ -1,13 +1,12 @@
-// Normally distributed noise that is the same on every machine's standard library for the same seed.
+// Normally distributed noise that depends only on the seed, not on the standard library.
 #pragma once
 
 #include <cstdint>
 #include <random>
 
-namespace gearshift {
+namespace gearshift::haptics {
 
-// Box-Muller on std::mt19937_64: the standard fixes that engine's numbers, but not
-// std::normal_distribution's.
+// Box-Muller on std::mt19937_64: the standard specifies that engine's sequence, but not std::normal_distribution's.
 class GaussianNoise {
  public:
   explicit GaussianNoise(std::uint64_t seed) : engine_(seed) {}
@@ -20,4 +19,4 @@ class GaussianNoise {
   std::mt19937_64 engine_;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

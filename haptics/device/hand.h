@@ -1,7 +1,7 @@
-// A hand on the knob: an impedance, and whoever leads it.
+// A simulated hand on the knob: an impedance and the driver that moves its target.
 //
-// A hand holds the lever through its own mass, damping and stiffness towards a target, and may push on top.
-// The impedance acts along the plant's arcs, so that lever and hand together stay one exactly solvable axis.
+// The hand holds the lever through its mass, damping and stiffness towards a target and may add a push. The impedance
+// acts along the plant's arcs, so that lever and hand together remain one exactly solvable axis.
 #pragma once
 
 #include <array>
@@ -10,7 +10,7 @@
 
 #include <glm/vec2.hpp>
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 struct HandImpedance {
   double mass = 0.0;       // [kg] moves with the lever
@@ -30,37 +30,37 @@ struct NamedHand {
 inline constexpr std::array<NamedHand, 4> kNamedHands{
     {{"bare", kBareHand}, {"light", kLightHand}, {"grip", kGripHand}, {"arm", kArmHand}}};
 
-// [N/m] A softer hand cannot lead a lever.
-inline constexpr double kLeastLeadingStiffness = 50.0;
+// [N/m] A softer hand cannot move a lever to a target.
+inline constexpr double kMinLeadingStiffness = 50.0;
 
-// That hand, or a grip where it cannot lead.
+// The hand itself, or a grip if it is too soft to lead.
 constexpr HandImpedance leading_hand(const HandImpedance& hand) noexcept {
-  return hand.stiffness < kLeastLeadingStiffness ? kGripHand : hand;
+  return hand.stiffness < kMinLeadingStiffness ? kGripHand : hand;
 }
 
-// "bare", "light", "grip", "arm", or "M,B,K" in kg, N s/m, N/m (each finite and >= 0); else nothing.
-std::optional<HandImpedance> hand_from_text(std::string_view text);
+// Parses "bare", "light", "grip", "arm" or "M,B,K" in kg, N s/m, N/m (each finite and >= 0); empty otherwise.
+std::optional<HandImpedance> parse_hand(std::string_view text);
 
 struct HandTarget {
   glm::dvec2 position{0.0};   // [m] in the gate plane
   glm::dvec2 velocity{0.0};   // [m/s]
   glm::dvec2 push{0.0};       // [N] on top of the impedance
-  bool pressed_down = false;  // pushes the knob down or holds the reverse button
-  bool lifted = false;        // holds the lift ring
+  bool pressed_down = false;  // knob pushed down or reverse button held
+  bool lifted = false;        // lift ring held
 };
 
-// Who leads the hand. Called once per device period, on the haptic thread: real-time safe.
+// Supplies the hand's target. Called once per device period on the haptic thread; must be real-time safe.
 class HandDriver {
  public:
   virtual ~HandDriver() = default;
-  // time [s] since the start; lever: where the tip is now. [m]
+  // time: since the start [s]; lever: present position of the tip [m]
   virtual HandTarget next(double time, glm::dvec2 lever) noexcept = 0;
 };
 
-// Never moves and never pushes.
-class RestingHand final : public HandDriver {
+// A hand that never moves and never pushes.
+class IdleHand final : public HandDriver {
  public:
   HandTarget next(double, glm::dvec2) noexcept override { return {}; }
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

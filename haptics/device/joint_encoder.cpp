@@ -4,10 +4,10 @@
 #include <limits>
 #include <numbers>
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
-// For half a degree and less; the next term of the series is below 1e-18 there.
+// For angles up to half a degree, where the next term of the series is below 1e-18.
 double tangent_of_small(double x) noexcept {
   const double x2 = x * x;
   return x * (1.0 + x2 * (1.0 / 3.0 + x2 * (2.0 / 15.0 + x2 * (17.0 / 315.0))));
@@ -30,9 +30,9 @@ void JointEncoder::read(double angle) noexcept {
   if (cell != cell_) read_tangent_ = std::tan(middle);
   cell_ = cell;
 
-  // tan(middle + rest) by the addition theorem: exact, and much cheaper than a second tangent.
-  const double rest = tangent_of_small(angle - middle);
-  true_tangent_ = (read_tangent_ + rest) / (1.0 - read_tangent_ * rest);
+  // tan(middle + offset) by the addition theorem: exact, and much cheaper than a second tangent.
+  const double offset = tangent_of_small(angle - middle);
+  true_tangent_ = (read_tangent_ + offset) / (1.0 - read_tangent_ * offset);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

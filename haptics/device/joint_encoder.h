@@ -1,14 +1,14 @@
-// The encoder of one joint, and the joint's tangent: true and as read.
+// The encoder of one joint and the tangent of the joint's angle, both true and as read.
 #pragma once
 
-namespace gearshift {
+namespace gearshift::haptics {
 
-// A joint at some angle inside an encoder cell is read at the cell's midpoint, so that the error is half a
-// count at most and without bias. Everything downstream wants the tangent of the angle; computing it is most
-// of what a sample costs, so the tangent of the cell is kept while the joint stays in it.
+// An angle inside an encoder cell is read as the cell's midpoint, so the error is at most half a count and unbiased.
+// All consumers need the tangent of the angle. Computing it is most of a sample's cost, so the tangent of the cell is
+// cached while the joint stays in the cell.
 class JointEncoder {
  public:
-  // counts per degree, at least 1; 0 reads the angle exactly
+  // counts_per_degree: at least 1; 0: the angle is read exactly
   explicit JointEncoder(double counts_per_degree) noexcept;
 
   void read(double angle) noexcept;  // [rad]
@@ -19,9 +19,9 @@ class JointEncoder {
  private:
   double counts_per_radian_;
   double radians_per_count_;
-  double cell_;  // [counts] where the joint was last
+  double cell_;  // [counts] cell of the last reading
   double true_tangent_ = 0.0;
   double read_tangent_ = 0.0;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -4,14 +4,14 @@
 #include <cmath>
 #include <string>
 
-#include "haptics/device/checked.h"
 #include "haptics/device/gaussian_noise.h"
+#include "haptics/device/range_check.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
-constexpr double kArrived = 0.001;         // [m] a hand does not care about less
-constexpr double kRelaxationTime = 0.050;  // [s] of the effort once the lever has arrived
+constexpr double kArrivalTolerance = 0.001;  // [m] smaller lags do not raise the effort
+constexpr double kRelaxationTime = 0.050;    // [s] decay of the effort once the lever has arrived
 
 void check(const ScriptedHandConfig& config, double period) {
   require_between("ScriptedHand: start.x", config.start.x, -1.0, 1.0, "m");
@@ -34,11 +34,11 @@ void check(const HandStroke& stroke, std::size_t index) {
 
 }  // namespace
 
-// Flash & Hogan: the path of least jerk between two rests is
+// Flash & Hogan: the path of least jerk between two positions at rest is
 //     a + (b - a)(10 s^3 - 15 s^4 + 6 s^5), s = t / duration
 HandTarget minimum_jerk(glm::dvec2 a, glm::dvec2 b, double t, double duration) noexcept {
   HandTarget target;
-  target.position = b;  // to the bit, once it is there
+  target.position = b;  // exactly, without rounding, once it has arrived
   if (t >= duration) return target;
   const double s = std::max(t / duration, 0.0);
   target.position = a + (b - a) * (s * s * s * (10.0 + s * (-15.0 + s * 6.0)));
@@ -88,15 +88,15 @@ const ScriptedHand::Segment& ScriptedHand::segment_at(double time) noexcept {
   return segments_[current_];
 }
 
-// Effort against the lag is given up while new effort with it grows: it may change sign.
+// Effort that opposes the lag decays while effort along it grows, so the effort may change sign.
 glm::dvec2 ScriptedHand::effort(glm::dvec2 lag) noexcept {
   for (int axis = 0; axis < 2; ++axis) {
-    const bool behind = std::abs(lag[axis]) > kArrived;
-    if (!behind || lag[axis] * effort_[axis] < 0.0) effort_[axis] *= effort_decay_;
-    if (behind) effort_[axis] += config_.effort_gain * lag[axis] * period_;
+    const bool is_behind = std::abs(lag[axis]) > kArrivalTolerance;
+    if (!is_behind || lag[axis] * effort_[axis] < 0.0) effort_[axis] *= effort_decay_;
+    if (is_behind) effort_[axis] += config_.effort_gain * lag[axis] * period_;
     effort_[axis] = std::clamp(effort_[axis], -config_.effort_limit, config_.effort_limit);
   }
   return effort_;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -11,9 +11,9 @@
 
 #include "haptics/device/hand.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
-// Position and velocity on the minimum-jerk path from a to b at time t of `duration` [s].
+// Position and velocity on the minimum-jerk path from a to b that takes `duration` [s], at time t [s].
 HandTarget minimum_jerk(glm::dvec2 a, glm::dvec2 b, double t, double duration) noexcept;
 
 struct HandStroke {
@@ -29,31 +29,31 @@ struct ScriptedHandConfig {
   glm::dvec2 start{0.0};      // [m]
   double aim_noise = 0.0;     // [m] standard deviation of each aim, per axis, drawn once per stroke
   double effort_gain = 0.0;   // [N/(m s)] how fast the hand adds force while the lever lags behind the target
-  double effort_limit = 0.0;  // [N] the most that it adds
+  double effort_limit = 0.0;  // [N] largest added force
   std::uint64_t seed = 1;
 };
 
-// Effort: a soft hand alone cannot pull through a detent, so a person pushes harder the longer the lever
-// stays behind. On each axis, with lag = target - lever:
+// Effort: a soft hand cannot pull through a detent by its stiffness only, so a person pushes harder the longer the
+// lever stays behind. On each axis, with lag = target - lever:
 //
 //     effort' = gain lag              while |lag| > 1 mm, the effort at most effort_limit
 //     effort' = ... - effort / 50 ms  once the lever has arrived (within 1 mm),
 //                                     or while the effort points against the lag
 //
-// It lives through stroke and dwell and is carried over into the next stroke, where the second term takes it
-// away while new effort the other way grows: it never steps.
+// Effort persists through stroke and dwell and carries over into the next stroke, where the second term removes it
+// while opposite effort grows; it never jumps.
 class ScriptedHand final : public HandDriver {
  public:
-  // period: of the calls to next() [s], 1e-6 to 1. Throws std::invalid_argument.
+  // period: between calls of next() [s], 1e-6 to 1. Throws std::invalid_argument.
   ScriptedHand(const ScriptedHandConfig& config, std::vector<HandStroke> strokes, double period);
 
-  // Before the first stroke, and without one, the hand stays at the start; after the last dwell, at its aim.
+  // The hand stays at the start before the first stroke or if there is none, and at the last aim after the last dwell.
   HandTarget next(double time, glm::dvec2 lever) noexcept override;
 
   double duration() const noexcept;  // [s] of the whole script
 
  private:
-  // A stroke as it is really drawn, aim noise included.
+  // A stroke with its aim noise applied.
   struct Segment {
     double begin = 0.0;  // [s]
     double end = 0.0;    // [s] after the dwell
@@ -66,10 +66,10 @@ class ScriptedHand final : public HandDriver {
 
   ScriptedHandConfig config_;
   double period_;        // [s]
-  double effort_decay_;  // [1] kept of the effort per period once the lever has arrived
+  double effort_decay_;  // [1] factor on the effort per period once the lever has arrived
   std::vector<Segment> segments_;
   std::size_t current_ = 0;
   glm::dvec2 effort_{0.0};  // [N]
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

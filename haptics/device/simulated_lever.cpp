@@ -9,17 +9,17 @@
 #include <glm/geometric.hpp>
 #include <glm/vector_relational.hpp>
 
-#include "haptics/device/checked.h"
+#include "haptics/device/range_check.h"
 #include "haptics/joystick/finite.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
-// What no hand does; keeps the numbers finite whatever a driver returns.
-constexpr double kMostPush = 1e4;   // [N]
-constexpr double kMostSpeed = 1e2;  // [m/s]
+// Beyond any real hand; keeps the numbers finite whatever a driver returns.
+constexpr double kMaxPush = 1e4;   // [N]
+constexpr double kMaxSpeed = 1e2;  // [m/s]
 
-constexpr std::uint64_t kChanceSeed = 0x9e3779b97f4a7c15;  // apart from the sensor's noise of the same seed
+constexpr std::uint64_t kRandomSeedMask = 0x9e3779b97f4a7c15;  // decorrelates from the sensor's noise of the same seed
 
 void check(const std::string& name, const AxisModel& axis) {
   require_between(name + ".mass", axis.mass, 1e-3, 1e3, "kg");
@@ -28,10 +28,10 @@ void check(const std::string& name, const AxisModel& axis) {
 }
 
 void check(const YokeGeometry& yoke) {
-  constexpr double kMostAngle = 80.0 * std::numbers::pi / 180.0;
+  constexpr double kMaxAngle = 80.0 * std::numbers::pi / 180.0;
   require_between("SimulatedLever: yoke.radius", yoke.radius, 0.01, 10.0, "m");
-  require_between("SimulatedLever: yoke.theta_limit", yoke.theta_limit, 0.01, kMostAngle, "rad");
-  require_between("SimulatedLever: yoke.phi_limit", yoke.phi_limit, 0.01, kMostAngle, "rad");
+  require_between("SimulatedLever: yoke.theta_limit", yoke.theta_limit, 0.01, kMaxAngle, "rad");
+  require_between("SimulatedLever: yoke.phi_limit", yoke.phi_limit, 0.01, kMaxAngle, "rad");
 }
 
 void check(const ActuatorLimits& actuator) {
@@ -60,7 +60,7 @@ void check_counts(double counts) {
   require_between("SimulatedLever: encoder_counts other than 0", counts, 1.0, 1e6, "counts/deg");
 }
 
-const SimulatedLeverConfig& checked(const SimulatedLeverConfig& config, std::int64_t period_ns) {
+const SimulatedLeverConfig& validated(const SimulatedLeverConfig& config, std::int64_t period_ns) {
   check(config.yoke);
   check("SimulatedLever: axis_x", config.axis_x);
   check("SimulatedLever: axis_y", config.axis_y);
@@ -68,8 +68,8 @@ const SimulatedLeverConfig& checked(const SimulatedLeverConfig& config, std::int
   check_counts(config.encoder_counts);
   check(config.actuator);
   check(config.force_sensor);
-  require_between("SimulatedLever: delay", config.delay, 0, kMaxDelay, "cycles");
-  require_between("SimulatedLever: own_stiffness", config.own_stiffness, 0.0, 1e5, "N/m");
+  require_between("SimulatedLever: delay", config.delay, 0, kMaxSimulatedDelay, "cycles");
+  require_between("SimulatedLever: device_wall_stiffness", config.device_wall_stiffness, 0.0, 1e5, "N/m");
   check(config.hand);
   require_between("SimulatedLever: model_error", config.model_error, 0.0, 0.5);
   require_between("SimulatedLever: period_jitter", config.period_jitter, 0.0, 0.5);
@@ -89,7 +89,7 @@ DeviceSpec make_spec(const SimulatedLeverConfig& config) {
   spec.delay = config.delay;
   spec.axis_x = config.axis_x;
   spec.axis_y = config.axis_y;
-  spec.own_stiffness = glm::dvec2(config.own_stiffness);
+  spec.device_wall_stiffness = glm::dvec2(config.device_wall_stiffness);
   spec.measures_hand_force = true;
   spec.simulated = true;
   return spec;
@@ -97,17 +97,17 @@ DeviceSpec make_spec(const SimulatedLeverConfig& config) {
 
 }  // namespace
 
-// A factor from 1 - share to 1 + share, any of them as likely; exactly 1 for no share.
-double SimulatedLever::off_by(double share) noexcept {
+// A factor uniformly distributed from 1 - fraction to 1 + fraction; exactly 1 if fraction is 0.
+double SimulatedLever::random_factor(double fraction) noexcept {
   constexpr double kStep = 1.0 / 4503599627370496.0;  // 2^-52
-  return 1.0 + share * (static_cast<double>(chance_() >> 11) * kStep - 1.0);
+  return 1.0 + fraction * (static_cast<double>(random_() >> 11) * kStep - 1.0);
 }
 
-// The handle as it really is, which spec() does not know.
+// The handle's true model, which differs from spec() by the model error.
 AxisModel SimulatedLever::true_model(const AxisModel& nominal) {
-  const double mass = nominal.mass * off_by(config_.model_error);
-  const double damping = nominal.damping * off_by(config_.model_error);
-  return {mass, damping, nominal.stiffness * off_by(config_.model_error)};
+  const double mass = nominal.mass * random_factor(config_.model_error);
+  const double damping = nominal.damping * random_factor(config_.model_error);
+  return {mass, damping, nominal.stiffness * random_factor(config_.model_error)};
 }
 
 SimulatedLever::Axis SimulatedLever::make_axis(const AxisModel& nominal, double limit) {
@@ -119,20 +119,20 @@ SimulatedLever::Axis SimulatedLever::make_axis(const AxisModel& nominal, double 
 }
 
 SimulatedLever::SimulatedLever(const SimulatedLeverConfig& config, std::int64_t period_ns, HandDriver& driver)
-    : config_(checked(config, period_ns)),
+    : config_(validated(config, period_ns)),
       driver_(driver),
       spec_(make_spec(config)),
       period_ns_(static_cast<std::uint64_t>(period_ns)),
       period_(static_cast<double>(period_ns) * 1e-9),
-      length_(period_),
-      chance_(config.seed ^ kChanceSeed),
+      actual_period_(period_),
+      random_(config.seed ^ kRandomSeedMask),
       tan_theta_limit_(std::tan(config.yoke.theta_limit)),
       tan_phi_limit_(std::tan(config.yoke.phi_limit)),
       reach_(glm::length(plane_position(plane_pose(tan_theta_limit_, tan_phi_limit_), config.yoke.radius))),
       x_(make_axis(config.axis_x, config.yoke.theta_limit)),
       y_(make_axis(config.axis_y, config.yoke.phi_limit)),
       noise_(config.seed) {
-  find_pose();
+  update_pose();
 }
 
 LeverReading SimulatedLever::read(std::int64_t now_ns) noexcept {
@@ -142,12 +142,12 @@ LeverReading SimulatedLever::read(std::int64_t now_ns) noexcept {
     sample();
     return reading_;
   }
-  for (std::uint64_t n = take_periods(now_ns); n > 0; --n) advance_period();
+  for (std::uint64_t n = consume_periods(now_ns); n > 0; --n) advance_period();
   return reading_;
 }
 
-// Whole periods from the last sample to now; the clock's grid keeps its place.
-std::uint64_t SimulatedLever::take_periods(std::int64_t now_ns) noexcept {
+// Whole periods from the last sample to now. Advances last_ns_ by them, so it stays on the grid of periods.
+std::uint64_t SimulatedLever::consume_periods(std::int64_t now_ns) noexcept {
   if (now_ns <= last_ns_) return 0;
   const std::uint64_t behind = static_cast<std::uint64_t>(now_ns) - static_cast<std::uint64_t>(last_ns_);
   const std::uint64_t periods = (behind + period_ns_ / 2) / period_ns_;
@@ -156,26 +156,26 @@ std::uint64_t SimulatedLever::take_periods(std::int64_t now_ns) noexcept {
 }
 
 void SimulatedLever::advance_period() noexcept {
-  lead_hand();
-  take_time();
-  const Order& order = due_order();
-  if (may_touch(order.walls))
-    drive_in_walls(order);
+  update_hand();
+  draw_period();
+  const MotorCommand& command = due_command();
+  if (may_reach_walls(command.walls))
+    drive_in_walls(command);
   else
-    drive(order);
+    drive(command);
   ++periods_;
-  find_pose();
+  update_pose();
   sample();
 }
 
-// Asks the driver, and turns its target into a constant force along each arc: with the hand's mass, damping
-// and stiffness in the axis, this is all that is left of the hand.
-void SimulatedLever::lead_hand() noexcept {
+// Queries the driver and converts its target into a constant force along each arc. The axis already includes the hand's
+// mass, damping and stiffness, so this force is the rest of the hand's effect.
+void SimulatedLever::update_hand() noexcept {
   const glm::dvec2 here = plane_position(pose_, config_.yoke.radius);
   const double drift = static_cast<double>(drift_ns_) * 1e-9;
   target_ = driver_.next(static_cast<double>(periods_) * period_ + drift, here);
 
-  const glm::dvec2 push = is_finite(target_.push) ? glm::clamp(target_.push, -kMostPush, kMostPush) : glm::dvec2(0.0);
+  const glm::dvec2 push = is_finite(target_.push) ? glm::clamp(target_.push, -kMaxPush, kMaxPush) : glm::dvec2(0.0);
   glm::dvec2 drive = arc_force(pose_, push);
   if (config_.hand.stiffness > 0.0 || config_.hand.damping > 0.0) {
     const ArcTarget wanted = arc_target(target_);
@@ -185,18 +185,18 @@ void SimulatedLever::lead_hand() noexcept {
   y_.hand_drive = drive.y;
 }
 
-// A target that is not finite is where the lever is; one out of reach is at the stop, and rests there.
+// A target that is not finite is replaced by the lever's position; one out of reach is at rest at the stop.
 SimulatedLever::ArcTarget SimulatedLever::arc_target(const HandTarget& target) const noexcept {
   if (!is_finite(target.position)) return {{x_.state.position, y_.state.position}, {}};
   const PlanePose pose = reachable_pose(target.position);
   const JointAngles q{std::atan(pose.a), std::atan(pose.b)};
   const bool inside = std::abs(pose.a) < tan_theta_limit_ && std::abs(pose.b) < tan_phi_limit_;
   const bool moves = inside && is_finite(target.velocity);
-  const glm::dvec2 velocity = moves ? glm::clamp(target.velocity, -kMostSpeed, kMostSpeed) : glm::dvec2(0.0);
+  const glm::dvec2 velocity = moves ? glm::clamp(target.velocity, -kMaxSpeed, kMaxSpeed) : glm::dvec2(0.0);
   return {arc_position(config_.yoke, q), arc_velocity(pose, velocity)};
 }
 
-// Exact inverse kinematics in tangents, held inside the joints' stops.
+// Exact inverse kinematics in tangents, clamped to the joints' stops.
 PlanePose SimulatedLever::reachable_pose(glm::dvec2 plane) const noexcept {
   plane = glm::clamp(plane, -config_.yoke.radius, config_.yoke.radius);
   const double distance = glm::length(plane);
@@ -206,38 +206,38 @@ PlanePose SimulatedLever::reachable_pose(glm::dvec2 plane) const noexcept {
                     std::clamp(-plane.y / z, -tan_phi_limit_, tan_phi_limit_));
 }
 
-// How long this period really is. A whole number of nanoseconds, so that time stamps tell it exactly.
-void SimulatedLever::take_time() noexcept {
+// Draws the true length of this period: a whole number of nanoseconds, so that time stamps represent it exactly.
+void SimulatedLever::draw_period() noexcept {
   if (config_.period_jitter == 0.0) return;
-  const std::int64_t length_ns = std::llround(static_cast<double>(period_ns_) * off_by(config_.period_jitter));
-  length_ = static_cast<double>(length_ns) * 1e-9;
+  const std::int64_t length_ns = std::llround(static_cast<double>(period_ns_) * random_factor(config_.period_jitter));
+  actual_period_ = static_cast<double>(length_ns) * 1e-9;
   drift_ns_ += length_ns - static_cast<std::int64_t>(period_ns_);
 }
 
-// What was written `delay` periods ago reaches the motors now.
-const SimulatedLever::Order& SimulatedLever::due_order() noexcept {
+// The command written `delay` periods ago, which takes effect now.
+const SimulatedLever::MotorCommand& SimulatedLever::due_command() noexcept {
   queue_[periods_ % queue_.size()] = written_;
   const std::uint64_t due = periods_ + queue_.size() - static_cast<std::uint64_t>(config_.delay);
   return queue_[due % queue_.size()];
 }
 
-// The motors saturate each on its own joint.
-void SimulatedLever::drive(const Order& order) noexcept {
-  const glm::dvec2 wanted = arc_force(pose_, order.force);
-  x_.actuator_force = x_.actuator.deliver(wanted.x, length_);
-  y_.actuator_force = y_.actuator.deliver(wanted.y, length_);
+// Each motor saturates on its own joint.
+void SimulatedLever::drive(const MotorCommand& command) noexcept {
+  const glm::dvec2 wanted = arc_force(pose_, command.force);
+  x_.actuator_force = x_.actuator.deliver(wanted.x, actual_period_);
+  y_.actuator_force = y_.actuator.deliver(wanted.y, actual_period_);
   reading_.actuator_force = plane_force(pose_, {x_.actuator_force, y_.actuator_force});
-  move(x_, length_);
-  move(y_, length_);
+  move(x_, actual_period_);
+  move(y_, actual_period_);
 }
 
-// The same in parts of the period, the walls' force added in each.
-void SimulatedLever::drive_in_walls(const Order& order) noexcept {
-  const double parts = std::ceil(length_ * kOwnWallRate), part = length_ / parts;
-  const glm::dvec2 commanded = arc_force(pose_, order.force);
+// The same in parts of the period, with the walls' force added in each.
+void SimulatedLever::drive_in_walls(const MotorCommand& command) noexcept {
+  const double parts = std::ceil(actual_period_ * kDeviceWallRate), part = actual_period_ / parts;
+  const glm::dvec2 commanded = arc_force(pose_, command.force);
   glm::dvec2 sum{0.0, 0.0};
   for (double n = 0.0; n < parts; n += 1.0) {
-    const glm::dvec2 wanted = commanded + wall_force(order.walls, 0.5 * part);
+    const glm::dvec2 wanted = commanded + wall_force(command.walls, 0.5 * part);
     x_.actuator_force = x_.actuator.deliver(wanted.x, part);
     y_.actuator_force = y_.actuator.deliver(wanted.y, part);
     sum += glm::dvec2{x_.actuator_force, y_.actuator_force};
@@ -247,16 +247,16 @@ void SimulatedLever::drive_in_walls(const Order& order) noexcept {
   reading_.actuator_force = plane_force(pose_, sum / parts);
 }
 
-// Within this period, by a speed that grows no faster than by kSwing a period.
-bool SimulatedLever::may_touch(const LeverWalls& walls) const noexcept {
-  constexpr double kSwing = 0.001;  // [m]
-  if (walls.share == 0.0 || config_.own_stiffness == 0.0) return false;
+// Whether the lever may reach a wall within this period, provided that its acceleration adds at most kMargin of travel.
+bool SimulatedLever::may_reach_walls(const LeverWalls& walls) const noexcept {
+  constexpr double kMargin = 0.001;  // [m]
+  if (walls.stiffness_fraction == 0.0 || config_.device_wall_stiffness == 0.0) return false;
   const glm::dvec2 here = true_position();
-  const glm::dvec2 margin = kSwing + 2.0 * length_ * glm::abs(true_velocity());
+  const glm::dvec2 margin = kMargin + 2.0 * actual_period_ * glm::abs(true_velocity());
   return !glm::all(glm::greaterThan(here - margin, walls.low)) || !glm::all(glm::lessThan(here + margin, walls.high));
 }
 
-// Along the arcs, where the lever will be after `ahead` [s]. [N]
+// Wall force along the arcs, at the position extrapolated by `ahead` [s]. [N]
 glm::dvec2 SimulatedLever::wall_force(const LeverWalls& walls, double ahead) const noexcept {
   const auto tangent = [&](const Axis& axis) {
     return std::tan((axis.state.position + ahead * axis.state.velocity) / config_.yoke.radius);
@@ -264,10 +264,10 @@ glm::dvec2 SimulatedLever::wall_force(const LeverWalls& walls, double ahead) con
   const PlanePose pose = plane_pose(tangent(x_), -tangent(y_));
   const glm::dvec2 there = plane_position(pose, config_.yoke.radius);
   const glm::dvec2 back = glm::clamp(there, walls.low, walls.high) - there;
-  return arc_force(pose, walls.share * config_.own_stiffness * back);
+  return arc_force(pose, walls.stiffness_fraction * config_.device_wall_stiffness * back);
 }
 
-// Away from the stops and without dry friction, one step of known coefficients is the exact solution.
+// Away from the stops and without dry friction, one step with precomputed coefficients is the exact solution.
 void SimulatedLever::move(Axis& axis, double time) const noexcept {
   const double force = axis.hand_drive + axis.actuator_force;
   if (axis.limits.coulomb_friction == 0.0) {
@@ -284,7 +284,7 @@ void SimulatedLever::move(Axis& axis, double time) const noexcept {
   axis.state = advance_limited(axis.model, axis.limits, axis.state, force, time);
 }
 
-void SimulatedLever::find_pose() noexcept {
+void SimulatedLever::update_pose() noexcept {
   x_.encoder.read(x_.state.position / config_.yoke.radius);
   y_.encoder.read(-y_.state.position / config_.yoke.radius);
   pose_ = plane_pose(x_.encoder.true_tangent(), y_.encoder.true_tangent());
@@ -292,18 +292,18 @@ void SimulatedLever::find_pose() noexcept {
 
 void SimulatedLever::sample() noexcept {
   const PlanePose read_pose = plane_pose(x_.encoder.read_tangent(), y_.encoder.read_tangent());
-  const glm::dvec2 felt{sensed(hand_force(x_)), sensed(hand_force(y_))};
+  const glm::dvec2 measured{measure(hand_force(x_)), measure(hand_force(y_))};
   ++reading_.sequence;
   reading_.time_ns = last_ns_ + drift_ns_;
   reading_.position = plane_position(read_pose, config_.yoke.radius);
-  reading_.hand_force = plane_force(pose_, felt);
+  reading_.hand_force = plane_force(pose_, measured);
   reading_.pressed_down = target_.pressed_down;
   reading_.lifted = target_.lifted;
 }
 
-// Force of the hand on the lever, f_h = m a + b v + k x - f with the handle's own m, b, k and the actuator's
-// f. The axis moves by (m + m_h) a = drive + f - (b + b_h) v - (k + k_h) x, so this is drive - k_h x - b_h v
-// - m_h a: in this form it holds at a stop and under dry friction too.
+// Force of the hand on the lever, f_h = m a + b v + k x - f, with the handle's m, b, k and the actuator force f. The
+// axis moves by (m + m_h) a = drive + f - (b + b_h) v - (k + k_h) x, so f_h = drive - k_h x - b_h v - m_h a. This form
+// also holds at a stop and under dry friction.
 double SimulatedLever::hand_force(const Axis& axis) const noexcept {
   const HandImpedance& hand = config_.hand;
   const double massless = axis.hand_drive - hand.stiffness * axis.state.position - hand.damping * axis.state.velocity;
@@ -313,7 +313,7 @@ double SimulatedLever::hand_force(const Axis& axis) const noexcept {
   return massless - hand.mass / axis.model.mass * inertial;
 }
 
-double SimulatedLever::sensed(double force) noexcept {
+double SimulatedLever::measure(double force) noexcept {
   const ForceSensorModel& sensor = config_.force_sensor;
   const double noise = sensor.noise_gw > 0.0 ? sensor.noise_gw * noise_.next() : 0.0;
   return force_from_reading(sensor, sensor_reading(sensor, force, noise));
@@ -323,9 +323,9 @@ void SimulatedLever::write(glm::dvec2 force) noexcept {
   written_.force = force;
 }
 
-void SimulatedLever::hold_walls(const LeverWalls& walls) noexcept {
-  const bool is_sound = is_finite(walls.low) && is_finite(walls.high) && std::isfinite(walls.share);
-  written_.walls = is_sound ? walls : LeverWalls{};
+void SimulatedLever::set_device_walls(const LeverWalls& walls) noexcept {
+  const bool is_valid = is_finite(walls.low) && is_finite(walls.high) && std::isfinite(walls.stiffness_fraction);
+  written_.walls = is_valid ? walls : LeverWalls{};
 }
 
 void SimulatedLever::release() noexcept {
@@ -348,9 +348,9 @@ void SimulatedLever::place(glm::dvec2 position, glm::dvec2 velocity) noexcept {
   const glm::dvec2 speed = arc_velocity(pose, velocity);
   x_.state = {arc.x, speed.x};
   y_.state = {arc.y, speed.y};
-  x_.hand_drive = config_.hand.stiffness * arc.x;  // the hand rests there with it
+  x_.hand_drive = config_.hand.stiffness * arc.x;  // the hand rests at the same position
   y_.hand_drive = config_.hand.stiffness * arc.y;
-  find_pose();
+  update_pose();
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -2,10 +2,10 @@
 
 #include "haptics/files/printable.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
-// Both come from outside: file names from the command line or a trace, reasons with values out of the file.
+// Both are untrusted: file names come from the command line or a trace, reasons quote values from the file.
 std::string sentence(const std::string& file, int line, const std::string& reason) {
   return printable(line > 0 ? file + ":" + std::to_string(line) + ": " + reason : file + ": " + reason);
 }
@@ -15,4 +15,4 @@ std::string sentence(const std::string& file, int line, const std::string& reaso
 FileError::FileError(const std::string& file, int line, const std::string& reason)
     : std::runtime_error(sentence(file, line, reason)) {}
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

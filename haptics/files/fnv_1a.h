@@ -1,13 +1,14 @@
 // This work is based on:
 // Glenn Fowler, Landon Curt Noll, Kiem-Phong Vo, Donald Eastlake. The FNV Non-Cryptographic Hash Algorithm. 2019
 //
-// A hash for what is kept on a disk: the same on every machine, unlike std::hash. Against accidents, not against people.
+// A hash for persistent data: identical on every machine, unlike std::hash. Detects accidental changes, not deliberate
+// ones.
 #pragma once
 
 #include <cstdint>
 #include <string_view>
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 constexpr std::uint64_t fnv_1a(std::string_view text) noexcept {
   std::uint64_t hash = 0xcbf29ce484222325u;
@@ -15,6 +16,6 @@ constexpr std::uint64_t fnv_1a(std::string_view text) noexcept {
   return hash;
 }
 
-static_assert(fnv_1a("") == 0xcbf29ce484222325u && fnv_1a("foobar") == 0x85944171f73967e8u);  // its authors'
+static_assert(fnv_1a("") == 0xcbf29ce484222325u && fnv_1a("foobar") == 0x85944171f73967e8u);  // published vectors
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -1,12 +1,13 @@
 #include "haptics/files/number_text.h"
 
+#include <array>
 #include <charconv>
 #include <cmath>
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
-constexpr double kLargestPlain = 1e15;  // beyond this, digits after the point mean nothing: use the exponent
+constexpr double kMaxFixedPoint = 1e15;  // from here on digits after the point are meaningless: use the exponent
 
 std::string shortest(double value) {
   char digits[64];
@@ -17,7 +18,7 @@ std::string shortest(double value) {
 }  // namespace
 
 std::string number_text(double value, int decimals) {
-  if (!std::isfinite(value) || std::abs(value) >= kLargestPlain) return shortest(value);
+  if (!std::isfinite(value) || std::abs(value) >= kMaxFixedPoint) return shortest(value);
   char digits[64];
   const auto end = std::to_chars(digits, digits + sizeof digits, value, std::chars_format::fixed, decimals).ptr;
   std::string text(digits, end);
@@ -25,9 +26,9 @@ std::string number_text(double value, int decimals) {
     text.erase(text.find_last_not_of('0') + 1);
     if (text.back() == '.') text.pop_back();
   }
-  const bool zero = text == "0" || text == "-0";
-  if (zero && value != 0.0) return shortest(value);
-  return zero ? "0" : text;
+  const bool is_zero = text == "0" || text == "-0";
+  if (is_zero && value != 0.0) return shortest(value);
+  return is_zero ? "0" : text;
 }
 
 std::string millimetres_text(double metres) {
@@ -35,4 +36,16 @@ std::string millimetres_text(double metres) {
   return number_text(tenths / 10.0, 1) + " mm";
 }
 
-}  // namespace gearshift
+std::string fixed_text(double value, int decimals) {
+  std::array<char, 400> text;  // the longest double has 309 digits before the point
+  const auto [end, error] = std::to_chars(text.begin(), text.end(), value, std::chars_format::fixed, decimals);
+  return {text.begin(), end};
+}
+
+std::string short_text(double value) {
+  std::array<char, 32> text;
+  const auto [end, error] = std::to_chars(text.begin(), text.end(), value, std::chars_format::general, 6);
+  return {text.begin(), end};
+}
+
+}  // namespace gearshift::haptics

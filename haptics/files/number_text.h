@@ -1,15 +1,18 @@
-// Numbers as a person would write them in a sentence.
+// Numbers as text for messages.
 #pragma once
 
 #include <string>
 
-namespace gearshift {
+namespace gearshift::haptics {
 
-// At most `decimals` digits after the point, without trailing zeros: 0.012 -> "0.012", 6.0 -> "6". What would
-// read as zero and is not has an exponent. The same in any locale.
+// At most `decimals` digits after the point, without trailing zeros: 0.012 -> "0.012", 6.0 -> "6". A nonzero value that
+// would round to 0 is written with an exponent. Independent of the locale.
 std::string number_text(double value, int decimals = 6);
+
+std::string fixed_text(double value, int decimals);  // exactly that many: 0.3, 2 -> "0.30". Independent of the locale.
+std::string short_text(double value);                // six digits: 3117.2 -> "3117.2". Independent of the locale.
 
 // Metres as millimetres with one decimal: 0.0123 -> "12.3 mm".
 std::string millimetres_text(double metres);
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -1,6 +1,6 @@
 #include "haptics/files/printable.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
 bool is_control(char c) {
@@ -8,7 +8,7 @@ bool is_control(char c) {
   return byte < 0x20 || byte == 0x7f;
 }
 
-// U+0080 to U+009F are C2 80 to C2 9F: terminals take U+009B for the beginning of an escape sequence.
+// U+0080 to U+009F are C2 80 to C2 9F in UTF-8; U+009B starts an escape sequence on a terminal.
 bool starts_c1(std::string_view text) {
   if (text.size() < 2 || text[0] != '\xc2') return false;
   const auto second = static_cast<unsigned char>(text[1]);
@@ -40,4 +40,4 @@ bool is_printable(std::string_view text) {
   return printable(text) == text;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

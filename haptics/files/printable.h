@@ -1,15 +1,15 @@
-// Text from a file, a key or a command line as it may be shown on a terminal: one line, nothing obeyed.
+// Makes untrusted text from files, keys or command lines safe for a terminal: one line without control sequences.
 #pragma once
 
 #include <string>
 #include <string_view>
 
-namespace gearshift {
+namespace gearshift::haptics {
 
-// Every control character, C0, DEL or C1 in UTF-8, becomes one visible '?' (a space where it is white space).
+// Replaces every control character (C0, DEL, or C1 in UTF-8) with '?', or with a space if it is white space.
 std::string printable(std::string_view text);
 
-// Holds no control character.
+// Whether the text contains no control character.
 bool is_printable(std::string_view text);
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

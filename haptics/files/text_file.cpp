@@ -5,7 +5,7 @@
 
 #include "haptics/files/file_error.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 std::string read_text_file(const std::filesystem::path& file) {
   const std::string name = file.string();
@@ -14,11 +14,11 @@ std::string read_text_file(const std::filesystem::path& file) {
   if (status.type() == std::filesystem::file_type::none) throw FileError(name, 0, "cannot be read: " + error.message());
   if (!std::filesystem::exists(status)) throw FileError(name, 0, "there is no such file");
   if (std::filesystem::is_directory(status)) throw FileError(name, 0, "is a folder, not a file");
-  if (!std::filesystem::is_regular_file(status)) throw FileError(name, 0, "is not a plain file");
+  if (!std::filesystem::is_regular_file(status)) throw FileError(name, 0, "is not a regular file");
 
   std::ifstream in(file, std::ios::binary);
   if (!in) throw FileError(name, 0, "cannot be read");
-  // One byte more than allowed tells too much from just enough, even if the file grows meanwhile.
+  // Reading one byte more than allowed detects an oversized file even if it grows meanwhile.
   std::string text(kMaxTextFile + 1, '\0');
   in.read(text.data(), static_cast<std::streamsize>(text.size()));
   if (in.bad()) throw FileError(name, 0, "cannot be read");
@@ -27,4 +27,4 @@ std::string read_text_file(const std::filesystem::path& file) {
   return text;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -1,15 +1,15 @@
-// A small text file, whole.
+// Reading a small text file.
 #pragma once
 
 #include <cstdint>
 #include <filesystem>
 #include <string>
 
-namespace gearshift {
+namespace gearshift::haptics {
 
-inline constexpr std::uintmax_t kMaxTextFile = 1 << 20;  // [bytes] no human-written file comes near it
+inline constexpr std::uintmax_t kMaxTextFile = 1 << 20;  // [bytes] far above any hand-written file
 
-// Throws FileError in one sentence: missing, not a file, unreadable, larger than kMaxTextFile.
+// The whole file. Throws FileError if it is missing, not a regular file, unreadable or larger than kMaxTextFile.
 std::string read_text_file(const std::filesystem::path& file);
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -10,11 +10,11 @@
 #include "haptics/files/printable.h"
 #include "haptics/files/text_file.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
-constexpr std::size_t kMaxTextLength = 200;  // [bytes] of one value: names and sentences, no essays
-constexpr int kMostKeyParts = 8;             // of a dotted key, "a.b.c"
+constexpr std::size_t kMaxTextLength = 200;  // [bytes] of one value: enough for names and sentences
+constexpr int kMaxKeyParts = 8;              // in a dotted key such as "a.b.c"
 
 int line_of(const toml::node& node) {
   return static_cast<int>(node.source().begin.line);
@@ -26,7 +26,7 @@ std::string join(const std::vector<std::string>& words) {
   return list;
 }
 
-// Long text is cut, but not inside a character of UTF-8.
+// Truncates long text, but not inside a UTF-8 character.
 std::string shortened(std::string_view whole) {
   constexpr std::size_t kShown = 40;
   if (whole.size() <= kShown) return std::string(whole);
@@ -35,7 +35,7 @@ std::string shortened(std::string_view whole) {
   return std::string(whole.substr(0, end)) + "...";
 }
 
-// A value as it should appear in a sentence: tables and lists are named, not printed.
+// A value as text for messages; tables and lists are only named.
 std::string value_text(const toml::node& node) {
   if (const auto* text = node.as_string()) return '"' + shortened(text->get()) + '"';
   if (const auto* integer = node.as_integer()) return std::to_string(integer->get());
@@ -45,7 +45,7 @@ std::string value_text(const toml::node& node) {
   return node.is_array() ? "(a list)" : "(a date or time)";
 }
 
-// Where the string that opens at `at` is over, as toml++ sees it.
+// Index after the end of the string literal that starts at `at`, parsed as toml++ does.
 std::size_t end_of_string(std::string_view text, std::size_t at) {
   const char quote = text[at];
   const bool is_long = text.substr(at).starts_with(std::string(3, quote));
@@ -58,25 +58,24 @@ std::size_t end_of_string(std::string_view text, std::size_t at) {
     } else if (text.substr(at).starts_with(closing)) {
       at += closing.size();
       for (int more = 0; is_long && more < 2 && at < text.size() && text[at] == quote; ++more)
-        ++at;  // """" ends in one
+        ++at;  // up to two quotes may precede the closing three
       return at;
     }
   }
   return text.size();
 }
 
-// toml++ takes a key of a million parts, and its tables within tables end the stack when they are destroyed.
-void refuse_long_keys(std::string_view text, const std::string& file) {
-  const auto refuse_at = [&](std::size_t at) {
+// toml++ accepts a key of a million parts, and destroying the resulting nested tables overflows the stack.
+void reject_long_keys(std::string_view text, const std::string& file) {
+  const auto fail_at = [&](std::size_t at) {
     const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(at), '\n');
-    throw FileError(file, static_cast<int>(line),
-                    "a key must have at most " + std::to_string(kMostKeyParts) + " parts");
+    throw FileError(file, static_cast<int>(line), "a key must have at most " + std::to_string(kMaxKeyParts) + " parts");
   };
   int dots = 0;
   for (std::size_t at = 0; at < text.size();) {
     const char c = text[at];
     if (std::string_view("\n=,[]{}").find(c) != std::string_view::npos) dots = 0;
-    if (c == '.' && ++dots >= kMostKeyParts) refuse_at(at);
+    if (c == '.' && ++dots >= kMaxKeyParts) fail_at(at);
     if (c == '"' || c == '\'') {
       at = end_of_string(text, at);
     } else {
@@ -86,7 +85,7 @@ void refuse_long_keys(std::string_view text, const std::string& file) {
 }
 
 toml::table parse_toml(std::string_view text, const std::string& file) {
-  refuse_long_keys(text, file);
+  reject_long_keys(text, file);
   try {
     return toml::parse(text);
   } catch (const toml::parse_error& error) {
@@ -105,11 +104,11 @@ struct TomlTable::Node {
   std::shared_ptr<const toml::table> root;  // keeps `table` alive
   const toml::table* table = nullptr;
   std::string file;
-  std::vector<std::string> asked;  // keys that somebody has asked for: the known ones
+  std::vector<std::string> known_keys;  // all keys queried so far
 
-  // A key is known from the moment it is asked for, whether or not the file has it.
-  const toml::node* ask(std::string_view key) {
-    if (std::find(asked.begin(), asked.end(), key) == asked.end()) asked.emplace_back(key);
+  // Looks up a key and marks it as known, whether or not the file contains it.
+  const toml::node* find(std::string_view key) {
+    if (std::find(known_keys.begin(), known_keys.end(), key) == known_keys.end()) known_keys.emplace_back(key);
     return table->get(key);
   }
 };
@@ -124,7 +123,7 @@ TomlTable TomlTable::parse(std::string_view text, const std::string& file_name) 
 }
 
 bool TomlTable::has(std::string_view key) const {
-  return node_->ask(key) != nullptr;
+  return node_->find(key) != nullptr;
 }
 
 int TomlTable::line(std::string_view key) const {
@@ -133,20 +132,20 @@ int TomlTable::line(std::string_view key) const {
 }
 
 double TomlTable::number(std::string_view key, Range range) const {
-  const toml::node* value = node_->ask(key);
+  const toml::node* value = node_->find(key);
   const std::string limits = between(range);
   if (value == nullptr) fail(key, "is missing: it must be a number " + limits);
   if (!value->is_number()) fail(key, "must be a number " + limits);
   const double number = value->value<double>().value_or(NAN);
-  // Written so that NaN, which compares false with everything, is refused too.
+  // Negated so that NaN, which compares false with everything, is rejected too.
   if (!(number >= range.min && number <= range.max)) fail(key, "must be " + limits);
   return number;
 }
 
 std::string TomlTable::text(std::string_view key) const {
-  const toml::node* value = node_->ask(key);
-  if (value == nullptr) fail(key, "is missing: it must be a text in quotes");
-  if (!value->is_string()) fail(key, "must be a text in quotes");
+  const toml::node* value = node_->find(key);
+  if (value == nullptr) fail(key, "is missing: it must be text in quotes");
+  if (!value->is_string()) fail(key, "must be text in quotes");
   const std::string& words = value->as_string()->get();
   if (words.empty()) fail(key, "must not be empty");
   if (words.size() > kMaxTextLength) fail(key, "must be at most " + std::to_string(kMaxTextLength) + " bytes long");
@@ -155,7 +154,7 @@ std::string TomlTable::text(std::string_view key) const {
 }
 
 std::string TomlTable::choice(std::string_view key, const std::vector<std::string>& allowed) const {
-  if (node_->ask(key) == nullptr) fail(key, "is missing: it must be one of " + join(allowed));
+  if (node_->find(key) == nullptr) fail(key, "is missing: it must be one of " + join(allowed));
   std::string word = text(key);
   if (std::find(allowed.begin(), allowed.end(), word) == allowed.end()) {
     fail(key, "must be one of " + join(allowed));
@@ -164,7 +163,7 @@ std::string TomlTable::choice(std::string_view key, const std::vector<std::strin
 }
 
 bool TomlTable::flag_or(std::string_view key, bool fallback) const {
-  const toml::node* value = node_->ask(key);
+  const toml::node* value = node_->find(key);
   if (value == nullptr) return fallback;
   if (!value->is_boolean()) fail(key, "must be true or false");
   return value->as_boolean()->get();
@@ -175,7 +174,7 @@ double TomlTable::number_or(std::string_view key, double fallback, Range range) 
 }
 
 TomlTable TomlTable::table(std::string_view key) const {
-  const toml::node* value = node_->ask(key);
+  const toml::node* value = node_->find(key);
   if (value == nullptr) fail(key, "is missing: it must be a table, [" + std::string(key) + "]");
   if (!value->is_table()) fail(key, "must be a table: write [" + std::string(key) + "]");
   return TomlTable(std::make_shared<Node>(Node{node_->root, value->as_table(), node_->file, {}}));
@@ -183,7 +182,7 @@ TomlTable TomlTable::table(std::string_view key) const {
 
 std::vector<TomlTable> TomlTable::tables(std::string_view key) const {
   std::vector<TomlTable> list;
-  const toml::node* value = node_->ask(key);
+  const toml::node* value = node_->find(key);
   if (value == nullptr) return list;
   const std::string must = "must be a list of tables: write each as [[" + std::string(key) + "]]";
   if (!value->is_array()) fail(key, must);
@@ -194,12 +193,12 @@ std::vector<TomlTable> TomlTable::tables(std::string_view key) const {
   return list;
 }
 
-void TomlTable::refuse_unknown_keys() const {
+void TomlTable::reject_unknown_keys() const {
   for (const auto& [key, value] : *node_->table) {
-    const auto& asked = node_->asked;
-    if (std::find(asked.begin(), asked.end(), key.str()) != asked.end()) continue;
+    const auto& known_keys = node_->known_keys;
+    if (std::find(known_keys.begin(), known_keys.end(), key.str()) != known_keys.end()) continue;
     const std::string name = shortened(key.str());
-    throw FileError(node_->file, line_of(value), name + " is not a known key: known here are " + join(asked));
+    throw FileError(node_->file, line_of(value), name + " is not a known key; known keys: " + join(known_keys));
   }
 }
 
@@ -211,4 +210,4 @@ void TomlTable::fail(std::string_view key, const std::string& reason) const {
   throw FileError(node_->file, line_of(*value), name + " = " + value_text(*value) + ": " + reason);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

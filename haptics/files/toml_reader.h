@@ -1,5 +1,5 @@
-// Checked reading of TOML: every value has a range, every key must be known, every refusal names file, line,
-// key, value and allowed range. The only place that sees toml++.
+// Checked reading of TOML: every value has a range, every key must be known, and every error names file, line, key,
+// value and allowed range. The only code that uses toml++.
 #pragma once
 
 #include <memory>
@@ -9,7 +9,7 @@
 
 #include "haptics/files/file_error.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 struct Range {
   double min, max;
@@ -23,28 +23,28 @@ class TomlTable {
   bool has(std::string_view key) const;
   int line(std::string_view key = {}) const;  // of the key, or of the table itself
 
-  // Throw FileError when missing, of another type, not finite or out of range.
+  // These throw FileError if the value is missing, of another type, not finite or out of range.
   double number(std::string_view key, Range range) const;
   std::string text(std::string_view key) const;
   std::string choice(std::string_view key, const std::vector<std::string>& allowed) const;
-  // The fallback where the key is absent.
+  // These return the fallback if the key is absent.
   bool flag_or(std::string_view key, bool fallback) const;
   double number_or(std::string_view key, double fallback, Range range) const;
 
   TomlTable table(std::string_view key) const;                // a sub-table; must exist
-  std::vector<TomlTable> tables(std::string_view key) const;  // an array of tables; empty where absent
+  std::vector<TomlTable> tables(std::string_view key) const;  // an array of tables; empty if absent
 
-  // Call last: refuses the first key that nothing has asked for, naming the keys that are known.
-  void refuse_unknown_keys() const;
+  // Call last: throws FileError for the first key that was never queried, listing the known keys.
+  void reject_unknown_keys() const;
 
-  // "FILE:LINE: key = value: reason"; the table as a whole where key is empty.
+  // Throws FileError "FILE:LINE: key = value: reason"; about the whole table if key is empty.
   [[noreturn]] void fail(std::string_view key, const std::string& reason) const;
 
  private:
   struct Node;
   explicit TomlTable(std::shared_ptr<Node> node);
 
-  std::shared_ptr<Node> node_;  // shared by copies, which so remember together what has been asked for
+  std::shared_ptr<Node> node_;  // shared by copies, so that they have the same set of queried keys
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -1,19 +1,19 @@
-// Values as TOML writes them.
+// Formatting values as TOML.
 #pragma once
 
 #include <charconv>
 #include <string>
 #include <string_view>
 
-namespace gearshift {
+namespace gearshift::haptics {
 
-// The shortest that reads back to the bit, whatever the locale.
+// The shortest text that reads back to the same value, independent of the locale.
 std::string toml_number(auto value) {
   char digits[64];
   return {digits, std::to_chars(digits, digits + sizeof digits, value).ptr};
 }
 
-// A basic string: quotes and backslashes are escaped; control characters are the reader's to refuse.
+// A basic string with quotes and backslashes escaped. Control characters are not handled; the reader rejects them.
 inline std::string toml_string(std::string_view text) {
   std::string out = "\"";
   for (const char c : text) {
@@ -23,4 +23,4 @@ inline std::string toml_string(std::string_view text) {
   return out + '"';
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -3,17 +3,17 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
-// The piece that holds `at`; the curve is short, so a scan from the left beats a search.
+// The piece that contains `at`. The curve is short, so a linear scan is faster than a binary search.
 const FeelCurve::Piece& piece_at(const FeelCurve& curve, double at) noexcept {
   std::size_t i = 0;
   while (i + 1 < static_cast<std::size_t>(curve.pieces) && curve.piece[i + 1].from <= at) ++i;
   return curve.piece[i];
 }
 
-// Cubic with the knots' forces and slopes at both ends, in powers of u = at - a.at.
+// Coefficients of the cubic that matches force and slope at both knots, in powers of u = at - a.at.
 std::array<double, 4> hermite(const FeelKnot& a, const FeelKnot& b) noexcept {
   const double h = b.at - a.at;
   const double rise = (b.force - a.force) / h;
@@ -35,7 +35,7 @@ double piece_work(const FeelCurve::Piece& piece, double u) noexcept {
 FeelCurve make_feel_curve(std::span<const FeelKnot> knots) noexcept {
   FeelCurve curve;
   if (knots.empty()) return curve;
-  curve.before = knots.front().force;
+  curve.force_before = knots.front().force;
   double work = 0.0;
   for (std::size_t i = 0; i < knots.size(); ++i) {
     FeelCurve::Piece& piece = curve.piece[i];
@@ -51,7 +51,7 @@ FeelCurve make_feel_curve(std::span<const FeelKnot> knots) noexcept {
 
 double feel_force(const FeelCurve& curve, double at) noexcept {
   if (curve.pieces == 0) return 0.0;
-  if (at < curve.piece[0].from) return curve.before;
+  if (at < curve.piece[0].from) return curve.force_before;
   const FeelCurve::Piece& piece = piece_at(curve, at);
   const double u = at - piece.from;
   return piece.c[0] + u * (piece.c[1] + u * (piece.c[2] + u * piece.c[3]));
@@ -65,7 +65,7 @@ double feel_slope(const FeelCurve& curve, double at) noexcept {
 
 double feel_work(const FeelCurve& curve, double at) noexcept {
   if (curve.pieces == 0) return 0.0;
-  if (at < curve.piece[0].from) return curve.before * (at - curve.piece[0].from);
+  if (at < curve.piece[0].from) return curve.force_before * (at - curve.piece[0].from);
   const FeelCurve::Piece& piece = piece_at(curve, at);
   return piece.work + piece_work(piece, at - piece.from);
 }
@@ -73,15 +73,15 @@ double feel_work(const FeelCurve& curve, double at) noexcept {
 SlopeRange slope_range(const FeelCurve& curve) noexcept {
   SlopeRange range;
   const auto include = [&range](double slope) {
-    range.least = std::min(range.least, slope);
-    range.most = std::max(range.most, slope);
+    range.min = std::min(range.min, slope);
+    range.max = std::max(range.max, slope);
   };
   for (std::size_t i = 0; i + 1 < static_cast<std::size_t>(curve.pieces); ++i) {
     const FeelCurve::Piece& piece = curve.piece[i];
     const double end = curve.piece[i + 1].from - piece.from;
     include(piece_slope(piece, 0.0));
     include(piece_slope(piece, end));
-    // The slope of a cubic is a parabola: its extreme is where the second derivative vanishes.
+    // The slope of a cubic is a parabola with its extreme where the second derivative vanishes.
     if (piece.c[3] == 0.0) continue;
     const double u = -piece.c[2] / (3.0 * piece.c[3]);
     if (u > 0.0 && u < end) include(piece_slope(piece, u));
@@ -89,4 +89,4 @@ SlopeRange slope_range(const FeelCurve& curve) noexcept {
   return range;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -1,13 +1,13 @@
-// Force along one axis as a function of position: piecewise cubic, continuous in force and slope.
+// Force along one axis as a function of position: piecewise cubic with continuous force and slope.
 #pragma once
 
 #include <array>
 #include <span>
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 struct FeelKnot {
-  double at = 0.0;     // [m]
+  double at = 0.0;     // [m] position
   double force = 0.0;  // [N] along the axis
   double slope = 0.0;  // [N/m]
 };
@@ -15,7 +15,7 @@ struct FeelKnot {
 inline constexpr int kMaxFeelKnots = 16;
 
 // Cubic Hermite pieces between knots; constant before the first and after the last knot.
-// Trivially copyable: part of a compiled Gate.
+// Trivially copyable, because it is part of a compiled Gate.
 struct FeelCurve {
   struct Piece {
     double from = 0.0;          // [m]
@@ -24,10 +24,10 @@ struct FeelCurve {
   };
   int pieces = 0;  // the last piece is the constant after the last knot
   std::array<Piece, kMaxFeelKnots> piece{};
-  double before = 0.0;  // [N] force before the first knot
+  double force_before = 0.0;  // [N] force before the first knot
 };
 
-// 1 to kMaxFeelKnots knots with strictly rising positions.
+// knots: 1 to kMaxFeelKnots, at strictly increasing positions.
 FeelCurve make_feel_curve(std::span<const FeelKnot> knots) noexcept;
 
 // The force, its slope dF/dx, and its integral from the first knot. [N], [N/m], [J]
@@ -35,11 +35,11 @@ double feel_force(const FeelCurve& curve, double at) noexcept;
 double feel_slope(const FeelCurve& curve, double at) noexcept;
 double feel_work(const FeelCurve& curve, double at) noexcept;
 
-// The extremes of dF/dx over the whole curve, exact. A spring, or a wall, is force that falls: -least.
+// Exact extremes of dF/dx over the whole curve. A restoring force, such as a spring, has stiffness -min.
 struct SlopeRange {
-  double least = 0.0;  // [N/m] <= 0
-  double most = 0.0;   // [N/m] >= 0
+  double min = 0.0;  // [N/m] <= 0
+  double max = 0.0;  // [N/m] >= 0
 };
 SlopeRange slope_range(const FeelCurve& curve) noexcept;
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

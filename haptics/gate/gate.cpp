@@ -3,7 +3,7 @@
 #include <cmath>
 #include <iterator>
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 int nearest_column(const Gate& gate, double x) noexcept {
   int nearest = 0;
@@ -61,4 +61,4 @@ bool in_free_space(const Gate& gate, glm::dvec2 point, double slack) noexcept {
   return !is_end_wall && off + (across - gate.half_aisle) <= gate.chamfer + slack;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -1,7 +1,7 @@
-// The compiled gate: everything the haptic cycle needs to know of a gearbox, precomputed, trivially copyable.
+// The compiled gate: everything the haptic cycle needs to know about the gate, precomputed and trivially copyable.
 //
-// Free space is a comb: one horizontal aisle (the neutral aisle) and one vertical aisle per column, joined by
-// chamfered mouths. Each of these is convex; the lever's proxy always moves straight inside one of them.
+// Free space is a comb: one horizontal aisle (the neutral aisle) and one vertical aisle per column, joined by chamfered
+// mouths. Each of these is convex; the lever's proxy always moves straight inside one of them.
 //
 //      R   2   4           column: a vertical aisle and its two slots
 //    --+---+---+--         neutral aisle, |y| <= half_aisle
@@ -19,7 +19,7 @@
 
 #include "haptics/gate/feel_curve.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 inline constexpr int kMaxColumns = 8;
 inline constexpr int kMaxSlots = 2 * kMaxColumns;
@@ -28,7 +28,7 @@ inline constexpr int kReverseGear = -1;
 inline constexpr int kNeutralGear = 0;
 inline constexpr int kMaxGear = 9;
 inline constexpr int kNoSlot = -1;
-inline constexpr double kKmhPerMps = 3.6;  // road speeds: km/h for people, m/s inside
+inline constexpr double kKmhPerMps = 3.6;  // road speeds are km/h in files and on screen, m/s in the code
 
 enum class Side : int { back = -1, forward = 1 };
 
@@ -39,48 +39,48 @@ struct Slot {
   int gear = kNeutralGear;     // kReverseGear or 1, 2, ...
   double end = 0.0;            // depth of the end stop
   double rest = 0.0;           // depth at which the engaged lever rests
-  double engage_depth = 0.0;   // the gear counts from here on
-  double release_depth = 0.0;  // and no longer once the lever is back before this; < engage_depth
+  double engage_depth = 0.0;   // from here on the gear is engaged
+  double release_depth = 0.0;  // below this it is released again; < engage_depth
   FeelCurve feel;              // [N] along +depth (positive pulls into the gear)
 };
 
 struct Column {
   double center = 0.0;      // x
   double half_width = 0.0;  // of its slots
-  double back = 0.0;        // y of its lower end (-half_aisle where there is no slot)
-  double forward = 0.0;     // y of its upper end (+half_aisle where there is no slot)
+  double back = 0.0;        // y of its lower end (-half_aisle if there is no slot)
+  double forward = 0.0;     // y of its upper end (+half_aisle if there is no slot)
   int back_slot = kNoSlot;
   int forward_slot = kNoSlot;
 };
 
-// The paper's rectangular buffer at the closed side of an end junction: the deeper the lever is in it, the
-// more it is turned towards the open vertical aisles. A potential, so that it gives no energy away:
+// The paper's rectangular buffer at the closed side of an end junction: the deeper the lever is in it, the more it is
+// deflected towards the open vertical aisles. It is a potential, so it cannot supply energy:
 //   V = -force g(u) W(y), u = depth into the buffer / width, g = 3u^2 - 2u^3, W' = shape across the aisle
 struct Buffer {
   double wall = 0.0;   // x of the closed wall
   double inner = 0.0;  // x where the buffer begins
-  double force = 0.0;  // [N] turning force at the wall, at its peak across the aisle
+  double force = 0.0;  // [N] peak deflecting force at the wall
   bool back_open = false;
   bool forward_open = false;
 };
 
 enum class LockoutKind : int {
-  push_down,  // passes while the knob is pushed down (or the button held)
-  lift,       // passes while the lift ring is held
+  push_down,  // open while the knob is pushed down (or the button held)
+  lift,       // open while the lift ring is held
   speed,      // closed above one speed, open again below a lower one
-  after_gear  // closed from the moment a gear was engaged until the lever has left that gear's column
+  after_gear  // closed from the moment a given gear is engaged until the lever has left that gear's column
 };
 
-// As layout files write it: "push_down", "lift", "speed", "after_gear".
+// The name used in layout files: "push_down", "lift", "speed", "after_gear".
 const char* lockout_kind_name(LockoutKind kind) noexcept;
 
-// A movable wall. It never closes on a lever that is already beyond it.
+// A movable wall. It does not close while the lever is beyond it.
 struct Lockout {
   LockoutKind kind = LockoutKind::push_down;
-  int slot = kNoSlot;    // the slot that it guards
-  bool lateral = false;  // true: stands across the neutral aisle at `barrier`; false: closes the slot's mouth
+  int slot = kNoSlot;    // the slot that it blocks
+  bool lateral = false;  // true: wall across the neutral aisle at `barrier`; false: wall in the slot's mouth
   double barrier = 0.0;  // [m] x of the lateral wall
-  int beyond = 0;        // lateral: -1 or +1, the side of the barrier that it guards
+  int beyond = 0;        // lateral: -1 or +1, the side of the barrier that it blocks
   int after_gear = kNeutralGear;
   double close_above = 0.0;  // [m/s] road speed
   double open_below = 0.0;   // [m/s] road speed, < close_above
@@ -100,12 +100,12 @@ struct Gate {
   std::array<Slot, kMaxSlots> slot{};
   std::array<Lockout, kMaxLockouts> lockout{};
   std::array<Buffer, 2> buffer{};
-  FeelCurve select_feel;  // [N] along +x in the neutral aisle: centring to the neutral column
-  FeelCurve aisle_feel;   // [N] along +|y| in the neutral aisle, away from any slot
+  FeelCurve select_feel;  // [N] along +x: centring to the neutral column
+  FeelCurve aisle_feel;   // [N] along +|y| in the neutral aisle
 };
 static_assert(std::is_trivially_copyable_v<Gate>);
 
-// What is used of the arrays above.
+// The used parts of the arrays above.
 inline std::span<const Column> columns(const Gate& gate) noexcept {
   return {gate.column.data(), static_cast<std::size_t>(gate.column_count)};
 }
@@ -128,16 +128,16 @@ inline const Slot& slot_of(const Gate& gate, int index) noexcept {
 // Column whose centre is nearest to x.
 int nearest_column(const Gate& gate, double x) noexcept;
 
-// Slot of `gear`, or kNoSlot.
+// The slot of `gear`, or kNoSlot.
 int slot_of_gear(const Gate& gate, int gear) noexcept;
 
-// Where the lever rests in a gear (neutral: the neutral column's junction). [m]
+// Rest position of the lever in a gear (neutral: the neutral column's junction). [m]
 glm::dvec2 rest_position(const Gate& gate, int gear) noexcept;
 
 // "R", "N", "1", ...; "?" beyond kMaxGear.
 const char* gear_name(int gear) noexcept;
 
-// Is the point in free space (all lockouts open)? `slack` [m] widens every wall.
+// Whether the point is in free space with all lockouts open. `slack` [m] moves every wall outwards.
 bool in_free_space(const Gate& gate, glm::dvec2 point, double slack = 0.0) noexcept;
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

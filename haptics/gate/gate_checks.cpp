@@ -12,7 +12,7 @@
 #include "haptics/gate/gate_curves.h"
 #include "haptics/gate/gate_feel.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
 [[noreturn]] void fail(const GateLayout& layout, int line, const std::string& reason) {
@@ -31,7 +31,7 @@ std::vector<SlotLayout> gears_of(const ColumnLayout& column) {
   return slots;
 }
 
-// "1 and 2", for sentences.
+// The gears of a range of columns as text: "1 and 2".
 std::string gear_list(const GateLayout& layout, std::size_t first, std::size_t last) {
   std::string list;
   for (std::size_t i = first; i < last; ++i) {
@@ -44,7 +44,7 @@ std::string gear_list(const GateLayout& layout, std::size_t first, std::size_t l
 
 void check_widths(const GateLayout& layout) {
   const double narrowest = std::min(layout.aisle_width, layout.slot_width);
-  // Negated, so that NaN is refused as well.
+  // Negated so that NaN is rejected as well.
   if (!(narrowest >= kMinAisleWidth)) {
     fail(layout, layout.lines.gate,
          "an aisle of " + millimetres_text(narrowest) + " is too narrow: it needs at least " +
@@ -61,28 +61,28 @@ void check_column_count(const GateLayout& layout) {
          "a gate has between 2 and " + std::to_string(kMaxColumns) + " columns, this one has " + std::to_string(count));
   }
   if (layout.neutral_column < 0 || layout.neutral_column >= static_cast<int>(count)) {
-    fail(layout, layout.lines.gate, "the neutral column is none of the columns");
+    fail(layout, layout.lines.gate, "the neutral column is not one of the columns");
   }
 }
 
 void check_spacing(const GateLayout& layout) {
-  const double least = layout.slot_width + 2.0 * layout.chamfer + kMinWall;
+  const double required = layout.slot_width + 2.0 * layout.chamfer + kMinWall;
   for (std::size_t i = 1; i < layout.columns.size(); ++i) {
     const ColumnLayout& column = layout.columns[i];
     const double spacing = column.position - layout.columns[i - 1].position;
     if (!(spacing > 0.0)) {
       fail(layout, column.line,
-           column_text(column) + " does not lie to the right of the one before it: write columns from left to right");
+           column_text(column) + " is not to the right of the previous one: list the columns from left to right");
     }
-    if (!(spacing >= least - 1e-9)) {
+    if (!(spacing >= required - 1e-9)) {
       fail(layout, column.line,
-           column_text(column) + " overlaps the one before it: slots of this width and chamfer need " +
-               millimetres_text(least) + " from centre to centre, not " + millimetres_text(spacing));
+           column_text(column) + " overlaps the previous one: slots of this width and chamfer need " +
+               millimetres_text(required) + " from centre to centre, not " + millimetres_text(spacing));
     }
   }
 }
 
-// A closed side turns the lever into the column's own slots, so nothing can lie beyond it.
+// A closed side deflects the lever into the column's slots, so no column can lie beyond it.
 void check_junctions(const GateLayout& layout) {
   const std::size_t count = layout.columns.size();
   for (std::size_t i = 0; i < count; ++i) {
@@ -97,21 +97,21 @@ void check_junctions(const GateLayout& layout) {
     }
     if (!inner) continue;
     const bool right_of_neutral = static_cast<int>(i) >= layout.neutral_column;
-    const std::string lost = right_of_neutral ? gear_list(layout, i + 1, count) : gear_list(layout, 0, i);
+    const std::string unreachable = right_of_neutral ? gear_list(layout, i + 1, count) : gear_list(layout, 0, i);
     fail(layout, column.line,
-         "only an end column can have a closed junction: here gear " + lost + " could not be reached");
+         "only an end column can have a closed junction: here gear " + unreachable + " could not be reached");
   }
 }
 
-// Two columns with different gears at least: so one of them is a forward gear.
+// At least two columns have different gears here, so at least one is a forward gear.
 void check_gears(const GateLayout& layout) {
   constexpr std::size_t kGears = kMaxGear - kReverseGear + 1;
   const auto at = [](int gear) {
     const int index = gear - kReverseGear;
     return static_cast<std::size_t>(index);
   };
-  std::array<int, kGears> line_of{};  // where the gear was first seen; 0 = not yet, or without a file
-  std::array<bool, kGears> seen{};
+  std::array<int, kGears> line_of{};  // line of the gear in the file; 0: none
+  std::array<bool, kGears> is_present{};
   int highest = 0;
   for (const ColumnLayout& column : layout.columns) {
     for (const SlotLayout& slot : gears_of(column)) {
@@ -119,17 +119,17 @@ void check_gears(const GateLayout& layout) {
         fail(layout, slot.line, "gears are R and 1 to " + std::to_string(kMaxGear));
       }
       const std::size_t gear = at(slot.gear);
-      if (seen[gear]) {
+      if (is_present[gear]) {
         fail(layout, slot.line,
-             "gear " + std::string(gear_name(slot.gear)) + " is already in line " + std::to_string(line_of[gear]));
+             "gear " + std::string(gear_name(slot.gear)) + " is already on line " + std::to_string(line_of[gear]));
       }
-      seen[gear] = true;
+      is_present[gear] = true;
       line_of[gear] = slot.line;
       highest = std::max(highest, slot.gear);
     }
   }
   for (int gear = 1; gear < highest; ++gear) {
-    if (!seen[at(gear)]) {
+    if (!is_present[at(gear)]) {
       fail(layout, line_of[at(highest)],
            "there is a gear " + std::string(gear_name(highest)) + " but no gear " + gear_name(gear));
     }
@@ -139,7 +139,7 @@ void check_gears(const GateLayout& layout) {
 // Largest |dF/dx| of the curve through these knots. [N/m]
 double steepest(const std::vector<FeelKnot>& knots) {
   const SlopeRange range = slope_range(make_feel_curve(knots));
-  return std::max(range.most, -range.least);
+  return std::max(range.max, -range.min);
 }
 
 void check_feel(const GateLayout& layout) {
@@ -150,40 +150,40 @@ void check_feel(const GateLayout& layout) {
          "slot_length_mm is too short: with this aisle and chamfer a slot needs at least " +
              millimetres_text(s.mouth + kMinSlotProper));
   }
-  const std::string limit = number_text(kSteepestFeel) + " N/m and pass for a wall";
-  if (!(steepest(aisle_knots(layout)) <= kSteepestFeel)) {
+  const std::string limit = number_text(kMaxFeelSlope) + " N/m and feel like a wall";
+  if (!(steepest(aisle_knots(layout)) <= kMaxFeelSlope)) {
     fail(layout, layout.lines.feel,
-         "aisle_force_n is too large for so narrow an aisle: it would rise by more than " + limit);
+         "aisle_force_n is too large for such a narrow aisle: it would rise by more than " + limit);
   }
-  if (!(steepest(select_knots(layout)) <= kSteepestFeel)) {
+  if (!(steepest(select_knots(layout)) <= kMaxFeelSlope)) {
     fail(layout, layout.lines.feel,
-         "center_force_n is too large for so narrow a slot: it would rise by more than " + limit);
+         "center_force_n is too large for such a narrow slot: it would rise by more than " + limit);
   }
   const double slope = steepest(slot_knots(layout));
-  if (!(slope <= kSteepestFeel)) {
+  if (!(slope <= kMaxFeelSlope)) {
     fail(layout, layout.lines.slot_length,
          "slot_length_mm is too short for its feel: below " +
-             millimetres_text(s.mouth + length * slope / kSteepestFeel) + " its forces would rise by more than " +
+             millimetres_text(s.mouth + length * slope / kMaxFeelSlope) + " its forces would rise by more than " +
              limit);
   }
 }
 
-// The handle of the paper's joystick has a spring of its own, eq (11), that pulls to the middle of the workspace.
+// The paper's handle has a spring, eq (11), that pulls towards the middle of the workspace.
 constexpr double kHandleStiffness = 14.8;  // [N/m]
 constexpr double kReturnMargin = 1.2;
-constexpr double kLeastReturn = 0.5;  // [N] beyond it, or dry friction would hold the lever
+constexpr double kMinReturnForce = 0.5;  // [N] in addition to the spring, to overcome dry friction
 
 void check_return(const GateLayout& layout) {
   const double neutral = layout.columns[static_cast<std::size_t>(layout.neutral_column)].position;
-  const double least = kLeastReturn + kReturnMargin * kHandleStiffness * std::abs(neutral);
-  if (layout.feel.center_force >= least) return;
+  const double required = kMinReturnForce + kReturnMargin * kHandleStiffness * std::abs(neutral);
+  if (layout.feel.center_force >= required) return;
   fail(layout, layout.lines.feel,
        "center_force_n = " + number_text(layout.feel.center_force) + ": must be at least " +
-           number_text(std::ceil(10.0 * least) / 10.0) + ", or the lever would not return to a neutral column at " +
+           number_text(std::ceil(10.0 * required) / 10.0) + ", or the lever would not return to a neutral column at " +
            millimetres_text(neutral));
 }
 
-// How far from the centre walls may lie where slots are this deep, down to a tenth of a millimetre. [m]
+// Largest distance of a wall from the centre for slots of this depth, rounded down to a tenth of a millimetre. [m]
 double outermost_wall(glm::dvec2 workspace, double radius, double depth) {
   const double y = depth + kWorkspaceMargin;
   const auto ellipse = [y](double half_x, double half_y) {
@@ -193,7 +193,7 @@ double outermost_wall(glm::dvec2 workspace, double radius, double depth) {
   return std::floor(1e4 * std::max(0.0, reach - kWorkspaceMargin)) * 1e-4;
 }
 
-// The slots' outer corners, where both joints are turned most.
+// Checks the slots' outer corners, where both joints are deflected most.
 void check_corners(const GateLayout& layout, glm::dvec2 workspace, double radius) {
   const double depth = layout.slot_length;
   for (const ColumnLayout& column : layout.columns) {
@@ -201,8 +201,8 @@ void check_corners(const GateLayout& layout, glm::dvec2 workspace, double radius
     if (reaches(workspace, radius, glm::dvec2(wall, depth) + glm::dvec2(kWorkspaceMargin))) continue;
     fail(layout, column.line,
          column_text(column) + " has its wall at " + millimetres_text(wall) +
-             ", outside the workspace: the device reaches less in its corners, with end stops at " +
-             millimetres_text(depth) + " its walls may lie within " +
+             ", outside the workspace: the device reaches less far in its corners; with end stops at " +
+             millimetres_text(depth) + ", walls must lie within " +
              millimetres_text(outermost_wall(workspace, radius, depth)) + " of the centre");
   }
 }
@@ -210,8 +210,8 @@ void check_corners(const GateLayout& layout, glm::dvec2 workspace, double radius
 void check_workspace(const GateLayout& layout, glm::dvec2 workspace, double radius) {
   const glm::dvec2 reach = workspace - glm::dvec2(kWorkspaceMargin);
   const std::string device = "the device reaches " + millimetres_text(workspace.x) + " sideways and " +
-                             millimetres_text(workspace.y) + " fore and aft, and walls need " +
-                             millimetres_text(kWorkspaceMargin) + " of that";
+                             millimetres_text(workspace.y) + " fore and aft, of which walls need " +
+                             millimetres_text(kWorkspaceMargin) + " as a margin";
   for (const ColumnLayout& column : layout.columns) {
     const double wall = std::abs(column.position) + layout.slot_width / 2.0;
     if (!(wall <= reach.x)) {
@@ -242,7 +242,8 @@ void check_after_gear(const GateLayout& layout, const LockoutLayout& lockout) {
   }
   if (column_of_gear(layout, lockout.after_gear) != column_of_gear(layout, lockout.gear)) {
     fail(layout, lockout.line,
-         "a lockout of gear " + gear + " after gear " + gear_name(lockout.after_gear) + " needs both in one column");
+         "a lockout of gear " + gear + " after gear " + gear_name(lockout.after_gear) +
+             " needs both gears in the same column");
   }
 }
 
@@ -270,8 +271,8 @@ bool reaches(glm::dvec2 half, double radius, glm::dvec2 point) noexcept {
   return inside(point.x / half.x, point.y / radius) && inside(point.x / radius, point.y / half.y);
 }
 
-// The buffer is a potential: what it gives across the aisle it takes along it, as a pull to the closed wall
-// that is largest half-way into the buffer, at the open side of the aisle. It must be less than the centring.
+// The buffer is a potential: its force across the aisle comes with a pull along it, towards the closed wall. That pull
+// is largest half-way into the buffer, at the open side of the aisle, and must be less than the centring force.
 void check_buffers(const GateLayout& layout, const Gate& gate) {
   const double center = layout.feel.center_force;
   for (const Buffer& buffer : buffers(gate)) {
@@ -281,7 +282,7 @@ void check_buffers(const GateLayout& layout, const Gate& gate) {
     if (buffer.force <= 0.0 || pull < center) continue;
     fail(layout, layout.lines.feel,
          "buffer_force_n = " + number_text(buffer.force) +
-             " would hold the lever at a closed junction: it pulls there with " + number_text(pull, 2) +
+             " would hold the lever at a closed junction: it pulls the lever there with " + number_text(pull, 2) +
              " N, and center_force_n is only " + number_text(center));
   }
 }
@@ -298,4 +299,4 @@ void check_layout(const GateLayout& layout, glm::dvec2 workspace, double radius)
   check_lockouts(layout);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -6,13 +6,12 @@
 #include "haptics/gate/gate_checks.h"
 #include "haptics/gate/gate_curves.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
-// Share of the slot's width that the paper's rectangular buffer takes at the closed side of a junction.
-// Wide, because what the buffer gives for turning the lever it takes sideways: the narrower, the harder it
-// pulls to the closed wall.
-constexpr double kBufferShare = 0.8;
+// Width of the paper's rectangular buffer at the closed side of a junction, as a fraction of the slot's width. It is
+// wide because the buffer is a potential: the narrower it is, the harder it pulls towards the closed wall.
+constexpr double kBufferWidthFraction = 0.8;
 
 int add_slot(Gate& gate, int column, Side side, int gear, const GateLayout& layout) {
   if (gear == kNeutralGear) return kNoSlot;
@@ -44,7 +43,7 @@ void add_column(Gate& gate, const ColumnLayout& from, const GateLayout& layout) 
 void add_buffer(Gate& gate, const Column& column, int outward, const GateLayout& layout) {
   Buffer& buffer = gate.buffer[static_cast<std::size_t>(gate.buffer_count++)];
   buffer.wall = column.center + outward * column.half_width;
-  buffer.inner = buffer.wall - outward * kBufferShare * 2.0 * column.half_width;
+  buffer.inner = buffer.wall - outward * kBufferWidthFraction * 2.0 * column.half_width;
   buffer.force = layout.feel.buffer_force;
   buffer.back_open = column.back_slot != kNoSlot;
   buffer.forward_open = column.forward_slot != kNoSlot;
@@ -56,10 +55,10 @@ void add_buffers(Gate& gate, const GateLayout& layout) {
   if (layout.columns.back().junction == JunctionKind::closed) add_buffer(gate, built.back(), +1, layout);
 }
 
-// A column that serves only gears with one and the same guard can be shut off as a whole, as real gates do
-// for reverse: a lateral wall. Only at an end of the gate, because the wall cuts off everything beyond it,
-// and never for after_gear, which is about changing gear inside a column.
-bool can_stand_across(const Gate& gate, int column, LockoutKind kind, const GateLayout& layout) {
+// If all gears of a column have the same kind of lockout, a lateral wall can close off the whole column, as real gates
+// do for reverse. That is only possible at an end of the gate, because the wall blocks everything beyond it, and never
+// for after_gear, which concerns shifts within a column.
+bool can_be_lateral(const Gate& gate, int column, LockoutKind kind, const GateLayout& layout) {
   const bool at_end = column == 0 || column == gate.column_count - 1;
   if (!at_end || column == gate.neutral_column || kind == LockoutKind::after_gear) return false;
   const auto guarded = [&](int slot) {
@@ -81,12 +80,12 @@ void add_lockout(Gate& gate, const LockoutLayout& from, const GateLayout& layout
   lockout.open_below = from.open_below;
 
   const int column = slot_of(gate, lockout.slot).column;
-  lockout.lateral = can_stand_across(gate, column, from.kind, layout);
+  lockout.lateral = can_be_lateral(gate, column, from.kind, layout);
   if (!lockout.lateral) return;
   lockout.beyond = column < gate.neutral_column ? -1 : +1;
-  const double own = column_of(gate, column).center;
+  const double center = column_of(gate, column).center;
   const double neighbour = column_of(gate, column - lockout.beyond).center;
-  lockout.barrier = (own + neighbour) / 2.0;
+  lockout.barrier = (center + neighbour) / 2.0;
 }
 
 }  // namespace
@@ -109,4 +108,4 @@ Gate compile_gate(const GateLayout& layout, glm::dvec2 workspace, double radius)
   return gate;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -3,23 +3,23 @@
 #include <algorithm>
 #include <cstddef>
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
-// Shares of the slot proper (from the end of the mouth to the end stop), so that the whole curve scales with
-// the slot's length. A real gate has its latch at about a quarter of the way and its lock in the second half.
+// Fractions of the slot proper (from the end of the mouth to the end stop), so that the curve scales with the slot's
+// length. A real gate has its latch at about a quarter of the way and its lock in the second half.
 constexpr double kBump = 0.14;
 constexpr double kLow = 0.28;
 constexpr double kCrest = 0.42;
 constexpr double kLock = 0.66;
 constexpr double kRest = 0.86;
 
-// Beyond the crest's far side the lock pulls the lever in; the gear counts three quarters of the way to rest.
+// Beyond the crest the lock pulls the lever in; the gear is engaged at three quarters of the way to rest.
 constexpr double kEngage = kCrest + 0.75 * (kRest - kCrest);
 
-// A spring that softens smoothly into its full force: F(u) = F (3u - u^3)/2, so F(1) = F and F'(1) = 0. With
-// no curvature at u = 0 its odd mirror image joins it with continuous slope.
-constexpr double kSpringSlope = 1.5;  // its slope at u = 0, per (F / length)
+// A spring that levels off smoothly at its full force: F(u) = F (3u - u^3)/2, so F(1) = F and F'(1) = 0. Its curvature
+// is zero at u = 0, so its odd mirror image continues it with continuous slope.
+constexpr double kSpringSlope = 1.5;  // slope at u = 0, in units of F / length
 
 double spring(double u) {
   return u * (3.0 - u * u) / 2.0;
@@ -52,9 +52,9 @@ std::vector<FeelKnot> aisle_knots(const GateLayout& layout) {
   return {{0.0, 0.0, -kSpringSlope * force / plateau}, {plateau, -force, 0.0}};
 }
 
-// On the chamfers the free space narrows with depth, so that the force towards neutral must not depend on
-// depth there: with a constant force the energy of a point does not depend on which way round the chamfer it
-// was reached. Hence the knot pair (plateau, mouth) at one force, whatever follows deeper in the slot.
+// On the chamfers free space narrows with depth, so the force towards neutral must not depend on depth there: only with
+// a constant force is the energy of a point independent of the path round the chamfer. Therefore the knots `plateau`
+// and `mouth` have the same force, whatever follows deeper in the slot.
 std::vector<FeelKnot> slot_knots(const GateLayout& layout) {
   const SlotStations s = slot_stations(layout);
   const FeelLayout& feel = layout.feel;
@@ -83,4 +83,4 @@ std::vector<FeelKnot> select_knots(const GateLayout& layout) {
           {center + half_width, -force, 0.0}};
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

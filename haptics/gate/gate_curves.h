@@ -1,5 +1,5 @@
-// The shapes of the forces along a slot, across the neutral aisle and along it, from a layout's numbers.
-// README.md beside this file draws the curve along a slot.
+// The force curves along a slot, across the neutral aisle and along it, from a layout's numbers. README.md in this
+// folder shows the curve along a slot.
 #pragma once
 
 #include <vector>
@@ -7,19 +7,19 @@
 #include "haptics/gate/feel_curve.h"
 #include "haptics/gate/gate_layout.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
-// Where things happen along a slot, as depth from the aisle's centre line. [m] Rising in this order.
+// Characteristic depths along a slot, from the aisle's centre line, increasing in this order. [m]
 struct SlotStations {
-  double plateau = 0.0;     // the aisle's centring has reached its full force
-  double half_aisle = 0.0;  // the aisle's wall: here the chamfered mouth begins
-  double mouth = 0.0;       // and here it ends: the slot proper begins
+  double plateau = 0.0;     // the aisle's centring reaches its full force
+  double half_aisle = 0.0;  // the aisle's wall, where the chamfered mouth begins
+  double mouth = 0.0;       // end of the mouth, where the slot proper begins
   double bump = 0.0;        // peak of the mouth bump
-  double low = 0.0;         // little force between bump and detent
-  double crest = 0.0;       // peak of the detent; an engaged gear is released when the lever comes back to here
+  double low = 0.0;         // force minimum between bump and detent
+  double crest = 0.0;       // peak of the detent; an engaged gear is released when the lever returns to here
   double lock = 0.0;        // peak of the pull-out force
-  double engage = 0.0;      // the gear counts from here on
-  double rest = 0.0;        // the engaged lever rests here
+  double engage = 0.0;      // from here on the gear is engaged
+  double rest = 0.0;        // rest position of the engaged lever
   double end = 0.0;         // end stop
 };
 SlotStations slot_stations(const GateLayout& layout);
@@ -29,4 +29,4 @@ std::vector<FeelKnot> aisle_knots(const GateLayout& layout);
 std::vector<FeelKnot> slot_knots(const GateLayout& layout);
 std::vector<FeelKnot> select_knots(const GateLayout& layout);
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -1,18 +1,18 @@
-// Words of the paper: junctions are numbered from left to right; a pair is two parallel walls
-// of one aisle segment, so that the paper's gate has 2 horizontal + 6 vertical = 8; end stops,
-// the closed sides of junctions and the corners at the slot mouths are walls of no pair.
+// Terms as in the paper: junctions are numbered from left to right. A pair is two parallel walls of one aisle segment,
+// so the paper's gate has 2 horizontal + 6 vertical = 8 pairs. End stops, closed sides of junctions and chamfers do not
+// belong to a pair.
 #include "haptics/gate/gate_description.h"
 
 #include <algorithm>
 #include <utility>
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
 constexpr int kNoPair = -1;
 constexpr const char* kRoman[kMaxColumns] = {"I", "II", "III", "IV", "V", "VI", "VII", "VIII"};
 
-// One side of a column, seen with depth = |y|.
+// One side of a column, with depth = |y|.
 struct Branch {
   int slot = kNoSlot;
   double sign = 1.0;  // of y
@@ -29,8 +29,8 @@ bool is_last(const Gate& gate, int index) {
   return index == gate.column_count - 1;
 }
 
-// How far a slot's mouth reaches sideways from its wall into the aisle's wall: nothing where there is no
-// slot, or where the aisle ends at the slot's wall.
+// Sideways extent of a slot's mouth from its wall into the aisle's wall: 0 if there is no slot or if the aisle ends at
+// the slot's wall.
 double mouth_leg(const Gate& gate, int index, Side side, int towards) {
   if (branch_of(column_of(gate, index), side).slot == kNoSlot) return 0.0;
   const bool at_end_wall = towards < 0 ? is_first(index) : is_last(gate, index);
@@ -88,7 +88,7 @@ void describe_segment(const Gate& gate, int left, GateDescription& list) {
   }
 }
 
-// The walls of one slot, its mouth and its end stop; without a slot, the wall that closes the junction.
+// The walls of one slot, its mouth and its end stop; without a slot, the wall on the closed side of the junction.
 void describe_branch(const Gate& gate, int index, Side side, GateDescription& list) {
   const Column& column = column_of(gate, index);
   const Branch branch = branch_of(column, side);
@@ -147,4 +147,4 @@ GateDescription describe_gate(const Gate& gate) {
   return list;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

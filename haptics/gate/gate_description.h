@@ -1,4 +1,4 @@
-// What a person wants to know of a compiled gate: the list behind `gearshift gate`, Fig. 7 of the paper.
+// Description of a compiled gate's aisles, junctions and walls for `gearshift gate`; Fig. 7 of the paper.
 #pragma once
 
 #include <string>
@@ -8,10 +8,10 @@
 
 #include "haptics/gate/gate.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 struct AisleInfo {
-  std::string name;  // "neutral" or the roman number of its junction
+  std::string name;  // "neutral" or the Roman numeral of its junction
   bool horizontal = false;
   glm::dvec2 min{0.0}, max{0.0};  // [m]
 };
@@ -19,7 +19,7 @@ struct JunctionInfo {
   std::string name;                                                 // "I", "II", ... from left to right
   glm::dvec2 center{0.0};                                           // [m]
   bool left = false, right = false, forward = false, back = false;  // open directions
-  bool buffer = false;  // the closed side turns the lever into the vertical aisle
+  bool buffer = false;  // the closed side deflects the lever into the vertical aisle
 };
 enum class WallRole { aisle, chamfer, end_stop, closed_side };
 // "aisle", "chamfer", "end_stop", "closed_side".
@@ -41,4 +41,4 @@ struct GateDescription {
 };
 GateDescription describe_gate(const Gate& gate);
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
-// Buffer potential V = -force g(u) W(y): g rises smoothly from the buffer's inner edge to the closed wall,
-// where its slope vanishes, so that pressing into that wall at one y and leaving it at another gives no
-// energy. W is constant beyond the aisle, for the same reason at the aisle's walls.
+// Buffer potential V = -force g(u) W(y). g rises smoothly from the buffer's inner edge to the closed wall, where its
+// slope vanishes, so that pressing into that wall at one y and leaving it at another supplies no energy. For the same
+// reason W is constant beyond the aisle's walls.
 struct Rise {
   double value, slope;  // g, dg/dx
 };
@@ -23,8 +23,8 @@ struct Turn {
   double shape, integral;  // w, W(y) [m]
 };
 
-// Both ways open: away from the centre line, peak 1 at h/sqrt(5).
-// One way open: that way, peak 1 at the centre.
+// With both sides open the force points away from the centre line, with peak 1 at half_aisle / sqrt(5); with one side
+// open it points there, with peak 1 at the centre line.
 Turn buffer_turn(const Buffer& buffer, double half_aisle, double y) noexcept {
   const double v = std::clamp(y / half_aisle, -1.0, 1.0);
   const double rest = 1.0 - v * v;
@@ -79,10 +79,10 @@ double gate_energy(const Gate& gate, glm::dvec2 proxy) noexcept {
   return energy;
 }
 
-double stiffest_feel(const Gate& gate) noexcept {
-  double least = std::min(slope_range(gate.select_feel).least, slope_range(gate.aisle_feel).least);
-  for (const Slot& slot : slots(gate)) least = std::min(least, slope_range(slot.feel).least);
-  return -least;
+double max_feel_stiffness(const Gate& gate) noexcept {
+  double steepest = std::min(slope_range(gate.select_feel).min, slope_range(gate.aisle_feel).min);
+  for (const Slot& slot : slots(gate)) steepest = std::min(steepest, slope_range(slot.feel).min);
+  return -steepest;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -7,7 +7,7 @@
 #include "haptics/files/text_file.h"
 #include "haptics/files/toml_reader.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
 constexpr double kMetresPerMillimetre = 1e-3;
@@ -21,7 +21,7 @@ constexpr Range kSlotLengthMm{kMinSlotProper * kMillimetresPerMetre, 120.0};
 constexpr Range kChamferMm{0.0, 10.0};
 constexpr Range kSpeedKmh{0.0, 400.0};
 
-// The paper's lever gives 31.7 N at its peak; a lock must leave something for the walls.
+// The paper's lever has a peak force of 31.7 N; a lock must leave some of it for the walls.
 constexpr Range kCenterForceN{0.5, 10.0};
 constexpr Range kAisleForceN{0.0, 5.0};
 constexpr Range kMouthForceN{0.0, 15.0};
@@ -29,8 +29,8 @@ constexpr Range kDetentForceN{0.0, 20.0};
 constexpr Range kLockForceN{1.0, 25.0};
 constexpr Range kBufferForceN{0.0, 10.0};
 
-// "R", "1", "2", ...: every gear but neutral, which has no slot.
-const std::vector<std::string>& gear_words() {
+// "R", "1", "2", ...: every gear except neutral, which has no slot.
+const std::vector<std::string>& gear_names() {
   static const std::vector<std::string> words = [] {
     std::vector<std::string> list{gear_name(kReverseGear)};
     for (int gear = 1; gear <= kMaxGear; ++gear) list.emplace_back(gear_name(gear));
@@ -40,7 +40,7 @@ const std::vector<std::string>& gear_words() {
 }
 
 int read_gear(const TomlTable& table, std::string_view key) {
-  const std::string word = table.choice(key, gear_words());
+  const std::string word = table.choice(key, gear_names());
   int gear = kReverseGear;
   while (word != gear_name(gear)) ++gear;
   return gear;
@@ -64,7 +64,7 @@ ColumnLayout read_column(const TomlTable& table) {
   return column;
 }
 
-// The columns in the order of the file, and which of them is the neutral one: exactly one must say so.
+// Reads the columns in file order. Exactly one must be marked as neutral.
 void read_columns(const TomlTable& root, GateLayout& layout) {
   const TomlTable* neutral = nullptr;
   const auto tables = root.tables("column");
@@ -72,17 +72,17 @@ void read_columns(const TomlTable& root, GateLayout& layout) {
     layout.columns.push_back(read_column(table));
     if (table.flag_or("neutral", false)) {
       if (neutral != nullptr) {
-        table.fail("neutral", "a gate has one neutral column, and line " + std::to_string(neutral->line("neutral")) +
-                                  " names another");
+        table.fail("neutral", "only one column can be neutral, and line " + std::to_string(neutral->line("neutral")) +
+                                  " already says so");
       }
       neutral = &table;
       layout.neutral_column = static_cast<int>(layout.columns.size()) - 1;
     }
-    table.refuse_unknown_keys();
+    table.reject_unknown_keys();
   }
   if (tables.empty()) root.fail("column", "is missing: write one [[column]] for every column of gears");
   if (neutral == nullptr) {
-    tables.front().fail({}, "no column is the neutral one: write neutral = true in exactly one [[column]]");
+    tables.front().fail({}, "no column is neutral: write neutral = true in exactly one [[column]]");
   }
 }
 
@@ -96,7 +96,7 @@ void read_gate(const TomlTable& table, GateLayout& layout) {
   layout.chamfer = length("chamfer_mm", layout.chamfer, kChamferMm);
   layout.lines.gate = table.line();
   layout.lines.slot_length = table.line("slot_length_mm");
-  table.refuse_unknown_keys();
+  table.reject_unknown_keys();
 }
 
 void read_feel(const TomlTable& table, GateLayout& layout) {
@@ -108,7 +108,7 @@ void read_feel(const TomlTable& table, GateLayout& layout) {
   feel.lock_force = table.number_or("lock_force_n", feel.lock_force, kLockForceN);
   feel.buffer_force = table.number_or("buffer_force_n", feel.buffer_force, kBufferForceN);
   layout.lines.feel = table.line();
-  table.refuse_unknown_keys();
+  table.reject_unknown_keys();
 }
 
 LockoutKind read_kind(const TomlTable& table) {
@@ -121,7 +121,7 @@ LockoutKind read_kind(const TomlTable& table) {
   return *std::find_if(kKinds.begin(), kKinds.end(), [&](LockoutKind kind) { return word == lockout_kind_name(kind); });
 }
 
-// The speeds are asked for only by a speed lockout: anywhere else they are unknown keys, not ignored ones.
+// Only a speed lockout reads the speeds, so in other lockouts they are rejected as unknown keys instead of ignored.
 LockoutLayout read_lockout(const TomlTable& table) {
   LockoutLayout lockout;
   lockout.line = table.line();
@@ -135,7 +135,7 @@ LockoutLayout read_lockout(const TomlTable& table) {
     lockout.close_above = speed("close_above_kmh", lockout.close_above);
     lockout.open_below = speed("open_below_kmh", lockout.open_below);
   }
-  table.refuse_unknown_keys();
+  table.reject_unknown_keys();
   return lockout;
 }
 
@@ -155,8 +155,8 @@ GateLayout parse_gate_layout(std::string_view text, std::string file_name) {
   if (root.has("feel")) read_feel(root.table("feel"), layout);
   read_columns(root, layout);
   for (const TomlTable& table : root.tables("lockout")) layout.lockouts.push_back(read_lockout(table));
-  root.refuse_unknown_keys();
+  root.reject_unknown_keys();
   return layout;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -1,4 +1,4 @@
-// What a person writes about a gearbox, read and range-checked but not yet assembled.
+// A gate layout as written in its file: read and range-checked, but not yet assembled.
 #pragma once
 
 #include <filesystem>
@@ -8,17 +8,17 @@
 
 #include "haptics/gate/gate.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
-// 4 mm are 53 counts of the paper's encoder (75.4 um each): in less, both walls would be felt at once.
+// 4 mm are 53 counts of the paper's encoder (75.4 um each). In a narrower aisle both walls would be felt at once.
 inline constexpr double kMinAisleWidth = 0.004;  // [m] of the neutral aisle and of a slot
-inline constexpr double kMinSlotProper = 0.010;  // [m] of slot behind its mouth
+inline constexpr double kMinSlotProper = 0.010;  // [m] length of a slot behind its mouth
 
 enum class JunctionKind { open, closed };  // closed: an end junction with a buffer on its closed side
 
 struct SlotLayout {
   int gear = kNeutralGear;  // kReverseGear or 1, 2, ...
-  int line = 0;             // where it stands in the file
+  int line = 0;             // in the file
 };
 
 struct ColumnLayout {
@@ -37,18 +37,17 @@ struct LockoutLayout {
   int line = 0;
 };
 
-// Forces in newtons at the knob, distances in metres; the file says mm and N.
-// The curve that they make along a slot is drawn in haptics/gate/README.md.
+// Forces at the knob. haptics/gate/README.md shows the resulting curve along a slot.
 struct FeelLayout {
   double center_force = 3.0;  // [N] select centring towards the neutral column
   double aisle_force = 1.0;   // [N] shift centring inside the neutral aisle
   double mouth_force = 4.0;   // [N] bump at the slot's mouth, towards neutral
   double detent_force = 6.0;  // [N] resistance before the gear
   double lock_force = 12.0;   // [N] pull-out force of an engaged gear
-  double buffer_force = 4.0;  // [N] turning force in a closed junction's buffer
+  double buffer_force = 4.0;  // [N] deflecting force in a closed junction's buffer
 };
 
-// Where the parts without a line of their own stand in the file, for messages. 0 = unknown.
+// Lines of the file for messages about parts that have no `line` member. 0: unknown.
 struct LayoutLines {
   int gate = 0;
   int slot_length = 0;
@@ -58,7 +57,7 @@ struct LayoutLines {
 struct GateLayout {
   std::string name;
   std::string file;                   // for messages
-  std::string text;                   // the whole file as read, kept for traces
+  std::string text;                   // the whole file as read, for traces
   std::vector<ColumnLayout> columns;  // from left to right
   int neutral_column = 0;
   double aisle_width = 0.012;  // [m] neutral aisle, wall to wall
@@ -74,4 +73,4 @@ struct GateLayout {
 GateLayout read_gate_layout(const std::filesystem::path& file);
 GateLayout parse_gate_layout(std::string_view text, std::string file_name);
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

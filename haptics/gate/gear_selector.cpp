@@ -4,11 +4,11 @@
 
 #include "haptics/gate/gate_feel.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
-// The gear that the lever's place stands for, given the one engaged: between release and engage depth nothing
-// changes, and a gear can only be kept in its own slot.
+// The gear for the lever's position, given the engaged one: between release and engage depth nothing changes, and a
+// gear stays engaged only in its own slot.
 int gear_at(const Gate& gate, glm::dvec2 proxy, int engaged) noexcept {
   const int index = slot_at(gate, proxy);
   if (index == kNoSlot) return kNeutralGear;
@@ -21,15 +21,15 @@ int gear_at(const Gate& gate, glm::dvec2 proxy, int engaged) noexcept {
 }  // namespace
 
 int GearSelector::update(const Gate& gate, glm::dvec2 proxy, double period) noexcept {
-  const int seen = gear_at(gate, proxy, gear_);
-  if (seen != candidate_) {
-    candidate_ = seen;
-    held_ = 0.0;
+  const int current = gear_at(gate, proxy, gear_);
+  if (current != candidate_) {
+    candidate_ = current;
+    candidate_time_ = 0.0;
   } else {
-    held_ += period;
+    candidate_time_ += period;
   }
-  if (candidate_ != gear_ && held_ >= debounce_) gear_ = candidate_;
+  if (candidate_ != gear_ && candidate_time_ >= debounce_) gear_ = candidate_;
   return gear_;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -1,11 +1,11 @@
-// Which gear is engaged: hysteresis in depth, debounce in time, one gear at most.
+// Determines the engaged gear, with hysteresis in depth and debouncing in time; at most one gear at a time.
 #pragma once
 
 #include <glm/vec2.hpp>
 
 #include "haptics/gate/gate.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 class GearSelector {
  public:
@@ -18,9 +18,9 @@ class GearSelector {
 
  private:
   double debounce_;
-  double held_ = 0.0;  // [s] that the candidate has been seen
+  double candidate_time_ = 0.0;  // [s] since the candidate was first detected
   int gear_ = kNeutralGear;
   int candidate_ = kNeutralGear;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

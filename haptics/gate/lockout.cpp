@@ -2,16 +2,18 @@
 
 #include <cmath>
 
-namespace gearshift {
+#include "haptics/files/number_text.h"
+
+namespace gearshift::haptics {
 namespace {
 
-constexpr double kEdge = 1e-9;  // [m] a lever on the side of a slot is in it, whatever the last bit says
+constexpr double kSideTolerance = 1e-9;  // [m] a lever at the side of a slot counts as inside despite rounding
 
 bool is_beyond(const Gate& gate, const Lockout& lockout, glm::dvec2 proxy) noexcept {
   if (lockout.lateral) return lockout.beyond * (proxy.x - lockout.barrier) > 0.0;
   const Slot& slot = slot_of(gate, lockout.slot);
   const Column& column = column_of(gate, slot.column);
-  const bool in_slot = std::abs(proxy.x - column.center) <= column.half_width + gate.chamfer + kEdge;
+  const bool in_slot = std::abs(proxy.x - column.center) <= column.half_width + gate.chamfer + kSideTolerance;
   return in_slot && static_cast<int>(slot.side) * proxy.y > gate.half_aisle + gate.chamfer;
 }
 
@@ -19,14 +21,14 @@ bool has_left_column(const Gate& gate, int gear, glm::dvec2 proxy) noexcept {
   const int slot = slot_of_gear(gate, gear);
   if (slot == kNoSlot) return true;
   const Column& column = column_of(gate, slot_of(gate, slot).column);
-  return std::abs(proxy.x - column.center) > column.half_width + gate.chamfer + kEdge;
+  return std::abs(proxy.x - column.center) > column.half_width + gate.chamfer + kSideTolerance;
 }
 
-// The memory of one lockout: stays as it is between its two thresholds.
-bool latch(const Gate& gate, const Lockout& lockout, const LockoutInputs& in, glm::dvec2 proxy,
-           bool was_closed) noexcept {
+// New latch state of one lockout; unchanged between its two thresholds.
+bool is_latched(const Gate& gate, const Lockout& lockout, const LockoutInputs& in, glm::dvec2 proxy,
+                bool was_closed) noexcept {
   if (lockout.kind == LockoutKind::speed) {
-    const double speed = std::abs(in.road_speed);  // not a number changes nothing
+    const double speed = std::abs(in.road_speed);  // NaN leaves the state unchanged
     return was_closed ? !(speed < lockout.open_below) : speed > lockout.close_above;
   }
   if (in.gear == lockout.after_gear) return true;
@@ -46,7 +48,7 @@ bool is_locked(const Lockout& lockout, const LockoutInputs& in, bool latched) no
   return true;
 }
 
-void close(const Lockout& lockout, Passage& passage) noexcept {
+void add_to_passage(const Lockout& lockout, Passage& passage) noexcept {
   if (!lockout.lateral) {
     passage.closed |= 1u << lockout.slot;
   } else if (lockout.beyond > 0) {
@@ -67,15 +69,30 @@ Passage open_passage(const Gate& gate) noexcept {
 
 Passage Lockouts::update(const Gate& gate, const LockoutInputs& in, glm::dvec2 proxy) noexcept {
   Passage passage = open_passage(gate);
-  std::uint32_t bit = 1u;  // of this lockout's memory
+  std::uint32_t bit = 1u;  // this lockout's bit in latched_
   for (const Lockout& lockout : lockouts(gate)) {
     if (lockout.kind == LockoutKind::speed || lockout.kind == LockoutKind::after_gear) {
-      latched_ = latch(gate, lockout, in, proxy, latched_ & bit) ? latched_ | bit : latched_ & ~bit;
+      latched_ = is_latched(gate, lockout, in, proxy, latched_ & bit) ? latched_ | bit : latched_ & ~bit;
     }
-    if (is_locked(lockout, in, latched_ & bit) && !is_beyond(gate, lockout, proxy)) close(lockout, passage);
+    if (is_locked(lockout, in, latched_ & bit) && !is_beyond(gate, lockout, proxy)) add_to_passage(lockout, passage);
     bit <<= 1;
   }
   return passage;
 }
 
-}  // namespace gearshift
+std::string describe(const Lockout& lockout) {
+  switch (lockout.kind) {
+    case LockoutKind::push_down:
+      return "open while the knob is pushed down";
+    case LockoutKind::lift:
+      return "open while the ring is lifted";
+    case LockoutKind::speed:
+      return "closed above " + number_text(lockout.close_above * kKmhPerMps, 3) + ", open below " +
+             number_text(lockout.open_below * kKmhPerMps, 3) + " km/h";
+    case LockoutKind::after_gear:
+      return std::string("closed after ") + gear_name(lockout.after_gear) + " until the lever leaves its column";
+  }
+  return "?";
+}
+
+}  // namespace gearshift::haptics

@@ -1,19 +1,20 @@
-// Which movable walls are closed right now, and what that leaves of the free space.
+// The movable walls that are currently closed, and the free space that remains.
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include <glm/vec2.hpp>
 
 #include "haptics/gate/gate.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
-// What is open of the free space this cycle. Part of every proxy move.
+// The limits of free space in this cycle. An input of every proxy move.
 struct Passage {
   double select_min = 0.0;  // [m] neutral aisle, narrowed by lateral lockouts
   double select_max = 0.0;
-  std::uint32_t closed = 0;    // bit per slot: its mouth ends in a wall
+  std::uint32_t closed = 0;    // one bit per slot: a wall closes its mouth
   int limited_slot = kNoSlot;  // the slot whose depth the gearbox limits (synchroniser, torque lock)
   double depth_min = 0.0;      // [m] limits in that slot
   double depth_max = 0.0;
@@ -28,14 +29,17 @@ struct LockoutInputs {
   int gear = kNeutralGear;  // engaged now
 };
 
-// Remembers what a lockout must remember: the speed's hysteresis and the last gear.
+// The lockouts' state: the hysteresis of the speed lockouts and the last gear of the after_gear lockouts.
 class Lockouts {
  public:
-  // Passage for a proxy at `proxy` [m]. A wall never closes on a lever that is beyond it. Real-time safe.
+  // Updates the state and returns the passage for the proxy [m]. A wall does not close while the lever is beyond it.
+  // Real-time safe.
   Passage update(const Gate& gate, const LockoutInputs& in, glm::dvec2 proxy) noexcept;
 
  private:
-  std::uint32_t latched_ = 0;  // bit per lockout: closed by speed or by the last gear
+  std::uint32_t latched_ = 0;  // one bit per lockout: closed by speed or by the last gear
 };
 
-}  // namespace gearshift
+std::string describe(const Lockout& lockout);  // when it is open or closed: "closed above 20, open below 15 km/h"
+
+}  // namespace gearshift::haptics

@@ -1,6 +1,6 @@
 #include "haptics/gate/plain_aisle.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 Gate plain_aisle(double half_length, double half_width) noexcept {
   Gate gate;
@@ -13,4 +13,4 @@ Gate plain_aisle(double half_length, double half_width) noexcept {
   return gate;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

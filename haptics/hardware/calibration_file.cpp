@@ -1,4 +1,4 @@
-// DeviceCalibration as a file that a person can read, and back.
+// Reads and writes a DeviceCalibration as a commented TOML file.
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -11,18 +11,18 @@
 
 #include "haptics/files/file_error.h"
 #include "haptics/files/number_text.h"
-#include "haptics/files/readable_file.h"
 #include "haptics/files/text_file.h"
 #include "haptics/files/toml_reader.h"
 #include "haptics/files/toml_text.h"
+#include "haptics/files/verified_file.h"
 #include "haptics/hardware/device_calibration.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
 constexpr Range kId{0.0, 65535.0}, kCounts{-2147483648.0, 4294967295.0}, kSign{-1.0, 1.0}, kButton{0.0, 64.0};
 constexpr Range kTravel{0.0, 1.0}, kForce{0.0, 200.0}, kStiffness{0.0, 1e5}, kDamping{0.0, 1e3}, kTime{0.0, 1.0};
-constexpr double kLeastTravel = 0.01, kLeastForce = 0.1;  // [m], [N] where it is known
+constexpr double kMinTravel = 0.01, kMinForce = 0.1;  // [m], [N] minimum of a known value
 
 using AxisName = std::pair<std::string_view, int>;  // usages of the Generic Desktop page
 constexpr std::array<AxisName, 9> kAxisNames{{{"x", 0x30},
@@ -52,7 +52,7 @@ int read_axis_name(const TomlTable& table) {
   return found->second;
 }
 
-// 0: not known.
+// Reads a value that is either 0 (not known) or at least `least`.
 double read_known(const TomlTable& table, std::string_view key, Range range, double least) {
   const double value = table.number(key, range);
   if (value > 0.0 && value < least) {
@@ -66,7 +66,7 @@ void read_handle(const TomlTable& table, AxisModel& handle) {
   if (handle.mass > 0.0 && handle.mass < 1e-3) table.fail("mass_kg", "must be 0 (not measured) or at least 0.001");
   handle.damping = table.number("damping_n_s_per_m", {0.0, 1e4});
   handle.stiffness = table.number("stiffness_n_per_m", {0.0, 1e6});
-  table.refuse_unknown_keys();
+  table.reject_unknown_keys();
 }
 
 void read_lever_axis(const TomlTable& table, LeverAxisCalibration& axis) {
@@ -76,15 +76,15 @@ void read_lever_axis(const TomlTable& table, LeverAxisCalibration& axis) {
   axis.high = table.number("high_counts", kCounts);
   const bool between = (axis.centre - axis.low) * (axis.high - axis.centre) > 0.0;
   if (axis.low != axis.high && !between) table.fail("centre_counts", "must lie between low_counts and high_counts");
-  axis.travel = read_known(table, "travel_m", kTravel, kLeastTravel);
-  axis.full_force = read_known(table, "full_force_n", kForce, kLeastForce);
+  axis.travel = read_known(table, "travel_m", kTravel, kMinTravel);
+  axis.full_force = read_known(table, "full_force_n", kForce, kMinForce);
   read_whole(table, "constant_sign", axis.constant_sign, kSign);
   read_whole(table, "spring_sign", axis.spring_sign, kSign);
   axis.spring_stiffness = table.number("spring_stiffness_n_per_m", kStiffness);
   if (table.has("damper_sign")) read_whole(table, "damper_sign", axis.damper_sign, kSign);
   if (table.has("damper_n_s_per_m")) axis.damper_strength = table.number("damper_n_s_per_m", kDamping);
   read_handle(table.table("handle"), axis.handle);
-  table.refuse_unknown_keys();
+  table.reject_unknown_keys();
 }
 
 void read_timing(const TomlTable& table, DeviceTiming& timing) {
@@ -92,14 +92,14 @@ void read_timing(const TomlTable& table, DeviceTiming& timing) {
   timing.output_interval = table.number("output_interval_s", kTime);
   timing.delay = table.number("delay_s", kTime);
   timing.jitter = table.number("jitter_s", kTime);
-  table.refuse_unknown_keys();
+  table.reject_unknown_keys();
 }
 
 void read_buttons(const TomlTable& table, DeviceCalibration& calibration) {
   read_whole(table, "press", calibration.press_button, kButton);
   read_whole(table, "lift", calibration.lift_button, kButton);
   read_whole(table, "stop", calibration.stop_button, kButton);
-  table.refuse_unknown_keys();
+  table.reject_unknown_keys();
 }
 
 std::string hex_of(std::uint16_t value) {
@@ -109,7 +109,7 @@ std::string hex_of(std::uint16_t value) {
   return std::string(4 - all.size(), '0') + std::string(all);
 }
 
-// Lines with what they mean beside them.
+// Builds TOML text with an explanatory comment beside each line.
 class CommentedText {
  public:
   void comment(std::string_view words) { text_ += "# " + std::string(words) + '\n'; }
@@ -148,7 +148,7 @@ void put_axis(CommentedText& out, const std::string& section, const LeverAxisCal
   out.put("travel_m", axis.travel, "of the knob, from stop to stop");
   out.put("full_force_n", axis.full_force, "at the knob, at full magnitude");
   out.put("constant_sign", axis.constant_sign,
-          is_select ? "1: plus pushes right, -1: left" : "1: plus pushes forward, -1: back");
+          is_select ? "1: a positive force pushes right, -1: left" : "1: a positive force pushes forward, -1: back");
   out.put("spring_sign", axis.spring_sign, "1: a spring pulls to its centre, -1: pushes away");
   out.put("spring_stiffness_n_per_m", axis.spring_stiffness, "of the strongest spring; 0: not measured");
   out.put("damper_sign", axis.damper_sign, "1: a damper brakes, -1: drives");
@@ -184,24 +184,24 @@ std::optional<DeviceCalibration> read_calibration(const std::filesystem::path& f
   read_lever_axis(root.table("select"), calibration.select);
   read_lever_axis(root.table("shift"), calibration.shift);
   if (calibration.select.usage == calibration.shift.usage)
-    root.table("shift").fail("axis", "must not be that of select");
+    root.table("shift").fail("axis", "must differ from the axis of select");
   read_timing(root.table("timing"), calibration.timing);
   read_buttons(root.table("buttons"), calibration);
-  root.refuse_unknown_keys();
+  root.reject_unknown_keys();
   return calibration;
 }
 
 std::string calibration_text(const DeviceCalibration& calibration) {
   CommentedText out;
-  out.comment("What is known of this stick. Counts are its own, metres and newtons are at the knob.");
-  if (!calibration.name.empty()) out.put("name", toml_string(calibration.name), "as it calls itself");
+  out.comment("Calibration of this stick. Counts are the device's; metres and newtons are at the knob.");
+  if (!calibration.name.empty()) out.put("name", toml_string(calibration.name), "as reported by the device");
   out.put("vendor", "0x" + hex_of(calibration.vendor), "");
   out.put("product", "0x" + hex_of(calibration.product), "");
   if (!calibration.serial.empty()) out.put("serial", toml_string(calibration.serial), "");
   put_axis(out, "select", calibration.select, true);
   put_axis(out, "shift", calibration.shift, false);
   const DeviceTiming& timing = calibration.timing;
-  out.section("timing", "how late it is");
+  out.section("timing", "intervals and delay of the device");
   out.put("input_interval_s", timing.input_interval, "between two readings; 0: not measured");
   out.put("output_interval_s", timing.output_interval, "between two forces");
   out.put("delay_s", timing.delay, "from a force that was sent to its effect");
@@ -217,8 +217,8 @@ void write_calibration(const DeviceCalibration& calibration, const std::filesyst
   std::error_code failed;
   if (file.has_parent_path()) std::filesystem::create_directories(file.parent_path(), failed);
   if (failed) throw FileError(file.string(), 0, "cannot be written: " + failed.message());
-  write_readable_file(file, calibration_text(calibration),
+  write_verified_file(file, calibration_text(calibration),
                       [](const auto& written) { (void)read_calibration(written); });
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

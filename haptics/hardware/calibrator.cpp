@@ -1,4 +1,4 @@
-// What a person shows and knows. What the stick does by itself: calibrator_forces.cpp.
+// Calibration steps that need a person. calibrator_forces.cpp has the hands-off measurements.
 #include "haptics/hardware/calibrator.h"
 
 #include <algorithm>
@@ -8,14 +8,14 @@
 
 #include "haptics/files/number_text.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
-constexpr double kStartTime = 0.5, kEndTime = 0.3;  // [s] of holding still before a push, and of holding it
-constexpr double kLeastMotion = 0.20;               // [1] of what the report can say
-constexpr double kStraight = 0.5;                   // [1] of that motion, at most along another axis
-constexpr double kTogether = 0.9;                   // [1] correlation of two axes
-constexpr double kLetGo = 1.0;                      // [s]
+constexpr double kStartTime = 0.5, kEndTime = 0.3;  // [s] averaged before the push, and while holding it at the end
+constexpr double kMinMotion = 0.20;                 // [1] of the axis' logical range
+constexpr double kMaxCrossMotion = 0.5;             // [1] of that motion, along any other axis
+constexpr double kMaxCorrelation = 0.9;             // [1] between the two axes' positions
+constexpr double kReleaseTime = 1.0;                // [s] at the end, without a hand
 
 std::string percent(double share) {
   return number_text(100.0 * share, 0) + " %";
@@ -25,7 +25,7 @@ double middle_of_three(double a, double b, double c) noexcept {
   return std::max(std::min(a, b), std::min(std::max(a, b), c));
 }
 
-// Without the jumps of a single reading.
+// Median of three: removes jumps of a single reading.
 std::vector<double> without_jumps(const std::vector<double>& seen) {
   std::vector<double> smooth;
   for (std::size_t i = 2; i < seen.size(); ++i) smooth.push_back(middle_of_three(seen[i - 2], seen[i - 1], seen[i]));
@@ -93,7 +93,7 @@ std::size_t Calibrator::report_axis(int usage) const {
   for (std::size_t i = 0; i < axes.size(); ++i) {
     if (axes[i].usage.page == kGenericDesktop && axes[i].usage.id == usage) return i;
   }
-  throw CalibrationRefused("the stick has no such axis as its calibration names");
+  throw CalibrationRefused("the stick lacks an axis that its calibration names");
 }
 
 std::string Calibrator::find_axis(bool select, double seconds) {
@@ -114,18 +114,18 @@ std::string Calibrator::find_axis(bool select, double seconds) {
     moved[i] = (mean_of(after[i]) - mean_of(before[i])) / rig.range(i);
     if (std::abs(moved[i]) > std::abs(moved[most])) most = i;
   }
-  if (std::abs(moved[most]) < kLeastMotion)
-    throw CalibrationRefused("no axis moved by more than " + percent(std::abs(moved[most])) + " of its range, and " +
-                             percent(kLeastMotion) +
-                             " is the least: push the lever as far as it goes and keep it there");
+  if (std::abs(moved[most]) < kMinMotion)
+    throw CalibrationRefused("no axis moved by more than " + percent(std::abs(moved[most])) +
+                             " of its range, but at least " + percent(kMinMotion) +
+                             " is needed: push the lever all the way and hold it there");
   for (std::size_t i = 0; i < axes.size(); ++i) {
-    if (i != most && std::abs(moved[i]) > kStraight * std::abs(moved[most]))
+    if (i != most && std::abs(moved[i]) > kMaxCrossMotion * std::abs(moved[most]))
       throw CalibrationRefused("two axes moved together: push the lever straight");
   }
   const int usage = axes[most].usage.id;
   if (found_[select ? 1 : 0].usage == usage) {
-    if (!select) throw CalibrationRefused("the same axis moved as to the right: push the lever forward");
-    found_[1] = {};  // it was found before, with the axes the other way round
+    if (!select) throw CalibrationRefused("the same axis moved as for select: push the lever forward");
+    found_[1] = {};  // a left-over of an earlier run with the axes swapped
   }
   found_[select ? 0 : 1] = {usage, moved[most] > 0.0 ? 1 : -1};
   return std::string(select ? "right" : "forward") + " is axis " + std::to_string(most + 1) +
@@ -134,12 +134,12 @@ std::string Calibrator::find_axis(bool select, double seconds) {
 
 std::string Calibrator::measure_range(double seconds) {
   if (found_[0].usage == 0 || found_[1].usage == 0)
-    throw CalibrationRefused("which axes the lever moves is not known yet");
+    throw CalibrationRefused("the lever's axes are not known yet: find them first");
   const std::size_t select = report_axis(found_[0].usage), shift = report_axis(found_[1].usage);
   StickRig rig(driver_, tick_);
   std::vector<double> x, y;
   const std::int64_t begin = rig.step().now_ns;
-  while (1e-9 * static_cast<double>(rig.look().now_ns - begin) < seconds - kLetGo) {
+  while (1e-9 * static_cast<double>(rig.latest().now_ns - begin) < seconds - kReleaseTime) {
     x.push_back(rig.position(select));
     y.push_back(rig.position(shift));
     rig.step();
@@ -149,8 +149,8 @@ std::string Calibrator::measure_range(double seconds) {
   const double rest_x = rig.rest(select), rest_y = rig.rest(shift);
   LeverAxisCalibration new_select = range_of("select", found_[0], x, rest_x, rig.range(select));
   LeverAxisCalibration new_shift = range_of("shift", found_[1], y, rest_y, rig.range(shift));
-  if (std::abs(correlation(x, y)) > kTogether)
-    throw CalibrationRefused("the two axes move together: move the lever to the left and right, and forward and back");
+  if (std::abs(correlation(x, y)) > kMaxCorrelation)
+    throw CalibrationRefused("the two axes move together: move the lever left and right, then forward and back");
   new_select.travel = calibration_.select.travel;
   new_select.full_force = calibration_.select.full_force;
   new_shift.travel = calibration_.shift.travel;
@@ -160,19 +160,19 @@ std::string Calibrator::measure_range(double seconds) {
   return "select: " + counts_text(new_select) + "; shift: " + counts_text(new_shift);
 }
 
-// A range that is measured anew says nothing of what was found with the old one.
+// A new range invalidates everything measured with the old one, so this starts from an empty axis.
 LeverAxisCalibration Calibrator::range_of(const std::string& name, const FoundAxis& found,
                                           const std::vector<double>& seen, double centre, double whole) {
   if (seen.empty()) throw CalibrationRefused("the time was too short to move the lever at all");
   const auto [low, high] = std::minmax_element(seen.begin(), seen.end());
   const double least = *low, most = *high;
-  if (most - least < kLeastMotion * whole)
+  if (most - least < kMinMotion * whole)
     throw CalibrationRefused(name + " moved over " + percent((most - least) / whole) +
-                             " of its range: move the lever to all its ends");
+                             " of its range: move the lever to all its stops");
   const double place = (centre - least) / (most - least);
   if (place < 0.25 || place > 0.75)
     throw CalibrationRefused(name + " rests at " + percent(place) +
-                             " of the way between its ends: let go of the lever, and let it stand in the middle");
+                             " of the way between its stops: let go of the lever so that it returns to the middle");
   LeverAxisCalibration axis;
   axis.usage = found.usage;
   axis.low = found.sign > 0 ? least : most;
@@ -194,22 +194,22 @@ std::string Calibrator::find_button(LeverButton button, double seconds) {
   std::array<int*, 3> numbers{&calibration_.press_button, &calibration_.lift_button, &calibration_.stop_button};
   StickRig rig(driver_, tick_);
   const std::int64_t begin = rig.step().now_ns;
-  std::uint64_t held = rig.look().sight.counts.buttons, pressed = 0;
+  std::uint64_t held = rig.latest().state.counts.buttons, pressed = 0;
   while (pressed == 0) {
-    const std::uint64_t now = rig.step().sight.counts.buttons;
+    const std::uint64_t now = rig.step().state.counts.buttons;
     pressed = now & ~held;
     held &= now;
-    if (1e-9 * static_cast<double>(rig.look().now_ns - begin) > seconds)
+    if (1e-9 * static_cast<double>(rig.latest().now_ns - begin) > seconds)
       throw CalibrationRefused("no button was pressed");
   }
   if (std::popcount(pressed) > 1) throw CalibrationRefused("more than one button was pressed at once");
   const int number = std::countr_zero(pressed) + 1;
   for (std::size_t i = 0; i < numbers.size(); ++i) {
     if (i != static_cast<std::size_t>(button) && *numbers[i] == number)
-      throw CalibrationRefused("button " + std::to_string(number) + " has another meaning already");
+      throw CalibrationRefused("button " + std::to_string(number) + " is already assigned");
   }
   *numbers[static_cast<std::size_t>(button)] = number;
   return "button " + std::to_string(number);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -1,10 +1,10 @@
-// Measures a stick through its driver, step by step: what a person shows it, then what it does by itself with the hands
-// off. Each step puts what it found into the calibration, or refuses nonsense and leaves it as it was. Until the polarity
-// is known no force is above kCautious.
+// Calibrates a stick through its driver, step by step: first the steps that need a person, then the measurements that
+// run with hands off the lever. Each step writes its result into the calibration; a step that fails throws and changes
+// nothing. Until the polarity is known, no force exceeds kCautiousForce.
 //
-//   a person shows   find_axis (right, then forward), measure_range, find_button
-//   a person knows   set_numbers: the travel and the full force at the knob, by a ruler and a spring scale
-//   hands off        measure_polarity, measure_timing, measure_handle, measure_springs
+//   the person moves the lever   find_axis (right, then forward), measure_range, find_button
+//   the person enters numbers    set_numbers: travel and full force at the knob, measured with ruler and spring scale
+//   hands off                    measure_polarity, measure_timing, measure_handle, measure_springs
 #pragma once
 
 #include <array>
@@ -18,68 +18,69 @@
 #include "haptics/hardware/pulse_response.h"
 #include "haptics/hardware/stick_rig.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
-inline constexpr double kCautious = 0.10;  // [1] of the full force
+inline constexpr double kCautiousForce = 0.10;  // [1] of the full force
 
 enum class CalibrationStep : std::uint8_t { range, numbers, polarity, timing, handle, springs };
 const char* calibration_step_name(CalibrationStep step) noexcept;
 
-// What is not known yet, in the order in which it can be found. springs: the device makes springs (PidAbility).
+// Steps still to do, in the order in which they must be done. springs: the device supports springs (PidAbility).
 std::vector<CalibrationStep> missing_steps(const DeviceCalibration& calibration, bool springs);
 
 enum class LeverButton : std::uint8_t { press, lift, stop };
 
 class Calibrator {
  public:
-  // Whatever `known` has already is kept. The driver must outlive it, be prepared and stream.
-  // The calibrator is its haptic side.
+  // Starts from `known`. The driver must be prepared and streaming, and must outlive the calibrator. The calibrator
+  // acts as the driver's haptic side: no other thread may send commands.
   Calibrator(PidDriver& driver, CalibrationTick tick, const DeviceCalibration& known);
 
   const DeviceCalibration& calibration() const noexcept { return calibration_; }
 
-  // All of them return one sentence about what was found, and throw CalibrationRefused with one about why not.
+  // Every step returns one sentence with its result, or throws CalibrationRefused with one sentence that says why it
+  // failed.
 
-  // The person holds the lever still, then pushes it right (forward) as far as it goes and keeps it there: which axis of
-  // the device moves, and which way. `seconds` for all of it. Select first.
+  // Finds the device axis that moves, and its direction. The person holds the lever still, then pushes it fully right
+  // (select) or forward (shift) and holds it there, all within `seconds`. Call for select first.
   std::string find_axis(bool select, double seconds);
-  // The person moves the lever to all its ends, then lets go of it for the last second. After both find_axis().
+  // The person moves the lever to all its stops, then lets go for the last second. Needs both find_axis() first.
   std::string measure_range(double seconds);
-  // [m] 0.02 to 0.5, [N] 0.5 to 100.
+  // Travel 0.02 to 0.5 m, force 0.5 to 100 N.
   std::string set_numbers(double select_travel, double shift_travel, double full_force);
-  // The person presses that button within so many seconds. Whatever is held at first does not count.
+  // Waits up to `seconds` for a button press. Buttons already held at the start are ignored.
   std::string find_button(LeverButton button, double seconds);
 
-  std::string measure_polarity();  // of constant forces and of springs, per axis
+  std::string measure_polarity();  // signs of constant forces and springs, per axis
   std::string measure_timing();    // intervals, jitter, delay
   std::string measure_handle();    // m, b, k; after set_numbers()
-  // N/m and N s/m; after set_numbers(). The way of a damper is found at kCautious of its greatest coefficient. Where
-  // only the dampers are refused the springs are known all the same.
+  // Spring stiffness [N/m] and damper strength [N s/m]; after set_numbers(). The sign of a damper is found at
+  // kCautiousForce of its maximum coefficient. If only the dampers fail, the springs are still stored.
   std::string measure_springs();
 
  private:
   struct FoundAxis {
     int usage = 0;  // 0: not found yet
-    int sign = 0;   // of its counts to the right, or forward
+    int sign = 0;   // +1: counts rise to the right, or forward; -1: they fall
   };
   struct AxisPlace {
-    std::size_t report = 0;  // among the report's axes
-    std::size_t motor = 0;   // of the driver's two
-    double sign = 1.0;       // of its counts
+    std::size_t report = 0;  // index among the report's axes
+    std::size_t motor = 0;   // index among the driver's two motors
+    double sign = 1.0;       // +1: counts rise to the right, or forward; -1: they fall
   };
 
-  AxisPlace place_of(const LeverAxisCalibration& axis) const;
+  AxisPlace axis_place(const LeverAxisCalibration& axis) const;
   std::size_t report_axis(int usage) const;
   void require_range() const;
   void require_polarity() const;
   static LeverAxisCalibration range_of(const std::string& name, const FoundAxis& found, const std::vector<double>& seen,
                                        double centre, double whole);
   int constant_sign(StickRig& rig, const AxisPlace& place, const std::string& name) const;
-  double push(StickRig& rig, const AxisPlace& place, const PidWish& wish) const;
+  double push(StickRig& rig, const AxisPlace& place, const StickCommand& command) const;
   int spring_sign(StickRig& rig, const AxisPlace& place) const;
   DeviceTiming measure_intervals(StickRig& rig) const;
-  Pulse pulse(StickRig& rig, const AxisPlace& place, const PidWish& rest, double magnitude) const;
-  std::array<Pulse, 2> pulses(StickRig& rig, const AxisPlace& place, const PidWish& rest, double& magnitude) const;
+  Pulse pulse(StickRig& rig, const AxisPlace& place, const StickCommand& rest, double magnitude) const;
+  std::array<Pulse, 2> pulses(StickRig& rig, const AxisPlace& place, const StickCommand& rest, double& magnitude) const;
   PulseFit fit(StickRig& rig, const LeverAxisCalibration& axis, const std::string& name, double damper = 0.0) const;
   static PulseFit fit_of(std::span<const Pulse> pulses, const std::string& name);
   static PulseFit checked(const PulseFit& found, const LeverAxisCalibration& axis, const std::string& name);
@@ -93,4 +94,4 @@ class Calibrator {
   std::array<FoundAxis, 2> found_{};  // select, shift
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

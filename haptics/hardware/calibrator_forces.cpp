@@ -1,4 +1,4 @@
-// What the stick does by itself, with the hands off.
+// Calibration measurements that run with hands off the lever.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
@@ -9,49 +9,50 @@
 #include "haptics/hardware/calibrator.h"
 #include "haptics/hardware/pid_lever.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
-constexpr double kMoved = 0.02, kLeastMoved = 0.01;        // [1] of the range
-constexpr std::int64_t kPushTime = 250'000'000;            // [ns] at most
+constexpr double kMoved = 0.02, kMinMoved = 0.01;          // [1] of the range
+constexpr std::int64_t kPushTime = 250'000'000;            // [ns] longest push
 constexpr double kSpringOffset = 0.25;                     // [1] of the full deflection
 constexpr double kLoadForce = 0.05, kLoadFrequency = 5.0;  // [1] of the full force, [Hz]
-constexpr double kLoadNews = 0.01;                         // [1] up and down, so that there is something new to tell
-constexpr std::int64_t kLoadTime = 2'100'000'000, kLoadStart = 100'000'000;  // [ns] all of it, and what does not count
-constexpr std::size_t kLeastReadings = 50;
-constexpr double kPulseForce = 0.05, kMostPulseForce = 0.4;  // [1] of the full force
-constexpr double kDampedPulseForce = 0.2;                    // [1] against a strong damper
+constexpr double kLoadDither = 0.01;  // [1] alternating offset, so that every tick has a new force to send
+constexpr std::int64_t kLoadTime = 2'100'000'000, kLoadStart = 100'000'000;  // [ns] total, and the part not counted
+constexpr std::size_t kMinReadings = 50;
+constexpr double kPulseForce = 0.05, kMaxPulseForce = 0.4;  // [1] of the full force
+constexpr double kDampedPulseForce = 0.2;                   // [1] of the full force, against a strong damper
 constexpr std::int64_t kPulseTime = 60'000'000, kCoastTime = 400'000'000, kNoForceTime = 1'000'000'000;  // [ns]
-constexpr std::int64_t kSettingTime = 20'000'000;                // [ns] in which what holds is told
-constexpr double kPulseMotion = 0.06, kLeastPulseMotion = 0.03;  // [1] of the range
-constexpr double kMostResidual = 0.2;                            // [1]
-constexpr double kAlike = 0.25;                                  // [1] what two pairs of pulses may differ by,
-constexpr double kAlikeDamping = 2.0, kAlikeDelay = 0.002;       // [1/s], [s] or so much
-constexpr std::size_t kMostPairs = 5;
-constexpr double kMostDelayMeasured = 0.1;  // [s]
-constexpr double kMostBalance = 0.4;        // [1] of the full force, against a spring
-constexpr double kLeastBalance = 0.01;      // [1] of the range
-constexpr double kDamper = 0.5;             // [1] of the greatest coefficient: enough to measure
-constexpr double kMostOwnSpring = 0.3;      // [1] of the full force, at a stop: else a hand's
-constexpr double kLeastBraking = 0.3;       // [N s/m] that tells the way of a damper
+constexpr std::int64_t kSettingTime = 20'000'000;              // [ns] for the permanent part of the command to arrive
+constexpr double kPulseMotion = 0.06, kMinPulseMotion = 0.03;  // [1] of the range
+constexpr double kMaxResidual = 0.2;                           // [1]
+constexpr double kMaxDifference = 0.25;                        // [1] relative difference allowed between two pairs,
+constexpr double kMaxDampingDifference = 2.0, kMaxDelayDifference = 0.002;  // [1/s], [s] or absolute
+constexpr std::size_t kMaxPairs = 5;
+constexpr double kMaxMeasuredDelay = 0.1;  // [s]
+constexpr double kMaxBalanceForce = 0.4;   // [1] of the full force, pushed against a spring
+constexpr double kMinBalance = 0.01;       // [1] of the range
+constexpr double kDamper = 0.5;            // [1] of the maximum coefficient; enough to measure
+constexpr double kMaxHandleSpringForce =
+    0.3;                             // [1] of the full force, at a stop; more means that a hand holds the lever
+constexpr double kMinBraking = 0.3;  // [N s/m] enough to determine the sign of a damper
 
-PidWish idle_wish() noexcept {
-  PidWish wish;
-  wish.enabled = true;
-  return wish;
+StickCommand idle_command() noexcept {
+  StickCommand command;
+  command.enabled = true;
+  return command;
 }
 
 std::string newtons_per_metre(double stiffness) {
   return number_text(stiffness, 0) + " N/m";
 }
 
-bool are_alike(const PulseFit& a, const PulseFit& b) noexcept {
-  if (std::max(a.residual, b.residual) > kMostResidual) return false;
+bool fits_agree(const PulseFit& a, const PulseFit& b) noexcept {
+  if (std::max(a.residual, b.residual) > kMaxResidual) return false;
   const auto within = [](double x, double y, double least) {
-    return std::abs(x - y) <= std::max(least, kAlike * std::max(std::abs(x), std::abs(y)));
+    return std::abs(x - y) <= std::max(least, kMaxDifference * std::max(std::abs(x), std::abs(y)));
   };
-  return within(a.gain, b.gain, 0.0) && within(a.damping, b.damping, kAlikeDamping) &&
-         within(a.delay, b.delay, kAlikeDelay);
+  return within(a.gain, b.gain, 0.0) && within(a.damping, b.damping, kMaxDampingDifference) &&
+         within(a.delay, b.delay, kMaxDelayDifference);
 }
 
 double share_of(std::vector<double>& values, double share) {
@@ -63,16 +64,19 @@ double share_of(std::vector<double>& values, double share) {
 }  // namespace
 
 void Calibrator::require_range() const {
-  if (!calibration_.has_stops()) throw CalibrationRefused("where the lever's ends are is not known yet");
+  if (!calibration_.has_stops())
+    throw CalibrationRefused("the lever's stops are not known yet: measure the range first");
 }
 
 void Calibrator::require_polarity() const {
   require_range();
-  if (!calibration_.has_polarity()) throw CalibrationRefused("which way its forces push is not known yet");
+  if (!calibration_.has_polarity())
+    throw CalibrationRefused("the direction of its forces is not known yet: measure the polarity first");
 }
 
-Calibrator::AxisPlace Calibrator::place_of(const LeverAxisCalibration& axis) const {
-  if (axis.usage > kUsageY.id) throw CalibrationRefused("the lever moves an axis that has no motor: X and Y have");
+Calibrator::AxisPlace Calibrator::axis_place(const LeverAxisCalibration& axis) const {
+  if (axis.usage > kUsageY.id)
+    throw CalibrationRefused("the lever moves an axis without a motor: only X and Y have one");
   return {report_axis(axis.usage), axis.usage == kUsageY.id ? std::size_t{1} : std::size_t{0},
           axis.high > axis.low ? 1.0 : -1.0};
 }
@@ -84,10 +88,10 @@ std::string Calibrator::measure_polarity() {
   std::string sentence;
   for (LeverAxisCalibration* axis : {&found.select, &found.shift}) {
     const std::string name = axis == &found.select ? "select" : "shift";
-    const AxisPlace place = place_of(*axis);
+    const AxisPlace place = axis_place(*axis);
     axis->constant_sign = constant_sign(rig, place, name);
     axis->spring_sign = spring_sign(rig, place);
-    sentence += (sentence.empty() ? "" : "; ") + name + ": plus pushes " +
+    sentence += (sentence.empty() ? "" : "; ") + name + ": a positive force pushes " +
                 (axis == &found.select ? (axis->constant_sign > 0 ? "right" : "left")
                                        : (axis->constant_sign > 0 ? "forward" : "back")) +
                 (axis->spring_sign == 0  ? ", springs do not move it"
@@ -98,52 +102,52 @@ std::string Calibrator::measure_polarity() {
   return sentence;
 }
 
-// Both ways, and with as little force as moves it.
+// Pushes both ways with the smallest of three forces that moves the lever.
 int Calibrator::constant_sign(StickRig& rig, const AxisPlace& place, const std::string& name) const {
-  for (const double magnitude : {0.25 * kCautious, 0.5 * kCautious, kCautious}) {
-    PidWish wish = idle_wish();
-    wish.constant[place.motor] = magnitude;
-    const double there = push(rig, place, wish);
-    if (std::abs(there) < kLeastMoved) continue;
-    wish.constant[place.motor] = -magnitude;
-    const double back = push(rig, place, wish);
-    if (std::abs(back) < kLeastMoved || (there > 0.0) == (back > 0.0))
-      throw CalibrationRefused(name + " did not move one way and then the other: take the hands off the lever");
+  for (const double magnitude : {0.25 * kCautiousForce, 0.5 * kCautiousForce, kCautiousForce}) {
+    StickCommand command = idle_command();
+    command.constant[place.motor] = magnitude;
+    const double there = push(rig, place, command);
+    if (std::abs(there) < kMinMoved) continue;
+    command.constant[place.motor] = -magnitude;
+    const double back = push(rig, place, command);
+    if (std::abs(back) < kMinMoved || (there > 0.0) == (back > 0.0))
+      throw CalibrationRefused(name + " did not move one way and then the other: take your hands off the lever");
     return there > 0.0 ? 1 : -1;
   }
-  throw CalibrationRefused(name + " does not move by " + number_text(100.0 * kCautious, 0) +
-                           " % of the full force: is the stick powered, and free to move?");
+  throw CalibrationRefused(name + " does not move by " + number_text(100.0 * kCautiousForce, 0) +
+                           " % of the full force: check that the stick has power and can move freely");
 }
 
-// [1] of the range to the right or forward, under that wish from rest.
-double Calibrator::push(StickRig& rig, const AxisPlace& place, const PidWish& wish) const {
+// Motion [1] of the range to the right or forward, from rest under that command.
+double Calibrator::push(StickRig& rig, const AxisPlace& place, const StickCommand& command) const {
   const std::size_t other = report_axis(place.motor == 0 ? kUsageY.id : kUsageX.id);
-  const double from = rig.rest(place.report, idle_wish()), beside = rig.position(other);
-  const std::int64_t begin = rig.look().now_ns;
+  const double from = rig.rest(place.report, idle_command()), beside = rig.position(other);
+  const std::int64_t begin = rig.latest().now_ns;
   double moved = 0.0, strayed = 0.0;
-  while (std::abs(moved) < kMoved && rig.look().now_ns - begin < kPushTime) {
-    rig.step(wish);
+  while (std::abs(moved) < kMoved && rig.latest().now_ns - begin < kPushTime) {
+    rig.step(command);
     moved = (rig.position(place.report) - from) / rig.range(place.report);
     strayed = (rig.position(other) - beside) / rig.range(other);
     if (std::abs(strayed) > kMoved) throw CalibrationRefused("a force along one axis moves the other one");
   }
-  rig.step(idle_wish());
+  rig.step(idle_command());
   return moved * place.sign;
 }
 
-// A spring whose centre lies beside the lever pulls it there, or pushes it away. Its saturation is the cap.
+// A spring with its centre beside the lever pulls the lever there or pushes it away. Its saturation limits the force.
 int Calibrator::spring_sign(StickRig& rig, const AxisPlace& place) const {
   const PidLayout& pid = driver_.layout();
-  if (!pid.makes(PidEffect::spring) || !pid.set_condition.exists()) return 0;
+  if (!pid.has_effect(PidEffect::spring) || !pid.set_condition.exists()) return 0;
   const bool is_capped = pid.set_condition.positive_saturation.exists();
   for (const double coefficient : {0.1, 0.4, 1.0}) {
-    if (!is_capped && coefficient * kSpringOffset > kCautious) break;
-    rig.rest(place.report, idle_wish());
+    if (!is_capped && coefficient * kSpringOffset > kCautiousForce) break;
+    rig.rest(place.report, idle_command());
     const double here = rig.share(place.report), offset = here < 0.0 ? kSpringOffset : -kSpringOffset;
-    PidWish wish = idle_wish();
-    wish.spring[place.motor] = {here + offset, 0.0, coefficient, kCautious};
-    const double moved = push(rig, place, wish) * place.sign;  // as the counts go
-    if (std::abs(moved) < kLeastMoved) continue;
+    StickCommand command = idle_command();
+    command.spring[place.motor] = {here + offset, 0.0, coefficient, kCautiousForce};
+    const double moved = push(rig, place, command) * place.sign;  // in the direction of rising counts
+    if (std::abs(moved) < kMinMoved) continue;
     return (moved > 0.0) == (offset > 0.0) ? 1 : -1;
   }
   return 0;
@@ -164,102 +168,104 @@ std::string Calibrator::measure_timing() {
          number_text(1e3 * answer_time(timing), 1) + " ms";
 }
 
-// While it moves and both axes are told a new force every time: a stick has more time when it stands still.
+// Measured while the lever moves and both axes get a new force every tick, because an idle stick is faster.
 DeviceTiming Calibrator::measure_intervals(StickRig& rig) const {
-  const AxisPlace select = place_of(calibration_.select), shift = place_of(calibration_.shift);
-  const double from_x = rig.rest(select.report, idle_wish()), from_y = rig.rest(shift.report, idle_wish());
-  const std::int64_t begin = rig.look().now_ns;
-  StickRig::Look first = rig.look(), last = first;
+  const AxisPlace select = axis_place(calibration_.select), shift = axis_place(calibration_.shift);
+  const double from_x = rig.rest(select.report, idle_command()), from_y = rig.rest(shift.report, idle_command());
+  const std::int64_t begin = rig.latest().now_ns;
+  StickRig::Tick first = rig.latest(), last = first;
   std::vector<double> intervals;
-  double news = kLoadNews;
+  double dither = kLoadDither;
   while (last.now_ns - begin < kLoadTime) {
     if (last.now_ns - begin < kLoadStart) first = last;
     const double phase = 2e-9 * std::numbers::pi * kLoadFrequency * static_cast<double>(last.now_ns - begin);
-    news = -news;
-    PidWish wish = idle_wish();
-    wish.constant = {kLoadForce * std::cos(phase) + news, kLoadForce * std::sin(phase) + news};
-    const StickRig::Look now = rig.step(wish);
-    const std::uint64_t readings = now.sight.sequence - last.sight.sequence;
-    if (readings > 0 && last.sight.time_ns > 0)
-      intervals.push_back(1e-9 * static_cast<double>(now.sight.time_ns - last.sight.time_ns) /
+    dither = -dither;
+    StickCommand command = idle_command();
+    command.constant = {kLoadForce * std::cos(phase) + dither, kLoadForce * std::sin(phase) + dither};
+    const StickRig::Tick now = rig.step(command);
+    const std::uint64_t readings = now.state.sequence - last.state.sequence;
+    if (readings > 0 && last.state.time_ns > 0)
+      intervals.push_back(1e-9 * static_cast<double>(now.state.time_ns - last.state.time_ns) /
                           static_cast<double>(readings));
     last = now;
     rig.watch_runaway(select.report, from_x);
     rig.watch_runaway(shift.report, from_y);
   }
-  const std::uint64_t outputs = last.sight.outputs - first.sight.outputs;
-  if (intervals.size() < kLeastReadings) throw CalibrationRefused("the stick tells too seldom where it is");
-  if (outputs < kLeastReadings) throw CalibrationRefused("the stick takes a force too seldom");
+  const std::uint64_t outputs = last.state.outputs - first.state.outputs;
+  if (intervals.size() < kMinReadings) throw CalibrationRefused("the stick sends its position too seldom");
+  if (outputs < kMinReadings) throw CalibrationRefused("the stick accepts forces too seldom");
   DeviceTiming timing;
   timing.input_interval = share_of(intervals, 0.5);
   timing.jitter = std::max(0.0, share_of(intervals, 0.99) - timing.input_interval);
   timing.output_interval =
-      1e-9 * static_cast<double>(last.sight.sent_ns - first.sight.sent_ns) / static_cast<double>(outputs);
+      1e-9 * static_cast<double>(last.state.sent_ns - first.state.sent_ns) / static_cast<double>(outputs);
   return timing;
 }
 
-// rest: what holds before, during and after it. It comes to rest without: a damped lever takes seconds.
-Pulse Calibrator::pulse(StickRig& rig, const AxisPlace& place, const PidWish& rest, double magnitude) const {
-  const double from = rig.rest(place.report, idle_wish());
-  for (const std::int64_t now = rig.look().now_ns; rig.look().now_ns < now + kSettingTime;) rig.step(rest);
-  const std::int64_t begin = rig.look().now_ns;
-  PidWish on = rest;
+// rest: command in effect before, during and after the pulse. The lever first comes to rest without it, because a
+// damped lever would take seconds.
+Pulse Calibrator::pulse(StickRig& rig, const AxisPlace& place, const StickCommand& rest, double magnitude) const {
+  const double from = rig.rest(place.report, idle_command());
+  for (const std::int64_t now = rig.latest().now_ns; rig.latest().now_ns < now + kSettingTime;) rig.step(rest);
+  const std::int64_t begin = rig.latest().now_ns;
+  StickCommand on = rest;
   on.constant[place.motor] = magnitude;
   Pulse seen;
   seen.magnitude = magnitude;
   std::int64_t on_ns = 0, off_ns = 0;
   bool pushing = true;
-  while (off_ns == 0 || rig.look().now_ns - off_ns < kCoastTime) {
-    const StickRig::Look& look = rig.step(pushing ? on : rest);
-    const bool pushed = look.sight.sent[place.motor] != 0.0;
-    if (pushed && on_ns == 0) on_ns = look.sight.sent_ns;
-    if (!pushed && on_ns != 0 && off_ns == 0) off_ns = look.sight.sent_ns;
+  while (off_ns == 0 || rig.latest().now_ns - off_ns < kCoastTime) {
+    const StickRig::Tick& tick = rig.step(pushing ? on : rest);
+    const bool pushed = tick.state.sent[place.motor] != 0.0;
+    if (pushed && on_ns == 0) on_ns = tick.state.sent_ns;
+    if (!pushed && on_ns != 0 && off_ns == 0) off_ns = tick.state.sent_ns;
     const double moved = rig.position(place.report) - from;
-    if (on_ns != 0 && look.fresh)
-      seen.samples.push_back({1e-9 * static_cast<double>(look.sight.time_ns - on_ns), moved});
+    if (on_ns != 0 && tick.fresh)
+      seen.samples.push_back({1e-9 * static_cast<double>(tick.state.time_ns - on_ns), moved});
     const bool enough = std::abs(moved) > kPulseMotion * rig.range(place.report);
-    pushing = pushing && !enough && look.now_ns - begin < kPulseTime;
+    pushing = pushing && !enough && tick.now_ns - begin < kPulseTime;
     rig.watch_runaway(place.report, from);
-    if (off_ns == 0 && look.now_ns - begin > kNoForceTime) throw CalibrationRefused("the stick takes no force");
+    if (off_ns == 0 && tick.now_ns - begin > kNoForceTime) throw CalibrationRefused("the stick accepts no force");
   }
   seen.length = 1e-9 * static_cast<double>(off_ns - on_ns);
   return seen;
 }
 
-// One way and the other, with a force that moves it far enough: it begins with that magnitude, and leaves it there.
-std::array<Pulse, 2> Calibrator::pulses(StickRig& rig, const AxisPlace& place, const PidWish& rest,
+// A pulse each way, with `magnitude` doubled until the lever moves far enough. The final magnitude is left in
+// `magnitude`.
+std::array<Pulse, 2> Calibrator::pulses(StickRig& rig, const AxisPlace& place, const StickCommand& rest,
                                         double& magnitude) const {
   while (true) {
     std::array<Pulse, 2> pair = {pulse(rig, place, rest, magnitude), pulse(rig, place, rest, -magnitude)};
     double farthest = 0.0;
     for (const PulseSample& sample : pair.front().samples) farthest = std::max(farthest, std::abs(sample.position));
-    if (farthest > kLeastPulseMotion * rig.range(place.report) || magnitude >= kMostPulseForce) return pair;
+    if (farthest > kMinPulseMotion * rig.range(place.report) || magnitude >= kMaxPulseForce) return pair;
     magnitude *= 2.0;
   }
 }
 
-// In counts, under a damper of that coefficient: by the first two pairs of pulses that say the same. One alone cannot
-// tell a nudge, or a machine that was late, from what the lever is.
+// Fit in counts under a damper of that coefficient, from the first two pairs of pulses that agree. A single pair cannot
+// tell a nudge or a late cycle from the lever's dynamics.
 PulseFit Calibrator::fit(StickRig& rig, const LeverAxisCalibration& axis, const std::string& name,
                          double damper) const {
-  const AxisPlace place = place_of(axis);
-  PidWish rest = idle_wish();
+  const AxisPlace place = axis_place(axis);
+  StickCommand rest = idle_command();
   rest.damper[place.motor] = damper;
-  double magnitude = std::abs(damper) > kCautious ? kDampedPulseForce : kPulseForce;
+  double magnitude = std::abs(damper) > kCautiousForce ? kDampedPulseForce : kPulseForce;
   std::vector<std::array<Pulse, 2>> pairs;
   std::vector<PulseFit> fits;
-  while (fits.size() < kMostPairs) {
+  while (fits.size() < kMaxPairs) {
     pairs.push_back(pulses(rig, place, rest, magnitude));
-    rig.step();  // motors off: the sum takes longer than a wish counts
+    rig.step();  // motors off: the fit takes longer than a command stays valid
     fits.push_back(fit_of(pairs.back(), name));
     for (std::size_t i = 0; i + 1 < fits.size(); ++i) {
-      if (!are_alike(fits[i], fits.back())) continue;
+      if (!fits_agree(fits[i], fits.back())) continue;
       const Pulse four[] = {pairs[i][0], pairs[i][1], pairs.back()[0], pairs.back()[1]};
       return checked(fit_of(four, name), axis, name);
     }
   }
   checked(fits.back(), axis, name);
-  throw CalibrationRefused(name + " answers each push differently: take the hands off the lever");
+  throw CalibrationRefused(name + " responds differently to each push: take your hands off the lever");
 }
 
 PulseFit Calibrator::fit_of(std::span<const Pulse> pulses, const std::string& name) {
@@ -271,37 +277,37 @@ PulseFit Calibrator::fit_of(std::span<const Pulse> pulses, const std::string& na
 }
 
 PulseFit Calibrator::checked(const PulseFit& found, const LeverAxisCalibration& axis, const std::string& name) {
-  if (found.residual > kMostResidual)
-    throw CalibrationRefused(name +
-                             " does not answer a push as a mass with damping does: take the hands off the lever");
+  if (found.residual > kMaxResidual)
+    throw CalibrationRefused(name + " does not respond to a push like a damped mass: take your hands off the lever");
   if (found.gain * axis.constant_sign * (axis.high - axis.low) < 0.0)
-    throw CalibrationRefused(name + " moves the other way than its polarity says: measure the polarity again");
-  if (found.delay > kMostDelayMeasured)
+    throw CalibrationRefused(name + " moves against its polarity: measure the polarity again");
+  if (found.delay > kMaxMeasuredDelay)
     throw CalibrationRefused(name + " answers a push after " + number_text(1e3 * found.delay, 0) +
-                             " ms: too late to feel anything by it");
+                             " ms: too late for force feedback");
   return found;
 }
 
 std::string Calibrator::measure_handle() {
   require_polarity();
   if (!calibration_.has_range() || !calibration_.has_force())
-    throw CalibrationRefused("the lever's travel and its full force are not known yet");
+    throw CalibrationRefused("the lever's travel and full force are not known yet: enter them first");
   StickRig rig(driver_, tick_);
   std::array<AxisModel, 2> handle;
   std::string sentence;
   for (const bool select : {true, false}) {
     const LeverAxisCalibration& axis = select ? calibration_.select : calibration_.shift;
     const PulseFit found = fit(rig, axis, select ? "select" : "shift");
-    const double metre = axis.travel / std::abs(axis.high - axis.low);  // of a count
+    const double metre = axis.travel / std::abs(axis.high - axis.low);  // [m] per count
     const double mass = axis.full_force / (std::abs(found.gain) * metre);
     if (!(mass >= 0.005 && mass <= 20.0))
       throw CalibrationRefused("a handle of " + number_text(mass, 4) +
-                               " kg: the full force or the travel is not right");
-    const double half_way = 0.5 * found.stiffness * mass * axis.travel;  // [N] that its own spring takes at a stop
-    if (half_way > kMostOwnSpring * axis.full_force)
+                               " kg is not plausible: check the full force and the travel");
+    const double half_way =
+        0.5 * found.stiffness * mass * axis.travel;  // [N] force of the handle's own spring at a stop
+    if (half_way > kMaxHandleSpringForce * axis.full_force)
       throw CalibrationRefused((select ? "select has a spring of " : "shift has a spring of ") +
                                newtons_per_metre(found.stiffness * mass) +
-                               ", more than its motors are for: take the hands off the lever");
+                               ", too stiff for its motors: take your hands off the lever");
     handle[select ? 0 : 1] = {mass, found.damping * mass, found.stiffness * mass};
     sentence += (select ? "select: " : "; shift: ") + number_text(mass, 3) + " kg, " +
                 number_text(found.damping * mass, 2) + " N s/m, " + newtons_per_metre(found.stiffness * mass);
@@ -314,30 +320,30 @@ std::string Calibrator::measure_handle() {
 std::string Calibrator::measure_springs() {
   require_polarity();
   if (!calibration_.has_range() || !calibration_.has_force())
-    throw CalibrationRefused("the lever's travel and its full force are not known yet");
+    throw CalibrationRefused("the lever's travel and full force are not known yet: enter them first");
   StickRig rig(driver_, tick_);
   const double select = spring_stiffness(rig, calibration_.select);
   const double shift = spring_stiffness(rig, calibration_.shift);
   calibration_.select.spring_stiffness = select;
   calibration_.shift.spring_stiffness = shift;
-  const bool useful = std::min(select, shift) >= kLeastSpring;
+  const bool useful = std::min(select, shift) >= kMinSpring;
   const std::string springs = "the strongest springs: select " + newtons_per_metre(select) + ", shift " +
                               newtons_per_metre(shift) + (useful ? "" : ": too weak to be used");
-  return driver_.layout().makes(PidEffect::damper) ? springs + "; " + measure_dampers() : springs;
+  return driver_.layout().has_effect(PidEffect::damper) ? springs + "; " + measure_dampers() : springs;
 }
 
-// The way first, with as little of it as kCautious; then the strength.
+// Finds the sign first, with only kCautiousForce of the maximum coefficient; then the strength.
 std::string Calibrator::measure_dampers() {
   DeviceCalibration found = calibration_;
   if (!found.has_handle()) return "dampers are not measured: the handle is not known";
   StickRig rig(driver_, tick_);
   for (LeverAxisCalibration* axis : {&found.select, &found.shift}) {
     const std::string name = axis == &found.select ? "select" : "shift";
-    const double braking = damping_by(rig, *axis, name, kCautious);
-    if (std::abs(braking) < kLeastBraking) return "dampers: too weak to be used";
+    const double braking = damping_by(rig, *axis, name, kCautiousForce);
+    if (std::abs(braking) < kMinBraking) return "dampers: too weak to be used";
     axis->damper_sign = braking > 0.0 ? 1 : -1;
     axis->damper_strength = damping_by(rig, *axis, name, kDamper * axis->damper_sign) / kDamper;
-    if (axis->damper_strength <= 0.0) throw CalibrationRefused(name + " is driven whichever way its damper is told");
+    if (axis->damper_strength <= 0.0) throw CalibrationRefused(name + " is driven by its damper with either sign");
   }
   calibration_ = found;
   return "dampers: select " + number_text(found.select.damper_strength, 1) + " N s/m, shift " +
@@ -345,32 +351,32 @@ std::string Calibrator::measure_dampers() {
          (found.select.damper_sign * found.shift.damper_sign > 0 ? "" : ", of different signs");
 }
 
-// [N s/m] that a damper of such a coefficient adds to the handle's own.
+// Damping [N s/m] that a damper of that coefficient adds to the handle's.
 double Calibrator::damping_by(StickRig& rig, const LeverAxisCalibration& axis, const std::string& name,
                               double damper) const {
   return fit(rig, axis, name, damper).damping * axis.handle.mass - axis.handle.damping;
 }
 
-// The strongest spring against a known force, one way and the other: where it comes to rest.
+// Pushes against the strongest spring with a known force, each way, and measures where the lever comes to rest.
 double Calibrator::spring_stiffness(StickRig& rig, const LeverAxisCalibration& axis) const {
-  const AxisPlace place = place_of(axis);
+  const AxisPlace place = axis_place(axis);
   const BitField& coefficient = driver_.layout().set_condition.positive_coefficient;
   if (axis.spring_sign == 0) throw CalibrationRefused("its springs do not move the lever");
   if (axis.spring_sign < 0 && coefficient.min >= coefficient.zero)
-    throw CalibrationRefused("its springs push away from their centre and cannot be turned round");
+    throw CalibrationRefused("its springs push away from their centre and cannot be inverted");
   const LeverAxisMap map(axis, driver_.lever_report().axes[place.report].field);
-  rig.rest(place.report, idle_wish());
-  PidWish wish = idle_wish();
-  wish.spring[place.motor] = {rig.share(place.report), 0.0, static_cast<double>(axis.spring_sign), 1.0};
+  rig.rest(place.report, idle_command());
+  StickCommand command = idle_command();
+  command.spring[place.motor] = {rig.share(place.report), 0.0, static_cast<double>(axis.spring_sign), 1.0};
   double magnitude = kPulseForce;
   while (true) {
-    wish.constant[place.motor] = magnitude;
-    const double there = rig.rest(place.report, wish);
-    wish.constant[place.motor] = -magnitude;
-    const double back = rig.rest(place.report, wish);
+    command.constant[place.motor] = magnitude;
+    const double there = rig.rest(place.report, command);
+    command.constant[place.motor] = -magnitude;
+    const double back = rig.rest(place.report, command);
     const double width = std::abs(there - back) / rig.range(place.report);
-    const bool is_fine = width > kLeastBalance || magnitude >= kMostBalance;
-    if (is_fine && width == 0.0) throw CalibrationRefused("its springs do not yield to a force");
+    const bool is_fine = width > kMinBalance || magnitude >= kMaxBalanceForce;
+    if (is_fine && width == 0.0) throw CalibrationRefused("its springs do not deflect under a force");
     if (is_fine) {
       const double metres = std::abs(map.metres(there) - map.metres(back));
       return std::max(0.0, 2.0 * magnitude * axis.full_force / metres - axis.handle.stiffness);
@@ -379,4 +385,4 @@ double Calibrator::spring_stiffness(StickRig& rig, const LeverAxisCalibration& a
   }
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -6,22 +6,22 @@
 
 #include "haptics/files/number_text.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
 constexpr double kRounding = 1e-9;      // [1] of a cycle
 constexpr double kSlowestLoop = 100.0;  // [Hz]
 
 std::string too_slow(double answer, double period) {
-  const double most = (1.0 + kMostDelay) * period, rate = std::floor((1.0 + kMostDelay) / answer);
-  const std::string sentence = "the stick answers after " + number_text(1e3 * answer, 1) + " ms, and at " +
-                               number_text(1.0 / period, 0) + " Hz the loop accounts for " +
-                               number_text(1e3 * most, 1) + " ms at most: ";
-  if (rate < kSlowestLoop) return sentence + "too late for any rate from 100 Hz up";
-  return sentence + number_text(rate, 0) + " Hz would do";
+  const double most = (1.0 + kMaxLoopDelay) * period, rate = std::floor((1.0 + kMaxLoopDelay) / answer);
+  const std::string sentence = "the stick answers after " + number_text(1e3 * answer, 1) + " ms, but at " +
+                               number_text(1.0 / period, 0) + " Hz the loop compensates at most " +
+                               number_text(1e3 * most, 1) + " ms: ";
+  if (rate < kSlowestLoop) return sentence + "too slow for any rate from 100 Hz up";
+  return sentence + number_text(rate, 0) + " Hz would work";
 }
 
-// [m] of a count, on the coarser side.
+// [m] per count, on the coarser side of the centre.
 double step_of(const LeverAxisCalibration& axis) noexcept {
   if (axis.low == axis.high) return 0.0;
   return 0.5 * axis.travel / std::min(std::abs(axis.high - axis.centre), std::abs(axis.centre - axis.low));
@@ -31,12 +31,12 @@ AxisModel handle_of(const LeverAxisCalibration& axis) noexcept {
   return axis.handle.mass > 0.0 ? axis.handle : kUnmeasuredHandle;
 }
 
-double own_stiffness_of(const LeverAxisCalibration& axis) noexcept {
-  return axis.spring_sign != 0 && axis.spring_stiffness >= kLeastSpring ? axis.spring_stiffness : 0.0;
+double usable_stiffness_of(const LeverAxisCalibration& axis) noexcept {
+  return axis.spring_sign != 0 && axis.spring_stiffness >= kMinSpring ? axis.spring_stiffness : 0.0;
 }
 
-double own_damping_of(const LeverAxisCalibration& axis) noexcept {
-  return axis.damper_sign != 0 && axis.damper_strength >= kLeastDamper ? axis.damper_strength : 0.0;
+double usable_damping_of(const LeverAxisCalibration& axis) noexcept {
+  return axis.damper_sign != 0 && axis.damper_strength >= kMinDamper ? axis.damper_strength : 0.0;
 }
 
 }  // namespace
@@ -48,7 +48,7 @@ double answer_time(const DeviceTiming& timing) noexcept {
 int delay_cycles(const DeviceTiming& timing, double period) {
   const double answer = answer_time(timing);
   const double cycles = std::max(0.0, std::ceil(answer / period - kRounding) - 1.0);
-  if (!(cycles <= kMostDelay)) throw std::invalid_argument(too_slow(answer, period));
+  if (!(cycles <= kMaxLoopDelay)) throw std::invalid_argument(too_slow(answer, period));
   return static_cast<int>(cycles);
 }
 
@@ -56,16 +56,16 @@ DeviceSpec spec_of(const DeviceCalibration& calibration, double period) {
   const LeverAxisCalibration &select = calibration.select, &shift = calibration.shift;
   DeviceSpec spec;
   spec.max_force = calibration.has_polarity() ? glm::dvec2{select.full_force, shift.full_force} : glm::dvec2{0.0};
-  spec.continuous_force = spec.max_force;  // its own firmware watches over its motors
+  spec.continuous_force = spec.max_force;  // the device's firmware protects its motors
   spec.workspace = 0.5 * glm::dvec2{select.travel, shift.travel};
   spec.position_step = std::max(step_of(select), step_of(shift));
   spec.delay = delay_cycles(calibration.has_timing() ? calibration.timing : kUnmeasuredTiming, period);
   spec.axis_x = handle_of(select);
   spec.axis_y = handle_of(shift);
   if (!calibration.has_polarity()) return spec;
-  spec.own_stiffness = glm::dvec2(std::min(own_stiffness_of(select), own_stiffness_of(shift)));
-  spec.own_damping = glm::dvec2(std::min(own_damping_of(select), own_damping_of(shift)));
+  spec.device_wall_stiffness = glm::dvec2(std::min(usable_stiffness_of(select), usable_stiffness_of(shift)));
+  spec.device_wall_damping = glm::dvec2(std::min(usable_damping_of(select), usable_damping_of(shift)));
   return spec;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <cstddef>
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 InputWatch::InputWatch(const LeverReport& report, std::array<std::size_t, 2> axes) : axes_(axes) {
   for (std::size_t i = 0; i < 2; ++i) {
@@ -14,11 +14,11 @@ InputWatch::InputWatch(const LeverReport& report, std::array<std::size_t, 2> axe
   }
 }
 
-void InputWatch::see(const LeverCounts& counts, std::array<double, 2> force, std::array<PidSpring, 2> springs,
-                     std::int64_t time_ns) noexcept {
+void InputWatch::update(const LeverCounts& counts, std::array<double, 2> force, std::array<PidSpring, 2> springs,
+                        std::int64_t time_ns) noexcept {
   const double since = started_ ? 1e-9 * static_cast<double>(time_ns - time_ns_) : 0.0;
-  const double passed = std::min(since, kUnwatched);
-  if (since > kUnwatched) unsure_ns_ = time_ns + static_cast<std::int64_t>(1e9 * kJumpTime);
+  const double passed = std::min(since, kMaxReportGap);
+  if (since > kMaxReportGap) unsure_ns_ = time_ns + static_cast<std::int64_t>(1e9 * kMaxJumpTime);
   watch_jump(counts, time_ns);
   for (std::size_t i = 0; i < 2; ++i) {
     const std::int64_t place = counts.axis[axes_[i]];
@@ -30,7 +30,7 @@ void InputWatch::see(const LeverCounts& counts, std::array<double, 2> force, std
   time_ns_ = time_ns;
 }
 
-void InputWatch::forget_force() noexcept {
+void InputWatch::reset_force() noexcept {
   for (Axis& axis : axis_) {
     axis.forced = 0.0;
     axis.share = 1.0;
@@ -39,12 +39,12 @@ void InputWatch::forget_force() noexcept {
 
 void InputWatch::watch_jump(const LeverCounts& counts, std::int64_t time_ns) noexcept {
   jump_ = 0.0;
-  const bool are_neighbours = started_ && static_cast<double>(time_ns - time_ns_) <= 1e9 * kJumpTime;
+  const bool are_neighbours = started_ && static_cast<double>(time_ns - time_ns_) <= 1e9 * kMaxJumpTime;
   if (!are_neighbours || time_ns < unsure_ns_) return;
   for (std::size_t i = 0; i < 2; ++i) {
     const auto moved = static_cast<double>(counts.axis[axes_[i]] - axis_[i].place);
     const double share = 0.5 * std::abs(moved) / axis_[i].half_range;
-    if (share > kJump) jump_ = std::max(jump_, share);
+    if (share > kMinJump) jump_ = std::max(jump_, share);
   }
 }
 
@@ -58,11 +58,11 @@ void InputWatch::watch_still(Axis& axis, std::int64_t place, double force, doubl
   }
   axis.force.add(force);
   axis.spring.add(spring);
-  const bool is_pushed = std::max(std::abs(force), std::abs(spring)) > kYieldForce;
-  const bool was_still = axis.forced >= kFrozenTime;  // then it is, until it moves: its force yields
-  if (!was_still) axis.forced = std::max(0.0, axis.forced + (is_pushed ? passed : -kForgets * passed));
+  const bool is_pushed = std::max(std::abs(force), std::abs(spring)) > kMinPushForce;
+  const bool was_still = axis.forced >= kFrozenTime;  // stays so until the axis moves; meanwhile its force fades out
+  if (!was_still) axis.forced = std::max(0.0, axis.forced + (is_pushed ? passed : -kStillnessDecay * passed));
   const bool is_still = axis.forced >= kFrozenTime;
-  const double change = is_still ? -passed / kYieldTime : passed / kReturnTime;
+  const double change = is_still ? -passed / kFadeOutTime : passed / kFadeInTime;
   axis.share = std::clamp(axis.share + change, 0.0, 1.0);
   axis.frozen = is_still && std::max(axis.force.width(), axis.spring.width()) > kFrozenForce;
 }
@@ -72,4 +72,4 @@ void InputWatch::Span::add(double value) noexcept {
   most = std::max(most, value);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

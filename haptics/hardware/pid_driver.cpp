@@ -7,23 +7,23 @@
 #include <cmath>
 #include <utility>
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
 constexpr std::int64_t kSilence = static_cast<std::int64_t>(1e9 * kCommandSilence);  // [ns]
 constexpr std::int64_t kMillisecond = 1'000'000;                                     // [ns]
-constexpr std::int64_t kUnarrived = 100 * kMillisecond;                              // [ns] under way: it takes none
-constexpr std::int64_t kSlowness = 500 * kMillisecond;                               // [ns] over which it is judged
-constexpr std::int64_t kFewestArrivals = 5;
+constexpr std::int64_t kUnarrived = 100 * kMillisecond;  // [ns] in transit: the output is stuck
+constexpr std::int64_t kSlowness = 500 * kMillisecond;   // [ns] over which transfer times are averaged
+constexpr std::int64_t kMinArrivals = 5;
 
 LeverReport lever_of(const ReportDescriptor& descriptor) {
   if (std::optional<LeverReport> lever = find_lever_report(descriptor)) return *std::move(lever);
-  throw HidError("this device is no stick: its descriptor has no axes X and Y");
+  throw HidError("this device is not a stick: its descriptor has no X and Y axes");
 }
 
 PidLayout pid_of(const ReportDescriptor& descriptor) {
   if (const std::optional<PidLayout> pid = find_pid(descriptor)) return *pid;
-  throw HidError("this stick has no force feedback: its descriptor has no reports that push (PID class)");
+  throw HidError("this stick has no force feedback: its descriptor has no force reports (PID class)");
 }
 
 std::array<std::size_t, 2> stick_axes(const LeverReport& lever) {
@@ -35,11 +35,11 @@ std::array<std::size_t, 2> stick_axes(const LeverReport& lever) {
   return found;
 }
 
-// What is no number drives nothing.
-bool is_number(const PidWish& wish) noexcept {
-  bool finite = std::isfinite(wish.constant[0]) && std::isfinite(wish.constant[1]);
-  for (const double damper : wish.damper) finite = finite && std::isfinite(damper);
-  for (const PidSpring& spring : wish.spring) {
+// A command with a NaN or an infinity is replaced by an empty one.
+bool is_number(const StickCommand& command) noexcept {
+  bool finite = std::isfinite(command.constant[0]) && std::isfinite(command.constant[1]);
+  for (const double damper : command.damper) finite = finite && std::isfinite(damper);
+  for (const PidSpring& spring : command.spring) {
     finite = finite && std::isfinite(spring.centre) && std::isfinite(spring.dead_band) &&
              std::isfinite(spring.coefficient) && std::isfinite(spring.saturation);
   }
@@ -69,14 +69,14 @@ PidAbility PidDriver::prepare(HidPort& port) {
   end_.store(false, std::memory_order_relaxed);
   prepared_ = false;
   PreparedStick prepared = prepare_stick(port, pid_);
-  problems_.forget();
+  problems_.reset();
   blocks_ = prepared.blocks;
   stream_.begin(blocks_, prepared.ability.finite);
   watch_ = InputWatch(lever_, stick_axes(lever_));
   driven_ = unarrived_ = false;
   arrivals_ = {};
   prepared_ = true;
-  ++sight_.session;
+  ++state_.session;
   publish();
   return std::move(prepared.ability);
 }
@@ -90,7 +90,7 @@ StreamConfig PidDriver::stream_config(std::int64_t tick_ns) const noexcept {
 }
 
 void PidDriver::finish(HidPort& port) noexcept {
-  quiet_stick(port, pid_, blocks_);
+  silence_stick(port, pid_, blocks_);
   blocks_ = {};
   prepared_ = false;
   stream_.begin(blocks_, true);
@@ -105,40 +105,40 @@ void PidDriver::on_input(std::span<const std::uint8_t> report, std::int64_t time
     return problems_.raise(StickProblem::wrong_length, static_cast<std::int64_t>(report.size()),
                            static_cast<std::int64_t>(expected));
   }
-  if (const std::optional<LeverCounts> counts = decode_lever(lever_, report)) see_lever(*counts, time_ns);
-  if (const std::optional<PidStatus> status = decode_state(pid_, report)) hear_state(*status, time_ns);
+  if (const std::optional<LeverCounts> counts = decode_lever(lever_, report)) on_lever_report(*counts, time_ns);
+  if (const std::optional<PidStatus> status = decode_state(pid_, report)) on_state_report(*status, time_ns);
 }
 
-// A dead sensor must not be taken for a live one: its readings do not count.
-void PidDriver::see_lever(const LeverCounts& counts, std::int64_t time_ns) noexcept {
-  watch_.see(counts, stream_.force(), stream_.spring(), time_ns);
-  if (watch_.jump() > 0.0) problems_.raise(StickProblem::jumps, std::lround(100.0 * watch_.jump()));
+// Readings of a frozen sensor are dropped, so that the loop sees no fresh reading.
+void PidDriver::on_lever_report(const LeverCounts& counts, std::int64_t time_ns) noexcept {
+  watch_.update(counts, stream_.force(), stream_.spring(), time_ns);
+  if (watch_.jump() > 0.0) problems_.raise(StickProblem::position_jump, std::lround(100.0 * watch_.jump()));
   if (watch_.is_frozen()) return problems_.raise(StickProblem::frozen, std::lround(kFrozenTime));
-  if (watch_.has_yielded()) {
-    problems_.raise(StickProblem::yields, std::lround(kFrozenTime + kYieldTime));
+  if (watch_.is_faded_out()) {
+    problems_.raise(StickProblem::faded_out, std::lround(kFrozenTime + kFadeOutTime));
     end_session();
   }
-  ++sight_.sequence;
-  sight_.time_ns = time_ns;
-  sight_.counts = counts;
+  ++state_.sequence;
+  state_.time_ns = time_ns;
+  state_.counts = counts;
   publish();
 }
 
-// What protected itself is not overruled: its motors stay off until a person has armed it again.
-void PidDriver::hear_state(const PidStatus& status, std::int64_t time_ns) noexcept {
-  switch (stream_.heard(status, time_ns)) {
-    case StickLapse::none:
+// If the device has switched itself off, its motors stay off until a person arms it again.
+void PidDriver::on_state_report(const PidStatus& status, std::int64_t time_ns) noexcept {
+  switch (stream_.on_report(status, time_ns)) {
+    case StickFault::none:
       return;
-    case StickLapse::effect_stopped:
+    case StickFault::effect_stopped:
       problems_.raise(StickProblem::effect_stopped);
       return publish();
-    case StickLapse::switched_off:
+    case StickFault::switched_off:
       problems_.raise(StickProblem::switched_off);
       break;
-    case StickLapse::no_power:
+    case StickFault::no_power:
       problems_.raise(StickProblem::no_power);
       break;
-    case StickLapse::safety_switch:
+    case StickFault::safety_switch:
       problems_.raise(StickProblem::safety_switch);
       break;
   }
@@ -146,50 +146,50 @@ void PidDriver::hear_state(const PidStatus& status, std::int64_t time_ns) noexce
 }
 
 HidBytes PidDriver::next_output(std::int64_t now_ns) noexcept {
-  obey(now_ns);
+  apply_command(now_ns);
   watch_silence(now_ns);
   const HidBytes report = stream_.next(now_ns);
   watch_arrival(report.size > 0, now_ns);
   return report;
 }
 
-// A release voids every order that does not know of it.
-void PidDriver::obey(std::int64_t now_ns) noexcept {
-  if (orders_.update()) ordered_ns_ = now_ns;
+// A release voids every command sent before it.
+void PidDriver::apply_command(std::int64_t now_ns) noexcept {
+  if (commands_.update()) command_ns_ = now_ns;
   const std::uint64_t releases = releases_.load(std::memory_order_acquire);
-  if (releases != obeyed_releases_) stream_.release();
-  obeyed_releases_ = releases;
-  const Order& order = orders_.value();
-  const bool counts = prepared_ && order.session == sight_.session && order.releases == releases;
-  driven_ = counts && order.wish.enabled;
-  PidWish wish = counts ? order.wish : PidWish{};
-  for (std::size_t i = 0; i < 2; ++i) {  // its own walls, too: they are as blind as its sensor
-    wish.constant[i] *= watch_.force_share(i);
-    wish.spring[i].coefficient *= watch_.force_share(i);
+  if (releases != applied_releases_) stream_.release();
+  applied_releases_ = releases;
+  const Command& newest = commands_.value();
+  const bool counts = prepared_ && newest.session == state_.session && newest.releases == releases;
+  driven_ = counts && newest.command.enabled;
+  StickCommand command = counts ? newest.command : StickCommand{};
+  for (std::size_t i = 0; i < 2; ++i) {  // device walls as well: they rely on the same sensor
+    command.constant[i] *= watch_.force_fraction(i);
+    command.spring[i].coefficient *= watch_.force_fraction(i);
   }
-  stream_.want(wish);
+  stream_.set_command(command);
 }
 
-// The haptic side is late or dead, and this thread is not: a renewed force would stay for ever.
+// The haptic side is late or dead while this thread runs: without this check its last force would be renewed forever.
 void PidDriver::watch_silence(std::int64_t now_ns) noexcept {
-  if (!driven_ || now_ns - ordered_ns_ <= kSilence) return;
-  problems_.raise(StickProblem::nobody_commands, kSilence / 1'000'000);
+  if (!driven_ || now_ns - command_ns_ <= kSilence) return;
+  problems_.raise(StickProblem::no_commands, kSilence / 1'000'000);
   end_session();
 }
 
-// What was wished drives nothing any more.
+// Voids all earlier commands and switches the motors off.
 void PidDriver::end_session() noexcept {
-  ++sight_.session;
-  stream_.want({});
+  ++state_.session;
+  stream_.set_command({});
   stream_.release();
-  watch_.forget_force();
+  watch_.reset_force();
   publish();
 }
 
 void PidDriver::watch_arrival(bool anything, std::int64_t now_ns) noexcept {
   if (anything) handed_ns_ = now_ns;
   if (anything && !unarrived_) unarrived_ns_ = now_ns;
-  if (anything && unarrived_ && now_ns - unarrived_ns_ > kUnarrived) problems_.raise(StickProblem::takes_no_output);
+  if (anything && unarrived_ && now_ns - unarrived_ns_ > kUnarrived) problems_.raise(StickProblem::output_stuck);
   unarrived_ = anything;
 }
 
@@ -197,59 +197,60 @@ void PidDriver::on_sent(std::int64_t time_ns) noexcept {
   unarrived_ = false;
   stream_.arrived(time_ns);
   watch_slowness(time_ns);
-  sight_.sent_ns = time_ns;
-  ++sight_.outputs;
+  state_.sent_ns = time_ns;
+  ++state_.outputs;
   publish();
 }
 
-// What is admitted on a prompt stick shakes on a slow one. Most outputs of half a second: one that is late says nothing.
+// A wall that is stable at the calibrated answer time can vibrate on a slower stick. The check needs most outputs
+// within half a second to be late, because a single late one proves nothing.
 void PidDriver::watch_slowness(std::int64_t now_ns) noexcept {
   const std::int64_t took = now_ns - handed_ns_, answer = answer_ns_.load(std::memory_order_relaxed);
   ++arrivals_.all;
   arrivals_.took_ns += took;
   if (took > 2 * answer + kMillisecond) ++arrivals_.late;
-  if (now_ns - arrivals_.since_ns < kSlowness || arrivals_.all < kFewestArrivals) return;
+  if (now_ns - arrivals_.since_ns < kSlowness || arrivals_.all < kMinArrivals) return;
   const Arrivals judged = std::exchange(arrivals_, {now_ns, 0, 0, 0});
   if (!driven_ || answer == 0 || 2 * judged.late <= judged.all) return;
-  problems_.raise(StickProblem::slower, judged.took_ns / judged.all / kMillisecond,
+  problems_.raise(StickProblem::slow_output, judged.took_ns / judged.all / kMillisecond,
                   (answer + kMillisecond - 1) / kMillisecond);
   end_session();
 }
 
 void PidDriver::publish() noexcept {
-  sight_.sent = stream_.force();
-  sight_.spring = stream_.spring();
-  sight_.actuators = stream_.drives();
-  sights_.write(sight_);
+  state_.sent = stream_.force();
+  state_.spring = stream_.spring();
+  state_.actuators = stream_.drives();
+  states_.write(state_);
 }
 
-PidSight PidDriver::see() noexcept {
-  sights_.update();
-  return sights_.value();
+StickState PidDriver::state() noexcept {
+  states_.update();
+  return states_.value();
 }
 
-void PidDriver::wish(const PidWish& wish) noexcept {
-  order(is_number(wish) ? wish : PidWish{});
+void PidDriver::command(const StickCommand& command) noexcept {
+  post_command(is_number(command) ? command : StickCommand{});
 }
 
 void PidDriver::release() noexcept {
   releases_.store(++released_, std::memory_order_release);
-  order({});
+  post_command({});
   wake();
 }
 
-void PidDriver::order(const PidWish& wish) noexcept {
-  const Order order{wish, sights_.value().session, released_};
-  const bool is_new = order.wish != last_order_.wish || order.session != last_order_.session;
-  last_order_ = order;
-  orders_.write(order);
+void PidDriver::post_command(const StickCommand& command) noexcept {
+  const Command newest{command, states_.value().session, released_};
+  const bool is_new = newest.command != last_command_.command || newest.session != last_command_.session;
+  last_command_ = newest;
+  commands_.write(newest);
   if (is_new) wake();
 }
 
-// It does not block: full, it wakes all the same.
+// Does not block; if the counter is full, the reader wakes up anyway.
 void PidDriver::wake() const noexcept {
   const std::uint64_t one = 1;
   [[maybe_unused]] const ssize_t written = write(wake_fd_, &one, sizeof one);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -1,4 +1,4 @@
-// A force-feedback stick as a lever: PidDriver's counts and shares in metres and newtons, by its calibration.
+// A force-feedback stick as a haptic device: converts between PidDriver's raw units and metres and newtons.
 #pragma once
 
 #include <array>
@@ -9,73 +9,73 @@
 #include "haptics/hardware/device_calibration.h"
 #include "haptics/hardware/pid_driver.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
-// One axis: metres at the knob, counts, and the shares by which the device counts deflections.
+// Converts positions of one axis between metres at the knob, counts, and the device's fraction of full deflection.
 class LeverAxisMap {
  public:
   LeverAxisMap() = default;
   // logical range of the axis in the report [counts]
   LeverAxisMap(const LeverAxisCalibration& axis, const BitField& field) noexcept;
 
-  double metres(double counts) const noexcept;  // straight on either side of the centre; beyond the stops, too
+  double metres(double counts) const noexcept;  // piecewise linear about the centre, extrapolated beyond the stops
   double counts(double metres) const noexcept;
   double share(double metres) const noexcept;  // [1] -1 to 1 over the logical range, clamped
 
  private:
   double centre_ = 0.0, middle_ = 0.0, half_range_ = 1.0;  // [counts]
-  double below_ = 1.0, above_ = 1.0;                       // [m] of a count, on the low and on the high side
+  double below_ = 1.0, above_ = 1.0;                       // [m] per count, on the low and on the high side
 };
 
 class PidLever final : public HapticDevice {
  public:
-  // The driver must outlive it. period [s] of the loop. Throws std::invalid_argument: no range, an axis that the stick
-  // lacks, a delay beyond what the loop accounts for.
+  // The driver must outlive it. period: of the loop [s]. Throws std::invalid_argument if the calibration has no range,
+  // the stick lacks an axis, or its delay is longer than the loop supports.
   PidLever(const DeviceCalibration& calibration, PidDriver& driver, double period);
   ~PidLever() override { driver_.release(); }
   PidLever(const PidLever&) = delete;
   PidLever& operator=(const PidLever&) = delete;
 
   const DeviceSpec& spec() const noexcept override { return spec_; }
-  // Fresh with every report of the device. The force of the motors is what was sent, and what its own walls give back at
-  // this depth: no such stick measures it. When the stick has come back, or the driver has cut its motors, one reading
-  // says stop: what drove before drives on when a person has armed it.
+  // Fresh with every report of the device. The actuator force is computed from the forces sent and from the device
+  // walls at this depth, because these sticks do not measure it. After a reconnect, or after the driver has switched
+  // the motors off, one reading has `stop` set, so that a person has to arm the lever again.
   LeverReading read(std::int64_t now_ns) noexcept override;
-  void switch_on() noexcept override { wish_.enabled = drives(); }  // told by the next write()
-  void write(glm::dvec2 force) noexcept override;                   // without measured polarity: no force
-  void hold_walls(const LeverWalls& walls) noexcept override;
+  void switch_on() noexcept override { command_.enabled = drives(); }  // sent by the next write()
+  void write(glm::dvec2 force) noexcept override;                      // no force until the polarity is measured
+  void set_device_walls(const LeverWalls& walls) noexcept override;
   void release() noexcept override;
 
  private:
   struct Axis {
     LeverAxisMap map;
-    std::size_t report = 0;   // among the report's axes
-    std::size_t motor = 0;    // of the driver's two: X, Y
-    double full_force = 0.0;  // [N] 0: it has no motor, or an unknown one
+    std::size_t report = 0;   // index among the report's axes
+    std::size_t motor = 0;    // index among the driver's motors: X, Y
+    double full_force = 0.0;  // [N] 0: no motor, or its force is not known
     double sign = 0.0;        // of a constant force
-    double spring = 0.0;      // coefficient of the walls, with its sign; 0: it keeps none
-    double damper = 0.0;      // the same of the damper in them
+    double spring = 0.0;      // signed spring coefficient of the device walls; 0: no device walls
+    double damper = 0.0;      // signed damper coefficient in the device walls; 0: none
   };
 
   Axis make_axis(const LeverAxisCalibration& calibration, bool drives) const;
   double coefficient(PidEffect effect, int sign, double wanted, double strongest) const noexcept;
-  glm::dvec2 motor_force(const PidSight& sight, glm::dvec2 position) const noexcept;
+  glm::dvec2 motor_force(const StickState& state, glm::dvec2 position) const noexcept;
   bool has_button(const LeverCounts& counts, int button) const noexcept;
-  bool stop_held(const LeverCounts& counts) noexcept;
+  bool is_stop_pressed(const LeverCounts& counts) noexcept;
   void damp_in_walls() noexcept;
-  void tell() noexcept;
+  void send() noexcept;
   bool drives() const noexcept { return spec_.max_force.x > 0.0 && spec_.max_force.y > 0.0; }
 
   DeviceCalibration calibration_;
   PidDriver& driver_;
   DeviceSpec spec_;
   std::array<Axis, 2> axis_;  // select, shift
-  PidWish wish_;
+  StickCommand command_;
   LeverWalls walls_;
-  glm::dvec2 position_{0.0};    // [m] newest
-  std::uint64_t session_;       // of the last sight
-  bool halted_ = false;         // in this cycle: the session is new
-  bool stop_was_free_ = false;  // a button that is held from the start is none
+  glm::dvec2 position_{0.0};        // [m] newest
+  std::uint64_t session_;           // of the last state
+  bool halted_ = false;             // the session changed in this cycle
+  bool stop_was_released_ = false;  // a stop button held since the start is ignored until it was released once
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

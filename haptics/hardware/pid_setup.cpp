@@ -6,16 +6,16 @@
 #include <optional>
 #include <thread>
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
-constexpr int kBlockLoadPolls = 60;                 // as Linux
-constexpr std::chrono::milliseconds kPollPause{1};  // between two of them
+constexpr int kBlockLoadPolls = 60;                 // as in Linux
+constexpr std::chrono::milliseconds kPollPause{1};  // between two polls
 
 constexpr const char* kEndless =
-    "its effects do not end by themselves: if this program dies, the last force stays until it is unplugged";
-constexpr const char* kNoReset = "it cannot be reset: another program's effects may go on until they end";
-constexpr const char* kNoSwitch = "its motors have no switch: they are silent while no force is commanded";
+    "its effects do not end by themselves: if this program dies, the last force stays until you unplug the stick";
+constexpr const char* kNoReset = "it cannot be reset: another program's effects may continue until they end";
+constexpr const char* kNoSwitch = "its motors cannot be switched off: they are quiet only while no force is commanded";
 
 PidEffect kind_of(StickEffect effect) noexcept {
   if (effect == StickEffect::spring) return PidEffect::spring;
@@ -38,8 +38,8 @@ class StickSetup {
     make(StickEffect::constant_y);
     if (has_conditions(PidEffect::spring)) result_.ability.spring = try_to_make(StickEffect::spring);
     if (has_conditions(PidEffect::damper)) result_.ability.damper = try_to_make(StickEffect::damper);
-    tell(PidControl::disable_actuators);
-    tell(encode_gain(pid_, 1.0));
+    send(PidControl::disable_actuators);
+    send(encode_gain(pid_, 1.0));
     return std::move(result_);
   }
 
@@ -47,13 +47,15 @@ class StickSetup {
 
  private:
   void note(const std::string& sentence) { result_.ability.notes.push_back(sentence); }
-  void tell(const HidBytes& report) {
+  void send(const HidBytes& report) {
     if (report.size > 0) port_.send(report);
   }
-  void tell(PidControl control) { tell(encode_control(pid_, control)); }
-  bool knows(PidControl control) const { return pid_.device_control.control.knows(static_cast<std::size_t>(control)); }
+  void send(PidControl control) { send(encode_control(pid_, control)); }
+  bool supports(PidControl control) const {
+    return pid_.device_control.control.supports(static_cast<std::size_t>(control));
+  }
 
-  // Some have none, some do not answer: what they hold shows when effects are created.
+  // The pool report is optional and its answer not needed: a full memory shows when effects are created.
   void read_pool() {
     if (!pid_.pool.exists()) return;
     try {
@@ -61,21 +63,21 @@ class StickSetup {
     } catch (const HidGone&) {
       throw;
     } catch (const HidError&) {
-      note("it does not tell how many effects it holds");
+      note("it does not report how many effects it can hold");
     }
   }
 
   void clear() {
-    if (!knows(PidControl::reset)) note(kNoReset);
-    if (!knows(PidControl::enable_actuators) || !knows(PidControl::disable_actuators)) note(kNoSwitch);
-    tell(PidControl::stop_all);
-    tell(PidControl::reset);
-    tell(PidControl::disable_actuators);
-    tell(encode_gain(pid_, 0.0));
+    if (!supports(PidControl::reset)) note(kNoReset);
+    if (!supports(PidControl::enable_actuators) || !supports(PidControl::disable_actuators)) note(kNoSwitch);
+    send(PidControl::stop_all);
+    send(PidControl::reset);
+    send(PidControl::disable_actuators);
+    send(encode_gain(pid_, 0.0));
   }
 
   bool has_conditions(PidEffect effect) {
-    if (pid_.makes(effect) && pid_.set_condition.exists()) return true;
+    if (pid_.has_effect(effect) && pid_.set_condition.exists()) return true;
     note(std::string("it has no ") + pid_effect_name(effect));
     return false;
   }
@@ -87,7 +89,7 @@ class StickSetup {
     } catch (const HidGone&) {
       throw;
     } catch (const HidError& error) {
-      note(std::string("it goes without a ") + pid_effect_name(kind_of(effect)) + ": " + error.what());
+      note(std::string("it is used without a ") + pid_effect_name(kind_of(effect)) + ": " + error.what());
       return false;
     }
   }
@@ -96,26 +98,26 @@ class StickSetup {
     const auto which = static_cast<std::size_t>(effect);
     const int block = create(kind_of(effect));
     if (std::find(result_.blocks.begin(), result_.blocks.end(), block) != result_.blocks.end())
-      throw HidError("the stick gave block " + std::to_string(block) + " twice");
+      throw HidError("the stick returned block " + std::to_string(block) + " twice");
     set(effect, block);
     zero(effect, block);
     result_.blocks[which] = block;
     ++result_.ability.blocks;
   }
 
-  // A device that is not asked to create effects has them all: block 1, 2, ...
+  // A device without a Create report has its effects built in, as blocks 1, 2, ...
   int create(PidEffect effect) {
-    if (!pid_.create.exists()) return ++unasked_;
+    if (!pid_.create.exists()) return ++implicit_blocks_;
     const std::string refuses = std::string("the stick refuses a ") + pid_effect_name(effect) + ": ";
     const HidBytes report = encode_create(pid_, effect);
-    if (report.size == 0) throw HidError(refuses + "it knows none");
+    if (report.size == 0) throw HidError(refuses + "it does not support this effect");
     port_.set_feature(report);
-    if (!pid_.block_load.exists()) return ++unasked_;
+    if (!pid_.block_load.exists()) return ++implicit_blocks_;
     const BlockLoad load = poll_block_load();
     if (load.status == BlockLoad::Status::full) throw HidError(refuses + "its memory for effects is full");
-    if (load.status == BlockLoad::Status::error) throw HidError(refuses + "it says that there was an error");
-    if (load.status == BlockLoad::Status::pending) throw HidError(refuses + "it does not say where it is loaded");
-    if (load.block == kNoBlock) throw HidError(refuses + "it gives no block");
+    if (load.status == BlockLoad::Status::error) throw HidError(refuses + "it reports an error");
+    if (load.status == BlockLoad::Status::pending) throw HidError(refuses + "it does not confirm that it is loaded");
+    if (load.block == kNoBlock) throw HidError(refuses + "it returns no block");
     return load.block;
   }
 
@@ -133,19 +135,20 @@ class StickSetup {
     return decode_block_load(pid_, report.view()).value_or(BlockLoad{});
   }
 
-  // That ends by itself, unless the device will not have it so: the first effect shows.
+  // Sets a finite duration. If the device refuses that for the first effect, all effects are endless.
   void set(StickEffect effect, int block) {
     PidAbility& ability = result_.ability;
     if (accepts(effect, block, ability.finite ? kEffectDuration : kForever)) return;
     if (ability.blocks > 0 || !accepts(effect, block, kForever))
-      throw HidError(std::string("the stick refuses what a ") + pid_effect_name(kind_of(effect)) + " shall be");
+      throw HidError(std::string("the stick refuses a ") + pid_effect_name(kind_of(effect)) + " with any parameters");
     ability.finite = false;
     note(kEndless);
   }
 
   bool accepts(StickEffect effect, int block, double duration) {
     const HidBytes report = encode_set_effect(pid_, {block, kind_of(effect), duration, 1.0, axis_of(effect)});
-    if (report.size == 0) throw HidError("the stick gave block " + std::to_string(block) + ", which it cannot name");
+    if (report.size == 0)
+      throw HidError("the stick returned block " + std::to_string(block) + ", which its reports cannot address");
     try {
       port_.send(report);
     } catch (const HidGone&) {
@@ -160,14 +163,14 @@ class StickSetup {
   }
 
   void zero(StickEffect effect, int block) {
-    if (axis_of(effect) >= 0) return tell(encode_constant(pid_, block, 0.0));
-    for (int axis = 0; axis < 2; ++axis) tell(encode_condition(pid_, block, axis, PidCondition{}));
+    if (axis_of(effect) >= 0) return send(encode_constant(pid_, block, 0.0));
+    for (int axis = 0; axis < 2; ++axis) send(encode_condition(pid_, block, axis, PidCondition{}));
   }
 
   HidPort& port_;
   const PidLayout& pid_;
   PreparedStick result_;
-  int unasked_ = 0;  // blocks that were taken without being given
+  int implicit_blocks_ = 0;  // blocks numbered by us, on a device without Create or Block Load
 };
 
 }  // namespace
@@ -179,28 +182,28 @@ PreparedStick prepare_stick(HidPort& port, const PidLayout& pid) {
   } catch (const HidGone&) {
     throw;
   } catch (const HidError&) {
-    quiet_stick(port, pid, setup.blocks());
+    silence_stick(port, pid, setup.blocks());
     throw;
   }
 }
 
-void quiet_stick(HidPort& port, const PidLayout& pid, const StickBlocks& blocks) noexcept {
+void silence_stick(HidPort& port, const PidLayout& pid, const StickBlocks& blocks) noexcept {
   bool gone = false;
-  const auto tell = [&](const HidBytes& report) {
+  const auto send = [&](const HidBytes& report) {
     if (gone || report.size == 0) return;
     try {
       port.send(report);
     } catch (const HidGone&) {
       gone = true;
     } catch (...) {
-      return;  // the next may still be taken
+      return;  // the next report may still succeed
     }
   };
-  tell(encode_control(pid, PidControl::stop_all));
-  tell(encode_control(pid, PidControl::disable_actuators));
-  for (const int block : blocks) tell(encode_block_free(pid, block));
-  tell(encode_control(pid, PidControl::reset));
-  tell(encode_control(pid, PidControl::disable_actuators));
+  send(encode_control(pid, PidControl::stop_all));
+  send(encode_control(pid, PidControl::disable_actuators));
+  for (const int block : blocks) send(encode_block_free(pid, block));
+  send(encode_control(pid, PidControl::reset));
+  send(encode_control(pid, PidControl::disable_actuators));
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

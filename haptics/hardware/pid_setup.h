@@ -1,11 +1,11 @@
-// What is told to a stick before it streams, and after.
+// Reports sent to a stick before and after streaming.
 //
-//   prepare_stick  pool -> stop all -> reset -> actuators off -> gain 0 -> each effect: create, block load, set, values zero
-//                  -> actuators off -> gain full
-//   quiet_stick    stop all -> actuators off -> blocks freed -> reset -> actuators off
+//   prepare_stick  pool -> stop all -> reset -> actuators off -> gain 0 -> each effect: create, block load, set,
+//                  values zero -> actuators off -> gain full
+//   silence_stick  stop all -> actuators off -> free blocks -> reset -> actuators off
 //
-// A reset switches actuators on (PID 1.0 section 5.9), and so does an effect that is set, on some boards: hence off again.
-// Effects: constant X, constant Y, spring, damper.
+// A reset switches the actuators on (PID 1.0 section 5.9), and on some boards setting an effect does too; so they are
+// switched off again afterwards. The effects are constant X, constant Y, spring and damper.
 //
 // This work is based on:
 // USB Implementers' Forum. Device Class Definition for Physical Interface Devices (PID), version 1.0. 1999
@@ -14,17 +14,17 @@
 #include <string>
 #include <vector>
 
-#include "haptics/hardware/pid_stream.h"
+#include "haptics/hardware/report_scheduler.h"
 #include "haptics/hid/hid_port.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
-// Of a device as a whole, once prepared.
+// Capabilities of a prepared device.
 struct PidAbility {
   bool spring = false, damper = false;
-  bool finite = true;              // effects end by themselves; false: it refuses, and it is said
-  int blocks = 0;                  // that it gave
-  std::vector<std::string> notes;  // what it does not do, one sentence each
+  bool finite = true;  // effects end by themselves; false: the device refuses a duration, and a note says so
+  int blocks = 0;      // effect blocks allocated
+  std::vector<std::string> notes;  // missing capabilities, one sentence each
 };
 
 struct PreparedStick {
@@ -32,9 +32,10 @@ struct PreparedStick {
   PidAbility ability;
 };
 
-// Throws HidGone, HidError: it has no constant force to give. Then it is left quiet.
+// Throws HidGone, or HidError if the device cannot make a constant force; the device is then silenced.
 PreparedStick prepare_stick(HidPort& port, const PidLayout& pid);
 
-void quiet_stick(HidPort& port, const PidLayout& pid, const StickBlocks& blocks) noexcept;  // as much as it still takes
+// Best effort: a report that fails is skipped.
+void silence_stick(HidPort& port, const PidLayout& pid, const StickBlocks& blocks) noexcept;
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -12,22 +12,22 @@
 
 #include "haptics/joystick/plant.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
 using glm::dvec3;  // damping, stiffness, delay
 
-constexpr std::size_t kLeastSamples = 20;
-constexpr int kMostSteps = 60;
-// Where to begin: the method finds the nearest valley, not the deepest.
+constexpr std::size_t kMinSamples = 20;
+constexpr int kMaxSteps = 60;
+// Starting points: the method finds the nearest minimum, not the lowest one.
 constexpr std::array kFirstDampings{3.0, 30.0, 150.0};                             // [1/s]
 constexpr std::array kFirstStiffnesses{20.0, 200.0, 1000.0, 4000.0};               // [1/s^2]
 constexpr std::array kFirstDelays{0.0, 0.003, 0.007, 0.012, 0.020, 0.035, 0.060};  // [s]
 constexpr std::size_t kDescents = 4;
-constexpr std::size_t kThin = 8;  // samples of which one is looked at until the valley is known
-constexpr dvec3 kLeast{0.0, 0.0, -0.005}, kMost{2000.0, 1e5, 0.2};
+constexpr std::size_t kSampleStride = 8;  // uses every 8th sample until the best starting point is known
+constexpr dvec3 kMinModel{0.0, 0.0, -0.005}, kMaxModel{2000.0, 1e5, 0.2};
 
-// To a step of 1 at time 0.
+// Response to a unit step at time 0.
 double step_response(const dvec3& model, double time) {
   if (time <= 0.0) return 0.0;
   return advance(AxisModel{1.0, model.x, model.y}, AxisState{}, 1.0, time).position;
@@ -51,7 +51,7 @@ class PulseProblem {
   struct Trial {
     dvec3 model{0.0};
     double gain = 0.0, error = 0.0;  // error: sum of squares
-    std::vector<double> left;        // measured less modelled
+    std::vector<double> left;        // residuals: measured minus modelled
   };
 
   Trial at(const dvec3& model) const {
@@ -71,12 +71,12 @@ class PulseProblem {
     return trial;
   }
 
-  // From there downhill. lambda is Marquardt's: large, a short step along the gradient.
+  // Levenberg-Marquardt from `from`. A large lambda means a short step along the gradient.
   Trial descend(const dvec3& from) const {
     Trial best = at(from);
     double lambda = 1e-3;
-    for (int step = 0; step < kMostSteps && lambda < 1e9; ++step) {
-      const Trial trial = at(glm::clamp(best.model + move(best, lambda), kLeast, kMost));
+    for (int step = 0; step < kMaxSteps && lambda < 1e9; ++step) {
+      const Trial trial = at(glm::clamp(best.model + move(best, lambda), kMinModel, kMaxModel));
       const bool is_better = trial.error < best.error;
       const bool is_settled = is_better && best.error - trial.error < 1e-12 * best.error;
       lambda *= is_better ? 0.2 : 5.0;
@@ -94,7 +94,7 @@ class PulseProblem {
         [&](const Pulse& pulse, const PulseSample& sample) { return pulse_response(model, pulse, sample.time); });
   }
 
-  // Of all samples, less their mean over each pulse: where the lever stood before it is known to a count only.
+  // Values minus their mean over each pulse, because the position before a pulse is known only to a count.
   std::vector<double> centred(const auto& value_of) const {
     std::vector<double> values;
     for (const Pulse& pulse : pulses_) {
@@ -129,14 +129,14 @@ class PulseProblem {
   }
 
   std::span<const Pulse> pulses_;
-  std::size_t every_;  // of how many samples one is looked at
+  std::size_t every_;  // uses every n-th sample
   std::vector<double> measured_;
   double power_ = 0.0;
 };
 
-// The deepest valley, by fewer samples.
+// Searches for the lowest minimum, using fewer samples.
 dvec3 find_valley(std::span<const Pulse> pulses) {
-  const PulseProblem problem(pulses, kThin);
+  const PulseProblem problem(pulses, kSampleStride);
   std::vector<PulseProblem::Trial> trials;
   for (const double damping : kFirstDampings)
     for (const double stiffness : kFirstStiffnesses)
@@ -152,10 +152,10 @@ dvec3 find_valley(std::span<const Pulse> pulses) {
 
 PulseFit fit_pulses(std::span<const Pulse> pulses) {
   const PulseProblem problem(pulses, 1);
-  if (problem.size() < kLeastSamples) throw std::invalid_argument("too few readings to tell how the lever moves");
+  if (problem.size() < kMinSamples) throw std::invalid_argument("too few readings to identify the lever's motion");
   if (!problem.moved()) throw std::invalid_argument("the lever did not move");
   const PulseProblem::Trial best = problem.descend(find_valley(pulses));
   return {best.gain, best.model.x, best.model.y, best.model.z, problem.residual(best)};
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

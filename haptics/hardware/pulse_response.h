@@ -1,10 +1,10 @@
-// What a lever is and how late it answers, from short pulses of force: the exact response of a mass with damping and a
-// spring, fitted by least squares.
+// Identifies a lever's dynamics and delay from short force pulses: fits the exact response of a mass with damping and a
+// spring by least squares.
 //
 //   x'' + damping x' + stiffness x = gain u(t - delay),   u = magnitude for the length of the pulse, then 0
 //
-// The gain, and where each pulse began, follow in closed form from the other three (variable projection), which
-// Levenberg's and Marquardt's method finds.
+// The gain and each pulse's starting position follow in closed form from the other three parameters (variable
+// projection); those are found by the Levenberg-Marquardt method.
 //
 // This work is based on:
 // Gene Golub, Victor Pereyra. The Differentiation of Pseudo-Inverses and Nonlinear Least Squares Problems Whose Variables
@@ -15,16 +15,16 @@
 #include <span>
 #include <vector>
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 struct PulseSample {
   double time = 0.0;      // [s] since the pulse was sent
-  double position = 0.0;  // from rest, in any unit of length
+  double position = 0.0;  // relative to rest, in any unit of length
 };
 
 struct Pulse {
   double magnitude = 0.0;  // [1] -1 to 1, of the full force
-  double length = 0.0;     // [s] from the pulse to its end, as both were sent
+  double length = 0.0;     // [s] between sending the pulse and sending its end
   std::vector<PulseSample> samples;
 };
 
@@ -33,10 +33,10 @@ struct PulseFit {
   double damping = 0.0;    // [1/s] b / m
   double stiffness = 0.0;  // [1/s^2] k / m
   double delay = 0.0;      // [s]
-  double residual = 0.0;   // [1] root mean square of what is left, over that of the motion
+  double residual = 0.0;   // [1] RMS of the residuals divided by the RMS of the motion
 };
 
-// Throws std::invalid_argument in one sentence: fewer than 20 samples, or no motion in them.
+// Throws std::invalid_argument with one sentence if there are fewer than 20 samples or no motion.
 PulseFit fit_pulses(std::span<const Pulse> pulses);
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

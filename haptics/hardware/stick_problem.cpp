@@ -1,69 +1,72 @@
 #include "haptics/hardware/stick_problem.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
 constexpr std::uint64_t bit_of(std::size_t kind) noexcept {
   return std::uint64_t{1} << kind;
 }
-constexpr std::uint64_t told_bit_of(std::size_t kind) noexcept {
+constexpr std::uint64_t reported_bit_of(std::size_t kind) noexcept {
   return bit_of(kind) << 32;
 }
 
 std::string sentence(StickProblem problem, std::int64_t a, std::int64_t b) {
   switch (problem) {
     case StickProblem::wrong_length:
-      return "the stick sends a report of " + std::to_string(a) + " bytes where its descriptor says " +
-             std::to_string(b) + ": it is not used";
+      return "the stick sends a report of " + std::to_string(a) + " bytes, but its descriptor says " +
+             std::to_string(b) + ": it is ignored";
     case StickProblem::unknown_report:
-      return "the stick sends report " + std::to_string(a) + ", which its descriptor does not know: it is not used";
+      return "the stick sends report " + std::to_string(a) + ", which its descriptor does not define: it is ignored";
     case StickProblem::frozen:
-      return "the stick has said one place for " + std::to_string(a) +
-             " s while its force changed: its sensor is taken for dead until it moves";
-    case StickProblem::yields:
-      return "the stick has said one place for " + std::to_string(a) +
-             " s under its force: the motors are off until they are armed again";
-    case StickProblem::jumps:
+      return "the stick's position has not changed for " + std::to_string(a) +
+             " s while its force changed: its sensor counts as dead until it moves";
+    case StickProblem::faded_out:
+      return "the stick's position has not changed for " + std::to_string(a) +
+             " s under force: the motors are off until you arm them again";
+    case StickProblem::position_jump:
       return "the stick's position jumps by " + std::to_string(a) + " % of its range between two reports";
     case StickProblem::switched_off:
-      return "the stick switched its motors off by itself: they stay off until they are armed again";
+      return "the stick switched its motors off by itself: they stay off until you arm them again";
     case StickProblem::effect_stopped:
       return "the stick stopped an effect by itself: it was started again";
     case StickProblem::no_power:
-      return "the stick says that its motors have no power";
+      return "the stick reports that its motors have no power";
     case StickProblem::safety_switch:
-      return "the stick says that its safety switch is open: it gives no force";
-    case StickProblem::takes_no_output:
-      return "the stick takes no outputs: its force ends by itself";
-    case StickProblem::slower:
-      return "the stick takes " + std::to_string(a) + " ms for an output, and answered after " + std::to_string(b) +
-             " ms when it was calibrated: the motors are off until they are armed again";
-    case StickProblem::nobody_commands:
+      return "the stick reports that its safety switch is open: it makes no force";
+    case StickProblem::output_stuck:
+      return "the stick accepts no outputs: its force ends by itself";
+    case StickProblem::slow_output:
+      return "the stick takes " + std::to_string(a) + " ms per output, but answered after " + std::to_string(b) +
+             " ms when it was calibrated: the motors are off until you arm them again";
+    case StickProblem::no_commands:
       break;
   }
-  return "no force was commanded for " + std::to_string(a) + " ms: the motors are off until they are armed again";
+  return "no force was commanded for " + std::to_string(a) + " ms: the motors are off until you arm them again";
 }
 
 }  // namespace
 
 void StickProblems::raise(StickProblem problem, std::int64_t a, std::int64_t b) noexcept {
   const auto kind = static_cast<std::size_t>(problem);
-  if ((raised_and_told_.load(std::memory_order_relaxed) & bit_of(kind)) != 0) return;
+  if ((raised_and_reported_.load(std::memory_order_relaxed) & bit_of(kind)) != 0) return;
   detail_[kind].a.store(a, std::memory_order_relaxed);
   detail_[kind].b.store(b, std::memory_order_relaxed);
-  raised_and_told_.fetch_or(bit_of(kind), std::memory_order_release);
+  raised_and_reported_.fetch_or(bit_of(kind), std::memory_order_release);
 }
 
-void StickProblems::forget() noexcept {
-  raised_and_told_.store(0, std::memory_order_relaxed);
+void StickProblems::reset() noexcept {
+  raised_and_reported_.store(0, std::memory_order_relaxed);
 }
 
 std::optional<std::string> StickProblems::take() {
-  std::uint64_t now = raised_and_told_.load(std::memory_order_acquire);
-  const auto is_news = [&now](std::size_t kind) { return (now & bit_of(kind)) != 0 && (now & told_bit_of(kind)) == 0; };
+  std::uint64_t now = raised_and_reported_.load(std::memory_order_acquire);
+  const auto is_unreported = [&now](std::size_t kind) {
+    return (now & bit_of(kind)) != 0 && (now & reported_bit_of(kind)) == 0;
+  };
   for (std::size_t kind = 0; kind < kStickProblems; ++kind) {
-    while (is_news(kind)) {
-      if (!raised_and_told_.compare_exchange_weak(now, now | told_bit_of(kind), std::memory_order_acquire)) continue;
+    while (is_unreported(kind)) {
+      if (!raised_and_reported_.compare_exchange_weak(now, now | reported_bit_of(kind), std::memory_order_acquire))
+        continue;
       return sentence(static_cast<StickProblem>(kind), detail_[kind].a.load(std::memory_order_relaxed),
                       detail_[kind].b.load(std::memory_order_relaxed));
     }
@@ -71,4 +74,4 @@ std::optional<std::string> StickProblems::take() {
   return std::nullopt;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

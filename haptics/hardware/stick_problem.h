@@ -1,4 +1,4 @@
-// What a stick does wrong while it streams: raised by one thread, told by another, each kind once.
+// Problems of a streaming stick: raised on one thread, reported on another, each kind once.
 #pragma once
 
 #include <array>
@@ -8,21 +8,21 @@
 #include <optional>
 #include <string>
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 enum class StickProblem : std::uint8_t {
-  wrong_length,     // a, b: bytes of a report, and what its descriptor says
-  unknown_report,   // a: its ID
-  frozen,           // a: seconds
-  yields,           // a: seconds
-  jumps,            // a: percent of the range
-  switched_off,     // its motors, by itself
-  effect_stopped,   // by itself
-  no_power,         // for its motors
-  safety_switch,    // open
-  takes_no_output,  // none arrives
-  slower,           // a, b: milliseconds that an output takes, and the answer that it was calibrated with
-  nobody_commands   // a: milliseconds; no fault of the stick: the program's other side is late or dead
+  wrong_length,    // a: bytes received, b: bytes declared by the descriptor
+  unknown_report,  // a: report ID
+  frozen,          // a: seconds
+  faded_out,       // a: seconds
+  position_jump,   // a: percent of the range
+  switched_off,    // the device switched its motors off
+  effect_stopped,  // the device stopped an effect
+  no_power,        // the motors have no power
+  safety_switch,   // the safety switch is open
+  output_stuck,    // an output report does not complete
+  slow_output,     // a: milliseconds per output, b: answer time from the calibration [ms]
+  no_commands      // a: milliseconds; not a fault of the stick: the haptic side is late or dead
 };
 inline constexpr std::size_t kStickProblems = 12;
 
@@ -30,17 +30,18 @@ class StickProblems {
  public:
   // Real-time safe.
   void raise(StickProblem problem, std::int64_t a = 0, std::int64_t b = 0) noexcept;
-  void forget() noexcept;  // each may be told again
+  void reset() noexcept;  // every kind may be reported again
 
-  // One sentence; nothing where all that was raised has been told. Any thread.
+  // The next unreported problem as one sentence; empty if there is none. Any thread.
   std::optional<std::string> take();
 
  private:
   struct Detail {
     std::atomic<std::int64_t> a{0}, b{0};
   };
-  std::atomic<std::uint64_t> raised_and_told_{0};  // a bit each: raised in the low half, told in the high one
+  std::atomic<std::uint64_t> raised_and_reported_{
+      0};  // one bit per kind: raised in the low half, reported in the high half
   std::array<Detail, kStickProblems> detail_;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -1,4 +1,5 @@
-// How a measurement looks at a stick and drives it: tick by tick, with every refusal that all measurements share.
+// Drives and observes a stick during a calibration measurement, tick by tick, with the checks common to all
+// measurements.
 #pragma once
 
 #include <cstddef>
@@ -8,18 +9,18 @@
 
 #include "haptics/hardware/pid_driver.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
-// Why a measurement means nothing, in one sentence.
+// Says in one sentence why a measurement is not valid.
 class CalibrationRefused : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// Blocks until the next tick, of about a millisecond, and says what time it is [ns] on the driver's clock.
+// Blocks until the next tick, about every millisecond, and returns the time on the driver's clock [ns].
 using CalibrationTick = std::function<std::int64_t()>;
 
-// For the length of one measurement; motors off at its end.
+// Lives for one measurement and switches the motors off at its end.
 class StickRig {
  public:
   StickRig(PidDriver& driver, const CalibrationTick& tick);
@@ -27,34 +28,35 @@ class StickRig {
   StickRig(const StickRig&) = delete;
   StickRig& operator=(const StickRig&) = delete;
 
-  struct Look {
+  struct Tick {
     std::int64_t now_ns = 0;
-    bool fresh = false;  // it brought a new reading
-    PidSight sight;
+    bool fresh = false;  // this tick brought a new reading
+    StickState state;
   };
 
-  // One tick under that wish. Throws CalibrationRefused: the stick was lost, or says nothing.
-  const Look& step(const PidWish& wish = {});
-  const Look& look() const noexcept { return look_; }
+  // Sends the command for one tick. Throws CalibrationRefused if the stick was disconnected or sends no readings.
+  const Tick& step(const StickCommand& command = {});
+  const Tick& latest() const noexcept { return latest_; }
   double position(std::size_t axis) const noexcept {  // [counts] newest
-    return static_cast<double>(look_.sight.counts.axis[axis]);
+    return static_cast<double>(latest_.state.counts.axis[axis]);
   }
-  double range(std::size_t axis) const noexcept;  // [counts] that the report can say
-  double share(std::size_t axis) const noexcept;  // [1] -1 to 1, as the device counts deflections
+  double range(std::size_t axis) const noexcept;  // [counts] width of the axis' logical range
+  double share(std::size_t axis) const noexcept;  // [1] -1 to 1 over the logical range, as in PidCondition
 
-  // Until the axis stands still under that wish. Its mean place then [counts]. Throws CalibrationRefused: it never does.
-  double rest(std::size_t axis, const PidWish& wish = {});
+  // Repeats the command until the axis is still and returns its mean position [counts]. Throws CalibrationRefused if it
+  // does not come to rest.
+  double rest(std::size_t axis, const StickCommand& command = {});
 
-  // Throws CalibrationRefused where the axis is further from there than a measurement may move it.
+  // Throws CalibrationRefused if the axis is further from `from` [counts] than a measurement may move it.
   void watch_runaway(std::size_t axis, double from) const;
 
  private:
   PidDriver& driver_;
   const CalibrationTick& tick_;
   std::uint64_t session_;
-  std::int64_t heard_ns_ = 0;  // a reading
-  bool heard_ = false;
-  Look look_;
+  std::int64_t last_reading_ns_ = 0;
+  bool has_reading_ = false;
+  Tick latest_;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -2,10 +2,10 @@
 
 #include <algorithm>
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 bool HidBytes::operator==(const HidBytes& other) const noexcept {
   return std::ranges::equal(view(), other.view());
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -1,4 +1,4 @@
-// One HID report as bytes, in place: no allocation on its way.
+// One HID report in a fixed-size buffer, without allocation.
 #pragma once
 
 #include <array>
@@ -6,17 +6,17 @@
 #include <cstdint>
 #include <span>
 
-namespace gearshift {
+namespace gearshift::haptics {
 
-// The report's ID comes first, always: 0 where the device numbers none (then it is not sent).
+// The first byte is always the report ID: 0 if the device uses no IDs (it is then not sent).
 struct HidBytes {
-  static constexpr std::size_t kMost = 256;  // [bytes] no report used here comes near it; longer ones are passed over
-  std::array<std::uint8_t, kMost> bytes{};
-  std::size_t size = 0;  // [bytes] ID included; 0: there is none
+  static constexpr std::size_t kMaxSize = 256;  // [bytes] far more than any report used here; longer ones are ignored
+  std::array<std::uint8_t, kMaxSize> bytes{};
+  std::size_t size = 0;  // [bytes] ID included; 0: no report
 
   std::span<const std::uint8_t> view() const noexcept { return {bytes.data(), size}; }
   std::uint8_t id() const noexcept { return bytes[0]; }
-  bool operator==(const HidBytes& other) const noexcept;  // of what is used of them
+  bool operator==(const HidBytes& other) const noexcept;  // compares only the used bytes
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -1,20 +1,20 @@
-// What a HID device says wrongly or does not do, in one printable sentence.
+// Errors of a HID device, each with one printable sentence.
 #pragma once
 
 #include <stdexcept>
 #include <string>
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 class HidError : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-// It is not there (any more): nothing else of it can be asked.
+// The device is not connected, or was disconnected.
 class HidGone : public HidError {
  public:
   using HidError::HidError;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

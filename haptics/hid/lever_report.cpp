@@ -6,7 +6,7 @@
 
 #include "haptics/hid/hid_bytes.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
 constexpr std::uint16_t kSimulation = 0x02, kButton = 0x09;
@@ -17,7 +17,7 @@ bool holds(std::span<const std::uint8_t> report, const BitField& field) noexcept
   return field.exists() && kIdBits + offset + bits <= 8 * report.size();
 }
 
-// The bytes that a field of at most 32 bits touches, as one number, and where it lies in that.
+// The bytes that contain a field of at most 32 bits, read as one number, and the field's position in it.
 struct Window {
   explicit Window(const BitField& field) noexcept
       : byte((kIdBits + static_cast<std::size_t>(field.offset)) / 8),
@@ -40,7 +40,8 @@ struct Window {
   std::uint64_t mask;
 };
 
-// What so many bits can hold of the logical range; all of it where that is no range (missing, or the wrong way round).
+// Limits the logical range to what the field's bits can hold. Uses their full range if the logical range is missing or
+// inverted.
 void limit_range(BitField& field) noexcept {
   const bool is_signed = field.min < 0;
   const std::int64_t least = is_signed ? -(std::int64_t{1} << (field.bits - 1)) : 0;
@@ -72,14 +73,14 @@ bool is_axis(HidUsage usage, int bits) {
   return usage.page == kSimulation && usage.id >= 0xb0 && bits > 1;
 }
 
-// Elements whose usage is their own: those after the last usage are spare.
-int own_usages(const HidField& field) {
+// Number of elements with a usage of their own; the elements after the last usage are spare.
+int usage_count(const HidField& field) {
   return std::min(field.count, static_cast<int>(field.usages.size()));
 }
 
 void add_axes(LeverReport& report, const HidField& field) {
   if (field.relative) return;
-  for (int i = 0; i < own_usages(field); ++i) {
+  for (int i = 0; i < usage_count(field); ++i) {
     const HidUsage usage = field.usage(i);
     const auto has_it = [&](const HidAxis& axis) { return axis.usage == usage; };
     const BitField bits = bit_field(field, i);
@@ -89,9 +90,9 @@ void add_axes(LeverReport& report, const HidField& field) {
 }
 
 void add_buttons(LeverReport& report, const HidField& field) {
-  for (int i = 0; i < own_usages(field); ++i) {
+  for (int i = 0; i < usage_count(field); ++i) {
     const HidUsage usage = field.usage(i);
-    if (usage.page != kButton || usage.id == 0 || usage.id > kMostButtons || field.bits != 1) continue;
+    if (usage.page != kButton || usage.id == 0 || usage.id > kMaxButtons || field.bits != 1) continue;
     if (report.buttons.size() < usage.id) report.buttons.resize(usage.id);
     BitField& button = report.buttons[usage.id - 1U];
     if (!button.exists()) button = bit_field(field, i);
@@ -102,9 +103,9 @@ bool has_axis(const LeverReport& report, HidUsage usage) {
   return std::ranges::any_of(report.axes, [&](const HidAxis& axis) { return axis.usage == usage; });
 }
 
-// X and Y stay, whatever stands before them.
+// Reduces the axes to kMaxAxes, but always keeps X and Y.
 void drop_axes(LeverReport& report) {
-  for (std::size_t i = report.axes.size(); i-- > 0 && report.axes.size() > kMostAxes;) {
+  for (std::size_t i = report.axes.size(); i-- > 0 && report.axes.size() > kMaxAxes;) {
     const HidUsage usage = report.axes[i].usage;
     if (usage != kUsageX && usage != kUsageY) report.axes.erase(report.axes.begin() + static_cast<std::ptrdiff_t>(i));
   }
@@ -161,7 +162,7 @@ std::optional<LeverReport> find_lever_report(const ReportDescriptor& descriptor)
     if (field.kind != ReportKind::input || seen[field.report_id]) continue;
     seen[field.report_id] = true;
     LeverReport report = report_of(descriptor, field.report_id);
-    if (report.size <= HidBytes::kMost && has_axis(report, kUsageX) && has_axis(report, kUsageY)) return report;
+    if (report.size <= HidBytes::kMaxSize && has_axis(report, kUsageX) && has_axis(report, kUsageY)) return report;
   }
   return std::nullopt;
 }
@@ -169,13 +170,13 @@ std::optional<LeverReport> find_lever_report(const ReportDescriptor& descriptor)
 std::optional<LeverCounts> decode_lever(const LeverReport& layout, std::span<const std::uint8_t> report) noexcept {
   if (report.empty() || report.size() != layout.size || report[0] != layout.id) return std::nullopt;
   LeverCounts counts;
-  for (std::size_t i = 0; i < std::min(layout.axes.size(), kMostAxes); ++i) {
+  for (std::size_t i = 0; i < std::min(layout.axes.size(), kMaxAxes); ++i) {
     counts.axis[i] = read_bits(report, layout.axes[i].field);
   }
-  for (std::size_t i = 0; i < std::min(layout.buttons.size(), kMostButtons); ++i) {
+  for (std::size_t i = 0; i < std::min(layout.buttons.size(), kMaxButtons); ++i) {
     if (read_bits(report, layout.buttons[i]) != 0) counts.buttons |= std::uint64_t{1} << i;
   }
   return counts;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -6,7 +6,7 @@
 
 #include "haptics/hid/hid_bytes.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
 constexpr std::uint16_t kOrdinal = 0x0a;
@@ -15,7 +15,7 @@ constexpr HidUsage pid_usage(std::uint16_t id) noexcept {
   return {0x0f, id};
 }
 
-// Usages of the Physical Interface page: of choices, in the order of the enumerations.
+// Usages of the Physical Interface page, in the order of the enumerations.
 constexpr std::array<std::uint16_t, kPidEffects> kEffectUsages{0x26, 0x27, 0x30, 0x31, 0x32, 0x33,
                                                                0x34, 0x40, 0x41, 0x42, 0x43};
 constexpr std::array<std::uint16_t, kPidControls> kControlUsages{0x97, 0x98, 0x99, 0x9a, 0x9b, 0x9c};
@@ -31,8 +31,8 @@ struct Place {
   BitField bits() const noexcept { return field == nullptr ? BitField{} : bit_field(*field, element); }
 };
 
-// The fields of one report: of that kind, in a collection of that usage, with the ID of the first of them. None where that
-// report is longer than any is.
+// The fields of one report: those of that kind in a collection of that usage which share the first one's report ID.
+// Empty if the report is longer than HidBytes::kMaxSize.
 class ReportView {
  public:
   ReportView(const ReportDescriptor& descriptor, ReportKind kind, HidUsage collection) : descriptor_(descriptor) {
@@ -44,14 +44,14 @@ class ReportView {
     if (fields_.empty()) return;
     report_.id = fields_.front()->report_id;
     report_.size = descriptor.report_size(kind, report_.id);
-    if (report_.size <= HidBytes::kMost) return;
+    if (report_.size <= HidBytes::kMaxSize) return;
     report_ = {};
     fields_.clear();
   }
 
   PidReport report() const { return report_; }
 
-  // The first value of that usage.
+  // The first element with that usage.
   Place find(HidUsage usage) const {
     for (const HidField* field : fields_) {
       if (field->array && field->usages.size() != 1) continue;
@@ -63,14 +63,14 @@ class ReportView {
   }
   BitField value(std::uint16_t id) const { return find(pid_usage(id)).bits(); }
 
-  // Of the collection of that usage within.
+  // The view restricted to the inner collection of that usage.
   ReportView within(HidUsage collection) const {
     ReportView result = *this;
     std::erase_if(result.fields_, [&](const HidField* field) { return !descriptor_.is_within(*field, collection); });
     return result;
   }
 
-  // One value of each axis, in that order: by the axis' usage, or by its ordinal.
+  // One element for X and one for Y, found by the axis' usage or by its ordinal.
   std::array<Place, 2> of_axes() const {
     std::array<Place, 2> result;
     for (std::uint16_t axis = 0; axis < 2; ++axis) {
@@ -94,9 +94,9 @@ class ReportView {
   template <std::size_t N>
   static void add_choice(PidChoice<N>& choice, std::size_t which, const HidField& field, HidUsage usage) {
     const auto found = std::find(field.usages.begin(), field.usages.end(), usage);
-    if (choice.known[which] || found == field.usages.end()) return;
+    if (choice.supported[which] || found == field.usages.end()) return;
     const auto index = static_cast<int>(found - field.usages.begin());
-    // Flagged as an array or not: several usages for one field of several bits are the numbers that it may hold.
+    // Several usages for one multi-bit field are the numbers that it may hold, even if it is not flagged as an array.
     if (field.bits > 1 && (field.array || static_cast<int>(field.usages.size()) > field.count)) {
       const BitField bits = bit_field(field, 0);
       const std::int64_t number = field.logical_min + index;
@@ -104,12 +104,12 @@ class ReportView {
       if (choice.field.exists() && choice.field.offset != bits.offset) return;
       choice.field = bits;
       choice.number[which] = number;
-      choice.known[which] = true;
+      choice.supported[which] = true;
     } else if (BitField bit = bit_field(field, index); bit.exists()) {
       bit.min = bit.zero = 0;
       bit.max = 1;
       choice.bit[which] = bit;
-      choice.known[which] = true;
+      choice.supported[which] = true;
     }
   }
 
@@ -126,22 +126,22 @@ double power_of_ten(int exponent) {
   return std::pow(10.0, exponent);
 }
 
-// Physical size of a count; 1 where no physical range is told.
+// Physical size of a count; 1 if the field has no physical range.
 double physical_per_count(const HidField& field) {
   const auto logical = static_cast<double>(field.logical_max - field.logical_min);
   const auto physical = static_cast<double>(field.physical_max - field.physical_min);
   return logical > 0.0 && physical > 0.0 ? physical / logical : 1.0;
 }
 
-// [s] a count. Milliseconds where the field tells no unit of time, as all of the known ones have it.
+// [s] per count. Milliseconds, as on all known devices, if the field has no unit of time.
 double duration_unit(const Place& place) {
   constexpr std::uint32_t dimensions = 0xfffffff0, time = 0x1000;  // HID 1.11 section 6.2.2.7: seconds, any system
   if (place.field == nullptr || (place.field->unit & dimensions) != time) return 1e-3;
   return physical_per_count(*place.field) * power_of_ten(place.field->unit_exponent);
 }
 
-// [counts] 360 degrees of a direction. The logical range is a turn, unless the physical one says how much of it: 0 to
-// 35999 hundredths of a degree, say.
+// [counts] per 360 degrees of direction. The logical range is one turn, unless the physical range gives the angle
+// exactly, such as 0 to 35999 hundredths of a degree.
 double full_turn(const Place& place) {
   if (place.field == nullptr) return 0.0;
   const BitField range = place.bits();
@@ -158,7 +158,7 @@ Report begin(const ReportView& view) {
   return report;
 }
 
-// The ordinals of the collection, or the collection's own usage where a field bears it.
+// The direction fields: the ordinals in the Direction collection, or else a field with the Direction usage itself.
 std::array<Place, 2> directions(const ReportView& view) {
   const std::array<Place, 2> result = view.within(pid_usage(0x57)).of_axes();
   return result[0].field != nullptr ? result : std::array<Place, 2>{view.find(pid_usage(0x57)), Place{}};
@@ -216,13 +216,13 @@ PidOperate operate_of(const ReportDescriptor& descriptor) {
   return report;
 }
 
-// 0x95 is the report, 0x96 the choice in it; some have only the one or the other.
+// 0x95 is the report, 0x96 the choice in it; some devices have only one of them.
 PidDeviceControl device_control_of(const ReportDescriptor& descriptor) {
   for (const HidUsage usage : {pid_usage(0x96), pid_usage(0x95)}) {
     const ReportView view(descriptor, ReportKind::output, usage);
     auto report = begin<PidDeviceControl>(view);
     report.control = view.choice(kControlUsages);
-    if (std::ranges::any_of(report.control.known, [](bool known) { return known; })) return report;
+    if (std::ranges::any_of(report.control.supported, [](bool supported) { return supported; })) return report;
   }
   return {};
 }
@@ -281,11 +281,11 @@ PidState state_of(const ReportDescriptor& descriptor) {
   return report;
 }
 
-// A pad that only rumbles has a Set Effect report, too: magnitudes and a duration, but no blocks.
+// A rumble-only pad also has a Set Effect report with magnitudes and a duration, but no effect blocks.
 bool can_push(const PidLayout& pid) {
   return pid.set_effect.exists() && pid.set_effect.block.exists() && pid.set_constant.exists() &&
          pid.set_constant.block.exists() && pid.set_constant.magnitude.exists() && pid.operate.exists() &&
-         pid.operate.block.exists() && pid.operate.operation.knows(static_cast<std::size_t>(PidOperation::start));
+         pid.operate.block.exists() && pid.operate.operation.supports(static_cast<std::size_t>(PidOperation::start));
 }
 
 }  // namespace
@@ -314,4 +314,4 @@ std::optional<PidLayout> find_pid(const ReportDescriptor& descriptor) {
   return pid;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

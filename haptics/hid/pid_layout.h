@@ -1,5 +1,5 @@
-// Which reports of a device are those of the Physical Interface Device page, and where their fields lie. Derived from its
-// descriptor, never assumed.
+// Finds the reports of the Physical Interface Device (PID) usage page and the positions of their fields. Everything is
+// derived from the report descriptor; nothing is assumed.
 //
 // This work is based on:
 // USB Implementers' Forum. Device Class Definition for Physical Interface Devices (PID), version 1.0. 1999
@@ -13,7 +13,7 @@
 #include "haptics/hid/lever_report.h"
 #include "haptics/hid/report_descriptor.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 enum class PidEffect : std::uint8_t {
   constant,
@@ -37,30 +37,30 @@ inline constexpr std::size_t kPidControls = 6;
 enum class PidOperation : std::uint8_t { start, start_solo, stop };
 inline constexpr std::size_t kPidOperations = 3;
 
-// A report by which something is told. size 0: the device has none.
+// A report. size 0: the device does not have it.
 struct PidReport {
   std::uint8_t id = 0;
   std::size_t size = 0;  // [bytes] ID included
   bool exists() const noexcept { return size > 0; }
 };
 
-// A choice among named things: one field that holds its number, or one bit each.
+// A choice among N options: either one field that holds the option's number, or one bit per option.
 template <std::size_t N>
 struct PidChoice {
-  BitField field;                        // holds the number; nothing where they are bits
-  std::array<std::int64_t, N> number{};  // of each that the device knows
-  std::array<BitField, N> bit{};         // of each, where they are bits
-  std::array<bool, N> known{};
-  bool knows(std::size_t which) const noexcept { return known[which]; }
+  BitField field;                        // holds the number; empty if there is one bit per option
+  std::array<std::int64_t, N> number{};  // number of each supported option
+  std::array<BitField, N> bit{};         // bit of each option, if there is one bit per option
+  std::array<bool, N> supported{};
+  bool supports(std::size_t which) const noexcept { return supported[which]; }
 };
 
 struct PidSetEffect : PidReport {
   BitField block, duration, trigger_repeat, sample_period, gain, trigger_button, direction_enable, start_delay;
   PidChoice<kPidEffects> type;
   std::array<BitField, 2> axis_enable;  // X, Y
-  std::array<BitField, 2> direction;    // 8 or 16 bits. In a plane the first alone is used: an angle; the second is 0
-  double duration_unit = 1e-3;          // [s] a count, of the field's unit
-  double full_turn = 0.0;               // [counts] of a direction that are 360 degrees
+  std::array<BitField, 2> direction;  // 8 or 16 bits. In the plane only the first is used, as an angle; the second is 0
+  double duration_unit = 1e-3;        // [s] per count
+  double full_turn = 0.0;             // [counts] of direction per 360 degrees
 };
 struct PidSetConstant : PidReport {
   BitField block, magnitude;
@@ -97,7 +97,7 @@ struct PidState : PidReport {  // input
   BitField block, playing, actuators_enabled, safety_switch, actuator_power, override_switch, paused;
 };
 
-// What may be missing of a stick that still pushes: everything but set_effect, set_constant, operate.
+// A stick can make forces with only set_effect, set_constant and operate; all other reports are optional.
 struct PidLayout {
   PidSetEffect set_effect;
   PidSetConstant set_constant;
@@ -111,13 +111,13 @@ struct PidLayout {
   PidPool pool;
   PidState state;
 
-  bool makes(PidEffect effect) const noexcept {
-    return create.type.knows(static_cast<std::size_t>(effect)) ||
-           set_effect.type.knows(static_cast<std::size_t>(effect));
+  bool has_effect(PidEffect effect) const noexcept {
+    return create.type.supports(static_cast<std::size_t>(effect)) ||
+           set_effect.type.supports(static_cast<std::size_t>(effect));
   }
 };
 
-// Nothing: no PID device, or one that uses the page for rumble alone.
+// Empty if the device is not a PID device, or uses the page only for rumble.
 std::optional<PidLayout> find_pid(const ReportDescriptor& descriptor);
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
 HidBytes begin(const PidReport& report) noexcept {
   HidBytes bytes;
-  bytes.size = std::min(report.size, HidBytes::kMost);
+  bytes.size = std::min(report.size, HidBytes::kMaxSize);
   bytes.bytes[0] = report.id;
   return bytes;
 }
@@ -25,15 +25,15 @@ std::int64_t rounded(double value) noexcept {
   return static_cast<std::int64_t>(std::llround(value));
 }
 
-// A share of what the field can say, from its zero up or down; what is no number is zero.
+// Writes a fraction, -1 to 1, of the field's range above or below its zero; NaN and infinity count as 0.
 void put_share(HidBytes& bytes, const BitField& field, double share) noexcept {
   const double limited = std::isfinite(share) ? std::clamp(share, -1.0, 1.0) : 0.0;
   const auto room = static_cast<double>(limited > 0.0 ? field.max - field.zero : field.zero - field.min);
   put(bytes, field, field.zero + rounded(limited * room));
 }
 
-// A block that the report cannot name would be another one in it.
-bool names(const BitField& field, int block) noexcept {
+// A block index outside the field's range would be clamped to a different block.
+bool is_valid_block(const BitField& field, int block) noexcept {
   return block > kNoBlock && block >= field.min && block <= field.max;
 }
 
@@ -44,14 +44,14 @@ void put_choice(HidBytes& bytes, const PidChoice<N>& choice, std::size_t which) 
 }
 
 template <std::size_t N>
-bool chosen(const PidChoice<N>& choice, std::size_t which, std::span<const std::uint8_t> report) noexcept {
-  if (!choice.knows(which)) return false;
+bool is_selected(const PidChoice<N>& choice, std::size_t which, std::span<const std::uint8_t> report) noexcept {
+  if (!choice.supports(which)) return false;
   if (choice.bit[which].exists()) return read_bits(report, choice.bit[which]) != 0;
   return read_bits(report, choice.field) == choice.number[which];
 }
 
-// For ever is all ones: more than the logical range where that leaves room, which means no value and so no end; and the
-// longest that there is where it does not.
+// kForever is encoded as all ones. If that is outside the logical range, it is a null value and means endless;
+// otherwise it is the longest possible duration.
 void put_duration(HidBytes& bytes, const PidSetEffect& effect, double seconds) noexcept {
   BitField field = effect.duration;
   if (!field.exists()) return;
@@ -66,7 +66,7 @@ void put_duration(HidBytes& bytes, const PidSetEffect& effect, double seconds) n
   put(bytes, field, rounded(std::clamp(counts, 1.0, std::max(most, 1.0))));
 }
 
-// 0 is from the far side and it turns clockwise: X is a quarter, Y a half of a turn.
+// Direction 0 is from the far side and turns clockwise, so X is a quarter turn and Y half a turn.
 void put_direction(HidBytes& bytes, const PidSetEffect& effect, int axis) noexcept {
   put(bytes, effect.direction_enable, 1);
   const BitField& field = effect.direction[0];
@@ -75,11 +75,11 @@ void put_direction(HidBytes& bytes, const PidSetEffect& effect, int axis) noexce
   put(bytes, field, counts);
 }
 
-bool fits(const PidReport& layout, std::span<const std::uint8_t> report) noexcept {
+bool matches(const PidReport& layout, std::span<const std::uint8_t> report) noexcept {
   return layout.exists() && report.size() == layout.size && report[0] == layout.id;
 }
 
-bool flag(std::span<const std::uint8_t> report, const BitField& field, bool otherwise) noexcept {
+bool flag_or(std::span<const std::uint8_t> report, const BitField& field, bool otherwise) noexcept {
   return field.exists() ? read_bits(report, field) != 0 : otherwise;
 }
 
@@ -88,11 +88,11 @@ bool flag(std::span<const std::uint8_t> report, const BitField& field, bool othe
 HidBytes encode_set_effect(const PidLayout& pid, const PidEffectSettings& settings) noexcept {
   const PidSetEffect& effect = pid.set_effect;
   const auto type = static_cast<std::size_t>(settings.effect);
-  const bool tells_type = std::ranges::any_of(effect.type.known, [](bool known) { return known; });
-  if (!names(effect.block, settings.block) || (tells_type && !effect.type.knows(type))) return {};
+  const bool has_type = std::ranges::any_of(effect.type.supported, [](bool supported) { return supported; });
+  if (!is_valid_block(effect.block, settings.block) || (has_type && !effect.type.supports(type))) return {};
   HidBytes bytes = begin(effect);
   put(bytes, effect.block, settings.block);
-  if (tells_type) put_choice(bytes, effect.type, type);
+  if (has_type) put_choice(bytes, effect.type, type);
   put_duration(bytes, effect, settings.duration);
   put_share(bytes, effect.gain, std::max(settings.gain, 0.0));
   for (int axis = 0; axis < 2; ++axis) {
@@ -103,7 +103,7 @@ HidBytes encode_set_effect(const PidLayout& pid, const PidEffectSettings& settin
 }
 
 HidBytes encode_constant(const PidLayout& pid, int block, double magnitude) noexcept {
-  if (!names(pid.set_constant.block, block)) return {};
+  if (!is_valid_block(pid.set_constant.block, block)) return {};
   HidBytes bytes = begin(pid.set_constant);
   put(bytes, pid.set_constant.block, block);
   put_share(bytes, pid.set_constant.magnitude, magnitude);
@@ -112,9 +112,9 @@ HidBytes encode_constant(const PidLayout& pid, int block, double magnitude) noex
 
 HidBytes encode_condition(const PidLayout& pid, int block, int axis, const PidCondition& condition) noexcept {
   const PidSetCondition& set = pid.set_condition;
-  // Without a parameter block there is one condition: the next one would take its place.
-  const bool names_axis = axis == 0 || (axis >= set.parameter_block.min && axis <= set.parameter_block.max);
-  if (!names(set.block, block) || !names_axis) return {};
+  // Without a parameter block field there is only one condition, so a second axis would overwrite the first.
+  const bool is_valid_axis = axis == 0 || (axis >= set.parameter_block.min && axis <= set.parameter_block.max);
+  if (!is_valid_block(set.block, block) || !is_valid_axis) return {};
   HidBytes bytes = begin(set);
   put(bytes, set.block, block);
   put(bytes, set.parameter_block, axis);
@@ -129,7 +129,7 @@ HidBytes encode_condition(const PidLayout& pid, int block, int axis, const PidCo
 
 HidBytes encode_operation(const PidLayout& pid, int block, PidOperation operation, int loops) noexcept {
   const auto which = static_cast<std::size_t>(operation);
-  if (!names(pid.operate.block, block) || !pid.operate.operation.knows(which)) return {};
+  if (!is_valid_block(pid.operate.block, block) || !pid.operate.operation.supports(which)) return {};
   HidBytes bytes = begin(pid.operate);
   put(bytes, pid.operate.block, block);
   put_choice(bytes, pid.operate.operation, which);
@@ -139,7 +139,7 @@ HidBytes encode_operation(const PidLayout& pid, int block, PidOperation operatio
 
 HidBytes encode_control(const PidLayout& pid, PidControl control) noexcept {
   const auto which = static_cast<std::size_t>(control);
-  if (!pid.device_control.control.knows(which)) return {};
+  if (!pid.device_control.control.supports(which)) return {};
   HidBytes bytes = begin(pid.device_control);
   put_choice(bytes, pid.device_control.control, which);
   return bytes;
@@ -153,7 +153,7 @@ HidBytes encode_gain(const PidLayout& pid, double gain) noexcept {
 }
 
 HidBytes encode_block_free(const PidLayout& pid, int block) noexcept {
-  if (!names(pid.block_free.block, block)) return {};
+  if (!is_valid_block(pid.block_free.block, block)) return {};
   HidBytes bytes = begin(pid.block_free);
   put(bytes, pid.block_free.block, block);
   return bytes;
@@ -161,43 +161,43 @@ HidBytes encode_block_free(const PidLayout& pid, int block) noexcept {
 
 HidBytes encode_create(const PidLayout& pid, PidEffect effect) noexcept {
   const auto which = static_cast<std::size_t>(effect);
-  if (!pid.create.type.knows(which)) return {};
+  if (!pid.create.type.supports(which)) return {};
   HidBytes bytes = begin(pid.create);
   put_choice(bytes, pid.create.type, which);
   return bytes;
 }
 
 std::optional<BlockLoad> decode_block_load(const PidLayout& pid, std::span<const std::uint8_t> report) noexcept {
-  if (!fits(pid.block_load, report)) return std::nullopt;
+  if (!matches(pid.block_load, report)) return std::nullopt;
   BlockLoad load;
   load.block = static_cast<int>(std::clamp<std::int64_t>(read_bits(report, pid.block_load.block), 0, 0xffff));
   using enum BlockLoad::Status;
   constexpr std::array statuses{success, full, error};
   for (std::size_t i = 0; i < statuses.size(); ++i) {
-    if (load.status == pending && chosen(pid.block_load.status, i, report)) load.status = statuses[i];
+    if (load.status == pending && is_selected(pid.block_load.status, i, report)) load.status = statuses[i];
   }
   return load;
 }
 
 std::optional<PoolInfo> decode_pool(const PidLayout& pid, std::span<const std::uint8_t> report) noexcept {
-  if (!fits(pid.pool, report)) return std::nullopt;
+  if (!matches(pid.pool, report)) return std::nullopt;
   PoolInfo info;
   info.ram = read_bits(report, pid.pool.ram_size);
   info.simultaneous = read_bits(report, pid.pool.simultaneous);
-  info.device_managed = flag(report, pid.pool.device_managed, false);
+  info.device_managed = flag_or(report, pid.pool.device_managed, false);
   return info;
 }
 
 std::optional<PidStatus> decode_state(const PidLayout& pid, std::span<const std::uint8_t> report) noexcept {
-  if (!fits(pid.state, report)) return std::nullopt;
+  if (!matches(pid.state, report)) return std::nullopt;
   PidStatus status;
-  status.actuators_enabled = flag(report, pid.state.actuators_enabled, false);
-  status.actuator_power = flag(report, pid.state.actuator_power, true);
-  status.safety_switch = flag(report, pid.state.safety_switch, true);
-  status.paused = flag(report, pid.state.paused, false);
-  status.playing = flag(report, pid.state.playing, false);
+  status.actuators_enabled = flag_or(report, pid.state.actuators_enabled, false);
+  status.actuator_power = flag_or(report, pid.state.actuator_power, true);
+  status.safety_switch = flag_or(report, pid.state.safety_switch, true);
+  status.paused = flag_or(report, pid.state.paused, false);
+  status.playing = flag_or(report, pid.state.playing, false);
   status.block = static_cast<int>(std::clamp<std::int64_t>(read_bits(report, pid.state.block), 0, 0xffff));
   return status;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

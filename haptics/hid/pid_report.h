@@ -1,5 +1,5 @@
-// PID reports to bytes and back: pure functions of a layout. Real-time safe. A field that the device does not have is left
-// out; a report that it does not have has no bytes (size 0).
+// Encodes and decodes PID reports: pure functions of a layout, real-time safe. Fields that the device lacks are left
+// out; the encoding of a report that it lacks is empty (size 0).
 #pragma once
 
 #include <array>
@@ -10,25 +10,25 @@
 #include "haptics/hid/hid_bytes.h"
 #include "haptics/hid/pid_layout.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 inline constexpr int kNoBlock = 0;  // effect blocks count from 1
 
 struct PidEffectSettings {
   int block = kNoBlock;
   PidEffect effect = PidEffect::constant;
-  double duration = 0.3;  // [s] > 0; kForever: as long as the device can
+  double duration = 0.3;  // [s] > 0; kForever: no end, or as long as possible
   double gain = 1.0;      // [1] 0 to 1
-  // Which axis it acts on: 0 X, 1 Y, by the axis' enable bit, and by direction where it has one: X 90 degrees, Y 180
-  // (PID 1.0 section 4.2: 0 is from the far side, clockwise). -1: both, for conditions.
+  // Axis on which it acts: 0 X, 1 Y, -1 both (for conditions). Encoded in the axis enable bits and, if the device has
+  // one, the direction: X 90 degrees, Y 180 degrees (PID 1.0 section 4.2: 0 is from the far side, clockwise).
   int axis = 0;
 };
 inline constexpr double kForever = 1e9;  // [s]
 
-struct PidCondition {  // of one axis, in shares of the axis' full deflection, -1 to 1, and of the full force, 0 to 1
+struct PidCondition {  // of one axis; fractions of full deflection (-1 to 1) and of full force (0 to 1)
   double centre = 0.0;
-  double dead_band = 0.0;    // half of the width in which nothing is felt
-  double coefficient = 0.0;  // full force per full deflection; the device's most is 1
+  double dead_band = 0.0;    // half width of the zone without force
+  double coefficient = 0.0;  // full force per full deflection; the device's maximum is 1
   double saturation = 1.0;
 };
 
@@ -47,17 +47,18 @@ struct BlockLoad {
   Status status = Status::pending;
 };
 struct PoolInfo {
-  std::int64_t ram = 0, simultaneous = 0;  // 0: not told
+  std::int64_t ram = 0, simultaneous = 0;  // 0: not reported
   bool device_managed = false;
 };
 struct PidStatus {
-  bool actuators_enabled = false, actuator_power = true, safety_switch = true, paused = false;  // where told
+  bool actuators_enabled = false, actuator_power = true, safety_switch = true,
+       paused = false;  // defaults if not reported
   bool playing = false;
   int block = kNoBlock;
 };
-// Nothing where ID or length are not those of the report.
+// Empty if the report ID or length is wrong.
 std::optional<BlockLoad> decode_block_load(const PidLayout& pid, std::span<const std::uint8_t> report) noexcept;
 std::optional<PoolInfo> decode_pool(const PidLayout& pid, std::span<const std::uint8_t> report) noexcept;
 std::optional<PidStatus> decode_state(const PidLayout& pid, std::span<const std::uint8_t> report) noexcept;
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -7,14 +7,14 @@
 
 #include "haptics/hid/hid_error.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
-constexpr std::size_t kMostFields = 4096, kMostCollections = 4096;
-constexpr std::size_t kMostUsages = 1024;           // of one field; nobody here asks for a later one
-constexpr std::uint64_t kMostBits = 8 * 0xffffULL;  // of a report: its length is told in 16 bits
+constexpr std::size_t kMaxFields = 4096, kMaxCollections = 4096;
+constexpr std::size_t kMaxUsages = 1024;                 // of one field; later ones are not needed here
+constexpr std::uint64_t kMaxReportBits = 8 * 0xffffULL;  // of a report, whose length is a 16-bit number
 
-// Section 6.2.2.2: an item is its type, its tag and up to four bytes of data.
+// Section 6.2.2.2: an item has a type, a tag and up to four bytes of data.
 enum class ItemType { main, global, local, reserved };
 
 struct Item {
@@ -29,7 +29,7 @@ struct Item {
   throw HidError("report descriptor, byte " + std::to_string(at) + ": " + reason);
 }
 
-// A number whose sign only its neighbours tell.
+// A number whose signedness depends on the other items.
 struct Limit {
   std::uint32_t data = 0;
   int size = 0;
@@ -45,7 +45,7 @@ struct Range {
   Limit min, max;
 
   std::int64_t low() const { return min.as_signed(); }
-  // 25 FF above a minimum of 0 is 255.
+  // With a minimum of 0, the maximum 25 FF means 255.
   std::int64_t high() const { return low() < 0 ? max.as_signed() : std::int64_t{max.data}; }
 };
 
@@ -59,13 +59,13 @@ struct Globals {
 
 struct LocalUsage {
   HidUsage usage;
-  bool with_page = false;  // of 32 bits
+  bool with_page = false;  // 32-bit usage that includes its page
 };
 
 struct Locals {
   std::vector<LocalUsage> usages;
-  std::optional<LocalUsage> low, high;     // a range that is being told
-  bool in_set = false, set_begun = false;  // alternate usages between delimiters
+  std::optional<LocalUsage> low, high;         // a usage range of which one or both ends are known
+  bool in_set = false, set_has_usage = false;  // alternate usages between delimiters
 };
 
 class Parser {
@@ -77,10 +77,10 @@ class Parser {
     const auto end = static_cast<std::size_t>(bytes_.rend() - last);
     while (at_ < end) {
       if (skip_long_item()) continue;
-      take(next_item());
+      handle(next_item());
     }
     if (collection_ >= 0) {
-      refuse(begun_at_[static_cast<std::size_t>(collection_)], "the collection that begins here never ends");
+      refuse(collection_start_[static_cast<std::size_t>(collection_)], "the collection that begins here never ends");
     }
     return std::move(result_);
   }
@@ -111,20 +111,20 @@ class Parser {
     return item;
   }
 
-  void take(const Item& item) {
+  void handle(const Item& item) {
     switch (item.type) {
       case ItemType::main:
-        return take_main(item);
+        return handle_main(item);
       case ItemType::global:
-        return take_global(item);
+        return handle_global(item);
       case ItemType::local:
-        return take_local(item);
+        return handle_local(item);
       case ItemType::reserved:
         return;
     }
   }
 
-  void take_main(const Item& item) {
+  void handle_main(const Item& item) {
     resolve_pages();
     switch (item.tag) {
       case 0x8:
@@ -148,7 +148,7 @@ class Parser {
     locals_ = {};
   }
 
-  void take_global(const Item& item) {
+  void handle_global(const Item& item) {
     switch (item.tag) {
       case 0x0:
         globals_.page = static_cast<std::uint16_t>(item.data);
@@ -165,7 +165,7 @@ class Parser {
       case 0x4:
         globals_.physical.max = {item.data, item.size};
         break;
-      // A nibble with a sign: 55 0D and 55 FD are both -3.
+      // A signed nibble: 55 0D and 55 FD are both -3.
       case 0x5:
         globals_.unit_exponent = (static_cast<int>(item.data & 0xf) ^ 8) - 8;
         break;
@@ -199,7 +199,7 @@ class Parser {
   }
 
   void pop(const Item& item) {
-    if (pushed_.empty()) refuse(item.at, "pops what was never pushed");
+    if (pushed_.empty()) refuse(item.at, "pops a state that was never pushed");
     globals_ = pushed_.back();
     pushed_.pop_back();
   }
@@ -210,7 +210,7 @@ class Parser {
     return {{page, static_cast<std::uint16_t>(item.data)}, with_page};
   }
 
-  void take_local(const Item& item) {
+  void handle_local(const Item& item) {
     constexpr int usage = 0x0, usage_low = 0x1, usage_high = 0x2, delimiter = 0xa;
     switch (item.tag) {
       case usage:
@@ -224,7 +224,7 @@ class Parser {
         break;
       case delimiter:
         locals_.in_set = item.data != 0;
-        locals_.set_begun = false;
+        locals_.set_has_usage = false;
         break;
       default:
         break;  // strings and designators
@@ -235,18 +235,18 @@ class Parser {
     }
   }
 
-  // Of a set of alternates the first one counts: section 6.2.2.8.
+  // Of a set of alternative usages only the first counts: section 6.2.2.8.
   void add_usages(LocalUsage low, LocalUsage high) {
-    if (locals_.in_set && locals_.set_begun) return;
-    locals_.set_begun = true;
-    for (int id = low.usage.id; id <= high.usage.id && locals_.usages.size() < kMostUsages; ++id) {
+    if (locals_.in_set && locals_.set_has_usage) return;
+    locals_.set_has_usage = true;
+    for (int id = low.usage.id; id <= high.usage.id && locals_.usages.size() < kMaxUsages; ++id) {
       low.usage.id = static_cast<std::uint16_t>(id);
       locals_.usages.push_back(low);
     }
   }
 
-  // A page that is told after the usages is theirs (section 6.2.2.8), back to the last one that was told under it: of X and
-  // Y of one page and a throttle of the next, each keeps its own.
+  // The page in effect at the main item applies to the usages before it (section 6.2.2.8), back to the last usage
+  // declared under that page. So after X and Y of one page and a throttle of the next, each keeps its own page.
   void resolve_pages() {
     for (auto usage = locals_.usages.rbegin(); usage != locals_.usages.rend(); ++usage) {
       if (usage->with_page) continue;
@@ -256,27 +256,27 @@ class Parser {
   }
 
   void begin_collection(const Item& item) {
-    if (result_.collections.size() == kMostCollections) refuse(item.at, "more than 4096 collections");
+    if (result_.collections.size() == kMaxCollections) refuse(item.at, "more than 4096 collections");
     HidCollection collection;
     if (!locals_.usages.empty()) collection.usage = locals_.usages.front().usage;
     collection.type = static_cast<std::uint8_t>(item.data);
     collection.parent = collection_;
     collection_ = static_cast<int>(result_.collections.size());
     result_.collections.push_back(collection);
-    begun_at_.push_back(item.at);
+    collection_start_.push_back(item.at);
   }
 
   void end_collection(const Item& item) {
-    if (collection_ < 0) refuse(item.at, "a collection ends that never began");
+    if (collection_ < 0) refuse(item.at, "end of a collection that never began");
     collection_ = result_.collections[static_cast<std::size_t>(collection_)].parent;
   }
 
   void add_field(const Item& item, ReportKind kind) {
     if (globals_.bits == 0 || globals_.count == 0) return;
-    if (result_.fields.size() == kMostFields) refuse(item.at, "more than 4096 fields");
+    if (result_.fields.size() == kMaxFields) refuse(item.at, "more than 4096 fields");
     std::uint64_t& end = ends_[static_cast<std::size_t>(kind)][globals_.report_id];
     const std::uint64_t length = std::uint64_t{globals_.bits} * globals_.count;
-    if (length > kMostBits - end) refuse(item.at, "the report becomes longer than 65535 bytes");
+    if (length > kMaxReportBits - end) refuse(item.at, "the report becomes longer than 65535 bytes");
     HidField field = field_of(item.data, kind);
     field.offset = static_cast<int>(end);
     end += length;
@@ -308,9 +308,9 @@ class Parser {
   Globals globals_;
   std::vector<Globals> pushed_;
   Locals locals_;
-  int collection_ = -1;                                   // the innermost that is open
-  std::vector<std::size_t> begun_at_;                     // of each collection
-  std::array<std::array<std::uint64_t, 256>, 3> ends_{};  // [bits] of each report, so far
+  int collection_ = -1;                                   // innermost open collection
+  std::vector<std::size_t> collection_start_;             // [bytes] offset at which each collection begins
+  std::array<std::array<std::uint64_t, 256>, 3> ends_{};  // [bits] current length of each report
   ReportDescriptor result_;
 };
 
@@ -340,4 +340,4 @@ ReportDescriptor parse_report_descriptor(std::span<const std::uint8_t> bytes) {
   return Parser(bytes).parse();
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

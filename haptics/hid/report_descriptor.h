@@ -1,7 +1,8 @@
-// A HID report descriptor, read: which bits of which report mean what.
+// Parses a HID report descriptor: the meaning of each bit of each report.
 //
 // This work is based on:
-// USB Implementers' Forum. Device Class Definition for Human Interface Devices (HID), version 1.11, sections 5 and 6.2.2. 2001
+// USB Implementers' Forum. Device Class Definition for Human Interface Devices (HID), version
+// 1.11, sections 5 and 6.2.2. 2001
 #pragma once
 
 #include <cstddef>
@@ -9,7 +10,7 @@
 #include <span>
 #include <vector>
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 enum class ReportKind : std::uint8_t { input, output, feature };
 
@@ -19,49 +20,50 @@ struct HidUsage {
 };
 
 struct HidCollection {
-  HidUsage usage;         // 0, 0 where it has none
+  HidUsage usage;         // 0, 0 if it has none
   std::uint8_t type = 0;  // 0 physical, 1 application, 2 logical, ...
   int parent = -1;        // -1: top level
 };
 
-// What one main item declares: `count` equal elements in a row.
+// One main item: `count` equal, consecutive elements.
 struct HidField {
   ReportKind kind = ReportKind::input;
-  std::uint8_t report_id = 0;  // 0: the device numbers no reports of this kind
+  std::uint8_t report_id = 0;  // 0: the device uses no report IDs
   int offset = 0;              // [bits] of the first element, from the first bit after the ID
-  int bits = 0;                // [bits] of an element, > 0; beyond 32 it is nothing that this room reads
+  int bits = 0;                // [bits] per element, > 0; more than 32 are not supported
   int count = 0;               // elements, > 0
   bool constant = false;       // padding
   bool array = false;          // an element holds the number of a usage, not a value
   bool relative = false;
-  std::int64_t logical_min = 0, logical_max = 0;    // as meant: 25 FF after 15 00 is 255
-  std::int64_t physical_min = 0, physical_max = 0;  // 0, 0: as the logical ones
+  std::int64_t logical_min = 0, logical_max = 0;    // as intended by the device: 25 FF after 15 00 is 255
+  std::int64_t physical_min = 0, physical_max = 0;  // 0, 0: same as the logical range
   std::uint32_t unit = 0;
   int unit_exponent = 0;  // -8 to 7
-  // Variables: of each element; the last one counts for all that are left. There may be more of them than elements: a choice
-  // whose author forgot to flag it as an array. Arrays: of the values from logical_min on.
+  // Variables: the usage of each element; the last one applies to all remaining elements. More usages than elements
+  // means a choice that its author forgot to flag as an array. Arrays: the usages of the values from logical_min
+  // upwards.
   std::vector<HidUsage> usages;
-  int collection = -1;  // the innermost
+  int collection = -1;  // innermost collection
 
   bool is_signed() const noexcept { return logical_min < 0; }
-  HidUsage usage(int element) const noexcept;  // of a variable; 0, 0 where it has none
+  HidUsage usage(int element) const noexcept;  // of a variable; 0, 0 if it has none
 };
 
 struct ReportDescriptor {
   std::vector<HidCollection> collections;
-  std::vector<HidField> fields;  // in their order
+  std::vector<HidField> fields;  // in descriptor order
   bool numbered = false;         // reports begin with an ID
 
-  // [bytes] of that report, ID included (one byte, 0 where the device numbers none); 0: there is no such report
+  // [bytes] of that report, including one byte for the ID even if the device uses none; 0: no such report
   std::size_t report_size(ReportKind kind, std::uint8_t id) const noexcept;
 
-  // Is the field in a collection of that usage, at any depth?
+  // True if the field is inside a collection of that usage, at any depth.
   bool is_within(const HidField& field, HidUsage collection) const noexcept;
 };
 
-// Any bytes. What devices are known to get wrong (README.md) is read as it is meant; zeros at the end are not looked at.
-// Throws HidError with one sentence and the byte where a descriptor cannot be understood: truncated, a collection that
-// never ends or never began, a report beyond 65535 bytes, more than 4096 fields or collections.
+// Accepts any bytes. Known mistakes of devices (README.md) are read as intended; trailing zeros are ignored. Throws
+// HidError with one sentence and the byte offset if the descriptor is truncated, has an unbalanced collection, a report
+// longer than 65535 bytes, or more than 4096 fields or collections.
 ReportDescriptor parse_report_descriptor(std::span<const std::uint8_t> bytes);
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -1,30 +1,30 @@
-// What the motors can give: peak force for a while, the continuous force for ever.
+// Motor force limits: peak force for a limited time, continuous force indefinitely.
 #pragma once
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 struct ActuatorLimits {
   double peak_force = 31.7;         // [N] 3.8 N m / 0.12 m
   double continuous_force = 10.83;  // [N] 1.3 N m / 0.12 m: Table 2's "10.83 Nm" is this tip force in newtons
-  double overload_time = 5.0;       // [s] that the peak may last from cold (i^2 t)
+  double overload_time = 5.0;       // [s] the peak can last from cold (i^2 t)
 };
 
-// One axis' motor. Heat above the continuous force is counted as i^2 t; when the budget is spent the axis is
-// held to the continuous force until half of it is regained. Under a constant force F above the continuous
-// force Fc this takes overload_time (Fp^2 - Fc^2) / (F^2 - Fc^2) from cold, Fp the peak.
+// The motor of one axis. Load above the continuous force heats it as i^2 t; once the heat budget is used up, the force
+// is limited to the continuous force until half of the budget has recovered. Under a constant force F above the
+// continuous force Fc, with peak Fp, that takes overload_time (Fp^2 - Fc^2) / (F^2 - Fc^2) from cold.
 class Actuator {
  public:
   explicit Actuator(const ActuatorLimits& limits) noexcept : limits_(limits) {}
 
-  // Force really delivered [N] for the commanded one over the next `period` [s]; none for what is no number.
+  // Force actually delivered [N] for the commanded one over the next `period` [s]; 0 if it is not finite.
   double deliver(double commanded, double period) noexcept;
 
-  bool overloaded() const noexcept { return overloaded_; }
+  bool is_overloaded() const noexcept { return is_overloaded_; }
 
  private:
   ActuatorLimits limits_;
-  double heat_ = 0.0;  // [N^2 s] above continuous
-  bool overloaded_ = false;
+  double heat_ = 0.0;  // [N^2 s] above the continuous load
+  bool is_overloaded_ = false;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

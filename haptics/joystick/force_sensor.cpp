@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 double sensor_reading(const ForceSensorModel& sensor, double force, double noise_gw) noexcept {
   double gw = force / kNewtonPerGramWeight + noise_gw;
@@ -15,4 +15,4 @@ double force_from_reading(const ForceSensorModel& sensor, double reading) noexce
   return (reading - sensor.offset) / sensor.gain * kNewtonPerGramWeight;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

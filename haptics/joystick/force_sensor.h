@@ -5,7 +5,7 @@
 // Section 2.3. Eq (7): f_e = (f_s - 19.04) / 0.1551, f_e in gram-weight (gw), f_s the reading.
 #pragma once
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 inline constexpr double kNewtonPerGramWeight = 9.80665e-3;
 
@@ -23,4 +23,4 @@ double sensor_reading(const ForceSensorModel& sensor, double force, double noise
 // Force from a reading, eq (7). [N]
 double force_from_reading(const ForceSensorModel& sensor, double reading) noexcept;
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

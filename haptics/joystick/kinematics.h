@@ -2,8 +2,8 @@
 //
 // This work is based on:
 // Wei-Ching Lin, Kuu-Young Young. Design of Force-Reflection Joystick System for VR-Based Simulation.
-// Section 2. Errata used here: the y component of eq (2) is -sin(phi) cos(theta); eq (5) is misprinted,
-// the forms below follow from virtual work.
+// Section 2. Errata: the y component of eq (2) is -sin(phi) cos(theta); eq (5) is misprinted, and the forms below
+// follow from virtual work.
 #pragma once
 
 #include <numbers>
@@ -11,7 +11,7 @@
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 struct YokeGeometry {
   double radius = 0.120;                                 // [m] rho, centre to tip
@@ -32,36 +32,36 @@ struct JointTorques {
 // Tip of the yoke, exact: eq (2) with the corrected y component. [m]
 glm::dvec3 tip_position(const YokeGeometry& yoke, JointAngles q) noexcept;
 
-// Tip of the yoke for small angles, eq (3). [m] Kept to show its error: 3.1 mm per component at 20 deg.
+// Tip of the yoke for small angles, eq (3). [m] Only used to show its error: 3.1 mm per component at 20 deg.
 glm::dvec3 tip_position_small_angle(const YokeGeometry& yoke, JointAngles q) noexcept;
 
 // Inverse of tip_position for any point on the upper half sphere. [rad]
 JointAngles joint_angles(glm::dvec3 tip) noexcept;
 
-// The gate lies in the plane (px, py): the tip above a plane point, and the angles that put it there.
-// |plane| < radius. [m], [rad]
+// The gate lies in the plane (px, py), onto which the tip is projected. [m]; and the angles for a plane point with
+// |plane| < radius. [rad]
 glm::dvec2 plane_position(const YokeGeometry& yoke, JointAngles q) noexcept;
 JointAngles joint_angles_from_plane(const YokeGeometry& yoke, glm::dvec2 plane) noexcept;
 
-// How far the tip reaches in the gate plane along each axis, the other joint upright: rho sin(limit). [m]
-// Not a rectangle: a point off both axes takes more of both angles, atan2(px, pz) and atan2(-py, pz), pz the
-// tip's height.
+// Reach of the tip in the gate plane along each axis with the other joint upright: rho sin(limit). [m]
+// The workspace is not a rectangle: a point off both axes needs larger angles, atan2(px, pz) and atan2(-py, pz) with
+// the tip's height pz.
 glm::dvec2 workspace_half_extent(const YokeGeometry& yoke) noexcept;
 
-// The plant's coordinates: arc lengths (rho theta, -rho phi), one axis each. [m]
+// The plant's coordinates: the arc lengths (rho theta, -rho phi), one per axis. [m]
 glm::dvec2 arc_position(const YokeGeometry& yoke, JointAngles q) noexcept;
 
 // Force at the tip, tangential to the sphere, from the joint torques: eq (5), corrected. [N]
 glm::dvec3 tip_force(const YokeGeometry& yoke, JointAngles q, JointTorques torque) noexcept;
 
-// The way back, tau = J^T f: joint torques that balance a force at the tip. [N m]
+// The inverse, tau = J^T f: joint torques equivalent to a force at the tip. [N m]
 JointTorques joint_torques(const YokeGeometry& yoke, JointAngles q, glm::dvec3 force) noexcept;
 
 // Small-angle force map, eq (6). [N]
 glm::dvec2 tip_force_small_angle(const YokeGeometry& yoke, JointTorques torque) noexcept;
 
-// The same pair for generalised forces in the gate plane (fz = 0), so that work is f . d(px, py). [N], [N m]
+// The same two maps for generalised forces in the gate plane (fz = 0), whose work is f . d(px, py). [N], [N m]
 glm::dvec2 plane_force(const YokeGeometry& yoke, JointAngles q, JointTorques torque) noexcept;
 JointTorques joint_torques_from_plane(const YokeGeometry& yoke, JointAngles q, glm::dvec2 force) noexcept;
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

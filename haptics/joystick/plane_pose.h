@@ -1,10 +1,10 @@
-// One pose of the yoke by its tangents, and the maps between gate plane and arcs there.
+// A pose of the yoke given by the tangents of its angles, and the maps between gate plane and arcs at that pose.
 //
-// A cycle goes through these maps several times, so the tangents are taken once and the rest is inline.
-// They are the maps of kinematics.h for arc lengths (rho theta, -rho phi) instead of angles: rho drops out.
+// Each cycle uses these maps several times, so the tangents are computed once and the rest is inline. The maps are
+// those of kinematics.h with arc lengths (rho theta, -rho phi) instead of angles, which eliminates rho.
 //
-// With a = tan(theta), b = tan(phi), n = sqrt(1 + a^2 + b^2), A = 1 + a^2, B = 1 + b^2 the tip is
-// rho (a, -b, 1) / n, and since rho da = A d(arc x), rho db = -B d(arc y),
+// With a = tan(theta), b = tan(phi), n = sqrt(1 + a^2 + b^2), A = 1 + a^2 and B = 1 + b^2 the tip is
+// rho (a, -b, 1) / n. Since rho da = A d(arc x) and rho db = -B d(arc y),
 //
 //     J = d plane / d arc = 1/n^3 [ A B   a b B ]        J^-1 = n [ 1        -a b / A ]
 //                                 [ a b A  A B  ]                 [ -a b / B  1       ]
@@ -14,7 +14,7 @@
 
 #include <glm/vec2.hpp>
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 struct PlanePose {
   double a = 0.0;  // tan(theta)
@@ -26,7 +26,7 @@ inline PlanePose plane_pose(double tan_theta, double tan_phi) noexcept {
   return {tan_theta, tan_phi, std::sqrt(1.0 + tan_theta * tan_theta + tan_phi * tan_phi)};
 }
 
-// Tip in the gate plane of a yoke with this radius. [m]
+// Tip in the gate plane for a yoke of this radius. [m]
 inline glm::dvec2 plane_position(const PlanePose& pose, double radius) noexcept {
   const double scale = radius / pose.n;
   return {scale * pose.a, -scale * pose.b};
@@ -56,4 +56,4 @@ inline glm::dvec2 plane_force(const PlanePose& pose, glm::dvec2 arc) noexcept {
   return {pose.n * (arc.x - ab / b1 * arc.y), pose.n * (arc.y - ab / a1 * arc.x)};
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -3,19 +3,19 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
-// x'' + 2 a x' + w2 x = f/m. With S(t) the velocity-to-position response (S(0) = 0, S'(0) = 1) and I its
-// integral, everything else follows: x(t) = (1 - w2 I) x0 + S v0 + I f/m, v(t) = -w2 S x0 + S' v0 + S f/m.
+// x'' + 2 a x' + w2 x = f/m. With S(t) the velocity-to-position response (S(0) = 0, S'(0) = 1) and I its integral:
+// x(t) = (1 - w2 I) x0 + S v0 + I f/m, v(t) = -w2 S x0 + S' v0 + S f/m.
 struct Modes {
   double a;     // [1/s] half of damping over mass
   double w2;    // [1/s^2] stiffness over mass
-  double disc;  // [1/s^2] a^2 - w2: over-damped above 0, under-damped below
+  double disc;  // [1/s^2] a^2 - w2: positive if over-damped, negative if under-damped
 };
 
 struct Response {
-  double free;   // 1 - w2 I: position kept
+  double free;   // 1 - w2 I: initial position's contribution
   double s;      // [s] S
   double slope;  // S'
   double i;      // [s^2] I
@@ -26,8 +26,8 @@ Modes modes(const AxisModel& axis) noexcept {
   return {a, w2, a * a - w2};
 }
 
-// Short times: I as its power series, from I'' + 2 a I' + w2 I = 1. The closed form below divides differences
-// of nearly equal numbers here (and 0/0 for a free mass); the series does not, for any damping.
+// For short times I is computed as its power series, from I'' + 2 a I' + w2 I = 1. There the closed form below divides
+// differences of nearly equal numbers (0/0 for a free mass); the series does not, at any damping.
 Response short_response(const Modes& mode, double t) noexcept {
   double before = 0.0, term = 0.5 * t * t;  // c_n t^n for n = 1 and 2
   double i = term, s_t = 2.0 * term;        // I, and t S = t I'
@@ -47,15 +47,16 @@ double integral_of_exp(double p, double t) noexcept {
   return p == 0.0 ? t : std::expm1(p * t) / p;
 }
 
-// disc >= 0: two real poles p1 >= p2. p1 = -(a - r) would cancel for a soft spring; p1 p2 = w2 does not.
+// disc >= 0: two real poles p1 >= p2. Computing p1 = -(a - r) would cancel for a soft spring; p1 = w2 / p2 does not.
 Response over_damped(const Modes& mode, double t) noexcept {
   const double r = std::sqrt(mode.disc);
   const double p1 = -mode.w2 / (mode.a + r), p2 = -(mode.a + r);
   const double e1 = std::exp(p1 * t), e2 = std::exp(p2 * t);
   const double s = r > 0.0 ? e1 * -std::expm1(-2.0 * r * t) / (2.0 * r) : t * e1;
   const double free = e1 - p1 * s;
-  const bool apart = r * t >= 0.5;  // else (E1 - E2) cancels, while 1 - free does not
-  const double i = apart ? (integral_of_exp(p1, t) - integral_of_exp(p2, t)) / (2.0 * r) : (1.0 - free) / mode.w2;
+  const bool is_separated = r * t >= 0.5;  // otherwise the difference of the integrals cancels; 1 - free does not
+  const double i =
+      is_separated ? (integral_of_exp(p1, t) - integral_of_exp(p2, t)) / (2.0 * r) : (1.0 - free) / mode.w2;
   return {free, s, e2 + p1 * s, i};
 }
 
@@ -75,8 +76,8 @@ double sign(double x) noexcept {
   return x < 0.0 ? -1.0 : 1.0;
 }
 
-// Time until a motion with this speed [m/s] and inertial force along it [N] comes to its next zero of the
-// velocity [s], infinite if never. With C, S the (hyperbolic) cosine and sine of the mode:
+// Time until the next zero of the velocity [s], infinite if there is none, for a motion with this speed [m/s] and
+// inertial force along it [N]. With C, S the (hyperbolic) cosine and sine of the mode:
 //     v(t) = exp(-a t) (v0 C + g S), g = v'(0) + a v0
 double time_of_reversal(const AxisModel& axis, double speed, double inertial) noexcept {
   const Modes mode = modes(axis);
@@ -85,20 +86,20 @@ double time_of_reversal(const AxisModel& axis, double speed, double inertial) no
     const double w = std::sqrt(-mode.disc);
     return std::atan2(w * speed, -g) / w;
   }
-  if (g >= 0.0) return HUGE_VAL;  // it creeps to its rest without turning back
+  if (g >= 0.0) return HUGE_VAL;  // creeps to rest without reversing
   const double r = std::sqrt(mode.disc), ratio = -r * speed / g;
   if (ratio >= 1.0) return HUGE_VAL;
   return r > 0.0 ? std::atanh(ratio) / r : -speed / g;
 }
 
-// Time in [0, end] at which a motion that is monotone up to `end` reaches `place` [s].
-// Newton's steps, halving the bracket where they leave it.
-double time_at(const AxisModel& axis, AxisState start, double force, double end, double place) noexcept {
-  const double along = sign(place - start.position);
+// Time in [0, end] at which a motion that is monotone up to `end` reaches `position` [s].
+// Newton steps, with bisection when one leaves the bracket.
+double time_at(const AxisModel& axis, AxisState start, double force, double end, double position) noexcept {
+  const double along = sign(position - start.position);
   double low = 0.0, high = end, t = end;
   for (int i = 0; i < 64; ++i) {
     const AxisState now = advance(axis, start, force, t);
-    const double beyond = along * (now.position - place);
+    const double beyond = along * (now.position - position);
     if (beyond == 0.0) break;
     (beyond > 0.0 ? high : low) = t;
     const double newton = t - beyond / (along * now.velocity);
@@ -129,9 +130,9 @@ AxisState advance(const AxisModel& axis, AxisState state, double force, double t
 double inertial_force(const AxisModel& axis, const AxisLimits& limits, AxisState state, double force) noexcept {
   const double net = force - axis.damping * state.velocity - axis.stiffness * state.position;
   if (state.velocity != 0.0) return net - sign(state.velocity) * limits.coulomb_friction;
-  const bool stuck = std::abs(net) <= limits.coulomb_friction;
-  const bool held_by_stop = std::abs(state.position) >= limits.stop && net * state.position > 0.0;
-  return stuck || held_by_stop ? 0.0 : net - sign(net) * limits.coulomb_friction;
+  const bool is_stuck = std::abs(net) <= limits.coulomb_friction;
+  const bool is_held_by_stop = std::abs(state.position) >= limits.stop && net * state.position > 0.0;
+  return is_stuck || is_held_by_stop ? 0.0 : net - sign(net) * limits.coulomb_friction;
 }
 
 AxisState advance_limited(const AxisModel& axis, const AxisLimits& limits, AxisState state, double force,
@@ -141,7 +142,7 @@ AxisState advance_limited(const AxisModel& axis, const AxisLimits& limits, AxisS
     if (at_stop) state.position = std::copysign(limits.stop, state.position);
     if (at_stop && state.velocity * state.position > 0.0) state.velocity = 0.0;
 
-    // Between two events friction is a constant force, so the motion is exact.
+    // Friction is a constant force between two events, so each segment is exact.
     const double start = inertial_force(axis, limits, state, force);
     if (state.velocity == 0.0 && start == 0.0) return state;
     const double along = sign(state.velocity != 0.0 ? state.velocity : start);
@@ -163,4 +164,4 @@ AxisState advance_limited(const AxisModel& axis, const AxisLimits& limits, AxisS
   return {state.position, 0.0};
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -1,14 +1,14 @@
-// One axis of the joystick as the paper models it, stepped exactly.
+// One axis of the joystick as modelled in the paper, stepped exactly.
 //
 // This work is based on:
 // Wei-Ching Lin, Kuu-Young Young. Design of Force-Reflection Joystick System for VR-Based Simulation.
-// Eqs (8), (11), (12): m x'' + b x' + k x = f. The force is held over a step, so the solution is a matrix
+// Eqs (8), (11), (12): m x'' + b x' + k x = f. The force is constant over a step, so the solution is a matrix
 // exponential in closed form: exact at any rate.
 #pragma once
 
 #include <limits>
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 struct AxisModel {
   double mass = 0.0;       // [kg]
@@ -24,10 +24,10 @@ struct AxisState {
   double velocity = 0.0;  // [m/s]
 };
 
-// State after `time` [s] under a constant force [N]; over-, under- and critically damped. time >= 0.
+// State after `time` >= 0 [s] under a constant force [N], for over-, under- and critically damped axes.
 AxisState advance(const AxisModel& axis, AxisState state, double force, double time) noexcept;
 
-// The same solution with its coefficients computed once for one step length.
+// The same solution with the coefficients precomputed for one step length.
 class AxisStepper {
  public:
   AxisStepper(const AxisModel& axis, double period) noexcept;  // mass > 0, period [s] >= 0
@@ -46,14 +46,14 @@ struct AxisLimits {
   double coulomb_friction = 0.0;                          // [N] dry friction, 0 = none
 };
 
-// advance() with dry friction (sticks where the force cannot overcome it) and inelastic hard stops. The times
-// of reversal and of impact inside the step are located, so the result does not depend on the step length.
-// After kMaxAxisEvents of them in one step the axis is put to rest: that can only take energy out.
+// advance() with dry friction (the axis sticks if the force cannot overcome it) and inelastic hard stops. Reversals and
+// impacts inside the step are located, so the result does not depend on the step length. After kMaxAxisEvents of them
+// in one step the axis is set at rest, which can only remove energy.
 inline constexpr int kMaxAxisEvents = 64;
 AxisState advance_limited(const AxisModel& axis, const AxisLimits& limits, AxisState state, double force,
                           double time) noexcept;
 
-// Mass times acceleration of that axis now [N]: 0 where friction or a stop holds it at rest.
+// Mass times the axis's present acceleration [N]: 0 if friction or a stop holds it at rest.
 double inertial_force(const AxisModel& axis, const AxisLimits& limits, AxisState state, double force) noexcept;
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -1,6 +1,6 @@
 // This work is based on:
 // P. Ratanaworabhan, J. Ke, M. Burtscher. Fast Lossless Compression of Scientific Floating-Point Data. 2006
-// (a guess, an XOR, and only the bytes that are left)
+// (predict, XOR, and store only the bytes that remain)
 #include "haptics/loop/block_codec.h"
 
 #include <algorithm>
@@ -13,7 +13,7 @@
 #include <stdexcept>
 #include <string_view>
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
 using Word = std::uint64_t;
@@ -37,65 +37,66 @@ constexpr bool find_field(const T& value, std::string_view path, std::size_t& at
   return found;
 }
 
-// [bytes] from the start of an encoded sample. A name that is none does not compile.
-consteval std::size_t place_of(std::string_view path) {
+// Offset [bytes] of a field in an encoded sample. An unknown name does not compile.
+consteval std::size_t resolve_path(std::string_view path) {
   std::size_t at = 0;
   if (!find_field(TraceSample{}, path, at)) throw std::invalid_argument("no field of that name");
   return at;
 }
 
-enum class Law {
-  steps,       // as far from the sample before as that was from its own
-  as_before,   // another field of the sample before
-  same,        // another field, further up
-  opposite,    // of that sign
-  difference,  // of two
-  sum          // of three
+enum class Rule {
+  extrapolated,  // linear extrapolation from the two previous samples
+  previous,      // another field of the previous sample
+  same,          // another field of this sample
+  negated,       // another field of this sample, negated
+  difference,    // difference of two fields of this sample
+  sum            // sum of three fields of this sample
 };
 
-// What a word of eight bytes is expected to be. All others: as in the sample before.
+// Prediction of one 8-byte word. All other bytes are predicted by the previous sample.
 struct Guess {
-  Law law = Law::same;
+  Rule rule = Rule::same;
   std::size_t at = 0;
   std::size_t from = 0, and_from = 0, and_also = 0;
 };
 
-// In the order of the sample; each looks at nothing of its own sample that stands behind it.
+// In sample order; each refers only to fields of its own sample that come before it.
 constexpr std::array kGuesses = {
-    Guess{Law::steps, place_of("deadline_ns")},
-    Guess{Law::steps, place_of("reading.sequence")},
-    Guess{Law::steps, place_of("reading.time_ns")},
-    Guess{Law::as_before, place_of("reading.actuator_force.x"), place_of("out.commanded.x")},
-    Guess{Law::as_before, place_of("reading.actuator_force.y"), place_of("out.commanded.y")},
-    Guess{Law::steps, place_of("out.cycle")},
-    Guess{Law::same, place_of("out.time_ns"), place_of("deadline_ns")},
-    Guess{Law::same, place_of("out.lever.x"), place_of("reading.position.x")},
-    Guess{Law::same, place_of("out.lever.y"), place_of("reading.position.y")},
-    Guess{Law::sum, place_of("out.commanded.x"), place_of("out.wall_force.x"), place_of("out.feel_force.x"),
-          place_of("out.world_force.x")},
-    Guess{Law::sum, place_of("out.commanded.y"), place_of("out.wall_force.y"), place_of("out.feel_force.y"),
-          place_of("out.world_force.y")},
-    Guess{Law::same, place_of("out.f_h.x"), place_of("reading.hand_force.x")},
-    Guess{Law::same, place_of("out.f_h.y"), place_of("reading.hand_force.y")},
-    Guess{Law::opposite, place_of("out.f_a.x"), place_of("reading.actuator_force.x")},
-    Guess{Law::opposite, place_of("out.f_a.y"), place_of("reading.actuator_force.y")},
-    Guess{Law::difference, place_of("out.f_j.x"), place_of("out.f_h.x"), place_of("out.f_a.x")},
-    Guess{Law::difference, place_of("out.f_j.y"), place_of("out.f_h.y"), place_of("out.f_a.y")},
+    Guess{Rule::extrapolated, resolve_path("deadline_ns")},
+    Guess{Rule::extrapolated, resolve_path("reading.sequence")},
+    Guess{Rule::extrapolated, resolve_path("reading.time_ns")},
+    Guess{Rule::previous, resolve_path("reading.actuator_force.x"), resolve_path("out.commanded.x")},
+    Guess{Rule::previous, resolve_path("reading.actuator_force.y"), resolve_path("out.commanded.y")},
+    Guess{Rule::extrapolated, resolve_path("out.cycle")},
+    Guess{Rule::same, resolve_path("out.time_ns"), resolve_path("deadline_ns")},
+    Guess{Rule::same, resolve_path("out.lever.x"), resolve_path("reading.position.x")},
+    Guess{Rule::same, resolve_path("out.lever.y"), resolve_path("reading.position.y")},
+    Guess{Rule::sum, resolve_path("out.commanded.x"), resolve_path("out.wall_force.x"),
+          resolve_path("out.feel_force.x"), resolve_path("out.world_force.x")},
+    Guess{Rule::sum, resolve_path("out.commanded.y"), resolve_path("out.wall_force.y"),
+          resolve_path("out.feel_force.y"), resolve_path("out.world_force.y")},
+    Guess{Rule::same, resolve_path("out.f_h.x"), resolve_path("reading.hand_force.x")},
+    Guess{Rule::same, resolve_path("out.f_h.y"), resolve_path("reading.hand_force.y")},
+    Guess{Rule::negated, resolve_path("out.f_a.x"), resolve_path("reading.actuator_force.x")},
+    Guess{Rule::negated, resolve_path("out.f_a.y"), resolve_path("reading.actuator_force.y")},
+    Guess{Rule::difference, resolve_path("out.f_j.x"), resolve_path("out.f_h.x"), resolve_path("out.f_a.x")},
+    Guess{Rule::difference, resolve_path("out.f_j.y"), resolve_path("out.f_h.y"), resolve_path("out.f_a.y")},
 };
 
-constexpr bool looks_back(const Guess& guess) {
-  const bool uses_none = guess.law == Law::steps || guess.law == Law::as_before;  // of its own sample
+constexpr bool refers_to_known(const Guess& guess) {
+  const bool uses_none =
+      guess.rule == Rule::extrapolated || guess.rule == Rule::previous;  // uses no field of its own sample
   const std::size_t last = std::max({guess.from, guess.and_from, guess.and_also});
   return uses_none || last + sizeof(Word) <= guess.at;
 }
 constexpr bool in_order(const Guess& a, const Guess& b) {
   return a.at + sizeof(Word) <= b.at;
 }
-static_assert(std::all_of(kGuesses.begin(), kGuesses.end(), looks_back));
+static_assert(std::all_of(kGuesses.begin(), kGuesses.end(), refers_to_known));
 static_assert(std::is_sorted(kGuesses.begin(), kGuesses.end(), [](auto& a, auto& b) { return in_order(a, b); }));
 
 constexpr Word kSign = Word{1} << 63;
-constexpr EncodedSample kNothing{};
+constexpr EncodedSample kZeroSample{};
 
 Word word_at(const std::byte* sample, std::size_t at) noexcept {
   Word word = 0;
@@ -107,60 +108,60 @@ double number_at(const std::byte* sample, std::size_t at) noexcept {
   return std::bit_cast<double>(word_at(sample, at));
 }
 
-// Machines do not agree on the bits of what is no number.
+// Processors differ in the bits of NaN and infinity results, so those are predicted as 0.
 Word bits_of(double sum) noexcept {
   return std::isfinite(sum) ? std::bit_cast<Word>(sum) : 0;
 }
 
-// The sample's neighbours and itself, as far as it is known.
-struct Seen {
-  const std::byte* older = kNothing.data();
-  const std::byte* before = kNothing.data();
+// The two previous samples, and the current one as far as it is decoded.
+struct SampleContext {
+  const std::byte* older = kZeroSample.data();
+  const std::byte* before = kZeroSample.data();
   const std::byte* now = nullptr;
 };
 
-Word expected(const Guess& guess, const Seen& seen) noexcept {
-  switch (guess.law) {
-    case Law::steps:
-      return 2 * word_at(seen.before, guess.at) - word_at(seen.older, guess.at);
-    case Law::as_before:
-      return word_at(seen.before, guess.from);
-    case Law::same:
-      return word_at(seen.now, guess.from);
-    case Law::opposite:
-      return word_at(seen.now, guess.from) ^ kSign;
-    case Law::difference:
-      return bits_of(number_at(seen.now, guess.from) - number_at(seen.now, guess.and_from));
-    case Law::sum:
-      return bits_of(number_at(seen.now, guess.from) + number_at(seen.now, guess.and_from) +
-                     number_at(seen.now, guess.and_also));
+Word expected(const Guess& guess, const SampleContext& context) noexcept {
+  switch (guess.rule) {
+    case Rule::extrapolated:
+      return 2 * word_at(context.before, guess.at) - word_at(context.older, guess.at);
+    case Rule::previous:
+      return word_at(context.before, guess.from);
+    case Rule::same:
+      return word_at(context.now, guess.from);
+    case Rule::negated:
+      return word_at(context.now, guess.from) ^ kSign;
+    case Rule::difference:
+      return bits_of(number_at(context.now, guess.from) - number_at(context.now, guess.and_from));
+    case Rule::sum:
+      return bits_of(number_at(context.now, guess.from) + number_at(context.now, guess.and_from) +
+                     number_at(context.now, guess.and_also));
   }
   return 0;
 }
 
-// Sample to what is unexpected of it, and back: `seen.now` is the sample, either way. No guess looks at what is not
-// known yet.
-void exchange(const Seen& seen, const std::byte* from, std::byte* to) noexcept {
+// XORs a sample with its prediction; encoding and decoding are the same operation. In both directions `context.now` is
+// the plain sample, and no prediction reads a part of it that is not decoded yet.
+void apply_guesses(const SampleContext& context, const std::byte* from, std::byte* to) noexcept {
   std::size_t at = 0;
-  const auto as_before = [&](std::size_t end) {
-    for (; at < end; ++at) to[at] = from[at] ^ seen.before[at];
+  const auto previous = [&](std::size_t end) {
+    for (; at < end; ++at) to[at] = from[at] ^ context.before[at];
   };
   for (const Guess& guess : kGuesses) {
-    as_before(guess.at);
-    const Word word = word_at(from, at) ^ expected(guess, seen);
+    previous(guess.at);
+    const Word word = word_at(from, at) ^ expected(guess, context);
     std::memcpy(to + at, &word, sizeof word);
     at += sizeof word;
   }
-  as_before(kSampleBytes);
+  previous(kSampleBytes);
 }
 
-// Both neighbours of the sample that comes next.
-void go_on(Seen& seen, const std::byte* sample) noexcept {
-  seen.older = seen.before == kNothing.data() ? sample : seen.before;
-  seen.before = sample;
+// Makes `sample` the previous sample of the next one.
+void advance_to(SampleContext& context, const std::byte* sample) noexcept {
+  context.older = context.before == kZeroSample.data() ? sample : context.before;
+  context.before = sample;
 }
 
-constexpr std::size_t kLeastRun = 3;  // [zeros] a run costs two numbers
+constexpr std::size_t kMinRun = 3;  // [zeros] because a run costs two numbers
 
 std::size_t zeros_at(std::span<const std::byte> bytes) noexcept {
   std::size_t zeros = 0;
@@ -168,12 +169,12 @@ std::size_t zeros_at(std::span<const std::byte> bytes) noexcept {
   return zeros;
 }
 
-// Up to the next run of zeros, or the zeros that end it all.
+// Number of bytes before the next run of zeros, or before the trailing zeros.
 std::size_t others_at(std::span<const std::byte> bytes) noexcept {
   std::size_t others = 0;
   while (others < bytes.size()) {
     const std::size_t zeros = zeros_at(bytes.subspan(others));
-    if (zeros >= kLeastRun || others + zeros == bytes.size()) break;
+    if (zeros >= kMinRun || others + zeros == bytes.size()) break;
     others += zeros + 1;
   }
   return others;
@@ -197,8 +198,8 @@ void put_runs(std::span<const std::byte> planes, std::vector<std::byte>& coded) 
   }
 }
 
-// Nothing where the bytes end within it, or where it is larger than any block.
-std::optional<std::size_t> take_number(std::span<const std::byte>& bytes) noexcept {
+// Empty if the number is cut off or larger than any block.
+std::optional<std::size_t> read_number(std::span<const std::byte>& bytes) noexcept {
   std::size_t number = 0;
   for (unsigned shift = 0; shift < 21 && !bytes.empty(); shift += 7) {
     const auto group = std::to_integer<std::size_t>(bytes[0]);
@@ -209,13 +210,13 @@ std::optional<std::size_t> take_number(std::span<const std::byte>& bytes) noexce
   return std::nullopt;
 }
 
-bool take_runs(std::span<const std::byte> coded, std::span<std::byte> planes) noexcept {
+bool read_runs(std::span<const std::byte> coded, std::span<std::byte> planes) noexcept {
   while (!planes.empty()) {
-    const std::optional<std::size_t> zeros = take_number(coded);
+    const std::optional<std::size_t> zeros = read_number(coded);
     if (!zeros || *zeros > planes.size()) return false;
     std::fill_n(planes.begin(), *zeros, std::byte{0});
     planes = planes.subspan(*zeros);
-    const std::optional<std::size_t> others = take_number(coded);
+    const std::optional<std::size_t> others = read_number(coded);
     if (!others || *others > planes.size() || *others > coded.size()) return false;
     std::copy_n(coded.begin(), *others, planes.begin());
     planes = planes.subspan(*others);
@@ -230,12 +231,12 @@ BlockCodec::BlockCodec() : planes_(kSamplesPerBlock * kSampleBytes) {}
 
 void BlockCodec::encode(std::span<const std::byte> samples, std::vector<std::byte>& coded) {
   const std::size_t count = samples.size() / kSampleBytes;
-  Seen seen;
+  SampleContext context;
   for (std::size_t i = 0; i < count; ++i) {
     EncodedSample rest;
-    seen.now = samples.data() + i * kSampleBytes;
-    exchange(seen, seen.now, rest.data());
-    go_on(seen, seen.now);
+    context.now = samples.data() + i * kSampleBytes;
+    apply_guesses(context, context.now, rest.data());
+    advance_to(context, context.now);
     for (std::size_t plane = 0; plane < kSampleBytes; ++plane) planes_[plane * count + i] = rest[plane];
   }
   put_runs(std::span(planes_).first(count * kSampleBytes), coded);
@@ -244,17 +245,17 @@ void BlockCodec::encode(std::span<const std::byte> samples, std::vector<std::byt
 bool BlockCodec::decode(std::span<const std::byte> coded, std::size_t count, std::vector<std::byte>& samples) {
   if (count == 0 || count > kSamplesPerBlock) return false;
   samples.resize(count * kSampleBytes);
-  if (!take_runs(coded, std::span(planes_).first(samples.size()))) return false;
-  Seen seen;
+  if (!read_runs(coded, std::span(planes_).first(samples.size()))) return false;
+  SampleContext context;
   for (std::size_t i = 0; i < count; ++i) {
     EncodedSample rest;
     for (std::size_t plane = 0; plane < kSampleBytes; ++plane) rest[plane] = planes_[plane * count + i];
     std::byte* const sample = samples.data() + i * kSampleBytes;
-    seen.now = sample;
-    exchange(seen, rest.data(), sample);
-    go_on(seen, sample);
+    context.now = sample;
+    apply_guesses(context, rest.data(), sample);
+    advance_to(context, sample);
   }
   return true;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

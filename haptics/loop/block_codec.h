@@ -1,10 +1,12 @@
-// Samples of a trace in a fifth of their room, to the bit. A block is coded by itself: those before it may be lost.
+// Lossless compression of trace samples to about a fifth of their size. Each block is coded independently, so that it
+// can be read even if earlier blocks are lost.
 //
-//   guess   a sample is XORed with what is expected of it: the sample before, and where a field follows from others
-//           (f_j = f_h - f_a, the cycle counts on) what follows; a good guess leaves zeros, at least in the high bytes
-//   planes  byte 0 of all samples, then byte 1 of all, and so on: zeros come to stand beside zeros
-//   runs    how many zeros, how many other bytes, those bytes; again, until the planes are full. Both numbers in groups
-//           of seven bits, the low ones first, the top bit set in all groups but the last
+//   guess   XOR each sample with a prediction: the previous sample, or for fields that follow from others
+//           (f_j = f_h - f_a, the cycle counter) the derived value; a good prediction leaves zeros, at least in the
+//           high bytes
+//   planes  byte 0 of all samples, then byte 1 of all, and so on: this groups the zeros
+//   runs    number of zeros, number of other bytes, those bytes; repeated until the planes are full. Both numbers are
+//           in groups of seven bits, low group first, with the top bit set in all groups but the last
 #pragma once
 
 #include <cstddef>
@@ -13,25 +15,25 @@
 
 #include "haptics/loop/trace_format.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
-// [bytes] of any block: noise does not shrink, and hardly grows, as fewer than three zeros are no run.
-inline constexpr std::size_t kMostCodedBytes = kSamplesPerBlock * kSampleBytes + 16;
+// [bytes] upper bound for any block. Noise hardly grows, because fewer than three zeros do not count as a run.
+inline constexpr std::size_t kMaxCodedBytes = kSamplesPerBlock * kSampleBytes + 16;
 
 class BlockCodec {
  public:
   BlockCodec();
 
-  // samples: 1 to kSamplesPerBlock, encoded one after another. Replaces `coded`, without allocation where that has
-  // room for kMostCodedBytes.
+  // samples: 1 to kSamplesPerBlock encoded samples, concatenated. Replaces `coded`; allocates nothing if `coded` has
+  // capacity for kMaxCodedBytes.
   void encode(std::span<const std::byte> samples, std::vector<std::byte>& coded);
 
-  // Replaces `samples` by `count` of them. False where that is not 1 to kSamplesPerBlock, or where `coded` holds
-  // anything else: less, more, or no runs at all. What the samples' fields hold is for who reads them to judge.
+  // Replaces `samples` by `count` decoded samples. False if `count` is not 1 to kSamplesPerBlock, or `coded` does not
+  // hold exactly that many. The values of the fields are not checked.
   bool decode(std::span<const std::byte> coded, std::size_t count, std::vector<std::byte>& samples);
 
  private:
   std::vector<std::byte> planes_;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -5,13 +5,13 @@
 
 #include <array>
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
 constexpr std::size_t kSlices = 8;  // bytes taken per step
 using CrcTables = std::array<std::array<std::uint32_t, 256>, kSlices>;
 
-// table[0]: the CRC of one byte. table[n]: of that byte followed by n zero bytes.
+// table[0] is the CRC of one byte, table[n] the CRC of that byte followed by n zero bytes.
 constexpr CrcTables make_crc_tables() {
   CrcTables table{};
   for (std::uint32_t byte = 0; byte < 256; ++byte) {
@@ -27,7 +27,7 @@ constexpr CrcTables make_crc_tables() {
 
 constexpr CrcTables kCrc = make_crc_tables();
 
-// Little-endian, at most eight bytes.
+// Reads at most eight bytes as a little-endian number.
 std::uint64_t load(std::span<const std::byte> bytes) noexcept {
   std::uint64_t word = 0;
   for (std::size_t i = 0; i < bytes.size(); ++i) word |= static_cast<std::uint64_t>(bytes[i]) << (8 * i);
@@ -47,19 +47,19 @@ std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t so_far) noex
   return ~crc;
 }
 
-// Every step can be undone, so two words that differ give two states that differ. Two products, not one:
-// after one, a flipped top bit is still only a bit or two, which a later word can flip back.
+// Every step is invertible, so two different words give two different states. Two multiplications are needed: after
+// one, a flipped top bit still changes only a bit or two, which a later word could flip back.
 void RunHash::mix(std::uint64_t word) noexcept {
   state_ = (state_ ^ word) * 0xBF58476D1CE4E5B9;
   state_ = (state_ ^ (state_ >> 32)) * 0x94D049BB133111EB;
   state_ ^= state_ >> 29;
 }
 
-// The length goes in as well: bytes cannot move from one call to the next unnoticed.
+// The length is hashed too, so that moving bytes from one call to the next changes the hash.
 void RunHash::add(std::span<const std::byte> bytes) noexcept {
   mix(bytes.size());
   for (; bytes.size() >= 8; bytes = bytes.subspan(8)) mix(load(bytes.first<8>()));
   if (!bytes.empty()) mix(load(bytes));
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

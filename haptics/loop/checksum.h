@@ -1,16 +1,16 @@
-// Two small checks of bytes: did the disk keep them, and did the run give the same again.
+// A CRC against disk errors, and a hash that compares the results of two runs.
 #pragma once
 
 #include <cstddef>
 #include <cstdint>
 #include <span>
 
-namespace gearshift {
+namespace gearshift::haptics {
 
-// CRC-32 of IEEE 802.3 (reflected polynomial 0xEDB88320), as in zip and PNG. `so_far`: of the bytes before.
+// CRC-32 of IEEE 802.3 (reflected polynomial 0xEDB88320), as in zip and PNG. `so_far`: CRC of the preceding bytes.
 std::uint32_t crc32(std::span<const std::byte> bytes, std::uint32_t so_far = 0) noexcept;
 
-// 64-bit hash of a run, in order. Not against an adversary: against a bit that came out differently.
+// Order-dependent 64-bit hash of a run. It detects single differing bits; it is not cryptographic.
 class RunHash {
  public:
   void add(std::span<const std::byte> bytes) noexcept;
@@ -22,4 +22,4 @@ class RunHash {
   std::uint64_t state_ = 0x6765617273686966;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -1,5 +1,5 @@
-// Fields as bytes: little-endian, doubles by their exact bits (signed zeros, infinities and the payload of a
-// NaN included), bool and enumerations as one byte.
+// Encodes fields as bytes: little-endian, doubles by their exact bits (including signed zeros, infinities and NaN
+// payloads), bool and enumerations as one byte.
 #pragma once
 
 #include <bit>
@@ -12,11 +12,11 @@
 
 #include "haptics/loop/trace_fields.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 static_assert(std::endian::native == std::endian::little, "the trace is written by copying native bytes");
 
-// What a leaf looks like in the file.
+// A leaf field's representation in the file.
 template <LeafField T>
 auto leaf_bits(T value) noexcept {
   if constexpr (std::is_same_v<T, double>)
@@ -41,7 +41,7 @@ constexpr std::size_t encoded_size() {
   return bytes;
 }
 
-// Puts fields one after another into a buffer that is large enough.
+// Writes fields one after another into a buffer, which must be large enough.
 class FieldWriter {
  public:
   explicit FieldWriter(std::byte* to) noexcept : at_(to) {}
@@ -61,7 +61,7 @@ class FieldWriter {
   std::byte* at_;
 };
 
-// Takes fields from bytes. ok() is false once something was missing or outside its enumeration.
+// Reads fields from bytes. ok() becomes false when bytes are missing or a value is outside its enumeration.
 class FieldReader {
  public:
   explicit FieldReader(std::span<const std::byte> from) noexcept : left_(from) {}
@@ -69,12 +69,12 @@ class FieldReader {
   template <class T>
   void take(T& value) noexcept {
     if constexpr (LeafField<T>)
-      take_leaf(value);
+      read_leaf(value);
     else
       each_field(value, [this](const char*, auto& member) { this->take(member); });
   }
 
-  bool take_text(std::string& text) {
+  bool read_text(std::string& text) {
     std::uint32_t size = 0;
     take(size);
     if (!ok_ || size > left_.size()) return ok_ = false;
@@ -88,7 +88,7 @@ class FieldReader {
 
  private:
   template <LeafField T>
-  void take_leaf(T& value) noexcept {
+  void read_leaf(T& value) noexcept {
     decltype(leaf_bits(value)) bits{};
     if (left_.size() < sizeof bits) {
       ok_ = false;
@@ -113,4 +113,4 @@ class FieldReader {
   bool ok_ = true;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -8,22 +8,20 @@
 #include <utility>
 
 #include "haptics/analysis/sampled_loop.h"
-#include "haptics/device/checked.h"
 #include "haptics/device/hand.h"
+#include "haptics/device/range_check.h"
 #include "haptics/files/number_text.h"
 #include "haptics/gate/gate_feel.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
-// What was found by a search over impact phases, hands, quantisation, jitter and plant error: see README.md.
+// Found by a search over impact phases, hands, quantisation, jitter and plant error: see README.md.
 constexpr double kQuiet = 0.35;          // of m / tau^2 and m / tau: half-sample hold
 constexpr double kQuietObserved = 0.58;  // of m / tau^2: with the observer
-constexpr double kObservedTau = 0.0045;  // [s] the longest tau at which the observer pays
-constexpr double kGainMargin = 1.1;      // of the stiffness, against the exact boundary: plant error and jitter
-constexpr double kLeastSlew = 2.0;       // [N/cycle] at 1 a wall's force comes so late that an arm swings by 80 mm
-constexpr const char* kWallStiffness = "wall_stiffness_n_per_m";
-constexpr const char* kWallDamping = "wall_damping_n_s_per_m";
+constexpr double kObservedTau = 0.0045;  // [s] longest tau at which the observer is better
+constexpr double kGainMargin = 1.1;      // of the stiffness, margin to the exact boundary for plant error and jitter
+constexpr double kMinSlew = 2.0;         // [N/cycle] at 1 the wall force rises so slowly that an arm swings by 80 mm
 constexpr const char* kQuietLaw = "quiet half-sample hold: K <= 0.35 m / tau^2, tau = (delay + 1) T";
 constexpr const char* kObservedLaw = "quiet observed hold: K <= 0.58 m / tau^2, tau = (delay + 1) T";
 constexpr const char* kDampingLaw = "quiet half-sample hold: B <= 0.35 m / tau, tau = (delay + 1) T";
@@ -33,24 +31,25 @@ constexpr const char* kObservedDampingLaw = "observed hold: B >= 50 N s/m, or a 
 constexpr const char* kObserverLaw = "spectral radius of the observed loop below 1 at any K";
 constexpr const char* kFeelLaw = "passive proxy: no feel stiffer than the wall that carries the proxy";
 
-// Holds a value to a bound, or in a study only says so. The last law that bound a parameter is the one that is told.
+// Limits a value to a bound, or with allow_unstable only reports it. If several laws limit a parameter, the last is
+// reported.
 struct Limiter {
-  bool study;
-  std::vector<Limited>& limited;
+  bool allow_unstable;
+  std::vector<TuningLimit>& limits;
 
-  void limit(double& value, double most, const char* what, const char* law, std::string_view hand = {}) const {
-    if (value <= most) return;
-    const double used = study ? value : most;
-    const auto same = [&](const Limited& one) { return one.what == what; };
-    const auto before = std::find_if(limited.begin(), limited.end(), same);
-    const double wanted = before == limited.end() ? value : before->wanted;
-    if (before != limited.end()) limited.erase(before);
-    limited.push_back({law, what, wanted, used, most, std::string(hand)});
+  void limit(double& value, double max, TuningParameter parameter, const char* law, std::string_view hand = {}) const {
+    if (value <= max) return;
+    const double used = allow_unstable ? value : max;
+    const auto same = [&](const TuningLimit& one) { return one.parameter == parameter; };
+    const auto before = std::find_if(limits.begin(), limits.end(), same);
+    const double wanted = before == limits.end() ? value : before->wanted;
+    if (before != limits.end()) limits.erase(before);
+    limits.push_back({law, parameter, wanted, used, max, std::string(hand)});
     value = used;
   }
 };
 
-// [kg] and [s] that the quiet laws are made of.
+// Mass m [kg] and lag tau [s] of the quiet laws.
 double lighter_mass(const DeviceSpec& spec) noexcept {
   return std::min(spec.axis_x.mass, spec.axis_y.mass);
 }
@@ -58,8 +57,8 @@ double lag(const HapticConfig& config, const DeviceSpec& spec) noexcept {
   return (spec.delay + 1.0) * period_s(config);
 }
 
-// The observer where the half-sample hold cannot have the wanted stiffness, and delay is what it lacks.
-ContactHold chosen_hold(const HapticConfig& config, const DeviceSpec& spec) noexcept {
+// Selects the observer if the half-sample hold cannot reach the wanted stiffness because of the device's delay.
+ContactHold select_hold(const HapticConfig& config, const DeviceSpec& spec) noexcept {
   if (config.contact.hold != ContactHold::automatic) return config.contact.hold;
   const double tau = lag(config, spec);
   const bool suffices = loop_stiffness(config.tuning, spec) <= kQuiet * lighter_mass(spec) / (tau * tau);
@@ -70,55 +69,57 @@ void limit_to_quiet(const HapticConfig& config, const DeviceSpec& spec, Admitted
                     const Limiter& limiter) {
   HapticTuning& tuning = admitted.tuning;
   const double tau = lag(config, spec), damping = kQuiet * lighter_mass(spec) / tau;
-  limiter.limit(tuning.aisle_damping, damping, "aisle_damping_n_s_per_m", kDampingLaw);
-  limiter.limit(tuning.limit_damping, damping, "limit_damping_n_s_per_m", kDampingLaw);
+  limiter.limit(tuning.aisle_damping, damping, TuningParameter::aisle_damping, kDampingLaw);
+  limiter.limit(tuning.limit_damping, damping, TuningParameter::limit_damping, kDampingLaw);
   const bool observed = admitted.hold == ContactHold::observer;
-  if (!observed) limiter.limit(tuning.wall_damping, damping, kWallDamping, kDampingLaw);
+  if (!observed) limiter.limit(tuning.wall_damping, damping, TuningParameter::wall_damping, kDampingLaw);
   if (admitted.hold == ContactHold::zero_order) return;
   const double stiffness = (observed ? kQuietObserved : kQuiet) * lighter_mass(spec) / (tau * tau);
-  limiter.limit(tuning.wall_stiffness, stiffness, kWallStiffness, observed ? kObservedLaw : kQuietLaw);
+  limiter.limit(tuning.wall_stiffness, stiffness, TuningParameter::wall_stiffness, observed ? kObservedLaw : kQuietLaw);
 }
 
-// Not a limit but what the hold is made of: in a study, too.
+// The hold needs this damping to work, so it is raised even with allow_unstable.
 void raise_observed_damping(AdmittedTuning& admitted) {
   double& damping = admitted.tuning.wall_damping;
-  if (admitted.hold != ContactHold::observer || damping >= kObservedDamping) return;
-  admitted.limited.push_back({kObservedDampingLaw, kWallDamping, damping, kObservedDamping, kObservedDamping, {}});
-  damping = kObservedDamping;
+  if (admitted.hold != ContactHold::observer || damping >= kMinObserverDamping) return;
+  admitted.limits.push_back(
+      {kObservedDampingLaw, TuningParameter::wall_damping, damping, kMinObserverDamping, kMinObserverDamping, {}});
+  damping = kMinObserverDamping;
 }
 
 // Visits every axis with every listed hand.
-void each_lever(const DeviceSpec& spec, const auto& visit) {
+void for_each_lever(const DeviceSpec& spec, const auto& visit) {
   for (const NamedHand& named : kNamedHands)
     for (const AxisModel& axis : {spec.axis_x, spec.axis_y}) visit(axis, named);
 }
 
-bool keeps_walls(const DeviceSpec& spec) noexcept {
-  return own_wall_stiffness(spec) > 0.0 || own_wall_damping(spec) > 0.0;
+bool has_device_walls(const DeviceSpec& spec) noexcept {
+  return usable_wall_stiffness(spec) > 0.0 || usable_wall_damping(spec) > 0.0;
 }
 
-// In a wall: free of the device's own, and held by it. The loop knows of that one no more than of a hand.
-void each_pressed_lever(const DeviceSpec& spec, const auto& visit) {
-  each_lever(spec, visit);
-  if (!keeps_walls(spec)) return;
+// Visits every lever in a wall, with and without the device wall. To the loop the device wall is like part of the hand.
+void for_each_pressed_lever(const DeviceSpec& spec, const auto& visit) {
+  for_each_lever(spec, visit);
+  if (!has_device_walls(spec)) return;
   for (const NamedHand& named : kNamedHands) {
     for (const int i : {0, 1}) {
       NamedHand held = named;
-      held.hand.stiffness += spec.own_stiffness[i];
-      held.hand.damping += spec.own_damping[i];
+      held.hand.stiffness += spec.device_wall_stiffness[i];
+      held.hand.damping += spec.device_wall_damping[i];
       visit(i == 0 ? spec.axis_x : spec.axis_y, held);
     }
   }
 }
 
-// What the loop makes of the wall while it is being admitted: the device's part comes to it at the end.
+// The loop's part of the wall while limits are being applied; the device's part is added at the end.
 ContactLaw loop_law(const HapticConfig& config, const AdmittedTuning& admitted, const DeviceSpec& spec) {
   ContactLaw law = contact_law(config, admitted, spec);
   law.damping = admitted.tuning.wall_damping;
   return law;
 }
 
-// Damping alone, away from the loop's walls. A lever without friction or spring is on the boundary and stays there.
+// Checks damping without the loop's wall stiffness. A lever without friction or spring is exactly on the boundary,
+// which counts as stable.
 bool is_stable_without_wall(const HapticConfig& config, const AdmittedTuning& admitted, const DeviceSpec& spec,
                             double wall_damping) {
   ContactLaw law = loop_law(config, admitted, spec);
@@ -127,7 +128,7 @@ bool is_stable_without_wall(const HapticConfig& config, const AdmittedTuning& ad
   law.damping = wall_damping;
   law.free_damping += admitted.tuning.limit_damping;
   double worst = 0.0;
-  each_pressed_lever(spec, [&](const AxisModel& axis, const NamedHand& named) {
+  for_each_pressed_lever(spec, [&](const AxisModel& axis, const NamedHand& named) {
     worst = std::max(worst, spectral_radius(axis, named.hand, law, period_s(config)));
   });
   return worst < 1.0 + 1e-9;
@@ -142,33 +143,34 @@ void limit_free_damping(const HapticConfig& config, const DeviceSpec& spec, Admi
     trial.tuning.aisle_damping = share * admitted.tuning.aisle_damping;
     trial.tuning.limit_damping = share * admitted.tuning.limit_damping;
   }
-  limiter.limit(admitted.tuning.aisle_damping, trial.tuning.aisle_damping, "aisle_damping_n_s_per_m", kFreeLaw);
-  limiter.limit(admitted.tuning.limit_damping, trial.tuning.limit_damping, "limit_damping_n_s_per_m", kFreeLaw);
+  limiter.limit(admitted.tuning.aisle_damping, trial.tuning.aisle_damping, TuningParameter::aisle_damping, kFreeLaw);
+  limiter.limit(admitted.tuning.limit_damping, trial.tuning.limit_damping, TuningParameter::limit_damping, kFreeLaw);
 }
 
-// A damping that comes late drives a lever which the device's own spring holds, however soft the loop's wall is.
-void limit_damping_beside_own_walls(const HapticConfig& config, const DeviceSpec& spec, AdmittedTuning& admitted,
-                                    const Limiter& limiter) {
-  if (!keeps_walls(spec) || admitted.hold == ContactHold::observer) return;
+// Delayed damping can destabilise a lever held by the device's spring, however soft the loop's wall is.
+void limit_damping_beside_device_walls(const HapticConfig& config, const DeviceSpec& spec, AdmittedTuning& admitted,
+                                       const Limiter& limiter) {
+  if (!has_device_walls(spec) || admitted.hold == ContactHold::observer) return;
   double damping = admitted.tuning.wall_damping;
   while (!is_stable_without_wall(config, admitted, spec, damping) && damping > 1e-3) damping *= 0.5;
-  limiter.limit(admitted.tuning.wall_damping, damping, kWallDamping, kFreeLaw);
+  limiter.limit(admitted.tuning.wall_damping, damping, TuningParameter::wall_damping, kFreeLaw);
 }
 
 struct StableStiffness {
-  double most = std::numeric_limits<double>::infinity();  // [N/m]
-  std::string_view hand;                                  // that decides
+  double max = std::numeric_limits<double>::infinity();  // [N/m]
+  std::string_view hand;                                 // the hand that sets the limit
 };
 
-// That wall, and softer ones down to an eighth.
-bool bears(const AxisModel& axis, const HandImpedance& hand, ContactLaw law, double stiffness, double period) {
+// Checks this stiffness and softer ones, down to an eighth.
+bool is_stable_up_to(const AxisModel& axis, const HandImpedance& hand, ContactLaw law, double stiffness,
+                     double period) {
   for (law.stiffness = stiffness; law.stiffness > stiffness / 8.0; law.stiffness *= 0.8)
     if (spectral_radius(axis, hand, law, period) >= 1.0) return false;
   return true;
 }
 
-// The wanted stiffness first: where every hand bears it, nothing has to be searched. Nor where one bears what another
-// has left of it.
+// Checks the wanted stiffness first: a search is needed only for a hand that is unstable at it and at the limit found
+// so far.
 StableStiffness stable_stiffness(const HapticConfig& config, const AdmittedTuning& admitted, const DeviceSpec& spec) {
   StableStiffness stable;
   ContactLaw law = loop_law(config, admitted, spec);
@@ -176,58 +178,64 @@ StableStiffness stable_stiffness(const HapticConfig& config, const AdmittedTunin
   const double slow = law.free_damping, fast = slow + admitted.tuning.limit_damping;
   for (const double free_damping : {slow, fast}) {
     law.free_damping = free_damping;
-    each_pressed_lever(spec, [&](const AxisModel& axis, const NamedHand& named) {
-      if (stable.most == 0.0 || spectral_radius(axis, named.hand, law, period_s(config)) < 1.0) return;
-      const bool is_searched = stable.most < std::numeric_limits<double>::infinity();
-      if (is_searched && bears(axis, named.hand, law, kGainMargin * stable.most, period_s(config))) return;
-      const double most = stiffness_limit(axis, named.hand, law, period_s(config)) / kGainMargin;
-      if (most < stable.most) stable = {most, named.name};
+    for_each_pressed_lever(spec, [&](const AxisModel& axis, const NamedHand& named) {
+      if (stable.max == 0.0 || spectral_radius(axis, named.hand, law, period_s(config)) < 1.0) return;
+      const bool is_searched = stable.max < std::numeric_limits<double>::infinity();
+      if (is_searched && is_stable_up_to(axis, named.hand, law, kGainMargin * stable.max, period_s(config))) return;
+      const double max = stiffness_limit(axis, named.hand, law, period_s(config)) / kGainMargin;
+      if (max < stable.max) stable = {max, named.name};
     });
   }
   return stable;
 }
 
-// Of a wall that is softer than the device's own it keeps a share.
-DeviceSpec with_kept_walls(DeviceSpec spec, const HapticTuning& wanted) noexcept {
-  const auto share = [](double want, double own) { return own > 0.0 ? std::min(1.0, want / own) : 0.0; };
-  spec.own_stiffness *= share(wanted.wall_stiffness, own_wall_stiffness(spec));
-  spec.own_damping *= share(wanted.wall_damping, own_wall_damping(spec));
+// Scales the device walls down if the wanted wall is softer than they are.
+DeviceSpec scale_device_walls(DeviceSpec spec, const HapticTuning& wanted) noexcept {
+  const auto share = [](double want, double device_part) {
+    return device_part > 0.0 ? std::min(1.0, want / device_part) : 0.0;
+  };
+  spec.device_wall_stiffness *= share(wanted.wall_stiffness, usable_wall_stiffness(spec));
+  spec.device_wall_damping *= share(wanted.wall_damping, usable_wall_damping(spec));
   return spec;
 }
 
-// The whole wall: what the laws admit of the loop, and what the device makes of it. Told of it is what is lacking then.
-void add_own(AdmittedTuning& admitted, double& value, const char* what, double wanted, double own, const char* unit) {
-  if (own == 0.0) return;
-  value = std::min(wanted, value + own);
-  const auto is_it = [&](const Limited& one) { return one.what == what; };
-  const auto told = std::find_if(admitted.limited.begin(), admitted.limited.end(), is_it);
-  if (told == admitted.limited.end()) return;
-  told->wanted = wanted;
-  told->used = value;
-  told->bound += own;
-  told->law += "; and " + number_text(own) + unit + " that the device keeps itself";
-  if (told->bound >= wanted) admitted.limited.erase(told);
+// Adds the device's part to the loop's admitted part, and corrects the reported limit to the whole wall. The limit is
+// dropped if the whole wall reaches the wanted value.
+void add_device_part(AdmittedTuning& admitted, double& value, TuningParameter parameter, double wanted,
+                     double device_part, const char* unit) {
+  if (device_part == 0.0) return;
+  value = std::min(wanted, value + device_part);
+  const auto is_it = [&](const TuningLimit& one) { return one.parameter == parameter; };
+  const auto limit = std::find_if(admitted.limits.begin(), admitted.limits.end(), is_it);
+  if (limit == admitted.limits.end()) return;
+  limit->wanted = wanted;
+  limit->used = value;
+  limit->bound += device_part;
+  limit->law += "; and " + number_text(device_part) + unit + " rendered by the device";
+  if (limit->bound >= wanted) admitted.limits.erase(limit);
 }
 
-// The observer's own damping comes too late on this device: the sampled hold then.
-AdmittedTuning sampled_instead(HapticConfig config, const DeviceSpec& device, const Gate& gate, std::string_view hand) {
+// Used if the damping that the observer needs is itself unstable on this device.
+AdmittedTuning fall_back_to_half_sample(HapticConfig config, const DeviceSpec& device, const Gate& gate,
+                                        std::string_view hand) {
   config.contact.hold = ContactHold::half_sample;
   AdmittedTuning instead = admit_tuning(config, device, gate);
   const double from = static_cast<double>(ContactHold::observer), to = static_cast<double>(instead.hold);
-  instead.limited.push_back({kObserverLaw, "hold", from, to, to, std::string(hand)});
+  instead.limits.push_back({kObserverLaw, TuningParameter::hold, from, to, to, std::string(hand)});
   return instead;
 }
 
-// What only a study may have.
-void refuse_without_study(const HapticConfig& config, const DeviceSpec& spec) {
-  if (config.contact.study && !spec.simulated)
+// Rejects options that need allow_unstable.
+void check_unstable_options(const HapticConfig& config, const DeviceSpec& spec) {
+  if (config.contact.allow_unstable && !spec.simulated)
     throw std::invalid_argument("study = true: only a simulated device may be driven beyond what is stable");
-  if (config.contact.study) return;
+  if (config.contact.allow_unstable) return;
   if (config.estimator.window > 1)
-    throw std::invalid_argument("window_samples above 1: in a study only, it makes damping destabilise a wall");
-  if (!config.contact.reversal_limiter) throw std::invalid_argument("reversal_limiter = false: in a study only");
+    throw std::invalid_argument(
+        "window_samples above 1: only with study = true, because it lets damping destabilise a wall");
+  if (!config.contact.reversal_limiter) throw std::invalid_argument("reversal_limiter = false: only with study = true");
   if (config.contact.energy_control == EnergyControl::passivity_controller)
-    throw std::invalid_argument("energy_control = passivity_controller: in a study only");
+    throw std::invalid_argument("energy_control = passivity_controller: only with study = true");
 }
 
 }  // namespace
@@ -253,9 +261,9 @@ void check_config(const HapticConfig& config) {
   require_between("rate_hz", config.rate, 100.0, 4000.0);
   check_tuning(config.tuning);
   require_between("smoothing_s", config.estimator.smoothing, 1e-5, 1.0);
-  require_between("window_samples", config.estimator.window, 1, kMostWindow);
+  require_between("window_samples", config.estimator.window, 1, kMaxWindow);
   require_between("speed_limit_of_readings_m_per_s", config.estimator.speed_limit, 0.1, 1000.0);
-  require_between("slew_n_per_cycle", config.guard.slew, kLeastSlew, 100.0);
+  require_between("slew_n_per_cycle", config.guard.slew, kMinSlew, 100.0);
   require_between("ramp_time_s", config.guard.ramp_time, 0.001, 60.0);
   require_between("stale_time_s", config.guard.stale_time, 0.001, 1.0);
   require_between("fade_time_s", config.guard.fade_time, 0.001, 1.0);
@@ -269,18 +277,18 @@ void check_config(const HapticConfig& config) {
 }
 
 void check_device(const DeviceSpec& spec) {
-  const auto check_vector = [](const char* name, glm::dvec2 value, double most, const char* unit) {
-    require_between(name, value.x, 0.0, most, unit);
-    require_between(name, value.y, 0.0, most, unit);
+  const auto check_vector = [](const char* name, glm::dvec2 value, double max, const char* unit) {
+    require_between(name, value.x, 0.0, max, unit);
+    require_between(name, value.y, 0.0, max, unit);
   };
   check_vector("max_force of the device", spec.max_force, 1e4, "N");
   check_vector("continuous_force of the device", spec.continuous_force, 1e4, "N");
   check_vector("workspace of the device", spec.workspace, 10.0, "m");
   require_between("yoke_radius of the device", spec.yoke_radius, 0.0, 10.0, "m");
   require_between("position_step of the device", spec.position_step, 0.0, 0.1, "m");
-  check_vector("own_stiffness of the device", spec.own_stiffness, 1e5, "N/m");
-  check_vector("own_damping of the device", spec.own_damping, 1e3, "N s/m");
-  require_between("delay of the device", spec.delay, 0, kMostDelay, "cycles");
+  check_vector("wall_stiffness of the device", spec.device_wall_stiffness, 1e5, "N/m");
+  check_vector("wall_damping of the device", spec.device_wall_damping, 1e3, "N s/m");
+  require_between("delay of the device", spec.delay, 0, kMaxLoopDelay, "cycles");
   for (const AxisModel& axis : {spec.axis_x, spec.axis_y}) {
     require_between("mass of the device", axis.mass, 1e-3, 1e3, "kg");
     require_between("damping of the device", axis.damping, 0.0, 1e4, "N s/m");
@@ -289,12 +297,12 @@ void check_device(const DeviceSpec& spec) {
 }
 
 double loop_stiffness(const HapticTuning& tuning, const DeviceSpec& spec) noexcept {
-  return std::max(0.0, tuning.wall_stiffness - own_wall_stiffness(spec));
+  return std::max(0.0, tuning.wall_stiffness - usable_wall_stiffness(spec));
 }
 
 double device_damping(const HapticTuning& tuning, ContactHold hold, const DeviceSpec& spec) noexcept {
   if (hold == ContactHold::observer) return 0.0;
-  return std::min(tuning.wall_damping, own_wall_damping(spec));
+  return std::min(tuning.wall_damping, usable_wall_damping(spec));
 }
 
 ContactLaw contact_law(const HapticConfig& config, const AdmittedTuning& admitted, const DeviceSpec& spec) noexcept {
@@ -310,29 +318,52 @@ ContactLaw contact_law(const HapticConfig& config, const AdmittedTuning& admitte
 }
 
 AdmittedTuning admit_tuning(const HapticConfig& config, const DeviceSpec& device, const Gate& gate) {
-  refuse_without_study(config, device);
-  DeviceSpec spec = with_kept_walls(device, config.tuning);
-  AdmittedTuning out{config.tuning, chosen_hold(config, spec), {}};
-  if (out.hold == ContactHold::observer) spec.own_damping = glm::dvec2(0.0);  // it would take it for the hand's
-  out.tuning.wall_damping -= own_wall_damping(spec);
-  const Limiter limiter{config.contact.study, out.limited};
+  check_unstable_options(config, device);
+  DeviceSpec spec = scale_device_walls(device, config.tuning);
+  AdmittedTuning out{config.tuning, select_hold(config, spec), {}};
+  if (out.hold == ContactHold::observer)
+    spec.device_wall_damping = glm::dvec2(0.0);  // the observer would attribute it to the hand
+  out.tuning.wall_damping -= usable_wall_damping(spec);
+  const Limiter limiter{config.contact.allow_unstable, out.limits};
   limit_to_quiet(config, spec, out, limiter);
   limit_free_damping(config, spec, out, limiter);
-  limit_damping_beside_own_walls(config, spec, out, limiter);
+  limit_damping_beside_device_walls(config, spec, out, limiter);
   raise_observed_damping(out);
   const StableStiffness stable = stable_stiffness(config, out, spec);
-  if (stable.most == 0.0 && !config.contact.study) {
-    if (out.hold == ContactHold::observer) return sampled_instead(config, device, gate, stable.hand);
-    if (own_wall_stiffness(spec) == 0.0)
+  if (stable.max == 0.0 && !config.contact.allow_unstable) {
+    if (out.hold == ContactHold::observer) return fall_back_to_half_sample(config, device, gate, stable.hand);
+    if (usable_wall_stiffness(spec) == 0.0)
       throw std::invalid_argument("no wall of any stiffness is stable on this device");
   }
-  limiter.limit(out.tuning.wall_stiffness, stable.most, kWallStiffness, kStableLaw, stable.hand);
-  const double feel = stiffest_feel(gate);
-  if (feel > 0.0) limiter.limit(out.tuning.feel_scale, out.tuning.wall_stiffness / feel, "feel_scale", kFeelLaw);
-  add_own(out, out.tuning.wall_stiffness, kWallStiffness, config.tuning.wall_stiffness, own_wall_stiffness(spec),
-          " N/m");
-  add_own(out, out.tuning.wall_damping, kWallDamping, config.tuning.wall_damping, own_wall_damping(spec), " N s/m");
+  limiter.limit(out.tuning.wall_stiffness, stable.max, TuningParameter::wall_stiffness, kStableLaw, stable.hand);
+  const double feel = max_feel_stiffness(gate);
+  if (feel > 0.0)
+    limiter.limit(out.tuning.feel_scale, out.tuning.wall_stiffness / feel, TuningParameter::feel_scale, kFeelLaw);
+  add_device_part(out, out.tuning.wall_stiffness, TuningParameter::wall_stiffness, config.tuning.wall_stiffness,
+                  usable_wall_stiffness(spec), " N/m");
+  add_device_part(out, out.tuning.wall_damping, TuningParameter::wall_damping, config.tuning.wall_damping,
+                  usable_wall_damping(spec), " N s/m");
   return out;
 }
 
-}  // namespace gearshift
+const char* to_string(TuningParameter parameter) noexcept {
+  static constexpr const char* kKeys[] = {"wall_stiffness_n_per_m",  "wall_damping_n_s_per_m",  "feel_scale",
+                                          "aisle_damping_n_s_per_m", "limit_damping_n_s_per_m", "hold"};
+  return kKeys[static_cast<int>(parameter)];
+}
+
+std::string describe(const TuningLimit& limit) {
+  const bool is_hold = limit.parameter == TuningParameter::hold;  // whose values are enumerators
+  const auto text = [&](double value) {
+    return is_hold ? hold_name(static_cast<ContactHold>(value)) : short_text(value);
+  };
+  std::string what = to_string(limit.parameter);
+  if (limit.used == limit.wanted)
+    what += " " + text(limit.wanted) + " used anyway, limit " + short_text(limit.bound);
+  else
+    what += (!is_hold && limit.used > limit.wanted ? " raised from " : " limited from ") + text(limit.wanted) + " to " +
+            text(limit.used);
+  return what + " (" + limit.law + (limit.hand.empty() ? "" : "; hand: " + limit.hand) + ")";
+}
+
+}  // namespace gearshift::haptics

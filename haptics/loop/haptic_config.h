@@ -1,4 +1,4 @@
-// Every number of the haptic cycle, and what a device admits of it.
+// All parameters of the haptic cycle, and the limits that a device sets to them.
 #pragma once
 
 #include <cstdint>
@@ -13,16 +13,16 @@
 #include "haptics/safety/energy_control.h"
 #include "haptics/safety/force_guard.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
-// What may change while the loop runs. Applied whole, between two cycles, and recorded.
+// Parameters that may change while the loop runs. They are applied together, between two cycles, and recorded.
 struct HapticTuning {
-  double wall_stiffness = 5000.0;  // [N/m] 0 to 20000, of the whole wall: what the device keeps itself included
+  double wall_stiffness = 5000.0;  // [N/m] 0 to 20000, of the whole wall, device wall included
   double wall_damping = 10.0;      // [N s/m] 0 to 100
-  double feel_scale = 1.0;         // [1] 0 to 4, of the gate's feel
+  double feel_scale = 1.0;         // [1] 0 to 4, scales the gate's feel
   double aisle_damping = 2.0;      // [N s/m] 0 to 50, everywhere
-  double speed_limit = 0.6;        // [m/s] 0.05 to 5: above it the aisles resist
-  double limit_damping = 15.0;     // [N s/m] 0 to 50, of the speed above the limit
+  double speed_limit = 0.6;        // [m/s] 0.05 to 5; limit_damping acts above it
+  double limit_damping = 15.0;     // [N s/m] 0 to 50, times the speed above the limit
   bool operator==(const HapticTuning&) const = default;
 };
 
@@ -31,12 +31,14 @@ struct OverPushConfig {
   double clear_below = 50.0;  // [N] 0 to warn_above
 };
 
-// How a contact is made. Fixed while the loop runs.
+// How wall contacts are rendered. Fixed while the loop runs.
 struct ContactConfig {
   ContactHold hold = ContactHold::automatic;
-  EnergyControl energy_control = EnergyControl::none;  // on top of that hold; passivity_controller in a study only
-  bool reversal_limiter = true;                        // false in a study only
-  bool study = false;  // nothing is limited to what is stable: simulated devices only, a person must not touch it
+  EnergyControl energy_control =
+      EnergyControl::none;       // in addition to the hold; passivity_controller needs allow_unstable
+  bool reversal_limiter = true;  // false needs allow_unstable
+  bool allow_unstable =
+      false;  // do not limit parameters to the stable range; only for simulated devices, never for a person
 };
 
 struct HapticConfig {
@@ -47,26 +49,40 @@ struct HapticConfig {
   GuardConfig guard;
   OverPushConfig over_push;
   double gear_debounce = 0.010;  // [s] 0 to 0.5
-  double ghost_offset = 0.020;   // [m] 0 to 1, lever this far from its proxy: the picture shows the true hand
+  double ghost_offset = 0.020;   // [m] 0 to 1; if lever and proxy are further apart, the picture shows the true hand
 };
 
-// One thing that was not admitted as wanted. In a study it is told and used all the same.
-struct Limited {
-  std::string law;   // why, as one formula
-  std::string what;  // the parameter
-  double wanted = 0.0, used = 0.0;
-  double bound = 0.0;  // the most that the law admits
-  std::string hand;    // that decides; empty where none does
+// What a check may lower, raise or replace.
+enum class TuningParameter : std::uint8_t {
+  wall_stiffness,
+  wall_damping,
+  feel_scale,
+  aisle_damping,
+  limit_damping,
+  hold
 };
+const char* to_string(TuningParameter parameter) noexcept;  // its key in files: "wall_stiffness_n_per_m"
+
+// A parameter that was limited. With `allow_unstable` it is reported but not changed.
+struct TuningLimit {
+  std::string law;  // the reason, as one formula
+  TuningParameter parameter = TuningParameter::wall_stiffness;
+  double wanted = 0.0, used = 0.0;
+  double bound = 0.0;  // the largest value that the law allows
+  std::string hand;    // the hand that sets the bound; empty if the bound does not depend on a hand
+};
+// "wall_stiffness_n_per_m limited from 5000 to 301 (law; hand: bare)", "hold limited from observer to half_sample";
+// with `allow_unstable`: "wall_stiffness_n_per_m 5000 used anyway, limit 301 (...)".
+std::string describe(const TuningLimit& limit);
 
 struct AdmittedTuning {
   HapticTuning tuning;
   ContactHold hold = ContactHold::half_sample;  // never automatic
-  std::vector<Limited> limited;
+  std::vector<TuningLimit> limits;
 };
 
-std::int64_t period_ns(const HapticConfig& config) noexcept;  // of one cycle, a whole number
-double period_s(const HapticConfig& config) noexcept;         // the same
+std::int64_t period_ns(const HapticConfig& config) noexcept;  // period of one cycle, a whole number [ns]
+double period_s(const HapticConfig& config) noexcept;         // the same period [s]
 
 // Throw std::invalid_argument with one sentence: parameter, value and allowed range.
 void check_tuning(const HapticTuning& tuning);
@@ -74,28 +90,28 @@ void check_config(const HapticConfig& config);
 
 void check_device(const DeviceSpec& spec);
 
-// What holds of the wanted tuning, on this device, with every listed hand, the bare handle included:
+// Limits the wanted tuning to what works on this device with every listed hand, including the bare handle:
 //   quiet      K <= 0.35 m / tau^2 (observer: 0.58) and B <= 0.35 m / tau, tau = (delay + 1) T, m the lighter axis:
 //              found by a search over hands, impact phases, quantisation, jitter and plant error
 //   stable     the spectral radius of the sampled cycle (sampled_loop.h) is below 1 on both axes: in the wall at 1.1 K,
 //              with the aisles' damping and with that of the speed limit, too; and in free space with both
-//   feel       no feel stiffer than the wall that carries the proxy
-// Where the device keeps walls itself (DeviceSpec::own_stiffness, own_damping), the loop makes what is left of what is
-// wanted, and the laws hold of that part; the exact check sees every lever with the device's spring and damper and without
-// them. Limited tells the whole wall, and the device's share of it in the law. Feel is the loop's alone: its bound is what
-// the laws admit of the loop. The observer's wall has no damper of the device's: it would take that for the hand's.
-// An observed hold has a damping of kObservedDamping at least. In a study all is used as wanted, and told.
-// Throws std::invalid_argument for what only a study may have, for a study on a device that is not simulated, and where
-// no wall of any stiffness is stable.
+//   feel       the feel is no stiffer than the wall that carries the proxy
+// If the device renders walls itself (DeviceSpec::device_wall_stiffness, device_wall_damping), the loop renders the
+// rest and the laws apply to that part; the exact check covers every lever with and without the device's spring and
+// damper. TuningLimit reports the whole wall and names the device's part in the law. Feel is rendered only by the loop,
+// so its bound is the stiffness that the laws allow the loop. The observed hold does not use the device damper, because
+// the observer would attribute it to the hand. An observed hold has a damping of at least kMinObserverDamping. With
+// allow_unstable, limits are reported but not applied. Throws std::invalid_argument for options that need
+// allow_unstable, for allow_unstable on a real device, and if no wall of any stiffness is stable.
 AdmittedTuning admit_tuning(const HapticConfig& config, const DeviceSpec& spec, const Gate& gate);
 
-// [N/m] Of the wall, what the loop makes: the rest beside what the device keeps itself.
+// [N/m] The loop's part of the wall: the whole minus the device wall.
 double loop_stiffness(const HapticTuning& tuning, const DeviceSpec& spec) noexcept;
 
-// [N s/m] Of the wall, what the device damps itself: none where the observer holds it.
+// [N s/m] The device damper's part of the wall's damping; 0 with the observed hold.
 double device_damping(const HapticTuning& tuning, ContactHold hold, const DeviceSpec& spec) noexcept;
 
-// What the loop presses the lever back with in the wall under that tuning: for spectral_radius().
+// The loop's part of the wall under that tuning, as input to spectral_radius().
 ContactLaw contact_law(const HapticConfig& config, const AdmittedTuning& admitted, const DeviceSpec& spec) noexcept;
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

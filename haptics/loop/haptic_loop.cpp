@@ -10,21 +10,21 @@
 #include <glm/geometric.hpp>
 
 #include "haptics/contact/free_span.h"
-#include "haptics/device/checked.h"
+#include "haptics/device/range_check.h"
 #include "haptics/gate/gate_feel.h"
 #include "haptics/joystick/finite.h"
 #include "haptics/rt/monotonic_clock.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
 using glm::dvec2;
 
-constexpr double kRearmAfter = 0.050;      // [s] of healthy readings before a simulated lever arms itself again
-constexpr double kContactApart = 0.030;    // [s] off the wall before a touch counts as a new impact
-constexpr double kSaturationHold = 0.050;  // [s] below the limit before saturation is over
-constexpr double kShortfall = 1.0;         // [N] between commanded and delivered force that a hand would notice
-constexpr std::int64_t kMostSkipped = 10;  // cycles that the world catches up after an overrun
+constexpr double kRearmAfter = 0.050;      // [s] of fresh readings before a simulated lever re-arms itself
+constexpr double kContactApart = 0.030;    // [s] away from the wall before a touch counts as a new impact
+constexpr double kSaturationHold = 0.050;  // [s] below the limit before saturation ends
+constexpr double kShortfall = 1.0;  // [N] difference between commanded and delivered force that a hand would notice
+constexpr std::int64_t kMaxCatchUpCycles = 10;  // the load catches up at most this many cycles after an overrun
 
 const HapticConfig& checked(const HapticConfig& config, const DeviceSpec& spec) {
   check_config(config);
@@ -32,7 +32,7 @@ const HapticConfig& checked(const HapticConfig& config, const DeviceSpec& spec) 
   return config;
 }
 
-// Stamps the stages of every 64th cycle.
+// Takes the time stamps of every 64th cycle.
 class StageClock {
  public:
   StageClock(StageStamps& stamps, std::uint64_t cycle) noexcept
@@ -50,7 +50,7 @@ class StageClock {
   bool on_;
 };
 
-// A person's motors go off for good where a simulated lever keeps some damping: late readings or cycles make damping push.
+// On a real device, damped means motors off: damping computed from late readings can inject energy.
 GuardConfig guard_of(const HapticConfig& config, const DeviceSpec& spec) noexcept {
   GuardConfig guard = config.guard;
   if (!spec.simulated) guard.damped_damping = 0.0;
@@ -59,26 +59,26 @@ GuardConfig guard_of(const HapticConfig& config, const DeviceSpec& spec) noexcep
 
 }  // namespace
 
-HapticLoop::HapticLoop(const HapticConfig& config, const Gate& gate, HapticDevice& device, LeverWorld& world,
+HapticLoop::HapticLoop(const HapticConfig& config, const Gate& gate, HapticDevice& device, LeverLoad& load,
                        LoopChannels& channels)
     : config_(checked(config, device.spec())),
       admitted_(admit_tuning(config, device.spec(), gate)),
       gate_(gate),
       device_(device),
       spec_(device.spec()),
-      world_(world),
+      load_(load),
       channels_(channels),
       period_(period_s(config)),
-      hand_over_(kHandOverSpeed * period_),
-      own_walls_(own_wall_stiffness(device.spec())),
-      own_dampers_(own_wall_damping(device.spec())),
+      hand_over_step_(kHandOverSpeed * period_),
+      device_wall_stiffness_(usable_wall_stiffness(device.spec())),
+      device_wall_damping_(usable_wall_damping(device.spec())),
       tuning_(admitted_.tuning),
       estimator_(config.estimator, period_, spec_.position_step, config.guard.stale_time),
       observer_(device.spec(), period_),
       limiter_(device.spec(), period_),
       selector_(config.gear_debounce),
       guard_(guard_of(config, device.spec()), device.spec(), period_, config.contact.energy_control),
-      stiffest_feel_(stiffest_feel(gate)),
+      stiffest_feel_(max_feel_stiffness(gate)),
       passage_(open_passage(gate)),
       proxy_(place_proxy(gate, rest_position(gate, kNeutralGear))) {}
 
@@ -86,10 +86,10 @@ AdmittedTuning HapticLoop::change_tuning(const HapticTuning& wanted) {
   check_tuning(wanted);
   HapticConfig config = config_;
   config.tuning = wanted;
-  config.contact.hold = admitted_.hold;  // as it runs
+  config.contact.hold = admitted_.hold;  // the hold cannot change while the loop runs
   AdmittedTuning admitted = admit_tuning(config, spec_, gate_);
   if (admitted.hold != admitted_.hold) {
-    throw std::invalid_argument("this tuning needs another hold than the one that runs: start the loop with it");
+    throw std::invalid_argument("this tuning needs a different hold: restart the loop with it");
   }
   channels_.tuning.write(admitted.tuning);
   return admitted;
@@ -105,12 +105,12 @@ void HapticLoop::cycle(std::int64_t deadline_ns, std::int64_t skipped) noexcept 
   clock.stamp();
   follow_lever();
   clock.stamp();
-  const Coupled coupled = couple_lever(skipped);
-  out_.wall_force = coupled.force;
+  const ContactForce contact = couple_lever(skipped);
+  out_.wall_force = contact.force;
   clock.stamp();
-  out_.feel_force = mechanism_feel(coupled.mean_proxy);
+  out_.feel_force = mechanism_feel(contact.mean_proxy);
   clock.stamp();
-  world_out_ = run_world(skipped);
+  load_output_ = step_load(skipped);
   clock.stamp();
   const GuardOutput command = guard_.guard(guard_input(skipped));
   clock.stamp();
@@ -131,10 +131,10 @@ void HapticLoop::take_inputs() noexcept {
   if (channels_.tuning.update() && channels_.tuning.value() != tuning_) retune(channels_.tuning.value());
   if (channels_.controls.update()) controls_ = channels_.controls.value();
   command_ = LoopCommand::none;
-  if (channels_.commands.pop(command_)) obey(command_);
+  if (channels_.commands.pop(command_)) apply_command(command_);
 }
 
-void HapticLoop::obey(LoopCommand command) noexcept {
+void HapticLoop::apply_command(LoopCommand command) noexcept {
   switch (command) {
     case LoopCommand::none:
       return;
@@ -150,73 +150,75 @@ void HapticLoop::obey(LoopCommand command) noexcept {
   }
 }
 
-// The panic button is believed whatever else the reading says.
+// The panic button is obeyed even if the rest of the reading is implausible.
 void HapticLoop::read_device(std::int64_t deadline_ns) noexcept {
   reading_ = device_.read(deadline_ns);
   if (reading_.stop) guard_.stop();
 }
 
-// What the limiter has learnt holds of the wall that it has seen.
+// The limiter's state only applies to the wall on which it was learned.
 void HapticLoop::retune(const HapticTuning& tuning) noexcept {
   const bool same_wall = tuning.wall_stiffness == tuning_.wall_stiffness && tuning.wall_damping == tuning_.wall_damping;
   if (!same_wall) limiter_.reset();
   tuning_ = tuning;
 }
 
-// At arming the proxy starts anew at the lever, so that an old penetration cannot pull. While there are forces it is the
-// wall's: a key must not carry it through.
+// Arming places the proxy at the lever, so that an old penetration cannot pull. While forces are on the proxy is left
+// alone: otherwise pressing the arm key would carry it through a wall.
 void HapticLoop::arm() noexcept {
-  if (reading_.stop) return guard_.refuse();
+  if (reading_.stop) return guard_.reject_arming();
   if (!guard_.arm()) return;
-  let_go_ = false;
-  placed_ = false;
+  motors_released_ = false;
+  proxy_placed_ = false;
   limiter_.reset();
 }
 
 void HapticLoop::follow_lever() noexcept {
-  if (!placed_ && motion_.fresh) {
+  if (!proxy_placed_ && motion_.fresh) {
     proxy_ = place_proxy(gate_, motion_.position);
-    placed_ = true;
+    proxy_placed_ = true;
   }
-  const LockoutInputs in{reading_.pressed_down, reading_.lifted, world_out_.road_speed, selector_.gear()};
+  const LockoutInputs in{reading_.pressed_down, reading_.lifted, load_output_.road_speed, selector_.gear()};
   passage_ = lockouts_.update(gate_, in, proxy_.position);
   limit_depth();
-  proxy_ = move_proxy(gate_, passage_, proxy_, motion_.position, hand_over_);
+  proxy_ = move_proxy(gate_, passage_, proxy_, motion_.position, hand_over_step_);
 }
 
-// The gearbox limits the depth in the slot where the lever is. A limit never moves the lever.
+// Applies the load's depth limit in the lever's current slot. A limit never moves the lever.
 void HapticLoop::limit_depth() noexcept {
   const int slot = slot_at(gate_, proxy_.position);
-  if (slot == kNoSlot || slot != world_out_.limited_slot) return;
+  if (slot == kNoSlot || slot != load_output_.limited_slot) return;
   const double depth = std::abs(proxy_.position.y);
   passage_.limited_slot = slot;
-  passage_.depth_min = std::min(world_out_.depth_min, depth);
-  passage_.depth_max = std::max(world_out_.depth_max, depth);
+  passage_.depth_min = std::min(load_output_.depth_min, depth);
+  passage_.depth_max = std::max(load_output_.depth_max, depth);
 }
 
-Coupled HapticLoop::couple_lever(std::int64_t skipped) noexcept {
-  out_.wall_stiffness = tuning_.wall_stiffness * limiter_.share();
-  const double stiffness = loop_stiffness(tuning_, spec_) * limiter_.share();
+ContactForce HapticLoop::couple_lever(std::int64_t skipped) noexcept {
+  out_.wall_stiffness = tuning_.wall_stiffness * limiter_.stiffness_fraction();
+  const double stiffness = loop_stiffness(tuning_, spec_) * limiter_.stiffness_fraction();
   const double damping = tuning_.wall_damping - device_damping(tuning_, admitted_.hold, spec_);
   const Coupling coupling{stiffness, damping, period_, spec_.delay, admitted_.hold};
-  if (admitted_.hold != ContactHold::observer) return couple(coupling, gate_, passage_, proxy_, motion_);
+  if (admitted_.hold != ContactHold::observer) return contact_force(coupling, gate_, passage_, proxy_, motion_);
   ObservedMotion observed = observer_.update(motion_, out_.commanded, skipped);
-  // Feel and world of the cycle before move the lever as well: taken for depth, they would make a step of the wall's edge.
-  const dvec2 beside = out_.feel_force + world_out_.force;
+  // The previous cycle's feel and load forces also move the lever. Counted as penetration, that motion would turn the
+  // wall's edge into a step.
+  const dvec2 beside = out_.feel_force + load_output_.force;
   if (is_finite(beside)) observed.end += observed.compliance * beside;
-  return couple(coupling, gate_, passage_, proxy_, observed);
+  return contact_force(coupling, gate_, passage_, proxy_, observed);
 }
 
 dvec2 HapticLoop::mechanism_feel(dvec2 mean_proxy) const noexcept {
   const double speed = glm::length(motion_.smooth_velocity);
   const double excess = std::max(0.0, speed - tuning_.speed_limit);
   const double damping = tuning_.aisle_damping + (excess > 0.0 ? tuning_.limit_damping * excess / speed : 0.0);
-  const double softened = std::min(tuning_.feel_scale * stiffest_feel_, out_.wall_stiffness);  // the wall carries it
+  const double softened =
+      std::min(tuning_.feel_scale * stiffest_feel_, out_.wall_stiffness);  // because the wall carries the proxy
   const double scale = stiffest_feel_ > 0.0 ? softened / stiffest_feel_ : tuning_.feel_scale;
   return scale * gate_feel(gate_, mean_proxy) - damping * motion_.smooth_velocity;
 }
 
-LeverOutput HapticLoop::run_world(std::int64_t skipped) noexcept {
+LeverOutput HapticLoop::step_load(std::int64_t skipped) noexcept {
   LeverInput in;
   in.position = motion_.position;
   in.velocity = motion_.smooth_velocity;
@@ -227,10 +229,10 @@ LeverOutput HapticLoop::run_world(std::int64_t skipped) noexcept {
   in.gear = selector_.gear();
   in.controls = controls_;
   out_.slot = in.slot;
-  const double periods = static_cast<double>(1 + std::min(skipped, kMostSkipped));
+  const double periods = static_cast<double>(1 + std::min(skipped, kMaxCatchUpCycles));
   const double elapsed = first_step_ ? 0.0 : period_ * periods;
   first_step_ = false;
-  return world_.step(in, elapsed);
+  return load_.step(in, elapsed);
 }
 
 GuardInput HapticLoop::guard_input(std::int64_t skipped) const noexcept {
@@ -239,45 +241,46 @@ GuardInput HapticLoop::guard_input(std::int64_t skipped) const noexcept {
   in.position = motion_.position;
   in.velocity = motion_.smooth_velocity;
   in.fresh = motion_.fresh;
-  in.touches = motion_.position != proxy_.position;
+  in.in_contact = motion_.position != proxy_.position;
   in.skipped = skipped;
   return in;
 }
 
 void HapticLoop::drive(const GuardOutput& command) noexcept {
-  if (command.share > 0.0) device_.switch_on();
+  if (command.ramp > 0.0) device_.switch_on();
   device_.write(command.force);
-  if (own_walls_ > 0.0 || own_dampers_ > 0.0) tell_walls(command.share);
+  if (device_wall_stiffness_ > 0.0 || device_wall_damping_ > 0.0) send_device_walls(command.ramp);
 }
 
-// A wall must not stand where the lever will be by rights when the device hears of it: what is free now, and what will be
-// free then. A wall that comes nearer comes so much later; until then the loop's part of it holds alone.
-void HapticLoop::tell_walls(double ramp) noexcept {
-  const double kept =
-      own_walls_ > 0.0 ? std::min(1.0, tuning_.wall_stiffness / own_walls_) : 0.0;  // [1] if it is softer
-  const double share = ramp * kept * limiter_.share();
+// The command takes effect one delay later, so the union of the free space now and then is sent. A wall that moves
+// closer therefore reaches the device late; until then only the loop's part resists.
+void HapticLoop::send_device_walls(double ramp) noexcept {
+  const double kept = device_wall_stiffness_ > 0.0 ? std::min(1.0, tuning_.wall_stiffness / device_wall_stiffness_)
+                                                   : 0.0;  // [1] below 1 if the wanted wall is softer
+  const double share = ramp * kept * limiter_.stiffness_fraction();
   const double damped = device_damping(tuning_, admitted_.hold, spec_);
-  const double damping = damped > 0.0 ? ramp * damped / own_dampers_ : 0.0;
-  if (share == 0.0 && damping == 0.0 && walls_.share == 0.0 && walls_.damping == 0.0) return;
+  const double damping = damped > 0.0 ? ramp * damped / device_wall_damping_ : 0.0;
+  if (share == 0.0 && damping == 0.0 && walls_.stiffness_fraction == 0.0 && walls_.damping_fraction == 0.0) return;
   const double ahead = period_ * (1.0 + spec_.delay);
   const Proxy then = move_proxy(gate_, passage_, proxy_, motion_.position + ahead * motion_.smooth_velocity, 0.0);
-  const FreeSpan free = joined(free_span(gate_, passage_, proxy_.position), free_span(gate_, passage_, then.position));
+  const FreeSpan free =
+      bounding_span(free_span(gate_, passage_, proxy_.position), free_span(gate_, passage_, then.position));
   const LeverWalls walls{free.low, free.high, share, damping};
   if (walls == walls_) return;
   walls_ = walls;
-  device_.hold_walls(walls);
+  device_.set_device_walls(walls);
 }
 
-// What the device's springs make of such walls, where the lever is. [N]
-dvec2 HapticLoop::own_wall_force(const LeverWalls& walls) const noexcept {
-  if (walls.share == 0.0) return {0.0, 0.0};
+// Force of the device's springs at the current lever position [N].
+dvec2 HapticLoop::device_wall_force(const LeverWalls& walls) const noexcept {
+  if (walls.stiffness_fraction == 0.0) return {0.0, 0.0};
   const dvec2 inside = glm::clamp(motion_.position, walls.low, walls.high);
-  return walls.share * spec_.own_stiffness * (inside - motion_.position);
+  return walls.stiffness_fraction * spec_.device_wall_stiffness * (inside - motion_.position);
 }
 
-// The wish is beyond the device: the loop's, or together with what the device makes by itself.
+// The wanted force exceeds the device's limit, either the loop's part or together with the device walls.
 bool HapticLoop::is_saturated(const GuardOutput& command) const noexcept {
-  const dvec2 all = glm::abs(command.force + own_wall_force(walls_)), most = spec_.max_force;
+  const dvec2 all = glm::abs(command.force + device_wall_force(walls_)), most = spec_.max_force;
   return command.saturated || all.x > most.x || all.y > most.y;
 }
 
@@ -290,24 +293,24 @@ void HapticLoop::account_force_flow(const GuardOutput& command) noexcept {
   out_.lever = motion_.position;
   out_.velocity = motion_.smooth_velocity;
   out_.proxy = proxy_.position;
-  out_.world_force = world_out_.force;
-  out_.road_speed = world_out_.road_speed;
+  out_.load_force = load_output_.force;
+  out_.road_speed = load_output_.road_speed;
   out_.commanded = command.force;
   set_flag(kFlagPushEstimated, !is_measured);
   set_flag(kFlagFresh, motion_.fresh);
 }
 
-// Without a force sensor, or one that says no number: what holds the lever against the motors and its own spring and
-// damping, its inertia left out. Beyond the motors' limit that says nothing, but the displacement does: the push is then
-// what the wall wanted to give back at this depth.
+// Estimated push of the hand, without a force sensor or if its value is not finite: the force that balances the motors
+// and the handle's spring and damping, neglecting inertia. When the motors saturate that is not known; the push is then
+// the force that the wall would need at this depth.
 dvec2 HapticLoop::estimated_push(const GuardOutput& command) const noexcept {
   dvec2 damping{spec_.axis_x.damping, spec_.axis_y.damping};
   for (int i = 0; i < 2; ++i) {
     const bool in_wall = motion_.position[i] < walls_.low[i] || motion_.position[i] > walls_.high[i];
-    if (in_wall) damping[i] += walls_.damping * spec_.own_damping[i];
+    if (in_wall) damping[i] += walls_.damping_fraction * spec_.device_wall_damping[i];
   }
   const dvec2 stiffness{spec_.axis_x.stiffness, spec_.axis_y.stiffness};
-  const dvec2 held = is_saturated(command) ? -(wanted_force() + own_wall_force(walls_)) : out_.f_a;
+  const dvec2 held = is_saturated(command) ? -(wanted_force() + device_wall_force(walls_)) : out_.f_a;
   return held + damping * motion_.smooth_velocity + stiffness * motion_.position;
 }
 
@@ -316,8 +319,8 @@ void HapticLoop::watch_gear() noexcept {
   const int now = selector_.update(gate_, proxy_.position, period_);
   out_.gear = now;
   if (now == before) return;
-  if (before != kNeutralGear) tell(EventKind::gear_left, before);
-  if (now != kNeutralGear) tell(EventKind::gear_engaged, now);
+  if (before != kNeutralGear) emit_event(EventKind::gear_left, before);
+  if (now != kNeutralGear) emit_event(EventKind::gear_engaged, now);
 }
 
 void HapticLoop::watch_push() noexcept {
@@ -325,16 +328,17 @@ void HapticLoop::watch_push() noexcept {
   const bool was_over = has_flag(kFlagOverPush);
   const bool is_over = push > (was_over ? config_.over_push.clear_below : config_.over_push.warn_above);
   set_flag(kFlagOverPush, is_over);
-  if (is_over != was_over) tell(is_over ? EventKind::over_push_begin : EventKind::over_push_end, push);
+  if (is_over != was_over) emit_event(is_over ? EventKind::over_push_begin : EventKind::over_push_end, push);
 }
 
-// The hand gets less than it should: the wish is beyond the device, or the motors gave less than was commanded when
-// that force was due (overload).
+// Saturated: the wanted force exceeds the device's limit, or the motors delivered less than was commanded for this
+// cycle (overload).
 void HapticLoop::watch_saturation(const GuardOutput& command) noexcept {
   const std::uint64_t age = 1 + static_cast<std::uint64_t>(spec_.delay);
   const Sent due = out_.cycle >= age ? sent_[(out_.cycle - age) % sent_.size()] : Sent{};
-  const dvec2 expected = due.force + own_wall_force(due.walls);
-  const double moves = own_walls_ * period_ * glm::length(motion_.velocity);  // [N] of that, over a period
+  const dvec2 expected = due.force + device_wall_force(due.walls);
+  const double moves =
+      device_wall_stiffness_ * period_ * glm::length(motion_.velocity);  // [N] change of the wall force within a period
   const bool falls_short = motion_.fresh && glm::length(expected + out_.f_a) > kShortfall + moves;
   sent_[out_.cycle % sent_.size()] = {command.force, walls_};
   unsaturated_ = is_saturated(command) || falls_short ? 0.0 : unsaturated_ + period_;
@@ -342,7 +346,7 @@ void HapticLoop::watch_saturation(const GuardOutput& command) noexcept {
   const bool is = unsaturated_ < kSaturationHold;
   set_flag(kFlagSaturated, is);
   if (is == was) return;
-  tell(is ? EventKind::saturation_begin : EventKind::saturation_end, glm::length(wanted_force()));
+  emit_event(is ? EventKind::saturation_begin : EventKind::saturation_end, glm::length(wanted_force()));
 }
 
 void HapticLoop::watch_contact() noexcept {
@@ -352,34 +356,35 @@ void HapticLoop::watch_contact() noexcept {
   set_flag(kFlagContact, touches);
   set_flag(kFlagGhost, depth > config_.ghost_offset);
   if (touches && apart_ > kContactApart) {
-    tell(EventKind::wall_contact, std::abs(glm::dot(motion_.smooth_velocity, penetration / depth)));
+    emit_event(EventKind::wall_contact, std::abs(glm::dot(motion_.smooth_velocity, penetration / depth)));
   }
   apart_ = touches ? 0.0 : apart_ + period_;
 }
 
-// The lever chatters on a wall: less stiffness, and where that does not calm it, none.
+// If the lever chatters on a wall, the stiffness is lowered; if that does not help, the guard damps.
 void HapticLoop::watch_chatter() noexcept {
   if (!config_.contact.reversal_limiter) return;
-  if (!limiter_.update(motion_.position, has_flag(kFlagContact), tuning_.wall_stiffness, world_out_.shake)) return;
-  tell(EventKind::stiffness_lowered, tuning_.wall_stiffness * limiter_.share());
-  if (limiter_.exhausted()) guard_.damp();
+  if (!limiter_.update(motion_.position, has_flag(kFlagContact), tuning_.wall_stiffness, load_output_.vibration))
+    return;
+  emit_event(EventKind::stiffness_lowered, tuning_.wall_stiffness * limiter_.stiffness_fraction());
+  if (limiter_.is_exhausted()) guard_.damp();
 }
 
-// A simulated lever arms itself again once it has been healthy for a while since the fall; a real one waits for a
-// person, and so does one that chattered whatever its wall did. Motors are off in every state without force, and from the
-// first cycle on: what a loop before this one left is nobody's.
+// A simulated lever re-arms itself after a fault once its readings have been fresh for a while. A real lever waits for
+// a person, and so does any lever that chattered. The motors are released in every state without force, and in the
+// first cycle, because an earlier loop may have left them on.
 void HapticLoop::watch_guard(std::int64_t skipped) noexcept {
   const bool has_changed = guard_.state() != out_.guard;
   const bool is_new = has_changed || out_.cycle == 0;
   const bool is_off = guard_.state() == GuardState::idle || guard_.state() == GuardState::released;
   const bool is_faded = guard_.state() == GuardState::damped && !spec_.simulated && out_.commanded == dvec2{0.0, 0.0} &&
-                        !std::exchange(let_go_, true);
+                        !std::exchange(motors_released_, true);
   if ((is_new && is_off) || is_faded) device_.release();
   const bool is_healthy = motion_.fresh && skipped == 0 && !has_changed;
   healthy_ = is_healthy ? healthy_ + period_ : 0.0;
   const bool may_rearm = spec_.simulated && guard_.fault() != GuardFault::chatter;
   if (guard_.state() == GuardState::damped && may_rearm && healthy_ > kRearmAfter) arm();
-  if (guard_.state() != out_.guard) tell(EventKind::guard_changed, static_cast<double>(guard_.state()));
+  if (guard_.state() != out_.guard) emit_event(EventKind::guard_changed, static_cast<double>(guard_.state()));
   out_.guard = guard_.state();
   out_.fault = guard_.fault();
 }
@@ -395,7 +400,7 @@ void HapticLoop::record(std::int64_t skipped) noexcept {
   if (!channels_.trace.push(sample)) channels_.trace_lost.fetch_add(1, std::memory_order_relaxed);
 }
 
-void HapticLoop::tell(EventKind kind, double value) noexcept {
+void HapticLoop::emit_event(EventKind kind, double value) noexcept {
   if (!channels_.events.push({kind, out_.cycle, out_.time_ns, value})) {
     channels_.events_lost.fetch_add(1, std::memory_order_relaxed);
   }
@@ -405,4 +410,4 @@ void HapticLoop::set_flag(std::uint32_t flag, bool on) noexcept {
   out_.flags = on ? out_.flags | flag : out_.flags & ~flag;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -1,38 +1,39 @@
-// What the loop tells the rest of the program: the newest state, and the events that must not be missed.
+// Output of the loop to the rest of the program: the newest state, and events that must not be missed.
 #pragma once
 
 #include <cstdint>
+#include <string>
 
 #include <glm/vec2.hpp>
 
 #include "haptics/gate/gate.h"
 #include "haptics/safety/force_guard.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 // Bits of HapticSnapshot::flags.
 inline constexpr std::uint32_t kFlagContact = 1u << 0;    // the lever is pressed into a wall
-inline constexpr std::uint32_t kFlagSaturated = 1u << 1;  // the wanted force was beyond the device
-inline constexpr std::uint32_t kFlagOverPush = 1u << 2;   // the hand pushes above the warning threshold
+inline constexpr std::uint32_t kFlagSaturated = 1u << 1;  // the wanted force exceeded the device's limit
+inline constexpr std::uint32_t kFlagOverPush = 1u << 2;   // the hand pushes harder than the warning threshold
 inline constexpr std::uint32_t kFlagPushEstimated =
-    1u << 3;                                          // no force sensor, or no number from it: the push is inferred
-inline constexpr std::uint32_t kFlagGhost = 1u << 4;  // lever and drawn lever are too far apart
-inline constexpr std::uint32_t kFlagFresh = 1u << 5;  // this cycle's reading was new and believed
+    1u << 3;  // the push is estimated: no force sensor, or no valid value from it
+inline constexpr std::uint32_t kFlagGhost = 1u << 4;  // lever and proxy are too far apart
+inline constexpr std::uint32_t kFlagFresh = 1u << 5;  // this cycle's reading was new and plausible
 
 struct HapticSnapshot {
   std::uint64_t cycle = 0;
   std::int64_t time_ns = 0;     // [ns] this cycle's deadline
   glm::dvec2 lever{0.0};        // [m] measured lever point
   glm::dvec2 velocity{0.0};     // [m/s] smoothed
-  glm::dvec2 proxy{0.0};        // [m] drawn lever
+  glm::dvec2 proxy{0.0};        // [m] proxy; the drawn lever
   glm::dvec2 wall_force{0.0};   // [N] coupling
   glm::dvec2 feel_force{0.0};   // [N] gate's feel and damping
-  glm::dvec2 world_force{0.0};  // [N] driveline
+  glm::dvec2 load_force{0.0};   // [N] driveline
   glm::dvec2 commanded{0.0};    // [N] after the guard
-  glm::dvec2 f_h{0.0};          // [N] eq (4): of the hand
-  glm::dvec2 f_a{0.0};          // [N] eq (4): of the actuators, against the hand
-  glm::dvec2 f_j{0.0};          // [N] eq (4): f_h - f_a, what moves the joystick
-  double wall_stiffness = 0.0;  // [N/m] in use: what was admitted, less what the reversal limiter took
+  glm::dvec2 f_h{0.0};          // [N] eq (4): force of the hand
+  glm::dvec2 f_a{0.0};          // [N] eq (4): force of the actuators against the hand
+  glm::dvec2 f_j{0.0};          // [N] eq (4): f_h - f_a, which moves the joystick
+  double wall_stiffness = 0.0;  // [N/m] in use: the admitted stiffness after the reversal limiter
   double road_speed = 0.0;      // [m/s]
   int slot = kNoSlot;
   int gear = kNeutralGear;
@@ -50,7 +51,7 @@ enum class EventKind : std::uint8_t {
   saturation_begin,  // value: wanted force [N]
   saturation_end,
   guard_changed,     // value: GuardState
-  stiffness_lowered  // value: stiffness in use from now on [N/m]; the lever chattered on a wall
+  stiffness_lowered  // value: new stiffness [N/m]; the lever chattered on a wall
 };
 
 struct HapticEvent {
@@ -60,4 +61,8 @@ struct HapticEvent {
   double value = 0.0;
 };
 
-}  // namespace gearshift
+// "2 engaged", "wall hit at 0.31 m/s", ... push_estimated: the device has no force sensor, so the push is marked as
+// estimated.
+std::string describe(const HapticEvent& event, bool push_estimated = false);
+
+}  // namespace gearshift::haptics

@@ -9,13 +9,14 @@
 #include "haptics/files/text_file.h"
 #include "haptics/files/toml_reader.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
-constexpr Range kAnySeed{0.0, 9007199254740992.0};  // 2^53: every whole number up to it is a double
-constexpr double kMostMass = 1e3, kMostDamping = 1e4, kMostStiffness = 1e6;
+constexpr Range kAnySeed{0.0, 9007199254740992.0};  // 2^53: every integer up to it is exact as a double
+constexpr double kMaxMass = 1e3, kMaxDamping = 1e4, kMaxStiffness = 1e6;
 
-// The value of a key, or what the struct says where the file is silent: unless another key has made that impossible.
+// Reads a key if present and otherwise keeps the default. A default that another key has put out of range makes the key
+// mandatory.
 void read(const TomlTable& table, std::string_view key, double& value, Range range) {
   const bool possible = value >= range.min && value <= range.max;
   if (table.has(key) || !possible) value = table.number(key, range);
@@ -50,7 +51,7 @@ void read_part(const TomlTable& table, std::string_view key, Part& part, void (*
   if (!table.has(key)) return;
   const TomlTable inner = table.table(key);
   read_it(inner, part);
-  inner.refuse_unknown_keys();
+  inner.reject_unknown_keys();
 }
 
 void read_yoke(const TomlTable& table, YokeGeometry& yoke) {
@@ -60,9 +61,9 @@ void read_yoke(const TomlTable& table, YokeGeometry& yoke) {
 }
 
 void read_axis(const TomlTable& table, AxisModel& axis) {
-  read(table, "mass_kg", axis.mass, {1e-3, kMostMass});
-  read(table, "damping_n_s_per_m", axis.damping, {0.0, kMostDamping});
-  read(table, "stiffness_n_per_m", axis.stiffness, {0.0, kMostStiffness});
+  read(table, "mass_kg", axis.mass, {1e-3, kMaxMass});
+  read(table, "damping_n_s_per_m", axis.damping, {0.0, kMaxDamping});
+  read(table, "stiffness_n_per_m", axis.stiffness, {0.0, kMaxStiffness});
 }
 
 void read_sensor(const TomlTable& table, ForceSensorModel& sensor) {
@@ -87,9 +88,9 @@ void read_encoder(const TomlTable& table, double& counts) {
 
 void read_hand(const TomlTable& table, HandImpedance& hand) {
   if (!table.has("hand")) return;
-  const std::optional<HandImpedance> named = hand_from_text(table.text("hand"));
+  const std::optional<HandImpedance> named = parse_hand(table.text("hand"));
   const bool possible =
-      named && named->mass <= kMostMass && named->damping <= kMostDamping && named->stiffness <= kMostStiffness;
+      named && named->mass <= kMaxMass && named->damping <= kMaxDamping && named->stiffness <= kMaxStiffness;
   if (!possible) {
     table.fail("hand", "must be bare, light, grip, arm or \"M,B,K\" up to 1000 kg, 10000 N s/m and 1000000 N/m");
   }
@@ -100,8 +101,8 @@ void read_lever(const TomlTable& table, SimulatedLeverConfig& lever) {
   read_encoder(table, lever.encoder_counts);
   read_actuator(table, lever.actuator);
   read(table, "coulomb_friction_n", lever.coulomb_friction, {0.0, 1e3});
-  read_whole(table, "delay_cycles", lever.delay, {0.0, kMaxDelay});
-  read(table, "own_wall_stiffness_n_per_m", lever.own_stiffness, {0.0, 1e5});
+  read_whole(table, "delay_cycles", lever.delay, {0.0, kMaxSimulatedDelay});
+  read(table, "own_wall_stiffness_n_per_m", lever.device_wall_stiffness, {0.0, 1e5});
   read_hand(table, lever.hand);
   read(table, "model_error", lever.model_error, {0.0, 0.5});
   read(table, "period_jitter", lever.period_jitter, {0.0, 0.5});
@@ -138,7 +139,7 @@ void read_contact(const TomlTable& table, ContactConfig& contact) {
                             {"energy_bounding", EnergyControl::energy_bounding},
                             {"passivity_controller", EnergyControl::passivity_controller}});
   contact.reversal_limiter = table.flag_or("reversal_limiter", contact.reversal_limiter);
-  contact.study = table.flag_or("study", contact.study);
+  contact.allow_unstable = table.flag_or("study", contact.allow_unstable);
 }
 
 void read_estimator(const TomlTable& table, EstimatorConfig& estimator) {
@@ -175,8 +176,8 @@ Preset read_preset(const std::string& file) {
   read_part(root, "estimator", preset.haptics.estimator, read_estimator);
   read_part(root, "guard", preset.haptics.guard, read_guard);
   read_part(root, "over_push", preset.haptics.over_push, read_over_push);
-  root.refuse_unknown_keys();
+  root.reject_unknown_keys();
   return preset;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

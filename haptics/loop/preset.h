@@ -1,4 +1,4 @@
-// A preset: one file that says which device, hand and configuration a run has.
+// A preset: one file with the device, hand and haptic configuration of a run.
 #pragma once
 
 #include <string>
@@ -6,7 +6,7 @@
 #include "haptics/device/simulated_lever.h"
 #include "haptics/loop/haptic_config.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 struct Preset {
   std::string name;
@@ -14,7 +14,7 @@ struct Preset {
   SimulatedLeverConfig lever;
 };
 
-// Keys that a file leaves out keep the default of their struct. Throws FileError: file, line, key, value, range.
+// Missing keys keep the struct's defaults. Throws FileError with file, line, key, value and range.
 Preset read_preset(const std::string& file);
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

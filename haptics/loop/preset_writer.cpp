@@ -6,13 +6,13 @@
 #include <numbers>
 #include <string_view>
 
-#include "haptics/files/readable_file.h"
 #include "haptics/files/toml_text.h"
+#include "haptics/files/verified_file.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
-// The reader multiplies by pi / 180. Of the neighbours, the number of degrees that gives the angle to the bit.
+// Finds the number of degrees that the reader converts back (times pi / 180) to exactly this angle.
 double degrees_of(double radians) {
   const double nearest = radians * 180.0 / std::numbers::pi;
   for (const double candidate : {nearest, std::nextafter(nearest, 0.0), std::nextafter(nearest, HUGE_VAL)})
@@ -83,7 +83,7 @@ void put_lever(TomlText& out, const SimulatedLeverConfig& lever) {
   out.put("overload_time_s", lever.actuator.overload_time);
   out.put("coulomb_friction_n", lever.coulomb_friction);
   out.put("delay_cycles", lever.delay);
-  out.put("own_wall_stiffness_n_per_m", lever.own_stiffness);
+  out.put("own_wall_stiffness_n_per_m", lever.device_wall_stiffness);
   out.put("hand", hand_text(lever.hand));
   out.put("model_error", lever.model_error);
   out.put("period_jitter", lever.period_jitter);
@@ -117,7 +117,7 @@ void put_contact(TomlText& out, const ContactConfig& contact) {
   out.put("hold", word_of(contact.hold));
   out.put("energy_control", word_of(contact.energy_control));
   out.put("reversal_limiter", contact.reversal_limiter);
-  out.put("study", contact.study);
+  out.put("study", contact.allow_unstable);
 }
 
 void put_guard(TomlText& out, const GuardConfig& guard) {
@@ -159,7 +159,7 @@ std::string preset_text(const Preset& preset) {
 }
 
 void write_preset(const Preset& preset, const std::filesystem::path& file) {
-  write_readable_file(file, preset_text(preset), [](const auto& written) { (void)read_preset(written.string()); });
+  write_verified_file(file, preset_text(preset), [](const auto& written) { (void)read_preset(written.string()); });
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

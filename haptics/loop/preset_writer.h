@@ -1,4 +1,4 @@
-// Writes a preset so that read_preset() gives it back, every key.
+// Writes a preset with every key, so that read_preset() returns it unchanged.
 #pragma once
 
 #include <filesystem>
@@ -6,14 +6,14 @@
 
 #include "haptics/loop/preset.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
-// The file's text. Numbers have all their digits; an angle in degrees may come back a last bit off where no number of
-// degrees gives it (one that was read from degrees never does).
+// The file's text. Numbers are written losslessly. An angle may come back one bit off if no number of degrees gives
+// exactly that value; an angle that was read from degrees always comes back exactly.
 std::string preset_text(const Preset& preset);
 
-// Whole or not at all: written beside, read back, then renamed over a file of that name. The folder must exist.
-// Throws FileError in one sentence: it cannot be written, or holds a value that read_preset() would refuse.
+// Atomic: writes a temporary file, reads it back, and renames it over an existing file. The folder must exist. Throws
+// FileError with one sentence if the file cannot be written or holds a value that read_preset() would reject.
 void write_preset(const Preset& preset, const std::filesystem::path& file);
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

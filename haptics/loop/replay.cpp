@@ -15,12 +15,12 @@
 #include "haptics/gate/gate_compiler.h"
 #include "haptics/loop/haptic_loop.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
-constexpr std::size_t kShownName = 80;  // [bytes] of a world's name in a message
+constexpr std::size_t kShownName = 80;  // [bytes] of a load's name in a message
 
-// Hands out what the recorded device measured. What is written to it moves nothing: the drive is over.
+// Returns the recorded readings and ignores all writes.
 class RecordedDevice final : public HapticDevice {
  public:
   explicit RecordedDevice(const DeviceSpec& spec) noexcept : spec_(spec) {}
@@ -51,7 +51,8 @@ std::string value_text(T value) {
   }
 }
 
-// Calls visit("reading.position.x", leaf) for every leaf inside. Slow and allocating: not for every cycle.
+// Calls visit("reading.position.x", leaf) for every leaf field. It is slow and allocates, so it is not used every
+// cycle.
 template <class T, class Visit>
 void each_leaf(const T& value, const std::string& prefix, const Visit& visit) {
   each_field(value, [&](const char* name, const auto& member) {
@@ -77,45 +78,45 @@ std::optional<Difference> first_difference(const TraceSample& recorded, const Tr
   return std::nullopt;
 }
 
-bool same_bits(const HapticTuning& a, const HapticTuning& b) noexcept {
+bool has_same_bits(const HapticTuning& a, const HapticTuning& b) noexcept {
   std::array<std::byte, encoded_size<HapticTuning>()> left, right;
   FieldWriter(left.data()).put(a);
   FieldWriter(right.data()).put(b);
   return left == right;
 }
 
-// A name may hold a whole file: its first line says what it is.
-std::unique_ptr<LeverWorld> find_world(const std::string& name, const Gate& gate, const WorldFactory& make_world) {
-  std::unique_ptr<LeverWorld> world;
+// A name may contain a whole car file, so messages only quote its first line.
+std::unique_ptr<LeverLoad> make_known_load(const std::string& name, const Gate& gate, const LoadFactory& make_load) {
+  std::unique_ptr<LeverLoad> load;
   try {
-    world = make_world(name, gate);
+    load = make_load(name, gate);
   } catch (const FileError& error) {
-    throw std::invalid_argument(std::string("its world is refused: ") + error.what());
+    throw std::invalid_argument(std::string("its lever load is refused: ") + error.what());
   }
-  if (world) return world;
+  if (load) return load;
   const std::string first_line = printable(name.substr(0, std::min<std::size_t>(name.find('\n'), kShownName)));
-  throw std::invalid_argument("its world \"" + first_line + "\" is not known to this program");
+  throw std::invalid_argument("its lever load \"" + first_line + "\" is not known to this program");
 }
 
 }  // namespace
 
-std::unique_ptr<LeverWorld> make_null_world(const std::string& name, const Gate&) {
-  auto world = std::make_unique<NullWorld>();
-  return name == world->name() ? std::move(world) : nullptr;
+std::unique_ptr<LeverLoad> make_no_load(const std::string& name, const Gate&) {
+  auto load = std::make_unique<NoLoad>();
+  return name == load->replay_parameters() ? std::move(load) : nullptr;
 }
 
 struct Replayer::Rig {
-  Rig(const TraceHeader& header, const WorldFactory& make_world)
+  Rig(const TraceHeader& header, const LoadFactory& make_load)
       : device(header.device),
         gate(compile_gate(parse_gate_layout(header.gate_text, header.gate_file), header.device.workspace,
                           header.device.yoke_radius > 0.0 ? header.device.yoke_radius : HUGE_VAL)),
-        world(find_world(header.world, gate, make_world)),
-        loop(header.config, gate, device, *world, channels) {
+        load(make_known_load(header.load, gate, make_load)),
+        loop(header.config, gate, device, *load, channels) {
     if (header.armed) loop.arm();
     channels.recording.store(true);
   }
 
-  // The inputs of the cycle, as they came in.
+  // Feeds the recorded inputs of a cycle.
   void feed(const TraceSample& recorded, bool new_tuning) noexcept {
     device.reading = recorded.reading;
     channels.controls.write(recorded.controls);
@@ -133,21 +134,21 @@ struct Replayer::Rig {
 
   RecordedDevice device;
   Gate gate;
-  std::unique_ptr<LeverWorld> world;
+  std::unique_ptr<LeverLoad> load;
   LoopChannels channels;
   HapticLoop loop;
 };
 
-Replayer::Replayer(const TraceHeader& header, const std::string& file, const WorldFactory& make_world)
+Replayer::Replayer(const TraceHeader& header, const std::string& file, const LoadFactory& make_load)
     : file_(file), period_(1e-9 * static_cast<double>(period_ns(header.config))), hash_(begin_hash(header)) {
   try {
     check_config(header.config);
     check_device(header.device);
-    rig_ = std::make_unique<Rig>(header, make_world);
+    rig_ = std::make_unique<Rig>(header, make_load);
   } catch (const std::invalid_argument& error) {
-    throw FileError(file, 0, std::string("cannot be run again: ") + error.what());
+    throw FileError(file, 0, std::string("cannot be replayed: ") + error.what());
   } catch (const FileError& error) {
-    throw FileError(file, 0, std::string("cannot be run again, its gate is refused: ") + error.what());
+    throw FileError(file, 0, std::string("cannot be replayed: its gate is refused: ") + error.what());
   }
 }
 
@@ -157,12 +158,12 @@ bool Replayer::step(const TraceSample& recorded) {
   const bool is_first = result_.cycles == 0;
   if (is_first && recorded.out.cycle != rig_->loop.snapshot().cycle)
     throw FileError(file_, 0,
-                    "cannot be run again: its recording began in the middle of a run, at cycle " +
+                    "cannot be replayed: its recording began in the middle of a run, at cycle " +
                         std::to_string(recorded.out.cycle));
   if (is_first) first_ns_ = recorded.deadline_ns;
 
-  // The tuning of the first cycle follows from the header. Feeding it would hide a header that differs.
-  rig_->feed(recorded, !is_first && !same_bits(recorded.tuning, last_.tuning));
+  // The tuning of the first cycle follows from the header. Feeding it would hide a wrong header.
+  rig_->feed(recorded, !is_first && !has_same_bits(recorded.tuning, last_.tuning));
   const TraceSample replayed = rig_->cycle(recorded.deadline_ns, recorded.skipped);
   last_ = recorded;
   ++result_.cycles;
@@ -184,11 +185,11 @@ ReplayResult Replayer::finish(std::uint64_t recorded_hash) const {
   return result;
 }
 
-ReplayResult replay(const Trace& trace, const WorldFactory& make_world) {
-  Replayer replayer(trace.header, trace.header.gate_file, make_world);
+ReplayResult replay(const Trace& trace, const LoadFactory& make_load) {
+  Replayer replayer(trace.header, trace.header.gate_file, make_load);
   for (const TraceSample& sample : trace.samples)
     if (!replayer.step(sample)) break;
   return replayer.finish(trace.hash);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

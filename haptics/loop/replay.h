@@ -1,4 +1,4 @@
-// Runs a recorded drive again, from its inputs alone, and compares every output of every cycle, bit by bit.
+// Replays a recorded drive from its inputs and compares every output of every cycle bit by bit.
 #pragma once
 
 #include <cstdint>
@@ -7,27 +7,27 @@
 #include <optional>
 #include <string>
 
-#include "haptics/loop/lever_world.h"
+#include "haptics/loop/lever_load.h"
 #include "haptics/loop/trace_format.h"
 #include "haptics/loop/trace_reader.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
-// The world of that name behind that gate, or nothing when the name is not known.
-using WorldFactory = std::function<std::unique_ptr<LeverWorld>(const std::string& name, const Gate& gate)>;
-std::unique_ptr<LeverWorld> make_null_world(const std::string& name, const Gate& gate);
+// Makes the load identified by `name` for that gate; null if the name is unknown.
+using LoadFactory = std::function<std::unique_ptr<LeverLoad>(const std::string& name, const Gate& gate)>;
+std::unique_ptr<LeverLoad> make_no_load(const std::string& name, const Gate& gate);
 
-// The first thing that came out differently.
+// The first field that differs.
 struct Difference {
   std::uint64_t cycle = 0;
   std::string field;               // "out.commanded.x"
-  std::string recorded, replayed;  // as text, doubles with all their digits
+  std::string recorded, replayed;  // as text, doubles losslessly
 };
 
 struct ReplayResult {
-  std::uint64_t cycles = 0;         // that were run again, the differing one included
+  std::uint64_t cycles = 0;         // replayed cycles, including the one that differs
   double seconds = 0.0;             // [s] on the loop's clock
-  std::uint64_t recorded_hash = 0;  // of parameters and outputs
+  std::uint64_t recorded_hash = 0;  // hash of parameters and outputs
   std::uint64_t replayed_hash = 0;
   std::optional<Difference> first;
   bool bit_for_bit() const noexcept { return !first && recorded_hash == replayed_hash; }
@@ -35,30 +35,30 @@ struct ReplayResult {
 
 class Replayer {
  public:
-  // Throws FileError (with `file` as its name) where the header describes nothing that can be run: an unknown
-  // world, a parameter out of its range, a layout that does not compile.
-  Replayer(const TraceHeader& header, const std::string& file, const WorldFactory& make_world = make_null_world);
+  // Throws FileError (naming `file`) if the header cannot be replayed: an unknown load, a parameter out of range, or a
+  // gate layout that does not compile.
+  Replayer(const TraceHeader& header, const std::string& file, const LoadFactory& make_load = make_no_load);
   ~Replayer();
 
-  // One cycle again. False at the first difference: then finish. Throws FileError when the recording began in
+  // Replays one cycle. False at the first difference; then call finish(). Throws FileError if the recording began in
   // the middle of a run.
   bool step(const TraceSample& recorded);
 
-  // recorded_hash: of the whole recording (TraceReader::hash after its last cycle).
+  // recorded_hash: hash of the whole recording (TraceReader::hash after the last cycle).
   ReplayResult finish(std::uint64_t recorded_hash) const;
 
  private:
-  struct Rig;  // device, world, gate, channels and loop of the second run
+  struct Rig;  // device, load, gate, channels and loop of the replay
 
   std::string file_;
   double period_;  // [s]
   std::unique_ptr<Rig> rig_;
-  TraceSample last_;  // recorded in the cycle before
+  TraceSample last_;  // recorded sample of the previous cycle
   RunHash hash_;
   ReplayResult result_;
   std::int64_t first_ns_ = 0;  // [ns]
 };
 
-ReplayResult replay(const Trace& trace, const WorldFactory& make_world = make_null_world);
+ReplayResult replay(const Trace& trace, const LoadFactory& make_load = make_no_load);
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

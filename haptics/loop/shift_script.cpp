@@ -9,17 +9,17 @@
 
 #include "haptics/gate/gate_feel.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
 using glm::dvec2;
 
-// Collects strokes; each knows how far it is and so how long it takes.
+// Collects strokes and derives each one's duration from its length.
 class StrokeWriter {
  public:
   StrokeWriter(dvec2 start, const ShiftStyle& style) : at_(start), style_(style) {}
 
-  void go(dvec2 to, double dwell) {
+  void move_to(dvec2 to, double dwell) {
     const double distance = glm::distance(at_, to);
     if (distance < 1e-6) return;
     HandStroke stroke;
@@ -59,8 +59,8 @@ const Column& column_at(const Gate& gate, double x) {
   return gate.column[static_cast<std::size_t>(nearest_column(gate, x))];
 }
 
-// Outside this column: the neutral one, or half way to a neighbour where it is that one itself.
-double aside_of(const Gate& gate, double x) {
+// x outside the column at `x`: the neutral column, or half way to a neighbour if this is the neutral column.
+double detour_x(const Gate& gate, double x) {
   const int here = nearest_column(gate, x);
   const double center = gate.column[static_cast<std::size_t>(here)].center;
   if (here != gate.neutral_column) return gate.column[static_cast<std::size_t>(gate.neutral_column)].center;
@@ -69,12 +69,13 @@ double aside_of(const Gate& gate, double x) {
 
 constexpr double kLean = 0.0015;  // [m] beyond a wall
 
-// A hand slides along the gate's end wall into the outer slots; at an inner slot it aims at the middle.
-double lean_at(const Gate& gate, double x, double way) {
+// x offset to aim at: a hand slides along the gate's end wall into an outer slot, and aims at the middle of an inner
+// slot.
+double lean_at(const Gate& gate, double x, double direction) {
   const double half_width = column_at(gate, x).half_width;
-  const double wall = x + std::copysign(half_width, way);
+  const double wall = x + std::copysign(half_width, direction);
   const bool ends_gate = wall <= gate.select_min || wall >= gate.select_max;
-  return ends_gate ? std::copysign(half_width + kLean, way) : 0.0;
+  return ends_gate ? std::copysign(half_width + kLean, direction) : 0.0;
 }
 
 }  // namespace
@@ -83,24 +84,24 @@ std::vector<HandStroke> shift_strokes(const Gate& gate, dvec2 start, std::span<c
                                       const ShiftStyle& style) {
   StrokeWriter writer(start, style);
   const auto select = [&](double x) {
-    const double way = x - writer.at().x;
-    if (std::abs(way) <= column_at(gate, x).half_width + 1.01 * kLean) return;  // it leans in that column already
-    writer.go({x + (style.leans ? lean_at(gate, x, way) : 0.0), 0.0}, style.dwell_neutral);
+    const double direction = x - writer.at().x;
+    if (std::abs(direction) <= column_at(gate, x).half_width + 1.01 * kLean) return;  // already in that column
+    writer.move_to({x + (style.leans ? lean_at(gate, x, direction) : 0.0), 0.0}, style.dwell_neutral);
   };
   int gear = kNeutralGear;
   for (const int next : gears) {
     const int index = slot_of_gear(gate, next);
     const dvec2 rest = rest_position(gate, next);
-    if (slot_at(gate, writer.at()) != kNoSlot) writer.go({writer.at().x, 0.0}, style.dwell_neutral);
+    if (slot_at(gate, writer.at()) != kNoSlot) writer.move_to({writer.at().x, 0.0}, style.dwell_neutral);
     if (has_lockout(gate, index, LockoutKind::after_gear, gear)) {
-      writer.go({aside_of(gate, rest.x), 0.0}, style.dwell_neutral);
+      writer.move_to({detour_x(gate, rest.x), 0.0}, style.dwell_neutral);
     }
     writer.hold(has_lockout(gate, index, LockoutKind::push_down), has_lockout(gate, index, LockoutKind::lift));
     select(rest.x);
     if (index != kNoSlot) {
       const Slot& slot = gate.slot[static_cast<std::size_t>(index)];
       const double depth = style.leans ? slot.end + kLean : slot.rest;
-      writer.go({writer.at().x, static_cast<int>(slot.side) * depth}, style.dwell_gear);
+      writer.move_to({writer.at().x, static_cast<int>(slot.side) * depth}, style.dwell_gear);
     }
     writer.hold(false, false);
     gear = next;
@@ -125,4 +126,4 @@ ScriptedHandConfig touring_hand(dvec2 start) {
   return hand;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

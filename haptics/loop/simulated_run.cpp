@@ -1,6 +1,6 @@
 #include "haptics/loop/simulated_run.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
 SimulatedLever placed_lever(const SimulatedRunConfig& config, HandDriver& driver) {
@@ -11,10 +11,10 @@ SimulatedLever placed_lever(const SimulatedRunConfig& config, HandDriver& driver
 
 }  // namespace
 
-SimulatedRun::SimulatedRun(const SimulatedRunConfig& config, HandDriver& driver, LeverWorld* world)
+SimulatedRun::SimulatedRun(const SimulatedRunConfig& config, HandDriver& driver, LeverLoad* load)
     : period_ns_(period_ns(config.haptics)),
       lever_(placed_lever(config, driver)),
-      loop_(config.haptics, config.gate, lever_, world ? *world : nothing_, channels_) {
+      loop_(config.haptics, config.gate, lever_, load ? *load : no_load_, channels_) {
   loop_.arm();
 }
 
@@ -24,4 +24,4 @@ const HapticSnapshot& SimulatedRun::step() noexcept {
   return loop_.snapshot();
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

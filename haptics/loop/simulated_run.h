@@ -1,5 +1,5 @@
-// A whole headless trainer lever: simulated device and hand, gate, loop, on a virtual clock. Deterministic,
-// and as fast as it goes.
+// A complete headless lever: simulated device and hand, gate and loop on a virtual clock. Deterministic, and not
+// limited to real time.
 #pragma once
 
 #include <cstdint>
@@ -9,23 +9,23 @@
 #include "haptics/gate/gate.h"
 #include "haptics/loop/haptic_config.h"
 #include "haptics/loop/haptic_loop.h"
-#include "haptics/loop/lever_world.h"
+#include "haptics/loop/lever_load.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 struct SimulatedRunConfig {
   HapticConfig haptics;
   SimulatedLeverConfig lever;
   Gate gate;
-  glm::dvec2 start{0.0};  // [m] where the lever rests at first
+  glm::dvec2 start{0.0};  // [m] initial lever position
 };
 
 class SimulatedRun {
  public:
-  // The driver (and the world, where one is given) must outlive the run. The lever is armed.
-  SimulatedRun(const SimulatedRunConfig& config, HandDriver& driver, LeverWorld* world = nullptr);
+  // The driver and the load, if given, must outlive the run. The lever starts armed.
+  SimulatedRun(const SimulatedRunConfig& config, HandDriver& driver, LeverLoad* load = nullptr);
 
-  // One period; the snapshot is that of the cycle just done.
+  // Runs one cycle and returns its snapshot.
   const HapticSnapshot& step() noexcept;
 
   double time() const noexcept { return 1e-9 * static_cast<double>(now_ns_); }       // [s] simulated
@@ -37,10 +37,10 @@ class SimulatedRun {
  private:
   std::int64_t period_ns_;
   std::int64_t now_ns_ = 0;
-  NullWorld nothing_;
+  NoLoad no_load_;
   LoopChannels channels_;
   SimulatedLever lever_;
   HapticLoop loop_;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -10,13 +10,13 @@
 #include "haptics/files/file_error.h"
 #include "haptics/loop/trace_format.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
 constexpr double kMm = 1e3;  // [mm/m]
 constexpr int kDigits = 12;  // significant; the trace itself is lossless
 
-// Collects cells. One walk over the columns gives either the header or a line, so the two cannot disagree.
+// Collects cells. The same code builds the header and the lines, so that their columns always match.
 class Row {
  public:
   explicit Row(bool names) : names_(names) {}
@@ -79,7 +79,7 @@ void add_motion(Row& row, const HapticSnapshot& out) {
 void add_forces(Row& row, const HapticSnapshot& out) {
   row.pair("wall_force", "n", out.wall_force, 1.0);
   row.pair("feel_force", "n", out.feel_force, 1.0);
-  row.pair("world_force", "n", out.world_force, 1.0);
+  row.pair("world_force", "n", out.load_force, 1.0);
   row.pair("commanded", "n", out.commanded, 1.0);
   row.pair("f_h", "n", out.f_h, 1.0);
   row.pair("f_a", "n", out.f_a, 1.0);
@@ -161,7 +161,7 @@ void TraceCsvFile::finish() {
   errno = 0;
   stream_.close();
   if (!stream_) throw FileError(name_, 0, std::string("could not be written: ") + std::strerror(errno));
-  part_.keep();
+  part_.commit();
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

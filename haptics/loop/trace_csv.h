@@ -1,4 +1,4 @@
-// A trace as a table for other programs: one line per cycle, units in the header line, any locale.
+// Exports a trace as CSV: one line per cycle, units in the header line, independent of the locale.
 #pragma once
 
 #include <cstdint>
@@ -7,26 +7,26 @@
 #include <optional>
 #include <string>
 
-#include "haptics/files/part_file.h"
+#include "haptics/files/atomic_file.h"
 #include "haptics/loop/haptic_loop.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 std::string trace_csv_header();
-// first_ns: deadline of the first cycle [ns], where time_s is 0. Both without the line's end.
+// first_ns: deadline of the first cycle [ns], at which time_s is 0. Neither line has a line end.
 std::string trace_csv_line(const TraceSample& sample, std::int64_t first_ns);
 
-class TraceCsvFile {  // there whole or not at all
+class TraceCsvFile {  // the file appears only after finish()
  public:
-  explicit TraceCsvFile(const std::filesystem::path& file);  // throws FileError when it cannot be written
+  explicit TraceCsvFile(const std::filesystem::path& file);  // throws FileError if it cannot be written
   void add(const TraceSample& sample);
-  void finish();  // throws FileError when something could not be written
+  void finish();  // throws FileError if something could not be written
 
  private:
   std::string name_;
-  PartFile part_;
+  AtomicFile part_;
   std::ofstream stream_;
   std::optional<std::int64_t> first_ns_;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -1,11 +1,10 @@
-// The fields of everything that a trace carries, listed once.
-// Writing, reading, comparing, hashing and naming all walk these lists.
+// The fields of all structs in a trace, listed once. Writing, reading, comparing, hashing and naming all use these
+// lists.
 //
-//   each_field(value, visit)   calls visit("name", member) for every member, in the order of the file
+//   each_field(value, visit)   calls visit("name", member) for every member, in file order
 //
-// Each list takes its struct apart with a structured binding: a struct that gains or loses a member no longer
-// compiles here. Then add the member below, in the same order, and raise kTraceVersion. A member that changes
-// its type raises it, too.
+// Each list uses a structured binding, so that it no longer compiles when its struct gains or loses a member. Then add
+// the member below, in the same order, and raise kTraceVersion; also raise it if a member changes its type.
 #pragma once
 
 #include <concepts>
@@ -15,7 +14,7 @@
 
 #include "haptics/loop/haptic_loop.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 template <class T, class S>
 concept FieldsOf = std::same_as<std::remove_const_t<T>, S>;
@@ -36,8 +35,8 @@ constexpr void each_field(FieldsOf<AxisModel> auto& axis, auto&& visit) {
 }
 
 constexpr void each_field(FieldsOf<DeviceSpec> auto& spec, auto&& visit) {
-  auto& [max_force, continuous_force, workspace, yoke_radius, position_step, delay, axis_x, axis_y, own_stiffness,
-         own_damping, measures, simulated] = spec;
+  auto& [max_force, continuous_force, workspace, yoke_radius, position_step, delay, axis_x, axis_y,
+         device_wall_stiffness, device_wall_damping, measures, simulated] = spec;
   visit("max_force", max_force);
   visit("continuous_force", continuous_force);
   visit("workspace", workspace);
@@ -46,8 +45,8 @@ constexpr void each_field(FieldsOf<DeviceSpec> auto& spec, auto&& visit) {
   visit("delay", delay);
   visit("axis_x", axis_x);
   visit("axis_y", axis_y);
-  visit("own_stiffness", own_stiffness);
-  visit("own_damping", own_damping);
+  visit("own_stiffness", device_wall_stiffness);
+  visit("own_damping", device_wall_damping);
   visit("measures_hand_force", measures);
   visit("simulated", simulated);
 }
@@ -87,11 +86,11 @@ constexpr void each_field(FieldsOf<OverPushConfig> auto& over_push, auto&& visit
 }
 
 constexpr void each_field(FieldsOf<ContactConfig> auto& contact, auto&& visit) {
-  auto& [hold, energy_control, reversal_limiter, study] = contact;
+  auto& [hold, energy_control, reversal_limiter, allow_unstable] = contact;
   visit("hold", hold);
   visit("energy_control", energy_control);
   visit("reversal_limiter", reversal_limiter);
-  visit("study", study);
+  visit("study", allow_unstable);
 }
 
 constexpr void each_field(FieldsOf<HapticConfig> auto& config, auto&& visit) {
@@ -132,7 +131,7 @@ constexpr void each_field(FieldsOf<DriverControls> auto& controls, auto&& visit)
 }
 
 constexpr void each_field(FieldsOf<HapticSnapshot> auto& snapshot, auto&& visit) {
-  auto& [cycle, time_ns, lever, velocity, proxy, wall_force, feel_force, world_force, commanded, f_h, f_a, f_j,
+  auto& [cycle, time_ns, lever, velocity, proxy, wall_force, feel_force, load_force, commanded, f_h, f_a, f_j,
          wall_stiffness, road_speed, slot, gear, guard, fault, flags] = snapshot;
   visit("cycle", cycle);
   visit("time_ns", time_ns);
@@ -141,7 +140,7 @@ constexpr void each_field(FieldsOf<HapticSnapshot> auto& snapshot, auto&& visit)
   visit("proxy", proxy);
   visit("wall_force", wall_force);
   visit("feel_force", feel_force);
-  visit("world_force", world_force);
+  visit("world_force", load_force);
   visit("commanded", commanded);
   visit("f_h", f_h);
   visit("f_a", f_a);
@@ -155,7 +154,7 @@ constexpr void each_field(FieldsOf<HapticSnapshot> auto& snapshot, auto&& visit)
   visit("flags", flags);
 }
 
-// Inputs first, then `out`: the outputs are the tail of an encoded sample.
+// `out` must be last: the outputs are the tail of an encoded sample.
 constexpr void each_field(FieldsOf<TraceSample> auto& sample, auto&& visit) {
   auto& [deadline_ns, skipped, reading, controls, tuning, command, out] = sample;
   visit("deadline_ns", deadline_ns);
@@ -167,7 +166,7 @@ constexpr void each_field(FieldsOf<TraceSample> auto& sample, auto&& visit) {
   visit("out", out);
 }
 
-// Largest value of an enumeration in the file.
+// Largest valid value of each enumeration.
 constexpr ContactHold last_value(ContactHold) {
   return ContactHold::observer;
 }
@@ -184,4 +183,4 @@ constexpr GuardFault last_value(GuardFault) {
   return GuardFault::chatter;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

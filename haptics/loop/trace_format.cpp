@@ -2,7 +2,7 @@
 
 #include "haptics/loop/block_codec.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
 constexpr std::uint32_t kMaxHeaderBytes = 4u << 20;  // a layout file is a few kilobytes
@@ -20,13 +20,13 @@ void append_text(std::vector<std::byte>& bytes, const std::string& text) {
   bytes.insert(bytes.end(), view.begin(), view.end());
 }
 
-bool plausible(const BlockFrame& frame) noexcept {
+bool is_plausible(const BlockFrame& frame) noexcept {
   if (frame.kind != BlockKind::data && frame.samples != 0) return false;
   switch (frame.kind) {
     case BlockKind::header:
       return frame.size <= kMaxHeaderBytes;
     case BlockKind::data:
-      return frame.size <= kMostCodedBytes && frame.samples > 0 && frame.samples <= kSamplesPerBlock;
+      return frame.size <= kMaxCodedBytes && frame.samples > 0 && frame.samples <= kSamplesPerBlock;
     case BlockKind::end:
       return frame.size == kEndBytes;
   }
@@ -52,7 +52,7 @@ std::vector<std::byte> encode_header(const TraceHeader& header) {
   append(bytes, header.device);
   append_text(bytes, header.gate_file);
   append_text(bytes, header.gate_text);
-  append_text(bytes, header.world);
+  append_text(bytes, header.load);
   append(bytes, header.armed);
   return bytes;
 }
@@ -60,12 +60,12 @@ std::vector<std::byte> encode_header(const TraceHeader& header) {
 std::optional<TraceHeader> decode_header(std::span<const std::byte> payload) {
   TraceHeader header;
   FieldReader reader(payload);
-  if (!reader.take_text(header.program)) return std::nullopt;
+  if (!reader.read_text(header.program)) return std::nullopt;
   reader.take(header.config);
   reader.take(header.device);
-  if (!reader.take_text(header.gate_file)) return std::nullopt;
-  if (!reader.take_text(header.gate_text)) return std::nullopt;
-  if (!reader.take_text(header.world)) return std::nullopt;
+  if (!reader.read_text(header.gate_file)) return std::nullopt;
+  if (!reader.read_text(header.gate_text)) return std::nullopt;
+  if (!reader.read_text(header.load)) return std::nullopt;
   reader.take(header.armed);
   if (!reader.ok() || !reader.at_end()) return std::nullopt;
   return header;
@@ -90,7 +90,7 @@ std::optional<TraceEnd> decode_end(std::span<const std::byte> payload) noexcept 
   return end;
 }
 
-// The program's version and the layout's name are no parameters: another program may compute the same.
+// The program's version and the layout's file name are left out: they do not affect the result.
 RunHash begin_hash(const TraceHeader& header) {
   TraceHeader parameters = header;
   parameters.program.clear();
@@ -124,8 +124,8 @@ std::optional<BlockFrame> decode_frame(std::span<const std::byte, kFrameBytes> b
   reader.take(crc);
   frame.kind = static_cast<BlockKind>(kind);
   if (crc != crc32(bytes.first<kFrameBytes - sizeof crc>())) return std::nullopt;
-  if (!plausible(frame)) return std::nullopt;
+  if (!is_plausible(frame)) return std::nullopt;
   return frame;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -8,7 +8,7 @@
 #include "haptics/files/file_error.h"
 #include "haptics/loop/trace_writer.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
 std::string at_byte(std::uint64_t at) {
@@ -28,7 +28,7 @@ void TraceReader::fail(const std::string& reason) const {
   throw FileError(name_, 0, reason);
 }
 
-// When salvaging, damage is where the intact part ends. Returns false for that.
+// Throws, or when salvaging marks the trace as torn and returns false.
 bool TraceReader::stop_or_fail(const std::string& reason) {
   if (policy_ == TornTrace::refuse) fail(reason);
   torn_ = true;
@@ -69,7 +69,7 @@ void TraceReader::check_preamble() {
   if (version < kTraceVersion) fail(says + ", made by an older gearshift; " + reads);
 }
 
-// The header must be whole even when salvaging: without it the cycles mean nothing.
+// The header must be intact even when salvaging: without it the cycles cannot be interpreted.
 void TraceReader::read_header() {
   if (size_ < kPreambleBytes + kFrameBytes) fail("is torn: it ends inside its header");
   std::array<std::byte, kFrameBytes> bytes;
@@ -80,9 +80,9 @@ void TraceReader::read_header() {
   if (block.at + frame->size > size_) fail("is torn: it ends inside its header");
 
   const std::vector<std::byte> payload = read_payload(block);
-  if (crc32(payload) != frame->payload_crc) fail("is damaged: the checksum of its header does not fit");
+  if (crc32(payload) != frame->payload_crc) fail("is damaged: the checksum of its header does not match");
   std::optional<TraceHeader> header = decode_header(payload);
-  if (!header) fail("is damaged: its header does not hold what it must");
+  if (!header) fail("is damaged: its header is not valid");
   header_ = std::move(*header);
   hash_ = begin_hash(header_);
   scan_blocks(block.at + frame->size);
@@ -94,13 +94,13 @@ void TraceReader::scan_blocks(std::uint64_t at) {
     if (!scan_block(at)) return;
 }
 
-// Moves `at` past the block. False when it was the last that can be found.
+// Moves `at` past the block. False if it was the last one that can be found.
 bool TraceReader::scan_block(std::uint64_t& at) {
   std::array<std::byte, kFrameBytes> bytes;
   read(at, bytes);
   const std::optional<BlockFrame> frame = decode_frame(bytes);
   if (!frame || frame->kind == BlockKind::header)
-    return stop_or_fail("is damaged: there is no block " + at_byte(at) + ", where one must be");
+    return stop_or_fail("is damaged: there is no block " + at_byte(at) + ", where one is expected");
   const Block block{at + kFrameBytes, *frame};
   if (frame->size > size_ - block.at) return false;  // cut short
   at = block.at + frame->size;
@@ -111,7 +111,7 @@ bool TraceReader::scan_block(std::uint64_t& at) {
   }
   const std::vector<std::byte> payload = read_payload(block);
   const std::optional<TraceEnd> end = decode_end(payload);
-  if (crc32(payload) != frame->payload_crc || !end) return stop_or_fail("is damaged: its end block does not fit");
+  if (crc32(payload) != frame->payload_crc || !end) return stop_or_fail("is damaged: its end block is not valid");
   end_ = *end;
   torn_ = end_.torn;
   if (at != size_) return stop_or_fail("is damaged: " + std::to_string(size_ - at) + " bytes follow its end");
@@ -124,13 +124,13 @@ void TraceReader::check_scanned() {
   if (end_.torn) fail("is torn: the recorder could not keep up; " + intact);
   if (torn_) fail("is torn: it has no end block; " + intact);
   if (cycles_ != end_.cycles)
-    fail("is damaged: it holds " + std::to_string(cycles_) + " cycles where its end block says " +
+    fail("is damaged: it holds " + std::to_string(cycles_) + " cycles, but its end block says " +
          std::to_string(end_.cycles));
   if (cycles_ == 0) fail("holds no cycles");
 }
 
 std::vector<std::byte> TraceReader::read_payload(const Block& block) {
-  std::vector<std::byte> payload(block.frame.size);  // decode_frame has bounded it, and the file is that long
+  std::vector<std::byte> payload(block.frame.size);  // decode_frame() limits the size, and the file is long enough
   read(block.at, payload);
   return payload;
 }
@@ -146,7 +146,7 @@ bool TraceReader::load_block() {
   samples_.clear();
   next_block_ = blocks_.size();
   const std::string where = "the block " + at_byte(block.at);
-  if (!intact) return stop_or_fail("is damaged: the checksum of " + where + " does not fit");
+  if (!intact) return stop_or_fail("is damaged: the checksum of " + where + " does not match");
   return stop_or_fail("is damaged: " + where + " does not hold the " + std::to_string(block.frame.samples) +
                       " cycles that it claims");
 }
@@ -160,10 +160,10 @@ bool TraceReader::next(TraceSample& sample) {
   used_ += kSampleBytes;
   FieldReader reader(bytes);
   reader.take(sample);
-  if (!reader.ok()) fail("is damaged: cycle " + std::to_string(taken_) + " holds a value that does not exist");
+  if (!reader.ok()) fail("is damaged: cycle " + std::to_string(cycles_read_) + " holds an invalid value");
   check_cycle(sample);
   last_cycle_ = sample.out.cycle;
-  ++taken_;
+  ++cycles_read_;
   hash_.add(outputs_of(bytes));
   return true;
 }
@@ -172,13 +172,13 @@ void TraceReader::check_cycle(const TraceSample& sample) const {
   const auto damaged = [&](const std::string& how) {
     fail("is damaged: cycle " + std::to_string(sample.out.cycle) + how);
   };
-  if (taken_ > 0 && sample.out.cycle != last_cycle_ + 1) damaged(" follows cycle " + std::to_string(last_cycle_));
+  if (cycles_read_ > 0 && sample.out.cycle != last_cycle_ + 1) damaged(" follows cycle " + std::to_string(last_cycle_));
   if (sample.skipped < 0) damaged(" skipped " + std::to_string(sample.skipped) + " deadlines");
 }
 
 void TraceReader::check_end() const {
   if (torn_ || hash() == end_.hash) return;
-  fail("is damaged: its parameters and outputs are not those that its end block vouches for");
+  fail("is damaged: its parameters and outputs do not match its end block");
 }
 
 Trace read_trace(const std::filesystem::path& file) {
@@ -196,4 +196,4 @@ void write_trace(const std::filesystem::path& file, const TraceHeader& header, s
   if (!writer.problem().empty()) throw FileError(file.string(), 0, writer.problem());
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -1,5 +1,5 @@
-// Reads a trace file block by block and believes nothing in it. In memory are one block, and of the others where they
-// lie: 24 bytes each, 1/10 of a byte a cycle.
+// Reads a trace file block by block and validates everything in it. Memory holds one block, and the positions of all
+// others: 24 bytes each, 1/10 byte per cycle.
 #pragma once
 
 #include <cstdint>
@@ -12,28 +12,28 @@
 #include "haptics/loop/block_codec.h"
 #include "haptics/loop/trace_format.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 enum class TornTrace {
-  refuse,  // a file that is not whole is not read at all
-  salvage  // its intact cycles are: up to the first block that is damaged or missing
+  refuse,  // reject an incomplete file
+  salvage  // read its intact cycles, up to the first damaged or missing block
 };
 
 class TraceReader {
  public:
-  // Throws FileError with one sentence: not there, a directory, empty, foreign, of a newer format, damaged or
-  // torn. The frames of all blocks are looked at here, the payloads when it is their turn.
+  // Throws FileError with one sentence if the file is missing, a directory, empty, not a trace, of a newer format,
+  // damaged or torn. The constructor checks the frames of all blocks; next() checks the payloads.
   explicit TraceReader(const std::filesystem::path& file, TornTrace torn = TornTrace::refuse);
 
   const TraceHeader& header() const noexcept { return header_; }
-  std::uint64_t cycles() const noexcept { return cycles_; }  // in all whole data blocks
+  std::uint64_t cycles() const noexcept { return cycles_; }  // in all complete data blocks
   bool torn() const noexcept { return torn_; }               // true only when salvaging
 
-  // False after the last cycle. Throws FileError where a block is damaged, a cycle holds what cannot be or
-  // does not follow the one before, or the outputs are not those that the end block vouches for.
+  // False after the last cycle. Throws FileError if a block is damaged, a cycle holds an invalid value or does not
+  // follow the previous one, or the hash differs from the one in the end block.
   bool next(TraceSample& sample);
 
-  // Of the parameters and the outputs read so far.
+  // Hash of the parameters and the outputs read so far.
   std::uint64_t hash() const noexcept { return hash_.value(); }
 
  private:
@@ -69,9 +69,9 @@ class TraceReader {
   std::size_t next_block_ = 0;
   std::vector<std::byte> payload_;
   BlockCodec codec_;
-  std::vector<std::byte> samples_;  // of that block
+  std::vector<std::byte> samples_;  // decoded from the current block
   std::size_t used_ = 0;            // [bytes] of samples_
-  std::uint64_t taken_ = 0;
+  std::uint64_t cycles_read_ = 0;
   std::uint64_t last_cycle_ = 0;
   RunHash hash_;
 };
@@ -80,9 +80,9 @@ class TraceReader {
 struct Trace {
   TraceHeader header;
   std::vector<TraceSample> samples;
-  std::uint64_t hash = 0;  // of parameters and outputs, as recorded
+  std::uint64_t hash = 0;  // recorded hash of parameters and outputs
 };
 Trace read_trace(const std::filesystem::path& file);
 void write_trace(const std::filesystem::path& file, const TraceHeader& header, std::span<const TraceSample> samples);
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -2,7 +2,7 @@
 
 #include <chrono>
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
 // The queue holds two seconds at 4 kHz.
@@ -32,20 +32,20 @@ void TraceRecorder::run() noexcept {
 }
 
 void TraceRecorder::drain() noexcept {
-  // The losses so far, before the queue: a loss that happens after this look is seen by the next one.
+  // Read the loss counter before the queue: a loss that happens later is seen by the next call.
   lost_ = lost_ || channels_.trace_lost.load() != lost_before_;
   for (TraceSample sample; channels_.trace.pop(sample);) take(sample);
-  if (lost_ || !writer_.problem().empty()) give_up();
+  if (lost_ || !writer_.problem().empty()) stop_recording();
 }
 
-// Cycles after a gap are no use to a replay, which needs every input. Those before it are all kept.
+// Cycles after a gap are dropped, because a replay needs every input. All cycles before it are written.
 void TraceRecorder::take(const TraceSample& sample) noexcept {
   if (last_cycle_ && sample.out.cycle != *last_cycle_ + 1) lost_ = gap_ = true;
   last_cycle_ = sample.out.cycle;
   if (!gap_) writer_.add(sample);
 }
 
-void TraceRecorder::give_up() noexcept {
+void TraceRecorder::stop_recording() noexcept {
   channels_.recording.store(false);
   const std::lock_guard lock(mutex_);
   if (!problem_.empty()) return;
@@ -77,4 +77,4 @@ RecordingResult TraceRecorder::finish() noexcept {
   return {writer_.cycles(), writer_.hash(), lost_, problem_};
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

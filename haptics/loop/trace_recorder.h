@@ -1,4 +1,4 @@
-// Drains the loop's trace queue into a file, on any thread but the loop's.
+// Writes the loop's trace queue to a file, on any thread except the loop's.
 #pragma once
 
 #include <condition_variable>
@@ -12,24 +12,24 @@
 #include "haptics/loop/haptic_loop.h"
 #include "haptics/loop/trace_writer.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 enum class TracePump {
-  own_thread,  // beside a real-time loop
+  own_thread,  // for a real-time loop
   by_caller    // a headless run calls pump() at least once every 8000 cycles
 };
 
 struct RecordingResult {
   std::uint64_t cycles = 0;
-  std::uint64_t hash = 0;  // of parameters and outputs
-  bool torn = false;       // the queue overflowed: the file ends before the first lost cycle and says so
+  std::uint64_t hash = 0;  // hash of parameters and outputs
+  bool torn = false;       // the queue overflowed; the file ends before the first lost cycle and is marked as torn
   std::string problem;     // empty, or one sentence: the disk is full, or the recorder could not keep up
 };
 
 class TraceRecorder {
  public:
-  // Start it before the loop's first cycle: only then can the trace be replayed. Throws FileError when the
-  // file cannot be created. The channels must outlive the recorder.
+  // Start it before the loop's first cycle; otherwise the trace cannot be replayed. Throws FileError if the file cannot
+  // be created. The channels must outlive the recorder.
   TraceRecorder(const std::filesystem::path& file, const TraceHeader& header, LoopChannels& channels, TracePump pump);
   ~TraceRecorder() { finish(); }
   TraceRecorder(const TraceRecorder&) = delete;
@@ -37,17 +37,17 @@ class TraceRecorder {
 
   void pump() noexcept;  // by_caller only
 
-  // The problem of a running recording, once: to be shown when it happens.
+  // The problem of a running recording, returned once.
   std::optional<std::string> take_problem();
 
-  // Takes what is left in the queue and closes the file. Stop the loop first, or the last cycles are missing
-  // (the trace is whole nevertheless). May be called twice.
+  // Writes the rest of the queue and closes the file. Stop the loop first, or the last cycles will be missing (the
+  // trace is still valid). May be called twice.
   RecordingResult finish() noexcept;
 
  private:
   void drain() noexcept;
   void take(const TraceSample& sample) noexcept;
-  void give_up() noexcept;
+  void stop_recording() noexcept;
   void run() noexcept;
 
   LoopChannels& channels_;
@@ -58,7 +58,7 @@ class TraceRecorder {
   bool gap_ = false;   // and the cycles after it have begun to arrive
   bool finished_ = false;
 
-  std::mutex mutex_;  // guards what stands below, between the recorder's thread and the caller's
+  std::mutex mutex_;  // guards stopping_, problem_ and problem_taken_
   std::condition_variable wake_;
   bool stopping_ = false;
   std::string problem_;
@@ -66,4 +66,4 @@ class TraceRecorder {
   std::thread thread_;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -5,15 +5,15 @@
 
 #include "haptics/files/file_error.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 TraceWriter::TraceWriter(const std::filesystem::path& file, const TraceHeader& header)
     : name_(file.string()), file_(std::fopen(name_.c_str(), "wb")), hash_(begin_hash(header)) {
   if (!file_) throw FileError(name_, 0, std::string("cannot be written: ") + std::strerror(errno));
-  // Blocks are large: without a buffer, a failure shows at the block that failed.
+  // Blocks are large, so no buffer is needed; without it, an error is reported at the block that failed.
   std::setvbuf(file_.get(), nullptr, _IONBF, 0);
   block_.reserve(kSamplesPerBlock * kSampleBytes);
-  coded_.reserve(kMostCodedBytes);
+  coded_.reserve(kMaxCodedBytes);
 
   write(std::as_bytes(std::span(kTraceMagic)));
   write(std::as_bytes(std::span(&kTraceVersion, 1)));
@@ -25,7 +25,7 @@ void TraceWriter::add(const TraceSample& sample) noexcept {
   if (!file_ || !problem_.empty()) return;
   const EncodedSample bytes = encode_sample(sample);
   hash_.add(outputs_of(bytes));
-  block_.insert(block_.end(), bytes.begin(), bytes.end());  // within the reserve
+  block_.insert(block_.end(), bytes.begin(), bytes.end());  // within the reserved capacity
   ++cycles_;
   if (block_.size() == kSamplesPerBlock * kSampleBytes) flush();
 }
@@ -61,4 +61,4 @@ void TraceWriter::fail(int error) noexcept {
   problem_ = "the recording failed after " + std::to_string(cycles_) + " cycles: " + std::strerror(error);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -1,5 +1,5 @@
-// Writes a trace file, under its final name from the start: a killed program then leaves a file that lacks
-// its end block, is recognised as torn, and lies where one looks for it, with all its intact cycles.
+// Writes a trace file, under its final name from the start. If the program is killed, the file has no end block, is
+// recognised as torn, and still has all its intact cycles.
 #pragma once
 
 #include <cstdint>
@@ -13,17 +13,18 @@
 #include "haptics/loop/block_codec.h"
 #include "haptics/loop/trace_format.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 class TraceWriter {
  public:
-  // Replaces a file of that name. Throws FileError when it cannot be created or its header not be written.
+  // Replaces an existing file. Throws FileError if it cannot be created or its header cannot be written.
   TraceWriter(const std::filesystem::path& file, const TraceHeader& header);
 
-  // A failure to write is kept in problem(); everything after it is ignored. No allocation in health.
+  // After a write error, problem() says what failed, and everything later is ignored. Normally allocates nothing.
   void add(const TraceSample& sample) noexcept;
 
-  // Writes the end block and closes. Without it the file stays torn. torn: say so in the end block, too.
+  // Writes the end block and closes the file. Without it the file counts as torn. torn: also mark the end block as
+  // torn.
   void finish(bool torn = false) noexcept;
 
   const std::string& problem() const noexcept { return problem_; }  // empty, or one sentence
@@ -50,4 +51,4 @@ class TraceWriter {
   std::string problem_;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

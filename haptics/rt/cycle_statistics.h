@@ -1,15 +1,15 @@
-// How well a periodic thread kept its time: fixed histograms, no allocation.
+// Timing statistics of a periodic thread: fixed-size histograms without allocation.
 #pragma once
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
 
-namespace gearshift {
+namespace gearshift::haptics {
 
-// Log-spaced histogram of durations from 1 ns to over 10 s. Below 64 ns every nanosecond has its bin, above
-// that every octave has 64: no bin is wider than 1/64 = 1.6 % of its value.
-// Not synchronised: one thread at a time.
+// Log-spaced histogram of durations from 1 ns to over 10 s. Below 64 ns there is one bin per nanosecond, above that 64
+// bins per octave, so no bin is wider than 1/64 = 1.6 % of its value. Not synchronised: use it from one thread at a
+// time.
 class DurationHistogram {
  public:
   void add(std::int64_t ns) noexcept;                 // negative counts as 0. Real-time safe
@@ -19,7 +19,7 @@ class DurationHistogram {
 
  private:
   static constexpr int kSubBits = 6;  // 2^6 bins per octave
-  static constexpr int kTopBit = 34;  // longest: 2^34 ns = 17.2 s; the last bin takes what is longer
+  static constexpr int kTopBit = 34;  // range up to 2^34 ns = 17.2 s; the last bin also counts longer durations
   static constexpr std::size_t kBins = std::size_t{kTopBit - kSubBits + 1} << kSubBits;
 
   static std::size_t bin_of(std::uint64_t ns) noexcept;
@@ -31,11 +31,11 @@ class DurationHistogram {
 };
 
 struct CycleStatistics {
-  DurationHistogram wake_lateness;  // [ns] wake-up behind the deadline that it slept for
+  DurationHistogram wake_lateness;  // [ns] wake-up time minus deadline
   DurationHistogram duration;       // [ns] of the cycle's work
   std::uint64_t cycles = 0;
   std::uint64_t overruns = 0;  // cycles that ended after the next deadline; the missed deadlines are skipped
-  std::uint64_t skipped = 0;   // deadlines skipped, for an overrun or for a wake-up late by a period or more
+  std::uint64_t skipped = 0;   // deadlines skipped after an overrun or a wake-up late by a period or more
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

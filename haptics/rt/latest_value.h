@@ -1,4 +1,4 @@
-// Newest whole value from one writer to one reader: a triple buffer. Neither side ever waits.
+// Triple buffer: passes the newest complete value from one writer to one reader. Neither side ever waits.
 #pragma once
 
 #include <array>
@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <type_traits>
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 template <class T>
 class LatestValue {
@@ -18,28 +18,27 @@ class LatestValue {
   // Writer only.
   void write(const T& value) noexcept {
     slot_[back_].value = value;
-    // Release: the reader that takes this index sees the whole value. Acquire: the slot that comes back is
-    // one that the reader has finished with.
+    // Release: the reader that gets this index sees the complete value. Acquire: the reader has finished with the slot
+    // that comes back.
     back_ = index_of(middle_.exchange(static_cast<std::uint8_t>(back_ | kFresh), std::memory_order_acq_rel));
   }
 
   // Reader only. True when the value is newer than at the last call.
   bool update() noexcept {
-    // Relaxed is enough to look: only this side ever clears the mark, and the exchange below takes whatever
-    // is newest by then.
+    // Relaxed is enough for this check: only the reader clears the mark, and the exchange below gets the newest value.
     if (!(middle_.load(std::memory_order_relaxed) & kFresh)) return false;
     front_ = index_of(middle_.exchange(front_, std::memory_order_acq_rel));
     return true;
   }
 
-  // Reader only: the newest value taken by update().
+  // Reader only: the value fetched by the last update().
   const T& value() const noexcept { return slot_[front_].value; }
 
  private:
   static constexpr std::uint8_t kFresh = 4;
   static constexpr std::uint8_t kIndex = 3;
 
-  // Each on its own cache lines: the writer fills one while the reader reads another.
+  // Each slot has its own cache lines, because the writer fills one while the reader reads another.
   struct alignas(64) Slot {
     T value;
   };
@@ -52,4 +51,4 @@ class LatestValue {
   alignas(64) std::uint8_t front_ = 2;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -1,11 +1,12 @@
-// The clock of every time in the loop, its trace and the sticks: CLOCK_MONOTONIC, which is steady_clock here, too.
+// The clock of the loop, its trace and the sticks: CLOCK_MONOTONIC, the same clock as std::chrono::steady_clock on
+// Linux.
 #pragma once
 
 #include <time.h>
 
 #include <cstdint>
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 inline constexpr std::int64_t kSecondNs = 1'000'000'000;  // [ns]
 
@@ -15,4 +16,4 @@ inline std::int64_t monotonic_ns() noexcept {  // [ns] real-time safe
   return now.tv_sec * kSecondNs + now.tv_nsec;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

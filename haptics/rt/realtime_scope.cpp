@@ -5,7 +5,7 @@
 #include <cerrno>
 #include <cstring>
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 std::string schedule_fifo(int priority) {
   sched_param wanted{};
@@ -27,7 +27,8 @@ RealtimeScope::~RealtimeScope() {
   if (!raised_) return;
   sched_param before{};
   before.sched_priority = priority_;
-  sched_setscheduler(0, policy_ | SCHED_RESET_ON_FORK, &before);  // who may not take the flag away may keep it
+  sched_setscheduler(0, policy_ | SCHED_RESET_ON_FORK,
+                     &before);  // keeps the flag, because clearing it needs a privilege
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

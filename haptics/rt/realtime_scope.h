@@ -1,15 +1,15 @@
-// The calling thread at a real-time priority for a while: for work that waits for a device, not for a deadline.
+// Temporarily gives the calling thread a real-time priority, for work that waits for a device rather than a deadline.
 #pragma once
 
 #include <string>
 
-namespace gearshift {
+namespace gearshift::haptics {
 
-// SCHED_FIFO at that priority, 1 to 99, not handed on to threads that this one starts. Returns what was refused, or
-// nothing.
+// Sets SCHED_FIFO with priority 1 to 99; threads started by this one do not inherit it. Returns an error message, or an
+// empty string.
 std::string schedule_fifo(int priority);
 
-// SCHED_FIFO while it stands, where that is allowed, and then as the thread was scheduled before.
+// SCHED_FIFO while the object lives, if permitted; the destructor restores the previous scheduling.
 class RealtimeScope {
  public:
   explicit RealtimeScope(int priority);
@@ -18,8 +18,8 @@ class RealtimeScope {
   RealtimeScope& operator=(const RealtimeScope&) = delete;
 
  private:
-  int policy_ = 0, priority_ = 0;  // before
+  int policy_ = 0, priority_ = 0;  // previous scheduling
   bool raised_ = false;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

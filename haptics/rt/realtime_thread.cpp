@@ -21,10 +21,10 @@
 #include "haptics/rt/monotonic_clock.h"
 #include "haptics/rt/realtime_scope.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
-constexpr std::size_t kStackBytes = std::size_t{256} * 1024;  // touched before the first cycle
+constexpr std::size_t kStackBytes = std::size_t{256} * 1024;  // prefaulted before the first cycle
 constexpr std::size_t kPageBytes = 4096;
 
 void sleep_until(std::int64_t wake_ns) noexcept {
@@ -38,7 +38,7 @@ void cpu_relax() noexcept {
 #endif
 }
 
-// Faults in the pages below this frame, so that no cycle is the first to touch them.
+// Faults in the stack pages below this frame, so that no cycle causes a page fault.
 [[gnu::noinline]] void prefault_stack() noexcept {
   unsigned char stack[kStackBytes];
   volatile unsigned char* page = stack;
@@ -54,14 +54,15 @@ bool may_lock_any_amount() noexcept {
   return (held[0].effective & (1u << CAP_IPC_LOCK)) != 0;
 }
 
-// What is locked stays in memory when it is freed, unless malloc gives it back. By itself it keeps ever larger blocks, a
-// cabin's textures among them, in heaps with holes: a session grew by 65 MB with each change of the gate (tests/flow/SOAK.md).
-constexpr int kGivenBack = 1 << 20;  // [bytes] of a block that gets, and gives back, pages of its own
+// Locked memory stays resident after free() unless malloc returns it to the kernel. By default malloc raises its mmap
+// threshold over time and keeps large blocks, such as a cabin's textures, in fragmented heaps: a session grew by 65 MB
+// with each change of the gate (tests/flow/soak.sh). A fixed threshold prevents that.
+constexpr int kMmapThreshold = 1 << 20;  // [bytes] larger blocks get their own pages, which free() returns
 
-// Each returns what was refused, or nothing.
+// lock_memory() and pin_to() return an error message, or an empty string.
 std::string lock_memory() {
-  mallopt(M_MMAP_THRESHOLD, kGivenBack);
-  // Under a finite limit, a lock that succeeds now makes some later allocation fail: worse than none.
+  mallopt(M_MMAP_THRESHOLD, kMmapThreshold);
+  // With a finite limit, a lock that succeeds now would make a later allocation fail, which is worse than no lock.
   if (!may_lock_any_amount()) return "the memory lock was refused (grant it with 'memlock unlimited')";
   if (mlockall(MCL_CURRENT | MCL_FUTURE) == 0) return {};
   return std::string("the memory lock was refused: ") + std::strerror(errno) + " (grant it with 'memlock unlimited')";
@@ -76,20 +77,20 @@ std::string pin_to(int core) {
   return "core " + std::to_string(core) + " was refused: " + std::strerror(errno);
 }
 
-// An idle core sleeps deeply and wakes late; while this file is held open with a 0 in it, no core does. cyclictest
-// holds it, too. Best effort: without the right to open it the wake-ups are later, and that is all.
+// Keeps all cores out of deep idle states, from which they wake late, by holding /dev/cpu_dma_latency open with a value
+// of 0, as cyclictest does. Best effort: without permission, wake-ups are only later.
 class AwakeCores {
  public:
   AwakeCores() noexcept : file_(open("/dev/cpu_dma_latency", O_WRONLY | O_CLOEXEC)) {
-    const std::int32_t most_us = 0;
-    if (file_ >= 0 && write(file_, &most_us, sizeof most_us) != sizeof most_us) let_sleep();
+    const std::int32_t max_us = 0;
+    if (file_ >= 0 && write(file_, &max_us, sizeof max_us) != sizeof max_us) release();
   }
-  ~AwakeCores() { let_sleep(); }
+  ~AwakeCores() { release(); }
   AwakeCores(const AwakeCores&) = delete;
   AwakeCores& operator=(const AwakeCores&) = delete;
 
  private:
-  void let_sleep() noexcept {
+  void release() noexcept {
     if (file_ >= 0) close(file_);
     file_ = -1;
   }
@@ -102,14 +103,14 @@ void append(std::string& sentence, const std::string& part) {
   sentence += part;
 }
 
-// Woken late by whole periods: the newest deadline that has passed is taken, those before it are skipped.
-CycleCall newest_passed(const CycleCall& call, std::int64_t woke, std::int64_t period) noexcept {
+// After a wake-up that is late by whole periods: the newest deadline that has passed; the earlier ones are skipped.
+CycleCall skip_to_newest(const CycleCall& call, std::int64_t woke, std::int64_t period) noexcept {
   const std::int64_t missed = (woke - call.deadline_ns) / period;
   return {call.deadline_ns + missed * period, call.skipped + missed};
 }
 
-// Ended after the next deadline: that one and every other that has passed are skipped, never caught up.
-CycleCall first_ahead(const CycleCall& call, std::int64_t done, std::int64_t period) noexcept {
+// The first deadline after the end of a cycle; all that have passed are skipped.
+CycleCall next_deadline(const CycleCall& call, std::int64_t done, std::int64_t period) noexcept {
   const std::int64_t next = call.deadline_ns + period;
   const std::int64_t missed = done > next ? (done - next + period - 1) / period : 0;
   return {next + missed * period, missed};
@@ -136,13 +137,13 @@ void RealtimeThread::start(const RealtimeConfig& config, std::function<void(cons
   std::future<bool> go = prepared.get_future();
   thread_ = std::thread([this, ready = std::move(prepared)]() mutable {
     prepare();
-    const bool run_it = why_not_.empty() || config_.policy == RealtimePolicy::best_effort;
+    const bool run_it = not_realtime_reason_.empty() || config_.policy == RealtimePolicy::best_effort;
     ready.set_value(run_it);
     if (run_it) run();
   });
   if (go.get()) return;
   thread_.join();
-  throw std::runtime_error(why_not_);
+  throw std::runtime_error(not_realtime_reason_);
 }
 
 void RealtimeThread::stop() noexcept {
@@ -150,21 +151,21 @@ void RealtimeThread::stop() noexcept {
   if (thread_.joinable()) thread_.join();
 }
 
-// Memory first: a real-time thread must not be the one that waits for the pages of the whole process.
+// Locks memory before switching to real-time scheduling, because locking may wait for the pages of the whole process.
 void RealtimeThread::prepare() {
-  why_not_.clear();
+  not_realtime_reason_.clear();
   const std::string memory = lock_memory();
   const std::string scheduling = schedule_fifo(config_.priority);
   realtime_ = scheduling.empty();
-  append(why_not_, scheduling);
-  append(why_not_, memory);
-  append(why_not_, pin_to(config_.core));
-  if (!scheduling.empty() || !memory.empty()) why_not_ += "; limits are set in /etc/security/limits.conf";
-  prctl(PR_SET_TIMERSLACK, 1UL);  // [ns] a normal thread's timers are otherwise put off by 50 us
+  append(not_realtime_reason_, scheduling);
+  append(not_realtime_reason_, memory);
+  append(not_realtime_reason_, pin_to(config_.core));
+  if (!scheduling.empty() || !memory.empty()) not_realtime_reason_ += "; limits are set in /etc/security/limits.conf";
+  prctl(PR_SET_TIMERSLACK, 1UL);  // [ns] the default of a normal thread is 50 us
   prefault_stack();
 }
 
-// Sleeps as long as it is safe to, then spins: the scheduler's wake-up latency falls into the spin.
+// Sleeps until spin_ns before the deadline, then spins, so that the spin absorbs the scheduler's wake-up latency.
 std::int64_t RealtimeThread::wait_until(std::int64_t deadline) const noexcept {
   std::int64_t now = monotonic_ns();
   if (deadline - now > config_.spin_ns) {
@@ -183,16 +184,16 @@ void RealtimeThread::run() noexcept {
     const std::int64_t woke = wait_until(next.deadline_ns);
     if (stop_.load(std::memory_order_relaxed)) return;
     statistics_.wake_lateness.add(woke - next.deadline_ns);
-    next = newest_passed(next, woke, period);
+    next = skip_to_newest(next, woke, period);
     statistics_.skipped += static_cast<std::uint64_t>(next.skipped);
 
     cycle_(next);
     const std::int64_t done = monotonic_ns();
     statistics_.duration.add(done - woke);
     ++statistics_.cycles;
-    next = first_ahead(next, done, period);
+    next = next_deadline(next, done, period);
     statistics_.overruns += next.skipped > 0 ? 1 : 0;
   }
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

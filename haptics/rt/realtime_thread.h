@@ -9,29 +9,29 @@
 
 #include "haptics/rt/cycle_statistics.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 enum class RealtimePolicy {
-  required,    // refuse to start without real-time scheduling, locked memory and the core that is named
-  best_effort  // start anyway and say why it is not real-time
+  required,    // start only with real-time scheduling, locked memory and the configured core
+  best_effort  // start anyway and report why it is not real-time
 };
 
 struct RealtimeConfig {
   std::int64_t period_ns = 1'000'000;  // [ns] > 0
   RealtimePolicy policy = RealtimePolicy::best_effort;
   int priority = 80;              // SCHED_FIFO, 1 to 99
-  std::int64_t spin_ns = 50'000;  // [ns] >= 0, busy-wait before each deadline, 0 = sleep only
-  int core = -1;                  // pin to this core, -1 = any
+  std::int64_t spin_ns = 50'000;  // [ns] >= 0, busy-wait before each deadline; 0: sleep only
+  int core = -1;                  // pin to this core; -1: any
 };
 
 struct CycleCall {
-  std::int64_t deadline_ns;  // [ns] CLOCK_MONOTONIC, on the grid start + k period
-  std::int64_t skipped;      // deadlines missed since the last call, 0 in health
+  std::int64_t deadline_ns;  // [ns] CLOCK_MONOTONIC, start + k * period
+  std::int64_t skipped;      // deadlines missed since the last call, normally 0
 };
 
-// Runs `cycle` once per period until stop(). A late cycle skips the deadlines that it missed and keeps the
-// grid: it never runs twice to catch up. From call to call the deadline moves on by exactly (1 + skipped)
-// periods. The statistics are the thread's own; read them after stop() or inside `cycle`.
+// Runs `cycle` once per period until stop(). After a late cycle the missed deadlines are skipped and never caught up;
+// the deadlines stay on the original grid. From call to call the deadline advances by exactly (1 + skipped) periods.
+// The statistics are not synchronised; read them after stop() or inside `cycle`.
 class RealtimeThread {
  public:
   RealtimeThread() = default;
@@ -39,19 +39,19 @@ class RealtimeThread {
   RealtimeThread(const RealtimeThread&) = delete;
   RealtimeThread& operator=(const RealtimeThread&) = delete;
 
-  // cycle must be noexcept in effect. Throws std::runtime_error with one sentence when the policy is
-  // `required` and cannot be met, std::invalid_argument for a config out of range, std::logic_error when
-  // already running. Locks the memory of the whole process where it may, and leaves it locked.
+  // cycle must not throw. Throws std::runtime_error with one sentence if the policy is `required` and cannot be met,
+  // std::invalid_argument for a config out of range, std::logic_error if already running. Locks the memory of the whole
+  // process if permitted, and leaves it locked.
   void start(const RealtimeConfig& config, std::function<void(const CycleCall&)> cycle);
-  void stop() noexcept;  // joins within a period; may be called twice, not from inside `cycle`
+  void stop() noexcept;  // joins within a period; may be called twice, but not from inside `cycle`
 
-  bool is_realtime() const noexcept { return realtime_; }           // SCHED_FIFO was granted
-  const std::string& why_not() const noexcept { return why_not_; }  // what was refused, or empty
+  bool is_realtime() const noexcept { return realtime_; }                                   // SCHED_FIFO was granted
+  const std::string& not_realtime_reason() const noexcept { return not_realtime_reason_; }  // one sentence, or empty
   const CycleStatistics& statistics() const noexcept { return statistics_; }
 
  private:
-  void prepare();                                                 // on the new thread, before the first cycle
-  void run() noexcept;                                            // the periods
+  void prepare();  // on the new thread, before the first cycle
+  void run() noexcept;
   std::int64_t wait_until(std::int64_t deadline) const noexcept;  // returns the time at which it woke
 
   RealtimeConfig config_;
@@ -59,8 +59,8 @@ class RealtimeThread {
   std::thread thread_;
   std::atomic<bool> stop_{false};
   bool realtime_ = false;
-  std::string why_not_;
+  std::string not_realtime_reason_;
   CycleStatistics statistics_;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -1,4 +1,4 @@
-// Bounded queue from one writer to one reader, in order, none lost unless full: then push says so.
+// Bounded, ordered queue from one writer to one reader. push() returns false when it is full.
 #pragma once
 
 #include <atomic>
@@ -7,29 +7,29 @@
 #include <type_traits>
 #include <vector>
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 template <class T>
 class SpscQueue {
   static_assert(std::is_trivially_copyable_v<T>);
 
  public:
-  // Room for at least `capacity` values; allocates here and never again.
+  // Room for at least `capacity` values. Only the constructor allocates.
   explicit SpscQueue(std::size_t capacity) : slots_(std::bit_ceil(capacity)), mask_(slots_.size() - 1) {}
 
-  // Writer only. False when full: the value was not taken.
+  // Writer only. False if full; the value was then not stored.
   bool push(const T& value) noexcept {
     const std::size_t tail = tail_.load(std::memory_order_relaxed);
-    if (tail - cached_head_ > mask_) {  // looks full: ask the reader's side how far it is
+    if (tail - cached_head_ > mask_) {  // seems full: read the reader's counter
       cached_head_ = head_.load(std::memory_order_acquire);
       if (tail - cached_head_ > mask_) return false;
     }
-    slots_[tail & mask_] = value;  // the reader left this slot: its release of head_ was acquired above
+    slots_[tail & mask_] = value;  // free: the acquire of head_ above synchronises with the reader's release
     tail_.store(tail + 1, std::memory_order_release);
     return true;
   }
 
-  // Reader only. False when empty.
+  // Reader only. False if empty.
   bool pop(T& value) noexcept {
     const std::size_t head = head_.load(std::memory_order_relaxed);
     if (head == cached_tail_) {
@@ -44,10 +44,10 @@ class SpscQueue {
   std::size_t capacity() const noexcept { return slots_.size(); }
 
  private:
-  // Three groups of cache lines: read by both and never written, the writer's, the reader's. Each side keeps
-  // a copy of the other's counter on its own line and looks at the original only when the copy says full or
-  // empty, so a push and a pop far apart touch no common line.
-  // The counters run on and wrap; only their difference counts.
+  // Three groups of cache lines: constant data read by both sides, the writer's, and the reader's. Each side caches the
+  // other's counter on its own line and reads the original only if the cached value says full or empty, so that a push
+  // and a pop at different positions share no cache line. The counters increase and wrap; only their difference
+  // matters.
   std::vector<T> slots_;
   std::size_t mask_;
   alignas(64) std::atomic<std::size_t> tail_{0};
@@ -56,4 +56,4 @@ class SpscQueue {
   std::size_t cached_tail_ = 0;  // the reader's
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

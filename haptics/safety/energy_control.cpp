@@ -3,37 +3,42 @@
 #include <algorithm>
 #include <cmath>
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
-constexpr double kShare = 0.5;        // of the slope that would be lossless, and bounce for ever under a push
-constexpr double kMostDamping = 0.5;  // of m / T
-constexpr double kStill = 1e-4;       // [m/s] slower, damping has nothing to act on
+constexpr double kBoundFraction = 0.5;       // [1] of the lossless slope, with which a pushed lever never settles
+constexpr double kMaxDampingFraction = 0.5;  // [1] of m / T
+constexpr double kMinSpeed = 1e-4;           // [m/s] below it damping has no effect
 
 }  // namespace
 
 EnergyBounder::EnergyBounder(const AxisModel& handle, int delay, double period) noexcept
-    : slope_(kShare * 2.0 * handle.damping / (period * (1.0 + 2.0 * delay))) {}
+    : slope_(kBoundFraction * 2.0 * handle.damping / (period * (1.0 + 2.0 * delay))) {}
 
 double EnergyBounder::bound(double wanted, double last, double travel) const noexcept {
-  const double most = std::abs(last - slope_ * travel);
-  return std::clamp(wanted, -most, most);
+  const double limit = std::abs(last - slope_ * travel);
+  return std::clamp(wanted, -limit, limit);
 }
 
 PassivityController::PassivityController(const AxisModel& handle, double period) noexcept
-    : period_(period), most_damping_(kMostDamping * handle.mass / period) {}
+    : period_(period), max_damping_(kMaxDampingFraction * handle.mass / period) {}
 
-double PassivityController::control(double wanted, double last, double travel, bool touches) noexcept {
-  taken_ -= last * travel;
-  if (!touches) {
-    taken_ = 0.0;
+double PassivityController::control(double wanted, double last, double travel, bool in_contact) noexcept {
+  absorbed_energy_ -= last * travel;
+  if (!in_contact) {
+    absorbed_energy_ = 0.0;
     return wanted;
   }
   const double speed = travel / period_;
-  const double after = taken_ - wanted * travel;  // if the coming period is like the last
-  if (after >= 0.0 || std::abs(speed) < kStill) return wanted;
-  const double damping = std::min(most_damping_, -after / (speed * speed * period_));
+  const double predicted = absorbed_energy_ - wanted * travel;  // if the next period repeats the last one's travel
+  if (predicted >= 0.0 || std::abs(speed) < kMinSpeed) return wanted;
+  const double damping = std::min(max_damping_, -predicted / (speed * speed * period_));
   return wanted - damping * speed;
 }
 
-}  // namespace gearshift
+const char* to_string(EnergyControl control) noexcept {
+  static constexpr const char* kTexts[] = {"none", "energy bounding", "passivity controller"};
+  return kTexts[static_cast<int>(control)];
+}
+
+}  // namespace gearshift::haptics

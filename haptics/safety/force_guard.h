@@ -1,10 +1,10 @@
-// The last word on every force: finite, passivity control where it is asked for, slew, energy bounding where it is, clamp,
-// ramp; and the state ladder.
+// The final check of every force. In this order: finite, passivity control (if enabled), slew, energy bounding (if
+// enabled), clamp, ramp. It also holds the state machine:
 //
-//   idle -> armed -> ramping -> running      up: by a person only, or by itself on a simulated lever
-//   damped    reading stale, too many overruns in a row, or a chatter that softening the wall did not calm: the force
-//             dies away, damping alone is left
-//   released  a limit broken, device lost, force not finite, or a real device left alone for 0.1 s in a row: motors off
+//   idle -> armed -> ramping -> running      up: only on request of a person; a simulated lever arms itself
+//   damped    stale reading, too many overruns in a row, or chatter that softening the wall did not calm: the force
+//             fades out and only damping remains
+//   released  limit exceeded, device lost, force not finite, or a real device without commands for 0.1 s: motors off
 #pragma once
 
 #include <array>
@@ -16,7 +16,7 @@
 #include "haptics/device/haptic_device.h"
 #include "haptics/safety/energy_control.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 enum class GuardState : std::uint8_t { idle, armed, ramping, running, damped, released };
 const char* guard_state_name(GuardState state) noexcept;
@@ -28,25 +28,25 @@ struct GuardConfig {
   double slew = 25.0;             // [N/cycle] 2 to 100, largest change per axis; an impact needs 16 at 1 kHz
   double ramp_time = 0.5;         // [s] 0.001 to 60, from armed to full force
   double stale_time = 0.020;      // [s] 0.001 to 1, without a fresh reading before damped
-  double fade_time = 0.020;       // [s] 0.001 to 1, in which the force dies away after that
+  double fade_time = 0.020;       // [s] 0.001 to 1, in which the force then fades out
   int overruns_in_row = 8;        // [cycles] 1 to 1000, before damped
-  double damped_damping = 5.0;    // [N s/m] 0 to 50, in the state damped, while readings are fresh
-  double position_margin = 0.02;  // [m] 0 to 1, beyond the device's workspace counts as a broken limit
+  double damped_damping = 5.0;    // [N s/m] 0 to 50, in state damped, while readings are fresh
+  double position_margin = 0.02;  // [m] 0 to 1, a position further outside the workspace is a fault
 };
 
 struct GuardInput {
   glm::dvec2 force{0.0};     // [N] wanted
-  glm::dvec2 position{0.0};  // [m] trusted
+  glm::dvec2 position{0.0};  // [m] newest accepted
   glm::dvec2 velocity{0.0};  // [m/s] smoothed
-  bool fresh = false;        // reading fresh this cycle
-  bool touches = false;      // the lever is pressed into a wall
-  std::int64_t skipped = 0;  // [cycles] that had no turn before this one, which came late
+  bool fresh = false;        // this cycle's reading is fresh
+  bool in_contact = false;   // the lever is pressed into a wall
+  std::int64_t skipped = 0;  // [cycles] missed before this one
 };
 
 struct GuardOutput {
   glm::dvec2 force{0.0};   // [N] commanded
-  bool saturated = false;  // the wanted force was beyond the device on some axis
-  double share = 0.0;      // [1] 0 to 1, of the force that is let through: the ramp; 0 in every state without force
+  bool saturated = false;  // the wanted force exceeded the device's maximum on an axis
+  double ramp = 0.0;       // [1] 0 to 1, fraction of the force that is output; 0 in every state without force
 };
 
 class ForceGuard {
@@ -57,47 +57,47 @@ class ForceGuard {
 
   GuardOutput guard(const GuardInput& in) noexcept;  // once per cycle. Real-time safe
 
-  // Steps of the ladder, on the haptic thread between cycles.
-  bool arm() noexcept;     // idle, damped or released -> armed (then ramping as soon as readings are fresh); else false
-  void refuse() noexcept;  // to be armed: stopped, still
-  void disarm() noexcept;  // any -> idle, force 0
-  void stop() noexcept;    // armed or higher -> released: the large red button
-  void damp() noexcept;    // armed or higher -> damped: the lever chatters whatever the wall does
+  // State changes; call on the haptic thread between cycles.
+  bool arm() noexcept;            // idle, damped or released -> armed, then ramping once readings are fresh; else false
+  void reject_arming() noexcept;  // stays in its state and reports the fault `stopped`
+  void disarm() noexcept;         // any -> idle, force 0
+  void stop() noexcept;           // armed, ramping, running or damped -> released: the large red button
+  void damp() noexcept;           // armed, ramping or running -> damped: softening the wall did not end the chatter
 
   GuardState state() const noexcept { return state_; }
-  GuardFault fault() const noexcept { return fault_; }  // why it last went down, or was not armed
+  GuardFault fault() const noexcept { return fault_; }  // reason for the last fault state or rejected arming
 
  private:
-  void fall(GuardState state, GuardFault fault) noexcept;
-  void watch(const GuardInput& in) noexcept;
+  void enter_fault(GuardState state, GuardFault fault) noexcept;
+  void check_faults(const GuardInput& in) noexcept;
   glm::dvec2 damped_force(const GuardInput& in) noexcept;
-  GuardOutput allowed(const GuardInput& in, glm::dvec2 travel) noexcept;
-  glm::dvec2 controlled(const GuardInput& in, glm::dvec2 travel) noexcept;
-  glm::dvec2 bounded(glm::dvec2 force, glm::dvec2 travel) const noexcept;
-  double ramp_gain() noexcept;
+  GuardOutput compute_output(const GuardInput& in, glm::dvec2 travel) noexcept;
+  glm::dvec2 apply_passivity_control(const GuardInput& in, glm::dvec2 travel) noexcept;
+  glm::dvec2 apply_energy_bounding(glm::dvec2 force, glm::dvec2 travel) const noexcept;
+  double advance_ramp() noexcept;
 
   GuardConfig config_;
   glm::dvec2 max_force_;
   glm::dvec2 position_limit_;
   double period_;
   EnergyControl energy_control_;
-  std::array<EnergyBounder, 2> bounder_;              // per axis
-  std::array<PassivityController, 2> controller_;     // per axis
-  glm::dvec2 position_{0.0};                          // [m] in the cycle before
-  std::array<glm::dvec2, kMostDelay + 1> applied_{};  // [N] the last commands, as they went out
-  std::size_t newest_ = 0;                            // of them
+  std::array<EnergyBounder, 2> bounder_;                 // per axis
+  std::array<PassivityController, 2> controller_;        // per axis
+  glm::dvec2 position_{0.0};                             // [m] in the previous cycle
+  std::array<glm::dvec2, kMaxLoopDelay + 1> applied_{};  // [N] ring buffer of the last commands, as output
+  std::size_t newest_ = 0;                               // index of the newest command
   std::size_t delay_;
   GuardState state_ = GuardState::idle;
   GuardFault fault_ = GuardFault::none;
-  glm::dvec2 last_{0.0};       // [N] commanded before the ramp
-  double ramp_ = 0.0;          // [1] 0 to 1
-  glm::dvec2 fade_from_{0.0};  // [N] commanded when it fell to damped
-  double fade_ = 0.0;          // [1] 1 to 0 of that
-  std::int64_t stale_limit_;   // [cycles] without a fresh reading
-  std::int64_t late_limit_;    // [cycles] skipped in a row
-  std::int64_t stale_ = 0;     // [cycles] since the last fresh reading
-  std::int64_t late_ = 0;      // [cycles] skipped by the overruns in a row
-  int overruns_ = 0;           // in a row
+  glm::dvec2 last_force_{0.0};     // [N] commanded before the ramp
+  double ramp_ = 0.0;              // [1] 0 to 1
+  glm::dvec2 fade_from_{0.0};      // [N] command when the fault state was entered
+  double fade_ = 0.0;              // [1] remaining fraction of fade_from_, 1 to 0
+  std::int64_t stale_limit_;       // [cycles] without a fresh reading
+  std::int64_t late_limit_;        // [cycles] skipped in consecutive overruns
+  std::int64_t stale_cycles_ = 0;  // [cycles] since the last fresh reading
+  std::int64_t late_cycles_ = 0;   // [cycles] skipped in the current run of overruns
+  int overruns_ = 0;               // consecutive
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -1,7 +1,8 @@
-// The requests of HID, and a report as it goes over the wire.
+// HID control requests, and the form of a report on the wire.
 //
 // This work is based on:
-// USB Implementers' Forum. Device Class Definition for Human Interface Devices (HID), version 1.11, sections 7.1 and 7.2. 2001
+// USB Implementers' Forum. Device Class Definition for Human Interface Devices (HID), version
+// 1.11, sections 7.1 and 7.2. 2001
 #pragma once
 
 #include <cstddef>
@@ -11,7 +12,7 @@
 #include "haptics/hid/hid_bytes.h"
 #include "haptics/hid/report_descriptor.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 enum class HidReportType : std::uint8_t { input = 1, output = 2, feature = 3 };
 
@@ -30,7 +31,7 @@ inline HidRequest get_report(HidReportType type, std::uint8_t id, int interface)
 inline HidRequest set_report(HidReportType type, std::uint8_t id, int interface) {
   return hid_request(false, 0x09, static_cast<int>(type), id, interface);
 }
-// Every report at its own time, and none only because time has passed.
+// Idle rate 0: the device reports only changes, without periodic repeats.
 inline HidRequest set_idle(int interface) {
   return hid_request(false, 0x0a, 0, 0, interface);
 }
@@ -39,7 +40,7 @@ inline HidRequest get_report_descriptor(int interface) {
   return {0x81, 0x06, 0x2200, static_cast<std::uint16_t>(interface)};
 }
 
-// [bytes] before a report that are not sent: its ID, where the device numbers none.
+// [bytes] at the start of a report that are not sent: the ID byte if the device uses no IDs.
 inline std::size_t wire_offset(const ReportDescriptor& reports) {
   return reports.numbered ? 0 : 1;
 }
@@ -49,4 +50,4 @@ inline std::span<std::uint8_t> on_the_wire(HidBytes& report, const ReportDescrip
   return whole.empty() ? whole : whole.subspan(wire_offset(reports));
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -5,19 +5,19 @@
 
 #include "haptics/usb/usb_interface.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 UsbContext new_usb_context() {
   libusb_context* context = nullptr;
   const int code = libusb_init(&context);
-  if (code != LIBUSB_SUCCESS) throw HidError(std::string("no USB here: ") + libusb_strerror(code));
+  if (code != LIBUSB_SUCCESS) throw HidError(std::string("USB is not available: ") + libusb_strerror(code));
   return UsbContext(context);
 }
 
 std::vector<UsbDevice> usb_devices(libusb_context& context) {
   libusb_device** list = nullptr;
   const ssize_t count = libusb_get_device_list(&context, &list);
-  if (count < 0) throw HidError(std::string("no USB here: ") + libusb_strerror(static_cast<int>(count)));
+  if (count < 0) throw HidError(std::string("USB is not available: ") + libusb_strerror(static_cast<int>(count)));
   std::vector<UsbDevice> devices;
   for (libusb_device* device : std::span(list, static_cast<std::size_t>(count))) devices.emplace_back(device);
   libusb_free_device_list(list, 0);
@@ -51,4 +51,4 @@ void throw_usb_failure(int code, const HidIdentity& who, std::string_view doing)
   }
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -1,4 +1,4 @@
-// libusb with owners, and its failures as sentences: for the files of this room, which alone include libusb.h, by this.
+// RAII types for libusb, and its errors as sentences. Only files of this folder include libusb.h, through this header.
 #pragma once
 
 #include <libusb.h>
@@ -10,7 +10,7 @@
 
 #include "haptics/hid/hid_port.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 template <auto close>
 struct UsbClose {
@@ -19,19 +19,19 @@ struct UsbClose {
     close(owned);
   }
 };
-// A context must outlive what was made with it.
+// A context must outlive everything made with it.
 using UsbContext = std::unique_ptr<libusb_context, UsbClose<libusb_exit>>;
 using UsbDevice = std::unique_ptr<libusb_device, UsbClose<libusb_unref_device>>;
 using UsbHandle = std::unique_ptr<libusb_device_handle, UsbClose<libusb_close>>;
 using UsbTransfer = std::unique_ptr<libusb_transfer, UsbClose<libusb_free_transfer>>;
 
-inline constexpr unsigned kUsbTimeout = 250;  // [ms] of every transfer that waits for the device
+inline constexpr unsigned kUsbTimeout = 250;  // [ms] of every synchronous transfer
 
-UsbContext new_usb_context();  // sees what is plugged in now. Throws HidError: no USB here
+UsbContext new_usb_context();  // sees the devices plugged in now. Throws HidError if USB is not available
 std::vector<UsbDevice> usb_devices(libusb_context& context);        // throws HidError
-UsbHandle open_usb(libusb_device& device, const HidIdentity& who);  // throws HidGone, HidError with its sentence
+UsbHandle open_usb(libusb_device& device, const HidIdentity& who);  // throws HidGone, HidError
 
-// A failure of libusb while doing that with that device. Throws HidGone or HidError.
+// Throws HidGone or HidError for a libusb error code; `doing` names the failed operation.
 [[noreturn]] void throw_usb_failure(int code, const HidIdentity& who, std::string_view doing);
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

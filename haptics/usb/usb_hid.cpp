@@ -8,12 +8,12 @@
 #include "haptics/usb/usb_interface.h"
 #include "haptics/usb/usb_port.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
-// Of an interface that no driver has. It is free again afterwards, and offered to the kernel's drivers: one that came to
-// bind while it was taken would have been refused.
-std::vector<std::uint8_t> ask_report_descriptor(libusb_device_handle& handle, const UsbInterface& interface) {
+// Reads the report descriptor of an interface without a kernel driver. Afterwards the interface is released and offered
+// to the kernel drivers again, because a driver that tried to bind while it was claimed was refused.
+std::vector<std::uint8_t> read_unbound_descriptor(libusb_device_handle& handle, const UsbInterface& interface) {
   const int code = libusb_claim_interface(&handle, interface.number);
   if (code != LIBUSB_SUCCESS) throw_usb_failure(code, interface.identity, "claim its interface");
   struct Release {
@@ -24,21 +24,21 @@ std::vector<std::uint8_t> ask_report_descriptor(libusb_device_handle& handle, co
       libusb_attach_kernel_driver(&handle, number);
     }
   } const release{handle, interface.number};
-  return told_report_descriptor(handle, interface);
+  return read_report_descriptor(handle, interface);
 }
 
-UsbHidDevice look_at(libusb_device& device, const UsbInterface& interface) {
-  UsbHidDevice seen;
-  seen.identity = interface.identity;
-  seen.interface = interface.number;
-  seen.report_descriptor = bound_report_descriptor(interface);
+UsbHidDevice inspect(libusb_device& device, const UsbInterface& interface) {
+  UsbHidDevice found;
+  found.identity = interface.identity;
+  found.interface = interface.number;
+  found.report_descriptor = bound_report_descriptor(interface);
   try {
     const UsbHandle handle = open_usb(device, interface.identity);
-    if (seen.report_descriptor.empty()) seen.report_descriptor = ask_report_descriptor(*handle, interface);
+    if (found.report_descriptor.empty()) found.report_descriptor = read_unbound_descriptor(*handle, interface);
   } catch (const HidError& error) {
-    seen.problem = error.what();
+    found.problem = error.what();
   }
-  return seen;
+  return found;
 }
 
 bool is_wanted(const UsbInterface& interface, const HidIdentity& wanted, int number) {
@@ -61,14 +61,14 @@ std::pair<UsbHandle, UsbInterface> open_wanted(libusb_context& context, const Hi
 
 std::vector<UsbHidDevice> usb_hid_devices() {
   const UsbContext context = new_usb_context();
-  std::vector<UsbHidDevice> seen;
+  std::vector<UsbHidDevice> found;
   for (const UsbDevice& device : usb_devices(*context)) {
-    for (const UsbInterface& interface : hid_interfaces(*device)) seen.push_back(look_at(*device, interface));
+    for (const UsbInterface& interface : hid_interfaces(*device)) found.push_back(inspect(*device, interface));
   }
-  std::sort(seen.begin(), seen.end(), [](const UsbHidDevice& a, const UsbHidDevice& b) {
+  std::sort(found.begin(), found.end(), [](const UsbHidDevice& a, const UsbHidDevice& b) {
     return std::tie(a.identity.place, a.interface) < std::tie(b.identity.place, b.interface);
   });
-  return seen;
+  return found;
 }
 
 std::unique_ptr<HidPort> open_usb_hid(const HidIdentity& wanted, int interface) {
@@ -77,4 +77,4 @@ std::unique_ptr<HidPort> open_usb_hid(const HidIdentity& wanted, int interface) 
   return std::make_unique<UsbPort>(std::move(context), std::move(handle), found);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -1,8 +1,8 @@
-// HID devices by libusb: which are plugged in, and a port to one of them. No other room sees libusb.
+// HID devices through libusb: lists them and opens ports. No other folder uses libusb.
 //
-// Threads: a port is used by one thread at a time. Nothing is shared: each look and each port has a libusb context of its
-// own, so that a port streams on its thread while another one lists. A context that no udev tells (containers, guests)
-// never sees a new device: who waits for one looks again.
+// Threads: a port is used by one thread at a time. Each listing and each port has its own libusb context, so that one
+// thread can list devices while another streams. Without udev (containers, guests) an existing context never sees new
+// devices, so waiting for a device means listing again with a new context.
 #pragma once
 
 #include <cstdint>
@@ -12,25 +12,28 @@
 
 #include "haptics/hid/hid_port.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
 // A HID interface of a device that is plugged in.
 struct UsbHidDevice {
-  HidIdentity identity;  // as the kernel read it when it was plugged in: it takes no permission
+  HidIdentity identity;  // as read by the kernel at plug-in, so it needs no permission
   int interface = 0;
-  std::string problem;  // why it cannot be opened, one sentence: "... may not be used by this user: ..."; empty: it can
-  std::vector<std::uint8_t> report_descriptor;  // empty where it cannot be read
+  std::string
+      problem;  // why it cannot be opened, one sentence ("... may not be used by this user: ..."); empty: it can be
+  std::vector<std::uint8_t> report_descriptor;  // empty if it cannot be read
 };
 
 inline constexpr int kFirstInterface = -1;
 
-// In the order of their places. Opens each for a moment, detaches nothing. Throws HidError: no USB here.
+// Sorted by port path. Opens each device briefly but detaches no kernel driver. Throws HidError if USB is not
+// available.
 std::vector<UsbHidDevice> usb_hid_devices();
 
-// Takes the interface: the kernel's driver is detached, and given back when the port goes. Throws HidGone where no such
-// device is plugged in, HidError where it may not be used (the sentence names the udev rule), is used by another program
-// or tells no report descriptor. Serial empty: the first of that vendor and product. place, where not empty, must be the
-// same, too. interface: as usb_hid_devices() says; kFirstInterface: the first HID interface of the device.
+// Claims the interface: the kernel driver is detached, and attached again when the port is destroyed. Throws HidGone if
+// no such device is plugged in, HidError if it may not be used (the sentence names the udev rule), is in use by another
+// program, or does not return its report descriptor. An empty serial means the first device with that vendor and
+// product; a place, if not empty, must match too. interface: from usb_hid_devices(), or kFirstInterface for the
+// device's first HID interface.
 std::unique_ptr<HidPort> open_usb_hid(const HidIdentity& wanted, int interface = kFirstInterface);
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

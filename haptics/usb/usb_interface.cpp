@@ -13,18 +13,18 @@
 #include "haptics/files/printable.h"
 #include "haptics/usb/hid_request.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kMostDescriptor = 4096;  // [bytes] as the Linux kernel has it
+constexpr int kMaxDescriptorBytes = 4096;  // [bytes] limit of the Linux kernel
 constexpr std::uint8_t kHidDescriptor = 0x21, kReportDescriptor = 0x22;
 
 using ConfigDescriptor = std::unique_ptr<libusb_config_descriptor, UsbClose<libusb_free_config_descriptor>>;
 
-// "1-1.2": bus and the ports on the way, as the kernel names it.
-std::string place_of(libusb_device& device) {
+// Bus and port path in the kernel's notation, such as "1-1.2".
+std::string resolve_path(libusb_device& device) {
   std::array<std::uint8_t, 8> ports{};
   const int depth = libusb_get_port_numbers(&device, ports.data(), static_cast<int>(ports.size()));
   std::string place = std::to_string(libusb_get_bus_number(&device));
@@ -36,26 +36,26 @@ fs::path kernel_folder(const std::string& name) {
   return fs::path("/sys/bus/usb/devices") / name;
 }
 
-// A string of the device, which the kernel read when it was plugged in.
-std::string told(const std::string& place, const char* what) {
+// A string descriptor of the device, as read by the kernel at plug-in.
+std::string kernel_string(const std::string& place, const char* what) {
   std::ifstream file(kernel_folder(place) / what);
   std::string text;
   std::getline(file, text);
   return printable(text);
 }
 
-HidIdentity identity_of(libusb_device& device, const libusb_device_descriptor& described) {
+HidIdentity identity_of(libusb_device& device, const libusb_device_descriptor& descriptor) {
   HidIdentity identity;
-  identity.vendor = described.idVendor;
-  identity.product = described.idProduct;
-  identity.place = place_of(device);
-  identity.serial = told(identity.place, "serial");
-  identity.maker = told(identity.place, "manufacturer");
-  identity.name = told(identity.place, "product");
+  identity.vendor = descriptor.idVendor;
+  identity.product = descriptor.idProduct;
+  identity.place = resolve_path(device);
+  identity.serial = kernel_string(identity.place, "serial");
+  identity.maker = kernel_string(identity.place, "manufacturer");
+  identity.name = kernel_string(identity.place, "product");
   return identity;
 }
 
-// Of a HID descriptor's list of class descriptors, the length of the report descriptor.
+// Length of the report descriptor, from the HID descriptor's list of class descriptors.
 std::uint16_t declared_length(std::span<const unsigned char> extra) {
   while (extra.size() >= 2 && extra[0] >= 2 && extra[0] <= extra.size()) {
     if (extra[1] == kHidDescriptor) {
@@ -68,7 +68,7 @@ std::uint16_t declared_length(std::span<const unsigned char> extra) {
   return 0;
 }
 
-void note_endpoint(const libusb_endpoint_descriptor& endpoint, UsbInterface& interface) {
+void add_endpoint(const libusb_endpoint_descriptor& endpoint, UsbInterface& interface) {
   if ((endpoint.bmAttributes & LIBUSB_TRANSFER_TYPE_MASK) != LIBUSB_TRANSFER_TYPE_INTERRUPT) return;
   const std::uint8_t address = endpoint.bEndpointAddress;
   if ((address & LIBUSB_ENDPOINT_DIR_MASK) == LIBUSB_ENDPOINT_OUT) {
@@ -82,9 +82,9 @@ void note_endpoint(const libusb_endpoint_descriptor& endpoint, UsbInterface& int
 }  // namespace
 
 std::vector<UsbInterface> hid_interfaces(libusb_device& device) {
-  libusb_device_descriptor described{};
+  libusb_device_descriptor descriptor{};
   libusb_config_descriptor* active = nullptr;
-  if (libusb_get_device_descriptor(&device, &described) != LIBUSB_SUCCESS) return {};
+  if (libusb_get_device_descriptor(&device, &descriptor) != LIBUSB_SUCCESS) return {};
   if (libusb_get_active_config_descriptor(&device, &active) != LIBUSB_SUCCESS) return {};
   const ConfigDescriptor owner(active);
   std::vector<UsbInterface> interfaces;
@@ -92,12 +92,12 @@ std::vector<UsbInterface> hid_interfaces(libusb_device& device) {
     if (each.num_altsetting < 1 || each.altsetting[0].bInterfaceClass != LIBUSB_CLASS_HID) continue;
     const libusb_interface_descriptor& first = each.altsetting[0];
     UsbInterface& interface = interfaces.emplace_back();
-    interface.identity = identity_of(device, described);
+    interface.identity = identity_of(device, descriptor);
     interface.configuration = active->bConfigurationValue;
     interface.number = first.bInterfaceNumber;
     interface.descriptor_length = declared_length({first.extra, static_cast<std::size_t>(first.extra_length)});
     for (const libusb_endpoint_descriptor& endpoint : std::span(first.endpoint, first.bNumEndpoints)) {
-      note_endpoint(endpoint, interface);
+      add_endpoint(endpoint, interface);
     }
   }
   return interfaces;
@@ -111,22 +111,22 @@ std::vector<std::uint8_t> bound_report_descriptor(const UsbInterface& interface)
     std::ifstream file(child.path() / "report_descriptor", std::ios::binary);
     if (!file) continue;
     std::vector<std::uint8_t> bytes{std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>()};
-    if (!bytes.empty() && bytes.size() <= kMostDescriptor) return bytes;
+    if (!bytes.empty() && bytes.size() <= kMaxDescriptorBytes) return bytes;
   }
   return {};
 }
 
-std::vector<std::uint8_t> told_report_descriptor(libusb_device_handle& handle, const UsbInterface& interface) {
-  if (interface.descriptor_length == 0 || interface.descriptor_length > kMostDescriptor) {
+std::vector<std::uint8_t> read_report_descriptor(libusb_device_handle& handle, const UsbInterface& interface) {
+  if (interface.descriptor_length == 0 || interface.descriptor_length > kMaxDescriptorBytes) {
     throw HidError(usb_name(interface.identity) + " declares a report descriptor of " +
-                   std::to_string(interface.descriptor_length) + " bytes; 1 to " + std::to_string(kMostDescriptor) +
+                   std::to_string(interface.descriptor_length) + " bytes; 1 to " + std::to_string(kMaxDescriptorBytes) +
                    " are possible");
   }
   std::vector<std::uint8_t> bytes(interface.descriptor_length);
   const HidRequest request = get_report_descriptor(interface.number);
   const int got = libusb_control_transfer(&handle, request.type, request.request, request.value, request.index,
                                           bytes.data(), interface.descriptor_length, kUsbTimeout);
-  if (got < 0) throw_usb_failure(got, interface.identity, "tell its report descriptor");
+  if (got < 0) throw_usb_failure(got, interface.identity, "read its report descriptor");
   bytes.resize(static_cast<std::size_t>(got));
   return bytes;
 }
@@ -138,4 +138,4 @@ std::string usb_name(const HidIdentity& identity) {
   return identity.name + " (" + numbers.data() + ")";
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

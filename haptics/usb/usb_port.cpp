@@ -7,14 +7,14 @@
 #include "haptics/usb/hid_request.h"
 #include "haptics/usb/usb_stream.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
 std::string feature_report(const char* verb, std::uint8_t id) {
   return std::string(verb) + " feature report " + std::to_string(id);
 }
 
-ReportDescriptor understood(const std::vector<std::uint8_t>& descriptor, const HidIdentity& who) {
+ReportDescriptor parse_or_throw(const std::vector<std::uint8_t>& descriptor, const HidIdentity& who) {
   try {
     return parse_report_descriptor(descriptor);
   } catch (const HidError& error) {
@@ -40,13 +40,13 @@ UsbPort::UsbPort(UsbContext context, UsbHandle handle, const UsbInterface& inter
       handle_(std::move(handle)),
       interface_(interface),
       claim_(*handle_, interface_),
-      descriptor_(told_report_descriptor(*handle_, interface_)),
-      reports_(understood(descriptor_, interface_.identity)) {}
+      descriptor_(read_report_descriptor(*handle_, interface_)),
+      reports_(parse_or_throw(descriptor_, interface_.identity)) {}
 
 HidBytes UsbPort::get_feature(std::uint8_t id, std::size_t size) {
   const std::size_t before = wire_offset(reports_);
   HidBytes report;
-  size = std::min(size, HidBytes::kMost);
+  size = std::min(size, HidBytes::kMaxSize);
   if (size <= before) return report;
   const HidRequest request = get_report(HidReportType::feature, id, interface_.number);
   const int got =
@@ -73,17 +73,18 @@ void UsbPort::send(const HidBytes& report) {
   if (interface_.out != 0) {
     code = libusb_interrupt_transfer(handle_.get(), interface_.out, wire.data(), static_cast<int>(wire.size()), nullptr,
                                      kUsbTimeout);
-    if (code == LIBUSB_ERROR_PIPE) libusb_clear_halt(handle_.get(), interface_.out);  // for what is sent next
+    if (code == LIBUSB_ERROR_PIPE)
+      libusb_clear_halt(handle_.get(), interface_.out);  // so that the next report can be sent
   } else {
     const HidRequest request = set_report(HidReportType::output, report.id(), interface_.number);
     code = libusb_control_transfer(handle_.get(), request.type, request.request, request.value, request.index,
                                    wire.data(), static_cast<std::uint16_t>(wire.size()), kUsbTimeout);
   }
-  if (code < 0) throw_usb_failure(code, interface_.identity, "take output report " + std::to_string(report.id()));
+  if (code < 0) throw_usb_failure(code, interface_.identity, "send output report " + std::to_string(report.id()));
 }
 
 void UsbPort::stream(const StreamConfig& config, HidStream& stream) {
   UsbStream(*context_, *handle_, interface_, reports_, config, stream).run();
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

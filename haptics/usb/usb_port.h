@@ -1,12 +1,12 @@
-// The port to an opened HID interface: control and interrupt transfers that wait, and the stream.
+// HidPort for an opened USB HID interface: synchronous control and interrupt transfers, and the stream.
 #pragma once
 
 #include "haptics/hid/report_descriptor.h"
 #include "haptics/usb/usb_interface.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 
-// An interface taken from the kernel's driver, and given back to it.
+// Claims an interface, detaching the kernel driver; the destructor releases it and attaches the driver again.
 class UsbClaim {
  public:
   UsbClaim(libusb_device_handle& handle, const UsbInterface& interface);  // throws HidGone, HidError
@@ -40,4 +40,4 @@ class UsbPort final : public HidPort {
   ReportDescriptor reports_;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

@@ -12,14 +12,14 @@
 #include "haptics/rt/monotonic_clock.h"
 #include "haptics/usb/hid_request.h"
 
-namespace gearshift {
+namespace gearshift::haptics {
 namespace {
 
-constexpr std::int64_t kErrorsFor = 250'000'000;  // [ns] a hub takes so long to say that a device is gone
-constexpr std::int64_t kTakingBack = kSecondNs;   // [ns] the most that cancelled transfers are waited for
+constexpr std::int64_t kMaxErrorTime = 250'000'000;  // [ns] a hub may take this long to report a disconnect
+constexpr std::int64_t kMaxCancelTime = kSecondNs;   // [ns] longest wait for cancelled transfers
 constexpr std::size_t kSetup = LIBUSB_CONTROL_SETUP_SIZE;
 
-// A sleep of this thread ends when it is over, not up to 50 us later.
+// Sets the thread's timer slack to 1 ns (default 50 us), so that sleeps end on time.
 class FineSleep {
  public:
   FineSleep() : slack_(prctl(PR_GET_TIMERSLACK, 0, 0, 0, 0)) { prctl(PR_SET_TIMERSLACK, 1, 0, 0, 0); }
@@ -33,15 +33,15 @@ class FineSleep {
   int slack_;  // [ns]
 };
 
-std::size_t longest(const ReportDescriptor& reports, ReportKind kind) {
+std::size_t longest_report(const ReportDescriptor& reports, ReportKind kind) {
   std::size_t most = 0;
   for (const HidField& field : reports.fields) {
     if (field.kind == kind) most = std::max(most, reports.report_size(kind, field.report_id));
   }
-  return std::min(most, HidBytes::kMost);
+  return std::min(most, HidBytes::kMaxSize);
 }
 
-// Those of the context are listed anew.
+// The context's file descriptors changed and must be listed again.
 void LIBUSB_CALL fd_added(int, short, void* changed) {
   *static_cast<bool*>(changed) = true;
 }
@@ -66,21 +66,21 @@ UsbStream::UsbStream(libusb_context& context, libusb_device_handle& handle, cons
       stream_(stream),
       slots_(std::make_unique<Slots>()) {
   const std::size_t offset = wire_offset(reports_);
-  longest_input_ = std::max(longest(reports_, ReportKind::input), offset) - offset;
-  const std::size_t lever = std::min(reports_.report_size(ReportKind::input, config_.lever_report), HidBytes::kMost);
+  longest_input_ = std::max(longest_report(reports_, ReportKind::input), offset) - offset;
+  const std::size_t lever = std::min(reports_.report_size(ReportKind::input, config_.lever_report), HidBytes::kMaxSize);
   lever_size_ = std::max(lever, offset) - offset;
-  // Whole packets: what a device sends beyond its longest report is then seen as such.
+  // A multiple of the packet size, so that a report longer than declared is received in full and can be rejected.
   const std::size_t packet = std::max<std::size_t>(interface_.in_packet, 1);
   const std::size_t room = std::max<std::size_t>((longest_input_ + packet - 1) / packet, 1) * packet;
   for (Slot& slot : slots_->in) prepare(slot, room, &UsbStream::input_arrived);
-  prepare(slots_->out, kSetup + HidBytes::kMost, &UsbStream::output_arrived);
-  prepare(slots_->ask, kSetup + lever_size_, &UsbStream::answer_arrived);
+  prepare(slots_->out, kSetup + HidBytes::kMaxSize, &UsbStream::output_arrived);
+  prepare(slots_->request, kSetup + lever_size_, &UsbStream::answer_arrived);
   libusb_set_pollfd_notifiers(&context_, &fd_added, &fd_removed, &fds_changed_);
 }
 
 UsbStream::~UsbStream() {
-  leaving_ = true;
-  const std::int64_t end = monotonic_ns() + kTakingBack;
+  closing_ = true;
+  const std::int64_t end = monotonic_ns() + kMaxCancelTime;
   cancel_all();
   while (any_pending() && monotonic_ns() < end) {
     timeval wait{0, 20'000};
@@ -88,7 +88,7 @@ UsbStream::~UsbStream() {
   }
   libusb_set_pollfd_notifiers(&context_, nullptr, nullptr, nullptr);
   if (!any_pending()) return;
-  // A controller that gives nothing back: a transfer that may yet be written to is never freed.
+  // The controller did not return all transfers. They may still be written to, so they are leaked.
   for (Slot* slot : slots_->all) slot->stream = nullptr;
   static_cast<void>(slots_.release());
 }
@@ -97,16 +97,16 @@ void UsbStream::run() {
   const FineSleep fine_sleep;
   const HidRequest idle = set_idle(interface_.number);
   libusb_control_transfer(&handle_, idle.type, idle.request, idle.value, idle.index, nullptr, 0, kUsbTimeout);
-  if (interface_.in == 0) fail(false, "has no interrupt endpoint to report by");
+  if (interface_.in == 0) fail(false, "has no interrupt endpoint for input reports");
   lever_ns_ = monotonic_ns();
   for (Slot& slot : slots_->in) {
     if (!failure_) fill_input(slot);
   }
   while (!stream_.should_end()) {
     const std::int64_t now = monotonic_ns();
-    look(now);
+    service(now);
     if (failure_) throw_failure();
-    wait(next_look(now));
+    wait(next_service_ns(now));
     if (failure_) throw_failure();
   }
 }
@@ -133,7 +133,7 @@ void UsbStream::submit(Slot& slot) noexcept {
   if (code == LIBUSB_ERROR_NO_DEVICE) {
     fail(true, "was unplugged");
   } else if (code != LIBUSB_SUCCESS) {
-    fail(false, "takes no transfers any more");
+    fail(false, "accepts no more transfers");
   }
 }
 
@@ -157,13 +157,13 @@ void UsbStream::throw_failure() const {
   throw HidError(sentence);
 }
 
-// ---------------------------------------------------------------------------------------------------- what arrived
+// ----------------------------------------------------------------------------------------------- completed transfers
 
 void LIBUSB_CALL UsbStream::arrived(libusb_transfer* transfer) noexcept {
   Slot& slot = *static_cast<Slot*>(transfer->user_data);
   slot.pending = false;
   UsbStream* const self = slot.stream;
-  if (self == nullptr || self->leaving_) return;
+  if (self == nullptr || self->closing_) return;
   if (transfer->status == LIBUSB_TRANSFER_NO_DEVICE) {
     self->fail(true, "was unplugged");
   } else if (transfer->status != LIBUSB_TRANSFER_CANCELLED) {
@@ -181,8 +181,8 @@ void UsbStream::input_arrived(const libusb_transfer& transfer) noexcept {
     case LIBUSB_TRANSFER_STALL:
       in_.stalled = true;
       break;
-    default:  // too long for what it declares, too: the rest of it is lost
-      bus_error(in_, "cannot be understood any more: its reports break off or are too long");
+    default:  // includes overflow: the report is longer than declared
+      bus_error(in_, "sends reports that break off or are too long");
   }
 }
 
@@ -196,11 +196,11 @@ void UsbStream::output_arrived(const libusb_transfer& transfer) noexcept {
       out_.stalled = true;
       break;
     case LIBUSB_TRANSFER_TIMED_OUT:
-      fail(false, "takes no reports any more");
+      fail(false, "accepts no more reports");
       break;
     default:
-      out_.again = true;
-      bus_error(out_, "cannot be reached any more");
+      out_.resend = true;
+      bus_error(out_, "can no longer be reached");
   }
 }
 
@@ -214,18 +214,18 @@ void UsbStream::answer_arrived(const libusb_transfer& transfer) noexcept {
       ++silent_stalls_;
       break;
     case LIBUSB_TRANSFER_TIMED_OUT:
-      if (++silent_timeouts_ == 2) fail(false, "does not answer any more");
+      if (++silent_timeouts_ == 2) fail(false, "no longer answers");
       break;
-    default:  // asked again when it is still silent
+    default:  // requested again if the lever report is still missing
       break;
   }
 }
 
-void UsbStream::bus_error(Trouble& pipe, const char* what) noexcept {
+void UsbStream::bus_error(PipeErrors& pipe, const char* what) noexcept {
   const std::int64_t now = monotonic_ns();
   if (pipe.first_error == 0) pipe.first_error = now;
   pipe.retry = now + config_.tick_ns;
-  if (now - pipe.first_error > kErrorsFor) fail(false, what);
+  if (now - pipe.first_error > kMaxErrorTime) fail(false, what);
 }
 
 void UsbStream::deliver(std::span<const std::uint8_t> wire) noexcept {
@@ -240,18 +240,18 @@ void UsbStream::deliver(std::span<const std::uint8_t> wire) noexcept {
   stream_.on_input(report.view(), now);
 }
 
-// ------------------------------------------------------------------------------------------------------ what is due
+// --------------------------------------------------------------------------------------------------------- servicing
 
-void UsbStream::look(std::int64_t now) noexcept {
-  tend_input(now);
-  tend_output(now);
+void UsbStream::service(std::int64_t now) noexcept {
+  service_input(now);
+  service_output(now);
   offer_output(now);
-  ask_if_silent(now);
+  request_if_silent(now);
 }
 
-// A stalled pipe is cleared. One that stalls again before anything went through it has failed, and is clear for whoever
-// comes next.
-bool UsbStream::clear(Trouble& pipe, std::uint8_t endpoint, const char* what) noexcept {
+// Clears a stalled pipe. If it stalls again before a successful transfer, it has failed; it is cleared anyway for the
+// next user of the device.
+bool UsbStream::clear(PipeErrors& pipe, std::uint8_t endpoint, const char* what) noexcept {
   pipe.stalled = false;
   if (endpoint != 0 && libusb_clear_halt(&handle_, endpoint) == LIBUSB_ERROR_NO_DEVICE) {
     fail(true, "was unplugged");
@@ -261,16 +261,16 @@ bool UsbStream::clear(Trouble& pipe, std::uint8_t endpoint, const char* what) no
   return !failure_;
 }
 
-void UsbStream::tend_input(std::int64_t now) noexcept {
+void UsbStream::service_input(std::int64_t now) noexcept {
   if (in_.stalled) {
-    // Its endpoint may be reset only when nothing waits in it.
+    // The endpoint may only be reset while no transfer is pending.
     bool waiting = false;
     for (Slot& slot : slots_->in) {
       if (!slot.pending) continue;
       libusb_cancel_transfer(slot.transfer.get());
       waiting = true;
     }
-    if (waiting || !clear(in_, interface_.in, "stalls: it reports no more")) return;
+    if (waiting || !clear(in_, interface_.in, "stalled: it sends no more reports")) return;
   }
   if (now < in_.retry) return;
   for (Slot& slot : slots_->in) {
@@ -278,21 +278,21 @@ void UsbStream::tend_input(std::int64_t now) noexcept {
   }
 }
 
-void UsbStream::tend_output(std::int64_t now) noexcept {
+void UsbStream::service_output(std::int64_t now) noexcept {
   Slot& slot = slots_->out;
   if (out_.stalled) {
-    if (!clear(out_, interface_.out, "stalls: it takes no reports any more")) return;
-    out_.again = true;  // what it did not take
+    if (!clear(out_, interface_.out, "stalled: it accepts no more reports")) return;
+    out_.resend = true;  // the report that was not accepted
   }
-  if (!out_.again || slot.pending || now < out_.retry) return;
-  out_.again = false;
+  if (!out_.resend || slot.pending || now < out_.retry) return;
+  out_.resend = false;
   submit(slot);
 }
 
 void UsbStream::offer_output(std::int64_t now) noexcept {
-  if (slots_->out.pending || out_.again || failure_ || now < next_look(now)) return;
+  if (slots_->out.pending || out_.resend || failure_ || now < next_service_ns(now)) return;
   woken_ = false;
-  look_ns_ = now;
+  polled_ns_ = now;
   const HidBytes report = stream_.next_output(now);
   if (report.size == 0) return;
   output_ns_ = now;
@@ -316,8 +316,8 @@ void UsbStream::send(const HidBytes& report) noexcept {
   submit(slot);
 }
 
-void UsbStream::ask_if_silent(std::int64_t now) noexcept {
-  Slot& slot = slots_->ask;
+void UsbStream::request_if_silent(std::int64_t now) noexcept {
+  Slot& slot = slots_->request;
   if (slot.pending || failure_ || lever_size_ == 0 || silent_stalls_ >= 2) return;
   if (now < lever_ns_ + config_.silence_ns) return;
   lever_ns_ = now;
@@ -327,12 +327,12 @@ void UsbStream::ask_if_silent(std::int64_t now) noexcept {
   submit(slot);
 }
 
-// --------------------------------------------------------------------------------------------------------- the wait
+// ----------------------------------------------------------------------------------------------------------- waiting
 
-std::int64_t UsbStream::next_look(std::int64_t now) const noexcept {
-  if (slots_->out.pending || out_.again) return now + config_.tick_ns;  // or when it is done
+std::int64_t UsbStream::next_service_ns(std::int64_t now) const noexcept {
+  if (slots_->out.pending || out_.resend) return now + config_.tick_ns;  // or when the transfer completes
   const std::int64_t free = output_ns_ + config_.tick_ns;
-  return woken_ ? free : std::max(free, look_ns_ + config_.tick_ns);
+  return woken_ ? free : std::max(free, polled_ns_ + config_.tick_ns);
 }
 
 void UsbStream::list_fds() {
@@ -357,4 +357,4 @@ void UsbStream::wait(std::int64_t until) {
   libusb_handle_events_timeout_completed(&context_, &none, nullptr);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::haptics

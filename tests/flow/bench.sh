@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# The bench as a user runs it: files, pages that hold what was measured, and a last run that is lost costs a sentence.
+# The bench as a user runs it: output files, pages that contain the measurements, and a lost last run that costs only a
+# warning.
 # Usage: bench.sh GEARSHIFT SOURCE_FOLDER
 set -u
 gearshift=$1
@@ -15,13 +16,13 @@ is_xml() { python3 -c 'import sys, xml.etree.ElementTree as tree; tree.parse(sys
 in_json() { python3 -c "import json, sys; run = json.load(open('x/bench.json')); sys.exit(not ($1))"; }
 
 check "a quick run of two families" bench --quick --family feel --family plant --out x
-check "nothing is complained of" test ! -s err
+check "no complaint" test ! -s err
 check "it names what it wrote" says x/bench.html
 check "feel has no methods, so no plot" test ! -e x/feel.svg
 for file in x/bench.html x/plant.svg; do check "$file is whole" is_xml $file; done
 check "the page has the plot within" grep -q "Runge-Kutta 4</text>" x/bench.html
 check "the page says where it was" grep -q "<th>Processor</th>" x/bench.html
-check "CSV: a line a row" test "$(wc -l <x/bench.csv)" -eq 8
+check "CSV: one line per row" test "$(wc -l <x/bench.csv)" -eq 8
 check "JSON: as many rows" in_json 'len(run["rows"]) == 7 and run["quick"]'
 check "JSON: the default is the exact step" \
   in_json '[r["name"] for r in run["rows"] if r.get("trade", {}).get("chosen")] == ["exact at 1 ms", "exact at 10 ms"]'
@@ -29,23 +30,23 @@ check "JSON: the design's rows are answered" \
   in_json '{r["design"] for r in run["rows"] if "design" in r} == {"delivered", "plant"}'
 check "a quick run is not kept" test ! -e data/gearshift/bench
 
-# Walls: still is no merit in one that gives way.
+# Walls: a wall that is still because it gives way gets no credit.
 check "ways to make a wall" bench --quick --family methods --out x
-check "JSON: among those that display 97 % alone" in_json 'all(
+check "JSON: only among those that display 97 %" in_json 'all(
     [b["value"] <= 3 for b in r["beside"] if b["what"] == "displayed error"] == [True]
     for r in run["rows"] if "peak-to-peak" in r.get("trade", {}).get("error", {}).get("what", ""))'
 check "JSON: the default is one of them" in_json '"1000 Hz, delay 0: half-sample hold, B = 10" in
     [r["name"] for r in run["rows"] if r.get("trade", {}).get("chosen")]'
 check "JSON: the rest stands beside" in_json 'any(r["name"].endswith("energy bounding") and "trade" not in r for r in run["rows"])'
 
-# The whole look. Its seconds are told and not judged: the machine may be anyone's.
+# The complete quick run. Its duration is printed but not checked, because the machine may be busy.
 quick_seconds() { TIMEFORMAT='bench --quick took %R s, the processors %U + %S s'; time bench --quick --json; }
-if whole; then check "a look at everything" quick_seconds; fi
+if whole; then check "a complete quick run" quick_seconds; fi
 
-# A family that cannot be measured costs its own rows.
+# A family that cannot be measured loses only its own rows.
 check "without a driver" is_refused env VK_ICD_FILENAMES=/nonexistent.json \
   "$gearshift" bench --quick --family plant --family picture --family feel --out x >out 2>err
-check "it is told, once" test "$(grep -c "^gearshift: the family picture cannot be measured: " err)" -eq 1 -a \
+check "it is reported once" test "$(grep -c "^gearshift: cannot measure family picture: " err)" -eq 1 -a \
   "$(wc -l <err)" -eq 1
 check "JSON: the others are there, and why it has none" in_json \
   '{r["family"] for r in run["rows"] if r["value"] is not None} == {"plant", "feel"} and
@@ -53,33 +54,33 @@ check "JSON: the others are there, and why it has none" in_json \
 check "the page is whole" is_xml x/bench.html
 
 check "a full run" bench --family feel
-check "has nothing to be compared with" test -z "$(grep 'since last' out)"
-check "and is kept" test "$(ls data/gearshift/bench | wc -l)" -eq 1
+check "nothing to compare with" test -z "$(grep 'since last' out)"
+check "and is saved" test "$(ls data/gearshift/bench | wc -l)" -eq 1
 check "the next is compared with it" bench --family feel --json
 check "and is the same: a simulation" grep -q '"changed": false' out
 last=$(ls data/gearshift/bench/*.json)
 echo broken >"$last"
-check "a last run that makes no sense costs nothing" bench --family feel
+check "the run works with an unreadable last run" bench --family feel
 check "but one sentence" test "$(wc -l <err)" -eq 1
 check "which says where it is now" complains "$last.unreadable"
-check "and the next has one again" test -n "$(grep feel "$last")"
+check "and the next run has one again" test -n "$(grep feel "$last")"
 
-# An output that cannot be written costs no other.
+# An output that cannot be written does not affect the others.
 check "a full disk for the CSV" is_refused bench --family feel --csv /dev/full --out full
-check "is told" complains "/dev/full: cannot be written"
-check "the page is there all the same" is_xml full/bench.html
+check "is reported" complains "/dev/full: cannot be written"
+check "the page exists anyway" is_xml full/bench.html
 check "the table, too" says "feel"
-check "with the commit that it is of" grep -q "gearshift [0-9.]* \([0-9a-f]\{12\}\|unknown\)" full/bench.html
+check "with its commit" grep -q "gearshift [0-9.]* \([0-9a-f]\{12\}\|unknown\)" full/bench.html
 mkdir -p blocked/bench.html
 check "a page that cannot be written" is_refused bench --family feel --out blocked
-check "is told, and the JSON is there" test -s blocked/bench.json
+check "is reported, and the JSON is complete" test -s blocked/bench.json
 "$gearshift" bench --family feel --out unread --csv unread.csv >/dev/full 2>err
 check "a standard output that is full is a failure" test $? -eq 1
 check "and costs no page" is_xml unread/bench.html
 check "nor the CSV" test "$(wc -l <unread.csv)" -eq 2
 
-# Ended early: a file keeps what it had until there is something to put there.
-running() { # signal, seconds after the folder is there, argument ...
+# Ended early: a file keeps its old content until there is new content.
+running() { # signal, seconds after the folder exists, argument ...
   local signal=$1 after=$2
   shift 2
   rm -rf begun
@@ -92,27 +93,27 @@ running() { # signal, seconds after the folder is there, argument ...
 as_of_old() { [ "$(cat kept.csv)" = "of old" ] && [ ! -e begun/bench.html ]; }
 echo "of old" >kept.csv
 running KILL 0 --family cycle
-check "killed, it has taken nothing" as_of_old
+check "killed, it lost nothing" as_of_old
 running TERM 0 --family contact
-check "asked to end in the first family, it does" test $? -eq 1
-check "and says so" complains "ended in the family contact: nothing was measured"
-check "and has taken nothing" as_of_old
+check "stopped in the first family" test $? -eq 1
+check "and reports it" complains "interrupted in family contact: nothing was measured"
+check "and lost nothing" as_of_old
 running TERM 4 --family plant --family contact # seconds, and minutes
-check "asked to end in another, it does" test $? -eq 1
-check "and says where" complains "ended in the family contact: what was measured before it is told"
-check "the whole family is kept" test "$(grep -c '^plant,' kept.csv) $(grep -c '^contact,' kept.csv)" = "6 0"
+check "stopped in another family" test $? -eq 1
+check "and says where" complains "interrupted in family contact: only the families before it are reported"
+check "the whole family is saved" test "$(grep -c '^plant,' kept.csv) $(grep -c '^contact,' kept.csv)" = "6 0"
 check "the page, too" is_xml begun/bench.html
 
-# Blocks of a minute: who is asked to end does not wait for one, and takes cyclictest along.
+# Measurements of a minute: a stop request does not wait for one to end, and also ends cyclictest.
 if command -v cyclictest >/dev/null; then
   running TERM 2 --family jitter
-  check "what waits for wake-ups ends within a block" test $? -eq 1
-  check "and says so" complains "ended in the family jitter: nothing was measured"
-  check "and leaves nobody behind" is_refused pgrep -s 0 cyclictest
+  check "wake-up measurements end within a block" test $? -eq 1
+  check "and reports it" complains "interrupted in family jitter: nothing was measured"
+  check "and leaves no process behind" is_refused pgrep -s 0 cyclictest
 fi
 
-# The name counts that the file has in the end, whatever another program did to it meanwhile.
-meanwhile() { # what is done after the first look at the file
+# The file's name at the end counts, even if another program moved it meanwhile.
+meanwhile() { # what to do after the file was first opened
   echo "of old" >moving.csv
   "$gearshift" bench --family contact --quick --csv moving.csv >out 2>err &
   until compgen -G "moving.csv.part*" >/dev/null || ! kill -0 $! 2>/dev/null; do sleep 0.01; done
@@ -120,7 +121,7 @@ meanwhile() { # what is done after the first look at the file
   wait $!
 }
 check "its file was moved" meanwhile mv moving.csv moved.csv
-check "what was moved is as it was" test "$(cat moved.csv)" = "of old"
+check "the moved file is unchanged" test "$(cat moved.csv)" = "of old"
 check "the results have their name" grep -q '^contact,' moving.csv
 another() { echo other >other.csv && mv other.csv moving.csv; }
 check "its file was replaced" meanwhile another
@@ -129,10 +130,10 @@ kept=$(ls data/gearshift/bench/*.json)
 cp "$kept" as_kept
 check "over the results of the last run" is_refused bench --family feel --csv "$kept"
 check "no table is written" cmp "$kept" as_kept
-check "it says so" complains "must be two files"
+check "it says so" complains "must be different files"
 
 rm -r data && echo "a file" >data
-check "nowhere to keep it costs nothing" bench --family feel --csv rows.csv
+check "the run works without a place to save it" bench --family feel --csv rows.csv
 check "but one sentence" test "$(wc -l <err)" -eq 1
 check "the results are there" test "$(wc -l <rows.csv)" -eq 2
 finish

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# The stability campaign as a user runs it: stopped in the middle and gone on with, one case alone, its trace replayed.
+# The stability campaign as a user runs it: stopped in the middle and resumed, a single case, its trace replayed.
 # Usage: campaign.sh GEARSHIFT SOURCE_FOLDER
 set -u
 gearshift=$1
@@ -11,7 +11,7 @@ cut_short() { head -c $(($(stat -c %s "$1") - 300)) "$1" >cut && mv cut "$1"; }
 same() { diff <(sort "$1/cases.csv") <(sort "$2/cases.csv") && cmp "$1/summary.json" "$2/summary.json"; }
 
 check "200 shifts" campaign --out once --threads 1
-no_law_broken() { # each of the thirteen by its name; five have a condition, which few cases may not meet
+no_law_broken() { # each of the thirteen by name; five have a precondition, which a small number of cases may not meet
   local law
   for law in finite "free space" "no wall" force slew fades "gear holds" told; do
     grep -qE "^\| $law \| .* \| 0 \|$" out || return 1
@@ -21,18 +21,18 @@ no_law_broken() { # each of the thirteen by its name; five have a condition, whi
   done
 }
 check "every law is in the table, and none is broken" no_law_broken
-check "no word on stderr where it is no terminal" [ ! -s err ]
+check "nothing on stderr if it is no terminal" [ ! -s err ]
 cp -r once again
 check "stopped in the middle of a line" cut_short again/cases.csv
-check "gone on with" campaign --out again --threads 1
+check "resumed" campaign --out again --threads 1
 check "with the same result" same once again
-# Not enough room for eight threads: three stacks of 1 GB, and the rest.
+# Too little memory for eight threads: three stacks of 1 GB, and the rest.
 if [ -z "${ASAN_OPTIONS-}${TSAN_OPTIONS-}" ]; then
   fewer() { (ulimit -s 1000000 -v 4000000 && campaign --out fewer --threads 8); }
-  check "where not all threads can be had, fewer do it" fewer
+  check "with too little memory it uses fewer threads" fewer
   check "with the same result" cmp -s once/summary.json fewer/summary.json
 fi
-ended() { # by Ctrl-C: in the background a shell's children do not hear that
+ended() { # by Ctrl-C: a shell's background children ignore SIGINT
   env --default-signal=INT "$gearshift" campaign --seed 11 --out ended >out 2>err &
   until [ -s ended/cases.csv ]; do sleep 0.05; done
   sleep 1
@@ -46,19 +46,19 @@ hung_up() { # under nohup a closed terminal ends nothing
   kill -HUP $!
   wait $!
 }
-check "under nohup it goes on when the terminal is closed" hung_up
+check "under nohup it continues when the terminal is closed" hung_up
 check "ended by Ctrl-C" ended
-check "it says so, and how to go on" grep -q "^gearshift: ended with [0-9]* cases in a row done; the same command goes on" err
-check "and goes on" campaign --out ended --threads 1
+check "it says so, and how to continue" grep -q "^gearshift: interrupted after [0-9]* cases in a row; run the same command to resume" err
+check "and continues" campaign --out ended --threads 1
 check "with the same result" cmp -s once/summary.json ended/summary.json
-refused() { # exit code, words of the one sentence, arguments ...
+refused() { # exit code, text of the error, arguments ...
   local code=$1 words=$2
   shift 2
   "$gearshift" campaign "$@" >out 2>err
   [ $? -eq "$code" ] && [ "$(wc -l <err)" = 1 ] && grep -q -- "$words" err && [ ! -e bad ]
 }
-check "another campaign's folder is refused" refused 1 "another campaign" --seed 12 --out once
-unreadable() { # by who may write it, not read it
+check "another campaign's folder is rejected" refused 1 "another campaign" --seed 12 --out once
+unreadable() { # by a user who may write it, but not read it
   chmod 222 once/cases.csv
   chmod 777 "$work" once
   cp once/cases.csv before
@@ -66,42 +66,43 @@ unreadable() { # by who may write it, not read it
   [ $? -eq 1 ] && grep -q "cases.csv: cannot be read" err && cmp -s before once/cases.csv
 }
 as_nobody() { setpriv --reuid=65534 --regid=65534 --clear-groups "$gearshift" "$@"; }
-if [ "$(id -u)" = 0 ] && as_nobody gate paper >out 2>&1; then # not where the shipped files are root's alone
-  check "what cannot be read is told, and stays" unreadable
+if [ "$(id -u)" = 0 ] && as_nobody gate paper >out 2>&1; then # skipped where only root can read the shipped files
+  check "an unreadable file is reported, and stays" unreadable
 fi
-check "one case alone" "$gearshift" campaign --seed 11 --case 1 --out one
+check "a single case" "$gearshift" campaign --seed 11 --case 1 --out one
 check "its trace replays" sh -c '"$1" replay one/case_1.trace | grep -q "^bit for bit"' sh "$gearshift"
 not_driven() {
   "$gearshift" campaign --seed 1 --case 42 --out one >out && [ ! -e one/case_42.trace ] &&
-    grep -qx "it was not driven, so nothing is recorded" out
+    grep -qx "the case was not driven, so nothing was recorded" out
 }
-check "one that the loop's checks refuse: it says that there is no trace" not_driven
-# The one case of a million that breaks a law (tests/bench/campaign/MILLION.md). Where it is mended: any that does.
+check "a case rejected by the loop's checks has no trace" not_driven
+# The single case in a million that breaks a law (app/lab/campaign/README.md). Once that is fixed, use any other
+# failing case.
 "$gearshift" campaign --seed 1 --case 26063 --out broken >out
-check "one that breaks a law" [ $? -eq 1 ]
-says_what_breaks() { # a second run says it, too; so does the text that lies there
+check "a case that breaks a law" [ $? -eq 1 ]
+reports_broken_law() { # a second run reports it, too; so does the text file there
   "$gearshift" replay broken/case_26063.trace >out && grep -q "^bit for bit" out &&
     grep -qE "^case_26063.trace: case 26063 of seed 1 breaks fades .* m, bound .*, at 49\.[0-9]+ s$" out &&
     grep -qF "$(head -n 1 broken/case_26063.txt)" out
 }
-check "replay says which, where and by how much" says_what_breaks
-shows() { # the command that was said, in memory; arguments ...
+check "replay says which, where and by how much" reports_broken_law
+shows() { # the printed command, in memory; arguments ...
   $(tail -n 1 out | sed "s|^gearshift|$gearshift|") --offscreen shown --size 64x36 --samples 1 --no-panel "$@" >shown.txt
 }
 check "and the command that shows it" shows
 check "from two seconds before, to the end of the drive" lacks grep -qE "^ +[3-9]\.|^ +[0-9]{2}\." shown.txt
 sed -i '$s/--from .*/--from 30/' out
-check "from another moment" shows
+check "from another time" shows
 check "to the end of the drive as well" grep -qE "^ +1[0-9]\." shown.txt
 beyond() { ! shows --seconds 1 2>err && [ "$(wc -l <err)" = 1 ] && grep -q "the drive lasts 49.* s: 49.5 s is not in it" err; }
 sed -i '$s/--from .*/--from 49.5/' out
-check "beyond its end: refused" beyond
+check "beyond its end: rejected" beyond
 cp one/case_1.trace broken/other.trace && cp broken/case_26063.txt broken/other.txt
-check "nothing is said of a trace that the text does not name" lacks sh -c '"$1" replay broken/other.trace | grep breaks' sh "$gearshift"
+check "no trace is mentioned without a name" lacks sh -c '"$1" replay broken/other.trace | grep breaks' sh "$gearshift"
 
 for number in -1 99999999999999999999 1.5; do
   for option in --case --seed; do
-    check "$option $number is refused in a sentence" refused 2 "$option" $option $number --out bad
+    check "$option $number is rejected in a sentence" refused 2 "$option" $option $number --out bad
   done
 done
 finish

@@ -1,10 +1,10 @@
-# Sourced by the flows: an empty folder to work in, check, and the count at the end. Without that a flow has failed: bash
-# ends a script early for a line that it cannot run.
+# Sourced by the flows: an empty working folder, the function check, and the count at the end. A flow that does not
+# reach the count has failed, because bash ends a script early at a line that it cannot run.
 work=$(mktemp -d)
 passed=0
 failed=0
 is_finished=
-end_all() { :; } # what a flow has started
+end_all() { :; } # the processes that a flow has started
 leave() {
   local code=$?
   end_all
@@ -18,7 +18,7 @@ trap leave EXIT
 trap 'exit 1' HUP INT TERM
 cd "$work" || exit 1
 
-check() { # what, command ...
+check() { # description, command ...
   local what=$1
   shift
   if "$@"; then
@@ -28,16 +28,16 @@ check() { # what, command ...
     failed=$((failed + 1))
   fi
 }
-# A host that takes the cores away makes whoever keeps time late: a flow that says needs_machine=yes is then skipped, not
-# failed (ctest's SKIP_RETURN_CODE), and tells it.
+# A host that takes CPU time away delays all real-time programs: a flow with needs_machine=yes is then skipped instead
+# of failed (ctest's SKIP_RETURN_CODE), with a message.
 stolen_ticks() { awk '$1 == "cpu" {print $9}' /proc/stat; }
 began_at=$EPOCHREALTIME began_stolen=$(stolen_ticks)
 host_took() { # [%] of the cores' time since the flow began
   awk -v ticks=$(($(stolen_ticks) - began_stolen)) -v from="$began_at" -v to="$EPOCHREALTIME" -v cores="$(nproc)" \
     -v rate="$(getconf CLK_TCK)" 'BEGIN {printf "%.0f", 100 * ticks / (rate * cores * (to - from))}'
 }
-# Under a sanitizer a program is late: what counts there is that it has nothing to report, an abort among it. It reports to
-# stderr, which a flow keeps: a file of its own (log_path) is opened before umockdev is ready, and ends the program.
+# Under a sanitizer a program is late; what counts is that it reports nothing, including no abort. It reports to stderr,
+# which a flow keeps: a separate file (log_path) would be opened before umockdev is ready, which ends the program.
 if [ -n "${GEARSHIFT_SANITIZED:-}" ]; then
   for sanitizer in ASAN_OPTIONS UBSAN_OPTIONS TSAN_OPTIONS; do export $sanitizer="${!sanitizer:-}:handle_abort=1"; done
 fi
@@ -47,7 +47,7 @@ is_png() { [ "$(head -c 4 "$1" | tail -c 3)" = PNG ]; }
 finish() { # the script's exit code
   is_finished=yes
   echo "$passed passed, $failed failed"
-  [ -z "${GEARSHIFT_SANITIZED:-}" ] || { end_all; wait; } # they report when they end
+  [ -z "${GEARSHIFT_SANITIZED:-}" ] || { end_all; wait; } # sanitizers report when a program ends
   if is_reported; then
     echo "FAILED: a sanitizer's report"
     return 1

@@ -1,17 +1,17 @@
 #!/usr/bin/env bash
-# The floor of tests/coverage: a table of a line is below it, on it, or empty.
+# The floor in tests/coverage: one-line tables below it, at it, and an empty one.
 # Usage: coverage_floor.sh GEARSHIFT SOURCE_FOLDER
 set -u
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 table=$2/tests/coverage_table.py
 
-counted() { # lines that are reached, of 100 in each of two rooms
+counted() { # number of covered lines out of 100, in each of two folders
   echo "filename,line_total,line_covered,branch_total,branch_covered"
   printf 'app/%s/x.cpp,100,%s,,\n' a "$1" b "$2"
 }
 floor() { counted "$1" "$2" >counted.csv; python3 "$table" counted.csv 95 >out 2>err; }
 check "on the floor" floor 100 90
-check "without a word" [ ! -s err ]
+check "without output" [ ! -s err ]
 check "each room has its row, and all of them" grep -qE "^all +200 +95\.0 % +-$" out
 floor 100 89
 check "a line below it: exit 1" [ $? -eq 1 ]

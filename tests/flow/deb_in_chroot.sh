@@ -1,12 +1,13 @@
 #!/usr/bin/env bash
-# The Debian package in a fresh Debian 12: it installs with what it depends on, an ordinary user without a display runs the
-# demo, and purged it leaves nothing behind. A tier of ./test --full; by hand, as root and with a network, some minutes:
+# The Debian package in a fresh Debian 12: it installs with its dependencies, an ordinary user without a display runs
+# the demo, and purging leaves nothing behind. Part of ./test --full. By hand, as root and with a network, it takes some
+# minutes:
 #   cmake --preset release && cmake --build --preset release --target package
 #   tests/flow/deb_in_chroot.sh build/release/gearshift_*.deb
 # Usage: deb_in_chroot.sh PACKAGE
 set -u
 command -v debootstrap >/dev/null || { echo "deb_in_chroot.sh: debootstrap is missing: apt-get install debootstrap" >&2; exit 2; }
-# What it mounts is seen by nobody else, and is gone with it.
+# Its mounts are private and disappear with it.
 [ "$1" = --in-own-mounts ] || exec unshare --mount "$0" --in-own-mounts "$1"
 shift
 package=$(realpath "$1")
@@ -22,7 +23,7 @@ end_all() {
 
 inside() { chroot "$root" env -i PATH=/usr/sbin:/usr/bin:/sbin:/bin DEBIAN_FRONTEND=noninteractive "$@"; }
 as_user() { inside setpriv --reuid=1000 --regid=1000 --clear-groups env HOME=/home/user LANG=C.UTF-8 "$@"; }
-bring_up() { # its files, its own mounts, where this machine gets its packages from
+bring_up() { # its files, its own mounts, and this machine's package sources
   debootstrap --variant=minbase bookworm "$root" >debootstrap.txt 2>&1 || { tail -n 5 debootstrap.txt; return 1; }
   local place
   for place in proc sys dev; do mount --rbind "/$place" "$root/$place" || return 1; done
@@ -37,14 +38,14 @@ install_package() {
   inside apt-get install -y -qq --no-install-recommends /var/tmp/gearshift.deb >install.txt 2>&1 ||
     { tail -n 5 install.txt; return 1; }
 }
-is_left() { # a file with the name, outside of what the user made
+is_left() { # a file with that name, not counting the user's files
   find "$root/usr" "$root/etc" "$root/lib" "$root/var/lib" "$root/var/cache" -xdev -iname "*gearshift*" |
     grep -v "/var/lib/apt/" | grep .
 }
 lacks() { ! "$@"; }
 
 check "a bare Debian 12" bring_up
-check "nothing of it is there before" lacks is_left
+check "nothing of it exists before" lacks is_left
 check "the package installs" install_package
 check "dpkg finds every file as it was packed" inside dpkg --verify gearshift
 as_user gearshift --version >version.txt
@@ -53,7 +54,7 @@ check "no library is missing" lacks grep -q "not found" <(inside ldd /usr/bin/ge
 check "no file of the build's machine is named in it" lacks grep -aqF "$(cd "$flows/../.." && pwd)/" "$root/usr/bin/gearshift"
 demo() { as_user gearshift demo --out /tmp/demo >demo.txt 2>demo.err || { tail -n 2 demo.err; return 1; }; }
 check "and runs the demo" demo
-check "without a word on stderr" test ! -s demo.err
+check "without output on stderr" test ! -s demo.err
 check "its page" test -s "$root/tmp/demo/index.html"
 check "its pictures" is_png "$root/tmp/demo/contact_sheet.png"
 check "the panel's letters and gnuplot's figures" is_png "$root/tmp/demo/trajectory.png"

@@ -1,6 +1,7 @@
 #!/usr/bin/env bash
-# The demo as a user without a display runs it: pictures, sound, traces, report and page are there, whole, the same twice,
-# and validation has nothing to say. Usage: demo.sh GEARSHIFT SOURCE_FOLDER
+# The demo as a user without a display runs it: pictures, sound, traces, report and page exist and are complete, a
+# second run gives the same, and validation reports nothing.
+# Usage: demo.sh GEARSHIFT SOURCE_FOLDER
 set -u
 gearshift=$1
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
@@ -36,7 +37,7 @@ for picture in cabin driver clamp gearbox cluster gear_1 gear_R hill_start_bite 
   check "$picture.png is a picture" is_png "one/$picture.png"
 done
 check "everything that the page shows is there" shown_files_exist
-check "each picture of the page has its words" captioned
+check "each picture of the page has alternative text" captioned
 check "pictures stand side by side, on a screen and on paper" [ "$(grep -c "grid-template-columns" one/index.html)" = 3 ]
 check "the page asks for nothing from outside" lacks one/index.html "http|<script|@import|url\("
 check "sound is a WAV file" grep -q WAVE <(head -c 16 one/demo.wav)
@@ -46,12 +47,12 @@ for lesson in hill_start up_through_the_gears; do
 done
 check "both lessons and the drive through every gear are passed" [ "$(grep -c "^  Passed with grade" one.txt)" = 3 ]
 check "the learner's report has both lessons" [ "$(grep -oE "Hill start|Up through the gears" one/report.html | sort -u | wc -l)" = 2 ]
-check "nothing is remembered for the user" [ -z "$(find data -name history.db 2>/dev/null)" ]
+check "nothing is saved for the user" [ -z "$(find data -name history.db 2>/dev/null)" ]
 if whole; then
   check "the same again" demo two
-  check "every file is the same twice, the page too" diff -rq one two
+  check "every file is the same twice, including the page" diff -rq one two
 fi
-# The demo as `./run` starts it, of full size; its first picture is enough where there is little time.
+# The full-size demo as `./run` starts it; the short run waits only for its first picture.
 stale() { DISPLAY=:987 WAYLAND_DISPLAY=wayland-0 "$gearshift" train --or-demo stale >stale.txt 2>stale.err; }
 begins() {
   DISPLAY=:987 WAYLAND_DISPLAY=wayland-0 "$gearshift" train --or-demo stale >stale.txt 2>stale.err &
@@ -60,7 +61,7 @@ begins() {
   wait $!
   [ $? -eq 1 ]
 }
-whole_pictures() { # what is there, is whole
+whole_pictures() { # checks that every picture that exists is complete
   local picture
   for picture in stale/*.png; do tail -c 8 "$picture" | grep -qa IEND || { echo "torn: $picture"; return 1; }; done
   is_png stale/cabin.png && [ ! -e stale/index.html ] && ! compgen -G "stale/*part*" >/dev/null
@@ -71,17 +72,17 @@ if whole; then
 else
   check "train beside a display that is gone: the demo, ended early" begins
   check "it says where, got: $(cat stale.err)" [ "$(cat stale.err)" = \
-    "gearshift: ended in the part pictures: what is whole stays, the page is not made" ]
-  check "no half of a file is left" whole_pictures
+    "gearshift: interrupted during \"pictures\"; finished files kept, no page written" ]
+  check "no partial file is left" whole_pictures
 fi
-check "and it says so" grep -q "^No display" stale.txt
+check "and it reports it" grep -q "^No display" stale.txt
 different() { ! same "$1" "$2"; }
 check "first and fifth gear do not look the same" different one/gear_1.png one/gear_5.png
 size=64x36
 check "another gate, stereo and a film" demo film --gate six_speed_r_left_up --stereo --film 0.1 --samples 1
 check "the film has frames" is_png film/film/00003.png
 
-refused() { # sentence, arguments ...
+refused() { # error text, arguments ...
   local sentence=$1
   shift
   "$gearshift" "$@" >refused.txt 2>refused.err && return 1

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Force-feedback sticks as their owner has them, emulated beneath the real libusb: listed, driven through a tour, taken away
-# by kill -9; one that may not be used, and none at all.
+# Force-feedback sticks as their owner uses them, emulated beneath the real libusb: listed, driven through a tour,
+# killed with kill -9; a stick without access rights, and no stick at all.
 # Usage: devices.sh GEARSHIFT SOURCE_FOLDER STICK_EMULATOR
 set -u
 needs_machine=yes
@@ -11,15 +11,15 @@ no_stick() {
   with_stick --family vjoy --unplug-at 0 -- \
     bash -c 'for i in $(seq 100); do "$gearshift" devices >none.txt || exit; grep -q "No USB stick" none.txt && exit; sleep 0.1; done; exit 1' 2>none.err
 }
-check "nothing plugged in is said, and is no failure" no_stick
-check "nor is it for a script" with_stick --family vjoy --unplug-at 0 -- bash -c 'sleep 1; "$gearshift" devices --json >none.json' 2>none.err
-check "who is told so" python3 -c 'import json; assert json.load(open("none.json")) ["sticks"] == []'
+check "without a stick: a message, no failure" no_stick
+check "nor for a script" with_stick --family vjoy --unplug-at 0 -- bash -c 'sleep 1; "$gearshift" devices --json >none.json' 2>none.err
+check "with a message" python3 -c 'import json; assert json.load(open("none.json")) ["sticks"] == []'
 with_stick --family vjoy -- "$gearshift" tour --device rhino --out rhino >/dev/null 2>rhino.err
-check "a stick that is not there is refused, with those that are" \
-  grep -q '^gearshift: no stick "rhino" is plugged in; these are: vJoy.*1234:bead' rhino.err
+check "an unknown stick is rejected with a list of those connected" \
+  grep -q '^gearshift: no stick "rhino" is plugged in; found: vJoy.*1234:bead' rhino.err
 check "in one sentence, and no folder is made" [ "$(wc -l <rhino.err)" -ge 1 -a ! -e rhino ]
 
-# Root may use any device: it looks as a user who is none.
+# Root may use any device, so this runs as another user.
 forbidden() {
   with_stick --family sidewinder -- bash -c '
     chmod -R a+rwX "$UMOCKDEV_DIR" # its sockets, too
@@ -27,7 +27,7 @@ forbidden() {
     chmod 0 "$UMOCKDEV_DIR"/dev/bus/usb/*/*
     $as_nobody "$gearshift" devices' >forbidden.txt 2>forbidden.err
 }
-check "a stick that may not be used is listed" forbidden
+check "a stick without access rights is listed" forbidden
 check "with what it is" grep -q "SideWinder.*045e:001b.*constant force" forbidden.txt
 check "with the reason" grep -q "may not be used by this user" forbidden.txt
 check "and the rule's commands" grep -q "sudo cp \".*udev/70-gearshift.rules\" /etc/udev/rules.d/" forbidden.txt
@@ -47,8 +47,8 @@ for run in $families; do
   check "the tour of $run ends well" [ -e $run.ok ]
   check "every gear of it, in order" in_order $run
   check "it says how late the stick answers" grep -q "answers after .* ms" $run.txt
-  check "and what it does not carry" grep -q "limited from" $run.err
-  check "its motors are off when the program has ended" silent_within 330 $run "the program's end"
+  check "and what is missing" grep -q "limited from" $run.err
+  check "its motors are off after the program ended" silent_within 330 $run "the program's end"
   check "its trace replays" replays $run
   check "its plots are pictures" is_png "$run/trajectory.png"
 done
@@ -57,10 +57,10 @@ early() {
   printf '\n\n\n\n' | with_stick --family vjoy -- "$gearshift" tour --device vjoy --gate paper --out early >early.txt 2>early.err
 }
 early
-check "Enter before it is asked for arms nothing" grep -q "nobody can arm the stick" early.err
+check "Enter before the prompt arms nothing" grep -q "nobody can arm the stick" early.err
 check "and its motors never pushed" silent_within 0 early "the start"
 
-# Killed while a hand presses into a wall, its effects end by themselves.
+# Killed while a hand presses into a wall: the effects end by themselves.
 killed() {
   with_stick --family openffboard --tour elsewhere.toml -- bash -c '
     mkfifo killed.in
@@ -72,8 +72,8 @@ killed() {
     kill -9 $!' 2>killed.err
 }
 
-# Armed while its stop button is held, it has no forces, and says why and asks again.
-asked() { said "press Enter" refused "$1"; }
+# Armed while the stop button is held, it has no forces, says why and asks again.
+asked() { printed "press Enter" refused "$1"; }
 refused() {
   mkfifo refused.in refused.orders
   exec 9<>refused.in 8<>refused.orders
@@ -94,7 +94,7 @@ refused & running=($!)
 check "killed at a wall" killed
 wait
 running=()
-check "a stop button that is held is said" said "no forces: its stop button is held" refused
+check "a held stop button is reported" printed "no forces: the stick's stop button is held" refused
 check "and asked for again" asked 2
 check "and its motors never pushed at the wall" silent_within 0 refused "the start"
 check "it pushed then, and its effects end by themselves" silent_within 330 killed "the program's end"

@@ -1,16 +1,15 @@
 #!/usr/bin/env python3
-"""Every command in every .md file, and every example of a verb's --help, is run as it stands, two documents at a time.
+"""Runs every command in every .md file, and every example in a verb's --help, two documents at a time.
 
 Usage: documented_commands.py GEARSHIFT SOURCE_FOLDER
 
-A command is a line of a code block, or inline code, that begins with one of PROGRAMS. Those of one document are run
-in their order in one empty folder, with a home of their own, beside what make_fixtures() makes and what the document
-itself has in fenced blocks with a file's name (```toml my.toml). Words in capitals get a value from VALUES. Exit code
-0 is expected, or what the comment behind the command says: "# exits 1"; and what it says in words must be printed: #
-says "may not". What wants a person, a headset, a stick or many minutes stands in ELSEWHERE, with the reason and what runs
-it instead, if not a person: its verb and options must exist all the same, and a guide says "# not run: why". What is only
-long stands in LONG, and is run by ./test --full. Ranges and defaults in the tuning guide are compared with the program's,
-too.
+A command is a line of a code block, or inline code, that begins with one of PROGRAMS. A document's commands are run in
+order in one initially empty folder, with a separate home folder, the files of make_fixtures(), and the document's fenced
+blocks with a file name (```toml my.toml). Words in capitals are replaced from VALUES. The expected exit code is 0 or the
+one in the comment after the command: "# exits 1"; quoted text in the comment must be printed: # says "may not". Commands
+that need a person, a headset, a stick or many minutes are in ELSEWHERE, with the reason and, if not a person, the file
+that runs them: their verb and options must still exist, and a guide says "# not run: why". Commands that only take long
+are in LONG, and run by ./test --full. Ranges and defaults in the tuning guide are compared with the program's, too.
 """
 import concurrent.futures
 import os
@@ -26,17 +25,17 @@ import tempfile
 PROGRAM = (r"(cp|sed|sudo|gearshift|ctest|cmake|python3|blender|umockdev-wrapper|\w+_fuzz|\w+_tests"
            r"|tests/\S+\.sh|tests/fuzz/run|tests/coverage|build/\S+)")
 PROGRAMS = re.compile(rf"^([A-Z_]+=\S+ )*(\./run|\./test|{PROGRAM})( |$)")
-BARE = re.compile(rf"^{PROGRAM}$")  # in prose that is a name
-GUIDES = ("TUNING.md", "GUIDE.md", "BUILDING.md")  # a reader is told which commands are only read
+BARE = re.compile(rf"^{PROGRAM}$")  # in prose this is only the program's name
+GUIDES = ("TUNING.md", "GUIDE.md", "BUILDING.md")  # these guides tell their readers which commands only read
 SKIPPED_FOLDERS = {"build", "out", ".git"}
 
-# What a word in capitals stands for, in a verb or in all of them.
+# The value used for a placeholder in capitals, in one verb or in all verbs.
 VALUES = {"gate NAME": "paper", "gate LAYOUT": "dog_leg_five", "lesson NAME": "moving_off",
           "replay TRACE": "tour.trace", "replay FILE": "killed.trace", "render FILE": "assets/models/hand.glb",
           "FILE": "bindings.toml", "DIR": "made", "PNG": "made.png", "OUT": "out.csv", "WHO": "Ada"}
 
-# pattern of a command: reason; the file that runs it, and the words there that do (\1: the pattern's first group), among
-# them a word of the command. Without: a person runs it.
+# Pattern of a command: the reason why it is not run here; the file that runs it, and the words in that file which do
+# (\1: the pattern's first group), among them a word of the command. Without a file: a person runs it.
 ELSEWHERE = {
     r"\./run$": ("installs and opens a window",),
     r"\./test": ("runs this test",),
@@ -101,7 +100,7 @@ class Document:
 
 
 def split_comment(line):
-    """A command and what is written behind it, after a # or, in a table of commands, after two spaces."""
+    """Splits off the comment after a command: after a # or, in a table of commands, after two spaces."""
     parts = re.split(r"\s+# |\s{2,}#? ?", line.strip(), maxsplit=1)
     return parts[0], parts[1] if len(parts) > 1 else ""
 
@@ -174,7 +173,7 @@ class Runner:
     def environment(self, folder):
         env = {k: v for k, v in os.environ.items() if k not in ("DISPLAY", "WAYLAND_DISPLAY")}
         env.update(PATH=f"{self.work / 'bin'}:{env['PATH']}", HOME=str(folder / "home"))
-        env["XDG_CACHE_HOME"] = str(self.work / "cache")  # pipelines are compiled once
+        env["XDG_CACHE_HOME"] = str(self.work / "cache")  # pipelines are compiled only once
         for kind in ("DATA", "CONFIG"):
             env[f"XDG_{kind}_HOME"] = str(folder / "home" / kind.lower())
         return env
@@ -186,7 +185,7 @@ class Runner:
         try:
             printed, _ = process.communicate(timeout=120)
         except subprocess.TimeoutExpired:
-            os.killpg(process.pid, signal.SIGKILL)  # bash and what it has started
+            os.killpg(process.pid, signal.SIGKILL)  # bash and the processes that it started
             process.communicate()
             raise
         return subprocess.CompletedProcess(text, process.returncode, printed)
@@ -213,7 +212,7 @@ class Runner:
         self.failures.append(f"FAILED: {command.where()}\n  {why}")
 
     def parses(self, command):
-        """Its verb and options exist."""
+        """True if the command's verb and options exist."""
         words = command.text.split()
         if words[0] != "gearshift" or len(words) < 2:
             return
@@ -228,7 +227,7 @@ class Runner:
                 self.fail(command, "there is no such family")
 
     def only_names_verb(self, command):
-        """In prose: it must be one."""
+        """For prose: checks that the word is a verb."""
         if not command.inline or not re.match(r"gearshift \w+$", command.text):
             return False
         if command.text.split()[1] not in self.verbs:
@@ -236,7 +235,7 @@ class Runner:
         return True
 
     def is_shown(self, command, file, words):
-        """Words that stand in any file, or have nothing of the command, show nothing."""
+        """True if the file contains the words; common words, or none of the command's, do not count."""
         own = set(re.findall(r"[a-z]{2,}", words)) - {"gearshift", "tests", "flow", "build"}
         if len(words) < 4 or not any(re.search(rf"(?<![a-z]){word}(?![a-z])", command.text) for word in own):
             self.fail(command, f'"{words}", by which {file} is to show it, is nothing of its own')
@@ -280,7 +279,7 @@ class Runner:
         return text
 
     def first_time(self, command):
-        """What prose names again and again is run once."""
+        """True once per command, so that one repeated in prose is run only once."""
         return self.seen.setdefault(command.text, command) is command
 
     def run(self, command, folder):
@@ -298,7 +297,7 @@ class Runner:
                 self.fail(command, f'does not say "{words}": {printed[-500:]}')
 
     def check_ranges(self):
-        """A row of the tuning guide, | `[table] key` | ... | low to high | default |, has the program's own of both."""
+        """Checks the tuning guide's rows, | `[table] key` | ... | low to high | default |, against the program."""
         page, shipped = self.sources / "haptics/TUNING.md", (self.sources / "assets/presets/default.toml").read_text()
         folder = pathlib.Path(tempfile.mkdtemp(dir=self.work))
         row = re.compile(r"^\| `\[(\w+)\] (\w+)` \|[^|]*\| ([-\d.e]+) to ([-\d.e]+)[^|]*\| ([\d.]+) \|", re.M)

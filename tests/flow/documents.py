@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""What the .md files name is there: links, pictures, paths, the files that a folder's README walks, and of every law in
-haptics/EQUATIONS.md its function and its test. Usage: documents.py SOURCE_FOLDER
+"""Checks that everything named in the .md files exists: links, pictures, paths, the files listed in a folder's README,
+and the function and test of every law in haptics/EQUATIONS.md. Usage: documents.py SOURCE_FOLDER
 """
 import fnmatch
 import pathlib
@@ -9,7 +9,7 @@ import sys
 import urllib.parse
 
 SKIPPED_FOLDERS = ("build", "out", ".git")
-WALKED = ("app", "engine", "haptics", "shaders", "tests/bench", "tests/flow", "tests/support")
+WALKED = ("app", "engine", "haptics", "shaders", "tests/flow", "tests/support")
 SOURCES = (".cpp", ".h", ".sh", ".py", ".vert", ".frag", ".glsl")
 GUIDES = ("TUNING.md", "BUILDING.md", "GUIDE.md")
 ROOMS = "app|assets|engine|haptics|shaders|tests"
@@ -44,13 +44,13 @@ class Documents:
                 self.check(name, heading in anchors(linked.read_text()), f"{file} has no place named {heading}")
 
     def paths(self, name, text):
-        """Inline code that begins with a room's name and a slash is a file, with or without its ending, or a folder."""
+        """Inline code that begins with a top folder's name and a slash must be a folder or a file (extension optional)."""
         for word in re.findall(rf"`((?:{ROOMS})/[\w./-]+)`", text):
             path = self.sources / word
             self.check(name, path.exists() or any(path.parent.glob(path.name + ".*")), f"{word} is not there")
 
     def walked(self, path, name, text):
-        """A table that is headed "file" names files of its folder."""
+        """A table with the header "file" must list files of its folder."""
         for table in re.findall(r"^\| files? \|.*\n\|[-| ]+\n((?:\|.*\n?)+)", text, re.M):
             for row in table.splitlines():
                 for word in re.findall(r"`([^`]+)`", row.split("|")[1]):
@@ -58,7 +58,7 @@ class Documents:
                     self.check(name, bool(found), f"walks {word}, which is not there")
 
     def unwalked(self):
-        """Each source is named by its folder's README, or where there is none by the nearest one above."""
+        """Each source file must be named in its folder's README or, without one, in the nearest README above."""
         for room in WALKED:
             for path in sorted((self.sources / room).rglob("*")):
                 if path.suffix not in SOURCES or path.stem.endswith("_test"):
@@ -71,7 +71,7 @@ class Documents:
                 self.check(path.relative_to(self.sources), is_named, f"not walked by {folder.name}/README.md")
 
     def sentences(self, name, text):
-        """What a guide has the program say, in quotes, stands in its sources, but for numbers and names."""
+        """Program output quoted in a guide must occur in the sources, except for numbers and names."""
         prose = re.sub(r"^```.*?^```|^    [^\n]*$|`[^`]*`", "", text, flags=re.M | re.S)
         for quoted in re.findall(r'"([^"]*)"', prose):
             for piece in re.split(r"\.\.\.|[-\d.]*\d[\d.]*", " ".join(quoted.split())):
@@ -79,7 +79,7 @@ class Documents:
                     self.check(name, piece.strip(" .:") in self.literals(), f'nothing says "{piece.strip()}"')
 
     def literals(self):
-        """All string literals of the program, those that are split put together."""
+        """All string literals of the program; split literals are joined."""
         if not self.said:
             for room in ("app", "engine", "haptics"):
                 for path in (self.sources / room).rglob("*.cpp"):
@@ -88,7 +88,7 @@ class Documents:
         return self.said
 
     def test_cases(self, file):
-        """Names of its cases, literals that are split put together, as a table can hold them."""
+        """The file's test case names, with split literals joined, as they appear in a table."""
         if file not in self.cases:
             text = re.sub(r'"\s*\n\s*"', "", (self.sources / file).read_text())
             names = re.findall(r'TEST_CASE\(\s*"((?:[^"\\]|\\.)*)"', text)
@@ -120,7 +120,7 @@ class Documents:
 
 
 def anchors(text):
-    """As the usual renderers make them of headings."""
+    """The anchors that common renderers make from headings."""
     named = set(re.findall(r'<a id="([^"]+)">', text))
     return named | {re.sub(r"[^\w\- ]", "", h.lower()).replace(" ", "-") for h in re.findall(r"^#+ (.*?)\s*$", text, re.M)}
 

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Faults of what lies beneath the program while a person's lesson is driven and recorded: the lever goes on or stands
-# without force, what is due is told once, run and recording are kept. Clock, GPU, sound and writes fail by a library
-# that is preloaded; the disk is a small one of its own.
+# System failures while a person's lesson is driven and recorded: the lever continues or has no force, each message
+# appears once, run and recording are saved. A preloaded library makes clock, GPU, sound and writes fail; the disk is a
+# separate small one.
 # Usage: faults.sh GEARSHIFT SOURCE_FOLDER PRELOADED_FAULTS
 set -u
 gearshift=$1 preloaded=$3
-# Root's own disks are mounted where nobody else sees them; where that may not be, these faults are left out, and a flow
-# in which all else passes is skipped.
+# Root mounts its disks where no other process sees them. Without permission to mount, those faults are left out, and if
+# everything else passes, the flow is skipped.
 has_mounts=${GEARSHIFT_OWN_MOUNTS:-}
 if [ -z "$has_mounts" ]; then
   [ "$(id -u)" = 0 ] && as_root=-m || as_root=-rm
@@ -18,25 +18,25 @@ flows=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 source "$flows/checks.sh"
 
 source "$flows/window.sh"
-unset GEARSHIFT_VALIDATION # it has its own word on what the library does not let through
+unset GEARSHIFT_VALIDATION # it reports errors of its own for what the library blocks
 size=160x120
 export INJECTED_FAULTS=$work/faults ALSOFT_DRIVERS=null
 mkdir faults
 beneath=(env LD_PRELOAD="$preloaded")
 
-in_time() { within "$@" || { needs_machine=yes; false; }; } # only who waited in vain may blame the host
+in_time() { within "$@" || { needs_machine=yes; false; }; } # only a flow that waited in vain may blame the host
 inject() { echo "$2" >"faults/.$1" && mv "faults/.$1" "faults/$1"; } # fault, number
 mend() { rm "faults/$1"; }
 logged() { [ "$(grep -cF -- "$1" "$log.txt" "$log.err" | awk -F: '{sum += $2} END {print sum}')" -ge "${2:-1}" ]; }
-told_once() { [ "$(cat "$log.txt" "$log.err" | grep -cF -- "$1")" -eq 1 ]; } # sentence
-lesson() { # name, arguments ...: a lesson that a person has begun, recorded
+is_reported_once() { [ "$(cat "$log.txt" "$log.err" | grep -cF -- "$1")" -eq 1 ]; } # sentence
+lesson() { # name, arguments ...: a recorded lesson that a person has begun
   start "$@" --lesson moving_off --learner Ada --mode follow-me --no-help --no-panel --hand grip ||
     { needs_machine=yes; return 1; }
   xdotool windowfocus "$window"
-  in_time 20 press_until_said Return "lesson moving_off begins" 1
+  in_time 20 press_until_logged Return "lesson moving_off begins" 1
 }
-# The key ends the lesson; the newest run is in the history, left, and its recording is whole.
-left_runs() { # how many the history has, and the newest one's recording
+# The key ends the lesson; the newest run is in the history, marked as left, and its recording is complete.
+left_runs() { # the number of runs in the history, and the newest one's recording
   python3 - "$XDG_DATA_HOME/gearshift" <<'END_OF_PYTHON'
 import os, sqlite3, sys
 rows = sqlite3.connect(sys.argv[1] + "/history.db").execute(
@@ -50,11 +50,11 @@ END_OF_PYTHON
 ended() { ended_by End || { needs_machine=yes; kill "$trainer" && wait "$trainer"; false; }; }
 runs=0
 hung_up() { find_program && kill -HUP "$pid" && wait "$trainer"; } # its terminal is closed
-kept() { # how it is ended, where not by the key
+kept() { # how to end it, if not with the key
   local rows recording
   runs=$((runs + 1))
   "${@:-ended}" || return 1
-  said "lesson moving_off is over: not graded.*was left" || return 1
+  printed "lesson moving_off is over: not graded.*[Yy]ou left" || return 1
   rows=$(left_runs) || return 1
   [ "$(head -n 1 <<<"$rows")" -eq $runs ] || return 1
   recording=$(tail -n 1 <<<"$rows")
@@ -63,43 +63,43 @@ kept() { # how it is ended, where not by the key
 has_forces() { [ "$(grep 'guard: ' "$log.txt" | tail -n 1 | sed 's/.*guard: //')" = running ]; }
 missed() { sed -n 's/^loop: \([0-9]*\) deadlines missed, .*/\1/p' "$log.txt" | tail -n 1; }
 find_program() { pid=$(pgrep -P "$trainer" -x gearshift) && [ -n "$pid" ]; }
-lever_goes_on() { ! grep -q "guard: damped\|guard: released" "$log.txt"; }
+lever_keeps_running() { ! grep -q "guard: damped\|guard: released" "$log.txt"; }
 
 check "closed terminal: a lesson begins" lesson hung_up
-check "closed terminal: run and recording are kept" kept hung_up
+check "closed terminal: run and recording are saved" kept hung_up
 
 # The picture, the sound and the wall clock.
 check "picture: a lesson begins" lesson picture
 inject gpu 1
-check "picture: told" in_time 20 logged "the picture is made anew, the lever goes on"
+check "picture: reported" in_time 20 logged "restarting the picture, the lever keeps running"
 xdotool mousemove --window "$window" 50 50 # a picture of it
-check "picture: the lever goes on" lever_goes_on
+check "picture: the lever continues" lever_keeps_running
 inject sound 1
-check "sound: told" in_time 10 logged "the sound device was lost"
-# The clock steps while there is no sound: without a card OpenAL mixes by that clock what it missed before it lets a
+check "sound: reported" in_time 10 logged "the sound device was lost"
+# The clock steps while there is no sound: without a card, OpenAL uses that clock to mix what it missed before it lets a
 # program end.
 inject clock 3600
 sleep 0.3
 inject clock -3600
-sleep 1.2 # sound is looked for each second
-check "clock: the lever goes on" lever_goes_on
+sleep 1.2 # sound is retried every second
+check "clock: the lever continues" lever_keeps_running
 mend sound
-check "sound: back, told" in_time 10 logged "the sound is back"
-check "picture: told once" told_once "the picture is made anew"
-check "sound: told once" told_once "the sound device was lost"
-check "picture, sound, clock: run and recording are kept" kept
+check "sound: back, reported" in_time 10 logged "sound is back"
+check "picture: reported once" is_reported_once "restarting the picture"
+check "sound: reported once" is_reported_once "the sound device was lost"
+check "picture, sound, clock: run and recording are saved" kept
 mend clock
-span() { # of the newest run [s], as the history has it
+span() { # duration of the newest run [s] according to the history
   python3 -c '
 import sqlite3, sys
 print(*sqlite3.connect(sys.argv[1]).execute("SELECT duration_s FROM lesson_run ORDER BY id DESC LIMIT 1").fetchone())' \
     "$XDG_DATA_HOME/gearshift/history.db"
 }
-check "clock: the lesson lasted as long as it did, got $(span) s" awk -v s="$(span)" 'BEGIN {exit !(s > 1 && s < 200)}'
-check "and nothing else is told, got: $(grep -v picture picture.err)" [ "$(wc -l <picture.err)" -eq 1 ]
+check "clock: the duration of the lesson is right, got $(span) s" awk -v s="$(span)" 'BEGIN {exit !(s > 1 && s < 200)}'
+check "and nothing else is reported, got: $(grep -v picture picture.err)" [ "$(wc -l <picture.err)" -eq 1 ]
 
-# The same step while OpenAL plays to nowhere, as it was asked to above and never does by itself: it mixes an hour
-# first, and the program ends late. The lever does not wait.
+# The same step while OpenAL plays to a null device, which it does only because it was asked to above: it first mixes an
+# hour of sound, and the program ends late. The lever does not wait.
 check "late end: a lesson begins" lesson late
 check "late end: it has forces" in_time 10 has_forces
 check "late end: it runs" find_program
@@ -108,47 +108,47 @@ ended_lever() { [ "$(real_time_threads)" -eq 0 ]; }
 had=$(real_time_threads)
 inject clock 3600
 sleep 0.3
-check "late end: the lesson is left" in_time 20 press_until_said End "lesson moving_off is over" 1
+check "late end: the lesson is left" in_time 20 press_until_logged End "lesson moving_off is over" 1
 [ "$had" -gt 0 ] && check "late end: the lever has ended" in_time 5 ended_lever
-check "late end: the sound has not" alive
+check "late end: the sound has not ended" alive
 [ "$had" -gt 0 ] || echo "not shown: that the lever ends before the sound (no real-time thread is allowed here)"
 kill -KILL "$pid"
 wait "$trainer" 2>/dev/null
 mend clock
 late_is_kept() { runs=$((runs + 1)) && [ "$(left_runs | sed -n 1p)" -eq $runs ]; }
-check "late end: the run is kept" late_is_kept
+check "late end: the run is saved" late_is_kept
 
-# A device that is lost again and again: no picture, but lever, lesson and keys.
+# A device that is lost repeatedly: no picture, but lever, lesson and keys still work.
 check "no picture: a lesson begins" lesson blind
 rm -f faults/gpu_lost
 attempts() { wc -c <faults/gpu_lost; }
 attempted() { [ "$(attempts)" -ge "$1" ]; }
 begin=$SECONDS
 inject gpu 2
-check "no picture: told" in_time 20 logged "the picture is made anew"
-check "no picture: attempted again" in_time 20 attempted 4 # lost, at once, each second
+check "no picture: reported" in_time 20 logged "restarting the picture"
+check "no picture: attempted again" in_time 20 attempted 4 # lost at once, every second
 taken=$((SECONDS - begin))
 check "no picture: not more than each second, got: $(attempts) in $taken s" [ "$(attempts)" -le $((taken + 3)) ]
 check "no picture: alive" alive
 mend gpu
-check "no picture: the lever goes on" lever_goes_on
-check "no picture: kept" kept
-check "no picture: told once, got: $(cat blind.err)" [ "$(wc -l <blind.err)" -eq 1 ]
+check "no picture: the lever continues" lever_keeps_running
+check "no picture: saved" kept
+check "no picture: reported once, got: $(cat blind.err)" [ "$(wc -l <blind.err)" -eq 1 ]
 
-# The program stands still.
-# The wall clock is wrong all the while, or a clock that is never wrong would pass above.
+# The process is stopped. The wall clock is wrong all the time; otherwise a clock that is never wrong would pass the
+# tests above.
 inject clock -3600
 check "stopped: a lesson begins" lesson stopped
-stands_still() { grep -q "^State:.T" "/proc/$pid/status"; }
+is_stopped() { grep -q "^State:.T" "/proc/$pid/status"; }
 check "stopped: it has forces" in_time 10 has_forces
 check "stopped: it runs" find_program
 kill -STOP "$pid"
-check "stopped: it stands still" in_time 5 stands_still
+check "stopped: it stands still" in_time 5 is_stopped
 sleep 3
 kill -CONT "$pid"
-check "stopped: kept" kept
+check "stopped: saved" kept
 mend clock
-begun_behind() { # [s] of the true time, as the history has it
+begun_behind() { # [s] behind the true time, according to the history
   python3 - "$XDG_DATA_HOME/gearshift" <<'END_OF_PYTHON'
 import datetime, sqlite3, sys
 history = sqlite3.connect(sys.argv[1] + "/history.db")
@@ -157,13 +157,13 @@ begun = datetime.datetime.fromisoformat(begun.replace("Z", "+00:00"))
 print((datetime.datetime.now(datetime.timezone.utc) - begun.replace(tzinfo=datetime.timezone.utc)).total_seconds())
 END_OF_PYTHON
 }
-check "clock: the history has the hour before, got: $(begun_behind) s" \
+check "clock: the history has the time before the step, got: $(begun_behind) s" \
   awk -v s="$(begun_behind)" 'BEGIN {exit !(s >= 3600 && s < 3900)}'
-check "stopped: the lever went on" lever_goes_on
+check "stopped: the lever continued" lever_keeps_running
 check "stopped: the cycles of 3 s are counted as missed, got: $(missed)" [ "$(missed)" -ge 2900 ]
 check "stopped: nothing on stderr, got: $(cat stopped.err)" [ ! -s stopped.err ]
 
-# All of it on one core, beside who never sleeps.
+# Everything on one core, beside a busy loop.
 check "one core: a lesson begins" lesson hog
 check "one core: it runs" find_program
 timeout 30 taskset -c 0 sh -c 'while :; do :; done' &
@@ -172,23 +172,23 @@ check "one core: all its threads are sent there" taskset -acp 0 "$pid" >/dev/nul
 stay_there() { [ "$(cat /proc/"$pid"/task/*/status | sed -n 's/^Cpus_allowed_list:\t//p' | sort -u)" = 0 ]; }
 check "one core: and stay" stay_there
 sleep 2
-check "one core: beside who never sleeps" kill $hog
+check "one core: beside a busy loop" kill $hog
 taskset -acp "0-$(($(nproc) - 1))" "$pid" >/dev/null
-check "one core: kept" kept
-check "one core: forces to the end, if they were gone again" has_forces
-check "one core: what the loop missed is counted" \
-  said "^loop: [0-9]* deadlines missed, [0-9]* cycles too long, 0 events lost"
+check "one core: saved" kept
+check "one core: forces to the end, switched on again if necessary" has_forces
+check "one core: missed deadlines are counted" \
+  printed "^loop: [0-9]* deadlines missed, [0-9]* cycles too long, 0 events lost"
 check "one core: nothing on stderr, got: $(cat hog.err)" [ ! -s hog.err ]
 
-# The disk's errors make it read-only, and somebody mends it before the end.
+# Disk errors make it read-only, and somebody repairs it before the end.
 check "read-only meanwhile: a lesson begins" lesson refused
 inject write 30 # EROFS
-check "read-only meanwhile: told" in_time 20 logged "the recording failed after"
-check "read-only meanwhile: the lever goes on" lever_goes_on
+check "read-only meanwhile: reported" in_time 20 logged "the recording failed after"
+check "read-only meanwhile: the lever continues" lever_keeps_running
 mend write
 check "read-only meanwhile: its key ends it" ended
-check "read-only meanwhile: told once" told_once "the recording failed after"
-check "read-only meanwhile: nothing is told to be lost, got: $(cat refused.err)" [ ! -s refused.err ]
+check "read-only meanwhile: reported once" is_reported_once "the recording failed after"
+check "read-only meanwhile: no loss is reported, got: $(cat refused.err)" [ ! -s refused.err ]
 check "read-only meanwhile: the run is in the history" [ "$(left_runs | sed -n 1p)" = $((runs + 1)) ]
 
 if [ "$has_mounts" = yes ]; then
@@ -197,32 +197,32 @@ if [ "$has_mounts" = yes ]; then
   XDG_DATA_HOME=$work/small
   check "full disk: a lesson begins" lesson full
   dd if=/dev/zero of=small/filler bs=4k 2>/dev/null
-  check "full disk: told" in_time 20 logged "the recording failed after"
-  check "full disk: the lever goes on" lever_goes_on
+  check "full disk: reported" in_time 20 logged "the recording failed after"
+  check "full disk: the lever continues" lever_keeps_running
   check "full disk: its key ends it" ended
-  check "full disk: told once" told_once "the recording failed after"
-  check "full disk: nothing is told to be lost, got: $(cat full.err)" [ ! -s full.err ]
-  check "full disk: the run is in the history, and its torn recording made room" \
+  check "full disk: reported once" is_reported_once "the recording failed after"
+  check "full disk: no loss is reported, got: $(cat full.err)" [ ! -s full.err ]
+  check "full disk: the run is in the history, its truncated recording was deleted" \
     [ "$(left_runs | tr '\n' ' ')" = "1  " -a -z "$(ls small/gearshift/recordings)" ]
 
   rm -r small/*
   check "room again: a lesson begins" lesson room
   dd if=/dev/zero of=small/filler bs=4k 2>/dev/null
-  check "room again: told" in_time 20 logged "the recording failed after"
+  check "room again: reported" in_time 20 logged "the recording failed after"
   rm small/filler
   check "room again: its key ends it" ended
-  check "room again: nothing is told to be lost, got: $(cat room.err)" [ ! -s room.err ]
+  check "room again: no loss is reported, got: $(cat room.err)" [ ! -s room.err ]
   check "room again: the run is in the history" [ "$(left_runs | sed -n 1p)" = 1 ]
 
   mount -t tmpfs -o size=1m none home
   mount -o remount,ro home
-  XDG_DATA_HOME=$work/home/data XDG_CONFIG_HOME=$work/home/config # a driver without its cache takes its time to begin
+  XDG_DATA_HOME=$work/home/data XDG_CONFIG_HOME=$work/home/config # without its cache a driver starts slowly
   check "read-only home: a lesson begins" lesson read_only
   check "read-only home: its key ends it" ended
-  check "read-only home: told at the start" [ "$(grep -c "the history cannot be used: .*Read-only" read_only.txt)" = 1 ]
-  check "read-only home: the lesson was driven" said "lesson moving_off is over: not graded.*was left"
-  check "read-only home: what is lost is told at the end, got: $(cat read_only.err)" \
-    [ "$(grep -c "Read-only file system; lost with this program: 1 run$" read_only.err)" = 1 ]
+  check "read-only home: reported at the start" [ "$(grep -c "the history cannot be used: .*Read-only" read_only.txt)" = 1 ]
+  check "read-only home: the lesson was driven" printed "lesson moving_off is over: not graded.*[Yy]ou left"
+  check "read-only home: losses are reported at the end, got: $(cat read_only.err)" \
+    [ "$(grep -c "Read-only file system; not saved: 1 run$" read_only.err)" = 1 ]
 fi
 XDG_CONFIG_HOME=$work/config
 [ "$has_mounts" = no ] || umount small home

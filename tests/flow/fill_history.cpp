@@ -1,10 +1,10 @@
-// A history for a flow to look at: fill_history DATABASE RECORDING_TO_NAME
+// Fills a history for a flow: fill_history DATABASE RECORDING_TO_NAME
 #include <cmath>
 #include <string>
 
-#include "app/history/history.h"
+#include "app/lessons/history/history.h"
 
-using namespace gearshift;
+using namespace gearshift::lessons;
 
 namespace {
 
@@ -24,7 +24,7 @@ ShiftRecord shift_of(int number) {
   return shift;
 }
 
-// The more trials, the better: 9 - 6 exp(-n / 3), rounded.
+// Grades rise with the number of trials: 9 - 6 exp(-n / 3), rounded.
 LessonResult result_of(int trial) {
   LessonResult result;
   result.lesson = "up_through_the_gears";
@@ -35,7 +35,7 @@ LessonResult result_of(int trial) {
   result.passed = result.grade >= 6.0;
   if (!result.passed) result.why = "Grade is <below> \"6\".";
   for (int i = 0; i < 3; ++i) result.shifts.push_back(shift_of(i));
-  result.faults = {{FaultKind::clutch_early, Severity::minor, 2.5, 0.12, 1}};
+  result.errors = {{ErrorKind::clutch_early, Severity::minor, 2.5, 0.12, 1}};
   result.deductions = {{0, 10.0 - result.grade}};
   return result;
 }
@@ -45,10 +45,10 @@ LessonResult result_of(int trial) {
 int main(int count, char** arguments) {
   if (count != 3) return 2;
   History history(arguments[1]);
-  const std::int64_t session = history.begin_session(history.learner("Ada <i>Löwe</i>"), "flow");
+  const std::int64_t session = history.begin_session(history.find_or_add_learner("Ada <i>Löwe</i>"), "flow");
   for (int trial = 0; trial < 12; ++trial) {
     const LessonResult result = result_of(trial);
     history.end_run(history.begin_run(session, result, arguments[2]), result);
   }
-  history.learner("Bob");
+  history.find_or_add_learner("Bob");
 }

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
-# A real lever and a headset at once, whole: both are found, the lever is seen where it is once its knob was touched, forces
-# come by Enter alone, the stick is pulled out while the headset is worn, and goes on when the headset is lost; how its
-# cycles go with and without a headset.
-# The stick is emulated beneath the real libusb, the headset is the OpenXR test runtime.
+# A complete trainer with a real lever and a headset: both are found, the lever is drawn where it really is once its
+# knob was touched, only Enter switches forces on, the stick is unplugged while the headset is worn and continues when
+# the headset is lost; the timing of its cycles with and without a headset. The stick is emulated beneath the real
+# libusb, the headset is the OpenXR test runtime.
 # Usage: headset_stick.sh GEARSHIFT SOURCE_FOLDER STICK_EMULATOR MANIFEST
 set -u
 needs_machine=yes
@@ -14,38 +14,38 @@ source "$flows/worn.sh"
 all_known whole
 puts_on=launch
 
-no_word_of_forces() { ! said "guard:"; }
+no_force_messages() { ! printed "guard:"; }
 in_room() { python3 "$flows/lever_in_room.py" "$@"; }
-# The script's clock, as far as it has been shown.
+# The time in the script of the last frame shown.
 script_time() { sed -n 's/^frame [0-9]* t=\([0-9.]*\).*/\1/p' "$log/log.txt" | tail -n 1; }
 is_later() { awk -v now="$(script_time)" -v then="$1" 'BEGIN {exit !(now > then)}'; }
 in_round() { within 20 is_later "$(awk -v round="$round" -v t="$1" 'BEGIN {print round + t}')"; }
-click() { # x, y of the window
+click() { # x, y in the window
   xdotool mousemove --window "$window" "$1" "$2"
   sleep 0.4
   xdotool click 1
   sleep 0.4
 }
 
-# --- the knob is touched in three gears, nobody has given forces; the plug is pulled while the headset is worn
+# --- the knob is touched in three gears with forces off; the stick is unplugged while the headset is worn
 mkfifo orders
 exec 8<>orders
 order() { echo "$*" >&8; }
-beneath=(umockdev-wrapper "$emulator" --family openffboard --own-power --orders orders --log told.log --)
+beneath=(umockdev-wrapper "$emulator" --family openffboard --own-power --orders orders --log forces.log --)
 size=960x600 panel= hang="left -0.3"
 begin "stick and headset are found" wear touched --device ffboard --preset ./patient.toml --lesson none --car none --gate paper < <(
   echo 'capture = {every = 2}'
   in_room script)
-check "of the headset it is told" within 20 told "$found"
+check "the headset's loss is reported" within 20 warned "$found"
 xdotool windowfocus "$window"
-check "the window shows it to others" within 20 shows_picture
-# The panel is 960 x 540 in the middle of the window; the tab that is open is blue, and at first that is another.
+check "the window shows it" within 20 shows_picture
+# The panel is 960 x 540 in the middle of the window; the open tab is blue, and at first that is another one.
 tab_is_open() { window_picture && [[ $(convert "$log.png" -crop 1x1+733+144 txt:-) != *"#285C7A"* ]]; }
 opens_tab() { click 935 149 && tab_is_open; }
 check "the panel's XR tab" within 20 opens_tab
 before=$(ls touched/*_left.png | tail -n 1)
 kept() { grep -qs "^\[touched\]" "$seat"; }
-# From a round's last pull to the next round's, the lever where the controller is; kept before another pull comes.
+# From one round's last pull to the next round's, with the lever where the controller is; saved before the next pull.
 touch_in_a_round() {
   round=$(script_time | awk '{print 10 * int(($1 + 1.6) / 10 + 1)}')
   in_round -1.5
@@ -61,20 +61,20 @@ touch_in_a_round() {
   sleep 0.4
   order go 30 -35.8
   in_round 8.4
-  click 750 412 # keep it
+  click 750 412 # save it
   order go 30 0
   sleep 0.2
   order go 0 0
   within 4 kept
 }
-touch_in_some_round() { touch_in_a_round || touch_in_a_round || touch_in_a_round; } # a machine may be late for one
-check "what was touched is kept" touch_in_some_round
-check "the knob is seen where it is" in_room found "$seat"
-check "no forces so far" no_word_of_forces
-sleep 1.5 # until the lever is back and is seen there
+touch_in_some_round() { touch_in_a_round || touch_in_a_round || touch_in_a_round; } # a slow machine may miss one
+check "the touches are saved" touch_in_some_round
+check "the knob is at its true place" in_room found "$seat"
+check "no forces so far" no_force_messages
+sleep 1.5 # until the lever is back and is drawn there
 touched=$(ls touched/*_left.png | tail -n 1)
 
-check "Enter gives them" press_for Return "guard: running" 1
+check "Enter switches them on" press_for Return "guard: running" 1
 order go 15 0
 sleep 0.2
 order go 15 20 # into the wall beside a slot
@@ -82,24 +82,24 @@ sleep 1
 drawn=$(frames)
 window_picture && cp "$log.png" plugged.png
 order unplug
-check "pulled out, its forces are off" within 5 said "guard: released"
-check "the headset's pictures go on" within 10 has_more_frames $((drawn + 3))
+check "unplugged, its forces are off" within 5 printed "guard: released"
+check "the headset's pictures continue" within 10 has_more_frames $((drawn + 3))
 window_picture
-check "the panel says so" differs plugged.png "$log.png" 3000
+check "the panel reports it" differs plugged.png "$log.png" 3000
 order go 0 0
 order plug
 sleep 1.5
-check "back, it has no forces by itself" [ "$(grep -c "guard: running" touched.txt)" = 1 ]
-check "but by Enter" press_for Return "guard: running" 2
+check "reconnected, it has no forces by itself" [ "$(grep -c "guard: running" touched.txt)" = 1 ]
+check "but only by Enter" press_for Return "guard: running" 2
 check "its key ends it" ended_by End
-check "no rule of the headset's was broken" broke_no_rule
+check "no OpenXR rule was broken" broke_no_rule
 check "each frame is whole" each_frame_is_whole
 zero() { sed -n "s/^stick_emulator: zero force \([0-9]*\) ms after $1.*/\1/p" "$log.err"; }
 gone_after() { local ms; ms=$(zero "$1") && echo "    zero force $ms ms after $1" && [ -n "$ms" ] && [ "$ms" -le 330 ]; }
 check "it pushed, and was still after an effect's length" gone_after "the unplug"
 check "still after the end" gone_after "the program's end"
 
-# --- the headset is lost while the stick is armed: another day, its room as it stands in truth
+# --- the headset is lost while the stick is armed: another day, the seat calibrated
 in_room truth "$seat"
 beneath=(umockdev-wrapper "$emulator" --family openffboard --tour paper --log lost.log --)
 panel=--no-panel hang="left -0.3 right 0.3"
@@ -108,7 +108,7 @@ begin "another day" wear lost --device ffboard --preset ./patient.toml --lesson 
   in_room script | grep "^head\|^stage_origin"
   fails 36 xrEndFrame XR_ERROR_RUNTIME_FAILURE
   for i in 2 3 4 5 6 7; do fails $i xrGetSystem XR_ERROR_FORM_FACTOR_UNAVAILABLE; done)
-check "of the headset it is told again" within 20 told "$found"
+check "the headset's return is reported" within 20 warned "$found"
 check "the headset is worn" within 30 has_more_frames 4
 xdotool windowfocus "$window"
 check "the knob is drawn where it is" in_room drawn "$touched" "$(ls lost/*_left.png | tail -n 1)" "$before"
@@ -119,7 +119,7 @@ rm -rf data/gearshift/recordings
 recorded_at=$(uptime_now)
 key F9
 check "a recording" within 10 recorded
-check "the headset is lost" soon 40 told "$lost"
+check "the headset is lost" soon 40 warned "$lost"
 lost_at=$(uptime_now)
 sleep 5
 check "the window shows the cabin" within 5 shows_desktop
@@ -129,8 +129,8 @@ check "its forces are on all the time" [ "$(grep -c "guard: released\|guard: dam
 key F9
 check "the recording is whole" within 10 replays
 check "its key ends it" ended_by End
-# The reports to the stick by its own clock; the cycles before and after the loss, but for a second about it.
-check "the stick was told its forces all the time" python3 - lost.log "$armed_at" "$gone_at" <<'END'
+# The output reports to the stick by its own clock: the cycles before and after the loss, without the second around it.
+check "the stick received force commands all the time" python3 - lost.log "$armed_at" "$gone_at" <<'END'
 import sys
 begin, end = map(float, sys.argv[2:])
 times = [t for t in (float(line.split()[0]) for line in open(sys.argv[1]) if " out " in line) if begin < t < end]
@@ -138,7 +138,7 @@ longest = max(b - a for a, b in zip(times, times[1:]))
 print(f"    {len(times)} reports in {end - begin:.1f} s, longest gap {1e3 * longest:.0f} ms")
 sys.exit(not (len(times) > 100 and longest < 0.2 and end - times[-1] < 0.2))
 END
-check "the cycles went on" python3 - lost.csv "$(awk -v a="$recorded_at" -v b="$lost_at" 'BEGIN {print b - a}')" <<'END'
+check "the cycles continued" python3 - lost.csv "$(awk -v a="$recorded_at" -v b="$lost_at" 'BEGIN {print b - a}')" <<'END'
 import csv, sys
 times = [float(row["time_s"]) for row in csv.DictReader(open(sys.argv[1]))]
 start, lost = times[0], float(sys.argv[2])
@@ -152,7 +152,7 @@ for name, part in ("stick and headset", [t for t in times if t - start < lost - 
     ok = ok and span > 2 and share > 0.8 and gaps[-1] < 0.2
 sys.exit(not ok)
 END
-check "no rule of the headset's was broken" broke_no_rule
+check "no OpenXR rule was broken" broke_no_rule
 check "its motors are still" gone_after "the program's end"
-check "validation has nothing to say" validates
+check "no validation message" validates
 finish

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Every bad command line: the stated exit code, one sentence on stderr, nothing on stdout, no file left behind.
+# Every bad command line: the documented exit code, one sentence on stderr, nothing on stdout, no file left behind.
 # Usage: hostile_command_lines.sh GEARSHIFT SOURCE_FOLDER
 set -u
 gearshift=$1
@@ -12,7 +12,7 @@ printf '\x89GSTRC\r\n\xff\xff\xff\xff' >newer.trace
 mkdir folder
 touch empty
 
-refuse() { # exit code, part of the sentence, arguments ...
+refuse() { # exit code, part of the error, arguments ...
   local code=$1 part=$2
   shift 2
   "$gearshift" "$@" >out 2>err </dev/null
@@ -27,7 +27,7 @@ refuse() { # exit code, part of the sentence, arguments ...
   fi
 }
 
-# A script that reads a cut table must be told.
+# A script that reads truncated output must get an error.
 for verb in "gate paper" "lesson hill_start" "tour --help"; do
   "$gearshift" $verb >/dev/full 2>err
   if [ $? -ne 1 ] || ! grep -q "standard output" err; then
@@ -38,7 +38,7 @@ for verb in "gate paper" "lesson hill_start" "tour --help"; do
   fi
 done
 
-# Who cannot be told why learns the code.
+# If the error cannot be printed, the exit code is still right.
 for way in '2>/dev/full' '2>&-' '>&- 2>&-' '<&- >&- 2>&-'; do
   for wanted in "2 tour --out t --rate 99" "1 gate no_such_gate" "2 fly"; do
     bash -c "\"\$@\" $way" - "$gearshift" ${wanted#* }
@@ -53,15 +53,15 @@ for way in '2>/dev/full' '2>&-' '>&- 2>&-' '<&- >&- 2>&-'; do
 done
 
 unset DISPLAY WAYLAND_DISPLAY
-refuse 2 "--calibrate: the name of a stick is empty" devices --calibrate ""
+refuse 2 "--calibrate: the stick's name must not be empty" devices --calibrate ""
 refuse 2 "--csv: is empty" bench --family feel --csv ""
 refuse 2 "--out: is empty" campaign --out ""
 refuse 2 "--shifts excludes --case" campaign --out c --case 5 --shifts 10
 refuse 2 "?[31m" $'\e[31m'
 refuse 2 "?[31m" tour --out t --rate $'\e[31m'
 refuse 1 "?[31m" gate $'\e[31m'
-refuse 2 'no such verb: "tuor"; there are train, demo, lesson, tour, ' tuor --out t
-refuse 2 'no such verb: ""' ""
+refuse 2 'unknown verb "tuor"; the verbs are train, demo, lesson, tour, ' tuor --out t
+refuse 2 'unknown verb ""' ""
 refuse 1 "no display"
 refuse 1 "no display" train
 DISPLAY=:987 WAYLAND_DISPLAY=wayland-0 refuse 1 "no display" train
@@ -133,21 +133,21 @@ refuse 2 "LAYOUT" gate
 refuse 1 "paper" gate no_such_gate
 refuse 1 "nameless.toml" gate nameless.toml
 refuse 1 "two_lines.toml" gate two_lines.toml
-refuse 2 "two files" gate ./nameless.toml --svg ./nameless.toml
+refuse 2 "different files" gate ./nameless.toml --svg ./nameless.toml
 refuse 1 "folder" gate folder
 refuse 1 "empty" gate ./empty
 refuse 1 "zeros.trace" gate zeros.trace
 refuse 1 "/nowhere/x.svg" gate paper --svg /nowhere/x.svg
 cp "$source/assets/gates/paper.toml" own.toml
 ln own.toml other_name.svg
-refuse 2 "two files" gate own.toml --svg other_name.svg
-refuse 2 "two files" gate "$source/assets/gates/paper.toml" --svg "$source/./assets/gates/paper.toml"
+refuse 2 "different files" gate own.toml --svg other_name.svg
+refuse 2 "different files" gate "$source/assets/gates/paper.toml" --svg "$source/./assets/gates/paper.toml"
 cp "$source/assets/lessons/hill_start.toml" hill.toml
-refuse 2 "two files" lesson ./hill.toml --trace hill.toml
-refuse 2 "two files" lesson hill_start --gate own.toml --trace folder/../own.toml
+refuse 2 "different files" lesson ./hill.toml --trace hill.toml
+refuse 2 "different files" lesson hill_start --gate own.toml --trace folder/../own.toml
 ln -s new.db link.db
 for own in new.db ./new.db link.db new.db-wal new.db-shm new.db-journal; do
-  refuse 2 "two files" lesson hill_start --learner A --database new.db --trace $own
+  refuse 2 "different files" lesson hill_start --learner A --database new.db --trace $own
 done
 mkdir gone && cd gone && rmdir ../gone
 gone=$({ "$gearshift" lesson hill_start --trace x.trace >/dev/null; } 2>&1)
@@ -155,8 +155,8 @@ cd ..
 grep -q '^gearshift: x.trace: .*: No such file or directory$' <<<"$gone" ||
   { echo "FAILED: where the working folder is gone: $gone"; failed=$((failed + 1)); }
 cp "$source/assets/models/gearbox.glb" box.glb
-refuse 2 "two files" render box.glb --out folder/../box.glb
-python3 - <<'TEXTURED' # a triangle whose buffer and texture lie beside it
+refuse 2 "different files" render box.glb --out folder/../box.glb
+python3 - <<'TEXTURED' # a triangle whose buffer and texture are in the same folder
 import json, struct, zlib
 def chunk(kind, data):
     return struct.pack(">I", len(data)) + kind + data + struct.pack(">I", zlib.crc32(kind + data))
@@ -175,15 +175,15 @@ json.dump({"asset": {"version": "2.0"}, "nodes": [{"mesh": 0}],
 TEXTURED
 cp triangle.bin triangle.bin.kept
 cp skin.png skin.png.kept
-refuse 1 "two files" render triangle.gltf --out folder/../triangle.bin
-refuse 1 "two files" render triangle.gltf --out skin.png
+refuse 1 "different files" render triangle.gltf --out folder/../triangle.bin
+refuse 1 "different files" render triangle.gltf --out skin.png
 for one in triangle.bin skin.png; do cmp $one $one.kept || failed=$((failed + 1)); done
-refuse 2 "two files" stability --svg both --csv ./both
-refuse 2 "two files" bench --family plant --out t --csv t/bench.csv
-refuse 2 "two files" bench --family plant --out folder --csv folder/../folder/bench.html
-refuse 2 "two files" bench --family plant --out t --csv t/plant.svg
+refuse 2 "different files" stability --svg both --csv ./both
+refuse 2 "different files" bench --family plant --out t --csv t/bench.csv
+refuse 2 "different files" bench --family plant --out folder --csv folder/../folder/bench.html
+refuse 2 "different files" bench --family plant --out t --csv t/plant.svg
 ln -s map both
-refuse 2 "two files" stability --svg both --csv map
+refuse 2 "different files" stability --svg both --csv map
 long=$(printf 'x%.0s' {1..300})
 refuse 1 "cannot be written" stability --svg "$long.svg" --csv "$long.csv"
 for one in "own.toml gates/paper.toml" "hill.toml lessons/hill_start.toml" "box.glb models/gearbox.glb"; do

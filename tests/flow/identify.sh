@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Identification as a user runs it: m, b and k of the paper come out of the simulated lever, through noise and delay
-# too, with plots that are pictures; and a lever that is not the paper's is found as it is.
+# Identification as a user runs it: the paper's m, b and k are recovered from the simulated lever, also with noise and
+# delay, with readable plots; a different lever is identified correctly, too.
 # Usage: identify.sh GEARSHIFT SOURCE_FOLDER
 set -u
 gearshift=$1
@@ -11,7 +11,7 @@ identify() { # name of the result, arguments ...
   shift
   "$gearshift" identify "$@" >"$name.txt" 2>"$name.err"
 }
-# Number n that follows "found" in the JSON: mass, damping, stiffness of x, then of y.
+# The nth number after "found" in the JSON: mass, damping, stiffness of x, then of y.
 found() { grep -o '"found": [0-9.e-]*' "$1.txt" | sed -n "$2p" | cut -d' ' -f2; }
 near() { # name, n, value, share
   awk -v a="$(found "$1" "$2")" -v b="$3" -v s="$4" 'BEGIN { exit !(a != "" && a / b < 1 + s && a / b > 1 - s) }'
@@ -23,7 +23,7 @@ check "identify" identify plain --out plain
 check "Table 2" says plain "10.83 Nm"
 check "the literal amplitude" says plain "at 1 Hz hits the stop: it would move the lever by 484 mm"
 check "eq (7)" says plain "f_s = 19.04"
-check "no word on stderr where it is no terminal" [ ! -s plain.err ]
+check "nothing on stderr if it is no terminal" [ ! -s plain.err ]
 for axis in x y; do
   check "bode_$axis.png is a picture" is_png plain/bode_$axis.png
   check "bode_$axis.svg is whole" grep -q "</svg>" plain/bode_$axis.svg
@@ -60,17 +60,17 @@ check "the paper's rate" identify slow --preset paper --json
 check "mass at 100 Hz" near slow 1 0.095 0.02
 check "another rate" identify fast --rate 4000 --axis y --json
 check "stiffness at 4 kHz" near fast 3 15.7 0.02
-check "parts that are off" identify other --preset other.toml --axis x --json
-check "are found as they are, not as they are drawn" far other 1 0.3 0.02
-check "inside what they may be off" near other 1 0.3 0.3
+check "parts that are switched off" identify other --preset other.toml --axis x --json
+check "are identified as they are, not as drawn" far other 1 0.3 0.02
+check "within their tolerances" near other 1 0.3 0.3
 
 printf 'name = "x"\n[lever.axis_x]\nstiffness_n_per_m = 0\n' >springless.toml
 check "a lever without a spring" identify springless --preset springless.toml --axis x
-check "says that in words" says springless "no spring: neither damping ratio nor bandwidth"
-check "and has no number that is none" [ "$(grep -c nan springless.txt)" -eq 0 ]
+check "says that in words" says springless "no spring, so no damping ratio and no bandwidth"
+check "and has no invalid number" [ "$(grep -c nan springless.txt)" -eq 0 ]
 
-# Bad command lines and levers: the stated exit code, one sentence, nothing on stdout.
-refuses() { # exit code, part of the sentence, arguments ...
+# Bad command lines and levers: the documented exit code, one sentence, nothing on stdout.
+refuses() { # exit code, part of the error, arguments ...
   local code=$1 part=$2
   shift 2
   "$gearshift" identify "$@" >out 2>err
@@ -84,6 +84,6 @@ check "a negative seed" refuses 2 "--seed" --seed -1
 check "no such preset" refuses 1 "default, measured, paper" --preset spaceship
 check "an unknown key" refuses 1 "unknown.toml:3: mass is not a known key" --preset unknown.toml
 check "a lever without motors" refuses 1 "axis x: FrequencySweep: max_force of the device = 0" --preset weak.toml
-check "a folder that cannot be" refuses 1 "/proc" --out /proc/nowhere
+check "an impossible folder" refuses 1 "/proc" --out /proc/nowhere
 
 finish

@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# `cmake --install` into a folder that is hard to quote, moved elsewhere, with the source tree hidden: everything that the
-# program reads is beside it. And what --version says, the changelog, the desktop entry.
+# `cmake --install` into a folder that is hard to quote, moved elsewhere, with the source tree hidden: everything that
+# the program reads is installed with it. Also the output of --version, the changelog, and the desktop entry.
 # Usage: install.sh GEARSHIFT SOURCE_FOLDER BUILD_FOLDER
 set -u
 source=$2
 build=$3
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 export XDG_DATA_HOME=$work/data XDG_CACHE_HOME=$work/cache
-unset DISPLAY WAYLAND_DISPLAY DESTDIR MESA_SHADER_CACHE_DIR # which is in the folder that is hidden
+unset DISPLAY WAYLAND_DISPLAY DESTDIR MESA_SHADER_CACHE_DIR # the cache is in the hidden folder
 lacks() { ! "$@"; }
 
 check "it is installed" cmake --install "$build" --prefix "$work/erste Größe" --strip >install.txt
@@ -16,7 +16,7 @@ prefix="$work/zweite 'Größe'"
 cd "$prefix" || exit 1
 check "five kinds of files and the models" test "$(ls share/gearshift/assets | tr '\n' ' ')" = \
   "bindings cars gates lessons models presets udev "
-as_in_the_source() { # each file of the assets
+as_in_the_source() { # every file of the assets
   local file
   find share/gearshift/assets -type f | while read -r file; do
     cmp "$file" "$source/assets/${file#share/gearshift/assets/}" || return 1
@@ -28,12 +28,12 @@ check "every lesson, gate and model" test "$(find share/gearshift -name "*.toml"
 check "nothing else" lacks grep -q . <(find . -type f ! -path "./share/gearshift/assets/*" ! -path ./bin/gearshift \
   ! -path "./share/doc/*" ! -path "./share/man/*" ! -name gearshift.desktop ! -name gearshift.svg ! -name "*.rules")
 check "the rule for udev" cmp lib/udev/rules.d/70-gearshift.rules "$source/assets/udev/70-gearshift.rules"
-# Assertions, which a release has not, name the files that hold them.
-[ -n "${GEARSHIFT_SANITIZED:-}" ] || # reports name its lines
+# Assertions, which a release does not have, contain the names of their files.
+[ -n "${GEARSHIFT_SANITIZED:-}" ] || # sanitizer reports name source lines
   check "the source tree is not named in the program" lacks grep -q . \
   <(strings -a bin/gearshift | grep -F "$source/" | grep -vE "\.(h|cpp)$")
 
-# Where mounts may be made, with nothing to be found in the source tree, nor in the build.
+# Where mounts are allowed, with source tree and build folder hidden.
 cat >"$work/use.sh" <<'END'
 set -e
 [ -z "$2" ] || mount -t tmpfs none "$2"
@@ -58,19 +58,19 @@ for verb in "gate paper" "campaign --out c"; do
   alone/bin/gearshift $verb >alone.txt 2>alone.err
   code=$?
   check "$verb without its files: one sentence, got: $(cat alone.err)" \
-    test $code -eq 1 -a "$(grep -c "^gearshift: .*Install it again, whole$" alone.err)" -eq 1 -a ! -s alone.txt
+    test $code -eq 1 -a "$(grep -c "^gearshift: .*Reinstall gearshift$" alone.err)" -eq 1 -a ! -s alone.txt
 done
 ln -s "$prefix/bin/gearshift" link
 check "a link to the program finds its files, too" ./link gate paper >gate.txt
 
-# What it says of itself.
+# The output of --version.
 version=$("$prefix/bin/gearshift" --version)
-said() { grep -qE "$1" <<<"$version"; }
+printed() { grep -qE "$1" <<<"$version"; }
 number=$(sed -n 's/^project(gearshift VERSION \([0-9.]*\).*/\1/p' "$source/CMakeLists.txt")
-check "the version stands in CMakeLists.txt" said "^gearshift $number$"
-check "the commit" said "^commit [^ ]+$"
-check "build and compiler" said "^[A-Za-z]+ build by [A-Za-z]+ [0-9.]+$"
-check "libraries" said "fmt [0-9.]+, glfw3 [0-9.]+, .*vulkan [0-9.]+$"
+check "the version is that of CMakeLists.txt" printed "^gearshift $number$"
+check "the commit" printed "^commit [^ ]+$"
+check "build and compiler" printed "^[A-Za-z]+ build by [A-Za-z]+ [0-9.]+$"
+check "libraries" printed "fmt [0-9.]+, glfw3 [0-9.]+, .*vulkan [0-9.]+$"
 changes="$prefix/share/doc/gearshift/changelog.gz"
 check "the changelog begins with this version" grep -q "^gearshift ($number) " <(zcat "$changes" | head -n 1)
 page() { zcat "$prefix/share/man/man1/gearshift.1.gz"; }
@@ -78,7 +78,7 @@ verbs_of_the_page() { page | sed -n '/^.SH VERBS/,/^.SH OPTIONS/ {/^.TP/ {n; s/^
 verbs_of_the_program() { "$prefix/bin/gearshift" --help | sed -n '/^Subcommands:/,$ s/^  \([a-z]*\)  .*/\1/p'; }
 check "the manual page has a line for each verb" diff <(verbs_of_the_page) <(verbs_of_the_program)
 check "and is of this version" grep -q "^.TH GEARSHIFT 1 \"[A-Z][a-z]* 20[0-9]*\" \"gearshift $number\"" <(page)
-dead_links() { # "PAGE: TARGET" of each relative link in an installed page that leads to no installed file
+dead_links() { # "PAGE: TARGET" for each relative link in an installed page to a file that is not installed
   local page target
   find "$prefix/share/doc" -name "*.md" | while read -r page; do
     sed '/^```/,/^```/d; s/`[^`]*`//g' "$page" | grep -oP '\]\(\K[^)\s]+' | grep -vE '^[a-z]+:|^#' | while read -r target; do
@@ -94,23 +94,23 @@ check "the first page names others" test "$(named_pages | wc -l)" -ge 8
 check "which are installed" all_are_there
 facts() { # source folder
   cmake -D "source=$1" -D header="$PWD/facts.h" -D type=t -D compiler=c -D libraries=l \
-    -P "$source/app/version/build_facts.cmake"
+    -P "$source/app/verbs/build_facts.cmake"
 }
 mkdir unpacked
 check "sources without a history" facts "$PWD/unpacked"
-check "have an unknown commit" grep -q 'kCommit = "unknown"' facts.h
+check "their commit is unknown" grep -q 'kCommit = "unknown"' facts.h
 touch -d 2000-01-01 facts.h
 check "the same facts again" facts "$PWD/unpacked"
-check "are no reason to compile" test "$(date -r facts.h +%Y)" = 2000
+check "they cause no recompilation" test "$(date -r facts.h +%Y)" = 2000
 check "the desktop entry is valid" desktop-file-validate "$prefix/share/applications/gearshift.desktop"
 check "and its icon is there" test -s "$prefix/share/icons/hicolor/scalable/apps/gearshift.svg"
 
-# Not whole.
+# Incomplete installations.
 mv "$prefix/share/gearshift/assets" away
 "$prefix/bin/gearshift" gate paper >missing.txt 2>missing.err
 check "without its files it fails" test $? -eq 1
-one_sentence() { [ "$(wc -l <missing.err)" -eq 1 ] && grep -qF "$prefix/share/gearshift/assets: the program's own files" missing.err; }
+one_sentence() { [ "$(wc -l <missing.err)" -eq 1 ] && grep -qF "$prefix/share/gearshift/assets: the program's data files" missing.err; }
 check "in one sentence that names them, got: $(cat missing.err)" one_sentence
-check "a layout by its path needs none" "$prefix/bin/gearshift" gate away/gates/paper.toml >gate.txt
+check "a layout given by path needs no assets" "$prefix/bin/gearshift" gate away/gates/paper.toml >gate.txt
 check "nor does the version" "$prefix/bin/gearshift" --version >version.txt
 finish

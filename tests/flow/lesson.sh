@@ -1,13 +1,13 @@
 #!/usr/bin/env bash
-# A simulated learner's lessons, remembered: passed, in the report, replayed; killed at 20 or 50 moments and nothing that
-# was told is lost; two programs at once; a history that cannot be used costs one sentence and no lesson.
+# A simulated driver's lessons are saved: passed, in the report, replayed; killed at 20 or 50 moments, and no reported
+# shift is lost; two programs at once; an unusable history costs one message and no lesson.
 # Usage: lesson.sh GEARSHIFT SOURCE_FOLDER
 set -u
 gearshift=$1
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
 export XDG_DATA_HOME=$work/data
 
-learn() { # name of the result, arguments ...: exit code of the lesson
+learn() { # name of the result, arguments ...; returns the lesson's exit code
   local name=$1
   shift
   "$gearshift" lesson "$@" >"$name.txt" 2>"$name.err" </dev/null
@@ -18,52 +18,52 @@ is_sound() { # database
 import sqlite3, sys
 print(sqlite3.connect(sys.argv[1]).execute("PRAGMA quick_check").fetchone()[0])' "$1")" = ok ]
 }
-rows() { tail -n +2 "$1" | wc -l; } # of a table
+rows() { tail -n +2 "$1" | wc -l; } # table
 exits() { # code, command ...
   local code=$1
   shift
   "$@"
   [ $? -eq "$code" ]
 }
-refuse() { # part of the sentence, arguments ...
+refuse() { # part of the error, arguments ...
   local part=$1
   shift
   exits 2 learn refused "$@" && [ "$(wc -l <refused.err)" -eq 1 ] && grep -qF -- "$part" refused.err
 }
 
-# Passed, in the report, and the recording is what was driven.
-check "without a name nothing is remembered" learn nobody hill_start
+# Passed, in the report, and the recording contains the drive.
+check "without a name nothing is saved" learn nobody hill_start
 check "and no folder is made" test ! -e data
 check "a lesson is passed" learn kim hill_start --learner Kim --verbose
-check "and says so" grep -q '^Run 1: .*Grade 10.0 of 10. Passed.$' kim.txt
-check "each shift was told, from 1 on" grep -q '^  run 1, shift 1 written: ' kim.txt
+check "and reports it" grep -q '^Run 1: .*Grade 10.0 of 10. Passed.$' kim.txt
+check "each shift was reported, from 1 on" grep -q '^  run 1, shift 1 saved: ' kim.txt
 check "and not from 0" exits 1 grep -q 'shift 0' kim.txt
 check "nothing is wrong" test ! -s kim.err
 check "the page" report --learner Kim --out page --csv
 check "knows the lesson" grep -q "hill_start" page/runs.csv
-check "what was told of shifts is in the table, number by number" \
-  test "$(sed -n 's/^  run \([0-9]*\), shift \([0-9]*\) written: .*/\1,\2/p' kim.txt)" = \
+check "the reported shifts are in the table, number by number" \
+  test "$(sed -n 's/^  run \([0-9]*\), shift \([0-9]*\) saved: .*/\1,\2/p' kim.txt)" = \
   "$(tail -n +2 page/shifts.csv | cut -d, -f1,2)"
 bit_for_bit() { "$gearshift" replay "$1" 2>&1 | grep -q "^bit for bit"; }
 check "the recording replays" bit_for_bit "$(ls data/gearshift/recordings/*.trace)"
 check "a lesson is failed" exits 1 learn kim hill_start --learner Kim --fault rollback
-check "points are taken off" grep -q "  -[0-9.]*  The car rolled back" kim.txt
-check "with a hand's help it is not passed" exits 1 learn guided hill_start --guidance 1 --fault rollback
+check "there are deductions" grep -q "  -[0-9.]*  The car rolled back" kim.txt
+check "a guided lesson is not passed" exits 1 learn guided hill_start --guidance 1 --fault rollback
 check "there is no grade" exits 1 grep -q "Grade" guided.txt
-check "and no points that were taken off it" exits 1 grep -q "  -[0-9]" guided.txt
+check "and no deductions" exits 1 grep -q "  -[0-9]" guided.txt
 learn kim skip_shifts --learner Kim --runs 4 --guided
 check "the last of four with help decides the exit code" exits $? grep -q 'Passed\.$' <(tail -n 1 kim.txt)
-check "two of the first four are guided" test "$(grep -c '^With help' kim.txt)" -eq 2
+check "two of the first four are guided" test "$(grep -c '^Guidance' kim.txt)" -eq 2
 report --learner Kim --out page --csv
 check "shifts are drawn from the recordings" grep -q 'class="path"' page/index.html
-check "all of them are remembered" test "$(rows page/runs.csv)" -eq 6
+check "all of them are saved" test "$(rows page/runs.csv)" -eq 6
 check "guided ones without a grade" test "$(grep -c ',skip_shifts,' page/runs.csv)" -eq 4
 check "the mode is chosen" learn kim skip_shifts --learner Kim --mode by-yourself
 for trace in data/gearshift/recordings/*; do check "$trace replays" bit_for_bit "$trace"; done
 rm -rf data/gearshift/recordings
 echo >data/gearshift/recordings
 check "no folder for recordings: the lesson is driven" learn nowhere hill_start --learner Kim
-check "and that is told" test "$(wc -l <nowhere.err)" -eq 1
+check "and that is reported" test "$(wc -l <nowhere.err)" -eq 1
 rm data/gearshift/recordings
 
 check "an empty name" refuse "a learner's name must not be empty" hill_start --learner ""
@@ -74,46 +74,48 @@ check "two kinds of help" refuse "--guid" hill_start --guided --guidance 1
 check "a database for nobody" refuse "--database" hill_start --database t.db
 check "no mode" refuse "--mode" hill_start --mode both
 
-# Killed at 50 moments, or some of them, on one and the same database.
+# Killed at up to 50 moments, always with the same database.
 kills=20
 whole && kills=50
-told() { # what the program had told, as run,shift
-  sed -n 's/^  run \([0-9]*\), shift \([0-9]*\) written: .*/\1,\2/p' "$@"
+reported_shifts() { # the shifts that the program had reported, as run,shift
+  sed -n 's/^  run \([0-9]*\), shift \([0-9]*\) saved: .*/\1,\2/p' "$@"
 }
 RANDOM=5
-: >all_told
+: >all_reported
 lost=0 unusable=0 most=0
 for round in $(seq $kills); do
   : >killed.txt
   "$gearshift" lesson skip_shifts --runs 200 --learner K --database kill/h.db --verbose --seed "$round" \
     >>killed.txt 2>killed.err &
   program=$!
-  # Every second one only after something was told, however slow the machine.
+  # In every second round only after something was reported, however slow the machine is.
   [ $((round % 2)) -eq 0 ] || timeout 20 sh -c 'until [ -s killed.txt ]; do sleep 0.005; done'
   sleep "0.$(printf %03d $((RANDOM % 281 + 20)))"
   kill -9 $program
   wait $program 2>/dev/null
-  told killed.txt >>all_told
+  reported_shifts killed.txt >>all_reported
   [ -s killed.err ] && cat killed.err
   [ -e kill/h.db ] || continue
-  if [ ! -s all_told ] && ! report --learner K --database kill/h.db; then continue; fi # killed before K was known
+  # killed before learner K was added
+  if [ ! -s all_reported ] && ! report --learner K --database kill/h.db; then continue; fi
   report --learner K --database kill/h.db --out killed --csv || unusable=$((unusable + 1))
-  [ $((round % 10)) -ne 0 ] || is_sound kill/h.db || unusable=$((unusable + 1)) # the report looks, too, each time
+  # the report checks the file in every round, too
+  [ $((round % 10)) -ne 0 ] || is_sound kill/h.db || unusable=$((unusable + 1))
   cut -d, -f1,2 killed/shifts.csv | sort >there
-  lost=$((lost + $(sort all_told | comm -23 - there | wc -l)))
+  lost=$((lost + $(sort all_reported | comm -23 - there | wc -l)))
   rm -rf kill/recordings
 done
 check "after every kill the report works and the database is sound" test $unusable -eq 0
-check "nothing that was told is lost" test $lost -eq 0
-check "shifts were told" test "$(wc -l <all_told)" -ge $((kills / 2))
-check "most kills hit a lesson, or the moment between two" \
+check "no reported shift is lost" test $lost -eq 0
+check "shifts were reported" test "$(wc -l <all_reported)" -ge $((kills / 2))
+check "most kills hit a lesson, or the time between two" \
   test "$(python3 -c '
 import sqlite3
 print(sqlite3.connect("kill/h.db").execute("SELECT count(*) FROM lesson_run WHERE ended = 0").fetchone()[0])')" -gt $((kills * 2 / 5))
 check "all others are over" learn after skip_shifts --learner K --database kill/h.db
 
-# Ended by who waits no longer, in a lesson or between two: no run stays open, each recording is whole.
-stopped() { # signal: in the background a shell's children do not hear Ctrl-C
+# Stopped by a signal, during a lesson or between two: no run stays open, each recording is complete.
+stopped() { # signal; a shell's background children ignore SIGINT
   rm -f stopped.txt
   env --default-signal=INT "$gearshift" lesson up_through_the_gears --runs 5000 --learner S --database stop/h.db \
     --verbose >stopped.txt 2>stopped.err </dev/null &
@@ -121,7 +123,7 @@ stopped() { # signal: in the background a shell's children do not hear Ctrl-C
   kill -"$1" $!
   wait $!
 }
-newest_recording() { # of a history whose runs are all over
+newest_recording() { # of a history without open runs
   python3 -c '
 import sqlite3, sys
 rows = sqlite3.connect(sys.argv[1]).execute("SELECT ended, recording FROM lesson_run ORDER BY id").fetchall()
@@ -130,15 +132,15 @@ print("stop/" + rows[-1][1] if all(row[0] for row in rows) else "a run is open")
 for signal in INT TERM HUP; do
   check "$signal: exit 1" exits 1 stopped $signal
   check "$signal: one sentence, got: $(cat stopped.err)" test "$(wc -l <stopped.err)" -eq 1
-  check "$signal: which says where" grep -q "^gearshift: ended \(in\|before\) run [0-9]* of 5000$" stopped.err
+  check "$signal: which says where" grep -q "^gearshift: interrupted \(in\|before\) run [0-9]* of 5000$" stopped.err
   check "$signal: the newest recording replays, got: $(newest_recording)" bit_for_bit "$(newest_recording)"
-  grep -h "was left" stopped.txt >>told_left
+  grep -h "You left the lesson" stopped.txt >>told_left
 done
 report --learner S --database stop/h.db --out stop --csv
-check "a lesson that was under way counts as left" test "$(grep -c ',left,' stop/runs.csv)" -eq "$(wc -l <told_left)"
+check "an interrupted lesson counts as left" test "$(grep -c ',left,' stop/runs.csv)" -eq "$(wc -l <told_left)"
 check "with as many recordings as runs" test "$(ls stop/recordings | wc -l)" -eq "$(rows stop/runs.csv)"
 
-# Two programs at once on a database that is not there yet; the same learner and two.
+# Two programs at once on a database that does not exist yet; with the same learner and with two.
 learn one skip_shifts --runs 12 --learner Ada --database both/h.db &
 one=$!
 learn two skip_shifts --runs 12 --learner Bob --database both/h.db --seed 100 &
@@ -147,7 +149,7 @@ learn three skip_shifts --runs 12 --learner Bob --database both/h.db --seed 200
 check "the one that shares a learner ends" test $? -eq 0
 check "one ends" wait $one
 check "the other ends" wait $two
-check "nobody complains" test ! -s one.err -a ! -s two.err -a ! -s three.err
+check "no complaints" test ! -s one.err -a ! -s two.err -a ! -s three.err
 for who in "Ada 12" "Bob 24"; do
   set -- $who
   report --learner "$1" --database both/h.db --out both --csv
@@ -157,29 +159,30 @@ done
 check "each has a recording of its own" test "$(ls both/recordings | wc -l)" -eq 36
 check "that replays" bit_for_bit "$(ls both/recordings/*.trace | tail -n 1)"
 
-# A history that cannot be used: one sentence, the lesson's own exit code, the file as it was.
+# An unusable history: one message, the lesson's normal exit code, the file unchanged.
 cp data/gearshift/history.db good.db
-spoilt() { # what, part of the sentence, file
+spoilt() { # description, part of the error, file
   cp "$3" before.db
   check "$1: passed" learn spoilt hill_start --runs 2 --learner Kim --database "$3"
   check "$1: one sentence, got: $(cat spoilt.err)" test "$(wc -l <spoilt.err)" -eq 1
   check "$1: in words" grep -qF -- "$2" spoilt.err
   check "$1: not passed" exits 1 learn spoilt hill_start --learner Kim --database "$3" --fault rollback
   check "$1: one sentence again" test "$(wc -l <spoilt.err)" -eq 1
-  check "$1: as it was" cmp -s "$3" before.db
+  check "$1: unchanged" cmp -s "$3" before.db
 }
 set_byte() { printf "$3" | dd of="$1" bs=1 seek="$2" conv=notrunc 2>/dev/null; }
 mkdir spoilt
 head -c 10000 good.db >spoilt/half.db
-spoilt "damaged" "it is damaged; it is left as it is" spoilt/half.db
+spoilt "damaged" "it is damaged; left unchanged" spoilt/half.db
 echo "learner,grade" >spoilt/text.db
-spoilt "no history" "it is no history of this program" spoilt/text.db
+spoilt "no history" "it is not a history of this program" spoilt/text.db
 cp good.db spoilt/newer.db
 set_byte spoilt/newer.db 63 '\377' # the last byte of the version: sqlite.org/fileformat2.html, 1.3
-spoilt "newer" "a newer program made it" spoilt/newer.db
-check "nothing lies beside them" test "$(ls spoilt | wc -l)" -eq 3
+spoilt "newer" "it was made by a newer program" spoilt/newer.db
+check "no other files beside them" test "$(ls spoilt | wc -l)" -eq 3
 
-# Who may not write: root always may, so without that right. Not as nobody, who may not enter a clone in root's home.
+# A user without write permission; root always has it, so it is dropped. Not as nobody, who may not enter a clone in
+# root's home.
 mkdir read_only
 cp good.db read_only/h.db
 chmod 755 "$work"
@@ -191,11 +194,11 @@ overrides=-dac_override,-dac_read_search
 check "read-only: passed" bash -c '"$@" >ro.txt 2>ro.err' - "${as_others[@]}" \
   "$gearshift" lesson hill_start --runs 2 --learner Kim --database read_only/h.db
 check "read-only: one sentence, got: $(cat ro.err)" test "$(wc -l <ro.err)" -eq 1
-check "read-only: in words" grep -q "it may not be written\|it cannot be opened" ro.err
-check "read-only: as it was" cmp -s read_only/h.db good.db
+check "read-only: in words" grep -q "no permission to write it\|it is read-only\|it cannot be opened" ro.err
+check "read-only: unchanged" cmp -s read_only/h.db good.db
 chmod 755 read_only
 
-# A disk that is full: of its own where one can be mounted, else a limit on the length of files.
+# A full disk: a mounted one where possible, otherwise a limit on file size.
 cat >on_full_disk.sh <<'END'
 mkdir full
 if mount -t tmpfs -o size=1m none full 2>/dev/null; then
@@ -208,26 +211,26 @@ fi
 "$1" lesson hill_start --runs 3 --learner Kim --database full/h.db >full.txt 2>full.err
 code=$?
 cmp -s full/h.db good.db || code=9
-umount full 2>/dev/null # root's, where there are no name spaces
+umount full 2>/dev/null # mounted by root where there are no namespaces
 exit $code
 END
 if unshare -rm true 2>/dev/null; then
-  check "full: passed, and the file as it was" unshare -rm bash on_full_disk.sh "$gearshift"
+  check "full: passed, and the file is unchanged" unshare -rm bash on_full_disk.sh "$gearshift"
 else
-  check "full: passed, and the file as it was" bash on_full_disk.sh "$gearshift"
+  check "full: passed, and the file is unchanged" bash on_full_disk.sh "$gearshift"
 fi
-said_and_lost() { # the sentence at once, and at the end what is lost
+reports_losses() { # the message at once, and at the end the list of losses
   [ "$(wc -l <full.err)" -eq 2 ] && head -n 1 full.err | grep -q "the disk is full" &&
-    tail -n 1 full.err | grep -q "lost with this program: 3 runs"
+    tail -n 1 full.err | grep -q "not saved: 3 runs"
 }
-check "full: said, and what is lost, got: $(cat full.err)" said_and_lost
+check "full: reported with the losses, got: $(cat full.err)" reports_losses
 check "full: three lessons" test "$(grep -c 'Passed\.$' full.txt)" -eq 3
 rm -rf full
-check "full by a limit: passed, and the file as it was" \
+check "file size limit: passed, and the file is unchanged" \
   bash -c 'mount() { return 1; }; source on_full_disk.sh' - "$gearshift"
-check "full by a limit: said, and what is lost, got: $(cat full.err)" said_and_lost
+check "file size limit: reported with the losses, got: $(cat full.err)" reports_losses
 
-# The recording itself fills the disk: no file that the history names is removed.
+# The recording itself fills the disk: no file that the history refers to is removed.
 cat >on_small_disk.sh <<'END'
 mkdir small && mount -t tmpfs -o size=300k none small || exit 9
 "$1" lesson moving_off --learner Kim --database small/h.db >small.txt 2>small.err
@@ -240,11 +243,11 @@ exit $code
 END
 if unshare -rm true 2>/dev/null; then
   check "a small disk: passed, and what the history names is there" unshare -rm bash on_small_disk.sh "$gearshift"
-  check "a small disk: told, and nothing is lost, got: $(cat small.err)" \
+  check "a small disk: reported, and nothing is lost, got: $(cat small.err)" \
     test "$(grep -c 'the recording failed' small.err)" -eq 1 -a "$(grep -c 'lost' small.err)" -eq 0
 fi
 
-# The recordings of some runs fill the disk: all rows have their place, whatever becomes of recordings.
+# The recordings of several runs fill the disk: all rows are saved, whatever happens to recordings.
 cat >on_filling_disk.sh <<'END'
 mkdir filling && mount -t tmpfs -o size=4m none filling || exit 9
 "$1" lesson up_through_the_gears --learner Kim --database filling/h.db --runs 6 >filling.txt 2>filling.err
@@ -260,12 +263,12 @@ if unshare -rm true 2>/dev/null; then
     test "$(grep -c ',done,' filling_page/runs.csv)" -eq 6
   check "a disk that fills: with all shifts" test "$(rows filling_page/shifts.csv)" -eq 24
   check "a disk that fills: recordings went with the rows, got: $(cat filling_gone.txt)" \
-    grep -q "Kim is gone: 1 session, 6 runs, 24 shifts" filling_gone.txt
+    grep -q "deleted Kim: 1 session, 6 runs, 24 shifts" filling_gone.txt
 fi
 
-# Written by a newer program, or removed, while lessons are driven: told, and what is lost with it.
+# The database is upgraded by a newer program, or removed, while lessons are driven: reported, together with the losses.
 learn taken hill_start --learner Kim --database taken/h.db
-meanwhile() { # command ...: after the third run, while more are driven
+meanwhile() { # command ...: after the third run, while others are driven
   "$gearshift" lesson skip_shifts --runs 40 --learner Kim --database taken/h.db --verbose \
     >taken.txt 2>taken.err </dev/null &
   local program=$!
@@ -282,50 +285,51 @@ take_over() {
   before=$(count_runs)
 }
 meanwhile take_over
-check "taken over: no run is written any more" test "$(count_runs)" -eq "$before"
-check "taken over: told, with what is lost, got: $(cat taken.err)" test "$(wc -l <taken.err)" -eq 2 -a \
-  -n "$(grep "a newer program has taken it over" taken.err)" -a -n "$(grep "lost with this program: [0-9]* runs" taken.err)"
+check "upgraded: no run is written any more" test "$(count_runs)" -eq "$before"
+check "upgraded: reported with the losses, got: $(cat taken.err)" test "$(wc -l <taken.err)" -eq 2 -a \
+  -n "$(grep "a newer program has upgraded it" taken.err)" -a -n "$(grep "not saved: [0-9]* runs" taken.err)"
 rm -rf taken
 learn taken hill_start --learner Kim --database taken/h.db
 meanwhile rm -f taken/h.db taken/h.db-wal taken/h.db-shm
-check "removed: told, with what is lost, got: $(cat taken.err)" test "$(wc -l <taken.err)" -eq 2 -a \
-  -n "$(grep "it was removed" taken.err)" -a -n "$(grep "lost with this program: [0-9]* runs" taken.err)"
-check "removed: not made anew" test ! -e taken/h.db
+check "removed: reported with the losses, got: $(cat taken.err)" test "$(wc -l <taken.err)" -eq 2 -a \
+  -n "$(grep "it was removed" taken.err)" -a -n "$(grep "not saved: [0-9]* runs" taken.err)"
+check "removed: not created again" test ! -e taken/h.db
 
-# What is said does not arrive: full, closed, nobody reads any more. All is remembered, the exit code tells it.
-unheard() { # name, exit code, script around "$@" that drives three runs
+# Output that cannot be delivered: full, closed, or no reader. Everything is saved, and the exit code reports the
+# failure.
+undelivered() { # name, exit code, script around "$@" that drives three runs
   local runs="$gearshift lesson skip_shifts --runs 3 --verbose --learner Kim --database $1.db"
   check "$1: exit $2" exits "$2" bash -c "$3" - $runs
   check "$1: three runs that are over" report --learner Kim --database "$1.db" --out "$1" --csv
   check "$1: to their ends" test "$(grep -c ',done,' "$1/runs.csv")" -eq 3
 }
-unheard said_to_full 1 '"$@" >/dev/full 2>unheard.err'
-check "said_to_full: told, got: $(cat unheard.err)" grep -q "standard output cannot be written" unheard.err
-unheard said_to_nobody 1 '{ "$@" 2>unheard.err; echo $? >unheard.code; } | head -n 1 >/dev/null; exit "$(cat unheard.code)"'
-check "said_to_nobody: told, got: $(cat unheard.err)" grep -q "standard output cannot be written" unheard.err
-unheard said_to_closed 1 '"$@" >&- 2>unheard.err'
-check "said_to_closed: told, got: $(cat unheard.err)" grep -q "standard output cannot be written" unheard.err
-mkdir no_folder && touch no_folder/recordings # no recording has a place there: that is told, where it can be
+undelivered said_to_full 1 '"$@" >/dev/full 2>undelivered.err'
+check "said_to_full: reported, got: $(cat undelivered.err)" grep -q "cannot write to standard output" undelivered.err
+undelivered said_to_nobody 1 '{ "$@" 2>undelivered.err; echo $? >undelivered.code; } | head -n 1 >/dev/null; exit "$(cat undelivered.code)"'
+check "said_to_nobody: reported, got: $(cat undelivered.err)" grep -q "cannot write to standard output" undelivered.err
+undelivered said_to_closed 1 '"$@" >&- 2>undelivered.err'
+check "said_to_closed: reported, got: $(cat undelivered.err)" grep -q "cannot write to standard output" undelivered.err
+mkdir no_folder && touch no_folder/recordings # recordings cannot be written there: reported, where output is possible
 for way in '2>/dev/full' '2>&-'; do
   cp good.db no_folder/h.db
-  check "told to $way: passed" bash -c "\"\$@\" >unheard.txt $way" - \
+  check "output to $way: passed" bash -c "\"\$@\" >undelivered.txt $way" - \
     "$gearshift" lesson hill_start --runs 2 --learner Kim --database no_folder/h.db
-  check "told to $way: both runs" test "$(grep -c 'Passed\.$' unheard.txt)" -eq 2
+  check "output to $way: both runs" test "$(grep -c 'Passed\.$' undelivered.txt)" -eq 2
 done
-check "closed output: passed, and told" exits 1 bash -c '"$@" >&- 2>/dev/null' - \
+check "closed output: passed, and reported" exits 1 bash -c '"$@" >&- 2>/dev/null' - \
   "$gearshift" lesson skip_shifts --verbose --trace closed.trace
-check "closed output: what was said is not in the trace" bit_for_bit closed.trace
+check "closed output: no output in the trace" bit_for_bit closed.trace
 
-# A name that was mistyped costs nobody a history; a recording is written over.
+# A mistyped name never overwrites a history; a recording is overwritten.
 cp good.db theirs.db
-check "a history is no place for a recording" exits 2 learn over hill_start --learner Kim --database good.db --trace theirs.db
+check "a history is not overwritten by a recording" exits 2 learn over hill_start --learner Kim --database good.db --trace theirs.db
 check "in a sentence, got: $(cat over.err)" \
-  test "$(wc -l <over.err)" -eq 1 -a -n "$(grep "theirs.db is there, and is no recording" over.err)"
-check "and it is as it was" cmp -s good.db theirs.db
+  test "$(wc -l <over.err)" -eq 1 -a -n "$(grep "theirs.db exists and is not a recording" over.err)"
+check "and it is unchanged" cmp -s good.db theirs.db
 check "a recording is written over" learn over skip_shifts --trace closed.trace
-check "by the new one" bit_for_bit closed.trace
+check "by the new program" bit_for_bit closed.trace
 
-# Moved with its recordings: they are found, drawn and deleted where they are now.
+# Moved together with its recordings: they are found, drawn and deleted at the new place.
 learn moved skip_shifts --learner Kim --database before/h.db
 mv before after_the_move
 report --learner Kim --database after_the_move/h.db --out moved
@@ -333,15 +337,15 @@ check "moved: drawn" grep -q 'class="path"' moved/index.html
 check "moved: deleted" report --learner Kim --database after_the_move/h.db --delete --yes
 check "moved: with its recording" test "$(ls after_the_move/recordings | wc -l)" -eq 0
 
-# Names that mean something to SQLite are names of files.
+# Names with a special meaning in SQLite are plain file names here.
 for name in :memory: file:name.db?mode=memory; do
   check "$name: passed" learn named hill_start --learner Kim --database "$name"
   check "$name: it is a file" test -s "$name"
   check "$name: Kim is in it" report --learner Kim --database "$name"
 done
 
-# Another program holds a history, which has a run of Kim's: $holder.
-hold() { # name, for so long [s]
+# Another program locks a history that has a run of Kim's: $holder.
+hold() { # name, duration [s]
   learn "$1" hill_start --learner Kim --database "$1.db"
   python3 -c '
 import sqlite3, sys, time
@@ -353,27 +357,27 @@ time.sleep(float(sys.argv[2]))' "$1.db" "$2" >"$1.out" &
   until grep -qs held "$1.out"; do sleep 0.05; done
 }
 
-# For longer than anybody waits, which takes its time: seen to at the end.
+# Locked for longer than the program waits, which takes time: checked at the end.
 hold held_on 60
 holder_on=$holder
 learn held_on hill_start --learner Kim --database held_on.db &
 held_on=$!
 
-# For all of the lesson, and released a second after its end.
+# Locked during the whole lesson, and released a second after its end.
 hold held 5
 check "held by another program: passed" learn held hill_start --learner Kim --database held.db
 wait $holder
-check "held: told, and nothing is lost, got: $(cat held.err)" test "$(wc -l <held.err)" -eq 1
+check "held: reported, and nothing is lost, got: $(cat held.err)" test "$(wc -l <held.err)" -eq 1
 report --learner Kim --database held.db --out held --csv
 check "held: both runs are there" test "$(rows held/runs.csv)" -eq 2
 check "held: and over" test "$(grep -c running held/runs.csv)" -eq 0
 check "held: with their recordings" bit_for_bit "$(ls recordings/*.trace | tail -n 1)"
 
-# What is lost is told, though the waiting was told before.
+# The loss is reported, although the wait was already reported.
 check "held on: passed" wait $held_on
 kill $holder_on
 wait $holder_on 2>/dev/null
-check "held on: told to wait, then to be lost, got: $(cat held_on.err)" test "$(wc -l <held_on.err)" -eq 2 -a \
-  -n "$(tail -n 1 held_on.err | grep "lost with this program: 1 run")"
+check "held on: the wait is reported, then the loss, got: $(cat held_on.err)" test "$(wc -l <held_on.err)" -eq 2 -a \
+  -n "$(tail -n 1 held_on.err | grep "not saved: 1 run")"
 
 finish

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# A person drives a lesson in the window, with mouse and keys under Xvfb, and passes; then the same by the simulated
-# learner, headless; both are in the report.
+# A person drives a lesson in the window, with mouse and keys under Xvfb, and passes; then the simulated driver does so
+# headless; both are in the report.
 # Usage: lesson_in_window.sh GEARSHIFT SOURCE_FOLDER
 set -u
 needs_machine=yes
@@ -11,9 +11,10 @@ source "$flows/window.sh"
 
 down() { xdotool keydown "$1"; }
 up() { xdotool keyup "$1"; }
-is_over() { said "lesson moving_off is over"; }
-at_step() { said "step $1 of 6"; }
-# Until the engine has taken up the throttle [s]: a key counts up to a frame late, and a busy machine has long ones.
+is_over() { printed "lesson moving_off is over"; }
+at_step() { printed "step $1 of 6"; }
+# Time for the engine to respond to the throttle [s]: a key press counts up to a frame late, and a busy machine has long
+# frames.
 revs=1.2
 first=$("$gearshift" gate "$2/assets/gates/five_speed_r_right_down.toml" --json | python3 -c '
 import json, sys
@@ -21,38 +22,38 @@ gears = {gear["name"]: gear for gear in json.load(sys.stdin)["gears"]}
 x, y = gears["1"]["rest_mm"]
 print(round(x), round(y * 1.1))')
 
-size=320x200 # a picture that comes soon reads a key soon
+size=320x200 # short frames read keys quickly
 check "it starts with the lesson's goal" start drive --lesson moving_off --learner Ada --mode follow-me --no-help --no-panel
-check "and tells it" wait_for "lesson moving_off is offered: Move off smoothly"
+check "and reports it" wait_for "lesson moving_off offered: Move off smoothly"
 xdotool windowfocus "$window" mousemove --window "$window" 160 50 click 1
-sleep 2 # until the mouse leads: nothing tells of it
+sleep 2 # until the mouse moves the lever; there is no message for it
 check "the key begins it" press_for Return "lesson moving_off begins" 1
 down a
 check "clutch down" within 20 at_step 2
 check "first gear" shift_to 1 $first
 check "seen" within 20 at_step 3
 key h
-check "hand brake off" within 20 at_step 4
+check "handbrake off" within 20 at_step 4
 down f
 sleep $revs
 up a
-check "away" within 20 at_step 5
+check "moves off" within 20 at_step 5
 up f
 down a
 down s
-check "and stands" within 20 at_step 6
+check "and stops" within 20 at_step 6
 up s
 down f
 sleep $revs
 up a
-check "away once more, and over" within 20 is_over
+check "moves off again, and it is over" within 20 is_over
 up f
-check "passed" said "lesson moving_off is over: grade .* of 10, passed"
+check "passed" printed "lesson moving_off is over: grade .* of 10, passed"
 import -window root over.png
 check "its key ends it" ended_by End
 check "nothing on stderr but that there is no sound" [ "$(grep -vci 'sound' drive.err)" = 0 ]
 
-check "the simulated learner passes it, too" \
+check "the simulated driver passes it, too" \
   "$gearshift" lesson moving_off --learner Ada --database "$work/data/gearshift/history.db" >headless.txt
 check "the report" "$gearshift" report --learner Ada --out page --csv
 check "both runs are in it" [ "$(grep -c moving_off page/runs.csv)" = 2 ]

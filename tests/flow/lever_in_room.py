@@ -1,27 +1,29 @@
-"""A lever that stands in a room, and a person who touches its knob: what headset_stick.sh scripts and checks.
+"""Simulates a lever in a room and a person who touches its knob; headset_stick.sh uses it for scripts and checks.
 
-How the room stands in the cabin in truth is known here alone: head, controller and knob are placed by it, in the room.
+The true transform between room and cabin is known only here: it places head, controller and knob in the room.
 The knob's top follows from the lever's geometry: 0.144 m from the pivot of the cabin's model, above the point of the gate
 plane where the yoke of 0.120 m holds it.
 
   script        what the OpenXR test runtime shows: head, controller, trigger
-  found SEAT    is the knob seen where it is, with the room that the program has found?
-  truth SEAT    writes the room as it is
-  drawn A B C   is the knob drawn in A where it is in B, and was not in C? Left eyes, 256 x 192
+  found SEAT    is the knob drawn where it is, with the seat calibration that the program has found?
+  truth SEAT    writes the true seat calibration
+  drawn A B C   is the knob drawn in A where it is in B, but not in C? Left-eye pictures, 256 x 192
 """
 import math
 import re
 import subprocess
 import sys
 
-TURN, SHIFT = math.radians(35), (-0.7, -0.6, 0.9)  # cabin from room: about the vertical [rad], then [m]
+TURN, SHIFT = math.radians(35), (-0.7, -0.6, 0.9)  # transform from room to cabin: about the vertical [rad], then [m]
 GEARS = {"neutral": (0, 0), "first": (-30, 35.8), "reverse": (30, -35.8)}  # [mm] in the gate plane
-TIP_OFF = {"neutral": (0.003, 0, 0), "first": (0, 0, 0.003), "reverse": (0, 0.003, 0)}  # [m] a person's tip, each time aside
-# The controller goes round and pulls its trigger at each of them, again and again: who is late waits for the next round.
+# [m] error of a person's tip at each touch
+TIP_OFF = {"neutral": (0.003, 0, 0), "first": (0, 0, 0.003), "reverse": (0, 0.003, 0)}
+# The controller visits each of them in turn and pulls its trigger, repeatedly: a late program gets another round.
 ROUND, PULL, ROUNDS = 10, 1.2, 12  # [s]
-HELD = {"neutral": (0, -60), "first": (45, -60), "reverse": (0, -15)}  # [deg] to the left, up: turned to the side, tilted
-TOUCHED_AT = {"neutral": 0.8, "first": 3.8, "reverse": 7.2}  # [s] of a round
-EYE, YAW, PITCH = (0.08, 0.58, 0.02), -35, -42  # between the eyes, in the cabin; [deg] left and up +
+# [deg] to the left, up: turned to the side, tilted
+HELD = {"neutral": (0, -60), "first": (45, -60), "reverse": (0, -15)}
+TOUCHED_AT = {"neutral": 0.8, "first": 3.8, "reverse": 7.2}  # [s] within a round
+EYE, YAW, PITCH = (0.08, 0.58, 0.02), -35, -42  # between the eyes, in the cabin; [deg] left and up positive
 
 
 def turned(p, a):
@@ -50,7 +52,7 @@ def script():
     pulls = [(ROUND * r + TOUCHED_AT[g], g) for r in range(ROUNDS) for g in GEARS]
     tips = {g: tuple(p + e for p, e in zip(room(knob(*GEARS[g])), TIP_OFF[g])) for g in GEARS}
     aim = [pose(tips[g], *HELD[g], t + after) for t, g in pulls for after in (-0.3, PULL + 0.2)]
-    print("stage_origin = {position = [0, 0, 0]}")  # one room, whichever space the program takes
+    print("stage_origin = {position = [0, 0, 0]}")  # both spaces are the same, whichever the program uses
     print(f"head = [{pose(room(EYE), YAW - math.degrees(TURN), PITCH, 0)}]")
     print(f"right = {{aim = [{', '.join(aim)}]}}")
     print('[[input]]\npath = "/user/hand/right/input/trigger/value"')
@@ -59,7 +61,7 @@ def script():
 
 
 def found(seat):
-    """At the touches no more than their misfit, the tip's own 3 mm and half a millimetre of a hand that holds the lever."""
+    """The error at the touches is at most their misfit, plus 3 mm for the tip and 0.5 mm for the hand on the lever."""
     text = open(seat).read().split("[touched]")[1]
     kept = {k: float(v) for k, v in re.findall(r"^(\w+) = ([-\d.e]+)$", text, re.M)}
     turn, shift = math.radians(kept["turn_deg"]), (kept["x_m"], kept["y_m"], kept["z_m"])
@@ -83,7 +85,7 @@ def truth(seat):
 
 
 def seen(p):
-    """Where the left eye, 31.5 mm to the left, sees p: [px], [px], [m] away. Its field: -50 to 42, 44 to -48 deg."""
+    """Projects p into the left eye, 31.5 mm to the left: [px], [px], distance [m]. Field: -50 to 42, 44 to -48 deg."""
     yaw, pitch = math.radians(YAW), math.radians(PITCH)
     x, y, z = turned(tuple(a - b for a, b in zip(p, EYE)), -yaw)
     y, z = y * math.cos(pitch) + z * math.sin(pitch), z * math.cos(pitch) - y * math.sin(pitch)
@@ -98,7 +100,7 @@ def grey(file):
 
 
 def drawn(now, as_it_is, before):
-    """Moved onto each other the surroundings of the knob fit best by a pixel at most, and four times better than before."""
+    """The surroundings of the knob match best when shifted by at most a pixel, and four times better than before."""
     x, y, away = seen(knob(0, 0, 0.120))
     now, as_it_is, before = grey(now), grey(as_it_is), grey(before)
     near = range(-22, 23)

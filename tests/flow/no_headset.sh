@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The trainer is asked for a headset and there is no runtime, or none connected, or what is said of the seat is refused:
-# a window as ever, or one sentence.
+# The trainer is started with --xr, but there is no runtime, no headset, or the seat options are invalid: it runs in a
+# window as usual, or prints one error.
 # Usage: no_headset.sh GEARSHIFT SOURCE_FOLDER MANIFEST
 set -u
 needs_machine=yes
@@ -11,26 +11,26 @@ source "$flows/checks.sh"
 source "$flows/window.sh"
 source "$flows/worn.sh"
 
-# --- no runtime: a window as ever
+# --- no runtime: a window as usual
 export XR_RUNTIME_JSON=/nowhere
 begin "without a runtime" start nowhere --xr --silent --no-panel --lesson none --hand "by itself"
 check "the window shows the cabin" within 20 shows_desktop
 xdotool windowfocus "$window"
 check "its key ends it" ended_by End
-check "a sentence, and nothing of the loader's" one_line
-check "it says what to do" grep -q "^gearshift: no OpenXR runtime answers: .*XR_RUNTIME_JSON.*; the desktop" nowhere.err
+check "one message, and nothing from the loader" one_line
+check "it says what to do" grep -q "^gearshift: no OpenXR runtime found: .*XR_RUNTIME_JSON.*; the desktop" nowhere.err
 
-# --- no headset: told once, however often it is looked for
+# --- no headset: reported once, however often the program searches
 begin "without a headset" wear nothing --lesson none --hand "by itself" < <(echo 'headset = false')
 check "the window shows the cabin" within 20 shows_desktop
-sleep 3 # another look for one
+sleep 3 # another search
 check "one sentence" one_line
-check "it says so" told "^gearshift: no headset is connected to gearshift test runtime.*; the desktop shows the cabin"
+check "it says so" warned "^gearshift: no headset is connected to gearshift test runtime.*; the desktop shows the cabin"
 xdotool windowfocus "$window"
 check "its key ends it" ended_by End
 
-# --- what is refused
-refused() { # exit code, part of the sentence, arguments of train ...
+# --- rejected options
+refused() { # exit code, part of the error, arguments of train ...
   timeout 20 "$gearshift" train "${@:3}" >refused.txt 2>refused.err
   [ $? -eq "$1" ] && [ ! -s refused.txt ] && [ "$(wc -l <refused.err)" = 1 ] && grep -q -- "$2" refused.err
 }
@@ -42,11 +42,11 @@ check "a knob beyond its range" refused 2 "knob.*9.*1\.5" --xr --knob 0.3,0.5,9
 for option in "--seat-height 0.1" "--knob 0.3,0.5,0.3" "--xr-scale 1.2"; do
   check "$option without --xr" refused 2 "requires --xr" $option
 done
-check "the seat stays as it was" grep -q '^seat_height_m = 0.05$' "$seat"
+check "the seat is unchanged" grep -q '^seat_height_m = 0.05$' "$seat"
 sed -i 's/^seat_height_m.*/seat_height_m = 7.5/' "$seat"
 check "a bad seat in the file" refused 1 "headset.toml:4.*seat_height_m.*7\.5.*-0\.3.*0\.3" --xr --silent
 check "the file stays" grep -q "7.5" "$seat"
 
-check "validation has nothing to say" validates
+check "no validation message" validates
 [ -n "${GEARSHIFT_PICTURES:-}" ] && cp ./*.png ./*.txt ./*.err "$GEARSHIFT_PICTURES"
 finish

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
-"""What README.md quotes of the bench stands in tests/bench/run.csv, to the digit, and the rows that
-tests/bench/README.md names are there. Usage: quoted_figures.py SOURCE_FOLDER
+"""Checks that the figures quoted in app/lab/bench/README.md equal run.csv beside it, to the digit, that README.md repeats
+five of them, and that the rows named there exist. Usage: quoted_figures.py SOURCE_FOLDER
 """
 import csv
 import pathlib
@@ -8,7 +8,7 @@ import re
 import sys
 
 ALONE, BUSY, CABIN = ("jitter", "alone"), ("jitter", "beside one busy thread per core"), ("beside", "beside the cabin drawn flat out")
-# What stands for any words in the name of a row.
+# Placeholders for any words in the name of a row.
 ANY_WORDS = ("RATE", "DRIVE", "LOAD", "...", "N")
 
 
@@ -29,12 +29,12 @@ class Rows:
         return [self.beside(*key, what) for key in self.rows if key[0] == family and f"{what} = " in self.rows[key]["beside"]]
 
     def missed(self, *names):
-        """How the goal's cell ends."""
+        """The ending of the goal's cell."""
         return ": not met" if any(self.rows[name]["verdict"].startswith("NOT MET") for name in names) else ""
 
 
 def lateness(rows, how):
-    """Over cyclictest's, and itself: alone, beside busy threads, beside the cabin."""
+    """Lateness relative to cyclictest's, and absolute: idle, beside busy threads, beside the cabin."""
     words = []
     for (family, where), said in ((ALONE, "alone"), (BUSY, "beside a busy thread per core"), (CABIN, "beside the cabin")):
         ratios = [rows.of(family, f"ours / cyclictest, {how}, {q}, {where}") for q in ("p99", "p99.9")]
@@ -44,7 +44,7 @@ def lateness(rows, how):
 
 
 def quoted(rows):
-    """The cells, as README.md has to say them."""
+    """The cells as the bench's README must quote them."""
     of, beside = rows.of, rows.beside
     ripple = lambda place: of("contact", f"{place}: last peak-to-peak, p95")
     taken = [-beside("energy", f"made by the wall, worst impact, {rate} Hz", "worst share of the impact") for rate in (500, 1000, 2000)]
@@ -82,33 +82,36 @@ def quoted(rows):
 
 
 def named_rows(page):
-    """(families, name) of what the tables of the design and of the defaults name in the column of the rows."""
+    """(families, name) of the rows named in the tables of the design and of the defaults."""
     for row in re.findall(r"^\|.*\|$", page[page.index("## The design's table"):], re.M):
         for families, names in re.findall(r"((?:`?[a-z]+`?, )*`?[a-z]+`?): ((?:(?:RATE|a row)?[^|:`]*`[^`]+`)+)", row):
             for name in re.findall(r"`([^`]+)`", names):
-                if name != "feel":  # a family, named among rows
+                if name != "feel":  # a family name among the rows
                     yield re.findall(r"[a-z]+", families), name
 
 
 def pattern(name):
-    """Of a name with places: the whole name, or its beginning."""
+    """A pattern for a name with placeholders: the whole name, or its beginning."""
     words = re.split(r"(\.\.\.|\b(?:RATE|DRIVE|LOAD|N)\b)", name)
     return "".join(".*" if word in ANY_WORDS else re.escape(word) for word in words)
 
 
 def main():
     sources = pathlib.Path(sys.argv[1]).resolve()
-    rows = Rows(sources / "tests/bench/run.csv")
-    front, page = (" ".join((sources / file).read_text().split()) for file in ("README.md", "tests/bench/README.md"))
-    failures = [f'README.md does not say "{words}", as run.csv does' for words in quoted(rows) if words not in front]
-    named = list(named_rows((sources / "tests/bench/README.md").read_text()))
+    rows = Rows(sources / "app/lab/bench/run.csv")
+    page = " ".join((sources / "app/lab/bench/README.md").read_text().split())
+    failures = [f'app/lab/bench/README.md does not say "{words}", as run.csv does' for words in quoted(rows) if words not in page]
+    five = re.findall(r"^\|.*\|$", (sources / "README.md").read_text().split("## Five figures")[1].split("\n\n", 3)[2], re.M)[2:]
+    failures += [f"README.md has {len(five)} figures, not five"] * (len(five) != 5)
+    failures += [f"README.md's row is not one of app/lab/bench/README.md: {row}" for row in five if row not in page]
+    named = list(named_rows((sources / "app/lab/bench/README.md").read_text()))
     if len(named) < 25:
-        failures.append(f"tests/bench/README.md names {len(named)} rows: the page is not read as it was meant")
+        failures.append(f"app/lab/bench/README.md names {len(named)} rows: the page is not read as it was meant")
     for families, name in named:
         there = [what for family, what in rows.rows if family in families]
         if not any(re.search(pattern(name), what) for what in there):
             failures.append(f'no row of {", ".join(families)} is named "{name}"')
-    checks = len(list(quoted(rows))) + len(named) + 1
+    checks = len(list(quoted(rows))) + len(named) + 7
     print("".join(f"FAILED: {failure}\n" for failure in failures), end="")
     print(f"{checks - len(failures)} passed, {len(failures)} failed")
     return 1 if failures else 0

@@ -1,5 +1,5 @@
 #!/usr/bin/env bash
-# Any glTF file as a picture: sizes, samples, cameras, stereo; broken files and arguments in one sentence.
+# Any glTF file as a picture: sizes, samples, cameras, stereo; broken files and arguments give one error.
 # Usage: render.sh GEARSHIFT SOURCE_FOLDER
 set -u
 gearshift=$1
@@ -15,13 +15,13 @@ render() { # picture, arguments ...
   "$gearshift" render "$@" --out "$picture" >"$picture.txt" 2>"$picture.err" && is_png "$picture" && [ ! -s "$picture.err" ]
 }
 size_of() { od -An -t u1 -j 16 -N 8 "$1" | awk '{print $3*256+$4 "x" $7*256+$8}'; }
-refused() { # exit code, sentence, arguments ...
+refused() { # exit code, error, arguments ...
   local code=$1 sentence=$2
   shift 2
   "$gearshift" render "$@" >refused.txt 2>refused.err
   [ $? = "$code" ] && [ "$(wc -l <refused.err)" = 1 ] && grep -qE -- "$sentence" refused.err
 }
-alike() { # two pictures, most that the root of the mean square of their difference may be
+alike() { # two pictures, maximum RMS difference
   [ "$(compare -metric RMSE "$1" "$2" null: 2>&1 | sed "s/.*(\(.*\))/\1/" | awk "{print (\$1 < $3)}")" = 1 ]
 }
 not_alike() { ! alike "$@"; }
@@ -36,7 +36,7 @@ for model in "$models"/*.glb; do
   check "$(basename "$model")" render "$(basename "$model").png" "$model" --size 160x120
 done
 
-# A cube of any size fills the same share of the picture when the camera fits it.
+# A cube of any size fills the same fraction of the picture when the camera fits it.
 cube() { # edge in metres
   python3 - "$1" <<'END'
 import base64, json, struct, sys
@@ -61,12 +61,12 @@ for edge in 1 0.05 0.01; do
   cube $edge >"cube_$edge.gltf"
   check "a cube of $edge m" render "cube_$edge.png" "cube_$edge.gltf" --size 96x96
 done
-check "one of 5 cm looks as one of 1 m: no corner is cut" alike cube_0.05.png cube_1.png 0.01
-check "one of 1 cm, too, but for the grain of its shadow" alike cube_0.01.png cube_1.png 0.08
-check "one that is seen from afar does not" render afar.png cube_1.gltf --size 96x96 --camera 3,3,5:0,0,0
+check "one of 5 cm looks like one of 1 m: no corner is clipped" alike cube_0.05.png cube_1.png 0.01
+check "one of 1 cm, too, except for the grain of its shadow" alike cube_0.01.png cube_1.png 0.08
+check "one seen from afar does not" render afar.png cube_1.gltf --size 96x96 --camera 3,3,5:0,0,0
 check "and that is noticed" not_alike afar.png cube_1.png 0.08
 
-# The cube of 5 cm on one joint, which makes it twenty times as large and carries it away.
+# The cube of 5 cm on one joint that scales it by twenty and moves it away.
 python3 - >skinned.gltf <<'END'
 import base64, json, struct
 model = json.load(open("cube_0.05.gltf"))
@@ -86,11 +86,11 @@ model["scenes"] = [{"nodes": [0, 1]}]
 print(json.dumps(model))
 END
 check "a skinned cube" render skinned.png skinned.gltf --size 96x96
-check "it fits where its joint has put it" alike skinned.png cube_1.png 0.01
+check "it fits where its joint places it" alike skinned.png cube_1.png 0.01
 sed 's/"primitives": \[{/"primitives": [{"mode": 1, /' skinned.gltf >skinned_lines.gltf
 lines_alone() { "$gearshift" render skinned_lines.gltf --size 96x96 --out lines.png 2>&1 | grep -q "not drawn: lines" && is_png lines.png; }
-check "lines alone on a skin are named and drawn as nothing" lines_alone
-check "two eyes of half a pixel more each are refused" refused 2 "even width" cube_1.gltf --out x.png --stereo --size 161x91
+check "a skin with only lines is named and not drawn" lines_alone
+check "two eyes of half a pixel more each are rejected" refused 2 "width must be even" cube_1.gltf --out x.png --stereo --size 161x91
 
 printf 'glTF' >short.glb
 printf '{"asset":{"version":"2.0"},"extensionsRequired":["EXT_nobody_knows"]}' >required.gltf
@@ -100,7 +100,7 @@ check "a short file" refused 1 "short.glb" short.glb --out x.png
 check "an unknown required extension" refused 1 "EXT_nobody_knows" required.gltf --out x.png
 check "an unknown camera names them all" refused 2 "driver.*lever.*gate" "$cabin" --out x.png --camera nowhere
 check "a camera of five numbers" refused 2 "X,Y,Z:X,Y,Z" "$cabin" --out x.png --camera 0,0,0:1,1
-check "a camera that looks at itself" refused 2 "X,Y,Z:X,Y,Z" "$cabin" --out x.png --camera 0,0,0:0,0,0
+check "a camera whose target is its position" refused 2 "X,Y,Z:X,Y,Z" "$cabin" --out x.png --camera 0,0,0:0,0,0
 check "a picture that cannot be written" refused 1 "/nonesuch/x.png" "$cabin" --out /nonesuch/x.png --size 64x64
-check "nothing was written" [ ! -e x.png ]
+check "no file was written" [ ! -e x.png ]
 finish

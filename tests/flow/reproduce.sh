@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The paper from one command: some sections with their files and their place on the page, the whole page once, what
-# must be refused before a folder is made, and figures that follow the preset: 5 % of mass changes Figs 4, 8 and 9.
+# The paper's figures from one command: some sections with their files and their places on the page, the complete page
+# once, errors before any folder is made, and figures that depend on the preset: 5 % of mass changes Figs 4, 8 and 9.
 # Usage: reproduce.sh GEARSHIFT SOURCE_FOLDER
 set -u
 gearshift=$1
@@ -22,7 +22,7 @@ is_svg() { grep -q "</svg>" "$1"; }
 differs() { ! cmp -s "whole/$1" "heavier/$1"; }
 has_units() { head -n 1 "$1" | grep -qE '_(mm|deg|n|hz|s|gw|raw|1)(,|$)'; }
 
-# Every picture, link and table that the page names is there; every tag that opens closes.
+# Every picture, link and table named on the page exists; every opened tag is closed.
 page_is_whole() {
   [ -s "$1/index.html" ] || return 1
   local link
@@ -37,8 +37,8 @@ page_is_whole() {
 }
 
 check "the whole page" reproduce whole
-check "no word on stderr where nothing is limited" [ ! -s whole.err ]
-check "the page names what is there" page_is_whole whole
+check "nothing on stderr if nothing is limited" [ ! -s whole.err ]
+check "the page names the existing files" page_is_whole whole
 check "thirteen sections" [ "$(grep -c '<section' whole/index.html)" -eq 13 ]
 order_of() { grep -oE '<section id="[a-z_]+' "$1/index.html" | cut -d '"' -f 2 | tr '\n' ' '; }
 check "in the order of the paper" [ "$(order_of whole)" = \
@@ -50,10 +50,10 @@ for table in whole/*.csv; do
   check "units in the header of $table" has_units "$table"
 done
 
-# The same preset is the same figures; one of another mass is not.
+# The same preset gives the same figures; a different mass does not.
 figures=(bode_x bode_y wall tour)
 check "a part of it" reproduce again --only tour bode wall
-check "of which the page knows no more" [ "$(grep -c '<section' again/index.html)" -eq 3 ]
+check "without more on the page" [ "$(grep -c '<section' again/index.html)" -eq 3 ]
 for name in "${figures[@]}"; do check "$name again" cmp -s "whole/$name.csv" "again/$name.csv"; done
 sed 's/^mass_kg = 0.095/mass_kg = 0.09975/; s/^mass_kg = 0.086/mass_kg = 0.0903/' "$presets/default.toml" >heavier.toml
 check "a heavier lever" reproduce heavier --preset heavier.toml --only tour bode wall
@@ -63,17 +63,17 @@ for name in "${figures[@]}"; do
 done
 
 sed 's/^name = .*/name = "<b>\&\\""/' "$presets/default.toml" >markup.toml
-check "a name of markup" reproduce markup --preset markup.toml --only table
+check "a name with markup" reproduce markup --preset markup.toml --only table
 check "is only text" grep -qF '&lt;b&gt;&amp;&quot;' markup/index.html
 check "the paper's own wall" reproduce paper --preset paper --only gate
 
-# What one section cannot make does not cost the others.
+# A section that fails does not affect the others.
 sed 's/^coulomb_friction_n = .*/coulomb_friction_n = 20/' "$presets/default.toml" >stuck.toml
 reproduce stuck --preset stuck.toml --only bode gate
 check "a lever that is stuck fails" [ $? -eq 1 ]
 check "and says what" grep -q "^gearshift: bode: " stuck.err
-check "on the page, too" grep -q "Not made" stuck/index.html
-check "the gate is there all the same" [ -s stuck/gate.svg ]
+check "on the page, too" grep -q "Failed: " stuck/index.html
+check "the gate is there anyway" [ -s stuck/gate.svg ]
 
 check "no such section" refuses 2 --only nothing
 check "no such preset" refuses 1 --preset nothing
@@ -82,8 +82,8 @@ check "a rate out of range" refuses 1 --preset slow.toml
 sed 's/^radius_m = .*/radius_m = 0.03/' "$presets/default.toml" >small.toml
 check "a lever that is too small for the gate" refuses 1 --preset small.toml
 
-# Ended early, by Ctrl-C at a terminal: all of its programs hear it, and no figure is torn.
-ended() { # while gnuplot draws, what is there
+# Ended early by Ctrl-C at a terminal: all its child processes receive the signal, and no figure is truncated.
+ended() { # command while gnuplot draws, files that exist
   setsid env --default-signal=INT "$gearshift" reproduce --out ended --only wall tour >ended.txt 2>ended.err &
   until [ -e "ended/$1" ] || ! kill -0 $!; do sleep 0.001; done
   kill -INT -- -$!
@@ -94,7 +94,7 @@ for begun in wall.svg tour.csv; do
   rm -rf ended
   check "ended at $begun" ended $begun
   check "it says where, got: $(cat ended.err)" [ "$(cat ended.err)" = \
-    "gearshift: ended in the part ${begun%.*}: what is whole stays, the page is not made" ]
+    "gearshift: interrupted during \"${begun%.*}\"; finished files kept, no page written" ]
   check "there is no page" [ ! -e ended/index.html ]
   check "nothing is half written, got: $(ls ended)" [ -z "$(ls ended | grep part)" ]
   for file in ended/*; do
@@ -109,6 +109,6 @@ done
 touch file
 "$gearshift" reproduce --out file/below --only table >/dev/null 2>err
 check "no folder below a file" [ $? -eq 1 ]
-check "told in one sentence" [ "$(wc -l <err)" -eq 1 ]
+check "reported in one sentence" [ "$(wc -l <err)" -eq 1 ]
 
 finish

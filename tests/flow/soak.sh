@@ -1,9 +1,9 @@
 #!/usr/bin/env bash
-# Hours of lessons in real time: the simulated learner at the lever, in the window as a person has it, which is hidden but
-# for some seconds a minute; or a week of simulated driving, headless. Memory, open files, threads and what the loop
-# missed go into a table; growth is the slope of its second half over the hours that were driven, less twice its standard
-# error, and has a bound.
-# Usage: soak.sh GEARSHIFT SOURCE_FOLDER HOURS|week [CSV [HOURS_OF_WEEK]]: by hand, or in short by ./test --full
+# Hours of lessons in real time: the simulated driver at the lever, in a window that is hidden except for a few seconds
+# a minute; or a week of simulated driving, headless. Memory, open files, threads and the loop's missed deadlines go
+# into a table. Growth is the slope of the second half of the table over the hours driven, minus twice its standard
+# error, and is bounded.
+# Usage: soak.sh GEARSHIFT SOURCE_FOLDER HOURS|week [CSV [HOURS_OF_WEEK]]: by hand, or shortened by ./test --full
 set -u
 gearshift=$1 sources=$2 hours=$3 csv=$(realpath -m "${4:-soak.csv}") week=${5:-168}
 flows=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
@@ -11,7 +11,7 @@ flows=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 source "$flows/checks.sh"
 echo "what,seconds,rss_kb,files,threads,lessons,missed,too_long" >"$csv"
 
-sample() { # what, process, seconds driven, lessons, deadlines missed, cycles too long: a row
+sample() { # prints a row: what, process, seconds driven, lessons, deadlines missed, cycles too long
   local of=/proc/$2 rss threads files
   rss=$(sed -n 's/^VmRSS:[^0-9]*\([0-9]*\).*/\1/p' "$of/status" 2>/dev/null)
   threads=$(sed -n 's/^Threads:[^0-9]*//p' "$of/status" 2>/dev/null)
@@ -19,14 +19,13 @@ sample() { # what, process, seconds driven, lessons, deadlines missed, cycles to
   [ -z "$rss" ] || [ -z "$threads" ] || echo "$1,$3,$rss,$files,$threads,$4,$5,$6" >>"$csv"
 }
 
-# Of each process its second half: what it has learnt to need is not growth. 1 MB an hour is 24 in a day; what is
-# remembered of a learner's lessons is less than that: of sixty, which take a person an hour, and a simulated learner a
-# quarter of it. A headless process may keep one loop's channels that are free
-# again, 3.4 MB: a step, which in a short run looks like a slope.
-grows_nowhere() { # kB of a step that is none
+# Uses the second half of each process's rows, because warming up is not growth. 1 MB an hour is 24 in a day; saving a
+# learner's lessons needs less: sixty lessons take a person an hour, and a simulated driver a quarter of that. A
+# headless process may keep one loop's free channels, 3.4 MB: a step, which looks like a slope in a short run.
+check_growth() { # [kB] of a step that is allowed
   python3 - "$csv" "$1" <<'END_OF_PYTHON'
 import collections, csv, sys
-bound = {"rss_kb": 1000.0, "files": 0.5, "threads": 0.5}  # an hour
+bound = {"rss_kb": 1000.0, "files": 0.5, "threads": 0.5}  # per hour
 rows = collections.defaultdict(list)
 for row in csv.DictReader(open(sys.argv[1])):
     rows[row["what"]].append(row)
@@ -34,7 +33,7 @@ for row in csv.DictReader(open(sys.argv[1])):
 def hours(row):
     return float(row["seconds"]) / 3600 if row["what"] == "window" else float(row["lessons"]) / 60
 
-def slope(half, column):  # an hour, and its standard error
+def slope(half, column):  # per hour, and its standard error
     x = [hours(row) for row in half]
     y = [float(row[column]) for row in half]
     mx, my = sum(x) / len(x), sum(y) / len(y)
@@ -60,10 +59,10 @@ sys.exit(grown)
 END_OF_PYTHON
 }
 
-# After a lesson Enter offers the next one, and then begins it, as a person does it.
+# After a lesson, Enter offers the next one and then begins it, as for a person.
 loop_sum() { sed -n "s/^loop: \([0-9]*\) deadlines missed, \([0-9]*\) cycles.*/\\$1/p" soak.txt | paste -sd+ | bc; }
 over() { grep -c ' is over: ' soak.txt; }
-drives() { [[ "$(grep "  lesson .* \(begins\|is over\|is offered\)" soak.txt | tail -n 1)" == *begins ]]; }
+drives() { [[ "$(grep "  lesson .* \(begins\|is over\|offered\)" soak.txt | tail -n 1)" == *begins ]]; }
 show_for_a_moment() {
   xdotool windowmap "$window" windowfocus "$window"
   sleep 1
@@ -75,7 +74,7 @@ show_for_a_moment() {
 }
 soak_in_window() {
   source "$flows/window.sh"
-  unset GEARSHIFT_VALIDATION # its memory is not ours
+  unset GEARSHIFT_VALIDATION # the validation layer's memory is not ours
   local end=$((SECONDS + life - 300)) period=60 process missed long
   [ "$life" -gt 900 ] || period=5
   check "it starts" start soak --hand "by itself" --lesson up_through_the_gears --no-help --silent
@@ -96,9 +95,9 @@ soak_in_window() {
   echo "$(over) lessons, $(loop_sum 1) deadlines missed, $(loop_sum 2) cycles too long"
 }
 
-# Each lesson by one process for its share of the week. Its last drive is that of a process that has just begun, word for
-# word: no error has come together meanwhile.
-driven_seconds() { # of this share
+# One process drives each lesson for its fraction of the week. Its last drive equals that of a fresh process, word for
+# word: no error has accumulated.
+driven_seconds() { # in this fraction of the week
   awk 'match($0, / in [0-9.]+ s\. /) {split(substr($0, RSTART + 4), word, " "); sum += word[1]}
        END {printf "%.0f", sum}' week.txt
 }
@@ -107,7 +106,7 @@ drive_share() { # lesson
   "$gearshift" lesson "$lesson" >first.txt
   seconds=$(sed -n 's/.* in \([0-9]*\)\.[0-9] s\. .*/\1/p' first.txt | tail -n 1)
   runs=$((share / seconds + 1))
-  stdbuf -oL "$gearshift" lesson "$lesson" --runs $runs --seed 1 >week.txt & # how far it is, line by line
+  stdbuf -oL "$gearshift" lesson "$lesson" --runs $runs --seed 1 >week.txt & # progress, line by line
   program=$!
   while kill -0 $program 2>/dev/null; do
     sample "$lesson" $program "$(driven_seconds)" "$(grep -c ' in .* s\. ' week.txt)" 0 0
@@ -117,7 +116,7 @@ drive_share() { # lesson
   simulated=$(bc <<<"$simulated + $(driven_seconds)")
   driven=$((driven + runs))
   "$gearshift" lesson "$lesson" --seed $runs | tail -n +2 >fresh.txt
-  check "$lesson: drive $runs is that of a process that has just begun" \
+  check "$lesson: drive $runs equals that of a fresh process" \
     cmp -s <(tail -n "$(wc -l <fresh.txt)" week.txt) fresh.txt
 }
 soak_headless() {
@@ -130,9 +129,9 @@ soak_headless() {
 
 if [ "$hours" = week ]; then
   soak_headless
-  check "memory, files and threads do not grow" grows_nowhere 5000
+  check "memory, files and threads do not grow" check_growth 5000
 else
   soak_in_window
-  check "memory, files and threads do not grow" grows_nowhere 0
+  check "memory, files and threads do not grow" check_growth 0
 fi
 finish

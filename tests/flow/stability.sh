@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# What is stable, as a user asks it: the known limits, the map as drawing and table, and every bad question refused.
+# Stability analysis as a user runs it: the known limits, the map as drawing and table, and every invalid input
+# rejected.
 # Usage: stability.sh GEARSHIFT SOURCE_FOLDER
 set -u
 gearshift=$1
@@ -11,12 +12,12 @@ answers() { # arguments ...
 says() { grep -qF -- "$1" out; }
 value() { grep -m 1 "\"$1\":" out | sed 's/.*: //; s/,$//; s/"//g'; }
 is() { [ "$(value "$1")" = "$2" ]; }
-near() { # key, wanted value, relative tolerance
+near() { # key, expected value, relative tolerance
   value "$1" | awk -v want="$2" -v part="$3" \
     '{ off = $1 - want; ok = off <= part * want && -off <= part * want } END { exit !ok }'
 }
 
-refuse() { # exit code, part of the sentence, arguments ...
+refuse() { # exit code, part of the error, arguments ...
   local code=$1 part=$2
   shift 2
   "$gearshift" stability "$@" >out 2>err </dev/null
@@ -25,13 +26,14 @@ refuse() { # exit code, part of the sentence, arguments ...
     test $got -eq "$code" -a "$(wc -l <err)" -eq 1 -a ! -s out -a -n "$(grep -F -- "$part" err)"
 }
 
-# tests/haptics/analysis/stability_table_test.cpp: 6032 N/m exact and 6000 passive at 1 kHz; 217 with one sample of delay at 100 Hz.
+# tests/haptics/analysis/stability_table_test.cpp: 6032 N/m exact and 6000 passive at 1 kHz; 217 with one sample of
+# delay at 100 Hz.
 check "1 kHz answers" answers --json
 check "1 kHz: exact" near k_max_n_per_m 6032 0.001
 check "1 kHz: passive" near passive_k_max_n_per_m 6000 1e-9
 check "1 kHz: may be used" is may_use true
 check "1 kHz: passive" is passive true
-check "1 kHz: every input is told" test "$(grep -cE '"(mass_kg|rate_hz|delay_samples|window_samples|hold)"' out)" -ge 5
+check "1 kHz: every input is listed" test "$(grep -cE '"(mass_kg|rate_hz|delay_samples|window_samples|hold)"' out)" -ge 5
 answers --rate 100 --delay 1 --json
 check "100 Hz, one late: exact" near k_max_n_per_m 217 0.002
 check "100 Hz, one late: passive" near passive_k_max_n_per_m 200 1e-9
@@ -42,7 +44,7 @@ answers --delay 3 --hand grip --wall-damping 40 --json
 check "grip, three late" near k_max_n_per_m 11059 0.0001
 answers --hand all --rate 100 --json
 check "all hands are judged" test "$(grep -c '"name"' out)" -eq 4
-check "the bare one decides" is deciding_hand bare
+check "the bare lever decides" is deciding_hand bare
 answers --mass 1000 --damping 10000 --rate 20000 --wall-damping 1e5 --json
 check "an infinite limit is null" is k_max_n_per_m null
 answers --mass 1000 --damping 10000 --rate 20000 --wall-damping 1e5
@@ -63,14 +65,14 @@ check "the table begins with the answer" \
   awk -F, 'NR == 2 { ok = $1 == 0 && int($2) == 6031 && $6 == 6000 } END { exit !ok }' map.csv
 check "the table ends where nothing is stable" awk -F, 'END { exit !($1 > 190 && $2 == 0 && $6 == 0) }' map.csv
 
-# A handle on a hard spring, without damping and two samples late: no wall is stable at any damping.
+# A handle on a stiff spring, without damping and with a delay of two samples: no wall is stable at any damping.
 check "a map where nothing is stable ends" \
   timeout 10 "$gearshift" stability --damping 0 --stiffness 95000 --delay 2 --svg none.svg --csv none.csv >out 2>err
-check "and says so" says "not even a soft wall is stable"
+check "and reports it" says "not even a soft wall is stable"
 check "its drawing is whole" grep -q "</svg>" none.svg
 check "its table has a width" awk -F, 'END { exit !(NR == 122 && $1 > 0 && $2 == 0) }' none.csv
 
-# What the guard of the loop makes of the same wall.
+# How the loop's guard limits the same wall.
 answers --hold half_sample --rate 100 --wall-damping 10 --json
 check "the trainer: K" near admitted_wall_stiffness_n_per_m 332.5 1e-9
 check "the trainer: B" near admitted_wall_damping_n_s_per_m 3.325 1e-9
@@ -80,18 +82,18 @@ answers --hold half_sample --rate 100 --wall-damping 10
 check "the trainer in words" says "The trainer would use K = 332.5 N/m, B = 3.325 N s/m, half-sample hold:"
 check "and why" says "wall_stiffness_n_per_m limited from 5000 to 332.5 (quiet half-sample hold: K <= 0.35 m / tau^2"
 answers --hold half_sample --wall-damping 10 --json
-check "the shipped wall is used as it is" is admitted_wall_stiffness_n_per_m 5000.0
+check "the shipped wall is used unchanged" is admitted_wall_stiffness_n_per_m 5000.0
 check "nothing is limited" is limited "[]"
 answers --hold half_sample --rate 4000 --wall-stiffness 90000 --wall-damping 500 --json
-check "asked for no more than the trainer takes" is asked_wall_stiffness_n_per_m 20000.0
+check "within the trainer's limits" is asked_wall_stiffness_n_per_m 20000.0
 check "of damping too" is asked_wall_damping_n_s_per_m 100.0
 answers --hold half_sample --rate 4000 --wall-stiffness 90000
-check "and that is said" says "asked for K = 20000 N/m, B = 0 N s/m, the most that it takes"
+check "and that is reported" says "asked for K = 20000 N/m, B = 0 N s/m, the largest that it accepts"
 for place in "--rate 50" "--rate 8000" "--window 2"; do
   answers $place --json
   check "the trainer does not run at $place: null" is admitted_wall_stiffness_n_per_m null
   answers $place
-  check "the trainer does not run at $place: words" says "The trainer does not run there"
+  check "the trainer does not run at $place: words" says "The trainer does not run with these values"
 done
 
 refuse 2 "--rate" --rate 49
@@ -110,9 +112,9 @@ refuse 2 "--hand" --hand fist
 refuse 2 "--hand" --hand 1,2
 refuse 2 "hand.mass = 2000" --hand 2000,1,300
 refuse 2 "extra" extra
-refuse 2 "two files" --svg one --csv one
+refuse 2 "different files" --svg one --csv one
 refuse 1 "/nowhere/x.svg" --svg /nowhere/x.svg
 refuse 1 "/nowhere/x.csv" --csv /nowhere/x.csv
-check "nothing is left behind by what was refused" test ! -e one
+check "rejected inputs leave nothing behind" test ! -e one
 
 finish

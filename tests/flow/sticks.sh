@@ -1,5 +1,5 @@
-# Sourced by the flows with force-feedback sticks, emulated beneath the real libusb, which are called by
-# GEARSHIFT SOURCE_FOLDER STICK_EMULATOR.
+# Sourced by the flows with force-feedback sticks, emulated beneath the real libusb. These are called with GEARSHIFT
+# SOURCE_FOLDER STICK_EMULATOR.
 gearshift=$1
 emulator=$3
 source "$(dirname "${BASH_SOURCE[0]}")/checks.sh"
@@ -11,7 +11,7 @@ running=()
 end_all() { kill "${running[@]}" 2>/dev/null; }
 
 with_stick() { timeout 120 umockdev-wrapper "$emulator" "$@"; } # options -- command
-said() { [ "$(cat "$2.txt" 2>/dev/null | grep -c -- "$1")" -ge "${3:-1}" ]; } # pattern, log, how often
+printed() { [ "$(cat "$2.txt" 2>/dev/null | grep -c -- "$1")" -ge "${3:-1}" ]; } # pattern, log, minimum count
 within() { # seconds, command ...: until it succeeds
   local end=$((SECONDS + $1))
   shift
@@ -21,8 +21,8 @@ within() { # seconds, command ...: until it succeeds
   done
 }
 
-# What is known of the emulated families. By a person's part of the calibration: forward counts down. With "whole" all of
-# it, as the rest of the calibration finds it where two cores carry program and emulation.
+# Calibration files of the emulated families. A person's part of it: forward counts down. With "whole", all values, as
+# the calibration finds them when two cores run program and emulation.
 known() { # file name, vendor, product, serial, low, rest, high, whole or nothing
   local travel=0 force=0 select=0 shift=0 spring=0 spring_force=0 damper_force=0 mass=0 damping=0 stiffness=0
   local interval=0 delay=0 jitter=0
@@ -84,10 +84,10 @@ families="sidewinder openffboard vjoy"
 declare -A name=([sidewinder]=SideWinder [openffboard]=FFBoard [vjoy]=vJoy)
 declare -A id=([sidewinder]=045e:001b [openffboard]=1209:ffb0 [vjoy]=1234:bead)
 
-# A loop that bears a busy machine's lateness.
+# A loop that tolerates the lateness of a busy machine.
 printf 'name = "patient"\n[guard]\nstale_time_s = 0.2\noverruns_in_row = 200\n' >patient.toml
 
-# A gate for a hand that shifts where the paper's has its wall, and so presses into that.
+# A gate for a hand that shifts where the paper's gate has its wall, and so presses into it.
 cat >elsewhere.toml <<END
 name = "Elsewhere"
 [gate]
@@ -104,15 +104,16 @@ position_mm = 15
 back = "2"
 END
 
-# The six-gear tour by the emulated hand, which shifts while the motors are on; Enter wherever the program asks for it.
+# The six-gear tour with the emulated hand, which shifts while the motors are on; Enter whenever the program asks for
+# it.
 tour_seconds=100 # at most
-enters=100       # the same
-hand_gate=paper  # that the hand believes in
-answer_to() { # log: Enter on file 9 for each time that it is asked for, until the run is over
-  local told=0
+enters=100       # at most
+hand_gate=paper  # the gate that the hand follows
+answer_to() { # log: sends Enter on file 9 for each request, until the run is over
+  local answered=0
   while kill -0 "$2" 2>/dev/null; do
-    if [ $told -lt $enters ] && said "press Enter" "$1" $((told + 1)); then
-      told=$((told + 1))
+    if [ $answered -lt $enters ] && printed "press Enter" "$1" $((answered + 1)); then
+      answered=$((answered + 1))
       echo >&9
     fi
     sleep 0.1
@@ -129,7 +130,7 @@ tour() { # name, family, options of the emulator ...
   answer_to "$name_of_run" $run
   wait $run
 }
-in_order() { # the log says that every gear was engaged, in the tour's order
+in_order() { # checks in the log that every gear was engaged in the tour's order
   local wanted gear
   wanted="$(sed -n 's/^The tour: \(.*\)\.$/\1/p' "$1.txt" | tr -d ,) "
   for gear in $(awk '/ engaged at/{print $1}' "$1.txt"); do
@@ -138,10 +139,10 @@ in_order() { # the log says that every gear was engaged, in the tour's order
   [ -z "$wanted" ]
 }
 replays() { "$gearshift" replay "$1/tour.trace" | grep -q "^bit for bit"; }
-zero_force() { # log, after what: the longest [ms] that its motors pushed on
+zero_force() { # log, start: the longest time [ms] for which the motors kept pushing
   sed -n "s/^stick_emulator: zero force \([0-9]*\) ms after $2.*/\1/p" "$1.err" | sort -n | tail -n 1
 }
-silent_within() { # ms, log, after what; an effect lasts 300 ms
+silent_within() { # [ms], log, start; an effect lasts 300 ms
   local ms
   ms=$(zero_force "$2" "$3")
   [ -n "$ms" ] && [ "$ms" -le "$1" ]

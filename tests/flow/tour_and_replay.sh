@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The tour as a user runs it: every shipped gate, plots that are pictures, a trace that replays bit for bit in another
-# process, the same hash twice, and a damaged trace refused.
+# The tour as a user runs it: every shipped gate, readable plots, a trace that replays bit for bit in another process,
+# the same hash twice, and a damaged trace rejected.
 # Usage: tour_and_replay.sh GEARSHIFT SOURCE_FOLDER
 set -u
 gearshift=$1
@@ -26,9 +26,9 @@ for layout in "$gates"/*.toml; do
   check "gate $gate" describes "$gate"
   check "drawing of $gate" draws "$gate"
 done
-check "a trace names the program that recorded" grep -aq "$("$gearshift" --version | head -n 1)" paper/tour.trace
+check "a trace names the program that recorded it" grep -aq "$("$gearshift" --version | head -n 1)" paper/tour.trace
 check "order of Fig. 9" [ "$(order_of paper)" = "1 2 3 4 5 R " ]
-check "no word on stderr where it is no terminal" [ ! -s paper.err ]
+check "nothing on stderr if it is no terminal" [ ! -s paper.err ]
 
 for plot in trajectory force; do
   check "$plot.png is a picture" is_png "paper/$plot.png"
@@ -37,14 +37,14 @@ done
 head -n 1 paper/tour.csv >header
 check "units in the header of tour.csv" grep -q "time_s,.*lever_x_mm" header
 
-# Readings that are not believed take the forces, again and again: the tour is no tour of the gate's feel.
+# Implausible readings repeatedly switch the forces off, so the tour does not show the gate's feel.
 sed 's/^speed_limit_m_per_s = 10 .*/speed_limit_m_per_s = 0.1/' "$2/assets/presets/default.toml" >doubts.toml
 check "without forces: exit 1" [ "$(tour doubts --preset doubts.toml; echo $?)" -eq 1 ]
-falls() { # as the table has them: from no fault to one
+falls() { # in the table's format: from no fault to one
   tail -n +2 doubts/tour.csv | cut -d, -f27 | awk '$0 != "none" && was == "none" {n++} {was = $0} END {print n}'
 }
-check "without forces: told once, how often and when, got: $(cat doubts.err), $(falls)" \
-  [ "$(grep -cE "its forces were gone $(falls) times, first after 0\.[0-9]+ s: stale reading$" doubts.err)" -eq 1 ]
+check "without forces: reported once, with number and times, got: $(cat doubts.err), $(falls)" \
+  [ "$(grep -cE "the guard switched the forces off $(falls) times, first after 0\.[0-9]+ s: stale reading$" doubts.err)" -eq 1 ]
 
 spaces="a folder with spaces, ä"
 check "a path with spaces" tour "$spaces"
@@ -56,17 +56,17 @@ for rate in 100 250 4000; do check "$rate Hz" tour "rate$rate" --rate $rate; don
 for hand in light arm 0.3,8,400; do check "hand $hand" tour "hand$hand" --hand $hand; done
 check "another seed" tour seed --seed 2
 
-# Presets: another lever, a delay that brings the observer, and the paper's own wall.
+# Presets: another lever, a delay that enables the observer, and the paper's own wall.
 printf 'name = "wide"\n[lever.yoke]\nradius_m = 0.15\n[lever]\ndelay_cycles = 2\nhand = "grip"\n' >wide.toml
 for preset in measured paper wide.toml; do
   tour "preset_$preset" --preset "$preset" --hand grip
   [ $? -le 1 ] || check "tour with preset $preset" false
   check "it replays" replays "preset_$preset"
 done
-check "the paper's wall is told to be beyond its bound" grep -q "used all the same, the bound is" preset_paper.err
-check "another seed, other aims" [ "$(hash_of seed)" != "$(hash_of paper)" ]
+check "the paper's wall is reported as beyond its bound" grep -q "used anyway, limit" preset_paper.err
+check "another seed, other targets" [ "$(hash_of seed)" != "$(hash_of paper)" ]
 
-# Shifts of a lesson's drive; a tour has no car.
+# Shifts in a lesson's drive; a tour has no car.
 "$gearshift" lesson skip_shifts --trace lesson.trace >lesson.txt
 check "a lesson's trace replays" sh -c '"$1" replay lesson.trace | grep -q "^bit for bit"' sh "$gearshift"
 "$gearshift" replay lesson.trace --shifts >shifts.txt
@@ -75,7 +75,7 @@ check "it lists as many shifts as the lesson had" \
 check "numbered, with gears" grep -Eq "^ +2 .* [1-5] -> [1-5] " shifts.txt
 check "a drive without a car has none" sh -c '"$1" replay paper/tour.trace --shifts | grep -q "no shifts"' sh "$gearshift"
 
-# One bit in the middle of the file.
+# Flips one bit in the middle of the file.
 flip_a_bit() {
   local size byte
   size=$(stat -c %s "$1")
@@ -85,6 +85,6 @@ flip_a_bit() {
 flip_a_bit paper/tour.trace
 "$gearshift" replay paper/tour.trace >/dev/null 2>err
 check "a flipped bit is noticed" [ $? -eq 1 ]
-check "and told in one sentence" [ "$(wc -l <err)" -eq 1 ]
+check "and reported in one sentence" [ "$(wc -l <err)" -eq 1 ]
 
 finish

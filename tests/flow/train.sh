@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# The trainer as a person uses it, in a window under Xvfb: the mouse through 1-2-3-4-5-R and the gears engage; keys,
-# panel, cameras, full screen, storms of sizes, a recording; and validation has nothing to say.
+# The trainer as a person uses it, in a window under Xvfb: the mouse moves the lever through 1-2-3-4-5-R and the gears
+# engage; keys, panel, cameras, full screen, rapid resizing, a recording; and validation reports nothing.
 # Usage: train.sh GEARSHIFT SOURCE_FOLDER
 set -u
 gearshift=$1
@@ -8,11 +8,11 @@ flows=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)
 source "$flows/checks.sh"
 source "$flows/window.sh"
 
-size=320x200 # a picture that comes soon reads the mouse soon
+size=320x200 # short frames read the mouse quickly
 check "it starts" start drive --car none --gate paper --hand grip --no-panel
 check "its window is there" [ -n "$window" ]
 xdotool windowfocus "$window" mousemove --window "$window" 160 100 click 1
-sleep 2 # until the mouse leads: nothing tells of it
+sleep 2 # until the mouse moves the lever; there is no message for it
 while read -r gear x y; do
   check "gear $gear by the mouse" shift_to "$gear" "$x" "$y"
 done < <("$gearshift" gate "$2/assets/gates/paper.toml" --json | python3 -c '
@@ -34,7 +34,7 @@ xdotool windowunmap "$window"
 sleep 0.5
 xdotool windowmap "$window"
 sleep 0.5
-check "a storm of sizes and a window that hides" alive
+check "rapid resizing and hiding of the window" alive
 xdotool windowsize "$window" 640 400 windowfocus "$window"
 sleep 0.5
 check "the large red button" press_for space released 1
@@ -43,9 +43,9 @@ stops=1
 for _ in 1 2 3; do
   xdotool mousemove --window "$window" 150 150
   sleep 0.7
-  xdotool mousemove --window "$window" 565 365 click 1 # all in a frame
+  xdotool mousemove --window "$window" 565 365 click 1 # all in one frame
   stops=$((stops + 1))
-  check "STOP by a click of a mouse that comes from the cabin" wait_for released $stops
+  check "STOP by a click with the mouse coming from the cabin" wait_for released $stops
   check "and armed again" press_for Return ramping $((stops + 1))
 done
 recorded() { ls data/gearshift/recordings/*.trace >/dev/null 2>&1; }
@@ -57,12 +57,12 @@ key F9
 check "it replays" within 20 replays
 key F9
 check "its key ends it" ended_by End
-check "and closes what it recorded, and says where" grep -q "^recorded: .*\.trace" drive.txt
+check "and closes the recording, and reports its place" grep -q "^recorded: .*\.trace" drive.txt
 check "it is whole" bash -c '"$0" replay "$(sed -n "s/^recorded: //p" drive.txt)" | grep -q "^bit for bit"' "$gearshift"
 check "nothing on stderr but that there is no sound" [ "$(grep -vci 'sound' drive.err)" = 0 ]
 
 check "again, stereo, another gate" start stereo --stereo --gate five_speed_r_left_up --hand "by itself" --silent
-check "the hand that needs nobody shifts" wait_for "1 engaged"
+check "the automatic hand shifts" wait_for "1 engaged"
 xdotool windowfocus "$window"
 check "its key ends it, too" ended_by End
 check "nothing on stderr" [ ! -s stereo.err ]
@@ -71,24 +71,24 @@ check "a lesson that is driven" start left --lesson moving_off --hand grip --no-
 xdotool windowfocus "$window"
 check "begins" press_for Return "lesson moving_off begins" 1
 check "its key ends it" ended_by End
-check "and it is told that it was left" said "lesson moving_off is over: not graded.*was left"
+check "and it is reported as left" printed "lesson moving_off is over: not graded.*You left"
 
 check "a lesson in memory" "$gearshift" train --offscreen memory --hand "by itself" --lesson moving_off --seconds 60 \
   --size 64x36 --no-help --silent >memory.txt
 for words in "lesson moving_off begins" "step 6 of 6" "lesson moving_off is over: grade .*, passed"; do
-  check "tells: $words" grep -q "$words" memory.txt
+  check "prints: $words" grep -q "$words" memory.txt
 done
 ended_in_memory() {
   "$gearshift" train --offscreen ended --lesson up_through_the_gears --seconds 600 --size 64x36 --no-help --silent \
     >ended.txt 2>ended.err &
-  until [ -d ended ] || ! kill -0 $!; do sleep 0.005; done # then it drives
+  until [ -d ended ] || ! kill -0 $!; do sleep 0.005; done # then the drive begins
   kill $!
   wait $!
   [ $? -eq 1 ]
 }
 check "ended early" ended_in_memory
-check "it says when, got: $(cat ended.err)" grep -q "^gearshift: ended after [0-9.]* of 600 s$" ended.err
+check "it says when, got: $(cat ended.err)" grep -q "^gearshift: stopped after [0-9.]* of 600 s$" ended.err
 check "in one sentence" [ "$(wc -l <ended.err)" -eq 1 ]
-check "the lesson counts as left" grep -q "is over: not graded.*was left" ended.txt
+check "the lesson counts as left" grep -q "is over: not graded.*You left" ended.txt
 check "its last picture is there" is_png ended/train.png
 finish

@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
-# A force-feedback stick that is pulled out at random moments of the tour, and plugged in again: its motors are off in the
-# stated time, nothing is lost, and the tour goes on when a person has armed it.
-# Usage: unplugged.sh GEARSHIFT SOURCE_FOLDER STICK_EMULATOR [UNPLUGS [SEED]]: 10, or as many tens as are asked for
+# A force-feedback stick that is unplugged at random moments of the tour and plugged in again: its motors are off within
+# the specified time, nothing is lost, and the tour continues when a person has armed it.
+# Usage: unplugged.sh GEARSHIFT SOURCE_FOLDER STICK_EMULATOR [UNPLUGS [SEED]]: 10 times, or UNPLUGS rounded up to tens
 set -u
 pairs=$(((${4:-10} + 9) / 10))
 seed=${5:-$RANDOM}
@@ -10,8 +10,9 @@ echo "seed $seed"
 RANDOM=$seed
 all_known whole
 
-seconds() { echo "$(($1 / 1000)).$(printf %03d $(($1 % 1000)))"; } # of milliseconds
-choose_moments() { # five, in a tour of some ten seconds; not in a subshell, whose random numbers no seed brings again
+seconds() { echo "$(($1 / 1000)).$(printf %03d $(($1 % 1000)))"; } # from milliseconds
+# five in a tour of about ten seconds; not in a subshell, whose random numbers are not reproducible with a seed
+choose_moments() {
   local ms=0
   moments=()
   for _ in 1 2 3 4 5; do
@@ -36,11 +37,11 @@ for ((i = 0; i < pairs; ++i)); do
     run=$family.$power.$i
     check "$run: the tour comes to its end" [ -e $run.ok ]
     check "$run: every gear of it, in order" in_order $run
-    check "$run: each time it was told" said "was unplugged" $run 4 # the last may come with the last gear
-    check "$run: and that it is back" said "is back: its motors are off" $run 4
-    check "$run: its forces came back by Enter alone" said "press Enter" $run 5
+    check "$run: each time it was reported" printed "was unplugged" $run 4 # the last one may coincide with the last gear
+    check "$run: and its return" printed "is connected again: its motors are off" $run 4
+    check "$run: only Enter restored its forces" printed "press Enter" $run 5
     check "$run: its motors were off in ${most[$power]} ms" silent_within ${most[$power]} $run "the unplug"
-    check "$run: the whole drive is kept" replays $run
+    check "$run: the whole drive is saved" replays $run
     sed -n "s/^stick_emulator: zero force \([0-9]*\) ms after the unplug.*/$family, $power: \1 ms/p" $run.err
   done
 done

@@ -1,12 +1,12 @@
-# Sourced by the flows that run the trainer in a window: an X server of their own, and a person at mouse and keys.
+# Sourced by the flows that run the trainer in a window: a private X server, and a person with mouse and keys.
 export GEARSHIFT_VALIDATION=1 XDG_RUNTIME_DIR=$work/runtime XDG_CACHE_HOME=$work/cache XDG_DATA_HOME=$work/data
 export XDG_CONFIG_HOME=$work/config
 mkdir -m 700 runtime
 
-# Ended from outside, too, it leaves nothing running; where it cannot end them itself, their time is up soon.
+# Leaves no process behind, even if ended from outside; if it cannot end them itself, their time limit does.
 trainer= server=
 end_all() { kill $trainer $server 2>/dev/null; }
-life=${life:-290} # [s] of server and trainer at most
+life=${life:-290} # [s] maximum lifetime of server and trainer
 timeout "$life" Xvfb -displayfd 3 -screen 0 1280x720x24 -noreset 3>display 2>xvfb.err &
 server=$!
 
@@ -23,7 +23,7 @@ within 20 has_display || { cat xvfb.err; exit 1; }
 DISPLAY=:$(cat display)
 export DISPLAY
 
-beneath=()   # what runs the program, and its arguments
+beneath=()   # a command that runs the program, and its arguments
 size=640x400 # of the window
 launch() { # name of the result, arguments ...
   local name=$1
@@ -35,18 +35,18 @@ launch() { # name of the result, arguments ...
 }
 start() { launch "$@" && wait_for "running"; }
 find_window() { window=$(xdotool search --onlyvisible --name '^gearshift$' 2>/dev/null | head -n 1) && [ -n "$window" ]; }
-said() { [ "$(grep -c -- "$1" "$log.txt")" -ge "${2:-1}" ]; }
-wait_for() { within 20 said "$@"; } # pattern in the log, and how often
+printed() { [ "$(grep -c -- "$1" "$log.txt")" -ge "${2:-1}" ]; }
+wait_for() { within 20 printed "$@"; } # pattern in the log, and how often
 key() { xdotool key "$1" && sleep 0.3; }
-# A key that may be pressed again: until the log has the pattern so often, or the trainer is gone.
-press_until_said() { key "$1" && within 3 said "$2" "$3"; }
-press_for() { within 20 press_until_said "$@"; }
+# For a key that may be pressed repeatedly: until the log contains the pattern that often, or the trainer has ended.
+press_until_logged() { key "$1" && within 3 printed "$2" "$3"; }
+press_for() { within 20 press_until_logged "$@"; }
 alive() { kill -0 $trainer 2>/dev/null; }
 is_gone() { ! alive; }
 press_until_gone() { key "$1" && within 5 is_gone; }
-ended_by() { within 20 press_until_gone "$1" && wait $trainer; } # with the exit code 0
+ended_by() { within 20 press_until_gone "$1" && wait $trainer; } # with exit code 0
 
-# The mouse leads the hand, 0.12 mm a pixel, up = forward, in steps as a hand makes them.
+# The mouse moves the hand by 0.12 mm per pixel, up = forward, in steps of a human's size.
 at_x=0 at_y=0
 go() { # x, y in mm
   local to_x=$(($1 * 100 / 12)) to_y=$(($2 * 100 / 12)) step=20 dx dy
@@ -62,7 +62,7 @@ go() { # x, y in mm
   done
   sleep 0.3
 }
-# A machine that is busy may draw few frames: then the hand cuts a corner, hangs at a wall, and goes again.
+# A busy machine may draw few frames: then the hand cuts a corner, is blocked by a wall, and tries again.
 at_mm=0
 shift_to() { # gear, x and y of its end in mm
   for _ in 1 2 3; do
@@ -70,7 +70,7 @@ shift_to() { # gear, x and y of its end in mm
     go "$2" 0
     go "$2" "$3"
     at_mm=$2
-    within 6 said " $1 engaged" && return 0
+    within 6 printed " $1 engaged" && return 0
   done
   return 1
 }

@@ -1,11 +1,13 @@
-// Whatever stands in a campaign's cases.csv: it is refused in one sentence and stays byte for byte, or read but for a line
-// that was not finished, gone on with, and read back the same.
+// Fuzzes a campaign's cases.csv: the file is either rejected in one sentence and left unchanged, or read without an
+// unfinished last line, continued, and read back the same.
 #include <string>
 
-#include "tests/bench/campaign/case_file.h"
-#include "tests/fuzz/fuzz_laws.h"
+#include "app/lab/campaign/case_file.h"
+#include "tests/fuzz/fuzz_checks.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::lab;
+using namespace gearshift::test;
 
 namespace {
 
@@ -16,7 +18,7 @@ std::string text_in(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// What a campaign begins its file with: else nearly every input would end there.
+// The header that a campaign writes first: without it nearly every input would be rejected there.
 const std::string& head() {
   static const std::string text = [] {
     const FuzzedFile file("cases.csv");
@@ -27,11 +29,11 @@ const std::string& head() {
 }
 
 void check_case(std::uint64_t number, const CaseOutcome& out, std::size_t cases) {
-  hold(out.number == number && number < cases + kMostThreads, "a case is one that a thread can have had");
-  hold(out.shifts >= 0 && out.shifts <= (out.refused.empty() ? kCaseShifts : 0), "a case has shifts as cases have");
+  hold(out.number == number && number < cases + kMaxThreads, "a case could have been run by a thread");
+  hold(out.shifts >= 0 && out.shifts <= (out.refused.empty() ? kCaseShifts : 0), "a case has a valid number of shifts");
   hold(out.clean >= 0 && out.clean <= out.shifts && out.reached >= 0 && out.reached <= out.shifts,
        "of the shifts that were tried");
-  hold(is_printable(out.refused), "a refusal may be shown");
+  hold(is_printable(out.refused), "an error message is printable");
 }
 
 std::string written(const CaseFile& cases, const std::filesystem::path& name) {
@@ -42,7 +44,7 @@ std::string written(const CaseFile& cases, const std::filesystem::path& name) {
   return text_in(name);
 }
 
-// In the order of their numbers: what was far ahead of its line is so no more.
+// Ordered by number: a case that was far ahead of its line no longer is.
 void check_kept(const CaseFile& cases) {
   const FuzzedFile first("first.csv"), second("second.csv");
   const std::string text = written(cases, first.path());
@@ -64,7 +66,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
     check_kept(cases);
   } catch (const std::runtime_error& refusal) {
     hold_sentence(refusal, file.path().string() + ":");
-    hold(text_in(file.path()) == text, "what is refused stays byte for byte");
+    hold(text_in(file.path()) == text, "a rejected file stays unchanged, byte for byte");
   }
   return 0;
 }

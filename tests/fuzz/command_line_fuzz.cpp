@@ -1,25 +1,29 @@
-// Whatever arguments, one a line: they are parsed, or refused in one sentence. Nothing is run; the texts that a verb reads
-// only then, a hand, a size and a camera, are tried with every line. The first line is what the environment says of the
-// user's folders.
+// Fuzzes the arguments, one per line: they are parsed, or rejected in one sentence. No verb is run; texts that a verb
+// parses only when it runs (a hand, a size, a camera) are tried with every line. The first line sets the environment's
+// user folders.
 #include <stdlib.h>
 
 #include <cmath>
 #include <vector>
 
-#include "app/render/render_file.h"
-#include "app/trainer/user_folder.h"
+#include "app/base/user_folders.h"
+#include "app/demo/render_file.h"
 #include "app/verbs/picture_size.h"
 #include "app/verbs/tour_arguments.h"
 #include "app/verbs/verbs.h"
-#include "tests/fuzz/fuzz_laws.h"
+#include "tests/fuzz/fuzz_checks.h"
 
-using namespace gearshift;
+using namespace gearshift::base;
+using namespace gearshift::demo;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
+using namespace gearshift::verbs;
 
 namespace {
 
-constexpr std::size_t kMostArguments = 64;
+constexpr std::size_t kMaxArguments = 64;
 
-// A line holds no zero byte, as the system would have cut it there.
+// Cuts each line at a zero byte, as the system would.
 std::vector<std::string> lines_of(std::string_view text) {
   std::vector<std::string> lines(1);
   for (const char c : text) {
@@ -29,7 +33,7 @@ std::vector<std::string> lines_of(std::string_view text) {
       lines.back() += c;
     }
   }
-  if (lines.size() > kMostArguments) lines.resize(kMostArguments);
+  if (lines.size() > kMaxArguments) lines.resize(kMaxArguments);
   return lines;
 }
 
@@ -49,15 +53,15 @@ void check_arguments(const std::vector<std::string>& arguments) {
   app.set_version_flag("--version", "1.2.3");
   try {
     const VerbAction action = parse_command_line(app, static_cast<int>(argv.size()), argv.data());
-    hold(static_cast<bool>(action), "what is not refused can be done");
+    hold(static_cast<bool>(action), "accepted arguments are valid");
   } catch (const CLI::Success&) {
-    hold(!app.help().empty(), "help is given");
+    hold(!app.help().empty(), "help is printed");
   } catch (const CLI::ParseError& refusal) {
     hold_sentence(std::runtime_error(usage_sentence(refusal)), "");
   }
 }
 
-// read: throws CLI::ValidationError for what it refuses.
+// read: throws CLI::ValidationError for invalid input.
 template <class Read>
 void check_text(const Read& read) {
   try {
@@ -77,14 +81,14 @@ void check_hand(const std::string& text) {
 void check_size(const std::string& text, bool stereo) {
   const PictureSize size = picture_size(text, stereo);
   for (const int side : {size.width, size.height})
-    hold(side >= kLeastPictureSide && side <= kMostPictureSide, "a picture has a size that can be drawn");
-  hold(!stereo || size.width % 2 == 0, "two eyes have the same whole width");
+    hold(side >= kMinPictureSide && side <= kMaxPictureSide, "a picture has a valid size");
+  hold(!stereo || size.width % 2 == 0, "two eyes have the same integer width");
 }
 
 void check_camera_text(const std::string& text) {
   try {
     check_camera(text);
-  } catch (const std::invalid_argument& refusal) {  // as the verb takes it
+  } catch (const std::invalid_argument& refusal) {  // as the verb handles it
     throw CLI::ValidationError(refusal.what());
   }
 }

@@ -1,4 +1,4 @@
-// A harness without libFuzzer: runs it on every file of the folders that are named.
+// Runs a fuzz harness without libFuzzer, on every file of the given folders.
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
@@ -7,13 +7,14 @@
 #include <iterator>
 #include <vector>
 
-#include "tests/fuzz/fuzz_laws.h"
+#include "tests/fuzz/fuzz_checks.h"
 
 namespace fs = std::filesystem;
 
 // NOLINTBEGIN(readability-identifier-naming,readability-redundant-declaration): libFuzzer gives the names
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size);
-extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t*, std::size_t size, std::size_t) {  // nothing is searched here
+// without libFuzzer there is no mutation
+extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t*, std::size_t size, std::size_t) {
   return size;
 }
 // NOLINTEND(readability-identifier-naming,readability-redundant-declaration)
@@ -23,7 +24,7 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape): what th
   for (int i = 1; i < argc; ++i) {
     for (const fs::directory_entry& entry : fs::directory_iterator(argv[i])) {
       std::printf("%s\n", entry.path().c_str());
-      std::fflush(stdout);  // the last one is the one that was found
+      std::fflush(stdout);  // so that the last input printed is the failing one
       std::ifstream in(entry.path(), std::ios::binary);
       const std::vector<char> bytes{std::istreambuf_iterator<char>(in), {}};
       std::vector<std::uint8_t> data(bytes.begin(), bytes.end());
@@ -31,6 +32,6 @@ int main(int argc, char** argv) {  // NOLINT(bugprone-exception-escape): what th
       ++inputs;
     }
   }
-  std::printf("%d inputs, %d read whole\n", inputs, gearshift::read_whole);
+  std::printf("%d inputs, %d read whole\n", inputs, gearshift::test::read_whole);
   return inputs > 0 ? 0 : 1;
 }

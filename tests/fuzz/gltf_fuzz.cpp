@@ -1,5 +1,5 @@
-// Whatever bytes: read_gltf() refuses them in one sentence or gives a lawful model. The mutator keeps the lengths in the
-// .glb header true, or nearly every input would end there.
+// Fuzzes read_gltf(): any bytes are rejected in one sentence or give a valid model. The mutator keeps the lengths in
+// the .glb header consistent, because nearly every input would be rejected there otherwise.
 #include <algorithm>
 #include <cstring>
 #include <random>
@@ -7,9 +7,10 @@
 
 #include "tests/engine/model/gltf_everything.h"
 #include "tests/engine/model/model_laws.h"
-#include "tests/fuzz/fuzz_laws.h"
+#include "tests/fuzz/fuzz_checks.h"
 
-using namespace gearshift;
+using namespace gearshift::engine;
+using namespace gearshift::test;
 
 // libFuzzer gives the names.
 // NOLINTBEGIN(readability-identifier-naming)
@@ -46,7 +47,7 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
   const std::size_t json_size = size < 28 ? 0 : word_at(data + 12);
   std::string file;
   const bool is_glb = json_size > 0 && json_size <= size - 28 && text_of(data, size).starts_with("glTF");
-  if (random() % (is_glb ? 8 : 2) == 0) return LLVMFuzzerMutate(data, size, max_size);  // a .gltf is text, as it stands
+  if (random() % (is_glb ? 8 : 2) == 0) return LLVMFuzzerMutate(data, size, max_size);  // a .gltf is plain text
   if (!is_glb) {
     file = everything().glb();
   } else {
@@ -64,9 +65,9 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static FuzzedFile file("model.glb");
   try {
-    hold(lawful(read_gltf(file.put(text_of(data, size)))), "what is read is lawful");
+    hold(lawful(read_gltf(file.put(text_of(data, size)))), "data that was read is valid");
     ++read_whole;
-  } catch (const GltfError& refusal) {  // the only thing that it may throw
+  } catch (const GltfError& refusal) {  // the only exception allowed
     hold_sentence(refusal, file.path().string() + ":");
   }
   return 0;

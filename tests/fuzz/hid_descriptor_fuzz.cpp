@@ -1,11 +1,11 @@
-// Whatever a device says of itself: parse_report_descriptor() refuses it or gives lawful fields, and what find_lever_report()
-// and find_pid() make of these is encoded and decoded within the reports.
+// Fuzzes a device's descriptor: parse_report_descriptor() rejects it or gives valid fields, and the results of
+// find_lever_report() and find_pid() are encoded and decoded within the reports.
 #include <cstdio>
 #include <cstdlib>
 
 #include "tests/haptics/hid/hid_laws.h"
 
-using namespace gearshift;
+using namespace gearshift::test;
 
 // NOLINTNEXTLINE(readability-identifier-naming): libFuzzer gives the name
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {

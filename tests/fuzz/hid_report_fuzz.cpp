@@ -1,15 +1,16 @@
-// Whatever a device reports: with the layout of one of tests/data/hid it is not read, or read as the bits stand. The first
-// byte says of which device; the rest is the report.
+// Fuzzes a device's reports, with a layout from tests/data/hid: a report is rejected, or decoded exactly as its bits
+// say. The first byte selects the device; the rest is the report.
 #include <algorithm>
 #include <iterator>
 #include <vector>
 
 #include "haptics/hid/lever_report.h"
 #include "haptics/hid/pid_report.h"
-#include "tests/fuzz/fuzz_laws.h"
+#include "tests/fuzz/fuzz_checks.h"
 #include "tests/haptics/hid/descriptors.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 
 namespace {
 
@@ -30,7 +31,7 @@ std::vector<Device> known_devices() {
   return devices;
 }
 
-// Bit by bit, the definition: HID 1.11, 8.4. Bit 0 is the lowest of the first byte behind the ID.
+// The definition, bit by bit: HID 1.11, 8.4. Bit 0 is the lowest of the first byte after the ID.
 std::int64_t slow_bits(std::span<const std::uint8_t> report, const BitField& field) {
   std::int64_t value = 0;
   for (int i = 0; i < field.bits; ++i) {
@@ -51,39 +52,42 @@ bool is_report(std::span<const std::uint8_t> report, std::uint8_t id, std::size_
 
 void check_lever(const LeverReport& layout, std::span<const std::uint8_t> report) {
   const auto counts = decode_lever(layout, report);
-  hold(counts.has_value() == is_report(report, layout.id, layout.size), "a lever's report is told by ID and length");
+  hold(counts.has_value() == is_report(report, layout.id, layout.size),
+       "a lever's report is identified by ID and length");
   if (!counts) return;
   for (std::size_t i = 0; i < layout.axes.size(); ++i) {
-    hold(counts->axis[i] == slow_bits(report, layout.axes[i].field), "an axis is read as it stands");
+    hold(counts->axis[i] == slow_bits(report, layout.axes[i].field), "an axis is decoded correctly");
   }
   for (std::size_t i = 0; i < layout.buttons.size(); ++i) {
     const bool is_down = (counts->buttons >> i & 1) != 0;
-    hold(is_down == slow_flag(report, layout.buttons[i], false), "a button is read as it stands");
+    hold(is_down == slow_flag(report, layout.buttons[i], false), "a button is decoded correctly");
   }
 }
 
 void check_state(const PidLayout& pid, std::span<const std::uint8_t> report) {
   const PidState& layout = pid.state;
   const auto state = decode_state(pid, report);
-  hold(state.has_value() == is_report(report, layout.id, layout.size), "a state is told by ID and length");
+  hold(state.has_value() == is_report(report, layout.id, layout.size), "a state report is identified by ID and length");
   if (!state) return;
-  hold(state->actuators_enabled == slow_flag(report, layout.actuators_enabled, false), "motors as they stand");
-  hold(state->actuator_power == slow_flag(report, layout.actuator_power, true), "power as it stands");
-  hold(state->safety_switch == slow_flag(report, layout.safety_switch, true), "the safety switch as it stands");
-  hold(state->paused == slow_flag(report, layout.paused, false), "paused as it stands");
-  hold(state->playing == slow_flag(report, layout.playing, false), "playing as it stands");
+  hold(state->actuators_enabled == slow_flag(report, layout.actuators_enabled, false), "motors are decoded correctly");
+  hold(state->actuator_power == slow_flag(report, layout.actuator_power, true), "power is decoded correctly");
+  hold(state->safety_switch == slow_flag(report, layout.safety_switch, true), "the safety switch is decoded correctly");
+  hold(state->paused == slow_flag(report, layout.paused, false), "paused is decoded correctly");
+  hold(state->playing == slow_flag(report, layout.playing, false), "playing is decoded correctly");
 }
 
 void check_answers(const PidLayout& pid, std::span<const std::uint8_t> report) {
   const auto load = decode_block_load(pid, report);
-  hold(load.has_value() == is_report(report, pid.block_load.id, pid.block_load.size), "a load by ID and length");
+  hold(load.has_value() == is_report(report, pid.block_load.id, pid.block_load.size),
+       "a load report is identified by ID and length");
   if (load && pid.block_load.block.exists())
     hold(load->block == std::clamp<std::int64_t>(slow_bits(report, pid.block_load.block), 0, 0xffff),
          "a block as it stands");
   const auto pool = decode_pool(pid, report);
-  hold(pool.has_value() == is_report(report, pid.pool.id, pid.pool.size), "a pool is told by ID and length");
+  hold(pool.has_value() == is_report(report, pid.pool.id, pid.pool.size),
+       "a pool report is identified by ID and length");
   if (pool && pid.pool.ram_size.exists())
-    hold(pool->ram == slow_bits(report, pid.pool.ram_size), "memory as it stands");
+    hold(pool->ram == slow_bits(report, pid.pool.ram_size), "memory is decoded correctly");
 }
 
 }  // namespace

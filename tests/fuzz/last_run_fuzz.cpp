@@ -1,9 +1,10 @@
-// Whatever stands where the bench's last run was kept: it is read, or told in one sentence and kept aside; what is read is
-// kept again and read back the same.
-#include "app/bench/last_run.h"
-#include "tests/fuzz/fuzz_laws.h"
+// Fuzzes the file of the bench's last run: it is read, or rejected in one sentence and set aside; results that were
+// read are saved again and read back the same.
+#include "app/lab/bench/last_run.h"
+#include "tests/fuzz/fuzz_checks.h"
 
-using namespace gearshift;
+using namespace gearshift::lab;
+using namespace gearshift::test;
 
 namespace {
 
@@ -15,7 +16,7 @@ bool same(const LastFigure& a, const LastFigure& b) {
 bool same(const LastRun& a, const LastRun& b) {
   const auto families = [](const auto& left, const auto& right) {
     return left.first == right.first && left.second.date == right.second.date &&
-           left.second.program == right.second.program && left.second.taken == right.second.taken &&
+           left.second.program == right.second.program && left.second.contention == right.second.contention &&
            std::equal(left.second.figures.begin(), left.second.figures.end(), right.second.figures.begin(),
                       right.second.figures.end(),
                       [](const auto& x, const auto& y) { return x.first == y.first && same(x.second, y.second); });
@@ -23,13 +24,13 @@ bool same(const LastRun& a, const LastRun& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), families);
 }
 
-// What nobody can read is not lost: somebody may want to look at it.
+// A file that cannot be read is kept aside, because the user may want to look at it.
 void hold_aside(const std::filesystem::path& file, std::string_view bytes) {
   std::filesystem::path aside = file;
   aside += ".unreadable";
   std::ifstream in(aside, std::ios::binary);
   const std::string kept{std::istreambuf_iterator<char>(in), {}};
-  hold(in && kept == bytes && !std::filesystem::exists(file), "what cannot be read is kept aside, byte for byte");
+  hold(in && kept == bytes && !std::filesystem::exists(file), "an unreadable file is set aside, byte for byte");
   std::filesystem::remove(aside);
 }
 
@@ -38,16 +39,16 @@ void hold_aside(const std::filesystem::path& file, std::string_view bytes) {
 // NOLINTNEXTLINE(readability-identifier-naming): libFuzzer gives the name
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   static FuzzedFile file("machine.json");
-  int told = 0;
-  const auto tell = [&told](const std::string& problem) {
+  int warnings = 0;
+  const auto tell = [&warnings](const std::string& problem) {
     hold_sentence(std::runtime_error(problem), file.path().string() + ":");
-    ++told;
+    ++warnings;
   };
   const LastRun last = read_last_run(file.put(text_of(data, size)), tell);
-  hold(told <= 1 && (told == 0 || last.empty()), "what cannot be read is told once");
-  if (told > 0) return hold_aside(file.path(), text_of(data, size)), 0;
+  hold(warnings <= 1 && (warnings == 0 || last.empty()), "an unreadable file is reported once");
+  if (warnings > 0) return hold_aside(file.path(), text_of(data, size)), 0;
   ++read_whole;
-  keep_run(file.path(), last, {});
-  hold(same(read_last_run(file.path(), tell), last) && told == 0, "a run is kept and read back the same");
+  save_run(file.path(), last, {});
+  hold(same(read_last_run(file.path(), tell), last) && warnings == 0, "a run is saved and read back the same");
   return 0;
 }

@@ -1,19 +1,24 @@
-// Whatever text: each kind of file that people or the program write is read, or refused in one sentence that names it; what
-// is read and can be written is written and read back the same. The first letter says for what the rest is taken:
-// Bindings, Car, Device's calibration, Gate, Headset's seat, Lesson, Preset.
+// Fuzzes every kind of TOML file that users or the program write: it is read, or rejected in one sentence that names
+// it; what was read and can be written is written and read back the same. The first letter selects the kind: Bindings,
+// Car, Device's calibration, Gate, Headset's seat, Lesson, Preset.
 #include <cmath>
 
-#include "app/headset/seat_file.h"
-#include "app/input/bindings.h"
-#include "app/training/lesson.h"
+#include "app/cabin/headset/seat_file.h"
+#include "app/lessons/assessment/lesson.h"
+#include "app/ui/input/bindings.h"
 #include "app/vehicle/car_spec.h"
 #include "haptics/files/file_error.h"
 #include "haptics/gate/gate_compiler.h"
 #include "haptics/hardware/device_calibration.h"
 #include "haptics/loop/preset_writer.h"
-#include "tests/fuzz/fuzz_laws.h"
+#include "tests/fuzz/fuzz_checks.h"
 
-using namespace gearshift;
+using namespace gearshift::cabin;
+using namespace gearshift::haptics;
+using namespace gearshift::lessons;
+using namespace gearshift::test;
+using namespace gearshift::ui;
+using namespace gearshift::vehicle;
 
 namespace {
 
@@ -25,7 +30,7 @@ FuzzedFile& the_file() {
 void read_gate(std::string_view text) {
   const GateLayout layout = parse_gate_layout(text, the_file().path().string());
   hold(layout.text == text, "a layout keeps its text");
-  constexpr double kHalf = 0.08;  // [m] about that of the paper's joystick
+  constexpr double kHalf = 0.08;  // [m] about the travel of the paper's joystick
   const Gate gate = compile_gate(layout, {kHalf, kHalf});
   hold(!slots(gate).empty(), "a gate has slots");
 }
@@ -38,7 +43,7 @@ void read_car(std::string_view text) {
   }
   for (const double pedal : {0.0, 0.5, 1.0}) {
     const double carried = clutch_capacity(car.clutch, pedal);
-    hold(carried >= 0.0 && carried <= car.clutch.capacity, "a clutch carries what it can");
+    hold(carried >= 0.0 && carried <= car.clutch.capacity, "a clutch carries its capacity");
   }
   for (int gear = kReverseGear; gear <= kMaxGear; ++gear) {
     hold(std::isfinite(shaft_per_road(car, gear)), "a ratio is a number");
@@ -48,7 +53,7 @@ void read_car(std::string_view text) {
 void read_a_lesson(std::string_view text) {
   const Lesson lesson = parse_lesson(text, the_file().path().string());
   hold(!lesson.steps.empty(), "a lesson has steps");
-  hold(is_printable(catches_sentence(lesson)), "what it catches is told in one line");
+  hold(is_printable(failing_errors_sentence(lesson)), "the errors that fail a lesson are described in one line");
 }
 
 void read_a_preset(std::string_view text) {
@@ -68,7 +73,7 @@ void read_device(std::string_view text) {
   hold(calibration_text(*read_calibration(the_file().put(first))) == first, "a calibration is written and read back");
 }
 
-// An angle passes through a quaternion: its first writing may be a last bit off, the next ones are not further off.
+// An angle passes through a quaternion: the first write may change its last bit, later ones must not add to that.
 void read_a_seat(std::string_view text) {
   const SeatSettings seat = read_seat(the_file().put(text));
   write_seat(seat, the_file().path());
@@ -81,9 +86,10 @@ void read_a_seat(std::string_view text) {
              again.knob->ahead == seat.knob->ahead,
          "a knob is written and read back");
   if (!seat.touched) return;
-  hold(again.touched->position == seat.touched->position, "a touched place is written and read back");
-  const double same_turn = std::abs(glm::dot(again.touched->orientation, seat.touched->orientation));  // q is -q
-  hold(same_turn > 1.0 - 1e-12, "a turn is written and read back");
+  hold(again.touched->position == seat.touched->position, "a touched position is written and read back");
+  // q is the same rotation as -q
+  const double same_turn = std::abs(glm::dot(again.touched->orientation, seat.touched->orientation));
+  hold(same_turn > 1.0 - 1e-12, "an orientation is written and read back");
 }
 
 void read_as(char kind, std::string_view text) {
@@ -113,7 +119,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   try {
     read_as(static_cast<char>(data[0]), text_of(data + 1, size - 1));
     ++read_whole;
-  } catch (const FileError& refusal) {  // the only thing that they may throw
+  } catch (const FileError& refusal) {  // the only exception allowed
     hold_sentence(refusal, the_file().path().string() + ":");
   }
   return 0;

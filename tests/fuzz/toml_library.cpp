@@ -1,5 +1,6 @@
-// toml++ once more, from its headers, so that libFuzzer and the sanitizers see into it: the system's shared library is not
-// instrumented. Without assertions, as that one: it has one that a stray '\r' fails, behind which the refusal stands.
+// Compiles toml++ from its headers, so that libFuzzer and the sanitizers instrument it; the system's shared library is
+// not instrumented. Without assertions, like that one: one of them fails at a stray '\r', which the code after it
+// rejects properly.
 #define NDEBUG
 #define TOML_IMPLEMENTATION
 #include <toml++/toml.h>

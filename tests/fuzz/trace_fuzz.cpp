@@ -1,23 +1,27 @@
-// Whatever passes for a trace: it is refused in one sentence, or its cycles are read, exported, written and read back the
-// same, and run again as `replay` and the trainer do. The mutator changes what the blocks hold and keeps their checksums
-// true, or every input would end there; it begins from a lever alone and from a car.
+// Fuzzes traces: a file is rejected in one sentence, or its cycles are read, exported, written and read back the same,
+// and replayed as `replay` and the trainer do. The mutator changes the blocks' contents and keeps their checksums
+// valid, because every input would be rejected there otherwise; it starts from a drive without a car and one with a
+// car.
 #include <algorithm>
 #include <optional>
 #include <random>
 #include <vector>
 
-#include "app/replay/recorded_drive.h"
-#include "app/training/lesson_world.h"
+#include "app/lessons/replay/recorded_drive.h"
+#include "app/vehicle/lesson_load.h"
 #include "haptics/files/file_error.h"
 #include "haptics/loop/block_codec.h"
 #include "haptics/loop/replay.h"
 #include "haptics/loop/simulated_run.h"
 #include "haptics/loop/trace_csv.h"
 #include "haptics/loop/trace_recorder.h"
-#include "tests/fuzz/fuzz_laws.h"
+#include "tests/fuzz/fuzz_checks.h"
 #include "tests/support/gates.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::lessons;
+using namespace gearshift::test;
+using namespace gearshift::vehicle;
 
 // NOLINTBEGIN(readability-identifier-naming): libFuzzer gives the names
 extern "C" std::size_t LLVMFuzzerMutate(std::uint8_t* data, std::size_t size, std::size_t max_size);
@@ -34,9 +38,9 @@ FuzzedFile& the_trace() {
   return file;
 }
 
-std::unique_ptr<LeverWorld> make_world(const std::string& name, const Gate& gate) {
-  std::unique_ptr<LeverWorld> nothing = make_null_world(name, gate);
-  return nothing ? std::move(nothing) : make_lesson_world(name, gate);
+std::unique_ptr<LeverLoad> make_load(const std::string& name, const Gate& gate) {
+  std::unique_ptr<LeverLoad> nothing = make_no_load(name, gate);
+  return nothing ? std::move(nothing) : make_lesson_load(name, gate);
 }
 
 // A drive of a few cycles.
@@ -45,12 +49,13 @@ Trace made_trace(bool with_car) {
   SimulatedRunConfig config;
   config.gate = compile_gate(layout, kPaperWorkspace);
   const CarSpec car = read_car(GEARSHIFT_ASSETS "/cars/hatchback.toml");
-  NullWorld nothing;
-  CarWorld hatchback(car, config.gate, 30.0);
-  LeverWorld& world = with_car ? static_cast<LeverWorld&>(hatchback) : nothing;
-  RestingHand hand;
-  SimulatedRun run(config, hand, &world);
-  const TraceHeader header{"1.2.3", config.haptics, run.lever().spec(), "paper.toml", layout.text, world.name(), true};
+  NoLoad nothing;
+  CarLoad hatchback(car, config.gate, 30.0);
+  LeverLoad& load = with_car ? static_cast<LeverLoad&>(hatchback) : nothing;
+  IdleHand hand;
+  SimulatedRun run(config, hand, &load);
+  const TraceHeader header{
+      "1.2.3", config.haptics, run.lever().spec(), "paper.toml", layout.text, load.replay_parameters(), true};
   TraceRecorder recorder(the_trace().path(), header, run.channels(), TracePump::by_caller);
   for (int i = 0; i < kCycles; ++i) run.step();
   recorder.finish();
@@ -63,12 +68,12 @@ std::optional<Trace> trace_in(std::string_view bytes) {
     Trace trace{reader.header(), {}, 0};
     for (TraceSample sample; reader.next(sample);) trace.samples.push_back(sample);
     if (!trace.samples.empty()) return trace;
-  } catch (const FileError&) {  // made anew
+  } catch (const FileError&) {  // created again
   }
   return std::nullopt;
 }
 
-// All of it, or eight bytes of it in place: a number.
+// Mutates all bytes, or eight of them in place: a number.
 void mutate(Bytes& bytes, Random& random) {
   auto* const data = reinterpret_cast<std::uint8_t*>(bytes.data());
   if (bytes.size() < 8 || random() % 4 != 0) {
@@ -85,7 +90,7 @@ void append(std::string& file, std::span<const std::byte> bytes) {
   file.append(reinterpret_cast<const char*>(bytes.data()), bytes.size());
 }
 
-// A file whose checksums are true, whatever it holds. The hash is of the header as it can be read.
+// A file with valid checksums, whatever its contents. The hash is that of the header as parsed.
 std::string sealed(const Bytes& header, const std::vector<EncodedSample>& samples) {
   Bytes plain, coded;
   RunHash hash = begin_hash(decode_header(header).value_or(TraceHeader{}));
@@ -129,13 +134,13 @@ bool same(const Trace& a, const Trace& b) {
                     [](const TraceSample& x, const TraceSample& y) { return encode_sample(x) == encode_sample(y); });
 }
 
-// Runs what is asked. False where it was refused, in one sentence.
+// Runs `work`. False if it was rejected, in one sentence.
 template <class Work>
 bool is_done(const Work& work) {
   try {
     work();
     return true;
-  } catch (const FileError& refusal) {  // the only thing that it may throw
+  } catch (const FileError& refusal) {  // the only exception allowed
     hold_sentence(refusal, the_trace().path().string() + ":");
     return false;
   }
@@ -145,7 +150,7 @@ void check_csv(const Trace& trace) {
   const auto commas = [](const std::string& line) { return std::count(line.begin(), line.end(), ','); };
   for (const TraceSample& sample : trace.samples) {
     const std::string line = trace_csv_line(sample, trace.samples.front().deadline_ns);
-    hold(is_printable(line) && commas(line) == commas(trace_csv_header()), "a cycle is a line of the table");
+    hold(is_printable(line) && commas(line) == commas(trace_csv_header()), "each cycle is one line of the table");
   }
 }
 
@@ -156,11 +161,11 @@ void check_again(const Trace& trace) {
 }
 
 void check_replay(const Trace& trace) {
-  Replayer replayer(trace.header, the_trace().path().string(), make_world);
+  Replayer replayer(trace.header, the_trace().path().string(), make_load);
   for (const TraceSample& sample : trace.samples)
     if (!replayer.step(sample)) break;
   const ReplayResult result = replayer.finish(trace.hash);
-  hold(result.cycles <= trace.samples.size(), "no more cycles are run than there are");
+  hold(result.cycles <= trace.samples.size(), "no more cycles are run than recorded");
   hold(!result.first || !result.first->field.empty(), "a difference has a name");
 }
 
@@ -181,9 +186,9 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
   if (random() % 8 == 0) return LLVMFuzzerMutate(data, size, max_size);
   const std::optional<Trace> trace = trace_in(text_of(data, size));
   const std::string file = mutated(trace ? *trace : made_trace(random() % 2 == 0), random);
-  const std::size_t kept = std::min(file.size(), max_size);
-  std::copy_n(file.begin(), kept, data);
-  return kept;
+  const std::size_t copied = std::min(file.size(), max_size);
+  std::copy_n(file.begin(), copied, data);
+  return copied;
 }
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
@@ -192,7 +197,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   const bool is_whole = is_done([&] { trace = read_trace(the_trace().path()); });
   is_done([&] {
     const auto salvaged = TraceReader(the_trace().path(), TornTrace::salvage);
-    hold(!is_whole || salvaged.cycles() == trace.samples.size(), "a whole trace is salvaged whole");
+    hold(!is_whole || salvaged.cycles() == trace.samples.size(), "a complete trace is salvaged completely");
   });
   is_done(check_drive);
   if (!is_whole) return 0;

@@ -20,20 +20,21 @@
 #include <thread>
 #include <vector>
 
-namespace gearshift {
+namespace gearshift::test {
 namespace {
 
 constexpr std::uint32_t kSubmit = 1, kUnlink = 2, kSubmitted = 3, kUnlinked = 4;
 constexpr std::uint32_t kFromDevice = 1;
 constexpr const char* kController = "/sys/devices/platform/vhci_hcd.0/";
-constexpr int kFullSpeed = 2;                    // enum usb_device_speed
-constexpr unsigned kDevice = 0x10002;            // bus 1, device 2, of a host that is not there
-constexpr std::chrono::microseconds kLook{500};  // between two looks at what the stick has to say
+constexpr int kFullSpeed = 2;                            // enum usb_device_speed
+constexpr unsigned kDevice = 0x10002;                    // bus 1, device 2, of a fictitious host
+constexpr std::chrono::microseconds kPollInterval{500};  // between two polls for reports of the stick
 
-// Every message begins with 48 bytes; numbers have their high byte first.
+// Each message starts with a header of 48 bytes; numbers are big-endian.
 struct Message {
   std::uint32_t command = 0, number = 0, device = 0, direction = 0, endpoint = 0;
-  std::array<std::uint32_t, 5> word{};  // submit: flags, length, ...; unlink: the number; answers: status, length, ...
+  // submit: flags, length, ...; unlink: the request's number; replies: status, length, ...
+  std::array<std::uint32_t, 5> word{};
   std::array<std::uint8_t, 8> setup{};
 };
 static_assert(sizeof(Message) == 48);
@@ -55,7 +56,7 @@ bool read_all(int fd, void* to, std::size_t size) {
   return true;
 }
 
-// A kernel that has hung up is seen where its requests are read.
+// Errors are ignored: a closed connection is detected when reading requests.
 void send_all(int fd, const void* from, std::size_t size) {
   [[maybe_unused]] const ssize_t sent = send(fd, from, size, MSG_NOSIGNAL);
 }
@@ -69,7 +70,7 @@ std::int64_t monotonic_ns() {
   return std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-void tell_controller(const char* file, const std::string& text) {
+void write_controller_file(const char* file, const std::string& text) {
   std::ofstream out(std::string(kController) + file);
   out << text;
   out.close();
@@ -91,21 +92,21 @@ struct AttachedStick::Wire {
   }
 
   void serve();
-  void live();
+  void run_clock();
   void submit(const Message& request, std::vector<std::uint8_t> data);
   void unlink(const Message& request);
   void answer(const Message& request, std::int32_t status, std::size_t length, std::span<const std::uint8_t> data);
   void answer_inputs();
 
   EmulatedStick& stick;
-  std::mutex& mutex;  // of the stick, of what waits, and of what is written
+  std::mutex& mutex;  // guards the stick, the waiting requests and the writing
   int ours = -1, theirs = -1;
-  std::deque<Message> waiting;  // for a report
-  bool ends = false;
+  std::deque<Message> waiting;  // requests that wait for a report
+  bool is_ending = false;
   std::thread server, clock;
 };
 
-// What the kernel asks, until it hangs up.
+// Serves the kernel's requests until it closes the connection.
 void AttachedStick::Wire::serve() {
   Message request;
   while (read_all(ours, &request, sizeof request)) {
@@ -121,14 +122,14 @@ void AttachedStick::Wire::serve() {
   }
 }
 
-// Time, and reports as soon as there are some.
-void AttachedStick::Wire::live() {
+// Advances the stick's time, and answers with reports as soon as there are any.
+void AttachedStick::Wire::run_clock() {
   auto next = std::chrono::steady_clock::now();
   for (;;) {
-    next = std::max(next + kLook, std::chrono::steady_clock::now() - kLook);
+    next = std::max(next + kPollInterval, std::chrono::steady_clock::now() - kPollInterval);
     std::this_thread::sleep_until(next);
     const std::lock_guard lock(mutex);
-    if (ends) return;
+    if (is_ending) return;
     stick.advance(monotonic_ns());
     answer_inputs();
   }
@@ -152,8 +153,8 @@ void AttachedStick::Wire::submit(const Message& request, std::vector<std::uint8_
     waiting.push_back(request);
     answer_inputs();
   } else {
-    const bool taken = stick.output(data);
-    answer(request, taken ? 0 : -EPIPE, taken ? data.size() : 0, {});
+    const bool accepted = stick.output(data);
+    answer(request, accepted ? 0 : -EPIPE, accepted ? data.size() : 0, {});
   }
 }
 
@@ -170,8 +171,8 @@ void AttachedStick::Wire::answer_inputs() {
 
 void AttachedStick::Wire::unlink(const Message& request) {
   const std::lock_guard lock(mutex);
-  const auto is_it = [&](const Message& m) { return m.number == request.word[0]; };
-  const auto found = std::find_if(waiting.begin(), waiting.end(), is_it);
+  const auto has_number = [&](const Message& m) { return m.number == request.word[0]; };
+  const auto found = std::find_if(waiting.begin(), waiting.end(), has_number);
   Message reply;
   reply.command = kUnlinked;
   reply.number = request.number;
@@ -196,20 +197,20 @@ void AttachedStick::Wire::answer(const Message& request, std::int32_t status, st
 }
 
 AttachedStick::AttachedStick(EmulatedStick& stick, std::mutex& mutex) : wire_(std::make_unique<Wire>(stick, mutex)) {
-  tell_controller("attach", "0 " + std::to_string(wire_->theirs) + " " + std::to_string(kDevice) + " " +
-                                std::to_string(kFullSpeed));
+  write_controller_file("attach", "0 " + std::to_string(wire_->theirs) + " " + std::to_string(kDevice) + " " +
+                                      std::to_string(kFullSpeed));
   wire_->server = std::thread([this] { wire_->serve(); });
-  wire_->clock = std::thread([this] { wire_->live(); });
+  wire_->clock = std::thread([this] { wire_->run_clock(); });
 }
 
 AttachedStick::~AttachedStick() {
   try {
-    tell_controller("detach", "0");
-  } catch (const std::runtime_error&) {  // it has gone by itself
+    write_controller_file("detach", "0");
+  } catch (const std::runtime_error&) {  // already detached
   }
   {
     const std::lock_guard lock(wire_->mutex);
-    wire_->ends = true;
+    wire_->is_ending = true;
     wire_->stick.unplug();
   }
   shutdown(wire_->ours, SHUT_RDWR);
@@ -217,4 +218,4 @@ AttachedStick::~AttachedStick() {
   wire_->clock.join();
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

@@ -1,5 +1,5 @@
-// An emulated stick plugged into the kernel that this program runs on: by USB/IP, into its virtual host controller. Needs
-// root and vhci-hcd: the guest has both (README.md).
+// Plugs an emulated stick into the kernel that this program runs on, through USB/IP and the virtual host controller.
+// Needs root and vhci-hcd; the guest has both (README.md).
 #pragma once
 
 #include <memory>
@@ -7,18 +7,18 @@
 
 #include "tests/support/stick/emulated_stick.h"
 
-namespace gearshift {
+namespace gearshift::test {
 
 class AttachedStick {
  public:
-  // Plugs it in. From then on its own threads move it by CLOCK_MONOTONIC and answer the kernel; the mutex guards it.
-  // Stick and mutex must outlive it. Throws std::runtime_error where the kernel does not take it.
+  // Plugs it in. From then on, its own threads advance it by CLOCK_MONOTONIC and answer the kernel; the mutex guards
+  // it. Stick and mutex must outlive this object. Throws std::runtime_error if the kernel does not accept it.
   AttachedStick(EmulatedStick& stick, std::mutex& mutex);
-  ~AttachedStick();  // pulls it out; it has lost its power then
+  ~AttachedStick();  // unplugs the stick, which loses its power
 
  private:
   struct Wire;
   std::unique_ptr<Wire> wire_;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::test

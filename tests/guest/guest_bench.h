@@ -1,4 +1,4 @@
-// What the programs in the guest share: waiting for the kernel, and the hands on the sticks.
+// Common code of the programs in the guest: waiting for the kernel, and hands on the sticks.
 #pragma once
 
 #include <chrono>
@@ -10,13 +10,13 @@
 #include "tests/guest/attached_stick.h"
 #include "tests/support/stick/emulated_stick.h"
 
-namespace gearshift {
+namespace gearshift::test {
 
 inline constexpr StickFamily kFamilies[] = {StickFamily::sidewinder, StickFamily::openffboard, StickFamily::vjoy};
 
-// False: it has not come true in so many seconds.
-template <class What>
-bool comes_true(What what, double seconds) {
+// Waits until the condition holds; false if it did not within that time.
+template <class Condition>
+bool becomes_true(Condition what, double seconds) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::duration<double>(seconds);
   while (!what()) {
     if (std::chrono::steady_clock::now() > end) return false;
@@ -25,7 +25,7 @@ bool comes_true(What what, double seconds) {
   return true;
 }
 
-// A stick that is plugged into the kernel.
+// A stick plugged into the kernel.
 struct PluggedStick {
   PluggedStick(const EmulatedStickConfig& config, HandDriver& hand) : stick(config, hand) {
     stick.logs = false;
@@ -37,16 +37,16 @@ struct PluggedStick {
   int vendor() const { return stick.device_descriptor()[8] | stick.device_descriptor()[9] << 8; }
   int product() const { return stick.device_descriptor()[10] | stick.device_descriptor()[11] << 8; }
 
-  // The stick, while nothing moves it.
-  template <class Look>
-  auto see(Look look) {
+  // Calls the function with the stick, while nothing else uses it.
+  template <class Function>
+  auto with_stick(Function function) {
     const std::lock_guard<std::mutex> lock(mutex);
-    return look(stick);
+    return function(stick);
   }
 
   EmulatedStick stick;
   std::mutex mutex;
-  std::optional<AttachedStick> attached;  // goes first
+  std::optional<AttachedStick> attached;  // destroyed first
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::test

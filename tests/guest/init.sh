@@ -1,5 +1,6 @@
 #!/bin/busybox sh
-# The guest's first process: modules, then the programs of /tests in their order. The last line says how it went.
+# First process of the guest: loads modules, then runs the programs of /tests in order. The last line reports the
+# result.
 b=/bin/busybox
 $b mount -t proc proc /proc
 $b mount -t sysfs sys /sys

@@ -1,5 +1,5 @@
-// The Linux kernel's own driver for PID sticks (drivers/hid/usbhid/hid-pidff.c) against the emulated families: it was
-// written by others, so that it takes them says that they are what they claim to be. Runs in the guest alone.
+// The Linux kernel's driver for PID sticks (drivers/hid/usbhid/hid-pidff.c) against the emulated families. It is an
+// independent implementation, so its acceptance is evidence that the emulation is right. Runs only in the guest.
 #include <fcntl.h>
 #include <linux/input.h>
 #include <sys/ioctl.h>
@@ -49,24 +49,24 @@ EmulatedStickConfig config_of(StickFamily family) {
   return config;
 }
 
-// A stick that the kernel has taken, and its event device.
-struct TakenStick {
-  explicit TakenStick(const EmulatedStickConfig& config) : plugged(config, hand) {
+// A stick driven by the kernel's driver, and its event device.
+struct KernelStick {
+  explicit KernelStick(const EmulatedStickConfig& config) : plugged(config, hand) {
     const auto ready = [&] {
       if (events < 0) events = open_event_device(plugged.vendor(), plugged.product());
-      return events >= 0 && says(0, EV_FF);
+      return events >= 0 && reports_bit(0, EV_FF);
     };
-    REQUIRE(comes_true(ready, 20.0));
+    REQUIRE(becomes_true(ready, 20.0));
   }
-  ~TakenStick() { close(events); }
+  ~KernelStick() { close(events); }
 
-  bool has(int ability) const { return says(EV_FF, ability); }
-  bool says(int kind, int bit) const {
+  bool has(int effect_type) const { return reports_bit(EV_FF, effect_type); }
+  bool reports_bit(int kind, int bit) const {
     std::array<std::uint8_t, KEY_MAX / 8 + 1> bits{};
     ioctl(events, EVIOCGBIT(kind, bits.size()), bits.data());
     return (bits[static_cast<std::size_t>(bit / 8)] >> (bit % 8) & 1) != 0;
   }
-  // The effect's number, or the error.
+  // Returns the effect's id, or the negative error.
   int upload(ff_effect& effect) const {
     effect.id = -1;
     return ioctl(events, EVIOCSFF, &effect) < 0 ? -errno : effect.id;
@@ -78,9 +78,9 @@ struct TakenStick {
     event.value = times;
     return write(events, &event, sizeof event) == sizeof event;
   }
-  template <class Look>
-  auto truth(Look look) {
-    return plugged.see(look);
+  template <class Function>
+  auto with_stick_state(Function function) {
+    return plugged.with_stick(function);
   }
 
   StillHand hand;
@@ -99,55 +99,58 @@ ff_effect constant_force(int direction, int milliseconds) {
 
 }  // namespace
 
-TEST_CASE("hid-pidff takes each family as a PID device, and knows what it can") {
+TEST_CASE("hid-pidff accepts each family as a PID device, and knows its effects") {
   for (StickFamily family : kFamilies) {
     CAPTURE(std::string(stick_family_name(family)));
     const int before = count_in_kernel_log("Force feedback for USB HID PID devices");
-    TakenStick taken(config_of(family));
-    const auto said = [&] { return count_in_kernel_log("Force feedback for USB HID PID devices") == before + 1; };
-    CHECK(comes_true(said, 5.0));
-    CHECK(taken.has(FF_CONSTANT));
-    CHECK(taken.has(FF_SPRING));
-    CHECK(taken.has(FF_DAMPER));
-    // A first block that is 2 is taken for a centring spring of the device's own: the SideWinder's.
-    CHECK(taken.has(FF_AUTOCENTER) == (family == StickFamily::sidewinder));
+    KernelStick stick(config_of(family));
+    const auto is_logged = [&] { return count_in_kernel_log("Force feedback for USB HID PID devices") == before + 1; };
+    CHECK(becomes_true(is_logged, 5.0));
+    CHECK(stick.has(FF_CONSTANT));
+    CHECK(stick.has(FF_SPRING));
+    CHECK(stick.has(FF_DAMPER));
+    // If the first block created has index 2, the driver assumes a built-in centring spring: true for the SideWinder.
+    CHECK(stick.has(FF_AUTOCENTER) == (family == StickFamily::sidewinder));
     const int playing = family == StickFamily::sidewinder ? 1 : 0;
-    CHECK(comes_true([&] { return taken.truth([](EmulatedStick& s) { return s.playing(); }) == playing; }, 5.0));
+    CHECK(becomes_true([&] { return stick.with_stick_state([](EmulatedStick& s) { return s.playing(); }) == playing; },
+                       5.0));
   }
 }
 
-TEST_CASE("a constant force of the kernel pushes where linux/input.h says, and ends when it shall") {
-  // 0 is down (towards the user), 0x4000 left, 0x8000 up, 0xC000 right.
+TEST_CASE("a constant force of the kernel has the direction of linux/input.h, and ends on time") {
+  // Directions: 0 down (towards the user), 0x4000 left, 0x8000 up, 0xC000 right.
   const std::array<glm::dvec2, 4> pushes{{{0.0, -1.0}, {-1.0, 0.0}, {0.0, 1.0}, {1.0, 0.0}}};
   for (StickFamily family : kFamilies) {
     CAPTURE(std::string(stick_family_name(family)));
-    TakenStick taken(config_of(family));
+    KernelStick stick(config_of(family));
     input_event centring_off{};
     centring_off.type = EV_FF;
     centring_off.code = FF_AUTOCENTER;
-    REQUIRE(write(taken.events, &centring_off, sizeof centring_off) == sizeof centring_off);
-    REQUIRE(comes_true([&] { return taken.truth([](EmulatedStick& s) { return s.playing(); }) == 0; }, 5.0));
+    REQUIRE(write(stick.events, &centring_off, sizeof centring_off) == sizeof centring_off);
+    REQUIRE(
+        becomes_true([&] { return stick.with_stick_state([](EmulatedStick& s) { return s.playing(); }) == 0; }, 5.0));
     for (std::size_t i = 0; i < pushes.size(); ++i) {
       CAPTURE(i);
-      taken.truth([](EmulatedStick& stick) {
-        stick.place({0.0, 0.0});
+      stick.with_stick_state([](EmulatedStick& s) {
+        s.place({0.0, 0.0});
         return 0;
       });
       ff_effect effect = constant_force(static_cast<int>(i) * 0x4000, 300);
-      const int id = taken.upload(effect);
+      const int id = stick.upload(effect);
       REQUIRE(id >= 0);
-      REQUIRE(taken.play(id, 1));
+      REQUIRE(stick.play(id, 1));
       const auto along = [&] {
-        return taken.truth([&](EmulatedStick& s) { return glm::dot(s.position(), pushes[i]); });
+        return stick.with_stick_state([&](EmulatedStick& s) { return glm::dot(s.position(), pushes[i]); });
       };
       const auto across = [&] {
-        return taken.truth(
+        return stick.with_stick_state(
             [&](EmulatedStick& s) { return s.position().x * pushes[i].y - s.position().y * pushes[i].x; });
       };
-      CHECK(comes_true([&] { return along() > 0.02; }, 5.0));
+      CHECK(becomes_true([&] { return along() > 0.02; }, 5.0));
       CHECK(std::abs(across()) < 2e-3);
-      CHECK(comes_true([&] { return taken.truth([](EmulatedStick& s) { return s.playing(); }) == 0; }, 5.0));
-      CHECK(ioctl(taken.events, EVIOCRMFF, id) == 0);
+      CHECK(
+          becomes_true([&] { return stick.with_stick_state([](EmulatedStick& s) { return s.playing(); }) == 0; }, 5.0));
+      CHECK(ioctl(stick.events, EVIOCRMFF, id) == 0);
     }
   }
 }
@@ -157,80 +160,82 @@ TEST_CASE("the event device says where the lever is: right is X +, away from the
     CAPTURE(std::string(stick_family_name(family)));
     EmulatedStickConfig config = config_of(family);
     config.lever.hand = kGripHand;
-    TakenStick taken(config);
-    taken.truth([&](EmulatedStick&) { return taken.hand.target.position = {0.04, 0.04}; });
+    KernelStick stick(config);
+    stick.with_stick_state([&](EmulatedStick&) { return stick.hand.target.position = {0.04, 0.04}; });
     const auto share = [&](unsigned axis) {
       input_absinfo info{};
-      ioctl(taken.events, EVIOCGABS(axis), &info);
+      ioctl(stick.events, EVIOCGABS(axis), &info);
       return (info.value - info.minimum) / static_cast<double>(info.maximum - info.minimum);
     };
-    CHECK(comes_true([&] { return share(ABS_X) > 0.6 && share(ABS_Y) < 0.4; }, 5.0));
+    CHECK(becomes_true([&] { return share(ABS_X) > 0.6 && share(ABS_Y) < 0.4; }, 5.0));
   }
 }
 
-TEST_CASE("a spring of the kernel stands where its law says: x = F / K") {
+TEST_CASE("a spring of the kernel follows its law: x = F / K") {
   for (StickFamily family : kFamilies) {
     CAPTURE(std::string(stick_family_name(family)));
     EmulatedStickConfig config = config_of(family);
     config.lever.axis_x.stiffness = config.lever.axis_y.stiffness = 0.0;
-    TakenStick taken(config);
+    KernelStick stick(config);
     input_event centring_off{};
     centring_off.type = EV_FF;
     centring_off.code = FF_AUTOCENTER;
-    REQUIRE(write(taken.events, &centring_off, sizeof centring_off) == sizeof centring_off);
+    REQUIRE(write(stick.events, &centring_off, sizeof centring_off) == sizeof centring_off);
     ff_effect effect{};
     effect.type = FF_SPRING;
     for (ff_condition_effect& axis : effect.u.condition) {
       axis.right_coeff = axis.left_coeff = 0x7fff;
       axis.right_saturation = axis.left_saturation = 0xffff;
     }
-    const int id = taken.upload(effect);
+    const int id = stick.upload(effect);
     REQUIRE(id >= 0);
-    REQUIRE(taken.play(id, 1));
-    taken.truth([&](EmulatedStick&) {
-      taken.hand.target.push = {6.0, -4.0};
+    REQUIRE(stick.play(id, 1));
+    stick.with_stick_state([&](EmulatedStick&) {
+      stick.hand.target.push = {6.0, -4.0};
       return 0;
     });
     const glm::dvec2 wanted{6.0 / 400.0, -4.0 / 400.0};
-    const auto off = [&] { return taken.truth([&](EmulatedStick& s) { return glm::length(s.position() - wanted); }); };
-    CHECK(comes_true([&] { return off() < 1e-4; }, 10.0));
+    const auto off = [&] {
+      return stick.with_stick_state([&](EmulatedStick& s) { return glm::length(s.position() - wanted); });
+    };
+    CHECK(becomes_true([&] { return off() < 1e-4; }, 10.0));
   }
 }
 
-TEST_CASE("a full pool refuses one effect more, and takes it when another has gone") {
+TEST_CASE("a full pool rejects another effect, and accepts it once one was removed") {
   for (StickFamily family : kFamilies) {
     CAPTURE(std::string(stick_family_name(family)));
     EmulatedStickConfig config = config_of(family);
     config.blocks = 4;
-    TakenStick taken(config);
+    KernelStick stick(config);
     int last = -1;
     for (int i = 0; i < 4; ++i) {
       ff_effect effect = constant_force(0, 100);
-      last = taken.upload(effect);
+      last = stick.upload(effect);
       CHECK(last >= 0);
     }
     ff_effect more = constant_force(0, 100);
-    CHECK(taken.upload(more) == -ENOSPC);
-    CHECK(ioctl(taken.events, EVIOCRMFF, last) == 0);
-    // The kernel frees a block by the output pipe and creates one by the control pipe, which may be faster.
-    CHECK(comes_true([&] { return taken.upload(more) >= 0; }, 5.0));
+    CHECK(stick.upload(more) == -ENOSPC);
+    CHECK(ioctl(stick.events, EVIOCRMFF, last) == 0);
+    // The kernel frees a block through the output pipe and creates one through the control pipe, which may be faster.
+    CHECK(becomes_true([&] { return stick.upload(more) >= 0; }, 5.0));
   }
 }
 
-TEST_CASE("pulled out while it pushes, it is gone without harm to the kernel") {
+TEST_CASE("unplugging a stick while it pushes does no harm to the kernel") {
   for (StickFamily family : kFamilies) {
     CAPTURE(std::string(stick_family_name(family)));
     EmulatedStickConfig config = config_of(family);
     int events = -1;
     {
-      TakenStick taken(config);
+      KernelStick stick(config);
       ff_effect effect = constant_force(0, 0);
-      const int id = taken.upload(effect);
-      REQUIRE(taken.play(id, 1));
-      events = dup(taken.events);
+      const int id = stick.upload(effect);
+      REQUIRE(stick.play(id, 1));
+      events = dup(stick.events);
     }
     input_id id{};
-    CHECK(comes_true([&] { return ioctl(events, EVIOCGID, &id) < 0 && errno == ENODEV; }, 5.0));
+    CHECK(becomes_true([&] { return ioctl(events, EVIOCGID, &id) < 0 && errno == ENODEV; }, 5.0));
     close(events);
   }
   CHECK(count_in_kernel_log("BUG:") + count_in_kernel_log("Oops") + count_in_kernel_log("WARNING:") == 0);

@@ -1,5 +1,5 @@
-// The whole program below the screen, through the real libusb and the real kernel: the driver takes the stick from the
-// kernel's, calibrates it, drives the tour with a hand on it, and gives it back. Runs in the guest alone.
+// The whole program below the screen, with the real libusb and the real kernel: the driver takes the stick over from
+// the kernel's driver, calibrates it, drives the tour with a hand on it, and returns it. Runs only in the guest.
 #include <algorithm>
 #include <atomic>
 #include <chrono>
@@ -16,8 +16,8 @@
 #include <glm/geometric.hpp>
 
 #include "haptics/hardware/calibrator.h"
-#include "haptics/hardware/lever_keeper.h"
 #include "haptics/hardware/pid_lever.h"
+#include "haptics/hardware/stick_connection.h"
 #include "haptics/loop/haptic_loop.h"
 #include "haptics/loop/shift_script.h"
 #include "haptics/rt/realtime_thread.h"
@@ -36,7 +36,7 @@ std::int64_t monotonic_ns() {
   return std::chrono::nanoseconds(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
-// Which of the kernel's drivers has the stick's interface; empty: none.
+// Name of the kernel driver bound to the stick's interface; empty: none.
 std::string kernel_driver() {
   std::error_code none;
   return std::filesystem::read_symlink("/sys/bus/usb/devices/1-1:1.0/driver", none).filename();
@@ -49,20 +49,20 @@ HidIdentity identity_of(const PluggedStick& plugged) {
   return identity;
 }
 
-// The driver on a stick, as the program has it.
-struct Driven {
-  explicit Driven(const PluggedStick& plugged)
+// The driver on a stick, set up as in the program.
+struct DrivenStick {
+  explicit DrivenStick(const PluggedStick& plugged)
       : driver(plugged.stick.report_descriptor()),
-        keeper(
+        connection(
             driver, [identity = identity_of(plugged)] { return open_usb_hid(identity); }, kTick) {
-    REQUIRE(comes_true([&] { return keeper.connected(); }, 20.0));
+    REQUIRE(becomes_true([&] { return connection.connected(); }, 20.0));
   }
   PidDriver driver;
-  LeverKeeper keeper;
+  StickConnection connection;
 };
 
-// What a person has shown and measured: the stops in counts, the travel, the force.
-DeviceCalibration shown(const EmulatedStickConfig& config, const PluggedStick& plugged) {
+// A calibration as taught and measured by a user: the stops in counts, the travel, the force.
+DeviceCalibration taught_calibration(const EmulatedStickConfig& config, const PluggedStick& plugged) {
   const bool sidewinder = config.family == StickFamily::sidewinder, vjoy = config.family == StickFamily::vjoy;
   LeverAxisCalibration axis;
   axis.low = sidewinder ? -512.0 : vjoy ? 0.0 : -32767.0;
@@ -75,7 +75,7 @@ DeviceCalibration shown(const EmulatedStickConfig& config, const PluggedStick& p
   calibration.product = identity_of(plugged).product;
   calibration.select = calibration.shift = axis;
   calibration.shift.usage = 0x31;
-  std::swap(calibration.shift.low, calibration.shift.high);  // away from the user counts down
+  std::swap(calibration.shift.low, calibration.shift.high);  // counts decrease away from the user
   return calibration;
 }
 
@@ -84,19 +84,19 @@ void take_over(LeverAxisCalibration& axis, const LeverAxisCalibration& measured)
   axis.spring_stiffness = measured.spring_stiffness;
 }
 
-// Its polarity is measured. All else is measured of one family alone, and taken over for the others, whose mechanism is the
-// same: it is most of what the guest takes its time for.
+// Only the polarity is measured. The rest is measured for one family and reused for the others, which have the same
+// mechanism: measuring takes most of the guest's time.
 DeviceCalibration calibrated(const EmulatedStickConfig& config, const DeviceCalibration* measured) {
-  RestingHand nobody;
-  PluggedStick plugged(config, nobody);
-  CHECK(comes_true([] { return kernel_driver() == "usbhid"; }, 20.0));
-  Driven driven(plugged);
+  IdleHand idle_hand;
+  PluggedStick plugged(config, idle_hand);
+  CHECK(becomes_true([] { return kernel_driver() == "usbhid"; }, 20.0));
+  DrivenStick driven(plugged);
   CHECK(kernel_driver() == "usbfs");
   const CalibrationTick tick = [] {
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
     return monotonic_ns();
   };
-  Calibrator calibrator(driven.driver, tick, shown(config, plugged));
+  Calibrator calibrator(driven.driver, tick, taught_calibration(config, plugged));
   try {
     std::printf("  %s\n", calibrator.measure_polarity().c_str());
     if (measured == nullptr) {
@@ -105,7 +105,7 @@ DeviceCalibration calibrated(const EmulatedStickConfig& config, const DeviceCali
       std::printf("  %s\n", calibrator.measure_springs().c_str());
     }
   } catch (const CalibrationRefused& refused) {
-    while (const auto news = driven.keeper.take_news()) MESSAGE(*news);
+    while (const auto message = driven.connection.take_message()) MESSAGE(*message);
     FAIL(std::string(refused.what()));
   }
   DeviceCalibration calibration = calibrator.calibration();
@@ -116,7 +116,7 @@ DeviceCalibration calibrated(const EmulatedStickConfig& config, const DeviceCali
   return calibration;
 }
 
-// Stays where the drive begins until it is led.
+// Stays at the start position until it is led.
 class WaitingHand final : public HandDriver {
  public:
   WaitingHand(glm::dvec2 start, std::vector<HandStroke> strokes, double period)
@@ -146,19 +146,19 @@ HapticConfig config_at_500_hz() {
   return config;
 }
 
-// The loop on its thread, and what it tells.
-class Running {
+// The loop on its thread, and the events that it reports.
+class RunningLoop {
  public:
-  Running(const DeviceCalibration& calibration, PidDriver& driver, const Gate& gate)
+  RunningLoop(const DeviceCalibration& calibration, PidDriver& driver, const Gate& gate)
       : config_(config_at_500_hz()),
         lever_(calibration, driver, period_s(config_)),
-        loop_(config_, gate, lever_, world_, channels_) {
+        loop_(config_, gate, lever_, load_, channels_) {
     RealtimeConfig thread;
     thread.period_ns = period_ns(config_);
     thread.spin_ns = 0;
     thread_.start(thread, [this](const CycleCall& call) { loop_.cycle(call.deadline_ns, call.skipped); });
   }
-  ~Running() {
+  ~RunningLoop() {
     thread_.stop();
     lever_.release();
   }
@@ -171,9 +171,9 @@ class Running {
   }
   bool arm() {
     channels_.commands.push(LoopCommand::arm);
-    return comes_true([&] { return guard() == GuardState::running; }, 5.0);
+    return becomes_true([&] { return guard() == GuardState::running; }, 5.0);
   }
-  // Since the last call.
+  // Gears engaged since the last call.
   std::vector<int> gears() {
     std::vector<int> engaged;
     for (HapticEvent event; channels_.events.pop(event);) {
@@ -184,7 +184,7 @@ class Running {
 
  private:
   HapticConfig config_;
-  NullWorld world_;
+  NoLoad load_;
   LoopChannels channels_;
   PidLever lever_;
   HapticLoop loop_;
@@ -192,37 +192,38 @@ class Running {
 };
 
 bool is_silent(PluggedStick& plugged) {
-  return plugged.see([](EmulatedStick& stick) { return stick.force() == glm::dvec2(0.0) && !stick.actuators_on(); });
+  return plugged.with_stick(
+      [](EmulatedStick& stick) { return stick.force() == glm::dvec2(0.0) && !stick.actuators_on(); });
 }
 
-// Every gear in its order; then silence before anything is given back.
+// Drives through every gear in order; then the force must be silent before the stick is returned.
 void drive_tour(PluggedStick& plugged, WaitingHand& hand, const DeviceCalibration& calibration, const Gate& gate) {
-  Driven driven(plugged);
+  DrivenStick driven(plugged);
   std::vector<int> engaged;
   double strongest = 0.0;
   {
-    Running running(calibration, driven.driver, gate);
+    RunningLoop running(calibration, driven.driver, gate);
     std::printf("  500 Hz, delay %d cycles, walls of %.0f N/m\n", running.delay(), running.wall());
     REQUIRE(running.arm());
     hand.begin();
     const auto is_over = [&] {
       for (int gear : running.gears()) engaged.push_back(gear);
-      strongest = std::max(strongest, plugged.see([](EmulatedStick& s) { return glm::length(s.force()); }));
+      strongest = std::max(strongest, plugged.with_stick([](EmulatedStick& s) { return glm::length(s.force()); }));
       return engaged.size() >= tour_order(gate).size() || running.guard() != GuardState::running;
     };
-    CHECK(comes_true(is_over, hand.duration() + 5.0));
+    CHECK(becomes_true(is_over, hand.duration() + 5.0));
     CHECK(running.guard() == GuardState::running);
   }
-  CHECK(comes_true([&] { return is_silent(plugged); }, 0.05));
+  CHECK(becomes_true([&] { return is_silent(plugged); }, 0.05));
   CHECK(engaged == tour_order(gate));
   CHECK(strongest > 2.0);
   std::printf("  %zu gears, at most %.1f N\n", engaged.size(), strongest);
-  while (const auto news = driven.keeper.take_news()) MESSAGE(*news);
+  while (const auto message = driven.connection.take_message()) MESSAGE(*message);
 }
 
 }  // namespace
 
-TEST_CASE("the six-gear tour through the kernel: taken from its driver, calibrated, driven, given back") {
+TEST_CASE("the six-gear tour through the kernel: taken from its driver, calibrated, driven, returned") {
   const Gate gate = paper_gate();
   const glm::dvec2 start = rest_position(gate, kNeutralGear);
   std::optional<DeviceCalibration> measured;
@@ -234,7 +235,7 @@ TEST_CASE("the six-gear tour through the kernel: taken from its driver, calibrat
     config.input_interval = 0.002;
     const DeviceCalibration calibration = calibrated(config, measured ? &*measured : nullptr);
     if (!measured) measured = calibration;
-    // A positive force comes from the right and from the user (PID 1.0 section 4.2).
+    // A positive force comes from the right and from the user's side (PID 1.0 section 4.2).
     CHECK(calibration.select.constant_sign == -1);
     CHECK(calibration.shift.constant_sign == 1);
     CHECK(calibration.select.spring_sign == 1);
@@ -244,42 +245,42 @@ TEST_CASE("the six-gear tour through the kernel: taken from its driver, calibrat
     WaitingHand hand(start, shift_strokes(gate, start, tour_order(gate)), config.plant_period);
     PluggedStick plugged(config, hand);
     drive_tour(plugged, hand, calibration, gate);
-    CHECK(comes_true([] { return kernel_driver() == "usbhid"; }, 5.0));
+    CHECK(becomes_true([] { return kernel_driver() == "usbhid"; }, 5.0));
   }
-  // The mechanism as it is: 0.095 and 0.086 kg, springs of 400 N/m.
+  // The true mechanism: 0.095 and 0.086 kg, springs of 400 N/m.
   CHECK(measured->select.handle.mass == doctest::Approx(0.095).epsilon(0.1));
   CHECK(measured->shift.handle.mass == doctest::Approx(0.086).epsilon(0.1));
   CHECK(measured->select.spring_stiffness == doctest::Approx(400.0).epsilon(0.1));
 }
 
-TEST_CASE("pulled out while it pushes: waited for without udev, silent when it is back until a person arms it") {
+TEST_CASE("unplugged while it pushes: found again without udev, and silent until a person arms it") {
   const Gate gate = paper_gate();
   EmulatedStickConfig config;
   config.family = StickFamily::openffboard;
   config.input_interval = 0.002;
-  StillHand hand(hand_pushing({6.0, 0.0}));  // along the neutral aisle, to its end
+  StillHand hand(hand_pushing({6.0, 0.0}));  // to the end of the neutral aisle
   PluggedStick plugged(config, hand);
-  DeviceCalibration calibration = shown(config, plugged);
+  DeviceCalibration calibration = taught_calibration(config, plugged);
   calibration.timing = {0.002, 0.001, 0.001, 0.0};
   for (LeverAxisCalibration* axis : {&calibration.select, &calibration.shift}) {
     axis->handle = kPaperAxisY;
     axis->constant_sign = axis == &calibration.select ? -1 : 1;
   }
-  Driven driven(plugged);
-  Running running(calibration, driven.driver, gate);
+  DrivenStick driven(plugged);
+  RunningLoop running(calibration, driven.driver, gate);
   REQUIRE(running.arm());
-  const auto pushes = [&] { return plugged.see([](EmulatedStick& stick) { return stick.force().x < -3.0; }); };
-  CHECK(comes_true(pushes, 5.0));
+  const auto pushes = [&] { return plugged.with_stick([](EmulatedStick& stick) { return stick.force().x < -3.0; }); };
+  CHECK(becomes_true(pushes, 5.0));
 
   plugged.pull_out();
-  CHECK(comes_true([&] { return !driven.keeper.connected(); }, 5.0));
-  CHECK(comes_true([&] { return running.guard() == GuardState::damped || running.guard() == GuardState::released; },
-                   5.0));
+  CHECK(becomes_true([&] { return !driven.connection.connected(); }, 5.0));
+  CHECK(becomes_true([&] { return running.guard() == GuardState::damped || running.guard() == GuardState::released; },
+                     5.0));
   plugged.plug_in();
-  CHECK(comes_true([&] { return driven.keeper.connected(); }, 20.0));
+  CHECK(becomes_true([&] { return driven.connection.connected(); }, 20.0));
   CHECK(kernel_driver() == "usbfs");
-  CHECK_FALSE(comes_true([&] { return !is_silent(plugged); }, 1.0));
+  CHECK_FALSE(becomes_true([&] { return !is_silent(plugged); }, 1.0));
   REQUIRE(running.arm());
-  CHECK(comes_true(pushes, 5.0));
-  while (const auto news = driven.keeper.take_news()) std::printf("  %s\n", news->c_str());
+  CHECK(becomes_true(pushes, 5.0));
+  while (const auto message = driven.connection.take_message()) std::printf("  %s\n", message->c_str());
 }

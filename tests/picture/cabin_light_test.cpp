@@ -1,4 +1,4 @@
-// The cabin's own light: what the engine takes for its windows and lining against rays in the model, and who gets it.
+// Light in the cabin: the engine's windows and lining against rays in the model, and which nodes are lit by it.
 #include <array>
 #include <cmath>
 #include <limits>
@@ -11,7 +11,9 @@
 #include "engine/model/gltf.h"
 #include "tests/picture/cabin_rig.h"
 
-using namespace gearshift;
+using namespace gearshift::cabin;
+using namespace gearshift::engine;
+using namespace gearshift::test;
 using glm::vec3;
 
 namespace {
@@ -23,7 +25,7 @@ struct Face {
   vec3 albedo;
 };
 
-// Mean of a picture, linear.
+// Mean linear colour of a picture.
 vec3 mean_colour(const Image& picture) {
   glm::dvec3 sum(0.0);
   for (std::size_t i = 0; i < picture.rgba.size(); i += 4)
@@ -31,7 +33,7 @@ vec3 mean_colour(const Image& picture) {
   return vec3(4.0 * sum / static_cast<double>(picture.rgba.size()));
 }
 
-// All that is no glass and no bodywork.
+// Faces that are neither glass nor bodywork.
 std::vector<Face> lining(const Model& model) {
   std::vector<vec3> albedo;
   for (const Material& material : model.materials) {
@@ -60,7 +62,7 @@ std::vector<Face> lining(const Model& model) {
   return faces;
 }
 
-// Möller, Trumbore. Fast, Minimum Storage Ray/Triangle Intersection. 1997. Null: a window.
+// Möller, Trumbore. Fast, Minimum Storage Ray/Triangle Intersection. 1997. Null if the ray leaves through a window.
 const Face* first_hit(const std::vector<Face>& faces, vec3 direction) {
   const Face* hit = nullptr;
   float nearest = std::numeric_limits<float>::max();
@@ -88,7 +90,7 @@ TEST_CASE("the engine's cabin has its windows where rays leave the model, and it
     vec3 albedo{0.0f}, in_model{0.0f};
     float rays = 0.0f;
   };
-  std::array<Lining, 2> half;  // below the eye's height, above it
+  std::array<Lining, 2> half;  // below and above eye height
   for (int i = 0; i < kRays; ++i) {
     const float y = 1.0f - 2.0f * (static_cast<float>(i) + 0.5f) / kRays, r = std::sqrt(1.0f - y * y);
     const float phi = 2.39996323f * static_cast<float>(i);
@@ -133,10 +135,10 @@ TEST_CASE(
   };
   const ImageDifference lever =
       difference(photograph(rig.stage.scene(), camera("lever"), 40.0), photograph(as_open, camera("lever"), 40.0), 3);
-  CHECK(lever.share_beyond > 0.5);
-  // From before the windscreen: road, land, bonnet.
+  CHECK(lever.fraction_beyond > 0.5);
+  // In front of the windscreen: road, land, bonnet.
   const EyePose outside = look_at({0.335, 0.8, -1.3}, {0.335, 0.2, -4.0});
   const ImageDifference road =
       difference(photograph(rig.stage.scene(), outside, 40.0), photograph(as_open, outside, 40.0), 0);
-  CHECK(road.share_beyond == 0.0);
+  CHECK(road.fraction_beyond == 0.0);
 }

@@ -1,15 +1,19 @@
-// The pseudo-haptic clamp, in the picture: the hand goes on, the knob that is seen does not.
+// The pseudo-haptic clamp in the picture: the hand moves on, the visible knob does not.
 #include <cmath>
 
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
-#include "app/trainer/trainer.h"
+#include "app/runtime/runtime.h"
 #include "tests/picture/cabin_rig.h"
 
-using namespace gearshift;
+using namespace gearshift::cabin;
+using namespace gearshift::engine;
+using namespace gearshift::haptics;
+using namespace gearshift::runtime;
+using namespace gearshift::test;
 
-TEST_CASE("the lever point 15 mm through a wall draws the same picture as none, up to the offset of the ghost") {
+TEST_CASE("a lever point 15 mm beyond a wall does not change the picture, up to the offset of the ghost") {
   RenderConfig config;
   config.width = 320;
   config.height = 240;
@@ -19,11 +23,11 @@ TEST_CASE("the lever point 15 mm through a wall draws the same picture as none, 
   const Image rested = rig.picture(at_wall, view);
   StageInput through = at_wall;
   through.lever.lever.y += 0.015;
-  CHECK(difference(rig.picture(through, view), rested, 0).share_beyond == 0.0);
+  CHECK(difference(rig.picture(through, view), rested, 0).fraction_beyond == 0.0);
 
   through.lever.lever.y += 0.010;
   through.lever.flags |= kFlagGhost;
-  CHECK(difference(rig.picture(through, view), rested, 3).share_beyond > 0.01);
+  CHECK(difference(rig.picture(through, view), rested, 3).fraction_beyond > 0.01);
 }
 
 TEST_CASE("the drawn knob is where the exact kinematics put the proxy") {
@@ -31,8 +35,8 @@ TEST_CASE("the drawn knob is where the exact kinematics put the proxy") {
   config.width = 320;
   config.height = 240;
   CabinRig rig(config);
-  // Law: the tip lies on the sphere of the yoke above the plane point p, so its height is sqrt(rho^2 - |p|^2);
-  // select is the cabin's X, shift its -Z.
+  // The tip is on the sphere of the yoke above the plane point p, so its height is sqrt(rho^2 - |p|^2); select is +X of
+  // the cabin, shift is -Z.
   rig.stage.place(resting_in(rig.gate, kNeutralGear));
   const StageConfig cabin = open_gate_cabin();
   const double rho = cabin.yoke.radius;
@@ -42,28 +46,28 @@ TEST_CASE("the drawn knob is where the exact kinematics put the proxy") {
   for (const Slot& slot : slots(rig.gate)) {
     StageInput input = resting_in(rig.gate, slot.gear);
     const glm::dvec2 inwards = input.lever.proxy;
-    input.lever.lever = inwards + glm::dvec2(0.015, 0.0);  // 15 mm through the wall of the slot
+    input.lever.lever = inwards + glm::dvec2(0.015, 0.0);  // 15 mm beyond the wall of the slot
     rig.stage.place(input);
     CHECK(glm::distance(rig.stage.knob(), centre + tip(inwards)) < 0.5e-3);
     CHECK(glm::distance(rig.stage.ghost_knob(), centre + tip(input.lever.lever)) < 0.5e-3);
   }
 }
 
-// Loop, stage and picture together: an arm leads the lever into third and leans on the slot's wall with far more than
-// the motors give.
+// Loop, stage and picture together: an arm moves the lever into third and leans against the slot's wall with far more
+// force than the motors have.
 TEST_CASE("the running lever pushed 15 mm through a wall: the knob that is drawn stays in the slot, and off the hand") {
-  TrainerConfig running;
+  RuntimeConfig running;
   running.layout = read_gate_layout(GEARSHIFT_ASSETS "/gates/paper.toml");
   running.preset.lever.hand = kArmHand;
-  running.clock = TrainerClock::virtual_time;
-  Trainer trainer(running);
-  trainer.arm();
-  trainer.set_hand({.position = {0.0, 0.045}});
-  trainer.advance(1.0);
-  trainer.set_hand({.position = {0.055, 0.034}, .push = {40.0, 0.0}});
-  trainer.advance(1.0);
+  running.clock = RuntimeClock::virtual_time;
+  Runtime runtime(running);
+  runtime.arm();
+  runtime.set_hand({.position = {0.0, 0.045}});
+  runtime.advance(1.0);
+  runtime.set_hand({.position = {0.055, 0.034}, .push = {40.0, 0.0}});
+  runtime.advance(1.0);
   StageInput input;
-  input.lever = trainer.snapshot();
+  input.lever = runtime.snapshot();
   REQUIRE(input.lever.gear == 3);
   REQUIRE(glm::distance(input.lever.lever, input.lever.proxy) > 0.015);
 
@@ -79,10 +83,10 @@ TEST_CASE("the running lever pushed 15 mm through a wall: the knob that is drawn
   rig.stage.place(input);
   CHECK(glm::distance(rig.stage.knob(), centre + tip(input.lever.proxy)) < 0.5e-3);
 
-  // The same picture as of a lever that nobody pushes there, but for the ghost of the hand past its offset.
+  // The picture must equal that of a lever without a push, except for the ghost of the hand beyond its threshold.
   const View view = seen_from(camera("lever"), config);
   StageInput unpushed = input;
   unpushed.lever.lever = input.lever.proxy;
   unpushed.lever.flags = input.lever.flags = 0;
-  CHECK(difference(rig.picture(input, view), rig.picture(unpushed, view), 0).share_beyond == 0.0);
+  CHECK(difference(rig.picture(input, view), rig.picture(unpushed, view), 0).fraction_beyond == 0.0);
 }

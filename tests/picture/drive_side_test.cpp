@@ -1,5 +1,5 @@
-// The right-hand-drive cabin under a mirrored sun is the left-hand-drive one's picture in a mirror, but where there is
-// print: so light comes from the right side, through normal maps too, and what culls nothing wrong.
+// The right-hand-drive cabin under a mirrored sun must be the mirror image of the left-hand-drive cabin, except for
+// lettering. This checks lighting from the correct side, through normal maps as well, and culling.
 #include <algorithm>
 #include <array>
 #include <string>
@@ -9,7 +9,10 @@
 #include "engine/light/enclosure.h"
 #include "tests/picture/cabin_rig.h"
 
-using namespace gearshift;
+using namespace gearshift::cabin;
+using namespace gearshift::engine;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 
 namespace {
 
@@ -26,16 +29,16 @@ RenderConfig config_of_sides(bool normal_maps = true) {
 
 struct Region {
   const char* camera;
-  int x, y, width, height;  // [px] of the left's picture
+  int x, y, width, height;  // [px] in the picture of the left-hand-drive cabin
 };
-constexpr Region kRegions[] = {{"driver", 480, 190, 160, 130},  // the passenger's door, with the edge of his seat
-                               {"ahead", 500, 0, 140, 200},     // pillar and roof, and the land beside
+constexpr Region kRegions[] = {{"driver", 480, 190, 160, 130},  // the passenger's door and the edge of the seat
+                               {"ahead", 500, 0, 140, 200},     // pillar and roof, and the land beside them
                                {"gate", 280, 40, 360, 320},     // hand and seat, whose leather has normal maps
                                {"cluster", 150, 110, 340, 160}};
 constexpr std::size_t kDials = 3;
 constexpr Region kSeat[] = {kRegions[2]};
 
-// What each of these cameras sees, with the sun that the left has, or with that in a mirror.
+// Renders the views of the given cameras, with the left-hand-drive cabin's sun or its mirror image.
 template <std::size_t kCameras>
 std::array<Image, kCameras> seen_on(DriveSide side, const Region (&regions)[kCameras], bool mirror_sun,
                                     bool normal_maps = true) {
@@ -70,12 +73,12 @@ Image part(const Image& image, const Region& r) {
   return crop(image, r.x, r.y, r.width, r.height);
 }
 
-// Edges differ: the samples of a pixel are no mirror image of themselves.
+// Edges differ, because the sample positions of a pixel are not mirror-symmetric.
 constexpr double kEdges = 0.04;
 
 ImageDifference apart_in(const Region& region, const Image& left, const Image& right) {
   const ImageDifference apart = difference(part(left, region), part(in_mirror(right), region), 3);
-  MESSAGE(std::string(region.camera) << ": " << 100.0 * apart.share_beyond << " % beyond 3/255");
+  MESSAGE(std::string(region.camera) << ": " << 100.0 * apart.fraction_beyond << " % beyond 3/255");
   return apart;
 }
 
@@ -84,13 +87,13 @@ ImageDifference apart_in(const Region& region, const Image& left, const Image& r
 TEST_CASE("body and hand on the right look as in a mirror, and the dials do not") {
   const auto left = seen_on(DriveSide::left, kRegions, false), right = seen_on(DriveSide::right, kRegions, true);
   for (std::size_t i = 0; i < std::size(kRegions); ++i)
-    CHECK((apart_in(kRegions[i], left[i], right[i]).share_beyond < kEdges) == (i != kDials));
+    CHECK((apart_in(kRegions[i], left[i], right[i]).fraction_beyond < kEdges) == (i != kDials));
 }
 
-TEST_CASE("with the sun as it was, or without normal maps, the seat on the right is no mirror image") {
+TEST_CASE("with the sun not mirrored, or without normal maps, the seat on the right is not a mirror image") {
   const auto [left] = seen_on(DriveSide::left, kSeat, false);
   const auto [same_sun] = seen_on(DriveSide::right, kSeat, false);
   const auto [smooth] = seen_on(DriveSide::right, kSeat, true, false);
-  CHECK(apart_in(kSeat[0], left, same_sun).share_beyond > 4.0 * kEdges);
-  CHECK(apart_in(kSeat[0], left, smooth).share_beyond > 4.0 * kEdges);
+  CHECK(apart_in(kSeat[0], left, same_sun).fraction_beyond > 4.0 * kEdges);
+  CHECK(apart_in(kSeat[0], left, smooth).fraction_beyond > 4.0 * kEdges);
 }

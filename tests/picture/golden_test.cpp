@@ -1,6 +1,6 @@
-// The lever in its gate, against a picture that a person has looked at; and what must not pass as the same.
+// The lever in its gate against a reviewed reference picture, and pictures that must not match it.
 //
-// GEARSHIFT_WRITE_GOLDEN=1 writes the picture anew: look at it before you commit it.
+// GEARSHIFT_WRITE_GOLDEN=1 rewrites the reference: review it before you commit it.
 #include <cstdlib>
 #include <filesystem>
 
@@ -9,13 +9,15 @@
 #include "engine/image/image.h"
 #include "tests/picture/cabin_rig.h"
 
-using namespace gearshift;
+using namespace gearshift::cabin;
+using namespace gearshift::engine;
+using namespace gearshift::test;
 
 namespace {
 
-// The goal of the design: at most 3/255 per channel on 99.5 % of the pixels.
+// The design goal: at most 3/255 per channel on 99.5 % of the pixels.
 constexpr int kTolerance = 3;
-constexpr double kMostBeyond = 0.005;
+constexpr double kMaxFractionBeyond = 0.005;
 
 const std::filesystem::path kGolden = GEARSHIFT_TEST_DATA "/golden/lever_in_third.png";
 
@@ -38,8 +40,8 @@ Image lever_picture(CabinRig& rig, const StageInput& input) {
 
 bool same_as_golden(const Image& picture) {
   const ImageDifference apart = difference(picture, read_png(kGolden), kTolerance);
-  MESSAGE("PSNR ", apart.psnr, " dB, ", 100.0 * apart.share_beyond, " % of the pixels beyond ", kTolerance, "/255");
-  return apart.share_beyond <= kMostBeyond;
+  MESSAGE("PSNR ", apart.psnr, " dB, ", 100.0 * apart.fraction_beyond, " % of the pixels beyond ", kTolerance, "/255");
+  return apart.fraction_beyond <= kMaxFractionBeyond;
 }
 
 }  // namespace

@@ -1,17 +1,21 @@
-// Both eyes of the real cabin, one pass or two, against single views; at a camera whose near plane cuts the wheel.
+// Stereo pictures of the real cabin, in one pass or two, against single views; with a camera whose near plane
+// intersects the steering wheel.
 #include <array>
 
 #include <doctest/doctest.h>
 
 #include "tests/picture/cabin_rig.h"
 
-using namespace gearshift;
+using namespace gearshift::cabin;
+using namespace gearshift::engine;
+using namespace gearshift::test;
 
 namespace {
 
-constexpr double kCutsTheWheel = 0.42;  // [m] the rim is 0.40 m ahead of the driver's eye
+constexpr double kCutsTheWheel = 0.42;  // [m] near plane; the rim is 0.40 m in front of the driver's eye
 
-// Wholly seen by each eye: the sun's map is fitted to what is seen, and so is the same for one eye and for two. [m]
+// Visible to each eye as a whole: the sun's map is fitted to the visible part, so it is identical for one eye and for
+// two. [m]
 constexpr ShadowRoom kAboutTheGate{{0.22f, 0.0f, -0.40f}, {0.44f, 0.25f, -0.20f}};
 
 RenderConfig small(int eyes, int samples, EyePasses passes = EyePasses::automatic) {
@@ -45,10 +49,10 @@ void check_against_single_views(int samples, EyePasses passes) {
     mono.renderer.draw(scene, {&views[static_cast<std::size_t>(eye)], 1});
     const Image reference = mono.renderer.read_eye(0);
     const ImageDifference apart = difference(stereo.renderer.read_eye(eye), reference, 1);
-    CHECK_MESSAGE(apart.share_beyond == 0.0, "eye ", eye, ", worst ", apart.worst, "/255");
+    CHECK_MESSAGE(apart.fraction_beyond == 0.0, "eye ", eye, ", worst ", apart.worst, "/255");
   }
   const ImageDifference eyes = difference(stereo.renderer.read_eye(0), stereo.renderer.read_eye(1), 3);
-  CHECK(eyes.share_beyond > 0.05);  // the eyes do not see the same
+  CHECK(eyes.fraction_beyond > 0.05);  // the eyes see different pictures
 }
 
 }  // namespace

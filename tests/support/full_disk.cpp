@@ -6,10 +6,10 @@
 #include <cerrno>
 #include <cstddef>
 
-bool gearshift::disk_is_full = false;
+bool gearshift::test::disk_is_full = false;
 
 extern "C" ssize_t pwrite64(int file, const void* bytes, std::size_t count, off64_t offset) {
-  if (gearshift::disk_is_full) {
+  if (gearshift::test::disk_is_full) {
     errno = ENOSPC;
     return -1;
   }

@@ -1,8 +1,8 @@
-// A disk that is full, on demand: the test program stands before the C library's writes.
+// Simulates a full disk: the test program overrides the C library's write functions.
 #pragma once
 
-namespace gearshift {
+namespace gearshift::test {
 
-extern bool disk_is_full;  // while set, nothing can be written to any file
+extern bool disk_is_full;  // while set, writing to any file fails
 
-}  // namespace gearshift
+}  // namespace gearshift::test

@@ -7,15 +7,15 @@
 #include "haptics/gate/gate_compiler.h"
 #include "haptics/gate/gate_layout.h"
 
-namespace gearshift {
+namespace gearshift::test {
 
 inline constexpr glm::dvec2 kPaperWorkspace{0.077134, 0.068829};  // [m] 0.12 sin(40 deg), 0.12 sin(35 deg)
 
-inline Gate shipped_gate(const std::string& name) {
-  return compile_gate(read_gate_layout(GEARSHIFT_ASSETS "/gates/" + name + ".toml"), kPaperWorkspace);
+inline haptics::Gate shipped_gate(const std::string& name) {
+  return haptics::compile_gate(haptics::read_gate_layout(GEARSHIFT_ASSETS "/gates/" + name + ".toml"), kPaperWorkspace);
 }
 
-inline Gate paper_gate() {
+inline haptics::Gate paper_gate() {
   return shipped_gate("paper");
 }
 
@@ -30,4 +30,4 @@ inline std::vector<std::string> shipped_names() {
           "four_speed"};
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

@@ -1,5 +1,5 @@
-// A device for tests: the software driver with core and synchronization validation, and a test that fails on any word
-// of theirs.
+// A GPU device for tests: the software driver with core and synchronization validation. Any validation message fails
+// the test.
 #pragma once
 
 #include <stdlib.h>
@@ -16,9 +16,9 @@
 
 #include "engine/gpu/gpu.h"
 
-namespace gearshift {
+namespace gearshift::test {
 
-// Pictures are compared: on the same driver everywhere. What is set already stands.
+// Selects the same driver everywhere, because pictures are compared. Does not override variables that are already set.
 inline void choose_software_driver() {
   const std::filesystem::path drivers = "/usr/share/vulkan/icd.d";
   if (std::filesystem::is_directory(drivers)) {
@@ -29,34 +29,34 @@ inline void choose_software_driver() {
   }
   const std::string folder =
       (std::filesystem::temp_directory_path() / ("gearshift_runtime_" + std::to_string(getuid()))).string();
-  mkdir(folder.c_str(), 0700);  // lavapipe fills stderr without one
+  mkdir(folder.c_str(), 0700);  // without this folder, lavapipe floods stderr
   setenv("XDG_RUNTIME_DIR", folder.c_str(), 0);
 }
 
 class GpuFixture {
  public:
-  explicit GpuFixture(GpuConfig config = {}) {
+  explicit GpuFixture(engine::GpuConfig config = {}) {
     choose_software_driver();
     config.validation = true;
     config.on_validation = [this](std::string_view message) { messages_.emplace_back(message); };
-    gpu_ = std::make_unique<Gpu>(config);
+    gpu_ = std::make_unique<engine::Gpu>(config);
     REQUIRE_MESSAGE(gpu_->validates(), "the package vulkan-validationlayers is not installed");
   }
   ~GpuFixture() {
-    gpu_.reset();  // the layer names what outlived the device
+    gpu_.reset();  // the layer reports objects that outlive the device
     for (const std::string& message : messages_) FAIL_CHECK(message);
   }
   GpuFixture(const GpuFixture&) = delete;
   GpuFixture& operator=(const GpuFixture&) = delete;
 
-  Gpu& gpu() { return *gpu_; }
+  engine::Gpu& gpu() { return *gpu_; }
   bool silent() const { return messages_.empty(); }
-  // What validation has said so far; a test that takes it is not failed by it.
+  // Takes the validation messages so far; messages taken by a test do not fail it.
   std::vector<std::string> take_messages() { return std::exchange(messages_, {}); }
 
  private:
   std::vector<std::string> messages_;
-  std::unique_ptr<Gpu> gpu_;
+  std::unique_ptr<engine::Gpu> gpu_;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::test

@@ -1,17 +1,17 @@
-// What a program holds of malloc: what is asked for, and for what it is given back. It sees a leak where the system's
-// figure sees holes and caches, too.
+// Memory held through malloc: allocated minus freed. It reveals leaks more precisely than the system's figure, which
+// includes fragmentation and caches.
 #pragma once
 
 #include <malloc.h>
 
 #include <cstddef>
 
-namespace gearshift {
+namespace gearshift::test {
 
-// [bytes] asked for and not given back, in every arena. Meaningless under a sanitizer, which has an allocator of its own.
+// [bytes] allocated and not freed, over all arenas. Meaningless under a sanitizer, which has its own allocator.
 inline std::size_t memory_in_use() {
   const struct mallinfo2 all = mallinfo2();
   return all.uordblks + all.hblkhd;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

@@ -19,7 +19,7 @@
 
 #include <new>
 
-namespace gearshift {
+namespace gearshift::test {
 
 std::string RealtimeProof::verdict() const {
   if (!ran) return "did not run: " + problem;
@@ -28,11 +28,11 @@ std::string RealtimeProof::verdict() const {
   return std::to_string(allocations) + " allocations or frees, " + std::to_string(locks) + " locks, " + first_call;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test
 
 namespace {
 
-// What the child tells its parent, in memory that both see.
+// Result of the child, in memory shared with its parent.
 struct Report {
   bool filtered = false;
   bool finished = false;
@@ -41,16 +41,16 @@ struct Report {
   std::uint64_t locks = 0;
 };
 
-constinit thread_local Report* watcher = nullptr;  // set while the proof runs, on its thread alone
+constinit thread_local Report* active_report = nullptr;  // set during the proof, and only on its thread
 
 void count_allocation() noexcept {
-  if (watcher != nullptr) ++watcher->allocations;
+  if (active_report != nullptr) ++active_report->allocations;
 }
 void count_lock() noexcept {
-  if (watcher != nullptr) ++watcher->locks;
+  if (active_report != nullptr) ++active_report->locks;
 }
 
-// The C library's own function behind a stand-in. The condition variables have an old and a new version.
+// The C library's function behind an override. Condition variables have an old and a new version.
 template <class F>
 F next(const char* name) noexcept {
   void* found = dlvsym(RTLD_NEXT, name, "GLIBC_2.3.2");
@@ -62,7 +62,7 @@ F next(const char* name) noexcept {
 
 extern "C" {
 
-// The C library's own names for what stands behind malloc and its kin.
+// The C library's own names for the functions behind malloc and related functions.
 // NOLINTBEGIN(bugprone-reserved-identifier,readability-identifier-naming)
 void* __libc_malloc(size_t) noexcept;
 void* __libc_calloc(size_t, size_t) noexcept;
@@ -99,8 +99,8 @@ void free(void* old) noexcept {
   __libc_free(old);
 }
 
-// One stand-in per function: count, then do what was asked. Its macro's arguments are a parameter list and a
-// specifier, which bear no parentheses of their own.
+// One override per function: counts the call, then forwards it. Its macro arguments are a parameter list and a
+// specifier, which cannot have parentheses of their own.
 // NOLINTBEGIN(bugprone-macro-parentheses)
 #define GEARSHIFT_COUNT_LOCK(name, parameters, arguments, specifier) \
   int name parameters specifier {                                    \
@@ -128,17 +128,17 @@ GEARSHIFT_COUNT_LOCK(sem_post, (sem_t * s), (s), noexcept)
 // NOLINTEND(bugprone-macro-parentheses)
 }
 
-namespace gearshift {
+namespace gearshift::test {
 namespace {
 
 void note_system_call(int, siginfo_t* info, void*) {
-  if (watcher != nullptr) watcher->system_call = info->si_syscall;
+  if (active_report != nullptr) active_report->system_call = info->si_syscall;
   syscall(SYS_exit, 0);
 }
 
-// From here on every system call but the exit, and write() to that descriptor, raises SIGSYS in this thread.
+// From here on, every system call of this thread raises SIGSYS, except exit and write() to the given descriptor.
 bool forbid_system_calls(int written) {
-  const auto descriptor = static_cast<std::uint32_t>(written);  // a write to -1 goes nowhere
+  const auto descriptor = static_cast<std::uint32_t>(written);  // a write to -1 has no effect
   sock_filter rules[] = {
       BPF_STMT(BPF_LD | BPF_W | BPF_ABS, offsetof(seccomp_data, nr)),
       BPF_JUMP(BPF_JMP | BPF_JEQ | BPF_K, SYS_exit, 4, 0),
@@ -158,9 +158,9 @@ bool forbid_system_calls(int written) {
 }
 
 [[noreturn]] void run_child(Report* report, const std::function<void()>& work, int written) {
-  // A test framework's crash handlers would make system calls and hide the crash behind them.
+  // The crash handlers of a test framework would make system calls and so hide the crash.
   for (const int crash : {SIGSEGV, SIGBUS, SIGILL, SIGFPE, SIGABRT, SIGTRAP}) signal(crash, SIG_DFL);
-  watcher = report;
+  active_report = report;
   report->filtered = forbid_system_calls(written);
   if (report->filtered) work();
   report->finished = report->filtered;
@@ -196,4 +196,4 @@ RealtimeProof prove_realtime(const std::function<void()>& work, int written) {
   return proof;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

@@ -1,5 +1,5 @@
-// What the sanitizers must know of the Vulkan driver and the validation layer, which are not built with them.
-// Linked as a source of each test program that opens a device, with its symbols exported (-rdynamic).
+// Sanitizer settings for the Vulkan driver and the validation layer, which are not instrumented. Compiled into each
+// test program that opens a device, with exported symbols (-rdynamic).
 
 #if defined(__has_feature)
 #if __has_feature(address_sanitizer)
@@ -11,7 +11,7 @@
 #endif
 
 #if defined(GEARSHIFT_ASAN) || defined(__SANITIZE_THREAD__)
-// A library that stays loaded has a name in the report of a leak or a race, so that it can be told from ours.
+// Libraries stay loaded, so that reports of leaks and races name them and can be told apart from our code.
 extern "C" int dlclose(void*) {
   return 0;
 }

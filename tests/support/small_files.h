@@ -1,10 +1,10 @@
-// No file may grow beyond that, as on a disk that is full.
+// Limits the size of files, as on a full disk.
 #pragma once
 
 #include <signal.h>
 #include <sys/resource.h>
 
-namespace gearshift {
+namespace gearshift::test {
 
 class SmallFiles {
  public:
@@ -26,4 +26,4 @@ class SmallFiles {
   void (*handler_)(int) = nullptr;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::test

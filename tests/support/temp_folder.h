@@ -1,4 +1,4 @@
-// A folder of a test's own, gone with the test: two test programs never meet in it.
+// A temporary folder that is deleted with the object; its name is unique per test program.
 #pragma once
 
 #include <stdlib.h>
@@ -8,7 +8,7 @@
 #include <string>
 #include <system_error>
 
-namespace gearshift {
+namespace gearshift::test {
 
 class TempFolder {
  public:
@@ -31,4 +31,4 @@ class TempFolder {
   std::filesystem::path path_;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::test

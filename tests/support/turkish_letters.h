@@ -1,4 +1,4 @@
-// The letters of a Turkish locale, which the system need not have, for as long as this lives: std::tolower('I') is 'I'.
+// Simulates the letters of a Turkish locale, which may not be installed, during its lifetime: std::tolower('I') is 'I'.
 #pragma once
 
 #include <cctype>
@@ -10,7 +10,7 @@
 #include "tests/support/temp_folder.h"
 #include "tests/support/variable.h"
 
-namespace gearshift {
+namespace gearshift::test {
 
 class TurkishLetters {
  public:
@@ -29,4 +29,4 @@ class TurkishLetters {
   Variable locpath_;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::test

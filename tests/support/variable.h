@@ -1,4 +1,4 @@
-// An environment variable that a test sets, or takes away, for as long as this lives.
+// Sets or unsets an environment variable during its lifetime.
 #pragma once
 
 #include <stdlib.h>
@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-namespace gearshift {
+namespace gearshift::test {
 
 class Variable {
  public:
@@ -29,4 +29,4 @@ class Variable {
   std::optional<std::string> was_;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::test

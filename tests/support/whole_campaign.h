@@ -1,12 +1,12 @@
-// How much of a campaign a test runs: all of it under `./test --full`, which sets GEARSHIFT_FULL, else a sample.
+// Extent of a test campaign: complete under `./test --full`, which sets GEARSHIFT_FULL, otherwise a sample.
 #pragma once
 
 #include <cstdlib>
 
-namespace gearshift {
+namespace gearshift::test {
 
 inline bool is_whole_campaign() {
   return std::getenv("GEARSHIFT_FULL") != nullptr;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

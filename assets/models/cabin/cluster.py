@@ -34,7 +34,7 @@ def arch(y, half_w, top, foot, n=30, e=3.2):
 
 
 def build_hood():
-    """Arches from the inner back over the lip to the outer back."""
+    """Hood: arches from the inner back over the lip to the outer back."""
     sections = (
         (0.715, 0.158, 0.436, 0.300),
         (0.66, 0.163, 0.446, 0.297),
@@ -68,7 +68,7 @@ def build_dial(name, side):
     D = shifted(side * DIAL_DX, -0.0015, 0)
     scene.empty(name + "Dial", D, "Cluster")
     face = Part(name + "Face", D, name + "Dial")
-    size = 2 * DIAL_R * 256 / 250  # the printed face ends at 250 of 256
+    size = 2 * DIAL_R * 256 / 250  # the printed face covers 250 of 256 px
     face.flat(D, circle(DIAL_R + 0.0008, 48), 0, "Prints", (prints.rect(name.lower()), D, size, size))
     face.build()
     needle = Part(name + "Needle", D, name + "Dial")
@@ -77,7 +77,7 @@ def build_dial(name, side):
     cap = [(0.0085, 0.001), (0.0085, 0.0065), (0.0075, 0.008), (0.0002, 0.0083)]
     needle.lathe(D, cap, "PlasticGloss", n=18)
     needle.build()
-    # at rest on zero: about Blender's -Y, which is glTF's +Z
+    # At rest on zero: rotation about Blender's -Y, which is glTF's +Z.
     scene.rest_rotation(name + "Needle", Matrix.Rotation(radians(-DIAL_SWEEP / 2), 4, "Y"))
 
 
@@ -137,7 +137,7 @@ def counter_clockwise(outline):
 
 
 def build_lamp(name, colour, x, z, outlines):
-    """One node, lit alone by its node's emission; all lamps share a material, its picture gives the colour."""
+    """One node, lit separately by its emission; all lamps share a material whose picture gives the colour."""
     L = shifted(x / 1e3, -0.0012, z / 1e3)
     field = (prints.rect(colour), L, 0.03, 0.03)
     part = Part(name, L, "Cluster")

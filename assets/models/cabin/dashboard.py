@@ -7,11 +7,11 @@ from cabin.dimensions import CENTRE_X, DASH_NOSE_Y, DASH_TOP_Z, HALF_BELT, SCREE
 from craft.geometry import circle, frame, rounded, smooth_path
 from craft.part import Part
 
-RECESS_HALF_W = 0.180  # of the recess behind the cluster hood
+RECESS_HALF_W = 0.180  # half width of the recess behind the cluster hood
 
 
 def columns():
-    """x of the sections: dense where the recess begins and ends."""
+    """The sections' x: dense where the recess begins and ends."""
     left, right = CENTRE_X - HALF_BELT - 0.01, CENTRE_X + HALF_BELT + 0.01
     edges = {left, left + 0.03, left + 0.10, right - 0.10, right - 0.03, right, CENTRE_X, CENTRE_X + 0.13, 0.6, 0.75}
     for x in (0.08, 0.15, 0.178, 0.196, 0.235):
@@ -94,7 +94,7 @@ def add_glovebox(part):
 
 
 def add_knee_panel(part):
-    """Below the column, with the light switch on its left."""
+    """Knee panel below the column, with the light switch on its left."""
     part.panel(
         frame((0, 0.682, 0.205), -13), rounded(0.44, 0.15, 0.03), -0.03, 0.010, "PlasticSoft", bevel=0.008, seg=3
     )

@@ -2,7 +2,7 @@
 from mathutils import Vector
 
 EYE = Vector((0.0, -0.05, 0.635))
-CENTRE_X = 0.335  # car's middle, right of the driver's
+CENTRE_X = 0.335  # the car's centre line, to the right of the driver
 HALF_BELT = 0.70  # inner half width at the belt line
 HALF_ROOF = 0.56  # inner half width at the roof rail
 FLOOR_Z = -0.27
@@ -10,7 +10,7 @@ GROUND_Z = -0.53  # road under the tyres: 0.26 m below the heel, the eye is at 1
 BELT_Z = 0.42  # top of the door panels
 ROOF_Z = 0.945  # highest point of the roof lining, in the middle
 RAIL_Z = 0.885  # roof lining at the rails
-SCREEN_BASE = (1.20, 0.405)  # windscreen in the middle (y, z), foot and head: 31 deg rake
+SCREEN_BASE = (1.20, 0.405)  # windscreen on the centre line (y, z), base and top: 31 deg rake
 SCREEN_HEAD = (0.42, 0.875)
 DASH_TOP_Z, DASH_NOSE_Y = 0.445, 0.655
 
@@ -18,16 +18,17 @@ WHEEL_CENTRE, WHEEL_D, WHEEL_TILT = Vector((0, 0.40, 0.365)), 0.37, 25.0
 RIM_R = 0.0155  # half the thickness of the rim
 
 CLUSTER_CENTRE, CLUSTER_TILT = Vector((0, 0.70, 0.366)), 18.0
-DIAL_R, DIAL_DX = 0.046, 0.070  # radius, distance of the dial centres from the cluster's
+DIAL_R, DIAL_DX = 0.046, 0.070  # radius; distance of the dials' centres from the cluster's centre
 DIAL_SWEEP = 270.0  # clockwise from 135 deg left of twelve o'clock
-TACH_TOP, TACH_RED, SPEED_TOP = 8, 6.5, 220  # 1000/min, 1000/min, km/h
+TACH_TOP, TACH_RED, SPEED_TOP = 8, 6.5, 220  # [1000/min], [1000/min], [km/h]
 
-LEVER_LENGTH = 0.120  # pivot to knob centre: the device's yoke
+LEVER_LENGTH = 0.120  # pivot to knob centre: the device's yoke radius
 KNOB_CENTRE = Vector((CENTRE_X - 0.005, 0.27, 0.127))
 KNOB_D = 0.048
 LEVER_PIVOT = KNOB_CENTRE - Vector((0, 0, LEVER_LENGTH))
 GATE_Z = LEVER_PIVOT.z + 0.030  # upper face of the gate plate
-GATE_OUTER, GATE_OPENING = (0.128, 0.136), (0.098, 0.106)  # of the plate frame; opening corners of 10 mm radius
+# outer size of the plate frame; its opening, with corners of 10 mm radius
+GATE_OUTER, GATE_OPENING = (0.128, 0.136), (0.098, 0.106)
 GATE_INSERT_DEPTH = 0.003  # surface of the insert, below the frame's
 
 PEDALS = {  # x, pad width, pad height
@@ -46,7 +47,7 @@ PILLAR_FOOT = (1.085, 0.405)  # A-pillar (y, z)
 
 
 def side_x(side, z):
-    """Inner side wall: upright up to the belt, leaning in above. side: -1 left, +1 right."""
+    """x of the inner side wall: vertical up to the belt, leaning inwards above. side: -1 left, +1 right."""
     if z < BELT_Z:
         return CENTRE_X + side * HALF_BELT
     k = (z - BELT_Z) / (RAIL_Z - BELT_Z)

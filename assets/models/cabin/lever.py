@@ -19,7 +19,7 @@ from craft.geometry import at, frame, lerp, rounded, smooth_path
 from craft.part import Part
 
 GATE = Matrix.Translation((LEVER_PIVOT.x, LEVER_PIVOT.y, GATE_Z))
-GATE_FACE = frame((LEVER_PIVOT.x, LEVER_PIVOT.y, GATE_Z), 90)  # faces up: depth is height, its z is forward
+GATE_FACE = frame((LEVER_PIVOT.x, LEVER_PIVOT.y, GATE_Z), 90)  # faces up: depth is height, z is forward
 BOOT_HEIGHT = KNOB_CENTRE.z - 0.032 - GATE_Z
 CAP_R = 0.0167
 
@@ -35,7 +35,7 @@ def grown(size, by, r):
 
 
 def build_gate_frame():
-    """Open frame; the slotted insert of the loaded gate is made by the stage at GateMount."""
+    """Open frame; the stage builds the loaded gate's slotted insert at GateMount."""
     part = Part("GatePlate", GATE, "Console", smooth=30)
     outlines = (
         (grown(GATE_OUTER, 0, 0.018), -0.006),

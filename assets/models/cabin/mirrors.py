@@ -8,7 +8,7 @@ from craft.part import Part
 
 
 def half_way(to_eye, to_view):
-    """Normal of a mirror that shows `to_view` to the eye."""
+    """The normal of a mirror that shows the direction `to_view` to the eye."""
     return (to_eye.normalized() + to_view.normalized()).normalized()
 
 

@@ -1,4 +1,4 @@
-"""What is seen through the windscreen: the screen itself, wipers, bonnet and wings."""
+"""The view through the windscreen: the screen itself, wipers, bonnet and wings."""
 from math import pi, sin
 
 import numpy as np

@@ -1,4 +1,4 @@
-"""Where the cabin is looked at from: viewpoints that decide what is hidden, texel density, cameras of previews."""
+"""Views of the cabin: viewpoints that decide which faces are hidden, texel density, preview cameras."""
 from mathutils import Vector
 
 from cabin.dimensions import CENTRE_X, CLUSTER_CENTRE, EYE, KNOB_CENTRE
@@ -23,12 +23,12 @@ VIEWPOINTS = [
     (0.235, 0.175, 0.275),
     (0.0, 0.475, 0.455),
     (0.56, 0.12, 0.45),
-    (-0.10, -0.12, 0.58),  # heads about the driver's place
+    (-0.10, -0.12, 0.58),  # head positions about the driver's
     (0.12, 0.10, 0.62),
     (0.0, 0.05, 0.72),
     (0.33, 0.47, 0.79),  # the interior mirror
 ]
-# What another pose shows from behind: hides nothing and is never cut.
+# Moving parts: another pose would reveal the faces behind them, so they hide nothing and are never cut.
 MOVING = ("SteeringWheel", "Pedal", "Handbrake", "Lever", "Knob", "Boot", "TachNeedle", "SpeedNeedle", "SunVisor")
 NEAR = ("Knob", "Boot", "GatePlate", "Lever", "Cluster", "Tach", "Speed", "Gear", "SteeringWheel")
 CLOSE = (
@@ -48,14 +48,14 @@ FAR = ("Roof", "Pillars", "Rear", "Floor", "Tunnel", "SunVisor", "Wipers", "Belt
 
 
 def density(name):
-    """Texels along an edge, against an ordinary part."""
+    """Texels along an edge, relative to an ordinary part."""
     for k, names in ((2.2, NEAR), (1.5, CLOSE), (0.5, FAR)):
         if name.startswith(names):
             return k
     return 0.9
 
 
-CAMERAS = {  # position, target, field of view [deg] across
+CAMERAS = {  # position, target, horizontal field of view [deg]
     "driver": (EYE, Vector((0.10, 0.70, 0.42)), 82),
     "lever": (EYE + Vector((0.03, 0.06, 0.0)), Vector((0.29, 0.33, 0.07)), 50),
     "quarter": (Vector((0.93, -0.30, 0.80)), Vector((0.06, 0.46, 0.20)), 88),

@@ -1,4 +1,4 @@
-"""What the cabin is made of: its textures and materials."""
+"""Textures and materials of the cabin."""
 from craft import prints, textures
 from craft.materials import material
 

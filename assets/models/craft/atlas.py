@@ -1,4 +1,4 @@
-"""Packs the islands of a UV layer into the unit square: shelves of falling height, largest scale that fits."""
+"""Packs the islands of a UV layer into the unit square: shelves of decreasing height, at the largest scale that fits."""
 import numpy as np
 
 
@@ -30,7 +30,7 @@ def islands(mesh, layer, chosen):
 
 
 def world_scale(ob, layer, loops_of_faces):
-    """Metres a unit of uv: root of world area over uv area of some faces."""
+    """Metres per unit of uv: the square root of world area over uv area of some faces."""
     area = uv_area = 0.0
     uv = ob.data.uv_layers[layer].data
     for p in loops_of_faces:
@@ -41,7 +41,7 @@ def world_scale(ob, layer, loops_of_faces):
 
 
 def upright(points):
-    """Turned so that the bounding box is smallest, lying on its long side, corner at the origin."""
+    """The points, rotated for the smallest bounding box, lying on its long side, with a corner at the origin."""
     best = None
     for a in np.radians(np.arange(0, 90, 7.5)):
         c, s = np.cos(a), np.sin(a)
@@ -56,7 +56,7 @@ def upright(points):
 
 
 def shelves(sizes, margin):
-    """Lower left corners of boxes in the unit square, or None where they do not fit."""
+    """Lower left corners of boxes in the unit square, or None if they do not fit."""
     places = np.zeros((len(sizes), 2))
     x = y = height = margin
     for i in sorted(range(len(sizes)), key=lambda k: (-sizes[k][1], -sizes[k][0], k)):
@@ -73,7 +73,7 @@ def shelves(sizes, margin):
 
 
 def pack(shapes, margin):
-    """shapes: arrays of points in metres. Returns them placed in the unit square and the scale [1/m]."""
+    """shapes: arrays of points in metres. Returns them, packed in the unit square, and the scale [1/m]."""
     shapes = [upright(s) for s in shapes]
     sizes = np.array([s.max(0) for s in shapes])
     low, high = 0.0, 4.0

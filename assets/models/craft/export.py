@@ -1,6 +1,6 @@
-"""Writes a .glb and takes out of it what no material uses.
+"""Writes a .glb and removes data that no material uses.
 
-Blender's exporter writes texture coordinates and tangents for every mesh or for none. Here each primitive keeps only
+Blender's exporter writes texture coordinates and tangents for either every mesh or none. Here each primitive keeps only
 the attributes that its material reads: TEXCOORD_0 and _1 where a texture samples them, TANGENT with a normal map.
 """
 import json
@@ -13,7 +13,7 @@ from craft import scene
 
 
 def triangulate():
-    """Tangents are exported for triangles only."""
+    """Triangulates all meshes: tangents are exported only for triangles."""
     for o in scene.meshes():
         m = o.modifiers.new("triangles", "TRIANGULATE")
         m.quad_method, m.ngon_method, m.keep_custom_normals = "FIXED", "BEAUTY", True
@@ -23,7 +23,7 @@ def triangulate():
 
 
 def write(path, skins=False, keep_uv=()):
-    """keep_uv: materials whose TEXCOORD_0 stays though nothing samples it."""
+    """keep_uv: materials that keep TEXCOORD_0 although nothing samples it."""
     if not skins:
         triangulate()
     bpy.ops.object.select_all(action="DESELECT")
@@ -48,7 +48,7 @@ def write(path, skins=False, keep_uv=()):
 
 
 def texture_sets(material):
-    """UV sets that a material samples, and whether it has a normal map."""
+    """The UV sets that a material samples, and whether it has a normal map."""
     pbr = material.get("pbrMetallicRoughness", {})
     uses = [pbr.get("baseColorTexture"), pbr.get("metallicRoughnessTexture")]
     uses += [material.get(k) for k in ("normalTexture", "occlusionTexture", "emissiveTexture")]
@@ -62,7 +62,7 @@ def drop_unused_attributes(gltf, keep_uv):
             sets, has_normal_map = texture_sets(material)
             if material.get("name") in keep_uv:
                 sets.add(0)
-            last = max(sets, default=-1)  # sets are counted without a gap
+            last = max(sets, default=-1)  # sets must be numbered without gaps
             unused = {"TEXCOORD_%d" % k for k in range(last + 1, 4)}
             if not has_normal_map:
                 unused.add("TANGENT")
@@ -70,7 +70,7 @@ def drop_unused_attributes(gltf, keep_uv):
 
 
 def floats(gltf, blob, accessor):
-    """View of a float accessor in the binary, one row an element; Blender writes them without stride."""
+    """A float accessor's view of the binary, one row per element; Blender writes them without stride."""
     a = gltf["accessors"][accessor]
     first = gltf["bufferViews"][a["bufferView"]].get("byteOffset", 0) + a.get("byteOffset", 0)
     width = {"VEC2": 2, "VEC3": 3, "VEC4": 4}[a["type"]]
@@ -78,7 +78,7 @@ def floats(gltf, blob, accessor):
 
 
 def mend_tangents(gltf, blob):
-    """Triangles without area in uv get no tangent from Blender: any direction across the normal will do."""
+    """Blender gives triangles without uv area no tangent; any direction perpendicular to the normal will do."""
     for mesh in gltf["meshes"]:
         for p in mesh["primitives"]:
             if "TANGENT" not in p["attributes"]:
@@ -122,7 +122,7 @@ def trim(path, keep_uv):
 
 
 def repack_views(gltf, blob):
-    """New binary with the views that are still used."""
+    """Builds a new binary with only the views still in use."""
     holders = gltf["accessors"] + gltf.get("images", [])
     views = sorted({h["bufferView"] for h in holders})
     place, out, new_views = {v: i for i, v in enumerate(views)}, bytearray(), []

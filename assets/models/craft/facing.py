@@ -1,4 +1,4 @@
-"""Finds parts that are looked at from behind: a renderer that culls would leave holes there."""
+"""Finds parts that are visible from behind: back-face culling would leave holes there."""
 from bisect import bisect_right
 from math import cos, pi, sin, sqrt
 
@@ -9,7 +9,7 @@ from craft import scene
 
 
 def directions(n):
-    """n directions spread evenly over the sphere (golden angle)."""
+    """n directions, evenly distributed over the sphere (golden angle)."""
     for i in range(n):
         z = 1 - (2 * i + 1) / n
         r, a = sqrt(1 - z * z), i * pi * (3 - sqrt(5))
@@ -17,7 +17,7 @@ def directions(n):
 
 
 def seen_from_behind(viewpoints, rays=4000):
-    """{part: share of the rays that hit the back of one of its single-sided faces}, in percent."""
+    """{part: percentage of the rays that hit the back of one of its single-sided faces}."""
     verts, faces, first, names = [], [], [], []
     for o in scene.meshes():
         if any(m.name == "Glass" for m in o.data.materials):

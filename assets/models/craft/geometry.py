@@ -40,7 +40,7 @@ def side_frame(origin, side):
 
 
 def at(F, x, depth, z):
-    """World point of a frame's (x, z) at `depth` towards the viewer."""
+    """The world point at (x, z) of a frame, `depth` towards the viewer."""
     return tuple(F @ Vector((x, -depth, z)))
 
 
@@ -63,7 +63,7 @@ def level_circle(x, y, z, r, n):
 
 
 def super_power(v, p):
-    """Signed power: the half axis of a superellipse of exponent p."""
+    """Signed power, for superellipses of exponent p."""
     return math.copysign(abs(v) ** (2 / p), v)
 
 
@@ -73,7 +73,7 @@ def superellipse(half_w, half_h, p, n):
 
 
 def smooth_path(points, n):
-    """Catmull-Rom curve through the points, n points a span."""
+    """Catmull-Rom curve through the points, n points per span."""
     P = [Vector(p) for p in points]
     P = [2 * P[0] - P[1]] + P + [2 * P[-1] - P[-2]]
     out = []

@@ -40,7 +40,7 @@ def material(
     repeats=8.0,
     occlusion=True,
 ):
-    """colour, emit: linear; cutoff: what the texture's alpha leaves below it is a hole; occlusion: whether the baked
+    """colour, emit: linear; cutoff: texels with alpha below it are holes; occlusion: whether the baked
     ambient occlusion is laid over it."""
     m = bpy.data.materials.new(name)
     m.use_nodes = True

@@ -1,7 +1,7 @@
 """Ambient occlusion baked into a second UV set.
 
-Faces that no viewpoint in the cabin sees share one texel; what is near the hands gets more texels than the roof. Two
-reaches: the near one draws contacts and seams, the far one darkens foot wells and what is under the dashboard.
+Faces that no viewpoint in the cabin sees share one texel; parts near the hands get more texels than the roof. Two
+reaches: the near one shades contacts and seams, the far one darkens foot wells and the space under the dashboard.
 """
 import os
 
@@ -12,10 +12,10 @@ from PIL import Image
 from craft import atlas, scene, textures
 from craft.materials import MATERIALS, load_image
 
-SIZE = 2048  # texels a side
-NEAR, FAR = (SIZE, 0.25, 48), (SIZE // 2, 0.90, 48)  # texels a side, reach [m], rays a texel
-FAR_SHARE = 0.40  # of the far picture: most of a cabin's walls are within its reach of another one
-FLOOR = 0.26  # darkest value: light has bounced more than once
+SIZE = 2048  # texels per side
+NEAR, FAR = (SIZE, 0.25, 48), (SIZE // 2, 0.90, 48)  # texels per side, reach [m], rays per texel
+FAR_SHARE = 0.40  # weight of the far picture: most cabin walls are within its reach of another wall
+FLOOR = 0.26  # darkest value, because light bounces more than once
 
 
 def wanted(ob):
@@ -23,7 +23,7 @@ def wanted(ob):
 
 
 def unwrap(objects, hidden, density):
-    """UVAO: smart projection of what is seen, density[name] times as many texels; the rest in the corner."""
+    """UVAO: smart projection of visible faces, with density[name] times as many texels; the rest go into a corner."""
     bpy.ops.object.select_all(action="DESELECT")
     for o in objects:
         layer = o.data.uv_layers.new(name="UVAO")
@@ -54,7 +54,7 @@ def unwrap(objects, hidden, density):
 
 
 def joined_copy(objects):
-    """One mesh of all objects where they stand in the world, hidden faces included: they still cast shade."""
+    """One mesh of all objects in world space, including hidden faces, which still occlude."""
     bpy.ops.object.select_all(action="DESELECT")
     for o in objects:
         copy = scene.link(o.copy())
@@ -69,12 +69,12 @@ def joined_copy(objects):
 
 
 def openness(node, side, reach, rays):
-    """Share of the rays that meet nothing within their reach, SIZE x SIZE. node: of the picture that is baked."""
+    """The fraction of rays that hit nothing within reach, SIZE x SIZE. node: the image node of the baked picture."""
     sc = bpy.context.scene
     node.image = bpy.data.images.new("occlusion", side, side)
     node.image.colorspace_settings.name = "Non-Color"
     sc.render.engine, sc.cycles.samples, sc.cycles.seed = "CYCLES", rays, 0
-    sc.cycles.use_denoising = False  # Debian's Blender has no denoiser: left on, the bake comes out black
+    sc.cycles.use_denoising = False  # Debian's Blender has no denoiser: with this setting on, the bake comes out black
     sc.world = sc.world or bpy.data.worlds.new("world")
     sc.world.light_settings.distance = reach
     bpy.ops.object.bake(type="AO", margin=3, use_clear=True)
@@ -100,7 +100,7 @@ def bake(objects):
     layer.active_render = True
     near, far = openness(node, *NEAR), openness(node, *FAR)
     path = save_occlusion(near * (1 - FAR_SHARE + FAR_SHARE * far))
-    mesh = whole.data  # an orphan mesh with an empty slot crashes the exporter: remove it too
+    mesh = whole.data  # an orphan mesh with an empty slot crashes the exporter, so remove it, too
     bpy.data.objects.remove(whole)
     bpy.data.meshes.remove(mesh)
     bpy.data.materials.remove(target)

@@ -24,7 +24,7 @@ def box_uv(mesh):
 
 
 def planar_uv(mesh, rect, F, w, h):
-    """UV0: the w x h window around the origin of frame F onto a rectangle (u0, v0, u1, v1), v counted upwards."""
+    """UV0: the w x h window around the origin of frame F onto a rectangle (u0, v0, u1, v1), v upwards."""
     u0, v0, u1, v1 = rect
     to_frame = F.inverted()
     uv = mesh.uv_layers["UVMap"].data
@@ -58,7 +58,7 @@ class Part:
         bevel_angle=35,
         side=0,
     ):
-        """Any mesh. mats: one material a face; solid: thickness given to a sheet; side: -1, 0, 1 where it grows;
+        """Adds any mesh. mats: one material per face; solid: thickness added to a sheet, on side -1, 0 (both) or 1;
         cut: objects subtracted; prints: (rect, frame, w, h) of a printed face."""
         mesh = bpy.data.meshes.new("piece")
         M = M or Matrix()
@@ -104,7 +104,7 @@ class Part:
         return self.piece(V, [tuple(range(len(V)))], mat, F, recalc=False, prints=prints)
 
     def loft(self, rings, mat, closed=True, caps=True, loop=False, strip_mats=None, **k):
-        """Skin over rings of equally many points. strip_mats: one material a strip along the loft."""
+        """Skin over rings of equally many points. strip_mats: one material per strip along the loft."""
         n, count = len(rings[0]), len(rings)
         faces, mats = [], []
         for j in range(count if loop else count - 1):
@@ -124,12 +124,12 @@ class Part:
         return self.piece([p for r in rings for p in r], faces, mat, mats=mats, **k)
 
     def lathe(self, F, profile, mat, n=32, caps=False, **k):
-        """Profile (radius, depth towards the viewer) turned about the face normal of F."""
+        """Profile (radius, depth towards the viewer) revolved about the face normal of F."""
         angles = [2 * pi * i / n for i in range(n)]
         return self.loft([[at(F, r * cos(a), d, r * sin(a)) for a in angles] for r, d in profile], mat, caps=caps, **k)
 
     def tube(self, path, r, mat, n=10, loop=False, flat=1.0, caps=True, **k):
-        """Tube along a path; r may be one a point; flat squeezes the section along its second axis."""
+        """Tube along a path; r may be a list, one per point; flat squeezes the section along its second axis."""
         P = [Vector(p) for p in path]
         m, rings, up = len(P), [], None
         for i, p in enumerate(P):
@@ -145,7 +145,7 @@ class Part:
         return self.loft(rings, mat, caps=caps and not loop, loop=loop, **k)
 
     def sheet(self, grid, mat, thick=0.006, sub=0, strip_mats=None, **k):
-        """Rows of points, thickened to both sides."""
+        """A grid of points, thickened to both sides."""
         return self.loft(grid, mat, closed=False, solid=thick, sub=sub, strip_mats=strip_mats, **k)
 
     def seam(self, path, mat="Stitch", width=0.0035, normal=None, lift=0.0008):

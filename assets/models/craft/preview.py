@@ -1,4 +1,4 @@
-"""Small path-traced pictures to judge a model by while it is made."""
+"""Small path-traced pictures for checking a model during modelling."""
 import os
 from math import radians
 
@@ -39,7 +39,8 @@ def add_sky():
     ramp.color_ramp.elements[1].color = (0.50, 0.62, 0.85, 1)
     ramp.color_ramp.elements.new(0.15).color = (0.75, 0.80, 0.85, 1)
     path, strength = new("ShaderNodeLightPath"), new("ShaderNodeMapRange")
-    strength.inputs[3].default_value, strength.inputs[4].default_value = 2.6, 0.8  # dimmer for the camera itself
+    # dimmer where the camera sees it directly
+    strength.inputs[3].default_value, strength.inputs[4].default_value = 2.6, 0.8
     for a, b in (
         (where.outputs["Generated"], split.inputs[0]),
         (split.outputs[2], height.inputs[0]),
@@ -68,7 +69,7 @@ def camera(name, position, target, fov):
 
 
 def render(names, cameras, samples, size, hide=None):
-    """Renders to FOLDER/preview_<camera>.png and removes again what it added. hide: {camera: node name prefixes}."""
+    """Renders to FOLDER/preview_<camera>.png and removes its own objects. hide: {camera: node name prefixes}."""
     if not names:
         return
     before = set(o.name for o in bpy.data.objects)

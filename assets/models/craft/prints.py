@@ -11,9 +11,9 @@ from craft import textures
 
 WIDTH, HEIGHT = 2048, 1024
 DIAL = 672
-GEARS = "RN123456789"  # one cell each; the gear panel's uv0 covers N
+GEARS = "RN123456789"  # one cell per character; the gear panel's uv0 covers N
 GEAR_CELL = 176
-GEAR_STEP = GEAR_CELL / WIDTH  # uv0 shift in u from one character to the next
+GEAR_STEP = GEAR_CELL / WIDTH  # shift of uv0 in u from one character to the next
 PIXELS = {
     "tach": (0, 0, DIAL, DIAL),
     "speed": (DIAL, 0, 2 * DIAL, DIAL),
@@ -25,14 +25,14 @@ PIXELS = {
     "amber": (1568, 580, 1632, 644),
     "green": (1648, 580, 1712, 644),
 }
-LAMPS = {"red": (255, 48, 39), "amber": (255, 173, 39), "green": (63, 255, 112)}  # sRGB, lit
+LAMPS = {"red": (255, 48, 39), "amber": (255, 173, 39), "green": (63, 255, 112)}  # sRGB, when lit
 FONT = "/usr/share/fonts/truetype/dejavu/DejaVuSans-Bold.ttf"
 OVER = 2  # supersampling
 WHITE, GREY = (236, 238, 240), (150, 158, 166)
 
 
 def rect(name):
-    """(u0, v0, u1, v1) with v counted upwards, Blender's sense."""
+    """(u0, v0, u1, v1) with v upwards, as in Blender."""
     a, b, c, d = PIXELS[name]
     return a / WIDTH, 1 - d / HEIGHT, c / WIDTH, 1 - b / HEIGHT
 
@@ -42,7 +42,7 @@ def dimmed(colour, k):
 
 
 class Sheet:
-    """Two pictures drawn together: what reflects light and what glows."""
+    """Two pictures drawn together: base colour and emission."""
 
     def __init__(self):
         self.base = Image.new("RGB", (WIDTH * OVER, HEIGHT * OVER), (10, 10, 11))
@@ -180,7 +180,7 @@ def draw_hazard(sheet):
 
 
 def draw_lamps(sheet):
-    """Plain fields: a lamp's outline lies in one of them."""
+    """Plain fields, one per lamp colour; a lamp's outline is inside one of them."""
     for name, light in LAMPS.items():
         sheet.box(PIXELS[name], dimmed(light, 0.28), light)
 

@@ -38,7 +38,7 @@ def empty(name, world, parent="Cabin"):
 
 
 def rest_rotation(name, local):
-    """Turns a node at its parent's origin: the rest pose of a needle."""
+    """Rotates a node at its parent's origin: the rest pose of a needle."""
     node = bpy.data.objects[name]
     node.matrix_basis = local
     WORLD[name] = WORLD[node.parent.name] @ local

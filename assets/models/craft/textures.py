@@ -1,21 +1,21 @@
-"""Tiling textures made of noise: grain of plastic, leather, felt, asphalt, weave of fabric, stitches."""
+"""Tiling textures from noise: grain of plastic, leather, felt, asphalt, weave of fabric, stitches."""
 import os
 
 import numpy as np
 from PIL import Image
 
-FOLDER = None  # where textures are written; set by build.py
+FOLDER = None  # folder for textures; set by build.py
 _random = np.random.default_rng(7)
 
 
 def restart():
-    """Every model begins with the same noise, whatever was built before it."""
+    """Resets the random generator, so that a model's noise does not depend on what was built before it."""
     global _random
     _random = np.random.default_rng(7)
 
 
 def band_noise(n, low, high):
-    """Tiling noise of spatial frequencies about low..high cycles a tile, mean 0, deviation 1."""
+    """Tiling noise with spatial frequencies of about low..high cycles per tile, mean 0, standard deviation 1."""
     k = np.hypot(*np.meshgrid(np.fft.fftfreq(n) * n, np.fft.fftfreq(n) * n))
     band = np.exp(-(((k - (low + high) / 2) / ((high - low) / 2)) ** 2))
     h = np.fft.ifft2(np.fft.fft2(_random.standard_normal((n, n))) * band).real
@@ -65,7 +65,7 @@ def felt():
 
 
 def fabric():
-    """Woven basket of 16 x 16 threads with a faint coloured check. Returns (colour, normal map)."""
+    """Basket weave of 16 x 16 threads with a faint coloured check. Returns (colour, normal map)."""
     n = 256
     y, x = np.mgrid[0:n, 0:n] * (2 * np.pi / n)
     warp_up = np.sin(8 * x) * np.sin(8 * y) > 0
@@ -77,7 +77,7 @@ def fabric():
 
 
 def stitches():
-    """One stitch a tile along u: red thread over dark cloth."""
+    """One stitch per tile along u: red thread over dark cloth."""
     u, v = np.meshgrid((np.arange(32) + 0.5) / 32, (np.arange(16) + 0.5) / 16)
     thread = np.clip(1.3 - (np.abs(u - 0.5) / 0.38) ** 6 - (np.abs(v - 0.5) / 0.36) ** 4, 0, 1)[..., None]
     cloth, red = np.array([20, 19, 19.0]), np.array([176, 36, 28.0])
@@ -85,7 +85,7 @@ def stitches():
 
 
 def knob_cap():
-    """Neutral cap of the knob: dark disc with faint turned rings; the stage replaces it by the pattern of its gate."""
+    """The knob's neutral cap: dark disc with faint turned rings; the stage replaces it with its gate's shift pattern."""
     n = 128
     y, x = np.mgrid[0:n, 0:n] - (n - 1) / 2
     r = np.hypot(x, y) / (n / 2)

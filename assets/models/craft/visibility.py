@@ -1,6 +1,6 @@
-"""Which faces are seen from where a head may be; what is seen from nowhere is left out of the file.
+"""Finds the faces visible from possible head positions; faces visible from none are left out of the file.
 
-What moves hides nothing and is never cut: another pose would show the hole.
+Moving parts hide nothing and are never cut, because another pose would reveal the hole.
 """
 import bmesh
 from mathutils import Vector
@@ -9,7 +9,7 @@ from mathutils.bvhtree import BVHTree
 from craft import scene
 from craft.facing import directions
 
-RAYS = 20000  # from each viewpoint into all directions: they find large faces whose corners are hidden
+RAYS = 20000  # rays from each viewpoint in all directions: they find large faces whose corners are hidden
 
 
 def sees_through(ob):
@@ -17,11 +17,11 @@ def sees_through(ob):
 
 
 class World:
-    """All faces of some objects in world coordinates, for rays; knows which object a face is of."""
+    """All faces of some objects in world coordinates, for ray casting, with each face's object."""
 
     def __init__(self, objects):
         verts, faces = [], []
-        self.owner = []  # (object's name, number of the face in it)
+        self.owner = []  # (object's name, index of the face in it)
         for o in objects:
             first, world = len(verts), scene.WORLD[o.name]
             verts += [world @ v.co for v in o.data.vertices]
@@ -35,7 +35,7 @@ class World:
         return self.tree.ray_cast(eye, ray / distance, distance - 0.002)[0] is not None
 
     def hit_from(self, eyes):
-        """{(object's name, face)} that rays from the eyes end on, whichever side they meet."""
+        """The set of (object's name, face) hit by rays from the eyes, on either side."""
         hits = set()
         for eye in eyes:
             for d in directions(RAYS):
@@ -50,7 +50,7 @@ def looked_at(world, points, normal, eyes):
 
 
 def seen_of(ob, world, hits, eyes):
-    """One flag a face: a ray ended on it, or its middle or a point near a corner is seen."""
+    """One flag per face: a ray hit it, or its centre or a point near a corner is visible."""
     place = scene.WORLD[ob.name]
     turn = place.to_3x3()
     flags = []
@@ -68,13 +68,13 @@ def seen_of(ob, world, hits, eyes):
 
 
 def with_neighbours(ob, flags):
-    """What touches a seen face counts as seen: its edge may be, between two points that were tried."""
+    """Neighbours of a visible face count as visible, because their edges may be, between two sampled points."""
     corners = {v for p, seen in zip(ob.data.polygons, flags) if seen for v in p.vertices}
     return [any(v in corners for v in p.vertices) for p in ob.data.polygons]
 
 
 def seen_faces(objects, viewpoints, moving):
-    """{object's name: one flag a face}. moving: prefixes of the names of what moves."""
+    """{object's name: one flag per face}. moving: name prefixes of the moving parts."""
     eyes = [Vector(v) for v in viewpoints]
     still = World([o for o in objects if not sees_through(o) and not o.name.startswith(moving)])
     hits = still.hit_from(eyes)
@@ -82,7 +82,7 @@ def seen_faces(objects, viewpoints, moving):
 
 
 def cut(objects, seen, moving):
-    """Takes unseen faces out of what stands still; normals stay as they were. Returns how many."""
+    """Removes invisible faces of fixed parts, keeping the normals. Returns their number."""
     count = 0
     for o in objects:
         flags = seen[o.name]

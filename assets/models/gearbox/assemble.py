@@ -1,4 +1,4 @@
-"""Parts of the cut-away gearbox in their neutral places."""
+"""Parts of the cut-away gearbox in their neutral positions."""
 from math import cos, pi, radians, sin
 
 from mathutils import Matrix, Vector
@@ -53,7 +53,7 @@ def build_shaft():
 
 
 def build_hub():
-    """Splined to the shaft, carries the sleeve; three keys press the rings."""
+    """Hub, splined to the shaft; carries the sleeve; three keys press the rings."""
     part = Part("Hub", parent="Gearbox", smooth=35)
     h = d.HUB_HALF
     bore, web, rim = d.SHAFT_R + 0.0005, d.SHAFT_R + 0.005, d.SPLINE_R - 0.0055
@@ -69,7 +69,7 @@ def build_hub():
 
 
 def build_sleeve():
-    """Internally toothed, grooved for the fork; a sector is cut out, its faces painted."""
+    """Sleeve with internal teeth and a groove for the fork; a sector is cut out and its faces painted."""
     part = Part("Sleeve", parent="Gearbox", smooth=35)
     h, g, c = d.SLEEVE_HALF, d.GROOVE_HALF, 0.0012
     base = d.SPLINE_R + d.SPLINE_DEPTH * 1.4
@@ -118,7 +118,7 @@ def build_gear(name, way):
 
 
 def rail_frame(y=0.0):
-    """Faces along the shaft: x right, z up, depth backwards."""
+    """Frame that faces along the shaft: x right, z up, depth backwards."""
     return frame((d.RAIL[0], y, d.RAIL[1]))
 
 
@@ -153,14 +153,14 @@ def build_fork():
     part.panel(frame((0, 0, 0)), outline, -thick, thick, "PaintedFork", bevel=0.0007, seg=1)
     boss = [(d.RAIL_R + 0.0003, -0.012), (0.0115, -0.012), (0.0125, -0.011), (0.0125, 0.011), (0.0115, 0.012)]
     part.lathe(rail_frame(), boss + [(d.RAIL_R + 0.0003, 0.012)], "PaintedFork", n=24)
-    for a in (angles[0], angles[-1]):  # brass pads where the fork rubs
+    for a in (angles[0], angles[-1]):  # brass pads where the fork slides
         turn = Matrix.Rotation(-a, 4, "Y")
         part.box((inner + 0.003, 0, 0), (0.006, 2 * thick + 0.0008, 0.010), "Brass", turn, bevel=0.0006, seg=1)
     part.build()
 
 
 def build_finger():
-    """Turns about x over the rails; its tip stands between the lugs of the chosen rail."""
+    """Selector finger: turns about x above the rails; its tip is between the lugs of the selected rail."""
     axis = Vector((d.RAIL[0], 0, d.RAIL[1] + d.FINGER_AXIS))
     part = Part("Finger", axis, "Gearbox", smooth=40)
     F = frame(axis, yaw=90)  # face along +x
@@ -205,7 +205,7 @@ def build_detent():
 
 
 def build_housing():
-    """Lower half of the casing with bearing walls; what was sawn is painted."""
+    """Lower half of the casing with bearing walls; the cut faces are painted."""
     part = Part("Housing", parent="Gearbox", smooth=35)
     inner, wall, half = 0.0535, 0.0045, 0.060
     a0, a1 = 196.0, 344.0

@@ -1,16 +1,16 @@
-"""Toothed rings about the shaft."""
+"""Toothed rings around the shaft."""
 from math import cos, pi, radians, sin, tan
 
 from gearbox.dimensions import SPLINE_DEPTH, SPLINE_R, TEETH
 
 
 def around(r, a, y):
-    """Point at radius r and angle a [rad] from +x towards up."""
+    """The point at radius r and angle a [rad] from +x upwards."""
     return (r * cos(a), y, r * sin(a))
 
 
 def turned(part, profile, mat, n=40, a0=0.0, a1=360.0, caps=None):
-    """Closed profile [(radius, y)] turned about the shaft, all round or from a0 to a1 degrees with capped ends."""
+    """Closed profile [(radius, y)] revolved around the shaft, fully or from a0 to a1 degrees with capped ends."""
     whole = a1 - a0 >= 360
     steps = n if whole else max(3, round(n * (a1 - a0) / 360)) + 1
     span = radians(a1 - a0)
@@ -49,7 +49,7 @@ def helical_gear(part, y0, y1, teeth, tip_r, root_r, helix, mat):
     """Trapezoid teeth twisted along the face width; open towards the body."""
     pitch = 2 * pi / teeth
     shape = ((-0.36, root_r), (-0.16, tip_r), (0.16, tip_r), (0.36, root_r))
-    twist = tan(radians(helix)) / ((tip_r + root_r) / 2)  # rad a metre
+    twist = tan(radians(helix)) / ((tip_r + root_r) / 2)  # [rad/m]
 
     def ring(y, shrink=0.0):
         points = []

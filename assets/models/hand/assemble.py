@@ -8,9 +8,9 @@ from hand import glove as picture
 from hand import gltf, grip, sleeve
 
 SOURCE = os.path.join(os.path.dirname(os.path.abspath(__file__)), "generic_hand_right.glb")
-LOOK = (-22.0, 8.0, 10.0)  # deg: heading to the right (-), fingers raised, thumb's side raised
-ELBOW = np.array([-0.085, 0.055, 0.325])  # from the knob's centre, glTF axes: left, above, behind
-FOREARM = 0.235  # m of sleeve
+LOOK = (-22.0, 8.0, 10.0)  # [deg] heading to the right (-), fingers raised, thumb side raised
+ELBOW = np.array([-0.085, 0.055, 0.325])  # from the knob's centre, in glTF axes: left, above, behind
+FOREARM = 0.235  # [m] of sleeve
 JOINTS = {"Wrist": "wrist", "Palm": "middle-finger-metacarpal"}
 PARENTS = {"Wrist": None, "Palm": "Wrist"}
 for finger, first in (
@@ -30,7 +30,7 @@ OWNERS = {v: k for k, v in JOINTS.items()}
 
 
 def owner(source_joint):
-    """Joint of ours that carries a source joint: palm bones join the palm, tips their last phalanx."""
+    """Our joint for a source joint: palm bones map to the palm, tips to their last phalanx."""
     if source_joint in OWNERS:
         return OWNERS[source_joint]
     if source_joint.endswith("tip"):
@@ -65,7 +65,7 @@ def placement():
 
 
 def merged_weights(hand, names):
-    """Joints and weights on our joints, four at most a vertex."""
+    """Indices and weights of our joints, at most four per vertex."""
     table = np.zeros((len(hand["positions"]), len(names)))
     owners = [names.index(owner(n)) for n in hand["names"]]
     for k in range(4):
@@ -77,7 +77,7 @@ def merged_weights(hand, names):
 
 
 def with_normals(mesh):
-    """Smooth normals over vertices at the same place, tangents along u."""
+    """Normals smoothed over vertices at the same position; tangents along u."""
     p, uv, t = mesh["positions"], mesh["uv"], mesh["triangles"]
     _, same = np.unique(np.round(p, 6), axis=0, return_inverse=True)
     same = same.reshape(-1)
@@ -95,7 +95,7 @@ def with_normals(mesh):
     tangents, hands = np.zeros_like(p), np.zeros(len(p))
     for k in range(3):
         np.add.at(tangents, t[:, k], along_u)
-        np.add.at(hands, t[:, k], -sign)  # glTF counts v downwards
+        np.add.at(hands, t[:, k], -sign)  # glTF's v points down
     tangents -= normals * np.sum(normals * tangents, axis=1, keepdims=True)
     length = np.linalg.norm(tangents, axis=1, keepdims=True)
     spare = np.cross(normals, np.where(np.abs(normals[:, :1]) < 0.9, [[1.0, 0, 0]], [[0, 1.0, 0]]))
@@ -112,7 +112,7 @@ def rigid(mesh, joint):
 
 
 def glove_material(colours, normals):
-    """Painted colours; the grain is finer than they are: its own scale of uv."""
+    """Painted colours; the grain is finer and has its own uv scale."""
     grain = {"index": normals, "scale": 0.45, "extensions": {"KHR_texture_transform": {"scale": [8, 8]}}}
     surface = {"baseColorTexture": {"index": colours}, "metallicFactor": 0, "roughnessFactor": 0.5}
     return {"name": "Glove", "pbrMetallicRoughness": surface, "normalTexture": grain}

@@ -1,7 +1,7 @@
-"""The picture of a driving glove on the hand's own uv, painted by where each texel lies on the open hand.
+"""The picture of a driving glove in the hand's own uv, painted by each texel's position on the open hand.
 
 Hand frame in millimetres: origin at the wrist, x to the little finger, y out of the back of the hand, -z to the
-fingertips. Picture rows count downwards, as glTF's v does.
+fingertips. Picture rows run downwards, like glTF's v.
 """
 import os
 
@@ -12,13 +12,13 @@ from craft import textures
 
 SIDE = 1024  # px
 LEATHER, SKIN, THREAD, STEEL = (47, 36, 31), (182, 126, 98), (196, 170, 130), (170, 172, 176)  # sRGB
-CUFF = (0.02, 0.02, 0.46, 0.115)  # u0, v0, u1, v1: free of the hand's islands; u round the wrist, v along it
+CUFF = (0.02, 0.02, 0.46, 0.115)  # u0, v0, u1, v1: outside the hand's islands; u around the wrist, v along it
 FINGERS = ("index", "middle", "ring", "pinky")
-OPENING = (np.array([1.0, -25.0]), np.array([9.5, 17.0]))  # on the back of the hand: middle and half axes, x and z
+OPENING = (np.array([1.0, -25.0]), np.array([9.5, 17.0]))  # on the back of the hand: centre and half axes, x and z
 
 
 def texels(hand):
-    """Rows, columns, places [mm] and normals of the texels that the hand's triangles cover, with a rim of two."""
+    """Rows, columns, positions [mm] and normals of the texels covered by the hand's triangles, plus a border of two."""
     p, uv = hand["positions"] * 1e3, hand["uv"] * SIDE
     normals = np.zeros_like(p)
     out = []
@@ -37,12 +37,12 @@ def texels(hand):
             continue
         w = (np.stack([x + 0.5, y + 0.5], -1) - a) @ np.linalg.inv(edges).T
         w = np.concatenate([1 - w.sum(-1, keepdims=True), w], -1)
-        rim = 2 * np.linalg.norm(edges, axis=0).max() / size  # two texels in barycentric measure
+        rim = 2 * np.linalg.norm(edges, axis=0).max() / size  # two texels in barycentric coordinates
         inside = (w.min(-1) >= -rim) & (y >= 0) & (y < SIDE) & (x >= 0) & (x < SIDE)
         weights = np.clip(w[inside], 0, 1)
         out.append((y[inside], x[inside], weights @ p[tri], weights @ normals[tri], w[inside].min(-1)))
     rows, columns, places, turned, depth = (np.concatenate(k) for k in zip(*out))
-    order = np.argsort(depth)  # who lies well inside its triangle comes last and wins
+    order = np.argsort(depth)  # the triangle in which a texel is deepest is written last and wins
     return rows[order], columns[order], places[order], turned[order]
 
 
@@ -57,7 +57,7 @@ class Painter:
         self.colour += share * (np.array(colour) - self.colour)
 
     def hole(self, centre, half):
-        """Skin in an opening, its leather rim, and a ring of stitches."""
+        """An opening that shows skin, its leather rim, and a ring of stitches."""
         dx, dz = (self.x - centre[0]) / half[0], (self.z - centre[1]) / half[1]
         d, mean = np.hypot(dx, dz), half.mean()
         self.lay((1 - d) * mean / 0.4, SKIN)
@@ -80,7 +80,7 @@ class Painter:
         self.lay(1.4 - off / width, THREAD, within & (np.mod(t, 3.2) < 2.1))
 
     def dots(self, start, end):
-        """Three rows of holes for air along a finger."""
+        """Three rows of ventilation holes along a finger."""
         along = (end - start) / np.linalg.norm(end - start)
         across = np.array([-along[1], along[0]])
         for t in np.linspace(0.36, 0.80, 5):
@@ -106,10 +106,10 @@ def painted_hand(hand):
 
 
 def paint_cuff(picture):
-    """Leather between two seams, over the back of the wrist a strap with a snap fastener."""
+    """Leather between two seams, with a strap and snap fastener over the back of the wrist."""
     u0, v0, u1, v1 = (round(c * SIDE) for c in CUFF)
     v, u = np.mgrid[0 : v1 - v0, 0 : u1 - u0]
-    x, y = u / (u1 - u0) * 200.0, v / (v1 - v0) * 38.0  # mm round the wrist and along it
+    x, y = u / (u1 - u0) * 200.0, v / (v1 - v0) * 38.0  # mm around the wrist and along it
     colour = np.array(LEATHER) * (1 + 0.035 * np.random.default_rng(5).standard_normal(x.shape))[..., None]
     dark = np.array(LEATHER) * 0.5
 
@@ -138,6 +138,6 @@ def draw(hand):
 
 
 def on_cuff(around, along):
-    """uv of a place on the cuff: share of the way round and along."""
+    """uv of a point on the cuff, given as fractions around and along it."""
     u0, v0, u1, v1 = CUFF
     return u0 + (u1 - u0) * around, v0 + (v1 - v0) * along

@@ -87,7 +87,7 @@ class Writer:
 def write(path, meshes, joints, materials, images):
     """meshes: [(mesh, material index)]; joints: [(name, parent or None, 4 x 4 in the mesh)], parents first.
 
-    Nodes: Hand, the root of the skeleton, and HandMesh beside it: a skinned mesh moves with its joints alone."""
+    Nodes: Hand, the root of the skeleton, and its sibling HandMesh, because a skinned mesh moves only with its joints."""
     out = Writer()
     primitives = [out.primitive(m, k) for m, k in meshes]
     world = {name: m for name, _, m in joints}

@@ -1,4 +1,4 @@
-"""Bends the fingers of the open hand round the knob.
+"""Bends the fingers of the open hand around the knob.
 
 Hand frame: origin at the wrist, X to the little finger, Y out of the back of the hand, -Z to the fingertips. Bending a
 joint towards the palm is a negative turn about its X.
@@ -7,10 +7,10 @@ from itertools import product
 
 import numpy as np
 
-KNOB_R = 0.0245  # m, of the ball that the fingers close on
+KNOB_R = 0.0245  # [m] radius of the ball around which the fingers close
 KNOB = np.array([-0.004, -0.0395, -0.078])  # its centre, under the palm
 THUMB_TIP = KNOB + np.array([-0.030, -0.008, -0.010])  # along the knob's side
-FINGERS = {  # name -> radii of the three phalanges [m], range of the side turn at the root [deg]
+FINGERS = {  # name -> radii of the three phalanges [m], range of the sideways turn at the root [deg]
     "index": ((0.0098, 0.0088, 0.0080), (-8, 6)),
     "middle": ((0.0098, 0.0088, 0.0080), (-5, 7)),
     "ring": ((0.0092, 0.0084, 0.0076), (0, 14)),
@@ -30,7 +30,7 @@ def turn(axis, degrees):
 
 
 def chain(bind, names, angles):
-    """World matrices of a chain of joints; angles: (bend, side turn) [deg] a joint."""
+    """World matrices of a chain of joints; angles: (bend, sideways turn) [deg] per joint."""
     out, parent, rest = [], None, None
     for name, (bend, side) in zip(names, angles):
         local = bind[name] if parent is None else np.linalg.inv(rest) @ bind[name]
@@ -41,7 +41,7 @@ def chain(bind, names, angles):
 
 
 def gaps(points, radii):
-    """Distance from the skin of each phalanx to the knob: of its middle, then of its end."""
+    """Distances from the skin of each phalanx to the knob, first at its middle, then at its end."""
     out = []
     for a, b, r in zip(points, points[1:], radii):
         for p in ((a + b) / 2, b):
@@ -50,7 +50,7 @@ def gaps(points, radii):
 
 
 def cost(gap, weights):
-    """Skin should lie on the knob and not in it."""
+    """Penalty for skin that is away from the knob or inside it."""
     return np.sum(weights * np.where(gap < 0, 9.0, 1.0) * gap**2)
 
 
@@ -92,7 +92,7 @@ def thumb_pose(bind):
 
 
 def closed(bind):
-    """World matrices (hand frame) of all joints in the grip. bind: the same of the open hand."""
+    """World matrices (hand frame) of all joints in the grip. bind: those of the open hand."""
     pose = dict(bind)
     for name, (radii, sides) in FINGERS.items():
         names, matrices = finger_pose(bind, name, radii, sides)

@@ -27,7 +27,7 @@ def tube(stations, start, along, across, n, uv_scale):
 
 
 def folds(distance):
-    """Half size [m] added by creases that hang near the cuff."""
+    """Additional half size [m] from the creases near the cuff."""
     return 0.0028 * np.sin(150 * distance + 2.2 * np.sin(31 * distance)) * np.exp(-distance / 0.11)
 
 

@@ -1,1 +1,1 @@
-"""The road and what passes by. Every node stands on the ground at its origin: z = 0 is the road surface."""
+"""The road and its surroundings. Every node's origin is on the ground: z = 0 is the road surface."""

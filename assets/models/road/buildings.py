@@ -1,4 +1,4 @@
-"""A farmhouse and a barn. Long side along y, front towards -x: stand it on the right of the road."""
+"""A farmhouse and a barn. Long side along y, front towards -x: for the right side of the road."""
 from road.pieces import Thing
 
 
@@ -27,7 +27,7 @@ def gabled(part, half_x, half_y, eaves, ridge, walls, roof, overhang=0.45):
 
 
 def window(part, x, y, z, w=1.0, h=1.3):
-    """On the front (x) facing -x: white frame, dark pane."""
+    """A window in the front (x), facing -x: white frame, dark pane."""
     for out, grow, colour in ((0.03, 0.09, "white"), (0.06, 0.0, "pane")):
         a, b = w / 2 + grow, h / 2 + grow
         part.face(
@@ -43,7 +43,7 @@ def build_house():
             if z > 2 or y != 1.6:
                 window(part, -4.2, y, z, h=1.2)
     part.block((-4.22, 1.6, 0.95), (0.12, 1.1, 2.1), "wood")
-    for x in (-2, 2):  # gable end towards the traffic
+    for x in (-2, 2):  # the gable end faces the traffic
         for y, a, b, colour in ((-5.53, 0.575, 0.7, "white"), (-5.56, 0.49, 0.6, "pane")):
             part.face([(x - a, y, 1.6 - b), (x + a, y, 1.6 - b), (x + a, y, 1.6 + b), (x - a, y, 1.6 + b)], colour)
     part.block((1.2, 2.5, 8.2), (0.7, 0.7, 1.6), "stone")

@@ -1,4 +1,4 @@
-"""One picture for all roadside things: a speed sign, cells of plain colour below it, a spruce and a bough."""
+"""One picture for all roadside objects: a speed sign, cells of plain colour below it, a spruce and a bough."""
 import os
 
 import numpy as np
@@ -9,7 +9,7 @@ from craft.prints import FONT
 from road import foliage
 
 WIDTH, HEIGHT, CELL = 1024, 512, 32
-SIGN = (0.0, 0.5, 0.25, 1.0)  # uv rectangles, v counted upwards
+SIGN = (0.0, 0.5, 0.25, 1.0)  # uv rectangles, v upwards
 SPRUCE = (0.252, 0.004, 0.498, 0.996)
 BOUGH = (0.502, 0.004, 0.998, 0.996)
 CELLS = {  # sRGB
@@ -41,7 +41,7 @@ CELLS = {  # sRGB
 
 
 def cell_middle(name):
-    """uv of a colour's cell, v counted upwards."""
+    """uv of a colour's cell, v upwards."""
     k = list(CELLS).index(name)
     column, row = k % 8, k // 8
     return CELL * (column + 0.5) / WIDTH, 1 - (256 + CELL * (row + 0.5)) / HEIGHT
@@ -65,7 +65,7 @@ def draw():
 
 
 def asphalt():
-    """Colour and normal map of a 3 m tile: stones in bitumen, two darker wheel tracks are not drawn."""
+    """Colour and normal map of a 3 m tile: stones in bitumen, without wheel tracks."""
     n = 512
     grain = textures.band_noise(n, 60, 220)
     shade = 74 + 9 * grain + 2.2 * textures.band_noise(n, 2, 9)

@@ -5,7 +5,7 @@ import numpy as np
 from PIL import Image, ImageDraw
 
 OVER = 2  # supersampling
-GROUND = {"bough": (58, 84, 32), "spruce": (36, 58, 38)}  # sRGB, under the holes: what a coarser mip mixes in
+GROUND = {"bough": (58, 84, 32), "spruce": (36, 58, 38)}  # sRGB, under the holes, because coarser mips mix it in
 
 
 def sheet(size, ground):
@@ -13,7 +13,7 @@ def sheet(size, ground):
 
 
 def finished(picture, size, ground):
-    """At its size. Resizing leaves black under the holes, which coarser mips would mix in: ground again."""
+    """Resizes a picture and restores the ground under the holes: black there would be mixed into coarser mips."""
     pixels = np.array(picture.resize(size, Image.LANCZOS))
     pixels[pixels[..., 3] < 8, :3] = ground
     return Image.fromarray(pixels)
@@ -30,7 +30,7 @@ def leaf(draw, x, y, length, width, angle, colour):
 
 
 def bough(side, random):
-    """Leaves of a lobed tuft: dark inside and below, light above."""
+    """A lobed tuft of leaves: dark inside and below, light above."""
     picture = sheet((side, side), GROUND["bough"])
     draw, n = ImageDraw.Draw(picture), side * OVER
     lobes = random.random(3) * 2 * pi
@@ -46,7 +46,7 @@ def bough(side, random):
 
 
 def spruce(width, height, random):
-    """Boughs that hang from a stem, from the ground to the tip; drawn from below, so that upper ones lie over them."""
+    """Boughs hanging from a stem, from the ground to the tip; drawn from below, so that upper ones overlap them."""
     picture = sheet((width, height), GROUND["spruce"])
     draw, w, h = ImageDraw.Draw(picture), width * OVER, height * OVER
     draw.line([(w / 2, h * 0.05), (w / 2, h)], (58, 46, 36, 255), int(w * 0.02))

@@ -1,4 +1,4 @@
-"""What does not pass by: a patchwork of fields, and rings of hills paled by the air."""
+"""The distant landscape, which does not move: a patchwork of fields, and rings of hills paled by haze."""
 from math import cos, pi, sin
 
 import numpy as np
@@ -6,7 +6,7 @@ import numpy as np
 from road.pieces import Thing
 
 FIELD_R = 460.0
-LEVEL = -0.5  # of the fields, under the verges
+LEVEL = -0.5  # height of the fields, below the verges
 _random = np.random.default_rng(5)
 
 
@@ -25,7 +25,7 @@ def build_fields():
 
 
 def ridge(n, low, high):
-    """Closed height line of a few harmonics."""
+    """A closed height profile from a few harmonics."""
     a = 2 * pi * np.arange(n) / n
     h = sum(_random.standard_normal() * np.cos(k * a + 2 * pi * _random.random()) / k**0.7 for k in range(2, 15))
     h = (h - h.min()) / (h.max() - h.min())

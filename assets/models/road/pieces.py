@@ -6,7 +6,7 @@ from road.colours import cell_middle
 
 
 class Thing(Part):
-    """A part whose pieces take their colour from a cell: tint() the piece just made."""
+    """A part whose pieces are coloured from a cell: tint() the most recent piece."""
 
     def tint(self, ob, colour):
         u, v = cell_middle(colour)
@@ -22,7 +22,7 @@ class Thing(Part):
 
     def card(self, corners, rect):
         """Four corners, counter-clockwise from the lower left, that show a rectangle (u0, v0, u1, v1) of the picture
-        from both sides: two faces, since a face seen from behind would be lit from behind."""
+        from both sides: two faces, because a single face seen from behind would be lit from behind."""
         ob = self.piece(list(corners) * 2, [(0, 1, 2, 3), (7, 6, 5, 4)], "Leaves", recalc=False)
         u0, v0, u1, v1 = rect
         uv = ((u0, v0), (u1, v0), (u1, v1), (u0, v1))
@@ -31,8 +31,8 @@ class Thing(Part):
         return ob
 
     def light_leaves_from(self, centre, up=0.35):
-        """Normals of all leaves point away from the middle of the crown, lifted a little: a crown of cards is lit
-        like a body. After build()."""
+        """Makes all leaf normals point away from the crown's centre and slightly up, so that a crown of cards is lit
+        like a solid body. Call after build()."""
         mesh = self.pieces[0].data
         mesh.calc_normals_split()
         normals = [loop.normal.copy() for loop in mesh.loops]

@@ -2,14 +2,14 @@
 from road.pieces import Thing
 
 LENGTH, LANE, LINE = 12.0, 3.5, 0.12
-DASH = 4.0  # and 8 m of gap: one dash a tile
+DASH = 4.0  # followed by 8 m of gap: one dash per tile
 VERGE = 30.0  # grass to either side
 LEFT, RIGHT = -LANE * 1.5, LANE / 2  # edge lines
 SHOULDER = 0.45
 
 
 def columns():
-    """x of the strips across the road and whether a strip is a marking."""
+    """x of the strips across the road, and whether each strip is a marking."""
     xs = [LEFT - SHOULDER]
     for line in (LEFT, -LANE / 2, RIGHT):
         xs += [line - LINE / 2, line + LINE / 2]

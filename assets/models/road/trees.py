@@ -1,4 +1,4 @@
-"""A broad-leaved tree, a spruce and a bush: a dark body, and cards with drawn leaves about it."""
+"""A broad-leaved tree, a spruce and a bush: a dark body surrounded by cards with drawn leaves."""
 from math import cos, pi, sin
 
 import numpy as np
@@ -11,7 +11,7 @@ _random = np.random.default_rng(11)
 
 
 def lump(part, centre, radius, squash, n=7, rows=4):
-    """Uneven ball: the shade between the boughs."""
+    """Uneven ball: the darkness between the boughs."""
     rings = []
     for j in range(rows + 1):
         t = pi * (j / rows - 0.5)
@@ -25,7 +25,7 @@ def lump(part, centre, radius, squash, n=7, rows=4):
 
 
 def bough(part, centre, size, heading, lean):
-    """Square card about a centre, turned in its plane at random. heading [rad] about the vertical, lean [rad] up."""
+    """Square card around a centre, rotated at random in its plane. heading [rad] about the vertical, lean [rad] up."""
     facing = Vector((cos(heading) * cos(lean), sin(heading) * cos(lean), sin(lean)))
     x = Vector((-sin(heading), cos(heading), 0))
     y = facing.cross(x)
@@ -57,7 +57,7 @@ def build_broad_leaved():
         k = 1.22 * _random.uniform(0.85, 1.15)
         middle = (crown[0] + k * r * cos(a), crown[1] + k * r * sin(a), crown[2] + 1.45 * z)
         bough(part, middle, _random.uniform(2.0, 2.5), a + _random.uniform(-0.7, 0.7), 0.5 * z)
-    for i in range(3):  # upright through the middle: a full outline from every side
+    for i in range(3):  # upright through the stem: a full outline from every side
         bough(part, (crown[0], crown[1], crown[2] + 0.2), 3.4, pi * i / 3 + 0.3, 0.0)
     part.build()
     part.light_leaves_from((crown[0], crown[1], crown[2] - 0.5))

@@ -6,7 +6,8 @@
 #include "app/vehicle/car_spec.h"
 #include "app/vehicle/engine_control.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::vehicle;
 using doctest::Approx;
 
 namespace {
@@ -80,12 +81,12 @@ TEST_CASE("an engine dies below its stall speed and stays dead, until the starte
   control.update(300.0);
   CHECK_FALSE(control.running());
   CHECK(control.torque(300.0, 1.0) == 0.0);
-  control.turn(100.0);  // not by the starter
+  control.add_crank_angle(100.0);  // not caused by the starter
   control.turn_key(true, true);
-  control.turn(12.5);
+  control.add_crank_angle(12.5);
   control.update(15.0);
   CHECK_FALSE(control.running());
-  control.turn(0.1);  // two turns: 12.566
+  control.add_crank_angle(0.1);  // two turns: 12.566
   control.update(14.0);
   CHECK_FALSE(control.running());
   CHECK(control.torque(0.0, 0.0) == 60.0);
@@ -100,7 +101,7 @@ TEST_CASE("an engine dies below its stall speed and stays dead, until the starte
   CHECK_FALSE(control.running());
 }
 
-TEST_CASE("without ignition neither spark nor starter") {
+TEST_CASE("without ignition there is neither spark nor starter") {
   EngineControl control(small_engine());
   control.turn_key(false, true);
   control.update(200.0);
@@ -108,7 +109,7 @@ TEST_CASE("without ignition neither spark nor starter") {
   CHECK(control.torque(0.0, 1.0) == 0.0);
 }
 
-TEST_CASE("the limiter cuts above its speed, and gives back only below its band") {
+TEST_CASE("the limiter cuts above its speed, and resumes only below its band") {
   EngineControl control(small_engine());
   const double way[][2] = {{499.0, 1}, {501.0, 0}, {490.0, 0}, {481.0, 0}, {479.0, 1}, {499.0, 1}};
   for (const auto& [speed, fires] : way) {

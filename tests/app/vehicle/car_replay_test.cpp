@@ -1,4 +1,4 @@
-// A drive with a car behind the lever, recorded and run again from its inputs and the world's name alone.
+// A drive with a car behind the lever, recorded and replayed from only its inputs and the load's name.
 #include <string>
 #include <vector>
 
@@ -10,11 +10,13 @@
 #include "tests/app/vehicle/car_run.h"
 #include "tests/support/temp_folder.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
+using namespace gearshift::vehicle;
 
 namespace {
 
-// Up and down with the clutch, once without, a stall and a restart, on a hill.
+// Up and down with the clutch, once without it, a stall and a restart, on a hill.
 DriverControls busy_feet(double time) {
   DriverControls feet = std::fmod(time, 1.1) < 0.9 ? clutch_down() : clutch_up(0.37);
   if (time > 5.0) feet = clutch_up();
@@ -32,8 +34,8 @@ Trace recorded(const CarSpec& car, std::uint64_t seed = 5) {
   CarRun run(car, rolling_in(car, 2, 231.7), hand, busy_feet, seed);
   const GateLayout layout = read_gate_layout(GEARSHIFT_ASSETS "/gates/" + car.gate + ".toml");
   const SimulatedRunConfig config = gripped(gate, 2);
-  const TraceHeader header{"test", config.haptics, run.run.lever().spec(), layout.file, layout.text, run.world.name(),
-                           true};
+  const TraceHeader header{
+      "test", config.haptics, run.run.lever().spec(), layout.file, layout.text, run.load.replay_parameters(), true};
   TraceRecorder recorder(folder / "car.trace", header, run.run.channels(), TracePump::by_caller);
   for (int i = 0; i < 9000; ++i) {
     run.step();
@@ -45,7 +47,7 @@ Trace recorded(const CarSpec& car, std::uint64_t seed = 5) {
 
 std::string refusal(const Trace& trace) {
   try {
-    replay(trace, make_car_world);
+    replay(trace, make_car_load);
   } catch (const FileError& error) {
     return error.what();
   }
@@ -54,11 +56,11 @@ std::string refusal(const Trace& trace) {
 
 }  // namespace
 
-TEST_CASE("a drive replays bit for bit from the world's name, whole car included: both cars") {
+TEST_CASE("a drive replays bit for bit from the load's name, complete car included: both cars") {
   for (const char* name : {"hatchback", "diesel"}) {
     CAPTURE(name);
     const Trace trace = recorded(shipped_car(name));
-    const ReplayResult result = replay(trace, make_car_world);
+    const ReplayResult result = replay(trace, make_car_load);
     CHECK(result.bit_for_bit());
     CHECK(result.cycles == 9000);
     bool rolled = false;
@@ -72,10 +74,10 @@ TEST_CASE("it does not with another seed, another start or another car") {
   const Trace trace = recorded(shipped_car("hatchback"));
   const auto changed = [&](const std::string& from, const std::string& to) {
     Trace other = trace;
-    const std::size_t at = other.header.world.find(from);
+    const std::size_t at = other.header.load.find(from);
     REQUIRE(at != std::string::npos);
-    other.header.world.replace(at, from.size(), to);
-    const ReplayResult result = replay(other, make_car_world);
+    other.header.load.replace(at, from.size(), to);
+    const ReplayResult result = replay(other, make_car_load);
     return result.first.has_value();
   };
   CHECK(changed("car 31.7 5 ", "car 31.7 6 "));
@@ -83,42 +85,42 @@ TEST_CASE("it does not with another seed, another start or another car") {
   CHECK(changed("mass_kg = 1373.4", "mass_kg = 1373.5"));
   CHECK(changed("friction = 0.10", "friction = 0.101"));
   const CarSpec car = shipped_car("hatchback");
-  const CarWorld faster(car, gate_of(car), kPaperForce, rolling_in(car, 2, 231.8), 5);
-  CHECK(changed(trace.header.world, faster.name()));
+  const CarLoad faster(car, gate_of(car), kPaperForce, rolling_in(car, 2, 231.8), 5);
+  CHECK(changed(trace.header.load, faster.replay_parameters()));
 }
 
-TEST_CASE("a world's name makes the same world; what is no car is none, and a bad car is refused") {
+TEST_CASE("a load's name gives the same load; without a car name there is none, and a bad car is rejected") {
   const CarSpec car = shipped_car("hatchback");
   const Gate gate = gate_of(car);
   CarStart start = rolling_in(car, 3, 123.456);
   start.distance = 1e6 / 3.0;
-  const CarWorld world(car, gate, 31.7, start, 1234567890123456789u);
-  const std::unique_ptr<LeverWorld> again = make_car_world(world.name(), gate);
+  const CarLoad load(car, gate, 31.7, start, 1234567890123456789u);
+  const std::unique_ptr<LeverLoad> again = make_car_load(load.replay_parameters(), gate);
   REQUIRE(again);
-  CHECK(std::string(again->name()) == world.name());
+  CHECK(std::string(again->replay_parameters()) == load.replay_parameters());
   for (const char* name : {"none", "", "car", "car 31.7 1", "car 31.7 1 0 0 1 0 0 0 0", "car nan 1 0 0 1 0 0 0 0\nx\n"})
-    CHECK(make_car_world(name, gate) == nullptr);
+    CHECK(make_car_load(name, gate) == nullptr);
 
   for (const auto& [running, stalled] : {std::pair(true, false), std::pair(false, true), std::pair(false, false)}) {
     CarStart stands;
     stands.running = running;
     stands.stalled = stalled;
-    const CarWorld engine(car, gate, 31.7, stands);
-    const std::unique_ptr<CarWorld> same = make_car_world(engine.name(), gate);
+    const CarLoad engine(car, gate, 31.7, stands);
+    const std::unique_ptr<CarLoad> same = make_car_load(engine.replay_parameters(), gate);
     REQUIRE(same);
     CHECK(same->state().running == running);
     CHECK(same->state().stalled == stalled);
     LeverInput in;
     in.controls.ignition = true;
     same->step(in, 0.001);
-    CHECK(same->state().stalled == stalled);  // the key is on
+    CHECK(same->state().stalled == stalled);  // the ignition is on
     CHECK(start_from(same->state()).stalled == stalled);
   }
 
   Trace trace = recorded(car);
-  trace.header.world.replace(trace.header.world.find("ratio_2 = 1.94"), 14, "ratio_2 = 9.94");
-  CHECK(refusal(trace).find("cannot be run again: its world is refused: hatchback.toml:") != std::string::npos);
+  trace.header.load.replace(trace.header.load.find("ratio_2 = 1.94"), 14, "ratio_2 = 9.94");
+  CHECK(refusal(trace).find("cannot be replayed: its lever load is refused: hatchback.toml:") != std::string::npos);
   CHECK(refusal(trace).find("must be less than ratio_1") != std::string::npos);
-  trace.header.world = "a \x1b[31mship\nof wood";
-  CHECK(refusal(trace).find("its world \"a ?[31mship\" is not known to this program") != std::string::npos);
+  trace.header.load = "a \x1b[31mship\nof wood";
+  CHECK(refusal(trace).find("its lever load \"a ?[31mship\" is not known to this program") != std::string::npos);
 }

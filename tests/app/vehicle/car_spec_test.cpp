@@ -1,4 +1,4 @@
-// Reading cars, and refusing bad ones: file, line and reason in one sentence.
+// Reading cars, and rejecting bad ones with file, line and reason in one sentence.
 #include "app/vehicle/car_spec.h"
 
 #include <algorithm>
@@ -9,21 +9,23 @@
 
 #include <doctest/doctest.h>
 
-#include "app/vehicle/car_world.h"
+#include "app/vehicle/car_load.h"
 #include "haptics/files/file_error.h"
 #include "haptics/files/printable.h"
 #include "tests/app/vehicle/cars.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
+using namespace gearshift::vehicle;
 
 namespace {
 
 struct Hostile {
   const char* file;
-  const char* sentence;  // after the file's name
+  const char* sentence;  // the expected message after the file name
 };
 
-// Lines and reasons as a person finds them in tests/data/hostile_cars.
+// Lines and reasons, found by reading tests/data/hostile_cars.
 constexpr Hostile kHostile[] = {
     {"bite_beyond_pedal", ":34: bite_pedal = 1.2: must be between 0 and 1"},
     {"capacity_missing", ":32: capacity_nm is missing: it must be a number between 1 and 10000"},
@@ -31,10 +33,10 @@ constexpr Hostile kHostile[] = {
     {"cone_and_a_half", ":52: cones = 1.5: must be a whole number"},
     {"cone_in_radians", ":51: cone_half_angle_deg = 0.113: must be between 3 and 20"},
     {"efficiency_above_one", ":59: efficiency = 1.1: must be between 0.5 and 1"},
-    {"empty", ":1: title is missing: it must be a text in quotes"},
+    {"empty", ":1: title is missing: it must be text in quotes"},
     {"friction_below_zero", ":16: friction_nm = -1: must be between 0 and 5000"},
-    {"gate_is_a_number", ":2: gate = 5: must be a text in quotes"},
-    {"gate_under_engine", ":1: gate is missing: it must be a text in quotes"},
+    {"gate_is_a_number", ":2: gate = 5: must be text in quotes"},
+    {"gate_under_engine", ":1: gate is missing: it must be text in quotes"},
     {"half_a_tooth", ":56: teeth = 36.5: must be a whole number"},
     {"idle_above_shift", ":20: idle_rpm = 2100: must be less than shift_from_rpm"},
     {"idle_below_stall", ":22: stall_rpm = 350: must be less than idle_rpm"},
@@ -46,11 +48,11 @@ constexpr Hostile kHostile[] = {
     {"no_engine", ":1: engine is missing: it must be a table, [engine]"},
     {"no_first_gear", ":37: ratio_1 is missing: it must be a number between 0.1 and 20"},
     {"no_friction", ":49: friction = 0: must be between 0.01 and 0.5"},
-    {"no_title", ":1: title is missing: it must be a text in quotes"},
+    {"no_title", ":1: title is missing: it must be text in quotes"},
     {"not_toml", ":32: not valid TOML: "},
     {"one_point",
      ":4: full_load = (a list): must have between 2 and 24 points, each { rpm = ..., nm = ... }, this has 1"},
-    {"point_of_power", ":10: kw is not a known key: known here are rpm, nm"},
+    {"point_of_power", ":10: kw is not a known key; known keys: rpm, nm"},
     {"point_without_torque", ":10: nm is missing: it must be a number between 0 and 5000"},
     {"points_of_numbers", ":4: full_load must be a list of tables: write each as [[full_load]]"},
     {"ratio_gap", ":40: ratio_4 = 0.97: there is no ratio_3"},
@@ -60,9 +62,9 @@ constexpr Hostile kHostile[] = {
     {"shift_above_red_line", ":29: shift_to_rpm = 6300: must be less than red_line_rpm"},
     {"shift_band_turned", ":28: shift_from_rpm = 2000: must be less than shift_to_rpm"},
     {"shudder_of_a_hammer", ":31: shudder_n = 300: must be between 0 and 10"},
-    {"speeds_do_not_rise", ":9: rpm = 2000: must be larger than that of the point before"},
+    {"speeds_do_not_rise", ":9: rpm = 2000: must be larger than the rpm of the point before"},
     {"starter_infinite", ":26: starter_nm = inf: must be between 1 and 1000"},
-    {"tenth_gear", ":44: ratio_10 is not a known key: known here are ratio_1"},
+    {"tenth_gear", ":44: ratio_10 is not a known key; known keys: ratio_1"},
     {"title_with_escape", ":1: title = \"?[31mHostile\": must be one line without control characters"},
     {"too_many_points",
      ":4: full_load = (a list): must have between 2 and 24 points, each { rpm = ..., nm = ... }, this has 25"},
@@ -70,9 +72,8 @@ constexpr Hostile kHostile[] = {
      ":4: full_load = (a list): must reach from idle_rpm or below to limiter_rpm or above, this has 1500 to 7000"},
     {"torque_stops_short",
      ":4: full_load = (a list): must reach from idle_rpm or below to limiter_rpm or above, this has 600 to 6000"},
-    {"unknown_key", ":68: abs is not a known key: known here are mass_kg"},
-    {"unknown_table",
-     ":69: turbo is not a known key: known here are title, gate, engine, clutch, gearbox, synchro, body"},
+    {"unknown_key", ":68: abs is not a known key; known keys: mass_kg"},
+    {"unknown_table", ":69: turbo is not a known key; known keys: title, gate, engine, clutch, gearbox, synchro, body"},
     {"wheel_in_metres", ":63: wheel_radius_mm = 0.303: must be between 100 and 1000"},
 };
 
@@ -89,7 +90,7 @@ std::string refusal(const std::filesystem::path& file) {
 
 }  // namespace
 
-TEST_CASE("every hostile car is refused in one sentence with file, line and reason") {
+TEST_CASE("every hostile car is rejected in one sentence with file, line and reason") {
   for (const Hostile& hostile : kHostile) {
     const std::filesystem::path file = std::filesystem::path(kFolder) / (std::string(hostile.file) + ".toml");
     const std::string sentence = refusal(file);
@@ -99,18 +100,18 @@ TEST_CASE("every hostile car is refused in one sentence with file, line and reas
   }
 }
 
-TEST_CASE("no hostile car lies about without being tested") {
+TEST_CASE("no hostile car is left untested") {
   std::set<std::string> expected, found;
   for (const Hostile& hostile : kHostile) expected.insert(hostile.file);
   for (const auto& entry : std::filesystem::directory_iterator(kFolder)) found.insert(entry.path().stem().string());
   CHECK(found == expected);
 }
 
-TEST_CASE("a file that is not there is refused by its name") {
+TEST_CASE("a missing file is rejected by name") {
   CHECK(refusal("no_such_car.toml").find("no_such_car.toml") == 0);
 }
 
-TEST_CASE("the hatchback is the car that the other methods were run with, in SI units") {
+TEST_CASE("the hatchback is the car used for the other methods, in SI units") {
   const CarSpec car = shipped_car("hatchback");
   CHECK(car.name == "hatchback");
   CHECK(car.gate == "five_speed_r_right_down");
@@ -123,7 +124,7 @@ TEST_CASE("the hatchback is the car that the other methods were run with, in SI 
   CHECK(car.synchro.cone_angle == doctest::Approx(0.11345).epsilon(1e-4));
   CHECK(car.synchro.radius == doctest::Approx(0.03));
   CHECK(car.body.wheel_radius == doctest::Approx(0.3032));
-  const double kmh_per_krpm[] = {8.1, 14.4, 21.7, 28.9, 36.8};  // by hand, of ratios and wheel
+  const double kmh_per_krpm[] = {8.1, 14.4, 21.7, 28.9, 36.8};  // by hand, from ratios and wheel
   for (int gear = 1; gear <= 5; ++gear)
     CHECK(3.6 * road_speed_at(car, gear, 1000.0 * kRpm) == doctest::Approx(kmh_per_krpm[gear - 1]).epsilon(0.007));
   CHECK(shaft_per_road(car, 6) == 0.0);
@@ -143,11 +144,11 @@ TEST_CASE("every shipped car fits its gate, and its rings block") {
   CHECK(cars == 2);
 }
 
-TEST_CASE("a gate with a gear that the car lacks is refused where they meet") {
+TEST_CASE("a gate with a gear that the car lacks is rejected when they are combined") {
   const CarSpec car = shipped_car("hatchback");
   const Gate six = shipped_gate("six_speed_r_left_up");
-  const std::string sentence = "this gate has a gear 6, the car \"hatchback\" has none";
-  CHECK_THROWS_WITH_AS(CarWorld(car, six, kPaperForce), sentence.c_str(), std::invalid_argument);
-  CHECK_NOTHROW(CarWorld(car, shipped_gate("four_speed"), kPaperForce));  // fifth is out of reach, no more
-  CHECK_THROWS_AS(CarWorld(car, gate_of(car), 0.0), std::invalid_argument);
+  const std::string sentence = "this gate has a gear 6, but the car \"hatchback\" does not";
+  CHECK_THROWS_WITH_AS(CarLoad(car, six, kPaperForce), sentence.c_str(), std::invalid_argument);
+  CHECK_NOTHROW(CarLoad(car, shipped_gate("four_speed"), kPaperForce));  // fifth just cannot be reached
+  CHECK_THROWS_AS(CarLoad(car, gate_of(car), 0.0), std::invalid_argument);
 }

@@ -1,4 +1,4 @@
-// The shipped cars, and what all tests of a car in gear need.
+// The shipped cars, and common functions for tests of a car in gear.
 #pragma once
 
 #include <cmath>
@@ -8,26 +8,26 @@
 #include "app/vehicle/car_spec.h"
 #include "tests/support/gates.h"
 
-namespace gearshift {
+namespace gearshift::test {
 
 inline constexpr double kRpm = std::numbers::pi / 30.0;  // [rad/s]
-inline constexpr double kPaperForce = 31.7;              // [N] peak of the paper's lever
+inline constexpr double kPaperForce = 31.7;              // [N] peak force of the paper's lever
 
-inline CarSpec shipped_car(const std::string& name) {
-  return read_car(GEARSHIFT_ASSETS "/cars/" + name + ".toml");
+inline vehicle::CarSpec shipped_car(const std::string& name) {
+  return vehicle::read_car(GEARSHIFT_ASSETS "/cars/" + name + ".toml");
 }
 
-inline Gate gate_of(const CarSpec& car) {
+inline haptics::Gate gate_of(const vehicle::CarSpec& car) {
   return shipped_gate(car.gate);
 }
 
-inline double ratio_of(const CarSpec& car, int gear) {
-  return std::abs(shaft_per_road(car, gear)) * car.body.wheel_radius / car.gearbox.final_drive;
+inline double ratio_of(const vehicle::CarSpec& car, int gear) {
+  return std::abs(vehicle::shaft_per_road(car, gear)) * car.body.wheel_radius / car.gearbox.final_drive;
 }
 
-// [m/s] at which that gear turns the shaft so fast.
-inline double road_speed_at(const CarSpec& car, int gear, double shaft_speed) {
-  return shaft_speed / shaft_per_road(car, gear);
+// The road speed [m/s] at which that gear turns the shaft at that speed.
+inline double road_speed_at(const vehicle::CarSpec& car, int gear, double shaft_speed) {
+  return shaft_speed / vehicle::shaft_per_road(car, gear);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

@@ -6,12 +6,12 @@
 
 #include "haptics/joystick/plant.h"
 
-namespace gearshift {
+namespace gearshift::test {
 namespace {
 
 constexpr double kLocate = 1e-13;  // [s]
 
-enum { arc, speed, smooth, shaft, road, heat, states };  // arc and its speed: of the lever
+enum { arc, speed, smooth, shaft, road, heat, states };  // arc and its speed are the lever's
 using Y = std::array<double, states>;
 
 Y sum(Y y, double h, const Y& d) {
@@ -23,33 +23,33 @@ int side(double x) {
   return x > 0.0 ? 1 : x < 0.0 ? -1 : 0;
 }
 
-// From 0 to 1 with no slope at its ends.
+// Rises from 0 to 1 with zero slope at both ends.
 double rise(double u) {
   return u <= 0.0 ? 0.0 : u >= 1.0 ? 1.0 : 3.0 * u * u - 2.0 * u * u * u;
 }
 
 class Reference {
  public:
-  Reference(const ConeLeverCase& what, const ConeLeverStart& start) : is_(what), car_(what.car), slot_(what.slot) {
-    per_road_ = shaft_per_road(car_, is_.gear);
+  Reference(const ConeLeverCase& what, const ConeLeverStart& start) : case_(what), car_(what.car), slot_(what.slot) {
+    per_road_ = vehicle::shaft_per_road(car_, case_.gear);
     ratio_ = std::abs(per_road_) * car_.body.wheel_radius / car_.gearbox.final_drive;
-    const SynchroSpec& s = car_.synchro;
-    const double sleeve_per_push = s.lever_ratio * s.efficiency / is_.force_scale;
+    const vehicle::SynchroSpec& s = car_.synchro;
+    const double sleeve_per_push = s.lever_ratio * s.efficiency / case_.force_scale;
     torque_per_push_ = s.cones * s.friction * s.radius / std::sin(s.cone_angle) * sleeve_per_push / ratio_;
-    inertia_ = car_.clutch.disc_inertia + (is_.clutch_closed ? car_.engine.inertia : 0.0);
-    const double at = is_.lever.arc(start.depth);
-    y_ = {at, start.speed / is_.lever.slope(at), start.speed, start.shaft, start.road, 0.0};
+    inertia_ = car_.clutch.disc_inertia + (case_.clutch_closed ? car_.engine.inertia : 0.0);
+    const double at = case_.lever.arc(start.depth);
+    y_ = {at, start.speed / case_.lever.slope(at), start.speed, start.shaft, start.road, 0.0};
     touches_ = depth(y_) > slot_.block;
     turn_ = side(y_[shaft]);
   }
 
   ConeLeverOutcome run() {
     ConeLeverOutcome out;
-    const int steps = static_cast<int>(std::lround(is_.most / is_.step));
-    const int each = static_cast<int>(std::lround(0.001 / is_.step));
+    const int steps = static_cast<int>(std::lround(case_.most / case_.step));
+    const int each = static_cast<int>(std::lround(0.001 / case_.step));
     for (int i = 0; i < steps && out.open < 0.0; ++i) {
-      if (i % each == 0) out.samples.push_back({depth(y_), push(y_, i * is_.step), y_[shaft], y_[road], y_[heat]});
-      advance(i * is_.step, (i + 1) * is_.step, out);
+      if (i % each == 0) out.samples.push_back({depth(y_), push(y_, i * case_.step), y_[shaft], y_[road], y_[heat]});
+      advance(i * case_.step, (i + 1) * case_.step, out);
     }
     out.heat = y_[heat];
     return out;
@@ -70,8 +70,8 @@ class Reference {
     return between(s.crest, -s.detent, s.lock, s.pull);
   }
 
-  double depth(const Y& y) const { return is_.lever.depth(y[arc]); }
-  double slope_at(const Y& y) const { return is_.lever.slope(y[arc]); }
+  double depth(const Y& y) const { return case_.lever.depth(y[arc]); }
+  double slope_at(const Y& y) const { return case_.lever.slope(y[arc]); }
 
   // [N] in the plane of the gate
   double motor(const Y& y) const {
@@ -81,53 +81,53 @@ class Reference {
     const double fast = std::abs(y[smooth]), excess = std::max(0.0, fast - s.speed_limit);
     const double damping = s.aisle_damping + (excess > 0.0 ? s.limit_damping * excess / fast : 0.0);
     const double wanted = feel(std::min(at, s.block)) - wall - damping * y[smooth];
-    return std::clamp(wanted, -s.motor_most, s.motor_most);
+    return std::clamp(wanted, -s.max_motor_force, s.max_motor_force);
   }
 
-  // [N] of the hand along the arc, its own mass left out
+  // [N] the hand's force along the arc, without its own inertia
   double drive(const Y& y, double t) const {
-    const SlotHand& hand = is_.hand;
+    const SlotHand& hand = case_.hand;
     if (hand.speed == 0.0) return hand.push * slope_at(y) - hand.grip.damping * y[speed];
-    const double goal = is_.lever.arc(hand.place(t));
-    const double goes = hand.place(t) < hand.to ? hand.speed / is_.lever.slope(goal) : 0.0;
+    const double goal = case_.lever.arc(hand.place(t));
+    const double goes = hand.place(t) < hand.to ? hand.speed / case_.lever.slope(goal) : 0.0;
     return hand.grip.stiffness * (goal - y[arc]) + hand.grip.damping * (goes - y[speed]);
   }
 
   // [m/s^2] along the arc
   double acceleration(const Y& y, double t) const {
-    const double own = kPaperAxisY.damping * y[speed] + kPaperAxisY.stiffness * y[arc];
-    return (drive(y, t) + slope_at(y) * motor(y) - own) / (kPaperAxisY.mass + is_.hand.grip.mass);
+    const double own = haptics::kPaperAxisY.damping * y[speed] + haptics::kPaperAxisY.stiffness * y[arc];
+    return (drive(y, t) + slope_at(y) * motor(y) - own) / (haptics::kPaperAxisY.mass + case_.hand.grip.mass);
   }
 
-  // [N] of the hand on the knob, in the plane of the gate
+  // [N] the hand's force on the knob, in the plane of the gate
   double push(const Y& y, double t) const {
-    return (drive(y, t) - is_.hand.grip.mass * acceleration(y, t)) / slope_at(y);
+    return (drive(y, t) - case_.hand.grip.mass * acceleration(y, t)) / slope_at(y);
   }
 
   double slip(const Y& y) const { return y[shaft] - per_road_ * y[road]; }
 
-  // [N m] on the shaft: the push grows on the ring from the detent's crest to where the ring blocks.
+  // [N m] on the shaft: the force on the ring grows from the detent's crest to where the ring blocks.
   double cone(const Y& y, double t) const {
     const double share = rise((depth(y) - slot_.crest) / (slot_.block - slot_.crest));
     return torque_per_push_ * std::max(0.0, push(y, t)) * share;
   }
 
   double engine(double w) const {
-    if (!is_.clutch_closed) return 0.0;
-    const EngineSpec& e = car_.engine;
-    const double friction = friction_torque(e, w), at_idle = friction_torque(e, e.idle);
-    const double base = at_idle / (full_torque(e, e.idle) + at_idle);
+    if (!case_.clutch_closed) return 0.0;
+    const vehicle::EngineSpec& e = car_.engine;
+    const double friction = vehicle::friction_torque(e, w), at_idle = vehicle::friction_torque(e, e.idle);
+    const double base = at_idle / (vehicle::full_torque(e, e.idle) + at_idle);
     const double opened = std::clamp(base + e.idle_gain * (e.idle - w), 0.0, 1.0);
-    return opened * (full_torque(e, w) + friction) - friction;
+    return opened * (vehicle::full_torque(e, w) + friction) - friction;
   }
 
-  // What turns the shaft, its Coulomb drag left out.
+  // The torque on the shaft without its Coulomb drag.
   double shaft_torque(const Y& y, double t) const {
     return engine(y[shaft]) - side(slip(y)) * cone(y, t) - car_.gearbox.drag_slope * y[shaft];
   }
 
   Y slope(const Y& y, double t) const {
-    const BodySpec& body = car_.body;
+    const vehicle::BodySpec& body = car_.body;
     const double v = std::abs(y[road]), carried = cone(y, t);
     const double holds = body.resistance + body.resistance_slope * v + body.resistance_square * v * v;
     Y d{};
@@ -146,13 +146,13 @@ class Reference {
     return sum(sum(sum(sum(y_, h / 6.0, a), h / 3.0, b), h / 3.0, c), h / 6.0, d);
   }
 
-  bool opens(const Y& y) const { return std::abs(slip(y)) <= car_.synchro.dog_speed * ratio_; }
-  bool turns_round(const Y& y, double t) const {
+  bool ring_opens(const Y& y) const { return std::abs(slip(y)) <= car_.synchro.dog_speed * ratio_; }
+  bool reverses(const Y& y, double t) const {
     if (turn_ == 0) return std::abs(shaft_torque(y, t)) > car_.gearbox.drag;
     return turn_ * y[shaft] < 0.0;
   }
   bool changes(const Y& y, double t) const {
-    return (depth(y) > slot_.block) != touches_ || turns_round(y, t) || opens(y);
+    return (depth(y) > slot_.block) != touches_ || reverses(y, t) || ring_opens(y);
   }
 
   void advance(double t, double end, ConeLeverOutcome& out) {
@@ -166,29 +166,29 @@ class Reference {
       }
       y_ = moved(t, high);
       t = low == 0.0 && high == end - t ? end : t + high;
-      take(t, out);
+      update_outcome(t, out);
     }
   }
 
-  void take(double t, ConeLeverOutcome& out) {
+  void update_outcome(double t, ConeLeverOutcome& out) {
     touches_ = depth(y_) > slot_.block;
     if (touches_ && out.touch < 0.0) out.touch = t;
-    if (opens(y_)) out.open = t;
-    if (!turns_round(y_, t)) return;
+    if (ring_opens(y_)) out.open = t;
+    if (!reverses(y_, t)) return;
     const double torque = shaft_torque(y_, t);
     if (turn_ != 0) y_[shaft] = 0.0;
     turn_ = std::abs(torque) > car_.gearbox.drag ? side(torque) : 0;
   }
 
-  const ConeLeverCase& is_;
-  const CarSpec& car_;
+  const ConeLeverCase& case_;
+  const vehicle::CarSpec& car_;
   const RingSlot& slot_;
   double per_road_ = 0.0, ratio_ = 1.0;  // [rad/m] of the shaft; [1] shaft to gear
-  double torque_per_push_ = 0.0;         // [m] at the shaft, whole
+  double torque_per_push_ = 0.0;         // [m] at the shaft, at full engagement
   double inertia_ = 0.0;                 // [kg m^2]
   Y y_{};
   bool touches_ = false;
-  int turn_ = 0;  // of the shaft; 0: its drag holds it
+  int turn_ = 0;  // direction of the shaft; 0: its drag holds it
 };
 
 }  // namespace
@@ -213,4 +213,4 @@ ConeLeverOutcome cone_lever_reference(const ConeLeverCase& what, const ConeLever
   return Reference(what, start).run();
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

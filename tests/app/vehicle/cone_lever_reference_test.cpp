@@ -1,4 +1,4 @@
-// Cone and lever coupled: hand, haptic loop and car as they ship, against the same laws in continuous time.
+// Cone and lever coupled: hand, haptic loop and car as shipped, compared with the same laws in continuous time.
 #include "tests/app/vehicle/cone_lever_reference.h"
 
 #include <algorithm>
@@ -12,17 +12,19 @@
 #include "tests/app/vehicle/car_run.h"
 #include "tests/support/whole_campaign.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
+using namespace gearshift::vehicle;
 using glm::dvec2;
 
 namespace {
 
-constexpr double kReady = 0.05;    // [s] until the hand sets out: the guard has ramped up
-constexpr double kHeld = 2000.0;   // [N/m] of the hand until then, and across the slot for ever
+constexpr double kReady = 0.05;    // [s] until the hand starts moving: the guard has ramped up
+constexpr double kHeld = 2000.0;   // [N/m] of the hand until then, and across the slot throughout
 constexpr double kStart = 0.012;   // [m] of the lever: in the slot, past its mouth
-constexpr double kStraight = 1.0;  // [m] of the straight lever's yoke
+constexpr double kStraight = 1.0;  // [m] yoke radius of the nearly straight lever
 
-// The feel of the hatchback's gate as its layout file and the README of haptics/gate say.
+// The feel of the hatchback's gate according to its layout file and the README of haptics/gate.
 RingSlot ring_slot(const Slot& slot) {
   RingSlot ring;
   ring.mouth = 0.010;
@@ -40,7 +42,7 @@ RingSlot ring_slot(const Slot& slot) {
   return ring;
 }
 
-// The same hand for the product: asked once a period, for its middle.
+// The same hand for the product: sampled once per period, at its middle.
 class InSlot final : public HandDriver {
  public:
   InSlot(const SlotHand& hand, double way, double across, double period)
@@ -72,7 +74,7 @@ struct Shift {
   double shaft;  // [rad/s] in `from`, at the start
   SlotHand hand;
   bool clutch_closed = false;
-  double road = 0.0;  // [m/s] where from is neutral
+  double road = 0.0;  // [m/s] if `from` is neutral
 };
 
 SlotHand pushing(double real) {
@@ -95,15 +97,15 @@ LeverArc arc_of(bool straight, double across) {
   return {radius, std::sqrt(radius * radius - across * across)};
 }
 
-struct Seen {
+struct ProductResult {
   ConeLeverStart start;
   ConeLeverOutcome out;
   std::vector<double> push;  // [N] in each cycle
-  double imbalance = 0.0;    // [1] of what the ledger turned over
+  double imbalance = 0.0;    // [1] relative to the energy turned over
   bool ground = false, locked = true;
 };
 
-// A lever whose arcs are nearly straight lines and whose force sensor has no steps; or the lever that ships.
+// A lever with nearly straight arcs and a force sensor without steps, or the shipped lever.
 SimulatedLeverConfig lever_of(bool straight) {
   SimulatedLeverConfig lever;
   lever.hand = kGripHand;
@@ -131,7 +133,7 @@ double out_of(const EnergyLedger& e) {
   return e.friction + e.clutch + e.cone + e.shaft_drag + e.rolling + e.brakes + e.slope + e.teeth + e.mesh;
 }
 
-Seen product(const CarSpec& car, const Shift& shift, double rate, bool straight) {
+ProductResult product(const CarSpec& car, const Shift& shift, double rate, bool straight) {
   const Gate gate = gate_of(car);
   const Slot& slot = slot_of(gate, slot_of_gear(gate, shift.to));
   const double way = static_cast<double>(static_cast<int>(slot.side)), across = rest_position(gate, shift.to).x;
@@ -140,22 +142,22 @@ Seen product(const CarSpec& car, const Shift& shift, double rate, bool straight)
   config.lever = lever_of(straight);
   config.start = {across, way * kStart};
   InSlot hand(shift.hand, way, across, 1.0 / rate);
-  CarWorld world(car, gate, kPaperForce, car_start(car, shift));
-  SimulatedRun run(config, hand, &world);
+  CarLoad load(car, gate, kPaperForce, car_start(car, shift));
+  SimulatedRun run(config, hand, &load);
   run.channels().controls.write(shift.clutch_closed ? clutch_up() : clutch_down());
-  Seen seen;
-  const double before = world.driveline().kinetic_energy();
+  ProductResult seen;
+  const double before = load.driveline().kinetic_energy();
   const auto sample_of = [&](const HapticSnapshot& lever) {
-    const VehicleState& car_now = world.state();
+    const VehicleState& car_now = load.state();
     return ConeLeverSample{way * run.lever().true_position().y, way * lever.f_h.y, car_now.shaft_speed,
-                           car_now.road_speed, world.driveline().energy().cone};
+                           car_now.road_speed, load.driveline().energy().cone};
   };
   const int each = static_cast<int>(std::lround(0.001 * rate)), ready = static_cast<int>(std::lround(kReady * rate));
   for (int i = 0; i < 4.0 * rate && seen.out.open < 0.0; ++i) {
     const HapticSnapshot& lever = run.step();
     if (i < ready) continue;
     const double time = (i - ready) / rate;
-    const VehicleState& now = world.state();
+    const VehicleState& now = load.state();
     if (i == ready)
       seen.start = {way * run.lever().true_position().y, way * run.lever().true_velocity().y, now.engine_speed,
                     now.shaft_speed, now.road_speed};
@@ -163,13 +165,13 @@ Seen product(const CarSpec& car, const Shift& shift, double rate, bool straight)
     if (shift.clutch_closed) seen.locked = seen.locked && now.clutch_locked;
     if (seen.out.touch < 0.0 && now.sync == SyncPhase::synchronising) seen.out.touch = time;
     if (now.sync == SyncPhase::passing) seen.out.open = time;
-    if (now.sync == SyncPhase::passing) seen.out.heat = world.driveline().energy().cone;
+    if (now.sync == SyncPhase::passing) seen.out.heat = load.driveline().energy().cone;
     seen.push.push_back(way * lever.f_h.y);
     seen.ground = seen.ground || now.grinding;
   }
-  const EnergyLedger& went = world.driveline().energy();
+  const EnergyLedger& went = load.driveline().energy();
   seen.imbalance =
-      std::abs(before + went.engine - out_of(went) - world.driveline().kinetic_energy()) / (before + turned_over(went));
+      std::abs(before + went.engine - out_of(went) - load.driveline().kinetic_energy()) / (before + turned_over(went));
   return seen;
 }
 
@@ -193,7 +195,7 @@ ConeLeverCase case_of(const CarSpec& car, const Shift& shift, bool straight) {
   what.gear = shift.to;
   what.force_scale = kPaperForce / 60.0;
   what.clutch_closed = shift.clutch_closed;
-  what.step = 1e-5;  // converged: the last test
+  what.step = 1e-5;  // converged: see the last test
   return what;
 }
 
@@ -214,7 +216,7 @@ std::vector<double> push_of(const ConeLeverOutcome& out) {
   return push;
 }
 
-// [rad/s] between the two shafts, the most.
+// [rad/s] maximum difference between the two shafts.
 double shaft_off(const ConeLeverOutcome& seen, const ConeLeverOutcome& truth) {
   double most = 0.0;
   for (std::size_t i = 0; i < std::min(seen.samples.size(), truth.samples.size()); ++i)
@@ -229,7 +231,7 @@ double steepest(const ConeLeverOutcome& truth) {
   return most;
 }
 
-// Shares of what is compared, and of the force sensor's steps.
+// Tolerances for the compared values, and for the force sensor's steps.
 struct Within {
   double share, force;  // [1], [N]
 };
@@ -238,7 +240,7 @@ void compare(const CarSpec& car, const Shift& shift, bool straight, const Within
   ConeLeverOutcome truth;
   for (const double rate : {1000.0, 4000.0}) {
     CAPTURE(rate);
-    const Seen seen = product(car, shift, rate, straight);
+    const ProductResult seen = product(car, shift, rate, straight);
     if (truth.open < 0.0) truth = cone_lever_reference(case_of(car, shift, straight), seen.start);
     REQUIRE(truth.open > truth.touch);
     REQUIRE(seen.out.open > seen.out.touch);
@@ -259,9 +261,9 @@ void compare(const CarSpec& car, const Shift& shift, bool straight, const Within
 
 }  // namespace
 
-// The ring hears of speeds one period old, the cone of a push one period old, which rises in a straight line over the
-// next; and all is seen at whole periods. That makes up to three periods, and nothing else. The share is for the
-// encoder's counts, which the damping of wall and aisles hears.
+// The ring uses speeds that are one period old; the cone uses a push that is one period old and rises linearly over the
+// next; and everything is sampled at whole periods. That makes up to three periods and nothing else. The relative
+// tolerance covers the encoder's counts, which affect the damping of walls and aisles.
 TEST_CASE("cone and moving lever against the reference: when the ring opens, shaft, heat and the hand's force") {
   const CarSpec car = shipped_car("hatchback");
   for (const Shift& shift : shifts()) {
@@ -270,8 +272,8 @@ TEST_CASE("cone and moving lever against the reference: when the ring opens, sha
   }
 }
 
-// 44 gram-weight are a step of the sensor: half of that is 1.4 % of a push of 16 N, and the cone follows it.
-TEST_CASE("the same with the yoke and the force sensor that ship: as near as half a step of the sensor is") {
+// The sensor's step is 44 gram-force: half of that is 1.4 % of a push of 16 N, and the cone follows it.
+TEST_CASE("the same with the shipped yoke and force sensor: to within half a step of the sensor") {
   const CarSpec car = shipped_car("hatchback");
   const double half_step = 0.5 * 44.0 * kNewtonPerGramWeight;
   int counted = 0;
@@ -282,7 +284,7 @@ TEST_CASE("the same with the yoke and the force sensor that ship: as near as hal
   }
 }
 
-TEST_CASE("the reference itself: converged, closed form on the plateau, heat from the speeds that it shows") {
+TEST_CASE("the reference itself: converged, closed form on the plateau, heat consistent with its speeds") {
   const CarSpec car = shipped_car("hatchback");
   const Shift shift = shifts()[0];
   ConeLeverCase what = case_of(car, shift, true);
@@ -295,7 +297,7 @@ TEST_CASE("the reference itself: converged, closed form on the plateau, heat fro
   CHECK(coarse.touch == doctest::Approx(fine.touch).epsilon(1e-7));
   CHECK(coarse.heat == doctest::Approx(fine.heat).epsilon(1e-7));
 
-  // t = J dw / (T + drag), T = n F mu R / sin a through the lever, over the ratio.
+  // t = J dw / (T + drag), T = n F mu R / sin a through the lever, divided by the ratio.
   const double inertia = car.clutch.disc_inertia, drag = car.gearbox.drag, ratio = ratio_of(car, 2);
   const double torque = 30.0 * 9.0 * 0.8 * 0.10 * 0.030 / std::sin(6.5 * std::numbers::pi / 180.0) / ratio;
   const ConeLeverSample& still = fine.samples[160];
@@ -304,7 +306,7 @@ TEST_CASE("the reference itself: converged, closed form on the plateau, heat fro
   CHECK(fine.open - 0.160 ==
         doctest::Approx(inertia * (slip - car.synchro.dog_speed * ratio) / (torque + drag)).epsilon(0.01));
 
-  // What the shaft lost, less what its drag took, went through the cone: heat there, the rest into the car.
+  // What the shaft lost, minus what its drag took, went through the cone: part became heat, the rest went into the car.
   double dragged = 0.0, pushed = 0.0;
   for (std::size_t i = 1; i < fine.samples.size(); ++i) {
     const ConeLeverSample &a = fine.samples[i - 1], &b = fine.samples[i];

@@ -1,15 +1,17 @@
-// The ledger: what came in has gone somewhere, to rounding, whatever the feet do.
+// The energy ledger balances to rounding, whatever the feet do.
 #include <algorithm>
 #include <cmath>
 #include <random>
 
 #include <doctest/doctest.h>
 
-#include "tests/app/vehicle/driveline_rig.h"
-#include "tests/bench/driveline/drives.h"
+#include "app/lab/bench/driveline/driveline_rig.h"
+#include "app/lab/bench/driveline/drives.h"
 #include "tests/support/whole_campaign.h"
 
-using namespace gearshift;
+using namespace gearshift::lab;
+using namespace gearshift::test;
+using namespace gearshift::vehicle;
 
 namespace {
 
@@ -21,8 +23,8 @@ double turnover(const EnergyLedger& e) {
   return std::abs(e.engine) + e.friction + e.clutch + e.cone + e.shaft_drag + e.rolling + e.brakes + e.teeth + e.mesh;
 }
 
-// Nothing but the slope gives back.
-bool none_shrinks(const EnergyLedger& a, const EnergyLedger& b, double rounding) {
+// Only the slope's energy may decrease.
+bool losses_only_grow(const EnergyLedger& a, const EnergyLedger& b, double rounding) {
   const double EnergyLedger::*kept[] = {&EnergyLedger::friction, &EnergyLedger::clutch, &EnergyLedger::cone,
                                         &EnergyLedger::rolling,  &EnergyLedger::brakes, &EnergyLedger::shaft_drag,
                                         &EnergyLedger::teeth,    &EnergyLedger::mesh};
@@ -30,10 +32,10 @@ bool none_shrinks(const EnergyLedger& a, const EnergyLedger& b, double rounding)
                      [&](const double EnergyLedger::*part) { return b.*part >= a.*part - rounding; });
 }
 
-// Pedals that wander, gears at random, now and then the key and the cone.
-class Fool {
+// Drifting pedals, random gears, sometimes ignition and cone.
+class RandomDriver {
  public:
-  explicit Fool(unsigned seed) : random_(seed) {}
+  explicit RandomDriver(unsigned seed) : random_(seed) {}
   DrivelineInput next() {
     for (double* pedal : {&in_.throttle, &in_.clutch, &in_.brake, &in_.hand_brake}) {
       if (random_() % 200 == 0) *pedal = random_() % 2 == 0 ? number(0.0, 1.0) : random_() % 3 == 0 ? 1.0 : 0.0;
@@ -44,7 +46,7 @@ class Fool {
     if (random_() % 100 == 0) in_.cone_torque = number(0.0, 40.0);
     if (random_() % 3000 == 0) in_.ignition = !in_.ignition;
     if (!in_.ignition && random_() % 200 == 0) in_.ignition = true;
-    // It takes half a second and more to start.
+    // Starting takes at least half a second.
     in_.starter = random_() % (in_.starter ? 1500 : 400) == 0 ? !in_.starter : in_.starter;
     return in_;
   }
@@ -57,13 +59,13 @@ class Fool {
 
 }  // namespace
 
-TEST_CASE("energy: what engine and slope give is kinetic or spent, to 1e-12 over a minute of folly") {
+TEST_CASE("energy: the input of engine and slope is kinetic or dissipated, to 1e-12 over a minute of random input") {
   const unsigned seeds = is_whole_campaign() ? 20 : 6;
   for (unsigned seed = 0; seed < seeds; ++seed) {
     CAPTURE(seed);
     CarSpec car = hatchback();
     if (seed % 2 == 1) car.gearbox.efficiency = 0.93;
-    Fool fool(seed);
+    RandomDriver fool(seed);
     Driveline line(car);
     line.place(100.0, 50.0, fool.number(-10.0, 30.0), true);
     const double begin = line.kinetic_energy();
@@ -71,7 +73,7 @@ TEST_CASE("energy: what engine and slope give is kinetic or spent, to 1e-12 over
     for (int i = 0; i < 60000; ++i) {
       const EnergyLedger before = line.energy();
       line.step(fool.next(), 0.001);
-      good = good && none_shrinks(before, line.energy(), 1e-8) && std::isfinite(line.state().acceleration) &&
+      good = good && losses_only_grow(before, line.energy(), 1e-8) && std::isfinite(line.state().acceleration) &&
              line.state().engine_speed >= 0.0;
     }
     CHECK(good);
@@ -82,7 +84,7 @@ TEST_CASE("energy: what engine and slope give is kinetic or spent, to 1e-12 over
   }
 }
 
-TEST_CASE("the parts that the drive does not use stay empty") {
+TEST_CASE("ledger entries that the drive does not use stay zero") {
   Driveline line(hatchback());
   for (int i = 0; i < 2000; ++i) line.step(pedals(0, 0.3, 1.0), 0.001);
   const EnergyLedger& e = line.energy();
@@ -92,7 +94,7 @@ TEST_CASE("the parts that the drive does not use stay empty") {
     CHECK(part == 0.0);
 }
 
-TEST_CASE("with a dead engine the car only loses") {
+TEST_CASE("with the engine off the car only loses energy") {
   Driveline line(hatchback());
   line.place(400.0, 400.0, 400.0 / shaft_per_road(hatchback(), 2), false);
   DrivelineInput in = pedals(2, 1.0, 0.0);
@@ -110,7 +112,7 @@ TEST_CASE("with a dead engine the car only loses") {
   CHECK(line.energy().engine == 0.0);
 }
 
-// Teeth of 0.9 in a long pull: a tenth of what goes through them.
+// Teeth with an efficiency of 0.9 in a long pull lose a tenth of the energy through them.
 TEST_CASE("teeth take (1 - efficiency) of what goes through them") {
   CarSpec car = bare_car(0.1, 0.6, 300.0, 100.0);
   car.gearbox.efficiency = 0.9;
@@ -122,7 +124,7 @@ TEST_CASE("teeth take (1 - efficiency) of what goes through them") {
   CHECK(line.energy().teeth == doctest::Approx(gained / 9.0).epsilon(1e-9));
 }
 
-TEST_CASE("momentum: with nothing from outside it stays, slipping, locking and locked") {
+TEST_CASE("momentum: without external torque it is constant, slipping, locking and locked") {
   const CarSpec car = bare_car(0.15, 0.569, 200.0);
   Driveline line(car);
   line.place(300.0, 30.0, 3.0, false);

@@ -1,4 +1,4 @@
-// What breaks drivelines: standing, holding, stalling, chattering, late steps, and inputs that are no numbers.
+// Hard cases for drivelines: standing, holding, stalling, chattering, late steps, and non-finite inputs.
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -8,10 +8,12 @@
 
 #include <doctest/doctest.h>
 
-#include "tests/app/vehicle/driveline_rig.h"
-#include "tests/bench/driveline/drives.h"
+#include "app/lab/bench/driveline/driveline_rig.h"
+#include "app/lab/bench/driveline/drives.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::lab;
+using namespace gearshift::vehicle;
 using doctest::Approx;
 
 namespace {
@@ -24,7 +26,7 @@ Driveline at_rest(const CarSpec& car) {
   return line;
 }
 
-// Pedal at which the clutch carries so much.
+// The pedal position at which the clutch transmits that torque.
 double pedal_for(const ClutchSpec& clutch, double torque) {
   return clutch.bite - (clutch.bite - clutch.closed) * std::sqrt(torque / clutch.capacity);
 }
@@ -38,8 +40,8 @@ bool same_bits(const VehicleState& a, const VehicleState& b) {
 
 }  // namespace
 
-// Slope 20 %: the clutch holds the car, neither up nor down, while G T is within the rolling resistance of m g sin.
-TEST_CASE("on a hill the slipping clutch holds the car to the bit, and not beyond the rolling resistance") {
+// Slope 20 %: the clutch holds the car in both directions while G T is within the rolling resistance of m g sin.
+TEST_CASE("on a hill the slipping clutch holds the car exactly, but not beyond the rolling resistance") {
   CarSpec car = hatchback();
   car.gearbox.drag = car.gearbox.drag_slope = 0.0;
   const double ratio = shaft_per_road(car, 1), slope = std::atan(0.2);
@@ -66,7 +68,7 @@ TEST_CASE("on a hill the slipping clutch holds the car to the bit, and not beyon
   }
 }
 
-TEST_CASE("foot brake and hand brake hold on a hill for a minute with trembling feet, and nothing creeps") {
+TEST_CASE("foot brake and handbrake hold on a hill for a minute with trembling feet, and nothing creeps") {
   const CarSpec car = hatchback();
   std::mt19937 random(7);
   for (const bool hand : {false, true}) {
@@ -85,7 +87,7 @@ TEST_CASE("foot brake and hand brake hold on a hill for a minute with trembling 
   }
 }
 
-TEST_CASE("a car that is let go on a hill rolls back, and stops when it is braked") {
+TEST_CASE("a car released on a hill rolls back, and stops when braked") {
   Driveline line = at_rest(hatchback());
   DrivelineInput in = pedals(0, 0.0, 1.0);
   in.slope = 0.1;
@@ -96,9 +98,9 @@ TEST_CASE("a car that is let go on a hill rolls back, and stops when it is brake
   CHECK(line.state().road_speed == 0.0);
 }
 
-// The engine does not turn backwards, so uphill in first a dead one holds what the clutch can carry; downhill it holds
-// its friction's worth.
-TEST_CASE("a dead engine in gear holds the car on a hill") {
+// The engine does not turn backwards, so uphill in first a stopped engine holds as much as the clutch transmits;
+// downhill it holds as much as its friction.
+TEST_CASE("a stopped engine in gear holds the car on a hill") {
   const CarSpec car = hatchback();
   DrivelineInput in = pedals(1, 0.0, 0.0);
   in.ignition = false;
@@ -118,7 +120,7 @@ TEST_CASE("a dead engine in gear holds the car on a hill") {
   CHECK(line.state().engine_speed == line.state().shaft_speed);
 }
 
-TEST_CASE("a dumped clutch stalls the engine for good; the starter brings it back, also more than once") {
+TEST_CASE("a dumped clutch stalls the engine; the starter restarts it, also repeatedly") {
   Driveline line = at_rest(hatchback());
   drive(line, pedals(1, 0.0, 1.0), 0.2);
   drive(line, pedals(1, 0.0, 0.0), 3.0);
@@ -138,11 +140,11 @@ TEST_CASE("a dumped clutch stalls the engine for good; the starter brings it bac
     in.ignition = false;
     drive(line, in, 3.0);
     CHECK_FALSE(line.state().running);
-    CHECK_FALSE(line.state().stalled);  // switched off is no stall
+    CHECK_FALSE(line.state().stalled);  // switching off is not a stall
   }
 }
 
-TEST_CASE("an engine stalls that had run by itself: not one that was never started, nor one that the key stopped") {
+TEST_CASE("only an engine that had run by itself stalls: not one that never started, nor one that was switched off") {
   const CarSpec car = hatchback();
   Driveline line(car);
   line.place(0.0, 0.0, 0.0, false);
@@ -150,7 +152,7 @@ TEST_CASE("an engine stalls that had run by itself: not one that was never start
   DrivelineInput cranks = on, off = on;
   cranks.starter = true;
   off.ignition = false;
-  // Until it fires, not until it runs by itself: let go, it dies again.
+  // Cranks only until the engine fires, not until it runs by itself: when released, it dies again.
   const auto start_badly = [&] {
     for (int i = 0; i < 5000 && !line.state().running; ++i) line.step(cranks, 0.001);
     REQUIRE(line.state().engine_speed < car.engine.stall);
@@ -175,7 +177,7 @@ TEST_CASE("an engine stalls that had run by itself: not one that was never start
   drive(line, on, 1.0);
   CHECK_FALSE(line.state().stalled);
   drive(line, cranks, 2.0);
-  drive(line, off, 0.01);  // switched off as it runs
+  drive(line, off, 0.01);  // switched off while running
   CHECK_FALSE(line.state().running);
   drive(line, on, 3.0);
   CHECK_FALSE(line.state().stalled);
@@ -183,7 +185,7 @@ TEST_CASE("an engine stalls that had run by itself: not one that was never start
 
 TEST_CASE("the starter alone drives the car in gear with the clutch up, when the engine cannot fire") {
   CarSpec car = hatchback();
-  car.engine.starter_torque = 10.0;  // against a friction of 8: it turns, and not fast enough to fire
+  car.engine.starter_torque = 10.0;  // against a friction of 8: it turns, but too slowly to fire
   Driveline line(car);
   line.place(0.0, 0.0, 0.0, false);
   DrivelineInput in = pedals(1, 0.0, 0.0);
@@ -219,7 +221,7 @@ TEST_CASE("fifth at 5 m/s lugs and pulls, at 2.5 m/s it stalls") {
   }
 }
 
-TEST_CASE("the limiter cuts and gives back within its band, and needs no impulses") {
+TEST_CASE("the limiter cuts and resumes within its band, and needs no impulses") {
   const CarSpec car = hatchback();
   Driveline line = at_rest(car);
   drive(line, pedals(0, 1.0, 1.0), 3.0);
@@ -242,7 +244,7 @@ TEST_CASE("the limiter cuts and gives back within its band, and needs no impulse
   CHECK(line.fallbacks() == 0);
 }
 
-TEST_CASE("a limiter without a band would change for ever: impulses take the step, and it holds the speed") {
+TEST_CASE("a limiter without a band would toggle forever: impulses finish the step, and it holds the speed") {
   CarSpec car = hatchback();
   car.engine.limiter_band = 0.0;
   Driveline line = at_rest(car);
@@ -254,8 +256,8 @@ TEST_CASE("a limiter without a band would change for ever: impulses take the ste
   CHECK(begin + e.engine - e.friction == Approx(line.kinetic_energy()).epsilon(1e-9));
 }
 
-// The steps that fall into the hole are missing, and the pedals go through it in a straight line: as they truly do here.
-TEST_CASE("a late step of 33, 100 or 500 ms goes the same way as steps of 1 ms") {
+// Steps are missing during the gap, and the pedals move linearly through it, as they really do in this test.
+TEST_CASE("a late step of 33, 100 or 500 ms gives the same result as steps of 1 ms") {
   const auto foot = [](double t) { return pedals(1, ramp(t, 0.0, 0.5, 0.0, 0.25), ramp(t, 0.25, 1.75, 1.0, 0.0)); };
   for (const int late : {33, 100, 500}) {
     CAPTURE(late);
@@ -273,7 +275,7 @@ TEST_CASE("a late step of 33, 100 or 500 ms goes the same way as steps of 1 ms")
   }
 }
 
-TEST_CASE("half a second is the longest step; none, less than none and no number move nothing") {
+TEST_CASE("half a second is the longest step; zero, negative and NaN steps move nothing") {
   Driveline line(hatchback());
   line.place(84.0, 0.0, 10.0, true);
   for (const double seconds : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
@@ -285,7 +287,7 @@ TEST_CASE("half a second is the longest step; none, less than none and no number
   CHECK(line.state().distance == Approx(5.0).epsilon(0.01));
 }
 
-TEST_CASE("a step of no length takes the pedals as they are, and shows what they do") {
+TEST_CASE("a step of zero length applies the pedals and updates the outputs") {
   const CarSpec car = hatchback();
   Driveline line(car);
   line.place(300.0, 0.0, 0.0, true);
@@ -295,7 +297,7 @@ TEST_CASE("a step of no length takes the pedals as they are, and shows what they
   CHECK(line.state().road_speed == 0.0);
 }
 
-// The car stops, and within the same millisecond its shaft has become slower than the engine.
+// The car stops, and within the same millisecond its shaft becomes slower than the engine.
 TEST_CASE("with the clutch down the engine does not notice that the car stops") {
   const CarSpec car = hatchback();
   Driveline line(car);
@@ -308,7 +310,7 @@ TEST_CASE("with the clutch down the engine does not notice that the car stops") 
   CHECK(line.state().engine_speed == Approx(0.15 - 0.001 * car.engine.friction / car.engine.inertia).epsilon(1e-4));
 }
 
-TEST_CASE("a trembling clutch pedal locks once and chatters not") {
+TEST_CASE("a trembling clutch pedal locks once and does not chatter") {
   Driveline line = at_rest(hatchback());
   std::mt19937 random(3);
   int changes = 0;
@@ -325,7 +327,7 @@ TEST_CASE("a trembling clutch pedal locks once and chatters not") {
   CHECK(line.fallbacks() == 0);
 }
 
-TEST_CASE("locked stays locked to the bit, in drive and overrun, whatever the throttle does") {
+TEST_CASE("a locked clutch stays locked exactly, in drive and overrun, whatever the throttle does") {
   const CarSpec car = hatchback();
   Driveline line(car);
   line.place(300.0, 300.0, 300.0 / shaft_per_road(car, 3), true);
@@ -340,7 +342,7 @@ TEST_CASE("locked stays locked to the bit, in drive and overrun, whatever the th
   CHECK(locked);
 }
 
-// J w' = -(d + s w) until it stands.
+// J w' = -(d + s w) until it stops.
 TEST_CASE(
     "in neutral the shaft turns with the engine while the clutch is up, and runs down by its drag when it is not") {
   const CarSpec car = hatchback();
@@ -359,7 +361,7 @@ TEST_CASE(
   CHECK(line.state().shaft_speed == 0.0);
 }
 
-TEST_CASE("no capacity at all joins nothing; an endless one joins at once, with the momentum kept") {
+TEST_CASE("zero capacity transmits nothing; infinite capacity locks at once, conserving momentum") {
   Driveline loose(bare_car(0.15, 0.569, 0.0));
   loose.place(300.0, 30.0, 3.0, false);
   DrivelineInput in = pedals(1, 0.0, 0.0);
@@ -378,7 +380,7 @@ TEST_CASE("no capacity at all joins nothing; an endless one joins at once, with 
   }
 }
 
-TEST_CASE("what is no number counts as nothing, and leaves nothing behind") {
+TEST_CASE("non-finite input counts as zero, and leaves no trace") {
   constexpr double kNan = std::numeric_limits<double>::quiet_NaN(), kInf = std::numeric_limits<double>::infinity();
   for (const double bad : {kNan, kInf, -kInf}) {
     Driveline line(hatchback()), other(hatchback());
@@ -401,7 +403,7 @@ TEST_CASE("what is no number counts as nothing, and leaves nothing behind") {
   CHECK(std::isfinite(line.kinetic_energy()));
 }
 
-TEST_CASE("a gear that the box has not is neutral") {
+TEST_CASE("a gear that the gearbox lacks is neutral") {
   for (const int gear : {6, 9, 10, -2, 1000000}) {
     Driveline line(hatchback());
     line.place(84.0, 0.0, 10.0, true);
@@ -411,7 +413,7 @@ TEST_CASE("a gear that the box has not is neutral") {
   }
 }
 
-TEST_CASE("reverse goes backwards, and what the wheels get has the sign of the way") {
+TEST_CASE("reverse drives backwards, and the wheels' torque has the right sign") {
   Driveline line = at_rest(hatchback());
   for (int i = 0; i < 3000; ++i) line.step(pedals(kReverseGear, 0.3, ramp(0.001 * i, 0.2, 1.7, 1.0, 0.0)), 0.001);
   CHECK(line.state().road_speed < -1.0);
@@ -422,7 +424,7 @@ TEST_CASE("reverse goes backwards, and what the wheels get has the sign of the w
   CHECK(line.state().distance < 0.0);
 }
 
-TEST_CASE("the same drive again is the same to the bit") {
+TEST_CASE("the same drive again is bit-identical") {
   for (const Drive& d : all_drives()) {
     Driveline one(d.car), other(d.car);
     one.place(d.engine, d.shaft, d.road, true);
@@ -437,7 +439,7 @@ TEST_CASE("the same drive again is the same to the bit") {
   }
 }
 
-TEST_CASE("the lever's part of the state is left alone") {
+TEST_CASE("the lever's part of the state is not changed") {
   Driveline line = at_rest(hatchback());
   drive(line, pedals(1, 0.5, 0.0), 1.0);
   const VehicleState untouched;

@@ -1,17 +1,18 @@
-// The driveline against closed forms: each law with the others switched off.
+// The driveline compared with closed forms: each law with the others switched off.
 #include <algorithm>
 #include <cmath>
 
 #include <doctest/doctest.h>
 
-#include "tests/app/vehicle/driveline_rig.h"
+#include "app/lab/bench/driveline/driveline_rig.h"
 
-using namespace gearshift;
+using namespace gearshift::lab;
+using namespace gearshift::vehicle;
 using doctest::Approx;
 
 namespace {
 
-// [1] off, of what it should be.
+// [1] relative error.
 double off(double has, double should) {
   return std::abs(has / should - 1.0);
 }
@@ -31,7 +32,8 @@ DrivelineInput engine_off(int gear, double clutch) {
 
 }  // namespace
 
-// t = Jr dw / T, E = Jr dw^2 / 2 whatever the torque, common speed of the whole momentum; 1 / Jr = 1 / J1 + 1 / J2.
+// t = Jr dw / T, E = Jr dw^2 / 2 whatever the torque; the common speed follows from total momentum; 1 / Jr = 1 / J1 + 1
+// / J2.
 TEST_CASE("two free inertias lock after Jr dw / T, at their common momentum, and lose Jr dw^2 / 2") {
   for (const double step : {0.001, 0.0042, 0.011, 0.033}) {
     CAPTURE(step);
@@ -67,7 +69,7 @@ TEST_CASE("with loads on both sides the clutch locks later, and loses T dw t / 2
   const double rate = 200.0 * (1.0 / 0.15 + 1.0 / 0.569) - 60.0 / 0.15 - 40.0 / 0.569;
   const double time = time_until(line, pedals(1, 1.0, 0.0), 0.001, locked);
   CHECK(off(time, 270.0 / rate) < 1e-9);
-  // The last step has run on locked: that adds nothing to the clutch's heat.
+  // The rest of the last step ran locked, which adds nothing to the clutch's heat.
   CHECK(off(line.energy().clutch, 200.0 * 270.0 * 270.0 / rate / 2.0) < 1e-9);
 }
 
@@ -97,7 +99,7 @@ TEST_CASE("a pedal let up straight locks after the cube root of 3 Jr dw T^2 / C"
   CHECK(off(line.energy().clutch, 0.5 * reduced * 200.0 * 200.0) < 1e-9);
 }
 
-// t = sqrt(2 Jr dw / k), E as ever.
+// t = sqrt(2 Jr dw / k), E as before.
 TEST_CASE("a capacity that grows as k t locks after sqrt(2 Jr dw / k)") {
   const CarSpec car = bare_car(0.15, 0.569, 240.0);
   const double reduced = 0.15 * 0.569 / 0.719, k = 400.0;
@@ -124,8 +126,8 @@ TEST_CASE("a locked clutch carries (T1 J2 + T2 J1) / (J1 + J2)") {
   CHECK(line.energy().clutch == 0.0);
 }
 
-// The throttle opens within a second: T1 = 200 t. It breaks where T1 J2 / (J1 + J2) is the capacity.
-TEST_CASE("a locked clutch breaks when it would have to carry more than its capacity, not before") {
+// The throttle opens within a second: T1 = 200 t. The clutch slips when T1 J2 / (J1 + J2) reaches the capacity.
+TEST_CASE("a locked clutch slips when it would have to carry more than its capacity, not before") {
   Driveline line(bare_car(0.15, 0.569, 100.0, 200.0));
   line.place(50.0, 50.0, 5.0, true);
   const auto foot = [](double t) { return pedals(1, std::min(t, 1.0), 0.0); };
@@ -134,8 +136,8 @@ TEST_CASE("a locked clutch breaks when it would have to carry more than its capa
   CHECK(line.state().clutch_torque == 100.0);
 }
 
-// To rounding: were that a reason to slip, it would slip and lock for ever.
-TEST_CASE("a clutch that must carry exactly what it can, holds") {
+// If rounding errors made it slip, it would alternate between slipping and locking.
+TEST_CASE("a clutch that must carry exactly its capacity holds") {
   for (int i = 0; i < 50; ++i) {
     const double torque = 60.0 + 1.7 * i, other = 0.4 + 0.013 * i;
     Driveline line(bare_car(0.15, other, torque * other / (0.15 + other), torque));
@@ -174,7 +176,7 @@ TEST_CASE("the car coasts to rest in the time and on the way of its resistance, 
 
 // m v' = -(a + b v + c v^2), 4 a c > b^2: with D = sqrt(4 a c - b^2),
 // t = 2 m / D (atan((2 c v0 + b) / D) - atan(b / D)).
-TEST_CASE("with a linear part of the resistance too, the car stops when Riccati says") {
+TEST_CASE("with a linear resistance term, too, the car stops at the time from the Riccati equation") {
   CarSpec car;
   car.body.mass = 1412.8 - car.body.rotating;
   car.body.resistance_slope = 0.954;
@@ -187,7 +189,7 @@ TEST_CASE("with a linear part of the resistance too, the car stops when Riccati 
 }
 
 // 4 a c < b^2: with D = sqrt(b^2 - 4 a c), t = m / D ln((2 c v0 + b - D)(b + D) / ((2 c v0 + b + D)(b - D))).
-TEST_CASE("the same where the linear part is the larger") {
+TEST_CASE("the same if the linear part is larger") {
   CarSpec car;
   car.body.mass = 1000.0 - car.body.rotating;
   car.body.resistance = 50.0;
@@ -201,7 +203,7 @@ TEST_CASE("the same where the linear part is the larger") {
 }
 
 // J w' = -(a + c w^2).
-TEST_CASE("an engine that is switched off runs down by its friction and stands at once") {
+TEST_CASE("an engine that is switched off slows down by its friction and stops completely") {
   CarSpec car = bare_car(0.15, 0.5, 0.0);
   car.engine.friction = 9.0;
   car.engine.friction_square = 4e-5;
@@ -214,8 +216,8 @@ TEST_CASE("an engine that is switched off runs down by its friction and stands a
   CHECK(line.state().engine_speed == 0.0);
 }
 
-// Torque k (idle - w) F with F = full load and friction: w - idle falls as exp(-k F t / J).
-TEST_CASE("idle is found again from below as by a spring: exp(-k F t / J)") {
+// Torque k (idle - w) F with F = full load plus friction: w - idle falls as exp(-k F t / J).
+TEST_CASE("idle speed is reached again from below exponentially: exp(-k F t / J)") {
   CarSpec car = bare_car(0.15, 0.5, 0.0, 91.0);
   car.engine.friction = 9.0;
   car.engine.idle = 84.0;
@@ -228,7 +230,7 @@ TEST_CASE("idle is found again from below as by a spring: exp(-k F t / J)") {
   CHECK(line.state().engine_speed == Approx(84.0).epsilon(1e-12));
 }
 
-// The car is so heavy that its speed stands: t = J dw / (T +- drag), T at the shaft.
+// The car is so heavy that its speed stays constant: t = J dw / (T +- drag), T at the shaft.
 TEST_CASE("a cone brings the shaft to its gear within J dw / (T +- drag), the drag with it or against it") {
   CarSpec car = bare_car(0.15, 1.0, 240.0);
   car.gearbox.ratio = {2.0};
@@ -247,7 +249,7 @@ TEST_CASE("a cone brings the shaft to its gear within J dw / (T +- drag), the dr
     CHECK(off(time, 0.006 * std::abs(begin - target) / torque) < 1e-9);
     CHECK(off(line.energy().cone, 11.4 / 2.0 * std::abs(begin - target) * time / 2.0) < 1e-9);
     drive(line, in, 1.0);
-    CHECK(line.state().shaft_speed == 20.0 * line.state().road_speed);  // held, to the bit
+    CHECK(line.state().shaft_speed == 20.0 * line.state().road_speed);  // held exactly
   }
 }
 
@@ -278,7 +280,7 @@ TEST_CASE("a cone weaker than the engine's torque never brings the speeds togeth
   CHECK(line.state().shaft_speed > 500.0);
 }
 
-// The clutch carries a limited torque and so no impulse: shaft and car alone.
+// The clutch transmits a limited torque and so no impulse: only shaft and car take part.
 TEST_CASE("dogs that meet share the momentum of shaft and car, and lose Jr dw^2 / 2") {
   for (const double clutch : {1.0, 0.0}) {
     Driveline line(bare_car(0.15, 0.306, 200.0));

@@ -1,21 +1,22 @@
-// The driveline against Runge-Kutta of order four at 10 us with each mode written out by hand.
+// The driveline compared with fourth-order Runge-Kutta at 10 us, with each mode written out by hand.
 #include <algorithm>
 #include <cmath>
 
 #include <doctest/doctest.h>
 
+#include "app/lab/bench/driveline/methods.h"
 #include "tests/app/vehicle/cars.h"
-#include "tests/bench/driveline/methods.h"
 #include "tests/support/whole_campaign.h"
 
-using namespace gearshift;
+using namespace gearshift::lab;
+using namespace gearshift::test;
 
 namespace {
 
 struct Off {
-  double engine = 0.0, shaft = 0.0, road = 0.0;  // worst at any sample
-  double end = 0.0;                              // [rad/s] engine
-  double clutch = 0.0, cone = 0.0;               // [1] of the heat
+  double engine = 0.0, shaft = 0.0, road = 0.0;  // largest at any sample
+  double end = 0.0;                              // [rad/s] of the engine at the end
+  double clutch = 0.0, cone = 0.0;               // [1] relative, of the heat
 };
 
 Off off(const Drive& drive, const DriveOutcome& has, const DriveOutcome& should, double step) {
@@ -38,7 +39,7 @@ Off off(const Drive& drive, const DriveOutcome& has, const DriveOutcome& should,
 
 TEST_CASE("every hard drive follows the reference: at 1 ms to 0.01 rad/s and 0.005 % of the heat, at 4 ms to 0.06") {
   std::vector<Drive> drives = all_drives();
-  drives.push_back(launch_of(shipped_car("hatchback")));  // teeth that take their share
+  drives.push_back(launch_of(shipped_car("hatchback")));  // teeth with losses
   drives.push_back(launch_of(shipped_car("diesel")));
   for (const Drive& drive : drives) {
     CAPTURE(drive.name);
@@ -58,8 +59,8 @@ TEST_CASE("every hard drive follows the reference: at 1 ms to 0.01 rad/s and 0.0
   }
 }
 
-// Two methods that share no event logic agree: the reference is no image of the driveline.
-TEST_CASE("impulses without any event come to the reference as the step shrinks") {
+// Two methods without common event logic agree, so the reference does not just copy the driveline.
+TEST_CASE("plain impulses without events converge to the reference as the step shrinks") {
   int counted = 0;
   for (const Drive& drive : all_drives()) {
     if (counted++ % 3 != 0 && !is_whole_campaign()) continue;
@@ -73,7 +74,7 @@ TEST_CASE("impulses without any event come to the reference as the step shrinks"
   }
 }
 
-TEST_CASE("the drives do what they are called") {
+TEST_CASE("the drives match their names") {
   for (const Drive& drive : {launch(), launch_of(shipped_car("hatchback"))}) {
     const DriveOutcome runs = reference_of(drive);
     CHECK(runs.running);
@@ -97,8 +98,8 @@ TEST_CASE("the drives do what they are called") {
   CHECK(reference_of(first_backwards()).samples.back().road > 1.0);
 }
 
-// 2.02 kJ, locked after 1.303 s, by a Runge-Kutta of its own.
-TEST_CASE("the launch is what another program made of it") {
+// 2.02 kJ, locked after 1.303 s: results of a separate program's Runge-Kutta.
+TEST_CASE("the launch matches another program's result") {
   const DriveOutcome runs = reference_of(launch());
   CHECK(runs.slip_energy == doctest::Approx(2020.0).epsilon(0.003));
   const auto locks = std::find_if(runs.samples.begin() + 1, runs.samples.end(),
@@ -106,8 +107,8 @@ TEST_CASE("the launch is what another program made of it") {
   CHECK(static_cast<double>(locks - runs.samples.begin()) == doctest::Approx(1303.0).epsilon(0.001));
 }
 
-// Negative control: the usual tanh clutch is off by what these tests would see.
-TEST_CASE("a tanh clutch fails what the driveline holds") {
+// Negative control: the usual tanh clutch is wrong by more than these tests tolerate.
+TEST_CASE("a tanh clutch fails these tolerances") {
   const Drive drive = launch();
   const Off worst = off(drive, drive_by(DriveMethod::tanh, drive, 0.001), reference_of(drive), 0.001);
   CHECK(worst.engine > 1.0);

@@ -1,15 +1,18 @@
-// What the driveline tells sound and instruments of its engine.
+// The driveline's engine state for sound and instruments.
 #include <algorithm>
 #include <cmath>
 
 #include <doctest/doctest.h>
 
+#include "app/lab/bench/driveline/driveline_rig.h"
 #include "tests/app/vehicle/cars.h"
-#include "tests/app/vehicle/driveline_rig.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::lab;
+using namespace gearshift::test;
+using namespace gearshift::vehicle;
 
-TEST_CASE("the fuel is cut from the limiter down to its band, 6500 to 6400 rpm, and told so; never below") {
+TEST_CASE("the fuel is cut from the limiter down to its band, 6500 to 6400 rpm, and reported as cut; never below") {
   Driveline line(shipped_car("hatchback"));
   int cuts = 0;
   bool before = false;
@@ -27,7 +30,8 @@ TEST_CASE("the fuel is cut from the limiter down to its band, 6500 to 6400 rpm, 
   CHECK(cuts > 10);
 }
 
-TEST_CASE("where the clutch is said to bite it begins to carry, and where it is said to be closed it carries all") {
+TEST_CASE(
+    "at the reported bite point the clutch begins to transmit, and at the reported closed point it transmits all") {
   for (const char* name : {"hatchback", "diesel"}) {
     CAPTURE(name);
     const CarSpec car = shipped_car(name);
@@ -66,8 +70,7 @@ TEST_CASE("it cranks while the starter turns it, and no longer once it runs, tho
   CHECK_FALSE(line.state().cranking);  // without ignition
 }
 
-TEST_CASE(
-    "the starter is held for two turns of the engine, half a second and more; let go before, the engine stays dead") {
+TEST_CASE("starting takes two engine turns, at least half a second; released before, the engine stays off") {
   for (const char* name : {"hatchback", "diesel"}) {
     CAPTURE(name);
     const CarSpec car = shipped_car(name);
@@ -95,15 +98,15 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("an engine that is stopped from behind stands at 0 and not at -0: reverse in at 5 m/s ahead") {
+TEST_CASE("an engine stopped by the car stands at 0 and not at -0: reverse engaged at 5 m/s forwards") {
   const CarSpec car = shipped_car("hatchback");
   Driveline line(car);
   line.place(car.engine.idle, shaft_per_road(car, kReverseGear) * 5.0, 5.0, true);
-  bool stood = false;
+  bool has_stopped = false;
   for (int i = 0; i < 4000; ++i) {
     line.step(pedals(kReverseGear, 0.4, std::max(0.0, 1.0 - i / 1500.0)), 1e-3);
     REQUIRE_FALSE(std::signbit(line.state().engine_speed));
-    stood = stood || line.state().engine_speed == 0.0;
+    has_stopped = has_stopped || line.state().engine_speed == 0.0;
   }
-  CHECK(stood);
+  CHECK(has_stopped);
 }

@@ -1,4 +1,5 @@
-// Hands quicker and stronger than any person's: a sound ring lets none of them grind a forward gear, a worn one all.
+// Hands faster and stronger than any person's: in a sound gearbox none of them can grind a forward gear, in a worn one
+// all can.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -8,24 +9,26 @@
 #include "tests/app/vehicle/car_run.h"
 #include "tests/support/whole_campaign.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
+using namespace gearshift::vehicle;
 using glm::dvec2;
 
 namespace {
 
-constexpr double kHandReady = 0.05;  // [s] until the hand sets out: the guard has ramped up
+constexpr double kHandReady = 0.05;  // [s] until the hand starts moving: the guard has ramped up
 
 struct Rush {
-  double speed, push, rate;  // [m/s] of the hand, [N] the most that it pushes, [Hz]
+  double speed, push, rate;  // [m/s] of the hand, [N] its maximum push, [Hz]
 };
 
 struct Shifted {
   bool in = false;
   double ground = 0.0;      // [J]
-  double difference = 0.0;  // [rad/s] that the sleeve was let through the ring with, the most
+  double difference = 0.0;  // [rad/s] largest speed difference at which the ring let the sleeve pass
 };
 
-// Follows a place that moves into the slot, with whatever force it takes.
+// Follows a target that moves into the slot, with whatever force it takes.
 PushingHand rushing_hand(const Slot& slot, double across, const Rush& rush) {
   const double way = static_cast<double>(static_cast<int>(slot.side)), end = slot.end + 0.01;
   return PushingHand([=](double time, dvec2 lever) {
@@ -35,7 +38,7 @@ PushingHand rushing_hand(const Slot& slot, double across, const Rush& rush) {
   });
 }
 
-// Out of neutral into that gear, clutch down, shaft and car as the other gear left them.
+// Out of neutral into that gear, clutch down, with shaft and car as the previous gear left them.
 Shifted shift(const CarSpec& car, const Gate& gate, int from, int to, const Rush& rush, double brake) {
   const Slot& slot = slot_of(gate, slot_of_gear(gate, to));
   SimulatedRunConfig config = gripped(gate, kNeutralGear);
@@ -46,18 +49,18 @@ Shifted shift(const CarSpec& car, const Gate& gate, int from, int to, const Rush
   start.gear = kNeutralGear;
   start.shaft_speed = start.engine_speed = 2500.0 * kRpm;
   PushingHand hand = rushing_hand(slot, config.start.x, rush);
-  CarWorld world(car, gate, kPaperForce, start);
-  SimulatedRun run(config, hand, &world);
+  CarLoad load(car, gate, kPaperForce, start);
+  SimulatedRun run(config, hand, &load);
   DriverControls feet = clutch_down();
   feet.brake = brake;
   run.channels().controls.write(feet);
   Shifted shifted;
   bool was_through = false;
   while (run.time() < 2.5 && !shifted.in) {
-    const VehicleState seen = world.state();  // what the ring goes by
+    const VehicleState seen = load.state();  // the state on which the ring's decision is based
     const double difference = std::abs(seen.shaft_speed - shaft_per_road(car, to) * seen.road_speed);
     shifted.in = run.step().gear == to;
-    const VehicleState& now = world.state();
+    const VehicleState& now = load.state();
     shifted.ground += now.grind_power / rush.rate;
     const bool through =
         now.sync != SyncPhase::free && now.sync != SyncPhase::indexing && now.sync != SyncPhase::synchronising;
@@ -72,7 +75,8 @@ bool fits(const CarSpec& car, const Gate& gate) {
                      [&](const Slot& slot) { return shaft_per_road(car, slot.gear) != 0.0; });
 }
 
-// Every shift between forward gears that keeps the engine whole, in every shipped gate. f(gate, from, to)
+// Calls f(gate, from, to) for every shift between forward gears that does not over-rev the engine, in every shipped
+// gate.
 template <class F>
 void each_shift(const CarSpec& car, F f) {
   for (const std::string& name : shipped_names()) {

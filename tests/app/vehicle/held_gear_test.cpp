@@ -1,5 +1,5 @@
-// A gear that is in stays in, and a lever in a slot stays in the middle of it: every slot, every load, for as long as it
-// lasts, and nothing of it is taken for a wall that chatters. Both are complaints of users of other simulators.
+// An engaged gear stays engaged, and a lever in a slot stays in its middle: in every slot, under every load,
+// indefinitely, and never mistaken for a chattering wall. Users of other simulators complain about both.
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -13,13 +13,15 @@
 #include "tests/app/vehicle/car_run.h"
 #include "tests/support/whole_campaign.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
+using namespace gearshift::vehicle;
 using glm::dvec2;
 
 namespace {
 
-constexpr double kLong = 20.0;    // [s]
-constexpr double kShaken = 1e-3;  // [m] by an engine that dies, at most, of a lever that nobody holds
+constexpr double kLong = 20.0;      // [s]
+constexpr double kMaxShake = 1e-3;  // [m] largest movement that a dying engine causes at a lever that nobody holds
 
 DriverControls pedals_at(double clutch, double throttle, double brake = 0.0) {
   DriverControls feet;
@@ -34,7 +36,7 @@ bool every_other(double time, double seconds) {
   return std::fmod(time, 2.0 * seconds) < seconds;
 }
 
-// From rest: clutch down, the starter; then as far up as that, without throttle.
+// From rest: clutch down, starter; then the clutch comes up to `clutch`, without throttle.
 DriverControls dying(double time, double clutch, double brake) {
   const double since = std::fmod(time, 5.0);
   DriverControls feet = pedals_at(since < 1.0 ? 1.0 : clutch, 0.0, brake);
@@ -48,8 +50,8 @@ struct Driving {
   DriverControls (*feet)(double time);
 };
 
-// The engine pulls and brakes; into the limiter, which cuts it many times a second; both in turn; at half a clutch that
-// slips, at one that a foot cannot hold still about the bite, and with none; and dies, in a car that creeps or stands.
+// The engine pulls and brakes; runs into the limiter, which cuts it many times a second; alternates; with the clutch
+// half slipping, trembling about the bite point, and open; and dies, with the car creeping or standing.
 const Driving kDriving[] = {
     {"pulls into the limiter", true, [](double) { return pedals_at(0.0, 1.0); }},
     {"coasts", true, [](double) { return pedals_at(0.0, 0.0); }},
@@ -68,11 +70,11 @@ double way_of(const Slot& slot) {
   return static_cast<double>(static_cast<int>(slot.side));
 }
 
-// A lever that nobody holds, and that is pushed by a function of time and place.
+// A lever that nobody holds, pushed by a function of time and position.
 struct PushedLever {
   template <typename Push>
   PushedLever(const CarSpec& car, const CarStart& start, dvec2 place, Push push)
-      : gate(gate_of(car)), hand(push), world(car, gate, kPaperForce, start), run(bare(gate, place), hand, &world) {}
+      : gate(gate_of(car)), hand(push), load(car, gate, kPaperForce, start), run(bare(gate, place), hand, &load) {}
 
   static SimulatedRunConfig bare(const Gate& gate, dvec2 place) {
     SimulatedRunConfig config = gripped(gate, kNeutralGear);
@@ -84,14 +86,14 @@ struct PushedLever {
     run.channels().controls.write(driving.feet(run.time()));
     const HapticSnapshot& lever = run.step();
     for (HapticEvent event; run.channels().events.pop(event);) lowered += event.kind == EventKind::stiffness_lowered;
-    shaken = std::max(shaken, world.state().shudder);
+    shaken = std::max(shaken, load.state().shudder);
     return lever;
   }
   bool is_guarded() { return lowered == 0 && run.loop().snapshot().guard == GuardState::running; }
 
   Gate gate;
   PushingHand hand;
-  CarWorld world;
+  CarLoad load;
   SimulatedRun run;
   int lowered = 0;
   double shaken = 0.0;
@@ -102,7 +104,7 @@ CarStart in_gear(const CarSpec& car, const Slot& slot, const Driving& driving) {
   return rolling_in(car, slot.gear, driving.rolls ? speed : 0.0);
 }
 
-// In that gear, pulled out of it by so much [N] within half a second.
+// In that gear, pulled out of it with a force that rises to `pull` [N] within half a second.
 PushedLever pulled(const CarSpec& car, const Slot& slot, const Driving& driving, double pull) {
   const double way = way_of(slot);
   return {car, in_gear(car, slot, driving), rest_position(gate_of(car), slot.gear), [=](double time, dvec2) {
@@ -110,9 +112,10 @@ PushedLever pulled(const CarSpec& car, const Slot& slot, const Driving& driving,
           }};
 }
 
-// Every car, slot and way to drive; of a sample every third, which has each car, slot and way.
+// Calls `attempt` for every car, slot and driving; the short run takes every third, which still covers each car, slot
+// and driving.
 template <typename Try>
-void everywhere(Try attempt) {
+void for_each_case(Try attempt) {
   int counted = 0;
   for (const char* name : {"hatchback", "diesel"}) {
     const CarSpec car = shipped_car(name);
@@ -128,29 +131,29 @@ void everywhere(Try attempt) {
   }
 }
 
-// Where a lever was in the mean of a quarter of a second, and whether it stood there, in a slot.
-struct Stand {
-  bool stands = true;
+// A lever's mean position over a quarter of a second, and whether it rested there, in a slot.
+struct RestState {
+  bool is_at_rest = true;
   double depth = 0.0, across = 0.0;  // [m]
 };
-Stand stand_of(PushedLever& lever, const Driving& driving) {
-  Stand out;
+RestState rest_state(PushedLever& lever, const Driving& driving) {
+  RestState out;
   double least = 1.0, most = 0.0;
   for (int i = 0; i < 250; ++i) {
     const HapticSnapshot& now = lever.step(driving);
     const double depth = std::abs(now.lever.y);
-    out.stands = out.stands && now.slot != kNoSlot;
+    out.is_at_rest = out.is_at_rest && now.slot != kNoSlot;
     out.depth += depth / 250.0;
     out.across += now.lever.x / 250.0;
     least = std::min(least, depth);
     most = std::max(most, depth);
   }
-  out.stands = out.stands && most - least < 0.002;  // a rattle and no more
+  out.is_at_rest = out.is_at_rest && most - least < 0.002;  // no more than a rattle
   return out;
 }
 
-// [m] from its rest to where the gear's own detent holds that pull [N].
-double held_at(const Slot& slot, double pull) {
+// [m] distance from rest at which the gear's own detent balances that pull [N].
+double detent_balance(const Slot& slot, double pull) {
   double way = 0.0;
   while (feel_force(slot.feel, slot.rest - way) < pull) way += 1e-5;
   return way;
@@ -158,27 +161,27 @@ double held_at(const Slot& slot, double pull) {
 
 }  // namespace
 
-TEST_CASE("a lever that nobody holds stays in its gear: every slot, load either way, half a clutch, 20 s") {
+TEST_CASE("a released lever stays in its gear: every slot, load in both directions, half a clutch, 20 s") {
   double shaken = 0.0;
-  everywhere([&](const CarSpec& car, const Slot& slot, const Driving& driving) {
+  for_each_case([&](const CarSpec& car, const Slot& slot, const Driving& driving) {
     PushedLever lever = pulled(car, slot, driving, 0.0);
     double farthest = 0.0;
     while (lever.run.time() < kLong) {
       const HapticSnapshot& now = lever.step(driving);
       if (lever.run.time() < 0.2) continue;
       REQUIRE(now.gear == slot.gear);
-      REQUIRE(lever.world.state().gear == slot.gear);
+      REQUIRE(lever.load.state().gear == slot.gear);
       farthest = std::max(farthest, std::abs(std::abs(now.lever.y) - slot.rest));
     }
     shaken = std::max(shaken, lever.shaken);
-    CHECK(farthest < (lever.shaken > 0.0 ? 0.0005 + kShaken : 0.0005));
+    CHECK(farthest < (lever.shaken > 0.0 ? 0.0005 + kMaxShake : 0.0005));
     CHECK(lever.is_guarded());
   });
   CHECK(shaken == doctest::Approx(1.0).epsilon(0.05));  // an engine did die
 }
 
-TEST_CASE("a pull of half the detent moves a lever to where the detent holds it, and no further in 20 s") {
-  everywhere([](const CarSpec& car, const Slot& slot, const Driving& driving) {
+TEST_CASE("a pull of half the detent moves a lever to where the detent balances it, and no further in 20 s") {
+  for_each_case([](const CarSpec& car, const Slot& slot, const Driving& driving) {
     PushedLever lever = pulled(car, slot, driving, 6.0);
     double farthest = 0.0;
     while (lever.run.time() < kLong) {
@@ -187,14 +190,14 @@ TEST_CASE("a pull of half the detent moves a lever to where the detent holds it,
       farthest = std::max(farthest, slot.rest - std::abs(now.lever.y));
     }
     const double spring = 15.7 * slot.rest;  // [N] the bare lever's own
-    CHECK(farthest < held_at(slot, 6.0 + spring) + 0.0005 + (lever.shaken > 0.0 ? kShaken : 0.0));
+    CHECK(farthest < detent_balance(slot, 6.0 + spring) + 0.0005 + (lever.shaken > 0.0 ? kMaxShake : 0.0));
     CHECK(lever.is_guarded());
   });
 }
 
 TEST_CASE("a lever in a slot does not drift sideways: blocked, clashing or in gear, every slot and load, 20 s") {
   for (const double worn : {1.0, 0.5}) {
-    everywhere([worn](CarSpec car, const Slot& slot, const Driving& driving) {
+    for_each_case([worn](CarSpec car, const Slot& slot, const Driving& driving) {
       car.synchro.friction *= worn;
       const Gate gate = gate_of(car);
       const double way = way_of(slot), across = rest_position(gate, slot.gear).x;
@@ -203,11 +206,12 @@ TEST_CASE("a lever in a slot does not drift sideways: blocked, clashing or in ge
       PushedLever lever(car, start, {across, 0.0}, [=](double time, dvec2 at) {
         return dvec2{2000.0 * (across - at.x), time < 0.2 ? 0.0 : 20.0 * way};
       });
-      std::map<long, double> place;  // across, by the depth in half millimetres: where it stood there first
+      // position across the slot, by depth in half millimetres: the first at which it rested
+      std::map<long, double> place;
       double farthest = 0.0;
       while (lever.run.time() < kLong) {
-        const Stand stand = stand_of(lever, driving);
-        if (!stand.stands) continue;
+        const RestState stand = rest_state(lever, driving);
+        if (!stand.is_at_rest) continue;
         const double first = place.try_emplace(std::lround(2000.0 * stand.depth), stand.across).first->second;
         farthest = std::max(farthest, std::abs(stand.across - first));
       }

@@ -1,14 +1,17 @@
-// The shift light, by the road speeds of the hatchback.
+// The shift light at road speeds of the hatchback.
 #include "app/vehicle/shift_advice.h"
 
 #include <cmath>
 
 #include <doctest/doctest.h>
 
+#include "app/lab/bench/driveline/driveline_rig.h"
 #include "tests/app/vehicle/cars.h"
-#include "tests/app/vehicle/driveline_rig.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::lab;
+using namespace gearshift::test;
+using namespace gearshift::vehicle;
 
 namespace {
 
@@ -30,7 +33,7 @@ int advice(const VehicleState& car, int before = 0) {
   return shift_advice(hatchback, car, before);
 }
 
-// How often the light changes while the engine's speed trembles about `rpm` by so much of it.
+// How often the light changes while the engine speed fluctuates about `rpm` by the fraction `trembles`.
 int changes(int gear, double rpm, double throttle, double trembles, bool remembers) {
   int count = 0, lit = 0, seen = 0;
   for (int i = 0; i < 1000; ++i) {
@@ -60,27 +63,27 @@ TEST_CASE("down below 1200 rpm under load: 17.3, 26.1, 34.7 and 44.2 km/h, and n
     CAPTURE(gear);
     CHECK(advice(in_gear(gear, 0.99 * speeds[gear - 2], 0.5)) == -1);
     CHECK(advice(in_gear(gear, 1.01 * speeds[gear - 2], 0.5)) == 0);
-    CHECK(advice(in_gear(gear, 0.99 * speeds[gear - 2], 0.35)) == 0);  // it rolls along
+    CHECK(advice(in_gear(gear, 0.99 * speeds[gear - 2], 0.35)) == 0);  // coasts
   }
   CHECK(advice(in_gear(1, 5.0, 0.9)) == 0);
 }
 
-TEST_CASE("not where the next gear would labour: with 1500 rpm for the least, second wants 2668 rpm or 21.7 km/h") {
+TEST_CASE("not if the next gear would lug: with a minimum of 1500 rpm, second needs 2668 rpm or 21.7 km/h") {
   CarSpec car = shipped_car("hatchback");
   car.engine.lug_below = 1500.0 * kRpm;
   CHECK(shift_advice(car, in_gear(1, 21.4, 0.3), 0) == 0);  // 2635 rpm
   CHECK(shift_advice(car, in_gear(1, 22.0, 0.3), 0) == 1);
 }
 
-TEST_CASE("not down where the lower gear would be beyond its red line") {
+TEST_CASE("not down if the lower gear would be beyond its red line") {
   CarSpec car = shipped_car("hatchback");
   car.engine.red_line = 1600.0 * kRpm;  // third to second: 1100 rpm become 1654
   CHECK(shift_advice(car, in_gear(3, 23.9, 0.5), 0) == 0);
   CHECK(shift_advice(car, in_gear(3, 22.0, 0.5), 0) == -1);
 }
 
-TEST_CASE("silent with the clutch open or slipping, coasting, in neutral and reverse, and with a dead engine") {
-  for (const double kmh : {12.0, 45.0}) {  // labours in second; far beyond 2500 rpm in second
+TEST_CASE("none with the clutch open or slipping, coasting, in neutral and reverse, and with the engine off") {
+  for (const double kmh : {12.0, 45.0}) {  // lugging in second; far above 2500 rpm in second
     const VehicleState lit = in_gear(2, kmh, 0.5);
     REQUIRE(advice(lit) == (kmh > 20.0 ? 1 : -1));
     VehicleState car = lit;
@@ -100,18 +103,18 @@ TEST_CASE("silent with the clutch open or slipping, coasting, in neutral and rev
   }
 }
 
-TEST_CASE("a speed or a foot that trembles within the band changes it once, and without memory it would flicker") {
+TEST_CASE("a speed or foot that fluctuates within the band changes it once; without hysteresis it would flicker") {
   CHECK(changes(2, 2500.0, 0.3, 0.02, true) <= 1);
   CHECK(changes(2, 2500.0, 0.3, 0.02, false) > 50);
   CHECK(changes(3, 1200.0, 0.5, 0.02, true) <= 1);
   CHECK(changes(3, 1200.0, 0.5, 0.02, false) > 50);
-  CHECK(advice(in_gear(2, 34.4, 0.03), 1) == 1);    // 2382 rpm: out below 2375
+  CHECK(advice(in_gear(2, 34.4, 0.03), 1) == 1);    // 2382 rpm: off below 2375
   CHECK(advice(in_gear(2, 34.2, 0.03), 1) == 0);    // 2368 rpm
-  CHECK(advice(in_gear(3, 27.2, 0.35), -1) == -1);  // 1252 rpm: out above 1260
+  CHECK(advice(in_gear(3, 27.2, 0.35), -1) == -1);  // 1252 rpm: off above 1260
   CHECK(advice(in_gear(3, 27.5, 0.35), -1) == 0);   // 1266 rpm
 }
 
-TEST_CASE("the driveline lights it on the way: second, full throttle, at 2500 rpm") {
+TEST_CASE("the driveline lights it during a drive: second, full throttle, at 2500 rpm") {
   const CarSpec car = shipped_car("hatchback");
   Driveline line(car);
   line.place(1500.0 * kRpm, 1500.0 * kRpm, 1.5 * kKmhPerKrpm[1] / 3.6, true);

@@ -1,4 +1,4 @@
-// The synchroniser against the closed forms of the cone, of the ring and of two inertias.
+// The synchroniser compared with closed forms for the cone, the ring and two inertias.
 #include "app/vehicle/synchroniser.h"
 
 #include <algorithm>
@@ -11,14 +11,16 @@
 #include "app/vehicle/driveline.h"
 #include "tests/app/vehicle/cars.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
+using namespace gearshift::vehicle;
 
 namespace {
 
 constexpr double kT = 0.001;  // [s]
-constexpr double kScale = kPaperForce / kHandMost;
+constexpr double kScale = kPaperForce / kMaxHandForce;
 
-// A sleeve that is held against whatever stops it, in a car with the clutch down or not.
+// A sleeve that is pushed against whatever stops it, in a car with the clutch down or up.
 struct Bench {
   explicit Bench(const CarSpec& spec, double scale = kScale, std::uint64_t seed = 1)
       : car(spec),
@@ -27,7 +29,7 @@ struct Bench {
         driveline(spec),
         force_scale(scale) {}
 
-  // Into that gear's slot, from a shaft at this speed, with the car at that one.
+  // Enters that gear's slot, with the shaft and the car at these speeds.
   void enter(int wanted, double shaft, double road) {
     gear = wanted;
     input.slot = slot_of_gear(gate, gear);
@@ -36,7 +38,7 @@ struct Bench {
     input.depth = at.block;
   }
 
-  // One cycle with this push of a person [N] at the real knob. The sleeve goes as far as it may.
+  // One cycle with this push of a person [N] at the real knob. The sleeve moves as far as it can.
   void step(double push) {
     const VehicleState& now = driveline.state();
     input.push = force_scale * push;
@@ -62,7 +64,7 @@ struct Bench {
   double force_scale;
   bool clutch_down = true;
   double throttle = 0.0;
-  bool moves = false;  // on where it may: 0.3 m/s
+  bool moves = false;  // moves on where it can, at 0.3 m/s
   int gear = kNeutralGear;
   SleeveStations at;
   SleeveInput input;
@@ -72,13 +74,13 @@ struct Bench {
 
 struct TimedShift {
   int from, to;
-  double push, time;  // [N], [s] as another program has it
+  double push, time;  // [N], [s] computed by a separate program
 };
 const TimedShift kShifts[] = {{1, 2, 60.0, 0.109}, {2, 3, 60.0, 0.057}, {3, 4, 60.0, 0.032}, {4, 5, 60.0, 0.022},
                               {1, 2, 30.0, 0.205}, {2, 3, 30.0, 0.109}, {3, 4, 30.0, 0.062}, {4, 5, 30.0, 0.043},
                               {2, 1, 60.0, 0.42},  {3, 2, 60.0, 0.14}};
 
-// At the shaft: J w' = -+T_c/i - T_drag, and the car takes its share: m v' = +-G T_c/i. The drag helps an upshift.
+// At the shaft: J w' = -+T_c/i - T_drag, and the reaction acts on the car: m v' = +-G T_c/i. The drag helps an upshift.
 double closed_form(const CarSpec& car, const TimedShift& shift, double difference) {
   const double ratio = ratio_of(car, shift.to), per_road = shaft_per_road(car, shift.to);
   const double cone = shift.push * car.synchro.lever_ratio * car.synchro.efficiency * cone_gain(car.synchro) / ratio;
@@ -87,14 +89,14 @@ double closed_form(const CarSpec& car, const TimedShift& shift, double differenc
   return ratio * difference / (cone * (1.0 / shaft + per_road * per_road / mass) + drag / shaft);
 }
 
-// A car that nothing slows while it is being shifted.
+// A car without any resistance during the shift.
 CarSpec rolling_hatchback() {
   CarSpec car = shipped_car("hatchback");
   car.body.resistance = car.body.resistance_slope = car.body.resistance_square = 0.0;
   return car;
 }
 
-// The ring holds the sleeve until its synchroniser has done its work: how long, or 5 s.
+// The time for which the ring holds the sleeve until synchronised, at most 5 s.
 double synchronising_time(Bench& bench, double push) {
   do bench.step(push);
   while (bench.out.depth_max == bench.at.block && bench.time < 5.0);
@@ -129,7 +131,8 @@ TEST_CASE("a synchroniser takes J dw i^2 / (T_c +- T_drag i): up and down, 60 N 
     bench.enter(shift.to, 2500.0 * kRpm, road);
     const double took = synchronising_time(bench, shift.push);
     const double wanted = closed_form(car, shift, difference - car.synchro.dog_speed);
-    CHECK(std::abs(took - wanted) < 2.5 * kT);  // half of the first cycle has no cone yet, the last sees the one before
+    // half of the first cycle has no cone yet, the last uses the previous push
+    CHECK(std::abs(took - wanted) < 2.5 * kT);
   }
 }
 
@@ -168,7 +171,7 @@ TEST_CASE("the ring is a hard wall: no push opens it while the speeds differ") {
   }
 }
 
-TEST_CASE("a lever that is past the ring within one cycle is held there: what lets it through is equal speeds alone") {
+TEST_CASE("a lever that crosses the ring within one cycle is still held there: only equal speeds let it through") {
   CarSpec car = shipped_car("hatchback");
   const Gate gate = gate_of(car);
   for (const bool worn : {false, true}) {
@@ -191,7 +194,7 @@ TEST_CASE("a lever that is past the ring within one cycle is held there: what le
       CHECK(out.phase == (worn ? SyncPhase::clashing : SyncPhase::synchronising));
       CHECK((out.grind_power > 0.0) == worn);
       CHECK(out.depth_max == (worn ? at.dogs : at.block));
-      const double full = 10.0 / kScale * 9.0 * 0.8 * cone_gain(car.synchro);  // [N m] of the whole push
+      const double full = 10.0 / kScale * 9.0 * 0.8 * cone_gain(car.synchro);  // [N m] at full push
       if (!worn) CHECK(out.cone_torque == doctest::Approx(full));
       CHECK(out.meshed == kNeutralGear);
       in.difference = 0.9 * car.synchro.dog_speed;
@@ -201,14 +204,14 @@ TEST_CASE("a lever that is past the ring within one cycle is held there: what le
   }
 }
 
-TEST_CASE("with the clutch up the cone would have to turn the engine: 60 N do not, for 2.5 s") {
+TEST_CASE("with the clutch up the cone would have to turn the engine: 60 N cannot, for 2.5 s") {
   const CarSpec car = shipped_car("hatchback");
   for (const double throttle : {0.0, 0.3}) {
     CAPTURE(throttle);
     Bench bench(car);
     bench.clutch_down = false;
     bench.throttle = throttle;
-    bench.enter(1, throttle > 0.0 ? 300.0 : car.engine.idle, 5.0);  // it asks for 235 rad/s
+    bench.enter(1, throttle > 0.0 ? 300.0 : car.engine.idle, 5.0);  // first gear needs 235 rad/s
     for (int i = 0; i < 2500; ++i) {
       bench.step(60.0);
       REQUIRE(bench.out.depth_max == bench.at.block);
@@ -265,17 +268,17 @@ TEST_CASE("dogs that clash are a hard wall; they grind with F mu R dw, and go in
     CHECK(bench.out.meshed == 2);
     CHECK(bench.driveline.energy().mesh < 0.1);
     CHECK(ground > 0.1);
-    CHECK(ground < longer);  // who pushes harder grinds louder and shorter
+    CHECK(ground < longer);  // a harder push grinds louder and shorter
     longer = ground;
   }
 }
 
-TEST_CASE("reverse has no cone: the shaft runs down by its drag alone, and only then do the dogs go in") {
+TEST_CASE("reverse has no cone: the shaft slows only by its drag, and only then do the dogs engage") {
   const CarSpec car = shipped_car("hatchback");
   Bench bench(car);
   const double start = car.engine.idle;
   bench.enter(kReverseGear, start, 0.0);
-  bench.input.depth = bench.at.block;  // not at the dogs: nothing rubs
+  bench.input.depth = bench.at.block;  // at the ring and not at the dogs: nothing grinds
   const double near = car.synchro.dog_speed * ratio_of(car, kReverseGear);
   const double run_down = car.clutch.disc_inertia * (start - near) / car.gearbox.drag;
   while (std::abs(bench.driveline.state().shaft_speed) > near) bench.step(20.0);
@@ -318,7 +321,7 @@ TEST_CASE("the second bump is at most a third of the effort, random, and the sam
     REQUIRE(bench.out.phase == SyncPhase::meshed);
     return most;
   };
-  const double effort = 15.0;  // [N] at the real knob; little enough for the device to give all of the bump
+  const double effort = 15.0;  // [N] at the real knob; small enough for the device to render the whole bump
   std::vector<double> peaks;
   for (std::uint64_t seed = 0; seed < 200; ++seed) peaks.push_back(peak(seed, effort));
   std::sort(peaks.begin(), peaks.end());
@@ -331,7 +334,7 @@ TEST_CASE("the second bump is at most a third of the effort, random, and the sam
     for (std::uint64_t seed = 0; seed < 20; ++seed) CHECK(peak(seed, push) <= kScale * push / 3.0);
 }
 
-TEST_CASE("the bump is continuous with its slope, and is felt on the way in alone") {
+TEST_CASE("the bump is continuous with its slope, and is felt only on the way in") {
   const CarSpec car = shipped_car("hatchback");
   Bench bench(car, kScale, 3);
   bench.enter(3, 2500.0 * kRpm, road_speed_at(car, 2, 2500.0 * kRpm));
@@ -364,10 +367,10 @@ TEST_CASE("under load the gear stays in; light when coasting; free with the clut
   const Gate gate = gate_of(car);
   const int slot = slot_of_gear(gate, 3);
   const double rest = slot_of(gate, slot).rest;
-  // T = F i eta R / (mu + taper): what a hand of 60 N can just overcome.
-  const double most = kHandMost * 9.0 * 0.8 * car.synchro.index_radius / (car.synchro.index_friction + 0.07);
+  // T = F i eta R / (mu + taper): the torque that a hand of 60 N can just overcome.
+  const double most = kMaxHandForce * 9.0 * 0.8 * car.synchro.index_radius / (car.synchro.index_friction + 0.07);
   CHECK(most > 80.0);
-  CHECK(most < 120.0);  // [N m] in third: 60 to 90 N m of the engine
+  CHECK(most < 120.0);  // [N m] in third: 60 to 90 N m at the engine
   const auto draws_out = [&](double load, double pull, bool clutch_open) {
     Synchroniser sleeve(car.synchro, gate, kScale, 3, 1);
     SleeveInput in;
@@ -432,7 +435,7 @@ TEST_CASE("drawn out slowly, the dogs leave before the detent's crest, and the g
   CHECK(sleeve.step(in, kT).depth_max == at.block);
 }
 
-TEST_CASE("a sleeve that starts in gear is in gear; one that starts elsewhere is not, wherever it goes") {
+TEST_CASE("a sleeve that starts in gear is in gear; one that starts elsewhere is not, wherever it moves") {
   const CarSpec car = shipped_car("hatchback");
   const Gate gate = gate_of(car);
   SleeveInput in;
@@ -446,7 +449,7 @@ TEST_CASE("a sleeve that starts in gear is in gear; one that starts elsewhere is
   CHECK(elsewhere.step(in, kT).meshed == kNeutralGear);
 }
 
-TEST_CASE("in and out by any way, the bump gives the hand nothing: its work is never positive") {
+TEST_CASE("on any path in and out, the bump does no positive work on the hand") {
   const CarSpec car = shipped_car("hatchback");
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Bench bench(car, kScale, seed);
@@ -470,7 +473,7 @@ TEST_CASE("in and out by any way, the bump gives the hand nothing: its work is n
       most = std::max(most, work);
       REQUIRE(bench.out.phase != SyncPhase::clashing);
     }
-    CHECK(most < 2e-5);  // [J] of the trapezoid rule's error
+    CHECK(most < 2e-5);  // [J] the trapezoidal rule's error
     CHECK(work < 0.0);
   }
 }

@@ -1,4 +1,4 @@
-// A target with depth to draw into and read back.
+// A render target with depth, drawn into by tests and read back.
 #pragma once
 
 #include <functional>
@@ -6,10 +6,10 @@
 #include "engine/gpu/commands.h"
 #include "engine/gpu/gpu_image.h"
 
-namespace gearshift {
+namespace gearshift::test {
 
 struct Canvas {
-  Canvas(Gpu& device, std::uint32_t width, std::uint32_t height)
+  Canvas(engine::Gpu& device, std::uint32_t width, std::uint32_t height)
       : gpu(device),
         colour(gpu, {.width = width,
                      .height = height,
@@ -20,25 +20,25 @@ struct Canvas {
                     .height = height,
                     .format = VK_FORMAT_D32_SFLOAT,
                     .usage = VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT}),
-        colour_view(make_view(gpu, colour, VK_IMAGE_VIEW_TYPE_2D)),
-        depth_view(make_view(gpu, depth, VK_IMAGE_VIEW_TYPE_2D)) {}
+        colour_view(engine::make_view(gpu, colour, VK_IMAGE_VIEW_TYPE_2D)),
+        depth_view(engine::make_view(gpu, depth, VK_IMAGE_VIEW_TYPE_2D)) {}
 
   // Clears colour to `clear` and depth to 0 (far), then draws, without culling.
   void draw(
       VkCommandBuffer commands, std::array<float, 4> clear, const std::function<void()>& triangles = [] {}) {
-    transition(commands, colour, ImageUse::colour_target);
-    transition(commands, depth, ImageUse::depth_target);
-    const auto attachment = [](const ImageView& view, ImageUse use, VkClearValue value) {
+    engine::transition(commands, colour, engine::ImageUse::colour_target);
+    engine::transition(commands, depth, engine::ImageUse::depth_target);
+    const auto attachment = [](const engine::ImageView& view, engine::ImageUse use, VkClearValue value) {
       return VkRenderingAttachmentInfo{.sType = VK_STRUCTURE_TYPE_RENDERING_ATTACHMENT_INFO,
                                        .imageView = view.get(),
-                                       .imageLayout = layout_of(use),
+                                       .imageLayout = engine::layout_of(use),
                                        .loadOp = VK_ATTACHMENT_LOAD_OP_CLEAR,
                                        .storeOp = VK_ATTACHMENT_STORE_OP_STORE,
                                        .clearValue = value};
     };
-    const auto on_colour = attachment(colour_view, ImageUse::colour_target,
+    const auto on_colour = attachment(colour_view, engine::ImageUse::colour_target,
                                       {.color = {.float32 = {clear[0], clear[1], clear[2], clear[3]}}});
-    const auto on_depth = attachment(depth_view, ImageUse::depth_target, {});
+    const auto on_depth = attachment(depth_view, engine::ImageUse::depth_target, {});
     const VkRect2D all{.extent = colour.extent()};
     const VkRenderingInfo info{.sType = VK_STRUCTURE_TYPE_RENDERING_INFO,
                                .renderArea = all,
@@ -58,9 +58,9 @@ struct Canvas {
     vkCmdEndRendering(commands);
   }
 
-  Gpu& gpu;
-  GpuImage colour, depth;
-  ImageView colour_view, depth_view;
+  engine::Gpu& gpu;
+  engine::GpuImage colour, depth;
+  engine::ImageView colour_view, depth_view;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::test

@@ -10,7 +10,8 @@
 #include "tests/engine/gpu/glsl.h"
 #include "tests/support/gpu_fixture.h"
 
-using namespace gearshift;
+using namespace gearshift::engine;
+using namespace gearshift::test;
 
 namespace {
 
@@ -66,7 +67,7 @@ GpuBuffer upload(Gpu& gpu, const Triangle& triangle) {
   return make_device_buffer(gpu, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, std::as_bytes(std::span(triangle)));
 }
 
-Triangle everywhere(float depth) {
+Triangle full_screen_triangle(float depth) {
   return {{{-1, -1, depth}, {3, -1, depth}, {-1, 3, depth}}};
 }
 
@@ -101,7 +102,7 @@ TEST_CASE("a triangle covers the pixels whose centres lie inside it and no other
     canvas.draw(commands, {}, [&] { brush.stroke(commands, vertices, 50.0f / 255.0f, 1.0f); });
   });
   const Image image = read_back(gpu, canvas.colour);
-  // Signed distance of a pixel's centre to each edge, by half planes in pixels. The rasterizer snaps vertices to 1/256.
+  // Signed distance of a pixel's centre to each edge, in pixels. The rasterizer snaps vertices to 1/256 pixel.
   const auto pixel = [](Point p) { return std::array{(p.x + 1) * side / 2.0, (p.y + 1) * side / 2.0}; };
   int inside = 0, undecided = 0;
   for (int y = 0; y < side; ++y) {
@@ -129,9 +130,9 @@ TEST_CASE("reverse-Z: the greater depth is nearer, whatever is drawn first; with
   GpuFixture fixture;
   Gpu& gpu = fixture.gpu();
   Canvas canvas(gpu, 8, 8);
-  const GpuBuffer near = upload(gpu, everywhere(0.75f)), far = upload(gpu, everywhere(0.25f));
+  const GpuBuffer near = upload(gpu, full_screen_triangle(0.75f)), far = upload(gpu, full_screen_triangle(0.25f));
   Brush red(gpu, 255, 0, Blend::none, Depth::write), green(gpu, 0, 255, Blend::none, Depth::write);
-  Brush heedless(gpu, 0, 0, Blend::none, Depth::none), looking(gpu, 128, 128, Blend::none, Depth::test);
+  Brush without_depth_test(gpu, 0, 0, Blend::none, Depth::none), test_only(gpu, 128, 128, Blend::none, Depth::test);
   const auto drawn = [&](const std::function<void(VkCommandBuffer)>& strokes) {
     run_once(gpu, [&](VkCommandBuffer commands) { canvas.draw(commands, {}, [&] { strokes(commands); }); });
     return colour_at(read_back(gpu, canvas.colour), 4, 4);
@@ -139,11 +140,13 @@ TEST_CASE("reverse-Z: the greater depth is nearer, whatever is drawn first; with
   const std::array red_wins{255, 0, 0, 255};
   CHECK(drawn([&](auto c) { red.stroke(c, near, 0, 1), green.stroke(c, far, 0, 1); }) == red_wins);
   CHECK(drawn([&](auto c) { green.stroke(c, far, 0, 1), red.stroke(c, near, 0, 1); }) == red_wins);
-  CHECK(drawn([&](auto c) { red.stroke(c, near, 0, 1), heedless.stroke(c, far, 1, 1); }) == std::array{0, 0, 255, 255});
-  // A test without a write leaves the depth: what is farther than the tester but nearer than nothing still shows.
-  CHECK(drawn([&](auto c) { looking.stroke(c, near, 0, 1), green.stroke(c, far, 0, 1); }) ==
+  CHECK(drawn([&](auto c) { red.stroke(c, near, 0, 1), without_depth_test.stroke(c, far, 1, 1); }) ==
+        std::array{0, 0, 255, 255});
+  // Testing without writing leaves the depth unchanged, so something behind the tester but in front of the background
+  // is still visible.
+  CHECK(drawn([&](auto c) { test_only.stroke(c, near, 0, 1), green.stroke(c, far, 0, 1); }) ==
         std::array{0, 255, 0, 255});
-  CHECK(drawn([&](auto c) { red.stroke(c, near, 0, 1), looking.stroke(c, far, 0, 1); }) == red_wins);
+  CHECK(drawn([&](auto c) { red.stroke(c, near, 0, 1), test_only.stroke(c, far, 0, 1); }) == red_wins);
 }
 
 TEST_CASE("alpha blending is source over: s a + d (1 - a)") {
@@ -151,7 +154,7 @@ TEST_CASE("alpha blending is source over: s a + d (1 - a)") {
   Gpu& gpu = fixture.gpu();
   Canvas canvas(gpu, 4, 4);
   Brush brush(gpu, 240, 60, Blend::alpha, Depth::none);
-  const GpuBuffer vertices = upload(gpu, everywhere(0.5f));
+  const GpuBuffer vertices = upload(gpu, full_screen_triangle(0.5f));
   for (const float alpha : {0.0f, 0.25f, 0.6f, 1.0f}) {
     run_once(gpu, [&](VkCommandBuffer commands) {
       canvas.draw(commands, {0.2f, 0.4f, 0.8f, 0.5f}, [&] { brush.stroke(commands, vertices, 1.0f, alpha); });

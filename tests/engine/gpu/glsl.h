@@ -1,4 +1,4 @@
-// Shaders of a test, written where they are used.
+// Shaders written inside the test that uses them.
 #pragma once
 
 #include <cstdint>
@@ -12,9 +12,9 @@
 
 #include "tests/support/temp_folder.h"
 
-namespace gearshift {
+namespace gearshift::test {
 
-// SPIR-V of GLSL by glslangValidator, which the build needs as well. stage: "vert", "frag"
+// Compiles GLSL to SPIR-V with glslangValidator, which the build requires anyway. stage: "vert", "frag"
 inline std::vector<std::uint32_t> compile_glsl(const std::string& stage, const std::string& source) {
   const TempFolder folder;
   const std::string in = (folder / ("shader." + stage)).string();
@@ -29,4 +29,4 @@ inline std::vector<std::uint32_t> compile_glsl(const std::string& stage, const s
   return words;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

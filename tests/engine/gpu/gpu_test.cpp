@@ -10,11 +10,12 @@
 #include "tests/engine/gpu/canvas.h"
 #include "tests/support/gpu_fixture.h"
 
-using namespace gearshift;
+using namespace gearshift::engine;
+using namespace gearshift::test;
 
 namespace {
 
-// An environment variable, until the end of the scope.
+// Sets an environment variable for the enclosing scope.
 class ScopedVariable {
  public:
   ScopedVariable(const char* name, const std::string& value) : name_(name) {
@@ -37,7 +38,7 @@ class ScopedVariable {
   std::string before_;
 };
 
-std::string refusal() {
+std::string rejection() {
   try {
     const Gpu gpu(GpuConfig{});
   } catch (const GpuError& error) {
@@ -48,7 +49,7 @@ std::string refusal() {
 
 }  // namespace
 
-TEST_CASE("a device is named, and what it can do agrees with what it says of itself") {
+TEST_CASE("a device has a name, and its traits match the limits that it reports") {
   GpuFixture fixture;
   const Gpu& gpu = fixture.gpu();
   VkPhysicalDeviceProperties properties;
@@ -56,12 +57,12 @@ TEST_CASE("a device is named, and what it can do agrees with what it says of its
   CHECK(gpu.traits().name == properties.deviceName);
   CHECK(gpu.traits().is_cpu == (properties.deviceType == VK_PHYSICAL_DEVICE_TYPE_CPU));
   CHECK(gpu.traits().tick_ns == static_cast<double>(properties.limits.timestampPeriod));
-  if (gpu.traits().is_cpu) CHECK(gpu.traits().most_anisotropy == 1.0f);
+  if (gpu.traits().is_cpu) CHECK(gpu.traits().max_anisotropy == 1.0f);
   CHECK(gpu.supports(VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_FEATURE_2_SAMPLED_IMAGE_FILTER_LINEAR_BIT));
   CHECK_FALSE(gpu.supports(VK_FORMAT_R8G8B8A8_SRGB, VK_FORMAT_FEATURE_2_DEPTH_STENCIL_ATTACHMENT_BIT));
 }
 
-TEST_CASE("GEARSHIFT_GPU chooses by a part of the name, and a name that is nobody's is refused by one sentence") {
+TEST_CASE("GEARSHIFT_GPU selects a device by part of its name, and an unknown name is rejected with one sentence") {
   choose_software_driver();
   std::string name;
   {
@@ -74,16 +75,16 @@ TEST_CASE("GEARSHIFT_GPU chooses by a part of the name, and a name that is nobod
     CHECK(fixture.gpu().traits().name == name);
   }
   const ScopedVariable chosen("GEARSHIFT_GPU", "no such card");
-  const std::string why = refusal();
+  const std::string why = rejection();
   CHECK(why.find("no such card") != std::string::npos);
   CHECK(why.find(name) != std::string::npos);
   CHECK(why.back() == '.');
 }
 
-TEST_CASE("without a driver the refusal names the package that brings one") {
+TEST_CASE("without a driver the error names the package that provides one") {
   choose_software_driver();
   const ScopedVariable nowhere("VK_ICD_FILENAMES", "/nonexistent.json");
-  CHECK(refusal().find("mesa-vulkan-drivers") != std::string::npos);
+  CHECK(rejection().find("mesa-vulkan-drivers") != std::string::npos);
 }
 
 TEST_CASE("an error is a GpuError that names call and code; a lost device is a GpuLost") {
@@ -102,7 +103,7 @@ TEST_CASE("an error is a GpuError that names call and code; a lost device is a G
   CHECK_FALSE(was_lost);
 }
 
-TEST_CASE("timeline values grow with each submission and stand when the work is done") {
+TEST_CASE("timeline values grow with each submission and are reached when the work is done") {
   GpuFixture fixture;
   Gpu& gpu = fixture.gpu();
   FrameRing ring(gpu);
@@ -145,7 +146,7 @@ TEST_CASE("a frame that was begun and never ended leaves the ring usable") {
   CHECK(ring.end() == 1);
 }
 
-TEST_CASE("what is recorded once is done when the call returns, and an error thrown in it passes through") {
+TEST_CASE("run_once() has completed the work when it returns, and passes on exceptions") {
   GpuFixture fixture;
   Gpu& gpu = fixture.gpu();
   GpuBuffer buffer(gpu, 4096, VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryKind::read_back);

@@ -9,40 +9,41 @@
 #include "tests/engine/gpu/canvas.h"
 #include "tests/support/gpu_fixture.h"
 
-using namespace gearshift;
+using namespace gearshift::engine;
+using namespace gearshift::test;
 
 namespace {
 
-// What the specification says of each use (Vulkan 1.3, "Image Layouts" and table "Supported access types").
-struct Law {
+// Requirements of each use according to the specification (Vulkan 1.3, "Image Layouts" and table "Supported access
+// types").
+struct UseRequirement {
   ImageUse use;
   VkImageLayout layout;
   VkPipelineStageFlags2 stages;
   VkAccessFlags2 reads, writes;
 };
-constexpr std::array kLaws{
-    Law{ImageUse::colour_target, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
-        VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT,
-        VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT},
-    Law{ImageUse::depth_target, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
-        VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
-        VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT, VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT},
-    Law{ImageUse::sampled, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
-        VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, 0},
-    Law{ImageUse::copy_from, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
-        VK_ACCESS_2_TRANSFER_READ_BIT, 0},
-    Law{ImageUse::copy_to, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, 0,
-        VK_ACCESS_2_TRANSFER_WRITE_BIT},
-    Law{ImageUse::present, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, 0, 0},
+constexpr std::array kUseRequirements{
+    UseRequirement{ImageUse::colour_target, VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL,
+                   VK_PIPELINE_STAGE_2_COLOR_ATTACHMENT_OUTPUT_BIT, VK_ACCESS_2_COLOR_ATTACHMENT_READ_BIT,
+                   VK_ACCESS_2_COLOR_ATTACHMENT_WRITE_BIT},
+    UseRequirement{ImageUse::depth_target, VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL,
+                   VK_PIPELINE_STAGE_2_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_2_LATE_FRAGMENT_TESTS_BIT,
+                   VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_READ_BIT, VK_ACCESS_2_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT},
+    UseRequirement{ImageUse::sampled, VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, VK_PIPELINE_STAGE_2_FRAGMENT_SHADER_BIT,
+                   VK_ACCESS_2_SHADER_SAMPLED_READ_BIT, 0},
+    UseRequirement{ImageUse::copy_from, VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT,
+                   VK_ACCESS_2_TRANSFER_READ_BIT, 0},
+    UseRequirement{ImageUse::copy_to, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, 0,
+                   VK_ACCESS_2_TRANSFER_WRITE_BIT},
+    UseRequirement{ImageUse::present, VK_IMAGE_LAYOUT_PRESENT_SRC_KHR, VK_PIPELINE_STAGE_2_ALL_TRANSFER_BIT, 0, 0},
 };
 constexpr VkImageAspectFlags kColour = VK_IMAGE_ASPECT_COLOR_BIT;
 
 }  // namespace
 
-TEST_CASE(
-    "between any two uses the first one's writes are flushed, its reads awaited, and the second's layout stands") {
-  for (const Law& from : kLaws) {
-    for (const Law& to : kLaws) {
+TEST_CASE("a barrier between two uses flushes writes, waits for reads and sets the new layout") {
+  for (const UseRequirement& from : kUseRequirements) {
+    for (const UseRequirement& to : kUseRequirements) {
       const auto barrier = barrier_between(from.use, to.use, kColour);
       CHECK(barrier.has_value() == (from.use != to.use || to.writes != 0));
       if (!barrier) continue;
@@ -57,14 +58,14 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("a fresh image waits for whatever came before; a forgotten one for its last use; both drop the content") {
-  for (const Law& to : kLaws) {
+TEST_CASE("a new image waits for all earlier work, a discarded one for its last use; both drop the content") {
+  for (const UseRequirement& to : kUseRequirements) {
     const auto fresh = barrier_between(ImageUse::none, to.use, kColour);
     REQUIRE(fresh.has_value());
     CHECK(fresh->oldLayout == VK_IMAGE_LAYOUT_UNDEFINED);
     CHECK(fresh->srcStageMask == VK_PIPELINE_STAGE_2_ALL_COMMANDS_BIT);
     CHECK(fresh->srcAccessMask == VK_ACCESS_2_MEMORY_WRITE_BIT);
-    for (const Law& last : kLaws) {
+    for (const UseRequirement& last : kUseRequirements) {
       const auto forgotten = barrier_between(ImageUse::none, to.use, kColour, last.use);
       REQUIRE(forgotten.has_value());
       CHECK(forgotten->oldLayout == VK_IMAGE_LAYOUT_UNDEFINED);
@@ -91,13 +92,13 @@ TEST_CASE("an image knows its state level by level, and a use in the wrong one t
   CHECK_NOTHROW(expect(image, ImageUse::copy_to, 0));
   CHECK_NOTHROW(expect(image, ImageUse::sampled, 1));
   CHECK_NOTHROW(expect(image, ImageUse::copy_to, 2));
-  CHECK_THROWS_WITH_AS(expect(image, ImageUse::sampled), "An image is used as sampled but stands as copy_to.",
+  CHECK_THROWS_WITH_AS(expect(image, ImageUse::sampled), "An image is used as sampled but is in state copy_to.",
                        std::logic_error);
-  forget(image);
+  discard_content(image);
   for (const std::uint32_t level : {0u, 1u, 2u}) CHECK(image.use(level) == ImageUse::none);
 }
 
-TEST_CASE("a moved image takes its state along and leaves nothing behind") {
+TEST_CASE("a moved image keeps its state, and the source is empty") {
   GpuFixture fixture;
   Gpu& gpu = fixture.gpu();
   Canvas canvas(gpu, 4, 4);
@@ -111,8 +112,8 @@ TEST_CASE("a moved image takes its state along and leaves nothing behind") {
   CHECK(gpu.allocated() < before);
 }
 
-// Random work, in frames that are not waited for, on images that are copied, cleared, drawn to and forgotten. That
-// validation stays silent shows the barriers enough; that the bytes arrive shows that they order what they should.
+// Random operations in frames in flight, on images that are copied, cleared, drawn to and discarded. If validation
+// reports nothing, the barriers are sufficient; if the bytes are correct, they order the right accesses.
 TEST_CASE("any sequence of uses keeps validation silent and the content right") {
   GpuFixture fixture;
   Gpu& gpu = fixture.gpu();
@@ -153,7 +154,7 @@ TEST_CASE("any sequence of uses keeps validation silent and the content right") 
         }
         case 1:
         case 2: {
-          if (random() % 2 == 0) forget(canvas.colour);
+          if (random() % 2 == 0) discard_content(canvas.colour);
           const float shade = static_cast<float>(fresh) / 255.0f;
           canvas.draw(commands, {shade, shade, shade, shade});
           value[i] = fresh;

@@ -11,13 +11,14 @@
 #include "engine/gpu/gpu_image.h"
 #include "tests/support/gpu_fixture.h"
 
-using namespace gearshift;
+using namespace gearshift::engine;
+using namespace gearshift::test;
 
-TEST_CASE("pieces of a block never overlap, are aligned, lie first in the block, and all come back") {
+TEST_CASE("ranges of a block never overlap, are aligned, are first fit, and are all returned") {
   constexpr VkDeviceSize size = 4096;
   std::mt19937 random(3);
   FreeRanges ranges(size);
-  std::array<bool, size> taken{};  // the other method: a mark per byte
+  std::array<bool, size> taken{};  // reference: one flag per byte
   std::vector<std::pair<VkDeviceSize, VkDeviceSize>> pieces;
   const auto first_fit = [&](VkDeviceSize wanted, VkDeviceSize alignment) -> std::optional<VkDeviceSize> {
     for (VkDeviceSize start = 0; start + wanted <= size; start += alignment) {
@@ -34,7 +35,7 @@ TEST_CASE("pieces of a block never overlap, are aligned, lie first in the block,
     if (random() % 5 < 3 || pieces.empty()) {
       const VkDeviceSize wanted = 1 + random() % 200, alignment = VkDeviceSize{1} << random() % 8;
       const auto expected = first_fit(wanted, alignment);
-      const auto offset = ranges.take(wanted, alignment);
+      const auto offset = ranges.allocate(wanted, alignment);
       REQUIRE(offset == expected);
       refused += !offset;
       if (!offset) continue;
@@ -44,15 +45,15 @@ TEST_CASE("pieces of a block never overlap, are aligned, lie first in the block,
       std::swap(pieces[random() % pieces.size()], pieces.back());
       const auto [offset, length] = pieces.back();
       pieces.pop_back();
-      ranges.give(offset, length);
+      ranges.release(offset, length);
       std::fill_n(taken.begin() + static_cast<std::ptrdiff_t>(offset), length, false);
     }
-    REQUIRE(ranges.is_whole() == pieces.empty());
+    REQUIRE(ranges.is_unused() == pieces.empty());
   }
   CHECK(refused > 0);
-  for (const auto& [offset, length] : pieces) ranges.give(offset, length);
-  CHECK(ranges.is_whole());
-  CHECK(ranges.take(size, 1) == VkDeviceSize{0});
+  for (const auto& [offset, length] : pieces) ranges.release(offset, length);
+  CHECK(ranges.is_unused());
+  CHECK(ranges.allocate(size, 1) == VkDeviceSize{0});
 }
 
 TEST_CASE("buffers that come and go keep their bytes, and the memory is returned") {
@@ -88,7 +89,7 @@ TEST_CASE("buffers that come and go keep their bytes, and the memory is returned
   CHECK(gpu.allocated() == 0);
 }
 
-TEST_CASE("small things share a block, large ones have their own, buffers and images never meet") {
+TEST_CASE("small allocations share a block, large ones have their own, buffers and images never share") {
   GpuFixture fixture;
   Gpu& gpu = fixture.gpu();
   const auto needs = [](VkDeviceSize size) {
@@ -108,7 +109,7 @@ TEST_CASE("small things share a block, large ones have their own, buffers and im
   CHECK(gpu.allocated() == 0);
 }
 
-TEST_CASE("more memory than there is is refused by a GpuError, and what is there goes on") {
+TEST_CASE("too large an allocation throws GpuError, and others still work") {
   GpuFixture fixture;
   Gpu& gpu = fixture.gpu();
   const VkMemoryRequirements absurd{.size = VkDeviceSize{1} << 50, .alignment = 1, .memoryTypeBits = ~0u};

@@ -12,7 +12,8 @@
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/temp_folder.h"
 
-using namespace gearshift;
+using namespace gearshift::engine;
+using namespace gearshift::test;
 
 namespace {
 
@@ -22,7 +23,7 @@ VkPhysicalDeviceProperties some_device() {
   return device;
 }
 
-// What a driver would hand out: the header of the specification, then whatever it likes.
+// Data like a driver's: the header of the specification followed by arbitrary bytes.
 std::vector<std::byte> content_for(const VkPhysicalDeviceProperties& device) {
   VkPipelineCacheHeaderVersionOne header{.headerSize = sizeof(VkPipelineCacheHeaderVersionOne),
                                          .headerVersion = VK_PIPELINE_CACHE_HEADER_VERSION_ONE,
@@ -67,7 +68,7 @@ TEST_CASE("a cache comes back as it was saved, for the device that it was made o
   }
 }
 
-TEST_CASE("a folder, or a file larger than any cache, in the cache's place is none") {
+TEST_CASE("a folder or an oversized file in place of the cache is ignored") {
   const TempFolder folder;
   std::filesystem::create_directory(folder / "pipelines");
   CHECK(load_pipeline_cache(folder / "pipelines", some_device()).empty());
@@ -77,7 +78,7 @@ TEST_CASE("a folder, or a file larger than any cache, in the cache's place is no
   CHECK(load_pipeline_cache(huge, some_device()).empty());
 }
 
-TEST_CASE("a cache that is torn anywhere or has any byte changed is none") {
+TEST_CASE("a cache that is truncated or has any byte changed is ignored") {
   const TempFolder folder;
   const auto file = folder / "pipelines";
   save_pipeline_cache(file, content_for(some_device()));
@@ -97,7 +98,7 @@ TEST_CASE("a cache that is torn anywhere or has any byte changed is none") {
   CHECK_FALSE(load_pipeline_cache(file, some_device()).empty());
 }
 
-TEST_CASE("saving leaves one whole file and nothing beside it; a place that cannot be written is no error") {
+TEST_CASE("saving leaves one complete file and no other; a path that cannot be written is not an error") {
   const TempFolder folder;
   save_pipeline_cache(folder / "pipelines", content_for(some_device()));
   save_pipeline_cache(folder / "pipelines", content_for(some_device()));
@@ -109,7 +110,7 @@ TEST_CASE("saving leaves one whole file and nothing beside it; a place that cann
   CHECK(std::filesystem::is_directory(folder / "taken"));
 }
 
-TEST_CASE("a device starts from its own cache, from a torn one and from none") {
+TEST_CASE("a device starts with its own cache, with a truncated one and with none") {
   const TempFolder folder;
   GpuConfig config;
   config.pipeline_cache = folder / "pipelines";
@@ -124,5 +125,5 @@ TEST_CASE("a device starts from its own cache, from a torn one and from none") {
   CHECK_FALSE(bytes_of(config.pipeline_cache).empty());
   write(config.pipeline_cache, whole.substr(0, whole.size() / 2));
   run();
-  CHECK(bytes_of(config.pipeline_cache).size() >= whole.size());  // mended
+  CHECK(bytes_of(config.pipeline_cache).size() >= whole.size());  // rewritten
 }

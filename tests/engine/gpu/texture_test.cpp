@@ -11,7 +11,8 @@
 #include "engine/gpu/gpu_image.h"
 #include "tests/support/gpu_fixture.h"
 
-using namespace gearshift;
+using namespace gearshift::engine;
+using namespace gearshift::test;
 
 namespace {
 
@@ -22,7 +23,7 @@ Image noise(int width, int height) {
   return image;
 }
 
-// The bytes of one level of one layer.
+// Reads the bytes of one level of one layer.
 std::vector<std::uint8_t> level_bytes(Gpu& gpu, GpuImage& image, std::uint32_t level, std::uint32_t layer,
                                       std::size_t texel_size) {
   const std::uint32_t width = std::max(image.desc().width >> level, 1u);
@@ -50,7 +51,7 @@ double to_srgb(double l) {
   return l <= 0.0031308 ? 12.92 * l : 1.055 * std::pow(l, 1.0 / 2.4) - 0.055;
 }
 
-// Mean of the four texels above; colour in linear light where the format is sRGB, alpha as it is. [0, 255]
+// Mean of the four texels above: colour in linear light if the format is sRGB, alpha unchanged. [0, 255]
 double box(const std::vector<std::uint8_t>& above, std::size_t width, std::size_t x, std::size_t y, std::size_t channel,
            bool srgb) {
   double sum = 0.0;
@@ -85,7 +86,7 @@ TEST_CASE("each mip level is the box average of the one above, of light where th
     GpuImage texture = make_texture(gpu, noise(64, 32), srgb, true);
     REQUIRE(texture.desc().levels == 7);
     double worst = 0.0;
-    for (std::uint32_t level = 1; level < 6; ++level) {  // below, one side is one texel already
+    for (std::uint32_t level = 1; level < 6; ++level) {  // in smaller levels, one side has only one texel
       const auto above = level_bytes(gpu, texture, level - 1, 0, 4), here = level_bytes(gpu, texture, level, 0, 4);
       const std::size_t width = 64u >> level, height = 32u >> level;
       for (std::size_t i = 0; i < width * height * 4; ++i) {
@@ -93,7 +94,7 @@ TEST_CASE("each mip level is the box average of the one above, of light where th
         worst = std::max(worst, std::abs(here[i] - box(above, 2 * width, x, y, i % 4, srgb)));
       }
     }
-    CHECK(worst < 1.01);  // one code: the driver truncates
+    CHECK(worst < 1.01);  // one code value: the driver truncates
     CHECK(level_bytes(gpu, texture, 6, 0, 4).size() == 4);
   }
 }
@@ -151,9 +152,10 @@ TEST_CASE("read_back takes the layer that it is asked for") {
 
 TEST_CASE("one image is seen as sRGB and as UNORM") {
   GpuFixture fixture;
-  const GpuImage image(
-      fixture.gpu(),
-      {.width = 8, .height = 8, .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT, .also = VK_FORMAT_R8G8B8A8_UNORM});
+  const GpuImage image(fixture.gpu(), {.width = 8,
+                                       .height = 8,
+                                       .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT,
+                                       .second_format = VK_FORMAT_R8G8B8A8_UNORM});
   CHECK(make_view(fixture.gpu(), image, VK_IMAGE_VIEW_TYPE_2D));
   CHECK(make_view(fixture.gpu(), image, VK_IMAGE_VIEW_TYPE_2D, 0, 1, VK_FORMAT_R8G8B8A8_UNORM));
 }

@@ -8,7 +8,8 @@
 #include "engine/gpu/gpu_image.h"
 #include "tests/support/gpu_fixture.h"
 
-using namespace gearshift;
+using namespace gearshift::engine;
+using namespace gearshift::test;
 
 namespace {
 
@@ -37,7 +38,7 @@ void fill_twice(Gpu& gpu, bool with_barrier) {
 
 }  // namespace
 
-TEST_CASE("core validation speaks of a buffer that is used as what it was not made for, and is counted") {
+TEST_CASE("core validation reports a buffer used against its usage flags, and the message is counted") {
   GpuFixture fixture;
   Gpu& gpu = fixture.gpu();
   const GpuBuffer buffer(gpu, 64, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, MemoryKind::device);
@@ -48,7 +49,7 @@ TEST_CASE("core validation speaks of a buffer that is used as what it was not ma
   CHECK(any_has(messages, "VUID-vkCmdFillBuffer-dstBuffer-00029"));
 }
 
-TEST_CASE("core validation speaks of an image that is not in the layout it is copied from") {
+TEST_CASE("core validation reports an image copied from in another layout") {
   GpuFixture fixture;
   Gpu& gpu = fixture.gpu();
   GpuImage image(gpu,
@@ -63,7 +64,7 @@ TEST_CASE("core validation speaks of an image that is not in the layout it is co
   CHECK(any_has(fixture.take_messages(), "srcImageLayout"));
 }
 
-TEST_CASE("synchronization validation speaks of two writes without a barrier, and only of those") {
+TEST_CASE("synchronization validation reports two writes without a barrier, and nothing else") {
   GpuFixture fixture;
   fill_twice(fixture.gpu(), true);
   CHECK(fixture.silent());
@@ -71,7 +72,7 @@ TEST_CASE("synchronization validation speaks of two writes without a barrier, an
   CHECK(any_has(fixture.take_messages(), "SYNC-HAZARD-WRITE-AFTER-WRITE"));
 }
 
-TEST_CASE("validation names what outlives the device") {
+TEST_CASE("validation names objects that outlive the device") {
   choose_software_driver();
   std::vector<std::string> messages;
   GpuConfig config;
@@ -87,7 +88,7 @@ TEST_CASE("validation names what outlives the device") {
   CHECK(any_has(messages, "VUID-vkDestroyDevice-device-00378"));
 }
 
-TEST_CASE("without validation nothing is heard") {
+TEST_CASE("without validation there are no messages") {
   choose_software_driver();
   Gpu gpu(GpuConfig{});
   CHECK_FALSE(gpu.validates());

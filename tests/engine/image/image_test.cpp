@@ -1,4 +1,4 @@
-// Pictures: to a file and back, cut, joined, compared; files that are none.
+// Images: written, read, cropped, joined, compared; and files that are not images.
 #include "engine/image/image.h"
 
 #include <fcntl.h>
@@ -16,7 +16,8 @@
 
 #include "tests/support/temp_folder.h"
 
-using namespace gearshift;
+using namespace gearshift::engine;
+using namespace gearshift::test;
 using doctest::Approx;
 
 namespace {
@@ -28,7 +29,7 @@ Image noise(int width, int height, unsigned seed) {
   return image;
 }
 
-// Says which pixel it is.
+// Each pixel contains its own number.
 Image numbered(int width, int height, std::uint8_t picture = 0) {
   Image image = noise(width, height, 1);
   for (int y = 0; y < height; ++y) {
@@ -56,9 +57,9 @@ std::uint32_t big_endian(const std::vector<std::uint8_t>& bytes, std::size_t at)
          bytes[at + 3];
 }
 
-// The one sentence that `act` throws.
+// The one-sentence message that `act` throws.
 template <typename Act>
-std::string refusal(Act act) {
+std::string rejection(Act act) {
   try {
     act();
   } catch (const std::runtime_error& e) {
@@ -69,7 +70,7 @@ std::string refusal(Act act) {
 
 }  // namespace
 
-TEST_CASE("a picture comes back from its file as it was, bit by bit, alpha included") {
+TEST_CASE("a picture is identical after writing and reading, alpha included") {
   TempFolder folder;
   const std::pair<int, int> sizes[] = {{1, 1}, {3, 7}, {64, 48}, {1, 300}};
   for (const auto& [width, height] : sizes) {
@@ -95,7 +96,7 @@ TEST_CASE("the file is a PNG as the standard has it: signature, size, eight bits
   CHECK(bytes[25] == 6);
 }
 
-TEST_CASE("a link stays one and a pipe stays one: what they lead to is written") {
+TEST_CASE("links and pipes are kept: their target is written") {
   namespace fs = std::filesystem;
   TempFolder folder;
   const Image first = noise(4, 4, 1), second = noise(5, 5, 2);
@@ -125,15 +126,15 @@ TEST_CASE("a write replaces the file and leaves nothing beside it; a failed one 
   CHECK_THROWS_AS(write_png(folder / "image.png", Image{2, 2, {1, 2, 3}}), std::runtime_error);
   CHECK(read_png(folder / "image.png").rgba == second.rgba);
   CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 1);
-  const std::string reason = refusal([&] { write_png(folder / "none" / "image.png", first); });
+  const std::string reason = rejection([&] { write_png(folder / "none" / "image.png", first); });
   CHECK(reason.starts_with((folder / "none" / "image.png").string() + ": "));
   CHECK(reason.find("No such file") != std::string::npos);
   std::filesystem::create_directory(folder / "taken.png");
-  CHECK_FALSE(refusal([&] { write_png(folder / "taken.png", first); }).empty());
+  CHECK_FALSE(rejection([&] { write_png(folder / "taken.png", first); }).empty());
   CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 2);
 }
 
-TEST_CASE("what is no PNG is refused in one sentence that names the file") {
+TEST_CASE("a file that is not a PNG is rejected with one sentence that names it") {
   TempFolder folder;
   write_png(folder / "good.png", noise(8, 8, 3));
   const std::vector<std::uint8_t> good = file_bytes(folder / "good.png");
@@ -148,20 +149,20 @@ TEST_CASE("what is no PNG is refused in one sentence that names the file") {
                                              huge};
   for (const std::vector<std::uint8_t>& bytes : files) {
     write_bytes(folder / "bad.png", bytes);
-    const std::string reason = refusal([&] { read_png(folder / "bad.png"); });
+    const std::string reason = rejection([&] { read_png(folder / "bad.png"); });
     CAPTURE(reason);
     CHECK(reason.starts_with((folder / "bad.png").string() + ": "));
     CHECK(reason.find('\n') == std::string::npos);
   }
-  CHECK_FALSE(refusal([&] { read_png(folder / "none.png"); }).empty());
-  CHECK_FALSE(refusal([&] { read_png(folder.path()); }).empty());
+  CHECK_FALSE(rejection([&] { read_png(folder / "none.png"); }).empty());
+  CHECK_FALSE(rejection([&] { read_png(folder.path()); }).empty());
 }
 
 TEST_CASE("the size of an encoded picture is known without its pixels") {
   TempFolder folder;
   write_png(folder / "good.png", noise(9, 4, 3));
   std::vector<std::uint8_t> bytes = file_bytes(folder / "good.png");
-  bytes.resize(45);  // header and the beginning of the data
+  bytes.resize(45);  // header and the start of the data
   CHECK(encoded_size(bytes).width == 9);
   CHECK(encoded_size(bytes).height == 4);
   CHECK_THROWS_AS(decode_image(bytes), std::runtime_error);
@@ -193,24 +194,24 @@ TEST_CASE("two halves lie side by side, left on the left") {
   CHECK_THROWS_AS(side_by_side(left, numbered(3, 4)), std::invalid_argument);
 }
 
-TEST_CASE("the difference of pictures: nothing, a known error, the share beyond the tolerance") {
+TEST_CASE("the difference of pictures: none, a known error, the fraction beyond the tolerance") {
   const Image image = noise(10, 10, 4);
   const ImageDifference none = difference(image, image);
   CHECK(none.psnr == std::numeric_limits<double>::infinity());
-  CHECK(none.share_beyond == 0.0);
+  CHECK(none.fraction_beyond == 0.0);
   CHECK(none.worst == 0);
 
   Image grey{10, 10, std::vector<std::uint8_t>(400, 100)}, off = grey;
   for (std::size_t i = 0; i < 400; ++i)
-    off.rgba[i] = static_cast<std::uint8_t>(i % 4 == 3 ? 7 : 105);  // alpha is not compared
+    off.rgba[i] = static_cast<std::uint8_t>(i % 4 == 3 ? 7 : 105);  // alpha must be ignored
   CHECK(difference(grey, off).psnr == Approx(20.0 * std::log10(255.0 / 5.0)));
   CHECK(difference(grey, off).worst == 5);
-  CHECK(difference(grey, off).share_beyond == 1.0);
-  CHECK(difference(grey, off, 5).share_beyond == 0.0);
+  CHECK(difference(grey, off).fraction_beyond == 1.0);
+  CHECK(difference(grey, off, 5).fraction_beyond == 0.0);
 
   Image one = grey;
   one.pixel(3, 4)[1] = 96;
-  CHECK(difference(grey, one).share_beyond == Approx(0.01));
+  CHECK(difference(grey, one).fraction_beyond == Approx(0.01));
   CHECK(difference(one, grey).worst == 4);
   CHECK(difference(grey, one).psnr == Approx(10.0 * std::log10(255.0 * 255.0 * 300.0 / 16.0)));
   CHECK_THROWS_AS(difference(grey, noise(10, 11, 1)), std::invalid_argument);

@@ -1,4 +1,4 @@
-// Rooms whose light is known.
+// Rooms with a known solution.
 #include "engine/light/enclosure.h"
 
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 
-using namespace gearshift;
+using namespace gearshift::engine;
 using glm::vec3;
 
 namespace {
@@ -25,14 +25,14 @@ Radiance constant(vec3 radiance) {
   return [=](vec3) { return radiance; };
 }
 
-// Windows are the cap of the sphere about +Z of height 2 f: a share f of all directions.
-Enclosure cap(float share, vec3 albedo) {
-  return {[=](vec3 d) { return d.z > 1.0f - 2.0f * share; }, [=](vec3) { return albedo; }};
+// The window is a spherical cap around +Z of height 2 f, which is a fraction f of all directions.
+Enclosure cap(float fraction, vec3 albedo) {
+  return {[=](vec3 d) { return d.z > 1.0f - 2.0f * fraction; }, [=](vec3) { return albedo; }};
 }
 
-// Share of the directions for which something holds, by a Fibonacci sphere.
+// Fraction of directions that satisfy a predicate, sampled on a Fibonacci sphere.
 template <typename Holds>
-double share_of_directions(Holds holds, int count = 100000) {
+double fraction_of_directions(Holds holds, int count = 100000) {
   int held = 0;
   for (int i = 0; i < count; ++i) {
     const double z = 1.0 - 2.0 * (i + 0.5) / count, phi = i * 2.39996322973, r = std::sqrt(1.0 - z * z);
@@ -58,19 +58,19 @@ TEST_CASE("windows all around leave the open sky and its harmonics as they are")
 }
 
 TEST_CASE("the lining's radiance is the geometric series of what comes in: albedo L f / (1 - albedo (1 - f))") {
-  // Of a constant sky through a share f of the sphere E / pi = L f comes first; a share albedo (1 - f) of what the
-  // lining has got comes again, and of that again.
+  // Constant sky L through a fraction f of the sphere: first E / pi = L f; then a fraction albedo (1 - f) of what the
+  // lining received arrives again, and so on.
   const vec3 sky(0.7f, 1.0f, 1.4f), albedo(0.3f, 0.5f, 0.8f);
   std::mt19937 random(2);
-  for (const float share : {0.1f, 0.25f, 0.6f}) {
-    const Enclosure room = cap(share, albedo);
+  for (const float fraction : {0.1f, 0.25f, 0.6f}) {
+    const Enclosure room = cap(fraction, albedo);
     const Radiance light = inside(room, constant(sky), kSun, kDark);
-    vec3 round = sky * share, sum(0.0f);
-    for (int i = 0; i < 200; ++i, round *= albedo * (1.0f - share)) sum += albedo * round;
+    vec3 round = sky * fraction, sum(0.0f);
+    for (int i = 0; i < 200; ++i, round *= albedo * (1.0f - fraction)) sum += albedo * round;
     for (int i = 0; i < 50; ++i) {
       const vec3 d = random_direction(random), seen = light(d);
       const vec3 expected = room.window(d) ? sky : sum;
-      CAPTURE(share);
+      CAPTURE(fraction);
       for (int c = 0; c < 3; ++c) CHECK(seen[c] == doctest::Approx(expected[c]).epsilon(0.05));
     }
   }
@@ -89,14 +89,15 @@ TEST_CASE("black lining is black, lit or not") {
   CHECK(light({0, 0, 1}) == day_sky(kSun)({0, 0, 1}));
 }
 
-TEST_CASE("the sun adds S cos / pi where its ray enters, and what the lining hands on everywhere else") {
-  // A window of share f about the sun, no sky. The patch is the image of the window through the sphere along the ray:
-  // the cap opposite. Its flux per share: int S cos over a cap of height h = 2 f, S (1 - (1 - h)^2) / 4.
-  const float share = 0.1f, albedo = 0.4f, sun = 3.0f, height = 2.0f * share;
-  const Enclosure room = cap(share, vec3(albedo));
+TEST_CASE("the sun adds S cos / pi where its ray enters, and interreflected light everywhere") {
+  // A window covering a fraction f around the sun, without sky. The patch is the window's image through the sphere
+  // along the ray: the opposite cap. Its flux per unit area of the sphere: int S cos over a cap of height h = 2 f, S (1
+  // - (1 - h)^2) / 4.
+  const float fraction = 0.1f, albedo = 0.4f, sun = 3.0f, height = 2.0f * fraction;
+  const Enclosure room = cap(fraction, vec3(albedo));
   const Radiance light = inside(room, constant(kDark), {0, 0, 1}, vec3(sun));
   const double once = albedo * sun * (1.0 - std::pow(1.0 - height, 2.0)) / 4.0;
-  const double again = once / (1.0 - albedo * (1.0 - share));
+  const double again = once / (1.0 - albedo * (1.0 - fraction));
   const double lit = albedo * (sun + again) / glm::pi<double>(), other = albedo * again / glm::pi<double>();
   CHECK(light({0, 0, -1}).x == doctest::Approx(lit).epsilon(0.02));
   CHECK(light({1, 0, 0}).x == doctest::Approx(other).epsilon(0.1));
@@ -107,7 +108,7 @@ TEST_CASE("in the cabin the ceiling is neutral and darker than the sky that it h
   const Radiance open = day_sky(kSun);
   const Enclosure cabin = car_cabin();
   const Radiance light = inside(cabin, open, kSun, vec3(3.2f, 3.0f, 2.7f));
-  const double windows = share_of_directions(cabin.window);
+  const double windows = fraction_of_directions(cabin.window);
   MESSAGE("windows: " << 100.0 * windows << " % of all directions");
   const vec3 ceiling = light({0, 1, 0}), zenith = open({0, 1, 0});
   MESSAGE("ceiling " << ceiling.x << " " << ceiling.y << " " << ceiling.z);

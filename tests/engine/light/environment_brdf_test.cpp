@@ -1,4 +1,4 @@
-// The split sum's table against the sum that everybody else takes: half vectors by the normal distribution.
+// The split-sum table against the usual sum, in which half vectors follow the normal distribution.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -8,10 +8,11 @@
 #include <glm/gtc/constants.hpp>
 #include <glm/vec3.hpp>
 
+#include "app/lab/bench/picture/hammersley_brdf.h"
 #include "engine/light/environment.h"
-#include "tests/support/hammersley_brdf.h"
 
-using namespace gearshift;
+using namespace gearshift::engine;
+using namespace gearshift::lab;
 using glm::dvec2;
 
 namespace {
@@ -52,7 +53,7 @@ TEST_CASE("the baked table, as a GPU filters it, is within .0010 RMS of the 16,3
   const Error error = error_of([&](double v, double r) { return table.sample(float(v), float(r)); });
   MESSAGE("table " << table.side << "^2: rms " << error.rms << ", worst " << error.worst);
   CHECK(error.rms < 0.0010);
-  // Between the texel centres the table is interpolated: random places.
+  // The table is interpolated between texel centres: test random points.
   std::mt19937 random(1);
   std::uniform_real_distribution<double> unit(0.02, 1.0);
   double squares = 0.0;
@@ -89,7 +90,7 @@ TEST_CASE("a smooth surface reflects by Fresnel's term alone; nothing reflects m
     for (const double r : {0.0, 0.25, 0.5, 0.75, 1.0}) {
       const dvec2 ab = environment_brdf(v, r, 256);
       CHECK(ab.x + ab.y <= 1.0 + 1e-9);
-      CHECK(ab.x + ab.y < last);  // single scattering loses more, the rougher
+      CHECK(ab.x + ab.y < last);  // single scattering loses more energy at higher roughness
       last = ab.x + ab.y;
     }
   }

@@ -1,4 +1,4 @@
-// Nine coefficients against integrals that are known.
+// Irradiance from nine coefficients against known integrals.
 #include <algorithm>
 #include <cmath>
 #include <random>
@@ -9,7 +9,7 @@
 
 #include "engine/light/environment.h"
 
-using namespace gearshift;
+using namespace gearshift::engine;
 using glm::vec3;
 
 namespace {
@@ -19,7 +19,7 @@ vec3 any_direction(std::mt19937& random) {
   return glm::normalize(vec3(normal(random), normal(random), normal(random)));
 }
 
-// Irradiance / pi by summing a Fibonacci sphere: another method, another set of directions.
+// Irradiance / pi summed over a Fibonacci sphere: a different method with different directions.
 vec3 summed(const Radiance& radiance, vec3 n, int count = 40000) {
   vec3 sum(0.0f);
   for (int i = 0; i < count; ++i) {
@@ -59,7 +59,7 @@ TEST_CASE("radiance of degree 1 comes back by 2/3, of degree 2 by 1/4: exact for
 }
 
 TEST_CASE("degree 2 of a clamped cosine sky is off by less than 1 % of its peak, as its own series says") {
-  // max(d.a, 0) lit surface: E / pi at n.a = 1 is 2/3; the terms of degree 4 and up are left out, the largest of them
+  // A surface lit by max(d.a, 0): E / pi at n.a = 1 is 2/3. The terms of degree 4 and up are neglected; the largest is
   // c_4 A_4 / pi P_4 = (-3/32)(-1/24) = 1/256.
   const Irradiance irradiance = project_irradiance([](vec3 d) { return vec3(std::max(d.y, 0.0f)); }, 128);
   CHECK(std::abs(irradiance(vec3(0, 1, 0)).x - 2.0f / 3.0f) < 0.0067f);
@@ -70,7 +70,7 @@ TEST_CASE("degree 2 of a clamped cosine sky is off by less than 1 % of its peak,
     worst = std::max(worst, std::abs(irradiance(n).x - summed([](vec3 d) { return vec3(std::max(d.y, 0.0f)); }, n).x));
   }
   CHECK(worst < 0.0067f);
-  CHECK(worst > 0.001f);  // degree 2 is not exact here: the comparison can see an error
+  CHECK(worst > 0.001f);  // degree 2 is not exact here, so the comparison can detect errors
 }
 
 TEST_CASE("the day sky's irradiance is within 4 % of its peak of the summed one") {
@@ -100,7 +100,7 @@ TEST_CASE("the day sky is finite and positive everywhere, brighter above than be
     CHECK(glm::dot(l, vec3(1.0f)) <= towards_sun);
   }
   CHECK(glm::dot(sky({0, 1, 0}), vec3(1.0f)) > 2.0f * glm::dot(sky({0, -1, 0}), vec3(1.0f)));
-  // No step at the horizon.
+  // The sky has no step at the horizon.
   const vec3 just_above = sky(glm::normalize(vec3(1, 1e-4f, 1))), just_below = sky(glm::normalize(vec3(1, -1e-4f, 1)));
   CHECK(glm::length(just_above - just_below) < 0.01f);
 }

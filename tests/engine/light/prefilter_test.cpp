@@ -1,4 +1,4 @@
-// Reflections of skies whose blur is known.
+// Prefiltered reflections of skies whose blur is known.
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +9,7 @@
 #include "engine/light/cube.h"
 #include "engine/light/environment.h"
 
-using namespace gearshift;
+using namespace gearshift::engine;
 using glm::vec3;
 
 namespace {
@@ -27,10 +27,10 @@ TEST_CASE("faces lie as Vulkan has them: the middle texels look along their axis
   for (int face = 0; face < 6; ++face) {
     CHECK(cube_direction(face, 1, 0, 0) == axis[face]);
   }
-  CHECK(glm::length(cube_point(4, 1, 0) - cube_point(0, -1, 0)) == 0.0f);  // +Z's right is +X's left
-  CHECK(glm::length(cube_point(0, 1, 0) - cube_point(5, -1, 0)) == 0.0f);  // +X's right is -Z's left
-  CHECK(glm::length(cube_point(4, 0, -1) - cube_point(2, 0, 1)) == 0.0f);  // +Z's top is +Y's bottom
-  CHECK(glm::length(cube_point(4, 0, 1) - cube_point(3, 0, -1)) == 0.0f);  // +Z's bottom is -Y's top
+  CHECK(glm::length(cube_point(4, 1, 0) - cube_point(0, -1, 0)) == 0.0f);  // right edge of +Z = left edge of +X
+  CHECK(glm::length(cube_point(0, 1, 0) - cube_point(5, -1, 0)) == 0.0f);  // right edge of +X = left edge of -Z
+  CHECK(glm::length(cube_point(4, 0, -1) - cube_point(2, 0, 1)) == 0.0f);  // top edge of +Z = bottom edge of +Y
+  CHECK(glm::length(cube_point(4, 0, 1) - cube_point(3, 0, -1)) == 0.0f);  // bottom edge of +Z = top edge of -Y
   CHECK(cube_point(4, 0, -1).y == 1.0f);                                   // rows run from the top
 }
 
@@ -51,8 +51,8 @@ TEST_CASE("a constant sky stays what it is at every roughness") {
 }
 
 TEST_CASE("the last level of a linear sky is its n.l weighted GGX lobe at roughness 1") {
-  // At alpha = 1 half vectors are spread evenly over cos^2, and l = reflect(n, h): cos_l = 2 cos_h^2 - 1, uniform in
-  // (-1, 1). Weighted by n.l over (0, 1): mean of cos_l is (1/3) / (1/2) = 2/3.
+  // At alpha = 1, half vectors are distributed uniformly in cos^2, and l = reflect(n, h): cos_l = 2 cos_h^2 - 1 is
+  // uniform in (-1, 1). Weighted by n.l over (0, 1), the mean of cos_l is (1/3) / (1/2) = 2/3.
   const PrefilteredCube cube = prefilter([](vec3 d) { return vec3(2.0f + d.y); }, 8, 4, 1024);
   CHECK(texel(cube, 3, 2, 0, 0).x == doctest::Approx(2.0 + 2.0 / 3.0).epsilon(2e-3));
   CHECK(texel(cube, 3, 3, 0, 0).x == doctest::Approx(2.0 - 2.0 / 3.0).epsilon(2e-3));

@@ -1,4 +1,4 @@
-// One model out of several, and few draws out of many: nothing that is seen may change.
+// Combining and merging models must not change anything visible.
 #include "engine/model/assemble.h"
 
 #include <algorithm>
@@ -13,21 +13,22 @@
 #include "engine/model/gltf.h"
 #include "tests/engine/model/model_laws.h"
 
-using namespace gearshift;
+using namespace gearshift::engine;
+using namespace gearshift::test;
 using glm::vec3;
 using glm::vec4;
 
 namespace {
 
-// A corner as it is seen: place, normal, tangent, bitangent, UV, colour; in thousandths. The random models below stand on
-// a grid of eighths, turned by quarters, so nothing lies near a rounding edge.
+// A corner in world space: position, normal, tangent, bitangent, UV, colour; in thousandths. The random models below
+// use a grid of eighths and quarter turns, so no value is close to a rounding boundary.
 using Corner = std::array<long, 15>;
-using Triangle = std::pair<int, std::array<Corner, 3>>;  // material, corners
+using Triangle = std::pair<int, std::array<Corner, 3>>;  // material and corners
 
-Corner seen(const Vertex& v, const glm::mat4& world) {
+Corner world_corner(const Vertex& v, const glm::mat4& world) {
   const glm::mat3 linear(world);
   const vec3 bitangent = glm::cross(v.normal, vec3(v.tangent)) * v.tangent.w;
-  // Axes stay axes here, so each may be moved by itself.
+  // Axes map to axes in these models, so each vector may be transformed on its own.
   const vec3 vectors[] = {vec3(world * vec4(v.position, 1.0f)), glm::normalize(linear * v.normal),
                           glm::normalize(linear * vec3(v.tangent)), glm::normalize(linear * bitangent)};
   Corner corner{};
@@ -41,9 +42,9 @@ Corner seen(const Vertex& v, const glm::mat4& world) {
   return corner;
 }
 
-// The triangles of the world, sorted. A triangle may begin at any corner but must turn one way, and a mirroring world
-// turns it about.
-std::vector<Triangle> soup(const Model& model) {
+// All triangles in world space, sorted. A triangle may start at any corner, but its winding matters; a mirroring
+// transform reverses it.
+std::vector<Triangle> sorted_triangles(const Model& model) {
   std::vector<Triangle> triangles;
   const std::vector<glm::mat4> world = rest_pose(model);
   for (std::size_t n = 0; n < model.nodes.size(); ++n) {
@@ -54,7 +55,7 @@ std::vector<Triangle> soup(const Model& model) {
         Triangle t{p.material, {}};
         for (std::uint32_t k = 0; k < 3; ++k) {
           Vertex v = model.vertices[model.indices[p.first_index + i + k]];
-          t.second[mirrored ? 2 - k : k] = seen(v, world[n]);
+          t.second[mirrored ? 2 - k : k] = world_corner(v, world[n]);
         }
         std::rotate(t.second.begin(), std::min_element(t.second.begin(), t.second.end()), t.second.end());
         triangles.push_back(t);
@@ -65,7 +66,7 @@ std::vector<Triangle> soup(const Model& model) {
   return triangles;
 }
 
-// On a grid of eighths from -1 to 1.
+// Components are multiples of 1/8 from -1 to 1.
 vec3 random_vector(std::mt19937& random) {
   const auto number = [&] { return (static_cast<float>(random() % 17) - 8.0f) / 8.0f; };
   const float x = number(), y = number();
@@ -107,7 +108,7 @@ void add_random_mesh(Model& model, std::mt19937& random) {
   model.meshes.push_back(mesh);
 }
 
-// Meshes on a tree of nodes with mirrors and unequal scales; some meshes stand in several places.
+// Meshes on a tree of nodes with mirroring and non-uniform scales; some meshes are used by several nodes.
 Model random_model(unsigned seed) {
   std::mt19937 random(seed);
   Model model;
@@ -140,7 +141,7 @@ bool below(const Model& model, std::size_t node, const std::set<std::string_view
 
 }  // namespace
 
-TEST_CASE("merging what stands keeps every triangle of the world, in fewer draws") {
+TEST_CASE("merging static meshes keeps every world-space triangle, with fewer draws") {
   for (unsigned seed = 1; seed <= 20; ++seed) {
     CAPTURE(seed);
     const Model model = random_model(seed);
@@ -149,7 +150,7 @@ TEST_CASE("merging what stands keeps every triangle of the world, in fewer draws
     REQUIRE(lawful(model));
     REQUIRE(lawful(merged));
     CHECK(merged.triangle_count() == model.triangle_count());
-    CHECK(soup(merged) == soup(model));
+    CHECK(sorted_triangles(merged) == sorted_triangles(model));
     int moving_draws = 0;
     for (std::size_t i = 0; i < model.nodes.size(); ++i) {
       const bool moves = below(model, i, {moving.begin(), moving.end()});
@@ -170,12 +171,12 @@ TEST_CASE("merging what stands keeps every triangle of the world, in fewer draws
   }
 }
 
-TEST_CASE("the soup sees a corner that moved, a triangle turned about and a picture mirrored") {
+TEST_CASE("the comparison detects a moved corner, a reversed triangle and a mirrored texture") {
   const Model model = random_model(1);
   const auto changed = [&](auto change) {
     Model other = model;
     change(other);
-    return soup(other) != soup(model);
+    return sorted_triangles(other) != sorted_triangles(model);
   };
   const std::uint32_t first = model.meshes[static_cast<std::size_t>(model.nodes[4].mesh)].primitives[0].first_index;
   CHECK(changed([&](Model& m) { m.vertices[m.indices[first]].position.x += 0.01f; }));
@@ -202,7 +203,7 @@ TEST_CASE("a merged normal stands on its triangle, under any scale, shear and mi
     }
     model.meshes.push_back(mesh);
     Node node;
-    node.parent = i % 3 == 0 ? kNone : i - 1;  // two scales with a turn between them shear
+    node.parent = i % 3 == 0 ? kNone : i - 1;  // two scales with a rotation in between produce shear
     node.rotation = glm::normalize(glm::quat(number(random), vector()));
     node.scale = vec3(1.2f) + vector();
     if (i % 2 == 0) node.scale.x = -node.scale.x;
@@ -234,16 +235,16 @@ TEST_CASE("a skinned mesh is never merged, and keeps its joints") {
   REQUIRE(merged.nodes[4].mesh != kNone);
   const Mesh& mesh = merged.meshes[static_cast<std::size_t>(merged.nodes[4].mesh)];
   for (std::uint32_t i = 0; i < 12; ++i) CHECK(merged.vertex_joints[mesh.first_vertex + i].joint[0] == 1);
-  CHECK(soup(merged) == soup(model));
+  CHECK(sorted_triangles(merged) == sorted_triangles(model));
 }
 
-TEST_CASE("nothing that moves may be unknown, and names are whole") {
+TEST_CASE("unknown names of moving nodes are rejected, and names must match completely") {
   const Model model = random_model(2);
   const std::string_view unknown[] = {"node"};
   CHECK_THROWS_WITH_AS(merge_static(model, unknown), doctest::Contains("'node'"), std::invalid_argument);
   const std::string_view whole[] = {"node2"};
   const Model merged = merge_static(model, whole);
-  for (std::size_t i = 20; i < 30; ++i) {  // "node20" ... begin alike, but do not move for that
+  for (std::size_t i = 20; i < 30; ++i) {  // "node20" ... have the same prefix, but must not count as moving
     if (!below(model, i, {"node2"})) CHECK(merged.nodes[i].mesh == kNone);
   }
 }
@@ -268,14 +269,14 @@ TEST_CASE("an appended model is drawn as before, with its own materials, texture
   CHECK(both.textures.size() == 4);
   CHECK(both.materials[7].normal_map.texture == 2 + part.materials[2].normal_map.texture);
   CHECK(draw_count(both) == draw_count(whole) + draw_count(part));
-  // The part's triangles, with materials that begin behind the whole's.
-  std::vector<Triangle> expected = soup(whole);
-  for (Triangle t : soup(part)) {
+  // The part's triangles, with material indices offset by the number of materials in the whole.
+  std::vector<Triangle> expected = sorted_triangles(whole);
+  for (Triangle t : sorted_triangles(part)) {
     if (t.first != kNone) t.first += static_cast<int>(whole.materials.size());
     expected.push_back(t);
   }
   std::sort(expected.begin(), expected.end());
-  CHECK(soup(both) == expected);
+  CHECK(sorted_triangles(both) == expected);
 }
 
 TEST_CASE("a model appended to a node moves with it") {
@@ -285,13 +286,13 @@ TEST_CASE("a model appended to a node moves with it") {
   const int first = append_model(whole, part, 11);
   const std::vector<glm::mat4> world = rest_pose(whole);
   for (std::size_t i = 0; i < alone.size(); ++i) {
-    const glm::mat4 expected = world[11] * alone[i], seen = world[static_cast<std::size_t>(first) + i];
-    for (int c = 0; c < 4; ++c) CHECK(glm::distance(seen[c], expected[c]) < 1e-4f);
+    const glm::mat4 expected = world[11] * alone[i], world_corner = world[static_cast<std::size_t>(first) + i];
+    for (int c = 0; c < 4; ++c) CHECK(glm::distance(world_corner[c], expected[c]) < 1e-4f);
   }
   CHECK_THROWS_AS(append_model(whole, part, 1000), std::invalid_argument);
 }
 
-TEST_CASE("every shipped model is lawful, wholly drawn, and the same world when merged") {
+TEST_CASE("every shipped model is valid, fully drawn, and unchanged by merging") {
   int count = 0;
   for (const auto& entry : std::filesystem::directory_iterator(std::filesystem::path(GEARSHIFT_ASSETS) / "models")) {
     if (entry.path().extension() != ".glb") continue;

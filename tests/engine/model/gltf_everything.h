@@ -1,12 +1,12 @@
-// One small file with something of everything that is read: what hostile files are made of.
+// One small file that uses every supported feature: the base of the hostile files.
 #pragma once
 
 #include "tests/engine/model/gltf_maker.h"
 
-namespace gearshift {
+namespace gearshift::test {
 
-// Something of everything that is read: a skinned, textured, normal-mapped mesh of three primitives with sparse and
-// interleaved data, a hierarchy, two scenes.
+// A skinned, textured, normal-mapped mesh of three primitives with sparse and interleaved data, a node hierarchy, two
+// scenes.
 inline GltfMaker everything() {
   GltfMaker maker;
   const int position = maker.accessor(triangle_corners, "VEC3", f32);
@@ -34,7 +34,7 @@ inline GltfMaker everything() {
   for (std::size_t i = 0; i < 32; i += 16) binds[i] = binds[i + 5] = binds[i + 10] = binds[i + 15] = 1.0f;
   maker.append("skins", {{"joints", {1, 2}}, {"inverseBindMatrices", maker.accessor(binds, "MAT4", f32)}});
   TempFolder folder;
-  write_png(folder / "dot.png", Image{2, 2, std::vector<std::uint8_t>(16, 128)});
+  engine::write_png(folder / "dot.png", engine::Image{2, 2, std::vector<std::uint8_t>(16, 128)});
   const std::vector<std::uint8_t> png = read_bytes(folder / "dot.png");
   maker.append("images", {{"bufferView", maker.view(png)}, {"mimeType", "image/png"}});
   maker.append("images", {{"uri", data_uri(png, "image/png")}});
@@ -52,4 +52,4 @@ inline GltfMaker everything() {
   return maker;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

@@ -1,4 +1,5 @@
-// Broken and malicious files: one sentence or a lawful model, never a crash. Run under the address sanitizer as well.
+// Corrupt and malicious files must give one error sentence or a valid model, never a crash. Also run under the address
+// sanitizer.
 #include <functional>
 #include <limits>
 #include <random>
@@ -11,15 +12,17 @@
 #include "tests/engine/model/model_laws.h"
 #include "tests/support/whole_campaign.h"
 
-using namespace gearshift;
+using namespace gearshift::engine;
+using namespace gearshift::test;
 
 namespace {
 
-const int kByteFlips = is_whole_campaign() ? 4000 : 1000;  // tests/fuzz looks further
+const int kByteFlips = is_whole_campaign() ? 4000 : 1000;  // tests/fuzz covers more
 const int kValueSwaps = kByteFlips;
 
-// Whether the file is refused; a refusal must be one sentence that names the file, anything read must be lawful.
-bool is_refused(const std::string& content) {
+// Returns whether the file is rejected. A rejection must be one sentence that names the file; a model that was read
+// must be valid.
+bool is_rejected(const std::string& content) {
   static const TempFolder folder;
   write_bytes(folder / "model.gltf", content);
   try {
@@ -38,10 +41,10 @@ bool is_refused(const std::string& content) {
 
 struct Hostile {
   std::string name;
-  std::function<void(GltfMaker&)> spoil;
+  std::function<void(GltfMaker&)> corrupt;
 };
 
-// Sets what a pointer names.
+// Sets the value at a JSON pointer.
 Hostile set(const char* pointer, const json& value) {
   return {pointer, [=](GltfMaker& maker) { maker.root[json::json_pointer(pointer)] = value; }};
 }
@@ -51,11 +54,11 @@ Hostile drop(const char* pointer, const char* key) {
 }
 
 constexpr std::uint64_t kHuge = std::numeric_limits<std::uint64_t>::max();
-constexpr std::uint64_t kWraps = (1ull << 32) + 1;  // 1 to whoever keeps 32 bits
+constexpr std::uint64_t kWraps = (1ull << 32) + 1;  // 1 if truncated to 32 bits
 
 const std::vector<Hostile>& hostile_files() {
   static const std::vector<Hostile> files{
-      // The asset and its lists.
+      // The asset and its top-level lists.
       drop("", "asset"),
       set("/asset/version", "1.0"),
       set("/asset/version", 2),
@@ -183,52 +186,52 @@ const std::vector<Hostile>& hostile_files() {
 
 }  // namespace
 
-TEST_CASE("the file that the hostile ones are made of is lawful and complete") {
+TEST_CASE("the base of the hostile files is valid and complete") {
   const Model model = read_back(everything().glb());
   CHECK(lawful(model));
   CHECK(model.triangle_count() == 3);
   CHECK(model.textures.size() == 2);
   CHECK(model.nodes.size() == 3);
-  CHECK_FALSE(is_refused(everything().gltf()));
+  CHECK_FALSE(is_rejected(everything().gltf()));
 }
 
-TEST_CASE("every hostile file is refused in one sentence that names it") {
+TEST_CASE("every hostile file is rejected with one sentence that names it") {
   CHECK(hostile_files().size() >= 40);
   for (const Hostile& file : hostile_files()) {
     GltfMaker maker = everything();
-    file.spoil(maker);
+    file.corrupt(maker);
     const std::string text = maker.root.dump();
     CAPTURE(file.name);
     CAPTURE(text);
-    if (!maker.root.contains("buffers")) CHECK(is_refused(maker.gltf()));
-    if (!maker.root.contains("buffers")) CHECK(is_refused(maker.glb()));
-    CHECK(is_refused(text));  // the buffer missing, or broken
+    if (!maker.root.contains("buffers")) CHECK(is_rejected(maker.gltf()));
+    if (!maker.root.contains("buffers")) CHECK(is_rejected(maker.glb()));
+    CHECK(is_rejected(text));  // the buffer is missing or corrupt
   }
 }
 
-TEST_CASE("numbers in the buffer are believed no more than those in the text") {
-  const auto spoiled = [](std::size_t accessor, std::size_t offset, auto value) {
+TEST_CASE("numbers in the buffer are checked like those in the text") {
+  const auto rejected_with = [](std::size_t accessor, std::size_t offset, auto value) {
     GltfMaker maker = everything();
     const json& item = maker.root["accessors"][accessor];
     const std::size_t view = item["bufferView"].get<std::size_t>();
     const std::size_t at = maker.root["bufferViews"][view]["byteOffset"].get<std::size_t>() + offset;
     std::memcpy(maker.bytes.data() + at, &value, sizeof value);
-    return is_refused(maker.glb());
+    return is_rejected(maker.glb());
   };
   constexpr float nan = std::numeric_limits<float>::quiet_NaN(), inf = std::numeric_limits<float>::infinity();
-  CHECK(spoiled(0, 4, nan));  // a position
-  CHECK(spoiled(0, 4, inf));
-  CHECK(spoiled(1, 0, nan));               // a normal
-  CHECK(spoiled(4, 1, std::uint8_t{2}));   // a joint beyond the skin
-  CHECK(spoiled(5, 0, -1.0f));             // a weight
-  CHECK(spoiled(6, 2, std::uint16_t{3}));  // an index beyond the vertices
-  CHECK(spoiled(6, 2, std::uint16_t{0xffff}));
-  CHECK(spoiled(7, 0, nan));         // a bind matrix
-  CHECK_FALSE(spoiled(1, 8, 0.0f));  // a normal without length is mended
+  CHECK(rejected_with(0, 4, nan));  // a position
+  CHECK(rejected_with(0, 4, inf));
+  CHECK(rejected_with(1, 0, nan));               // a normal
+  CHECK(rejected_with(4, 1, std::uint8_t{2}));   // a joint beyond the skin
+  CHECK(rejected_with(5, 0, -1.0f));             // a weight
+  CHECK(rejected_with(6, 2, std::uint16_t{3}));  // an index beyond the vertices
+  CHECK(rejected_with(6, 2, std::uint16_t{0xffff}));
+  CHECK(rejected_with(7, 0, nan));         // a bind matrix
+  CHECK_FALSE(rejected_with(1, 8, 0.0f));  // a normal of zero length is repaired
 }
 
 // glTF 2.0, 3.7.2.1: all attribute accessors of a primitive have the same count.
-TEST_CASE("an attribute of more or fewer vertices than the positions refuses the file, whichever it is") {
+TEST_CASE("any attribute whose length differs from the positions rejects the file") {
   struct Attribute {
     const char* name;
     const char* type;
@@ -237,7 +240,7 @@ TEST_CASE("an attribute of more or fewer vertices than the positions refuses the
   const auto sentence = [](const Attribute& a, std::size_t vertices) {
     GltfMaker maker = triangle();  // three positions
     json& attributes = maker.root["meshes"][0]["primitives"][0]["attributes"];
-    // All 1: lengths apart there is nothing wrong with any of them.
+    // All values are 1: apart from the lengths, each attribute is valid.
     attributes[a.name] = maker.accessor(std::vector<float>(a.components * vertices, 1.0f), a.type, f32);
     try {
       read_back(maker);
@@ -254,36 +257,36 @@ TEST_CASE("an attribute of more or fewer vertices than the positions refuses the
     for (const std::size_t vertices : {1u, 2u, 4u, 300u})
       CHECK(sentence(a, vertices).find("has attributes of different lengths") != std::string::npos);
   }
-  for (const std::size_t vertices : {2u, 4u}) {  // joints, with weights of the right length
+  for (const std::size_t vertices : {2u, 4u}) {  // joints, with weights of matching length
     GltfMaker maker = everything();
     json& attributes = maker.root["meshes"][0]["primitives"][0]["attributes"];
     attributes["JOINTS_0"] = maker.accessor(std::vector<std::uint8_t>(4 * vertices), "VEC4", u8);
-    CHECK(is_refused(maker.gltf()));
+    CHECK(is_rejected(maker.gltf()));
   }
 }
 
-TEST_CASE("sparse indices that do not grow, or lead beyond the accessor, refuse the file") {
+TEST_CASE("sparse indices that do not increase, or exceed the accessor, reject the file") {
   for (const std::vector<std::uint8_t>& indices : {std::vector<std::uint8_t>{1, 1}, {2, 0}, {0, 3}, {255, 0}}) {
     GltfMaker maker = triangle();
     const json sparse = {{"count", 2},
                          {"indices", {{"bufferView", maker.view(indices)}, {"componentType", u8}}},
                          {"values", {{"bufferView", maker.view(std::vector<float>(6))}}}};
     maker.root["accessors"][0]["sparse"] = sparse;
-    CHECK(is_refused(maker.gltf()));
+    CHECK(is_rejected(maker.gltf()));
   }
 }
 
-TEST_CASE("pictures that lie about their size, or are no pictures, refuse the file") {
+TEST_CASE("images with a false size, and files that are not images, reject the file") {
   const auto with_picture = [](const std::vector<std::uint8_t>& bytes) {
     GltfMaker maker = everything();
     maker.root["images"][1]["uri"] = data_uri(bytes, "image/png");
-    return is_refused(maker.gltf());
+    return is_rejected(maker.gltf());
   };
   TempFolder folder;
   write_png(folder / "dot.png", Image{2, 2, std::vector<std::uint8_t>(16, 128)});
   const std::vector<std::uint8_t> good = read_bytes(folder / "dot.png");
   CHECK_FALSE(with_picture(good));
-  // The header's width and height stand at bytes 16 to 23, big-endian.
+  // The header stores width and height in bytes 16 to 23, big-endian.
   const auto resized = [&](std::uint8_t b0, std::uint8_t b1, std::uint8_t b2, std::uint8_t b3) {
     std::vector<std::uint8_t> bytes = good;
     const std::uint8_t side[4] = {b0, b1, b2, b3};
@@ -293,7 +296,7 @@ TEST_CASE("pictures that lie about their size, or are no pictures, refuse the fi
   CHECK(with_picture(resized(0x7f, 0xff, 0xff, 0xff)));
   CHECK(with_picture(resized(0xff, 0xff, 0xff, 0xff)));
   CHECK(with_picture(resized(0, 0, 0x20, 0x01)));  // 8193
-  CHECK(with_picture(resized(0, 0, 0x20, 0)));     // 8192, but there are not that many pixels
+  CHECK(with_picture(resized(0, 0, 0x20, 0)));     // 8192, but the file does not contain that many pixels
   CHECK(with_picture(resized(0, 0, 0, 0)));
   CHECK(with_picture({good.begin(), good.begin() + 30}));
   CHECK(with_picture({'G', 'I', 'F', '8', '9', 'a', 1, 0, 1, 0, 0, 0, 0}));
@@ -301,7 +304,7 @@ TEST_CASE("pictures that lie about their size, or are no pictures, refuse the fi
   CHECK(with_picture({'n', 'o'}));
 }
 
-TEST_CASE("an image that lies in a buffer is looked at there, however many name it") {
+TEST_CASE("an image in a buffer is read there, however often it is referenced") {
   const TempFolder folder;
   write_bytes(folder / "model.gltf", everything().gltf());
   GltfDocument document = open_gltf(folder / "model.gltf");
@@ -315,20 +318,20 @@ TEST_CASE("an image that lies in a buffer is looked at there, however many name 
   CHECK(beside.data() == document.images.front().data());
 }
 
-TEST_CASE("skins that ask for more matrices than any hand has joints refuse the file before they are read") {
+TEST_CASE("skins with too many matrices reject the file before they are read") {
   GltfMaker maker = everything();
   maker.root["accessors"].push_back({{"componentType", f32}, {"count", 60'000}, {"type", "MAT4"}});
   const std::size_t zeros = maker.root["accessors"].size() - 1;
   maker.root["skins"][0]["inverseBindMatrices"] = zeros;
-  CHECK_FALSE(is_refused(maker.gltf()));
+  CHECK_FALSE(is_rejected(maker.gltf()));
   maker.root["accessors"][zeros]["count"] = 70'000;
-  CHECK(is_refused(maker.gltf()));
+  CHECK(is_rejected(maker.gltf()));
 }
 
-TEST_CASE("text that is no glTF is refused in one sentence") {
+TEST_CASE("text that is not glTF is rejected with one sentence") {
   const std::string deep(1'000'000, '[');
   std::string many = R"({"asset":{"version":"2.0"},"extras":[0)";
-  for (std::uint64_t i = 0; i < kMostGltfValues; ++i) many += ",0";
+  for (std::uint64_t i = 0; i < kMaxGltfValues; ++i) many += ",0";
   const std::string texts[] = {"",
                                " ",
                                "{",
@@ -347,12 +350,12 @@ TEST_CASE("text that is no glTF is refused in one sentence") {
                                many + "]}"};
   for (const std::string& text : texts) {
     CAPTURE(text.substr(0, 60));
-    CHECK(is_refused(text));
+    CHECK(is_rejected(text));
   }
-  CHECK_FALSE(is_refused(R"({"asset":{"version":"2.0"}})"));  // empty, but lawful
+  CHECK_FALSE(is_rejected(R"({"asset":{"version":"2.0"}})"));  // empty, but valid
 }
 
-TEST_CASE("a .glb whose header or chunks lie is refused in one sentence") {
+TEST_CASE("a .glb with a false header or chunk size is rejected with one sentence") {
   const std::string good = everything().glb();
   const auto with_word = [&](std::size_t at, std::size_t value) {
     return std::string(good).replace(at, 4, GltfMaker::word(value));
@@ -366,35 +369,35 @@ TEST_CASE("a .glb whose header or chunks lie is refused in one sentence") {
         with_word(12, json_length - 4), with_word(12, json_length + 4), with_word(12, good.size()),
         with_word(16, 0x004E4942), with_word(binary, 0xffffffff), with_word(binary, good.size() - binary),
         with_word(binary, 4), with_word(binary + 4, 0x12345678)}) {
-    CHECK(is_refused(file));
+    CHECK(is_rejected(file));
   }
 }
 
-TEST_CASE("a file cut off anywhere is refused") {
+TEST_CASE("a file truncated anywhere is rejected") {
   for (const std::string& whole : {everything().glb(), everything().gltf()}) {
-    for (std::size_t size = 0; size < whole.size(); size += 2) CHECK(is_refused(whole.substr(0, size)));
+    for (std::size_t size = 0; size < whole.size(); size += 2) CHECK(is_rejected(whole.substr(0, size)));
   }
 }
 
-TEST_CASE("a file with any bytes changed is refused or lawful") {
+TEST_CASE("a file with any bytes changed is rejected or gives a valid model") {
   const std::string good = everything().glb();
   const std::size_t binary = good.size() - everything().bytes.size();
   std::mt19937_64 random(20260101);
   int refused = 0;
   for (int i = 0; i < kByteFlips; ++i) {
     std::string bad = good;
-    const std::size_t first = i % 2 == 0 ? 0 : binary;  // anywhere, or in the numbers alone
+    const std::size_t first = i % 2 == 0 ? 0 : binary;  // anywhere, or only in the binary data
     for (std::uint64_t k = 0; k <= random() % 8; ++k) {
       bad[first + random() % (bad.size() - first)] = static_cast<char>(random());
     }
-    if (is_refused(bad)) ++refused;
+    if (is_rejected(bad)) ++refused;
   }
   MESSAGE(refused, " of ", kByteFlips, " refused");
   CHECK(refused > kByteFlips / 10);
   CHECK(refused < kByteFlips);
 }
 
-TEST_CASE("a file with any values exchanged is refused or lawful") {
+TEST_CASE("a file with any values exchanged is rejected or gives a valid model") {
   const json values[] = {-1,         0,           1,     2,      3,    5,     255,           65536,
                          1000000000, kWraps,      kHuge, -1.5,   1e38, -1e38, 1e-45,         0.5,
                          nullptr,    true,        "",    "VEC4", 5123, 5126,  json::array(), json::object(),
@@ -409,18 +412,18 @@ TEST_CASE("a file with any values exchanged is refused or lawful") {
     GltfMaker bad = good;
     for (std::uint64_t k = 0; k <= random() % 3; ++k) {
       const json::json_pointer pointer(pointers[random() % pointers.size()]);
-      // Itself, or the list or object that it lies in.
+      // The value itself, or the list or object that contains it.
       const json::json_pointer target = random() % 4 == 0 ? pointer.parent_pointer() : pointer;
       if (bad.root.contains(target) && !target.empty()) bad.root[target] = values[random() % std::size(values)];
     }
-    if (is_refused(random() % 2 == 0 ? bad.gltf() : bad.glb())) ++refused;
+    if (is_rejected(random() % 2 == 0 ? bad.gltf() : bad.glb())) ++refused;
   }
   MESSAGE(refused, " of ", kValueSwaps, " refused");
   CHECK(refused > kValueSwaps / 10);
   CHECK(refused < kValueSwaps);
 }
 
-TEST_CASE("what is no file is refused") {
+TEST_CASE("a path that is not a file is rejected") {
   TempFolder folder;
   for (const std::filesystem::path& path :
        {folder / "none.glb", folder.path(), std::filesystem::path("/dev/zero"), std::filesystem::path()}) {

@@ -1,4 +1,4 @@
-// Small glTF files with known content, as text or .glb, for a test to write and read back.
+// Builds small glTF files with known content, as text or .glb.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 #include "engine/model/gltf.h"
 #include "tests/support/temp_folder.h"
 
-namespace gearshift {
+namespace gearshift::test {
 
 using nlohmann::json;
 
@@ -43,7 +43,7 @@ inline std::vector<std::uint8_t> read_bytes(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-// glTF's numbers for component types.
+// glTF's component types.
 enum : int { i8 = 5120, u8 = 5121, i16 = 5122, u16 = 5123, u32 = 5125, f32 = 5126 };
 
 struct GltfMaker {
@@ -58,12 +58,12 @@ struct GltfMaker {
   template <typename T>
   int view(const std::vector<T>& values) {
     const std::size_t offset = bytes.size(), size = values.size() * sizeof(T);
-    bytes.resize(offset + (size + 3) / 4 * 4);  // every view starts on a multiple of 4
+    bytes.resize(offset + (size + 3) / 4 * 4);  // each view starts at a multiple of 4
     std::memcpy(bytes.data() + offset, values.data(), size);
     return append("bufferViews", {{"buffer", 0}, {"byteOffset", offset}, {"byteLength", size}});
   }
 
-  // `values`: all components of all elements.
+  // `values`: all components of all elements, in order.
   template <typename T>
   int accessor(const std::vector<T>& values, const std::string& type, int component, bool normalized = false) {
     const std::size_t components = type == "SCALAR" ? 1 : type == "MAT4" ? 16 : static_cast<std::size_t>(type[3] - '0');
@@ -75,7 +75,7 @@ struct GltfMaker {
     return append("accessors", item);
   }
 
-  // One node with one mesh of one primitive.
+  // Adds a node with a mesh of one primitive.
   json& add_primitive(json attributes, json more = json::object()) {
     more["attributes"] = std::move(attributes);
     const int mesh = append("meshes", {{"name", "mesh"}, {"primitives", json::array({more})}});
@@ -107,7 +107,7 @@ struct GltfMaker {
   }
 };
 
-// The triangle (0,0,0) (1,0,0) (0,1,0), which faces +Z.
+// The triangle (0,0,0) (1,0,0) (0,1,0), facing +Z.
 inline const std::vector<float> triangle_corners{0, 0, 0, 1, 0, 0, 0, 1, 0};
 
 inline GltfMaker triangle() {
@@ -116,13 +116,13 @@ inline GltfMaker triangle() {
   return maker;
 }
 
-inline Model read_back(const std::string& content, const TempFolder& folder = TempFolder()) {
+inline engine::Model read_back(const std::string& content, const TempFolder& folder = TempFolder()) {
   write_bytes(folder / "model.gltf", content);
-  return read_gltf(folder / "model.gltf");
+  return engine::read_gltf(folder / "model.gltf");
 }
 
-inline Model read_back(const GltfMaker& maker) {
+inline engine::Model read_back(const GltfMaker& maker) {
   return read_back(maker.gltf());
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

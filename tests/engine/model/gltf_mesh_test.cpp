@@ -1,4 +1,4 @@
-// Vertices and triangles out of every layout that glTF has for them.
+// Vertices and triangles from every layout that glTF allows.
 #include <algorithm>
 #include <cmath>
 
@@ -7,7 +7,8 @@
 
 #include "tests/engine/model/gltf_maker.h"
 
-using namespace gearshift;
+using namespace gearshift::engine;
+using namespace gearshift::test;
 using doctest::Approx;
 using glm::vec2;
 using glm::vec3;
@@ -15,7 +16,7 @@ using glm::vec4;
 
 namespace {
 
-// A unit square in z = 0 that faces +Z: two triangles, UV as pictures have it, v downwards.
+// A unit square in z = 0 facing +Z: two triangles, UVs with v pointing down as in images.
 const std::vector<float> square_corners{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0};
 const std::vector<float> square_uv{0, 1, 1, 1, 1, 0, 0, 0};
 const std::vector<float> square_normals{0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1};
@@ -29,7 +30,7 @@ vec3 corner(const Model& model, std::size_t i) {
   return model.vertices[model.indices[i]].position;
 }
 
-// Needs no picture's content.
+// The content of the normal map does not matter.
 int add_normal_mapped_material(GltfMaker& maker) {
   Image dot{1, 1, {128, 128, 255, 255}};
   TempFolder folder;
@@ -75,7 +76,7 @@ TEST_CASE("text and .glb of one model are one model") {
   CHECK(binary.nodes[1].translation == vec3(1, 2, 3));
 }
 
-TEST_CASE("indices of one, two and four bytes, and none, say the same triangles") {
+TEST_CASE("indices of one, two and four bytes, and none, give the same triangles") {
   const auto square = [](auto sample, int type) {
     GltfMaker maker;
     const std::vector<decltype(sample)> indices{0, 1, 2, 0, 2, 3};
@@ -118,7 +119,7 @@ TEST_CASE("points and lines are not drawn, and named once") {
 
 TEST_CASE("interleaved attributes are read with their stride, from any offset") {
   GltfMaker maker;
-  std::vector<float> mixed{99.0f, 99.0f};  // before the first element: 8 bytes that belong to nobody
+  std::vector<float> mixed{99.0f, 99.0f};  // 8 unused bytes before the first element
   for (std::size_t i = 0; i < 4; ++i) {
     for (std::size_t k = 0; k < 3; ++k) mixed.push_back(square_corners[3 * i + k]);
     for (std::size_t k = 0; k < 2; ++k) mixed.push_back(square_uv[2 * i + k]);
@@ -156,7 +157,7 @@ TEST_CASE("normalised UV coordinates are fractions, in both sets") {
 }
 
 TEST_CASE("vertex colours of every format are the same colour") {
-  // 1, 0.2, 0.4, alpha 0.6 or none.
+  // 1, 0.2, 0.4 and alpha 0.6 or none.
   const auto read = [](auto values, const char* type, int component) {
     GltfMaker maker;
     const bool normalized = component != f32;
@@ -207,7 +208,7 @@ TEST_CASE("meshes share no vertices, and indices are whole") {
 }
 
 TEST_CASE("a fold without normals gets a normal a face, not one shared along the crease") {
-  GltfMaker maker;  // one triangle in z = 0, one in x = 0, joined along y
+  GltfMaker maker;  // one triangle in z = 0, one in x = 0, sharing an edge along y
   const std::vector<float> fold{0, 0, 0, 0, 1, 0, -1, 0, 0, 0, 0, -1};
   maker.add_primitive({{"POSITION", maker.accessor(fold, "VEC3", f32)}},
                       {{"indices", maker.accessor(std::vector<std::uint8_t>{0, 1, 2, 0, 3, 1}, "SCALAR", u8)}});
@@ -253,7 +254,8 @@ TEST_CASE("tangents run along u, and the bitangent up the picture") {
 TEST_CASE("tangents follow the transform of the normal map") {
   GltfMaker maker;
   const int material = add_normal_mapped_material(maker);
-  // Turned by 90 degrees: the picture's u runs where v ran, against growing v, so up the square.
+  // Rotated by 90 degrees: the texture's u runs along the original v, in the direction of decreasing v, so up the
+  // square.
   maker.root["materials"][0]["normalTexture"]["extensions"]["KHR_texture_transform"]["rotation"] = -std::acos(0.0);
   maker.add_primitive({{"POSITION", maker.accessor(square_corners, "VEC3", f32)},
                        {"NORMAL", maker.accessor(square_normals, "VEC3", f32)},
@@ -264,7 +266,7 @@ TEST_CASE("tangents follow the transform of the normal map") {
 }
 
 TEST_CASE("where a mirrored triangle meets a plain one, each keeps its own tangents") {
-  GltfMaker maker;  // two squares side by side, u growing to the middle from both ends
+  GltfMaker maker;  // two adjacent squares with u growing from both ends to the middle
   const std::vector<float> positions{0, 0, 0, 1, 0, 0, 1, 1, 0, 0, 1, 0, 2, 0, 0, 2, 1, 0};
   const std::vector<float> uv{0, 1, 1, 1, 1, 0, 0, 0, 0, 1, 0, 0};
   std::vector<float> normals;
@@ -277,7 +279,7 @@ TEST_CASE("where a mirrored triangle meets a plain one, each keeps its own tange
       {{"indices", maker.accessor(std::vector<std::uint8_t>{0, 1, 2, 0, 2, 3, 1, 4, 5, 1, 5, 2}, "SCALAR", u8)},
        {"material", material}});
   const Model model = read_back(maker);
-  CHECK(model.vertices.size() == 8);  // the two on the seam are doubled
+  CHECK(model.vertices.size() == 8);  // the two vertices on the seam are duplicated
   CHECK(model.meshes[0].vertex_count == 8);
   for (std::size_t i = 0; i < model.indices.size(); ++i) {
     const Vertex& v = model.vertices[model.indices[i]];
@@ -297,7 +299,7 @@ TEST_CASE("tangents of the file are kept, unit and across the normal") {
   const Model model = read_back(maker);
   CHECK(model.vertices[0].tangent == vec4(0, 1, 0, -1));
   CHECK(model.vertices[1].tangent == vec4(0, 1, 0, 1));
-  CHECK(glm::length(vec3(model.vertices[2].tangent)) == Approx(1.0));  // had none
+  CHECK(glm::length(vec3(model.vertices[2].tangent)) == Approx(1.0));  // it had none
   CHECK(model.vertices[2].tangent.z == 0.0f);
 }
 

@@ -8,7 +8,8 @@
 
 #include "tests/engine/model/gltf_maker.h"
 
-using namespace gearshift;
+using namespace gearshift::engine;
+using namespace gearshift::test;
 using doctest::Approx;
 using glm::mat4;
 using glm::vec2;
@@ -45,7 +46,7 @@ std::vector<std::uint8_t> png_bytes(const Image& image) {
   return read_bytes(folder / "image.png");
 }
 
-// One material on the triangle.
+// The triangle with one material.
 GltfMaker with_material(json material) {
   GltfMaker maker = triangle();
   maker.append("materials", std::move(material));
@@ -65,7 +66,7 @@ TEST_CASE("children named before their parents come after them, and stand where 
   for (std::size_t i = 0; i < 3; ++i) CHECK(model.nodes[i].parent < static_cast<int>(i));
   CHECK(model.nodes[static_cast<std::size_t>(model.node("node"))].mesh == 0);
   CHECK(model.nodes[static_cast<std::size_t>(model.node("hand"))].parent == model.node("arm"));
-  // A quarter turn about z after a step of 1 along y, doubled: (-2, 0, 0).
+  // A step of 1 along y, then a quarter turn about z, then a scale of 2: (-2, 0, 0).
   const vec4 place = rest_pose(model)[static_cast<std::size_t>(model.node("node"))][3];
   CHECK(glm::distance(place, vec4(-2, 0, 0, 1)) < 1e-6f);
   CHECK(model.node("nobody") == kNone);
@@ -99,12 +100,12 @@ TEST_CASE("only the default scene is read, the others named") {
   GltfMaker maker = triangle();
   maker.append("nodes", {{"name", "attic"}, {"mesh", 0}});
   maker.root["scenes"] = {{{"nodes", {0}}}, {{"nodes", {1}}}};
-  CHECK(read_back(maker).nodes.at(0).name == "node");  // the first where none is the default
+  CHECK(read_back(maker).nodes.at(0).name == "node");  // the first scene if none is the default
   maker.root["scene"] = 1;
   const Model model = read_back(maker);
   REQUIRE(model.nodes.size() == 1);
   CHECK(model.nodes[0].name == "attic");
-  CHECK(model.skipped == std::vector<std::string>{"scenes but the default one"});
+  CHECK(model.skipped == std::vector<std::string>{"scenes other than the default one"});
 }
 
 TEST_CASE("a file that needs glTF 2.0 and no more is read") {
@@ -113,14 +114,14 @@ TEST_CASE("a file that needs glTF 2.0 and no more is read") {
   CHECK(read_back(maker).nodes.size() == 1);
 }
 
-TEST_CASE("a mesh scaled beyond all numbers is not drawn, and not said to be scaled by zero") {
+TEST_CASE("a mesh scaled out of range is not drawn, and not reported as scaled to zero") {
   GltfMaker maker = triangle();
   maker.root["nodes"][0]["scale"] = {1e30, 1e30, 1e30};
   const Model huge = read_back(maker);
   CHECK(huge.nodes[0].mesh == kNone);
   REQUIRE(huge.skipped.size() == 1);
   CHECK(huge.skipped[0].find("zero") == std::string::npos);
-  CHECK(huge.skipped[0].find("more than a number can hold") != std::string::npos);
+  CHECK(huge.skipped[0].find("out of range") != std::string::npos);
 }
 
 TEST_CASE("a mesh scaled to nothing is not drawn and named; a mirrored one is drawn") {
@@ -159,7 +160,7 @@ TEST_CASE("a material keeps every number the file gives, and glTF's defaults for
   CHECK(glm::distance(m.base_colour, vec4(0.1f, 0.2f, 0.3f, 0.4f)) < 1e-6f);
   CHECK(m.metallic == 0.5f);
   CHECK(m.roughness == 0.6f);
-  CHECK(m.emissive == vec3(2, 4, 8));  // the factor clamped to 1, then the strength
+  CHECK(m.emissive == vec3(2, 4, 8));  // the factor clamped to 1, times the strength
   CHECK(m.alpha_mode == AlphaMode::mask);
   CHECK(m.alpha_cutoff == 0.75f);
   CHECK(m.double_sided);
@@ -193,10 +194,10 @@ TEST_CASE("every map of a material finds its picture, its UV set and its colour 
   CHECK(texture(m.metal_rough_map).wrap_u == Wrap::repeat);
   CHECK(texture(m.metal_rough_map).linear);
   CHECK(m.metal_rough_map.uv_set == 1);
-  CHECK(m.occlusion_map.texture == m.metal_rough_map.texture);  // one picture, used twice
+  CHECK(m.occlusion_map.texture == m.metal_rough_map.texture);  // one image, used twice
   CHECK(m.occlusion_strength == 0.25f);
   CHECK(m.normal_scale == 0.5f);
-  // One picture as data and as colour is two textures.
+  // An image used as data and as colour becomes two textures.
   CHECK(texture(m.normal_map).pixels.rgba == texture(m.emissive_map).pixels.rgba);
   CHECK_FALSE(texture(m.normal_map).srgb);
   CHECK(texture(m.emissive_map).srgb);
@@ -207,7 +208,7 @@ TEST_CASE("a texture transform is translation * rotation * scale and takes the e
   GltfMaker maker = with_material({{"emissiveTexture", {{"index", 0}, {"texCoord", 0}}}});
   maker.append("images", {{"uri", data_uri(png_bytes(dot(1)), "image/png")}});
   maker.append("textures", {{"source", 0}});
-  // The example of KHR_texture_transform: the lower left quadrant, turned by 90 degrees.
+  // The example in KHR_texture_transform: the lower left quadrant, rotated by 90 degrees.
   maker.root["materials"][0]["emissiveTexture"]["extensions"]["KHR_texture_transform"] = {
       {"offset", {0, 1}}, {"rotation", 1.57079632679}, {"scale", {0.5, 0.5}}, {"texCoord", 1}};
   const TextureUse use = read_back(maker).materials[0].emissive_map;
@@ -220,12 +221,12 @@ TEST_CASE("a texture transform is translation * rotation * scale and takes the e
     CHECK(uv.y >= 0.5f - 1e-6f);  // lower half: v of 0.5 to 1, counted from the top
     CHECK(uv.y <= 1.0f + 1e-6f);
   }
-  // The other example: the t axis inverted.
+  // The other example in the extension: the t axis inverted.
   maker.root["materials"][0]["emissiveTexture"]["extensions"]["KHR_texture_transform"] = {{"offset", {0, 1}},
                                                                                           {"scale", {1, -1}}};
   const TextureUse inverted = read_back(maker).materials[0].emissive_map;
   CHECK(vec2(inverted.matrix() * vec3(0.25f, 0.25f, 1)) == vec2(0.25f, 0.75f));
-  // Scale acts first, offset last.
+  // Scale is applied first, offset last.
   const TextureUse all{0, 0, {0.1f, 0.2f}, {2.0f, 3.0f}, 0.4f};
   const double c = std::cos(0.4), s = std::sin(0.4), u = 2.0 * 0.5, v = 3.0 * 0.25;
   const vec2 uv = vec2(all.matrix() * vec3(0.5f, 0.25f, 1));
@@ -311,9 +312,9 @@ TEST_CASE("a skin keeps its joints, bind matrices and weights, the weights made 
   REQUIRE(model.vertex_joints.size() == model.vertices.size());
   CHECK(model.vertex_joints[0].weight[0] == 0.25f);
   CHECK(model.vertex_joints[0].weight[1] == 0.75f);
-  CHECK(model.vertex_joints[0].joint[2] == 0);  // 9 had no weight
+  CHECK(model.vertex_joints[0].joint[2] == 0);  // joint 9 had no weight
   CHECK(model.vertex_joints[1].joint[0] == 1);
-  CHECK(model.vertex_joints[2].weight[0] == 1.0f);  // had none
+  CHECK(model.vertex_joints[2].weight[0] == 1.0f);  // it had none
 
   maker.root["skins"][0].erase("inverseBindMatrices");
   CHECK(read_back(maker).skins[0].inverse_bind[1] == mat4(1));
@@ -329,7 +330,7 @@ TEST_CASE("a skin that the scene does not use is not read, whatever it names") {
   CHECK(read_back(maker).triangle_count() == 1);
 }
 
-TEST_CASE("an unknown extension that is required refuses the file, by name") {
+TEST_CASE("an unknown required extension rejects the file and is named") {
   GltfMaker maker = triangle();
   maker.root["extensionsUsed"] =
       maker.root["extensionsRequired"] = {"KHR_texture_transform", "KHR_materials_emissive_strength"};

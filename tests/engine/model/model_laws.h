@@ -1,4 +1,4 @@
-// What holds for every model that was read, whatever the file said.
+// Checks that hold for every model that read_gltf() returns.
 #pragma once
 
 #include <algorithm>
@@ -9,26 +9,26 @@
 
 #include "engine/model/model.h"
 
-namespace gearshift {
+namespace gearshift::test {
 
 inline bool finite(glm::vec3 v) {
   return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
 }
 
-inline bool lawful_vertex(const Vertex& v) {
+inline bool lawful_vertex(const engine::Vertex& v) {
   const glm::vec3 tangent(v.tangent);
   return finite(v.position) && std::abs(glm::length(v.normal) - 1.0f) < 1e-3f &&
          std::abs(glm::length(tangent) - 1.0f) < 1e-3f && std::abs(v.tangent.w) == 1.0f;
 }
 
 inline bool in_list(int index, std::size_t count) {
-  return index >= kNone && index < static_cast<int>(count);
+  return index >= engine::kNone && index < static_cast<int>(count);
 }
 
-inline bool lawful_mesh(const Model& model, const Mesh& mesh) {
+inline bool lawful_mesh(const engine::Model& model, const engine::Mesh& mesh) {
   const std::uint64_t end = std::uint64_t{mesh.first_vertex} + mesh.vertex_count;
   if (end > model.vertices.size()) return false;
-  return std::all_of(mesh.primitives.begin(), mesh.primitives.end(), [&](const Primitive& p) {
+  return std::all_of(mesh.primitives.begin(), mesh.primitives.end(), [&](const engine::Primitive& p) {
     if (p.index_count == 0 || p.index_count % 3 != 0 || !in_list(p.material, model.materials.size())) return false;
     if (std::uint64_t{p.first_index} + p.index_count > model.indices.size()) return false;
     const auto first = model.indices.begin() + p.first_index;
@@ -39,8 +39,8 @@ inline bool lawful_mesh(const Model& model, const Mesh& mesh) {
   });
 }
 
-inline bool lawful_material(const Model& model, const Material& m) {
-  for (const TextureUse* use :
+inline bool lawful_material(const engine::Model& model, const engine::Material& m) {
+  for (const engine::TextureUse* use :
        {&m.base_colour_map, &m.metal_rough_map, &m.normal_map, &m.occlusion_map, &m.emissive_map}) {
     if (!in_list(use->texture, model.textures.size()) || use->uv_set < 0 || use->uv_set > 1) return false;
   }
@@ -48,13 +48,13 @@ inline bool lawful_material(const Model& model, const Material& m) {
   return share(m.metallic) && share(m.roughness) && share(m.occlusion_strength) && finite(m.emissive);
 }
 
-inline bool lawful_nodes(const Model& model) {
+inline bool lawful_nodes(const engine::Model& model) {
   for (std::size_t i = 0; i < model.nodes.size(); ++i) {
-    const Node& n = model.nodes[i];
-    if (n.parent < kNone || n.parent >= static_cast<int>(i)) return false;
+    const engine::Node& n = model.nodes[i];
+    if (n.parent < engine::kNone || n.parent >= static_cast<int>(i)) return false;
     if (!in_list(n.mesh, model.meshes.size()) || !in_list(n.skin, model.skins.size())) return false;
-    if (n.skin == kNone) continue;
-    const Mesh& mesh = model.meshes[static_cast<std::size_t>(n.mesh)];
+    if (n.skin == engine::kNone) continue;
+    const engine::Mesh& mesh = model.meshes[static_cast<std::size_t>(n.mesh)];
     const std::size_t joints = model.skins[static_cast<std::size_t>(n.skin)].joints.size();
     for (std::uint32_t v = 0; v < mesh.vertex_count; ++v) {
       float sum = 0.0f;
@@ -68,20 +68,20 @@ inline bool lawful_nodes(const Model& model) {
   return true;
 }
 
-inline bool lawful(const Model& model) {
+inline bool lawful(const engine::Model& model) {
   const std::size_t joints = model.vertex_joints.size();
   if (joints != 0 && joints != model.vertices.size()) return false;
-  for (const Texture& t : model.textures) {
+  for (const engine::Texture& t : model.textures) {
     if (t.pixels.rgba.size() !=
         4 * static_cast<std::size_t>(t.pixels.width) * static_cast<std::size_t>(t.pixels.height)) {
       return false;
     }
   }
-  const auto mesh = [&](const Mesh& m) { return lawful_mesh(model, m); };
-  const auto material = [&](const Material& m) { return lawful_material(model, m); };
+  const auto mesh = [&](const engine::Mesh& m) { return lawful_mesh(model, m); };
+  const auto material = [&](const engine::Material& m) { return lawful_material(model, m); };
   return lawful_nodes(model) && std::all_of(model.vertices.begin(), model.vertices.end(), lawful_vertex) &&
          std::all_of(model.meshes.begin(), model.meshes.end(), mesh) &&
          std::all_of(model.materials.begin(), model.materials.end(), material);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

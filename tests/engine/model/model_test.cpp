@@ -1,4 +1,4 @@
-// Poses of a model, and vertices that joints move.
+// Poses of a model, and skinned vertices.
 #include "engine/model/model.h"
 
 #include <cmath>
@@ -10,7 +10,7 @@
 
 #include "engine/model/skin.h"
 
-using namespace gearshift;
+using namespace gearshift::engine;
 using glm::mat4;
 using glm::vec3;
 using glm::vec4;
@@ -40,7 +40,7 @@ TEST_CASE("a node's matrix scales, then turns, then moves") {
   node.translation = {1, 2, 3};
   node.rotation = glm::angleAxis(std::acos(0.0f), vec3(0, 0, 1));
   node.scale = {2, 3, 4};
-  const vec4 moved = node.local() * vec4(1, 1, 1, 1);  // (2, 3, 4), turned (-3, 2, 4)
+  const vec4 moved = node.local() * vec4(1, 1, 1, 1);  // (2, 3, 4), rotated to (-3, 2, 4)
   CHECK(glm::distance(moved, vec4(-2, 4, 7, 1)) < 1e-5f);
 }
 
@@ -74,18 +74,18 @@ TEST_CASE("the rest pose of a tree is the product of the matrices up to its root
 }
 
 TEST_CASE("two joints bend an arm as by hand: the far half turns, the elbow is the mean") {
-  // An arm along x of length 2; joint 0 at the shoulder, joint 1 at x = 1, turned by 90 degrees about z.
+  // An arm of length 2 along x; joint 0 at the shoulder, joint 1 at x = 1, rotated by 90 degrees about z.
   Model model;
   model.nodes.resize(3);
   model.nodes[0].mesh = 0;
   model.nodes[0].skin = 0;
-  model.nodes[0].translation = {7, 7, 7};  // of no effect: joints place a skinned mesh
+  model.nodes[0].translation = {7, 7, 7};  // no effect: joints place a skinned mesh
   model.nodes[2].parent = 1;
   model.nodes[2].translation = {1, 0, 0};
   model.nodes[2].rotation = glm::angleAxis(std::acos(0.0f), vec3(0, 0, 1));
   model.skins.push_back({{1, 2}, {mat4(1), glm::translate(mat4(1), vec3(-1, 0, 0))}});
   const float xs[] = {99.0f, 0.0f, 0.5f, 1.0f, 1.5f, 2.0f, 1.5f};
-  for (const float x : xs) {  // the first belongs to another mesh
+  for (const float x : xs) {  // the first vertex belongs to another mesh
     Vertex v;
     v.position = {x, 0, 0};
     v.normal = {0, 1, 0};
@@ -113,7 +113,7 @@ TEST_CASE("two joints bend an arm as by hand: the far half turns, the elbow is t
   CHECK(glm::distance(out[5].normal, vec3(-diagonal, diagonal, 0)) < 1e-6f);
   CHECK(out[4].uv0 == model.vertices[5].uv0);
 
-  // In its bind pose, moved as a whole: every vertex moves alike.
+  // In its bind pose and moved as a whole: all vertices move by the same amount.
   model.nodes[2].rotation = glm::quat(1, 0, 0, 0);
   model.nodes[1].translation = {0, 0, 4};
   skin_vertices(model, 0, rest_pose(model), out);

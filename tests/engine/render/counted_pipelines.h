@@ -1,8 +1,8 @@
-// How often a pipeline was compiled: the test program stands before the loader's function.
+// Counts compiled pipelines: the test program overrides the loader's function.
 #pragma once
 
-namespace gearshift {
+namespace gearshift::test {
 
 extern int compiled_pipelines;  // so far
 
-}  // namespace gearshift
+}  // namespace gearshift::test

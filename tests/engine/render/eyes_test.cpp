@@ -1,7 +1,8 @@
-// Where things are drawn, and that both eyes see what one eye would.
+// Positions of drawn objects, and stereo pictures against single views.
 #include "tests/engine/render/render_bench.h"
 
-using namespace gearshift;
+using namespace gearshift::engine;
+using namespace gearshift::test;
 using glm::dvec2;
 using glm::dvec3;
 using glm::vec3;
@@ -16,12 +17,12 @@ std::vector<View> stereo_views(const RenderConfig& config, const EyePose& head, 
   return {view_from(eyes.pose[0], eyes.fov[0], near_plane), view_from(eyes.pose[1], eyes.fov[1], near_plane)};
 }
 
-// A floor that runs under the eye and behind it, boxes near and far, glass, a sun with shadows, a mirror.
+// A floor that passes under and behind the eye, boxes near and far, glass, a sun with shadows, a mirror.
 Model street() {
   Model model;
   add_floor(model, "Floor", 20.0f, add_material(model, paint({0.5f, 0.5f, 0.4f})), -0.2f);
   const int box = add_material(model, paint({0.7f, 0.2f, 0.1f}, 0.4f));
-  add_cube(model, "Near", 0.15f, box, {0.2f, 0.0f, -0.25f});  // the near plane cuts it
+  add_cube(model, "Near", 0.15f, box, {0.2f, 0.0f, -0.25f});  // intersects the near plane
   add_cube(model, "Far", 0.5f, box, {-1.0f, 0.3f, -4.0f});
   Material pane = paint({0.2f, 0.4f, 0.9f}, 0.1f);
   pane.base_colour.a = 0.4f;
@@ -64,7 +65,8 @@ TEST_CASE("the corners of a cube are drawn within 0.5 px of a pinhole, in each e
     for (int eye = 0; eye < 2; ++eye) {
       const dvec3 from_head = glm::conjugate(head.orientation) * (at - head.position);
       const double z = -from_head.z, x = from_head.x - (eye == 0 ? -0.5 : 0.5) * kIpd;
-      // Parallel eyes whose frusta meet in the screen: the picture's middle is half the eyes' distance aside there.
+      // Parallel eyes with frusta that coincide on the screen: there, the picture's centre is offset by half the eye
+      // distance.
       const dvec2 pinhole{160.0 + focal * (x / z + (eye == 0 ? -0.5 : 0.5) * kIpd / kScreen),
                           120.0 - focal * from_head.y / z};
       worst = std::max(worst, glm::length(centroid(renderer.read_eye(eye), 0) - pinhole));
@@ -87,13 +89,15 @@ TEST_CASE(
     single.set_model(model);
     const std::vector<View> views = stereo_views(config, look_at({0, 0, 0}, {0, -0.05, -1}));
     FrameScene scene = lit(model);
-    scene.shadow_room = {{-1.5f, -0.25f, -5.0f}, {1.5f, 0.9f, -3.0f}};  // wholly seen by each: one map for all
+    // visible to both eyes as a whole, so that both use the same shadow map
+    scene.shadow_room = {{-1.5f, -0.25f, -5.0f}, {1.5f, 0.9f, -3.0f}};
     std::array<Image, 2> reference;
     for (std::size_t eye = 0; eye < 2; ++eye) {
       single.draw(scene, {&views[eye], 1});
       reference[eye] = single.read_eye(0);
     }
-    REQUIRE(difference(reference[0], reference[1]).share_beyond > 0.1);  // the eyes differ: a swap would be seen
+    // the eyes differ, so swapped eyes would be detected
+    REQUIRE(difference(reference[0], reference[1]).fraction_beyond > 0.1);
     for (const EyePasses passes : {EyePasses::layered, EyePasses::one_by_one}) {
       config.eyes = 2;
       config.eye_passes = passes;
@@ -119,7 +123,7 @@ TEST_CASE("what is out of sight costs no draw, and what is in sight is not lost"
   renderer.set_model(model);
   const View view = view_at(renderer.config(), look_at({0, 0, 0}, {0, 0, -1}));
   renderer.draw(still(model), {&view, 1});
-  CHECK(renderer.draws() == 2);  // ahead, and the one that just reaches into the picture
+  CHECK(renderer.draws() == 2);  // the one ahead, and the one that just reaches into the picture
   FrameScene hidden = still(model);
   hidden.nodes[0].visible = false;
   renderer.draw(hidden, {&view, 1});

@@ -1,17 +1,18 @@
-// Frames one after the other: in flight, resized, refused.
+// Sequences of frames: in flight, resized, rejected.
 #include <cstring>
 
 #include "engine/gpu/gpu_buffer.h"
 #include "tests/engine/render/render_bench.h"
 
-using namespace gearshift;
+using namespace gearshift::engine;
+using namespace gearshift::test;
 using glm::vec3;
 
 namespace {
 
-// Copies the picture of its frame aside before the next one overwrites it.
-struct Keep final : Renderer::Finish {
-  Keep(Gpu& gpu, int width, int height)
+// Copies the picture of its frame before the next frame overwrites it.
+struct PictureCopy final : Renderer::Finish {
+  PictureCopy(Gpu& gpu, int width, int height)
       : buffer(gpu, VkDeviceSize{4} * static_cast<unsigned>(width * height), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
                MemoryKind::read_back) {}
   void record(VkCommandBuffer commands, GpuImage& colour, int) override {
@@ -29,7 +30,7 @@ struct Keep final : Renderer::Finish {
   GpuBuffer buffer;
 };
 
-// Paints its own slot's colour over the left half of the picture.
+// Fills the left half of the picture with the colour of its slot.
 struct HalfCover final : Overlay {
   void draw(VkCommandBuffer commands, VkExtent2D extent, int) override {
     const VkClearAttachment clear{.aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .clearValue = {{{0.5f, 0.25f, 1.0f, 1.0f}}}};
@@ -46,8 +47,8 @@ Model patch() {
   return model;
 }
 
-// The patch moved aside, by its vertices.
-DeformedMesh moved_patch(float x) {
+// The patch, moved by changing its vertices.
+DeformedMesh shifted_patch(float x) {
   DeformedMesh mesh{0, rectangle(0.3f, 0.3f)};
   for (Vertex& vertex : mesh.vertices) vertex.position.x += x;
   return mesh;
@@ -64,19 +65,19 @@ TEST_CASE("frames in flight: every one shows its own deformed mesh, also far fro
   renderer.set_model(model);
   FrameScene scene = still(model);
   scene.nodes[0].world =
-      glm::translate(glm::mat4(1.0f), vec3(-4.0f, 0.0f, 0.0f));  // out of sight, but for its vertices
+      glm::translate(glm::mat4(1.0f), vec3(-4.0f, 0.0f, 0.0f));  // outside the view, apart from its deformed vertices
   const View view = view_at(config, look_at({0, 0, 3}, {0, 0, 0}));
-  std::vector<Keep> kept;
-  for (int i = 0; i < 7; ++i) kept.emplace_back(fixture.gpu(), config.width, config.height);
+  std::vector<PictureCopy> copies;
+  for (int i = 0; i < 7; ++i) copies.emplace_back(fixture.gpu(), config.width, config.height);
   std::uint64_t last = 0;
   for (int i = 0; i < 7; ++i) {
-    scene.deformed = {moved_patch(4.0f + 0.25f * static_cast<float>(i - 3))};
-    last = renderer.draw(scene, {&view, 1}, {}, kept[static_cast<std::size_t>(i)]);  // no wait between
+    scene.deformed = {shifted_patch(4.0f + 0.25f * static_cast<float>(i - 3))};
+    last = renderer.draw(scene, {&view, 1}, {}, copies[static_cast<std::size_t>(i)]);  // no wait in between
   }
   fixture.gpu().wait(last);
   for (int i = 0; i < 7; ++i) {
     const glm::dvec3 expected = project(view, {0.25 * (i - 3), 0.0, 0.0}, {160, 120});
-    const glm::dvec2 seen = centroid(kept[static_cast<std::size_t>(i)].picture(160, 120), 1);
+    const glm::dvec2 seen = centroid(copies[static_cast<std::size_t>(i)].picture(160, 120), 1);
     CAPTURE(i);
     CHECK(std::abs(seen.x - expected.x) < 0.5);
   }
@@ -91,7 +92,7 @@ TEST_CASE("two nodes of one mesh show each its own vertices, and a third one tho
   for (const char* name : {"Second", "Third"}) add_node(model, name, 0, {});
   renderer.set_model(model);
   FrameScene scene = still(model);
-  scene.deformed = {moved_patch(-1.0f), moved_patch(1.0f)};
+  scene.deformed = {shifted_patch(-1.0f), shifted_patch(1.0f)};
   scene.deformed[0].node = 0;
   scene.deformed[1].node = 1;
   const View view = view_at(config, look_at({0, 0, 3}, {0, 0, 0}));
@@ -104,7 +105,7 @@ TEST_CASE("two nodes of one mesh show each its own vertices, and a third one tho
   }
 }
 
-TEST_CASE("a deformed mesh of another size, a scene of another model, a wrong number of views are refused whole") {
+TEST_CASE("a deformed mesh of another size, a scene of another model and a wrong number of views are rejected") {
   GpuFixture fixture;
   Renderer renderer(fixture.gpu(), small_picture());
   const Model model = patch();
@@ -124,7 +125,7 @@ TEST_CASE("a deformed mesh of another size, a scene of another model, a wrong nu
   CHECK(centroid(renderer.read_eye(0), 0).x > 0.0);
 }
 
-TEST_CASE("a configuration out of range is refused, and the renderer stays what it was") {
+TEST_CASE("a configuration out of range is rejected, and the renderer stays unchanged") {
   GpuFixture fixture;
   Renderer renderer(fixture.gpu(), small_picture());
   const auto refused = [&](auto change) {
@@ -198,7 +199,7 @@ TEST_CASE("a frame of a million triangles is drawn to the last of them") {
   const View view = view_at(config, look_at({0, 0, 3}, {0, 0, 0}));
   renderer.draw(still(model), {&view, 1});
   const Image seen = renderer.read_eye(0);
-  CHECK(seen.pixel(16, 12)[1] > seen.pixel(16, 12)[0] + 100);  // green, before what is white
+  CHECK(seen.pixel(16, 12)[1] > seen.pixel(16, 12)[0] + 100);  // green, in front of the white
 }
 
 TEST_CASE("the passes' times add up to the frame's") {

@@ -1,7 +1,8 @@
-// What is seen through what.
+// Transparency and the order of blending.
 #include "tests/engine/render/render_bench.h"
 
-using namespace gearshift;
+using namespace gearshift::engine;
+using namespace gearshift::test;
 using glm::vec3;
 
 namespace {
@@ -40,7 +41,7 @@ TEST_CASE("glass is drawn back to front whatever its order in the file, from eit
   CHECK(back.pixel(80, 60)[2] > back.pixel(80, 60)[0]);
 }
 
-TEST_CASE("what is solid hides the glass behind it, glass lets what is solid behind it be seen") {
+TEST_CASE("solid objects hide the glass behind them, and are visible through the glass in front of them") {
   GpuFixture fixture;
   Renderer renderer(fixture.gpu(), small_picture());
   renderer.set_environment(constant_sky(vec3(0.0f)));
@@ -51,16 +52,17 @@ TEST_CASE("what is solid hides the glass behind it, glass lets what is solid beh
   FrameScene alone = still(model);
   alone.nodes[0].visible = false;
   const Image bare = through(renderer, model, alone, {0, 0, 2});
-  // Display-referred light: three quarters of it pass, less what the pane reflects (black here) at n.v = 1.
+  // In display-referred values: three quarters of the light pass, minus the reflection of the pane (black here) at n.v
+  // = 1.
   const auto linear = [](int code) { return std::pow((code / 255.0 + 0.055) / 1.055, 2.4); };
   CHECK(linear(seen.pixel(80, 60)[1]) / linear(bare.pixel(80, 60)[1]) == doctest::Approx(0.75 * 0.96).epsilon(0.03));
   FrameScene behind = still(model);
   behind.nodes[0].world[3].z = -1.0f;
-  CHECK(difference(through(renderer, model, behind, {0, 0, 2}), bare).share_beyond < 1.0);
+  CHECK(difference(through(renderer, model, behind, {0, 0, 2}), bare).fraction_beyond < 1.0);
   CHECK(through(renderer, model, behind, {0, 0, 2}).pixel(80, 60)[1] == bare.pixel(80, 60)[1]);
 }
 
-TEST_CASE("a ghost shows what is behind it by its opacity, and casts no doubt at 1 and 0") {
+TEST_CASE("a ghost is blended by its opacity, and opacity 1 and 0 are exact") {
   GpuFixture fixture;
   Renderer renderer(fixture.gpu(), small_picture());
   renderer.set_environment(constant_sky(vec3(0.0f)));

@@ -1,7 +1,8 @@
-// Two lights: nodes indoors have theirs, nodes in the open have the sky's.
+// Two environments: indoor nodes use theirs, all others use the sky.
 #include "tests/engine/render/render_bench.h"
 
-using namespace gearshift;
+using namespace gearshift::engine;
+using namespace gearshift::test;
 using glm::dvec3;
 using glm::vec3;
 
@@ -9,7 +10,7 @@ namespace {
 
 const dvec3 kOpen(0.3, 0.6, 1.1), kInside(0.5, 0.4, 0.2);
 
-// One wall left, one right, matt or a metal.
+// One wall on the left and one on the right, matt or metallic.
 struct TwoWalls {
   explicit TwoWalls(const Material& material) {
     const int paint = add_material(model, material);
@@ -66,5 +67,5 @@ TEST_CASE("the light indoors changes a node indoors, and not a bit of one in the
     for (int x = 80; x < 160; ++x)  // the right half: wall and sky
       for (int c = 0; c < 3; ++c) REQUIRE(same.pixel(x, y)[c] == dark.pixel(x, y)[c]);
   }
-  CHECK(same.pixel(left, 60)[1] == same.pixel(right, 60)[1]);  // without a light of its own: as in the open
+  CHECK(same.pixel(left, 60)[1] == same.pixel(right, 60)[1]);  // without an indoor environment: same as outdoors
 }

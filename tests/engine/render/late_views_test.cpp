@@ -1,9 +1,10 @@
-// What a headset asks of a frame beyond two pictures: eyes that move after it was recorded, and its depth.
+// Features for headsets: eyes that move after recording, and depth.
 #include <cstring>
 
 #include "tests/engine/render/render_bench.h"
 
-using namespace gearshift;
+using namespace gearshift::engine;
+using namespace gearshift::test;
 using glm::dvec3;
 using glm::vec3;
 
@@ -28,7 +29,7 @@ RenderConfig for_headset(int samples, EyePasses passes = EyePasses::automatic) {
   return config;
 }
 
-// A row of cubes from side to side, glass, and a mirror that shows what is behind.
+// A row of cubes from left to right, glass, and a mirror that shows what is behind the eye.
 Model row_of_cubes() {
   Model model;
   const int red = add_material(model, paint({0.7f, 0.2f, 0.1f}, 0.4f));
@@ -47,7 +48,7 @@ struct LaterEyes final : Renderer::Finish {
   explicit LaterEyes(const std::array<View, 2>& views) : later(views) {}
   void record(VkCommandBuffer, GpuImage&, int) override { ++recorded; }
   std::span<const View> late_views() override {
-    CHECK(recorded == 1);  // asked for when nothing is left to be recorded
+    CHECK(recorded == 1);  // must be called after everything else was recorded
     return later;
   }
   std::array<View, 2> later;
@@ -70,7 +71,7 @@ TEST_CASE("what was recorded for one pose of the head and told a later one is se
   scene.sun = Sun{};
   scene.mirror = model.node("Mirror");
   const EyePose before = look_at({0, 0, 0}, {0, 0, -1});
-  const EyePose after = look_at({0.01, -0.004, 0.006}, {0.052, 0.02, -1});  // 2.4 deg aside: 8 ms at 300 deg/s
+  const EyePose after = look_at({0.01, -0.004, 0.006}, {0.052, 0.02, -1});  // rotated by 2.4 deg: 8 ms at 300 deg/s
   for (const EyePasses passes : {EyePasses::layered, EyePasses::one_by_one}) {
     const RenderConfig config = for_headset(1, passes);
     CAPTURE(static_cast<int>(passes));
@@ -85,8 +86,8 @@ TEST_CASE("what was recorded for one pose of the head and told a later one is se
       CAPTURE(eye);
       CHECK(difference(renderer.read_eye(eye), wanted[static_cast<std::size_t>(eye)]).worst <= 1);
     }
-    renderer.draw(scene, early);  // and without: the test can tell
-    CHECK(difference(renderer.read_eye(0), wanted[0], 3).share_beyond > 0.05);
+    renderer.draw(scene, early);  // without late views: shows that the test can tell the difference
+    CHECK(difference(renderer.read_eye(0), wanted[0], 3).fraction_beyond > 0.05);
   }
 }
 
@@ -98,7 +99,7 @@ TEST_CASE("a frame that keeps its depth has near plane / distance at each pixel 
   add_rectangle(model, "Sign", {0.2f, 0.2f}, grey, {0.0f, 0.0f, -0.8f});
   for (const int samples : {1, 4}) {
     for (const EyePasses passes : {EyePasses::layered, EyePasses::one_by_one}) {
-      if (samples == 4 && passes == EyePasses::one_by_one) continue;  // lavapipe: see the room's README
+      if (samples == 4 && passes == EyePasses::one_by_one) continue;  // lavapipe: see engine/render/README.md
       CAPTURE(samples);
       CAPTURE(static_cast<int>(passes));
       const RenderConfig config = for_headset(samples, passes);

@@ -1,15 +1,16 @@
-// What a mirror shows against the law of reflection.
+// Mirror pictures against the law of reflection.
 #include "engine/render/mirror_view.h"
 #include "tests/engine/render/render_bench.h"
 
-using namespace gearshift;
+using namespace gearshift::engine;
+using namespace gearshift::test;
 using glm::dvec2;
 using glm::dvec3;
 using glm::vec3;
 
 namespace {
 
-// A mirror ahead that leans, a green lamp behind the eye, a red one behind the mirror.
+// A tilted mirror ahead, a green lamp behind the eye, a red one behind the mirror.
 struct Room {
   Room() {
     const int silver = add_material(model, paint(vec3(1.0f), 0.0f, 1.0f));
@@ -82,7 +83,7 @@ TEST_CASE("what stands behind the mirror is not seen in it, and without a pictur
   for (int y = 0; y < picture.height; ++y)
     for (int x = 0; x < picture.width; ++x) redder += picture.pixel(x, y)[0] > picture.pixel(x, y)[1] ? 1 : 0;
   CHECK(redder == 0);
-  room.world(room.red)[3] = glm::vec4(0.1f, 0.0f, -1.0f, 1.0f);  // before it, it would be
+  room.world(room.red)[3] = glm::vec4(0.1f, 0.0f, -1.0f, 1.0f);  // in front of the mirror it would be visible
   renderer.draw(room.scene, {&view, 1});
   CHECK(centroid(renderer.read_eye(0), 0, 150).x > 0.0);
 

@@ -1,12 +1,13 @@
-// The kept shadow of what stands still, and what moves over it.
+// The cached shadow of static casters, and casters moving over it.
 #include "tests/engine/render/render_bench.h"
 
-using namespace gearshift;
+using namespace gearshift::engine;
+using namespace gearshift::test;
 using glm::vec3;
 
 namespace {
 
-// Over a floor: a cube that stands, one that moves, a sun aside.
+// A floor with a static cube, a moving cube and a slanting sun.
 struct MovingYard {
   Model model;
   int mover = kNone;
@@ -29,7 +30,7 @@ struct MovingYard {
     node.world = glm::translate(glm::mat4(1.0f), to);
     node.visible = visible;
   }
-  Image seen_by(Renderer& renderer) {
+  Image render_with(Renderer& renderer) {
     renderer.draw(scene, {&view, 1});
     return renderer.read_eye(0);
   }
@@ -52,16 +53,16 @@ TEST_CASE("a caster leaves no shadow behind: on any walk the picture is what a n
     vec3 at;
     bool visible = true;
   };
-  // Across the other's shadow, out of the map and back, away and back.
+  // Moves it across the other shadow, out of the map and back, away and back.
   for (const Step step : {Step{{-0.8f, 0.2f, 0.0f}}, Step{{-0.8f, 0.2f, 0.1f}}, Step{{0.1f, 0.3f, 0.3f}},
                           Step{{40.0f, 0.2f, 0.0f}}, Step{{0.9f, 0.2f, 0.8f}}, Step{{0.9f, 0.2f, 0.8f}, false},
                           Step{{0.9f, 0.2f, 0.8f}, false}, Step{{-2.7f, 0.0f, -2.7f}}, Step{{0.2f, 0.5f, 0.2f}}}) {
     yard.move(step.at, step.visible);
     Renderer fresh(fixture.gpu(), yard.config);
     fresh.set_model(yard.model);
-    const Image seen = yard.seen_by(renderer);
+    const Image seen = yard.render_with(renderer);
     CAPTURE(step.at.x);
-    CHECK(difference(seen, yard.seen_by(fresh)).worst == 0);
-    CHECK(difference(seen, yard.seen_by(unshadowed)).share_beyond > 0.01);  // the shadows would be missed
+    CHECK(difference(seen, yard.render_with(fresh)).worst == 0);
+    CHECK(difference(seen, yard.render_with(unshadowed)).fraction_beyond > 0.01);  // missing shadows would be detected
   }
 }

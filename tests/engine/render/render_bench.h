@@ -1,5 +1,5 @@
-// A bench for pictures of a few triangles: models made here, a camera, a renderer, and the closed forms of what a
-// surface shows.
+// Renders pictures of a few triangles: models built here, a camera, a renderer, and closed-form values of shaded
+// surfaces.
 #pragma once
 
 #include <array>
@@ -16,30 +16,30 @@
 #include "engine/render/renderer.h"
 #include "tests/support/gpu_fixture.h"
 
-namespace gearshift {
+namespace gearshift::test {
 
-inline Material paint(glm::vec3 colour, float roughness = 1.0f, float metallic = 0.0f) {
-  Material material;
+inline engine::Material paint(glm::vec3 colour, float roughness = 1.0f, float metallic = 0.0f) {
+  engine::Material material;
   material.base_colour = glm::vec4(colour, 1.0f);
   material.roughness = roughness;
   material.metallic = metallic;
   return material;
 }
 
-// Black, and shines by itself.
-inline Material lamp(glm::vec3 colour) {
-  Material material = paint(glm::vec3(0.0f));
+// Black and emissive.
+inline engine::Material lamp(glm::vec3 colour) {
+  engine::Material material = paint(glm::vec3(0.0f));
   material.emissive = colour;
   return material;
 }
 
-inline int add_material(Model& model, const Material& material) {
+inline int add_material(engine::Model& model, const engine::Material& material) {
   model.materials.push_back(material);
   return static_cast<int>(model.materials.size()) - 1;
 }
 
-inline int add_node(Model& model, const std::string& name, int mesh, glm::vec3 at) {
-  Node node;
+inline int add_node(engine::Model& model, const std::string& name, int mesh, glm::vec3 at) {
+  engine::Node node;
   node.name = name;
   node.mesh = mesh;
   node.translation = at;
@@ -47,15 +47,15 @@ inline int add_node(Model& model, const std::string& name, int mesh, glm::vec3 a
   return static_cast<int>(model.nodes.size()) - 1;
 }
 
-inline int add_mesh(Model& model, const std::vector<Vertex>& vertices, const std::vector<std::uint32_t>& indices,
-                    int material) {
-  Primitive primitive;
+inline int add_mesh(engine::Model& model, const std::vector<engine::Vertex>& vertices,
+                    const std::vector<std::uint32_t>& indices, int material) {
+  engine::Primitive primitive;
   primitive.first_index = static_cast<std::uint32_t>(model.indices.size());
   primitive.index_count = static_cast<std::uint32_t>(indices.size());
   primitive.material = material;
   primitive.low = primitive.high = vertices.front().position;
   const auto first = static_cast<std::uint32_t>(model.vertices.size());
-  for (const Vertex& vertex : vertices) {
+  for (const engine::Vertex& vertex : vertices) {
     primitive.low = glm::min(primitive.low, vertex.position);
     primitive.high = glm::max(primitive.high, vertex.position);
     model.vertices.push_back(vertex);
@@ -65,9 +65,9 @@ inline int add_mesh(Model& model, const std::vector<Vertex>& vertices, const std
   return static_cast<int>(model.meshes.size()) - 1;
 }
 
-// A rectangle in the plane z = 0 that faces +Z; (0, 0) of its texture is the upper left corner.
-inline std::vector<Vertex> rectangle(float half_width, float half_height) {
-  std::vector<Vertex> corners(4);
+// A rectangle in the plane z = 0 facing +Z; (0, 0) of its texture is the upper left corner.
+inline std::vector<engine::Vertex> rectangle(float half_width, float half_height) {
+  std::vector<engine::Vertex> corners(4);
   for (int i = 0; i < 4; ++i) {
     const float x = i % 2 == 0 ? -1.0f : 1.0f, y = i / 2 == 0 ? 1.0f : -1.0f;
     corners[static_cast<std::size_t>(i)].position = {x * half_width, y * half_height, 0.0f};
@@ -78,22 +78,22 @@ inline std::vector<Vertex> rectangle(float half_width, float half_height) {
 }
 inline const std::vector<std::uint32_t> kRectangle{0, 2, 1, 1, 2, 3};
 
-inline int add_rectangle(Model& model, const std::string& name, glm::vec2 half, int material, glm::vec3 at) {
+inline int add_rectangle(engine::Model& model, const std::string& name, glm::vec2 half, int material, glm::vec3 at) {
   return add_node(model, name, add_mesh(model, rectangle(half.x, half.y), kRectangle, material), at);
 }
 
-// Lies flat, faces up.
-inline int add_floor(Model& model, const std::string& name, float half, int material, float height) {
-  std::vector<Vertex> corners = rectangle(half, half);
-  for (Vertex& corner : corners) {
+// Horizontal, facing up.
+inline int add_floor(engine::Model& model, const std::string& name, float half, int material, float height) {
+  std::vector<engine::Vertex> corners = rectangle(half, half);
+  for (engine::Vertex& corner : corners) {
     corner.position = {corner.position.x, 0.0f, -corner.position.y};
     corner.normal = {0.0f, 1.0f, 0.0f};
   }
   return add_node(model, name, add_mesh(model, corners, kRectangle, material), {0.0f, height, 0.0f});
 }
 
-inline int add_cube(Model& model, const std::string& name, float half, int material, glm::vec3 at) {
-  std::vector<Vertex> vertices;
+inline int add_cube(engine::Model& model, const std::string& name, float half, int material, glm::vec3 at) {
+  std::vector<engine::Vertex> vertices;
   std::vector<std::uint32_t> indices;
   for (int axis = 0; axis < 3; ++axis) {
     for (const float side : {-1.0f, 1.0f}) {
@@ -102,7 +102,7 @@ inline int add_cube(Model& model, const std::string& name, float half, int mater
       x[(axis + 1) % 3] = 1.0f;
       const glm::vec3 y = glm::cross(z, x);
       const auto first = static_cast<std::uint32_t>(vertices.size());
-      for (Vertex corner : rectangle(half, half)) {
+      for (engine::Vertex corner : rectangle(half, half)) {
         corner.position = corner.position.x * x + corner.position.y * y + half * z;
         corner.normal = z;
         vertices.push_back(corner);
@@ -113,19 +113,19 @@ inline int add_cube(Model& model, const std::string& name, float half, int mater
   return add_node(model, name, add_mesh(model, vertices, indices, material), at);
 }
 
-inline FrameScene still(const Model& model) {
-  FrameScene scene;
-  for (const glm::mat4& world : rest_pose(model)) scene.nodes.push_back({.world = world});
+inline engine::FrameScene still(const engine::Model& model) {
+  engine::FrameScene scene;
+  for (const glm::mat4& world : engine::rest_pose(model)) scene.nodes.push_back({.world = world});
   scene.sun.irradiance = glm::vec3(0.0f);
   return scene;
 }
 
-inline Radiance constant_sky(glm::vec3 radiance) {
+inline engine::Radiance constant_sky(glm::vec3 radiance) {
   return [=](glm::vec3) { return radiance; };
 }
 
-inline RenderConfig small_picture(int width = 160, int height = 120) {
-  RenderConfig config;
+inline engine::RenderConfig small_picture(int width = 160, int height = 120) {
+  engine::RenderConfig config;
   config.width = width;
   config.height = height;
   config.shadow_side = 0;
@@ -133,11 +133,12 @@ inline RenderConfig small_picture(int width = 160, int height = 120) {
   return config;
 }
 
-inline View view_at(const RenderConfig& config, const EyePose& eye, double vertical = 1.0) {
-  return view_from(eye, symmetric_fov(vertical, static_cast<double>(config.width) / config.height), 0.05);
+inline engine::View view_at(const engine::RenderConfig& config, const engine::EyePose& eye, double vertical = 1.0) {
+  return engine::view_from(eye, engine::symmetric_fov(vertical, static_cast<double>(config.width) / config.height),
+                           0.05);
 }
 
-// What a display shows of a radiance: Hill's ACES fit, then IEC 61966-2-1's transfer curve, in double.
+// Display value of a radiance: Hill's ACES fit, then the transfer curve of IEC 61966-2-1, in double precision.
 inline std::array<double, 3> shown(glm::dvec3 radiance) {
   const glm::dmat3 to{{0.59719, 0.07600, 0.02840}, {0.35458, 0.90834, 0.13383}, {0.04823, 0.01566, 0.83777}};
   const glm::dmat3 from{{1.60475, -0.10208, -0.00327}, {-0.53108, 1.10813, -0.07276}, {-0.07367, -0.00605, 1.07602}};
@@ -153,7 +154,7 @@ inline std::array<double, 3> shown(glm::dvec3 radiance) {
   return codes;
 }
 
-inline void check_shown(const Image& picture, int x, int y, glm::dvec3 radiance, double tolerance = 1.0) {
+inline void check_shown(const engine::Image& picture, int x, int y, glm::dvec3 radiance, double tolerance = 1.0) {
   const std::array<double, 3> expected = shown(radiance);
   for (std::size_t c = 0; c < 3; ++c) {
     CAPTURE(c);
@@ -161,8 +162,8 @@ inline void check_shown(const Image& picture, int x, int y, glm::dvec3 radiance,
   }
 }
 
-// Centre of the light in a channel, weighed by how far it is above the threshold. [px] x < 0: there is none
-inline glm::dvec2 centroid(const Image& picture, int channel, int threshold = 40) {
+// Centroid [px] of the light in a channel, weighted by how far it exceeds the threshold; x < 0 if there is none.
+inline glm::dvec2 centroid(const engine::Image& picture, int channel, int threshold = 40) {
   glm::dvec2 sum(0.0);
   double weight = 0.0;
   for (int y = 0; y < picture.height; ++y) {
@@ -176,4 +177,4 @@ inline glm::dvec2 centroid(const Image& picture, int channel, int threshold = 40
   return weight > 0.0 ? sum / weight : glm::dvec2(-1.0);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

@@ -1,13 +1,14 @@
-// A renderer that was resized draws what a fresh one of that configuration draws, and compiles nothing for a size.
+// A resized renderer draws the same as a new one with that configuration, and a change of size compiles nothing.
 #include "tests/engine/render/counted_pipelines.h"
 #include "tests/engine/render/render_bench.h"
 
-using namespace gearshift;
+using namespace gearshift::engine;
+using namespace gearshift::test;
 using glm::vec3;
 
 namespace {
 
-// A floor, a cube in the sun above it, and a mirror beside.
+// A floor, a sunlit cube above it, and a mirror beside it.
 Model yard() {
   Model model;
   add_floor(model, "Floor", 1.5f, add_material(model, paint(vec3(0.6f))), 0.0f);
@@ -61,9 +62,9 @@ TEST_CASE("resized in any way, a renderer draws the picture of a fresh one") {
     renderer.resize(steps[i]);
     Renderer fresh(fixture.gpu(), steps[i]);
     fresh.set_model(model);
-    const std::vector<Image> ours = drawn(renderer, model), theirs = drawn(fresh, model);
-    REQUIRE(ours.size() == theirs.size());
-    for (std::size_t eye = 0; eye < ours.size(); ++eye) CHECK(difference(ours[eye], theirs[eye]).worst == 0);
+    const std::vector<Image> actual = drawn(renderer, model), expected = drawn(fresh, model);
+    REQUIRE(actual.size() == expected.size());
+    for (std::size_t eye = 0; eye < actual.size(); ++eye) CHECK(difference(actual[eye], expected[eye]).worst == 0);
   }
 }
 

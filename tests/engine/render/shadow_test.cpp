@@ -1,11 +1,12 @@
-// The sun's shadow against rays.
+// Sun shadows against ray casting.
 #include <algorithm>
 #include <random>
 
 #include "engine/render/shadow_fit.h"
 #include "tests/engine/render/render_bench.h"
 
-using namespace gearshift;
+using namespace gearshift::engine;
+using namespace gearshift::test;
 using glm::dvec3;
 using glm::vec3;
 
@@ -14,13 +15,13 @@ namespace {
 constexpr float kHalf = 0.3f, kHeight = 0.6f;
 const vec3 kSun{0.5f, 1.0f, 0.3f};
 
-// Does the ray from a point of the floor towards the sun pass the blocker, a square about `centre`?
+// Does the ray from a point of the floor towards the sun hit the blocker, a square around `centre`?
 bool blocked(dvec3 point, dvec3 centre) {
   const dvec3 hit = point + dvec3(kSun) * (centre.y - point.y) / static_cast<double>(kSun.y);
   return std::abs(hit.x - centre.x) < kHalf && std::abs(hit.z - centre.z) < kHalf;
 }
 
-// A floor, and a square lying above it that moves.
+// A floor and a movable horizontal square above it.
 struct Yard {
   Yard() {
     add_floor(model, "Floor", 1.5f, add_material(model, paint(vec3(0.6f))), 0.0f);
@@ -34,8 +35,8 @@ struct Yard {
   FrameScene scene;
 };
 
-// Share of the floor's points whose light is not what a ray says. Points that the blocker hides are left out.
-double misjudged(Renderer& renderer, const FrameScene& scene, dvec3 blocker) {
+// Fraction of the floor's points whose lighting contradicts the ray. Points hidden by the blocker are skipped.
+double fraction_misjudged(Renderer& renderer, const FrameScene& scene, dvec3 blocker) {
   const View view = view_at(renderer.config(), look_at({0, 3.0, 1.8}, {0, 0, 0}));
   renderer.draw(scene, {&view, 1});
   const Image picture = renderer.read_eye(0);
@@ -66,21 +67,21 @@ TEST_CASE("a blocker's shadow on a floor is where rays say: 1 % misjudged at 102
   GpuFixture fixture;
   Yard yard;
   const dvec3 at{0.0, kHeight, 0.0};
-  std::array<double, 2> share{};
+  std::array<double, 2> fraction{};
   for (std::size_t i = 0; i < 2; ++i) {
     Renderer renderer(fixture.gpu(), shadowed(i == 0 ? 1024 : 64));
     renderer.set_environment(constant_sky(vec3(0.02f)));
     renderer.set_model(yard.model);
-    share[i] = misjudged(renderer, yard.scene, at);
+    fraction[i] = fraction_misjudged(renderer, yard.scene, at);
   }
-  MESSAGE("misjudged: " << 100.0 * share[0] << " % at 1024, " << 100.0 * share[1] << " % at 64");
-  CHECK(share[0] < 0.01);
-  CHECK(share[1] > share[0]);
+  MESSAGE("misjudged: " << 100.0 * fraction[0] << " % at 1024, " << 100.0 * fraction[1] << " % at 64");
+  CHECK(fraction[0] < 0.01);
+  CHECK(fraction[1] > fraction[0]);
   RenderConfig none = shadowed(0);
   Renderer renderer(fixture.gpu(), none);
   renderer.set_environment(constant_sky(vec3(0.02f)));
   renderer.set_model(yard.model);
-  CHECK(misjudged(renderer, yard.scene, at) > 0.03);  // the shadow itself: the comparison can see it
+  CHECK(fraction_misjudged(renderer, yard.scene, at) > 0.03);  // of the shadow itself: the comparison can detect it
 }
 
 TEST_CASE("a shadow follows its caster, from frame to frame, and goes with it") {
@@ -89,16 +90,16 @@ TEST_CASE("a shadow follows its caster, from frame to frame, and goes with it") 
   Renderer renderer(fixture.gpu(), shadowed(512));
   renderer.set_environment(constant_sky(vec3(0.02f)));
   renderer.set_model(yard.model);
-  CHECK(misjudged(renderer, yard.scene, {0.0, kHeight, 0.0}) < 0.02);
+  CHECK(fraction_misjudged(renderer, yard.scene, {0.0, kHeight, 0.0}) < 0.02);
   for (const float x : {0.1f, 0.5f, -0.4f, -0.4f, 0.0f}) {
     yard.move_blocker({x, kHeight, -0.2f});
-    CHECK(misjudged(renderer, yard.scene, {x, kHeight, -0.2}) < 0.02);
+    CHECK(fraction_misjudged(renderer, yard.scene, {x, kHeight, -0.2}) < 0.02);
   }
   yard.scene.nodes[1].visible = false;
-  CHECK(misjudged(renderer, yard.scene, {50.0, kHeight, 0.0}) < 0.001);
+  CHECK(fraction_misjudged(renderer, yard.scene, {50.0, kHeight, 0.0}) < 0.001);
   yard.scene.nodes[1].visible = true;
-  CHECK(misjudged(renderer, yard.scene, {0.0, kHeight, -0.2}) < 0.02);
-  yard.scene.nodes[1].opacity = 0.5f;  // a ghost has no shadow
+  CHECK(fraction_misjudged(renderer, yard.scene, {0.0, kHeight, -0.2}) < 0.02);
+  yard.scene.nodes[1].opacity = 0.5f;  // a ghost casts no shadow
   const View view = view_at(renderer.config(), look_at({0, 3.0, 1.8}, {0, 0, 0}));
   renderer.draw(yard.scene, {&view, 1});
   const Image ghost = renderer.read_eye(0);
@@ -124,7 +125,7 @@ TEST_CASE("the back of a double-sided face, where the sun is on that side, does 
     renderer.draw(scene, {&view, 1});
     pictures[i] = renderer.read_eye(0);
   }
-  CHECK(pictures[1].pixel(200, 150)[1] > 120);  // it is lit
+  CHECK(pictures[1].pixel(200, 150)[1] > 120);  // the floor is lit
   CHECK(difference(pictures[0], pictures[1]).worst <= 1);
 }
 
@@ -145,7 +146,7 @@ TEST_CASE("light falls through a mask's holes") {
   const View view = view_at(renderer.config(), look_at({0, 3.0, 1.8}, {0, 0, 0}));
   renderer.draw(scene, {&view, 1});
   const Image picture = renderer.read_eye(0);
-  const auto light = [&](double x) {  // on the floor, where the sun's ray passes the blocker at x
+  const auto light = [&](double x) {  // light on the floor where the sun's ray passes the blocker at x
     const dvec3 at = project(view, {x - 0.6 * 0.5, 0.0, -0.25 - 0.6 * 0.3}, {400, 300});
     return picture.pixel(int(at.x), int(at.y))[1];
   };
@@ -172,9 +173,9 @@ TEST_CASE("a face that the sun sees at a slant does not shadow itself, nor a clo
       renderer.draw(scene, {&view, 1});
       pictures[i] = renderer.read_eye(0);
     }
-    const double share = difference(pictures[0], pictures[1], 12).share_beyond;
+    const double fraction = difference(pictures[0], pictures[1], 12).fraction_beyond;
     CAPTURE(sun.y);
-    CHECK(share < 0.01);
+    CHECK(fraction < 0.01);
   }
 }
 
@@ -242,15 +243,15 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("what is seen of a box lies between its seen corners: points thrown into it, from outside and from inside") {
+TEST_CASE("the visible part of a box is inside its visible corners, for random points, from outside and inside") {
   const Box box{{-1.0f, -0.5f, -2.0f}, {1.5f, 0.5f, 1.0f}};
   std::mt19937 dice(3);
   std::uniform_real_distribution<float> throws(0.0f, 1.0f);
   for (const dvec3 eye : {dvec3(0.1, 0.2, 0.3), dvec3(4.0, 3.0, 5.0), dvec3(0.0, 0.0, 1.5), dvec3(-3.0, 0.0, -1.0)}) {
     const View view = view_from(look_at(eye, {0.3, -0.1, -1.0}), symmetric_fov(0.6, 1.5), 0.05);
     const glm::mat4 clip = view.clip_from_view * view.view_from_world;
-    const std::vector<vec3> seen = seen_corners(box, {&clip, 1});
-    // The hull's extents along many axes: each point that is seen lies within them, and they are reached.
+    const std::vector<vec3> seen = visible_corners(box, {&clip, 1});
+    // Compares the extents of the hull along many axes: every visible point is within them, and they are reached.
     for (int k = 0; k < 20; ++k) {
       const vec3 axis = glm::normalize(vec3(throws(dice), throws(dice), throws(dice)) - 0.5f);
       float high = -1e9f, reached = -1e9f;
@@ -268,7 +269,7 @@ TEST_CASE("what is seen of a box lies between its seen corners: points thrown in
   }
   const View away = view_from(look_at({0, 0, 4}, {0, 0, 9}), symmetric_fov(0.6, 1.5), 0.05);
   const glm::mat4 clip = away.clip_from_view * away.view_from_world;
-  CHECK(seen_corners(box, {&clip, 1}).size() == 8);
+  CHECK(visible_corners(box, {&clip, 1}).size() == 8);
 }
 
 TEST_CASE("the shadow of a straight edge is straight: within a fifth of a texel where it is half lit") {
@@ -280,8 +281,8 @@ TEST_CASE("the shadow of a straight edge is straight: within a fifth of a texel 
   Renderer renderer(fixture.gpu(), config);
   renderer.set_environment(constant_sky(vec3(0.02f)));
   renderer.set_model(yard.model);
-  // The blocker's right edge, x = 0.3 at height 0.6, falls on x = 0.3 - 0.6 * 0.5 = 0. Straight down onto it, from below
-  // the blocker.
+  // The blocker's right edge, x = 0.3 at height 0.6, casts its shadow at x = 0.3 - 0.6 * 0.5 = 0. The camera looks
+  // straight down from below the blocker.
   const View view = view_at(config, look_at({0.001, 0.5, -0.18}, {0, 0, -0.18}, {0, 0, -1}));
   renderer.draw(yard.scene, {&view, 1});
   const Image picture = renderer.read_eye(0);
@@ -306,7 +307,7 @@ TEST_CASE("the shadow of a straight edge is straight: within a fifth of a texel 
   for (const glm::dvec2 point : edge) square += std::pow(point.x - mean, 2.0) / static_cast<double>(edge.size());
   const glm::mat4 clip = view.clip_from_view * view.view_from_world;
   const double texel = static_cast<double>(
-      fit_shadow(seen_corners({{-1.5f, 0.0f, -1.5f}, {1.5f, kHeight, 1.5f}}, {&clip, 1}), kSun, kCoarse).texel);
+      fit_shadow(visible_corners({{-1.5f, 0.0f, -1.5f}, {1.5f, kHeight, 1.5f}}, {&clip, 1}), kSun, kCoarse).texel);
   MESSAGE("texel " << 1e3 * texel << " mm, edge off by " << std::sqrt(square) / texel << " texels RMS");
   CHECK(std::sqrt(square) < 0.2 * texel);
 }

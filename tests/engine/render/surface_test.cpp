@@ -1,16 +1,17 @@
-// Surfaces against closed forms: what is lit how shows which colour.
+// Shaded surfaces against closed-form values.
 #include "engine/light/environment.h"
 #include "tests/engine/render/render_bench.h"
 
-using namespace gearshift;
+using namespace gearshift::engine;
+using namespace gearshift::test;
 using glm::dvec3;
 using glm::vec3;
 
 namespace {
 
-constexpr int kX = 80, kY = 60;  // the middle, where the view is along the normal
+constexpr int kX = 80, kY = 60;  // the centre, where the view direction is the normal
 
-// A wall that fills the picture, seen straight on.
+// A wall that fills the picture, viewed along its normal.
 struct Wall {
   explicit Wall(const Material& material) {
     node = add_rectangle(model, "Wall", {3, 3}, add_material(model, material), {});
@@ -62,7 +63,7 @@ TEST_CASE("a wall under the sun alone shows Lambert and GGX, within 1/255") {
     const Wall wall(paint(vec3(colour), float(roughness)));
     FrameScene scene = still(wall.model);
     scene.sun = {vec3(5.0 * sun), vec3(irradiance)};
-    // glTF 2.0, appendix B: D and V of GGX, Schlick's F; what the surface reflects of a sky does not enter it.
+    // glTF 2.0, appendix B: GGX's D and V, Schlick's F; light of the sky that is reflected does not enter the surface.
     const double a2 = std::pow(roughness, 4.0), nl = sun.z, nv = 1.0, nh = half.z, vh = glm::dot(view, half);
     const double d = a2 / (glm::pi<double>() * std::pow(nh * nh * (a2 - 1.0) + 1.0, 2.0));
     const double v = 0.5 / (nl * std::sqrt(nv * nv * (1 - a2) + a2) + nv * std::sqrt(nl * nl * (1 - a2) + a2));
@@ -103,10 +104,10 @@ TEST_CASE(
   material.double_sided = true;
   const Wall both(material);
   const Image front = studio.photograph(single.model, still(single.model));
-  // From behind: where nothing is, the sky of that side.
+  // Seen from behind: only the sky on that side is visible.
   check_shown(studio.photograph(single.model, still(single.model), {0, 0, -2}), kX, kY, dvec3(1.0), 2.0);
   const Image back = studio.photograph(both.model, still(both.model), {0, 0, -2});
-  CHECK(back.pixel(kX, kY)[0] < front.pixel(kX, kY)[0] / 2);  // lit from the dark side
+  CHECK(back.pixel(kX, kY)[0] < front.pixel(kX, kY)[0] / 2);  // lit from the back
   FrameScene mirrored = still(single.model);
   mirrored.nodes[0].world = glm::scale(glm::mat4(1.0f), vec3(-1.0f, 1.0f, 1.0f));
   CHECK(difference(studio.photograph(single.model, mirrored), front).worst <= 1);
@@ -115,7 +116,7 @@ TEST_CASE(
 TEST_CASE("textures: both uv sets, a shifted display, KHR_texture_transform, vertex colours, a mask's holes") {
   Studio studio;
   studio.renderer.set_environment(constant_sky(vec3(0.0f)));
-  // Red, green above blue, white.
+  // Top: red, green; bottom: blue, white.
   Model model;
   model.textures.push_back(
       {.pixels = {2, 2, {255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 255, 255, 255, 40}}, .linear = false});
@@ -124,7 +125,7 @@ TEST_CASE("textures: both uv sets, a shifted display, KHR_texture_transform, ver
   const int on_uv1 = add_material(model, material);
   material.emissive_map = {.texture = 0, .offset = {0.5f, 0.0f}};
   const int shifted = add_material(model, material);
-  // A quarter turn counter-clockwise as seen with v down: (u, v) -> (v, -u).
+  // A quarter turn counter-clockwise, as seen with v pointing down: (u, v) -> (v, -u).
   material.emissive_map = {.texture = 0, .rotation = glm::half_pi<float>()};
   const int turned = add_material(model, material);
   for (const int use : {on_uv1, shifted, turned})
@@ -139,7 +140,7 @@ TEST_CASE("textures: both uv sets, a shifted display, KHR_texture_transform, ver
   add_rectangle(model, "", {0.5f, 0.5f}, add_material(model, holes), {0, -1.2f, 0});
 
   FrameScene scene = still(model);
-  scene.nodes[0].uv_shift = {0.5f, 0.0f};  // moves the first set only
+  scene.nodes[0].uv_shift = {0.5f, 0.0f};  // shifts only the first UV set
   const View view = view_at(studio.config, look_at({0, 0, 4}, {0, 0, 0}));
   const auto colour_at = [&](const Image& picture, vec3 point) {
     const dvec3 at = project(view, point, {160, 120});
@@ -151,13 +152,13 @@ TEST_CASE("textures: both uv sets, a shifted display, KHR_texture_transform, ver
   const Image picture = studio.photograph(model, scene, {0, 0, 4});
   CHECK(colour_at(picture, {-1.45f, 0.25f, 0}) == red);
   CHECK(colour_at(picture, {-0.95f, 0.25f, 0}) == green);
-  CHECK(colour_at(picture, {-0.25f, 0.25f, 0}) == green);  // half a picture further
+  CHECK(colour_at(picture, {-0.25f, 0.25f, 0}) == green);  // shifted by half a picture
   CHECK(colour_at(picture, {0.25f, 0.25f, 0}) == red);
   // (.25, .25) -> (.25, -.25): lower left, blue. (.75, .25) -> (.25, -.75): upper left, red.
   CHECK(colour_at(picture, {0.95f, 0.25f, 0}) == blue);
   CHECK(colour_at(picture, {1.45f, 0.25f, 0}) == red);
   CHECK(colour_at(picture, {-0.25f, -0.95f, 0}) == lit);
-  CHECK(colour_at(picture, {0.25f, -1.45f, 0}) == dark);  // alpha 40/255 is a hole
+  CHECK(colour_at(picture, {0.25f, -1.45f, 0}) == dark);  // alpha 40/255 is below the cutoff
 
   scene.nodes[1].uv_shift = {0.5f, 0.0f};
   const Image next = studio.photograph(model, scene, {0, 0, 4});
@@ -201,18 +202,18 @@ TEST_CASE("a normal map turns the light; without it the picture is another one")
   Studio with;
   with.renderer.set_environment(constant_sky(vec3(0.05f)));
   const Image bumpy = with.photograph(model, scene);
-  CHECK(bumpy.pixel(40, 60)[0] > bumpy.pixel(120, 60)[0] + 60);  // the left half leans towards the sun
+  CHECK(bumpy.pixel(40, 60)[0] > bumpy.pixel(120, 60)[0] + 60);  // the left half is tilted towards the sun
   CHECK(difference(bumpy, with.photograph(model, scene)).worst == 0);
 
   RenderConfig config = small_picture();
   config.normal_maps = false;
   Studio without(config);
   without.renderer.set_environment(constant_sky(vec3(0.05f)));
-  CHECK(difference(bumpy, without.photograph(model, scene)).share_beyond > 0.5);
+  CHECK(difference(bumpy, without.photograph(model, scene)).fraction_beyond > 0.5);
 }
 
-// Law: a normal map is about directions. The same wall, modelled small and scaled up, or large and scaled down, is lit
-// the same.
+// A normal map is about directions, so the same wall is lit identically when modelled small and scaled up, or large and
+// scaled down.
 TEST_CASE("a normal map is as strong on a node of any scale") {
   const auto wall = [](float scale) {
     Model model;
@@ -239,11 +240,11 @@ TEST_CASE("a normal map is as strong on a node of any scale") {
   }
 }
 
-// A hole is a hole in every pass: where the colour's alpha of the vertices is below the cutoff, what is behind is seen,
-// at one sample (depth first) as at four, and the sun shines through.
+// Masked holes are holes in every pass: where vertex alpha is below the cutoff, the background is visible with one
+// sample (depth prepass) as well as with four, and the sun shines through.
 TEST_CASE("a mask's holes by the vertices' alpha are holes at one sample, at four, and for the sun") {
   Model model;
-  std::vector<Vertex> fading = rectangle(1.0f, 1.0f);  // alpha 1 on the left edge, 0 on the right one
+  std::vector<Vertex> fading = rectangle(1.0f, 1.0f);  // alpha 1 at the left edge, 0 at the right edge
   for (Vertex& vertex : fading) vertex.colour = vertex.position.x < 0.0f ? 0xffffffffu : 0x00ffffffu;
   Material mask = paint(vec3(0.0f));
   mask.alpha_mode = AlphaMode::mask;
@@ -265,7 +266,7 @@ TEST_CASE("a mask's holes by the vertices' alpha are holes at one sample, at fou
       const dvec3 at = project(view, {x, 0.0, 0.5}, {160, 120});
       return int(picture.pixel(int(at.x), int(at.y))[1]);
     };
-    CHECK(light(-0.5) < 40);  // the mask, black
-    CHECK(light(0.5) > 120);  // the wall behind it, in the sun
+    CHECK(light(-0.5) < 40);  // the black mask
+    CHECK(light(0.5) > 120);  // the sunlit wall behind it
   }
 }

@@ -1,4 +1,4 @@
-// Views against pinhole geometry that uses no matrix.
+// Views against pinhole geometry without matrices.
 #include "engine/scene/view.h"
 
 #include <cmath>
@@ -8,7 +8,7 @@
 #include <glm/geometric.hpp>
 #include <glm/gtc/constants.hpp>
 
-using namespace gearshift;
+using namespace gearshift::engine;
 using glm::dvec2;
 using glm::dvec3;
 
@@ -17,7 +17,8 @@ namespace {
 constexpr double kNear = 0.05;
 const dvec2 kSize{1280.0, 720.0};
 
-// A pinhole: where the ray to the point cuts the picture plane one unit ahead, as a share of the frustum's width.
+// A pinhole camera: where the ray to the point crosses the picture plane one unit ahead, as a fraction of the frustum's
+// width.
 dvec2 pinhole(const EyePose& eye, const Fov& fov, dvec3 point) {
   const dvec3 to = point - eye.position;
   const double ahead = glm::dot(to, eye.orientation * dvec3(0.0, 0.0, -1.0));
@@ -78,7 +79,7 @@ TEST_CASE("depth is 1 at the near plane, falls as its distance over z, and is 0 
   CHECK(far_away.w > 0.0f);
 }
 
-TEST_CASE("what lies behind the eye or nearer than the near plane says so") {
+TEST_CASE("points behind the eye or nearer than the near plane have a negative depth") {
   const View view = view_from(look_at({0, 0, 0}, {0, 0, -1}), symmetric_fov(1.0, 1.0), kNear);
   CHECK(project(view, {0.0, 0.0, -2.0 * kNear}, kSize).z > 0.0);
   CHECK(project(view, {0.0, 0.0, -0.5 * kNear}, kSize).z < 0.0);

@@ -1,5 +1,5 @@
-// A device that can be pulled out: OpenAL's own to memory, except for what it says of its connection. And real runs of
-// this program with no card, and with OpenAL's card that plays to nowhere.
+// A device that can be disconnected: OpenAL's memory device, except for its reported connection state. Also real runs
+// of this program without a sound card, and with OpenAL's null device.
 #include <cstdio>
 #include <cstdlib>
 #include <new>
@@ -12,7 +12,8 @@
 #include "engine/sound/sound_device.h"
 #include "tests/engine/sound/measure.h"
 
-using namespace gearshift;
+using namespace gearshift::engine;
+using namespace gearshift::test;
 
 namespace {
 
@@ -25,7 +26,7 @@ class PluggedDevice : public SoundDevice {
  public:
   PluggedDevice(SoundOutput output, const Socket& socket)
       : SoundDevice(output), socket_(socket), number_(socket.opened) {}
-  // Once pulled out a device stays lost: only a new one plays.
+  // A disconnected device stays lost: only a new one can play.
   bool connected() const override {
     return SoundDevice::connected() && socket_.is_plugged && socket_.opened == number_;
   }
@@ -55,7 +56,7 @@ std::vector<float> hum(double frequency) {
 
 constexpr glm::vec3 kInFront{0.0f, 0.0f, -0.5f};
 
-// This program again, one test case of it, in another environment. Returns what it printed.
+// Runs one test case of this program in another environment. Returns its output.
 std::string run_case(const std::string& environment, const std::string& name) {
   const std::string command =
       "env " + environment + " /proc/$PPID/exe --no-skip --test-case='" + name + "' 2>&1; echo \"rc $?\"";
@@ -81,12 +82,12 @@ void use_everything(SoundWorld& world) {
   }
   std::vector<float> stereo(960, 1.0f);
   world.render(stereo);
-  CHECK(peak(doubles(stereo)) == 0.0);  // a card's world renders nothing to memory
+  CHECK(peak(doubles(stereo)) == 0.0);  // a world on a card renders silence to memory
 }
 
 }  // namespace
 
-TEST_CASE("a lost device comes back with its clips and loops, as they were last asked for") {
+TEST_CASE("a reopened device has all clips and loops in their latest state") {
   Socket socket;
   SoundWorld world(SoundOutput::memory, opener_of(socket));
   const VoiceId voice = world.loop(world.add_clip(hum(440.0)), {kInFront});
@@ -97,9 +98,9 @@ TEST_CASE("a lost device comes back with its clips and loops, as they were last 
   socket.is_plugged = false;
   world.update(1.0);
   CHECK(world.output() == SoundOutput::none);
-  CHECK(world.why_silent() == "the sound device was lost");
+  CHECK(world.silence_reason() == "the sound device was lost");
   CHECK(peak(channel(listen(world, 0.1), Ear::left)) == 0.0);
-  // Everything is still safe, and is remembered.
+  // All calls are still safe, and their effects are remembered.
   world.set(voice, {kInFront, 0.5f, 2.0f});
   const VoiceId late = world.loop(world.add_clip(hum(300.0)), {kInFront, 0.25f});
   world.play(0, {kInFront});
@@ -108,17 +109,17 @@ TEST_CASE("a lost device comes back with its clips and loops, as they were last 
   socket.is_plugged = true;
   world.update(2.5);
   CHECK(world.output() == SoundOutput::memory);
-  CHECK(world.why_silent().empty());
+  CHECK(world.silence_reason().empty());
   const std::vector<double> left = channel(listen(world, 0.5), Ear::left);
   CHECK(amplitude_at(left, 880.0) == doctest::Approx(0.5 * before).epsilon(0.02));
   CHECK(amplitude_at(left, 300.0) == doctest::Approx(0.25 * before).epsilon(0.02));
-  CHECK(amplitude_at(left, 440.0) < 0.01 * before);  // nothing of what was asked long ago; the one-shot is past
+  CHECK(amplitude_at(left, 440.0) < 0.01 * before);  // past requests are not replayed, and the one-shot has ended
   world.set(late, {kInFront, 0.0f});
   listen(world, 0.1);
   CHECK(amplitude_at(channel(listen(world, 0.5), Ear::left), 300.0) < 1e-3 * before);
 }
 
-TEST_CASE("a lost device is asked for at most once a second, at once the first time, and for as long as it takes") {
+TEST_CASE("reopening a lost device is tried at once, then at most once a second, without end") {
   Socket socket;
   SoundWorld world(SoundOutput::memory, opener_of(socket));
   CHECK(socket.asked == 1);
@@ -127,7 +128,7 @@ TEST_CASE("a lost device is asked for at most once a second, at once the first t
   CHECK(socket.asked >= 1 + 10);
   CHECK(socket.asked <= 1 + 11);
   const int so_far = socket.asked;
-  world.update(5.0);  // the clock was set back: at most a second is lost by that
+  world.update(5.0);  // the clock was set back: this costs one second at most
   world.update(6.1);
   CHECK(socket.asked == so_far + 1);
   socket.is_plugged = true;
@@ -135,10 +136,10 @@ TEST_CASE("a lost device is asked for at most once a second, at once the first t
   CHECK(world.output() == SoundOutput::memory);
   CHECK(socket.opened == 2);
   for (int frame = 0; frame < 600; ++frame) world.update(8.0 + frame / 60.0);
-  CHECK(socket.opened == 2);  // a device that works is left alone
+  CHECK(socket.opened == 2);  // a working device is left alone
 }
 
-TEST_CASE("ten losses in a row: every time it comes back, and nothing is left over") {
+TEST_CASE("ten losses in a row: it is reopened every time, and nothing leaks") {
   Socket socket;
   SoundWorld world(SoundOutput::memory, opener_of(socket));
   world.loop(world.add_clip(hum(440.0)), {kInFront});
@@ -153,20 +154,21 @@ TEST_CASE("ten losses in a row: every time it comes back, and nothing is left ov
   }
 }
 
-TEST_CASE("an opener that fails in any way is no sound, and no exception") {
-  SoundWorld never(SoundOutput::card,
-                   [](SoundOutput) -> std::unique_ptr<SoundDevice> { throw std::runtime_error("no sound card"); });
-  CHECK(never.output() == SoundOutput::none);
-  CHECK(never.why_silent() == "no sound card");
-  use_everything(never);
+TEST_CASE("an opener that fails in any way means silence, not an exception") {
+  SoundWorld without_card(SoundOutput::card, [](SoundOutput) -> std::unique_ptr<SoundDevice> {
+    throw std::runtime_error("no sound card");
+  });
+  CHECK(without_card.output() == SoundOutput::none);
+  CHECK(without_card.silence_reason() == "no sound card");
+  use_everything(without_card);
   bool is_first = true;
   SoundWorld once(SoundOutput::memory, [&is_first](SoundOutput output) -> std::unique_ptr<SoundDevice> {
-    struct Loses : SoundDevice {
+    struct DisconnectedDevice : SoundDevice {
       using SoundDevice::SoundDevice;
       bool connected() const override { return false; }
     };
     if (!std::exchange(is_first, false)) throw std::bad_alloc();
-    return std::make_unique<Loses>(output);
+    return std::make_unique<DisconnectedDevice>(output);
   });
   CHECK(once.output() == SoundOutput::memory);
   CHECK_NOTHROW(once.update(1.0));
@@ -176,15 +178,15 @@ TEST_CASE("an opener that fails in any way is no sound, and no exception") {
 TEST_CASE("child: without a sound card every call is safe and silent" * doctest::skip()) {
   SoundWorld world(SoundOutput::card);
   CHECK(world.output() == SoundOutput::none);
-  CHECK(world.why_silent() == "no sound card");
+  CHECK(world.silence_reason() == "no sound card");
   use_everything(world);
-  CHECK(SoundWorld(SoundOutput::memory).output() == SoundOutput::memory);  // memory needs no card
+  CHECK(SoundWorld(SoundOutput::memory).output() == SoundOutput::memory);  // the memory device needs no sound card
 }
 
-TEST_CASE("child: a card that plays to nowhere is a card" * doctest::skip()) {
+TEST_CASE("child: a null device counts as a card" * doctest::skip()) {
   SoundWorld world(SoundOutput::card);
   CHECK(world.output() == SoundOutput::card);
-  CHECK(world.why_silent().empty());
+  CHECK(world.silence_reason().empty());
   use_everything(world);
   CHECK(world.output() == SoundOutput::card);
 }
@@ -199,7 +201,7 @@ TEST_CASE("without a sound card the world is silent, says so, prints nothing of 
 }
 
 TEST_CASE("a sound card plays by the mixer's own thread while every call is made") {
-  const std::string printed = run_case("ALSOFT_DRIVERS=null", "child: a card*");
+  const std::string printed = run_case("ALSOFT_DRIVERS=null", "child: a null*");
   CAPTURE(printed);
   CHECK(printed.find("1 passed") != std::string::npos);
   CHECK(printed.find("rc 0") != std::string::npos);

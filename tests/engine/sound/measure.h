@@ -1,4 +1,4 @@
-// What a test measures of sound: level, spectrum, pitch.
+// Sound measurements for tests: level, spectrum, pitch.
 #pragma once
 
 #include <algorithm>
@@ -11,11 +11,11 @@
 
 #include "engine/sound/sound_world.h"
 
-namespace gearshift {
+namespace gearshift::test {
 
-// Rendered in frames of a 60 Hz picture. [s]
-inline std::vector<float> listen(SoundWorld& world, double seconds) {
-  constexpr std::size_t kFrame = 2 * kSoundRate / 60;
+// Renders `seconds` of sound in frames of a 60 Hz picture.
+inline std::vector<float> listen(engine::SoundWorld& world, double seconds) {
+  constexpr std::size_t kFrame = 2 * engine::kSoundRate / 60;
   std::vector<float> stereo(static_cast<std::size_t>(std::lround(seconds * 60.0)) * kFrame);
   for (std::size_t n = 0; n < stereo.size(); n += kFrame) world.render(std::span(stereo).subspan(n, kFrame));
   return stereo;
@@ -49,7 +49,7 @@ inline double decibels(double ratio) {
   return 20.0 * std::log10(ratio);
 }
 
-// Radix 2, in place; the size is a power of two.
+// Radix-2 FFT in place; the size must be a power of two.
 inline void fourier(std::vector<std::complex<double>>& x) {
   const std::size_t size = x.size();
   for (std::size_t i = 1, j = 0; i < size; ++i) {
@@ -71,7 +71,7 @@ inline void fourier(std::vector<std::complex<double>>& x) {
   }
 }
 
-// Power spectrum under a Hann window, zero-padded; power[n] belongs to n * hertz_per_bin.
+// Power spectrum with a Hann window, zero-padded; power[n] is at n * hertz_per_bin.
 struct Spectrum {
   std::vector<double> power;
   double hertz_per_bin = 0.0;
@@ -87,12 +87,12 @@ inline Spectrum spectrum(std::span<const double> x) {
   }
   fourier(bins);
   Spectrum out;
-  out.hertz_per_bin = static_cast<double>(kSoundRate) / static_cast<double>(size);
+  out.hertz_per_bin = static_cast<double>(engine::kSoundRate) / static_cast<double>(size);
   for (std::size_t n = 0; n < size / 2; ++n) out.power.push_back(std::norm(bins[n]));
   return out;
 }
 
-// The strongest line from 5 Hz up, between bins by the parabola through the logarithms. [Hz]
+// Frequency [Hz] of the strongest line above 5 Hz, interpolated between bins by a parabola through the logarithms.
 inline double strongest_line(std::span<const double> x) {
   const auto [power, hertz] = spectrum(x);
   const auto lowest = static_cast<std::ptrdiff_t>(5.0 / hertz);
@@ -101,7 +101,7 @@ inline double strongest_line(std::span<const double> x) {
   return (static_cast<double>(top) + 0.5 * (a - c) / (a - 2.0 * b + c)) * hertz;
 }
 
-// Share of power between two frequencies. [Hz]
+// Fraction of the power between two frequencies. [Hz]
 inline double band_power(const Spectrum& s, double low, double high) {
   double sum = 0.0;
   for (std::size_t n = 0; n < s.power.size(); ++n) {
@@ -111,19 +111,19 @@ inline double band_power(const Spectrum& s, double low, double high) {
   return sum;
 }
 
-// Amplitude of a sine of that frequency in x, by correlation over a whole number of its periods. [Hz]
+// Amplitude of a sine of the given frequency [Hz] in x, by correlation over a whole number of periods.
 inline double amplitude_at(std::span<const double> x, double frequency) {
-  const double periods = std::floor(static_cast<double>(x.size()) * frequency / kSoundRate);
-  const auto count = static_cast<std::size_t>(std::lround(periods * kSoundRate / frequency));
+  const double periods = std::floor(static_cast<double>(x.size()) * frequency / engine::kSoundRate);
+  const auto count = static_cast<std::size_t>(std::lround(periods * engine::kSoundRate / frequency));
   std::complex<double> sum = 0.0;
   for (std::size_t n = 0; n < std::min(count, x.size()); ++n) {
-    sum += x[n] * std::polar(1.0, -2.0 * std::numbers::pi * frequency * static_cast<double>(n) / kSoundRate);
+    sum += x[n] * std::polar(1.0, -2.0 * std::numbers::pi * frequency * static_cast<double>(n) / engine::kSoundRate);
   }
   return 2.0 * std::abs(sum) / static_cast<double>(count);
 }
 
-// How far the joint of a loop stands out: the second difference there against the largest inside. A kink or a step
-// shows in it; what loops well stays at or below 1.
+// Roughness at the joint of a loop: the second difference there, relative to the largest one inside. It reveals kinks
+// and steps; a smooth loop has a value of at most 1.
 inline double joint_roughness(std::span<const float> loop) {
   const std::size_t size = loop.size();
   const auto bend = [&](std::size_t n) {
@@ -134,4 +134,4 @@ inline double joint_roughness(std::span<const float> loop) {
   return std::max(bend(size - 2), bend(size - 1)) / inside;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

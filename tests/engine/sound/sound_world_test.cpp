@@ -1,4 +1,4 @@
-// Rendered to memory and measured.
+// Sound rendered to memory and measured.
 #include "engine/sound/sound_world.h"
 
 #include <limits>
@@ -9,11 +9,12 @@
 
 #include "tests/engine/sound/measure.h"
 
-using namespace gearshift;
+using namespace gearshift::engine;
+using namespace gearshift::test;
 
 namespace {
 
-// Whole periods in half a second, so that it loops without a step.
+// Half a second with a whole number of periods, so that it loops without a step.
 std::vector<float> sine(double frequency, double amplitude, double seconds = 0.5) {
   std::vector<float> out(static_cast<std::size_t>(std::lround(seconds * kSoundRate)));
   for (std::size_t n = 0; n < out.size(); ++n) {
@@ -26,8 +27,8 @@ std::vector<float> sine(double frequency, double amplitude, double seconds = 0.5
 constexpr glm::vec3 kAhead{0.0f, 0.0f, -0.5f};
 constexpr glm::vec3 kRight{0.5f, 0.0f, 0.0f};
 
-// A 1 kHz loop of amplitude 0.5 with that voice, once it has settled.
-std::vector<float> heard(const Voice& voice, float volume = 1.0f) {
+// Renders a 1 kHz loop of amplitude 0.5 with the given voice, after it has settled.
+std::vector<float> render_voice(const Voice& voice, float volume = 1.0f) {
   SoundWorld world(SoundOutput::memory);
   world.set_volume(volume);
   world.loop(world.add_clip(sine(1000.0, 0.5)), voice);
@@ -36,16 +37,16 @@ std::vector<float> heard(const Voice& voice, float volume = 1.0f) {
 }
 
 double left_amplitude(const Voice& voice, float volume = 1.0f) {
-  return amplitude_at(channel(heard(voice, volume), Ear::left), 1000.0);
+  return amplitude_at(channel(render_voice(voice, volume), Ear::left), 1000.0);
 }
 
 }  // namespace
 
-TEST_CASE("a memory world is a memory world, and none says why it is silent") {
+TEST_CASE("a memory world reports memory, and a silent one reports its reason") {
   CHECK(SoundWorld(SoundOutput::memory).output() == SoundOutput::memory);
-  CHECK(SoundWorld(SoundOutput::memory).why_silent().empty());
+  CHECK(SoundWorld(SoundOutput::memory).silence_reason().empty());
   CHECK(SoundWorld(SoundOutput::none).output() == SoundOutput::none);
-  CHECK(!SoundWorld(SoundOutput::none).why_silent().empty());
+  CHECK(!SoundWorld(SoundOutput::none).silence_reason().empty());
 }
 
 TEST_CASE("silence is exactly 0, before anything was asked and with voices at gain 0") {
@@ -55,10 +56,10 @@ TEST_CASE("silence is exactly 0, before anything was asked and with voices at ga
   CHECK(peak(channel(listen(world, 0.5), Ear::left)) == 0.0);
 }
 
-TEST_CASE("pitch is the clip's own times what was asked, to the mixer's step of 1/4096") {
+TEST_CASE("pitch is the clip's pitch times the voice's, to the mixer's step of 1/4096") {
   for (const float pitch : {0.25f, 0.5f, 0.97f, 1.0f, 1.3f, 2.0f, 4.0f}) {
     CAPTURE(pitch);
-    const double hertz = strongest_line(channel(heard({kAhead, 1.0f, pitch}), Ear::left));
+    const double hertz = strongest_line(channel(render_voice({kAhead, 1.0f, pitch}), Ear::left));
     const double step = std::round(pitch * 4096.0) / 4096.0;
     CHECK(hertz == doctest::Approx(1000.0 * step).epsilon(4e-5));
     CHECK(hertz == doctest::Approx(1000.0 * pitch).epsilon(0.5 / 4096.0 / 0.25));
@@ -75,7 +76,8 @@ TEST_CASE("amplitude is proportional to the voice's gain and to the volume of al
 }
 
 TEST_CASE("gain falls as reference / distance, and not below the reference distance") {
-  const double near = left_amplitude({{0.0f, 0.0f, -kSoundReferenceDistance}, 0.1f});  // so soft that no gain reaches 1
+  // so quiet that no gain reaches 1
+  const double near = left_amplitude({{0.0f, 0.0f, -kSoundReferenceDistance}, 0.1f});
   for (const float distance : {0.1f, 0.3f, 0.5f, 0.7f, 1.0f, 2.0f, 5.0f, 20.0f}) {
     CAPTURE(distance);
     const double law = kSoundReferenceDistance / std::max(kSoundReferenceDistance, distance);
@@ -84,7 +86,7 @@ TEST_CASE("gain falls as reference / distance, and not below the reference dista
 }
 
 TEST_CASE("what stands to the right is louder right, mirrored to the left, and turns with the listener") {
-  const auto balance = [](glm::vec3 source, glm::vec3 forward) {  // [dB] right over left
+  const auto balance = [](glm::vec3 source, glm::vec3 forward) {  // [dB] right relative to left
     SoundWorld world(SoundOutput::memory);
     world.set_listener(glm::vec3(0.0f), forward, {0.0f, 1.0f, 0.0f});
     world.loop(world.add_clip(sine(1000.0, 0.5)), {source});
@@ -107,8 +109,8 @@ TEST_CASE("what stands to the right is louder right, mirrored to the left, and t
   CHECK(balance(kAhead, east) < -6.0);            // now to the left
 }
 
-TEST_CASE("ears hear from where they are: to move them is to move everything else the other way") {
-  const auto heard_at = [](glm::vec3 ears, glm::vec3 source) {
+TEST_CASE("moving the listener equals moving everything else the other way") {
+  const auto amplitudes_at = [](glm::vec3 ears, glm::vec3 source) {
     SoundWorld world(SoundOutput::memory);
     world.set_listener(ears, {0.0f, 0.0f, -1.0f}, {0.0f, 1.0f, 0.0f});
     world.loop(world.add_clip(sine(1000.0, 0.5)), {source, 0.1f});
@@ -117,35 +119,35 @@ TEST_CASE("ears hear from where they are: to move them is to move everything els
     return std::pair(rms(channel(stereo, Ear::left)), rms(channel(stereo, Ear::right)));
   };
   const glm::vec3 source{0.4f, 0.1f, -0.9f};
-  const auto [left, right] = heard_at(glm::vec3(0.0f), source);
+  const auto [left, right] = amplitudes_at(glm::vec3(0.0f), source);
   for (const glm::vec3 ears : {glm::vec3(3.0f, 0.0f, 0.0f), {0.0f, 0.65f, 0.05f}, {-7.0f, 2.0f, 40.0f}}) {
-    const auto [left_there, right_there] = heard_at(ears, source + ears);
+    const auto [left_there, right_there] = amplitudes_at(ears, source + ears);
     CHECK(left_there == doctest::Approx(left).epsilon(1e-3));
     CHECK(right_there == doctest::Approx(right).epsilon(1e-3));
   }
-  // A source at the origin, heard 1 m and 4 m from it: 12.04 dB.
-  const double near = heard_at({0.0f, 0.0f, 1.0f}, {}).first, far = heard_at({0.0f, 0.0f, 4.0f}, {}).first;
+  // A source at the origin, heard from 1 m and from 4 m: 12.04 dB.
+  const double near = amplitudes_at({0.0f, 0.0f, 1.0f}, {}).first, far = amplitudes_at({0.0f, 0.0f, 4.0f}, {}).first;
   CHECK(decibels(near / far) == doctest::Approx(12.041).epsilon(1e-3));
 }
 
 TEST_CASE("a point beside the listener is heard with one ear, a source as wide as it is far with both") {
-  const std::vector<float> point = heard({kRight}), wide = heard({.position = kRight, .radius = 0.5f});
+  const std::vector<float> point = render_voice({kRight}), wide = render_voice({.position = kRight, .radius = 0.5f});
   CHECK(rms(channel(point, Ear::left)) < 1e-3 * rms(channel(point, Ear::right)));
   CHECK(rms(channel(wide, Ear::left)) > 0.25 * rms(channel(wide, Ear::right)));
   CHECK(rms(channel(wide, Ear::left)) < 0.5 * rms(channel(wide, Ear::right)));
 }
 
 TEST_CASE("a loop runs through its joint as through any other sample") {
-  const std::vector<double> left = channel(heard({kAhead}), Ear::left);
+  const std::vector<double> left = channel(render_voice({kAhead}), Ear::left);
   const double amplitude = amplitude_at(left, 1000.0);
-  double residue = 0.0;  // against the sine of that amplitude, by x'' = -w^2 x in its sampled form
+  double residue = 0.0;  // compared with a sine of that amplitude, through the sampled form of x'' = -w^2 x
   const double factor = 2.0 * std::cos(2.0 * std::numbers::pi * 1000.0 / kSoundRate);
   for (std::size_t n = 2; n < left.size(); ++n) {
     residue = std::max(residue, std::abs(left[n] - factor * left[n - 1] + left[n - 2]));
   }
   CHECK(residue < 1e-4 * amplitude);
 
-  SoundWorld world(SoundOutput::memory);  // the measure sees a joint that is a quarter of a period off
+  SoundWorld world(SoundOutput::memory);  // the measure detects a joint that is off by a quarter of a period
   world.loop(world.add_clip(sine(1000.5, 0.5)), {kAhead});
   const std::vector<double> broken = channel(listen(world, 1.0), Ear::left);
   residue = 0.0;
@@ -172,7 +174,7 @@ TEST_CASE("loops that keep one pitch stay in phase: two in opposition are silent
 }
 
 TEST_CASE("restart begins a loop at its first sample") {
-  std::vector<float> ramp(4800);  // 0 to 1: the level tells the place
+  std::vector<float> ramp(4800);  // 0 to 1: the level reveals the position
   for (std::size_t n = 0; n < ramp.size(); ++n) ramp[n] = static_cast<float>(n) / 4800.0f;
   SoundWorld world(SoundOutput::memory);
   const VoiceId voice = world.loop(world.add_clip(ramp), {kAhead});
@@ -183,7 +185,7 @@ TEST_CASE("restart begins a loop at its first sample") {
   world.restart(voice);
   stereo.resize(960);
   world.render(stereo);
-  CHECK(stereo[stereo.size() - 2] == doctest::Approx(0.2 * half_way).epsilon(0.02));  // 480 of 2400 samples on
+  CHECK(stereo[stereo.size() - 2] == doctest::Approx(0.2 * half_way).epsilon(0.02));  // 480 of 2400 samples further
 }
 
 TEST_CASE("a one-shot is heard once, and 24 at a time: the oldest gives way") {
@@ -198,14 +200,14 @@ TEST_CASE("a one-shot is heard once, and 24 at a time: the oldest gives way") {
   for (int n = 0; n < kOneShotVoices; ++n) CHECK(is_heard(stereo, n));
   world.play(clips[kOneShotVoices], {kAhead});
   world.play(clips[kOneShotVoices + 1], {kAhead});
-  listen(world, 0.05);  // settle
+  listen(world, 0.05);  // let it settle
   stereo = listen(world, 0.1);
   for (int n = 0; n < kOneShotVoices + 2; ++n) {
     CAPTURE(n);
     CHECK(is_heard(stereo, n) == (n >= 2));
   }
   listen(world, 0.5);
-  CHECK(peak(channel(listen(world, 0.1), Ear::left)) == 0.0);  // all are over
+  CHECK(peak(channel(listen(world, 0.1), Ear::left)) == 0.0);  // all have ended
   world.play(clips[0], {kAhead});
   CHECK(is_heard(listen(world, 0.1), 0));
 }
@@ -230,7 +232,7 @@ TEST_CASE("the same calls give the same samples, bit for bit") {
   CHECK(first == scene());
 }
 
-TEST_CASE("two worlds live side by side without hearing each other") {
+TEST_CASE("two worlds do not affect each other") {
   SoundWorld one(SoundOutput::memory), other(SoundOutput::memory);
   one.loop(one.add_clip(sine(500.0, 0.5)), {kAhead});
   other.loop(other.add_clip(sine(900.0, 0.5)), {kAhead});
@@ -241,7 +243,7 @@ TEST_CASE("two worlds live side by side without hearing each other") {
   CHECK(amplitude_at(from_one, 900.0) < 1e-3);
 }
 
-TEST_CASE("numbers that make no sense are clamped or left out, ids that were never given are refused") {
+TEST_CASE("invalid numbers are clamped or ignored, unknown ids throw") {
   constexpr float kNan = std::numeric_limits<float>::quiet_NaN(), kInf = std::numeric_limits<float>::infinity();
   SoundWorld world(SoundOutput::memory);
   const ClipId clip = world.add_clip(sine(1000.0, 0.5));

@@ -1,4 +1,4 @@
-// Read back by the format's own definition.
+// WAVE files read back according to the format's definition.
 #include "engine/sound/wav.h"
 
 #include <unistd.h>
@@ -16,11 +16,12 @@
 
 #include "tests/support/temp_folder.h"
 
-using namespace gearshift;
+using namespace gearshift::engine;
+using namespace gearshift::test;
 
 namespace {
 
-std::filesystem::path own_file() {
+std::filesystem::path temporary_path() {
   return std::filesystem::temp_directory_path() / ("gearshift_wav_" + std::to_string(getpid()) + ".wav");
 }
 
@@ -38,11 +39,11 @@ long number(const std::string& bytes, std::size_t at, int count) {
 
 }  // namespace
 
-TEST_CASE("a WAVE file says what it holds and holds it to half a step of 16 bits, clipped at full scale") {
+TEST_CASE("a WAVE file has a correct header, and samples to half a 16-bit step, clipped at full scale") {
   std::vector<float> stereo;
   for (int n = 0; n < 1000; ++n) stereo.push_back(static_cast<float>(std::sin(0.01 * n * n)));
   for (const float odd : {1.5f, -3.0f, std::numeric_limits<float>::quiet_NaN(), 0.0f}) stereo.push_back(odd);
-  const std::filesystem::path path = own_file();
+  const std::filesystem::path path = temporary_path();
   write_wav(path, stereo, 44100);
   const std::string bytes = bytes_of(path);
   std::filesystem::remove(path);
@@ -66,16 +67,16 @@ TEST_CASE("a WAVE file says what it holds and holds it to half a step of 16 bits
   CHECK(sample(1002) == 0);
 }
 
-TEST_CASE("what cannot be written is refused in a sentence that names the file") {
+TEST_CASE("a file that cannot be written throws one sentence that names it") {
   const std::vector<float> frame = {0.0f, 0.0f};
   CHECK_THROWS_AS(write_wav("/nonexistent/a.wav", frame, 48000), std::runtime_error);
   CHECK_THROWS_WITH(write_wav("/nonexistent/a.wav", frame, 48000),
                     "/nonexistent/a.wav: cannot be written: No such file or directory");
-  CHECK_THROWS_AS(write_wav(own_file(), std::span(frame).first(1), 48000), std::runtime_error);
-  CHECK_THROWS_AS(write_wav(own_file(), frame, 0), std::runtime_error);
+  CHECK_THROWS_AS(write_wav(temporary_path(), std::span(frame).first(1), 48000), std::runtime_error);
+  CHECK_THROWS_AS(write_wav(temporary_path(), frame, 0), std::runtime_error);
 }
 
-TEST_CASE("a sound that cannot be put in its place leaves what is there, and nothing beside it") {
+TEST_CASE("a failed write leaves the old file and no temporary file") {
   const TempFolder folder;
   std::filesystem::create_directories(folder / "a.wav/kept");
   CHECK_THROWS_AS(write_wav(folder / "a.wav", std::vector<float>(2), 48000), std::runtime_error);

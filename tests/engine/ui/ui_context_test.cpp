@@ -5,13 +5,13 @@
 #include "engine/ui/ui.h"
 #include "engine/ui/ui_style.h"
 
-using namespace gearshift;
+using namespace gearshift::engine;
 
 namespace {
 
-constexpr int kKeyDown = 264, kKeyUp = 265, kKeySpace = 32, kKeyA = 65;  // as GLFW numbers them
+constexpr int kKeyDown = 264, kKeyUp = 265, kKeySpace = 32, kKeyA = 65;  // GLFW's key codes
 
-// One window with a button and a field.
+// A window with a button and a text field.
 struct Form {
   UiContext ui;
   UiInput screen;
@@ -59,7 +59,7 @@ TEST_CASE("a fed mouse presses a button once per click, and only there") {
   CHECK(form.presses == 1);
   form.click({600, 500});
   CHECK(form.presses == 1);
-  form.events.mouse_here = false;  // captured by the lever: the buttons of the mouse are the lever's
+  form.events.has_mouse = false;  // captured by the lever, which then gets the mouse buttons
   form.events.mouse_down[0] = true;
   form.frame();
   form.events.mouse_down[0] = false;
@@ -94,7 +94,7 @@ TEST_CASE("the keyboard belongs to the interface while a field is edited, not be
   CHECK(std::string(form.text) == "5\u00b5");
 }
 
-TEST_CASE("keys move and press: GLFW's numbers are known") {
+TEST_CASE("keys navigate and press: GLFW's key codes are mapped") {
   Form form;
   form.frame();
   const auto strike = [&form](int key) {
@@ -110,7 +110,7 @@ TEST_CASE("keys move and press: GLFW's numbers are known") {
   CHECK(form.ui.wants_keys());
   strike(kKeySpace);
   CHECK(form.presses == 2);
-  form.events.keys = {{9999, true}, {-1, true}, {kKeyA, true}};  // keys of no known number are no fault
+  form.events.keys = {{9999, true}, {-1, true}, {kKeyA, true}};  // unknown key codes are ignored
   form.frame();
 }
 
@@ -119,14 +119,14 @@ TEST_CASE(
   constexpr int kControl = 341, kEnter = 257, kB = 66, kC = 67;
   Form form;
   form.frame();
-  form.click(form.button);  // pressed, and where the navigation begins
+  form.click(form.button);  // presses it, and starts the keyboard navigation there
   form.events.keys = {{kKeyDown, true}, {kKeyDown, false}, {kKeyUp, true}, {kKeyUp, false}};
   for (int i = 0; i < 5; ++i) form.frame();
   form.events.keys = {{kKeySpace, true}, {kKeySpace, false}};
   for (int i = 0; i < 3; ++i) form.frame();
   CHECK(form.presses == 2);
   form.click(form.field);
-  // "Bb", all of it chosen, "Cc" written over it, and one letter taken back: in one poll of a slow frame.
+  // In one poll of a slow frame: types "Bb", selects all, types "Cc" over it, and deletes one letter.
   constexpr int kBackspace = 259;
   form.events.text = U"BbCcc";
   form.events.keys = {{kB, true},       {kB, false},   {kB, true},         {kB, false},
@@ -142,7 +142,7 @@ TEST_CASE(
   CHECK_FALSE(ImGui::IsKeyDown(kEnter));
 }
 
-TEST_CASE("what waits for its frame is forgotten where the window lost the focus") {
+TEST_CASE("queued keys are dropped when the window loses focus") {
   Form form;
   form.events.keys = {{kKeySpace, true}, {kKeySpace, false}, {kKeySpace, true}};
   form.frame();
@@ -153,7 +153,7 @@ TEST_CASE("what waits for its frame is forgotten where the window lost the focus
   }
 }
 
-TEST_CASE("keys that were down are up when the window lost the focus") {
+TEST_CASE("pressed keys are released when the window loses focus") {
   Form form;
   form.events.keys = {{kKeySpace, true}};
   form.frame();

@@ -1,4 +1,4 @@
-// Dear ImGui's frame on our pipelines against the definition of what it means.
+// Our drawing of a Dear ImGui frame against the definition of its draw data.
 #include <array>
 #include <functional>
 #include <string>
@@ -12,13 +12,14 @@
 #include "tests/engine/ui/ui_raster.h"
 #include "tests/support/gpu_fixture.h"
 
-using namespace gearshift;
+using namespace gearshift::engine;
+using namespace gearshift::test;
 
 namespace {
 
 constexpr std::array<int, 3> kBackground{40, 80, 120};
 
-// A picture whose UNORM view the overlay is drawn on, as the renderer does it.
+// A picture with the UNORM view on which the overlay is drawn, as in the renderer.
 struct Screen {
   GpuFixture fixture;
   Gpu& gpu = fixture.gpu();
@@ -42,7 +43,7 @@ struct Screen {
                            .height = static_cast<std::uint32_t>(size.height),
                            .format = kColourFormat,
                            .usage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT,
-                           .also = kOverlayFormat});
+                           .second_format = kOverlayFormat});
     const ImageView view = make_view(gpu, picture, VK_IMAGE_VIEW_TYPE_2D, 0, 1, kOverlayFormat);
     run_once(gpu, [&](VkCommandBuffer commands) {
       transition(commands, picture, ImageUse::colour_target);
@@ -96,7 +97,7 @@ TEST_CASE("a rectangle has its colour, exactly, in its pixels and in no other") 
   CHECK(pixels_unlike(image, kBackground) == 50 * 30);
 }
 
-TEST_CASE("what is half transparent shows half of what lies behind it, display-referred") {
+TEST_CASE("half transparency blends half of the background, display-referred") {
   Screen screen;
   screen.build([](ImDrawList& list) { list.AddRectFilled({0, 0}, {8, 8}, IM_COL32(255, 255, 255, 128)); });
   const std::array<int, 3> seen = at(screen.draw(), 4, 4);
@@ -104,7 +105,7 @@ TEST_CASE("what is half transparent shows half of what lies behind it, display-r
     CHECK(seen[i] == doctest::Approx(255.0 * 128.0 / 255.0 + kBackground[i] * 127.0 / 255.0).epsilon(0.01));
 }
 
-TEST_CASE("nothing is drawn outside of a clip rectangle, and one outside of the screen is no fault") {
+TEST_CASE("nothing is drawn outside a clip rectangle, and one outside the screen is allowed") {
   Screen screen;
   screen.build([](ImDrawList& list) {
     list.PushClipRect({30, 40}, {50, 70});
@@ -138,8 +139,8 @@ TEST_CASE("text, curves and transparency are what the definition gives, to two s
   MESSAGE("psnr " << apart.psnr << " dB, worst " << apart.worst << "/255");
   CHECK(apart.worst <= 2);
   CHECK(pixels_unlike(image, kBackground) > 3000);
-  // Moved by a pixel it is another picture: the comparison can fail.
-  CHECK(difference(crop(image, 1, 0, 318, 200), crop(expected, 0, 0, 318, 200), 2).share_beyond > 0.02);
+  // Shifted by a pixel, the picture differs, so the comparison can fail.
+  CHECK(difference(crop(image, 1, 0, 318, 200), crop(expected, 0, 0, 318, 200), 2).fraction_beyond > 0.02);
 }
 
 TEST_CASE("the buffers of a slot grow with the frame, beyond 65536 vertices too, and keep what they held") {
@@ -152,18 +153,18 @@ TEST_CASE("the buffers of a slot grow with the frame, beyond 65536 vertices too,
       }
     });
   };
-  for (const int count : {10, 4000, 16000, 100}) {  // four vertices each: up to 64000
+  for (const int count : {10, 4000, 16000, 100}) {  // four vertices each: up to 64,000
     for (const int slot : {0, 1}) {
       tiles(count);
       CHECK(pixels_unlike(screen.draw(slot), kBackground) == count);
     }
   }
-  tiles(40000);  // 160000 vertices: the tiles over each other, the last ones too
+  tiles(40000);  // 160,000 vertices: the tiles overlap, and the last ones are visible, too
   CHECK(ImGui::GetDrawData()->TotalVtxCount > 65536);
   CHECK(pixels_unlike(screen.draw(0), kBackground) == 16000);
 }
 
-TEST_CASE("another scale makes another font, and the picture goes on") {
+TEST_CASE("another scale builds another font, and drawing continues") {
   Screen screen;
   const auto text = [](ImDrawList& list) { list.AddText({4, 4}, IM_COL32_WHITE, "neutral"); };
   screen.build(text);
@@ -175,7 +176,7 @@ TEST_CASE("another scale makes another font, and the picture goes on") {
   CHECK(difference(image, screen.expected()).worst <= 2);
 }
 
-TEST_CASE("an empty frame draws nothing, and a foreign texture is refused") {
+TEST_CASE("an empty frame draws nothing, and an unknown texture throws") {
   Screen screen;
   CHECK(pixels_unlike(screen.draw(), kBackground) == 0);  // before the first frame
   screen.build([](ImDrawList&) {});

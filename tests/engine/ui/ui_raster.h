@@ -1,4 +1,4 @@
-// Dear ImGui's frame drawn by the definition, one triangle after another on the CPU: what the pipelines must show.
+// Draws a Dear ImGui frame by definition, triangle by triangle on the CPU: the reference for our pipelines.
 #pragma once
 
 #include <imgui.h>
@@ -9,11 +9,11 @@
 
 #include "engine/image/image.h"
 
-namespace gearshift {
+namespace gearshift::test {
 
 class UiRaster {
  public:
-  // A picture of the frame's size, of one colour.
+  // Starts with a picture of the frame's size in one colour.
   UiRaster(const ImDrawData& data, std::array<int, 3> background) : data_(data) {
     picture_.width = static_cast<int>(data.DisplaySize.x);
     picture_.height = static_cast<int>(data.DisplaySize.y);
@@ -24,7 +24,7 @@ class UiRaster {
     ImGui::GetIO().Fonts->GetTexDataAsAlpha8(&coverage_, &coverage_width_, &coverage_height_);
   }
 
-  Image draw() {
+  engine::Image draw() {
     for (int l = 0; l < data_.CmdListsCount; ++l) {
       const ImDrawList& list = *data_.CmdLists[l];
       for (const ImDrawCmd& command : list.CmdBuffer) {
@@ -45,7 +45,7 @@ class UiRaster {
     return static_cast<double>(b.x - a.x) * (y - static_cast<double>(a.y)) -
            static_cast<double>(b.y - a.y) * (x - static_cast<double>(a.x));
   }
-  // The rule that gives a pixel on a shared edge to one of the two triangles.
+  // Top-left rule: assigns a pixel on a shared edge to one of the two triangles.
   static bool owns(ImVec2 a, ImVec2 b) { return (a.y == b.y && b.x > a.x) || b.y < a.y; }
 
   double texel(int x, int y) const {
@@ -103,9 +103,9 @@ class UiRaster {
   }
 
   const ImDrawData& data_;
-  Image picture_;
+  engine::Image picture_;
   unsigned char* coverage_ = nullptr;
   int coverage_width_ = 0, coverage_height_ = 0;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::test

@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <utility>
 
-gearshift::InjectedFaults gearshift::injected_faults;
+gearshift::test::InjectedFaults gearshift::test::injected_faults;
 
-using gearshift::injected_faults;
+using gearshift::test::injected_faults;
 
 extern "C" VKAPI_ATTR VkResult VKAPI_CALL vkAcquireNextImageKHR(VkDevice device, VkSwapchainKHR swapchain,
                                                                 std::uint64_t timeout, VkSemaphore semaphore,

@@ -1,4 +1,4 @@
-// What a driver answers once in a while, on demand: the test program stands before the loader's functions.
+// Injects rare results of a driver: the test program overrides the loader's functions.
 #pragma once
 
 #include <vulkan/vulkan.h>
@@ -6,20 +6,19 @@
 #include <cstdint>
 #include <vector>
 
-namespace gearshift {
+namespace gearshift::test {
 
-// The next call's result; VK_SUCCESS: the driver's own. A presentation that fails is made nevertheless, the others are
-// not.
+// Result of the next call; VK_SUCCESS: the driver's own. A failing present is still executed, the other calls are not.
 struct InjectedFaults {
   VkResult next_acquire = VK_SUCCESS;
   VkResult next_present = VK_SUCCESS;
   VkResult next_capabilities = VK_SUCCESS;
   VkResult next_create = VK_SUCCESS;
-  bool no_extent = false;                  // the surface says 0 x 0 while this is set
-  bool never_free = false;                 // no image comes, for as long as one waits, while this is set
-  std::uint64_t waited_ns = 0;             // for images that did not come
-  std::vector<VkSemaphore> acquired_with;  // of all acquisitions, in order
+  bool no_extent = false;                  // while set, the surface reports a size of 0 x 0
+  bool never_free = false;                 // while set, acquiring an image always times out
+  std::uint64_t waited_ns = 0;             // total wait for images that did not come
+  std::vector<VkSemaphore> acquired_with;  // semaphores of all acquisitions, in order
 };
 extern InjectedFaults injected_faults;
 
-}  // namespace gearshift
+}  // namespace gearshift::test

@@ -16,14 +16,15 @@
 #include "tests/engine/window/x_server.h"
 #include "tests/support/gpu_fixture.h"
 
-using namespace gearshift;
+using namespace gearshift::engine;
+using namespace gearshift::test;
 
 namespace {
 
 constexpr int kWidth = 160, kHeight = 90;
 using Rgb = std::array<int, 3>;
 
-// Four quarters of one colour each, so that scale, place and orientation show.
+// Four quarters of one colour each, which reveal scale, position and orientation.
 constexpr std::array<Rgb, 4> kQuarters{{{200, 30, 40}, {20, 180, 60}, {30, 60, 220}, {230, 200, 20}}};
 
 Image four_quarters() {
@@ -48,15 +49,15 @@ Image plain(Rgb colour) {
 
 GpuConfig for_window() {
   GpuConfig config;
-  config.instance_extensions = gearshift::Window::instance_extensions();
+  config.instance_extensions = gearshift::engine::Window::instance_extensions();
   config.swapchain = true;
   return config;
 }
 
-// A window that shows a picture of two layers: four quarters, and grey.
-class Shown {
+// A window that presents a picture with two layers: four quarters, and grey.
+class PictureWindow {
  public:
-  explicit Shown(bool vsync = true) : fixture_(for_window()), swapchain_(gpu(), window, vsync), ring_(gpu()) {
+  explicit PictureWindow(bool vsync = true) : fixture_(for_window()), swapchain_(gpu(), window, vsync), ring_(gpu()) {
     std::vector<std::byte> texels;
     for (const Image& layer : {four_quarters(), plain({90, 90, 90})}) {
       const auto bytes = std::as_bytes(std::span(layer.rgba));
@@ -69,9 +70,9 @@ class Shown {
     id = server.find("shown");
     REQUIRE(id != 0);
   }
-  ~Shown() { gpu().wait_idle(); }
+  ~PictureWindow() { gpu().wait_idle(); }
 
-  // One turn of a program's loop. True: a picture was presented.
+  // One iteration of a program's loop. Returns true if a picture was presented.
   bool frame() {
     window.poll();
     if (!swapchain_.acquire()) return false;
@@ -88,13 +89,13 @@ class Shown {
     return false;
   }
 
-  // Shows frames until the screen is as asked; false after ten seconds.
-  template <class Law>
-  bool comes_to_show(const Law& law) {
+  // Presents frames until the screen satisfies the predicate; false after ten seconds.
+  template <class Predicate>
+  bool eventually_shows(const Predicate& predicate) {
     const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
     while (std::chrono::steady_clock::now() < end) {
       frame();
-      if (law(server.picture(id))) return true;
+      if (predicate(server.picture(id))) return true;
     }
     return false;
   }
@@ -105,7 +106,7 @@ class Shown {
   bool silent() const { return fixture_.silent(); }
 
   XServer server;
-  gearshift::Window window{320, 180, "shown"};
+  gearshift::engine::Window window{320, 180, "shown"};
   ::Window id = 0;
   std::vector<ShownLayer> layers{{}};
 
@@ -124,7 +125,7 @@ bool is_colour(const Image& image, double x, double y, Rgb expected) {
   return true;
 }
 
-// The middle of each quarter of [left, left + width) x [top, top + height) has the quarter's colour.
+// Checks that the centre of each quarter of [left, left + width) x [top, top + height) has the quarter's colour.
 bool shows_quarters(const Image& image, double left, double top, double width, double height) {
   for (std::size_t q = 0; q < 4; ++q) {
     const double x = left + width * (q % 2 == 0 ? 0.25 : 0.75);
@@ -134,7 +135,7 @@ bool shows_quarters(const Image& image, double left, double top, double width, d
   return true;
 }
 
-// Of the whole window, as wide or as high as fits, by the picture's 16:9.
+// Checks that the 16:9 picture is shown as wide or as high as the window allows.
 bool shows_picture(const Image& image, int width, int height) {
   if (image.width != width || image.height != height) return false;
   const double scale = std::min(static_cast<double>(width) / kWidth, static_cast<double>(height) / kHeight);
@@ -144,23 +145,23 @@ bool shows_picture(const Image& image, int width, int height) {
 
 }  // namespace
 
-TEST_CASE("a picture lies in its part as large as it can, in the middle, its aspect kept") {
+TEST_CASE("a picture is as large as its part allows, centred, with its aspect kept") {
   const VkExtent2D picture{1600, 900};
   const auto is = [](VkRect2D r, int x, int y, std::uint32_t w, std::uint32_t h) {
     return r.offset.x == x && r.offset.y == y && r.extent.width == w && r.extent.height == h;
   };
-  CHECK(is(place_of({}, picture, {1600, 900}), 0, 0, 1600, 900));
-  CHECK(is(place_of({}, picture, {800, 900}), 0, 225, 800, 450));
-  CHECK(is(place_of({}, picture, {3200, 900}), 800, 0, 1600, 900));
-  CHECK(is(place_of({.from = 0.0f, .to = 0.5f}, picture, {1600, 900}), 0, 225, 800, 450));
-  CHECK(is(place_of({.from = 0.5f, .to = 1.0f}, picture, {1600, 900}), 800, 225, 800, 450));
+  CHECK(is(placement_of({}, picture, {1600, 900}), 0, 0, 1600, 900));
+  CHECK(is(placement_of({}, picture, {800, 900}), 0, 225, 800, 450));
+  CHECK(is(placement_of({}, picture, {3200, 900}), 800, 0, 1600, 900));
+  CHECK(is(placement_of({.from = 0.0f, .to = 0.5f}, picture, {1600, 900}), 0, 225, 800, 450));
+  CHECK(is(placement_of({.from = 0.5f, .to = 1.0f}, picture, {1600, 900}), 800, 225, 800, 450));
   std::mt19937 random(2);
-  for (int i = 0; i < 2000; ++i) {  // never outside of the window, whatever its size
+  for (int i = 0; i < 2000; ++i) {  // never outside the window, whatever its size
     const VkExtent2D window{1 + static_cast<std::uint32_t>(random() % 50),
                             1 + static_cast<std::uint32_t>(random() % 50)};
     const float cut = static_cast<float>(random() % 101) / 100.0f;
     for (const ShownLayer& layer : {ShownLayer{0, 0.0f, cut}, ShownLayer{1, cut, 1.0f}}) {
-      const VkRect2D place = place_of(layer, picture, window);
+      const VkRect2D place = placement_of(layer, picture, window);
       CHECK(place.offset.x >= 0);
       CHECK(place.offset.y >= 0);
       CHECK(place.extent.width >= 1);
@@ -173,37 +174,37 @@ TEST_CASE("a picture lies in its part as large as it can, in the middle, its asp
 
 TEST_CASE("a picture of the window's size is shown byte for byte") {
   for (const bool vsync : {true, false}) {
-    Shown shown(vsync);
+    PictureWindow shown(vsync);
     shown.server.resize(shown.id, kWidth, kHeight);
     const Image expected = four_quarters();
-    CHECK(shown.comes_to_show([&](const Image& seen) { return seen.rgba == expected.rgba; }));
+    CHECK(shown.eventually_shows([&](const Image& seen) { return seen.rgba == expected.rgba; }));
     CHECK(shown.swapchain().extent().width == kWidth);
   }
 }
 
-TEST_CASE("a scaled picture keeps its aspect, and what is beside it is black") {
-  Shown shown;
+TEST_CASE("a scaled picture keeps its aspect, and the rest is black") {
+  PictureWindow shown;
   shown.server.resize(shown.id, 500, 180);
-  CHECK(shown.comes_to_show([](const Image& seen) {
+  CHECK(shown.eventually_shows([](const Image& seen) {
     return shows_picture(seen, 500, 180) && is_colour(seen, 40, 90, {0, 0, 0}) && is_colour(seen, 460, 90, {0, 0, 0});
   }));
   shown.server.resize(shown.id, 160, 300);
-  CHECK(shown.comes_to_show([](const Image& seen) {
+  CHECK(shown.eventually_shows([](const Image& seen) {
     return shows_picture(seen, 160, 300) && is_colour(seen, 80, 50, {0, 0, 0}) && is_colour(seen, 80, 250, {0, 0, 0});
   }));
 }
 
 TEST_CASE("two layers lie side by side") {
-  Shown shown;
+  PictureWindow shown;
   shown.layers = {{.layer = 0, .from = 0.0f, .to = 0.5f}, {.layer = 1, .from = 0.5f, .to = 1.0f}};
-  CHECK(shown.comes_to_show([](const Image& seen) {
+  CHECK(shown.eventually_shows([](const Image& seen) {
     return shows_quarters(seen, 0, 45, 160, 90) && is_colour(seen, 240, 90, {90, 90, 90}) &&
            is_colour(seen, 240, 20, {0, 0, 0});
   }));
 }
 
-TEST_CASE("a hundred sizes, minimised now and then: each is followed, validation is silent, nothing is left over") {
-  Shown shown;
+TEST_CASE("a hundred sizes, sometimes minimised: each is shown, validation is silent, nothing leaks") {
+  PictureWindow shown;
   REQUIRE(shown.frame_within(10));
   const VkDeviceSize before = shown.gpu().allocated();
   std::mt19937 random(9);
@@ -230,12 +231,12 @@ TEST_CASE("a hundred sizes, minimised now and then: each is followed, validation
     CHECK(extent.height == static_cast<std::uint32_t>(height));
   }
   CHECK(shown.swapchain().rebuilt() >= 100);
-  CHECK(shown.comes_to_show([&](const Image& seen) { return shows_picture(seen, width, height); }));
+  CHECK(shown.eventually_shows([&](const Image& seen) { return shows_picture(seen, width, height); }));
   CHECK(shown.gpu().allocated() == before);
 }
 
 TEST_CASE("resized while it draws, by another program, the window shows the last size in the end") {
-  Shown shown;
+  PictureWindow shown;
   std::atomic<bool> done = false;
   std::thread other([&] {
     XServer server;
@@ -251,11 +252,11 @@ TEST_CASE("resized while it draws, by another program, the window shows the last
   while (!done) presented += shown.frame();
   other.join();
   CHECK(presented > 0);
-  CHECK(shown.comes_to_show([](const Image& seen) { return shows_picture(seen, 480, 270); }));
+  CHECK(shown.eventually_shows([](const Image& seen) { return shows_picture(seen, 480, 270); }));
 }
 
-TEST_CASE("what the driver says of a surface is lived with: out of date, not optimal, lost, late") {
-  Shown shown;
+TEST_CASE("all results for a surface are handled: out of date, suboptimal, lost, timeout") {
+  PictureWindow shown;
   REQUIRE(shown.frame_within(10));
   for (const VkResult answer : {VK_ERROR_OUT_OF_DATE_KHR, VK_SUBOPTIMAL_KHR, VK_ERROR_SURFACE_LOST_KHR}) {
     const std::uint64_t before = shown.swapchain().rebuilt();
@@ -273,23 +274,23 @@ TEST_CASE("what the driver says of a surface is lived with: out of date, not opt
   CHECK_FALSE(shown.frame());
   CHECK(shown.frame());
   CHECK(shown.swapchain().rebuilt() == before);
-  CHECK(shown.comes_to_show([](const Image& seen) { return shows_picture(seen, 320, 180); }));
+  CHECK(shown.eventually_shows([](const Image& seen) { return shows_picture(seen, 320, 180); }));
 }
 
-TEST_CASE("a surface that is lost while its images are made anew is made anew with them") {
+TEST_CASE("a surface lost while its images are recreated is recreated with them") {
   for (VkResult InjectedFaults::*call : {&InjectedFaults::next_capabilities, &InjectedFaults::next_create}) {
-    Shown shown;
+    PictureWindow shown;
     REQUIRE(shown.frame_within(10));
-    injected_faults.next_present = VK_ERROR_OUT_OF_DATE_KHR;  // so that the next frame builds
+    injected_faults.next_present = VK_ERROR_OUT_OF_DATE_KHR;  // so that the next frame rebuilds the swapchain
     REQUIRE(shown.frame());
     injected_faults.*call = VK_ERROR_SURFACE_LOST_KHR;
     CHECK_FALSE(shown.frame());
-    CHECK(shown.comes_to_show([](const Image& seen) { return shows_picture(seen, 320, 180); }));
+    CHECK(shown.eventually_shows([](const Image& seen) { return shows_picture(seen, 320, 180); }));
   }
 }
 
-TEST_CASE("a surface without extent is waited for, and shown on when it has one again") {
-  Shown shown;
+TEST_CASE("a surface without extent is polled, and used again when it has one") {
+  PictureWindow shown;
   REQUIRE(shown.frame_within(10));
   const std::uint64_t before = shown.swapchain().rebuilt();
   injected_faults.no_extent = true;
@@ -301,10 +302,10 @@ TEST_CASE("a surface without extent is waited for, and shown on when it has one 
   CHECK(shown.swapchain().rebuilt() == before + 1);
 }
 
-// VUID-vkAcquireNextImageKHR-semaphore-01779: a semaphore given to an acquisition has no wait pending. One whose
-// acquisition failed has none; those before it may.
+// VUID-vkAcquireNextImageKHR-semaphore-01779: the semaphore of an acquisition must not have a pending wait. If the
+// acquisition failed, its semaphore has none, but earlier ones may.
 TEST_CASE("an acquisition that failed is tried again with the same semaphore") {
-  Shown shown;
+  PictureWindow shown;
   REQUIRE(shown.frame_within(10));
   injected_faults.acquired_with.clear();
   for (int i = 0; i < 5; ++i) {
@@ -318,19 +319,19 @@ TEST_CASE("an acquisition that failed is tried again with the same semaphore") {
   }
 }
 
-TEST_CASE("a lost device is a GpuLost; window, device and swapchain made anew show the picture again") {
+TEST_CASE("a lost device throws GpuLost; recreated window, device and swapchain show the picture again") {
   {
-    Shown shown;
+    PictureWindow shown;
     REQUIRE(shown.frame_within(10));
     injected_faults.next_acquire = VK_ERROR_DEVICE_LOST;
     CHECK_THROWS_AS(shown.frame(), GpuLost);
   }
   {
-    Shown shown;
+    PictureWindow shown;
     REQUIRE(shown.frame_within(10));
     injected_faults.next_present = VK_ERROR_DEVICE_LOST;
     CHECK_THROWS_AS(shown.frame(), GpuLost);
   }
-  Shown shown;
-  CHECK(shown.comes_to_show([](const Image& seen) { return shows_picture(seen, 320, 180); }));
+  PictureWindow shown;
+  CHECK(shown.eventually_shows([](const Image& seen) { return shows_picture(seen, 320, 180); }));
 }

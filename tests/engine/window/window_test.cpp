@@ -14,7 +14,8 @@
 
 #include "tests/engine/window/x_server.h"
 
-using namespace gearshift;
+using namespace gearshift::engine;
+using namespace gearshift::test;
 
 namespace {
 
@@ -24,10 +25,11 @@ double seconds_of(const std::function<void()>& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-// Polls until it is so: what another client did arrives by the server. False after ten seconds.
-bool comes_true(gearshift::Window& window, const std::function<bool(const WindowInput&)>& is_so) {
+// Polls until the condition holds, because changes made by another client arrive through the server. False after ten
+// seconds.
+bool becomes_true(gearshift::engine::Window& window, const std::function<bool(const WindowInput&)>& condition) {
   for (int i = 0; i < 1000; ++i) {
-    if (is_so(window.poll())) return true;
+    if (condition(window.poll())) return true;
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   return false;
@@ -35,7 +37,7 @@ bool comes_true(gearshift::Window& window, const std::function<bool(const Window
 
 }  // namespace
 
-TEST_CASE("the tests have a display; without DISPLAY there is none, and a window is refused by one sentence") {
+TEST_CASE("the tests have a display; without DISPLAY a window is rejected with one sentence") {
   const XServer server;
   CHECK(has_display());
   const std::string display = getenv("DISPLAY");
@@ -43,7 +45,7 @@ TEST_CASE("the tests have a display; without DISPLAY there is none, and a window
   CHECK_FALSE(has_display());
   std::string why;
   try {
-    const gearshift::Window window(320, 240, "nowhere");
+    const gearshift::engine::Window window(320, 240, "nowhere");
   } catch (const std::runtime_error& error) {
     why = error.what();
   }
@@ -53,37 +55,37 @@ TEST_CASE("the tests have a display; without DISPLAY there is none, and a window
   CHECK(has_display());
 }
 
-TEST_CASE("asking for a display leaves an open window as it is") {
+TEST_CASE("checking for a display does not affect an open window") {
   const XServer server;
-  gearshift::Window window(320, 240, "stays");
+  gearshift::engine::Window window(320, 240, "stays");
   CHECK(has_display());
   window.poll();
   CHECK(server.find("stays") != 0);
   CHECK(window.framebuffer() == glm::ivec2(320, 240));
 }
 
-TEST_CASE("a window has the size and title that it was asked for, follows a resize, and closes when it is asked to") {
+TEST_CASE("a window has the requested size and title, follows a resize, and reports a close request") {
   XServer server;
-  gearshift::Window window(400, 300, "first");
+  gearshift::engine::Window window(400, 300, "first");
   window.poll();
   CHECK(window.framebuffer() == glm::ivec2(400, 300));
   CHECK(window.content_scale() > 0.0f);
   const ::Window id = server.find("first");
   REQUIRE(id != 0);
   server.resize(id, 333, 222);
-  CHECK(comes_true(window, [&](const auto&) { return window.framebuffer() == glm::ivec2(333, 222); }));
+  CHECK(becomes_true(window, [&](const auto&) { return window.framebuffer() == glm::ivec2(333, 222); }));
   CHECK_FALSE(window.wants_close());
   server.ask_to_close(id);
-  CHECK(comes_true(window, [&](const auto&) { return window.wants_close(); }));
+  CHECK(becomes_true(window, [&](const auto&) { return window.wants_close(); }));
 }
 
 TEST_CASE("poll does not wait; minimised, in whichever way, the framebuffer is empty and polls are 20 a second") {
   XServer server;
-  gearshift::Window window(400, 300, "minimised");
+  gearshift::engine::Window window(400, 300, "minimised");
   window.poll();
   const ::Window id = server.find("minimised");
   REQUIRE(id != 0);
-  const auto ten_polls = [&] {  // the best of three: somebody else's load is no wait of ours
+  const auto ten_polls = [&] {  // best of three, because other processes may cause waits
     double best = 1e9;
     for (int attempt = 0; attempt < 3; ++attempt) {
       best = std::min(best, seconds_of([&] {
@@ -96,28 +98,28 @@ TEST_CASE("poll does not wait; minimised, in whichever way, the framebuffer is e
   const auto is_back = [&](const auto&) { return window.framebuffer() == glm::ivec2(400, 300); };
   CHECK(ten_polls() < 0.25);
   server.unmap(id);
-  CHECK(comes_true(window, is_minimised));
+  CHECK(becomes_true(window, is_minimised));
   CHECK(ten_polls() >= 0.5);
   server.map(id);
-  CHECK(comes_true(window, is_back));
+  CHECK(becomes_true(window, is_back));
   server.set_iconic(id, true);
-  CHECK(comes_true(window, is_minimised));
+  CHECK(becomes_true(window, is_minimised));
   server.set_iconic(id, false);
-  CHECK(comes_true(window, is_back));
+  CHECK(becomes_true(window, is_back));
   CHECK(ten_polls() < 0.25);
 }
 
 TEST_CASE("the mouse is where it was put, in pixels of the window; what it moved adds up") {
   XServer server;
-  gearshift::Window window(400, 300, "mouse");
+  gearshift::engine::Window window(400, 300, "mouse");
   window.poll();
   const ::Window id = server.find("mouse");
   server.move(id, 100, 50);
   xdotool("mousemove 150 150");
-  REQUIRE(comes_true(window, [](const auto& in) { return in.mouse == glm::dvec2(50, 100); }));
+  REQUIRE(becomes_true(window, [](const auto& in) { return in.mouse == glm::dvec2(50, 100); }));
   glm::dvec2 moved{0.0};
   xdotool("mousemove 180 140 mousemove 300 200");
-  CHECK(comes_true(window, [&](const auto& in) {
+  CHECK(becomes_true(window, [&](const auto& in) {
     moved += in.mouse_moved;
     return in.mouse == glm::dvec2(200, 150);
   }));
@@ -127,21 +129,21 @@ TEST_CASE("the mouse is where it was put, in pixels of the window; what it moved
 
 TEST_CASE("a click shorter than a frame is seen for one poll; a held button until it is let go") {
   XServer server;
-  gearshift::Window window(400, 300, "click");
+  gearshift::engine::Window window(400, 300, "click");
   window.poll();
   server.move(server.find("click"), 0, 0);
   xdotool("mousemove 100 100 click 1");
   int polls_down = 0;
-  CHECK(comes_true(window, [&](const auto& in) { return (polls_down += in.mouse_down[0]) > 0; }));
+  CHECK(becomes_true(window, [&](const auto& in) { return (polls_down += in.mouse_down[0]) > 0; }));
   CHECK_FALSE(window.poll().mouse_down[0]);
   xdotool("mousedown 3");
-  CHECK(comes_true(window, [](const auto& in) { return in.mouse_down[1]; }));
+  CHECK(becomes_true(window, [](const auto& in) { return in.mouse_down[1]; }));
   CHECK(window.poll().mouse_down[1]);
   xdotool("mouseup 3");
-  CHECK(comes_true(window, [](const auto& in) { return !in.mouse_down[1]; }));
+  CHECK(becomes_true(window, [](const auto& in) { return !in.mouse_down[1]; }));
   glm::dvec2 scrolled{0.0};
   xdotool("click 4 click 4 click 5");
-  CHECK(comes_true(window, [&](const auto& in) {
+  CHECK(becomes_true(window, [&](const auto& in) {
     scrolled += in.scroll;
     return in.scroll != glm::dvec2(0.0);
   }));
@@ -151,8 +153,8 @@ TEST_CASE("a click shorter than a frame is seen for one poll; a held button unti
 
 TEST_CASE("keys come as events, in order, with what was held beside them; text as characters") {
   XServer server;
-  gearshift::Window window(400, 300, "keys");
-  REQUIRE(comes_true(window, [](const auto& in) { return in.focused; }));
+  gearshift::engine::Window window(400, 300, "keys");
+  REQUIRE(becomes_true(window, [](const auto& in) { return in.focused; }));
   std::vector<KeyEvent> events;
   std::u32string text;
   const auto gather = [&](const WindowInput& in) {
@@ -162,7 +164,7 @@ TEST_CASE("keys come as events, in order, with what was held beside them; text a
   };
   xdotool("key a");
   xdotool("keydown shift key b keyup shift");
-  comes_true(window, [&](const auto& in) { return gather(in), events.size() >= 6; });
+  becomes_true(window, [&](const auto& in) { return gather(in), events.size() >= 6; });
   REQUIRE(events.size() == 6);
   const auto is = [&](std::size_t i, int key, bool down) { return events[i].key == key && events[i].down == down; };
   CHECK(is(0, GLFW_KEY_A, true));
@@ -179,11 +181,11 @@ TEST_CASE("keys come as events, in order, with what was held beside them; text a
 
 TEST_CASE("a captured mouse moves without end, past the edge of the screen, and comes back where it was") {
   XServer server;
-  gearshift::Window window(400, 300, "captured");
-  REQUIRE(comes_true(window, [](const auto& in) { return in.focused; }));
+  gearshift::engine::Window window(400, 300, "captured");
+  REQUIRE(becomes_true(window, [](const auto& in) { return in.focused; }));
   server.move(server.find("captured"), 0, 0);
   xdotool("mousemove 200 150");
-  REQUIRE(comes_true(window, [](const auto& in) { return in.mouse == glm::dvec2(200, 150); }));
+  REQUIRE(becomes_true(window, [](const auto& in) { return in.mouse == glm::dvec2(200, 150); }));
   window.capture_mouse(true);
   glm::dvec2 moved{0.0};
   window.poll();
@@ -191,7 +193,7 @@ TEST_CASE("a captured mouse moves without end, past the edge of the screen, and 
     xdotool("mousemove_relative 150 0");
     moved += window.poll().mouse_moved;
   }
-  comes_true(window, [&](const auto& in) {
+  becomes_true(window, [&](const auto& in) {
     moved += in.mouse_moved;
     return moved.x >= 3000.0;
   });
@@ -200,16 +202,16 @@ TEST_CASE("a captured mouse moves without end, past the edge of the screen, and 
   window.capture_mouse(false);
   moved = glm::dvec2(0.0);
   xdotool("mousemove 210 150");
-  CHECK(comes_true(window, [&](const auto& in) {
+  CHECK(becomes_true(window, [&](const auto& in) {
     moved += in.mouse_moved;
     return in.mouse == glm::dvec2(210, 150);
   }));
-  CHECK(moved == glm::dvec2(10, 0));  // that the pointer jumped back is no motion of the mouse
+  CHECK(moved == glm::dvec2(10, 0));  // the jump of the pointer back is not a mouse movement
 }
 
 TEST_CASE("full screen covers the monitor, and back the window is what it was") {
   XServer server;
-  gearshift::Window window(400, 300, "full");
+  gearshift::engine::Window window(400, 300, "full");
   window.poll();
   server.move(server.find("full"), 120, 80);
   window.poll();
@@ -218,9 +220,9 @@ TEST_CASE("full screen covers the monitor, and back the window is what it was") 
     window.set_full_screen(true);
     window.set_full_screen(true);
     CHECK(window.full_screen());
-    CHECK(comes_true(window, [&](const auto&) { return window.framebuffer() == glm::ivec2(1280, 720); }));
+    CHECK(becomes_true(window, [&](const auto&) { return window.framebuffer() == glm::ivec2(1280, 720); }));
     window.set_full_screen(false);
     CHECK_FALSE(window.full_screen());
-    CHECK(comes_true(window, [&](const auto&) { return window.framebuffer() == glm::ivec2(400, 300); }));
+    CHECK(becomes_true(window, [&](const auto&) { return window.framebuffer() == glm::ivec2(400, 300); }));
   }
 }

@@ -1,4 +1,4 @@
-// What a test sees and does from outside the program: a second client of the X server.
+// A second client of the X server, with which a test observes and acts from outside the program.
 #pragma once
 
 #include <X11/Xatom.h>
@@ -13,12 +13,13 @@
 
 #include "engine/image/image.h"
 
-namespace gearshift {
+namespace gearshift::test {
 
 class XServer {
  public:
   XServer() : display_(XOpenDisplay(nullptr)) {
-    [[maybe_unused]] static Display* const stays = XOpenDisplay(nullptr);  // Xvfb starts over when its last client goes
+    // Xvfb resets when its last client disconnects
+    [[maybe_unused]] static Display* const keep_server_alive = XOpenDisplay(nullptr);
     REQUIRE_MESSAGE(display_ != nullptr,
                     "this test needs an X server: xvfb-run -a -s \"-screen 0 1280x720x24\" PROGRAM");
   }
@@ -26,7 +27,7 @@ class XServer {
   XServer(const XServer&) = delete;
   XServer& operator=(const XServer&) = delete;
 
-  // The window with that title, 0 where there is none.
+  // The window with that title, 0 if there is none.
   ::Window find(const std::string& title) const {
     ::Window root = 0, parent = 0, *children = nullptr, found = 0;
     unsigned int count = 0;
@@ -49,7 +50,7 @@ class XServer {
     XMoveWindow(display_, window, x, y);
     XSync(display_, False);
   }
-  // What a window manager does that minimises by taking the window off the screen, and back.
+  // Like a window manager that minimises by unmapping the window, and maps it again.
   void unmap(::Window window) {
     XUnmapWindow(display_, window);
     XSync(display_, False);
@@ -58,7 +59,7 @@ class XServer {
     XMapWindow(display_, window);
     XSync(display_, False);
   }
-  // What one does that keeps it on the screen: ICCCM 4.1.3.1, WM_STATE is Iconic (3) or Normal (1).
+  // Like a window manager that keeps it mapped: ICCCM 4.1.3.1, WM_STATE is Iconic (3) or Normal (1).
   void set_iconic(::Window window, bool iconic) {
     const Atom state = XInternAtom(display_, "WM_STATE", False);
     const long value[2] = {iconic ? 3L : 1L, 0L};
@@ -77,14 +78,14 @@ class XServer {
     XSync(display_, False);
   }
 
-  // What the screen shows of the window.
-  Image picture(::Window window) const {
+  // The window's content on the screen.
+  engine::Image picture(::Window window) const {
     XWindowAttributes at;
     REQUIRE(XGetWindowAttributes(display_, window, &at) != 0);
     XImage* seen = XGetImage(display_, window, 0, 0, static_cast<unsigned>(at.width), static_cast<unsigned>(at.height),
                              AllPlanes, ZPixmap);
     REQUIRE(seen != nullptr);
-    Image image{.width = at.width, .height = at.height, .rgba = {}};
+    engine::Image image{.width = at.width, .height = at.height, .rgba = {}};
     for (int i = 0; i < at.width * at.height; ++i) {
       const unsigned long pixel = XGetPixel(seen, i % at.width, i / at.width);
       for (const int shift : {16, 8, 0}) image.rgba.push_back(static_cast<std::uint8_t>(pixel >> shift));
@@ -98,9 +99,9 @@ class XServer {
   Display* display_;
 };
 
-// Mouse and keys as a person makes them: xdotool's, by XTEST.
+// Mouse and keyboard input as from a user: xdotool through XTEST.
 inline void xdotool(const std::string& arguments) {
   REQUIRE_MESSAGE(std::system(("xdotool " + arguments).c_str()) == 0, "xdotool " << arguments);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

@@ -1,9 +1,9 @@
-// Times of a headset's frames, counted by hand.
+// Statistics of headset frames, compared with values counted by hand.
 #include "engine/xr/frame_times.h"
 
 #include <doctest/doctest.h>
 
-using namespace gearshift;
+using namespace gearshift::engine;
 
 namespace {
 
@@ -15,13 +15,13 @@ HeadsetFrame frame_at(double display_ms, double woken_ms) {
 
 }  // namespace
 
-TEST_CASE("a frame's cost, what is left of its time, and when it could be seen at last") {
+TEST_CASE("a frame's cost, its spare time, and its delay") {
   FrameTimes times;
-  times.take(frame_at(130.0, 100.0), 104'000'000, 6.0);  // ready at 110, seen at 130
+  times.add(frame_at(130.0, 100.0), 104'000'000, 6.0);  // ready at 110, displayed at 130
   CHECK(times.timing().cpu_ms == doctest::Approx(4.0));
   CHECK(times.timing().spare_ms == doctest::Approx(20.0));
   CHECK(times.timing().late_ms == 0.0);
-  times.take(frame_at(140.0, 110.0), 131'000'000, 12.0);  // ready at 143: not at 140 but at 150
+  times.add(frame_at(140.0, 110.0), 131'000'000, 12.0);  // ready at 143: displayed at 150 instead of 140
   CHECK(times.timing().spare_ms == doctest::Approx(-3.0));
   CHECK(times.timing().late_ms == doctest::Approx(10.0));
   CHECK(times.timing().late == 1);
@@ -29,21 +29,21 @@ TEST_CASE("a frame's cost, what is left of its time, and when it could be seen a
   CHECK(times.timing().dropped == 0);
 }
 
-TEST_CASE("display periods that got no frame are dropped ones, but for a pause") {
+TEST_CASE("display periods without a frame count as dropped, except during a pause") {
   FrameTimes times;
-  times.take(frame_at(100.0, 80.0), 85'000'000, 1.0);
-  times.take(frame_at(110.1, 90.0), 95'000'000, 1.0);  // a runtime's period jitters
+  times.add(frame_at(100.0, 80.0), 85'000'000, 1.0);
+  times.add(frame_at(110.1, 90.0), 95'000'000, 1.0);  // the period of a runtime jitters
   CHECK(times.timing().dropped == 0);
-  times.take(frame_at(140.0, 120.0), 125'000'000, 1.0);  // nothing at 120 and 130
+  times.add(frame_at(140.0, 120.0), 125'000'000, 1.0);  // no frames at 120 and 130
   CHECK(times.timing().dropped == 2);
   times.pause();
-  times.take(frame_at(900.0, 880.0), 885'000'000, 1.0);
+  times.add(frame_at(900.0, 880.0), 885'000'000, 1.0);
   CHECK(times.timing().dropped == 2);
 }
 
-TEST_CASE("a runtime that tells no clock gives counts alone") {
+TEST_CASE("a runtime without a clock gives only counts") {
   FrameTimes times;
-  times.take(frame_at(100.0, 0.0), 0, 2.0);
+  times.add(frame_at(100.0, 0.0), 0, 2.0);
   CHECK(times.timing().frames == 1);
   CHECK(times.timing().gpu_ms == 2.0);
   CHECK(times.timing().late == 0);

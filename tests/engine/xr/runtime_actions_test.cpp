@@ -1,4 +1,4 @@
-// The OpenXR test runtime's controllers: what is bound is read, felt and located, while the session is focused.
+// Controllers of the OpenXR test runtime: bound inputs can be read, vibrated and located while the session is focused.
 #include "tests/engine/xr/runtime_controls.h"
 
 namespace gearshift::xr_test {

@@ -1,5 +1,5 @@
-// A program that uses OpenXR by the book, through the real loader: the tests of the test runtime break off from it where
-// they want to. It draws by clearing. Vulkan's validation listens, to the runtime's own commands too.
+// A program that uses OpenXR correctly, through the real loader. The tests of the test runtime deviate from it at
+// chosen points. It draws by clearing. Vulkan's validation also checks the runtime's own commands.
 #pragma once
 
 #include <time.h>
@@ -32,13 +32,13 @@ Function xr_function(XrInstance instance, const char* name) {
   return reinterpret_cast<Function>(function);
 }
 
-// The instance and the device; no session.
+// Instance and device without a session.
 class Machine {
  public:
   explicit Machine(std::vector<const char*> extensions = {XR_KHR_VULKAN_ENABLE2_EXTENSION_NAME,
                                                           XR_KHR_COMPOSITION_LAYER_DEPTH_EXTENSION_NAME,
                                                           XR_KHR_CONVERT_TIMESPEC_TIME_EXTENSION_NAME}) {
-    choose_software_driver();
+    test::choose_software_driver();
     control();
     XrInstanceCreateInfo info{XR_TYPE_INSTANCE_CREATE_INFO};
     info.applicationInfo.apiVersion = XR_CURRENT_API_VERSION;
@@ -100,7 +100,7 @@ class Machine {
     return {XR_TYPE_GRAPHICS_BINDING_VULKAN2_KHR, nullptr, vulkan, physical, device, 0, 0};
   }
 
-  // All of an image to one colour, or one depth (red); from the promised layout back to it, and waits.
+  // Clears a whole image to one colour or depth (red). Starts and ends in the promised layout, and waits.
   void clear(VkImage image, bool depth, std::array<float, 4> value) const;
 
   XrInstance instance = XR_NULL_HANDLE;
@@ -138,14 +138,15 @@ class Machine {
     const auto create = xr_function<PFN_xrCreateVulkanInstanceKHR>(instance, "xrCreateVulkanInstanceKHR");
     REQUIRE(create(instance, &info, &vulkan, &result) == XR_SUCCESS);
     REQUIRE(result == VK_SUCCESS);
-    const VkDebugUtilsMessengerCreateInfoEXT words{.sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
-                                                   .messageSeverity = VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT |
-                                                                      VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
-                                                   .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT,
-                                                   .pfnUserCallback = listen,
-                                                   .pUserData = this};
+    const VkDebugUtilsMessengerCreateInfoEXT messenger_info{
+        .sType = VK_STRUCTURE_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT,
+        .messageSeverity =
+            VK_DEBUG_UTILS_MESSAGE_SEVERITY_WARNING_BIT_EXT | VK_DEBUG_UTILS_MESSAGE_SEVERITY_ERROR_BIT_EXT,
+        .messageType = VK_DEBUG_UTILS_MESSAGE_TYPE_VALIDATION_BIT_EXT,
+        .pfnUserCallback = listen,
+        .pUserData = this};
     REQUIRE(reinterpret_cast<PFN_vkCreateDebugUtilsMessengerEXT>(vkGetInstanceProcAddr(
-                vulkan, "vkCreateDebugUtilsMessengerEXT"))(vulkan, &words, nullptr, &messenger) == VK_SUCCESS);
+                vulkan, "vkCreateDebugUtilsMessengerEXT"))(vulkan, &messenger_info, nullptr, &messenger) == VK_SUCCESS);
   }
 };
 
@@ -158,7 +159,7 @@ inline void Machine::clear(VkImage image, bool depth, std::array<float, 4> value
   REQUIRE(vkAllocateCommandBuffers(device, &one, &commands) == VK_SUCCESS);
   const VkCommandBufferBeginInfo begin{.sType = VK_STRUCTURE_TYPE_COMMAND_BUFFER_BEGIN_INFO};
   vkBeginCommandBuffer(commands, &begin);
-  const VkImageLayout kept =
+  const VkImageLayout final_layout =
       depth ? VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL : VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL;
   const VkImageAspectFlags aspect = depth ? VK_IMAGE_ASPECT_DEPTH_BIT : VK_IMAGE_ASPECT_COLOR_BIT;
   const VkImageSubresourceRange all{aspect, 0, VK_REMAINING_MIP_LEVELS, 0, VK_REMAINING_ARRAY_LAYERS};
@@ -174,7 +175,7 @@ inline void Machine::clear(VkImage image, bool depth, std::array<float, 4> value
     vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0,
                          nullptr, 0, nullptr, 1, &barrier);
   };
-  change(kept, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
+  change(final_layout, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL);
   if (depth) {
     const VkClearDepthStencilValue clear{value[0], 0};
     vkCmdClearDepthStencilImage(commands, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &clear, 1, &all);
@@ -182,7 +183,7 @@ inline void Machine::clear(VkImage image, bool depth, std::array<float, 4> value
     const VkClearColorValue clear{{value[0], value[1], value[2], value[3]}};
     vkCmdClearColorImage(commands, image, VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, &clear, 1, &all);
   }
-  change(VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, kept);
+  change(VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, final_layout);
   vkEndCommandBuffer(commands);
   const VkSubmitInfo submit{
       .sType = VK_STRUCTURE_TYPE_SUBMIT_INFO, .commandBufferCount = 1, .pCommandBuffers = &commands};
@@ -196,7 +197,7 @@ struct Chain {
   std::vector<VkImage> images;
 };
 
-// A session and what it draws into: one swapchain for both eyes, one for their depth, one for a quad.
+// A session and its swapchains: one for both eyes, one for their depth, one for a quad.
 class Client : public Machine {
  public:
   static constexpr std::uint32_t kWidth = 64, kHeight = 48;
@@ -259,7 +260,7 @@ class Client : public Machine {
     return made;
   }
 
-  // The states that the runtime tells, in their order.
+  // Returns the session states that the runtime reported, in order.
   std::vector<XrSessionState> poll() {
     std::vector<XrSessionState> states;
     XrEventDataBuffer event{XR_TYPE_EVENT_DATA_BUFFER};
@@ -329,7 +330,7 @@ class Client : public Machine {
     return xrEndFrame(session, &info);
   }
 
-  // One frame, drawn when it is shown.
+  // One frame, drawn if it should be rendered.
   void whole_frame() {
     REQUIRE(wait() == XR_SUCCESS);
     REQUIRE(begin_frame() == XR_SUCCESS);

@@ -1,4 +1,4 @@
-// Actions by the book, for the tests of the test runtime: one of each type, for both hands.
+// Well-formed actions for the tests of the test runtime: one of each type, for both hands.
 #pragma once
 
 #include <cstdio>

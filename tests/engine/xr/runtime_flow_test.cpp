@@ -1,4 +1,4 @@
-// The OpenXR test runtime in a program of its own: the script is a text, the results are files.
+// The OpenXR test runtime in a separate program: the script is a file, and so are the results.
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
@@ -40,7 +40,7 @@ result = "XR_ERROR_SESSION_LOST"
 nth = 3
 )";
 
-// Run by the case below, with the script in its environment.
+// Run by the test case below, with the script in its environment.
 TEST_CASE("a flow's program" * doctest::skip()) {
   Client program;
   program.poll();
@@ -50,8 +50,8 @@ TEST_CASE("a flow's program" * doctest::skip()) {
   program.poll();
 }
 
-TEST_CASE("a program that knows nothing of the script plays it, and leaves a log and pictures") {
-  const TempFolder folder;
+TEST_CASE("a program unaware of the script plays it, and leaves a log and pictures") {
+  const test::TempFolder folder;
   const std::filesystem::path& out = folder.path();
   write_text(out / "flow.toml", kFlow);
   const std::string self = std::filesystem::read_symlink("/proc/self/exe").string();
@@ -68,16 +68,16 @@ TEST_CASE("a program that knows nothing of the script plays it, and leaves a log
   }
   CHECK(log.find("violation") == std::string::npos);
   CHECK(log.find("leak") == std::string::npos);
-  const Image left = read_png(out / "frame_000005_left.png");
+  const engine::Image left = engine::read_png(out / "frame_000005_left.png");
   CHECK(left.width == 64);
   CHECK(left.pixel(0, 0)[0] == 255);
-  CHECK(read_png(out / "frame_000005_quad.png").pixel(0, 0)[1] == 255);
+  CHECK(engine::read_png(out / "frame_000005_quad.png").pixel(0, 0)[1] == 255);
   CHECK(std::filesystem::exists(out / "frame_000005_right.png"));
   CHECK_FALSE(std::filesystem::exists(out / "frame_000004_left.png"));
 }
 
-TEST_CASE("a script's words are the control's, and an unknown one is refused") {
-  const TempFolder folder;
+TEST_CASE("script keys set the control's fields, and an unknown key is rejected") {
+  const test::TempFolder folder;
   const std::string file = (folder.path() / "script.toml").string();
   write_text(file, kFlow);
   const Script script = control().read_script(file.c_str());
@@ -105,8 +105,8 @@ TEST_CASE("a script's words are the control's, and an unknown one is refused") {
   }
 }
 
-TEST_CASE("the script in the runtime's README is one") {
-  const TempFolder folder;
+TEST_CASE("the script in the runtime's README is valid") {
+  const test::TempFolder folder;
   const std::string file = (folder.path() / "script.toml").string();
   const std::string readme = read_text(std::filesystem::path(GEARSHIFT_TEST_DATA) / "../support/xr_runtime/README.md");
   const std::string fence = "```toml\n";

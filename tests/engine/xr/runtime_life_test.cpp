@@ -1,4 +1,4 @@
-// The OpenXR test runtime: a session's life, and a run by the book that breaks no rule.
+// The OpenXR test runtime: the life of a session, and a correct run that violates no rule.
 #include "tests/engine/xr/runtime_client.h"
 
 namespace gearshift::xr_test {
@@ -6,7 +6,7 @@ namespace {
 
 using States = std::vector<XrSessionState>;
 
-TEST_CASE("a program by the book breaks no rule and leaves nothing") {
+TEST_CASE("a correct program violates no rule and leaves no objects") {
   Control& xr = control();
   xr.start();
   xr.script.capture.only = {3};

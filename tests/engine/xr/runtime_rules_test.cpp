@@ -1,4 +1,4 @@
-// Each rule of the test runtime is shown to reject one planted violation, and nothing else is said of it.
+// Each rule of the test runtime rejects one planted violation and reports nothing else.
 #include <cmath>
 #include <limits>
 #include <set>
@@ -8,13 +8,13 @@
 namespace gearshift::xr_test {
 namespace {
 
-struct Planted {
+struct PlantedViolation {
   const char* rule;
-  std::function<XrResult()> act;  // the call that breaks it; what it returns
+  std::function<XrResult()> act;  // the violating call, and its result
 };
 
-// What was said before the program is taken down.
-std::vector<Violation> said;
+// Violations recorded before the program is destroyed.
+std::vector<Violation> recorded_violations;
 
 template <class Program, class Act>
 std::function<XrResult()> in(
@@ -23,35 +23,35 @@ std::function<XrResult()> in(
     Program program;
     before(program);
     const XrResult result = act(program);
-    said = control().record.violations;
+    recorded_violations = control().record.violations;
     return result;
   };
 }
 
-Planted machine(const char* rule, XrResult (*act)(Machine&)) {
+PlantedViolation machine(const char* rule, XrResult (*act)(Machine&)) {
   return {rule, in<Machine>(act)};
 }
-Planted session(const char* rule, XrResult (*act)(Client&)) {
+PlantedViolation session(const char* rule, XrResult (*act)(Client&)) {
   return {rule, in<Client>(act)};
 }
 template <class Act>
-Planted focused_session(const char* rule, Act act) {
+PlantedViolation focused_session(const char* rule, Act act) {
   return {rule, in<Client>(act, [](Client& program) { program.begin_and_focus(); })};
 }
-Planted controls(const char* rule, XrResult (*act)(Client&, Controls&)) {
+PlantedViolation controls(const char* rule, XrResult (*act)(Client&, Controls&)) {
   return focused_session(rule, [=](Client& program) {
     Controls made(program);
     return act(program, made);
   });
 }
-// A frame that was drawn, and then submitted as `spoil` leaves it.
-Planted submitted(const char* rule, void (*spoil)(Client&)) {
+// A correctly drawn frame that is submitted after `corrupt` has modified it.
+PlantedViolation submitted(const char* rule, void (*corrupt)(Client&)) {
   return focused_session(rule, [=](Client& program) {
     REQUIRE(program.wait() == XR_SUCCESS);
     REQUIRE(program.begin_frame() == XR_SUCCESS);
     REQUIRE(program.locate() == XR_SUCCESS);
     program.draw_all();
-    spoil(program);
+    corrupt(program);
     return program.end_frame();
   });
 }
@@ -83,8 +83,8 @@ XrSwapchainCreateInfo colour_info() {
   return Client::chain_info(VK_FORMAT_R8G8B8A8_SRGB, XR_SWAPCHAIN_USAGE_COLOR_ATTACHMENT_BIT, 1);
 }
 
-const std::vector<Planted>& any_function() {
-  static const std::vector<Planted> cases{
+const std::vector<PlantedViolation>& any_function() {
+  static const std::vector<PlantedViolation> cases{
       session("handle_live",
               [](Client& program) {
                 const XrSpace space = program.reference(XR_REFERENCE_SPACE_TYPE_VIEW);
@@ -111,7 +111,7 @@ const std::vector<Planted>& any_function() {
          const Machine program(std::vector<const char*>{});
          const XrGraphicsBindingVulkan2KHR binding = program.binding();
          const XrResult result = create_session(program, &binding);
-         said = control().record.violations;
+         recorded_violations = control().record.violations;
          return result;
        }},
       session("time_positive",
@@ -123,8 +123,8 @@ const std::vector<Planted>& any_function() {
   return cases;
 }
 
-const std::vector<Planted>& life() {
-  static const std::vector<Planted> cases{
+const std::vector<PlantedViolation>& life() {
+  static const std::vector<PlantedViolation> cases{
       machine("system_id",
               [](Machine& program) {
                 XrSystemProperties properties{XR_TYPE_SYSTEM_PROPERTIES};
@@ -167,7 +167,7 @@ const std::vector<Planted>& life() {
          control().script.polls_before_ready = 5;
          Client program;
          const XrResult result = program.begin();
-         said = control().record.violations;
+         recorded_violations = control().record.violations;
          return result;
        }},
       session("session_begun_twice",
@@ -188,8 +188,8 @@ const std::vector<Planted>& life() {
   return cases;
 }
 
-const std::vector<Planted>& frames() {
-  static const std::vector<Planted> cases{
+const std::vector<PlantedViolation>& frames() {
+  static const std::vector<PlantedViolation> cases{
       focused_session("wait_twice",
                       [](Client& program) {
                         program.wait();
@@ -215,7 +215,8 @@ const std::vector<Planted>& frames() {
       submitted("layer_type", [](Client& program) { program.layers[1] = nullptr; }),
       submitted("layer_type",
                 [](Client& program) {
-                  program.quad.type = XR_TYPE_COMPOSITION_LAYER_CYLINDER_KHR;  // of an extension that is not enabled
+                  // belongs to an extension that is not enabled
+                  program.quad.type = XR_TYPE_COMPOSITION_LAYER_CYLINDER_KHR;
                 }),
       submitted("view_count", [](Client& program) { program.projection.viewCount = 1; }),
       submitted("pose_unit", [](Client& program) { program.projections[1].pose.orientation.w = 0.9f; }),
@@ -249,8 +250,8 @@ const std::vector<Planted>& frames() {
   return cases;
 }
 
-const std::vector<Planted>& swapchains() {
-  static const std::vector<Planted> cases{
+const std::vector<PlantedViolation>& swapchains() {
+  static const std::vector<PlantedViolation> cases{
       session("swapchain_format",
               [](Client& program) {
                 XrSwapchainCreateInfo info = colour_info();
@@ -308,15 +309,15 @@ const std::vector<Planted>& swapchains() {
                                                XR_REFERENCE_SPACE_TYPE_STAGE, kIdentity};
          XrSpace space = XR_NULL_HANDLE;
          const XrResult result = xrCreateReferenceSpace(program.session, &info, &space);
-         said = control().record.violations;
+         recorded_violations = control().record.violations;
          return result;
        }},
   };
   return cases;
 }
 
-const std::vector<Planted>& names() {
-  static const std::vector<Planted> cases{
+const std::vector<PlantedViolation>& names() {
+  static const std::vector<PlantedViolation> cases{
       machine("path_format",
               [](Machine& program) {
                 XrPath made = XR_NULL_PATH;
@@ -348,8 +349,8 @@ const std::vector<Planted>& names() {
   return cases;
 }
 
-const std::vector<Planted>& actions() {
-  static const std::vector<Planted> cases{
+const std::vector<PlantedViolation>& actions() {
+  static const std::vector<PlantedViolation> cases{
       controls("binding_path",
                [](Client&, Controls& made) {
                  return made.suggest(kSimpleController, {{made.pull, "/user/hand/left/input/trigger/value"}});
@@ -400,19 +401,19 @@ const std::vector<Planted>& actions() {
   return cases;
 }
 
-TEST_CASE("each rule rejects a planted violation, and no other rule speaks") {
+TEST_CASE("each rule rejects a planted violation, and no other rule reports") {
   std::set<std::string> shown;
   for (const auto* const cases : {&any_function(), &life(), &frames(), &swapchains(), &names(), &actions()}) {
-    for (const Planted& planted : *cases) {
+    for (const PlantedViolation& planted : *cases) {
       CAPTURE(planted.rule);
       Control& xr = control();
       xr.start();
-      said.clear();
+      recorded_violations.clear();
       const XrResult result = planted.act();
-      REQUIRE(said.size() == 1);
-      CHECK(said[0].rule == planted.rule);
+      REQUIRE(recorded_violations.size() == 1);
+      CHECK(recorded_violations[0].rule == planted.rule);
       for (const Rule& one : xr.rules) {
-        if (one.id == said[0].rule) CHECK(result == one.result);
+        if (one.id == recorded_violations[0].rule) CHECK(result == one.result);
       }
       shown.insert(planted.rule);
     }
@@ -420,7 +421,7 @@ TEST_CASE("each rule rejects a planted violation, and no other rule speaks") {
   for (const Rule& one : control().rules) CHECK_MESSAGE(shown.contains(one.id), one.id << ": no planted violation");
 }
 
-TEST_CASE("what is legal is no violation") {
+TEST_CASE("legal calls are not violations") {
   Control& xr = control();
   xr.start();
   Client program;

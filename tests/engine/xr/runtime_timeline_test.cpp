@@ -1,4 +1,4 @@
-// The OpenXR test runtime plays its script: poses, states, spaces, losses, planted failures, pacing.
+// The OpenXR test runtime executes its script: poses, states, spaces, losses, planted failures, pacing.
 #include <algorithm>
 #include <chrono>
 
@@ -10,7 +10,7 @@ namespace {
 using TimelineStates = std::vector<XrSessionState>;
 constexpr double kPeriod = 1.0 / 90.0;
 
-// Until the state is reached; the states on the way.
+// Runs until the state is reached; returns the states on the way.
 TimelineStates run_until(Client& program, XrSessionState state) {
   TimelineStates all;
   for (int i = 0; i < 100 && program.state != state; ++i) {
@@ -27,7 +27,7 @@ XrSpaceLocation located(XrSpace space, XrSpace base, XrTime time) {
   return location;
 }
 
-TEST_CASE("the head goes as the script says, and the first look of a frame may be off") {
+TEST_CASE("the head follows the script, and the first location of a frame may be off") {
   Control& xr = control();
   xr.start();
   xr.script.head = [](double t) {
@@ -46,7 +46,7 @@ TEST_CASE("the head goes as the script says, and the first look of a frame may b
     const XrViewStateFlags flags = program.view_state.viewStateFlags;
     CHECK((flags & XR_VIEW_STATE_POSITION_VALID_BIT) == (i == 11 ? 0u : XR_VIEW_STATE_POSITION_VALID_BIT));
     CHECK((flags & XR_VIEW_STATE_POSITION_TRACKED_BIT) == (i > 10 ? 0u : XR_VIEW_STATE_POSITION_TRACKED_BIT));
-    // Turned to the left by a quarter: the right eye lies towards -z.
+    // The head is turned left by a quarter turn: the right eye is towards -z.
     CHECK(program.views[1].pose.position.x == doctest::Approx(i * kPeriod));
     CHECK(program.views[1].pose.position.z == doctest::Approx(-0.0315));
     CHECK(early - program.views[0].pose.position.x == doctest::Approx(0.25));
@@ -56,7 +56,7 @@ TEST_CASE("the head goes as the script says, and the first look of a frame may b
   CHECK(xr.record.violations.empty());
 }
 
-TEST_CASE("a menu, a headset put down and picked up, and the end: each by the legal way") {
+TEST_CASE("a menu, a headset taken off and put on, and the exit: each in a legal order") {
   Control& xr = control();
   xr.start();
   xr.script.timeline = {visible(0.1),  focused(0.2),     synchronized(0.3), focused(0.4),
@@ -108,7 +108,7 @@ TEST_CASE("a space changes exactly at the time that its event names") {
   CHECK(xr.record.violations.empty());
 }
 
-TEST_CASE("a lost session is gone but for its end; a new one lives") {
+TEST_CASE("a lost session can only be destroyed; a new one works") {
   Control& xr = control();
   xr.start();
   xr.script.timeline = {lose_session(0.1)};
@@ -138,14 +138,14 @@ TEST_CASE("a session may be lost before it begins") {
   CHECK(xr.record.violations.empty());
 }
 
-TEST_CASE("a lost instance answers nothing but its end") {
+TEST_CASE("a lost instance can only be destroyed") {
   Control& xr = control();
   xr.start();
   xr.script.timeline = {lose_instance(0.1)};
   Client program;
-  bool told = false;
+  bool reported = false;
   program.on_event = [&](const XrEventDataBuffer& event) {
-    told = told || event.type == XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING;
+    reported = reported || event.type == XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING;
   };
   program.begin_and_focus();
   while (program.wait() == XR_SUCCESS) {
@@ -154,7 +154,7 @@ TEST_CASE("a lost instance answers nothing but its end") {
   }
   CHECK(program.wait() == XR_ERROR_INSTANCE_LOST);
   program.poll();
-  CHECK(told);
+  CHECK(reported);
   XrEventDataBuffer event{XR_TYPE_EVENT_DATA_BUFFER};
   CHECK(xrPollEvent(program.instance, &event) == XR_ERROR_INSTANCE_LOST);
   program.close();
@@ -164,7 +164,7 @@ TEST_CASE("a lost instance answers nothing but its end") {
   CHECK(xr.record.violations.empty());
 }
 
-TEST_CASE("a planted failure comes at its call, and what was not destroyed is told") {
+TEST_CASE("a planted failure occurs at its call, and leaks are reported") {
   Control& xr = control();
   xr.start();
   xr.script.failures = {{"xrWaitFrame", XR_ERROR_RUNTIME_FAILURE, 2},
@@ -184,7 +184,7 @@ TEST_CASE("a planted failure comes at its call, and what was not destroyed is to
   CHECK(xr.record.live_handles() == 0);
 }
 
-TEST_CASE("without a headset there is no system, without an extension not its name") {
+TEST_CASE("without a headset there is no system, and missing extensions are not listed") {
   Control& xr = control();
   xr.start();
   xr.script.composition_layer_depth = false;
@@ -230,7 +230,7 @@ TEST_CASE("a stalled runtime drops display periods") {
   CHECK(xr.record.dropped == 3);
 }
 
-TEST_CASE("with real pacing a frame waits for its period, and who is late loses some") {
+TEST_CASE("with real pacing a frame waits for its period, and a late one drops some") {
   Control& xr = control();
   xr.start();
   xr.script.pacing = Pacing::real;
@@ -241,7 +241,7 @@ TEST_CASE("with real pacing a frame waits for its period, and who is late loses 
   const auto start = std::chrono::steady_clock::now();
   for (int i = 0; i < 10; ++i) program.whole_frame();
   const std::chrono::duration<double> took = std::chrono::steady_clock::now() - start;
-  CHECK(took.count() > 8 * 0.02);  // ten frames: nine periods between, the first one partly gone
+  CHECK(took.count() > 8 * 0.02);  // ten frames: nine periods in between, the first one already partly over
   const std::uint64_t before = xr.record.dropped;
   const timespec nap{.tv_sec = 0, .tv_nsec = 100'000'000};
   nanosleep(&nap, nullptr);

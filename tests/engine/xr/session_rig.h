@@ -1,4 +1,4 @@
-// Our session at the test runtime, frame by frame; what a frame draws is one colour an eye.
+// Our session on the test runtime, run frame by frame; a frame draws one colour per eye.
 #pragma once
 
 #include <array>
@@ -16,20 +16,20 @@
 #include "tests/support/gpu_fixture.h"
 #include "tests/support/xr_runtime/control.h"
 
-namespace gearshift {
+namespace gearshift::test {
 
 constexpr double kRigNear = 0.05;                        // [m]
 constexpr glm::ivec2 kRigEye{48, 32}, kRigPanel{16, 8};  // [px]
 
-// Everything that a program has of a headset. Made by the book or thrown by it.
+// Everything a program needs for a headset, used correctly.
 struct SessionRig {
-  // validates: not where memory is counted: the layer keeps some of all that was ever made.
+  // validates: false when memory is measured, because the layer keeps some data about every object ever created.
   explicit SessionRig(bool validates = true)
-      : runtime((choose_software_driver(), xr_test::control(), std::make_unique<HeadsetRuntime>())),
+      : runtime((choose_software_driver(), xr_test::control(), std::make_unique<engine::HeadsetRuntime>())),
         fixture(validates ? std::make_unique<GpuFixture>(made_by(*runtime)) : nullptr),
-        bare(validates ? nullptr : std::make_unique<Gpu>(made_by(*runtime))),
-        session(std::make_unique<HeadsetSession>(*runtime, gpu(), HeadsetConfig{kRigEye, kRigPanel})),
-        ring(std::make_unique<FrameRing>(gpu())),
+        gpu_without_fixture(validates ? nullptr : std::make_unique<engine::Gpu>(made_by(*runtime))),
+        session(std::make_unique<engine::HeadsetSession>(*runtime, gpu(), engine::HeadsetConfig{kRigEye, kRigPanel})),
+        ring(std::make_unique<engine::FrameRing>(gpu())),
         eyes_drawn(colour_image(gpu(), kRigEye, 2)),
         panel_drawn(colour_image(gpu(), kRigPanel, 1)) {}
 
@@ -37,15 +37,15 @@ struct SessionRig {
   SessionRig(const SessionRig&) = delete;
   SessionRig& operator=(const SessionRig&) = delete;
 
-  Gpu& gpu() { return fixture ? fixture->gpu() : *bare; }
+  engine::Gpu& gpu() { return fixture ? fixture->gpu() : *gpu_without_fixture; }
 
-  static GpuConfig made_by(HeadsetRuntime& maker) {
-    GpuConfig config;
-    config.maker = &maker;
+  static engine::GpuConfig made_by(engine::HeadsetRuntime& factory) {
+    engine::GpuConfig config;
+    config.factory = &factory;
     return config;
   }
 
-  static GpuImage colour_image(Gpu& gpu, glm::ivec2 size, std::uint32_t layers) {
+  static engine::GpuImage colour_image(engine::Gpu& gpu, glm::ivec2 size, std::uint32_t layers) {
     return {gpu,
             {.width = static_cast<std::uint32_t>(size.x),
              .height = static_cast<std::uint32_t>(size.y),
@@ -54,48 +54,50 @@ struct SessionRig {
              .usage = VK_IMAGE_USAGE_TRANSFER_DST_BIT | VK_IMAGE_USAGE_TRANSFER_SRC_BIT}};
   }
 
-  static void clear(VkCommandBuffer commands, GpuImage& image, std::uint32_t layer, std::array<float, 3> linear) {
-    transition(commands, image, ImageUse::copy_to);
+  static void clear(VkCommandBuffer commands, engine::GpuImage& image, std::uint32_t layer,
+                    std::array<float, 3> linear) {
+    engine::transition(commands, image, engine::ImageUse::copy_to);
     const VkClearColorValue colour{.float32 = {linear[0], linear[1], linear[2], 1.0f}};
     const VkImageSubresourceRange range{
         .aspectMask = VK_IMAGE_ASPECT_COLOR_BIT, .levelCount = 1, .baseArrayLayer = layer, .layerCount = 1};
-    vkCmdClearColorImage(commands, image.get(), layout_of(ImageUse::copy_to), &colour, 1, &range);
+    vkCmdClearColorImage(commands, image.get(), engine::layout_of(engine::ImageUse::copy_to), &colour, 1, &range);
   }
 
-  static void put(VkCommandBuffer commands, GpuImage& from, GpuImage* to) {
-    transition(commands, from, ImageUse::copy_from);
-    transition(commands, *to, ImageUse::copy_to);
-    copy_whole(commands, from, *to);
+  static void put(VkCommandBuffer commands, engine::GpuImage& from, engine::GpuImage* to) {
+    engine::transition(commands, from, engine::ImageUse::copy_from);
+    engine::transition(commands, *to, engine::ImageUse::copy_to);
+    engine::copy_whole(commands, from, *to);
   }
 
-  // Left red, right green, panel blue, depth 1/4 everywhere.
-  void draw(const HeadsetSession::Images& images) {
+  // Left eye red, right eye green, panel blue, depth 1/4 everywhere.
+  void draw(const engine::HeadsetSession::Images& images) {
     VkCommandBuffer commands = ring->begin();
     clear(commands, eyes_drawn, 0, {1.0f, 0.0f, 0.0f});
     clear(commands, eyes_drawn, 1, {0.0f, 1.0f, 0.0f});
     put(commands, eyes_drawn, images.colour);
     if (images.depth) {
-      transition(commands, *images.depth, ImageUse::copy_to);
+      engine::transition(commands, *images.depth, engine::ImageUse::copy_to);
       const VkClearDepthStencilValue quarter{.depth = 0.25f};
       const VkImageSubresourceRange both{.aspectMask = VK_IMAGE_ASPECT_DEPTH_BIT, .levelCount = 1, .layerCount = 2};
-      vkCmdClearDepthStencilImage(commands, images.depth->get(), layout_of(ImageUse::copy_to), &quarter, 1, &both);
+      vkCmdClearDepthStencilImage(commands, images.depth->get(), engine::layout_of(engine::ImageUse::copy_to), &quarter,
+                                  1, &both);
     }
     if (images.panel) {
       clear(commands, panel_drawn, 0, {0.0f, 0.0f, 1.0f});
       put(commands, panel_drawn, images.panel);
     }
-    session->ready_to_give(commands);
+    session->transition_for_release(commands);
     ring->end();
   }
 
-  // One turn of a program. Empty where the session does not run.
-  std::optional<HeadsetFrame> turn() {
+  // One iteration of a program. Empty while the session is not running.
+  std::optional<engine::HeadsetFrame> run_frame() {
     session->poll();
-    if (!session->runs()) return std::nullopt;
-    const HeadsetFrame frame = session->wait(std::chrono::hours(1)).value();
+    if (!session->is_running()) return std::nullopt;
+    const engine::HeadsetFrame frame = session->wait(std::chrono::hours(1)).value();
     eyes = session->locate(frame);
-    HeadsetSession::Images images;
-    if (frame.is_shown) images = session->take_images(panel.has_value());
+    engine::HeadsetSession::Images images;
+    if (frame.should_render) images = session->acquire_images(panel.has_value());
     if (images.colour) {
       draw(images);
       eyes = session->locate(frame);
@@ -104,23 +106,23 @@ struct SessionRig {
     return frame;
   }
 
-  // Until it is in that state; at most so many turns.
-  bool comes_to(HeadsetState state, int turns = 40) {
-    for (int i = 0; i < turns && session->state() != state; ++i) (void)turn();
+  // Runs frames until the session is in that state, up to a limit.
+  bool reaches(engine::HeadsetState state, int max_frames = 40) {
+    for (int i = 0; i < max_frames && session->state() != state; ++i) (void)run_frame();
     return session->state() == state;
   }
 
-  std::unique_ptr<HeadsetRuntime> runtime;
+  std::unique_ptr<engine::HeadsetRuntime> runtime;
   std::unique_ptr<GpuFixture> fixture;
-  std::unique_ptr<Gpu> bare;
-  std::unique_ptr<HeadsetSession> session;
-  std::unique_ptr<FrameRing> ring;
-  GpuImage eyes_drawn, panel_drawn;
-  std::optional<HeadsetPanel> panel;
-  HeadsetEyes eyes;
+  std::unique_ptr<engine::Gpu> gpu_without_fixture;
+  std::unique_ptr<engine::HeadsetSession> session;
+  std::unique_ptr<engine::FrameRing> ring;
+  engine::GpuImage eyes_drawn, panel_drawn;
+  std::optional<engine::HeadsetPanel> panel;
+  engine::HeadsetEyes eyes;
 };
 
-// The runtime had nothing to object, and nothing is left at it.
+// The runtime found no violation, and no object is left.
 inline void check_by_the_book() {
   const xr_test::Record& record = xr_test::control().record;
   for (const xr_test::Violation& broken : record.violations)
@@ -129,11 +131,11 @@ inline void check_by_the_book() {
   for (const std::string& leak : record.leaks) FAIL_CHECK(leak);
 }
 
-// What fun throws, as text; empty: nothing.
-template <class Error, class Fun>
-std::string thrown(const Fun& fun) {
+// Message of the exception that `function` throws; empty if it throws none.
+template <class Error, class Function>
+std::string thrown(const Function& function) {
   try {
-    fun();
+    function();
   } catch (const Error& error) {
     return error.what();
   } catch (const std::exception& other) {
@@ -142,4 +144,4 @@ std::string thrown(const Fun& fun) {
   return "";
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

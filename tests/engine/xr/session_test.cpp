@@ -1,4 +1,4 @@
-// A session at a headset, through the real loader, at a runtime that checks what the specification demands.
+// A headset session through the real loader, on a runtime that checks the rules of the specification.
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
@@ -10,6 +10,8 @@
 #include "tests/engine/xr/session_rig.h"
 
 using namespace gearshift;
+using namespace gearshift::engine;
+using namespace gearshift::test;
 using glm::dvec3;
 using xr_test::FrameRecord;
 using xr_test::LayerRecord;
@@ -21,7 +23,7 @@ std::array<int, 3> colour_at(const Image& picture, int x, int y) {
   return {p[0], p[1], p[2]};
 }
 
-// The last frame that was shown.
+// The last frame that was displayed.
 const FrameRecord& last_shown() {
   const auto& frames = xr_test::control().record.frames;
   const FrameRecord* found = nullptr;
@@ -31,7 +33,7 @@ const FrameRecord& last_shown() {
   return *found;
 }
 
-// A head that looks about while it moves.
+// A head that looks around while it moves.
 xr_test::Pose moving_head(double seconds) {
   return {dvec3(0.1 * std::sin(3.0 * seconds), 0.02 * std::cos(5.0 * seconds), -0.3 * seconds),
           glm::angleAxis(0.5 * std::sin(2.0 * seconds), dvec3(0, 1, 0)) *
@@ -44,29 +46,29 @@ double turn_between(const glm::dquat& a, const glm::dquat& b) {
 
 }  // namespace
 
-TEST_CASE("by the book from the first event to the last: pictures, depth and panel arrive, each eye its own") {
+TEST_CASE("a correct session from first to last event: pictures, depth and panel arrive, per eye") {
   xr_test::Control& xr = xr_test::control();
   xr.start();
   xr.script.capture.every = 1;
   {
     SessionRig rig;
     CHECK(rig.session->state() == HeadsetState::idle);
-    CHECK_FALSE(rig.session->runs());
+    CHECK_FALSE(rig.session->is_running());
     rig.panel = HeadsetPanel{{{0.5, 1.2, -1.4}, glm::angleAxis(-0.4, dvec3(0, 1, 0))}, {1.5, 0.75}};
-    REQUIRE(rig.comes_to(HeadsetState::focused));
-    for (int i = 0; i < 3; ++i) CHECK(rig.turn());
+    REQUIRE(rig.reaches(HeadsetState::focused));
+    for (int i = 0; i < 3; ++i) CHECK(rig.run_frame());
   }
   check_by_the_book();
   const FrameRecord& frame = last_shown();
-  REQUIRE(frame.layers.size() == 2);  // the panel before the cabin
+  REQUIRE(frame.layers.size() == 2);  // the panel in front of the cabin
   const LayerRecord& eyes = *frame.projection();
   CHECK(colour_at(eyes.views[0].picture, 5, 5) == std::array{255, 0, 0});
   CHECK(colour_at(eyes.views[1].picture, 40, 30) == std::array{0, 255, 0});
   for (const xr_test::ViewRecord& view : eyes.views) {
     CHECK(view.rect.width == 48);
     CHECK(view.rect.height == 32);
-    REQUIRE(view.depth.given);
-    CHECK(view.depth.min_depth == 0.0f);  // is infinitely far
+    REQUIRE(view.depth.is_present);
+    CHECK(view.depth.min_depth == 0.0f);  // infinitely far
     CHECK(std::isinf(view.depth.near_z));
     CHECK(view.depth.max_depth == 1.0f);
     CHECK(view.depth.far_z == 0.05f);
@@ -81,15 +83,15 @@ TEST_CASE("by the book from the first event to the last: pictures, depth and pan
   CHECK(colour_at(quad.views[0].picture, 3, 3) == std::array{0, 0, 255});
 }
 
-TEST_CASE("what was drawn is shown with the pose of the time that it will be seen at, the newest that is known") {
+TEST_CASE("frames are submitted with the newest pose predicted for their display time") {
   xr_test::Control& xr = xr_test::control();
   xr.start();
   xr.script.head = moving_head;
-  xr.script.early_error = 0.04;  // what is asked for early is 4 cm off
+  xr.script.early_error = 0.04;  // poses requested early are off by 4 cm
   {
     SessionRig rig;
-    REQUIRE(rig.comes_to(HeadsetState::focused));
-    for (int i = 0; i < 20; ++i) (void)rig.turn();
+    REQUIRE(rig.reaches(HeadsetState::focused));
+    for (int i = 0; i < 20; ++i) (void)rig.run_frame();
   }
   check_by_the_book();
   int seen = 0;
@@ -99,33 +101,33 @@ TEST_CASE("what was drawn is shown with the pose of the time that it will be see
     CHECK(frame.locates == 2);
     for (std::size_t eye = 0; eye < 2; ++eye) {
       const xr_test::Pose head = moving_head(frame.time);
-      const xr_test::Pose& told = frame.projection()->views[eye].pose;  // in STAGE, whose origin is 1.2 m down
+      const xr_test::Pose& reported = frame.projection()->views[eye].pose;  // in STAGE, whose origin is 1.2 m lower
       const dvec3 place = head.position + head.orientation * dvec3(eye == 0 ? -0.0315 : 0.0315, 0.0, 0.0);
-      CHECK(glm::distance(told.position, place + dvec3(0.0, 1.2, 0.0)) < 1e-6);
-      CHECK(turn_between(told.orientation, head.orientation) < 1e-6);
+      CHECK(glm::distance(reported.position, place + dvec3(0.0, 1.2, 0.0)) < 1e-6);
+      CHECK(turn_between(reported.orientation, head.orientation) < 1e-6);
     }
   }
   CHECK(seen >= 20);
 }
 
-TEST_CASE(
-    "menu, another program, put down and picked up, hidden: each state as told, frames only where they are shown") {
+TEST_CASE("menu, another program, taken off and put on, hidden: states are reported, frames only while visible") {
   xr_test::Control& xr = xr_test::control();
   xr.start();
   xr.script.timeline = {xr_test::visible(0.2),      xr_test::focused(0.3), xr_test::hidden(0.4, 0.1),
                         xr_test::synchronized(0.6), xr_test::visible(0.7), xr_test::focused(0.8),
                         xr_test::stopping(1.0),     xr_test::ready(1.3)};
   std::vector<HeadsetState> states;
-  int turns_without = 0;
+  int empty_frames = 0;
   {
     SessionRig rig;
     for (int i = 0; i < 400 && (xr.record.frames.empty() || xr.record.frames.back().time < 1.8); ++i) {
-      if (!rig.turn()) ++turns_without;
+      if (!rig.run_frame()) ++empty_frames;
       if (states.empty() || states.back() != rig.session->state()) states.push_back(rig.session->state());
     }
   }
   check_by_the_book();
-  // One of these may pass between two turns: what stands is in order, and none is missing of those that last.
+  // Some states may come and go between two iterations: the observed ones must be in order, and no lasting state may be
+  // missing.
   std::string order;
   for (const HeadsetState state : states) order += std::string(name_of(state)) + " ";
   CAPTURE(order);
@@ -136,7 +138,7 @@ TEST_CASE(
     REQUIRE(place != std::string::npos);
     ++place;
   }
-  CHECK(turns_without > 2);  // put down: nobody waits for frames
+  CHECK(empty_frames > 2);  // taken off: no waiting for frames
   int hidden = 0;
   for (const FrameRecord& frame : xr.record.frames) {
     CHECK((frame.projection() != nullptr) == frame.should_render);
@@ -145,12 +147,12 @@ TEST_CASE(
   CHECK(hidden >= 6);
 }
 
-TEST_CASE("where tracking is lost the last pose stays, as far as it is lost, and nobody freezes") {
+TEST_CASE("while tracking is lost, the lost part of the pose keeps its last value, and frames continue") {
   xr_test::Control& xr = xr_test::control();
   xr.start();
   xr.script.stage = false;
   bool placed = false, turned = false;
-  double about = 0.0;  // [rad] the head looks behind itself
+  double about = 0.0;  // [rad] yaw of the head, which also looks behind
   xr.script.head = [&](double seconds) {
     xr_test::Pose pose = moving_head(seconds);
     pose.orientation = glm::angleAxis(about, dvec3(0, 1, 0)) * pose.orientation;
@@ -160,60 +162,60 @@ TEST_CASE("where tracking is lost the last pose stays, as far as it is lost, and
   };
   {
     SessionRig rig;
-    REQUIRE(rig.comes_to(HeadsetState::focused));  // though the head was never seen
+    REQUIRE(rig.reaches(HeadsetState::focused));  // although the head was never tracked
     CHECK_FALSE(rig.eyes.is_known);
     CHECK(glm::length(rig.eyes.pose[1].orientation) == doctest::Approx(1.0));
     CHECK(rig.eyes.pose[1].position.x - rig.eyes.pose[0].position.x == doctest::Approx(0.063));
     CHECK_FALSE(rig.session->is_stage());
     placed = turned = true;
-    (void)rig.turn();
+    (void)rig.run_frame();
     CHECK(rig.eyes.is_known);
     CHECK(rig.eyes.is_tracked);
     const HeadsetEyes last = rig.eyes;
-    placed = false;  // turned alone
+    placed = false;  // orientation only
     about = 2.5;
-    for (int i = 0; i < 5; ++i) (void)rig.turn();
+    for (int i = 0; i < 5; ++i) (void)rig.run_frame();
     CHECK_FALSE(rig.eyes.is_tracked);
     CHECK(rig.eyes.is_known);
     const auto middle = [](const HeadsetEyes& eyes) { return 0.5 * (eyes.pose[0].position + eyes.pose[1].position); };
     CHECK(glm::distance(middle(rig.eyes), middle(last)) < 1e-9);
-    // The right eye is still on the head's right, whichever way that has turned.
+    // The right eye is still on the right side of the head, whichever way it has turned.
     const dvec3 aside = rig.eyes.pose[1].position - rig.eyes.pose[0].position;
     CHECK(glm::distance(aside, rig.eyes.pose[0].orientation * dvec3(0.063, 0.0, 0.0)) < 1e-6);
     CHECK(turn_between(rig.eyes.pose[0].orientation, last.pose[0].orientation) > 0.01);
     turned = false;
     const glm::dquat kept = rig.eyes.pose[0].orientation;
-    for (int i = 0; i < 5; ++i) (void)rig.turn();
+    for (int i = 0; i < 5; ++i) (void)rig.run_frame();
     CHECK(turn_between(rig.eyes.pose[0].orientation, kept) < 1e-9);
   }
   check_by_the_book();
 }
 
-TEST_CASE("an origin that is moved is told when its time has come, not before, and where everything is then") {
+TEST_CASE("a moved origin is reported at its time, with the correct transform") {
   xr_test::Control& xr = xr_test::control();
   xr.start();
   const xr_test::Pose moved{dvec3(0.3, 0.0, -0.2), glm::angleAxis(0.7, dvec3(0, 1, 0))};
-  xr.script.head = [](double) { return xr_test::Pose{dvec3(0.1, 0.2, 0.3)}; };  // stands still
+  xr.script.head = [](double) { return xr_test::Pose{dvec3(0.1, 0.2, 0.3)}; };  // no movement
   xr.script.timeline = {xr_test::change_space(0.5, xr_test::Space::stage, moved, 6),
                         xr_test::change_space(1.0, xr_test::Space::local, moved, 2)};
   {
     SessionRig rig;
-    REQUIRE(rig.comes_to(HeadsetState::focused));
+    REQUIRE(rig.reaches(HeadsetState::focused));
     std::optional<SpaceChange> stage, local;
     for (int i = 0; i < 120; ++i) {
       const HeadsetEyes old = rig.eyes;
-      const auto frame = rig.turn();
+      const auto frame = rig.run_frame();
       REQUIRE(frame);
-      const auto change = rig.session->take_change(*frame);
+      const auto change = rig.session->take_due_space_change(*frame);
       const bool jumped = glm::distance(old.pose[0].position, rig.eyes.pose[0].position) > 1e-3;
       CAPTURE(i);
-      if (!stage) CHECK(jumped == change.has_value());  // in the very frame in which the eyes jump
-      if (change && change->ours) {
+      if (!stage) CHECK(jumped == change.has_value());  // in the same frame in which the eyes jump
+      if (change && change->is_session_space) {
         stage = change;
         REQUIRE(change->new_from_old);
         CHECK(glm::distance(*change->new_from_old * old.pose[0].position, rig.eyes.pose[0].position) < 1e-6);
       }
-      if (change && !change->ours) local = change;
+      if (change && !change->is_session_space) local = change;
     }
     CHECK(stage.has_value());
     CHECK(local.has_value());
@@ -221,7 +223,7 @@ TEST_CASE("an origin that is moved is told when its time has come, not before, a
   check_by_the_book();
 }
 
-TEST_CASE("a session or a runtime that is lost is told as lost, and leaves nothing") {
+TEST_CASE("a lost session or runtime throws HeadsetLost, and leaves nothing") {
   for (const bool instance : {false, true}) {
     CAPTURE(instance);
     xr_test::Control& xr = xr_test::control();
@@ -229,23 +231,23 @@ TEST_CASE("a session or a runtime that is lost is told as lost, and leaves nothi
     xr.script.timeline = {instance ? xr_test::lose_instance(0.3) : xr_test::lose_session(0.3)};
     {
       SessionRig rig;
-      const std::string told = thrown<HeadsetLost>([&] {
-        for (int i = 0; i < 100; ++i) (void)rig.turn();
+      const std::string reported = thrown<HeadsetLost>([&] {
+        for (int i = 0; i < 100; ++i) (void)rig.run_frame();
       });
-      // By the event or by the first call after it, whichever comes first.
-      const bool by_event = told == (instance ? "the OpenXR runtime goes away" : "the headset is lost");
+      // Reported by the event or by the first call after it, whichever comes first.
+      const bool by_event = reported == (instance ? "the OpenXR runtime is shutting down" : "the headset was lost");
       const bool by_call =
-          told.find(instance ? "XR_ERROR_INSTANCE_LOST" : "XR_ERROR_SESSION_LOST") != std::string::npos;
-      CAPTURE(told);
+          reported.find(instance ? "XR_ERROR_INSTANCE_LOST" : "XR_ERROR_SESSION_LOST") != std::string::npos;
+      CAPTURE(reported);
       CHECK((by_event || by_call));
     }
     CHECK(xr.record.violations.empty());
   }
 }
 
-// The first calls of each function that a frame makes fail, one by one, in the middle of a frame as well: it is told as what
-// it is, what is in our hands is given back by the book, and everything can be made anew.
-TEST_CASE("an error of any call is an error of ours, and the next session begins as if nothing was") {
+// Lets the first calls of each function used in a frame fail, one by one, also in the middle of a frame: the error is
+// reported with its kind, held images are released correctly, and everything can be recreated.
+TEST_CASE("an error of any call is reported, and the next session works normally") {
   constexpr const char* kCalls[] = {"xrCreateSession",
                                     "xrCreateReferenceSpace",
                                     "xrCreateSwapchain",
@@ -265,7 +267,8 @@ TEST_CASE("an error of any call is an error of ours, and the next session begins
     for (int plan = 0; plan < 9; ++plan) {
       constexpr std::array kResults{XR_ERROR_RUNTIME_FAILURE, XR_ERROR_SESSION_LOST, XR_ERROR_OUT_OF_MEMORY};
       const XrResult result = kResults[static_cast<std::size_t>(plan % 3)];
-      const int nth = 1 + plan / 3 * 2;  // eyes, panel, and depth of a later frame; made are eyes, depth, panel
+      // eyes, panel, and depth of a later frame; swapchains are created in the order eyes, depth, panel
+      const int nth = 1 + plan / 3 * 2;
       CAPTURE(nth);
       CAPTURE(call);
       CAPTURE(static_cast<int>(result));
@@ -275,15 +278,15 @@ TEST_CASE("an error of any call is an error of ours, and the next session begins
       const auto run = [&] {
         SessionRig rig;
         rig.panel = HeadsetPanel{{{0.0, 1.0, -1.0}, glm::dquat(1, 0, 0, 0)}, {1.0, 0.5}};
-        for (int i = 0; i < 20; ++i) (void)rig.turn();
+        for (int i = 0; i < 20; ++i) (void)rig.run_frame();
       };
       const bool lost = result != XR_ERROR_OUT_OF_MEMORY;
-      const std::string told = lost ? thrown<HeadsetLost>(run) : thrown<HeadsetError>(run);
-      // Some are called once; and depth's images, whose two queries are the third and the fourth, are no must.
+      const std::string reported = lost ? thrown<HeadsetLost>(run) : thrown<HeadsetError>(run);
+      // Some functions are called only once. Depth images (the third and fourth query) are optional.
       const bool of_depth = call == std::string("xrEnumerateSwapchainImages") && nth == 3 && !lost;
       const bool happens = xr.record.calls[call] >= nth && !of_depth;
-      CHECK((told.find(call) != std::string::npos) == happens);
-      CHECK((told.find("XR_ERROR_") != std::string::npos) == happens);
+      CHECK((reported.find(call) != std::string::npos) == happens);
+      CHECK((reported.find("XR_ERROR_") != std::string::npos) == happens);
       for (const xr_test::Violation& broken : xr.record.violations)
         FAIL_CHECK(broken.rule << ": " << broken.function << " " << broken.detail);
     }
@@ -292,27 +295,27 @@ TEST_CASE("an error of any call is an error of ours, and the next session begins
   xr_test::control().start();
   {
     SessionRig rig;
-    CHECK(rig.comes_to(HeadsetState::focused));
+    CHECK(rig.reaches(HeadsetState::focused));
   }
   check_by_the_book();
 }
 
-TEST_CASE("a frame that the runtime holds back is waited for beside us, and goes on where it comes") {
+TEST_CASE("a frame held back by the runtime is waited for in the background, and resumes") {
   xr_test::Control& xr = xr_test::control();
   xr.start();
   xr.script.pacing = xr_test::Pacing::real;
   {
     SessionRig rig;
-    REQUIRE(rig.comes_to(HeadsetState::focused));
+    REQUIRE(rig.reaches(HeadsetState::focused));
     xr.script.timeline = {xr_test::stall(xr.record.frames.back().time + 0.02, 60)};  // 0.67 s
     using Clock = std::chrono::steady_clock;
-    constexpr std::chrono::milliseconds kPatience(20);
+    constexpr std::chrono::milliseconds kTimeout(20);
     int held = 0;
     double longest = 0.0;
     for (int frames = 0; frames < 6;) {
       rig.session->poll();
       const Clock::time_point asked = Clock::now();
-      const std::optional<HeadsetFrame> frame = rig.session->wait(kPatience);
+      const std::optional<HeadsetFrame> frame = rig.session->wait(kTimeout);
       longest = std::max(longest, std::chrono::duration<double>(Clock::now() - asked).count());
       held += !frame;
       if (!frame) continue;
@@ -321,8 +324,9 @@ TEST_CASE("a frame that the runtime holds back is waited for beside us, and goes
       rig.session->end(*frame, nullptr, kRigNear, nullptr);
     }
     CHECK(held >= 15);
-    CHECK(longest < 0.3);                                          // it would be 0.67 s
-    CHECK_FALSE(rig.session->wait(std::chrono::milliseconds(0)));  // it is still waited for when the session goes
+    CHECK(longest < 0.3);  // otherwise it would be 0.67 s
+    // the wait is still pending when the session is destroyed
+    CHECK_FALSE(rig.session->wait(std::chrono::milliseconds(0)));
   }
   check_by_the_book();
 }
@@ -331,7 +335,7 @@ TEST_CASE("no runtime, no headset, no Vulkan: one clear sentence each") {
   xr_test::Control& xr = xr_test::control();
   const std::string manifest = std::getenv("XR_RUNTIME_JSON");
   setenv("XR_RUNTIME_JSON", "/nowhere/runtime.json", 1);
-  CHECK(thrown<HeadsetError>([] { HeadsetRuntime runtime; }).find("no OpenXR runtime answers") != std::string::npos);
+  CHECK(thrown<HeadsetError>([] { HeadsetRuntime runtime; }).find("no OpenXR runtime found") != std::string::npos);
   setenv("XR_RUNTIME_JSON", manifest.c_str(), 1);
   xr.start();
   xr.script.headset = false;
@@ -340,7 +344,7 @@ TEST_CASE("no runtime, no headset, no Vulkan: one clear sentence each") {
   xr.script.vulkan_enable2 = false;
   CHECK(thrown<HeadsetError>([] { HeadsetRuntime runtime; }).find("XR_KHR_vulkan_enable2") != std::string::npos);
   check_by_the_book();
-  // The loader remembers what a runtime offered until an instance of it is destroyed.
+  // The loader remembers a runtime's extensions until an instance of it is destroyed.
   XrInstanceCreateInfo plain{XR_TYPE_INSTANCE_CREATE_INFO};
   std::strcpy(plain.applicationInfo.applicationName, "plain");
   plain.applicationInfo.apiVersion = XR_MAKE_VERSION(1, 0, 0);
@@ -349,36 +353,36 @@ TEST_CASE("no runtime, no headset, no Vulkan: one clear sentence each") {
   xrDestroyInstance(instance);
 }
 
-TEST_CASE("what a runtime lacks is done without: depth, its clock, the room, our order of colours") {
-  for (int lacks = 0; lacks < 5; ++lacks) {
-    CAPTURE(lacks);
+TEST_CASE("optional features may be missing: depth, the clock, the stage, our preferred formats") {
+  for (int missing = 0; missing < 5; ++missing) {
+    CAPTURE(missing);
     xr_test::Control& xr = xr_test::control();
     xr.start();
     xr.script.capture.every = 1;
-    if (lacks == 0) xr.script.composition_layer_depth = false;
-    if (lacks == 1) xr.script.convert_timespec_time = false;
-    if (lacks == 2) xr.script.stage = false;
-    if (lacks == 3) xr.script.colour_formats = {VK_FORMAT_B8G8R8A8_SRGB};
-    if (lacks == 4) xr.script.depth_formats = {VK_FORMAT_D16_UNORM};
+    if (missing == 0) xr.script.composition_layer_depth = false;
+    if (missing == 1) xr.script.convert_timespec_time = false;
+    if (missing == 2) xr.script.stage = false;
+    if (missing == 3) xr.script.colour_formats = {VK_FORMAT_B8G8R8A8_SRGB};
+    if (missing == 4) xr.script.depth_formats = {VK_FORMAT_D16_UNORM};
     {
       SessionRig rig;
-      REQUIRE(rig.comes_to(HeadsetState::focused));
-      const auto frame = rig.turn();
+      REQUIRE(rig.reaches(HeadsetState::focused));
+      const auto frame = rig.run_frame();
       REQUIRE(frame);
-      CHECK((frame->woken_ns == 0) == (lacks == 1));
-      CHECK(rig.session->is_stage() == (lacks != 2));
+      CHECK((frame->wait_end_ns == 0) == (missing == 1));
+      CHECK(rig.session->is_stage() == (missing != 2));
     }
     check_by_the_book();
     const auto& view = last_shown().projection()->views[0];
-    CHECK(view.depth.given == (lacks != 0 && lacks != 4));
+    CHECK(view.depth.is_present == (missing != 0 && missing != 4));
     CHECK(colour_at(view.picture, 5, 5) == std::array{255, 0, 0});
   }
   xr_test::control().start();
   xr_test::control().script.colour_formats = {VK_FORMAT_R8G8B8A8_UINT};
-  CHECK(thrown<HeadsetError>([] { SessionRig rig; }).find("takes no picture") != std::string::npos);
+  CHECK(thrown<HeadsetError>([] { SessionRig rig; }).find("does not accept") != std::string::npos);
 }
 
-TEST_CASE("hands point, click and scroll while all is ours, and not under another program's menu") {
+TEST_CASE("hands point, click and scroll while focused, and not under another program's menu") {
   xr_test::Control& xr = xr_test::control();
   xr.start();
   xr.script.stage = false;
@@ -394,7 +398,7 @@ TEST_CASE("hands point, click and scroll while all is ours, and not under anothe
   xr.script.timeline = {xr_test::visible(1.0)};
   {
     SessionRig rig;
-    REQUIRE(rig.comes_to(HeadsetState::focused));
+    REQUIRE(rig.reaches(HeadsetState::focused));
     CHECK(rig.session->state() == HeadsetState::focused);
     for (int i = 0; i < 120; ++i) {
       rig.session->poll();
@@ -420,7 +424,7 @@ TEST_CASE("hands point, click and scroll while all is ours, and not under anothe
   check_by_the_book();
 }
 
-TEST_CASE("periods that a runtime drops are counted, and those alone") {
+TEST_CASE("periods that a runtime drops are counted, and no others") {
   xr_test::Control& xr = xr_test::control();
   xr.start();
   xr.script.timeline = {xr_test::stall(0.3, 5), xr_test::stall(0.6, 2)};
@@ -428,7 +432,7 @@ TEST_CASE("periods that a runtime drops are counted, and those alone") {
   {
     SessionRig rig;
     for (int i = 0; i < 90; ++i)
-      if (const auto frame = rig.turn()) times.take(*frame, rig.session->now_ns(), 1.0);
+      if (const auto frame = rig.run_frame()) times.add(*frame, rig.session->now_ns(), 1.0);
   }
   check_by_the_book();
   CHECK(xr.record.dropped == 7);
@@ -443,7 +447,7 @@ std::size_t open_files() {
   return static_cast<std::size_t>(std::distance(begin(all), end(all)));
 }
 
-// [KiB] that are the program's own
+// [KiB] resident memory private to the program
 std::size_t resident() {
   std::ifstream status("/proc/self/status");
   for (std::string line; std::getline(status, line);)
@@ -453,19 +457,19 @@ std::size_t resident() {
 
 }  // namespace
 
-// 20 of them; GEARSHIFT_XR_RESTARTS=1000 for the long run.
-TEST_CASE("a session that begins again and again leaves nothing behind") {
+// 20 restarts; set GEARSHIFT_XR_RESTARTS=1000 for the long run.
+TEST_CASE("restarting a session again and again leaks nothing") {
   const char* asked = std::getenv("GEARSHIFT_XR_RESTARTS");
   const int restarts = asked != nullptr ? std::atoi(asked) : 20;
-  SessionRig rig(false);  // runtime and device stay: what they keep is not the session's
+  SessionRig rig(false);  // runtime and device stay, so their memory does not count
   xr_test::control().start();
   const auto again = [&] {
     rig.session.reset();
     rig.session = std::make_unique<HeadsetSession>(*rig.runtime, rig.gpu(), HeadsetConfig{kRigEye, kRigPanel});
-    CHECK(rig.comes_to(HeadsetState::focused));
-    CHECK(rig.turn());
+    CHECK(rig.reaches(HeadsetState::focused));
+    CHECK(rig.run_frame());
   };
-  for (int i = 0; i < 5; ++i) again();  // what is made once
+  for (int i = 0; i < 5; ++i) again();  // one-time allocations
   const std::size_t files = open_files(), memory = resident();
   const VkDeviceSize device = rig.gpu().allocated();
   const int handles = xr_test::control().record.live_handles();
@@ -478,8 +482,8 @@ TEST_CASE("a session that begins again and again leaves nothing behind") {
   CHECK(open_files() == files);
   CHECK(rig.gpu().allocated() == device);
   CHECK(xr_test::control().record.live_handles() == handles);
-#if !defined(GEARSHIFT_TEST_SANITIZED)  // a sanitizer keeps what was freed, and finds leaks by itself
-  CHECK(resident() < memory + 1024);    // [KiB] however often
+#if !defined(GEARSHIFT_TEST_SANITIZED)  // a sanitizer keeps freed memory, and detects leaks itself
+  CHECK(resident() < memory + 1024);    // [KiB] for any number of restarts
 #endif
   CHECK(xr_test::control().record.violations.empty());
 }

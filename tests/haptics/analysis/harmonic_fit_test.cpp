@@ -9,7 +9,7 @@
 
 #include "haptics/device/gaussian_noise.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
 
 namespace {
 
@@ -37,7 +37,7 @@ TEST_CASE("phasors through offset, drift and uneven samples") {
   CHECK(fit.phasor(0).deviation < 1e-7);
 }
 
-TEST_CASE("the stated deviation is the scatter that white noise makes, and begin() forgets") {
+TEST_CASE("the stated deviation matches the scatter under white noise, and begin() starts over") {
   GaussianNoise noise(3);
   HarmonicFit fit;
   double squares = 0.0, stated = 0.0;

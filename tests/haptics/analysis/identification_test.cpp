@@ -1,4 +1,4 @@
-// Section 2.4 on simulated levers and on a device of another kind: what the plant is comes out again.
+// Section 2.4 on simulated levers and on another kind of device: the identification recovers the plant.
 #include "haptics/analysis/identification.h"
 
 #include <algorithm>
@@ -15,13 +15,13 @@
 
 #include "haptics/device/simulated_lever.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
 
 namespace {
 
 constexpr double kTau = 2.0 * std::numbers::pi;
 
-// Encoder and sensor as they are in the paper, and a sensor noise that it does not name.
+// Encoder and sensor as in the paper, plus sensor noise, which the paper does not specify.
 SimulatedLeverConfig noisy_lever(std::uint64_t seed = 1) {
   SimulatedLeverConfig config;
   config.force_sensor.noise_gw = 20.0;
@@ -43,8 +43,8 @@ SweepConfig sweep_at(double rate) {
 }
 
 FrequencyResponse sweep_lever(const SimulatedLeverConfig& config, LeverAxis axis, double rate = 1000.0) {
-  RestingHand nobody;
-  SimulatedLever lever(config, std::llround(1e9 / rate), nobody);
+  IdleHand idle_hand;
+  SimulatedLever lever(config, std::llround(1e9 / rate), idle_hand);
   std::int64_t now = 0;
   return sweep_frequencies(sweep_at(rate), lever, axis, 1.0 / rate, now);
 }
@@ -57,7 +57,7 @@ std::array<double, 3> numbers_of(const AxisModel& axis) {
   return {axis.mass, axis.damping, axis.stiffness};
 }
 
-// Of mass, damping and stiffness, in standard uncertainties.
+// Errors of mass, damping and stiffness in standard uncertainties.
 std::array<double, 3> errors_in_deviations(const AxisFit& fit, const AxisModel& truth) {
   const auto found = numbers_of(fit.model), real = numbers_of(truth), deviation = numbers_of(fit.deviation);
   std::array<double, 3> z{};
@@ -65,10 +65,10 @@ std::array<double, 3> errors_in_deviations(const AxisFit& fit, const AxisModel& 
   return z;
 }
 
-bool within(const AxisFit& fit, const AxisModel& truth, double share) {
+bool within(const AxisFit& fit, const AxisModel& truth, double uniform) {
   const auto found = numbers_of(fit.model), real = numbers_of(truth);
   bool all = true;
-  for (std::size_t i = 0; i < 3; ++i) all = all && std::abs(found[i] / real[i] - 1.0) < share;
+  for (std::size_t i = 0; i < 3; ++i) all = all && std::abs(found[i] / real[i] - 1.0) < uniform;
   return all;
 }
 
@@ -98,7 +98,8 @@ AxisModel random_plant(std::mt19937_64& engine) {
   return {mass, 2.0 * between(0.15, 2.2) * std::sqrt(mass * stiffness), stiffness};
 }
 
-// A lever of another make: no yoke, no force sensor, two sleds in the plane. Every fault that a sweep must survive.
+// A different device: no yoke, no force sensor, two sleds in a plane. It can produce every fault that a sweep must
+// handle.
 class Sleds final : public HapticDevice {
  public:
   Sleds() {
@@ -120,14 +121,14 @@ class Sleds final : public HapticDevice {
     if (cycles_ == nan_at_) reading.position.x = std::numeric_limits<double>::quiet_NaN();
     if (cycles_ >= shove_at_) reading.position.x = 0.0499;
     if (cycles_ >= break_at_) reading.position.y = 0.11;
-    farthest_ = std::max(farthest_, std::abs(at_[0].position));
+    max_position_ = std::max(max_position_, std::abs(at_[0].position));
     return reading;
   }
   void write(glm::dvec2 force) noexcept override {
-    fastest_ = std::max(fastest_, std::abs(force.x - force_.x));
+    max_change_ = std::max(max_change_, std::abs(force.x - force_.x));
     force_ = force;
-    if (cycles_ < 500) early_ = std::max(early_, std::abs(force.x));
-    strongest_ = std::max(strongest_, std::abs(force.x));
+    if (cycles_ < 500) initial_force_ = std::max(initial_force_, std::abs(force.x));
+    max_force_ = std::max(max_force_, std::abs(force.x));
   }
   void release() noexcept override {
     force_ = glm::dvec2(0.0);
@@ -138,9 +139,9 @@ class Sleds final : public HapticDevice {
   static constexpr std::uint64_t kNever = ~std::uint64_t{0};
   std::uint64_t freeze_at_ = kNever, nan_at_ = kNever, shove_at_ = kNever, break_at_ = kNever;
   std::array<AxisState, 2> at_{};
-  double farthest_ = 0.0, strongest_ = 0.0;
-  double fastest_ = 0.0;  // [N/cycle]
-  double early_ = 0.0;    // [N] in the half second that the guard takes to let a force through
+  double max_position_ = 0.0, max_force_ = 0.0;
+  double max_change_ = 0.0;     // [N/cycle]
+  double initial_force_ = 0.0;  // [N] during the half second of the guard's ramp
   bool released_ = false;
   glm::dvec2 force_{0.0};
   DeviceSpec spec_;
@@ -150,7 +151,7 @@ class Sleds final : public HapticDevice {
   std::uint64_t cycles_ = 0;
 };
 
-// A response as a perfect experiment without a hold would find it.
+// The response that a perfect experiment without a hold would measure.
 FrequencyResponse ideal_response(const AxisModel& axis) {
   FrequencyResponse response;
   response.period = 1e-3;
@@ -189,7 +190,7 @@ TEST_CASE("five random plants, over- and under-damped, within 2 %") {
       for (const double z : errors_in_deviations(fit, truth)) squares += z * z;
     }
   }
-  const double scatter = std::sqrt(squares / 30.0);  // of 30 errors, each in its own stated uncertainty
+  const double scatter = std::sqrt(squares / 30.0);  // of 30 errors, each relative to its stated uncertainty
   CAPTURE(scatter);
   CHECK(scatter > 0.5);
   CHECK(scatter < 1.6);
@@ -206,17 +207,17 @@ TEST_CASE("other rates, a long delay, uneven periods") {
   check_good(identify(config, LeverAxis::y), kPaperAxisY);
 }
 
-TEST_CASE("without noise the hold leaves no error, not even at 100 Hz, where a quarter of the rate is swept") {
+TEST_CASE("without noise the hold causes no error, not even at 100 Hz, where the sweep reaches a quarter of the rate") {
   for (const double rate : {100.0, 1000.0}) {
     const FrequencyResponse response = sweep_lever(exact_lever(), LeverAxis::x, rate);
     CHECK(within(fit_axis(response), kPaperAxisX, 2e-5));
-    FrequencyResponse unaware = response;  // the same, taken for a force that does not stand still
+    FrequencyResponse unaware = response;  // the same response, interpreted as that of a continuous force
     for (FrequencyPoint& point : unaware.points) point.held = 0.0;
     if (rate < 1000.0) CHECK_FALSE(within(fit_axis(unaware), kPaperAxisX, 2e-5));
   }
 }
 
-TEST_CASE("parts that are not as drawn: found as they are, not as spec() says") {
+TEST_CASE("parameters that differ from spec(): the true ones are identified") {
   SimulatedLeverConfig config = noisy_lever(3);
   config.model_error = 0.2;
   const AxisFit fit = identify(config, LeverAxis::x);
@@ -225,7 +226,7 @@ TEST_CASE("parts that are not as drawn: found as they are, not as spec() says") 
   CHECK(fit.misfit < 1.6);
 }
 
-TEST_CASE("a hand that rests on the lever is in f_h of (4) and changes nothing") {
+TEST_CASE("a hand that rests on the lever is included in f_h of (4) and does not change the result") {
   class Leaning final : public HandDriver {
    public:
     HandTarget next(double, glm::dvec2) noexcept override {
@@ -239,7 +240,7 @@ TEST_CASE("a hand that rests on the lever is in f_h of (4) and changes nothing")
   CHECK(within(fit_axis(sweep_frequencies({}, lever, LeverAxis::x, 1e-3, now)), kPaperAxisX, 0.02));
 }
 
-TEST_CASE("a device without yoke and force sensor, its clock anywhere") {
+TEST_CASE("a device without yoke and force sensor, with an arbitrary clock origin") {
   Sleds sleds;
   std::int64_t now = 123'456'789'012;
   CHECK(within(fit_axis(sweep_frequencies({}, sleds, LeverAxis::x, 1e-3, now)), Sleds::kX, 1e-4));
@@ -247,8 +248,8 @@ TEST_CASE("a device without yoke and force sensor, its clock anywhere") {
   CHECK(within(fit_axis(sweep_frequencies({}, sleds, LeverAxis::y, 1e-3, now)), Sleds::kY, 1e-4));
 }
 
-TEST_CASE("negative controls: a delay that nobody told, and a gain that is not one") {
-  class Late final : public HapticDevice {  // by two samples, and does not say so
+TEST_CASE("negative controls: an unreported delay, and points with a wrong gain") {
+  class Late final : public HapticDevice {  // delayed by two samples, which its spec does not report
    public:
     const DeviceSpec& spec() const noexcept override { return sleds_.spec(); }
     LeverReading read(std::int64_t now_ns) noexcept override { return sleds_.read(now_ns); }
@@ -274,7 +275,7 @@ TEST_CASE("negative controls: a delay that nobody told, and a gain that is not o
   CHECK(fit.misfit > 3.0);
 }
 
-TEST_CASE("dry friction does not fit (8), and the misfit says so") {
+TEST_CASE("dry friction does not fit (8), and the misfit shows it") {
   SimulatedLeverConfig config = noisy_lever();
   config.coulomb_friction = 0.2;
   const AxisFit fit = identify(config, LeverAxis::x);
@@ -282,21 +283,21 @@ TEST_CASE("dry friction does not fit (8), and the misfit says so") {
   CHECK(fit.deviation.damping > 0.01 * kPaperAxisX.damping);
 }
 
-TEST_CASE("amplitudes: one third of the maximum above some 6.8 Hz, below it what takes 60 % of the stroke") {
-  RestingHand nobody;
-  SimulatedLever lever(noisy_lever(), 1'000'000, nobody);
+TEST_CASE("amplitudes: one third of the maximum above about 6.8 Hz, below it the force for 60 % of the stroke") {
+  IdleHand idle_hand;
+  SimulatedLever lever(noisy_lever(), 1'000'000, idle_hand);
   FrequencySweep sweep({}, lever, LeverAxis::x, 1e-3);
   const double stop = 0.120 * 40.0 * std::numbers::pi / 180.0;
-  double farthest = 0.0, last_progress = 0.0;
+  double max_position = 0.0, last_progress = 0.0;
   for (std::int64_t now = 0; sweep.step(now); now += 1'000'000) {
     const JointAngles q = joint_angles_from_plane({}, lever.true_position());
-    farthest = std::max(farthest, std::abs(0.120 * q.theta));
+    max_position = std::max(max_position, std::abs(0.120 * q.theta));
     CHECK_FALSE(sweep.progress() < last_progress);
     last_progress = sweep.progress();
   }
   CHECK(sweep.progress() == 1.0);
-  CHECK(farthest > 0.55 * stop);
-  CHECK(farthest < 0.65 * stop);
+  CHECK(max_position > 0.55 * stop);
+  CHECK(max_position < 0.65 * stop);
   for (const FrequencyPoint& point : sweep.response().points) {
     CHECK(point.end == PointEnd::measured);
     CHECK(point.bounded_by_stroke == (point.frequency < 6.8));
@@ -307,13 +308,13 @@ TEST_CASE("amplitudes: one third of the maximum above some 6.8 Hz, below it what
   CHECK(sweep.response().points.back().frequency == doctest::Approx(0.2).epsilon(0.01));
 }
 
-TEST_CASE("the paper's amplitude at 1 Hz, taken literally: the stop") {
+TEST_CASE("the paper's amplitude at 1 Hz, taken literally, drives the lever to its stop") {
   SweepConfig config;
   config.highest = config.lowest = 1.0;
   config.points = 1;
   config.literal = true;
-  RestingHand nobody;
-  SimulatedLever lever(noisy_lever(), 1'000'000, nobody);
+  IdleHand idle_hand;
+  SimulatedLever lever(noisy_lever(), 1'000'000, idle_hand);
   std::int64_t now = 0;
   const FrequencyResponse response = sweep_frequencies(config, lever, LeverAxis::x, 1e-3, now);
   REQUIRE(response.points.size() == 1);
@@ -329,23 +330,23 @@ TEST_CASE("the paper's amplitude at 1 Hz, taken literally: the stop") {
   CHECK_THROWS_AS(FrequencySweep(config, real, LeverAxis::x, 1e-3), std::invalid_argument);
 }
 
-TEST_CASE("a resonance that nothing foretold: the amplitude goes back before the stop comes") {
+TEST_CASE("an unpredicted resonance: the amplitude is reduced before the lever reaches the stop") {
   Sleds sleds;
   sleds.spec_.max_force.x = 2.4;
   SweepConfig config;
-  config.highest = config.lowest = 2.757;  // sqrt(k / m) of the sled: 14 times the answer at rest
+  config.highest = config.lowest = 2.757;  // sqrt(k / m) of the sled: 14 times the static response
   config.points = 1;
   std::int64_t now = 0;
   const FrequencyResponse response = sweep_frequencies(config, sleds, LeverAxis::x, 1e-3, now);
   CHECK(response.problem.empty());
   REQUIRE(response.points.size() == 1);
   CHECK(response.points[0].bounded_by_stroke);
-  CHECK(sleds.farthest_ < 0.9 * 0.05);
+  CHECK(sleds.max_position_ < 0.9 * 0.05);
   const std::complex<double> truth = compliance(Sleds::kX, response.points[0].frequency);
   CHECK(std::abs(response.points[0].response / truth - 1.0) < 2e-3);
 }
 
-TEST_CASE("readings that stop, are no number or lie near the stop: motors off, and the reason") {
+TEST_CASE("readings that stop, are not finite or are near the stop: motors off, with the reason") {
   const auto problem = [](Sleds& sleds) {
     std::int64_t now = 0;
     const FrequencyResponse response = sweep_frequencies({}, sleds, LeverAxis::x, 1e-3, now);
@@ -358,46 +359,46 @@ TEST_CASE("readings that stop, are no number or lie near the stop: motors off, a
   frozen.freeze_at_ = 5000;
   blind.nan_at_ = 5000;
   shoved.shove_at_ = 5000;
-  broken.break_at_ = 5000;  // across the axis that is swept: the guard alone looks there
+  broken.break_at_ = 5000;  // on the other axis, which only the guard checks
   CHECK(problem(frozen) == "no fresh reading for 20 ms");
   CHECK(problem(blind) == "a reading is not a number");
   CHECK(problem(shoved) == "the lever came near its stop");
   CHECK(problem(broken) == "the lever is outside its workspace");
 }
 
-TEST_CASE("the guard has the last word: no force until it runs, and no change faster than its slew") {
+TEST_CASE("the guard limits every force: none until it runs, and no change faster than its slew") {
   Sleds sleds;
   sleds.spec_.max_force.x = 80.0;
   SweepConfig config;
-  config.force_share = 1.0;
+  config.force_fraction = 1.0;
   config.lowest = 60.0;
   config.points = 2;
   std::int64_t now = 0;
   const FrequencyResponse response = sweep_frequencies(config, sleds, LeverAxis::x, 1e-3, now);
   CHECK(response.problem == "");
-  CHECK(sleds.early_ == 0.0);
-  CHECK(sleds.fastest_ == doctest::Approx(25.0));
+  CHECK(sleds.initial_force_ == 0.0);
+  CHECK(sleds.max_change_ == doctest::Approx(25.0));
   REQUIRE(response.points.size() == 2);
   for (const FrequencyPoint& point : response.points) {
-    CHECK(point.amplitude < 0.99 * 80.0);  // bent; what was sent is what the answer is held against
+    CHECK(point.amplitude < 0.99 * 80.0);  // limited; the response is relative to the force actually sent
     const std::complex<double> truth = compliance(Sleds::kX, point.frequency);
     CHECK(std::abs(point.response / truth - 1.0) < 2e-3);
   }
 }
 
-TEST_CASE("the guard bends no sinusoid of the paper's, not even four samples a period") {
+TEST_CASE("the guard does not distort the paper's sinusoids, not even at four samples per period") {
   SweepConfig config;
   config.lowest = 60.0;
   config.points = 2;
-  RestingHand nobody;
-  SimulatedLever lever(exact_lever(), std::llround(1e9 / 260.0), nobody);
+  IdleHand idle_hand;
+  SimulatedLever lever(exact_lever(), std::llround(1e9 / 260.0), idle_hand);
   std::int64_t now = 0;
   for (const FrequencyPoint& point : sweep_frequencies(config, lever, LeverAxis::x, 1.0 / 260.0, now).points) {
     CHECK(point.amplitude == doctest::Approx(31.7 / 3.0).epsilon(1e-6));
   }
 }
 
-TEST_CASE("a lever without a spring is found to have none") {
+TEST_CASE("a lever without a spring is identified as having none") {
   SimulatedLeverConfig config = exact_lever();
   config.axis_x.stiffness = 0.0;
   const AxisFit fit = identify(config, LeverAxis::x);
@@ -406,7 +407,7 @@ TEST_CASE("a lever without a spring is found to have none") {
   CHECK(std::isinf(damping_ratio({0.1, 1.0, -1e-9})));
 }
 
-TEST_CASE("a device that does not answer at all is measured as such, and not fitted") {
+TEST_CASE("a device that does not respond is reported as never settled, and not fitted") {
   class Stuck final : public HapticDevice {
    public:
     Stuck() { spec_.workspace = {0.07, 0.07}; }
@@ -429,7 +430,7 @@ TEST_CASE("a device that does not answer at all is measured as such, and not fit
   CHECK_THROWS_AS(fit_axis(response), std::invalid_argument);
 }
 
-TEST_CASE("the fit of a perfect response is its plant, and what is no plant is refused") {
+TEST_CASE("the fit of a perfect response is its plant, and responses of no plant are rejected") {
   for (const AxisModel& axis : {kPaperAxisX, AxisModel{0.2, 1.0, 60.0}, AxisModel{1.0, 0.2, 3.0}}) {
     const AxisFit fit = fit_axis(ideal_response(axis));
     CHECK(within(fit, axis, 1e-9));
@@ -443,21 +444,21 @@ TEST_CASE("the fit of a perfect response is its plant, and what is no plant is r
   CHECK_THROWS_AS(fit_axis(two), std::invalid_argument);
 }
 
-TEST_CASE("answers at random fit nothing: where the fit does not settle it is refused, and not returned") {
+TEST_CASE("random responses: a fit that does not converge is rejected, not returned") {
   std::mt19937_64 engine(1);
-  const auto share = [&] { return static_cast<double>(engine() >> 11) / 9007199254740992.0; };
+  const auto uniform = [&] { return static_cast<double>(engine() >> 11) / 9007199254740992.0; };
   int unsettled = 0;
   for (int i = 0; i < 50; ++i) {
     FrequencyResponse random = ideal_response(kPaperAxisX);
     for (FrequencyPoint& point : random.points) {
-      const double gain = std::exp(4.0 * share() - 2.0);
-      point.response *= std::polar(gain, kTau * share());
+      const double gain = std::exp(4.0 * uniform() - 2.0);
+      point.response *= std::polar(gain, kTau * uniform());
       point.held = 1.0;
     }
     try {
       fit_axis(random);
     } catch (const std::invalid_argument& refused) {
-      unsettled += std::string(refused.what()) == "fit_axis: no axis fits: 30 rounds did not settle";
+      unsettled += std::string(refused.what()) == "fit_axis: no axis fits: not converged after 30 iterations";
     }
   }
   CHECK(unsettled > 0);
@@ -474,7 +475,7 @@ TEST_CASE("bandwidth, damping and poles of (11) and (12): 0.92 and 1.02 Hz, not 
     const double gain = std::abs(compliance(axis, bandwidth(axis)));
     CHECK(gain * axis.stiffness == doctest::Approx(std::sqrt(0.5)).epsilon(1e-12));
   }
-  // Where one newton moves the paper's encoder by 1 count, and by -3 dB of it.
+  // Frequencies at which one newton moves the paper's encoder by 1 count, and by -3 dB of it.
   const double count = 75.4e-6;
   CHECK(frequency_at_gain(kPaperAxisX, count) == doctest::Approx(59.0).epsilon(0.01));
   CHECK(frequency_at_gain(kPaperAxisX, count / std::numbers::sqrt2) == doctest::Approx(71.0).epsilon(0.01));
@@ -483,8 +484,8 @@ TEST_CASE("bandwidth, damping and poles of (11) and (12): 0.92 and 1.02 Hz, not 
 }
 
 TEST_CASE("the simulated lever's row of Table 2") {
-  RestingHand nobody;
-  const DeviceRow row = device_row(SimulatedLever({}, 1'000'000, nobody).spec());
+  IdleHand idle_hand;
+  const DeviceRow row = device_row(SimulatedLever({}, 1'000'000, idle_hand).spec());
   CHECK(row.range_deg.x == doctest::Approx(80.0));
   CHECK(row.range_deg.y == doctest::Approx(70.0));
   CHECK(row.continuous_force == 10.83);
@@ -495,7 +496,7 @@ TEST_CASE("the simulated lever's row of Table 2") {
   CHECK(plane.counts_per_deg == 0.0);
 }
 
-TEST_CASE("a sweep that cannot be is refused with parameter, value and range") {
+TEST_CASE("an invalid sweep is rejected with parameter, value and range") {
   const auto refusal = [](const SweepConfig& config, double period = 1e-3) -> std::string {
     Sleds sleds;
     try {
@@ -515,9 +516,9 @@ TEST_CASE("a sweep that cannot be is refused with parameter, value and range") {
   config.points = 0;
   CHECK(refusal(config) == "FrequencySweep: points = 0: must be between 1 and 200");
   config = {};
-  config.stroke_share = 0.8;
-  CHECK(refusal(config) == "FrequencySweep: stroke_share = 0.8: must be between 0.05 and 0.7");
+  config.stroke_fraction = 0.8;
+  CHECK(refusal(config) == "FrequencySweep: stroke_fraction = 0.8: must be between 0.05 and 0.7");
   config = {};
-  config.force_share = std::nan("");
-  CHECK(refusal(config) == "FrequencySweep: force_share = nan: must be between 0.001 and 1");
+  config.force_fraction = std::nan("");
+  CHECK(refusal(config) == "FrequencySweep: force_fraction = nan: must be between 0.001 and 1");
 }

@@ -1,5 +1,5 @@
-// The paper's conditions against their closed forms, (13) tried at many frequencies, and the theorem itself: what is
-// passive is stable in every passive hand.
+// The paper's conditions against their closed forms, (13) searched over many frequencies, and the theorem itself: a
+// passive environment is stable in every passive hand.
 #include "haptics/analysis/passivity.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace gearshift;
+using namespace gearshift::haptics;
 
 namespace {
 
@@ -21,11 +21,11 @@ double between(std::mt19937_64& random, double low, double high) {
 }
 
 // (13) as printed, at 100,000 frequencies.
-double demand_by_trying(const Environment& environment, double period) {
-  constexpr int kTries = 100000;
+double demand_by_search(const Environment& environment, double period) {
+  constexpr int kAngles = 100000;
   double largest = -1e300;
-  for (int i = 1; i <= kTries; ++i) {
-    const double angle = std::numbers::pi * i / kTries;
+  for (int i = 1; i <= kAngles; ++i) {
+    const double angle = std::numbers::pi * i / kAngles;
     const Complex z = std::polar(1.0, angle);
     const double factor = 0.5 * period / (1.0 - std::cos(angle));
     largest = std::max(largest, factor * ((1.0 - std::conj(z)) * environment(z)).real());
@@ -63,7 +63,7 @@ TEST_CASE("(16), (18), (20): damper, mass and impedance") {
 }
 
 TEST_CASE("d samples late: a spring up to b / (T/2 + d T), a damper still up to b") {
-  for (int delay = 0; delay <= kMostDelay; ++delay) {
+  for (int delay = 0; delay <= kMaxLoopDelay; ++delay) {
     CAPTURE(delay);
     CHECK(passive_stiffness_limit(3.0, 0.0, 0.0, delay, 0.001) ==
           doctest::Approx(3.0 / (0.0005 + delay * 0.001)).epsilon(1e-9));
@@ -83,23 +83,23 @@ TEST_CASE("one sample late, spring and damper together") {
   }
 }
 
-TEST_CASE("any impedance, any delay: no frequency of 100,000 asks for more, and one asks for as much") {
+TEST_CASE("any impedance, any delay: the damping demand equals the largest over 100,000 frequencies") {
   std::mt19937_64 random(1);
   for (int i = 0; i < 40; ++i) {
     const double period = std::exp(between(random, std::log(1e-4), std::log(1e-2)));
     const double damping = between(random, 0.0, 10.0);
-    const int delay = i % (kMostDelay + 1);
+    const int delay = i % (kMaxLoopDelay + 1);
     const Environment environment = delayed(
         impedance(between(random, 0.0, 10.0 / period), damping, between(random, 0.0, 3.0 * period), period), delay);
-    const double tried = demand_by_trying(environment, period), found = damping_demand(environment, period);
+    const double searched = demand_by_search(environment, period), found = damping_demand(environment, period);
     CAPTURE(period);
     CAPTURE(delay);
-    CHECK(found >= tried - 1e-9 * std::abs(tried));
-    CHECK(found <= tried + 1e-4 * std::abs(tried));
+    CHECK(found >= searched - 1e-9 * std::abs(searched));
+    CHECK(found <= searched + 1e-4 * std::abs(searched));
   }
 }
 
-TEST_CASE("at the limit the wall asks for the device's damping, just above for more") {
+TEST_CASE("at its limit the wall demands exactly the device's damping") {
   std::mt19937_64 random(2);
   for (int i = 0; i < 40; ++i) {
     ContactLaw law;
@@ -112,7 +112,7 @@ TEST_CASE("at the limit the wall asks for the device's damping, just above for m
     law.stiffness = passive_stiffness_limit(5.0, law, period);
     CAPTURE(i);
     REQUIRE(law.stiffness > 0.0);
-    CHECK(damping_demand(contact(law, period), period) == doctest::Approx(5.0).epsilon(1e-8));
+    CHECK(damping_demand(contact_environment(law, period), period) == doctest::Approx(5.0).epsilon(1e-8));
   }
 }
 
@@ -125,13 +125,13 @@ TEST_CASE("the half-sample hold is a spring and a damper of K (T/2 + d T), all o
     const Environment same = delayed(impedance(800.0, 1.5 + 800.0 * (0.0005 + 0.001 * delay), 0.0, 0.001), delay);
     for (const double angle : {0.01, 0.7, 2.0, 3.1}) {
       const Complex z = std::polar(1.0, angle);
-      CHECK(std::abs(contact(law, 0.001)(z) - same(z)) < 1e-9 * std::abs(same(z)));
+      CHECK(std::abs(contact_environment(law, 0.001)(z) - same(z)) < 1e-9 * std::abs(same(z)));
     }
   }
 }
 
-// Colgate & Schenkel's theorem, through the other file: nothing is shared but the law.
-TEST_CASE("what is passive is stable in every passive hand") {
+// Colgate & Schenkel's theorem, checked with sampled_loop.h, which shares only the law with passivity.h.
+TEST_CASE("a passive environment is stable in every passive hand") {
   std::mt19937_64 random(3);
   for (int i = 0; i < 300; ++i) {
     const AxisModel handle{between(random, 0.02, 0.5), between(random, 0.5, 8.0), between(random, 0.0, 50.0)};
@@ -150,7 +150,7 @@ TEST_CASE("what is passive is stable in every passive hand") {
   }
 }
 
-TEST_CASE("and no more than passive: in a heavy hand a spring just above 2 b / T is not stable") {
+TEST_CASE("passivity is a tight bound: in a heavy hand a spring just above 2 b / T is unstable") {
   ContactLaw law;
   law.hold = ContactHold::zero_order;
   const double limit = stiffness_limit({0.095, 3.0, 0.0}, {100.0, 0.0, 0.0}, law, 0.001);
@@ -158,12 +158,12 @@ TEST_CASE("and no more than passive: in a heavy hand a spring just above 2 b / T
   CHECK(limit < 6000.1);
 }
 
-TEST_CASE("nonsense is refused") {
+TEST_CASE("invalid arguments are rejected") {
   CHECK_THROWS_AS(passive_stiffness_limit(-1.0, 0.0, 0.0, 0, 0.001), std::invalid_argument);
   CHECK_THROWS_AS(passive_stiffness_limit(3.0, 0.0, 0.0, -1, 0.001), std::invalid_argument);
   CHECK_THROWS_AS(passive_stiffness_limit(3.0, 0.0, 0.0, 0, 0.0), std::invalid_argument);
   ContactLaw observed;
   observed.hold = ContactHold::observer;
-  CHECK_THROWS_AS(contact(observed, 0.001), std::invalid_argument);
+  CHECK_THROWS_AS(contact_environment(observed, 0.001), std::invalid_argument);
   CHECK_THROWS_AS(damping_demand(impedance(1.0, 0.0, 0.0, 0.001), std::nan("")), std::invalid_argument);
 }

@@ -1,4 +1,4 @@
-// The exact boundary against what it must be by hand, by frequency response, and by running the shipped loop.
+// The exact boundary against closed forms, the frequency response, and runs of the shipped loop.
 #include "haptics/analysis/sampled_loop.h"
 
 #include <algorithm>
@@ -18,7 +18,7 @@
 #include "haptics/device/simulated_lever.h"
 #include "haptics/gate/plain_aisle.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
 
 namespace {
 
@@ -39,7 +39,7 @@ struct Case {
   double period = 0.001;
 };
 
-// Any device, rate, delay, hand, hold, window and damping that the cycle takes; the damping within what the rate bears.
+// Random device, rate, delay, hand, hold, window and damping; the damping is limited to what the rate allows.
 Case random_case(std::mt19937_64& random, int i) {
   Case c;
   c.handle = {any_between(random, 0.05, 0.5), any_between(random, 0.5, 8.0), any_between(random, 0.0, 50.0)};
@@ -50,9 +50,9 @@ Case random_case(std::mt19937_64& random, int i) {
   c.law.delay = i % 7 < 5 ? i % 7 : 0;
   c.law.window = i % 4 == 3 ? 2 + i % 9 : 1;
   const double mass = c.handle.mass + c.hand.mass;
-  const int late = c.law.delay + c.law.window;
-  c.law.damping = any_between(random, 0.0, 0.5) * mass / (c.period * late);
-  c.law.free_damping = i % 5 == 4 ? any_between(random, 0.0, 0.1) * mass / (c.period * late) : 0.0;
+  const int lag = c.law.delay + c.law.window;
+  c.law.damping = any_between(random, 0.0, 0.5) * mass / (c.period * lag);
+  c.law.free_damping = i % 5 == 4 ? any_between(random, 0.0, 0.1) * mass / (c.period * lag) : 0.0;
   return c;
 }
 
@@ -70,11 +70,11 @@ Complex held_plant(const AxisModel& lever, double period, Complex z) {
          at_q * (z - 1.0) / (z - std::exp(q * period));
 }
 
-// Smallest |1 + E G| over all frequencies: 0 where an eigenvalue lies on the unit circle.
-double distance_to_the_circle(const Case& c) {
+// Smallest |1 + E G| over all frequencies: 0 if an eigenvalue lies on the unit circle.
+double distance_to_unit_circle(const Case& c) {
   const AxisModel lever{c.handle.mass + c.hand.mass, c.handle.damping + c.hand.damping,
                         c.handle.stiffness + c.hand.stiffness};
-  const Environment wall = contact(c.law, c.period);
+  const Environment wall = contact_environment(c.law, c.period);
   const auto distance = [&](double angle) {
     const Complex z = std::polar(1.0, angle);
     return std::abs(1.0 + wall(z) * held_plant(lever, c.period, z));
@@ -102,8 +102,8 @@ Coupling coupling_of(const ContactLaw& law, double stiffness, double period) {
   return coupling;
 }
 
-// A wall under a constant push, made by the shipped estimator, proxy and coupling on the exact plant, one axis of it.
-// The lever starts beside its rest; how much farther from it the motion goes late than early is growth or decay.
+// A wall under a constant push, rendered by the shipped estimator, proxy and coupling on one exactly stepped axis. The
+// lever starts slightly off its rest position; the ratio of late to early amplitude is growth or decay.
 class PushedWall {
  public:
   PushedWall(const Case& c, double stiffness)
@@ -116,17 +116,17 @@ class PushedWall {
                c.period),
         push_(stiffness * kDepth + (c.handle.stiffness + c.hand.stiffness) * kRest),
         period_ns_(std::llround(1e9 * c.period)) {
-    under_way_.fill(-stiffness * kDepth);
+    queue_.fill(-stiffness * kDepth);
     proxy_ = place_proxy(gate_, {0.0, lever_.position});
   }
 
-  double farthest(int cycles) {
-    double most = 0.0;
+  double max_distance(int cycles) {
+    double largest = 0.0;
     for (int i = 0; i < cycles; ++i) {
       step();
-      most = std::max(most, std::abs(lever_.position - kRest));
+      largest = std::max(largest, std::abs(lever_.position - kRest));
     }
-    return most;
+    return largest;
   }
 
  private:
@@ -139,10 +139,10 @@ class PushedWall {
     reading.position = {0.0, lever_.position};
     const LeverMotion motion = estimator_.update(reading);
     proxy_ = move_proxy(gate_, passage_, proxy_, motion.position, 0.0);
-    const double wall = couple(coupling_, gate_, passage_, proxy_, motion).force.y;
-    under_way_[cycle_ % under_way_.size()] = wall - law_.free_damping * motion.smooth_velocity.y;
+    const double wall = contact_force(coupling_, gate_, passage_, proxy_, motion).force.y;
+    queue_[cycle_ % queue_.size()] = wall - law_.free_damping * motion.smooth_velocity.y;
     const auto delay = static_cast<std::uint64_t>(law_.delay);
-    const double due = under_way_[(cycle_ + under_way_.size() - delay) % under_way_.size()];
+    const double due = queue_[(cycle_ + queue_.size() - delay) % queue_.size()];
     lever_ = plant_.step(lever_, due + push_);
   }
 
@@ -156,26 +156,26 @@ class PushedWall {
   std::int64_t period_ns_;
   AxisState lever_{kRest + 1e-8, 0.0};
   Proxy proxy_;
-  std::array<double, kMostDelay + 1> under_way_{};  // [N]
+  std::array<double, kMaxLoopDelay + 1> queue_{};  // [N]
   std::uint64_t cycle_ = 0;
 };
 
-// In which a motion at that spectral radius grows or falls by about e^5, so that the verdict is clear.
-int telling_cycles(Case c, double stiffness) {
+// Number of cycles in which a motion with that spectral radius grows or decays by about e^5, enough for a clear result.
+int decisive_cycles(Case c, double stiffness) {
   c.law.stiffness = stiffness;
   const double rate = std::abs(std::log(spectral_radius(c.handle, c.hand, c.law, c.period)));
   return static_cast<int>(std::clamp(5.0 / rate, 1000.0, 3e6));
 }
 
-// By what factor the motion grew meanwhile.
+// Factor by which the motion grew in that time.
 double growth(const Case& c, double stiffness) {
   PushedWall wall(c, stiffness);
-  const double early = wall.farthest(500);
-  wall.farthest(telling_cycles(c, stiffness));
-  return wall.farthest(500) / early;
+  const double early = wall.max_distance(500);
+  wall.max_distance(decisive_cycles(c, stiffness));
+  return wall.max_distance(500) / early;
 }
 
-// Pushes the simulated lever into the upper wall as soon as the wall's first force arrives: it starts at rest.
+// Pushes the simulated lever into the upper wall once the wall's first force takes effect, so that it starts at rest.
 class PushingHand final : public HandDriver {
  public:
   PushingHand(glm::dvec2 rest, double push, int delay) : push_(push), wait_(delay) { target_.position = rest; }
@@ -190,10 +190,10 @@ class PushingHand final : public HandDriver {
   int wait_;     // [cycles]
 };
 
-// The whole simulated lever in the same wall, along y, without quantisation.
+// The complete simulated lever at the same wall, along y, without quantisation.
 class SimulatedWall {
  public:
-  // Rests on a soft wall first, which then stiffens slowly to 0.98 of the limit: no start disturbs it out of the wall.
+  // Starts on a soft wall that slowly stiffens to 0.98 of the limit, so that the start does not throw it off the wall.
   SimulatedWall(const Case& c, double limit)
       : case_(c),
         stiffness_(0.3 * limit),
@@ -206,18 +206,18 @@ class SimulatedWall {
         observer_(lever_.spec(), c.period) {
     lever_.place(kRest + glm::dvec2(0.0, 1e-7));
     proxy_ = place_proxy(gate_, kRest);
-    fastest(3000);
-    for (const double from = stiffness_; stiffness_ < 0.98 * limit; stiffness_ += 1e-4 * from) fastest(1);
-    fastest(3000);
+    max_speed(3000);
+    for (const double from = stiffness_; stiffness_ < 0.98 * limit; stiffness_ += 1e-4 * from) max_speed(1);
+    max_speed(3000);
   }
 
-  // By what factor the motion grew while it had time to, from now on with this stiffness. The change disturbs it.
+  // Factor by which the motion grows after a change to this stiffness; the change itself excites it.
   double growth(double stiffness) {
     stiffness_ = stiffness;
-    fastest(50);
-    const double early = fastest(200);
-    fastest(telling_cycles(case_, stiffness) / 2);
-    return fastest(200) / early;
+    max_speed(50);
+    const double early = max_speed(200);
+    max_speed(decisive_cycles(case_, stiffness) / 2);
+    return max_speed(200) / early;
   }
 
  private:
@@ -234,27 +234,27 @@ class SimulatedWall {
     return config;
   }
 
-  double fastest(int cycles) {
-    double most = 0.0;
+  double max_speed(int cycles) {
+    double largest = 0.0;
     for (int i = 0; i < cycles; ++i) {
       step();
-      most = std::max(most, std::abs(lever_.true_velocity().y));
+      largest = std::max(largest, std::abs(lever_.true_velocity().y));
     }
-    return most;
+    return largest;
   }
 
   void step() {
     Coupling coupling = coupling_of(case_.law, stiffness_, case_.period);
-    const bool observes = coupling.hold == ContactHold::observer;
-    if (observes) coupling.damping = std::max(coupling.damping, kObservedDamping);  // as HapticLoop does
+    const bool is_observed = coupling.hold == ContactHold::observer;
+    if (is_observed) coupling.damping = std::max(coupling.damping, kMinObserverDamping);  // as in HapticLoop
     const LeverMotion motion = estimator_.update(lever_.read(now_ns_ += period_ns_));
     ObservedMotion observed = observer_.update(motion, command_);
     observed.end += observed.compliance * damping_;
     proxy_ = move_proxy(gate_, passage_, proxy_, motion.position, 0.0);
     damping_ = -case_.law.free_damping * motion.smooth_velocity;
-    const Coupled coupled = observes ? couple(coupling, gate_, passage_, proxy_, observed)
-                                     : couple(coupling, gate_, passage_, proxy_, motion);
-    command_ = coupled.force + damping_;
+    const ContactForce contact = is_observed ? contact_force(coupling, gate_, passage_, proxy_, observed)
+                                             : contact_force(coupling, gate_, passage_, proxy_, motion);
+    command_ = contact.force + damping_;
     lever_.write(command_);
   }
 
@@ -268,13 +268,13 @@ class SimulatedWall {
   LeverEstimator estimator_;
   LeverObserver observer_;
   Proxy proxy_;
-  glm::dvec2 damping_{0.0}, command_{0.0};  // [N] free, and all together
+  glm::dvec2 damping_{0.0}, command_{0.0};  // [N] free damping, total command
 };
 
 }  // namespace
 
 // z^3 + (q/2 - 2) z^2 + (1 + k/2) z - h/2, k = K T^2 / m, h = B T / m, q = k + h: Jury's conditions.
-TEST_CASE("a free mass: K T^2 / m < 2 h (2 - h) / (2 + h), h = B T / m, at most 0.686 at 0.83, nothing from 2 on") {
+TEST_CASE("a free mass: K T^2 / m < 2 h (2 - h) / (2 + h), h = B T / m, at most 0.686 at 0.83, 0 from 2 on") {
   for (const double period : {0.01, 0.001, 0.0001}) {
     const double mass = 0.3;
     ContactLaw law;
@@ -306,7 +306,7 @@ TEST_CASE("a free mass under the half-sample hold: K T^2 / m < (sqrt(h^2 + 16 h)
   CHECK(stiffness_limit({mass, 0.0, 0.0}, kBareHand, law, period) > 0.0);
 }
 
-TEST_CASE("without a wall the radius is the plant's slower pole, and 1 for a mass that nothing holds") {
+TEST_CASE("without a wall the radius is the plant's slower pole, and 1 for a free mass") {
   const double root = std::sqrt(9.0 - 4.0 * 0.095 * 14.8);
   CHECK(spectral_radius(kPaperAxisX, kBareHand, {}, 0.001) ==
         doctest::Approx(std::exp((-3.0 + root) / (2.0 * 0.095) * 0.001)).epsilon(1e-13));
@@ -314,7 +314,7 @@ TEST_CASE("without a wall the radius is the plant's slower pole, and 1 for a mas
 }
 
 TEST_CASE("as T -> 0: K (T/2 + d T) -> b + B") {
-  for (int delay = 0; delay <= kMostDelay; ++delay) {
+  for (int delay = 0; delay <= kMaxLoopDelay; ++delay) {
     for (const double damping : {0.0, 2.0, 5.0}) {
       ContactLaw law;
       law.hold = ContactHold::zero_order;
@@ -336,45 +336,46 @@ TEST_CASE("handle and hand are one lever") {
         doctest::Approx(stiffness_limit(together, kBareHand, law, 0.002)).epsilon(1e-9));
 }
 
-TEST_CASE("a limit beyond 1e9 N/m is infinite, and nonsense is refused") {
+TEST_CASE("a limit beyond 1e9 N/m is infinite, and invalid arguments are rejected") {
   CHECK(std::isinf(stiffness_limit({1e3, 1e4, 1e6}, kBareHand, {}, 1e-6)));
-  const auto refuses = [](const AxisModel& handle, const HandImpedance& hand, const ContactLaw& law, double period) {
+  const auto check_rejected = [](const AxisModel& handle, const HandImpedance& hand, const ContactLaw& law,
+                                 double period) {
     CHECK_THROWS_AS(spectral_radius(handle, hand, law, period), std::invalid_argument);
     CHECK_THROWS_AS(stiffness_limit(handle, hand, law, period), std::invalid_argument);
   };
-  refuses({0.0, 3.0, 14.8}, kBareHand, {}, 0.001);
-  refuses({-0.1, 3.0, 14.8}, kBareHand, {}, 0.001);
-  refuses({0.1, std::nan(""), 14.8}, kBareHand, {}, 0.001);
-  refuses(kPaperAxisX, {-1.0, 0.0, 0.0}, {}, 0.001);
-  refuses(kPaperAxisX, kBareHand, {}, 0.0);
+  check_rejected({0.0, 3.0, 14.8}, kBareHand, {}, 0.001);
+  check_rejected({-0.1, 3.0, 14.8}, kBareHand, {}, 0.001);
+  check_rejected({0.1, std::nan(""), 14.8}, kBareHand, {}, 0.001);
+  check_rejected(kPaperAxisX, {-1.0, 0.0, 0.0}, {}, 0.001);
+  check_rejected(kPaperAxisX, kBareHand, {}, 0.0);
   ContactLaw law;
   law.window = 0;
-  refuses(kPaperAxisX, kBareHand, law, 0.001);
+  check_rejected(kPaperAxisX, kBareHand, law, 0.001);
   law = {};
-  law.delay = kMostDelay + 1;
-  refuses(kPaperAxisX, kBareHand, law, 0.001);
+  law.delay = kMaxLoopDelay + 1;
+  check_rejected(kPaperAxisX, kBareHand, law, 0.001);
   law = {};
   law.damping = -1.0;
-  refuses(kPaperAxisX, kBareHand, law, 0.001);
+  check_rejected(kPaperAxisX, kBareHand, law, 0.001);
 }
 
 TEST_CASE("at the limit an eigenvalue lies on the unit circle, by the frequency response of plant and wall") {
   std::mt19937_64 random(4);
-  int judged = 0;
+  int checked_cases = 0;
   for (int i = 0; i < 120; ++i) {
     Case c = random_case(random, i);
     c.law.stiffness = limit_of(c);
     if (c.law.stiffness == 0.0 || std::isinf(c.law.stiffness)) continue;
     CAPTURE(i);
-    CHECK(distance_to_the_circle(c) < 1e-6);
-    ++judged;
+    CHECK(distance_to_unit_circle(c) < 1e-6);
+    ++checked_cases;
   }
-  CHECK(judged > 80);
+  CHECK(checked_cases > 80);
 }
 
 TEST_CASE("the shipped coupling converges just below the limit and diverges just above") {
   std::mt19937_64 random(5);
-  int judged = 0;
+  int checked_cases = 0;
   for (int i = 0; i < 100; ++i) {
     const Case c = random_case(random, i);
     const double limit = limit_of(c);
@@ -383,13 +384,13 @@ TEST_CASE("the shipped coupling converges just below the limit and diverges just
     CAPTURE(limit);
     CHECK(growth(c, 0.995 * limit) < 0.5);
     CHECK(growth(c, 1.005 * limit) > 2.0);
-    ++judged;
+    ++checked_cases;
   }
-  CHECK(judged > 60);
+  CHECK(checked_cases > 60);
 }
 
-TEST_CASE("so does the simulated lever, under every hold and in every hand, within 1 %") {
-  int judged = 0;
+TEST_CASE("the simulated lever does the same, with every hold and hand, within 1 %") {
+  int checked_cases = 0;
   for (const ContactHold hold : {ContactHold::zero_order, ContactHold::half_sample, ContactHold::observer}) {
     for (const NamedHand& named : kNamedHands) {
       for (const int delay : {0, 1, 3}) {
@@ -397,20 +398,20 @@ TEST_CASE("so does the simulated lever, under every hold and in every hand, with
         c.law.hold = hold;
         c.law.delay = delay;
         c.law.damping =
-            hold == ContactHold::observer && delay == 3 ? 80.0 : 12.0;  // 12 is raised to 50 under an observer
+            hold == ContactHold::observer && delay == 3 ? 80.0 : 12.0;  // 12 is raised to 50 for an observer
         c.law.window = delay == 3 ? 2 : 1;
         c.law.free_damping = delay == 1 ? 5.0 : 0.0;
         const double limit = limit_of(c);
         CAPTURE(named.name);
         CAPTURE(delay);
         CAPTURE(limit);
-        if (std::isinf(limit)) continue;  // an observer that knows the lever bears any wall
-        ++judged;
+        if (std::isinf(limit)) continue;  // an observer with an exact model is stable at any wall
+        ++checked_cases;
         SimulatedWall wall(c, limit);
         CHECK(wall.growth(0.99 * limit) < 0.5);
         CHECK(wall.growth(1.01 * limit) > 2.0);
       }
     }
   }
-  CHECK(judged >= 30);
+  CHECK(checked_cases >= 30);
 }

@@ -7,7 +7,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace gearshift;
+using namespace gearshift::haptics;
 
 namespace {
 
@@ -30,13 +30,13 @@ TEST_CASE("offset 19.04 and gain 0.1551 come out within their uncertainty, throu
       CHECK(line.nonlinearity < 30.0);
     }
     CHECK(found.direction_spread < 0.02);
-    CHECK(found.crosswise < 30.0);
+    CHECK(found.cross_force < 30.0);
   }
 }
 
-TEST_CASE("a sensor without noise: half a step of its resolution at most") {
+TEST_CASE("a sensor without noise: errors of at most half a step of its resolution") {
   const SensorCalibration found = calibrate_sensor(weigh({}, {}, 1, 1));
-  CHECK(std::abs(found.x.offset - 19.04) < 1e-9);  // rounding is even about zero, and so are the directions
+  CHECK(std::abs(found.x.offset - 19.04) < 1e-9);  // rounding and directions are symmetric about zero
   CHECK(std::abs(found.x.gain - 0.1551) < 3.0 * found.x.gain_deviation);
   CHECK(found.x.nonlinearity < 25.0);
   ForceSensorModel fine;
@@ -45,10 +45,10 @@ TEST_CASE("a sensor without noise: half a step of its resolution at most") {
   CHECK(exact.y.gain == doctest::Approx(0.1551).epsilon(1e-12));
   CHECK(exact.y.offset == doctest::Approx(19.04).epsilon(1e-12));
   CHECK(exact.direction_spread < 1e-12);
-  CHECK(exact.crosswise < 1e-9);
+  CHECK(exact.cross_force < 1e-9);
 }
 
-TEST_CASE("a gain that is 3 % off, and a sensor that bends, are found") {
+TEST_CASE("a gain error of 3 % and a nonlinear sensor are detected") {
   ForceSensorModel off = noisy();
   off.gain *= 1.03;
   const SensorCalibration found = calibrate_sensor(weigh(off, noisy(), 20, 1));
@@ -67,7 +67,7 @@ TEST_CASE("a gain that is 3 % off, and a sensor that bends, are found") {
   CHECK(calibrate_sensor(bent).direction_spread > 0.03);
 }
 
-TEST_CASE("too few weights, or none at all, are refused") {
+TEST_CASE("too few weights, or none, are rejected") {
   std::vector<Weighing> weighings = weigh({}, {}, 1, 1);
   weighings.resize(7);  // all along x
   CHECK_THROWS_AS(calibrate_sensor(weighings), std::invalid_argument);

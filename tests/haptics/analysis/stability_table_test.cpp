@@ -1,4 +1,4 @@
-// The exact limits as another program found them before there was this code.
+// The exact limits against values from an independent, earlier program.
 #include <cmath>
 #include <limits>
 
@@ -6,7 +6,7 @@
 
 #include "haptics/analysis/sampled_loop.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
 
 namespace {
 
@@ -29,7 +29,7 @@ constexpr double kNotPrinted = -1.0;
 struct Row {
   double period;          // [s]
   double printed[5];      // [N/m] for kDampings
-  double best_b, best_k;  // where the limit is highest
+  double best_b, best_k;  // damping with the highest limit, and that limit
 };
 
 void check_table(const Row& row, int delay) {
@@ -40,14 +40,14 @@ void check_table(const Row& row, int delay) {
     CHECK(std::abs(limit(kDampings[i], delay, row.period) - row.printed[i]) <= 0.51);
   }
   if (row.best_b == kNotPrinted) return;
-  // Where the limit is highest it is flat, so that the rounding of B does not show.
+  // The maximum is flat, so the rounding of B does not matter.
   const double best = limit(row.best_b, delay, row.period);
   CHECK(best == doctest::Approx(row.best_k).epsilon(0.005));
   CHECK(best > limit(0.9 * row.best_b, delay, row.period));
   CHECK(best > limit(1.1 * row.best_b, delay, row.period));
 }
 
-// K = 5000 N/m is stable for B from first to last, each printed to `digit`.
+// K = 5000 N/m is stable for B from first to last, each printed with the stated resolution.
 struct Band {
   double period;
   int delay;
@@ -55,13 +55,13 @@ struct Band {
   double first, first_digit, last, last_digit;
 };
 
-bool holds_5000(const Band& band, double damping) {
+bool is_stable_at_5000(const Band& band, double damping) {
   ContactLaw law = textbook_wall(damping, band.delay);
   law.stiffness = 5000.0;
   return spectral_radius(kPaperAxisX, band.hand, law, band.period) < 1.0;
 }
 
-constexpr double kOpen = std::numeric_limits<double>::infinity();  // the search ended before the band did
+constexpr double kUnbounded = std::numeric_limits<double>::infinity();  // the band extends beyond the search
 
 }  // namespace
 
@@ -97,7 +97,7 @@ TEST_CASE("two to four samples of delay at 1 ms, bare and gripped") {
   CHECK(std::abs(limit(40.0, 3, 0.001, kGripHand) - 11059) <= 0.51);
 }
 
-TEST_CASE("a long window turns damping against the wall: with 15 ms, as chai3d has it, 5000 N/m fails by it") {
+TEST_CASE("with a long window damping destabilises the wall: with 15 ms, as in chai3d, 5000 N/m becomes unstable") {
   const struct {
     int window;
     double printed[5];
@@ -116,30 +116,36 @@ TEST_CASE("a long window turns damping against the wall: with 15 ms, as chai3d h
   }
 }
 
-TEST_CASE("the dampings between which 5000 N/m is stable") {
-  const Band bands[] = {{0.01, 0, kArmHand, 24, 1, 128, 1},       {0.005, 0, kLightHand, 5.9, 0.1, 62, 1},
-                        {0.005, 0, kGripHand, 0, 0, 90, 1},       {0.005, 0, kArmHand, 4, 1, kOpen, 0},
-                        {0.002, 0, kBareHand, 2.2, 0.1, 89, 1},   {0.002, 0, kLightHand, 0, 0, 196, 1},
-                        {0.001, 0, kBareHand, 0, 0, 189, 1},      {0.005, 1, kArmHand, 43, 1, 103, 1},
-                        {0.002, 1, kLightHand, 8, 1, 72, 1},      {0.002, 1, kGripHand, 1.8, 0.1, 97, 1},
-                        {0.002, 1, kArmHand, 6.7, 0.1, kOpen, 0}, {0.001, 1, kBareHand, 4.9, 0.1, 74, 1}};
+TEST_CASE("the range of damping in which 5000 N/m is stable") {
+  const Band bands[] = {{0.01, 0, kArmHand, 24, 1, 128, 1},
+                        {0.005, 0, kLightHand, 5.9, 0.1, 62, 1},
+                        {0.005, 0, kGripHand, 0, 0, 90, 1},
+                        {0.005, 0, kArmHand, 4, 1, kUnbounded, 0},
+                        {0.002, 0, kBareHand, 2.2, 0.1, 89, 1},
+                        {0.002, 0, kLightHand, 0, 0, 196, 1},
+                        {0.001, 0, kBareHand, 0, 0, 189, 1},
+                        {0.005, 1, kArmHand, 43, 1, 103, 1},
+                        {0.002, 1, kLightHand, 8, 1, 72, 1},
+                        {0.002, 1, kGripHand, 1.8, 0.1, 97, 1},
+                        {0.002, 1, kArmHand, 6.7, 0.1, kUnbounded, 0},
+                        {0.001, 1, kBareHand, 4.9, 0.1, 74, 1}};
   for (const Band& band : bands) {
     CAPTURE(band.period);
     CAPTURE(band.delay);
     CAPTURE(band.hand.mass);
-    CHECK(holds_5000(band, band.first + band.first_digit));
-    if (band.first > 0.0) CHECK_FALSE(holds_5000(band, band.first - band.first_digit));
-    CHECK(holds_5000(band, band.last < kOpen ? band.last - band.last_digit : 200.0));
-    if (band.last < kOpen) CHECK_FALSE(holds_5000(band, band.last + band.last_digit));
+    CHECK(is_stable_at_5000(band, band.first + band.first_digit));
+    if (band.first > 0.0) CHECK_FALSE(is_stable_at_5000(band, band.first - band.first_digit));
+    CHECK(is_stable_at_5000(band, band.last < kUnbounded ? band.last - band.last_digit : 200.0));
+    if (band.last < kUnbounded) CHECK_FALSE(is_stable_at_5000(band, band.last + band.last_digit));
   }
 }
 
-TEST_CASE("and where no damping helps it") {
+TEST_CASE("the cases in which no damping makes 5000 N/m stable") {
   const Band none[] = {
       {0.01, 0, kBareHand, 0, 0, 0, 0},   {0.01, 0, kLightHand, 0, 0, 0, 0}, {0.01, 0, kGripHand, 0, 0, 0, 0},
       {0.005, 0, kBareHand, 0, 0, 0, 0},  {0.01, 1, kArmHand, 0, 0, 0, 0},   {0.005, 1, kBareHand, 0, 0, 0, 0},
       {0.005, 1, kLightHand, 0, 0, 0, 0}, {0.005, 1, kGripHand, 0, 0, 0, 0}, {0.002, 1, kBareHand, 0, 0, 0, 0}};
   for (const Band& band : none) {
-    for (double damping = 0.0; damping <= 200.0; damping += 0.5) CHECK_FALSE(holds_5000(band, damping));
+    for (double damping = 0.0; damping <= 200.0; damping += 0.5) CHECK_FALSE(is_stable_at_5000(band, damping));
   }
 }

@@ -1,4 +1,4 @@
-// How far a point may go along each axis: against a walk in small steps, on gates that nobody drew.
+// free_span() against a walk in small steps, on random gates.
 #include "haptics/contact/free_span.h"
 
 #include <cmath>
@@ -7,20 +7,22 @@
 
 #include <doctest/doctest.h>
 
+#include "app/lab/random_gates/random_layout.h"
 #include "haptics/contact/proxy.h"
 #include "haptics/gate/gate_feel.h"
 #include "tests/support/gates.h"
-#include "tests/support/random_layout.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::lab;
+using namespace gearshift::test;
 using glm::dvec2;
 
 namespace {
 
-constexpr double kStep = 20e-6;      // [m] of the walk
+constexpr double kStep = 20e-6;      // [m] step of the walk
 constexpr double kSpanSlack = 1e-9;  // [m]
 
-// Free, by the gate's own answer for open walls, and by what a passage says in words for the movable ones.
+// Independent check of free space: in_free_space() for the fixed walls, the passage's definition for the movable ones.
 bool is_free(const Gate& gate, const Passage& passage, dvec2 p) {
   if (!in_free_space(gate, p, kSpanSlack)) return false;
   const double mouth = gate.half_aisle + gate.chamfer;
@@ -33,11 +35,11 @@ bool is_free(const Gate& gate, const Passage& passage, dvec2 p) {
   const int slot = p.y > 0.0 ? column.forward_slot : column.back_slot;
   if ((passage.closed >> slot & 1u) != 0 && across > mouth + kSpanSlack) return false;
   if (slot != passage.limited_slot || across <= mouth + kSpanSlack) return true;
-  const double least = passage.depth_min > mouth ? passage.depth_min : 0.0;
-  return across >= least - kSpanSlack && across <= passage.depth_max + kSpanSlack;
+  const double min_depth = passage.depth_min > mouth ? passage.depth_min : 0.0;
+  return across >= min_depth - kSpanSlack && across <= passage.depth_max + kSpanSlack;
 }
 
-// From the point on, step by step, as long as it is free. [m]
+// Distance from the point in steps of kStep until the next step would leave free space. [m]
 double walk(const Gate& gate, const Passage& passage, dvec2 point, dvec2 step) {
   int steps = 0;
   while (is_free(gate, passage, point + static_cast<double>(steps + 1) * step)) ++steps;
@@ -59,7 +61,7 @@ void check_against_walk(const Gate& gate, const Passage& passage, dvec2 p) {
   }
 }
 
-// As the loop limits it: never so that the point lies outside.
+// Limits the depth as the loop does: the point always stays inside the limits.
 void limit_depth(const Gate& gate, dvec2 p, std::mt19937_64& random, Passage& passage) {
   const int slot = slot_at(gate, p);
   if (slot == kNoSlot || random() % 3 != 0) return;

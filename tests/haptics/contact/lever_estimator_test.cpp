@@ -1,4 +1,4 @@
-// Motion from readings, and what is not believed.
+// Motion from readings, and which readings are rejected.
 #include "haptics/contact/lever_estimator.h"
 
 #include <algorithm>
@@ -8,7 +8,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace gearshift;
+using namespace gearshift::haptics;
 using glm::dvec2;
 
 namespace {
@@ -43,24 +43,24 @@ TEST_CASE("constant speed is measured exactly; the smooth one follows 1 - exp(-t
   }
 }
 
-// Else a guard with that much patience would never fall: each new start is fresh to it.
-TEST_CASE("a sensor that lies all the time is a new start 30 ms after the guard's patience, 50 ms at the earliest") {
-  for (const double patience : {0.0, 0.02, 0.06, 1.0}) {
-    LeverEstimator estimator({}, kCycle, 0.0, patience);
+// If the estimator restarted earlier, the guard would never react: to the guard each restart is a fresh reading.
+TEST_CASE("with a faulty sensor the estimator restarts 30 ms after the guard's stale time, 50 ms at the earliest") {
+  for (const double stale_time : {0.0, 0.02, 0.06, 1.0}) {
+    LeverEstimator estimator({}, kCycle, 0.0, stale_time);
     CHECK(estimator.update(reading(1, {0.0, 0.0})).fresh);
     int silent = 0;  // [cycles]
     while (
         silent < 2000 &&
         !estimator.update(reading(static_cast<std::uint64_t>(silent) + 2, {silent % 2 == 0 ? 1.0 : -1.0, 0.0})).fresh)
       ++silent;
-    const double late = silent * kCycle - std::max(0.05, patience + 0.03);  // [s] by the sum's rounding a cycle at most
+    const double late = silent * kCycle - std::max(0.05, stale_time + 0.03);  // [s] at most one cycle, by rounding
     CHECK(late > -1e-9);
     CHECK(late < kCycle + 1e-9);
   }
 }
 
-// A lever that rests on the edge of a count flips by it: that is no speed (campaign, case 3394 of seed 1).
-TEST_CASE("a jump by one count is believed at any rate, one by two counts faster than anything is not") {
+// A lever at rest on the edge between two counts flips between them, which is not a speed (campaign seed 1, case 3394).
+TEST_CASE("a jump by one count is accepted at any rate, one by two counts above the speed limit is not") {
   constexpr double kCount = 1e-4, kFastCycle = 2.5e-4;  // [m], [s]: 0.4 m/s
   EstimatorConfig config;
   config.speed_limit = 0.1;
@@ -75,7 +75,7 @@ TEST_CASE("a jump by one count is believed at any rate, one by two counts faster
   }
 }
 
-TEST_CASE("a device with its own clock: faster, slower or late samples, the speed is the true one") {
+TEST_CASE("a device with its own clock: with faster, slower or late samples the speed is still correct") {
   const auto sample = [](std::uint64_t sequence, std::int64_t time_ns) {
     LeverReading r;
     r.sequence = sequence;
@@ -88,7 +88,7 @@ TEST_CASE("a device with its own clock: faster, slower or late samples, the spee
     const LeverMotion m = fast_loop.update(sample(static_cast<std::uint64_t>(cycle / 4) + 1, (cycle / 4) * kCycleNs));
     if (m.fresh && cycle > 4) CHECK(m.velocity.x == doctest::Approx(0.3));
   }
-  LeverEstimator slow_loop({}, kCycle);  // 2 kHz device, 1 kHz loop: every second sample is seen
+  LeverEstimator slow_loop({}, kCycle);  // 2 kHz device, 1 kHz loop: every second sample is read
   for (int cycle = 0; cycle < 100; ++cycle) {
     const LeverMotion m = slow_loop.update(sample(2 * static_cast<std::uint64_t>(cycle) + 1, cycle * kCycleNs));
     if (cycle > 1) CHECK(m.velocity.x == doctest::Approx(0.3));
@@ -119,18 +119,18 @@ TEST_CASE("repeated, backward, impossible and not finite readings are not fresh 
   }
 }
 
-TEST_CASE("after 50 ms of silence the next reading is a new start: a plugged-in device counts from one again") {
+TEST_CASE("after 50 ms without samples it restarts at the next: a replugged device counts from one again") {
   for (const std::uint64_t restarted : {std::uint64_t{1}, std::uint64_t{500}}) {
     LeverEstimator estimator = moving_estimator(0.3, 10);
     for (int i = 0; i < 60; ++i) estimator.update(reading(10, {0.003, 0.0}));
     const LeverMotion m = estimator.update(reading(restarted, {0.012, 0.0}));
     CHECK(m.fresh);
     CHECK(m.position == dvec2{0.012, 0.0});
-    CHECK(m.velocity == dvec2{0.0, 0.0});  // 9 mm in an unknown time is no speed
+    CHECK(m.velocity == dvec2{0.0, 0.0});  // 9 mm in an unknown time does not define a speed
   }
 }
 
-TEST_CASE("a lever that really is elsewhere is taken up again after 50 ms, at rest") {
+TEST_CASE("a lever that really has moved elsewhere is accepted there after 50 ms, at rest") {
   LeverEstimator estimator = moving_estimator(0.3, 10);
   LeverMotion m;
   std::uint64_t sequence = 11;
@@ -144,17 +144,17 @@ TEST_CASE("a lever that really is elsewhere is taken up again after 50 ms, at re
   CHECK(m.velocity == dvec2{0.0, 0.0});
 }
 
-TEST_CASE("a longer window: the difference over it, of what there is at first, and nothing from before a loss") {
+TEST_CASE("a longer window: the difference over it, over fewer samples at first, and none from before a restart") {
   EstimatorConfig config;
   config.window = 5;
   LeverEstimator estimator(config, kCycle);
-  const auto at = [](int n) { return 1e-6 * n * n; };  // [m], so that every window has its own speed
+  const auto at = [](int n) { return 1e-6 * n * n; };  // [m] every window has a different speed
   for (int n = 1; n <= 30; ++n) {
     const LeverMotion m = estimator.update(reading(static_cast<std::uint64_t>(n), {at(n), 0.0}));
     const int back = std::min(5, n - 1);
     if (back > 0) CHECK(m.velocity.x == doctest::Approx((at(n) - at(n - back)) / (back * kCycle)));
   }
-  for (int n = 0; n < 60; ++n) estimator.update(reading(30, {at(30), 0.0}));  // lost, and found elsewhere
+  for (int n = 0; n < 60; ++n) estimator.update(reading(30, {at(30), 0.0}));  // lost, then found elsewhere
   CHECK(estimator.update(reading(91, {0.03, 0.0})).velocity.x == 0.0);
   CHECK(estimator.update(reading(92, {0.0301, 0.0})).velocity.x == doctest::Approx(0.1));
 }

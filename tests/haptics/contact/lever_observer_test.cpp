@@ -1,4 +1,4 @@
-// The observer against the plant that it models, and the hold that it makes possible against conservation of energy.
+// The observer against the plant it models, and the hold based on it against conservation of energy.
 #include "haptics/contact/lever_observer.h"
 
 #include <algorithm>
@@ -12,7 +12,7 @@
 #include "haptics/contact/virtual_coupling.h"
 #include "haptics/joystick/plant.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
 
 TEST_CASE("Ackermann: the error obeys (z - p)^3 = 0, p = exp(-bandwidth T), from any start (Cayley-Hamilton)") {
   for (const double period : {0.00025, 0.001, 0.005}) {
@@ -39,7 +39,7 @@ TEST_CASE("Ackermann: the error obeys (z - p)^3 = 0, p = exp(-bandwidth T), from
   }
 }
 
-TEST_CASE("with a true model it knows the lever at the moment when the next command acts, at any delay") {
+TEST_CASE("with an exact model it predicts the lever at the moment when the next command acts, at any delay") {
   constexpr double kPeriod = 0.001;
   for (int delay = 0; delay <= 8; ++delay) {
     DeviceSpec spec;
@@ -50,55 +50,56 @@ TEST_CASE("with a true model it knows the lever at the moment when the next comm
       return n < 0 ? glm::dvec2{0.0} : glm::dvec2{std::sin(0.03 * n), std::cos(0.05 * n)};
     };
     AxisState select{0.002, 0.0}, shift{-0.001, 0.0};
-    std::vector<glm::dvec2> at, seen_begin, seen_end;
+    std::vector<glm::dvec2> at, predicted_begin, predicted_end;
     const glm::dvec2 hand{1.5, -0.7};
     for (int n = 0; n < 400; ++n) {
       LeverMotion motion;
       motion.position = {select.position, shift.position};
       motion.fresh = true;
-      const ObservedMotion seen = observer.update(motion, command(n - 1));
+      const ObservedMotion predicted = observer.update(motion, command(n - 1));
       at.push_back(motion.position);
-      seen_begin.push_back(seen.position);
-      // the truth of the hold from n + delay on, the motors giving nothing in it
-      seen_end.push_back(seen.end + seen.compliance * command(n));
+      predicted_begin.push_back(predicted.position);
+      // End of the hold that starts at n + delay. predicted.end excludes the motors, so their effect is added.
+      predicted_end.push_back(predicted.end + predicted.compliance * command(n));
       const glm::dvec2 force = command(n - delay) + hand;
       select = x.step(select, force.x);
       shift = y.step(shift, force.y);
     }
     for (std::size_t i = 200; i < 380; ++i) {
       const std::size_t begin = i + static_cast<std::size_t>(delay);
-      CHECK(seen_begin[i].x == doctest::Approx(at[begin].x).epsilon(1e-9));
-      CHECK(seen_begin[i].y == doctest::Approx(at[begin].y).epsilon(1e-9));
-      CHECK(seen_end[i].x == doctest::Approx(at[begin + 1].x).epsilon(1e-9));
-      CHECK(seen_end[i].y == doctest::Approx(at[begin + 1].y).epsilon(1e-9));
+      CHECK(predicted_begin[i].x == doctest::Approx(at[begin].x).epsilon(1e-9));
+      CHECK(predicted_begin[i].y == doctest::Approx(at[begin].y).epsilon(1e-9));
+      CHECK(predicted_end[i].x == doctest::Approx(at[begin + 1].x).epsilon(1e-9));
+      CHECK(predicted_end[i].y == doctest::Approx(at[begin + 1].y).epsilon(1e-9));
     }
   }
 }
 
 namespace {
 
-// A free impact of a handle whose state is known, on the solved hold: energy that the wall gave, of the impact's.
-double energy_share(const AxisModel& axis, const Coupling& wall, double speed, double phase) {
+// Free impact of a handle of known state on a wall with the solved hold: energy supplied by the wall as a fraction of
+// the impact energy.
+double wall_energy_fraction(const AxisModel& axis, const Coupling& wall, double speed, double phase) {
   const AxisStepper plant(axis, wall.period);
   const double compliance = plant.step({}, 1.0).position;
   AxisState lever{-phase * speed * wall.period, speed};
-  double given = 0.0;
+  double energy = 0.0;
   bool entered = false;
   for (int n = 0; n < 20000; ++n) {
     const double force = -solved_force(wall, lever.position, plant.step(lever, 0.0).position, compliance);
     const AxisState next = plant.step(lever, force);
-    given += force * (next.position - lever.position);
+    energy += force * (next.position - lever.position);
     lever = next;
     entered = entered || lever.position > 0.0;
     if (entered && lever.position < 0.0) break;
   }
-  return given / (0.5 * axis.mass * speed * speed);
+  return energy / (0.5 * axis.mass * speed * speed);
 }
 
 }  // namespace
 
-// A stick that is unplugged: 20 N of a hand against a wall, taken as constant, would carry the model off by metres.
-TEST_CASE("without samples it stays where the last one was, and begins anew with the next") {
+// When a stick is unplugged, 20 N of a hand against a wall, assumed constant, would move the model by metres.
+TEST_CASE("without samples it stays at the last one, and restarts at the next") {
   constexpr double kPeriod = 0.001;
   DeviceSpec spec;
   spec.delay = 3;
@@ -106,31 +107,31 @@ TEST_CASE("without samples it stays where the last one was, and begins anew with
   LeverMotion motion;
   motion.position = {0.02, 0.01};
   motion.fresh = true;
-  for (int n = 0; n < 300; ++n) observer.update(motion, {-20.0, 0.0});  // it stands still: the hand gives as much
+  for (int n = 0; n < 300; ++n) observer.update(motion, {-20.0, 0.0});  // at rest: the hand balances the motors
   motion.fresh = false;
-  ObservedMotion seen;
-  for (int n = 0; n < 1000; ++n) seen = observer.update(motion, {0.0, 0.0});
-  CHECK(seen.position.x == doctest::Approx(0.02).epsilon(0.01));
+  ObservedMotion predicted;
+  for (int n = 0; n < 1000; ++n) predicted = observer.update(motion, {0.0, 0.0});
+  CHECK(predicted.position.x == doctest::Approx(0.02).epsilon(0.01));
   motion.position = {0.05, -0.03};
   motion.fresh = true;
-  seen = observer.update(motion, {0.0, 0.0});
-  CHECK(seen.position.x == doctest::Approx(0.05).epsilon(0.01));
-  CHECK(seen.position.y == doctest::Approx(-0.03).epsilon(0.01));
+  predicted = observer.update(motion, {0.0, 0.0});
+  CHECK(predicted.position.x == doctest::Approx(0.05).epsilon(0.01));
+  CHECK(predicted.position.y == doctest::Approx(-0.03).epsilon(0.01));
 }
 
-TEST_CASE("solved hold, true model, no damping: the wall gives back what it took, to rounding, at any K and T") {
+TEST_CASE("solved hold, exact model, no damping: the wall returns what it absorbed, to rounding, at any K and T") {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   for (const double period : {0.01, 0.005, 0.001, 0.00025}) {
     for (const double stiffness : {300.0, 5000.0, 100000.0}) {
       for (int i = 0; i < 50; ++i) {
         const Coupling wall{stiffness, 0.0, period};
-        CHECK(std::abs(energy_share(kPaperAxisX, wall, 0.1 + unit(random), unit(random))) < 1e-12);
+        CHECK(std::abs(wall_energy_fraction(kPaperAxisX, wall, 0.1 + unit(random), unit(random))) < 1e-12);
       }
     }
   }
-  // With damping it takes; and the textbook's spring, which is no solved hold, gives 33 % at 1 ms (energy_control_test).
-  CHECK(energy_share(kPaperAxisX, {5000.0, 50.0, 0.001}, 0.3, 0.5) < -0.3);
+  // With damping the wall absorbs energy. For comparison, a zero-order spring adds 33 % at 1 ms (energy_control_test).
+  CHECK(wall_energy_fraction(kPaperAxisX, {5000.0, 50.0, 0.001}, 0.3, 0.5) < -0.3);
 }
 
 TEST_CASE("solved force: continuous where the lever begins at the wall, and never pulls") {

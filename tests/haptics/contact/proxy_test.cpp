@@ -1,4 +1,4 @@
-// The proxy never leaves the free space, never jumps a wall, and never makes energy.
+// The proxy never leaves free space, never jumps a wall and never generates energy.
 #include "haptics/contact/proxy.h"
 
 #include <algorithm>
@@ -16,7 +16,8 @@
 #include "tests/support/gates.h"
 #include "tests/support/whole_campaign.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 using glm::dvec2;
 
 namespace {
@@ -38,7 +39,7 @@ dvec2 wander(dvec2 lever, std::mt19937_64& random) {
   return {std::clamp(next.x, -0.09, 0.09), std::clamp(next.y, -0.08, 0.08)};
 }
 
-// A smooth closed curve through and beyond the gate: harmonics with random amplitudes.
+// A smooth closed curve through the gate and beyond it: harmonics with random amplitudes.
 class ClosedPath {
  public:
   explicit ClosedPath(std::mt19937_64& random) {
@@ -86,7 +87,7 @@ TEST_CASE("a million random steps and throws never leave the free space; the oth
   }
 }
 
-TEST_CASE("a lever in free space of the proxy's own aisle is its proxy: no force without a wall") {
+TEST_CASE("a lever in the free space of the proxy's aisle coincides with its proxy: no force without a wall") {
   const Gate gate = paper_gate();
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> jitter(-1e-3, 1e-3);
@@ -104,7 +105,7 @@ TEST_CASE("a throw from one slot to another in one sample leaves the proxy in it
   for (const int from : {1, 2, 3, 4, 5, kReverseGear}) {
     for (const int to : {1, 2, 3, 4, 5, kReverseGear}) {
       const dvec2 a = rest_position(gate, from), b = rest_position(gate, to);
-      if (a.x == b.x) continue;  // the same column: the way is open
+      if (a.x == b.x) continue;  // same column: no wall between them
       const Proxy proxy = move_proxy(gate, open_passage(gate), {a, a}, b, kHandOver);
       CAPTURE(from);
       CAPTURE(to);
@@ -150,7 +151,7 @@ TEST_CASE("when the governing wall changes the force changes by at most K (2 |st
   std::mt19937_64 random(4);
   Proxy proxy;
   dvec2 lever{0.0};
-  double most = 0.0;
+  double max_change = 0.0;
   for (int i = 0; i < 500'000; ++i) {
     const dvec2 before = lever - proxy.position;
     const dvec2 next = wander(lever, random);
@@ -159,19 +160,18 @@ TEST_CASE("when the governing wall changes the force changes by at most K (2 |st
     proxy = move_proxy(gate, open_passage(gate), proxy, lever, kHandOver);
     const double change = kStiffness * glm::distance(lever - proxy.position, before);
     REQUIRE(change <= kStiffness * (2.0 * step + kHandOver) + 1e-9);
-    if (step < 2e-4) most = std::max(most, change);
+    if (step < 2e-4) max_change = std::max(max_change, change);
   }
-  CHECK(most > 1.0);  // the bound has been tested where it matters
+  CHECK(max_change > 1.0);  // the test did reach large changes
 }
 
-// Work along a path is measured from the forces alone (trapezoid rule at 0.2 um); what is still stored in the
-// coupling's spring and in the gate's potential is accounted for, so the law holds at every moment of the
-// path.
+// Work along a path is measured from the forces only (trapezoid rule, 0.2 um steps). Energy still stored in the
+// coupling spring and the gate's potential is accounted for, so the law must hold at every point of the path.
 TEST_CASE("kinematic closed paths give back at most 1e-9 J of position-only work") {
   for (const std::string& name : {std::string("paper"), std::string("dog_leg_five")}) {
     const Gate gate = shipped_gate(name);
     std::mt19937_64 random(5);
-    const double scale = std::min(1.0, kStiffness / stiffest_feel(gate));
+    const double scale = std::min(1.0, kStiffness / max_feel_stiffness(gate));
     for (int trial = 0; trial < (is_whole_campaign() ? 12 : 3); ++trial) {
       CAPTURE(trial);
       const ClosedPath path(random);
@@ -188,15 +188,15 @@ TEST_CASE("kinematic closed paths give back at most 1e-9 J of position-only work
       dvec2 lever = path.at(0.0);
       dvec2 last = force(lever);
       const double at_start = stored(lever);
-      double given = 0.0, worst = -1.0;
+      double work = 0.0, worst = -1.0;
       for (int i = 1; i <= steps; ++i) {
         const dvec2 next = path.at(static_cast<double>(i) / steps);
         proxy = move_proxy(gate, open_passage(gate), proxy, next, 2e-7);
         const dvec2 now = force(next);
-        given += glm::dot(0.5 * (last + now), next - lever);
+        work += glm::dot(0.5 * (last + now), next - lever);
         lever = next;
         last = now;
-        worst = std::max(worst, given + stored(lever) - at_start);
+        worst = std::max(worst, work + stored(lever) - at_start);
       }
       CHECK(worst <= 1e-9);
     }
@@ -221,7 +221,7 @@ TEST_CASE("a closed slot is a wall at its mouth, and a limit of depth is a wall:
     blocked.limited_slot = slot;
     blocked.depth_max = 0.020;
     CHECK(pushed(blocked, mouth, goal) == doctest::Approx(0.020));
-    Passage locked = open_passage(gate);  // torque lock: no way out
+    Passage locked = open_passage(gate);  // torque lock: the lever cannot leave the gear
     locked.limited_slot = slot;
     locked.depth_min = 0.030;
     locked.depth_max = 1.0;
@@ -229,7 +229,7 @@ TEST_CASE("a closed slot is a wall at its mouth, and a limit of depth is a wall:
   }
 }
 
-TEST_CASE("a free lever is exactly its proxy: no contact is made of rounding") {
+TEST_CASE("a free lever is exactly its proxy: rounding causes no contact") {
   const Gate gate = paper_gate();
   Proxy proxy;
   std::mt19937_64 random(6);

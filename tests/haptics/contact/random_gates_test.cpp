@@ -1,4 +1,4 @@
-// The proxy's laws on gates that nobody drew, with movable walls that open and close at random.
+// The proxy's laws on random gates with movable walls that open and close at random.
 #include <algorithm>
 #include <cstdint>
 #include <initializer_list>
@@ -7,12 +7,14 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include "app/lab/random_gates/random_layout.h"
 #include "haptics/contact/proxy.h"
 #include "haptics/gate/gate_feel.h"
 #include "tests/support/gates.h"
-#include "tests/support/random_layout.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::lab;
+using namespace gearshift::test;
 using glm::dvec2;
 
 namespace {
@@ -47,7 +49,7 @@ TEST_CASE("200 random gates: a million steps and throws, walls opening and closi
       proxy = move_proxy(gate, passage, proxy, lever, 0.5e-3);
       REQUIRE(in_free_space(gate, proxy.position, 1e-9));
       REQUIRE(glm::distance(lever, proxy.position) <= glm::distance(lever, before) + 1e-12);
-      // a lateral wall that is closed is not crossed, nor a closed slot entered
+      // It neither crosses a closed lateral wall nor enters a closed slot.
       REQUIRE(proxy.position.x <= std::max(passage.select_max, before.x) + 1e-9);
       REQUIRE(proxy.position.x >= std::min(passage.select_min, before.x) - 1e-9);
       const int slot = slot_at(gate, proxy.position);

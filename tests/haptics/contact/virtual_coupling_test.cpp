@@ -1,4 +1,4 @@
-// Half-sample hold against the integral it stands for.
+// The half-sample hold against the integral that it approximates.
 #include "haptics/contact/virtual_coupling.h"
 
 #include <algorithm>
@@ -10,7 +10,8 @@
 
 #include "tests/support/gates.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 using glm::dvec2;
 
 namespace {
@@ -25,10 +26,10 @@ double wall_force(const Gate& gate, const Coupling& coupling, double depth, doub
   LeverMotion motion;
   motion.position = {x, gate.half_aisle + depth};
   motion.velocity = {0.0, speed};
-  return -couple(coupling, gate, open_passage(gate), proxy, motion).force.y;
+  return -contact_force(coupling, gate, open_passage(gate), proxy, motion).force.y;
 }
 
-// Mean spring force over the coming period by quadrature: the answer that the hold must equal.
+// Mean spring force over the coming period by quadrature: the reference for the hold.
 double mean_spring_force(double stiffness, double depth, double speed, double horizon) {
   const int n = 200000;
   double sum = 0.0;
@@ -68,14 +69,14 @@ TEST_CASE("a wall never pulls, however fast the lever leaves it") {
   for (int i = 0; i < 10000; ++i) REQUIRE(wall_force(gate, coupling, depth(random), speed(random)) >= 0.0);
 }
 
-TEST_CASE("damping acts along the wall's normal only: sliding along a wall costs nothing") {
+TEST_CASE("damping acts along the wall's normal only: sliding along a wall is not damped") {
   const Gate gate = paper_gate();
   const double x = 0.5 * (gate.column[0].center + gate.column[1].center);
   const Proxy proxy{{x, gate.half_aisle}, {x, gate.half_aisle + 0.001}};
   LeverMotion motion;
   motion.position = {x, gate.half_aisle + 0.001};
   motion.velocity = {0.5, 0.0};
-  const dvec2 force = couple({5000.0, 20.0, kCouplingPeriod}, gate, open_passage(gate), proxy, motion).force;
+  const dvec2 force = contact_force({5000.0, 20.0, kCouplingPeriod}, gate, open_passage(gate), proxy, motion).force;
   CHECK(std::abs(force.x) < 1e-9);
   CHECK(force.y == doctest::Approx(-5.0));
 }
@@ -92,20 +93,20 @@ TEST_CASE("round a mouth's corner at rest the force changes by at most K times t
   const Coupling coupling{5000.0, 10.0, kCouplingPeriod};
   Proxy proxy{{column.center - 0.012, gate.half_aisle}, {column.center - 0.012, gate.half_aisle + 0.005}};
   dvec2 before{0.0, -25.0};
-  double most = 0.0;
+  double max_change = 0.0;
   for (int um = -12000; um < 12000; ++um) {  // 1 mm/s
     LeverMotion motion;
     motion.position = {column.center + 1e-6 * um, gate.half_aisle + 0.005};
     proxy = move_proxy(gate, open_passage(gate), proxy, motion.position, kProxyStep);
-    const dvec2 now = couple(coupling, gate, open_passage(gate), proxy, motion).force;
-    most = std::max(most, glm::distance(now, before));
+    const dvec2 now = contact_force(coupling, gate, open_passage(gate), proxy, motion).force;
+    max_change = std::max(max_change, glm::distance(now, before));
     before = now;
   }
-  CHECK(most <= 5000.0 * (2e-6 + kProxyStep) + 1e-9);
-  CHECK(most > 1.0);
+  CHECK(max_change <= 5000.0 * (2e-6 + kProxyStep) + 1e-9);
+  CHECK(max_change > 1.0);
 }
 
-TEST_CASE("no force in free space that is not about to end") {
+TEST_CASE("no force in free space unless the lever is about to reach a wall") {
   const Gate gate = paper_gate();
   const Coupling coupling{5000.0, 10.0, kCouplingPeriod};
   CHECK(wall_force(gate, coupling, -1e-3, 0.9) == 0.0);

@@ -8,11 +8,11 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
-#include "haptics/device/led_hand.h"
 #include "haptics/device/scripted_hand.h"
 #include "haptics/device/simulated_lever.h"
+#include "haptics/device/smoothed_hand.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
 
 namespace {
 
@@ -80,7 +80,7 @@ TEST_CASE("aims scatter with the stated deviation, once per stroke, and the seed
 
 TEST_CASE("effort grows as gain x lag x time up to its limit, and fades within 50 ms of arrival") {
   ScriptedHandConfig config;
-  config.start = {0.0, 0.010};  // the lever is held 10 mm behind
+  config.start = {0.0, 0.010};  // the lever stays 10 mm behind
   config.effort_gain = 2000.0;
   config.effort_limit = 12.0;
   ScriptedHand hand(config, {}, 1e-3);
@@ -117,7 +117,7 @@ TEST_CASE("a soft hand that lags 30 mm at most pulls through 12 N with effort, a
 TEST_CASE("a person's hand is led from where the lever is, by a critically damped step") {
   LatestValue<HandTarget> channel;
   const double tau = 0.020;
-  LedHand hand(channel, 1e-3, tau);
+  SmoothedHand hand(channel, 1e-3, tau);
   HandTarget wanted;
   wanted.position = {0.05, -0.01};
   wanted.pressed_down = true;
@@ -133,9 +133,9 @@ TEST_CASE("a person's hand is led from where the lever is, by a critically dampe
   }
 }
 
-TEST_CASE("a person's hand ignores what is not a number") {
+TEST_CASE("a person's hand ignores targets that are not finite") {
   LatestValue<HandTarget> channel;
-  LedHand hand(channel, 1e-3);
+  SmoothedHand hand(channel, 1e-3);
   HandTarget bad;
   bad.position = {std::nan(""), 0.0};
   channel.write(bad);
@@ -147,20 +147,20 @@ TEST_CASE("a person's hand ignores what is not a number") {
 
 TEST_CASE("a person's hand refuses a period or a smoothing out of range") {
   LatestValue<HandTarget> channel;
-  CHECK_THROWS_WITH_AS(LedHand(channel, 0.0), "LedHand: period = 0: must be between 1e-06 and 1 s",
+  CHECK_THROWS_WITH_AS(SmoothedHand(channel, 0.0), "SmoothedHand: period = 0: must be between 1e-06 and 1 s",
                        std::invalid_argument);
-  CHECK_THROWS_WITH_AS(LedHand(channel, 1e-3, 2.0), "LedHand: smoothing = 2: must be between 0.001 and 1 s",
+  CHECK_THROWS_WITH_AS(SmoothedHand(channel, 1e-3, 2.0), "SmoothedHand: smoothing = 2: must be between 0.001 and 1 s",
                        std::invalid_argument);
 }
 
 TEST_CASE("a hand is a name or three numbers, and nothing else") {
-  CHECK(hand_from_text("grip")->stiffness == 500.0);
-  CHECK(hand_from_text("arm")->mass == 0.8);
-  CHECK(hand_from_text(".15,10,5e2")->stiffness == 500.0);
+  CHECK(parse_hand("grip")->stiffness == 500.0);
+  CHECK(parse_hand("arm")->mass == 0.8);
+  CHECK(parse_hand(".15,10,5e2")->stiffness == 500.0);
   for (const char* text : {"", "Grip", "grip ", "1,2", "1,2,3,4", "1,2,3 ", "1;2;3", "-1,2,3", "nan,1,1", "1,inf,1",
                            "1,,1", "1,2,1e999", ",,", "0x1,1,1"}) {
     CAPTURE(text);
-    CHECK_FALSE(hand_from_text(text).has_value());
+    CHECK_FALSE(parse_hand(text).has_value());
   }
 }
 

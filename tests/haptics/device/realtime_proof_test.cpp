@@ -1,13 +1,14 @@
-// The calls that run in the haptic cycle, proved: no allocation, no lock, no system call.
+// Proof that the calls of the haptic cycle do not allocate, lock or make system calls.
 #include "tests/support/realtime_proof.h"
 
 #include <doctest/doctest.h>
 
-#include "haptics/device/led_hand.h"
 #include "haptics/device/scripted_hand.h"
 #include "haptics/device/simulated_lever.h"
+#include "haptics/device/smoothed_hand.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 
 TEST_CASE("reading, writing and releasing allocate nothing, take no lock and make no system call") {
   SimulatedLeverConfig config;
@@ -22,19 +23,19 @@ TEST_CASE("reading, writing and releasing allocate nothing, take no lock and mak
   stroke.to = {0.07, 0.06};
   ScriptedHand scripted(script, {stroke, HandStroke{}}, 1e-3);
   LatestValue<HandTarget> channel;
-  LedHand led(channel, 1e-3);
-  SimulatedLever by_script(config, 1'000'000, scripted), by_person(config, 1'000'000, led);
+  SmoothedHand smoothed(channel, 1e-3);
+  SimulatedLever scripted_lever(config, 1'000'000, scripted), smoothed_lever(config, 1'000'000, smoothed);
 
   const RealtimeProof proof = prove_realtime([&] {
     for (std::int64_t ms = 0; ms < 1000; ++ms) {
       channel.write(HandTarget{{0.01, 0.02}, {}, {}, false, false});
-      by_script.read(ms * 1'000'000);
-      by_script.write({-20.0, 3.0});
-      by_person.read(ms * 1'000'000);
-      by_person.write({2.0, 2.0});
+      scripted_lever.read(ms * 1'000'000);
+      scripted_lever.write({-20.0, 3.0});
+      smoothed_lever.read(ms * 1'000'000);
+      smoothed_lever.write({2.0, 2.0});
     }
-    by_script.release();
-    by_person.place({0.01, 0.01});
+    scripted_lever.release();
+    smoothed_lever.place({0.01, 0.01});
   });
   INFO(proof.verdict());
   CHECK(proof.clean());

@@ -14,7 +14,8 @@
 
 #include "tests/haptics/device/still_hand.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 
 namespace {
 
@@ -28,7 +29,7 @@ JointTorques torques_along(glm::dvec2 arc_force) {
   return {0.120 * arc_force.x, -0.120 * arc_force.y};
 }
 
-// No encoder, no sensor resolution: the physics alone.
+// No encoder and no sensor resolution: physics only.
 SimulatedLeverConfig exact(const HandImpedance& hand = kBareHand) {
   SimulatedLeverConfig config;
   config.encoder_counts = 0.0;
@@ -37,7 +38,7 @@ SimulatedLeverConfig exact(const HandImpedance& hand = kBareHand) {
   return config;
 }
 
-// A lever with its clock: run(n) is n periods.
+// A lever with its clock; run(n) advances n periods.
 struct Bench {
   Bench(const SimulatedLeverConfig& config, const HandTarget& target, std::int64_t period = kMillisecond)
       : hand(target), lever(config, period, hand), period_ns(period) {
@@ -54,8 +55,8 @@ struct Bench {
   LeverReading reading;
 };
 
-// m x'' + b x' + k x = k_h target from rest at 0, by its two poles.
-double led_to(const AxisModel& axis, const HandImpedance& hand, double target, double time) {
+// Position under m x'' + b x' + k x = k_h target from rest at 0, from the two poles.
+double position_led_to(const AxisModel& axis, const HandImpedance& hand, double target, double time) {
   using Complex = std::complex<double>;
   const Complex m = axis.mass + hand.mass, b = axis.damping + hand.damping, k = axis.stiffness + hand.stiffness;
   const Complex root = std::sqrt(b * b - 4.0 * m * k), p1 = (-b + root) / (2.0 * m), p2 = (-b - root) / (2.0 * m);
@@ -82,8 +83,8 @@ TEST_CASE("handle and hand are one axis: led to a point, each arc is the textboo
     Bench bench(exact(hand), hand_at(point));
     for (int ms = 1; ms <= 400; ++ms) {
       bench.run(1);
-      CHECK(std::abs(bench.arc().x - led_to(kPaperAxisX, hand, target.x, ms * 1e-3)) < 1e-13);
-      CHECK(std::abs(bench.arc().y - led_to(kPaperAxisY, hand, target.y, ms * 1e-3)) < 1e-13);
+      CHECK(std::abs(bench.arc().x - position_led_to(kPaperAxisX, hand, target.x, ms * 1e-3)) < 1e-13);
+      CHECK(std::abs(bench.arc().y - position_led_to(kPaperAxisY, hand, target.y, ms * 1e-3)) < 1e-13);
     }
   }
 }
@@ -113,14 +114,14 @@ TEST_CASE("the hand's force is m a + b v + k x - f of the handle, the hand's own
   for (int i = 0; i < 500; ++i) {
     const glm::dvec2 before = bench.arc();
     bench.run(1);
-    const glm::dvec2 now = bench.arc(), measured = bench.reading.hand_force, given = bench.reading.actuator_force;
+    const glm::dvec2 now = bench.arc(), measured = bench.reading.hand_force, motors = bench.reading.actuator_force;
     const JointAngles q = joint_angles_from_plane(kYoke, bench.lever.true_position());
     bench.run(1);
     const glm::dvec2 after = bench.arc();
 
     const glm::dvec2 a = (after - 2.0 * now + before) / (step * step), v = (after - before) / (2.0 * step);
     const glm::dvec2 on_handle{0.095 * a.x + 3.0 * v.x + 14.8 * now.x, 0.086 * a.y + 2.9 * v.y + 15.7 * now.y};
-    const glm::dvec2 expected = plane_force(kYoke, q, torques_along(on_handle)) - given;
+    const glm::dvec2 expected = plane_force(kYoke, q, torques_along(on_handle)) - motors;
     CHECK(glm::length(measured - expected) < 2e-3);
   }
 }
@@ -140,7 +141,7 @@ TEST_CASE("a joint is read at the middle of its encoder cell: 2250 counts over 8
   }
 }
 
-TEST_CASE("the true position behind the encoder is the one without an encoder") {
+TEST_CASE("the true position is the same with and without an encoder") {
   SimulatedLeverConfig quantised = exact(kGripHand);
   quantised.encoder_counts = 2250.0 / 80.0;
   Bench with(quantised, hand_at({0.06, -0.05})), without(exact(kGripHand), hand_at({0.06, -0.05}));
@@ -152,7 +153,7 @@ TEST_CASE("the true position behind the encoder is the one without an encoder") 
 }
 
 TEST_CASE("a force takes effect after the delay and not a sample earlier") {
-  for (int delay = 0; delay <= kMaxDelay; ++delay) {
+  for (int delay = 0; delay <= kMaxSimulatedDelay; ++delay) {
     SimulatedLeverConfig config = exact();
     config.delay = delay;
     Bench bench(config, {});
@@ -167,7 +168,7 @@ TEST_CASE("a force takes effect after the delay and not a sample earlier") {
   }
 }
 
-TEST_CASE("release drops the force, and those still on their way") {
+TEST_CASE("release drops the force and those still delayed") {
   SimulatedLeverConfig config = exact();
   config.delay = 4;
   Bench bench(config, {});
@@ -205,7 +206,7 @@ TEST_CASE("60 N run to the stops: 77 mm to the side, 69 mm forward, and lean on 
   CHECK(forward.lever.spec().workspace.y == doctest::Approx(0.0688).epsilon(1e-3));
 }
 
-TEST_CASE("dry friction holds what is below it") {
+TEST_CASE("dry friction holds the lever against smaller forces") {
   SimulatedLeverConfig config = exact();
   config.coulomb_friction = 0.5;
   Bench bench(config, {});
@@ -217,7 +218,7 @@ TEST_CASE("dry friction holds what is below it") {
   CHECK(bench.arc().x == doctest::Approx(0.1 / 14.8).epsilon(1e-3));  // k x = f cos(theta) - friction
 }
 
-TEST_CASE("time moves in whole periods: n of them are n sequence numbers, none or backward is stale") {
+TEST_CASE("time advances in whole periods: n periods are n sequence numbers; none or backward is stale") {
   StillHand hand;
   SimulatedLever lever(SimulatedLeverConfig{}, kMillisecond, hand);
   const std::int64_t start = 12'345'678'901;
@@ -266,7 +267,7 @@ TEST_CASE("whatever the driver and the loop send, the reading is finite and insi
   bench.hand.target = {};
   bench.lever.release();
   bench.run(3000);
-  CHECK(glm::length(bench.lever.true_position()) < 1e-6);  // and nothing stuck behind
+  CHECK(glm::length(bench.lever.true_position()) < 1e-6);  // it recovers fully
 }
 
 TEST_CASE("the sensor's noise has the stated deviation, and the seed decides every bit of it") {
@@ -298,8 +299,8 @@ TEST_CASE("a bad value is refused in one sentence with parameter, value and allo
   config.delay = 9;
   CHECK(refusal(config) == "SimulatedLever: delay = 9: must be between 0 and 8 cycles");
   config = {};
-  config.own_stiffness = -1.0;
-  CHECK(refusal(config) == "SimulatedLever: own_stiffness = -1: must be between 0 and 100000 N/m");
+  config.device_wall_stiffness = -1.0;
+  CHECK(refusal(config) == "SimulatedLever: device_wall_stiffness = -1: must be between 0 and 100000 N/m");
   config = {};
   config.axis_x.mass = 0.0;
   CHECK(refusal(config) == "SimulatedLever: axis_x.mass = 0: must be between 0.001 and 1000 kg");

@@ -1,31 +1,31 @@
-// A hand for tests that always wants the same.
+// A hand with a constant target, for tests.
 #pragma once
 
 #include <glm/vec2.hpp>
 
 #include "haptics/device/hand.h"
 
-namespace gearshift {
+namespace gearshift::test {
 
-class StillHand final : public HandDriver {
+class StillHand final : public haptics::HandDriver {
  public:
   StillHand() = default;
-  explicit StillHand(const HandTarget& wanted) : target(wanted) {}
-  HandTarget next(double, glm::dvec2) noexcept override { return target; }
+  explicit StillHand(const haptics::HandTarget& wanted) : target(wanted) {}
+  haptics::HandTarget next(double, glm::dvec2) noexcept override { return target; }
 
-  HandTarget target;
+  haptics::HandTarget target;
 };
 
-inline HandTarget hand_at(glm::dvec2 position) {
-  HandTarget target;
+inline haptics::HandTarget hand_at(glm::dvec2 position) {
+  haptics::HandTarget target;
   target.position = position;
   return target;
 }
 
-inline HandTarget hand_pushing(glm::dvec2 push) {
-  HandTarget target;
+inline haptics::HandTarget hand_pushing(glm::dvec2 push) {
+  haptics::HandTarget target;
   target.push = push;
   return target;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

@@ -4,9 +4,9 @@
 
 #include <doctest/doctest.h>
 
-using namespace gearshift;
+using namespace gearshift::haptics;
 
-TEST_CASE("numbers read as a person would write them") {
+TEST_CASE("numbers are formatted as a person would write them") {
   CHECK(number_text(6.0) == "6");
   CHECK(number_text(0.0) == "0");
   CHECK(number_text(-0.0) == "0");
@@ -16,13 +16,13 @@ TEST_CASE("numbers read as a person would write them") {
   CHECK(number_text(1.23456789, 3) == "1.235");
   CHECK(number_text(1e300) == "1e+300");
   CHECK(number_text(1e-9) == "1e-09");
-  CHECK(number_text(-1e-9) == "-1e-09");  // or a refusal would read "= 0: must be between 0 and ..."
+  CHECK(number_text(-1e-9) == "-1e-09");  // otherwise an error would read "= 0: must be between 0 and ..."
   CHECK(number_text(-4e-7) == "-4e-07");
   CHECK(number_text(std::numeric_limits<double>::quiet_NaN()) == "nan");
   CHECK(number_text(-std::numeric_limits<double>::infinity()) == "-inf");
 }
 
-TEST_CASE("metres are told in tenths of a millimetre") {
+TEST_CASE("lengths are formatted in tenths of a millimetre") {
   CHECK(millimetres_text(0.0199) == "19.9 mm");
   CHECK(millimetres_text(0.040) == "40 mm");
   CHECK(millimetres_text(-0.00004) == "0 mm");

@@ -6,9 +6,9 @@
 
 #include "haptics/files/file_error.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
 
-TEST_CASE("what a terminal would obey is shown instead") {
+TEST_CASE("control characters are replaced by visible ones") {
   CHECK(printable("plain 12 mm") == "plain 12 mm");
   CHECK(printable("two\r\nlines\tand") == "two  lines and");
   CHECK(printable("\x1b[31mred\x1b[0m") == "?[31mred?[0m");
@@ -18,7 +18,7 @@ TEST_CASE("what a terminal would obey is shown instead") {
                   "31m \xc2\x80\xc2\x9f") == "c1 ?31m ??");
 }
 
-TEST_CASE("letters of other alphabets are no control characters") {
+TEST_CASE("letters of other alphabets are not control characters") {
   for (const char* text : {"\xc2\xa0", "\xc3\x9b", "\xc3\x84ra", "\xe6\x9b\xb4", "\xff", "\xc2", ""}) {
     CHECK(printable(text) == text);
     CHECK(is_printable(text));
@@ -27,7 +27,7 @@ TEST_CASE("letters of other alphabets are no control characters") {
   CHECK_FALSE(is_printable("\xc2\x9b"));
 }
 
-TEST_CASE("no FileError has a control character, whatever the file is called and whatever it says") {
+TEST_CASE("a FileError never contains a control character, whatever the file's name and content") {
   const std::string sentence = FileError("odd\nname\x1b[2J.toml", 3, "x = \"\x1b[31m\n\": no").what();
   CHECK(sentence == "odd name?[2J.toml:3: x = \"?[31m \": no");
 }

@@ -11,7 +11,8 @@
 #include "haptics/files/file_error.h"
 #include "tests/support/temp_folder.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 namespace fs = std::filesystem;
 
 namespace {
@@ -46,18 +47,18 @@ TEST_CASE("the largest file is 1 MiB, not a byte more") {
   CHECK(refusal(larger) == larger.string() + ": is larger than 1 MiB");
 }
 
-TEST_CASE("what is not a readable file is refused in one sentence") {
+TEST_CASE("anything that is not a readable file is rejected in one sentence") {
   const TempFolder scratch;
   const fs::path missing = scratch / "missing.toml";
   CHECK(refusal(missing) == missing.string() + ": there is no such file");
   CHECK(refusal(scratch.path()) == scratch.path().string() + ": is a folder, not a file");
-  CHECK(refusal("/dev/zero") == "/dev/zero: is not a plain file");
+  CHECK(refusal("/dev/zero") == "/dev/zero: is not a regular file");
 
-  const fs::path loop = scratch / "loop";  // to itself: what is behind it is not known, for root neither
+  const fs::path loop = scratch / "loop";  // a link to itself, which cannot be resolved, not even by root
   fs::create_symlink(loop, loop);
   CHECK(refusal(loop) == loop.string() + ": cannot be read: Too many levels of symbolic links");
 
   const fs::path secret = write(scratch / "secret", "x");
   fs::permissions(secret, fs::perms::none);
-  if (geteuid() != 0) CHECK(refusal(secret) == secret.string() + ": cannot be read");  // root reads everything
+  if (geteuid() != 0) CHECK(refusal(secret) == secret.string() + ": cannot be read");  // root can read any file
 }

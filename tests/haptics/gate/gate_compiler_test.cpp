@@ -1,4 +1,4 @@
-// From a layout to a gate: places, curves, lockouts, the list of walls; then any valid layout.
+// Compiling a layout to a gate: positions, curves, lockouts, list of walls; then random valid layouts.
 #include "haptics/gate/gate_compiler.h"
 
 #include <algorithm>
@@ -12,14 +12,16 @@
 
 #include <doctest/doctest.h>
 
+#include "app/lab/random_gates/random_layout.h"
 #include "haptics/files/file_error.h"
 #include "haptics/gate/gate_checks.h"
 #include "haptics/gate/gate_description.h"
 #include "tests/haptics/gate/gate_laws.h"
 #include "tests/support/gates.h"
-#include "tests/support/random_layout.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::lab;
+using namespace gearshift::test;
 using doctest::Approx;
 using glm::dvec2;
 
@@ -33,27 +35,28 @@ const Slot& slot_for(const Gate& gate, int gear) {
   return slot_of(gate, slot);
 }
 
-const Slot& slot_for(const Gate&&, int) = delete;  // it would point into a gate that is gone
+const Slot& slot_for(const Gate&&, int) = delete;  // the reference would dangle
 
 int count_role(const GateDescription& list, WallRole role) {
   return static_cast<int>(
       std::count_if(list.walls.begin(), list.walls.end(), [&](const WallInfo& w) { return w.role == role; }));
 }
 
-// Which gears a point-like lever reaches from neutral, by flooding a grid of 0.5 mm, which knows no aisles.
-bool floods_to_every_gear(const Gate& gate) {
+// Whether a point-like lever reaches every gear from neutral, by flood fill on a 0.5 mm grid, independent of the
+// aisles.
+bool reaches_every_gear(const Gate& gate) {
   constexpr double step = 0.5e-3;
   constexpr int reach = 160;
   constexpr int width = 2 * reach + 1;
-  std::vector<char> seen(static_cast<std::size_t>(width) * width, 0);
+  std::vector<char> visited(static_cast<std::size_t>(width) * width, 0);
   const auto index = [](int i, int j) {
     return static_cast<std::size_t>(i + reach) * width + static_cast<std::size_t>(j + reach);
   };
   std::queue<std::pair<int, int>> front;
   const auto visit = [&](int i, int j) {
-    if (std::abs(i) > reach || std::abs(j) > reach || seen[index(i, j)]) return;
+    if (std::abs(i) > reach || std::abs(j) > reach || visited[index(i, j)]) return;
     if (!in_free_space(gate, {i * step, j * step}, 1e-9)) return;
-    seen[index(i, j)] = 1;
+    visited[index(i, j)] = 1;
     front.emplace(i, j);
   };
   const auto cell = [&](double metres) { return static_cast<int>(std::lround(metres / step)); };
@@ -67,11 +70,11 @@ bool floods_to_every_gear(const Gate& gate) {
   const auto all = slots(gate);
   return std::all_of(all.begin(), all.end(), [&](const Slot& slot) {
     const dvec2 rest = rest_position(gate, slot.gear);
-    return seen[index(cell(rest.x), cell(rest.y))] != 0;
+    return visited[index(cell(rest.x), cell(rest.y))] != 0;
   });
 }
 
-// A wall has free space on one side and none on the other.
+// Whether the wall has free space on exactly one side.
 bool separates(const Gate& gate, const WallInfo& wall) {
   const dvec2 middle = 0.5 * (wall.from + wall.to);
   const dvec2 along = wall.to - wall.from;
@@ -79,8 +82,8 @@ bool separates(const Gate& gate, const WallInfo& wall) {
   return in_free_space(gate, middle + across) != in_free_space(gate, middle - across);
 }
 
-// Force rises nowhere faster than 4000 N/m, and its slope nowhere jumps: third-order pieces of at most 40 N
-// over at least 0.7 mm bend by at most 6 F / l^2 per metre, which a kink would exceed at any step.
+// Checks that the force nowhere rises faster than 4000 N/m and that its slope does not jump: cubic pieces of at most 40
+// N over at least 0.7 mm have a curvature of at most 6 F / l^2, which any kink would exceed.
 void check_smooth(const FeelCurve& curve, double from, double to) {
   constexpr double step = 1e-6;
   const double bend = 6.0 * 40.0 / (0.7e-3 * 0.7e-3);
@@ -94,8 +97,8 @@ void check_smooth(const FeelCurve& curve, double from, double to) {
   }
 }
 
-// Away from the walls a slot has one place to rest, and
-// wherever it pulls the lever in, the gear comes to count.
+// Checks that a slot has a single rest position away from its walls, and that a gear is engaged wherever the slot pulls
+// the lever in.
 void check_lock(const Gate& gate, const Slot& slot) {
   CHECK(slot.release_depth < slot.engage_depth);
   CHECK(slot.engage_depth < slot.rest);
@@ -104,17 +107,17 @@ void check_lock(const Gate& gate, const Slot& slot) {
   while (edge < slot.rest && feel_force(slot.feel, edge) <= 0.0) edge += 1e-6;
   CHECK(edge > slot.release_depth);
   CHECK(edge < slot.engage_depth);
-  const auto all_between = [&](double from, double to, auto law) {
+  const auto holds_between = [&](double from, double to, auto law) {
     constexpr int count = 200;
     for (int i = 1; i < count; ++i) {
       if (!law(feel_force(slot.feel, from + (to - from) * i / count))) return false;
     }
     return true;
   };
-  CHECK(all_between(gate.half_aisle, edge - 1e-6, [](double force) { return force <= 0.0; }));
-  CHECK(all_between(edge, slot.rest, [](double force) { return force > 0.0; }));
+  CHECK(holds_between(gate.half_aisle, edge - 1e-6, [](double force) { return force <= 0.0; }));
+  CHECK(holds_between(edge, slot.rest, [](double force) { return force > 0.0; }));
   CHECK(feel_force(slot.feel, slot.rest) == Approx(0.0));
-  CHECK(all_between(slot.rest, slot.end, [](double force) { return force < 0.0; }));
+  CHECK(holds_between(slot.rest, slot.end, [](double force) { return force < 0.0; }));
 }
 
 void check_places(const Gate& gate) {
@@ -137,8 +140,8 @@ void check_lockouts(const Gate& gate) {
     REQUIRE(lockout.slot < gate.slot_count);
     if (lockout.kind == LockoutKind::speed) CHECK(lockout.open_below < lockout.close_above);
     if (!lockout.lateral) continue;
-    const Column& own = column_of(gate, slot_of(gate, lockout.slot).column);
-    CHECK(lockout.beyond * (own.center - lockout.barrier) > own.half_width + gate.chamfer);
+    const Column& guarded_column = column_of(gate, slot_of(gate, lockout.slot).column);
+    CHECK(lockout.beyond * (guarded_column.center - lockout.barrier) > guarded_column.half_width + gate.chamfer);
     CHECK(lockout.beyond * (rest_position(gate, kNeutralGear).x - lockout.barrier) < 0.0);
   }
 }
@@ -160,7 +163,7 @@ void check_description(const Gate& gate) {
   CHECK(std::all_of(walls_of.begin(), walls_of.end(), [](int count) { return count == 2; }));
 }
 
-// A small layout to vary: two columns, 1/2 neutral on the left, 3 and R on the right.
+// A small layout for variations: two columns, 1/2 and neutral on the left, 3/R on the right.
 GateLayout small_layout() {
   GateLayout layout;
   layout.file = "small.toml";
@@ -205,7 +208,7 @@ TEST_CASE("the paper's gate: one horizontal and three vertical aisles, three jun
   CHECK(count_role(list, WallRole::chamfer) == 8);
 }
 
-TEST_CASE("the paper's gate stands where its file puts it") {
+TEST_CASE("the paper's gate has the positions given in its file") {
   const Gate gate = paper_gate();
   CHECK(gate.half_aisle == Approx(0.006));
   CHECK(gate.select_min == Approx(-0.035));
@@ -224,9 +227,9 @@ TEST_CASE("the paper's gate stands where its file puts it") {
   CHECK((gate.buffer[1].back_open && gate.buffer[1].forward_open));
 }
 
-// Slot proper from 10 to 40 mm; the shares .14 .28 .42 .66 .86 of 30 mm; forces of the file. Between two flat
-// peaks a cubic passes the mean of both half-way, and 27/32 of the way up after three quarters.
-TEST_CASE("the feel along the paper's slots has the forces of the file at the places of the README") {
+// The slot proper extends from 10 to 40 mm; stations at fractions .14 .28 .42 .66 .86 of 30 mm; forces from the file.
+// Between two flat peaks a cubic passes their mean half-way, and is 27/32 of the way up after three quarters.
+TEST_CASE("the feel along the paper's slots has the file's forces at the positions given in the README") {
   const Gate gate = paper_gate();
   const Slot& slot = slot_for(gate, 3);
   const auto force = [&](double millimetres) { return feel_force(slot.feel, millimetres * 1e-3); };
@@ -249,7 +252,7 @@ TEST_CASE("the feel along the paper's slots has the forces of the file at the pl
   CHECK(slot.end == Approx(0.040));
 }
 
-TEST_CASE("the select force pulls to the neutral column with its full strength from its slot's wall on") {
+TEST_CASE("the select force pulls to the neutral column, with full strength from its slot's wall on") {
   const Gate gate = paper_gate();
   CHECK(feel_force(gate.select_feel, -0.030) == Approx(3.0));
   CHECK(feel_force(gate.select_feel, -0.005) == Approx(3.0));
@@ -259,26 +262,26 @@ TEST_CASE("the select force pulls to the neutral column with its full strength f
   CHECK(feel_force(gate.select_feel, 0.035) == Approx(-3.0));
 }
 
-TEST_CASE("a lockout stands across the aisle only if its column serves nothing else") {
+TEST_CASE("a lockout is lateral only if all gears of its column have the same kind of lockout") {
   GateLayout layout = small_layout();
   layout.lockouts = {guard(kReverseGear, LockoutKind::push_down)};
   CHECK_FALSE(compile_gate(layout, kPaperWorkspace).lockout[0].lateral);
 
-  layout.columns[1].forward.gear = kNeutralGear;  // R alone in its column
-  const Gate alone = compile_gate(layout, kPaperWorkspace);
-  CHECK(alone.lockout[0].lateral);
-  CHECK(alone.lockout[0].barrier == Approx(0.015));
-  CHECK(alone.lockout[0].beyond == +1);
+  layout.columns[1].forward.gear = kNeutralGear;  // only R in its column
+  const Gate reverse_only = compile_gate(layout, kPaperWorkspace);
+  CHECK(reverse_only.lockout[0].lateral);
+  CHECK(reverse_only.lockout[0].barrier == Approx(0.015));
+  CHECK(reverse_only.lockout[0].beyond == +1);
 
-  layout.columns[1].forward.gear = 3;  // both gears of the column behind the same guard
+  layout.columns[1].forward.gear = 3;  // both gears of the column have the same kind of lockout
   layout.lockouts.push_back(guard(3, LockoutKind::push_down));
   CHECK(compile_gate(layout, kPaperWorkspace).lockout[0].lateral);
-  layout.lockouts[1].kind = LockoutKind::lift;  // behind different ones: each closes its own slot
+  layout.lockouts[1].kind = LockoutKind::lift;  // different kinds: each closes its own slot
   CHECK_FALSE(compile_gate(layout, kPaperWorkspace).lockout[0].lateral);
   CHECK_FALSE(compile_gate(layout, kPaperWorkspace).lockout[1].lateral);
 }
 
-TEST_CASE("a lockout never stands across the way to another column, nor before the neutral column") {
+TEST_CASE("a lockout is never lateral if it would block another column or the neutral column") {
   GateLayout layout = small_layout();
   layout.columns[1].forward.gear = kNeutralGear;
   layout.columns.push_back({});
@@ -287,12 +290,12 @@ TEST_CASE("a lockout never stands across the way to another column, nor before t
   layout.lockouts = {guard(kReverseGear, LockoutKind::lift)};
   CHECK_FALSE(compile_gate(layout, kPaperWorkspace).lockout[0].lateral);
 
-  GateLayout at_home = small_layout();
-  at_home.lockouts = {guard(1, LockoutKind::lift), guard(2, LockoutKind::lift)};
-  CHECK_FALSE(compile_gate(at_home, kPaperWorkspace).lockout[0].lateral);
+  GateLayout guarded_neutral = small_layout();
+  guarded_neutral.lockouts = {guard(1, LockoutKind::lift), guard(2, LockoutKind::lift)};
+  CHECK_FALSE(compile_gate(guarded_neutral, kPaperWorkspace).lockout[0].lateral);
 }
 
-TEST_CASE("a layout made by a program is refused like one from a file") {
+TEST_CASE("a layout built in code is checked like one from a file") {
   const auto refused = [](const GateLayout& layout) {
     try {
       compile_gate(layout, kPaperWorkspace);
@@ -309,16 +312,16 @@ TEST_CASE("a layout made by a program is refused like one from a file") {
   CHECK(refused(layout).find("is too narrow") != std::string::npos);
   layout = small_layout();
   layout.columns[1].position = std::nan("");
-  CHECK(refused(layout).find("does not lie to the right") != std::string::npos);
+  CHECK(refused(layout).find("is not to the right") != std::string::npos);
   layout = small_layout();
   layout.neutral_column = 2;
-  CHECK(refused(layout) == "small.toml: the neutral column is none of the columns");
+  CHECK(refused(layout) == "small.toml: the neutral column is not one of the columns");
   layout = small_layout();
   layout.lockouts.assign(kMaxLockouts + 1, guard(1, LockoutKind::lift));
   CHECK(refused(layout) == "small.toml: a gate has at most 16 lockouts");
 }
 
-TEST_CASE("what the device reaches is what its two joints reach, corners and all") {
+TEST_CASE("the device's reach is that of its two joints, corners included") {
   int inside = 0, outside = 0;
   for (int i = -130; i <= 130; ++i) {
     for (int j = -130; j <= 130; ++j) {
@@ -339,7 +342,7 @@ TEST_CASE("a flat device reaches its whole rectangle") {
   CHECK_FALSE(reaches({0.07, 0.06}, flat, {std::nan(""), 0.0}));
 }
 
-TEST_CASE("columns at the sides and long slots are each within reach, both together are not") {
+TEST_CASE("far columns or long slots are within reach, both together are not") {
   const auto with = [](double side, double length) {
     GateLayout layout = small_layout();
     layout.columns[0].position = -side;
@@ -351,12 +354,12 @@ TEST_CASE("columns at the sides and long slots are each within reach, both toget
   CHECK_NOTHROW(compile_gate(with(0.012, 0.060), kPaperWorkspace));
   CHECK_THROWS_WITH_AS(compile_gate(with(0.058, 0.060), kPaperWorkspace),
                        "small.toml: the column at -58 mm has its wall at 63 mm, outside the workspace: the device "
-                       "reaches less in its corners, with end stops at 60 mm its walls may lie within 20.4 mm of "
+                       "reaches less far in its corners; with end stops at 60 mm, walls must lie within 20.4 mm of "
                        "the centre",
                        FileError);
   CHECK_NOTHROW(compile_gate(with(0.058, 0.060), kPaperWorkspace, std::numeric_limits<double>::infinity()));
 
-  // The figure in the sentence is the bound: a wall there compiles, 0.2 mm further out it does not.
+  // The number in the message is the bound: a wall there compiles, one 0.2 mm further out does not.
   CHECK_NOTHROW(compile_gate(with(0.0154, 0.060), kPaperWorkspace));
   CHECK_THROWS_AS(compile_gate(with(0.0156, 0.060), kPaperWorkspace), FileError);
 }
@@ -375,7 +378,7 @@ TEST_CASE("a column with a gear on one side only is closed on the other") {
   CHECK((junction.left && !junction.right && !junction.forward && junction.back && junction.buffer));
 }
 
-TEST_CASE("any valid layout compiles to a gate that keeps the laws") {
+TEST_CASE("any valid layout compiles to a gate that satisfies the laws") {
   for (std::uint64_t seed = 1; seed <= kRandomLayouts; ++seed) {
     for (const GateLayout& layout : {random_layout(seed), random_wide_layout(seed)}) {
       CAPTURE(layout.file);
@@ -387,15 +390,15 @@ TEST_CASE("any valid layout compiles to a gate that keeps the laws") {
       for (const Slot& slot : slots(gate)) check_lock(gate, slot);
       check_smooth(gate.slot[0].feel, 0.0, gate.slot[0].end);
       check_smooth(gate.select_feel, gate.select_min, gate.select_max);
-      CHECK(floods_to_every_gear(gate));
+      CHECK(reaches_every_gear(gate));
     }
   }
 }
 
 // The reader's ranges are 4 to 40, 4 to 30 and up to 10 mm, 1 to 25, up to 20 and up to 15 N.
-TEST_CASE("wide random layouts use what the reader allows") {
+TEST_CASE("wide random layouts cover the ranges that the reader allows") {
   double aisle = 0.0, slot = 0.0, chamfer = 0.0, lock = 0.0, detent = 0.0, mouth = 0.0, narrowest = 1.0,
-         least_lock = 99.0;
+         min_lock = 99.0;
   for (std::uint64_t seed = 1; seed <= kRandomLayouts; ++seed) {
     const GateLayout layout = random_wide_layout(seed);
     aisle = std::max(aisle, layout.aisle_width);
@@ -405,19 +408,19 @@ TEST_CASE("wide random layouts use what the reader allows") {
     detent = std::max(detent, layout.feel.detent_force);
     mouth = std::max(mouth, layout.feel.mouth_force);
     narrowest = std::min({narrowest, layout.aisle_width, layout.slot_width});
-    least_lock = std::min(least_lock, layout.feel.lock_force);
+    min_lock = std::min(min_lock, layout.feel.lock_force);
   }
   CHECK(narrowest < 0.005);
   CHECK(aisle > 0.035);
   CHECK(slot > 0.025);
   CHECK(chamfer > 0.009);
-  CHECK(least_lock < 2.0);
+  CHECK(min_lock < 2.0);
   CHECK(lock > 23.0);
   CHECK(detent > 18.0);
   CHECK(mouth > 13.0);
 }
 
-TEST_CASE("random layouts are the same everywhere and differ from each other") {
+TEST_CASE("random layouts are reproducible and differ from each other") {
   CHECK(random_layout_text(7) == random_layout_text(7));
   CHECK(random_layout_text(7) != random_layout_text(8));
   int with_lockouts = 0, with_buffers = 0, with_reverse = 0;
@@ -427,7 +430,7 @@ TEST_CASE("random layouts are the same everywhere and differ from each other") {
     with_buffers += gate.buffer_count > 0;
     with_reverse += slot_of_gear(gate, kReverseGear) != kNoSlot;
   }
-  // A generator that never makes something tests nothing about it.
+  // Features that the generator never produced would not be tested.
   CHECK(with_lockouts > kRandomLayouts / 4);
   CHECK(with_buffers > kRandomLayouts / 4);
   CHECK(with_reverse > kRandomLayouts / 4);

@@ -1,4 +1,4 @@
-// The mechanism's forces: a potential, continuous, and doing at each place what the paper and real boxes say.
+// The mechanism's forces: they have a potential, are continuous, and match the paper and real gearboxes.
 #include "haptics/gate/gate_feel.h"
 
 #include <algorithm>
@@ -11,7 +11,8 @@
 #include "haptics/gate/gate_compiler.h"
 #include "tests/support/gates.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 using glm::dvec2;
 
 namespace {
@@ -24,7 +25,7 @@ dvec2 random_free_point(const Gate& gate, std::mt19937_64& random) {
   }
 }
 
-// Central differences of the energy: an independent way to the force.
+// The force computed independently, from central differences of the energy.
 dvec2 minus_gradient(const Gate& gate, dvec2 p) {
   constexpr double h = 1e-7;
   return {(gate_energy(gate, {p.x - h, p.y}) - gate_energy(gate, {p.x + h, p.y})) / (2.0 * h),
@@ -40,7 +41,7 @@ TEST_CASE("feel is the negative gradient of one energy, everywhere in every gate
     const Gate gate = shipped_gate(name);
     for (int i = 0; i < 20000; ++i) {
       const dvec2 p = random_free_point(gate, random);
-      if (std::abs(std::abs(p.y) - gate.half_aisle) < 1e-6) continue;  // a difference across a seam
+      if (std::abs(std::abs(p.y) - gate.half_aisle) < 1e-6) continue;  // the difference would straddle a seam
       REQUIRE(glm::distance(gate_feel(gate, p), minus_gradient(gate, p)) < 1e-4);
     }
   }
@@ -74,7 +75,7 @@ TEST_CASE("a lever is centred to the neutral column, and to the middle of the ne
   }
 }
 
-TEST_CASE("every gear is a rest: no force there, pushed back from both sides") {
+TEST_CASE("every gear is a stable rest position: no force there, pushed back from both sides") {
   for (const std::string& name : shipped_names()) {
     CAPTURE(name);
     const Gate gate = shipped_gate(name);
@@ -94,12 +95,12 @@ TEST_CASE("pulling out of a gear takes the lock's force, from the layout file") 
   const Gate gate = compile_gate(layout, kPaperWorkspace);
   for (const Slot& slot : slots(gate)) {
     constexpr int kSteps = 20000;
-    double hardest = 0.0;
+    double max_force = 0.0;
     for (int i = 0; i <= kSteps; ++i) {
       const double depth = slot.rest + (slot.release_depth - slot.rest) * i / kSteps;
-      hardest = std::max(hardest, feel_force(slot.feel, depth));
+      max_force = std::max(max_force, feel_force(slot.feel, depth));
     }
-    CHECK(hardest == doctest::Approx(layout.feel.lock_force).epsilon(1e-6));
+    CHECK(max_force == doctest::Approx(layout.feel.lock_force).epsilon(1e-6));
   }
 }
 
@@ -111,7 +112,7 @@ TEST_CASE("paper, Fig. 7 (c): in the buffer of junctions I and III a vertical fo
     const double inside = buffer.wall + 0.1 * (buffer.inner - buffer.wall);
     CHECK(gate_feel(gate, {inside, half}).y > 0.5);
     CHECK(gate_feel(gate, {inside, -half}).y < -0.5);
-    // and none before the lever enters it
+    // There is none before the lever enters the buffer.
     const double outside = buffer.inner + 0.001 * (buffer.inner > buffer.wall ? 1.0 : -1.0);
     CHECK(gate_feel(gate, {outside, half}).y <= 0.0);
   }
@@ -133,7 +134,7 @@ TEST_CASE("a buffer never holds a free lever: centring is stronger than its pull
   }
 }
 
-TEST_CASE("the stiffest feel is the steepest restoring slope that a walk along every curve finds") {
+TEST_CASE("the largest feel stiffness is the steepest restoring slope found along all curves") {
   for (const std::string& name : shipped_names()) {
     CAPTURE(name);
     const Gate gate = shipped_gate(name);
@@ -149,6 +150,6 @@ TEST_CASE("the stiffest feel is the steepest restoring slope that a walk along e
     walk(gate.select_feel, gate.select_min, gate.select_max);
     walk(gate.aisle_feel, 0.0, gate.half_aisle);
     for (const Slot& slot : slots(gate)) walk(slot.feel, 0.0, slot.end);
-    CHECK(stiffest_feel(gate) == doctest::Approx(stiffest).epsilon(1e-4));
+    CHECK(max_feel_stiffness(gate) == doctest::Approx(stiffest).epsilon(1e-4));
   }
 }

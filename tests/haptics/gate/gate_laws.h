@@ -1,4 +1,4 @@
-// Laws that every gate must keep, shipped or random, for the tests of this room.
+// Laws that every gate must satisfy, shipped or random; shared by the tests in this folder.
 #pragma once
 
 #include <cmath>
@@ -8,11 +8,10 @@
 
 #include "haptics/gate/gate.h"
 
-namespace gearshift {
+namespace gearshift::test {
 
-// Eq (2) corrected: px = rho tan(theta) / s, py = -rho tan(phi) / s, pz = rho / s with
-// s = sqrt(1 + tan^2 theta + tan^2 phi).
-// The paper's yoke reaches a point of the gate plane if both angles stay inside their stops.
+// The paper's yoke reaches a point of the gate plane if both angles stay inside their stops. Eq (2) corrected:
+// px = rho tan(theta) / s, py = -rho tan(phi) / s, pz = rho / s with s = sqrt(1 + tan^2 theta + tan^2 phi).
 inline bool yoke_reaches(glm::dvec2 point) {
   constexpr double kRho = 0.120;
   const double height_squared = kRho * kRho - point.x * point.x - point.y * point.y;
@@ -23,23 +22,23 @@ inline bool yoke_reaches(glm::dvec2 point) {
   return theta < 40.0 && phi < 35.0;
 }
 
-// On the chamfers neither force may depend on where along itself
-// the lever is, or going round the corner would give energy.
-inline void check_constant_at_mouths(const Gate& gate) {
+// On the chamfers neither force may depend on the position along its own axis, or moving round the corner would supply
+// energy.
+inline void check_constant_at_mouths(const haptics::Gate& gate) {
   constexpr int kSteps = 20;
-  const double at_wall = feel_force(gate.aisle_feel, gate.half_aisle);
+  const double at_wall = haptics::feel_force(gate.aisle_feel, gate.half_aisle);
   for (int i = 0; i <= kSteps; ++i) {
     const double leg = gate.chamfer * i / kSteps;
-    for (const Slot& slot : slots(gate)) {
-      CHECK(feel_slope(slot.feel, gate.half_aisle + leg) == doctest::Approx(0.0).epsilon(1e-9));
-      CHECK(feel_force(slot.feel, gate.half_aisle + leg) == doctest::Approx(at_wall));
+    for (const haptics::Slot& slot : haptics::slots(gate)) {
+      CHECK(haptics::feel_slope(slot.feel, gate.half_aisle + leg) == doctest::Approx(0.0).epsilon(1e-9));
+      CHECK(haptics::feel_force(slot.feel, gate.half_aisle + leg) == doctest::Approx(at_wall));
     }
-    for (const Column& column : columns(gate)) {
+    for (const haptics::Column& column : haptics::columns(gate)) {
       for (const double off : {-column.half_width - leg, column.half_width + leg}) {
-        CHECK(feel_slope(gate.select_feel, column.center + off) == doctest::Approx(0.0).epsilon(1e-9));
+        CHECK(haptics::feel_slope(gate.select_feel, column.center + off) == doctest::Approx(0.0).epsilon(1e-9));
       }
     }
   }
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

@@ -1,4 +1,4 @@
-// Reading layouts, and refusing bad ones: file, line and reason in one sentence.
+// Reading layouts and rejecting bad ones with file, line and reason in one sentence.
 #include "haptics/gate/gate_layout.h"
 
 #include <filesystem>
@@ -13,7 +13,8 @@
 #include "haptics/gate/gate_compiler.h"
 #include "tests/support/gates.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 
 namespace {
 
@@ -22,37 +23,37 @@ struct Hostile {
   const char* sentence;  // after the file's name
 };
 
-// Lines and reasons as a person finds them in tests/data/hostile_layouts.
+// Lines and reasons for the files in tests/data/hostile_layouts.
 constexpr Hostile kHostile[] = {
-    {"after_gear_elsewhere", ":29: a lockout of gear R after gear 4 needs both in one column"},
+    {"after_gear_elsewhere", ":29: a lockout of gear R after gear 4 needs both gears in the same column"},
     {"after_itself", ":29: gear R could not be reached: its lockout waits for itself"},
     {"after_nothing", ":29: after is missing: it must be one of R, 1, 2, 3, 4, 5, 6, 7, 8, 9"},
     {"aisle_too_narrow", ":4: aisle_width_mm = 3.5: must be between 4 and 40"},
     {"barely_negative", ":7: chamfer_mm = -1e-09: must be between 0 and 10"},
     {"buffer_holds_the_lever",
-     ":9: buffer_force_n = 4 would hold the lever at a closed junction: it pulls there with "
+     ":9: buffer_force_n = 4 would hold the lever at a closed junction: it pulls the lever there with "
      "2.62 N, and center_force_n is only 2"},
     {"byte_order_of_utf16", ":1: not valid TOML: "},
     {"center_force_too_weak", ":5: center_force_n = 1: must be at least 1.6, or the lever would not return"},
-    {"center_force_too_steep", ":9: center_force_n is too large for so narrow a slot"},
+    {"center_force_too_steep", ":9: center_force_n is too large for such a narrow slot"},
     {"column_not_a_list", ":3: column = (a table): must be a list of tables: write each as [[column]]"},
     {"column_without_gear", ":23: the column at 30 mm has no gear"},
-    {"columns_not_in_order", ":23: the column at -60 mm does not lie to the right of the one before it"},
+    {"columns_not_in_order", ":23: the column at -60 mm is not to the right of the previous one"},
     {"columns_of_numbers", ":2: column must be a list of tables: write each as [[column]]"},
     {"date_for_a_number", ":5: slot_width_mm = (a date or time): must be a number between 4 and 30"},
-    {"duplicate_gear", ":26: gear 3 is already in line 19"},
+    {"duplicate_gear", ":26: gear 3 is already on line 19"},
     {"duplicate_key", ":8: not valid TOML: "},
     {"duplicate_key_with_escape", ":8: not valid TOML: "},
-    {"empty", ":1: name is missing: it must be a text in quotes"},
+    {"empty", ":1: name is missing: it must be text in quotes"},
     {"empty_name", ":1: name = \"\": must not be empty"},
     {"escape_for_a_key", ":7: not valid TOML: "},
     {"gate_is_a_number", ":2: gate = 4: must be a table: write [gate]"},
     {"gear_gap", ":24: there is a gear 5 but no gear 3"},
-    {"gear_on_both_sides", ":26: gear 5 is already in line 25"},
+    {"gear_on_both_sides", ":26: gear 5 is already on line 25"},
     {"gear_with_escape", ":14: forward = \"?[2J1\": must be one line without control characters"},
     {"infinity", ":10: lock_force_n = inf: must be between 1 and 25"},
     {"junction_ajar", ":27: junction = \"ajar\": must be one of open, closed"},
-    {"key_with_escape", ":7: chamfer?[31m _mm is not a known key: known here are aisle_width_mm"},
+    {"key_with_escape", ":7: chamfer?[31m _mm is not a known key; known keys: aisle_width_mm"},
     {"lockout_of_no_gear", ":29: there is no gear 6 for this lockout to guard"},
     {"lockout_without_gear", ":29: gear is missing: it must be one of R, 1, 2, 3, 4, 5, 6, 7, 8, 9"},
     {"lower_case_reverse", ":26: back = \"r\": must be one of R, 1, 2, 3, 4, 5, 6, 7, 8, 9"},
@@ -69,37 +70,37 @@ constexpr Hostile kHostile[] = {
     {"neutral_not_a_flag", ":21: neutral = \"yes\": must be true or false"},
     {"no_columns", ":1: column is missing: write one [[column]] for every column of gears"},
     {"no_forward_gear", ":17: the column at 30 mm has no gear"},
-    {"no_neutral", ":12: no column is the neutral one: write neutral = true in exactly one [[column]]"},
+    {"no_neutral", ":12: no column is neutral: write neutral = true in exactly one [[column]]"},
     {"not_toml", ":4: not valid TOML: "},
     {"not_utf8", ":1: not valid TOML: "},
-    {"number_for_a_gear", ":14: forward = 1: must be a text in quotes"},
+    {"number_for_a_gear", ":14: forward = 1: must be text in quotes"},
     {"number_past_double", ":10: not valid TOML: "},
     {"one_column", ":3: a gate has between 2 and 8 columns, this one has 1"},
     {"out_of_range", ":10: lock_force_n = 60: must be between 1 and 25"},
     {"outside_corner",
-     ":12: the column at -64 mm has its wall at 69 mm, outside the workspace: the device reaches less in its "
-     "corners, with end stops at 61 mm its walls may lie within 11.5 mm of the centre"},
+     ":12: the column at -64 mm has its wall at 69 mm, outside the workspace: the device reaches less far in its "
+     "corners; with end stops at 61 mm, walls must lie within 11.5 mm of the centre"},
     {"outside_fore_aft", ":6: slot_length_mm puts the end stops at 62 mm, outside the workspace"},
     {"outside_sideways",
      ":23: the column at 70 mm has its wall at 75 mm, outside the workspace: the device "
      "reaches 77.1 mm sideways and 68.8 mm fore and aft"},
     {"overlapping_columns",
-     ":23: the column at 19.9 mm overlaps the one before it: slots of this width and chamfer "
+     ":23: the column at 19.9 mm overlaps the previous one: slots of this width and chamfer "
      "need 20 mm from centre to centre, not 19.9 mm"},
-    {"same_column_twice", ":23: the column at 0 mm does not lie to the right of the one before it"},
+    {"same_column_twice", ":23: the column at 0 mm is not to the right of the previous one"},
     {"slot_too_short", ":6: slot_length_mm is too short: with this aisle and chamfer a slot needs at least 20 mm"},
     {"slot_too_short_for_its_feel", ":6: slot_length_mm is too short for its feel: below 38.1 mm"},
     {"speed_below_zero", ":33: open_below_kmh = -1: must be between 0 and 400"},
-    {"speed_of_a_lift_ring", ":32: close_above_kmh is not a known key: known here are gear, kind"},
+    {"speed_of_a_lift_ring", ":32: close_above_kmh is not a known key; known keys: gear, kind"},
     {"speeds_in_reverse", ":29: open_below_kmh must be smaller than close_above_kmh"},
     {"text_for_a_number", ":5: slot_width_mm = \"10 mm\": must be a number between 4 and 30"},
     {"too_many_columns", ":44: a gate has between 2 and 8 columns, this one has 9"},
     {"too_many_lockouts", ":95: a gate has at most 16 lockouts"},
-    {"two_neutrals", ":27: neutral = true: a gate has one neutral column, and line 21 names another"},
+    {"two_neutrals", ":27: neutral = true: only one column can be neutral, and line 21 already says so"},
     {"unknown_gear", ":14: forward = \"10\": must be one of R, 1, 2, 3, 4, 5, 6, 7, 8, 9"},
-    {"unknown_key", ":8: chamfer_in is not a known key: known here are aisle_width_mm, slot_width_mm"},
+    {"unknown_key", ":8: chamfer_in is not a known key; known keys: aisle_width_mm, slot_width_mm"},
     {"unknown_kind", ":31: kind = \"magnet\": must be one of push_down, lift, speed, after_gear"},
-    {"unknown_table", ":9: sound is not a known key: known here are name, gate, feel, column, lockout"},
+    {"unknown_table", ":9: sound is not a known key; known keys: name, gate, feel, column, lockout"},
     {"unreachable_gears",
      ":17: only an end column can have a closed junction: here gear 5 and R could not be "
      "reached"},
@@ -118,7 +119,7 @@ std::string refusal(const std::filesystem::path& file) {
 
 }  // namespace
 
-TEST_CASE("every hostile layout is refused in one sentence with file, line and reason") {
+TEST_CASE("every hostile layout is rejected in one sentence with file, line and reason") {
   for (const Hostile& hostile : kHostile) {
     const std::filesystem::path file = std::filesystem::path(kFolder) / (std::string(hostile.file) + ".toml");
     const std::string sentence = refusal(file);
@@ -130,14 +131,14 @@ TEST_CASE("every hostile layout is refused in one sentence with file, line and r
   }
 }
 
-TEST_CASE("no hostile layout lies about without being tested") {
+TEST_CASE("every hostile layout in the folder is tested") {
   std::set<std::string> expected, found;
   for (const Hostile& hostile : kHostile) expected.insert(hostile.file);
   for (const auto& entry : std::filesystem::directory_iterator(kFolder)) found.insert(entry.path().stem().string());
   CHECK(found == expected);
 }
 
-TEST_CASE("every gear and every kind of lockout is read by the name that it has everywhere else") {
+TEST_CASE("every gear and every kind of lockout is read by its canonical name") {
   const auto layout_with = [](const std::string& gear, const std::string& lockout) {
     return parse_gate_layout("name = \"Test\"\n[[column]]\nposition_mm = 0\nneutral = true\nforward = \"" + gear +
                                  "\"\n[[lockout]]\ngear = \"R\"\n" + lockout,
@@ -226,7 +227,7 @@ after = "1"
   CHECK(layout.lockouts[1].line == 28);
 }
 
-TEST_CASE("what a layout does not say has a default; a speed lockout closes above 20 and opens below 15 km/h") {
+TEST_CASE("missing keys have defaults; a speed lockout closes above 20 and opens below 15 km/h") {
   const GateLayout layout = parse_gate_layout(
       "name = \"Short\"\n"
       "[[column]]\nposition_mm = 0\nforward = \"1\"\nneutral = true\n"

@@ -1,4 +1,4 @@
-// Which gear is in. The tests are the peers' bug list: flicker, hang after neutral, double engagement.
+// The engaged gear. The tests cover known bugs of similar software: flicker, hang after neutral, double engagement.
 #include "haptics/gate/gear_selector.h"
 
 #include <algorithm>
@@ -11,7 +11,8 @@
 
 #include "tests/support/gates.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 using glm::dvec2;
 
 namespace {
@@ -51,7 +52,7 @@ TEST_CASE("no flicker: tremor of a millimetre about either threshold changes the
   }
 }
 
-TEST_CASE("a gear counts after the debounce time and not before") {
+TEST_CASE("a gear is engaged after the debounce time and not before") {
   const Gate gate = paper_gate();
   GearSelector selector(kDebounce);
   const dvec2 in_second = at_depth(gate, 2, slot_with(gate, 2).rest);
@@ -59,7 +60,7 @@ TEST_CASE("a gear counts after the debounce time and not before") {
   CHECK(hold(selector, gate, in_second, 4.0 * kPeriod) == 2);
 }
 
-TEST_CASE("a gear is released after the debounce time and not before: one wild reading does not throw it out") {
+TEST_CASE("a gear is released after the debounce time and not before: a single outlier does not release it") {
   const Gate gate = paper_gate();
   GearSelector selector(kDebounce);
   REQUIRE(hold(selector, gate, rest_position(gate, 2), 0.1) == 2);

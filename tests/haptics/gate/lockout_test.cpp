@@ -1,14 +1,16 @@
-// Movable walls: each kind closes and opens when it should, and never on a lever that is beyond it.
+// Movable walls: each kind closes and opens as specified, and never while the lever is beyond it.
 #include "haptics/gate/lockout.h"
 
 #include <limits>
 
 #include <doctest/doctest.h>
 
+#include "app/lab/random_gates/random_layout.h"
 #include "tests/support/gates.h"
-#include "tests/support/random_layout.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::lab;
+using namespace gearshift::test;
 using glm::dvec2;
 
 namespace {
@@ -83,7 +85,7 @@ TEST_CASE("no direct 5 to R: closed from 5th until the lever has left the column
   CHECK_FALSE(reverse_closed(gate, lockouts.update(gate, in, {fifth.x, 0.0})));
 }
 
-TEST_CASE("a wall never closes on a lever that is beyond it") {
+TEST_CASE("a wall never closes while the lever is beyond it") {
   Lockout lockout;
   lockout.kind = LockoutKind::push_down;
   const Gate gate = gate_with(lockout);
@@ -118,7 +120,7 @@ TEST_CASE("no direct 5 to R: the lever has left the column only when it is outsi
   CHECK_FALSE(reverse_closed(gate, state.update(gate, in, {column.center - edge - 1e-6, 0.0})));
 }
 
-TEST_CASE("two lockouts of one gear remember apart: open only when both are") {
+TEST_CASE("two lockouts of one gear have separate states: the gear is open only if both are") {
   Lockout speed;
   speed.kind = LockoutKind::speed;
   speed.close_above = 20.0 * kKmh;
@@ -139,7 +141,7 @@ TEST_CASE("two lockouts of one gear remember apart: open only when both are") {
   CHECK_FALSE(reverse_closed(gate, state.update(gate, in, {0.0, 0.0})));
   in.road_speed = 25.0 * kKmh;
   CHECK(reverse_closed(gate, state.update(gate, in, {0.0, 0.0})));
-  in.road_speed = std::numeric_limits<double>::quiet_NaN();  // not a number changes nothing
+  in.road_speed = std::numeric_limits<double>::quiet_NaN();  // NaN leaves the state unchanged
   CHECK(reverse_closed(gate, state.update(gate, in, {0.0, 0.0})));
 }
 
@@ -156,7 +158,7 @@ TEST_CASE("a lateral lockout narrows the neutral aisle on its side only") {
   CHECK(lockouts.update(gate, {}, {0.021, 0.0}).select_max == gate.select_max);
 }
 
-TEST_CASE("a lockout never closes on a lever that leans on the side of its slot, to the last bit: 500 random gates") {
+TEST_CASE("a lockout never closes on a lever pressed against its slot's side, despite rounding: 500 random gates") {
   for (std::uint64_t seed = 1; seed <= 500; ++seed) {
     CAPTURE(seed);
     const Gate gate = compile_gate(random_layout(seed), kPaperWorkspace);

@@ -1,4 +1,4 @@
-// The gates that come with the program: what each must be, and that they fit the paper's joystick.
+// The gates shipped with the program: their gears, and that they fit the paper's joystick.
 #include <cmath>
 #include <filesystem>
 #include <set>
@@ -9,13 +9,14 @@
 #include "tests/haptics/gate/gate_laws.h"
 #include "tests/support/gates.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 using doctest::Approx;
 
 namespace {
 
-// A gate as it is engraved on a knob: the forward row, the back row, '-' where there is no gear.
-struct Knob {
+// A gate as engraved on a knob: the forward row and the back row, '-' for no gear.
+struct ShippedGate {
   const char* name;
   const char* forward;
   const char* back;
@@ -23,7 +24,7 @@ struct Knob {
   int mouth;    // lockouts in the mouth of a slot
 };
 
-constexpr Knob kKnobs[] = {
+constexpr ShippedGate kShippedGates[] = {
     {"paper", "135", "24R", 0, 0},
     {"five_speed_r_left_up", "R135", "-24-", 2, 0},
     {"five_speed_r_right_down", "135", "24R", 0, 2},
@@ -46,21 +47,21 @@ std::string row(const Gate& gate, Side side) {
 }  // namespace
 
 TEST_CASE("every shipped gate has the gears where a driver expects them") {
-  for (const Knob& knob : kKnobs) {
-    CAPTURE(knob.name);
-    const Gate gate = shipped_gate(knob.name);
-    CHECK(row(gate, Side::forward) == knob.forward);
-    CHECK(row(gate, Side::back) == knob.back);
+  for (const ShippedGate& expected_gate : kShippedGates) {
+    CAPTURE(expected_gate.name);
+    const Gate gate = shipped_gate(expected_gate.name);
+    CHECK(row(gate, Side::forward) == expected_gate.forward);
+    CHECK(row(gate, Side::back) == expected_gate.back);
     int lateral = 0;
     for (const Lockout& lockout : lockouts(gate)) lateral += lockout.lateral;
-    CHECK(lateral == knob.lateral);
-    CHECK(gate.lockout_count - lateral == knob.mouth);
+    CHECK(lateral == expected_gate.lateral);
+    CHECK(gate.lockout_count - lateral == expected_gate.mouth);
   }
 }
 
-TEST_CASE("no gate is shipped without being listed") {
+TEST_CASE("every shipped gate is listed here and in the program") {
   std::set<std::string> expected, found;
-  for (const Knob& knob : kKnobs) expected.insert(knob.name);
+  for (const ShippedGate& expected_gate : kShippedGates) expected.insert(expected_gate.name);
   for (const auto& entry : std::filesystem::directory_iterator(GEARSHIFT_ASSETS "/gates")) {
     if (entry.path().extension() == ".toml") found.insert(entry.path().stem().string());
   }
@@ -70,9 +71,9 @@ TEST_CASE("no gate is shipped without being listed") {
 }
 
 TEST_CASE("every corner of every shipped gate is inside the exact workspace, pressed 6.3 mm into both walls") {
-  for (const Knob& knob : kKnobs) {
-    CAPTURE(knob.name);
-    const Gate gate = shipped_gate(knob.name);
+  for (const ShippedGate& expected_gate : kShippedGates) {
+    CAPTURE(expected_gate.name);
+    const Gate gate = shipped_gate(expected_gate.name);
     for (const Slot& slot : slots(gate)) {
       const Column& column = column_of(gate, slot.column);
       CHECK(yoke_reaches({std::abs(column.center) + column.half_width + 0.0063, slot.end + 0.0063}));
@@ -80,19 +81,19 @@ TEST_CASE("every corner of every shipped gate is inside the exact workspace, pre
   }
 }
 
-TEST_CASE("no force of a shipped gate comes near the clamp of 31.7 N") {
-  for (const Knob& knob : kKnobs) {
-    CAPTURE(knob.name);
-    const GateLayout layout = read_gate_layout(GEARSHIFT_ASSETS "/gates/" + std::string(knob.name) + ".toml");
+TEST_CASE("all forces of the shipped gates are far below the clamp of 31.7 N") {
+  for (const ShippedGate& expected_gate : kShippedGates) {
+    CAPTURE(expected_gate.name);
+    const GateLayout layout = read_gate_layout(GEARSHIFT_ASSETS "/gates/" + std::string(expected_gate.name) + ".toml");
     CHECK(layout.feel.lock_force + layout.feel.center_force <= 16.0);
     CHECK(layout.feel.detent_force < layout.feel.lock_force);
   }
 }
 
-TEST_CASE("every shipped lockout of speed closes above 20 and opens below 15 km/h") {
-  for (const Knob& knob : kKnobs) {
-    CAPTURE(knob.name);
-    const Gate gate = shipped_gate(knob.name);
+TEST_CASE("every shipped speed lockout closes above 20 and opens below 15 km/h") {
+  for (const ShippedGate& expected_gate : kShippedGates) {
+    CAPTURE(expected_gate.name);
+    const Gate gate = shipped_gate(expected_gate.name);
     for (const Lockout& lockout : lockouts(gate)) {
       if (lockout.kind != LockoutKind::speed) continue;
       CHECK(lockout.close_above * 3.6 == Approx(20.0));
@@ -103,8 +104,8 @@ TEST_CASE("every shipped lockout of speed closes above 20 and opens below 15 km/
 }
 
 TEST_CASE("on the chamfers of every shipped gate the forces do not depend on where the lever is") {
-  for (const Knob& knob : kKnobs) {
-    CAPTURE(knob.name);
-    check_constant_at_mouths(shipped_gate(knob.name));
+  for (const ShippedGate& expected_gate : kShippedGates) {
+    CAPTURE(expected_gate.name);
+    check_constant_at_mouths(shipped_gate(expected_gate.name));
   }
 }

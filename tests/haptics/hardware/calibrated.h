@@ -1,14 +1,14 @@
-// What a perfect measurement of an emulated stick would say.
+// The calibration that a perfect measurement of an emulated stick would give.
 #pragma once
 
 #include "haptics/hardware/device_calibration.h"
 #include "tests/support/stick/emulated_stick.h"
 
-namespace gearshift {
+namespace gearshift::test {
 
-// Forward is away from the user, which a stick counts down; a positive constant force pushes left and forward (PID 1.0
-// section 4.2), unless the stick has it the other way round.
-inline DeviceCalibration calibration_of(const EmulatedStickConfig& stick) {
+// Forward is away from the user, which a stick counts down. A positive constant force pushes left and forward (PID 1.0
+// section 4.2), unless the stick's polarity is inverted.
+inline haptics::DeviceCalibration calibration_of(const EmulatedStickConfig& stick) {
   struct Range {
     double low, high;
   };
@@ -16,7 +16,7 @@ inline DeviceCalibration calibration_of(const EmulatedStickConfig& stick) {
                       : stick.family == StickFamily::openffboard ? Range{-32767.0, 32767.0}
                                                                  : Range{0.0, 32767.0};
   const double centre = 0.5 * (range.low + range.high), travel = 2.0 * stick.half_travel;
-  DeviceCalibration known;
+  haptics::DeviceCalibration known;
   known.select = {0x30,
                   range.low,
                   centre,
@@ -28,7 +28,7 @@ inline DeviceCalibration calibration_of(const EmulatedStickConfig& stick) {
                   stick.spring_stiffness,
                   stick.lever.axis_x,
                   stick.damper_sign.x,
-                  stick.full_force};  // at a metre per second
+                  stick.full_force};  // at 1 m/s
   known.shift = {0x31,
                  range.high,
                  centre,
@@ -48,4 +48,4 @@ inline DeviceCalibration calibration_of(const EmulatedStickConfig& stick) {
   return known;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

@@ -1,4 +1,5 @@
-// A stick is measured as it is: by what the emulation was built with, in virtual time. And nonsense is refused.
+// Tests of the calibration: it measures an emulated stick as it was configured, in virtual time, and refuses invalid
+// input.
 #include "haptics/hardware/calibrator.h"
 
 #include <algorithm>
@@ -16,12 +17,13 @@
 #include "tests/haptics/hardware/stick_bench.h"
 #include "tests/haptics/hardware/stick_loop.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 using glm::dvec2;
 
 namespace {
 
-// A stick, somebody in front of it, and the calibrator, whose ticks are the bench's.
+// A stick, a person in front of it, and the calibrator, which uses the bench's ticks.
 struct CalibrationBench : StickBench {
   explicit CalibrationBench(const EmulatedStickConfig& config, const DeviceCalibration& known = {})
       : StickBench(config, person),
@@ -36,7 +38,7 @@ struct CalibrationBench : StickBench {
     stick.logs = false;
   }
 
-  void show(const std::function<dvec2(double)>& way) {  // [m] by time from now [s]
+  void show(const std::function<dvec2(double)>& way) {  // [m] over the time from now [s]
     person.wants = [this, way, begin = time()] { return way(time() - begin); };
   }
   void hands_off() { person.wants = nullptr; }
@@ -69,7 +71,7 @@ EmulatedStickConfig of(StickFamily family) {
   return config;
 }
 
-// All of it but the timing and the handle; those of a perfect measurement.
+// A perfect calibration without timing and handle.
 DeviceCalibration shown(const EmulatedStickConfig& config) {
   DeviceCalibration known = calibration_of(config);
   known.timing = {};
@@ -91,8 +93,8 @@ std::string refusal(const std::function<void()>& step) {
   return "";
 }
 
-// [N s/m] What a damper D adds to a mass with damping where it is a force that is held for a period: the speed falls by
-// phi - D (1 - phi) / b in each, phi = exp(-b T / m).
+// [N s/m] The damping that a damper D adds to a mass if its force is held for a period: the speed decays in each by phi
+// - D (1 - phi) / b, with phi = exp(-b T / m).
 double sampled_damper(const AxisModel& handle, double damper) {
   constexpr double kPeriod = 0.001;  // [s]
   const double phi = std::exp(-handle.damping * kPeriod / handle.mass);
@@ -107,7 +109,7 @@ double counts_of(const LeverAxisCalibration& axis) {
 }  // namespace
 
 TEST_CASE(
-    "a stick that nobody knows is measured from the start, on every family and with every polarity, and holds a wall") {
+    "an uncalibrated stick is calibrated from the start, for every family and every polarity, and then holds a wall") {
   for (const StickFamily family : kStickFamilies) {
     for (const glm::ivec2 sign : {glm::ivec2(1, 1), glm::ivec2(-1, 1)}) {
       CAPTURE(name_of(family));
@@ -126,12 +128,12 @@ TEST_CASE(
       bench.hands_off();
       bench.strongest = 0.0;
       calibrator.measure_polarity();
-      CHECK(bench.strongest <= kCautious * 20.0 * 1.01);
+      CHECK(bench.strongest <= kCautiousForce * 20.0 * 1.01);
       calibrator.measure_timing();
       calibrator.measure_handle();
       calibrator.measure_springs();
 
-      const double fine = family == StickFamily::sidewinder ? 0.10 : 0.04;  // counts of 137 um, or of 4 and less
+      const double fine = family == StickFamily::sidewinder ? 0.10 : 0.04;  // counts of 137 um, or of at most 4 um
       const DeviceCalibration& found = calibrator.calibration();
       CHECK(missing_steps(found, true).empty());
       CHECK(found.select.constant_sign == truth.select.constant_sign);
@@ -158,7 +160,7 @@ TEST_CASE(
       CHECK(found.timing.output_interval == doctest::Approx(0.001).epsilon(0.02));
       CHECK(std::abs(found.timing.delay - 0.002) < 3e-4);
 
-      // And holds a wall with it: a hand that presses into the gate's neutral aisle.
+      // The result holds a wall: a hand presses into the neutral aisle's wall.
       EmulatedStickConfig gripped = config;
       gripped.lever.hand = kGripHand;
       StillHand hand;
@@ -181,10 +183,10 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("delay: what the emulation was built with, to a third of a millisecond") {
+TEST_CASE("delay: as configured in the emulation, within a third of a millisecond") {
   for (const double delay : {0.0, 0.001, 0.003, 0.0055, 0.012}) {
     CAPTURE(delay);
-    EmulatedStickConfig config = of(StickFamily::sidewinder);  // the coarsest
+    EmulatedStickConfig config = of(StickFamily::sidewinder);  // the coarsest stick
     config.delay = delay;
     config.plant_period = 0.00025;
     DeviceCalibration known = shown(config);
@@ -196,7 +198,7 @@ TEST_CASE("delay: what the emulation was built with, to a third of a millisecond
   }
 }
 
-TEST_CASE("intervals: those of the stick and of its ticks") {
+TEST_CASE("intervals: those of the stick and its ticks") {
   for (const double interval : {0.002, 0.004, 0.008}) {
     EmulatedStickConfig config = of(StickFamily::vjoy);
     config.input_interval = interval;
@@ -212,7 +214,7 @@ TEST_CASE("intervals: those of the stick and of its ticks") {
   }
 }
 
-TEST_CASE("what is missing, in order; a step that is done is not asked for again") {
+TEST_CASE("missing steps are listed in order, and finished steps are not listed") {
   using enum CalibrationStep;
   DeviceCalibration known;
   CHECK(missing_steps(known, true) == std::vector{range, numbers, polarity, timing, handle, springs});
@@ -226,21 +228,21 @@ TEST_CASE("what is missing, in order; a step that is done is not asked for again
   CHECK(missing_steps(known, true) == std::vector{polarity, timing, handle, springs});
 }
 
-// Twice the mass and thirty times the stiffness: walls that are admitted for them shake without the hand.
-TEST_CASE("a hand that holds the lever while its handle is measured is refused") {
+// A hand adds twice the mass and thirty times the stiffness; walls tuned for that vibrate without the hand.
+TEST_CASE("the handle is not measured while a hand holds the lever") {
   EmulatedStickConfig config = of(StickFamily::openffboard);
   DeviceCalibration known = calibration_of(config);
   known.select.handle = known.shift.handle = {};
   config.lever.hand = kGripHand;
   CalibrationBench bench(config, known);
-  CHECK(refusal([&] { bench.calibrator.measure_handle(); }).find("more than its motors are for: take the hands off") !=
+  CHECK(refusal([&] { bench.calibrator.measure_handle(); }).find("too stiff for its motors: take your hands off") !=
         std::string::npos);
   CHECK_FALSE(bench.calibrator.calibration().has_handle());
 }
 
-// By a spring of 400 N/m towards a place 8 mm off, for 50 ms. Each of these times fell into a pulse: where one fit of four
-// pulses was believed, three gave a damper of 1.68, 1.36 and 1.76 times its strength, the others a refusal.
-TEST_CASE("a nudge in one of the pulses is outvoted by the others") {
+// The nudge is a spring of 400 N/m towards a point 8 mm off, for 50 ms, at times that fall into a pulse. With a single
+// fit of four pulses, three of them gave a damper of 1.68, 1.36 and 1.76 times its strength, the others a refusal.
+TEST_CASE("a nudge during one of the pulses is outvoted by the other pulses") {
   const EmulatedStickConfig config = of(StickFamily::openffboard);
   const DeviceCalibration truth = calibration_of(config);
   const double damper = 2.0 * sampled_damper(truth.select.handle, 10.0);
@@ -270,7 +272,7 @@ TEST_CASE("a nudge in one of the pulses is outvoted by the others") {
   }
 }
 
-TEST_CASE("resumed: the steps that are left need what is in the file, and no more") {
+TEST_CASE("resumed: the remaining steps need only what is in the file") {
   const EmulatedStickConfig config = of(StickFamily::openffboard);
   CalibrationBench bench(config, shown(config));
   bench.calibrator.measure_polarity();
@@ -281,11 +283,11 @@ TEST_CASE("resumed: the steps that are left need what is in the file, and no mor
   CHECK(missing_steps(again.calibrator.calibration(), true) == std::vector{CalibrationStep::handle});
 }
 
-TEST_CASE("nonsense while a person shows the lever is refused, and changes nothing") {
+TEST_CASE("invalid input while a person moves the lever is refused and changes nothing") {
   const EmulatedStickConfig config = of(StickFamily::openffboard);
   CalibrationBench bench(config);
   Calibrator& calibrator = bench.calibrator;
-  CHECK(refusal([&] { calibrator.measure_range(2.0); }) == "which axes the lever moves is not known yet");
+  CHECK(refusal([&] { calibrator.measure_range(2.0); }) == "the lever's axes are not known yet: find them first");
 
   bench.show([](double t) { return dvec2(t < 0.6 ? 0.0 : 0.020, 0.0); });
   CHECK(refusal([&] { calibrator.find_axis(true, 2.0); }).find("no axis moved by more than 1") == 0);
@@ -295,7 +297,7 @@ TEST_CASE("nonsense while a person shows the lever is refused, and changes nothi
   CHECK(calibrator.find_axis(true, 2.0) == "right is axis 1 of the stick, counting up");
   bench.show([](double t) { return dvec2(t < 0.6 ? 0.0 : 0.060, 0.0); });
   CHECK(refusal([&] { calibrator.find_axis(false, 2.0); }) ==
-        "the same axis moved as to the right: push the lever forward");
+        "the same axis moved as for select: push the lever forward");
   bench.show([](double t) { return dvec2(0.0, t < 0.6 ? 0.0 : 0.060); });
   CHECK(calibrator.find_axis(false, 2.0) == "forward is axis 2 of the stick, counting down");
 
@@ -306,18 +308,18 @@ TEST_CASE("nonsense while a person shows the lever is refused, and changes nothi
   };
   bench.show([](double t) { return 0.010 * dvec2(std::cos(3.0 * t), std::sin(3.0 * t)); });
   lets_go_after(4.0);
-  CHECK(refusal([&] { calibrator.measure_range(5.0); }).find("of its range: move the lever to all its ends") !=
+  CHECK(refusal([&] { calibrator.measure_range(5.0); }).find("of its range: move the lever to all its stops") !=
         std::string::npos);
   bench.show([](double t) { return dvec2(0.06 * std::sin(3.0 * t)); });
   lets_go_after(4.0);
   CHECK(refusal([&] { calibrator.measure_range(5.0); }).find("the two axes move together") == 0);
-  // It is left leaning to the right.
+  // The lever is left leaning to the right.
   bench.show([](double t) { return t < 3.0 ? 0.09 * dvec2(std::cos(3.0 * t), std::sin(3.0 * t)) : dvec2(0.055, 0.0); });
   bench.every_tick = nullptr;
   CHECK(refusal([&] { calibrator.measure_range(5.0); }).find("select rests at 8") == 0);
-  // The hand never leaves it alone.
+  // The hand never lets go.
   bench.show([](double t) { return 0.09 * dvec2(std::cos(3.0 * t), std::sin(3.0 * t)); });
-  CHECK(refusal([&] { calibrator.measure_range(5.0); }) == "the lever does not come to rest: take the hands off it");
+  CHECK(refusal([&] { calibrator.measure_range(5.0); }) == "the lever does not come to rest: take your hands off it");
   CHECK_FALSE(calibrator.calibration().has_stops());
 
   CHECK(refusal([&] { calibrator.set_numbers(0.01, 0.1, 20.0); }) ==
@@ -328,17 +330,17 @@ TEST_CASE("nonsense while a person shows the lever is refused, and changes nothi
   CHECK_FALSE(calibrator.calibration().has_force());
 }
 
-TEST_CASE("a range is measured in spite of readings that jump") {
+TEST_CASE("a range is measured despite readings that jump") {
   CalibrationBench bench(of(StickFamily::vjoy));
   bench.find_axes();
   bench.stick.faults.jump = true;
-  bench.show([](double t) { return 0.050 * dvec2(std::cos(3.0 * t), std::sin(3.0 * t)); });  // not to the ends
+  bench.show([](double t) { return 0.050 * dvec2(std::cos(3.0 * t), std::sin(3.0 * t)); });  // not to the stops
   bench.every_tick = [&, begin = bench.time()] {
     if (bench.time() - begin > 4.0) bench.hands_off();
     if (bench.time() - begin > 3.9) bench.stick.faults.jump = false;
   };
   bench.calibrator.measure_range(5.0);
-  // Its circle is of some 48 mm, of 70; a jump goes 42 mm beyond.
+  // The circle spans about 48 of 70 mm; a jump adds 42 mm.
   CHECK(counts_of(bench.calibrator.calibration().select) == doctest::Approx(32767.0 * 0.048 / 0.07).epsilon(0.03));
 }
 
@@ -346,7 +348,8 @@ TEST_CASE(
     "polarity: refused where nothing moves, where a hand holds it, where it is moved by a hand, before the range") {
   const EmulatedStickConfig config = of(StickFamily::vjoy);
   CalibrationBench unknown(config);
-  CHECK(refusal([&] { unknown.calibrator.measure_polarity(); }) == "where the lever's ends are is not known yet");
+  CHECK(refusal([&] { unknown.calibrator.measure_polarity(); }) ==
+        "the lever's stops are not known yet: measure the range first");
 
   EmulatedStickConfig stiff = config;
   stiff.lever.coulomb_friction = 3.0;  // more than 10 % of 20 N
@@ -362,28 +365,28 @@ TEST_CASE(
   CHECK(refusal([&] { held.calibrator.measure_polarity(); }).find("select does not move") == 0);
 
   CalibrationBench pushed(config, shown(config));
-  pushed.every_tick = [&] {  // against whatever it does, to one side
+  pushed.every_tick = [&] {  // pushes to one side all the time
     if (glm::length(pushed.stick.force()) > 0.1)
       pushed.person.wants = [] { return dvec2(0.03, 0.0); };
     else
       pushed.hands_off();
   };
   CHECK(refusal([&] { pushed.calibrator.measure_polarity(); }) ==
-        "select did not move one way and then the other: take the hands off the lever");
+        "select did not move one way and then the other: take your hands off the lever");
 
   CalibrationBench shaken(config, shown(config));
   shaken.show([](double t) { return 0.02 * dvec2(std::sin(9.0 * t), 0.0); });
   CHECK(refusal([&] { shaken.calibrator.measure_polarity(); }) ==
-        "the lever does not come to rest: take the hands off it");
+        "the lever does not come to rest: take your hands off it");
   for (CalibrationBench* bench : {&stuck, &held, &pushed, &shaken}) {
     CHECK_FALSE(bench->calibrator.calibration().has_polarity());
     bench->tick();
     bench->tick();
-    CHECK(bench->stick.force() == dvec2(0.0));  // nothing is left on
+    CHECK(bench->stick.force() == dvec2(0.0));  // no force is left on
   }
 }
 
-TEST_CASE("a wrong axis, a wrong polarity, a stick that is lost: refused") {
+TEST_CASE("a wrong axis, a wrong polarity, or a disconnected stick is refused") {
   const EmulatedStickConfig config = of(StickFamily::sidewinder);
   DeviceCalibration known = shown(config);
   known.select.usage = 0x32;
@@ -391,24 +394,24 @@ TEST_CASE("a wrong axis, a wrong polarity, a stick that is lost: refused") {
   CHECK_FALSE(refusal([&] { other.calibrator.measure_polarity(); }).empty());
 
   known = shown(config);
-  known.select.constant_sign = 1;  // it is -1
+  known.select.constant_sign = 1;  // correct is -1
   known.shift.constant_sign = 1;
   CalibrationBench wrong(config, known);
   CHECK(refusal([&] { wrong.calibrator.measure_timing(); }) ==
-        "select moves the other way than its polarity says: measure the polarity again");
+        "select moves against its polarity: measure the polarity again");
 
   CalibrationBench lost(config, shown(config));
   lost.every_tick = [&] {
     if (lost.now_ns == 700'000'000) lost.prepare();  // unplugged and back
   };
-  CHECK(refusal([&] { lost.calibrator.measure_polarity(); }) == "the stick was lost while it was measured");
+  CHECK(refusal([&] { lost.calibrator.measure_polarity(); }) == "the stick was disconnected during the measurement");
 
   CalibrationBench silent(config, shown(config));
   silent.every_tick = [&] { silent.stick.faults.silent = silent.time() > 0.1; };
   CHECK_THROWS(silent.calibrator.measure_polarity());
 }
 
-TEST_CASE("buttons: the one that is pressed, not one that was held, and none twice") {
+TEST_CASE("buttons: the pressed one counts, not a held one, and none is assigned twice") {
   CalibrationBench bench(of(StickFamily::sidewinder));
   const auto press = [&](std::uint64_t before, std::uint64_t after) {
     bench.stick.held_buttons = before;
@@ -421,8 +424,7 @@ TEST_CASE("buttons: the one that is pressed, not one that was held, and none twi
   CHECK(bench.calibrator.find_button(LeverButton::stop, 2.0) == "button 4");
   CHECK(bench.calibrator.calibration().stop_button == 4);
   press(0, 0b1000);
-  CHECK(refusal([&] { bench.calibrator.find_button(LeverButton::lift, 2.0); }) ==
-        "button 4 has another meaning already");
+  CHECK(refusal([&] { bench.calibrator.find_button(LeverButton::lift, 2.0); }) == "button 4 is already assigned");
   press(0, 0b11000);
   CHECK(refusal([&] { bench.calibrator.find_button(LeverButton::lift, 2.0); }) ==
         "more than one button was pressed at once");

@@ -1,4 +1,4 @@
-// A calibration as a file, to the bit; and what the loop may make of it.
+// Tests of the calibration file, exact to the bit, and of the DeviceSpec made from a calibration.
 #include "haptics/hardware/device_calibration.h"
 
 #include <algorithm>
@@ -16,7 +16,8 @@
 #include "tests/support/gates.h"
 #include "tests/support/temp_folder.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 
 namespace {
 
@@ -86,7 +87,7 @@ bool same(const DeviceCalibration& a, const DeviceCalibration& b) {
          a.press_button == b.press_button && a.lift_button == b.lift_button && a.stop_button == b.stop_button;
 }
 
-// The paper's joystick as a stick of 140 mm and 20 N that answers after so long.
+// The paper's joystick as a stick with 140 mm travel, 20 N and that timing.
 DeviceCalibration measured(const DeviceTiming& timing) {
   DeviceCalibration known;
   known.select = {0x30, 0.0, 500.0, 1000.0, 0.14, 20.0, 1, 1, 400.0, kPaperAxisX};
@@ -107,7 +108,7 @@ std::string refusal(const std::string& text) {
   return "";
 }
 
-// The text of a calibration in which one line says something else.
+// The text of a calibration with one line replaced.
 std::string changed(const std::string& key, const std::string& line) {
   std::istringstream text(calibration_text(measured({0.001, 0.001, 0.002, 0.0})));
   std::string out, old;
@@ -121,7 +122,7 @@ std::string changed(const std::string& key, const std::string& line) {
 
 }  // namespace
 
-TEST_CASE("what is written is read back: every key, every bit") {
+TEST_CASE("a written calibration is read back: every key, every bit") {
   const TempFolder folder;
   for (std::uint64_t seed = 1; seed <= 200; ++seed) {
     CAPTURE(seed);
@@ -135,7 +136,7 @@ TEST_CASE("what is written is read back: every key, every bit") {
   CHECK(read_calibration(folder / "none.toml") == std::nullopt);
 }
 
-TEST_CASE("a device has a file of its own, whatever its serial says") {
+TEST_CASE("every device has its own file, whatever its serial number") {
   HidIdentity stick;
   stick.vendor = 0x045e;
   stick.product = 0x001b;
@@ -144,7 +145,7 @@ TEST_CASE("a device has a file of its own, whatever its serial says") {
   CHECK(calibration_file("/c", stick) == "/c/045e_001b_A-1_______.toml");
 }
 
-TEST_CASE("nonsense is refused: file, line, key, value and range") {
+TEST_CASE("invalid values are refused with file, line, key, value and range") {
   CHECK(refusal(changed("low_counts", "low_counts = 600")) ==
         "c.toml:8: centre_counts = 500: must lie between low_counts and high_counts");
   CHECK(refusal(changed("travel_m", "travel_m = 0.003")) ==
@@ -156,14 +157,14 @@ TEST_CASE("nonsense is refused: file, line, key, value and range") {
   CHECK(refusal(changed("mass_kg", "mass_kg = nan")).find("c.toml:19: mass_kg = nan: must be between 0 and 1000") == 0);
   CHECK(refusal(changed("axis", "axis = \"q\"")) ==
         "c.toml:6: axis = \"q\": must be one of x, y, z, rx, ry, rz, slider, dial, wheel");
-  CHECK(refusal(changed("axis", "axis = \"y\"")).find("must not be that of select") != std::string::npos);
+  CHECK(refusal(changed("axis", "axis = \"y\"")).find("must differ from the axis of select") != std::string::npos);
   CHECK(refusal(changed("stop", "stop = 65")).find("stop = 65: must be between 0 and 64") != std::string::npos);
   CHECK(refusal(changed("stop", "halt = 1")).find("stop is missing") != std::string::npos);
   CHECK(refusal("vendor = 1\n").find("product is missing") != std::string::npos);
   CHECK(refusal("what").find("not valid TOML") != std::string::npos);
 }
 
-TEST_CASE("what could not be read again is not written, and the old file stays") {
+TEST_CASE("a calibration that could not be read back is not written, and the old file stays") {
   const TempFolder folder;
   const std::filesystem::path file = folder / "c.toml";
   write_calibration(measured({}), file);
@@ -173,34 +174,34 @@ TEST_CASE("what could not be read again is not written, and the old file stays")
   CHECK(same(*read_calibration(file), measured({})));
 }
 
-TEST_CASE("cycles of delay: (1 + delay) T is no less than what passes between a reading and its answer") {
-  // Sums by hand: interval + jitter + output interval + delay.
+TEST_CASE("cycles of delay: (1 + delay) T is at least the time from a reading to its answer") {
+  // Sums by hand: input interval + jitter + output interval + delay.
   CHECK(delay_cycles({0.001, 0.001, 0.0, 0.0}, 0.001) == 1);        // 2.0 ms
-  CHECK(delay_cycles({0.001, 0.001, 0.002, 0.0}, 0.001) == 3);      // 4.0 ms: 3 ms after it was sent a force is seen
+  CHECK(delay_cycles({0.001, 0.001, 0.002, 0.0}, 0.001) == 3);      // 4.0 ms: the force is seen 3 ms after it was sent
   CHECK(delay_cycles({0.001, 0.001, 0.002, 0.0001}, 0.001) == 4);   // 4.1 ms
   CHECK(delay_cycles({0.001, 0.001, 0.002, 0.0}, 0.002) == 1);      // the same at 500 Hz
   CHECK(delay_cycles({0.001, 0.001, 0.002, 0.0}, 0.00025) == 15);   // at 4 kHz
   CHECK(delay_cycles({0.000125, 0.000125, 0.0, 0.0}, 0.001) == 0);  // a fast bus
   CHECK_THROWS_WITH_AS(
       delay_cycles({0.008, 0.008, 0.004, 0.0}, 0.001),
-      "the stick answers after 20 ms, and at 1000 Hz the loop accounts for 16 ms at most: 800 Hz would do",
+      "the stick answers after 20 ms, but at 1000 Hz the loop compensates at most 16 ms: 800 Hz would work",
       std::invalid_argument);
   CHECK(delay_cycles({0.008, 0.008, 0.004, 0.0}, 1.0 / 800.0) == 15);
   CHECK_THROWS_WITH_AS(
       delay_cycles({0.1, 0.1, 0.0, 0.0}, 0.001),
-      "the stick answers after 200 ms, and at 1000 Hz the loop accounts for 16 ms at most: too late for any "
+      "the stick answers after 200 ms, but at 1000 Hz the loop compensates at most 16 ms: too slow for any "
       "rate from 100 Hz up",
       std::invalid_argument);
 }
 
-TEST_CASE("what the loop may know of it") {
+TEST_CASE("the device specification from a calibration") {
   const DeviceSpec spec = spec_of(measured({0.001, 0.001, 0.002, 0.0}), 0.001);
   CHECK(spec.max_force == glm::dvec2(20.0));
   CHECK(spec.workspace == glm::dvec2(0.07));
   CHECK(spec.position_step == doctest::Approx(0.07 / 400.0));  // 400 counts from the centre to the nearer stop
   CHECK(spec.delay == 3);
   CHECK(spec.axis_x.mass == kPaperAxisX.mass);
-  CHECK(spec.own_stiffness == glm::dvec2(300.0));  // of both, what both have
+  CHECK(spec.device_wall_stiffness == glm::dvec2(300.0));  // the minimum of both axes
   CHECK_FALSE(spec.measures_hand_force);
   CHECK_FALSE(spec.simulated);
 
@@ -208,17 +209,17 @@ TEST_CASE("what the loop may know of it") {
   unknown.shift.constant_sign = 0;
   unknown.select.handle = {};
   const DeviceSpec careful = spec_of(unknown, 0.001);
-  CHECK(careful.max_force == glm::dvec2(0.0));  // polarity of one axis is not known
-  CHECK(careful.own_stiffness == glm::dvec2(0.0));
-  CHECK(careful.delay == 7);  // 8 ms are assumed
+  CHECK(careful.max_force == glm::dvec2(0.0));  // the polarity of one axis is not known
+  CHECK(careful.device_wall_stiffness == glm::dvec2(0.0));
+  CHECK(careful.delay == 7);  // assumes 8 ms
   CHECK(careful.axis_x.mass == kUnmeasuredHandle.mass);
 
   DeviceCalibration weak = measured({});
   weak.shift.spring_stiffness = 40.0;
-  CHECK(spec_of(weak, 0.001).own_stiffness == glm::dvec2(0.0));
+  CHECK(spec_of(weak, 0.001).device_wall_stiffness == glm::dvec2(0.0));
 }
 
-TEST_CASE("the builder's guide shows a calibration as the program writes it") {
+TEST_CASE("the builder's guide shows a calibration exactly as the program writes it") {
   std::ifstream file(GEARSHIFT_TEST_DATA "/../../haptics/hardware/BUILDING.md");
   const std::string page{std::istreambuf_iterator<char>(file), {}};
   const std::string fence = "```toml 1209_ffb0_EMULATED01.toml\n";
@@ -238,8 +239,9 @@ TEST_CASE("the builder's guide shows a calibration as the program writes it") {
   CHECK(known->lift_button == 2);
 }
 
-// 1 ms and three samples of delay admit 873 N/m (X axis, exact, B = 0), 2078 with the half-sample hold.
-TEST_CASE("a 3 ms device gets parameters that hold on a 3 ms device, and says so") {
+// At 1 kHz with three samples of delay the exact limit is 873 N/m (X axis, B = 0), and 2078 N/m with the half-sample
+// hold.
+TEST_CASE("a 3 ms device gets parameters that are stable at 3 ms, and reports the limit") {
   DeviceCalibration known = measured({0.001, 0.001, 0.002, 0.0});
   known.select.spring_sign = known.shift.spring_sign = 0;
   const DeviceSpec spec = spec_of(known, 0.001);
@@ -251,14 +253,16 @@ TEST_CASE("a 3 ms device gets parameters that hold on a 3 ms device, and says so
   const AdmittedTuning plain = admit_tuning(config, spec, gate);
   CHECK(plain.tuning.wall_stiffness > 683.0);
   CHECK(plain.tuning.wall_stiffness < 873.0);
-  REQUIRE_FALSE(plain.limited.empty());
-  CHECK(plain.limited.front().what == "wall_stiffness_n_per_m");
-  CHECK(plain.limited.front().wanted == 5000.0);
+  REQUIRE_FALSE(plain.limits.empty());
+  CHECK(plain.limits.front().parameter == TuningParameter::wall_stiffness);
+  CHECK(plain.limits.front().wanted == 5000.0);
 
   config = {};
   config.contact.hold = ContactHold::half_sample;
   const AdmittedTuning held = admit_tuning(config, spec, gate);
-  CHECK(held.tuning.wall_stiffness == doctest::Approx(0.35 * kPaperAxisY.mass / 16e-6));  // 1881: the lighter axis
-  const auto is_wall = [](const Limited& one) { return one.what == "wall_stiffness_n_per_m" && one.wanted == 5000.0; };
-  CHECK(std::any_of(held.limited.begin(), held.limited.end(), is_wall));
+  CHECK(held.tuning.wall_stiffness == doctest::Approx(0.35 * kPaperAxisY.mass / 16e-6));  // 1881: from the lighter axis
+  const auto is_wall = [](const TuningLimit& one) {
+    return one.parameter == TuningParameter::wall_stiffness && one.wanted == 5000.0;
+  };
+  CHECK(std::any_of(held.limits.begin(), held.limits.end(), is_wall));
 }

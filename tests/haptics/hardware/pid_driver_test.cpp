@@ -1,4 +1,4 @@
-// The driver between its two sides: what it sees, what it obeys, and every lie of a stick.
+// Tests of PidDriver: its state, its commands, and every kind of faulty stick.
 #include "haptics/hardware/pid_driver.h"
 
 #include <unistd.h>
@@ -15,7 +15,8 @@
 #include "tests/haptics/device/still_hand.h"
 #include "tests/haptics/hardware/stick_bench.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 
 namespace {
 
@@ -33,24 +34,23 @@ bool wakes(int fd) {
   return read(fd, &count, sizeof count) == sizeof count;
 }
 
-std::vector<std::uint8_t> without_pid() {  // X and Y of a joystick, no more
+std::vector<std::uint8_t> without_pid() {  // X and Y of a joystick and nothing else
   return {0x05, 0x01, 0x09, 0x04, 0xa1, 0x01, 0x09, 0x30, 0x09, 0x31, 0x15,
           0x00, 0x26, 0xff, 0x03, 0x75, 0x10, 0x95, 0x02, 0x81, 0x02, 0xc0};
 }
 
 }  // namespace
 
-TEST_CASE("no stick, no forces, no sense: refused in one sentence") {
+TEST_CASE("a device that is no stick, has no forces or no valid descriptor is refused in one sentence") {
   CHECK_THROWS_WITH_AS(PidDriver{without_pid()},
-                       "this stick has no force feedback: its descriptor has no reports that push (PID class)",
-                       HidError);
+                       "this stick has no force feedback: its descriptor has no force reports (PID class)", HidError);
   std::vector<std::uint8_t> no_axes = without_pid();
   no_axes[7] = no_axes[9] = 0x36;  // sliders
-  CHECK_THROWS_WITH_AS(PidDriver{no_axes}, "this device is no stick: its descriptor has no axes X and Y", HidError);
+  CHECK_THROWS_WITH_AS(PidDriver{no_axes}, "this device is not a stick: its descriptor has no X and Y axes", HidError);
   CHECK_THROWS_AS(PidDriver{std::vector<std::uint8_t>{0x05}}, HidError);
 }
 
-TEST_CASE("what is wished is what pushes, on every family; what is seen is where the lever is") {
+TEST_CASE("commanded forces act on the lever of every family, and the state shows the lever's position") {
   for (const StickFamily family : kStickFamilies) {
     CAPTURE(name_of(family));
     StillHand hand(hand_at({0.020, -0.035}));
@@ -58,13 +58,13 @@ TEST_CASE("what is wished is what pushes, on every family; what is seen is where
     bench.prepare();
     bench.tick_for(0.5, {});
     CHECK(bench.stick.force() == glm::dvec2(0.0));
-    const PidSight still = bench.driver.see();
+    const StickState still = bench.driver.state();
     CHECK(still.session == 1);
     CHECK(still.time_ns == bench.now_ns);
     CHECK_FALSE(still.actuators);
     // PID 1.0 section 4.2: from 90 degrees pushes left; from 180 degrees, the user's side, pushes away.
     bench.tick_for(0.01, pushing(0.5, 0.25));
-    const PidSight pushed = bench.driver.see();
+    const StickState pushed = bench.driver.state();
     CHECK(pushed.actuators);
     CHECK(pushed.sent == std::array<double, 2>{0.5, 0.25});
     CHECK(pushed.sequence == still.sequence + 10);
@@ -74,17 +74,17 @@ TEST_CASE("what is wished is what pushes, on every family; what is seen is where
   }
 }
 
-TEST_CASE("only what is new wakes the port") {
+TEST_CASE("only a new command wakes the port") {
   StillHand hand;
   StickBench bench(held(StickFamily::vjoy), hand);
   bench.prepare();
   const int fd = bench.driver.stream_config(1'000'000).wake_fd;
-  bench.driver.see();
-  bench.driver.wish(pushing(0.1, 0.0));
+  bench.driver.state();
+  bench.driver.command(pushing(0.1, 0.0));
   CHECK(wakes(fd));
-  bench.driver.wish(pushing(0.1, 0.0));
+  bench.driver.command(pushing(0.1, 0.0));
   CHECK_FALSE(wakes(fd));
-  bench.driver.wish(pushing(0.2, 0.0));
+  bench.driver.command(pushing(0.2, 0.0));
   CHECK(wakes(fd));
   bench.driver.release();
   CHECK(wakes(fd));
@@ -92,22 +92,22 @@ TEST_CASE("only what is new wakes the port") {
   CHECK(wakes(fd));
 }
 
-TEST_CASE("what is no number drives nothing") {
+TEST_CASE("a command with NaN or infinity drives nothing") {
   const double nan = std::nan(""), infinite = std::numeric_limits<double>::infinity();
-  std::vector<PidWish> wishes{pushing(nan, 0.0), pushing(0.5, infinite), pushing(0.5, 0.0), pushing(0.5, 0.0)};
-  wishes[2].spring[1].centre = nan;
-  wishes[3].damper[1] = nan;
-  for (const PidWish& wish : wishes) {
+  std::vector<StickCommand> commands{pushing(nan, 0.0), pushing(0.5, infinite), pushing(0.5, 0.0), pushing(0.5, 0.0)};
+  commands[2].spring[1].centre = nan;
+  commands[3].damper[1] = nan;
+  for (const StickCommand& command : commands) {
     StillHand hand;
     StickBench bench(held(StickFamily::vjoy), hand);
     bench.prepare();
-    bench.tick_for(0.05, wish);
+    bench.tick_for(0.05, command);
     CHECK_FALSE(bench.stick.actuators_on());
     CHECK(bench.stick.playing() == 0);
   }
 }
 
-TEST_CASE("a release is never lost, however soon a wish comes after it") {
+TEST_CASE("a release is never lost, however soon a command comes after it") {
   StillHand hand;
   StickBench bench(held(StickFamily::sidewinder), hand);
   bench.prepare();
@@ -121,28 +121,28 @@ TEST_CASE("a release is never lost, however soon a wish comes after it") {
   CHECK(bench.stick.force().x == doctest::Approx(-4.0));
 }
 
-TEST_CASE("unplugged and back: nothing of what was wished before drives it, though the haptic side goes on wishing") {
+TEST_CASE("after an unplug, commands of the old session drive nothing, even if the haptic side keeps sending them") {
   for (const StickFamily family : kStickFamilies) {
     StillHand hand;
     StickBench bench(held(family), hand);
     bench.prepare();
     bench.tick_for(0.1, pushing(0.8, 0.8));
     bench.stick.unplug();
-    bench.driver.wish(pushing(0.8, 0.8));  // under way
+    bench.driver.command(pushing(0.8, 0.8));  // streaming
     bench.prepare();
-    bench.driver.wish(pushing(0.8, 0.8));  // it has not seen that the stick is another one
+    bench.driver.command(pushing(0.8, 0.8));  // computed from a state before the reconnect
     for (int i = 0; i < 50; ++i) {
       bench.tick();
-      bench.driver.wish(pushing(0.8, 0.8));
+      bench.driver.command(pushing(0.8, 0.8));
       CHECK(bench.stick.force() == glm::dvec2(0.0));
       CHECK_FALSE(bench.stick.actuators_on());
     }
-    bench.tick_for(0.02, pushing(0.1, 0.0));  // it has, now
+    bench.tick_for(0.02, pushing(0.1, 0.0));  // now it has read the new session
     CHECK(bench.stick.force().x == doctest::Approx(-2.0).epsilon(0.02));
   }
 }
 
-TEST_CASE("the haptic side falls silent while it drives: off after 100 ms, and nothing of that session counts again") {
+TEST_CASE("if the haptic side stops sending commands, the motors are off after 100 ms and the session ends") {
   for (const StickFamily family : kStickFamilies) {
     StillHand hand;
     StickBench bench(held(family), hand);
@@ -152,25 +152,24 @@ TEST_CASE("the haptic side falls silent while it drives: off after 100 ms, and n
     CHECK(glm::length(bench.stick.force()) > 15.0);
     for (int i = 0; i < 3; ++i) bench.tick();
     CHECK(bench.stick.force() == glm::dvec2(0.0));
-    CHECK(bench.problems() ==
-          Lines{"no force was commanded for 100 ms: the motors are off until they are armed again"});
-    bench.driver.wish(pushing(0.8, 0.0));  // without having seen
+    CHECK(bench.problems() == Lines{"no force was commanded for 100 ms: the motors are off until you arm them again"});
+    bench.driver.command(pushing(0.8, 0.0));  // without reading the state first
     for (int i = 0; i < 50; ++i) bench.tick();
     CHECK(bench.stick.force() == glm::dvec2(0.0));
-    CHECK(bench.driver.see().session == 2);
+    CHECK(bench.driver.state().session == 2);
   }
 }
 
-TEST_CASE("a dead program: the device falls silent within 300 ms by itself, walls too") {
+TEST_CASE("if the program dies, the device's forces end by themselves within 300 ms, walls included") {
   for (const StickFamily family : kStickFamilies) {
     CAPTURE(name_of(family));
     StillHand hand(hand_at({0.03, 0.0}));
     StickBench bench(held(family), hand);
     bench.prepare();
-    PidWish wish = pushing(0.5, 0.0);
-    wish.spring[0] = {0.0, 0.1, 1.0, 1.0};
-    for (int phase = 0; phase < 5; ++phase) {  // whatever was renewed last
-      bench.tick_for(0.5 + 0.021 * phase, wish);
+    StickCommand command = pushing(0.5, 0.0);
+    command.spring[0] = {0.0, 0.1, 1.0, 1.0};
+    for (int phase = 0; phase < 5; ++phase) {  // for different renewal times
+      bench.tick_for(0.5 + 0.021 * phase, command);
       REQUIRE(glm::length(bench.stick.force()) > 5.0);
       const std::int64_t died = bench.now_ns;
       while (bench.stick.force() != glm::dvec2(0.0)) bench.stick.advance(bench.now_ns += 1'000'000);
@@ -183,93 +182,94 @@ TEST_CASE("a dead program: the device falls silent within 300 ms by itself, wall
 
 namespace {
 
-// One second under a force that changes, with that fault: what was said, and the greatest force beyond what was wished.
-struct Lied {
+// One second under a varying force with that fault: the reported problems, and the largest force beyond the command.
+struct FaultResult {
   Lines problems;
   double beyond = 0.0;  // [N]
   std::uint64_t readings = 0;
 };
 
-Lied lie(StickFamily family, double seconds, const std::function<void(StickFaults&)>& fault) {
+FaultResult run_with_fault(StickFamily family, double seconds, const std::function<void(EmulatedFaults&)>& fault) {
   StillHand hand;
   StickBench bench(held(family), hand);
   bench.prepare();
   bench.tick_for(0.2, pushing(0.1, 0.1));
   fault(bench.stick.faults);
-  const std::uint64_t before = bench.driver.see().sequence;
-  Lied lied;
+  const std::uint64_t before = bench.driver.state().sequence;
+  FaultResult result;
   while (bench.time() < 0.2 + seconds) {
     const double wished = 0.4 * std::sin(20.0 * bench.time());
     bench.tick(pushing(wished, wished));
-    lied.beyond = std::max(lied.beyond, glm::length(bench.stick.force()) - 0.4 * std::sqrt(2.0) * 20.0);
+    result.beyond = std::max(result.beyond, glm::length(bench.stick.force()) - 0.4 * std::sqrt(2.0) * 20.0);
   }
-  lied.problems = bench.problems();
-  lied.readings = bench.driver.see().sequence - before;
-  return lied;
+  result.problems = bench.problems();
+  result.readings = bench.driver.state().sequence - before;
+  return result;
 }
 
 }  // namespace
 
-TEST_CASE("a stick that lies: one sentence for each lie, and no force beyond what was wished") {
+TEST_CASE("a faulty stick: one sentence per fault, and no force beyond the command") {
   for (const StickFamily family : kStickFamilies) {
     CAPTURE(name_of(family));
-    const Lied jumps = lie(family, 1.0, [](StickFaults& faults) { faults.jump = true; });
+    const FaultResult jumps = run_with_fault(family, 1.0, [](EmulatedFaults& faults) { faults.jump = true; });
     CHECK(jumps.problems.size() == 1);
     CHECK(jumps.problems.front().find("the stick's position jumps by ") == 0);
 
-    const Lied lengths = lie(family, 0.2, [](StickFaults& faults) { faults.wrong_length = true; });
+    const FaultResult lengths = run_with_fault(family, 0.2, [](EmulatedFaults& faults) { faults.wrong_length = true; });
     CHECK(lengths.readings == 0);
     REQUIRE(lengths.problems.size() == 1);
     const std::string size = std::to_string(family == StickFamily::sidewinder    ? 13
                                             : family == StickFamily::openffboard ? 25
                                                                                  : 97);
-    CHECK(lengths.problems.front().find("bytes where its descriptor says " + size + ": it is not used") !=
+    CHECK(lengths.problems.front().find("bytes, but its descriptor says " + size + ": it is ignored") !=
           std::string::npos);
 
-    const Lied stuck = lie(family, 3.0, [](StickFaults& faults) { faults.stuck = true; });
+    const FaultResult stuck = run_with_fault(family, 3.0, [](EmulatedFaults& faults) { faults.stuck = true; });
     CHECK(stuck.readings > 1900);  // two seconds
     CHECK(stuck.readings < 2300);
     CHECK(stuck.problems ==
-          Lines{"the stick has said one place for 2 s while its force changed: its sensor is taken for "
+          Lines{"the stick's position has not changed for 2 s while its force changed: its sensor counts as "
                 "dead until it moves"});
-    for (const Lied* lied : {&jumps, &lengths, &stuck}) CHECK(lied->beyond < 0.1);
+    for (const FaultResult* result : {&jumps, &lengths, &stuck}) CHECK(result->beyond < 0.1);
   }
 }
 
-TEST_CASE("a stuck sensor that moves again is believed again") {
+TEST_CASE("readings of a stuck sensor are accepted again once it moves") {
   StillHand hand;
   StickBench bench(held(StickFamily::openffboard), hand);
   bench.prepare();
   bench.stick.faults.stuck = true;
   for (int i = 0; i < 2500; ++i) bench.tick(pushing(0.4 * std::sin(0.02 * i), 0.0));
-  const std::uint64_t stuck = bench.driver.see().sequence;
+  const std::uint64_t stuck = bench.driver.state().sequence;
   bench.tick_for(0.1, pushing(0.1, 0.0));
-  CHECK(bench.driver.see().sequence == stuck);
+  CHECK(bench.driver.state().sequence == stuck);
   bench.stick.faults.stuck = false;
   bench.tick_for(0.1, pushing(0.1, 0.0));
-  CHECK(bench.driver.see().sequence >= stuck + 99);
+  CHECK(bench.driver.state().sequence >= stuck + 99);
 }
 
-TEST_CASE("a lever that stands still under a force that hardly changes is not stuck") {
+TEST_CASE("a lever at rest under an almost constant force is not reported as stuck") {
   StillHand hand;
   StickBench bench(held(StickFamily::sidewinder), hand);
   bench.prepare();
   bench.stick.faults.stuck = true;
-  double late = 0.0;  // [N] the most in the last second
-  const std::uint64_t session = bench.driver.see().session;
+  double late = 0.0;  // [N] maximum in the last second
+  const std::uint64_t session = bench.driver.state().session;
   for (int i = 0; i < 6000; ++i) {
-    bench.driver.wish(pushing(0.14 * std::sin(0.02 * i), 0.0));  // by one who does not look
+    bench.driver.command(pushing(0.14 * std::sin(0.02 * i), 0.0));  // without reading the state
     bench.tick();
     if (i >= 5000) late = std::max(late, glm::length(bench.stick.force()));
   }
-  CHECK(bench.problems() == Lines{"the stick has said one place for 3 s under its force: the motors are off until they "
-                                  "are armed again"});
-  CHECK(bench.driver.see().sequence == 6000);  // its readings count
-  CHECK(bench.driver.see().session == session + 1);
+  CHECK(bench.problems() ==
+        Lines{"the stick's position has not changed for 3 s under force: the motors are off until you "
+              "arm them again"});
+  CHECK(bench.driver.state().sequence == 6000);  // its readings are accepted
+  CHECK(bench.driver.state().session == session + 1);
   CHECK(late == 0.0);
 }
 
-TEST_CASE("a stuck sensor under a force that does not change: the force yields, and the sensor is found out") {
+TEST_CASE("a stuck sensor under a constant force: the force fades out, and the fault is detected") {
   for (const StickFamily family : kStickFamilies) {
     CAPTURE(name_of(family));
     StillHand hand;
@@ -279,21 +279,22 @@ TEST_CASE("a stuck sensor under a force that does not change: the force yields, 
     bench.tick_for(1.99, pushing(0.5, -0.1));
     CHECK(std::abs(bench.stick.force().x) == doctest::Approx(10.0).epsilon(0.01));
     bench.tick_for(0.5, pushing(0.5, -0.1));
-    CHECK(std::abs(bench.stick.force().x) == doctest::Approx(5.0).epsilon(0.05));  // half of it, after half the time
+    CHECK(std::abs(bench.stick.force().x) == doctest::Approx(5.0).epsilon(0.05));  // half after half the time
     bench.tick_for(0.6, pushing(0.5, -0.1));
     CHECK(bench.stick.force() == glm::dvec2(0.0));
-    CHECK(bench.problems() == Lines{"the stick has said one place for 2 s while its force changed: its sensor is taken "
-                                    "for dead until it moves"});
-    CHECK(bench.time() - 1e-9 * static_cast<double>(bench.driver.see().time_ns) > 0.3);  // its readings do not count
+    CHECK(bench.problems() ==
+          Lines{"the stick's position has not changed for 2 s while its force changed: its sensor counts as "
+                "dead until it moves"});
+    CHECK(bench.time() - 1e-9 * static_cast<double>(bench.driver.state().time_ns) > 0.3);  // its readings are dropped
 
-    bench.stick.faults.stuck = false;  // a place at last
+    bench.stick.faults.stuck = false;  // moves for the first time
     bench.tick_for(0.2, pushing(0.5, -0.1));
     CHECK(std::abs(bench.stick.force().x) == doctest::Approx(10.0).epsilon(0.01));
   }
 }
 
-// The axis that lives moves all the time; nor is a lever dead that stood for long before there was a force.
-TEST_CASE("one sensor of two is dead; and one that has only rested") {
+// The working axis moves all the time. A lever that rested for long before there was a force is not frozen.
+TEST_CASE("one dead sensor of two; and a sensor that was only at rest") {
   StillHand hand;
   StickBench bench(held(StickFamily::openffboard), hand);
   LeverReport report = bench.driver.lever_report();
@@ -302,85 +303,84 @@ TEST_CASE("one sensor of two is dead; and one that has only rested") {
   double least = 1.0;
   for (int ms = 0; ms < 2900; ++ms) {
     counts.axis[0] = ms % 2;
-    watch.see(counts, {0.5, 0.2}, {}, std::int64_t{1'000'000} * ms);
-    least = std::min(least, watch.force_share(0));
+    watch.update(counts, {0.5, 0.2}, {}, std::int64_t{1'000'000} * ms);
+    least = std::min(least, watch.force_fraction(0));
   }
   CHECK(least == 1.0);
-  CHECK(watch.force_share(1) == doctest::Approx(0.1).epsilon(0.05));
+  CHECK(watch.force_fraction(1) == doctest::Approx(0.1).epsilon(0.05));
   CHECK_FALSE(watch.is_frozen());
 
   InputWatch resting(report, {0, 1});
   for (int ms = 0; ms < 12'000; ++ms) {
     const double force = std::clamp(0.01 * (ms - 10'000), 0.0, 0.5);
-    resting.see(counts, {force, 0.0}, {}, std::int64_t{1'000'000} * ms);
+    resting.update(counts, {force, 0.0}, {}, std::int64_t{1'000'000} * ms);
     if (resting.is_frozen()) CHECK(ms >= 11'990);
   }
 }
 
-// While the program stood still nobody looked, and what waits on the bus then is of before, whatever it is stamped with.
-TEST_CASE("a pause of the program is no dead sensor, and where the lever has gone meanwhile no jump") {
+// While the program was stopped nothing was read, and reports that waited on the bus are older than their time stamp.
+TEST_CASE("a pause of the program is not a dead sensor, and the lever's motion during it is not a jump") {
   StillHand hand;
   StickBench bench(held(StickFamily::openffboard), hand);
   const LeverReport report = bench.driver.lever_report();
   const auto far = static_cast<std::int64_t>(0.7 * static_cast<double>(report.axes[0].field.max));
   InputWatch watch(report, {0, 1});
   LeverCounts counts;
-  const auto see = [&](std::int64_t ms) { watch.see(counts, {0.5, 0.5}, {}, 1'000'000 * ms); };
-  for (std::int64_t ms = 0; ms < 500; ++ms) see(ms);
-  see(3500);
-  see(3500);  // two that had waited
-  CHECK(watch.force_share(0) == 1.0);
+  const auto report_at = [&](std::int64_t ms) { watch.update(counts, {0.5, 0.5}, {}, 1'000'000 * ms); };
+  for (std::int64_t ms = 0; ms < 500; ++ms) report_at(ms);
+  report_at(3500);
+  report_at(3500);  // two reports that had waited
+  CHECK(watch.force_fraction(0) == 1.0);
   counts.axis[0] = far;
-  see(3501);
+  report_at(3501);
   CHECK(watch.jump() == 0.0);
-  for (std::int64_t ms = 3502; ms < 4000; ++ms) see(ms);
+  for (std::int64_t ms = 3502; ms < 4000; ++ms) report_at(ms);
   counts.axis[0] = -far;
-  see(4000);
-  CHECK(watch.jump() == doctest::Approx(0.7).epsilon(0.01));  // of the range, between neighbours
+  report_at(4000);
+  CHECK(watch.jump() == doctest::Approx(0.7).epsilon(0.01));  // of the range, between consecutive reports
 }
 
-TEST_CASE("a wall that the device keeps yields under a dead sensor, too, however strong its springs are") {
+TEST_CASE("a device wall fades out under a dead sensor as well, however strong its springs are") {
   StillHand hand;
   StickBench bench(held(StickFamily::vjoy), hand);
   bench.prepare();
-  PidWish wish = pushing(0.0, 0.0);
-  wish.spring[0] = {0.5, 0.1, 1.0, 1.0};  // the lever at 0 is beyond it
-  bench.tick_for(0.1, wish);
+  StickCommand command = pushing(0.0, 0.0);
+  command.spring[0] = {0.5, 0.1, 1.0, 1.0};  // the lever at 0 is outside the dead band
+  bench.tick_for(0.1, command);
   bench.stick.faults.stuck = true;
   CHECK(glm::length(bench.stick.force()) > 5.0);
-  bench.tick_for(3.1, wish);
+  bench.tick_for(3.1, command);
   CHECK(glm::length(bench.stick.force()) < 1e-9);
   CHECK(bench.problems().size() == 1);
 }
 
-// Judged over half a second; a single late one says nothing.
-TEST_CASE("a stick that is slower than it was calibrated is driven no longer") {
+// Averaged over half a second, because a single late output proves nothing.
+TEST_CASE("a stick that is slower than its calibration is no longer driven") {
   StillHand hand;
   StickBench bench(held(StickFamily::vjoy), hand);
   bench.prepare();
   const auto drive = [&bench](std::int64_t takes_ms) {
-    bench.driver.see();
+    bench.driver.state();
     for (int output = 0; output < 1000 / takes_ms; ++output) {
-      bench.driver.wish(pushing(0.3 + 0.1 * (output % 2), 0.0));
+      bench.driver.command(pushing(0.3 + 0.1 * (output % 2), 0.0));
       if (bench.driver.next_output(bench.now_ns).size == 0) continue;
       bench.now_ns += 1'000'000 * takes_ms;
       bench.driver.on_sent(bench.now_ns);
     }
-    return bench.driver.see().session;
+    return bench.driver.state().session;
   };
-  const std::uint64_t session = drive(50);  // nobody said how fast it was
+  const std::uint64_t session = drive(50);  // no answer time is set
   bench.driver.expect_answer(0.004);
   CHECK(drive(8) == session);
-  bench.now_ns += 1'000'000'000;  // nothing to be told for a while, and then one that is late
+  bench.now_ns += 1'000'000'000;  // no output for a while, then a single late one
   CHECK(drive(900) == session);
   CHECK(drive(8) == session);
   CHECK(drive(50) == session + 1);
-  CHECK(bench.problems() ==
-        Lines{"the stick takes 50 ms for an output, and answered after 4 ms when it was calibrated: "
-              "the motors are off until they are armed again"});
+  CHECK(bench.problems() == Lines{"the stick takes 50 ms per output, but answered after 4 ms when it was calibrated: "
+                                  "the motors are off until you arm them again"});
 }
 
-TEST_CASE("silent, and outputs that are not taken: the port says so, and the device goes silent") {
+TEST_CASE("silence or blocked outputs: the port reports an error, and the device's forces end") {
   for (const StickFamily family : kStickFamilies) {
     StillHand hand;
     StickBench bench(held(family), hand);
@@ -396,19 +396,19 @@ TEST_CASE("silent, and outputs that are not taken: the port says so, and the dev
   }
 }
 
-TEST_CASE("a port that never says that an output arrived is told of") {
+TEST_CASE("a port that never confirms an output is reported") {
   StillHand hand;
   StickBench bench(held(StickFamily::vjoy), hand);
   bench.prepare();
-  bench.driver.see();
+  bench.driver.state();
   for (std::int64_t ms = 0; ms < 200; ++ms) {
-    bench.driver.wish(pushing(0.5, 0.0));
+    bench.driver.command(pushing(0.5, 0.0));
     bench.driver.next_output(ms * 1'000'000);
   }
-  CHECK(bench.problems() == Lines{"the stick takes no outputs: its force ends by itself"});
+  CHECK(bench.problems() == Lines{"the stick accepts no outputs: its force ends by itself"});
 }
 
-TEST_CASE("reports that no descriptor knows are not used, and told once") {
+TEST_CASE("reports that the descriptor does not define are ignored, and reported once") {
   StillHand hand;
   StickBench bench(held(StickFamily::sidewinder), hand);
   bench.prepare();
@@ -417,36 +417,36 @@ TEST_CASE("reports that no descriptor knows are not used, and told once") {
     bench.driver.on_input(unknown, 1);
     bench.driver.on_input(empty, 2);
   }
-  CHECK(bench.problems() == Lines{"the stick sends report 119, which its descriptor does not know: it is not used"});
-  CHECK(bench.driver.see().sequence == 0);
+  CHECK(bench.problems() == Lines{"the stick sends report 119, which its descriptor does not define: it is ignored"});
+  CHECK(bench.driver.state().sequence == 0);
   bench.driver.on_input(unknown, 3);
   CHECK(bench.problems().empty());
 }
 
-TEST_CASE("motors that switch themselves off stay off until somebody wishes anew, and it is said") {
+TEST_CASE("motors that switch themselves off stay off until a new session commands, and it is reported") {
   for (const StickFamily family : {StickFamily::sidewinder, StickFamily::openffboard}) {
     StillHand hand;
     StickBench bench(held(family), hand);
     bench.prepare();
     bench.tick_for(0.2, pushing(0.5, 0.0));
-    // As if somebody else had told it so: off is number 2 for the one, bit 1 for the other.
+    // As if another program had sent it: off is number 2 on one device, bit 1 on the other.
     bench.stick.output(std::vector<std::uint8_t>{0x0c, 0x02});
     CHECK(bench.stick.force() == glm::dvec2(0.0));
-    const std::uint64_t session = bench.driver.see().session;
-    for (int ms = 0; ms < 100; ++ms) {  // what was wished before is wished on, by one who has not looked
-      bench.driver.wish(pushing(0.5, 0.0));
+    const std::uint64_t session = bench.driver.state().session;
+    for (int ms = 0; ms < 100; ++ms) {  // the old command continues, without reading the state
+      bench.driver.command(pushing(0.5, 0.0));
       bench.tick();
       CHECK(bench.stick.force() == glm::dvec2(0.0));
     }
-    CHECK(bench.driver.see().session == session + 1);
+    CHECK(bench.driver.state().session == session + 1);
     CHECK(bench.problems() ==
-          Lines{"the stick switched its motors off by itself: they stay off until they are armed again"});
+          Lines{"the stick switched its motors off by itself: they stay off until you arm them again"});
     bench.tick_for(0.1, pushing(0.5, 0.0));
     CHECK(bench.stick.force().x == doctest::Approx(-10.0).epsilon(0.01));
   }
 }
 
-TEST_CASE("an effect that ends by itself is started again, and it is said") {
+TEST_CASE("an effect that the device stopped is started again, and it is reported") {
   StillHand hand;
   StickBench bench(held(StickFamily::sidewinder), hand);
   bench.prepare();
@@ -458,21 +458,21 @@ TEST_CASE("an effect that ends by itself is started again, and it is said") {
   CHECK(bench.problems() == Lines{"the stick stopped an effect by itself: it was started again"});
 }
 
-TEST_CASE("a stick that tells changes alone is not dead while it stands still") {
+TEST_CASE("a stick that reports only changes is not dead while it stands still") {
   for (const StickFamily family : kStickFamilies) {
     StillHand hand;
     EmulatedStickConfig config = held(family);
-    config.reports_changes_alone = true;
+    config.reports_only_changes = true;
     StickBench bench(config, hand);
     bench.prepare();
-    const std::uint64_t before = bench.driver.see().sequence;
+    const std::uint64_t before = bench.driver.state().sequence;
     bench.tick_for(1.0, {});
-    CHECK(bench.driver.see().sequence - before > 100);  // it is asked every 8 ms
-    CHECK(bench.now_ns - bench.driver.see().time_ns < 10'000'000);
+    CHECK(bench.driver.state().sequence - before > 100);  // requested every 8 ms
+    CHECK(bench.now_ns - bench.driver.state().time_ns < 10'000'000);
   }
 }
 
-TEST_CASE("finish: off, and a wish drives nothing after it") {
+TEST_CASE("finish: motors off, and later commands drive nothing") {
   for (const StickFamily family : kStickFamilies) {
     StillHand hand;
     StickBench bench(held(family), hand);
@@ -480,7 +480,7 @@ TEST_CASE("finish: off, and a wish drives nothing after it") {
     bench.tick_for(0.2, pushing(0.5, 0.0));
     bench.driver.finish(bench.port);
     CHECK(bench.stick.force() == glm::dvec2(0.0));
-    CHECK_FALSE(bench.driver.see().actuators);
+    CHECK_FALSE(bench.driver.state().actuators);
     bench.stick.log.clear();
     bench.tick_for(0.1, pushing(0.5, 0.0));
     CHECK(bench.lines().empty());

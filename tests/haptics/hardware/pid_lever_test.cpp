@@ -1,4 +1,4 @@
-// A stick as a lever: metres and newtons by its calibration, whatever its counts, signs and buttons are.
+// Tests of PidLever: metres and newtons from the calibration, for any counts, signs and buttons.
 #include "haptics/hardware/pid_lever.h"
 
 #include <cmath>
@@ -12,7 +12,8 @@
 #include "tests/haptics/hardware/calibrated.h"
 #include "tests/haptics/hardware/stick_bench.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 using glm::dvec2;
 
 namespace {
@@ -20,11 +21,11 @@ namespace {
 EmulatedStickConfig held_fast(StickFamily family) {
   EmulatedStickConfig config;
   config.family = family;
-  config.lever.hand = {0.5, 50.0, 50'000.0};  // fast
+  config.lever.hand = {0.5, 50.0, 50'000.0};  // held firmly
   return config;
 }
 
-// A stick, its driver and the lever on it; one cycle is: read, write, a tick.
+// A stick, its driver and lever. One cycle is read, write and a tick.
 struct LeverBench : StickBench {
   LeverBench(const EmulatedStickConfig& config, const DeviceCalibration& known, HandDriver& hand)
       : StickBench(config, hand), lever((prepare(), known), driver, 0.001) {}
@@ -44,8 +45,8 @@ struct LeverBench : StickBench {
 
 }  // namespace
 
-TEST_CASE("counts to metres: straight on either side of the centre, and on beyond the stops") {
-  // 0 to 1000 counts, rest at 400, 100 mm: 50 mm are 400 counts below and 600 above.
+TEST_CASE("counts to metres: linear on either side of the centre, and beyond the stops") {
+  // 0 to 1000 counts, rest at 400, travel 100 mm: 50 mm are 400 counts below and 600 counts above.
   const LeverAxisCalibration up{0x30, 0.0, 400.0, 1000.0, 0.1, 0.0, 0, 0, 0.0, {}};
   const LeverAxisCalibration down{0x30, 1000.0, 400.0, 0.0, 0.1, 0.0, 0, 0, 0.0, {}};
   const BitField field{0, 16, 0, 1000, 0};
@@ -62,11 +63,11 @@ TEST_CASE("counts to metres: straight on either side of the centre, and on beyon
     CHECK(rising.counts(rising.metres(counts)) == doctest::Approx(counts));
     CHECK(falling.counts(falling.metres(counts)) == doctest::Approx(counts));
   }
-  CHECK(rising.share(0.0) == doctest::Approx(-0.2));  // 400 of 0 to 1000
+  CHECK(rising.share(0.0) == doctest::Approx(-0.2));  // count 400 of 0 to 1000
   CHECK(falling.share(0.05) == doctest::Approx(-1.0));
 }
 
-TEST_CASE("what it cannot be is refused in one sentence") {
+TEST_CASE("an unusable calibration is refused in one sentence") {
   StillHand hand;
   StickBench bench(held_fast(StickFamily::vjoy), hand);
   DeviceCalibration known = calibration_of(held_fast(StickFamily::vjoy));
@@ -81,7 +82,7 @@ TEST_CASE("what it cannot be is refused in one sentence") {
   CHECK_THROWS_AS(PidLever(known, bench.driver, 0.001), std::invalid_argument);
 }
 
-TEST_CASE("where the lever is, and the force that was asked for, on every family and with every polarity") {
+TEST_CASE("position and force are right for every family and every polarity") {
   for (const StickFamily family : kStickFamilies) {
     for (const glm::ivec2 sign : {glm::ivec2(1, 1), glm::ivec2(-1, 1), glm::ivec2(1, -1), glm::ivec2(-1, -1)}) {
       CAPTURE(name_of(family));
@@ -90,7 +91,7 @@ TEST_CASE("where the lever is, and the force that was asked for, on every family
       StillHand hand(hand_at({0.030, -0.045}));
       LeverBench bench(config, calibration_of(config), hand);
       bench.cycle(dvec2(0.0), 500);
-      CHECK_FALSE(bench.stick.actuators_on());  // zero newtons need no motor
+      CHECK_FALSE(bench.stick.actuators_on());  // a zero force needs no motor
       const LeverReading reading = bench.cycle({6.0, -11.0}, 200);
       CHECK(glm::distance(reading.position, bench.stick.position()) <
             0.6 * bench.lever.spec().position_step * std::sqrt(2.0));
@@ -98,8 +99,8 @@ TEST_CASE("where the lever is, and the force that was asked for, on every family
       CHECK(glm::distance(reading.actuator_force, {6.0, -11.0}) < 1e-9);
       CHECK(reading.sequence == 699);
       CHECK_FALSE(reading.stop);
-      bench.cycle({400.0, -400.0}, 20);                                  // beyond it: all that it has
-      CHECK(glm::distance(bench.stick.force(), {20.0, -20.0}) < 0.003);  // vJoy's right angles are rounded
+      bench.cycle({400.0, -400.0}, 20);                                  // beyond the limit: full force
+      CHECK(glm::distance(bench.stick.force(), {20.0, -20.0}) < 0.003);  // vJoy rounds right angles
       bench.lever.release();
       bench.cycle(dvec2(0.0), 1);
       CHECK(bench.stick.force() == dvec2(0.0));
@@ -107,10 +108,10 @@ TEST_CASE("where the lever is, and the force that was asked for, on every family
   }
 }
 
-TEST_CASE("a stick that is turned by a quarter: its Y is select") {
+TEST_CASE("a stick turned by a quarter: its Y axis is select") {
   EmulatedStickConfig config = held_fast(StickFamily::openffboard);
   DeviceCalibration known = calibration_of(config);
-  std::swap(known.select, known.shift);  // the knob's forward is now to the right
+  std::swap(known.select, known.shift);  // the knob's forward is now right
   StillHand hand(hand_at({0.010, 0.030}));
   LeverBench bench(config, known, hand);
   const LeverReading reading = bench.cycle({5.0, 2.0}, 500);
@@ -119,7 +120,7 @@ TEST_CASE("a stick that is turned by a quarter: its Y is select") {
   CHECK(glm::distance(bench.stick.force(), {2.0, 5.0}) < 0.01);
 }
 
-TEST_CASE("a lever that is no more leaves the motors off, and the next one drives") {
+TEST_CASE("a destroyed lever leaves the motors off, and the next one drives them") {
   EmulatedStickConfig config = held_fast(StickFamily::sidewinder);
   StillHand hand;
   StickBench bench(config, hand);
@@ -149,14 +150,14 @@ TEST_CASE("without measured polarity there is no force at all") {
   StillHand hand;
   LeverBench bench(config, known, hand);
   LeverWalls walls;
-  walls.share = 1.0;
-  bench.lever.hold_walls(walls);
+  walls.stiffness_fraction = 1.0;
+  bench.lever.set_device_walls(walls);
   bench.cycle({20.0, 20.0}, 100);
   CHECK(bench.lever.spec().max_force == dvec2(0.0));
   CHECK(bench.lines().empty());
 }
 
-TEST_CASE("nothing drives before a force is asked for, nor after a release until one is") {
+TEST_CASE("nothing drives before a force is commanded, nor after a release until the next force") {
   EmulatedStickConfig config = held_fast(StickFamily::sidewinder);
   StillHand hand;
   LeverBench bench(config, calibration_of(config), hand);
@@ -172,7 +173,8 @@ TEST_CASE("nothing drives before a force is asked for, nor after a release until
   CHECK(bench.stick.force().y == doctest::Approx(3.0).epsilon(0.03));
 }
 
-// A PID condition (USB PID 1.0, 5.3): centre in the middle of the aisle, dead band of half its width, coefficient K, saturation: two walls.
+// A PID condition (USB PID 1.0, 5.3) makes two walls: centre in the middle of the aisle, dead band of half its width,
+// coefficient K, saturation.
 TEST_CASE(
     "walls that the device keeps: nothing between them, a spring of share x stiffness beyond, whichever way it "
     "counts") {
@@ -184,12 +186,12 @@ TEST_CASE(
       config.spring_sign = sign;
       StillHand hand(hand_at({0.020, 0.0}));
       LeverBench bench(config, calibration_of(config), hand);
-      CHECK(bench.lever.spec().own_stiffness == dvec2(400.0));
+      CHECK(bench.lever.spec().device_wall_stiffness == dvec2(400.0));
       LeverWalls walls{{-0.010, -0.040}, {0.030, 0.015}, 0.5};
-      bench.lever.hold_walls(walls);
+      bench.lever.set_device_walls(walls);
       bench.cycle(dvec2(0.0), 200);
       CHECK(bench.stick.actuators_on());
-      CHECK(glm::length(bench.stick.force()) < 1e-9);  // between them
+      CHECK(glm::length(bench.stick.force()) < 1e-9);  // between the walls
       for (const dvec2 place : {dvec2{0.045, 0.0}, dvec2{-0.030, 0.0}, dvec2{0.0, 0.030}, dvec2{0.0, -0.055}}) {
         hand.target = hand_at(place);
         bench.cycle(dvec2(0.0), 300);
@@ -198,33 +200,33 @@ TEST_CASE(
         CHECK(glm::distance(bench.stick.force(), expected) < 0.03);
         CHECK(glm::distance(bench.cycle(dvec2(0.0)).actuator_force, expected) < 0.03);
       }
-      bench.lever.hold_walls({});
+      bench.lever.set_device_walls({});
       bench.cycle(dvec2(0.0), 20);
       CHECK(glm::length(bench.stick.force()) < 1e-9);
     }
   }
 }
 
-// A damper condition acts everywhere, so it is on in a wall alone, on the axis that is in one.
-TEST_CASE("a damper of the device brakes in a wall, whichever way it counts, and nowhere else") {
+// A damper condition acts everywhere, so it is switched on only in a wall, on that axis.
+TEST_CASE("a device damper brakes in a wall, with either polarity, and nowhere else") {
   for (const int sign : {1, -1}) {
     CAPTURE(sign);
     EmulatedStickConfig config = held_fast(StickFamily::openffboard);
     config.damper_sign = {sign, sign};
     StillHand hand;
     LeverBench bench(config, calibration_of(config), hand);
-    CHECK(bench.lever.spec().own_damping == dvec2(20.0));
+    CHECK(bench.lever.spec().device_wall_damping == dvec2(20.0));
     LeverWalls walls{{-0.050, -0.050}, {0.005, 0.050}, 0.0, 0.5};
-    bench.lever.hold_walls(walls);
+    bench.lever.set_device_walls(walls);
     bench.cycle(dvec2(1e-3, 0.0), 200);
     double worst = 0.0, strongest = 0.0;
     for (int ms = 0; ms < 1000; ++ms) {
-      hand.target = hand_at({0.020 * std::sin(4e-3 * std::numbers::pi * ms), 0.0});  // at 2 Hz, 0.25 m/s at most
+      hand.target = hand_at({0.020 * std::sin(4e-3 * std::numbers::pi * ms), 0.0});  // at 2 Hz, up to 0.25 m/s
       const dvec2 before = bench.stick.position();
       bench.cycle(dvec2(1e-3, 0.0));
       const dvec2 now = bench.stick.position();
       const double expected = before.x > 0.0052 ? -0.5 * 20.0 * (now.x - before.x) / 0.001 : 0.0;
-      if (std::abs(now.x - 0.005) < 0.002) continue;  // about to be told
+      if (std::abs(now.x - 0.005) < 0.002) continue;  // near the switching point
       worst = std::max(worst, std::abs(bench.stick.force().x - expected));
       strongest = std::max(strongest, std::abs(expected));
       CHECK(std::abs(bench.stick.force().y) < 1e-9);
@@ -234,16 +236,16 @@ TEST_CASE("a damper of the device brakes in a wall, whichever way it counts, and
   }
 }
 
-TEST_CASE("springs that push away where the device cannot turn them round, and springs not measured, keep no walls") {
+TEST_CASE("springs that push away and cannot be inverted, or were not measured, make no device walls") {
   StillHand hand;
   EmulatedStickConfig config = held_fast(StickFamily::vjoy);
   DeviceCalibration known = calibration_of(config);
   known.shift.spring_sign = 0;
   StickBench bench(config, hand);
-  CHECK(PidLever(known, bench.driver, 0.001).spec().own_stiffness == dvec2(0.0));
+  CHECK(PidLever(known, bench.driver, 0.001).spec().device_wall_stiffness == dvec2(0.0));
 }
 
-TEST_CASE("buttons: pressed, lifted, stop; one that is held at the start is no stop until it was let go") {
+TEST_CASE("buttons: pressed, lifted, stop; a stop button held at the start is ignored until released") {
   EmulatedStickConfig config = held_fast(StickFamily::sidewinder);
   StillHand hand;
   LeverBench bench(config, calibration_of(config), hand);
@@ -260,7 +262,7 @@ TEST_CASE("buttons: pressed, lifted, stop; one that is held at the start is no s
   CHECK_FALSE(stop.pressed_down);
 }
 
-TEST_CASE("back after an unplug: one reading says stop, and what the loop says in that cycle drives nothing") {
+TEST_CASE("after a reconnect one reading has stop set, and the loop's command of that cycle drives nothing") {
   EmulatedStickConfig config = held_fast(StickFamily::vjoy);
   StillHand hand;
   LeverBench bench(config, calibration_of(config), hand);
@@ -271,7 +273,7 @@ TEST_CASE("back after an unplug: one reading says stop, and what the loop says i
   for (int i = 0; i < 50; ++i) {
     const LeverReading reading = bench.lever.read(bench.now_ns);
     stops += reading.stop ? 1 : 0;
-    bench.lever.write(reading.stop ? dvec2{5.0, 5.0} : dvec2(0.0));  // a loop that obeys, a cycle late
+    bench.lever.write(reading.stop ? dvec2{5.0, 5.0} : dvec2(0.0));  // a loop that reacts one cycle late
     bench.tick();
     CHECK_FALSE(bench.stick.actuators_on());
   }

@@ -1,7 +1,6 @@
-// What is told to a stick before it streams and after, byte by byte, and what is tolerated of it.
-//
-// The lines are worked by hand from the devices' report descriptors (tests/data/hid; README.md there names the sources):
-// set = SET_REPORT feature, get = GET_REPORT feature, out = an output report, the ID first, numbers little-endian.
+// Tests of the reports before and after streaming, byte by byte, and of the deviations that are tolerated. The lines
+// were derived by hand from the devices' report descriptors (tests/data/hid; README.md there names the sources): set =
+// SET_REPORT feature, get = GET_REPORT feature, out = an output report, with the ID first and numbers little-endian.
 #include "haptics/hardware/pid_setup.h"
 
 #include <deque>
@@ -13,34 +12,35 @@
 #include "tests/haptics/device/still_hand.h"
 #include "tests/haptics/hardware/stick_bench.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 using Lines = std::vector<std::string>;
 
 namespace {
 
-struct Told {
+struct SetupResult {
   PidAbility ability;
   Lines before, after;
-  std::string error;  // of prepare_stick; empty: none
+  std::string error;  // thrown by prepare_stick; empty: none
 };
 
-Told prepared(const EmulatedStickConfig& config, const StickFaults& faults = {}) {
+SetupResult prepared(const EmulatedStickConfig& config, const EmulatedFaults& faults = {}) {
   StillHand hand;
   StickBench bench(config, hand);
   bench.stick.faults = faults;
-  Told told;
+  SetupResult result;
   try {
-    told.ability = bench.driver.prepare(bench.port);
+    result.ability = bench.driver.prepare(bench.port);
   } catch (const HidError& error) {
-    told.error = error.what();
+    result.error = error.what();
   }
-  told.before = bench.lines();
+  result.before = bench.lines();
   bench.stick.log.clear();
   bench.driver.finish(bench.port);
-  told.after = bench.lines();
+  result.after = bench.lines();
   CHECK_FALSE(bench.stick.actuators_on());
   CHECK(bench.stick.playing() == 0);
-  return told;
+  return result;
 }
 
 EmulatedStickConfig stick_of(StickFamily family) {
@@ -51,140 +51,141 @@ EmulatedStickConfig stick_of(StickFamily family) {
 
 }  // namespace
 
-// Set Effect: block, type (constant 1, spring 8, damper 9), 300 ms = 012C, trigger repeat, sample period, gain FF, trigger
-// button, axes (X 1, Y 2, direction 4), direction of a byte: 90 degrees = 40, 180 = 80. Its block 1 is its own spring.
+// Set Effect: block, type (constant 1, spring 8, damper 9), 300 ms = 012C, trigger repeat, sample period, gain FF,
+// trigger button, axes (X 1, Y 2, direction 4), one byte of direction: 90 degrees = 40, 180 = 80. Block 1 is the
+// device's own spring.
 TEST_CASE("SideWinder Force Feedback 2: every byte before the first force") {
-  const Told told = prepared(stick_of(StickFamily::sidewinder));
-  CHECK(told.before == Lines{"get 03 e0 04 27 01",  // pool: 1248 bytes, 39 effects
-                             "out 0c 03",
-                             "out 0c 04",
-                             "out 0c 02",  // stop all, reset, actuators off
-                             "out 0d 00",  // gain
-                             "set 01 01 00 00",
-                             "get 02 02 01 c0 04",                                   // constant: block 2
-                             "out 01 02 01 2c 01 00 00 00 00 ff 00 05 40 00 00 00",  // X, 90 degrees
-                             "get 02 02 01 c0 04",                                   // it takes an end: no error
-                             "out 05 02 00 00",                                      // magnitude 0
-                             "set 01 01 00 00",
-                             "get 02 03 01 a0 04",                                   // constant: block 3
-                             "out 01 03 01 2c 01 00 00 00 00 ff 00 06 80 00 00 00",  // Y, 180 degrees
-                             "out 05 03 00 00",                                      //
-                             "set 01 08 00 00",
-                             "get 02 04 01 80 04",                                   // spring: block 4
-                             "out 01 04 08 2c 01 00 00 00 00 ff 00 03 00 00 00 00",  // X and Y
-                             "out 03 04 00 00 00 00 ff ff 00",                       // X: coefficients 0, full
-                             "out 03 04 01 00 00 00 ff ff 00",                       // saturation, no dead band; Y
-                             "set 01 09 00 00",
-                             "get 02 05 01 60 04",                                   // damper: block 5
-                             "out 01 05 09 2c 01 00 00 00 00 ff 00 03 00 00 00 00",  //
-                             "out 03 05 00 00 00 00 ff ff 00",                       //
-                             "out 03 05 01 00 00 00 ff ff 00",                       //
-                             "out 0c 02",
-                             "out 0d ff"});                                      // actuators off, full gain
-  CHECK(told.after == Lines{"out 0c 03", "out 0c 02",                            // stop all, actuators off
-                            "out 0b 02", "out 0b 03", "out 0b 04", "out 0b 05",  // blocks freed
-                            "out 0c 04", "out 0c 02"});                          // reset, actuators off again
-  CHECK(told.ability.spring);
-  CHECK(told.ability.damper);
-  CHECK(told.ability.finite);
-  CHECK(told.ability.blocks == 4);
-  CHECK(told.ability.notes.empty());
+  const SetupResult result = prepared(stick_of(StickFamily::sidewinder));
+  CHECK(result.before == Lines{"get 03 e0 04 27 01",  // pool: 1248 bytes, 39 effects
+                               "out 0c 03",
+                               "out 0c 04",
+                               "out 0c 02",  // stop all, reset, actuators off
+                               "out 0d 00",  // gain
+                               "set 01 01 00 00",
+                               "get 02 02 01 c0 04",                                   // constant: block 2
+                               "out 01 02 01 2c 01 00 00 00 00 ff 00 05 40 00 00 00",  // X, 90 degrees
+                               "get 02 02 01 c0 04",                                   // accepts a duration: no error
+                               "out 05 02 00 00",                                      // magnitude 0
+                               "set 01 01 00 00",
+                               "get 02 03 01 a0 04",                                   // constant: block 3
+                               "out 01 03 01 2c 01 00 00 00 00 ff 00 06 80 00 00 00",  // Y, 180 degrees
+                               "out 05 03 00 00",                                      //
+                               "set 01 08 00 00",
+                               "get 02 04 01 80 04",                                   // spring: block 4
+                               "out 01 04 08 2c 01 00 00 00 00 ff 00 03 00 00 00 00",  // X and Y
+                               "out 03 04 00 00 00 00 ff ff 00",                       // X: coefficients 0, full
+                               "out 03 04 01 00 00 00 ff ff 00",                       // saturation, no dead band; Y
+                               "set 01 09 00 00",
+                               "get 02 05 01 60 04",                                   // damper: block 5
+                               "out 01 05 09 2c 01 00 00 00 00 ff 00 03 00 00 00 00",  //
+                               "out 03 05 00 00 00 00 ff ff 00",                       //
+                               "out 03 05 01 00 00 00 ff ff 00",                       //
+                               "out 0c 02",
+                               "out 0d ff"});                                      // actuators off, full gain
+  CHECK(result.after == Lines{"out 0c 03", "out 0c 02",                            // stop all, actuators off
+                              "out 0b 02", "out 0b 03", "out 0b 04", "out 0b 05",  // free the blocks
+                              "out 0c 04", "out 0c 02"});                          // reset, actuators off again
+  CHECK(result.ability.spring);
+  CHECK(result.ability.damper);
+  CHECK(result.ability.finite);
+  CHECK(result.ability.blocks == 4);
+  CHECK(result.ability.notes.empty());
 }
 
-// Device Control is a bit each: off 02, stop all 04, reset 08. Set Effect has the start delay before the gain, directions
-// of 0 to 36000 in two bytes (9000 = 2328, 18000 = 4650) and two type specific offsets at its end; the greatest
-// saturation is 7FFF.
-TEST_CASE("OpenFFBoard: the same, by bits and in other fields") {
-  const Told told = prepared(stick_of(StickFamily::openffboard));
-  CHECK(told.before == Lines{"get 13 00 05 28 01",  //
-                             "out 0c 04",
-                             "out 0c 08",
-                             "out 0c 02",
-                             "out 0d 00",
-                             "set 11 01 00 00",
-                             "get 12 01 01 e0 04",
-                             "out 01 01 01 2c 01 00 00 00 00 00 00 ff 00 05 28 23 00 00 00 00 00 00",
-                             "get 12 01 01 e0 04",
-                             "out 05 01 00 00",
-                             "set 11 01 00 00",
-                             "get 12 02 01 c0 04",
-                             "out 01 02 01 2c 01 00 00 00 00 00 00 ff 00 06 50 46 00 00 00 00 00 00",
-                             "out 05 02 00 00",
-                             "set 11 08 00 00",
-                             "get 12 03 01 a0 04",
-                             "out 01 03 08 2c 01 00 00 00 00 00 00 ff 00 03 00 00 00 00 00 00 00 00",
-                             "out 03 03 00 00 00 00 00 00 00 ff 7f ff 7f 00 00",
-                             "out 03 03 01 00 00 00 00 00 00 ff 7f ff 7f 00 00",
-                             "set 11 09 00 00",
-                             "get 12 04 01 80 04",
-                             "out 01 04 09 2c 01 00 00 00 00 00 00 ff 00 03 00 00 00 00 00 00 00 00",
-                             "out 03 04 00 00 00 00 00 00 00 ff 7f ff 7f 00 00",
-                             "out 03 04 01 00 00 00 00 00 00 ff 7f ff 7f 00 00",
-                             "out 0c 02",
-                             "out 0d ff"});  // off at last: Set Effect switched it on
-  CHECK(told.after ==
+// Device Control has one bit per command: off 02, stop all 04, reset 08. Set Effect has the start delay before the
+// gain, 2-byte directions of 0 to 36000 (9000 = 2328, 18000 = 4650) and two type-specific offsets at its end; the
+// maximum saturation is 7FFF.
+TEST_CASE("OpenFFBoard: the same sequence, with bits and other fields") {
+  const SetupResult result = prepared(stick_of(StickFamily::openffboard));
+  CHECK(result.before == Lines{"get 13 00 05 28 01",  //
+                               "out 0c 04",
+                               "out 0c 08",
+                               "out 0c 02",
+                               "out 0d 00",
+                               "set 11 01 00 00",
+                               "get 12 01 01 e0 04",
+                               "out 01 01 01 2c 01 00 00 00 00 00 00 ff 00 05 28 23 00 00 00 00 00 00",
+                               "get 12 01 01 e0 04",
+                               "out 05 01 00 00",
+                               "set 11 01 00 00",
+                               "get 12 02 01 c0 04",
+                               "out 01 02 01 2c 01 00 00 00 00 00 00 ff 00 06 50 46 00 00 00 00 00 00",
+                               "out 05 02 00 00",
+                               "set 11 08 00 00",
+                               "get 12 03 01 a0 04",
+                               "out 01 03 08 2c 01 00 00 00 00 00 00 ff 00 03 00 00 00 00 00 00 00 00",
+                               "out 03 03 00 00 00 00 00 00 00 ff 7f ff 7f 00 00",
+                               "out 03 03 01 00 00 00 00 00 00 ff 7f ff 7f 00 00",
+                               "set 11 09 00 00",
+                               "get 12 04 01 80 04",
+                               "out 01 04 09 2c 01 00 00 00 00 00 00 ff 00 03 00 00 00 00 00 00 00 00",
+                               "out 03 04 00 00 00 00 00 00 00 ff 7f ff 7f 00 00",
+                               "out 03 04 01 00 00 00 00 00 00 ff 7f ff 7f 00 00",
+                               "out 0c 02",
+                               "out 0d ff"});  // off last, because Set Effect switched it on
+  CHECK(result.after ==
         Lines{"out 0c 04", "out 0c 02", "out 0b 01", "out 0b 02", "out 0b 03", "out 0b 04", "out 0c 08", "out 0c 02"});
 }
 
-// IDs from 11 on, Device Control a number again; a turn is 7FFF, so 90 degrees are 2000 and 180 are 4000; the greatest
-// saturation is 10000 = 2710.
-TEST_CASE("vJoy: the same, under other numbers") {
-  const Told told = prepared(stick_of(StickFamily::vjoy));
-  CHECK(told.before == Lines{"get 13 80 0c 64 01",
-                             "out 1c 03",
-                             "out 1c 04",
-                             "out 1c 02",
-                             "out 1d 00",
-                             "set 11 01 00 00",
-                             "get 12 01 01 60 0c",
-                             "out 11 01 01 2c 01 00 00 00 00 00 00 ff 00 05 00 20 00 00 00 00 00 00",
-                             "get 12 01 01 60 0c",
-                             "out 15 01 00 00",
-                             "set 11 01 00 00",
-                             "get 12 02 01 40 0c",
-                             "out 11 02 01 2c 01 00 00 00 00 00 00 ff 00 06 00 40 00 00 00 00 00 00",
-                             "out 15 02 00 00",
-                             "set 11 08 00 00",
-                             "get 12 03 01 20 0c",
-                             "out 11 03 08 2c 01 00 00 00 00 00 00 ff 00 03 00 00 00 00 00 00 00 00",
-                             "out 13 03 00 00 00 00 00 00 00 10 27 10 27 00 00",
-                             "out 13 03 01 00 00 00 00 00 00 10 27 10 27 00 00",
-                             "set 11 09 00 00",
-                             "get 12 04 01 00 0c",
-                             "out 11 04 09 2c 01 00 00 00 00 00 00 ff 00 03 00 00 00 00 00 00 00 00",
-                             "out 13 04 00 00 00 00 00 00 00 10 27 10 27 00 00",
-                             "out 13 04 01 00 00 00 00 00 00 10 27 10 27 00 00",
-                             "out 1c 02",
-                             "out 1d ff"});
-  CHECK(told.after ==
+// IDs start at 11 and Device Control is a number again; a full turn is 7FFF, so 90 degrees are 2000 and 180 are 4000;
+// the maximum saturation is 10000 = 2710.
+TEST_CASE("vJoy: the same sequence, with other IDs") {
+  const SetupResult result = prepared(stick_of(StickFamily::vjoy));
+  CHECK(result.before == Lines{"get 13 80 0c 64 01",
+                               "out 1c 03",
+                               "out 1c 04",
+                               "out 1c 02",
+                               "out 1d 00",
+                               "set 11 01 00 00",
+                               "get 12 01 01 60 0c",
+                               "out 11 01 01 2c 01 00 00 00 00 00 00 ff 00 05 00 20 00 00 00 00 00 00",
+                               "get 12 01 01 60 0c",
+                               "out 15 01 00 00",
+                               "set 11 01 00 00",
+                               "get 12 02 01 40 0c",
+                               "out 11 02 01 2c 01 00 00 00 00 00 00 ff 00 06 00 40 00 00 00 00 00 00",
+                               "out 15 02 00 00",
+                               "set 11 08 00 00",
+                               "get 12 03 01 20 0c",
+                               "out 11 03 08 2c 01 00 00 00 00 00 00 ff 00 03 00 00 00 00 00 00 00 00",
+                               "out 13 03 00 00 00 00 00 00 00 10 27 10 27 00 00",
+                               "out 13 03 01 00 00 00 00 00 00 10 27 10 27 00 00",
+                               "set 11 09 00 00",
+                               "get 12 04 01 00 0c",
+                               "out 11 04 09 2c 01 00 00 00 00 00 00 ff 00 03 00 00 00 00 00 00 00 00",
+                               "out 13 04 00 00 00 00 00 00 00 10 27 10 27 00 00",
+                               "out 13 04 01 00 00 00 00 00 00 10 27 10 27 00 00",
+                               "out 1c 02",
+                               "out 1d ff"});
+  CHECK(result.after ==
         Lines{"out 1c 03", "out 1c 02", "out 1b 01", "out 1b 02", "out 1b 03", "out 1b 04", "out 1c 04", "out 1c 02"});
 }
 
-TEST_CASE("a device that refuses effects that end gets endless ones, and it is said") {
+TEST_CASE("a device that refuses a duration gets endless effects, and a note says so") {
   for (const StickFamily family : kStickFamilies) {
     CAPTURE(name_of(family));
     EmulatedStickConfig config = stick_of(family);
     config.finite_refused = true;
-    const Told told = prepared(config);
-    CHECK(told.error.empty());
-    CHECK_FALSE(told.ability.finite);
-    CHECK(told.ability.notes ==
+    const SetupResult result = prepared(config);
+    CHECK(result.error.empty());
+    CHECK_FALSE(result.ability.finite);
+    CHECK(result.ability.notes ==
           Lines{"its effects do not end by themselves: if this program dies, the last force stays "
-                "until it is unplugged"});
+                "until you unplug the stick"});
   }
 }
 
-TEST_CASE("what does not fit into the pool is gone without, but not constant forces") {
+TEST_CASE("effects that do not fit into the pool are left out, except constant forces") {
   for (const StickFamily family : kStickFamilies) {
     CAPTURE(name_of(family));
     EmulatedStickConfig config = stick_of(family);
     config.blocks = 3;
-    const Told three = prepared(config);
+    const SetupResult three = prepared(config);
     CHECK(three.ability.spring);
     CHECK_FALSE(three.ability.damper);
     CHECK(three.ability.blocks == 3);
     CHECK(three.ability.notes ==
-          Lines{"it goes without a damper: the stick refuses a damper: its memory for effects is full"});
+          Lines{"it is used without a damper: the stick refuses a damper: its memory for effects is full"});
     config.blocks = 2;
     CHECK(prepared(config).ability.notes.size() == 2);
     config.blocks = 1;
@@ -192,12 +193,11 @@ TEST_CASE("what does not fit into the pool is gone without, but not constant for
   }
 }
 
-TEST_CASE("a device that refuses every effect is refused in one sentence, and left quiet") {
+TEST_CASE("a device that refuses every effect is refused in one sentence, and silenced") {
   for (const StickFamily family : kStickFamilies) {
-    StickFaults faults;
+    EmulatedFaults faults;
     faults.refuses_effects = true;
-    CHECK(prepared(stick_of(family), faults).error ==
-          "the stick refuses a constant force: it says that there was an error");
+    CHECK(prepared(stick_of(family), faults).error == "the stick refuses a constant force: it reports an error");
     faults = {};
     faults.pool_full = true;
     CHECK(prepared(stick_of(family), faults).error ==
@@ -208,17 +208,17 @@ TEST_CASE("a device that refuses every effect is refused in one sentence, and le
   }
 }
 
-TEST_CASE("a device that takes its time is waited for") {
-  StickFaults faults;
+TEST_CASE("a slow device is waited for") {
+  EmulatedFaults faults;
   faults.slow = 0.003;
-  const Told told = prepared(stick_of(StickFamily::vjoy), faults);
-  CHECK(told.error.empty());
-  CHECK(told.ability.blocks == 4);
+  const SetupResult result = prepared(stick_of(StickFamily::vjoy), faults);
+  CHECK(result.error.empty());
+  CHECK(result.ability.blocks == 4);
 }
 
 namespace {
 
-// Answers as it is told to, and writes down what it is asked.
+// Gives scripted answers and records the requests.
 class ScriptedPort final : public HidPort {
  public:
   const HidIdentity& identity() const noexcept override { return identity_; }
@@ -232,20 +232,20 @@ class ScriptedPort final : public HidPort {
     if (loads_.size() > 1) loads_.pop_front();
     return answer;
   }
-  void set_feature(const HidBytes& report) override { told.push_back(report.id()); }
+  void set_feature(const HidBytes& report) override { sent.push_back(report.id()); }
   void send(const HidBytes& report) override {
     if (gone_after-- == 0) throw HidGone("gone");
-    told.push_back(report.id());
+    sent.push_back(report.id());
   }
   void stream(const StreamConfig&, HidStream&) override {}
 
-  // Of each question for a feature report; the last one for ever.
+  // Answers per feature report; the last one is repeated.
   void answer(int block, int status) {
     loads_.push_back({static_cast<std::uint8_t>(block), static_cast<std::uint8_t>(status)});
   }
 
   int gets = 0, gone_after = -1;
-  std::vector<int> told;
+  std::vector<int> sent;
 
  private:
   std::deque<std::pair<std::uint8_t, std::uint8_t>> loads_;
@@ -260,41 +260,41 @@ PidLayout vjoy_layout() {
 
 }  // namespace
 
-TEST_CASE("block load is asked until it knows, up to 60 times") {
+TEST_CASE("block load is polled until it has an answer, up to 60 times") {
   PidLayout pid = vjoy_layout();
   pid.pool = {};
   ScriptedPort patient;
   for (int i = 0; i < 7; ++i) patient.answer(0, 0);                  // no status yet
-  for (const int block : {1, 1, 2, 3, 4}) patient.answer(block, 1);  // the first one twice: no error
+  for (const int block : {1, 1, 2, 3, 4}) patient.answer(block, 1);  // block 1 twice: no error
   CHECK(prepare_stick(patient, pid).blocks == StickBlocks{1, 2, 3, 4});
   CHECK(patient.gets == 12);
 
   ScriptedPort silent;
   silent.answer(0, 0);
   CHECK_THROWS_WITH_AS(prepare_stick(silent, pid),
-                       "the stick refuses a constant force: it does not say where it is loaded", HidError);
+                       "the stick refuses a constant force: it does not confirm that it is loaded", HidError);
   CHECK(silent.gets == 60);
 
-  ScriptedPort liar;
-  liar.answer(7, 1);  // the same block, whatever is created
-  CHECK_THROWS_WITH_AS(prepare_stick(liar, pid), "the stick gave block 7 twice", HidError);
+  ScriptedPort faulty;
+  faulty.answer(7, 1);  // the same block for every effect
+  CHECK_THROWS_WITH_AS(prepare_stick(faulty, pid), "the stick returned block 7 twice", HidError);
   ScriptedPort blockless;
   blockless.answer(0, 1);
-  CHECK_THROWS_WITH_AS(prepare_stick(blockless, pid), "the stick refuses a constant force: it gives no block",
+  CHECK_THROWS_WITH_AS(prepare_stick(blockless, pid), "the stick refuses a constant force: it returns no block",
                        HidError);
 }
 
-TEST_CASE("reports that a device lacks are gone without") {
+TEST_CASE("reports that a device lacks are left out") {
   const PidLayout whole = vjoy_layout();
   const auto prepared_with = [](const PidLayout& pid, ScriptedPort& port) { return prepare_stick(port, pid); };
 
-  ScriptedPort port;  // it answers nothing
+  ScriptedPort port;  // answers nothing
   PidLayout pid = whole;
   pid.create = {};
   pid.block_load = {};
   const PreparedStick fixed = prepared_with(pid, port);
   CHECK(fixed.blocks == StickBlocks{1, 2, 3, 4});
-  CHECK(fixed.ability.notes == Lines{"it does not tell how many effects it holds"});
+  CHECK(fixed.ability.notes == Lines{"it does not report how many effects it can hold"});
 
   pid = whole;
   pid.block_load = {};
@@ -309,12 +309,12 @@ TEST_CASE("reports that a device lacks are gone without") {
   CHECK(bare.ability.notes == Lines{"it has no spring", "it has no damper"});
 
   pid.device_control = {};
-  port.told.clear();
+  port.sent.clear();
   CHECK(prepared_with(pid, port).ability.notes.size() == 4);
-  CHECK(port.told == std::vector<int>{0x11, 0x11, 0x15, 0x11, 0x11, 0x15});  // create, set, magnitude; twice
+  CHECK(port.sent == std::vector<int>{0x11, 0x11, 0x15, 0x11, 0x11, 0x15});  // create, set, magnitude; twice
 }
 
-TEST_CASE("unplugged at any moment of it: HidGone, and nothing more is tried") {
+TEST_CASE("unplugged at any moment of the setup: HidGone, and nothing more is sent") {
   const PidLayout pid = vjoy_layout();
   int outputs = 0;
   for (bool whole = false; !whole; ++outputs) {
@@ -329,9 +329,9 @@ TEST_CASE("unplugged at any moment of it: HidGone, and nothing more is tried") {
     }
   }
   CHECK(outputs ==
-        17);  // 4 to clear, 2 + 2 + 3 + 3 for the effects, 2 at the end: 16 that may fail, and one that does not
+        17);  // 4 to clear, 2 + 2 + 3 + 3 for the effects, 2 at the end: 16 that may fail, and one that succeeds
   ScriptedPort gone;
   gone.gone_after = 0;
-  quiet_stick(gone, pid, {1, 2, 3, 4});
+  silence_stick(gone, pid, {1, 2, 3, 4});
   CHECK(gone.gone_after == -1);
 }

@@ -1,4 +1,4 @@
-// Mass, damping, stiffness and delay from pulses, against responses in closed form.
+// Tests of fit_pulses() against responses in closed form.
 #include "haptics/hardware/pulse_response.h"
 
 #include <cmath>
@@ -8,11 +8,11 @@
 
 #include <doctest/doctest.h>
 
-using namespace gearshift;
+using namespace gearshift::haptics;
 
 namespace {
 
-// To a step of acceleration 1, from rest. Three forms of x'' + b x' + k x = 1, each solved by hand.
+// Responses to a unit step of acceleration from rest: three solutions of x'' + b x' + k x = 1, derived by hand.
 double sliding(double b, double t) {  // k = 0: x = (t - (1 - e^-bt) / b) / b
   return t <= 0.0 ? 0.0 : (t - (1.0 - std::exp(-b * t)) / b) / b;
 }
@@ -45,7 +45,7 @@ std::vector<Pulse> pulses_of(const auto& step, double gain, double delay, double
 
 }  // namespace
 
-TEST_CASE("the exact response gives the exact lever: sliding, swinging, creeping, at any delay") {
+TEST_CASE("the exact response gives the exact parameters: without spring, underdamped, overdamped, at any delay") {
   for (const double delay : {0.0, 0.0013, 0.045}) {
     CAPTURE(delay);
     const double gain = 1e5;
@@ -59,7 +59,7 @@ TEST_CASE("the exact response gives the exact lever: sliding, swinging, creeping
     CHECK(swings.damping == doctest::Approx(8.0).epsilon(1e-3));
     CHECK(swings.stiffness == doctest::Approx(4000.0).epsilon(1e-3));
     CHECK(std::abs(swings.delay - delay) < 2e-6);
-    // The paper's X axis: m 0.095, b 3, k 14.8: b / m 31.6, k / m 155.8.
+    // The paper's X axis: m 0.095, b 3, k 14.8, so b / m 31.6, k / m 155.8.
     const PulseFit paper = fit_pulses(pulses_of([](double t) { return creeping(31.58, 155.8, t); }, gain, delay, 0.0));
     CHECK(paper.gain == doctest::Approx(gain).epsilon(1e-4));
     CHECK(paper.damping == doctest::Approx(31.58).epsilon(1e-3));
@@ -68,7 +68,7 @@ TEST_CASE("the exact response gives the exact lever: sliding, swinging, creeping
   }
 }
 
-TEST_CASE("in counts of a coarse stick: a tenth of a millisecond of delay, some percent of the rest") {
+TEST_CASE("with the counts of a coarse stick: delay within 0.1 ms, the rest within a few percent") {
   const PulseFit fit = fit_pulses(pulses_of([](double t) { return creeping(31.58, 155.8, t); }, 7e5, 0.004, 1.0));
   CHECK(fit.gain == doctest::Approx(7e5).epsilon(0.02));
   CHECK(fit.damping == doctest::Approx(31.58).epsilon(0.03));
@@ -76,7 +76,7 @@ TEST_CASE("in counts of a coarse stick: a tenth of a millisecond of delay, some 
   CHECK(std::abs(fit.delay - 0.004) < 2e-4);
 }
 
-TEST_CASE("what is no such response leaves much of it unexplained; nothing at all is refused") {
+TEST_CASE("a different motion leaves a large residual; no motion is refused") {
   std::vector<Pulse> pulses = pulses_of([](double t) { return sliding(32.0, t); }, 1e5, 0.0, 0.0);
   std::mt19937 chance(5);
   std::normal_distribution<double> noise(0.0, 100.0);

@@ -1,5 +1,5 @@
-// The calls of a stick that run in the haptic cycle, proved: no allocation, no lock, and no system call but the write that
-// wakes the port.
+// Proves that the stick's calls in the haptic cycle allocate nothing, take no lock and make no system call except the
+// write that wakes the port.
 #include "tests/support/realtime_proof.h"
 
 #include <doctest/doctest.h>
@@ -9,7 +9,8 @@
 #include "tests/haptics/hardware/calibrated.h"
 #include "tests/haptics/hardware/stick_bench.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 
 TEST_CASE("reading, writing, walls and release allocate nothing, take no lock, and write to nothing but the wake-up") {
   EmulatedStickConfig config;
@@ -22,18 +23,18 @@ TEST_CASE("reading, writing, walls and release allocate nothing, take no lock, a
     for (int i = 0; i < 1000; ++i) {
       (void)lever.read(i);
       lever.write({0.01 * i, -0.02 * i});
-      lever.hold_walls({{-0.01, -0.02}, {0.01, 1e-5 * i}, 0.5});
+      lever.set_device_walls({{-0.01, -0.02}, {0.01, 1e-5 * i}, 0.5});
       if (i % 100 == 0) lever.release();
     }
   };
   const RealtimeProof proof = prove_realtime(cycles, bench.stream.wake_fd);
   INFO(proof.verdict());
   CHECK(proof.clean());
-  CHECK_FALSE(prove_realtime(cycles).clean());  // the filter sees that write
+  CHECK_FALSE(prove_realtime(cycles).clean());  // the filter detects that write
   CHECK_FALSE(prove_realtime(cycles, bench.stream.wake_fd + 1).clean());
 }
 
-TEST_CASE("the port's side takes no lock and allocates nothing either") {
+TEST_CASE("the port's side takes no lock and allocates nothing") {
   EmulatedStickConfig config;
   StillHand hand;
   StickBench bench(config, hand);
@@ -46,7 +47,7 @@ TEST_CASE("the port's side takes no lock and allocates nothing either") {
           const std::int64_t now = std::int64_t{1'000'000} * i;
           bench.driver.on_input(report, now);
           bench.driver.on_input(unknown, now);
-          bench.driver.wish(pushing(0.001 * i, 0.5));
+          bench.driver.command(pushing(0.001 * i, 0.5));
           if (bench.driver.next_output(now).size > 0) bench.driver.on_sent(now);
         }
       },

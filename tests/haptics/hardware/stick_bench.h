@@ -1,4 +1,4 @@
-// An emulated stick with a driver on it, on a virtual clock.
+// An emulated stick with its driver, on a virtual clock.
 #pragma once
 
 #include <atomic>
@@ -12,7 +12,7 @@
 #include "haptics/hid/hid_error.h"
 #include "tests/support/stick/stick_port.h"
 
-namespace gearshift {
+namespace gearshift::test {
 
 inline constexpr StickFamily kStickFamilies[] = {StickFamily::sidewinder, StickFamily::openffboard, StickFamily::vjoy};
 
@@ -22,7 +22,7 @@ inline std::string name_of(StickFamily family) {
 
 class StickBench {
  public:
-  explicit StickBench(const EmulatedStickConfig& config, HandDriver& hand)
+  explicit StickBench(const EmulatedStickConfig& config, haptics::HandDriver& hand)
       : stick(config, hand), port(stick, mutex, plugged), driver(stick.report_descriptor()) {}
 
   void prepare() {
@@ -32,18 +32,18 @@ class StickBench {
     stick.log.clear();
   }
 
-  // One millisecond, or whatever the period is, under a wish that is repeated as a loop does.
+  // Runs one period (one millisecond by default) with a command that is repeated, as a loop does.
   void tick() {
     now_ns += period_ns;
     tick_stick(stick, stream, driver, now_ns);
   }
-  void tick(const PidWish& wish) {
-    driver.see();
-    driver.wish(wish);
+  void tick(const haptics::StickCommand& command) {
+    driver.state();
+    driver.command(command);
     tick();
   }
-  void tick_for(double seconds, const PidWish& wish) {
-    for (const std::int64_t end = now_ns + static_cast<std::int64_t>(1e9 * seconds); now_ns < end;) tick(wish);
+  void tick_for(double seconds, const haptics::StickCommand& command) {
+    for (const std::int64_t end = now_ns + static_cast<std::int64_t>(1e9 * seconds); now_ns < end;) tick(command);
   }
   double time() const { return 1e-9 * static_cast<double>(now_ns); }
 
@@ -63,16 +63,16 @@ class StickBench {
   std::atomic<bool> plugged{true};
   EmulatedStick stick;
   StickPort port;
-  PidDriver driver;
-  PidAbility ability;
-  StreamConfig stream;
+  haptics::PidDriver driver;
+  haptics::PidAbility ability;
+  haptics::StreamConfig stream;
 };
 
-inline PidWish pushing(double x, double y) {
-  PidWish wish;
-  wish.enabled = true;
-  wish.constant = {x, y};
-  return wish;
+inline haptics::StickCommand pushing(double x, double y) {
+  haptics::StickCommand command;
+  command.enabled = true;
+  command.constant = {x, y};
+  return command;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

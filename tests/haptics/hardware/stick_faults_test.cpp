@@ -1,4 +1,4 @@
-// What goes wrong while a person holds the lever: how soon the motors are silent, and what it takes to have them back.
+// Faults while a person holds the lever: how soon the motors are silent, and what switches them on again.
 #include <algorithm>
 #include <cstdint>
 #include <functional>
@@ -15,12 +15,13 @@
 #include "tests/haptics/device/still_hand.h"
 #include "tests/haptics/hardware/stick_loop.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 using glm::dvec2;
 
 namespace {
 
-constexpr double kSilent = 0.1;  // [N] at the knob: nothing that can be felt
+constexpr double kSilent = 0.1;  // [N] at the knob: too small to feel
 
 EmulatedStickConfig gripped(StickFamily family) {
   EmulatedStickConfig config;
@@ -29,12 +30,12 @@ EmulatedStickConfig gripped(StickFamily family) {
   return config;
 }
 
-// A person presses the lever into a wall; then something happens, and time goes on.
+// A person presses the lever into a wall, then the fault happens and time continues.
 struct Fault {
   const char* name;
   std::function<void(StickLoop&)> happens;
-  std::function<void(StickLoop&)> goes_on;  // one millisecond
-  double most;                              // [s] to silence
+  std::function<void(StickLoop&)> goes_on;  // runs one millisecond
+  double most;                              // [s] longest time to silence
   bool own_power = false;
 };
 
@@ -84,14 +85,14 @@ double time_to_silence(StickFamily family, const Fault& fault, double before) {
   fault.happens(run);
   for (int ms = 0; ms < 1000 * fault.most + 300; ++ms) {
     if (glm::length(run.stick.force()) > kSilent) loud = run.now_ns + 1'000'000;
-    if (ms > 240 && run.stick.faults.silent) break;  // then the port itself gives up
+    if (ms > 240 && run.stick.faults.silent) break;  // then the port itself fails
     fault.goes_on(run);
   }
-  if (fault.most < 0.2) CHECK_FALSE(run.stick.actuators_on());  // who is still heard has switched them off
+  if (fault.most < 0.2) CHECK_FALSE(run.stick.actuators_on());  // a responsive stick has been switched off
   return 1e-9 * static_cast<double>(loud - begin);
 }
 
-// The whole process has no turn for a while; then one of its threads has the first.
+// The whole process is stopped for a while; then one of its threads runs first.
 struct Stall {
   std::int64_t ms = 0;
   bool loop_first = false;
@@ -107,7 +108,7 @@ void wake(StickLoop& run, const Stall& stall) {
   run.loop.cycle(run.now_ns, stall.ms);
 }
 
-// Of each family, held and running.
+// For each family, with the process stopped and resumed.
 template <class Work>
 void on_each_stall(std::initializer_list<std::int64_t> lengths, const Work& work) {
   for (const StickFamily family : kStickFamilies) {
@@ -128,7 +129,7 @@ void on_each_stall(std::initializer_list<std::int64_t> lengths, const Work& work
 
 }  // namespace
 
-TEST_CASE("from a fault to silent motors: in the stated time, whenever it happens") {
+TEST_CASE("from a fault to silent motors within the stated time, whenever it happens") {
   std::mt19937 chance(3);
   std::string table = "\nfault | median ms | worst ms\n";
   for (const Fault& fault : faults()) {
@@ -147,13 +148,13 @@ TEST_CASE("from a fault to silent motors: in the stated time, whenever it happen
   MESSAGE(table);
 }
 
-TEST_CASE("the program stands still and goes on, whoever of its threads wakes first: no force until a person arms it") {
+TEST_CASE("the process is stopped and resumed, whichever thread wakes first: no force until a person arms it") {
   on_each_stall({150, 400, 3000}, [](StickLoop& run, StillHand& hand, const Stall& stall) {
     hand.target = hand_at({0.012, 0.020});
     run.cycle_for(0.5);
     REQUIRE(glm::length(run.stick.force()) > 3.0);
     stand_still(run, stall);
-    const bool has_ended = stall.ms > 300;  // an effect lasts no longer
+    const bool has_ended = stall.ms > 300;  // an effect does not last longer
     if (has_ended) CHECK(glm::length(run.stick.force()) < kSilent);
     wake(run, stall);
     for (int i = 0; i < 1000; ++i) {
@@ -168,7 +169,7 @@ TEST_CASE("the program stands still and goes on, whoever of its threads wakes fi
   });
 }
 
-TEST_CASE("a stall of up to 0.1 s is ridden out, whoever wakes first") {
+TEST_CASE("a stop of up to 0.1 s does not interrupt the forces, whichever thread wakes first") {
   on_each_stall({15, 25, 60, 95}, [](StickLoop& run, StillHand&, const Stall& stall) {
     stand_still(run, stall);
     wake(run, stall);
@@ -178,7 +179,7 @@ TEST_CASE("a stall of up to 0.1 s is ridden out, whoever wakes first") {
   });
 }
 
-TEST_CASE("unplugged at any moment of a tour: silent until a person arms it again, and then the tour goes on") {
+TEST_CASE("unplugged at any moment of a tour: silent until a person arms it again, and then the tour continues") {
   for (const StickFamily family : kStickFamilies) {
     CAPTURE(name_of(family));
     std::mt19937 chance(11);
@@ -195,7 +196,7 @@ TEST_CASE("unplugged at any moment of a tour: silent until a person arms it agai
       CHECK(run.loop.snapshot().guard == GuardState::running);
       run.stick.unplug();
       CHECK(run.stick.force() == dvec2(0.0));
-      for (int ms = 0; ms < 300; ++ms) {  // nobody is there; the loop goes on
+      for (int ms = 0; ms < 300; ++ms) {  // disconnected; the loop continues
         run.stick.advance(run.now_ns += 1'000'000);
         run.loop.cycle(run.now_ns, 0);
       }
@@ -216,7 +217,7 @@ TEST_CASE("unplugged at any moment of a tour: silent until a person arms it agai
   }
 }
 
-TEST_CASE("armed while it was unplugged: it must be armed again when it is back") {
+TEST_CASE("armed while unplugged: must be armed again after the reconnect") {
   StillHand hand(hand_at({0.0, 0.012}));
   StickLoop run(gripped(StickFamily::vjoy), hand);
   run.loop.arm();
@@ -231,7 +232,7 @@ TEST_CASE("armed while it was unplugged: it must be armed again when it is back"
   CHECK_FALSE(run.stick.actuators_on());
 }
 
-TEST_CASE("a loop that was dead and lives again: silent until it is armed") {
+TEST_CASE("a loop that stopped and resumed: silent until armed") {
   StillHand hand(hand_at({0.012, 0.020}));
   StickLoop run(gripped(StickFamily::openffboard), hand);
   run.loop.arm();
@@ -245,7 +246,7 @@ TEST_CASE("a loop that was dead and lives again: silent until it is armed") {
   CHECK(run.loop.snapshot().guard == GuardState::released);
 }
 
-TEST_CASE("a stick that lies while it is held: jumps move nobody, readings that say nothing end in silence") {
+TEST_CASE("a faulty stick in a hand: jumps do not move it, and useless readings end in silence") {
   for (const StickFamily family : kStickFamilies) {
     CAPTURE(name_of(family));
     for (const bool jumps : {true, false}) {
@@ -256,7 +257,7 @@ TEST_CASE("a stick that lies while it is held: jumps move nobody, readings that 
       hand.target = hand_at({0.012, 0.020});
       run.cycle_for(0.5);
       const auto strongest =
-          [&run] {  // [N] in a fifth of a second: a count of a coarse stick is a kick of wall damping
+          [&run] {  // [N] in a fifth of a second: one count of a coarse stick makes a kick of wall damping
             double force = 0.0;
             for (int ms = 0; ms < 200; ++ms) {
               run.cycle();
@@ -275,9 +276,9 @@ TEST_CASE("a stick that lies while it is held: jumps move nobody, readings that 
   }
 }
 
-// A hand without a tremor is the hardest case: counts of 137 um on one of the sticks. It leans on a wall, which
-// yields until the next count.
-TEST_CASE("who leans on a wall for half a minute is not taken for a dead sensor, and hardly feels it") {
+// A hand without tremor is the hardest case, with counts of 137 um on one of the sticks. It leans on a wall, which
+// fades until the next count.
+TEST_CASE("leaning on a wall for half a minute is not mistaken for a dead sensor, and the fading is hardly felt") {
   for (const StickFamily family : kStickFamilies) {
     CAPTURE(name_of(family));
     StillHand hand;
@@ -299,8 +300,8 @@ TEST_CASE("who leans on a wall for half a minute is not taken for a dead sensor,
   }
 }
 
-// What is stable on a fast device is not on a late one, so its delay must be known.
-TEST_CASE("a stick that is 3 ms late: quiet on the wall with its own calibration, not with a faster one's") {
+// A wall that is stable on a fast device is not stable on a late one, so its delay must be known.
+TEST_CASE("a stick that is 3 ms late: quiet on the wall with its own calibration, not with that of a faster stick") {
   const auto shaking = [](double claimed) {
     EmulatedStickConfig config = gripped(StickFamily::openffboard);
     config.lever.hand = {};
@@ -324,7 +325,7 @@ TEST_CASE("a stick that is 3 ms late: quiet on the wall with its own calibration
     return high - low;
   };
   const double honest = shaking(0.003), boasting = shaking(0.0);
-  MESSAGE("peak to peak at the wall: ", 1e3 * honest, " mm, and ", 1e3 * boasting, " mm where its delay is not told");
+  MESSAGE("peak to peak at the wall: ", 1e3 * honest, " mm, and ", 1e3 * boasting, " mm with an unknown delay");
   CHECK(honest < 1e-4);
   CHECK(boasting > 1e-3);
 }

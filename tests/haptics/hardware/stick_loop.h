@@ -1,4 +1,4 @@
-// The whole lever through its reports: hand, emulated stick, driver, haptic loop, on a virtual clock.
+// The complete chain on a virtual clock: hand, emulated stick, driver and haptic loop.
 #pragma once
 
 #include <string>
@@ -10,25 +10,27 @@
 #include "tests/haptics/hardware/stick_bench.h"
 #include "tests/support/gates.h"
 
-namespace gearshift {
+namespace gearshift::test {
 
-inline Gate stick_gate(const std::string& name, const EmulatedStickConfig& config) {
-  return compile_gate(read_gate_layout(GEARSHIFT_ASSETS "/gates/" + name + ".toml"), glm::dvec2(config.half_travel));
+inline haptics::Gate stick_gate(const std::string& name, const EmulatedStickConfig& config) {
+  return haptics::compile_gate(haptics::read_gate_layout(GEARSHIFT_ASSETS "/gates/" + name + ".toml"),
+                               glm::dvec2(config.half_travel));
 }
 
 struct StickLoop : StickBench {
-  StickLoop(const EmulatedStickConfig& config, const DeviceCalibration& known, const HapticConfig& haptics,
-            const Gate& gate, HandDriver& hand)
+  StickLoop(const EmulatedStickConfig& config, const haptics::DeviceCalibration& known,
+            const haptics::HapticConfig& haptics, const haptics::Gate& gate, haptics::HandDriver& hand)
       : StickBench(config, hand),
-        lever((prepare(), known), driver, period_s(haptics)),
-        loop(haptics, gate, lever, world, channels) {
-    period_ns = gearshift::period_ns(haptics);
+        lever((prepare(), known), driver, haptics::period_s(haptics)),
+        loop(haptics, gate, lever, load, channels) {
+    period_ns = gearshift::haptics::period_ns(haptics);
     stream = driver.stream_config(period_ns);
   }
-  StickLoop(const EmulatedStickConfig& config, HandDriver& hand)
-      : StickLoop(config, calibration_of(config), HapticConfig{}, stick_gate("six_speed_r_left_up", config), hand) {}
+  StickLoop(const EmulatedStickConfig& config, haptics::HandDriver& hand)
+      : StickLoop(config, calibration_of(config), haptics::HapticConfig{}, stick_gate("six_speed_r_left_up", config),
+                  hand) {}
 
-  const HapticSnapshot& cycle() {
+  const haptics::HapticSnapshot& cycle() {
     tick();
     loop.cycle(now_ns, 0);
     return loop.snapshot();
@@ -38,16 +40,16 @@ struct StickLoop : StickBench {
   }
   std::vector<int> gears() {
     std::vector<int> engaged;
-    for (HapticEvent event; channels.events.pop(event);) {
-      if (event.kind == EventKind::gear_engaged) engaged.push_back(static_cast<int>(event.value));
+    for (haptics::HapticEvent event; channels.events.pop(event);) {
+      if (event.kind == haptics::EventKind::gear_engaged) engaged.push_back(static_cast<int>(event.value));
     }
     return engaged;
   }
 
-  NullWorld world;
-  LoopChannels channels;
-  PidLever lever;
-  HapticLoop loop;
+  haptics::NoLoad load;
+  haptics::LoopChannels channels;
+  haptics::PidLever lever;
+  haptics::HapticLoop loop;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::test

@@ -1,4 +1,4 @@
-// The whole loop closed through reports: a hand drives a stick through a gate, and the stick holds the walls.
+// The whole loop through reports: a hand drives a stick through a gate, and the stick renders the walls.
 #include <algorithm>
 #include <vector>
 
@@ -9,7 +9,8 @@
 #include "tests/haptics/device/still_hand.h"
 #include "tests/haptics/hardware/stick_loop.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 using glm::dvec2;
 
 namespace {
@@ -23,8 +24,8 @@ EmulatedStickConfig touring_stick(StickFamily family) {
 
 struct Tour {
   std::vector<int> engaged, wanted;
-  bool inside = true;      // the drawn lever never left the free space
-  double deepest = 0.0;    // [m] lever behind its proxy
+  bool inside = true;      // the proxy never left the free space
+  double deepest = 0.0;    // [m] largest distance of the lever from its proxy
   double strongest = 0.0;  // [N]
   GuardState guard = GuardState::idle;
   std::vector<std::string> problems;
@@ -34,7 +35,7 @@ Tour drive(const EmulatedStickConfig& config, const DeviceCalibration& known, co
   const Gate gate = stick_gate("six_speed_r_left_up", config);
   const dvec2 start = rest_position(gate, kNeutralGear);
   ScriptedHandConfig script = touring_hand(start);
-  script.effort_limit = 8.0;  // of a hand that means no harm to a stick of 20 N
+  script.effort_limit = 8.0;  // [N] a gentle hand, for a stick of 20 N
   ScriptedHand hand(script, shift_strokes(gate, start, tour_order(gate)), config.plant_period);
   StickLoop run(config, known, haptics, gate, hand);
   run.stick.logs = false;
@@ -55,7 +56,7 @@ Tour drive(const EmulatedStickConfig& config, const DeviceCalibration& known, co
 
 }  // namespace
 
-TEST_CASE("the six-gear tour through every family: each gear once and in order, and nothing to complain of") {
+TEST_CASE("the six-gear tour with every family: each gear once, in order, and no problems") {
   for (const StickFamily family : kStickFamilies) {
     CAPTURE(name_of(family));
     const EmulatedStickConfig config = touring_stick(family);
@@ -70,7 +71,7 @@ TEST_CASE("the six-gear tour through every family: each gear once and in order, 
   }
 }
 
-TEST_CASE("the tour with springs that keep no wall, with every polarity turned round, at 500 Hz, and 2 ms late") {
+TEST_CASE("the tour with weak springs, with every polarity inverted, at 500 Hz, and 2 ms late") {
   for (const StickFamily family : {StickFamily::openffboard, StickFamily::vjoy}) {
     EmulatedStickConfig config = touring_stick(family);
     DeviceCalibration known = calibration_of(config);
@@ -92,15 +93,13 @@ TEST_CASE("the tour with springs that keep no wall, with every polarity turned r
   }
 }
 
-// What a late stick with coarse counts gains by its own damper. By a count of 137 um in a millisecond the loop's damping
-// takes the lever for one of 0.14 m/s: a kick.
-TEST_CASE("a damper of the device: softer kicks of coarse counts, less rebound, on a late stick") {
+// What the device's damper improves on a late stick with coarse counts. From one count of 137 um in a millisecond the
+// loop's damping computes a speed of 0.14 m/s, which makes a kick.
+TEST_CASE("a device damper on a late stick: softer kicks from coarse counts, less rebound") {
   struct Felt {
     double damping = 0.0;  // [N s/m] of the wall
-    double kicks =
-        0.0;  // [N] by how much the force changes in a millisecond, root mean square, under a hand that leans
-              // to and fro
-    double rebound = 0.0;  // [m] of a hand that runs into the wall
+    double kicks = 0.0;    // [N] RMS change of the force per millisecond, under a hand that leans to and fro
+    double rebound = 0.0;  // [m] of a hand that hits the wall
   };
   const auto felt = [](double delay, bool damps) {
     EmulatedStickConfig config = touring_stick(StickFamily::sidewinder);
@@ -141,10 +140,10 @@ TEST_CASE("a damper of the device: softer kicks of coarse counts, less rebound, 
   }
 }
 
-// At rest in the middle of the paper's gate nothing pushes. The effects are started all the same: who comes to a wall then
-// feels it with the next report, not three or four later.
-TEST_CASE("armed means motors on, also where there is nothing to push yet; not armed means off") {
-  EmulatedStickConfig config = touring_stick(StickFamily::openffboard);  // its rest is a whole count
+// At rest in the middle of the paper's gate nothing pushes. The effects are started anyway, so that a wall is felt with
+// the next report and not three or four reports later.
+TEST_CASE("armed means motors on even without a force; not armed means off") {
+  EmulatedStickConfig config = touring_stick(StickFamily::openffboard);  // its rest position is a whole count
   StillHand hand;
   StickLoop run(config, calibration_of(config), HapticConfig{}, stick_gate("paper", config), hand);
   run.cycle_for(0.1);

@@ -1,4 +1,4 @@
-// Report descriptors: of devices, by their file in tests/data/hid, and written out in a test.
+// Report descriptors for tests: from devices (files in tests/data/hid) and written out in hex.
 #pragma once
 
 #include <algorithm>
@@ -12,14 +12,14 @@
 #include <string>
 #include <vector>
 
-namespace gearshift {
+namespace gearshift::test {
 
 inline constexpr const char* kPidDevices[] = {"microsoft-sidewinder-ff2", "openffboard-2axis", "vjoy-2axis-ffb-tlid1",
                                               "saitek-gamepad-ff0d"};
 inline constexpr const char* kOtherDevices[] = {"sony-dualshock4-v2-usb", "logitech-g29-ps4",
                                                 "fanatec-clubsport-handbrake"};
 
-// "05 01 ..." to bytes.
+// Converts "05 01 ..." to bytes.
 inline std::vector<std::uint8_t> hex_bytes(const std::string& text) {
   std::istringstream words(text);
   std::vector<std::uint8_t> bytes;
@@ -27,7 +27,7 @@ inline std::vector<std::uint8_t> hex_bytes(const std::string& text) {
   return bytes;
 }
 
-// And back, as a message shows it.
+// Converts bytes to hex text for messages.
 inline std::string hex(std::span<const std::uint8_t> bytes) {
   std::string text;
   for (const std::uint8_t byte : bytes) {
@@ -45,7 +45,7 @@ inline std::vector<std::uint8_t> device_descriptor(const std::string& device) {
   return hex_bytes({std::istreambuf_iterator<char>(file), {}});
 }
 
-// The first place of these bytes gives way to those.
+// Replaces the first occurrence of these bytes by those.
 inline std::vector<std::uint8_t> with(std::vector<std::uint8_t> descriptor, const std::string& old_bytes,
                                       const std::string& new_bytes) {
   const std::vector<std::uint8_t> out = hex_bytes(old_bytes), in = hex_bytes(new_bytes);
@@ -56,4 +56,4 @@ inline std::vector<std::uint8_t> with(std::vector<std::uint8_t> descriptor, cons
   return descriptor;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

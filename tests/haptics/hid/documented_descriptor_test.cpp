@@ -1,4 +1,5 @@
-// The descriptor of haptics/hardware/BUILDING.md is one: read from the page, it is a stick that can be driven.
+// The example descriptor in haptics/hardware/BUILDING.md must describe a usable stick; the test reads it from that
+// page.
 #include <fstream>
 #include <iterator>
 #include <string>
@@ -10,11 +11,12 @@
 #include "haptics/hid/pid_report.h"
 #include "tests/haptics/hid/descriptors.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 
 namespace {
 
-// The bytes of the page's block, without what is said beside them.
+// The bytes of the page's code block, without its comments.
 std::string documented_hex() {
   std::ifstream file(GEARSHIFT_TEST_DATA "/../../haptics/hardware/BUILDING.md");
   const std::string page{std::istreambuf_iterator<char>(file), {}};
@@ -33,7 +35,7 @@ std::string documented_hex() {
 
 }  // namespace
 
-TEST_CASE("the builder's guide: 257 bytes are a lever of 16 bits and 8 buttons that can be pushed") {
+TEST_CASE("the builder's guide: its 257 bytes describe a lever of 16 bits with 8 buttons and forces") {
   const std::vector<std::uint8_t> bytes = hex_bytes(documented_hex());
   CHECK(bytes.size() == 257);
   const ReportDescriptor descriptor = parse_report_descriptor(bytes);
@@ -51,12 +53,12 @@ TEST_CASE("the builder's guide: 257 bytes are a lever of 16 bits and 8 buttons t
 
   const auto pid = find_pid(descriptor);
   REQUIRE(pid);
-  CHECK(pid->makes(PidEffect::constant));
-  CHECK_FALSE(pid->makes(PidEffect::spring));
+  CHECK(pid->has_effect(PidEffect::constant));
+  CHECK_FALSE(pid->has_effect(PidEffect::spring));
   CHECK(pid->set_effect.id == 2);
   CHECK(pid->set_effect.duration_unit == doctest::Approx(1e-3));
   CHECK(pid->set_effect.full_turn == doctest::Approx(36000.0));
-  for (const std::size_t control : {0u, 1u, 2u, 3u}) CHECK(pid->device_control.control.knows(control));
+  for (const std::size_t control : {0u, 1u, 2u, 3u}) CHECK(pid->device_control.control.supports(control));
   CHECK_FALSE(pid->create.exists());
 
   // By hand: ID 3, block 2, half of 32767 = 16384 (rounded) = 4000h.

@@ -1,4 +1,4 @@
-// Where a stick stands, from the bytes of its report. Reports are written by hand from the documents of the devices.
+// Decodes lever positions from report bytes. The reports are written by hand from the devices' documents.
 #include "haptics/hid/lever_report.h"
 
 #include <string>
@@ -8,7 +8,8 @@
 #include "haptics/hid/hid_bytes.h"
 #include "tests/haptics/hid/descriptors.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 
 namespace {
 
@@ -55,7 +56,7 @@ TEST_CASE("SideWinder FF2: ten-bit X and Y, six-bit twist, seven-bit slider, eig
   CHECK(axis(lever, counts, kRz) == -1);
   CHECK(axis(lever, counts, kSlider) == 127);
   CHECK(counts.buttons == 0x81);
-  // What is in the padding is nobody's: the six bits above X are not.
+  // Padding is ignored, such as the six bits above X.
   CHECK(axis(lever, decoded(lever, "01 01 FC 00 FC 00 00 00 00 00 00 00 00"), kX) == 1);
 }
 
@@ -74,10 +75,10 @@ TEST_CASE("OpenFFBoard: 64 buttons, eight axes of 16 bits") {
   CHECK(counts.buttons == 0x8000000000000001U);
 }
 
-TEST_CASE("vJoy: more axes than are kept, and X and Y are kept") {
+TEST_CASE("vJoy: has more axes than the maximum; X and Y are always kept") {
   const LeverReport lever = lever_of(device_descriptor("vjoy-2axis-ffb-tlid1"));
   CHECK(lever.size == 97);
-  CHECK(lever.axes.size() == kMostAxes);
+  CHECK(lever.axes.size() == kMaxAxes);
   std::string report = "01 FF 7F 00 00 00 40 00 00";
   for (int i = 0; i < 18; ++i) report += " 00 00 00 00";  // 14 axes, 4 hats
   report += " 02";
@@ -87,23 +88,23 @@ TEST_CASE("vJoy: more axes than are kept, and X and Y are kept") {
   CHECK(axis(lever, counts, kY) == 0x4000);
   CHECK(counts.buttons == 2);
 
-  // Eight others before them: page 1 Z to wheel is seven, the simulation page has the rest.
+  // Eight other axes come first: Z to wheel of page 1 are seven, the rest is on the simulation page.
   const LeverReport late = lever_of(hex_bytes(
       "05 01 09 04 A1 01 15 00 26 FF 00 75 08 95 09 09 32 09 33 09 34 09 35 09 36 09 37 09 38 05 02 09 BA 09 BB "
       "81 02 05 01 09 30 09 31 95 02 81 02 C0"));
-  CHECK(late.axes.size() == kMostAxes);
+  CHECK(late.axes.size() == kMaxAxes);
   CHECK(late.axes[6].usage == kX);
   CHECK(late.axes[7].usage == kY);
   CHECK(late.axes[7].field.offset == 80);
 }
 
-TEST_CASE("pads and wheels that do not push have a lever report, too") {
+TEST_CASE("pads and wheels without force feedback also have a lever report") {
   const LeverReport saitek = lever_of(device_descriptor("saitek-gamepad-ff0d"));
   CHECK(saitek.size == 7);
   CHECK(saitek.axes.size() == 4);  // X, Y, rudder, throttle
   CHECK(saitek.axes[2].usage == HidUsage{2, 0xba});
   CHECK(saitek.buttons.size() == 12);
-  CHECK(decoded(saitek, "01 80 FF 00 7F 01 08").buttons == 0x801);  // twelve bits from byte 5 on
+  CHECK(decoded(saitek, "01 80 FF 00 7F 01 08").buttons == 0x801);  // twelve bits from byte 5
   CHECK(lever_of(device_descriptor("sony-dualshock4-v2-usb")).size == 64);
   CHECK(lever_of(device_descriptor("logitech-g29-ps4")).axes.size() == 6);
   CHECK_FALSE(find_lever_report(parse_report_descriptor(device_descriptor("fanatec-clubsport-handbrake"))));
@@ -112,18 +113,18 @@ TEST_CASE("pads and wheels that do not push have a lever report, too") {
 TEST_CASE("no lever: a mouse, a stick of one axis, axes of a keyboard, axes that are padding") {
   const std::string axes = "09 30 09 31 15 81 25 7F 75 08 95 02 ";
   CHECK(has_lever("05 01 09 04 A1 01 " + axes + "81 02 C0"));
-  CHECK(has_lever("05 01 09 08 A1 01 A1 02 A1 02 " + axes + "81 02 C0 C0 C0"));  // multi-axis controller, deeper
+  CHECK(has_lever("05 01 09 08 A1 01 A1 02 A1 02 " + axes + "81 02 C0 C0 C0"));  // multi-axis controller, nested deeper
   CHECK_FALSE(has_lever("05 01 09 02 A1 01 " + axes + "81 06 C0"));
   CHECK_FALSE(has_lever("05 01 09 04 A1 01 " + axes + "81 06 C0"));  // relative
   CHECK_FALSE(has_lever("05 01 09 06 A1 01 " + axes + "81 02 C0"));
   CHECK_FALSE(has_lever("05 01 09 04 A1 01 " + axes + "81 03 C0"));
   CHECK_FALSE(has_lever("05 01 09 04 A1 01 " + axes + "91 02 C0"));
-  CHECK_FALSE(has_lever("05 01 09 04 A1 01 09 30 75 08 95 01 81 02 85 02 09 31 81 02 C0"));  // in two reports
-  // The same beyond 256 bytes: 255 of the maker's first.
+  CHECK_FALSE(has_lever("05 01 09 04 A1 01 09 30 75 08 95 01 81 02 85 02 09 31 81 02 C0"));  // X and Y in two reports
+  // The same, but longer than 256 bytes: 255 vendor bytes come first.
   CHECK_FALSE(has_lever("05 01 09 04 A1 01 75 08 96 FF 00 81 01 " + axes + "81 02 C0"));
 }
 
-TEST_CASE("a report of another ID or length is none") {
+TEST_CASE("a report with another ID or length is rejected") {
   const LeverReport lever = lever_of(device_descriptor("saitek-gamepad-ff0d"));
   CHECK(decode_lever(lever, hex_bytes("01 80 80 80 80 00 00")));
   CHECK_FALSE(decode_lever(lever, hex_bytes("02 80 80 80 80 00 00")));
@@ -154,14 +155,14 @@ TEST_CASE("bits: any offset, any width, with and without sign; nothing beyond th
     std::vector<std::uint8_t> blank(bytes.size());
     write_bits(blank, field, one.value);
     CHECK(hex(blank) == one.report);
-    // What is beside it stays.
+    // Neighbouring bits are unchanged.
     std::vector<std::uint8_t> full(bytes.size(), 0xff);
     write_bits(full, field, 0);
     CHECK(read_bits(full, field) == 0);
     write_bits(full, field, -1);
     write_bits(full, field, field.min < 0 ? -1 : field.max);
     CHECK(hex(full) == "FF FF FF FF FF FF");
-    // One byte less than it needs.
+    // One byte too short.
     const std::size_t needed = static_cast<std::size_t>(8 + field.offset + field.bits + 7) / 8;
     bytes.resize(needed - 1);
     CHECK(read_bits(bytes, field) == 0);
@@ -177,7 +178,7 @@ TEST_CASE("bits: any offset, any width, with and without sign; nothing beyond th
   CHECK(read_bits({}, {0, 8, 0, 255, 0}) == 0);
 }
 
-TEST_CASE("a field's range is what its bits can hold; its zero is where the physical one has it") {
+TEST_CASE("a field's range is limited to what its bits can hold; its zero is where the physical range has it") {
   const auto field = [](const std::string& items) {
     return bit_field(parse_report_descriptor(hex_bytes("75 08 95 02 " + items + " 91 02")).fields[0], 1);
   };
@@ -186,10 +187,10 @@ TEST_CASE("a field's range is what its bits can hold; its zero is where the phys
   CHECK(usual.min == -128);
   CHECK(usual.max == 127);
   CHECK(usual.zero == 0);
-  CHECK(field("15 00 26 FF 7F").max == 255);                     // 32767 does not fit
-  CHECK(field("16 F0 D8 26 10 27").min == -128);                 // nor does -10000
-  CHECK(field("15 00 25 00").max == 255);                        // no range: all of it
-  CHECK(field("15 05 25 01").min == 0);                          // nor the wrong way round
+  CHECK(field("15 00 26 FF 7F").max == 255);                     // 32767 does not fit into the field
+  CHECK(field("16 F0 D8 26 10 27").min == -128);                 // -10000 does not fit either
+  CHECK(field("15 00 25 00").max == 255);                        // empty range: full range of the bits
+  CHECK(field("15 05 25 01").min == 0);                          // inverted range: the same
   CHECK(field("15 00 26 FF 00 36 F0 D8 46 10 27").zero == 128);  // 127.5: half of 0 to 255, for -10000 to 10000
   CHECK(field("15 00 26 FF 00 35 00 46 10 27").zero == 0);
   CHECK(field("15 01 25 64 35 01 45 64").zero == 1);
@@ -197,7 +198,7 @@ TEST_CASE("a field's range is what its bits can hold; its zero is where the phys
   CHECK_FALSE(bit_field(parse_report_descriptor(hex_bytes("75 08 95 01 91 02")).fields[0], 1).exists());
 }
 
-TEST_CASE("two reports of bytes are the same by what is used of them") {
+TEST_CASE("two reports are equal if their used bytes are equal") {
   HidBytes a, b;
   a.bytes[5] = 1;
   CHECK(a == b);

@@ -1,5 +1,5 @@
-// Devices' descriptors with a few bytes wrong: refused with one sentence, or read lawfully. The same laws, for longer and with
-// a search for new paths, are those of tests/fuzz/hid_descriptor_fuzz.cpp.
+// Device descriptors with a few wrong bytes are refused with one sentence or read consistently.
+// tests/fuzz/hid_descriptor_fuzz.cpp checks the same laws for longer, with a search for new paths.
 #include <random>
 #include <string>
 #include <vector>
@@ -9,7 +9,7 @@
 #include "tests/haptics/hid/descriptors.h"
 #include "tests/haptics/hid/hid_laws.h"
 
-using namespace gearshift;
+using namespace gearshift::test;
 
 namespace {
 
@@ -57,13 +57,13 @@ TEST_CASE("descriptors with a few wrong bytes break no law") {
       }
     }
   }
-  // Not all of them are refused: the laws are asked of many that are read.
+  // Makes sure that many of them are accepted, so that the laws are tested.
   CHECK(levers > 500);
   CHECK(pid_devices > 300);
   MESSAGE(levers << " levers, " << pid_devices << " PID devices of 3500");
 }
 
-TEST_CASE("bytes of chance break no law") {
+TEST_CASE("random bytes break no law") {
   std::mt19937 random(2);
   for (int i = 0; i < 2000; ++i) {
     std::vector<std::uint8_t> bytes(random() % 64);

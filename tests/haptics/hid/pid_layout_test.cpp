@@ -1,5 +1,5 @@
-// Which reports are those of the PID page and where their fields lie. Offsets are counted by hand along the descriptors;
-// SideWinder's also stand in adapt-ffb-joy's wiki (SidewinderFFPDetails.md) and ffb.h, OpenFFBoard's in its ffb_defs.h.
+// Finds the PID reports and their fields. Offsets were counted by hand along the descriptors; for the SideWinder they
+// are also in adapt-ffb-joy's wiki (SidewinderFFPDetails.md) and ffb.h, for OpenFFBoard in ffb_defs.h.
 #include "haptics/hid/pid_layout.h"
 
 #include <string>
@@ -8,7 +8,8 @@
 
 #include "tests/haptics/hid/descriptors.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 
 namespace {
 
@@ -22,7 +23,7 @@ PidLayout pid_of(const std::string& device) {
   return *pid;
 }
 
-// "offset:bits", "-" where there is none.
+// "offset:bits", or "-" for a missing field.
 std::string place(const BitField& field) {
   return field.exists() ? std::to_string(field.offset) + ":" + std::to_string(field.bits) : "-";
 }
@@ -39,7 +40,7 @@ template <std::size_t N>
 std::string numbers(const PidChoice<N>& choice) {
   std::string text;
   for (std::size_t i = 0; i < N; ++i) {
-    text += !choice.knows(i)         ? "- "
+    text += !choice.supports(i)      ? "- "
             : choice.bit[i].exists() ? "b" + place(choice.bit[i]) + " "
                                      : std::to_string(choice.number[i]) + " ";
   }
@@ -48,7 +49,7 @@ std::string numbers(const PidChoice<N>& choice) {
 
 constexpr const char* kAllEffects = "1 2 3 4 5 6 7 8 9 10 11";
 
-// A stick of the least: Set Effect, Set Constant Force and operation, with these additions to Set Effect and at the end.
+// A minimal stick: Set Effect, Set Constant Force and Effect Operation, with additions to Set Effect and at the end.
 std::vector<std::uint8_t> least(const std::string& set_effect, const std::string& more = "") {
   return hex_bytes(
       "05 01 09 04 A1 01 05 0F 15 01 25 28 75 08 95 01 "
@@ -125,7 +126,7 @@ TEST_CASE(
     "OpenFFBoard: directions of 16 bits, a bit for each device control, no override switch, no block in the state") {
   const PidLayout pid = pid_of("openffboard-2axis");
   const PidSetEffect& effect = pid.set_effect;
-  CHECK(id_size(effect) == "1:22");  // FFB_SetEffect_t and two offsets of 16 bits
+  CHECK(id_size(effect) == "1:22");  // FFB_SetEffect_t plus two 16-bit offsets
   CHECK(place(effect.start_delay) == "64:16");
   CHECK(place(effect.gain) == "80:8");
   CHECK(place(effect.axis_enable[1]) == "97:1");
@@ -173,7 +174,7 @@ TEST_CASE("vJoy: its own IDs, blocks to 100, a turn of 32767, a state in a colle
   CHECK(place(pid.state.playing) == "0:1");
   CHECK(place(pid.state.actuators_enabled) == "2:1");
   CHECK(place(pid.state.actuator_power) == "5:1");
-  CHECK_FALSE(pid.state.block.exists());  // it is in a feature of the same ID
+  CHECK_FALSE(pid.state.block.exists());  // it is in a feature report with the same ID
 }
 
 TEST_CASE("Saitek: no type, direction, axes nor conditions; choices in an order of its own") {
@@ -200,8 +201,8 @@ TEST_CASE("Saitek: no type, direction, axes nor conditions; choices in an order 
   CHECK(range(pid.gain.gain) == "0..128");
   CHECK(id_size(pid.create) == "21:2");
   CHECK(numbers(pid.create.type) == "1 - 2 4 3 5 6 - - - -");
-  CHECK(pid.makes(PidEffect::constant));
-  CHECK_FALSE(pid.makes(PidEffect::spring));
+  CHECK(pid.has_effect(PidEffect::constant));
+  CHECK_FALSE(pid.has_effect(PidEffect::spring));
   CHECK(id_size(pid.block_load) == "22:3");
   CHECK(place(pid.block_load.block) == "8:8");
   CHECK_FALSE(pid.block_load.ram_available.exists());
@@ -214,19 +215,19 @@ TEST_CASE("Saitek: no type, direction, axes nor conditions; choices in an order 
   CHECK(place(pid.state.playing) == "15:1");
 }
 
-TEST_CASE("the PID page for rumble alone is no PID device, nor are pads and wheels without it") {
+TEST_CASE("a device that uses the PID page only for rumble is not a PID device, nor are pads and wheels without it") {
   for (const char* device : kOtherDevices) {
     CAPTURE(device);
     CHECK_FALSE(pid_in(device_descriptor(device)));
   }
-  // The rumble report of Xbox One pads over Bluetooth: a Set Effect report of magnitudes, no block.
+  // The rumble report of Xbox One pads over Bluetooth: a Set Effect report with magnitudes but no block.
   CHECK_FALSE(pid_in(hex_bytes(
       "05 01 09 05 A1 01 05 0F 09 21 85 03 A1 02 09 97 15 00 25 01 75 04 95 01 91 02 15 00 25 00 75 04 95 01 91 03 "
       "09 70 15 00 25 64 75 08 95 04 91 02 09 50 66 01 10 55 0E 15 00 26 FF 00 75 08 95 01 91 02 "
       "09 A7 15 00 26 FF 00 75 08 95 01 91 02 65 00 55 00 09 7C 15 00 26 FF 00 75 08 95 01 91 02 C0 C0")));
 }
 
-TEST_CASE("what is missing is missing; what must be there makes the difference") {
+TEST_CASE("optional reports may be missing; required ones may not") {
   const auto pid = pid_in(least(""));
   REQUIRE(pid);
   CHECK(id_size(pid->set_effect) == "1:2");
@@ -238,7 +239,7 @@ TEST_CASE("what is missing is missing; what must be there makes the difference")
   CHECK_FALSE(pid->block_load.exists());
   CHECK_FALSE(pid->pool.exists());
   CHECK_FALSE(pid->state.exists());
-  CHECK_FALSE(pid->makes(PidEffect::spring));
+  CHECK_FALSE(pid->has_effect(PidEffect::spring));
   for (const char* usage : {"09 21", "09 73", "09 77", "09 70", "09 79"}) {
     CAPTURE(usage);
     CHECK_FALSE(pid_in(with(least(""), usage, "09 01")));
@@ -255,17 +256,17 @@ TEST_CASE("device control: an array, bits, or an array that is flagged as a vari
   CHECK(control("09 95 A1 02 85 0C 09 96 A1 02 " + six + "15 00 25 01 75 01 95 06 91 02 75 02 95 01 91 03 C0 C0") ==
         "b0:1 b1:1 b2:1 b3:1 b4:1 b5:1");  // Fanatec
   CHECK(control("09 96 A1 02 85 0C " + six + "15 00 25 01 75 08 95 06 91 02 C0") ==
-        "b0:8 b8:8 b16:8 b24:8 b32:8 b40:8");                                                        // a byte each
+        "b0:8 b8:8 b16:8 b24:8 b32:8 b40:8");                                                        // one byte each
   CHECK(control("09 96 A1 02 85 0C " + six + "15 00 25 05 75 08 95 01 91 00 C0") == "0 1 2 3 4 5");  // counted from 0
-  CHECK(control("09 96 A1 02 85 0C " + six + "15 01 25 04 75 08 95 01 91 00 C0") == "1 2 3 4 - -");  // beyond its range
+  CHECK(control("09 96 A1 02 85 0C " + six + "15 01 25 04 75 08 95 01 91 00 C0") == "1 2 3 4 - -");  // out of range
   CHECK(control("09 96 A1 02 85 0C 09 98 09 97 25 02 91 00 C0") == "2 1 - - - -");
-  // A field of 255 bits holds no number, not even 0 (found by fuzzing).
+  // A field of 255 bits cannot hold a number, not even 0 (found by fuzzing).
   CHECK(control("09 96 A1 02 85 0C " + six + "15 00 25 05 75 FF 95 01 91 00 C0") == "- - - - - -");
-  // Not in its collection: another report's.
+  // In another report, outside the collection.
   CHECK(control("09 21 A1 02 85 0C " + six + "15 01 25 06 75 08 95 01 91 00 C0") == "- - - - - -");
 }
 
-TEST_CASE("axes and directions: by axis or ordinal, a polar one alone, 36000 hundredths or as the device counts") {
+TEST_CASE("axes and directions: by axis or ordinal, one polar direction, 36000 hundredths or the device's counts") {
   const auto effect = [](const std::string& items) { return pid_in(least(items))->set_effect; };
   const std::string bits = "15 00 25 01 75 01 95 02 91 02 C0 75 06 95 01 91 03";
   CHECK(place(effect("09 55 A1 02 05 01 09 31 09 30 " + bits).axis_enable[0]) == "9:1");  // Y first
@@ -275,35 +276,36 @@ TEST_CASE("axes and directions: by axis or ordinal, a polar one alone, 36000 hun
   CHECK(place(polar.direction[0]) == "8:8");
   CHECK_FALSE(polar.direction[1].exists());
   CHECK(polar.full_turn == doctest::Approx(179.0));
-  // 0 to 35999 hundredths of a degree in 0 to 35999 counts: a turn is one more. Exponent -2.
+  // 0 to 35999 hundredths of a degree in 0 to 35999 counts, so a full turn is one count more. Exponent -2.
   const PidSetEffect nearly =
       effect("09 57 A1 02 0B 01 00 0A 00 55 FE 15 00 27 9F 8C 00 00 35 00 47 9F 8C 00 00 75 10 95 01 91 02 55 00 C0");
   CHECK(nearly.full_turn == doctest::Approx(36000.0));
-  // adapt-ffb-joy: 0 to 180 for 36000 hundredths.
+  // adapt-ffb-joy: 0 to 180 counts for 36000 hundredths of a degree.
   CHECK(effect("09 57 A1 02 0B 01 00 0A 00 55 FE 15 00 26 B4 00 35 00 47 A0 8C 00 00 75 08 95 01 91 02 C0").full_turn ==
         doctest::Approx(180.0));
 }
 
-TEST_CASE("the unit of durations: of the field, milliseconds where it tells none") {
+TEST_CASE("the unit of durations: the field's unit, or milliseconds if it has none") {
   const auto unit = [](const std::string& items) { return pid_in(least("09 50 " + items))->set_effect.duration_unit; };
   CHECK(unit("75 10 95 01 91 02") == doctest::Approx(1e-3));
   CHECK(unit("15 00 26 FF 7F 35 00 46 FF 7F 66 03 10 55 FD 75 10 91 02") == doctest::Approx(1e-3));
   CHECK(unit("15 00 26 FF 7F 35 00 45 00 66 01 10 55 0C 75 10 91 02") == doctest::Approx(1e-4));
-  // 0 to 255 counts for 0 to 2550 hundredths of a second: 0.1 s each.
+  // 0 to 255 counts for 0 to 2550 hundredths of a second: 0.1 s per count.
   CHECK(unit("15 00 26 FF 00 35 00 46 F6 09 66 01 10 55 0E 75 08 91 02") == doctest::Approx(0.1));
-  CHECK(unit("15 00 26 FF 7F 65 14 55 FE 75 10 91 02") == doctest::Approx(1e-3));  // degrees
+  CHECK(unit("15 00 26 FF 7F 65 14 55 FE 75 10 91 02") == doctest::Approx(1e-3));  // unit is degrees
 }
 
-TEST_CASE("reports longer than any is are not used") {
+TEST_CASE("reports that are too long are not used") {
   CHECK(pid_in(least("75 08 95 FE 91 01"))->set_effect.size == 256);
   CHECK_FALSE(pid_in(least("75 08 96 FF 00 91 01")));
-  // An optional one is as if it were not there, fields and all (found by mutation): SideWinder's block load of 236 x 16 bits.
+  // An optional report that is too long is ignored with all its fields (found by mutation): SideWinder's block load
+  // with 236 x 16 bits.
   const auto pid =
       pid_in(with(device_descriptor("microsoft-sidewinder-ff2"), "75 10 95 01 B1 00", "75 10 95 EC B1 00"));
   REQUIRE(pid);
   CHECK_FALSE(pid->block_load.exists());
   CHECK_FALSE(pid->block_load.block.exists());
-  CHECK_FALSE(pid->block_load.status.knows(0));
+  CHECK_FALSE(pid->block_load.status.supports(0));
 }
 
 TEST_CASE("effects have names") {

@@ -1,6 +1,7 @@
-// PID reports, byte by byte. Every line of bytes is worked out by hand from the device's descriptor and document, the
-// arithmetic beside it; documents: adapt-ffb-joy's ffb.h and wiki for the SideWinder, OpenFFBoard's ffb_defs.h and HidFFB.cpp.
-// An angle of 0 is from the far side and it turns clockwise, so X is a quarter, Y half of a turn.
+// Encoding of PID reports, byte by byte. Every line of bytes was derived by hand from the device's descriptor and
+// document, with the arithmetic beside it. Documents: adapt-ffb-joy's ffb.h and wiki for the SideWinder, OpenFFBoard's
+// ffb_defs.h and HidFFB.cpp. Direction 0 is from the far side and turns clockwise, so X is a quarter turn and Y half a
+// turn.
 #include "haptics/hid/pid_report.h"
 
 #include <limits>
@@ -10,7 +11,8 @@
 
 #include "tests/haptics/hid/descriptors.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 
 namespace {
 
@@ -55,12 +57,12 @@ TEST_CASE("SideWinder FF2: Set Effect, 16 bytes") {
   // Y 2 + direction 4, 255/2 = 127.5 -> 128 = 80h
   CHECK(told(encode_set_effect(pid, settings(2, PidEffect::constant, 1))) ==
         "01 02 01 2C 01 00 00 00 00 FF 00 06 80 00 00 00");
-  // Spring is the eighth type, damper the ninth; both axes 1 + 2, no direction.
+  // Spring is type 8, damper type 9; both axes (1 + 2), no direction.
   CHECK(told(encode_set_effect(pid, settings(3, PidEffect::spring, -1))) ==
         "01 03 08 2C 01 00 00 00 00 FF 00 03 00 00 00 00");
   CHECK(told(encode_set_effect(pid, settings(40, PidEffect::damper, -1))) ==
         "01 28 09 2C 01 00 00 00 00 FF 00 03 00 00 00 00");
-  // For ever is all ones (USB_DURATION_INFINITE); 32767 ms is the longest that has an end; nothing is shorter than 1 ms.
+  // kForever is all ones (USB_DURATION_INFINITE); 32767 ms is the longest finite duration, 1 ms the shortest.
   CHECK(told(encode_set_effect(pid, settings(1, PidEffect::constant, 0, kForever))).substr(9, 5) == "FF FF");
   CHECK(told(encode_set_effect(pid, settings(1, PidEffect::constant, 0, 1000.0))).substr(9, 5) == "FF 7F");
   CHECK(told(encode_set_effect(pid, settings(1, PidEffect::constant, 0, 0.0))).substr(9, 5) == "01 00");
@@ -81,8 +83,8 @@ TEST_CASE("SideWinder FF2: constant force -255 to 255, conditions of a byte each
   CHECK(told(encode_constant(pid, 2, 0.0)) == "05 02 00 00");
   CHECK(told(encode_constant(pid, 2, 7.0)) == "05 02 FF 00");
   CHECK(told(encode_constant(pid, 2, kNaN)) == "05 02 00 00");
-  // centre -0.25 x 128 = -32 = E0h; coefficient 0.5 x 127 = 63.5 -> 64 = 40h; saturation 0.8 x 255 = 204 = CCh; dead band
-  // 0.2 x 255 = 51 = 33h
+  // centre -0.25 x 128 = -32 = E0h; coefficient 0.5 x 127 = 63.5 -> 64 = 40h; saturation 0.8 x 255 = 204 = CCh; dead
+  // band 0.2 x 255 = 51 = 33h
   CHECK(told(encode_condition(pid, 3, 0, kSpring)) == "03 03 00 E0 40 40 CC CC 33");
   CHECK(told(encode_condition(pid, 3, 1, kSpring)) == "03 03 01 E0 40 40 CC CC 33");
 }
@@ -117,7 +119,7 @@ TEST_CASE("SideWinder FF2: block load, pool and state") {
   CHECK_FALSE(decode_block_load(pid, hex_bytes("02 03 01 D0")));
   CHECK_FALSE(decode_block_load(pid, hex_bytes("03 03 01 D0 07")));
   CHECK_FALSE(decode_block_load(pid, {}));
-  // 1024 bytes, 10 at once, managed by the device
+  // 1024 bytes, 10 simultaneous effects, managed by the device
   const auto pool = decode_pool(pid, hex_bytes("03 00 04 0A 01"));
   REQUIRE(pool);
   CHECK(pool->ram == 1024);
@@ -179,7 +181,7 @@ TEST_CASE("OpenFFBoard: 16-bit magnitudes and conditions, a bit for each control
   CHECK(load->block == 2);
   CHECK(load->status == BlockLoad::Status::success);
   CHECK(decode_pool(pid, hex_bytes("13 28 00 28 01"))->simultaneous == 40);
-  // ffb_defs.h: actuators 2 + power 8 + playing 16; the safety switch is told as open.
+  // ffb_defs.h: actuators 2 + power 8 + playing 16; the safety switch is reported as open.
   const auto state = decode_state(pid, hex_bytes("02 1A"));
   REQUIRE(state);
   CHECK(state->actuators_enabled);
@@ -216,7 +218,7 @@ TEST_CASE("vJoy: IDs from 11h, ranges of 10000, a turn of 32767") {
   CHECK_FALSE(state->paused);
 }
 
-TEST_CASE("Saitek: nothing is told that it has no field for") {
+TEST_CASE("Saitek: values without a field are left out") {
   const PidLayout pid = pid_of("saitek-gamepad-ff0d");
   // ID, block, button, 300 ms, trigger repeat, delay
   CHECK(told(encode_set_effect(pid, settings(5, PidEffect::constant, 0))) == "0B 05 00 2C 01 00 00 00 00");
@@ -224,8 +226,8 @@ TEST_CASE("Saitek: nothing is told that it has no field for") {
   CHECK(told(encode_constant(pid, 5, 1.0)) == "0D 05 7F");
   CHECK(told(encode_constant(pid, 5, -1.0)) == "0D 05 81");  // -127
   CHECK(told(encode_condition(pid, 5, 0, kSpring)).empty());
-  // In its order: stop, start, start solo; reset, stop all, enable, disable, pause, continue.
-  CHECK(told(encode_operation(pid, 5, PidOperation::start, 300)) == "51 05 02 FE");  // at most 254 times
+  // In order: stop, start, start solo; reset, stop all, enable, disable, pause, continue.
+  CHECK(told(encode_operation(pid, 5, PidOperation::start, 300)) == "51 05 02 FE");  // at most 254 loops
   CHECK(told(encode_operation(pid, 5, PidOperation::stop, 0)) == "51 05 01 00");
   CHECK(control(pid, PidControl::enable_actuators) == "52 03");
   CHECK(control(pid, PidControl::disable_actuators) == "52 04");
@@ -237,27 +239,27 @@ TEST_CASE("Saitek: nothing is told that it has no field for") {
   CHECK(told(encode_create(pid, PidEffect::sine)) == "15 04");
   CHECK(told(encode_create(pid, PidEffect::spring)).empty());
   CHECK(told(encode_block_free(pid, 254)) == "50 FE");
-  const auto load = decode_block_load(pid, hex_bytes("16 02 05"));  // status first
+  const auto load = decode_block_load(pid, hex_bytes("16 02 05"));  // status comes first
   REQUIRE(load);
   CHECK(load->block == 5);
   CHECK(load->status == BlockLoad::Status::full);
-  // 15 bits of 512 bytes, the sixteenth: managed by the device; 8 at once
+  // 15 bits with 512 bytes, bit 16: managed by the device; 8 simultaneous
   const auto pool = decode_pool(pid, hex_bytes("0B 00 82 08"));
   REQUIRE(pool);
   CHECK(pool->ram == 512);
   CHECK(pool->device_managed);
   CHECK(pool->simultaneous == 8);
-  // actuators, then paused; seven bits of block, playing
+  // actuators, then paused; seven bits of block, then playing
   const auto state = decode_state(pid, hex_bytes("02 01 85"));
   REQUIRE(state);
   CHECK(state->actuators_enabled);
   CHECK_FALSE(state->paused);
   CHECK(state->playing);
   CHECK(state->block == 5);
-  CHECK(state->actuator_power);  // not told: taken as there
+  CHECK(state->actuator_power);  // not reported: assumed on
 }
 
-TEST_CASE("a block that a report cannot name is not told: it would be another one") {
+TEST_CASE("a block index outside the field's range is not encoded, because it would address another block") {
   for (const char* device : kPidDevices) {
     CAPTURE(device);
     const PidLayout pid = pid_of(device);
@@ -271,12 +273,12 @@ TEST_CASE("a block that a report cannot name is not told: it would be another on
     }
   }
   CHECK(told(encode_constant(pid_of("microsoft-sidewinder-ff2"), 41, 1.0)).empty());
-  CHECK(told(encode_condition(pid_of("microsoft-sidewinder-ff2"), 1, 2, kSpring)).empty());  // it has two axes
+  CHECK(told(encode_condition(pid_of("microsoft-sidewinder-ff2"), 1, 2, kSpring)).empty());  // only two axes
   CHECK(told(encode_condition(pid_of("microsoft-sidewinder-ff2"), 1, -1, kSpring)).empty());
 }
 
 TEST_CASE("MOZA: six controls in one field that is flagged as a variable are still one number") {
-  // SideWinder's device control with 91 02 for 91 00
+  // SideWinder's device control with 91 02 instead of 91 00
   const PidLayout pid =
       needed_pid_in(with(device_descriptor("microsoft-sidewinder-ff2"), "09 9C 15 01 25 06 75 08 95 01 91 00",
                          "09 9C 15 01 25 06 75 08 95 01 91 02"));
@@ -284,9 +286,9 @@ TEST_CASE("MOZA: six controls in one field that is flagged as a variable are sti
   CHECK(control(pid, PidControl::resume) == "0C 06");
 }
 
-TEST_CASE("adapt-ffb-joy: centre and one coefficient are all that a condition has, no start delay, a turn of 180") {
+TEST_CASE("adapt-ffb-joy: conditions with only centre and one coefficient, no start delay, a turn of 180") {
   std::vector<std::uint8_t> bytes = device_descriptor("microsoft-sidewinder-ff2");
-  // Conditions end after the positive coefficient (its Descriptors.c), Set Effect after the direction.
+  // Conditions end after the positive coefficient (Descriptors.c), Set Effect after the direction.
   bytes = with(
       bytes,
       "09 61 09 62 95 02 91 02 15 00 26 FF 00 35 00 46 10 27 09 63 09 64 75 08 95 02 91 02 09 65 46 10 27 95 01 91 02",
@@ -302,25 +304,25 @@ TEST_CASE("adapt-ffb-joy: centre and one coefficient are all that a condition ha
         "01 01 01 2C 01 00 00 00 00 FF 00 06 5A 00");
 }
 
-TEST_CASE("without a parameter block there is one condition, of the first axis") {
+TEST_CASE("without a parameter block there is only one condition, for the first axis") {
   const PidLayout pid =
       needed_pid_in(with(device_descriptor("microsoft-sidewinder-ff2"), "09 23 15 00", "09 24 15 00"));
   CHECK(told(encode_condition(pid, 3, 0, kSpring)) == "03 03 00 E0 40 40 CC CC 33");
   CHECK(told(encode_condition(pid, 3, 1, kSpring)).empty());
 }
 
-TEST_CASE("a magnitude without sign whose physical range has one: its zero is in the middle") {
+TEST_CASE("an unsigned magnitude with a signed physical range has its zero in the middle") {
   const PidLayout pid =
       needed_pid_in(with(device_descriptor("microsoft-sidewinder-ff2"), "09 70 16 01 FF 26 FF 00 36 F0 D8 46 10 27",
                          "09 70 15 00 26 FE 00 36 F0 D8 46 10 27"));
-  // 0 to 254 for -10000 to 10000: 127 is none, 0.5 is 190.5 -> 191 = BFh
+  // 0 to 254 for -10000 to 10000: 127 is zero, 0.5 is 190.5 -> 191 = BFh
   CHECK(told(encode_constant(pid, 1, 0.0)) == "05 01 7F 00");
   CHECK(told(encode_constant(pid, 1, 1.0)) == "05 01 FE 00");
   CHECK(told(encode_constant(pid, 1, -1.0)) == "05 01 00 00");
   CHECK(told(encode_constant(pid, 1, 0.5)) == "05 01 BF 00");
 }
 
-TEST_CASE("a direction that has a sign: half a turn is its least") {
+TEST_CASE("a signed direction: half a turn is its minimum") {
   const PidLayout pid =
       needed_pid_in(with(device_descriptor("openffboard-2axis"), "15 00 27 A0 8C 00 00 35 00 47 A0 8C 00 00",
                          "16 B0 B9 26 50 46 36 B0 B9 46 50 46"));  // -18000 to 18000

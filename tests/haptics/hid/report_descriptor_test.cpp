@@ -1,5 +1,5 @@
-// What a report descriptor means. Expected values are read off the bytes by hand, by HID 1.11 sections 5 and 6.2.2; of the
-// devices' own descriptors Linux' hid-core reads the same 293 fields (haptics/hid/README.md).
+// Parsing of report descriptors. Expected values were read from the bytes by hand, following HID 1.11 sections 5 and
+// 6.2.2; Linux' hid-core reads the same 293 fields from the devices' descriptors (haptics/hid/README.md).
 #include "haptics/hid/report_descriptor.h"
 
 #include <string>
@@ -9,7 +9,8 @@
 #include "haptics/hid/hid_error.h"
 #include "tests/haptics/hid/descriptors.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 
 namespace {
 
@@ -17,7 +18,7 @@ ReportDescriptor parsed(const std::string& text) {
   return parse_report_descriptor(hex_bytes(text));
 }
 
-// The one field that these items declare, in a report of eight bits unless they say otherwise.
+// The single field that these items declare, in a report of eight bits unless they say otherwise.
 HidField field_of(const std::string& items) {
   const ReportDescriptor descriptor = parsed("75 08 95 01 " + items);
   REQUIRE(descriptor.fields.size() == 1);
@@ -41,7 +42,7 @@ std::string repeated(const std::string& text, int times) {
 
 }  // namespace
 
-TEST_CASE("a maximum has a sign where the minimum has one: 25 FF above 0 is 255, 26 FF FF is 65535") {
+TEST_CASE("a maximum is signed if the minimum is: 25 FF above 0 is 255, 26 FF FF is 65535") {
   struct {
     const char* items;
     std::int64_t min, max;
@@ -70,7 +71,7 @@ TEST_CASE("a maximum has a sign where the minimum has one: 25 FF above 0 is 255,
   CHECK(physical.physical_max == 10000);
 }
 
-TEST_CASE("the unit's exponent is a nibble with a sign") {
+TEST_CASE("the unit's exponent is a signed nibble") {
   CHECK(field_of("55 FD 81 02").unit_exponent == -3);
   CHECK(field_of("55 0D 81 02").unit_exponent == -3);
   CHECK(field_of("55 07 81 02").unit_exponent == 7);
@@ -80,33 +81,33 @@ TEST_CASE("the unit's exponent is a nibble with a sign") {
 
 TEST_CASE("usages: of 32 bits, in ranges, fewer or more than elements, of several pages") {
   using Usages = std::vector<HidUsage>;
-  // 32 bits bring their page with them, whatever the page is, before and after.
+  // 32-bit usages include their page, so the page before and after does not matter.
   CHECK(field_of("05 0F 0B 01 00 0A 00 0B 02 00 0A 00 95 02 91 02").usages == Usages{{0x0a, 1}, {0x0a, 2}});
   CHECK(field_of("0B 30 00 01 00 05 09 81 02").usages == Usages{{1, 0x30}});
-  // A range, also told from its end, and one of 32 bits.
+  // A range, also with its maximum first, and one of 32 bits.
   CHECK(field_of("05 09 19 02 29 04 95 03 81 02").usages == Usages{{9, 2}, {9, 3}, {9, 4}});
   CHECK(field_of("05 09 29 04 19 02 95 03 81 02").usages == Usages{{9, 2}, {9, 3}, {9, 4}});
   CHECK(field_of("1B 01 00 09 00 2B 02 00 09 00 95 02 81 02").usages == Usages{{9, 1}, {9, 2}});
-  CHECK(field_of("05 09 19 04 29 02 81 02").usages.empty());  // the wrong way round: none
-  // The last one counts for all that are left.
+  CHECK(field_of("05 09 19 04 29 02 81 02").usages.empty());  // inverted range: none
+  // The last usage applies to all remaining elements.
   const HidField buttons = field_of("05 09 19 01 29 02 75 01 95 04 81 02");
   CHECK(buttons.usage(0) == HidUsage{9, 1});
   CHECK(buttons.usage(1) == HidUsage{9, 2});
   CHECK(buttons.usage(3) == HidUsage{9, 2});
-  // More usages than elements are kept: they may be a choice.
+  // More usages than elements are kept, because they may be a choice.
   CHECK(field_of("05 0F 09 97 09 98 95 01 91 02").usages.size() == 2);
   CHECK(field_of("81 01").usage(0) == HidUsage{});
-  // Each on the page under which it was told; one page after all of them is the page of all.
+  // Each usage has the page under which it was declared; a single page after all of them applies to all.
   CHECK(field_of("05 01 09 30 05 02 09 BA 95 02 81 02").usages == Usages{{1, 0x30}, {2, 0xba}});
   CHECK(field_of("05 09 09 30 09 31 05 01 95 02 81 02").usages == Usages{{1, 0x30}, {1, 0x31}});
-  // Of alternates between delimiters the first counts.
+  // Of alternative usages between delimiters the first counts.
   CHECK(field_of("05 01 A9 01 09 30 09 36 A9 00 09 31 95 02 81 02").usages == Usages{{1, 0x30}, {1, 0x31}});
-  // They go with the main item that they stand before.
+  // Usages belong to the main item that follows them.
   CHECK(parsed("75 08 95 01 05 01 09 30 81 02 81 02").fields[1].usages.empty());
 }
 
-TEST_CASE("what is global stays, what is pushed comes back") {
-  // Size and count of the first are those of the second; the third has what was pushed.
+TEST_CASE("global items persist, pushed ones are restored") {
+  // The first has the size and count of the second; the third has the pushed ones.
   const ReportDescriptor descriptor = parsed("75 04 95 02 15 00 25 0F 81 02 A4 25 07 75 03 81 02 B4 81 02");
   REQUIRE(descriptor.fields.size() == 3);
   CHECK(descriptor.fields[1].bits == 3);
@@ -119,20 +120,20 @@ TEST_CASE("what is global stays, what is pushed comes back") {
   CHECK(descriptor.report_size(ReportKind::input, 0) == 1 + 3);  // 22 bits
 }
 
-TEST_CASE("one report ID serves inputs, outputs and features, each of its own size") {
+TEST_CASE("one report ID for inputs, outputs and features, each with its own size") {
   const ReportDescriptor descriptor = parsed("85 01 75 08 95 03 81 02 95 01 91 02 85 02 95 07 B1 02 85 01 75 02 81 02");
   CHECK(descriptor.numbered);
-  CHECK(descriptor.report_size(ReportKind::input, 1) == 1 + 5);  // 24 bits, and 7 of 2 bits later
+  CHECK(descriptor.report_size(ReportKind::input, 1) == 1 + 5);  // 24 bits, and later 7 of 2 bits
   CHECK(descriptor.report_size(ReportKind::output, 1) == 1 + 1);
   CHECK(descriptor.report_size(ReportKind::feature, 1) == 0);
   CHECK(descriptor.report_size(ReportKind::feature, 2) == 1 + 7);
   CHECK(descriptor.fields.back().offset == 24);
 }
 
-TEST_CASE("reports without a number, alone and beside numbered ones") {
+TEST_CASE("reports without an ID, on their own and beside numbered ones") {
   const ReportDescriptor alone = parse_report_descriptor(device_descriptor("fanatec-clubsport-handbrake"));
   CHECK_FALSE(alone.numbered);
-  CHECK(alone.report_size(ReportKind::input, 0) == 1 + 4);  // 1 axis, 3 of the maker's
+  CHECK(alone.report_size(ReportKind::input, 0) == 1 + 4);  // 1 axis, 3 vendor bytes
   CHECK(alone.report_size(ReportKind::output, 0) == 1 + 2);
   const ReportDescriptor mixed = parsed("75 08 95 02 81 02 85 03 81 02");
   CHECK(mixed.numbered);
@@ -140,7 +141,7 @@ TEST_CASE("reports without a number, alone and beside numbered ones") {
   CHECK(mixed.report_size(ReportKind::input, 3) == 1 + 2);
 }
 
-TEST_CASE("a main item's flags: padding, arrays, relative values, in one byte, two or none") {
+TEST_CASE("flags of a main item: padding, arrays, relative values, in one byte, two or none") {
   const HidField buffered = field_of("92 02 01");  // SideWinder: data, variable, absolute, buffered bytes
   CHECK(buffered.kind == ReportKind::output);
   CHECK_FALSE(buffered.constant);
@@ -153,14 +154,14 @@ TEST_CASE("a main item's flags: padding, arrays, relative values, in one byte, t
   CHECK(field_of("B1 02").kind == ReportKind::feature);
 }
 
-TEST_CASE("fields wider than 32 bits take their room, fields of nothing take none") {
+TEST_CASE("fields wider than 32 bits take space, empty fields take none") {
   const ReportDescriptor wide = parsed("75 40 95 01 91 02 75 78 91 01 75 00 91 02 75 08 95 00 91 02 95 01 91 02");
   REQUIRE(wide.fields.size() == 3);
   CHECK(wide.fields[0].bits == 64);
   CHECK(wide.fields[2].offset == 64 + 120);
 }
 
-TEST_CASE("collections: nested, without usages, and what lies within them") {
+TEST_CASE("collections: nested, without usages, and the fields inside them") {
   const ReportDescriptor descriptor =
       parsed("05 01 09 04 A1 01 A1 00 09 30 75 08 95 01 81 02 C0 05 0F 09 21 A1 02 09 22 91 02 C0 C0 09 01 B1 02");
   REQUIRE(descriptor.collections.size() == 3);
@@ -181,7 +182,7 @@ TEST_CASE("collections: nested, without usages, and what lies within them") {
   CHECK(parsed(deep).collections.size() == 300);
 }
 
-TEST_CASE("zeros at the end, long items, and items that nobody knows are passed over") {
+TEST_CASE("trailing zeros, long items and unknown items are skipped") {
   CHECK(parsed("A1 01 75 08 95 01 81 02 C0 00").fields.size() == 1);
   CHECK(parsed("A1 01 75 08 95 01 81 02 C0 " + repeated("00 ", 3000)).fields.size() == 1);
   CHECK(parsed("75 08 95 01 FE 03 F0 81 02 C0 81 02").fields.size() == 1);  // a long item of three bytes, tag F0
@@ -191,14 +192,14 @@ TEST_CASE("zeros at the end, long items, and items that nobody knows are passed 
   CHECK(parsed("00 00 00").fields.empty());
 }
 
-TEST_CASE("what cannot be understood is refused with one sentence and the byte") {
+TEST_CASE("an invalid descriptor is refused with one sentence and the byte offset") {
   CHECK(refusal("05") == "report descriptor, byte 0: the last item is cut off");
   CHECK(refusal("75 08 95 01 81 02 26 FF") == "report descriptor, byte 6: the last item is cut off");
   CHECK(refusal("05 01 FE 09 F0 01") == "report descriptor, byte 2: a long item is cut off");
   CHECK(refusal("05 01 FE") == "report descriptor, byte 2: a long item is cut off");
   CHECK(refusal("05 01 A1 01 A1 00 C0") == "report descriptor, byte 2: the collection that begins here never ends");
-  CHECK(refusal("A1 01 C0 C0") == "report descriptor, byte 3: a collection ends that never began");
-  CHECK(refusal("75 08 B4") == "report descriptor, byte 2: pops what was never pushed");
+  CHECK(refusal("A1 01 C0 C0") == "report descriptor, byte 3: end of a collection that never began");
+  CHECK(refusal("75 08 B4") == "report descriptor, byte 2: pops a state that was never pushed");
   CHECK(refusal("86 2C 01") == "report descriptor, byte 0: report ID 300 is beyond 255");
   CHECK(refusal("75 08 96 FF FF 81 02") == "none");
   CHECK(refusal("75 08 96 FF FF 81 02 95 01 81 02") ==
@@ -210,14 +211,14 @@ TEST_CASE("what cannot be understood is refused with one sentence and the byte")
   CHECK(refusal(repeated("A1 02 C0 ", 4097)) == "report descriptor, byte 12288: more than 4096 collections");
 }
 
-TEST_CASE("devices' own descriptors that are broken: one sentence") {
-  // A byte is lost behind A1, so that the usage becomes a collection's type; one end is left over.
+TEST_CASE("descriptors of real devices that are broken: one sentence each") {
+  // A byte is lost after A1, so that the usage becomes a collection's type and one end is left over.
   CHECK(refusal(hex(device_descriptor("odd-saitek-x52-missing-byte"))) ==
-        "report descriptor, byte 117: a collection ends that never began");
-  // 240 bytes are told, the rest of 4096 is zeros. The second collection begins behind 16 x 10 + 4 bytes.
+        "report descriptor, byte 117: end of a collection that never began");
+  // 240 bytes are given, the rest of 4096 is zeros. The second collection begins after 16 x 10 + 4 bytes.
   CHECK(refusal(hex(device_descriptor("odd-zeroplus-xbox-wireless"))) ==
         "report descriptor, byte 164: the collection that begins here never ends");
-  // Any of the others that is cut off at its last byte.
+  // Each of the others, truncated by one byte.
   for (const char* device : kPidDevices) {
     CAPTURE(device);
     std::vector<std::uint8_t> bytes = device_descriptor(device);
@@ -226,7 +227,7 @@ TEST_CASE("devices' own descriptors that are broken: one sentence") {
   }
 }
 
-TEST_CASE("reports of the devices are as long as their documents say") {
+TEST_CASE("the devices' reports are as long as documented") {
   const ReportDescriptor sidewinder = parse_report_descriptor(device_descriptor("microsoft-sidewinder-ff2"));
   CHECK(sidewinder.report_size(ReportKind::input, 1) == 13);
   CHECK(sidewinder.report_size(ReportKind::output, 1) == 16);  // wMaxPacketSize of its OUT endpoint

@@ -9,14 +9,14 @@
 
 #include "haptics/joystick/plane_pose.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
 
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 constexpr YokeGeometry kYoke;
 
-// Visits the whole workspace, corners included, and hands over joint angles.
+// Calls `check` with joint angles across the whole workspace, corners included.
 template <class Check>
 void everywhere(Check check) {
   for (int theta = -40; theta <= 40; theta += 8) {
@@ -24,7 +24,7 @@ void everywhere(Check check) {
   }
 }
 
-// Numeric Jacobian by a five-point difference: error of order step^4.
+// Numeric derivative by a five-point difference: error of order step^4.
 template <class Map>
 auto derivative(Map map, JointAngles q, double dtheta, double dphi) {
   const double h = 1e-3;

@@ -7,7 +7,7 @@
 #include "haptics/joystick/actuator.h"
 #include "haptics/joystick/force_sensor.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
 
 TEST_CASE("motors give at most 3.8 N m / 0.12 m, and nothing for a command that is not a number") {
   Actuator motor{ActuatorLimits{}};
@@ -23,16 +23,16 @@ TEST_CASE("a force F lasts overload_time (Fp^2 - Fc^2) / (F^2 - Fc^2), then Fc, 
   for (double force : {30.0, 20.0, 12.0}) {
     Actuator motor(limits);
     double time = 0.0;
-    while (!motor.overloaded()) {
+    while (!motor.is_overloaded()) {
       CHECK(motor.deliver(force, 1e-3) == force);
       time += 1e-3;
     }
     CHECK(std::abs(time - 5.0 * (900.0 - 100.0) / (force * force - 100.0)) < 2.5e-3);
     CHECK(motor.deliver(force, 1e-3) == 10.0);
 
-    // Left alone it cools by Fc^2 per second: half of 4000 N^2 s takes 20 s.
+    // Without load it cools by Fc^2 per second: half of 4000 N^2 s takes 20 s.
     double rest = 0.0;
-    while (motor.overloaded()) {
+    while (motor.is_overloaded()) {
       motor.deliver(0.0, 1e-2);
       rest += 1e-2;
     }
@@ -41,10 +41,10 @@ TEST_CASE("a force F lasts overload_time (Fp^2 - Fc^2) / (F^2 - Fc^2), then Fc, 
   }
 }
 
-TEST_CASE("the continuous force lasts for ever") {
+TEST_CASE("the continuous force has no time limit") {
   Actuator motor{ActuatorLimits{}};
   for (int i = 0; i < 100000; ++i) motor.deliver(10.83, 1.0);
-  CHECK_FALSE(motor.overloaded());
+  CHECK_FALSE(motor.is_overloaded());
 }
 
 TEST_CASE("eq (7): no force reads 19.04, a kilogram 19.04 + 155.1, and the force comes back") {

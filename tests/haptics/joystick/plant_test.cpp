@@ -7,14 +7,14 @@
 
 #include <doctest/doctest.h>
 
-using namespace gearshift;
+using namespace gearshift::haptics;
 
 namespace {
 
 using Complex = std::complex<long double>;
 
-// The textbook solution x = f/k + A exp(p1 t) + B exp(p2 t), p the roots of m p^2 + b p + k,
-// in extended precision.
+// The textbook solution x = f/k + A exp(p1 t) + B exp(p2 t), with p1, p2 the roots of m p^2 + b p + k, in extended
+// precision.
 AxisState by_poles(const AxisModel& axis, AxisState start, double force, double time) {
   const Complex m = axis.mass, b = axis.damping, k = axis.stiffness, t = time;
   const Complex root = std::sqrt(b * b - 4.0L * m * k);
@@ -26,8 +26,7 @@ AxisState by_poles(const AxisModel& axis, AxisState start, double force, double 
   return {static_cast<double>((rest + e1 + e2).real()), static_cast<double>((p1 * e1 + p2 * e2).real())};
 }
 
-// Relative to the motion's own size, as a state is: 1e-12 of start, speed over frequency, and force over
-// stiffness together.
+// Compares relative to the size of the motion: 1e-12 of |x0| + |v0| / w + |f| / k.
 void check_same(const AxisModel& axis, AxisState start, double force, double time) {
   CAPTURE(axis.mass);
   CAPTURE(axis.damping);
@@ -65,7 +64,7 @@ TEST_CASE("the plant is its textbook sum of two exponentials to 1e-12, over- and
   }
 }
 
-TEST_CASE("a critically damped plant is x = (A + B t) exp(-a t), and close to it nothing breaks") {
+TEST_CASE("a critically damped plant is x = (A + B t) exp(-a t), and it stays accurate close to that") {
   for (double nudge : {0.0, 1e-15, -1e-15, 1e-9, -1e-9}) {
     for (double time : {1e-3, 0.05, 0.11, 1.0}) {
       const double a = 20.0, m = 0.1;  // b = 2 m a, k = m a^2
@@ -152,7 +151,7 @@ TEST_CASE("a hard stop takes the whole velocity and holds against a push, not ag
   const AxisState off = advance_limited(mass, stops, hit, -1.0, 0.05);
   CHECK(off.position == doctest::Approx(0.05 - 0.5 * 10.0 * 0.05 * 0.05).epsilon(1e-13));
 
-  // Against its spring: thrown at the stop it ends there at rest, then swings from there as x0 cos(w t).
+  // On a spring: thrown at the stop it comes to rest there, then swings from there as x0 cos(w t).
   const AxisModel spring{0.1, 0.0, 100.0};
   const double w = std::sqrt(1000.0), x0 = 0.04, v0 = 3.0, amplitude = std::hypot(x0, v0 / w);
   const double impact = (std::acos(x0 / amplitude) - std::acos(0.05 / amplitude)) / w;
@@ -181,7 +180,7 @@ TEST_CASE("with friction and stops the step length does not matter, and energy n
   }
 }
 
-TEST_CASE("more reversals than one step may have end at rest, with no energy made") {
+TEST_CASE("more reversals than one step allows end at rest, without adding energy") {
   const AxisModel bell{0.01, 0.0, 1e6};  // 1592 Hz
   const AxisState end = advance_limited(bell, {1.0, 1e-9}, {0.01, 0.0}, 0.0, 1.0);
   CHECK(end.velocity == 0.0);

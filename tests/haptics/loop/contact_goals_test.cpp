@@ -1,13 +1,15 @@
-// The goals of the design's table for a contact, each on a sample of what `gearshift bench` runs: nothing here is timed.
+// The contact goals of the design's table, each on a sample of the cases of `gearshift bench`. Nothing here is timed.
 #include <algorithm>
 
 #include <doctest/doctest.h>
 
-#include "tests/bench/bench.h"
-#include "tests/bench/contact_campaign.h"
+#include "app/lab/bench/lever/contact_campaign.h"
+#include "app/lab/bench/rows/bench.h"
 #include "tests/support/whole_campaign.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::lab;
+using namespace gearshift::test;
 
 namespace {
 
@@ -27,15 +29,17 @@ void check_rows(std::vector<BenchRow> (*family)(const BenchOptions&)) {
 
 }  // namespace
 
-TEST_CASE("a 5000 N/m wall under 20 N: still, and as stiff as it says, at every rate and delay") {
+TEST_CASE("a 5000 N/m wall under 20 N: at rest, and as stiff as configured, at every rate and delay") {
   check_rows(bench_contact);
 }
 
-TEST_CASE("a wall makes no energy of an impact; energy bounded, never more than the damping took") {
+TEST_CASE("a wall generates no energy in an impact; with energy bounding never more than the damping dissipated") {
   check_rows(bench_energy);
 }
 
-TEST_CASE("control of that goal: the same spring without bounding gives more than the damping took, at 500 Hz") {
+TEST_CASE(
+    "negative control of that goal: without bounding the same spring generates more than the damping dissipated, at "
+    "500 Hz") {
   ContactCase contact;
   contact.haptics.rate = 500.0;
   contact.haptics.contact = {ContactHold::zero_order, EnergyControl::none, false, true};
@@ -56,7 +60,7 @@ TEST_CASE("time from a fault to no force") {
   check_rows(bench_faults);
 }
 
-TEST_CASE("what a textbook spring of 5000 N/m makes of an impact by another program, through the whole cycle") {
+TEST_CASE("the impact on a textbook spring of 5000 N/m computed by another program, through the whole cycle") {
   ContactCase contact;
   contact.haptics.contact = {ContactHold::zero_order, EnergyControl::none, false, true};
   contact.haptics.tuning.wall_damping = 0.0;
@@ -70,10 +74,10 @@ TEST_CASE("what a textbook spring of 5000 N/m makes of an impact by another prog
   }
 }
 
-TEST_CASE("the observer bears 5000 N/m at 1 ms with two samples of delay, where the half-sample hold does not") {
+TEST_CASE("the observer holds 5000 N/m at 1 ms with two samples of delay, where the half-sample hold does not") {
   Campaign campaign;
   campaign.contact.lever.delay = 2;
-  campaign.contact.haptics.contact.study = true;
+  campaign.contact.haptics.contact.allow_unstable = true;
   campaign.contact.haptics.contact.reversal_limiter = false;
   campaign.runs = is_whole_campaign() ? 40 : 16;
   campaign.contact.haptics.contact.hold = ContactHold::observer;
@@ -84,7 +88,7 @@ TEST_CASE("the observer bears 5000 N/m at 1 ms with two samples of delay, where 
   CHECK(sampled > 0.14e-3);
 }
 
-TEST_CASE("the observer at 5 ms, where it is asked for: 1995 N/m in every hand, the arm included") {
+TEST_CASE("the observer at 5 ms, selected explicitly: 1995 N/m in every hand, the arm included") {
   Campaign campaign;
   campaign.contact.haptics.rate = 200.0;
   campaign.contact.haptics.contact.hold = ContactHold::observer;

@@ -1,4 +1,4 @@
-// What a hand feels of the gate, measured on the simulated lever through the whole cycle.
+// The gate's behaviour as felt by a hand, measured on the simulated lever through the whole cycle.
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
@@ -8,13 +8,14 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include "haptics/device/pushing_hand.h"
 #include "haptics/gate/gate_feel.h"
 #include "haptics/loop/simulated_run.h"
 #include "tests/support/gates.h"
-#include "tests/support/hands.h"
 #include "tests/support/whole_campaign.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 using glm::dvec2;
 
 namespace {
@@ -43,7 +44,7 @@ std::vector<HapticEvent> events_of(SimulatedRun& run, EventKind kind) {
 }  // namespace
 
 TEST_CASE("row 11: a free lever away from the gears returns to the neutral position by itself") {
-  RestingHand nobody;
+  IdleHand idle_hand;
   std::mt19937_64 random(1);
   std::uniform_real_distribution<double> x(-0.035, 0.035), y(-0.02, 0.02);
   for (const std::string& name : shipped_names()) {
@@ -57,19 +58,19 @@ TEST_CASE("row 11: a free lever away from the gears returns to the neutral posit
       ++trial;
       CAPTURE(start.x);
       CAPTURE(start.y);
-      SimulatedRun run(resting_at(gate, start), nobody);
+      SimulatedRun run(resting_at(gate, start), idle_hand);
       const HapticSnapshot end = run_for(run, 3.0);
-      CHECK(glm::distance(end.lever, neutral) < 0.001);  // the handle's own spring pulls to its centre
+      CHECK(glm::distance(end.lever, neutral) < 0.001);  // the handle's spring pulls to its centre
       CHECK(end.gear == kNeutralGear);
     }
   }
 }
 
 TEST_CASE("row 10: a lever in gear stays there when let go: no ejection, no drift within a minute") {
-  RestingHand nobody;
+  IdleHand idle_hand;
   const Gate gate = paper_gate();
   for (const int gear : {1, 2, 3, 4, 5, kReverseGear}) {
-    SimulatedRun run(resting_at(gate, rest_position(gate, gear)), nobody);
+    SimulatedRun run(resting_at(gate, rest_position(gate, gear)), idle_hand);
     const HapticSnapshot early = run_for(run, 1.0);
     const HapticSnapshot late = run_for(run, 60.0);
     CHECK(late.gear == gear);
@@ -78,7 +79,7 @@ TEST_CASE("row 10: a lever in gear stays there when let go: no ejection, no drif
 }
 
 TEST_CASE("row 10 at every rate and delay: a bare lever comes to rest in gear, within two counts of the encoder") {
-  RestingHand nobody;
+  IdleHand idle_hand;
   const Gate gate = paper_gate();
   for (const double rate : {100.0, 200.0, 300.0, 333.0, 500.0, 1000.0, 2000.0, 4000.0}) {
     for (int delay = 0; delay <= 3; ++delay) {
@@ -89,7 +90,7 @@ TEST_CASE("row 10 at every rate and delay: a bare lever comes to rest in gear, w
         SimulatedRunConfig config = resting_at(gate, {rest.x, rest.y - std::copysign(0.001, rest.y)});
         config.haptics.rate = rate;
         config.lever.delay = delay;
-        SimulatedRun run(config, nobody);
+        SimulatedRun run(config, idle_hand);
         run_for(run, 2.0);
         double low = 1.0, high = -1.0;
         for (const double end = run.time() + 0.5; run.time() < end;) {
@@ -98,28 +99,28 @@ TEST_CASE("row 10 at every rate and delay: a bare lever comes to rest in gear, w
           high = std::max(high, run.lever().true_position().y);
         }
         CHECK(high - low < 0.00016);
-        // Where the rate admits less than a tenth of the feel, the handle's own spring is stronger than the lock.
+        // If the rate admits less than a tenth of the feel, the handle's spring is stronger than the lock.
         if (run.loop().admitted().tuning.feel_scale >= 0.1) CHECK(run.loop().snapshot().gear == gear);
       }
     }
   }
 }
 
-TEST_CASE("row 10: the pull that takes a gear out is the lock's force and the handle's own spring, within 3 %") {
+TEST_CASE("row 10: the pull that takes a gear out is the lock's force plus the handle's spring, within 3 %") {
   const GateLayout layout = read_gate_layout(GEARSHIFT_ASSETS "/gates/paper.toml");
   const Gate gate = compile_gate(layout, kPaperWorkspace);
   for (const int gear : {1, 2, 3, 4}) {
     const double away = rest_position(gate, gear).y > 0.0 ? -1.0 : 1.0;
     double pull = 0.0;
     PushingHand hand([&](double time, dvec2) {
-      pull = 2.0 * std::max(0.0, time - 0.2);  // 2 N/s: slow against every mode of the lever
+      pull = 2.0 * std::max(0.0, time - 0.2);  // 2 N/s, slow compared with every mode of the lever
       return dvec2{0.0, away * pull};
     });
     SimulatedRun run(resting_at(gate, rest_position(gate, gear)), hand);
     run_for(run, 0.1);
     REQUIRE(run.loop().snapshot().gear == gear);
     while (run.time() < 20.0 && run.step().gear == gear) continue;
-    // The handle's spring (eq 12) helps the pull: 15.7 N/m at about 30 mm, where the lock is strongest.
+    // The handle's spring (eq 12) helps the pull with 15.7 N/m at about 30 mm, where the lock is strongest.
     const Slot& slot = slot_of(gate, slot_of_gear(gate, gear));
     double strongest_at = slot.rest;
     for (int i = 0; i <= 1000; ++i) {
@@ -132,13 +133,13 @@ TEST_CASE("row 10: the pull that takes a gear out is the lock's force and the ha
 }
 
 TEST_CASE("row 12: a steady push along the aisle ends at the speed where damping balances it, within 3 %") {
-  // A bare layout: one long aisle, no feel, so that damping alone is measured.
+  // A minimal layout with one long aisle and no feel, so that only damping is measured.
   Gate gate = paper_gate();
   gate.select_feel = {};
   gate.buffer_count = 0;
   SimulatedRunConfig config = resting_at(gate, {-0.034, 0.0});
   config.lever.axis_x.stiffness = 0.0;
-  config.lever.axis_x.mass = 0.005;  // light, so that it reaches its speed within the aisle
+  config.lever.axis_x.mass = 0.005;  // light, so that it reaches its final speed within the aisle
   config.haptics.tuning.limit_damping = 1.0;
   config.haptics.tuning.aisle_damping = 0.5;
   for (const double push : {2.0, 4.0}) {
@@ -178,7 +179,7 @@ TEST_CASE("eq (4): f_j = f_h - f_a is what moves the joystick: m a + b v + k x (
   SimulatedRunConfig config = resting_at(gate, {0.0, 0.0});
   config.lever.force_sensor.resolution_gw = 0.0;
   SimulatedRun run(config, hand);
-  dvec2 v0{0.0}, v1{0.0}, x1{0.0}, f1{0.0};  // one period ago
+  dvec2 v0{0.0}, v1{0.0}, x1{0.0}, f1{0.0};  // one period earlier
   double squares = 0.0;
   int samples = 0;
   for (int i = 0; i < 3000; ++i) {
@@ -188,7 +189,7 @@ TEST_CASE("eq (4): f_j = f_h - f_a is what moves the joystick: m a + b v + k x (
     const dvec2 a1 = (v2 - v0) / (2.0 * run.period());
     const dvec2 expected{kPaperAxisX.mass * a1.x + kPaperAxisX.damping * v1.x + kPaperAxisX.stiffness * x1.x,
                          kPaperAxisY.mass * a1.y + kPaperAxisY.damping * v1.y + kPaperAxisY.stiffness * x1.y};
-    // The held force steps between periods and so does the acceleration; small angles only (0.7 % at 20 mm).
+    // The force is held and steps between periods, and so does the acceleration; small angles only (0.7 % at 20 mm).
     if (i > 10 && glm::length(x1) < 0.02) {
       squares += glm::dot(f1 - expected, f1 - expected);
       ++samples;
@@ -199,10 +200,10 @@ TEST_CASE("eq (4): f_j = f_h - f_a is what moves the joystick: m a + b v + k x (
     f1 = s.f_j;
   }
   REQUIRE(samples > 500);
-  CHECK(std::sqrt(squares / samples) < 0.25);  // [N] of forces up to 10 N; a wrong sign of f_a gives several
+  CHECK(std::sqrt(squares / samples) < 0.25);  // [N] for forces up to 10 N; a wrong sign of f_a gives several
 }
 
-TEST_CASE("eq (4) in a long push: against a wall f_h is the push and f_a all but the handle's own spring") {
+TEST_CASE("eq (4) in a long push against a wall: f_h is the push, and f_a all of it except the handle's spring") {
   const Gate gate = paper_gate();
   const dvec2 start{0.5 * (gate.column[0].center + gate.column[1].center), 0.0};
   PushingHand hand([](double, dvec2) { return dvec2{0.0, 20.0}; });
@@ -219,7 +220,7 @@ TEST_CASE("eq (4) in a long push: against a wall f_h is the push and f_a all but
   CHECK(f_a.y == doctest::Approx(20.0 - kPaperAxisY.stiffness * run.lever().true_position().y).epsilon(0.01));
 }
 
-TEST_CASE("row 13: a push above 60 N warns once, clears below 50 N, and saturation is told") {
+TEST_CASE("row 13: a push above 60 N warns once, clears below 50 N, and saturation is reported") {
   const Gate gate = paper_gate();
   const double wall = -1.0;  // the neutral aisle's lower wall, between two columns
   const dvec2 start{0.5 * (gate.column[0].center + gate.column[1].center), 0.0};
@@ -273,7 +274,9 @@ TEST_CASE(
   CHECK(events_of(run, EventKind::wall_contact).size() >= 1);
 }
 
-TEST_CASE("row 13 without a force sensor: the warning is estimated from saturation and displacement, and says so") {
+TEST_CASE(
+    "row 13 without a force sensor: the warning uses the push estimated from saturation and displacement, and says "
+    "so") {
   class Blind final : public HapticDevice {
    public:
     explicit Blind(SimulatedLever& lever) : lever_(lever), spec_(lever.spec()) { spec_.measures_hand_force = false; }
@@ -298,11 +301,11 @@ TEST_CASE("row 13 without a force sensor: the warning is estimated from saturati
     SimulatedLever lever({}, 1'000'000, hand);
     lever.place({0.5 * (gate.column[0].center + gate.column[1].center), 0.0});
     Blind blind(lever);
-    NullWorld world;
+    NoLoad load;
     LoopChannels channels;
     HapticConfig config;
     config.guard.ramp_time = 0.01;
-    HapticLoop loop(config, gate, blind, world, channels);
+    HapticLoop loop(config, gate, blind, load, channels);
     loop.arm();
     for (int i = 0; i < 1000; ++i) loop.cycle(i * std::int64_t{1'000'000}, 0);
     CHECK((loop.snapshot().flags & kFlagPushEstimated) != 0);
@@ -312,10 +315,10 @@ TEST_CASE("row 13 without a force sensor: the warning is estimated from saturati
   }
 }
 
-TEST_CASE("saturation is told when the motors tire: commanded but not delivered") {
+TEST_CASE("saturation is reported when the motors overheat: commanded but not delivered") {
   const Gate gate = paper_gate();
   for (const int delay : {0, 2}) {
-    PushingHand hand([](double, dvec2) { return dvec2{0.0, 13.0}; });  // above 10.83 N, below 31.7 N
+    PushingHand hand([](double, dvec2) { return dvec2{0.0, 13.0}; });  // between continuous and peak force
     SimulatedRunConfig config = resting_at(gate, {0.5 * (gate.column[0].center + gate.column[1].center), 0.0});
     config.lever.actuator.overload_time = 0.02;
     config.lever.delay = delay;
@@ -325,7 +328,7 @@ TEST_CASE("saturation is told when the motors tire: commanded but not delivered"
   }
 }
 
-TEST_CASE("wall contact tells the impact's speed") {
+TEST_CASE("a wall contact event has the impact speed") {
   const Gate gate = paper_gate();
   const dvec2 start{0.5 * (gate.column[0].center + gate.column[1].center), -0.9 * gate.half_aisle};
   PushingHand hand([](double time, dvec2) { return dvec2{0.0, time < 0.1 ? 0.0 : 6.0}; });

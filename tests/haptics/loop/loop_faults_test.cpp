@@ -1,5 +1,4 @@
-// The whole cycle on a device that fails: what comes out stays finite and small, and dies away in the stated
-// time.
+// The whole cycle on a failing device: its output stays finite and small, and decays within the stated time.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -11,29 +10,31 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include "app/lab/bench/lever/pressed_rig.h"
+#include "haptics/device/pushing_hand.h"
 #include "haptics/device/simulated_lever.h"
 #include "haptics/gate/gate_feel.h"
 #include "haptics/joystick/finite.h"
 #include "haptics/loop/haptic_loop.h"
 #include "tests/support/gates.h"
-#include "tests/support/hands.h"
-#include "tests/support/pressed_rig.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::lab;
+using namespace gearshift::test;
 using glm::dvec2;
 
 namespace {
 
-// A simulated lever that nobody holds: it arms itself.
+// A simulated lever without a hand; it re-arms itself.
 struct IdleRig {
-  IdleRig() : lever({}, kPeriodNs, nobody), loop(HapticConfig{}, paper_gate(), lever, world, channels) { loop.arm(); }
+  IdleRig() : lever({}, kPeriodNs, idle_hand), loop(HapticConfig{}, paper_gate(), lever, load, channels) { loop.arm(); }
   void run(int cycles, std::int64_t skipped) {
     for (int i = 0; i < cycles; ++i) loop.cycle(now += kPeriodNs * (1 + skipped), skipped);
   }
 
-  RestingHand nobody;
+  IdleHand idle_hand;
   SimulatedLever lever;
-  NullWorld world;
+  NoLoad load;
   LoopChannels channels;
   HapticLoop loop;
   std::int64_t now = 0;
@@ -41,7 +42,7 @@ struct IdleRig {
 
 }  // namespace
 
-TEST_CASE("the rig presses: the wall gives back the push within 3 %") {
+TEST_CASE("check of the rig: the wall returns the push within 3 %") {
   PressedRig rig(paper_gate());
   CHECK(rig.loop.snapshot().guard == GuardState::running);
   double mean = 0.0;
@@ -49,7 +50,7 @@ TEST_CASE("the rig presses: the wall gives back the push within 3 %") {
     rig.run(1);
     mean -= rig.lever.written.y / 50.0;
   }
-  // what the handle's own spring does not take: 15.7 N/m at about 9 mm
+  // minus the force of the handle's spring: 15.7 N/m at about 9 mm
   CHECK(mean == doctest::Approx(15.0 - kPaperAxisY.stiffness * rig.loop.snapshot().lever.y).epsilon(0.03));
 }
 
@@ -64,7 +65,7 @@ TEST_CASE("fault to zero force: frozen, not finite, jumping, lost and backward r
     CHECK(rig.strongest <= 31.7 * std::sqrt(2.0));
     CHECK(rig.lever.written == dvec2{0.0, 0.0});
     CHECK(in_free_space(rig.gate, rig.loop.snapshot().proxy, 1e-9));
-    // health alone does not bring the force back on a device that is not simulated
+    // on a real device, fresh readings alone do not restore the force
     rig.lever.sabotage = nullptr;
     rig.run(1000);
     CHECK(rig.loop.snapshot().guard != GuardState::running);
@@ -74,7 +75,7 @@ TEST_CASE("fault to zero force: frozen, not finite, jumping, lost and backward r
   }
 }
 
-TEST_CASE("single lost, repeated and wild readings are ridden out: still running, no kick") {
+TEST_CASE("single lost, repeated and implausible readings are tolerated: still running, no kick") {
   PressedRig rig(paper_gate());
   std::mt19937_64 random(3);
   LeverReading last;
@@ -101,10 +102,10 @@ TEST_CASE("single lost, repeated and wild readings are ridden out: still running
   rig.run(5000);
   CHECK(rig.loop.snapshot().guard == GuardState::running);
   CHECK(rig.finite);
-  CHECK(rig.strongest < 25.0);  // 15 N steady, and what a repeated reading costs
+  CHECK(rig.strongest < 25.0);  // 15 N steady, plus the effect of a repeated reading
 }
 
-TEST_CASE("late cycles: one at a time is ridden out, eight in a row are damped") {
+TEST_CASE("late cycles: single ones are tolerated, eight in a row lead to damped") {
   PressedRig rig(paper_gate());
   for (int i = 0; i < 200; ++i) {
     rig.run(1, 2);
@@ -117,7 +118,7 @@ TEST_CASE("late cycles: one at a time is ridden out, eight in a row are damped")
   CHECK(rig.finite);
 }
 
-TEST_CASE("a simulated lever shows its fall, and arms itself again after 50 ms of health") {
+TEST_CASE("a simulated lever reports its fault and re-arms itself after 50 ms of fresh readings") {
   IdleRig rig;
   rig.run(1000, 0);
   rig.run(8, 1);
@@ -129,7 +130,7 @@ TEST_CASE("a simulated lever shows its fall, and arms itself again after 50 ms o
   CHECK(rig.loop.snapshot().guard == GuardState::ramping);
 }
 
-TEST_CASE("a loop that is always late stays damped: no flapping between force and none") {
+TEST_CASE("a loop that is always late stays damped instead of switching the force on and off") {
   IdleRig rig;
   rig.run(2000, 1);
   int changes = 0;
@@ -150,15 +151,15 @@ TEST_CASE("a device that reports nonsense forces does not poison the snapshot") 
   CHECK(s.guard == GuardState::running);
 }
 
-TEST_CASE("a config that no check has passed is refused by the loop itself") {
+TEST_CASE("the loop itself refuses a config that no check has passed") {
   const Gate gate = paper_gate();
-  RestingHand nobody;
-  SimulatedLever lever({}, kPeriodNs, nobody);
-  NullWorld world;
+  IdleHand idle_hand;
+  SimulatedLever lever({}, kPeriodNs, idle_hand);
+  NoLoad load;
   LoopChannels channels;
   HapticConfig config;
   config.estimator.smoothing = 0.0;
-  CHECK_THROWS_AS(HapticLoop(config, gate, lever, world, channels), std::invalid_argument);
+  CHECK_THROWS_AS(HapticLoop(config, gate, lever, load, channels), std::invalid_argument);
 }
 
 TEST_CASE("a cycle whose deadline runs backward is a stale reading, not a crash") {
@@ -178,7 +179,7 @@ TEST_CASE("stop: motors off in the same cycle, and released until a person arms 
   CHECK(rig.loop.snapshot().guard == GuardState::released);
 }
 
-TEST_CASE("the device's panic button: motors off in the cycle of its reading, whatever else that reading says") {
+TEST_CASE("the device's panic button: motors off in the same cycle, whatever else the reading says") {
   using Spoil = void (*)(LeverReading&);
   const Spoil spoils[] = {[](LeverReading&) {}, [](LeverReading& r) { r.sequence = 3; },
                           [](LeverReading& r) { r.position.x = kNan; }, [](LeverReading& r) { r.time_ns = 0; }};
@@ -196,7 +197,7 @@ TEST_CASE("the device's panic button: motors off in the cycle of its reading, wh
   }
 }
 
-TEST_CASE("while the panic button is held nothing arms the loop; let go, a person does, and nobody else") {
+TEST_CASE("while the panic button is held nothing arms the loop; after release only a person does") {
   PressedRig rig(paper_gate());
   rig.lever.sabotage = [](LeverReading& r) { r.stop = true; };
   rig.run(1);
@@ -214,7 +215,7 @@ TEST_CASE("while the panic button is held nothing arms the loop; let go, a perso
   CHECK(rig.loop.snapshot().guard == GuardState::running);
 }
 
-TEST_CASE("armed and stopped in one cycle is stopped; and a button that is held from the start keeps a loop idle") {
+TEST_CASE("armed and stopped in one cycle means stopped; a button held from the start keeps the loop idle") {
   PressedRig rig(paper_gate());
   rig.channels.commands.push(LoopCommand::disarm);
   rig.run(1);
@@ -223,7 +224,7 @@ TEST_CASE("armed and stopped in one cycle is stopped; and a button that is held 
   rig.run(1);
   CHECK(rig.loop.snapshot().guard == GuardState::released);
 
-  // A simulated lever, which arms itself again after other faults, does not after this one.
+  // A simulated lever re-arms itself after other faults, but not after this one.
   class Pressed final : public HapticDevice {
    public:
     const DeviceSpec& spec() const noexcept override { return lever_.spec(); }
@@ -237,13 +238,13 @@ TEST_CASE("armed and stopped in one cycle is stopped; and a button that is held 
     bool held = true;
 
    private:
-    RestingHand nobody_;
+    IdleHand nobody_;
     SimulatedLever lever_{{}, kPeriodNs, nobody_};
   };
   Pressed lever;
-  NullWorld world;
+  NoLoad load;
   LoopChannels channels;
-  HapticLoop loop(HapticConfig{}, rig.gate, lever, world, channels);
+  HapticLoop loop(HapticConfig{}, rig.gate, lever, load, channels);
   std::int64_t now = 0;
   const auto run = [&](int cycles) {
     for (int i = 0; i < cycles; ++i) loop.cycle(now += kPeriodNs, 0);
@@ -264,7 +265,7 @@ TEST_CASE("armed and stopped in one cycle is stopped; and a button that is held 
   CHECK(loop.snapshot().guard == GuardState::released);
 }
 
-TEST_CASE("a stop that comes while the lever is damped takes what was left: the force that fades, too") {
+TEST_CASE("a stop while the lever is damped removes the remaining force, also the one that is fading") {
   PressedRig rig(paper_gate());
   rig.run(8, 1);
   REQUIRE(rig.loop.snapshot().guard == GuardState::damped);
@@ -275,11 +276,11 @@ TEST_CASE("a stop that comes while the lever is damped takes what was left: the 
   CHECK(rig.loop.snapshot().fault == GuardFault::stopped);
 }
 
-TEST_CASE("a lever beyond the device's workspace and its margin: motors off in the cycle that believes it") {
+TEST_CASE("a lever beyond the device's workspace plus margin: motors off in the cycle that accepts the reading") {
   PressedRig rig(paper_gate());
   const double most = rig.lever.spec().workspace.y + GuardConfig{}.position_margin;
   rig.lever.sabotage = [y = rig.loop.snapshot().lever.y](LeverReading& r) mutable {
-    r.position.y = y += 0.004;  // 4 m/s: believed
+    r.position.y = y += 0.004;  // 4 m/s: plausible
   };
   for (int i = 0; i < 100 && rig.loop.snapshot().lever.y <= most; ++i) {
     CHECK(rig.loop.snapshot().guard == GuardState::running);
@@ -292,12 +293,12 @@ TEST_CASE("a lever beyond the device's workspace and its margin: motors off in t
   CHECK(rig.loop.snapshot().fault == GuardFault::limit_broken);
 }
 
-TEST_CASE("arming starts anew where the lever is: no pull from where it was") {
+TEST_CASE("arming places the proxy at the lever: no pull towards its old position") {
   PressedRig rig(paper_gate());
   rig.channels.commands.push(LoopCommand::disarm);
   rig.run(1);
   CHECK(rig.lever.releases >= 1);
-  // While disarmed the lever is put down beyond a wall, 20 mm from its old proxy.
+  // While disarmed the lever is put beyond a wall, 20 mm from its old proxy.
   rig.lever.sabotage = [](LeverReading& r) { r.position = {-0.030, 0.030}; };
   rig.run(200);
   rig.channels.commands.push(LoopCommand::arm);
@@ -307,7 +308,7 @@ TEST_CASE("arming starts anew where the lever is: no pull from where it was") {
   CHECK(slot_at(rig.gate, rig.loop.snapshot().proxy) == slot_of_gear(rig.gate, 1));
 }
 
-// A lever that a hand has brought to a place by force: it is there whatever the motors do.
+// A lever held at a given place, whatever the motors do.
 class PlacedLever final : public HapticDevice {
  public:
   const DeviceSpec& spec() const noexcept override { return spec_; }
@@ -327,13 +328,14 @@ class PlacedLever final : public HapticDevice {
   DeviceSpec spec_{.workspace = kPaperWorkspace};
 };
 
-TEST_CASE("arming what has forces changes nothing: the proxy stays before the lockout that the lever presses into") {
+TEST_CASE(
+    "arming while forces are on changes nothing: the proxy stays before the lockout that the lever presses into") {
   const Gate gate =
       compile_gate(read_gate_layout(GEARSHIFT_ASSETS "/gates/five_speed_r_left_up.toml"), kPaperWorkspace);
   PlacedLever lever;
-  NullWorld world;
+  NoLoad load;
   LoopChannels channels;
-  HapticLoop loop(HapticConfig{}, gate, lever, world, channels);
+  HapticLoop loop(HapticConfig{}, gate, lever, load, channels);
   loop.arm();
   std::int64_t now = 0;
   for (int i = 0; i < 1000; ++i) loop.cycle(now += kPeriodNs, 0);
@@ -344,7 +346,7 @@ TEST_CASE("arming what has forces changes nothing: the proxy stays before the lo
     loop.cycle(now += kPeriodNs, 0);
   }
   const double held = loop.snapshot().proxy.x;
-  REQUIRE(held > reverse + 0.003);  // the wall that opens for the ring stands between
+  REQUIRE(held > reverse + 0.003);  // the wall that the ring opens is between them
   const double force = loop.snapshot().wall_force.x;
   REQUIRE(force > 5.0);
   for (int i = 0; i < 100; ++i) {
@@ -382,12 +384,12 @@ TEST_CASE("with whole samples of delay the coupling looks (1 + 2 d) periods ahea
     };
     Mover mover(delay);
     const Gate gate = paper_gate();
-    NullWorld world;
+    NoLoad load;
     LoopChannels channels;
     HapticConfig config;
-    config.tuning.wall_stiffness = 1000.0;  // admitted at every one of these delays
+    config.tuning.wall_stiffness = 1000.0;  // admitted at all of these delays
     config.tuning.wall_damping = 2.0;
-    HapticLoop loop(config, gate, mover, world, channels);
+    HapticLoop loop(config, gate, mover, load, channels);
     for (int i = 0; i < 400; ++i) loop.cycle(i * kPeriodNs, 0);
     const double depth = loop.snapshot().lever.y - gate.half_aisle;
     REQUIRE(depth > 0.001);
@@ -396,15 +398,15 @@ TEST_CASE("with whole samples of delay the coupling looks (1 + 2 d) periods ahea
   }
 }
 
-TEST_CASE("a world that returns nonsense releases the motors") {
-  class MadWorld final : public LeverWorld {
+TEST_CASE("a load that returns invalid values releases the motors") {
+  class MadLoad final : public LeverLoad {
    public:
     LeverOutput step(const LeverInput&, double) noexcept override {
       LeverOutput out;
       if (++steps_ > 700) out.force = {kNan, 1e300};
       return out;
     }
-    const char* name() const noexcept override { return "mad"; }
+    const char* replay_parameters() const noexcept override { return "mad"; }
 
    private:
     int steps_ = 0;
@@ -412,7 +414,7 @@ TEST_CASE("a world that returns nonsense releases the motors") {
   for (const ContactHold hold : {ContactHold::half_sample, ContactHold::observer}) {
     CAPTURE(static_cast<int>(hold));
     PressedRig rig(paper_gate());
-    MadWorld mad;
+    MadLoad mad;
     HapticConfig config;
     config.contact.hold = hold;
     HapticLoop loop(config, rig.gate, rig.lever, mad, rig.channels);
@@ -421,6 +423,6 @@ TEST_CASE("a world that returns nonsense releases the motors") {
     CHECK(loop.snapshot().guard == GuardState::released);
     CHECK(loop.snapshot().fault == GuardFault::not_finite);
     CHECK(rig.lever.written == dvec2{0.0, 0.0});
-    CHECK(is_finite(loop.snapshot().wall_force));  // an observed wall knows of the world's force
+    CHECK(is_finite(loop.snapshot().wall_force));  // an observed wall includes the load's force
   }
 }

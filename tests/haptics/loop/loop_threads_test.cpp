@@ -1,13 +1,13 @@
-// The loop on its real-time thread, with a frame, a recorder and a person at its channels.
-// Run it under the thread sanitizer.
+// The loop on its real-time thread, with a frame, a recorder and a person using its channels. Run it under the thread
+// sanitizer.
 #include <atomic>
 #include <cstdint>
 #include <filesystem>
 
 #include <doctest/doctest.h>
 
-#include "haptics/device/led_hand.h"
 #include "haptics/device/simulated_lever.h"
+#include "haptics/device/smoothed_hand.h"
 #include "haptics/loop/haptic_loop.h"
 #include "haptics/loop/replay.h"
 #include "haptics/loop/trace_reader.h"
@@ -16,21 +16,22 @@
 #include "tests/support/gates.h"
 #include "tests/support/temp_folder.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 
 TEST_CASE("on its own thread: led by a person, tuned and recorded while it runs, and the recording replays") {
   const std::int64_t period = 1'000'000;
   const GateLayout layout = read_gate_layout(GEARSHIFT_ASSETS "/gates/paper.toml");
   const Gate gate = compile_gate(layout, kPaperWorkspace);
   LatestValue<HandTarget> person;
-  LedHand hand(person, 0.001);
+  SmoothedHand hand(person, 0.001);
   SimulatedLeverConfig lever_config;
   lever_config.hand = kGripHand;
   SimulatedLever lever(lever_config, period, hand);
-  NullWorld world;
+  NoLoad load;
   LoopChannels channels;
   HapticConfig config;
-  HapticLoop loop(config, gate, lever, world, channels);
+  HapticLoop loop(config, gate, lever, load, channels);
   loop.arm();
 
   TraceHeader header;
@@ -53,7 +54,7 @@ TEST_CASE("on its own thread: led by a person, tuned and recorded while it runs,
     cycles.fetch_add(1, std::memory_order_relaxed);
   });
 
-  // The frame: as fast as it goes, until enough cycles have passed.
+  // The frame runs at full speed until enough cycles have passed.
   std::uint64_t newest = 0, frames = 0;
   HapticTuning tuning = config.tuning;
   DriverControls controls;
@@ -62,7 +63,7 @@ TEST_CASE("on its own thread: led by a person, tuned and recorded while it runs,
     person.write({{0.02 * (frames % 2 ? 1.0 : -1.0), 0.0}, {}, {}, false, false});
     if (cycles.load(std::memory_order_relaxed) > 50) {
       tuning.feel_scale = frames % 2 ? 0.5 : 1.0;
-      CHECK(loop.change_tuning(tuning).limited.empty());
+      CHECK(loop.change_tuning(tuning).limits.empty());
       controls.throttle = static_cast<double>(frames % 100) / 100.0;
       channels.controls.write(controls);
     }

@@ -1,4 +1,4 @@
-// Presets: what is shipped, that every key reaches its struct, and refusals with line and key.
+// Tests of presets: the shipped ones, every key reaches its struct, and refusals name line and key.
 #include "haptics/loop/preset.h"
 
 #include <fstream>
@@ -12,13 +12,14 @@
 #include "haptics/loop/trace_fields.h"
 #include "tests/support/temp_folder.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 
 namespace {
 
 const std::string presets = GEARSHIFT_ASSETS "/presets/";
 
-// A file of this text, after the line that names it: the text begins in line 2.
+// A file with this text after a name line, so that the text begins in line 2.
 Preset preset_of(const std::string& text) {
   const TempFolder folder;
   const std::string file = (folder / "my.toml").string();
@@ -36,7 +37,7 @@ std::string refusal(const std::string& text) {
   return "accepted";
 }
 
-// Every leaf of both, by name; a visitor as the trace has.
+// Compares every leaf field by name, with the trace's field lists.
 template <class T>
 void check_equal(const T& a, const T& b, const std::string& name) {
   CAPTURE(name);
@@ -53,7 +54,7 @@ void check_equal(const T& a, const T& b, const std::string& name) {
   }
 }
 
-// Taken apart by structured bindings: a struct that gains a member no longer compiles here.
+// Uses structured bindings, so that it no longer compiles when a struct gains a member.
 void check_equal(const SimulatedLeverConfig& a, const SimulatedLeverConfig& b) {
   const auto& [yoke, axis_x, axis_y, friction, counts, actuator, sensor, delay, own, hand, error, jitter, seed] = a;
   const auto& [radius, theta, phi] = yoke;
@@ -69,25 +70,25 @@ void check_equal(const SimulatedLeverConfig& a, const SimulatedLeverConfig& b) {
   CHECK((resolution == b.force_sensor.resolution_gw && range == b.force_sensor.range_gw));
   CHECK((noise == b.force_sensor.noise_gw && hand_mass == b.hand.mass && hand_damping == b.hand.damping));
   CHECK((hand_stiffness == b.hand.stiffness && error == b.model_error && jitter == b.period_jitter));
-  CHECK((own == b.own_stiffness && seed == b.seed));
+  CHECK((own == b.device_wall_stiffness && seed == b.seed));
 }
 
 }  // namespace
 
-TEST_CASE("default.toml writes out the defaults of the structs, every one") {
+TEST_CASE("default.toml lists the defaults of the structs, all of them") {
   const Preset preset = read_preset(presets + "default.toml");
   check_equal(preset.haptics, HapticConfig{}, "haptics");
   check_equal(preset.lever, SimulatedLeverConfig{});
 }
 
-TEST_CASE("a preset of a name alone has the defaults") {
+TEST_CASE("a preset with only a name has the defaults") {
   const Preset preset = preset_of("");
   CHECK(preset.name == "Test");
   check_equal(preset.haptics, HapticConfig{}, "haptics");
   check_equal(preset.lever, SimulatedLeverConfig{});
 }
 
-TEST_CASE("paper.toml is the paper's wall as it stood: a bare spring, held for 10 ms, nothing limited") {
+TEST_CASE("paper.toml is the paper's wall as published: a bare spring, held for 10 ms, nothing limited") {
   const Preset preset = read_preset(presets + "paper.toml");
   CHECK(preset.haptics.rate == 100.0);
   CHECK(preset.haptics.tuning.wall_stiffness == 5000.0);
@@ -96,12 +97,12 @@ TEST_CASE("paper.toml is the paper's wall as it stood: a bare spring, held for 1
   CHECK(preset.haptics.contact.hold == ContactHold::zero_order);
   CHECK(preset.haptics.contact.energy_control == EnergyControl::none);
   CHECK_FALSE(preset.haptics.contact.reversal_limiter);
-  CHECK(preset.haptics.contact.study);
+  CHECK(preset.haptics.contact.allow_unstable);
   check_equal(preset.lever, SimulatedLeverConfig{});
   check_config(preset.haptics);
 }
 
-TEST_CASE("every number of a file reaches its place") {
+TEST_CASE("every number of a file reaches its field") {
   const SimulatedLeverConfig lever = preset_of(R"(
 [lever]
 encoder_counts_per_deg = 0
@@ -194,7 +195,7 @@ clear_below_n = 12)")
   check_config(haptics);
 }
 
-TEST_CASE("hold, control and hand are read by every name they have") {
+TEST_CASE("hold, energy control and hand accept all their names") {
   const auto contact = [](const std::string& text) { return preset_of("[contact]\n" + text).haptics.contact; };
   CHECK(contact("hold = \"automatic\"").hold == ContactHold::automatic);
   CHECK(contact("hold = \"zero_order\"").hold == ContactHold::zero_order);
@@ -207,14 +208,14 @@ TEST_CASE("hold, control and hand are read by every name they have") {
   }
 }
 
-TEST_CASE("what cannot be is refused with line, key, value and range") {
+TEST_CASE("invalid values are refused with line, key, value and range") {
   CHECK(refusal("[loop]\nrate_hz = 99\n") == "my.toml:3: rate_hz = 99: must be between 100 and 4000");
   CHECK(refusal("[loop]\nrate_hz = nan\n") == "my.toml:3: rate_hz = nan: must be between 100 and 4000");
   CHECK(refusal("[loop]\nrate_hz = \"fast\"\n") ==
         "my.toml:3: rate_hz = \"fast\": must be a number between 100 and 4000");
-  CHECK(refusal("[loop]\nrate = 1000\n").find("my.toml:3: rate is not a known key: known here are rate_hz") == 0);
+  CHECK(refusal("[loop]\nrate = 1000\n").find("my.toml:3: rate is not a known key; known keys: rate_hz") == 0);
   CHECK(refusal("[lever.axis_x]\nmass_g = 95\n").find("my.toml:3: mass_g is not a known key") == 0);
-  CHECK(refusal("[device]\n").find("my.toml:2: device is not a known key: known here are name, lever") == 0);
+  CHECK(refusal("[device]\n").find("my.toml:2: device is not a known key; known keys: name, lever") == 0);
   CHECK(refusal("lever = 3\n") == "my.toml:2: lever = 3: must be a table: write [lever]");
   CHECK(refusal("[lever]\ndelay_cycles = 1.5\n") == "my.toml:3: delay_cycles = 1.5: must be a whole number");
   CHECK(refusal("[lever]\ndelay_cycles = 9\n") == "my.toml:3: delay_cycles = 9: must be between 0 and 8");

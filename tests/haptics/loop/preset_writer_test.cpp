@@ -1,4 +1,4 @@
-// What is written is read back: every key, every bit.
+// A written preset is read back: every key, every bit.
 #include "haptics/loop/preset_writer.h"
 
 #include <bit>
@@ -16,7 +16,8 @@
 #include "tests/support/temp_folder.h"
 #include "tests/support/whole_campaign.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 
 namespace {
 
@@ -56,7 +57,7 @@ class RandomPreset {
     ghost = between(0.0, 1.0);
   }
 
-  // Angles as a file has them: in degrees.
+  // Angles as in a file, in degrees.
   void fill(SimulatedLeverConfig& lever) {
     auto& [yoke, axis_x, axis_y, friction, counts, actuator, sensor, delay, own, hand, error, jitter, seed] = lever;
     const double degree = std::numbers::pi / 180.0;
@@ -87,7 +88,7 @@ std::vector<std::byte> bytes_of(const HapticConfig& config) {
   return bytes;
 }
 
-// Taken apart by structured bindings: a struct that gains a member no longer compiles here.
+// Uses structured bindings, so that it no longer compiles when a struct gains a member.
 std::vector<double> numbers_of(const SimulatedLeverConfig& lever) {
   const auto& [yoke, x, y, friction, counts, actuator, sensor, delay, own, hand, error, jitter, seed] = lever;
   const auto& [radius, theta, phi] = yoke;
@@ -149,7 +150,7 @@ std::size_t files_in(const TempFolder& folder) {
 
 }  // namespace
 
-TEST_CASE("a preset that is written is read back, every key and every bit") {
+TEST_CASE("a written preset is read back: every key and every bit") {
   const TempFolder folder;
   const std::filesystem::path file = folder / "my.toml";
   for (std::uint64_t seed = 0; seed < (is_whole_campaign() ? 300u : 60u); ++seed) {
@@ -171,7 +172,7 @@ TEST_CASE("the shipped presets survive being written") {
   }
 }
 
-TEST_CASE("the comparison of these tests sees one bit of any number") {
+TEST_CASE("the comparison of these tests detects one bit of any number") {
   Preset a = RandomPreset(1).make(), b = a;
   b.haptics.guard.fade_time = std::nextafter(b.haptics.guard.fade_time, 2.0);
   CHECK(bytes_of(a.haptics) != bytes_of(b.haptics));
@@ -179,7 +180,7 @@ TEST_CASE("the comparison of these tests sees one bit of any number") {
   CHECK(numbers_of(a.lever) != numbers_of(b.lever));
 }
 
-TEST_CASE("an angle that no number of degrees gives comes back within its last bit") {
+TEST_CASE("an angle that no number of degrees gives exactly comes back within its last bit") {
   const TempFolder folder;
   std::mt19937_64 chance(5);
   Preset preset;
@@ -196,7 +197,7 @@ TEST_CASE("an angle that no number of degrees gives comes back within its last b
   CHECK(exact > 200);
 }
 
-TEST_CASE("what the reader would refuse is not written, and the file that was there stays") {
+TEST_CASE("a preset that the reader would refuse is not written, and the old file stays") {
   const TempFolder folder;
   const std::filesystem::path file = folder / "my.toml";
   write_preset(RandomPreset(7).make(), file);
@@ -205,7 +206,7 @@ TEST_CASE("what the reader would refuse is not written, and the file that was th
   SUBCASE("a number out of range") {
     preset.haptics.tuning.wall_stiffness = 1e6;
     const std::string said = refusal(preset, file);
-    CHECK(said.find("my.toml: not written, it could not be read again: wall_stiffness_n_per_m = 1000000: must be") !=
+    CHECK(said.find("my.toml: not written: it could not be read back: wall_stiffness_n_per_m = 1000000: must be") !=
           std::string::npos);
     CHECK(said.find(".part") == std::string::npos);
   }
@@ -225,7 +226,7 @@ TEST_CASE("what the reader would refuse is not written, and the file that was th
   CHECK(files_in(folder) == 1);
 }
 
-TEST_CASE("a place that cannot be written is told in one sentence and leaves nothing behind") {
+TEST_CASE("a path that cannot be written is reported in one sentence and leaves nothing behind") {
   const TempFolder folder;
   const Preset preset = RandomPreset(9).make();
   CHECK(refusal(preset, folder / "no" / "my.toml").find("my.toml: cannot be written") != std::string::npos);

@@ -1,4 +1,4 @@
-// The hand's push on a device without a force sensor: against what the simulated lever's sensor would have said.
+// The estimated push on a device without a force sensor, compared with the simulated lever's sensor.
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -7,21 +7,22 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include "app/lab/bench/lever/pressed_rig.h"
+#include "haptics/device/pushing_hand.h"
 #include "haptics/device/scripted_hand.h"
 #include "haptics/device/simulated_lever.h"
 #include "haptics/gate/plain_aisle.h"
 #include "haptics/loop/haptic_loop.h"
-#include "tests/support/hands.h"
-#include "tests/support/pressed_rig.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::lab;
 using glm::dvec2;
 
 namespace {
 
-constexpr double kWall = 0.01;  // [m] of the aisle that the lever is pressed against
+constexpr double kWall = 0.01;  // [m] half width of the aisle whose wall the lever is pressed against
 
-// Its sensor is taken away, and kept by the test.
+// A lever without its force sensor, whose value only the test sees.
 class SensorlessLever final : public HapticDevice {
  public:
   SensorlessLever(const SimulatedLeverConfig& config, HandDriver& hand)
@@ -36,7 +37,7 @@ class SensorlessLever final : public HapticDevice {
     return reading;
   }
   void write(dvec2 force) noexcept override { lever.write(force); }
-  void hold_walls(const LeverWalls& walls) noexcept override { lever.hold_walls(walls); }
+  void set_device_walls(const LeverWalls& walls) noexcept override { lever.set_device_walls(walls); }
   void release() noexcept override { lever.release(); }
 
   SimulatedLever lever;
@@ -48,12 +49,12 @@ class SensorlessLever final : public HapticDevice {
 
 struct Sensorless {
   Sensorless(SimulatedLeverConfig config, HandDriver& hand)
-      : device(ideal(config), hand), loop(HapticConfig{}, plain_aisle(0.06, kWall), device, world, channels) {
+      : device(ideal(config), hand), loop(HapticConfig{}, plain_aisle(0.06, kWall), device, load, channels) {
     loop.arm();
   }
   static SimulatedLeverConfig ideal(SimulatedLeverConfig config) {
     config.force_sensor.resolution_gw = 0.0;
-    config.actuator.continuous_force = config.actuator.peak_force;  // nothing grows hot here
+    config.actuator.continuous_force = config.actuator.peak_force;  // no overheating here
     return config;
   }
   void run(int cycles) {
@@ -65,18 +66,18 @@ struct Sensorless {
   dvec2 error() const { return loop.snapshot().f_h - device.truth; }
 
   SensorlessLever device;
-  NullWorld world;
+  NoLoad load;
   LoopChannels channels;
   HapticLoop loop;
   std::int64_t now = 0;
-  bool estimated = true;  // was said in every cycle
+  bool estimated = true;  // in every cycle
 };
 
 SimulatedLeverConfig lever_of(const HandImpedance& hand, int delay = 0, double own = 0.0) {
   SimulatedLeverConfig config;
   config.hand = hand;
   config.delay = delay;
-  config.own_stiffness = own;
+  config.device_wall_stiffness = own;
   return config;
 }
 
@@ -102,9 +103,9 @@ void tell(const std::string& what, const Means& means) {
 
 }  // namespace
 
-// What is left out is the handle's inertia, and the damping that the smooth velocity is late by: (m + b tau) a. The
-// encoder's count makes the smooth velocity jump by its blend of a count per period.
-TEST_CASE("moved about in free space: what is missing is the inertia") {
+// The estimate neglects the handle's inertia and the damping by which the smoothed velocity lags: (m + b tau) a. A
+// count of the encoder makes the smoothed velocity jump by its blend of one count per period.
+TEST_CASE("moved about in free space: the error is the inertia") {
   const std::vector<HandStroke> strokes{{{0.04, 0.005}, 0.3, 0.2}, {{-0.04, -0.005}, 0.4, 0.2}, {{0.0, 0.0}, 0.2, 0.2}};
   ScriptedHand hand({}, strokes, 0.001);
   Sensorless rig(lever_of(kGripHand), hand);
@@ -116,13 +117,13 @@ TEST_CASE("moved about in free space: what is missing is the inertia") {
     worst = std::max(worst, std::abs(rig.error().x));
     largest = std::max(largest, std::abs(rig.device.truth.x));
   }
-  const double count = 0.221 * 75e-6 / 0.001;  // [m/s] 1 - exp(-T / 4 ms) of a count per period
+  const double count = 0.221 * 75e-6 / 0.001;  // [m/s] 1 - exp(-T / 4 ms) of one count per period
   MESSAGE("free, up to " << largest << " N at " << acceleration << " m/s^2: worst error of a sample " << worst << " N");
   CHECK(worst < (0.095 + 3.0 * 0.005) * acceleration + 3.0 * count);
   CHECK(rig.estimated);
 }
 
-TEST_CASE("pressed into a wall, nothing saturated: within 3 %, whoever keeps the wall") {
+TEST_CASE("pressed into a wall without saturation: within 3 %, whichever part renders the wall") {
   for (const double own : {0.0, 1000.0}) {
     for (const double push : {5.0, 10.0, 20.0, 30.0}) {
       PushingHand hand([push](double time, dvec2) { return dvec2{0.0, push * std::min(1.0, time)}; });
@@ -139,10 +140,10 @@ TEST_CASE("pressed into a wall, nothing saturated: within 3 %, whoever keeps the
   }
 }
 
-// Hands that aim at the end of the lever's way, 64 mm behind a wall whose motors give 31.7 N. They can never be resisted with
-// more than these: the lever rests where the hand's spring has come down to that. The estimate is what the wall wanted to
-// give at that depth: more than the push, and the warning comes early.
-TEST_CASE("beyond the motors: never told less than the push, and the warning of an estimated push comes") {
+// Hands that aim at the end of the lever's travel, 64 mm behind a wall whose motors give 31.7 N. The motors cannot
+// resist with more than that, so the lever rests where the hand's spring has decayed to it. The estimate is the force
+// that the wall would need at that depth: more than the push, so the warning comes early.
+TEST_CASE("with saturated motors: never estimated below the push, and the warning of an estimated push comes") {
   for (const double stiffness : {600.0, 700.0, 1400.0}) {
     ScriptedHand hand({}, {{{0.0, 0.0737}, 1.0, 5.0}}, 0.001);
     Sensorless rig(lever_of({0.15, 10.0, stiffness}), hand);
@@ -160,7 +161,7 @@ TEST_CASE("beyond the motors: never told less than the push, and the warning of 
   }
 }
 
-TEST_CASE("a lever with a sensor does not say so, but while the sensor says no number") {
+TEST_CASE("a lever with a sensor does not report an estimate, except while the sensor's value is invalid") {
   PressedRig rig(plain_aisle(0.06, kWall));
   const auto estimated = [&rig] { return (rig.loop.snapshot().flags & kFlagPushEstimated) != 0; };
   CHECK_FALSE(estimated());

@@ -1,4 +1,4 @@
-// A hand drives gates that nobody drew.
+// A hand drives randomly generated gates.
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -7,12 +7,14 @@
 
 #include <doctest/doctest.h>
 
+#include "app/lab/random_gates/random_layout.h"
 #include "haptics/loop/shift_script.h"
 #include "haptics/loop/simulated_run.h"
 #include "tests/support/gates.h"
-#include "tests/support/random_layout.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::lab;
+using namespace gearshift::test;
 using glm::dvec2;
 
 TEST_CASE("100 random gates, at various rates and delays: every gear, in order, and nothing left or broken") {
@@ -44,7 +46,7 @@ TEST_CASE("100 random gates, at various rates and delays: every gear, in order, 
   }
 }
 
-// Where columns stand close, half the way to a neighbour, which a lockout asks for, is nearly in front of its slot.
+// If columns are close together, the half-way point that an after-gear lockout requires is nearly in front of its slot.
 TEST_CASE("a hand stands in front of a slot before it shifts into it: 500 random gates, every gear after every other") {
   for (std::uint64_t seed = 1; seed <= 500; ++seed) {
     CAPTURE(seed);

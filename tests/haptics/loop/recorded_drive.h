@@ -1,5 +1,5 @@
-// A drive in which everything happens that can happen to a loop: shifts, walls, a frozen sensor, readings
-// that are no numbers, the panic button, late cycles, new tuning, other controls, commands. The device keeps walls itself.
+// A drive that contains everything that can happen to a loop: shifts, walls, a frozen sensor, invalid readings, the
+// panic button, late cycles, new tuning, other controls, commands. The device renders walls itself.
 #pragma once
 
 #include <cstdint>
@@ -17,15 +17,15 @@
 #include "tests/haptics/loop/trace_bench.h"
 #include "tests/support/gates.h"
 
-namespace gearshift {
+namespace gearshift::test {
 
-// Passes on what the lever says, except where the sensor fails.
-class FailingSensor final : public HapticDevice {
+// Passes on the lever's readings, except where the sensor fails.
+class FailingSensor final : public haptics::HapticDevice {
  public:
-  explicit FailingSensor(SimulatedLever& lever) : lever_(lever) {}
-  const DeviceSpec& spec() const noexcept override { return lever_.spec(); }
-  LeverReading read(std::int64_t now_ns) noexcept override {
-    LeverReading reading = lever_.read(now_ns);
+  explicit FailingSensor(haptics::SimulatedLever& lever) : lever_(lever) {}
+  const haptics::DeviceSpec& spec() const noexcept override { return lever_.spec(); }
+  haptics::LeverReading read(std::int64_t now_ns) noexcept override {
+    haptics::LeverReading reading = lever_.read(now_ns);
     const std::uint64_t cycle = cycle_++;
     if (cycle >= 1500 && cycle < 1540) return frozen_;  // longer than stale_time
     if (cycle == 1700) reading.position.x = std::numeric_limits<double>::quiet_NaN();
@@ -35,12 +35,12 @@ class FailingSensor final : public HapticDevice {
     return frozen_ = reading;
   }
   void write(glm::dvec2 force) noexcept override { lever_.write(force); }
-  void hold_walls(const LeverWalls& walls) noexcept override { lever_.hold_walls(walls); }
+  void set_device_walls(const haptics::LeverWalls& walls) noexcept override { lever_.set_device_walls(walls); }
   void release() noexcept override { lever_.release(); }
 
  private:
-  SimulatedLever& lever_;
-  LeverReading frozen_;
+  haptics::SimulatedLever& lever_;
+  haptics::LeverReading frozen_;
   std::uint64_t cycle_ = 0;
 };
 
@@ -48,46 +48,47 @@ class RecordedDrive {
  public:
   static constexpr std::uint64_t kCycles = 4000;
 
-  explicit RecordedDrive(LeverWorld* world = nullptr)
+  explicit RecordedDrive(haptics::LeverLoad* load = nullptr)
       : gate_(paper_gate()),
-        hand_(touring_hand({0.0, 0.0}), strokes(gate_), 0.001),
+        hand_(haptics::touring_hand({0.0, 0.0}), strokes(gate_), 0.001),
         lever_(lever_config(), 1'000'000, hand_),
         sensor_(lever_),
-        loop_(config(), gate_, sensor_, world != nullptr ? *world : nothing_, channels_),
-        world_name_(world != nullptr ? world->name() : nothing_.name()) {
+        loop_(config(), gate_, sensor_, load != nullptr ? *load : no_load_, channels_),
+        load_parameters_(load != nullptr ? load->replay_parameters() : no_load_.replay_parameters()) {
     loop_.arm();
   }
 
-  TraceHeader header() const {
-    TraceHeader header = paper_header();
+  haptics::TraceHeader header() const {
+    haptics::TraceHeader header = paper_header();
     header.config = config();
     header.device = lever_.spec();
-    header.world = world_name_;
+    header.load = load_parameters_;
     return header;
   }
 
-  LoopChannels& channels() { return channels_; }
-  HapticLoop& loop() { return loop_; }
+  haptics::LoopChannels& channels() { return channels_; }
+  haptics::HapticLoop& loop() { return loop_; }
 
-  // One cycle, with whatever the script of the drive has for it.
+  // One cycle with its scripted events.
   void step() noexcept {
     const std::uint64_t cycle = loop_.snapshot().cycle;
     if (cycle == 600) channels_.controls.write({0.3, 0.0, 1.0, 0.0, true, false});
     if (cycle == 900) channels_.tuning.write(softer());
     if (cycle == 1300) channels_.tuning.write(loop_.admitted().tuning);
-    if (cycle == 2600) (void)channels_.commands.push(LoopCommand::disarm);
-    if (cycle == 2650) (void)channels_.commands.push(LoopCommand::arm);
-    if (cycle == 3310 || cycle == 3350) (void)channels_.commands.push(LoopCommand::arm);  // held still; let go
-    if (cycle == 3800) (void)channels_.commands.push(LoopCommand::stop);
-    // Every second deadline missed for a while: more overruns in a row than the guard bears.
+    if (cycle == 2600) (void)channels_.commands.push(haptics::LoopCommand::disarm);
+    if (cycle == 2650) (void)channels_.commands.push(haptics::LoopCommand::arm);
+    if (cycle == 3310 || cycle == 3350)
+      (void)channels_.commands.push(haptics::LoopCommand::arm);  // button held; released
+    if (cycle == 3800) (void)channels_.commands.push(haptics::LoopCommand::stop);
+    // Every second deadline is missed for a while: more overruns in a row than the guard tolerates.
     const std::int64_t skipped = cycle >= 2000 && cycle < 2012 ? 1 : 0;
     now_ns_ += 1'000'000 * (1 + skipped);
     loop_.cycle(now_ns_, skipped);
   }
 
-  // The whole drive, recorded to `file`.
-  RecordingResult record(const std::filesystem::path& file) {
-    TraceRecorder recorder(file, header(), channels_, TracePump::by_caller);
+  // Records the whole drive to `file`.
+  haptics::RecordingResult record(const std::filesystem::path& file) {
+    haptics::TraceRecorder recorder(file, header(), channels_, haptics::TracePump::by_caller);
     for (std::uint64_t i = 0; i < kCycles; ++i) {
       step();
       if (i % 1000 == 0) recorder.pump();
@@ -96,33 +97,33 @@ class RecordedDrive {
   }
 
  private:
-  static HapticConfig config() {
-    HapticConfig config;
-    config.estimator.smoothing = 0.0005;  // [s] short: its last bit is not rounded away in 1 - exp(-T / s)
-    config.tuning.speed_limit = 0.15;     // [m/s] so that strokes are faster
-    config.guard.slew = 2.0;              // [N/cycle] so that impacts are
+  static haptics::HapticConfig config() {
+    haptics::HapticConfig config;
+    config.estimator.smoothing = 0.0005;  // [s] short, so that its last bit is not rounded away in 1 - exp(-T / s)
+    config.tuning.speed_limit = 0.15;     // [m/s] so that strokes exceed it
+    config.guard.slew = 2.0;              // [N/cycle] so that impacts exceed it
     config.guard.ramp_time = 0.2;
     return config;
   }
 
-  HapticTuning softer() const noexcept {
-    HapticTuning tuning = loop_.admitted().tuning;
+  haptics::HapticTuning softer() const noexcept {
+    haptics::HapticTuning tuning = loop_.admitted().tuning;
     tuning.wall_stiffness = 2000.0;
     return tuning;
   }
 
-  static SimulatedLeverConfig lever_config() {
-    SimulatedLeverConfig config;
-    config.hand = kGripHand;
-    config.own_stiffness = 300.0;
+  static haptics::SimulatedLeverConfig lever_config() {
+    haptics::SimulatedLeverConfig config;
+    config.hand = haptics::kGripHand;
+    config.device_wall_stiffness = 300.0;
     return config;
   }
 
   // Through some gears, then hard against the left end of the neutral aisle.
-  static std::vector<HandStroke> strokes(const Gate& gate) {
-    const int gears[] = {1, 2, 3, kNeutralGear};
-    std::vector<HandStroke> strokes = shift_strokes(gate, {0.0, 0.0}, gears);
-    HandStroke against_wall;
+  static std::vector<haptics::HandStroke> strokes(const haptics::Gate& gate) {
+    const int gears[] = {1, 2, 3, haptics::kNeutralGear};
+    std::vector<haptics::HandStroke> strokes = haptics::shift_strokes(gate, {0.0, 0.0}, gears);
+    haptics::HandStroke against_wall;
     against_wall.to = {-0.05, 0.0};
     against_wall.duration = 0.25;
     against_wall.dwell = 1.0;
@@ -131,15 +132,15 @@ class RecordedDrive {
     return strokes;
   }
 
-  Gate gate_;
-  ScriptedHand hand_;
-  SimulatedLever lever_;
+  haptics::Gate gate_;
+  haptics::ScriptedHand hand_;
+  haptics::SimulatedLever lever_;
   FailingSensor sensor_;
-  NullWorld nothing_;
-  LoopChannels channels_;
-  HapticLoop loop_;
-  std::string world_name_;
-  std::int64_t now_ns_ = 5'000'000;  // [ns] not the loop's period, not zero
+  haptics::NoLoad no_load_;
+  haptics::LoopChannels channels_;
+  haptics::HapticLoop loop_;
+  std::string load_parameters_;
+  std::int64_t now_ns_ = 5'000'000;  // [ns] neither the period nor zero
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::test

@@ -11,15 +11,15 @@
 #include "haptics/rt/realtime_thread.h"
 #include "tests/haptics/loop/recorded_drive.h"
 
-namespace gearshift {
+namespace gearshift::test {
 namespace {
 
-const Trace& recorded_trace() {
-  static const Trace trace = [] {
+const haptics::Trace& recorded_trace() {
+  static const haptics::Trace trace = [] {
     const TempFolder folder;
     RecordedDrive drive;
     drive.record(folder / "drive.trace");
-    return read_trace(folder / "drive.trace");
+    return haptics::read_trace(folder / "drive.trace");
   }();
   return trace;
 }
@@ -28,10 +28,10 @@ void flip_lowest_bit(double& value) {
   value = std::bit_cast<double>(std::bit_cast<std::uint64_t>(value) ^ 1u);
 }
 
-// Calls visit(full name, double&) for every double inside.
+// Calls visit(full name, double&) for every double.
 template <class T, class Visit>
 void each_double(T& value, const std::string& prefix, const Visit& visit) {
-  each_field(value, [&](const char* name, auto& member) {
+  haptics::each_field(value, [&](const char* name, auto& member) {
     using Member = std::remove_cvref_t<decltype(member)>;
     if constexpr (std::is_same_v<Member, double>)
       visit(prefix + name, member);
@@ -40,23 +40,23 @@ void each_double(T& value, const std::string& prefix, const Visit& visit) {
   });
 }
 
-std::vector<std::string> names_of_doubles(const HapticConfig& config) {
+std::vector<std::string> names_of_doubles(const haptics::HapticConfig& config) {
   std::vector<std::string> names;
-  HapticConfig copy = config;
+  haptics::HapticConfig copy = config;
   each_double(copy, "", [&](const std::string& name, double&) { names.push_back(name); });
   return names;
 }
 
-void flip(HapticConfig& config, const std::string& wanted) {
+void flip(haptics::HapticConfig& config, const std::string& wanted) {
   each_double(config, "", [&](const std::string& name, double& value) {
     if (name == wanted) flip_lowest_bit(value);
   });
 }
 
-std::string refusal(const Trace& trace) {
+std::string refusal(const haptics::Trace& trace) {
   try {
-    replay(trace);
-  } catch (const FileError& error) {
+    haptics::replay(trace);
+  } catch (const haptics::FileError& error) {
     return error.what();
   }
   return {};
@@ -66,17 +66,17 @@ bool contains(const std::string& text, const char* part) {
   return text.find(part) != std::string::npos;
 }
 
-// A world with a memory: a spring whose rest creeps after the lever.
-class CreepingSpring final : public LeverWorld {
+// A load with memory: a spring whose rest position creeps after the lever.
+class CreepingSpring final : public haptics::LeverLoad {
  public:
-  LeverOutput step(const LeverInput& in, double period) noexcept override {
+  haptics::LeverOutput step(const haptics::LeverInput& in, double period) noexcept override {
     rest_ += period * (in.position - rest_);
-    LeverOutput out;
+    haptics::LeverOutput out;
     out.force = 20.0 * (rest_ - in.position) * (1.0 + in.controls.throttle);
     out.road_speed = 100.0 * rest_.x;
     return out;
   }
-  const char* name() const noexcept override { return "creeping spring 20 N/m"; }
+  const char* replay_parameters() const noexcept override { return "creeping spring 20 N/m"; }
 
  private:
   glm::dvec2 rest_{0.0};
@@ -84,35 +84,37 @@ class CreepingSpring final : public LeverWorld {
 
 }  // namespace
 
-TEST_CASE("replay: the drive of these tests meets what it is there to meet") {
-  std::set<GuardState> guards;
-  std::set<GuardFault> faults;
+TEST_CASE("replay: the drive of these tests contains everything it is meant to contain") {
+  std::set<haptics::GuardState> guards;
+  std::set<haptics::GuardFault> faults;
   std::set<int> gears;
   std::uint64_t contacts = 0;
-  for (const TraceSample& sample : recorded_trace().samples) {
+  for (const haptics::TraceSample& sample : recorded_trace().samples) {
     guards.insert(sample.out.guard);
     faults.insert(sample.out.fault);
     gears.insert(sample.out.gear);
-    contacts += sample.out.flags & kFlagContact ? 1 : 0;
+    contacts += sample.out.flags & haptics::kFlagContact ? 1 : 0;
   }
   CHECK(recorded_trace().samples.size() == RecordedDrive::kCycles);
-  CHECK(guards.count(GuardState::idle) + guards.count(GuardState::running) + guards.count(GuardState::damped) == 3);
-  CHECK(guards.count(GuardState::released) == 1);
-  CHECK(faults.count(GuardFault::stale_reading) == 1);
-  CHECK(recorded_trace().samples[3300].out.fault == GuardFault::stopped);
-  CHECK(recorded_trace().samples[3319].out.guard == GuardState::released);
-  CHECK(recorded_trace().samples[3700].out.guard == GuardState::running);
+  CHECK(guards.count(haptics::GuardState::idle) + guards.count(haptics::GuardState::running) +
+            guards.count(haptics::GuardState::damped) ==
+        3);
+  CHECK(guards.count(haptics::GuardState::released) == 1);
+  CHECK(faults.count(haptics::GuardFault::stale_reading) == 1);
+  CHECK(recorded_trace().samples[3300].out.fault == haptics::GuardFault::stopped);
+  CHECK(recorded_trace().samples[3319].out.guard == haptics::GuardState::released);
+  CHECK(recorded_trace().samples[3700].out.guard == haptics::GuardState::running);
   CHECK(gears.size() >= 3);
   CHECK(contacts > 500);
 }
 
-TEST_CASE("replay: a recorded drive comes out bit for bit from its inputs alone") {
-  const ReplayResult result = replay(recorded_trace());
+TEST_CASE("replay: a recorded drive replays bit for bit from its inputs alone") {
+  const haptics::ReplayResult result = haptics::replay(recorded_trace());
   CHECK(result.bit_for_bit());
   CHECK_FALSE(result.first.has_value());
   CHECK(result.cycles == RecordedDrive::kCycles);
   CHECK(result.replayed_hash == recorded_trace().hash);
-  CHECK(result.seconds == doctest::Approx(4.012).epsilon(1e-12));  // 4000 periods, and 12 deadlines missed
+  CHECK(result.seconds == doctest::Approx(4.012).epsilon(1e-12));  // 4000 periods, plus 12 missed deadlines
 }
 
 TEST_CASE("replay: the same drive driven twice gives the same hash") {
@@ -121,36 +123,36 @@ TEST_CASE("replay: the same drive driven twice gives the same hash") {
   CHECK(drive.record(folder / "again.trace").hash == recorded_trace().hash);
 }
 
-TEST_CASE("replay: the hash begins with every parameter, down to its lowest bit") {
-  TraceHeader header = recorded_trace().header;
-  const std::uint64_t plain = begin_hash(header).value();
+TEST_CASE("replay: the hash covers every parameter, down to its lowest bit") {
+  haptics::TraceHeader header = recorded_trace().header;
+  const std::uint64_t plain = haptics::begin_hash(header).value();
   const auto check = [&](const std::string& name, double& value) {
     CAPTURE(name);
     const double before = value;
     flip_lowest_bit(value);
-    CHECK(begin_hash(header).value() != plain);
+    CHECK(haptics::begin_hash(header).value() != plain);
     value = before;
   };
   each_double(header.config, "", check);
   each_double(header.device, "", check);
-  CHECK(begin_hash(header).value() == plain);
+  CHECK(haptics::begin_hash(header).value() == plain);
   header.device.delay += 1;
-  CHECK(begin_hash(header).value() != plain);
+  CHECK(haptics::begin_hash(header).value() != plain);
   header.device.delay -= 1;
   header.config.guard.overruns_in_row += 1;
-  CHECK(begin_hash(header).value() != plain);
+  CHECK(haptics::begin_hash(header).value() != plain);
 }
 
-TEST_CASE("replay: a parameter that moves no output breaks it all the same") {
-  Trace trace = recorded_trace();
+TEST_CASE("replay: a changed parameter that affects no output still breaks the replay") {
+  haptics::Trace trace = recorded_trace();
   flip_lowest_bit(trace.header.config.ghost_offset);
-  const ReplayResult result = replay(trace);
+  const haptics::ReplayResult result = haptics::replay(trace);
   CHECK_FALSE(result.first.has_value());
   CHECK_FALSE(result.bit_for_bit());
 }
 
-// Only ever compared with something, or rounded to whole nanoseconds or cycles: their last bit moves no
-// output unless the other side is exactly equal. The hash holds them all the same (the case above).
+// Parameters that are only compared with something or rounded to whole nanoseconds or cycles: their last bit changes no
+// output unless both sides are exactly equal. The hash covers them anyway (the case above).
 const std::set<std::string> only_compared = {
     "rate",
     "estimator.speed_limit",
@@ -166,17 +168,17 @@ TEST_CASE("replay: the lowest bit of every parameter that makes a force changes 
   for (const std::string& name : names_of_doubles(recorded_trace().header.config)) {
     if (only_compared.count(name) != 0) continue;
     CAPTURE(name);
-    Trace trace = recorded_trace();
-    const HapticConfig before = trace.header.config;
+    haptics::Trace trace = recorded_trace();
+    const haptics::HapticConfig before = trace.header.config;
     flip(trace.header.config, name);
-    // The tuning is recorded with every cycle, too: changed there as well, only the outputs are left to tell.
-    for (TraceSample& sample : trace.samples) {
-      HapticConfig as_sampled = before;
+    // The tuning is also recorded with every cycle, so it is changed there too; then only the outputs can differ.
+    for (haptics::TraceSample& sample : trace.samples) {
+      haptics::HapticConfig as_sampled = before;
       as_sampled.tuning = sample.tuning;
       flip(as_sampled, name);
       sample.tuning = as_sampled.tuning;
     }
-    const ReplayResult result = replay(trace);
+    const haptics::ReplayResult result = haptics::replay(trace);
     REQUIRE(result.first.has_value());
     CHECK(result.first->field.find("out.") == 0);
   }
@@ -184,9 +186,9 @@ TEST_CASE("replay: the lowest bit of every parameter that makes a force changes 
 
 TEST_CASE("replay: names the first cycle and field that differ, with both values") {
   SUBCASE("an input changed") {
-    Trace trace = recorded_trace();
+    haptics::Trace trace = recorded_trace();
     flip_lowest_bit(trace.samples[1234].reading.position.y);
-    const ReplayResult result = replay(trace);
+    const haptics::ReplayResult result = haptics::replay(trace);
     REQUIRE(result.first.has_value());
     CHECK(result.first->cycle == 1234);
     CHECK(result.first->field == "out.lever.y");
@@ -194,70 +196,70 @@ TEST_CASE("replay: names the first cycle and field that differ, with both values
     CHECK(result.cycles == 1235);
   }
   SUBCASE("an output changed") {
-    Trace trace = recorded_trace();
+    haptics::Trace trace = recorded_trace();
     trace.samples[7].out.commanded.x = 12.5;
-    const ReplayResult result = replay(trace);
+    const haptics::ReplayResult result = haptics::replay(trace);
     REQUIRE(result.first.has_value());
     CHECK(result.first->cycle == 7);
     CHECK(result.first->field == "out.commanded.x");
     CHECK(result.first->recorded == "12.5");
   }
   SUBCASE("a command lost") {
-    Trace trace = recorded_trace();
-    trace.samples[2600].command = LoopCommand::none;
-    const ReplayResult result = replay(trace);
+    haptics::Trace trace = recorded_trace();
+    trace.samples[2600].command = haptics::LoopCommand::none;
+    const haptics::ReplayResult result = haptics::replay(trace);
     REQUIRE(result.first.has_value());
     CHECK(result.first->cycle == 2600);
   }
-  SUBCASE("armed by nobody") {
-    Trace trace = recorded_trace();
+  SUBCASE("never armed") {
+    haptics::Trace trace = recorded_trace();
     trace.header.armed = false;
-    const ReplayResult result = replay(trace);
+    const haptics::ReplayResult result = haptics::replay(trace);
     REQUIRE(result.first.has_value());
     CHECK(result.first->cycle == 0);
     CHECK(result.first->field == "out.commanded.x");
     CHECK(result.first->replayed == "0");
   }
   SUBCASE("another gate") {
-    Trace trace = recorded_trace();
+    haptics::Trace trace = recorded_trace();
     const std::string key = "detent_force_n = 6";
     trace.header.gate_text.replace(trace.header.gate_text.find(key), key.size(), "detent_force_n = 7");
-    const ReplayResult result = replay(trace);
+    const haptics::ReplayResult result = haptics::replay(trace);
     REQUIRE(result.first.has_value());
     CHECK(result.first->field == "out.feel_force.y");
   }
   SUBCASE("a deadline skipped that was not") {
-    Trace trace = recorded_trace();
+    haptics::Trace trace = recorded_trace();
     trace.samples[2005].skipped = 0;
-    CHECK_FALSE(replay(trace).bit_for_bit());
+    CHECK_FALSE(haptics::replay(trace).bit_for_bit());
   }
 }
 
-TEST_CASE("replay: a world with a memory replays, and only that world") {
+TEST_CASE("replay: a load with memory replays, and only that load") {
   const TempFolder folder;
   CreepingSpring spring;
   RecordedDrive drive(&spring);
   drive.record(folder / "drive.trace");
-  const Trace trace = read_trace(folder / "drive.trace");
+  const haptics::Trace trace = haptics::read_trace(folder / "drive.trace");
   CHECK(trace.hash != recorded_trace().hash);
 
-  const auto make_spring = [](const std::string& name, const Gate&) -> std::unique_ptr<LeverWorld> {
-    auto world = std::make_unique<CreepingSpring>();
-    return name == world->name() ? std::move(world) : nullptr;
+  const auto make_spring = [](const std::string& name, const haptics::Gate&) -> std::unique_ptr<haptics::LeverLoad> {
+    auto load = std::make_unique<CreepingSpring>();
+    return name == load->replay_parameters() ? std::move(load) : nullptr;
   };
-  CHECK(replay(trace, make_spring).bit_for_bit());
-  CHECK(contains(refusal(trace), "its world \"creeping spring 20 N/m\" is not known to this program"));
+  CHECK(haptics::replay(trace, make_spring).bit_for_bit());
+  CHECK(contains(refusal(trace), "its lever load \"creeping spring 20 N/m\" is not known to this program"));
 }
 
-TEST_CASE("replay: what cannot be run is refused in one sentence") {
-  Trace trace = recorded_trace();
+TEST_CASE("replay: a trace that cannot be replayed is refused in one sentence") {
+  haptics::Trace trace = recorded_trace();
   SUBCASE("began in the middle") {
     trace.samples.erase(trace.samples.begin(), trace.samples.begin() + 500);
     CHECK(contains(refusal(trace), "its recording began in the middle of a run, at cycle 500"));
   }
   SUBCASE("a rate that is no number") {
     trace.header.config.rate = std::numeric_limits<double>::quiet_NaN();
-    CHECK(contains(refusal(trace), "cannot be run again: rate_hz"));
+    CHECK(contains(refusal(trace), "cannot be replayed: rate_hz"));
   }
   SUBCASE("a device that is no number") {
     trace.header.device.axis_x.mass = std::numeric_limits<double>::infinity();
@@ -265,7 +267,7 @@ TEST_CASE("replay: what cannot be run is refused in one sentence") {
     trace.header.device.axis_x.mass = -std::numeric_limits<double>::quiet_NaN();
     CHECK(contains(refusal(trace), "mass of the device = -nan"));
   }
-  SUBCASE("a device that acts before it is told") {
+  SUBCASE("a device that acts before the command") {
     trace.header.device.delay = -1;
     CHECK(contains(refusal(trace), "delay of the device = -1"));
   }
@@ -284,36 +286,36 @@ TEST_CASE(
     "included") {
   constexpr std::uint64_t kEnough = 300;
   const TempFolder folder;
-  SimulatedLeverConfig lever_config;
-  lever_config.hand = kGripHand;
-  const Gate gate = paper_gate();
+  haptics::SimulatedLeverConfig lever_config;
+  lever_config.hand = haptics::kGripHand;
+  const haptics::Gate gate = paper_gate();
   const int gears[] = {1, 2};
-  ScriptedHand hand(touring_hand({0.0, 0.0}), shift_strokes(gate, {0.0, 0.0}, gears), 0.001);
-  SimulatedLever lever(lever_config, 1'000'000, hand);
-  NullWorld world;
-  LoopChannels channels;
-  TraceHeader header = paper_header();
-  header.config = HapticConfig{};
+  haptics::ScriptedHand hand(haptics::touring_hand({0.0, 0.0}), haptics::shift_strokes(gate, {0.0, 0.0}, gears), 0.001);
+  haptics::SimulatedLever lever(lever_config, 1'000'000, hand);
+  haptics::NoLoad load;
+  haptics::LoopChannels channels;
+  haptics::TraceHeader header = paper_header();
+  header.config = haptics::HapticConfig{};
   header.device = lever.spec();
   header.armed = false;
-  HapticLoop loop(header.config, gate, lever, world, channels);
+  haptics::HapticLoop loop(header.config, gate, lever, load, channels);
 
-  TraceRecorder recorder(folder / "live.trace", header, channels, TracePump::own_thread);
-  RealtimeThread thread;
+  haptics::TraceRecorder recorder(folder / "live.trace", header, channels, haptics::TracePump::own_thread);
+  haptics::RealtimeThread thread;
   std::promise<void> enough;
-  thread.start({}, [&](const CycleCall& call) {
+  thread.start({}, [&](const haptics::CycleCall& call) {
     loop.cycle(call.deadline_ns, call.skipped);
     if (loop.snapshot().cycle == kEnough) enough.set_value();
   });
-  REQUIRE(channels.commands.push(LoopCommand::arm));  // by a person, while it runs
+  REQUIRE(channels.commands.push(haptics::LoopCommand::arm));  // by a person, while the loop runs
   enough.get_future().wait();
   thread.stop();
-  const RecordingResult recorded = recorder.finish();
+  const haptics::RecordingResult recorded = recorder.finish();
   CHECK(recorded.problem.empty());
   CHECK(recorded.cycles >= kEnough);
-  const ReplayResult result = replay(read_trace(folder / "live.trace"));
+  const haptics::ReplayResult result = haptics::replay(haptics::read_trace(folder / "live.trace"));
   CHECK(result.bit_for_bit());
   CHECK(result.replayed_hash == recorded.hash);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

@@ -1,4 +1,4 @@
-// The loop's own defences of a contact: what it softens, bounds, tells, and replays.
+// The loop's defences of a contact: softening, bounding, reporting and replay.
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -10,20 +10,21 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
+#include "haptics/device/pushing_hand.h"
 #include "haptics/gate/plain_aisle.h"
 #include "haptics/loop/replay.h"
 #include "haptics/loop/simulated_run.h"
 #include "haptics/loop/trace_recorder.h"
 #include "tests/haptics/loop/trace_bench.h"
 #include "tests/support/gates.h"
-#include "tests/support/hands.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 using glm::dvec2;
 
 namespace {
 
-// One wall before and one behind, and nothing that would lead the lever along them.
+// One wall ahead and one behind, without feel that would guide the lever along them.
 Gate walled_gate() {
   return plain_aisle(0.060, 0.006);
 }
@@ -57,16 +58,16 @@ std::ptrdiff_t count(const std::vector<HapticEvent>& events, EventKind kind) {
   return std::count_if(events.begin(), events.end(), [kind](const HapticEvent& e) { return e.kind == kind; });
 }
 
-// Pulls the lever along the shift, whatever it does.
-class PullingWorld final : public LeverWorld {
+// Pulls the lever along the shift axis, whatever it does.
+class PullingLoad final : public LeverLoad {
  public:
-  explicit PullingWorld(double newton) : newton_(newton) {}
+  explicit PullingLoad(double newton) : newton_(newton) {}
   LeverOutput step(const LeverInput&, double) noexcept override {
     LeverOutput out;
     out.force = {0.0, newton_};
     return out;
   }
-  const char* name() const noexcept override { return "pulling"; }
+  const char* replay_parameters() const noexcept override { return "pulling"; }
 
  private:
   double newton_;
@@ -85,7 +86,7 @@ double span_of(SimulatedRun& run, double seconds) {
 
 }  // namespace
 
-TEST_CASE("a wall forced on a device that does not bear it is softened until it is still, and says so") {
+TEST_CASE("a wall that is unstable on its device is softened until it is at rest, and this is reported") {
   PushingHand hand = push_of(15.0);
   SimulatedRunConfig config = pushed(walled_gate(), 100.0, 0);
   config.haptics.contact = {ContactHold::half_sample, EnergyControl::none, true, true};
@@ -98,7 +99,7 @@ TEST_CASE("a wall forced on a device that does not bear it is softened until it 
   run.step();
   run.channels().commands.push(LoopCommand::arm);
   run.step();
-  CHECK(run.loop().snapshot().wall_stiffness == 5000.0);  // a new start: nothing learnt is kept
+  CHECK(run.loop().snapshot().wall_stiffness == 5000.0);  // a new start: the limiter's state is reset
 
   config.haptics.contact.reversal_limiter = false;  // negative control
   PushingHand same = push_of(15.0);
@@ -109,14 +110,16 @@ TEST_CASE("a wall forced on a device that does not bear it is softened until it 
 
 namespace {
 
-// A simulated lever whose commands come later than it says, or whose readings shake by themselves.
-class Liar final : public HapticDevice {
+// A simulated lever whose commands take effect later than its spec says, or whose readings jitter.
+class FaultyLever final : public HapticDevice {
  public:
-  Liar(SimulatedLever& lever, int claimed_delay) : lever_(lever), spec_(lever.spec()) { spec_.delay = claimed_delay; }
+  FaultyLever(SimulatedLever& lever, int claimed_delay) : lever_(lever), spec_(lever.spec()) {
+    spec_.delay = claimed_delay;
+  }
   const DeviceSpec& spec() const noexcept override { return spec_; }
   LeverReading read(std::int64_t now_ns) noexcept override {
     LeverReading reading = lever_.read(now_ns);
-    if (shakes) reading.position.y += 0.001 * std::sin(2.0 * 3.14159265 * 30.0 * 1e-9 * static_cast<double>(now_ns));
+    if (jitters) reading.position.y += 0.001 * std::sin(2.0 * 3.14159265 * 30.0 * 1e-9 * static_cast<double>(now_ns));
     return reading;
   }
   void write(dvec2 force) noexcept override {
@@ -125,7 +128,7 @@ class Liar final : public HapticDevice {
   }
   void release() noexcept override { lever_.release(); }
 
-  bool shakes = false;
+  bool jitters = false;
   dvec2 written{0.0};
 
  private:
@@ -133,14 +136,14 @@ class Liar final : public HapticDevice {
   DeviceSpec spec_;
 };
 
-struct LyingRig {
-  LyingRig(const Gate& gate, int real_delay, int claimed_delay, const HandImpedance& grip, bool limiter)
+struct FaultyRig {
+  FaultyRig(const Gate& gate, int real_delay, int claimed_delay, const HandImpedance& grip, bool limiter)
       : hand([](double time, dvec2) {
           return dvec2{0.0, 9.0 * std::min(1.0, time)};
-        }),  // the motors bear it for ever
+        }),  // the motors sustain it indefinitely
         lever(lever_config(real_delay, grip), 1'000'000, hand),
-        liar(lever, claimed_delay),
-        loop(config(limiter), gate, liar, world, channels) {
+        faulty(lever, claimed_delay),
+        loop(config(limiter), gate, faulty, load, channels) {
     lever.place({0.5 * (gate.column[0].center + gate.column[1].center), 0.0});
     loop.arm();
   }
@@ -152,11 +155,11 @@ struct LyingRig {
   }
   static HapticConfig config(bool limiter) {
     HapticConfig config;
-    config.contact.study = !limiter;
+    config.contact.allow_unstable = !limiter;
     config.contact.reversal_limiter = limiter;
     return config;
   }
-  // Largest and smallest depth of the true lever in that time, from the aisle's wall. [m]
+  // Minimum and maximum depth of the true lever in that time, from the aisle's wall [m].
   std::pair<double, double> run(double seconds, double wall) {
     double low = 1.0, high = -1.0;
     for (int n = 0; n < static_cast<int>(1000.0 * seconds); ++n) {
@@ -170,8 +173,8 @@ struct LyingRig {
 
   PushingHand hand;
   SimulatedLever lever;
-  Liar liar;
-  NullWorld world;
+  FaultyLever faulty;
+  NoLoad load;
   LoopChannels channels;
   HapticLoop loop;
   std::int64_t now = 0;
@@ -180,7 +183,7 @@ struct LyingRig {
 
 }  // namespace
 
-TEST_CASE("a device that is later than it says: softened until it rests in the wall, not on the stop") {
+TEST_CASE("a device with more delay than specified: softened until the lever rests in the wall, not on the stop") {
   const Gate gate = walled_gate();
   const struct {
     int real, claimed;
@@ -189,7 +192,7 @@ TEST_CASE("a device that is later than it says: softened until it rests in the w
   for (const auto& lie : lies) {
     CAPTURE(lie.real);
     CAPTURE(lie.claimed);
-    LyingRig rig(gate, lie.real, lie.claimed, lie.hand, true);
+    FaultyRig rig(gate, lie.real, lie.claimed, lie.hand, true);
     rig.run(12.0, gate.half_aisle);
     const auto [low, high] = rig.run(1.0, gate.half_aisle);
     CHECK(rig.loop.snapshot().guard == GuardState::running);
@@ -199,23 +202,23 @@ TEST_CASE("a device that is later than it says: softened until it rests in the w
     CHECK(high < 0.060);  // the stop is 63 mm behind the wall
     CHECK(-rig.loop.snapshot().f_a.y == doctest::Approx(-9.0).epsilon(0.2));
 
-    LyingRig control(gate, lie.real, lie.claimed, lie.hand, false);
+    FaultyRig control(gate, lie.real, lie.claimed, lie.hand, false);
     control.run(4.0, gate.half_aisle);
     const auto [lowest, highest] = control.run(1.0, gate.half_aisle);
     CHECK(highest - lowest > 0.0005);
   }
 }
 
-TEST_CASE("what shakes whatever the wall does is damped, told why, and not brought back by itself") {
+TEST_CASE("a lever that vibrates regardless of the wall is damped with a reason, and does not re-arm itself") {
   const Gate gate = walled_gate();
-  LyingRig rig(gate, 0, 0, kBareHand, true);
+  FaultyRig rig(gate, 0, 0, kBareHand, true);
   rig.run(2.0, gate.half_aisle);
   REQUIRE(rig.loop.snapshot().guard == GuardState::running);
-  rig.liar.shakes = true;
+  rig.faulty.jitters = true;
   rig.run(6.0, gate.half_aisle);
   CHECK(rig.loop.snapshot().guard == GuardState::damped);
   CHECK(rig.loop.snapshot().fault == GuardFault::chatter);
-  rig.liar.shakes = false;
+  rig.faulty.jitters = false;
   rig.run(3.0, gate.half_aisle);
   CHECK(rig.loop.snapshot().guard == GuardState::damped);
   rig.channels.commands.push(LoopCommand::arm);
@@ -226,7 +229,7 @@ TEST_CASE("what shakes whatever the wall does is damped, told why, and not broug
 
 TEST_CASE("moving another slider does not give a chattering wall its stiffness back") {
   const Gate gate = walled_gate();
-  LyingRig rig(gate, 5, 0, kBareHand, true);
+  FaultyRig rig(gate, 5, 0, kBareHand, true);
   HapticTuning tuning = rig.loop.admitted().tuning;
   for (int i = 0; i < 700; ++i) {  // every 16 ms
     tuning.feel_scale = i % 2 ? 0.9 : 1.0;
@@ -241,13 +244,13 @@ TEST_CASE("moving another slider does not give a chattering wall its stiffness b
 }
 
 TEST_CASE("a change while running passes the same check as at the start, and what is admitted is used") {
-  RestingHand nobody;
-  SimulatedRun run(pushed(walled_gate(), 200.0, 0), nobody);
+  IdleHand idle_hand;
+  SimulatedRun run(pushed(walled_gate(), 200.0, 0), idle_hand);
   HapticTuning wanted;
   wanted.wall_stiffness = 20000.0;
   wanted.wall_damping = 100.0;
   const AdmittedTuning admitted = run.loop().change_tuning(wanted);
-  CHECK(admitted.limited.size() >= 2);
+  CHECK(admitted.limits.size() >= 2);
   CHECK(admitted.tuning.wall_stiffness < 1300.0);
   run.step();
   CHECK(run.loop().snapshot().wall_stiffness == admitted.tuning.wall_stiffness);
@@ -306,12 +309,12 @@ TEST_CASE("energy control that a configuration asks for is on from the first cyc
 }
 
 TEST_CASE("a change keeps the hold that runs, and its numbers are checked") {
-  RestingHand nobody;
+  IdleHand idle_hand;
   SimulatedRunConfig config = pushed(walled_gate(), 1000.0, 2);
-  config.haptics.tuning.wall_stiffness = 2000.0;  // the half-sample hold suffices
-  SimulatedRun run(config, nobody);
+  config.haptics.tuning.wall_stiffness = 2000.0;  // the half-sample hold is enough
+  SimulatedRun run(config, idle_hand);
   REQUIRE(run.loop().admitted().hold == ContactHold::half_sample);
-  const AdmittedTuning changed = run.loop().change_tuning({});  // 5000 would have been the observer's
+  const AdmittedTuning changed = run.loop().change_tuning({});  // started with 5000 N/m the observer would be used
   CHECK(changed.hold == ContactHold::half_sample);
   CHECK(changed.tuning.wall_stiffness == doctest::Approx(0.35 * 0.086 / 9e-6));
   for (const double bad : {20001.0, std::nan("")}) {
@@ -322,24 +325,25 @@ TEST_CASE("a change keeps the hold that runs, and its numbers are checked") {
 }
 
 TEST_CASE("shaking in free space takes nothing from the walls") {
-  RestingHand nobody;
-  SimulatedLever lever({}, 1'000'000, nobody);
-  Liar liar(lever, 0);
-  liar.shakes = true;  // 2 mm, in an aisle of 12
-  NullWorld world;
+  IdleHand idle_hand;
+  SimulatedLever lever({}, 1'000'000, idle_hand);
+  FaultyLever faulty(lever, 0);
+  faulty.jitters = true;  // 2 mm, in an aisle of 12 mm
+  NoLoad load;
   LoopChannels channels;
   const Gate gate = walled_gate();
   lever.place({0.5 * (gate.column[0].center + gate.column[1].center), 0.0});
-  HapticLoop loop(HapticConfig{}, gate, liar, world, channels);
+  HapticLoop loop(HapticConfig{}, gate, faulty, load, channels);
   loop.arm();
   for (int n = 1; n < 5000; ++n) loop.cycle(n * std::int64_t{1'000'000}, 0);
   CHECK(loop.snapshot().wall_stiffness == 5000.0);
   CHECK(loop.snapshot().guard == GuardState::running);
 }
 
-// What else is commanded is no depth: an observed wall that took it for one began with a step of K T^2 / (4 m) + B T / (2 m)
-// of it, late by the delay, and fed the swing of a heavy hand at the end of a slot, beside the lock's spring.
-TEST_CASE("at rest a wall gives K x, whatever feel and world pull beside it") {
+// Other commanded forces are not penetration. An observed wall that counted them would begin with a step of K T^2 / (4
+// m) + B T / (2 m) of them, late by the delay, and feed the swing of a heavy hand at the end of a slot, beside the
+// lock's spring.
+TEST_CASE("at rest a wall makes K x, whatever feel and load forces act beside it") {
   const Gate aisle = walled_gate(), gate = paper_gate();
   for (const ContactHold hold : {ContactHold::half_sample, ContactHold::observer}) {
     for (const double pull : {-8.0, 0.0, 8.0}) {
@@ -352,10 +356,10 @@ TEST_CASE("at rest a wall gives K x, whatever feel and world pull beside it") {
         config.haptics.contact.hold = hold;
         config.haptics.tuning.wall_stiffness = 2000.0;
         PushingHand hand = push_of(25.0);
-        PullingWorld world(pull);
-        SimulatedRun run(config, hand, &world);
+        PullingLoad load(pull);
+        SimulatedRun run(config, hand, &load);
         run_events(run, 2.0);
-        double depth = 0.0, force = 0.0;  // [m], [N] the mean: it hums on the encoder's counts
+        double depth = 0.0, force = 0.0;  // [m], [N] means, because it hums on the encoder's counts
         for (int i = 0; i < 500; ++i) {
           const HapticSnapshot& now = run.step();
           depth += (now.lever.y - now.proxy.y) / 500.0;

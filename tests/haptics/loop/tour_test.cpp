@@ -1,4 +1,4 @@
-// The whole lever, headless: a hand shifts through every gear of every gate.
+// The whole headless lever: a hand shifts through every gear of every gate.
 #include <algorithm>
 #include <initializer_list>
 #include <vector>
@@ -10,15 +10,16 @@
 #include "haptics/loop/simulated_run.h"
 #include "tests/support/gates.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 using glm::dvec2;
 
 namespace {
 
 struct TourResult {
   std::vector<int> engaged;
-  bool inside = true;    // the drawn lever never left the free space
-  double deepest = 0.0;  // [m] lever behind its proxy
+  bool inside = true;    // the proxy never left the free space
+  double deepest = 0.0;  // [m] largest distance of the lever from its proxy
   double fastest = 0.0;  // [m/s]
 };
 
@@ -52,7 +53,7 @@ TEST_CASE("the hand drives every gear of every shipped gate, each once and in or
     const TourResult tour = drive(gate, kGripHand, 1000.0);
     CHECK(tour.engaged == tour_order(gate));
     CHECK(tour.inside);
-    CHECK(tour.deepest < 0.007);  // 5000 N/m against the effort that the hand may add
+    CHECK(tour.deepest < 0.007);  // 5000 N/m against the extra effort of the hand
   }
 }
 

@@ -1,4 +1,4 @@
-// Traces for the trace's own tests: a header, and samples made up without a loop.
+// Traces for the trace tests: a header, and samples generated without a loop.
 #pragma once
 
 #include <bit>
@@ -15,7 +15,7 @@
 #include "haptics/loop/trace_writer.h"
 #include "tests/support/temp_folder.h"
 
-namespace gearshift {
+namespace gearshift::test {
 
 using Bytes = std::vector<unsigned char>;
 
@@ -25,7 +25,7 @@ inline Bytes file_bytes(const std::filesystem::path& file) {
 }
 
 inline void put_file(const std::filesystem::path& file, const Bytes& bytes) {
-  // Some file systems wait for the disk when a file is truncated and written anew.
+  // Some file systems wait for the disk when a file is truncated and rewritten.
   std::filesystem::remove(file);
   std::ofstream stream(file, std::ios::binary);
   stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
@@ -43,9 +43,9 @@ inline glm::dvec2 any_vector(std::mt19937_64& random) {
   return {any_double(random), any_double(random)};
 }
 
-// Every field has its own bits, so that two fields exchanged show.
-inline TraceSample any_sample(std::mt19937_64& random, std::uint64_t cycle) {
-  TraceSample s;
+// Every field has different bits, so that swapped fields are noticed.
+inline haptics::TraceSample any_sample(std::mt19937_64& random, std::uint64_t cycle) {
+  haptics::TraceSample s;
   s.deadline_ns = static_cast<std::int64_t>(random());
   s.skipped = static_cast<std::int64_t>(random() >> 1);  // never negative
   s.reading = {random(),           static_cast<std::int64_t>(random()),
@@ -56,34 +56,34 @@ inline TraceSample any_sample(std::mt19937_64& random, std::uint64_t cycle) {
                 any_double(random), random() % 2 == 0,  random() % 2 == 0};
   s.tuning = {any_double(random), any_double(random), any_double(random),
               any_double(random), any_double(random), any_double(random)};
-  s.command = static_cast<LoopCommand>(random() % 4);
+  s.command = static_cast<haptics::LoopCommand>(random() % 4);
   s.out.cycle = cycle;
   s.out.time_ns = static_cast<std::int64_t>(random());
   for (glm::dvec2* v : {&s.out.lever, &s.out.velocity, &s.out.proxy, &s.out.wall_force, &s.out.feel_force,
-                        &s.out.world_force, &s.out.commanded, &s.out.f_h, &s.out.f_a, &s.out.f_j})
+                        &s.out.load_force, &s.out.commanded, &s.out.f_h, &s.out.f_a, &s.out.f_j})
     *v = any_vector(random);
   s.out.road_speed = any_double(random);
   s.out.slot = static_cast<int>(random());
   s.out.gear = static_cast<int>(random());
-  s.out.guard = static_cast<GuardState>(random() % 6);
-  s.out.fault = static_cast<GuardFault>(random() % 6);
+  s.out.guard = static_cast<haptics::GuardState>(random() % 6);
+  s.out.fault = static_cast<haptics::GuardFault>(random() % 6);
   s.out.flags = static_cast<std::uint32_t>(random());
   return s;
 }
 
-inline std::vector<TraceSample> any_samples(std::size_t count, std::uint64_t seed = 1) {
+inline std::vector<haptics::TraceSample> any_samples(std::size_t count, std::uint64_t seed = 1) {
   std::mt19937_64 random(seed);
-  std::vector<TraceSample> samples;
+  std::vector<haptics::TraceSample> samples;
   for (std::size_t i = 0; i < count; ++i) samples.push_back(any_sample(random, i));
   return samples;
 }
 
-inline TraceHeader paper_header() {
-  TraceHeader header;
+inline haptics::TraceHeader paper_header() {
+  haptics::TraceHeader header;
   header.program = "1.2.3";
   header.device.workspace = {0.0771, 0.0688};  // [m] of the paper's joystick
   header.device.simulated = true;
-  const GateLayout layout = read_gate_layout(GEARSHIFT_ASSETS "/gates/paper.toml");
+  const haptics::GateLayout layout = haptics::read_gate_layout(GEARSHIFT_ASSETS "/gates/paper.toml");
   header.gate_file = "paper.toml";
   header.gate_text = layout.text;
   header.armed = true;
@@ -91,8 +91,8 @@ inline TraceHeader paper_header() {
 }
 
 inline std::filesystem::path put_trace(const std::filesystem::path& file, std::size_t cycles) {
-  write_trace(file, paper_header(), any_samples(cycles));
+  haptics::write_trace(file, paper_header(), any_samples(cycles));
   return file;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

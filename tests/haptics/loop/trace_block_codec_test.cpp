@@ -1,4 +1,4 @@
-// A coded block gives back every bit, whatever it holds, and shrinks what a lever does. It believes no byte.
+// A coded block restores every bit whatever it holds, and compresses real drives. Decoding validates every byte.
 #include <cmath>
 #include <cstring>
 #include <random>
@@ -10,24 +10,24 @@
 #include "tests/haptics/loop/recorded_drive.h"
 #include "tests/haptics/loop/trace_bench.h"
 
-namespace gearshift {
+namespace gearshift::test {
 namespace {
 
 using Block = std::vector<std::byte>;
 
 constexpr std::size_t kSample = 392;  // [bytes] per cycle
 
-Block encoded(const std::vector<TraceSample>& samples) {
+Block encoded(const std::vector<haptics::TraceSample>& samples) {
   Block bytes;
-  for (const TraceSample& sample : samples) {
-    const EncodedSample one = encode_sample(sample);
+  for (const haptics::TraceSample& sample : samples) {
+    const haptics::EncodedSample one = haptics::encode_sample(sample);
     bytes.insert(bytes.end(), one.begin(), one.end());
   }
   return bytes;
 }
 
 Block coded(const Block& samples) {
-  BlockCodec codec;
+  haptics::BlockCodec codec;
   Block out;
   codec.encode(samples, out);
   return out;
@@ -46,10 +46,10 @@ Block text(std::initializer_list<int> bytes) {
 }
 
 void check_comes_back(const Block& samples) {
-  BlockCodec codec;
+  haptics::BlockCodec codec;
   Block back;
   const Block small = coded(samples);
-  REQUIRE(small.size() <= kMostCodedBytes);
+  REQUIRE(small.size() <= haptics::kMaxCodedBytes);
   REQUIRE(codec.decode(small, samples.size() / kSample, back));
   REQUIRE(back == samples);
 }
@@ -60,7 +60,7 @@ TEST_CASE("block codec: any bits come back, in blocks of any size") {
   for (const std::size_t count : {1u, 2u, 3u, 17u, 255u, 256u}) {
     check_comes_back(encoded(any_samples(count, count)));
     std::mt19937_64 random(count);
-    check_comes_back(any_bytes(count * kSample, random));  // not even samples
+    check_comes_back(any_bytes(count * kSample, random));  // arbitrary bytes, not even samples
     check_comes_back(Block(count * kSample));
     check_comes_back(Block(count * kSample, std::byte{0xFF}));
   }
@@ -76,13 +76,13 @@ TEST_CASE("block codec: bytes that are zero by chance, as often as can be worst,
   }
 }
 
-// By hand, from the format's description. Fields: reading.sequence from byte 16, f_a from 330. f_a is expected to be
-// the actuators' force turned round: where both are +0 the sign bits are left over, in bytes 337 and 345.
+// Derived by hand from the format's description. reading.sequence starts at byte 16, f_a at byte 330. f_a is predicted
+// as the negated actuator force, so if both are +0 the sign bits remain, in bytes 337 and 345.
 TEST_CASE("block codec: the bytes of small blocks") {
   // 337 = 2 x 128 + 81 zeros, one byte; 7 zeros, one byte; 46 zeros, none.
   CHECK(coded(Block(kSample)) == text({128 + 81, 2, 1, 0x80, 7, 1, 0x80, 46, 0}));
 
-  Block samples(2 * kSample);  // planes of two bytes; the second sequence is as the first
+  Block samples(2 * kSample);  // planes of two bytes; both sequences are equal
   samples[23] = samples[kSample + 23] = std::byte{0x40};
   const int between = 2 * 337 - (2 * 23 + 1);
   CHECK(coded(samples) ==
@@ -90,9 +90,9 @@ TEST_CASE("block codec: the bytes of small blocks") {
 }
 
 TEST_CASE("block codec: a lever at rest costs less than three bytes a cycle") {
-  std::vector<TraceSample> rest(256);
+  std::vector<haptics::TraceSample> rest(256);
   for (std::size_t i = 0; i < rest.size(); ++i) {
-    TraceSample& now = rest[i];
+    haptics::TraceSample& now = rest[i];
     now.deadline_ns = 5'000'000'000 + 1'000'000 * static_cast<std::int64_t>(i);
     now.reading.time_ns = now.out.time_ns = now.deadline_ns;
     now.reading.sequence = 77 + i;
@@ -102,17 +102,17 @@ TEST_CASE("block codec: a lever at rest costs less than three bytes a cycle") {
   CHECK(coded(encoded(rest)).size() < 3 * 256);
 }
 
-// Noise in all that is free, everything else by the cycle's own laws: what is left is the noise. Every law is worth
-// some bytes a cycle, so that one that is lost shows.
+// Noise in all independent fields, everything else as the prediction rules expect, so only the noise remains. Every
+// rule saves some bytes per cycle, so a missing rule is noticed.
 TEST_CASE("block codec: fields that follow from others cost nothing") {
-  std::vector<TraceSample> samples = any_samples(256);
+  std::vector<haptics::TraceSample> samples = any_samples(256);
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> newtons(-50.0, 50.0);
   glm::dvec2 commanded{0.0};
   for (std::size_t i = 0; i < samples.size(); ++i) {
-    TraceSample& now = samples[i];
-    HapticSnapshot& out = now.out;
-    for (glm::dvec2* force : {&now.reading.hand_force, &out.wall_force, &out.feel_force, &out.world_force})
+    haptics::TraceSample& now = samples[i];
+    haptics::HapticSnapshot& out = now.out;
+    for (glm::dvec2* force : {&now.reading.hand_force, &out.wall_force, &out.feel_force, &out.load_force})
       *force = {newtons(random), newtons(random)};
     now.deadline_ns = out.time_ns = 7'000'000'000 + 1'000'000 * static_cast<std::int64_t>(i);
     now.reading.time_ns = now.deadline_ns - 40'000;
@@ -120,7 +120,7 @@ TEST_CASE("block codec: fields that follow from others cost nothing") {
     out.cycle = i;
     out.lever = now.reading.position;
     now.reading.actuator_force = commanded;
-    out.commanded = commanded = out.wall_force + out.feel_force + out.world_force;
+    out.commanded = commanded = out.wall_force + out.feel_force + out.load_force;
     out.f_h = now.reading.hand_force;
     out.f_a = -now.reading.actuator_force;
     out.f_j = out.f_h - out.f_a;
@@ -142,10 +142,10 @@ TEST_CASE("block codec: a drive with all that can happen takes less than a quart
 }
 
 TEST_CASE("block codec: what is cut, or claimed to be more or less, is refused") {
-  BlockCodec codec;
+  haptics::BlockCodec codec;
   Block back;
   std::mt19937_64 random(8);
-  std::vector<TraceSample> calm(20);
+  std::vector<haptics::TraceSample> calm(20);
   for (std::size_t i = 0; i < calm.size(); ++i)
     calm[i].reading.position.x = 1e-4 * std::sin(0.1 * static_cast<double>(i));
   for (const Block& samples : {encoded(any_samples(5)), encoded(calm)}) {
@@ -160,7 +160,7 @@ TEST_CASE("block codec: what is cut, or claimed to be more or less, is refused")
 }
 
 TEST_CASE("block codec: bytes of chance and good blocks spoilt give samples, or are refused; nothing else") {
-  BlockCodec codec;
+  haptics::BlockCodec codec;
   Block back;
   std::mt19937_64 random(9);
   int taken = 0;
@@ -172,9 +172,9 @@ TEST_CASE("block codec: bytes of chance and good blocks spoilt give samples, or 
     if (!codec.decode(bytes, count, back)) continue;
     ++taken;
     REQUIRE(back.size() == count * kSample);
-    check_comes_back(back);  // other bytes may say the same, but they say something that can be said
+    check_comes_back(back);  // other bytes may decode to the same samples, but what is accepted can be encoded
   }
   CHECK(taken > 10);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

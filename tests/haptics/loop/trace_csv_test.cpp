@@ -14,7 +14,7 @@
 #include "haptics/files/file_error.h"
 #include "tests/haptics/loop/trace_bench.h"
 
-namespace gearshift {
+namespace gearshift::test {
 namespace {
 
 std::vector<std::string> cells(const std::string& line) {
@@ -25,34 +25,34 @@ std::vector<std::string> cells(const std::string& line) {
 }
 
 std::map<std::string, std::string> by_name(const std::string& line) {
-  const std::vector<std::string> names = cells(trace_csv_header()), values = cells(line);
+  const std::vector<std::string> names = cells(haptics::trace_csv_header()), values = cells(line);
   REQUIRE(names.size() == values.size());
   std::map<std::string, std::string> row;
   for (std::size_t i = 0; i < names.size(); ++i) row[names[i]] = values[i];
-  REQUIRE(row.size() == names.size());  // no name twice
+  REQUIRE(row.size() == names.size());  // no name occurs twice
   return row;
 }
 
-TraceSample known_sample() {
-  TraceSample sample;
+haptics::TraceSample known_sample() {
+  haptics::TraceSample sample;
   sample.deadline_ns = 5'000'000'000;
   sample.out.cycle = 42;
   sample.out.lever = {-0.0125, 0.03};
   sample.out.velocity = {0.25, 0.0};
   sample.out.commanded = {1.5, -31.7};
-  sample.out.gear = kReverseGear;
-  sample.out.guard = GuardState::running;
-  sample.out.flags = kFlagContact | kFlagFresh;
+  sample.out.gear = haptics::kReverseGear;
+  sample.out.guard = haptics::GuardState::running;
+  sample.out.flags = haptics::kFlagContact | haptics::kFlagFresh;
   sample.controls.clutch = 0.75;
   sample.controls.slope = -0.0625;
   sample.controls.guided_gear = 3;
   sample.controls.guidance = 0.5;
-  sample.command = LoopCommand::stop;
+  sample.command = haptics::LoopCommand::stop;
   sample.reading.hand_force = {std::numeric_limits<double>::quiet_NaN(), 2.0};
   return sample;
 }
 
-// A locale that writes 1.234,5: if anything asked it.
+// A locale that writes 1.234,5, which must not be used.
 struct GermanNumbers : std::numpunct<char> {
   char do_decimal_point() const override { return ','; }
   char do_thousands_sep() const override { return '.'; }
@@ -62,13 +62,14 @@ struct GermanNumbers : std::numpunct<char> {
 }  // namespace
 
 TEST_CASE("csv: the header begins with the time in seconds and every quantity carries its unit") {
-  CHECK(trace_csv_header().find("cycle,time_s,lever_x_mm,lever_y_mm,proxy_x_mm,proxy_y_mm,velocity_x_mm_per_s,") == 0);
+  CHECK(haptics::trace_csv_header().find(
+            "cycle,time_s,lever_x_mm,lever_y_mm,proxy_x_mm,proxy_y_mm,velocity_x_mm_per_s,") == 0);
   for (const char* name : {"commanded_x_n", "f_h_y_n", "road_speed_m_per_s", "wall_stiffness_n_per_m"})
-    CHECK(trace_csv_header().find(name) != std::string::npos);
+    CHECK(haptics::trace_csv_header().find(name) != std::string::npos);
 }
 
 TEST_CASE("csv: numbers are in the unit of their column") {
-  auto row = by_name(trace_csv_line(known_sample(), 4'999'000'000));
+  auto row = by_name(haptics::trace_csv_line(known_sample(), 4'999'000'000));
   CHECK(row["cycle"] == "42");
   CHECK(row["time_s"] == "0.001");
   CHECK(row["lever_x_mm"] == "-12.5");
@@ -90,10 +91,10 @@ TEST_CASE("csv: numbers are in the unit of their column") {
 TEST_CASE("csv: the same in any locale") {
   const TempFolder folder;
   const std::locale before = std::locale::global(std::locale(std::locale::classic(), new GermanNumbers));
-  TraceSample later = known_sample();
+  haptics::TraceSample later = known_sample();
   later.out.cycle = 1'234'567;
   {
-    TraceCsvFile csv(folder / "t.csv");
+    haptics::TraceCsvFile csv(folder / "t.csv");
     csv.add(known_sample());
     csv.add(later);
     csv.finish();
@@ -102,7 +103,7 @@ TEST_CASE("csv: the same in any locale") {
   std::ifstream stream(folder / "t.csv");
   std::string line;
   std::getline(stream, line);
-  CHECK(line == trace_csv_header());
+  CHECK(line == haptics::trace_csv_header());
   std::getline(stream, line);
   CHECK(by_name(line)["lever_x_mm"] == "-12.5");
   CHECK(by_name(line)["time_s"] == "0");  // counts from the first cycle
@@ -111,22 +112,23 @@ TEST_CASE("csv: the same in any locale") {
   CHECK_FALSE(std::getline(stream, line));
 }
 
-TEST_CASE("csv: what is not finished takes no table's place") {
+TEST_CASE("csv: an unfinished file does not replace an existing one") {
   const TempFolder folder;
   std::ofstream(folder / "t.csv") << "of old";
-  TraceCsvFile(folder / "t.csv").add(known_sample());
+  haptics::TraceCsvFile(folder / "t.csv").add(known_sample());
   std::string line;
   std::getline(std::ifstream(folder / "t.csv"), line);
   CHECK(line == "of old");
   CHECK(std::distance(std::filesystem::directory_iterator(folder.path()), {}) == 1);
 }
 
-TEST_CASE("csv: a file that cannot be written is told in one sentence") {
+TEST_CASE("csv: a file that cannot be written is reported in one sentence") {
   const TempFolder folder;
-  CHECK_THROWS_WITH_AS(TraceCsvFile(folder / "no/folder.csv"), doctest::Contains("cannot be written"), FileError);
-  TraceCsvFile csv("/dev/full");
+  CHECK_THROWS_WITH_AS(haptics::TraceCsvFile(folder / "no/folder.csv"), doctest::Contains("cannot be written"),
+                       haptics::FileError);
+  haptics::TraceCsvFile csv("/dev/full");
   for (int i = 0; i < 1000; ++i) csv.add(known_sample());
-  CHECK_THROWS_WITH_AS(csv.finish(), doctest::Contains("could not be written"), FileError);
+  CHECK_THROWS_WITH_AS(csv.finish(), doctest::Contains("could not be written"), haptics::FileError);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

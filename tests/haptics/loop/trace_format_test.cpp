@@ -11,7 +11,7 @@
 #include "haptics/loop/checksum.h"
 #include "tests/haptics/loop/trace_bench.h"
 
-namespace gearshift {
+namespace gearshift::test {
 namespace {
 
 std::span<const std::byte> bytes_of(std::string_view text) {
@@ -26,12 +26,12 @@ bool same_bits(glm::dvec2 a, glm::dvec2 b) {
   return bits(a.x) == bits(b.x) && bits(a.y) == bits(b.y);
 }
 
-// Written out by hand: does not walk the lists of fields that the file is made from.
-bool same_sample(const TraceSample& a, const TraceSample& b) {
-  const LeverReading &r = a.reading, &q = b.reading;
-  const DriverControls &c = a.controls, &d = b.controls;
-  const HapticTuning &t = a.tuning, &u = b.tuning;
-  const HapticSnapshot &o = a.out, &p = b.out;
+// Written out by hand, so that it does not use the field lists from which the file is made.
+bool same_sample(const haptics::TraceSample& a, const haptics::TraceSample& b) {
+  const haptics::LeverReading &r = a.reading, &q = b.reading;
+  const haptics::DriverControls &c = a.controls, &d = b.controls;
+  const haptics::HapticTuning &t = a.tuning, &u = b.tuning;
+  const haptics::HapticSnapshot &o = a.out, &p = b.out;
   return a.deadline_ns == b.deadline_ns && a.skipped == b.skipped && a.command == b.command &&
          r.sequence == q.sequence && r.time_ns == q.time_ns && same_bits(r.position, q.position) &&
          same_bits(r.hand_force, q.hand_force) && same_bits(r.actuator_force, q.actuator_force) &&
@@ -43,7 +43,7 @@ bool same_sample(const TraceSample& a, const TraceSample& b) {
          bits(t.speed_limit) == bits(u.speed_limit) && bits(t.limit_damping) == bits(u.limit_damping) &&
          o.cycle == p.cycle && o.time_ns == p.time_ns && same_bits(o.lever, p.lever) &&
          same_bits(o.velocity, p.velocity) && same_bits(o.proxy, p.proxy) && same_bits(o.wall_force, p.wall_force) &&
-         same_bits(o.feel_force, p.feel_force) && same_bits(o.world_force, p.world_force) &&
+         same_bits(o.feel_force, p.feel_force) && same_bits(o.load_force, p.load_force) &&
          same_bits(o.commanded, p.commanded) && same_bits(o.f_h, p.f_h) && same_bits(o.f_a, p.f_a) &&
          same_bits(o.f_j, p.f_j) && bits(o.road_speed) == bits(p.road_speed) && o.slot == p.slot && o.gear == p.gear &&
          o.guard == p.guard && o.fault == p.fault && o.flags == p.flags;
@@ -52,18 +52,18 @@ bool same_sample(const TraceSample& a, const TraceSample& b) {
 }  // namespace
 
 TEST_CASE("checksum: CRC-32 gives the published check value, in one piece and in two") {
-  CHECK(crc32(bytes_of("123456789")) == 0xCBF43926);  // the standard's check
-  CHECK(crc32(bytes_of("")) == 0);
-  CHECK(crc32(bytes_of("The quick brown fox jumps over the lazy dog")) == 0x414FA339);
+  CHECK(haptics::crc32(bytes_of("123456789")) == 0xCBF43926);  // the standard's check value
+  CHECK(haptics::crc32(bytes_of("")) == 0);
+  CHECK(haptics::crc32(bytes_of("The quick brown fox jumps over the lazy dog")) == 0x414FA339);
   const std::string_view fox = "The quick brown fox jumps over the lazy dog";
   for (std::size_t cut = 0; cut <= fox.size(); ++cut)
-    CHECK(crc32(bytes_of(fox.substr(cut)), crc32(bytes_of(fox.substr(0, cut)))) == 0x414FA339);
+    CHECK(haptics::crc32(bytes_of(fox.substr(cut)), haptics::crc32(bytes_of(fox.substr(0, cut)))) == 0x414FA339);
 }
 
 TEST_CASE("checksum: flipping any one bit, or any two top bits, gives another run hash") {
   std::vector<std::byte> bytes(160);
   const auto hash = [&] {
-    RunHash run;
+    haptics::RunHash run;
     for (std::size_t at = 0; at < bytes.size(); at += 40) run.add(std::span(bytes).subspan(at, 40));
     return run.value();
   };
@@ -74,7 +74,7 @@ TEST_CASE("checksum: flipping any one bit, or any two top bits, gives another ru
     CHECK(seen.insert(hash()).second);
     flip(bit);
   }
-  // Two signs: the classic FNV, taken a word at a time, misses all of them.
+  // Two signs: classic FNV, applied word by word, misses all of these.
   for (std::size_t one = 63; one < 8 * bytes.size(); one += 64)
     for (std::size_t two = one + 64; two < 8 * bytes.size(); two += 64) {
       flip(one), flip(two);
@@ -86,9 +86,9 @@ TEST_CASE("checksum: flipping any one bit, or any two top bits, gives another ru
 TEST_CASE("trace: every bit of every field comes back, NaN payloads and signed zeros included") {
   const TempFolder folder;
   for (const std::size_t count : {1u, 255u, 256u, 257u, 1000u}) {
-    const std::vector<TraceSample> samples = any_samples(count, count);
-    write_trace(folder / "t.trace", paper_header(), samples);
-    const Trace back = read_trace(folder / "t.trace");
+    const std::vector<haptics::TraceSample> samples = any_samples(count, count);
+    haptics::write_trace(folder / "t.trace", paper_header(), samples);
+    const haptics::Trace back = haptics::read_trace(folder / "t.trace");
     REQUIRE(back.samples.size() == count);
     for (std::size_t i = 0; i < count; ++i) REQUIRE(same_sample(back.samples[i], samples[i]));
   }
@@ -96,20 +96,20 @@ TEST_CASE("trace: every bit of every field comes back, NaN payloads and signed z
 
 TEST_CASE("trace: the header comes back whole") {
   const TempFolder folder;
-  TraceHeader header = paper_header();
+  haptics::TraceHeader header = paper_header();
   header.config.rate = 2000.0;
   header.config.tuning.wall_stiffness = 1234.5678901234567;
   header.config.guard.overruns_in_row = 3;
   header.config.ghost_offset = std::nextafter(0.02, 1.0);
   header.device.delay = 1;
   header.device.axis_y.mass = 0.5;
-  header.device.own_stiffness = {400.0, 300.0};
+  header.device.device_wall_stiffness = {400.0, 300.0};
   header.gate_text += "# \xC3\xBC and a zero: ";
   header.gate_text.push_back('\0');
-  header.world = "driveline 7";
-  write_trace(folder / "t.trace", header, any_samples(2));
+  header.load = "driveline 7";
+  haptics::write_trace(folder / "t.trace", header, any_samples(2));
 
-  const TraceHeader back = read_trace(folder / "t.trace").header;
+  const haptics::TraceHeader back = haptics::read_trace(folder / "t.trace").header;
   CHECK(back.program == "1.2.3");
   CHECK(back.config.rate == 2000.0);
   CHECK(back.config.tuning.wall_stiffness == 1234.5678901234567);
@@ -117,50 +117,51 @@ TEST_CASE("trace: the header comes back whole") {
   CHECK(back.config.ghost_offset == std::nextafter(0.02, 1.0));
   CHECK(back.device.delay == 1);
   CHECK(back.device.axis_y.mass == 0.5);
-  CHECK(back.device.own_stiffness == glm::dvec2{400.0, 300.0});
+  CHECK(back.device.device_wall_stiffness == glm::dvec2{400.0, 300.0});
   CHECK(back.device.simulated);
   CHECK_FALSE(back.device.measures_hand_force);
   CHECK(back.gate_file == "paper.toml");
   CHECK(back.gate_text == header.gate_text);
-  CHECK(back.world == "driveline 7");
+  CHECK(back.load == "driveline 7");
   CHECK(back.armed);
 }
 
 TEST_CASE("trace: a sample is little-endian, inputs first, outputs last") {
-  TraceSample sample;
+  haptics::TraceSample sample;
   sample.deadline_ns = 0x0102030405060708;
   sample.out.flags = 0xA1B2C3D4;
-  const EncodedSample bytes = encode_sample(sample);
+  const haptics::EncodedSample bytes = haptics::encode_sample(sample);
   const unsigned char first[] = {8, 7, 6, 5, 4, 3, 2, 1};
   const unsigned char last[] = {0xD4, 0xC3, 0xB2, 0xA1};
   CHECK(std::memcmp(bytes.data(), first, 8) == 0);
   CHECK(std::memcmp(bytes.data() + bytes.size() - 4, last, 4) == 0);
-  CHECK(outputs_of(bytes).data() + outputs_of(bytes).size() == bytes.data() + bytes.size());
-  CHECK(kSampleBytes - kOutputBytes == 8 + 8 + (8 + 8 + 6 * 8 + 3) + (4 * 8 + 2 + 8 + 4 + 8) + 6 * 8 + 1);
-  CHECK(kOutputBytes == 8 + 8 + 10 * 16 + 2 * 8 + 4 + 4 + 1 + 1 + 4);
+  CHECK(haptics::outputs_of(bytes).data() + haptics::outputs_of(bytes).size() == bytes.data() + bytes.size());
+  CHECK(haptics::kSampleBytes - haptics::kOutputBytes ==
+        8 + 8 + (8 + 8 + 6 * 8 + 3) + (4 * 8 + 2 + 8 + 4 + 8) + 6 * 8 + 1);
+  CHECK(haptics::kOutputBytes == 8 + 8 + 10 * 16 + 2 * 8 + 4 + 4 + 1 + 1 + 4);
 }
 
 TEST_CASE("trace: the hash of a run changes with every output and every parameter, not with the inputs") {
   const TempFolder folder;
-  const auto hash_of = [&](const TraceHeader& header, const TraceSample& sample) {
-    write_trace(folder / "t.trace", header, std::span(&sample, 1));
-    return read_trace(folder / "t.trace").hash;
+  const auto hash_of = [&](const haptics::TraceHeader& header, const haptics::TraceSample& sample) {
+    haptics::write_trace(folder / "t.trace", header, std::span(&sample, 1));
+    return haptics::read_trace(folder / "t.trace").hash;
   };
-  const TraceHeader header = paper_header();
-  const TraceSample sample = any_samples(1)[0];
+  const haptics::TraceHeader header = paper_header();
+  const haptics::TraceSample sample = any_samples(1)[0];
   const std::uint64_t plain = hash_of(header, sample);
 
-  TraceSample other = sample;
+  haptics::TraceSample other = sample;
   other.reading.sequence += 1;
   CHECK(hash_of(header, other) == plain);
   other.out.f_j.y = -0.5;
   CHECK(hash_of(header, other) != plain);
-  TraceHeader changed = header;
+  haptics::TraceHeader changed = header;
   changed.device.position_step = 1e-9;
   CHECK(hash_of(changed, sample) != plain);
   changed = header;
-  changed.program = "9.9";  // another program that computes the same is welcome
+  changed.program = "9.9";  // another program that computes the same is accepted
   CHECK(hash_of(changed, sample) == plain);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

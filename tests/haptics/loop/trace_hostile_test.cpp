@@ -1,4 +1,4 @@
-// Files that are not what they should be. Each is refused in one sentence; none makes the program believe it.
+// Invalid trace files: each is refused in one sentence, and none is accepted as valid.
 #include <cstdint>
 #include <cstring>
 #include <functional>
@@ -14,14 +14,14 @@
 #include "haptics/loop/trace_reader.h"
 #include "tests/haptics/loop/trace_bench.h"
 
-namespace gearshift {
+namespace gearshift::test {
 namespace {
 
-constexpr std::size_t kFrame = 20, kPreamble = 12;  // [bytes] as documented, not as the code says
+constexpr std::size_t kFrame = 20, kPreamble = 12;  // [bytes] as documented, not taken from the code
 constexpr std::size_t kSampleBytes = 392;           // [bytes] per cycle
-constexpr std::size_t kCycles = 600;                // two full blocks and a part of one
+constexpr std::size_t kCycles = 600;                // two full blocks and a partial one
 
-// Bit by bit: the definition.
+// Bit by bit, following the definition.
 std::uint32_t slow_crc(const unsigned char* bytes, std::size_t size) {
   std::uint32_t crc = 0xFFFFFFFF;
   for (std::size_t i = 0; i < size; ++i) {
@@ -40,7 +40,7 @@ void put(Bytes& file, std::size_t at, std::uint32_t value) {
   std::memcpy(file.data() + at, &value, 4);
 }
 
-// Where the frames begin: header, data, data, data, end; and the end of the file.
+// Offsets of the frames (header, data, data, data, end) and of the end of the file.
 std::vector<std::size_t> borders(const Bytes& file) {
   std::vector<std::size_t> at{kPreamble};
   while (at.back() < file.size()) at.push_back(at.back() + kFrame + get(file, at.back() + 4));
@@ -62,7 +62,7 @@ void append(Bytes& to, const Bytes& more) {
   to.insert(to.end(), more.begin(), more.end());
 }
 
-// Another payload for the block of data at `at`, claiming that many samples, sealed.
+// Replaces the payload of the data block at `at`, claims that many samples, and fixes the checksums.
 void put_payload(Bytes& file, std::size_t at, const Bytes& payload, std::uint32_t samples) {
   const std::size_t end = at + kFrame + get(file, at + 4);
   Bytes with = slice(file, 0, at + kFrame);
@@ -78,10 +78,10 @@ Bytes payload_of(const Bytes& file, std::size_t at) {
   return slice(file, at + kFrame, at + kFrame + get(file, at + 4));
 }
 
-// Its samples changed by somebody who knows the code.
+// Changes the samples of a block and fixes the checksums, as someone who knows the code could.
 void forge(Bytes& file, std::size_t at, const std::function<void(std::byte* samples)>& change) {
   const Bytes payload = payload_of(file, at);
-  BlockCodec codec;
+  haptics::BlockCodec codec;
   std::vector<std::byte> samples, coded;
   REQUIRE(codec.decode(std::as_bytes(std::span(payload)), get(file, at + 8), samples));
   change(samples.data());
@@ -91,11 +91,11 @@ void forge(Bytes& file, std::size_t at, const std::function<void(std::byte* samp
   put_payload(file, at, again, get(file, at + 8));
 }
 
-// What reading all of it says; empty when nothing is wrong.
+// The error when reading the whole file; empty if there is none.
 std::string refusal(const std::filesystem::path& file) {
   try {
-    read_trace(file);
-  } catch (const FileError& error) {
+    haptics::read_trace(file);
+  } catch (const haptics::FileError& error) {
     return error.what();
   }
   return {};
@@ -104,7 +104,7 @@ std::string refusal(const std::filesystem::path& file) {
 struct Hostile {
   const char* what;
   std::function<void(Bytes& file, const std::vector<std::size_t>& at)> change;
-  const char* sentence;  // part of it
+  const char* sentence;  // expected part of the message
 };
 
 using B = Bytes;
@@ -134,14 +134,14 @@ const std::vector<Hostile> hostile_traces = {
     {"data byte flipped", [](B& f, At& at) { f[at[2] + kFrame + 999] ^= 128; },
      "is damaged: the checksum of the block"},
     {"data frame flipped", [](B& f, At& at) { f[at[2] + 5] ^= 1; }, "is damaged: there is no block at byte"},
-    {"end byte flipped", [](B& f, At& at) { f[at[4] + kFrame] ^= 1; }, "is damaged: its end block does not fit"},
+    {"end byte flipped", [](B& f, At& at) { f[at[4] + kFrame] ^= 1; }, "is damaged: its end block is not valid"},
     {"end frame flipped", [](B& f, At& at) { f[at[4] + 13] ^= 1; }, "is damaged: there is no block at byte"},
     {"a block that claims 4 GB", [](B& f, At& at) { put(f, at[1] + 4, 0xFFFFFFF0), seal_frame(f, at[1]); },
      "is damaged: there is no block at byte"},
     {"a header that claims 4 GB", [](B& f, At& at) { put(f, at[0] + 4, 0xFFFFFFFF), seal_frame(f, at[0]); },
      "is damaged: its header cannot be found"},
     {"a text that claims 4 GB", [](B& f, At& at) { put(f, at[0] + kFrame, 0xFFFFFFFF), seal_payload(f, at[0]); },
-     "is damaged: its header does not hold what it must"},
+     "is damaged: its header is not valid"},
     {"a block of no known kind", [](B& f, At& at) { put(f, at[2], 0x21212121), seal_frame(f, at[2]); },
      "is damaged: there is no block at byte"},
     {"a block without samples", [](B& f, At& at) { put(f, at[3] + 8, 0), seal_frame(f, at[3]); },
@@ -156,7 +156,7 @@ const std::vector<Hostile> hostile_traces = {
     {"a block larger than any can be",
      [](B& f, At& at) { put(f, at[1] + 4, 256 * kSampleBytes + 17), seal_frame(f, at[1]); },
      "is damaged: there is no block at byte"},
-    {"a block of fewer samples than it claims, the end block told the same lie",
+    {"a block of fewer samples than it claims, and a matching end block",
      [](B& f, At& at) {
        put(f, at[3] + 8, 89), seal_frame(f, at[3]);
        f[at[4] + kFrame] ^= 600 ^ 601, seal_payload(f, at[4]);
@@ -213,7 +213,7 @@ const std::vector<Hostile> hostile_traces = {
        append(less, slice(f, at[3], f.size()));
        f = less;
      },
-     "is damaged: it holds 344 cycles where its end block says 600"},
+     "is damaged: it holds 344 cycles, but its end block says 600"},
     {"two blocks exchanged",
      [](B& f, At& at) {
        Bytes turned = slice(f, 0, at[1]);
@@ -227,7 +227,7 @@ const std::vector<Hostile> hostile_traces = {
     {"two traces in one file", [](B& f, At&) { append(f, Bytes(f)); }, "bytes follow its end"},
     {"a command that does not exist",
      [](B& f, At& at) { forge(f, at[1], [](std::byte* samples) { samples[185] = std::byte{77}; }); },
-     "is damaged: cycle 0 holds a value that does not exist"},
+     "is damaged: cycle 0 holds an invalid value"},
     {"fewer deadlines skipped than none",
      [](B& f, At& at) {
        const std::int64_t skipped = -3;
@@ -236,9 +236,9 @@ const std::vector<Hostile> hostile_traces = {
      "is damaged: cycle 1 skipped -3 deadlines"},
     {"an output forged, its block sealed again",
      [](B& f, At& at) { forge(f, at[1], [](std::byte* samples) { samples[221] ^= std::byte{1}; }); },
-     "is damaged: its parameters and outputs are not those"},
+     "is damaged: its parameters and outputs do not match"},
     {"the hash forged", [](B& f, At& at) { f[at[4] + kFrame + 9] ^= 1, seal_payload(f, at[4]); },
-     "is damaged: its parameters and outputs are not those"},
+     "is damaged: its parameters and outputs do not match"},
     {"marked torn by the recorder", [](B& f, At& at) { f[at[4] + kFrame + 16] = 1, seal_payload(f, at[4]); },
      "is torn: the recorder could not keep up; 600 intact cycles can be exported with --torn --csv FILE"},
 };
@@ -264,14 +264,14 @@ TEST_CASE("hostile traces: each is refused in one sentence that says what is wro
   }
 }
 
-TEST_CASE("hostile traces: what is no regular file is refused without being read") {
+TEST_CASE("hostile traces: a path that is not a regular file is refused without reading it") {
   const TempFolder folder;
   CHECK(refusal(folder.path()).find("is a directory, not a trace") != std::string::npos);
   CHECK(refusal(folder / "none.trace").find("there is no such file") != std::string::npos);
   CHECK(refusal("/dev/zero").find("is not a regular file") != std::string::npos);
 }
 
-TEST_CASE("hostile traces: no cycles is no run") {
+TEST_CASE("hostile traces: a trace without cycles is refused") {
   const TempFolder folder;
   CHECK(refusal(put_trace(folder / "t.trace", 0)).find("holds no cycles") != std::string::npos);
 }
@@ -283,29 +283,29 @@ TEST_CASE("hostile traces: flipping any one byte anywhere is noticed") {
     CAPTURE(at);
     bytes[at] ^= 0x10;
     put_file(folder / "t.trace", bytes);
-    CHECK_THROWS_AS(read_trace(folder / "t.trace"), FileError);
+    CHECK_THROWS_AS(haptics::read_trace(folder / "t.trace"), haptics::FileError);
     bytes[at] ^= 0x10;
   }
 }
 
-TEST_CASE("hostile traces: cutting the file anywhere is noticed, and no more cycles come back than were whole") {
+TEST_CASE("hostile traces: truncating the file anywhere is noticed, and only complete cycles are returned") {
   const TempFolder folder;
   const Bytes bytes = file_bytes(put_trace(folder / "t.trace", 3));
   for (std::size_t size = 0; size < bytes.size(); ++size) {
     put_file(folder / "t.trace", slice(bytes, 0, size));
-    CHECK_THROWS_AS(read_trace(folder / "t.trace"), FileError);
+    CHECK_THROWS_AS(haptics::read_trace(folder / "t.trace"), haptics::FileError);
   }
 }
 
-TEST_CASE("a torn trace gives up its intact cycles when asked to, and says that it is torn") {
+TEST_CASE("a torn trace returns its intact cycles on request, and is reported as torn") {
   const TempFolder folder;
   const Bytes good = file_bytes(put_trace(folder / "t.trace", kCycles));
   const auto at = borders(good);
   const auto salvaged = [&](const Bytes& bytes) {
     put_file(folder / "t.trace", bytes);
-    TraceReader reader(folder / "t.trace", TornTrace::salvage);
+    haptics::TraceReader reader(folder / "t.trace", haptics::TornTrace::salvage);
     std::size_t cycles = 0;
-    for (TraceSample sample; reader.next(sample); ++cycles) REQUIRE(sample.out.cycle == cycles);
+    for (haptics::TraceSample sample; reader.next(sample); ++cycles) REQUIRE(sample.out.cycle == cycles);
     CHECK(reader.torn());
     return cycles;
   };
@@ -321,23 +321,23 @@ TEST_CASE("a torn trace gives up its intact cycles when asked to, and says that 
   CHECK(salvaged(damaged) == 512);
 }
 
-TEST_CASE("what is salvaged ends before a coded block that lies") {
+TEST_CASE("salvaging ends before a coded block that is invalid") {
   const TempFolder folder;
   Bytes lying = file_bytes(put_trace(folder / "t.trace", kCycles));
   put_payload(lying, borders(lying)[2], {0xFF, 0xFF, 0x7F, 0}, 256);
   put_file(folder / "t.trace", lying);
-  TraceReader reader(folder / "t.trace", TornTrace::salvage);
+  haptics::TraceReader reader(folder / "t.trace", haptics::TornTrace::salvage);
   std::size_t cycles = 0;
-  for (TraceSample sample; reader.next(sample);) ++cycles;
+  for (haptics::TraceSample sample; reader.next(sample);) ++cycles;
   CHECK(cycles == 256);
   CHECK(reader.torn());
 }
 
-TEST_CASE("a whole trace is not called torn because one was ready to salvage it") {
+TEST_CASE("a complete trace is not called torn in salvage mode") {
   const TempFolder folder;
-  TraceReader reader(put_trace(folder / "t.trace", kCycles), TornTrace::salvage);
-  for (TraceSample sample; reader.next(sample);) continue;
+  haptics::TraceReader reader(put_trace(folder / "t.trace", kCycles), haptics::TornTrace::salvage);
+  for (haptics::TraceSample sample; reader.next(sample);) continue;
   CHECK_FALSE(reader.torn());
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

@@ -13,15 +13,15 @@
 #include "tests/haptics/loop/trace_bench.h"
 #include "tests/support/gates.h"
 
-namespace gearshift {
+namespace gearshift::test {
 namespace {
 
-// At rest, with nobody's hand on it; counts its readings from 0.
-class CountingLever final : public HapticDevice {
+// A lever at rest without a hand; counts its readings from 0.
+class CountingLever final : public haptics::HapticDevice {
  public:
-  const DeviceSpec& spec() const noexcept override { return spec_; }
-  LeverReading read(std::int64_t now_ns) noexcept override {
-    LeverReading reading;
+  const haptics::DeviceSpec& spec() const noexcept override { return spec_; }
+  haptics::LeverReading read(std::int64_t now_ns) noexcept override {
+    haptics::LeverReading reading;
     reading.sequence = readings_++;
     reading.time_ns = now_ns;
     return reading;
@@ -30,14 +30,14 @@ class CountingLever final : public HapticDevice {
   void release() noexcept override {}
 
  private:
-  DeviceSpec spec_;
+  haptics::DeviceSpec spec_;
   std::uint64_t readings_ = 0;
 };
 
-// A real loop, whose cycles are recorded or lost as they would be.
+// A real loop whose cycles are recorded or lost as they would be.
 class LoopRig {
  public:
-  LoopChannels channels;
+  haptics::LoopChannels channels;
 
   void run(int cycles) {
     for (int i = 0; i < cycles; ++i) loop_.cycle(now_ns_ += kPeriodNs, 0);
@@ -46,25 +46,25 @@ class LoopRig {
  private:
   static constexpr std::int64_t kPeriodNs = 1'000'000;
   CountingLever lever_;
-  NullWorld nothing_;
-  HapticLoop loop_{HapticConfig{}, paper_gate(), lever_, nothing_, channels};
+  haptics::NoLoad no_load_;
+  haptics::HapticLoop loop_{haptics::HapticConfig{}, paper_gate(), lever_, no_load_, channels};
   std::int64_t now_ns_ = 0;
 };
 
-TraceSample numbered(std::uint64_t cycle) {
-  TraceSample sample;
+haptics::TraceSample numbered(std::uint64_t cycle) {
+  haptics::TraceSample sample;
   sample.out.cycle = cycle;
   return sample;
 }
 
 std::size_t salvage(const std::filesystem::path& file) {
-  TraceReader reader(file, TornTrace::salvage);
+  haptics::TraceReader reader(file, haptics::TornTrace::salvage);
   std::size_t cycles = 0;
-  for (TraceSample sample; reader.next(sample); ++cycles) REQUIRE(sample.out.cycle == cycles);
+  for (haptics::TraceSample sample; reader.next(sample); ++cycles) REQUIRE(sample.out.cycle == cycles);
   return cycles;
 }
 
-// Files may not grow beyond this for as long as it lives: a full disk without one.
+// Limits the file size while it lives: simulates a full disk.
 class FullDisk {
  public:
   explicit FullDisk(rlim_t bytes) {
@@ -90,75 +90,75 @@ class FullDisk {
 TEST_CASE("recorder: every cycle that the loop pushed is in the file, in order") {
   const TempFolder folder;
   LoopRig rig;
-  TraceRecorder recorder(folder / "t.trace", paper_header(), rig.channels, TracePump::by_caller);
+  haptics::TraceRecorder recorder(folder / "t.trace", paper_header(), rig.channels, haptics::TracePump::by_caller);
   CHECK(rig.channels.recording.load());
   for (int thousand = 0; thousand < 20; ++thousand) {
     rig.run(1000);
     recorder.pump();
   }
-  const RecordingResult result = recorder.finish();
+  const haptics::RecordingResult result = recorder.finish();
   CHECK_FALSE(rig.channels.recording.load());
   CHECK(result.cycles == 20'000);
   CHECK_FALSE(result.torn);
   CHECK(result.problem.empty());
-  const Trace trace = read_trace(folder / "t.trace");
+  const haptics::Trace trace = haptics::read_trace(folder / "t.trace");
   REQUIRE(trace.samples.size() == 20'000);
   CHECK(trace.samples[12'345].out.cycle == 12'345);
   CHECK(trace.samples[12'345].reading.sequence == 12'345);
   CHECK(trace.hash == result.hash);
 }
 
-TEST_CASE("recorder: beside the loop on its own thread none is lost") {
+TEST_CASE("recorder: on its own thread beside the loop no cycle is lost") {
   const TempFolder folder;
-  auto channels = std::make_unique<LoopChannels>();
-  TraceRecorder recorder(folder / "t.trace", paper_header(), *channels, TracePump::own_thread);
+  auto channels = std::make_unique<haptics::LoopChannels>();
+  haptics::TraceRecorder recorder(folder / "t.trace", paper_header(), *channels, haptics::TracePump::own_thread);
   std::thread loop([&] {
     for (std::uint64_t cycle = 0; cycle < 50'000; ++cycle)
       while (!channels->trace.push(numbered(cycle))) std::this_thread::yield();
   });
   loop.join();
-  const RecordingResult result = recorder.finish();
+  const haptics::RecordingResult result = recorder.finish();
   CHECK(result.cycles == 50'000);
   CHECK(result.problem.empty());
-  CHECK(read_trace(folder / "t.trace").samples.size() == 50'000);
+  CHECK(haptics::read_trace(folder / "t.trace").samples.size() == 50'000);
 }
 
 TEST_CASE("recorder: a queue that overflows tears the trace, which keeps every cycle before the first loss") {
   const TempFolder folder;
   LoopRig rig;
   const std::uint64_t room = rig.channels.trace.capacity();
-  TraceRecorder recorder(folder / "t.trace", paper_header(), rig.channels, TracePump::by_caller);
+  haptics::TraceRecorder recorder(folder / "t.trace", paper_header(), rig.channels, haptics::TracePump::by_caller);
   rig.run(100);
   recorder.pump();
   CHECK_FALSE(recorder.take_problem().has_value());
   rig.run(static_cast<int>(room) + 7);
   REQUIRE(rig.channels.trace_lost.load() == 7);
   recorder.pump();
-  CHECK_FALSE(rig.channels.recording.load());  // closed: no cycle after a gap is of use
+  CHECK_FALSE(rig.channels.recording.load());  // closed: cycles after a gap are useless
 
   const std::optional<std::string> told = recorder.take_problem();
   REQUIRE(told.has_value());
   CHECK(told->find("the recorder could not keep up") != std::string::npos);
-  CHECK_FALSE(recorder.take_problem().has_value());  // once
+  CHECK_FALSE(recorder.take_problem().has_value());  // reported once
 
-  const RecordingResult result = recorder.finish();
+  const haptics::RecordingResult result = recorder.finish();
   CHECK(result.torn);
   CHECK(result.cycles == 100 + room);
-  CHECK_THROWS_WITH_AS(read_trace(folder / "t.trace"), doctest::Contains("is torn: the recorder could not keep up"),
-                       FileError);
+  CHECK_THROWS_WITH_AS(haptics::read_trace(folder / "t.trace"),
+                       doctest::Contains("is torn: the recorder could not keep up"), haptics::FileError);
   CHECK(salvage(folder / "t.trace") == 100 + room);
 }
 
-TEST_CASE("recorder: a loss between two cycles that did arrive is a gap, and the trace ends before it") {
+TEST_CASE("recorder: a loss between two cycles that arrived is a gap, and the trace ends before it") {
   const TempFolder folder;
   LoopRig rig;
-  TraceRecorder recorder(folder / "t.trace", paper_header(), rig.channels, TracePump::by_caller);
+  haptics::TraceRecorder recorder(folder / "t.trace", paper_header(), rig.channels, haptics::TracePump::by_caller);
   rig.run(50);
   rig.channels.recording.store(false);
   rig.run(1);
   rig.channels.recording.store(true);
   rig.run(39);
-  const RecordingResult result = recorder.finish();
+  const haptics::RecordingResult result = recorder.finish();
   CHECK(result.torn);
   CHECK(result.cycles == 50);
   CHECK(salvage(folder / "t.trace") == 50);
@@ -166,27 +166,27 @@ TEST_CASE("recorder: a loss between two cycles that did arrive is a gap, and the
 
 TEST_CASE("recorder: a file that cannot be created is refused before anything is recorded") {
   const TempFolder folder;
-  auto channels = std::make_unique<LoopChannels>();
+  auto channels = std::make_unique<haptics::LoopChannels>();
   const auto start = [&](const std::filesystem::path& file) {
-    TraceRecorder recorder(file, paper_header(), *channels, TracePump::by_caller);
+    haptics::TraceRecorder recorder(file, paper_header(), *channels, haptics::TracePump::by_caller);
   };
   CHECK_THROWS_WITH_AS(start(folder / "no/such/folder.trace"), doctest::Contains("No such file or directory"),
-                       FileError);
-  CHECK_THROWS_WITH_AS(start(folder.path()), doctest::Contains("Is a directory"), FileError);
-  CHECK_THROWS_WITH_AS(start("/dev/full"), doctest::Contains("No space left on device"), FileError);
+                       haptics::FileError);
+  CHECK_THROWS_WITH_AS(start(folder.path()), doctest::Contains("Is a directory"), haptics::FileError);
+  CHECK_THROWS_WITH_AS(start("/dev/full"), doctest::Contains("No space left on device"), haptics::FileError);
   CHECK_FALSE(channels->recording.load());
 }
 
-TEST_CASE("recorder: a disk that fills up is told once, in one sentence, and the loop goes on") {
+TEST_CASE("recorder: a full disk is reported once, in one sentence, and the loop continues") {
   const TempFolder folder;
   LoopRig rig;
-  RecordingResult result;
+  haptics::RecordingResult result;
   {
-    TraceRecorder before(folder / "room.trace", paper_header(), rig.channels, TracePump::by_caller);
+    haptics::TraceRecorder before(folder / "room.trace", paper_header(), rig.channels, haptics::TracePump::by_caller);
     rig.run(600);
     REQUIRE(before.finish().problem.empty());
     const FullDisk disk(std::filesystem::file_size(folder / "room.trace"));
-    TraceRecorder recorder(folder / "t.trace", paper_header(), rig.channels, TracePump::by_caller);
+    haptics::TraceRecorder recorder(folder / "t.trace", paper_header(), rig.channels, haptics::TracePump::by_caller);
     for (int hundred = 0; hundred < 50; ++hundred) {
       rig.run(100);
       recorder.pump();
@@ -199,36 +199,38 @@ TEST_CASE("recorder: a disk that fills up is told once, in one sentence, and the
     result = recorder.finish();
   }
   CHECK(result.problem.find("the recording failed after ") == 0);
-  CHECK_THROWS_WITH_AS(read_trace(folder / "t.trace"), doctest::Contains("is torn: it has no end block"), FileError);
+  CHECK_THROWS_WITH_AS(haptics::read_trace(folder / "t.trace"), doctest::Contains("is torn: it has no end block"),
+                       haptics::FileError);
   std::uint64_t cycles = 0;
-  TraceReader reader(folder / "t.trace", TornTrace::salvage);
-  for (TraceSample sample; reader.next(sample);) ++cycles;
-  CHECK(cycles == 512);  // whole blocks
+  haptics::TraceReader reader(folder / "t.trace", haptics::TornTrace::salvage);
+  for (haptics::TraceSample sample; reader.next(sample);) ++cycles;
+  CHECK(cycles == 512);  // complete blocks
 }
 
-TEST_CASE("recorder: what another recording left in the queue does not get into the next one") {
+TEST_CASE("recorder: samples that an earlier recording left in the queue are not recorded") {
   const TempFolder folder;
   LoopRig rig;
   rig.channels.recording.store(true);
   rig.run(10);
-  rig.channels.trace_lost.store(3);  // torn was the one before
-  TraceRecorder recorder(folder / "t.trace", paper_header(), rig.channels, TracePump::by_caller);
+  rig.channels.trace_lost.store(3);  // from an earlier, torn recording
+  haptics::TraceRecorder recorder(folder / "t.trace", paper_header(), rig.channels, haptics::TracePump::by_caller);
   rig.run(2);
-  const RecordingResult result = recorder.finish();
+  const haptics::RecordingResult result = recorder.finish();
   CHECK_FALSE(result.torn);
-  const Trace trace = read_trace(folder / "t.trace");
+  const haptics::Trace trace = haptics::read_trace(folder / "t.trace");
   REQUIRE(trace.samples.size() == 2);
   CHECK(trace.samples[0].out.cycle == 10);
 }
 
-TEST_CASE("recorder: a program that is killed leaves its cycles in a file that is known to be torn") {
+TEST_CASE("recorder: a killed program leaves its cycles in a file that is recognised as torn") {
   const TempFolder folder;
   {
-    TraceWriter writer(folder / "t.trace", paper_header());
+    haptics::TraceWriter writer(folder / "t.trace", paper_header());
     for (std::uint64_t cycle = 0; cycle < 1000; ++cycle) writer.add(numbered(cycle));
-  }  // no finish(): as if killed here
-  CHECK_THROWS_WITH_AS(read_trace(folder / "t.trace"), doctest::Contains("is torn: it has no end block"), FileError);
-  CHECK(salvage(folder / "t.trace") == 768);  // whole blocks of 256
+  }  // no finish(), as if the program was killed here
+  CHECK_THROWS_WITH_AS(haptics::read_trace(folder / "t.trace"), doctest::Contains("is torn: it has no end block"),
+                       haptics::FileError);
+  CHECK(salvage(folder / "t.trace") == 768);  // complete blocks of 256
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

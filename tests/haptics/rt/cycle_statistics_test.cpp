@@ -8,24 +8,24 @@
 
 #include <doctest/doctest.h>
 
-namespace gearshift {
+namespace gearshift::test {
 namespace {
 
-// Smallest sample that at least the share q of all does not exceed.
+// Smallest sample that at least the fraction q of all samples does not exceed.
 std::int64_t exact_quantile(std::vector<std::int64_t> samples, double q) {
   std::sort(samples.begin(), samples.end());
   const auto rank = static_cast<std::size_t>(std::ceil(q * static_cast<double>(samples.size())));
   return samples[std::max<std::size_t>(rank, 1) - 1];
 }
 
-DurationHistogram histogram_of(const std::vector<std::int64_t>& samples) {
-  DurationHistogram histogram;
+haptics::DurationHistogram histogram_of(const std::vector<std::int64_t>& samples) {
+  haptics::DurationHistogram histogram;
   for (const std::int64_t sample : samples) histogram.add(sample);
   return histogram;
 }
 
 void check_quantiles(const std::vector<std::int64_t>& samples) {
-  const DurationHistogram histogram = histogram_of(samples);
+  const haptics::DurationHistogram histogram = histogram_of(samples);
   for (const double q : {0.0, 0.001, 0.01, 0.25, 0.5, 0.75, 0.9, 0.99, 0.999, 0.9999, 1.0}) {
     const auto exact = static_cast<double>(exact_quantile(samples, q));
     const auto told = static_cast<double>(histogram.quantile(q));
@@ -37,7 +37,7 @@ void check_quantiles(const std::vector<std::int64_t>& samples) {
 
 }  // namespace
 
-TEST_CASE("histogram: every quantile is that of the sorted samples, at most 2 % above it") {
+TEST_CASE("histogram: every quantile matches the sorted samples, at most 2 % above") {
   std::mt19937_64 random(1);
   SUBCASE("durations spread evenly over all magnitudes from 1 ns to 10 s") {
     std::uniform_real_distribution<double> exponent(0.0, 10.0);
@@ -56,9 +56,9 @@ TEST_CASE("histogram: every quantile is that of the sorted samples, at most 2 % 
   }
 }
 
-TEST_CASE("histogram: any single duration is told at most 2 % above what it was") {
+TEST_CASE("histogram: any single duration is reported at most 2 % above its value") {
   for (std::int64_t ns = 0; ns < 10'000'000'000; ns += 1 + ns / 37) {
-    DurationHistogram histogram;
+    haptics::DurationHistogram histogram;
     histogram.add(ns);
     histogram.add(20'000'000'000);  // so that the largest does not hide the bin's edge
     const std::int64_t told = histogram.quantile(0.5);
@@ -68,7 +68,7 @@ TEST_CASE("histogram: any single duration is told at most 2 % above what it was"
 }
 
 TEST_CASE("histogram: empty is zero, negative counts as zero, the longest is exact") {
-  DurationHistogram histogram;
+  haptics::DurationHistogram histogram;
   CHECK(histogram.quantile(0.5) == 0);
   CHECK(histogram.max() == 0);
   histogram.add(-5);
@@ -79,4 +79,4 @@ TEST_CASE("histogram: empty is zero, negative counts as zero, the longest is exa
   CHECK(histogram.quantile(0.99) == 123'456'789'012);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

@@ -7,10 +7,10 @@
 
 #include <doctest/doctest.h>
 
-namespace gearshift {
+namespace gearshift::test {
 namespace {
 
-// Larger than any atomic and than a cache line: a torn one shows as parts that differ.
+// Larger than any atomic and than a cache line, so that a torn value shows as parts that differ.
 using Wide = std::array<std::uint64_t, 40>;
 
 Wide filled(std::uint64_t number) {
@@ -26,13 +26,13 @@ bool is_whole(const Wide& value) {
 }  // namespace
 
 TEST_CASE("latest value: holds the first value until something newer is written") {
-  LatestValue<int> channel(7);
+  haptics::LatestValue<int> channel(7);
   CHECK_FALSE(channel.update());
   CHECK(channel.value() == 7);
 }
 
 TEST_CASE("latest value: the newest of several writes wins, and is new exactly once") {
-  LatestValue<int> channel;
+  haptics::LatestValue<int> channel;
   for (int round = 1; round <= 100; ++round) {
     for (int i = 0; i < round % 5 + 1; ++i) channel.write(10 * round + i);
     CHECK(channel.update());
@@ -44,7 +44,7 @@ TEST_CASE("latest value: the newest of several writes wins, and is new exactly o
 
 TEST_CASE("latest value: no torn value and none older than the last, whatever the two threads do") {
   constexpr std::uint64_t kLast = 300'000;
-  LatestValue<Wide> channel(filled(0));
+  haptics::LatestValue<Wide> channel(filled(0));
   std::thread writer([&] {
     for (std::uint64_t number = 1; number <= kLast; ++number) channel.write(filled(number));
   });
@@ -57,7 +57,7 @@ TEST_CASE("latest value: no torn value and none older than the last, whatever th
     }
     const Wide& value = channel.value();
     if (!is_whole(value)) ++torn;
-    if (value[0] <= last) ++backward;  // new means newer
+    if (value[0] <= last) ++backward;  // new values must be newer
     last = value[0];
   }
   writer.join();
@@ -66,8 +66,8 @@ TEST_CASE("latest value: no torn value and none older than the last, whatever th
   CHECK_FALSE(channel.update());
 }
 
-TEST_CASE("latest value: what the reader holds stays as it is while the writer goes on") {
-  LatestValue<Wide> channel(filled(0));
+TEST_CASE("latest value: the value that the reader holds does not change while the writer continues") {
+  haptics::LatestValue<Wide> channel(filled(0));
   channel.write(filled(1));
   REQUIRE(channel.update());
   const Wide& held = channel.value();
@@ -77,4 +77,4 @@ TEST_CASE("latest value: what the reader holds stays as it is while the writer g
   }
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

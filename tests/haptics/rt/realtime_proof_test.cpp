@@ -1,4 +1,4 @@
-// The proof itself: it must catch what it is there to catch, and let the channels pass.
+// Tests of the real-time proof itself: it must catch violations, and accept the channels.
 #include "tests/support/realtime_proof.h"
 
 #include <malloc.h>
@@ -19,10 +19,10 @@
 #include "haptics/rt/realtime_thread.h"
 #include "haptics/rt/spsc_queue.h"
 
-namespace gearshift {
+namespace gearshift::test {
 namespace {
 
-int* volatile kept = nullptr;  // the compiler must not leave the allocation out
+int* volatile kept = nullptr;  // so that the compiler does not remove the allocation
 
 long resident_bytes() {
   long pages = 0, resident = 0;
@@ -30,7 +30,7 @@ long resident_bytes() {
   return resident * sysconf(_SC_PAGESIZE);
 }
 
-// [bytes] that stay of a block that is freed beneath one that is not.
+// [bytes] that stay resident after a block below another one is freed.
 long kept_of(std::size_t bytes) {
   const long before = resident_bytes();
   void* const block = std::malloc(bytes);
@@ -48,12 +48,12 @@ struct Big {
 
 }  // namespace
 
-TEST_CASE("beside a real-time thread a large block goes back to the system when it is freed") {
+TEST_CASE("a large block is returned to the system when it is freed while a real-time thread exists") {
   constexpr long kBlock = 20 << 20;
-  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // where malloc's own threshold goes with time
+  mallopt(M_MMAP_THRESHOLD, 32 << 20);  // where malloc's own threshold grows to over time
   CHECK(kept_of(kBlock) > kBlock / 2);  // negative control
-  RealtimeThread thread;
-  thread.start({}, [](const CycleCall&) {});
+  haptics::RealtimeThread thread;
+  thread.start({}, [](const haptics::CycleCall&) {});
   thread.stop();
   CHECK(kept_of(kBlock) < kBlock / 10);
 }
@@ -65,11 +65,11 @@ TEST_CASE("real-time proof: arithmetic is clean") {
   });
   INFO(proof.verdict());
   CHECK(proof.clean());
-  CHECK(sum == 0.0);  // it ran on a copy
+  CHECK(sum == 0.0);  // the proof ran on a copy
 }
 
 TEST_CASE("real-time proof: one allocation is caught") {
-  delete new int;  // so that the allocator is warm and needs no system call
+  delete new int;  // warms up the allocator, so that it needs no system call
   const RealtimeProof by_new = prove_realtime([] { kept = new int(1); });
   CHECK(by_new.allocations == 1);
   CHECK_FALSE(by_new.clean());
@@ -81,7 +81,7 @@ TEST_CASE("real-time proof: one allocation is caught") {
   delete kept;
 }
 
-TEST_CASE("real-time proof: one lock is caught, though nobody holds it") {
+TEST_CASE("real-time proof: one lock is caught even if it is free") {
   std::mutex mutex;
   const RealtimeProof by_mutex = prove_realtime([&] { const std::lock_guard lock(mutex); });
   CHECK(by_mutex.ran);
@@ -99,7 +99,7 @@ TEST_CASE("real-time proof: one system call is caught and named") {
   CHECK_FALSE(proof.clean());
 }
 
-TEST_CASE("real-time proof: a crash is told, not taken for clean") {
+TEST_CASE("real-time proof: a crash is reported, not taken for clean") {
   const RealtimeProof proof = prove_realtime([] { __builtin_trap(); });
   CHECK_FALSE(proof.ran);
   CHECK_FALSE(proof.clean());
@@ -107,9 +107,9 @@ TEST_CASE("real-time proof: a crash is told, not taken for clean") {
 }
 
 TEST_CASE("the channels and the statistics are real-time safe, full and empty") {
-  auto channel = std::make_unique<LatestValue<Big>>();
-  SpscQueue<Big> queue(16);
-  auto histogram = std::make_unique<DurationHistogram>();
+  auto channel = std::make_unique<haptics::LatestValue<Big>>();
+  haptics::SpscQueue<Big> queue(16);
+  auto histogram = std::make_unique<haptics::DurationHistogram>();
   const RealtimeProof proof = prove_realtime([&] {
     Big value;
     for (int i = 0; i < 100; ++i) {
@@ -126,4 +126,4 @@ TEST_CASE("the channels and the statistics are real-time safe, full and empty") 
   CHECK(proof.clean());
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

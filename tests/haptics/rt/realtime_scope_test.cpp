@@ -6,7 +6,7 @@
 
 #include <doctest/doctest.h>
 
-using namespace gearshift;
+using namespace gearshift::haptics;
 
 namespace {
 
@@ -20,7 +20,7 @@ int priority() {
   return now.sched_priority;
 }
 
-// On a thread of its own, which may be left as it is.
+// Runs `work` on another thread, so that its scheduling need not be restored.
 template <class Work>
 void aside(const Work& work) {
   std::thread(work).join();
@@ -28,7 +28,7 @@ void aside(const Work& work) {
 
 }  // namespace
 
-TEST_CASE("a thread is real-time for as long as the scope stands, where it may be, and not those that it starts") {
+TEST_CASE("a thread is real-time while the scope exists, if permitted, and threads that it starts are not") {
   bool allowed = false;
   aside([&] { allowed = schedule_fifo(70).empty(); });
   if (!allowed) MESSAGE("no right to SCHED_FIFO here: the scope must change nothing");
@@ -44,7 +44,7 @@ TEST_CASE("a thread is real-time for as long as the scope stands, where it may b
   });
 }
 
-TEST_CASE("a priority that there is none of is refused in a sentence, and changes nothing") {
+TEST_CASE("an invalid priority is refused in one sentence and changes nothing") {
   aside([] {
     CHECK(schedule_fifo(0) == "SCHED_FIFO at priority 0 was refused: Invalid argument (grant it with 'rtprio 0')");
     const RealtimeScope realtime(100);

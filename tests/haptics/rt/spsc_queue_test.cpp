@@ -9,7 +9,7 @@
 
 #include <doctest/doctest.h>
 
-namespace gearshift {
+namespace gearshift::test {
 namespace {
 
 struct Message {
@@ -33,9 +33,9 @@ constexpr std::uint64_t kMany = 500'000;
 
 }  // namespace
 
-TEST_CASE("queue: takes at least what was asked for, then says that it is full and keeps what it has") {
+TEST_CASE("queue: accepts at least the requested number, then reports that it is full and keeps its content") {
   for (const std::size_t wanted : {1u, 2u, 3u, 16u, 1000u}) {
-    SpscQueue<std::size_t> queue(wanted);
+    haptics::SpscQueue<std::size_t> queue(wanted);
     REQUIRE(queue.capacity() >= wanted);
     for (std::size_t i = 0; i < queue.capacity(); ++i) REQUIRE(queue.push(i));
     CHECK_FALSE(queue.push(999));
@@ -50,7 +50,7 @@ TEST_CASE("queue: takes at least what was asked for, then says that it is full a
 
 TEST_CASE("queue: behaves like a bounded deque under any order of pushes and pops") {
   std::mt19937 random(1);
-  SpscQueue<unsigned> queue(8);
+  haptics::SpscQueue<unsigned> queue(8);
   std::deque<unsigned> model;
   for (unsigned i = 0; i < 100'000; ++i) {
     if (random() % 2 == 0) {
@@ -68,7 +68,7 @@ TEST_CASE("queue: behaves like a bounded deque under any order of pushes and pop
 }
 
 TEST_CASE("queue: between two threads nothing is torn, lost, doubled or out of order") {
-  SpscQueue<Message> queue(64);  // small: full and empty are both met often
+  haptics::SpscQueue<Message> queue(64);  // small, so that it is often full and often empty
   std::thread writer([&] {
     for (std::uint64_t number = 0; number < kMany; ++number)
       while (!queue.push(message(number))) std::this_thread::yield();
@@ -84,7 +84,7 @@ TEST_CASE("queue: between two threads nothing is torn, lost, doubled or out of o
 }
 
 TEST_CASE("queue: a writer that never waits knows exactly what it lost") {
-  SpscQueue<Message> queue(16);
+  haptics::SpscQueue<Message> queue(16);
   std::uint64_t refused = 0;
   std::atomic<bool> done{false};
   std::thread writer([&] {
@@ -94,7 +94,7 @@ TEST_CASE("queue: a writer that never waits knows exactly what it lost") {
   });
   std::uint64_t taken = 0, wrong = 0, next = 0;
   while (true) {
-    const bool was_done = done.load();  // before the look: what was pushed by then is found
+    const bool was_done = done.load();  // read before the pops: everything pushed by then is found
     Message m;
     if (!queue.pop(m)) {
       if (was_done) break;
@@ -110,4 +110,4 @@ TEST_CASE("queue: a writer that never waits knows exactly what it lost") {
   CHECK(taken + refused == kMany);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

@@ -1,4 +1,4 @@
-// Energy bounding and passivity control against the energy of the exactly stepped lever.
+// Energy bounding and passivity control against the energy of an exactly stepped lever.
 #include "haptics/safety/energy_control.h"
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 #include "haptics/safety/force_guard.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
 
 namespace {
 
@@ -25,46 +25,46 @@ double damped_energy(const AxisModel& axis, AxisState state, double force, doubl
   return axis.damping * sum * period / (3.0 * kParts);
 }
 
-// Drives a lever by whatever force is wanted, through the bounder. Returns the largest energy that the motors had ever
-// given beyond what the damping had taken until then. [J]
-double worst_surplus(const AxisModel& axis, const AxisModel& believed, double period,
+// Drives a lever with any wanted force through the bounder. Returns the largest excess, over time, of the energy
+// supplied by the motors over the energy dissipated by the damping. [J]
+double worst_surplus(const AxisModel& axis, const AxisModel& assumed, double period,
                      const std::function<double(AxisState)>& wanted) {
-  const EnergyBounder bounder(believed, 0, period);
+  const EnergyBounder bounder(assumed, 0, period);
   AxisState lever{0.0, 0.4};
-  double last = 0.0, travel = 0.0, given = 0.0, taken = 0.0, worst = 0.0;
+  double last = 0.0, travel = 0.0, supplied = 0.0, dissipated = 0.0, worst = 0.0;
   for (int n = 0; n < 5000; ++n) {
     const double force = bounder.bound(wanted(lever), last, travel);
-    taken += damped_energy(axis, lever, force, period);
+    dissipated += damped_energy(axis, lever, force, period);
     const AxisState next = advance(axis, lever, force, period);
     travel = next.position - lever.position;
-    given += force * travel;
+    supplied += force * travel;
     lever = next;
     last = force;
-    worst = std::max(worst, given - taken);
+    worst = std::max(worst, supplied - dissipated);
   }
   return worst;
 }
 
 }  // namespace
 
-TEST_CASE("energy bounding: never more given than the handle's damping took, whatever force is wanted") {
+TEST_CASE("energy bounding: never supplies more than the handle's damping dissipates, whatever force is wanted") {
   std::mt19937_64 random(9);
   std::uniform_real_distribution<double> force(-100.0, 100.0);
-  const std::function<double(AxisState)> wishes[] = {
-      [](AxisState s) { return s.velocity > 0.0 ? 100.0 : -100.0; },               // pushes whatever moves
-      [](AxisState s) { return s.position > 0.0 ? -50000.0 * s.position : 0.0; },  // far too stiff a wall
+  const std::function<double(AxisState)> laws[] = {
+      [](AxisState s) { return s.velocity > 0.0 ? 100.0 : -100.0; },               // pushes along the motion
+      [](AxisState s) { return s.position > 0.0 ? -50000.0 * s.position : 0.0; },  // a wall that is far too stiff
       [&](AxisState) { return force(random); },
   };
   for (const double period : {0.01, 0.001, 0.00025}) {
-    for (const auto& wish : wishes) {
-      CHECK(worst_surplus(kPaperAxisX, kPaperAxisX, period, wish) <= 1e-12);
-      CHECK(worst_surplus(kPaperAxisY, kPaperAxisY, period, wish) <= 1e-12);
+    for (const auto& law : laws) {
+      CHECK(worst_surplus(kPaperAxisX, kPaperAxisX, period, law) <= 1e-12);
+      CHECK(worst_surplus(kPaperAxisY, kPaperAxisY, period, law) <= 1e-12);
     }
   }
-  // Negative control: a bounder that believes in eight times the damping lets energy through.
-  AxisModel believed = kPaperAxisX;
-  believed.damping *= 8.0;
-  CHECK(worst_surplus(kPaperAxisX, believed, 0.01, wishes[0]) > 1e-4);
+  // Negative control: a bounder that assumes eight times the damping lets energy through.
+  AxisModel assumed = kPaperAxisX;
+  assumed.damping *= 8.0;
+  CHECK(worst_surplus(kPaperAxisX, assumed, 0.01, laws[0]) > 1e-4);
 }
 
 TEST_CASE("energy bounding displays half the passive stiffness 2 b / T of (14)") {
@@ -76,7 +76,8 @@ TEST_CASE("energy bounding displays half the passive stiffness 2 b / T of (14)")
 
 namespace {
 
-// A free impact on a textbook spring of 5000 N/m: energy given by the wall, of the impact's, the mean over phases.
+// Free impact on a textbook spring of 5000 N/m: energy supplied by the wall, relative to the impact energy, averaged
+// over sampling phases. [%]
 double impact_energy(double period, bool controlled) {
   double sum = 0.0;
   constexpr int kPhases = 200;
@@ -84,28 +85,28 @@ double impact_energy(double period, bool controlled) {
     PassivityController controller(kPaperAxisX, period);
     const double speed = 0.3;
     AxisState lever{-speed * period * (i + 0.5) / kPhases, speed};
-    double last = 0.0, travel = 0.0, given = 0.0;
+    double last = 0.0, travel = 0.0, supplied = 0.0;
     bool entered = false;
     for (int n = 0; n < 4000; ++n) {
-      const bool touches = lever.position > 0.0;
-      if (entered && !touches) break;
-      entered = entered || touches;
-      double force = touches ? -5000.0 * lever.position : 0.0;
-      if (controlled) force = controller.control(force, last, travel, touches);
+      const bool in_contact = lever.position > 0.0;
+      if (entered && !in_contact) break;
+      entered = entered || in_contact;
+      double force = in_contact ? -5000.0 * lever.position : 0.0;
+      if (controlled) force = controller.control(force, last, travel, in_contact);
       const AxisState next = advance(kPaperAxisX, lever, force, period);
       travel = next.position - lever.position;
-      given += force * travel;
+      supplied += force * travel;
       last = force;
       lever = next;
     }
-    sum += given / (0.5 * kPaperAxisX.mass * speed * speed);
+    sum += supplied / (0.5 * kPaperAxisX.mass * speed * speed);
   }
   return 100.0 * sum / kPhases;
 }
 
 }  // namespace
 
-TEST_CASE("passivity control: what a spring of 5000 N/m makes of an impact, with and without, beside another program") {
+TEST_CASE("passivity control: energy of an impact on a spring of 5000 N/m with and without it, as computed elsewhere") {
   CHECK(impact_energy(0.001, false) == doctest::Approx(33.0).epsilon(0.1));
   CHECK(impact_energy(0.002, false) == doctest::Approx(74.0).epsilon(0.1));
   CHECK(impact_energy(0.005, false) == doctest::Approx(231.0).epsilon(0.1));
@@ -121,13 +122,13 @@ GuardInput still_at(double x, double force) {
   in.force = {force, 0.0};
   in.position = {x, 0.0};
   in.fresh = true;
-  in.touches = true;
+  in.in_contact = true;
   return in;
 }
 
 }  // namespace
 
-TEST_CASE("the guard bounds what goes out, and forgets at arming how far the lever went meanwhile") {
+TEST_CASE("the guard bounds the command, and arming resets the travel since the last command") {
   GuardConfig config;
   config.ramp_time = 0.001;
   DeviceSpec spec;
@@ -135,7 +136,7 @@ TEST_CASE("the guard bounds what goes out, and forgets at arming how far the lev
   ForceGuard guard(config, spec, 0.001, EnergyControl::energy_bounding);
   guard.arm();
   guard.guard(still_at(0.0, 0.0));
-  // 1 mm in steps of 10 um into a wall that wants 30 N: b / T = 3000 N/m of it
+  // 1 mm in steps of 10 um into a wall that asks for 30 N: at most b / T = 3000 N/m is displayed.
   double force = 0.0;
   for (int n = 1; n <= 100; ++n) force = guard.guard(still_at(1e-5 * n, -30.0)).force.x;
   CHECK(force == doctest::Approx(-3.0));
@@ -145,11 +146,11 @@ TEST_CASE("the guard bounds what goes out, and forgets at arming how far the lev
     guard.guard(dead);
   }
   REQUIRE(guard.state() == GuardState::damped);
-  for (int n = 0; n < 100; ++n) guard.guard(still_at(0.030, -30.0));  // carried 29 mm away while damped
+  for (int n = 0; n < 100; ++n) guard.guard(still_at(0.030, -30.0));  // moved 29 mm away while damped
   guard.arm();
   CHECK(guard.guard(still_at(0.030, -30.0)).force.x == 0.0);
   CHECK(guard.guard(still_at(0.030, -30.0)).force.x == 0.0);
-  // Negative control: without it the whole wish goes out.
+  // Negative control: without energy bounding the full force is commanded.
   ForceGuard open(config, spec, 0.001);
   open.arm();
   open.guard(still_at(0.0, -30.0));
@@ -157,7 +158,7 @@ TEST_CASE("the guard bounds what goes out, and forgets at arming how far the lev
   CHECK(open.guard(still_at(0.0, -30.0)).force.x == -30.0);
 }
 
-TEST_CASE("a lever that chatters whatever is done is damped, and only arming brings the force back") {
+TEST_CASE("a lever that keeps chattering is damped, and only arming restores the force") {
   ForceGuard guard({}, {}, 0.001);
   guard.arm();
   guard.damp();
@@ -192,32 +193,32 @@ TEST_CASE("each axis by its own model, and with delay half of (13)'s K (T/2 + d 
   }
 }
 
-TEST_CASE("energy bounding is not held up by the slew: a force that must go is gone, whatever may change in a cycle") {
+TEST_CASE("energy bounding is not limited by the slew: a force that must drop drops within the cycle") {
   GuardConfig config;
   config.ramp_time = 0.001;
   config.slew = 0.5;
   ForceGuard guard(config, {}, 0.001, EnergyControl::energy_bounding);
   guard.arm();
-  double at = 0.0;
-  guard.guard(still_at(at, 0.0));
-  for (int n = 0; n < 100; ++n) guard.guard(still_at(at -= 1e-4, 20.0));  // pushed in: 0.3 N a period of c dx
-  double last = guard.guard(still_at(at, 20.0)).force.x;
+  double position = 0.0;
+  guard.guard(still_at(position, 0.0));
+  for (int n = 0; n < 100; ++n) guard.guard(still_at(position -= 1e-4, 20.0));  // pushed in: c dx = 0.3 N per period
+  double last = guard.guard(still_at(position, 20.0)).force.x;
   REQUIRE(last > 10.0);
   for (int n = 0; n < 4; ++n) {  // thrown out at 1 m/s
-    const double now = guard.guard(still_at(at += 1e-3, 20.0)).force.x;
+    const double now = guard.guard(still_at(position += 1e-3, 20.0)).force.x;
     CHECK(std::abs(now) <= std::abs(last - 3000.0 * 1e-3) + 1e-9);
     last = now;
   }
 }
 
-TEST_CASE("passivity control: nothing out of contact, and every contact is a new account") {
+TEST_CASE("passivity control: no damping out of contact, and every contact starts its own energy balance") {
   PassivityController controller(kPaperAxisX, 0.001);
-  controller.control(-1.0, 10.0, 1e-3, true);  // 10 mJ given
-  CHECK(controller.taken() == doctest::Approx(-0.010));
-  CHECK(controller.control(-1.0, 0.0, -1e-4, true) > -1.0 + 1.0);  // so it damps
+  controller.control(-1.0, 10.0, 1e-3, true);  // 10 mJ supplied
+  CHECK(controller.absorbed_energy() == doctest::Approx(-0.010));
+  CHECK(controller.control(-1.0, 0.0, -1e-4, true) > -1.0 + 1.0);  // it damps
   CHECK(controller.control(-1.0, 0.0, -1e-4, false) == -1.0);      // but not in free space
-  CHECK(controller.taken() == 0.0);
-  // Never more than 0.5 m / T: a sampled damper that is stronger would ring.
+  CHECK(controller.absorbed_energy() == 0.0);
+  // At most 0.5 m / T: a stronger sampled damper would ring.
   controller.control(0.0, 100.0, 1e-2, true);
   CHECK(controller.control(0.0, 0.0, -1e-3, true) == doctest::Approx(0.5 * 0.095 / 0.001 * 1.0));
 }

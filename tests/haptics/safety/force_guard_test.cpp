@@ -1,4 +1,4 @@
-// The guard: what comes out is finite, slow enough, within the device, and zero soon after any fault.
+// The guard: its output is finite, within slew and device limits, and zero soon after any fault.
 #include "haptics/safety/force_guard.h"
 
 #include <cmath>
@@ -9,7 +9,7 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
-using namespace gearshift;
+using namespace gearshift::haptics;
 using glm::dvec2;
 
 namespace {
@@ -53,19 +53,19 @@ TEST_CASE("the ramp is linear and takes its stated time") {
   CHECK(guard.state() == GuardState::running);
 }
 
-TEST_CASE("the share of the force that is let through: the ramp while it rises, then 1, and 0 in every other state") {
+TEST_CASE("the output's ramp: rising while ramping, then 1, and 0 in every other state") {
   ForceGuard guard({}, paper_spec(), kPeriod);
-  CHECK(guard.guard(wanting({1.0, 0.0})).share == 0.0);
+  CHECK(guard.guard(wanting({1.0, 0.0})).ramp == 0.0);
   guard.arm();
   GuardInput stale = wanting({1.0, 0.0});
   stale.fresh = false;
-  CHECK(guard.guard(stale).share == 0.0);  // armed, waiting
-  for (int i = 1; i <= 500; ++i) CHECK(guard.guard(wanting({0.0, 0.0})).share == doctest::Approx(i * kPeriod / 0.5));
-  CHECK(guard.guard(wanting({0.0, 0.0})).share == 1.0);
+  CHECK(guard.guard(stale).ramp == 0.0);  // armed, waiting
+  for (int i = 1; i <= 500; ++i) CHECK(guard.guard(wanting({0.0, 0.0})).ramp == doctest::Approx(i * kPeriod / 0.5));
+  CHECK(guard.guard(wanting({0.0, 0.0})).ramp == 1.0);
   guard.damp();
-  CHECK(guard.guard(wanting({1.0, 0.0})).share == 0.0);
+  CHECK(guard.guard(wanting({1.0, 0.0})).ramp == 0.0);
   guard.stop();
-  CHECK(guard.guard(wanting({1.0, 0.0})).share == 0.0);
+  CHECK(guard.guard(wanting({1.0, 0.0})).ramp == 0.0);
 }
 
 TEST_CASE("whatever is wanted, the command is finite, within the device and within the slew") {
@@ -84,7 +84,7 @@ TEST_CASE("whatever is wanted, the command is finite, within the device and with
   }
 }
 
-TEST_CASE("saturation is told, per wish beyond the device") {
+TEST_CASE("saturation is reported for each force beyond the device") {
   ForceGuard guard = running_guard();
   CHECK_FALSE(guard.guard(wanting({31.6, -31.6})).saturated);
   CHECK(guard.guard(wanting({0.0, 31.8})).saturated);
@@ -94,7 +94,7 @@ TEST_CASE("frozen reading: damped after 20 ms, force zero within 20 ms more") {
   ForceGuard guard = running_guard({10.0, -8.0});
   GuardInput frozen = wanting({10.0, -8.0});
   frozen.fresh = false;
-  frozen.velocity = {1.0, 1.0};  // stale: must not be damped against
+  frozen.velocity = {1.0, 1.0};  // stale: must not cause damping
   for (int ms = 1; ms <= 20; ++ms) guard.guard(frozen);
   CHECK(guard.state() == GuardState::running);
   double last = 10.0;
@@ -138,7 +138,7 @@ TEST_CASE("outside on either axis and either side, or a speed that is not finite
   CHECK(guard.fault() == GuardFault::not_finite);
 }
 
-TEST_CASE("arming forgets old faults: it does not fall again for what is over") {
+TEST_CASE("arming clears old faults: a fault that is over has no further effect") {
   ForceGuard guard = running_guard();
   GuardInput late = wanting({5.0, 0.0});
   late.skipped = 1;
@@ -164,8 +164,8 @@ TEST_CASE("one overrun is counted, eight in a row are damped") {
   CHECK(guard.fault() == GuardFault::overruns);
 }
 
-TEST_CASE("left alone for 0.1 s, at once or in parts: motors off, no force comes back; a simulated lever goes on") {
-  const auto falls = [](ForceGuard guard, std::initializer_list<int> skipped) {
+TEST_CASE("0.1 s without a timely cycle, in one gap or several: motors off on a real device, not a simulated one") {
+  const auto is_released = [](ForceGuard guard, std::initializer_list<int> skipped) {
     GuardOutput out;
     for (const int cycles : skipped) {
       GuardInput late = wanting({5.0, 0.0});
@@ -175,33 +175,33 @@ TEST_CASE("left alone for 0.1 s, at once or in parts: motors off, no force comes
     CHECK((out.force == dvec2{0.0, 0.0}) == (guard.state() == GuardState::released));
     return guard.state() == GuardState::released && guard.fault() == GuardFault::overruns;
   };
-  CHECK_FALSE(falls(running_guard(), {100}));
-  CHECK(falls(running_guard(), {101}));
-  CHECK(falls(running_guard(), {2999}));
-  CHECK(falls(running_guard(), {60, 60}));
-  CHECK_FALSE(falls(running_guard(), {60, 0, 60}));
+  CHECK_FALSE(is_released(running_guard(), {100}));
+  CHECK(is_released(running_guard(), {101}));
+  CHECK(is_released(running_guard(), {2999}));
+  CHECK(is_released(running_guard(), {60, 60}));
+  CHECK_FALSE(is_released(running_guard(), {60, 0, 60}));
   DeviceSpec simulated = paper_spec();
   simulated.simulated = true;
   ForceGuard guard(GuardConfig{}, simulated, kPeriod);
   guard.arm();
   for (int i = 0; i < 1000; ++i) guard.guard(wanting({5.0, 0.0}));
-  CHECK_FALSE(falls(guard, {2999}));
+  CHECK_FALSE(is_released(guard, {2999}));
 }
 
-TEST_CASE("a reading is old by the time that has passed, not by the cycles that had a turn") {
+TEST_CASE("a reading's age counts elapsed time, not executed cycles") {
   ForceGuard guard = running_guard();
-  GuardInput old = wanting({5.0, 0.0});
-  old.fresh = false;
-  old.skipped = 10;
-  guard.guard(old);  // whoever reads had no turn, either
-  guard.guard(old);  // 12 ms
+  GuardInput stale = wanting({5.0, 0.0});
+  stale.fresh = false;
+  stale.skipped = 10;
+  guard.guard(stale);  // the reader may have been stopped as well
+  guard.guard(stale);  // 12 ms
   CHECK(guard.state() == GuardState::running);
-  guard.guard(old);  // 23 ms
+  guard.guard(stale);  // 23 ms
   CHECK(guard.state() == GuardState::damped);
   CHECK(guard.fault() == GuardFault::stale_reading);
 }
 
-TEST_CASE("whatever a trace says that was skipped: a real device is released, a simulated one goes on") {
+TEST_CASE("any number of skipped cycles in a trace: a real device is released, a simulated one continues") {
   for (const bool simulated : {false, true}) {
     DeviceSpec spec = paper_spec();
     spec.simulated = simulated;
@@ -218,7 +218,7 @@ TEST_CASE("whatever a trace says that was skipped: a real device is released, a 
   }
 }
 
-TEST_CASE("damped: the old force fades and what is left opposes motion") {
+TEST_CASE("damped: the old force fades and the rest opposes motion") {
   ForceGuard guard = running_guard();
   GuardInput late = wanting({5.0, 0.0});
   late.skipped = 1;
@@ -230,7 +230,7 @@ TEST_CASE("damped: the old force fades and what is left opposes motion") {
   CHECK(out.force.y == doctest::Approx(config.damped_damping * 0.1));
 }
 
-TEST_CASE("a fall never raises the force, whatever the ramp and the slew, and it is gone in fade time") {
+TEST_CASE("entering damped never raises the force, at any ramp and slew, and it is zero after the fade time") {
   for (const double slew : {0.2, 2.0, 25.0}) {
     for (const int ramped : {1, 60, 250, 499, 600}) {
       CAPTURE(slew);
@@ -243,7 +243,7 @@ TEST_CASE("a fall never raises the force, whatever the ramp and the slew, and it
       for (int i = 0; i < ramped; ++i) last = guard.guard(wanting({30.0, 0.0})).force.x;
       GuardInput frozen = wanting({30.0, 0.0});
       frozen.fresh = false;
-      for (int i = 0; i < 20; ++i) last = guard.guard(frozen).force.x;  // not yet stale: ramp and slew go on
+      for (int i = 0; i < 20; ++i) last = guard.guard(frozen).force.x;  // not yet stale: ramp and slew continue
       for (int i = 0; i < 21; ++i) {
         const double now = guard.guard(frozen).force.x;
         CHECK(now <= last + 1e-12);
@@ -254,22 +254,22 @@ TEST_CASE("a fall never raises the force, whatever the ramp and the slew, and it
   }
 }
 
-TEST_CASE("armed: no force while it waits for the first reading, and a fall where none comes in 200 ms") {
+TEST_CASE("armed: no force while it waits for the first reading, and damped if none comes within 200 ms") {
   ForceGuard guard({}, paper_spec(), kPeriod);
   guard.arm();
-  GuardInput nothing = wanting({5.0, 0.0});
-  nothing.fresh = false;
-  for (int i = 0; i < 200; ++i) CHECK(guard.guard(nothing).force == dvec2{0.0, 0.0});
+  GuardInput no_reading = wanting({5.0, 0.0});
+  no_reading.fresh = false;
+  for (int i = 0; i < 200; ++i) CHECK(guard.guard(no_reading).force == dvec2{0.0, 0.0});
   CHECK(guard.state() == GuardState::armed);
   ForceGuard late = guard;
   guard.guard(wanting({5.0, 0.0}));
   CHECK(guard.state() == GuardState::ramping);
-  late.guard(nothing);  // a force minutes after somebody wanted it is nobody's wish
+  late.guard(no_reading);  // a force long after the request must not start unexpectedly
   CHECK(late.state() == GuardState::damped);
   CHECK(late.guard(wanting({5.0, 0.0})).force == dvec2{0.0, 0.0});
 }
 
-TEST_CASE("nothing climbs the ladder by itself; arming starts from zero force") {
+TEST_CASE("a released guard stays released until it is armed; arming starts from zero force") {
   ForceGuard guard = running_guard();
   guard.stop();
   for (int i = 0; i < 1000; ++i) CHECK(guard.guard(wanting({5.0, 0.0})).force == dvec2{0.0, 0.0});
@@ -279,7 +279,7 @@ TEST_CASE("nothing climbs the ladder by itself; arming starts from zero force") 
   CHECK(guard.guard(wanting({5.0, 0.0})).force.x < 0.02);
 }
 
-TEST_CASE("a fall is never upwards: released does not become damped") {
+TEST_CASE("a fault never moves up the ladder: released does not become damped") {
   ForceGuard guard = running_guard();
   guard.stop();
   GuardInput stale = wanting({5.0, 0.0});

@@ -7,7 +7,7 @@
 
 #include "tests/haptics/usb/usb_rig.h"
 
-namespace gearshift {
+namespace gearshift::test {
 namespace {
 
 std::ptrdiff_t entries(const char* folder) {
@@ -24,10 +24,10 @@ std::ptrdiff_t threads() {
 
 TEST_CASE("a device that is plugged in again is opened again, at its place") {
   UsbRig rig;
-  HidIdentity wanted = plain_identity();
+  haptics::HidIdentity wanted = plain_identity();
   for (int i = 0; i < 3; ++i) {
     rig.usb.plug(rig.gadget, {.place = "1-4"});
-    const auto port = open_usb_hid(wanted);
+    const auto port = haptics::open_usb_hid(wanted);
     wanted.place = port->identity().place;
     wanted.serial = port->identity().serial;
     rig.usb.unplug(rig.gadget);
@@ -35,13 +35,13 @@ TEST_CASE("a device that is plugged in again is opened again, at its place") {
   CHECK(wanted.place == "1-4");
 }
 
-TEST_CASE("lists beside a stream disturb neither") {
+TEST_CASE("listing devices beside a stream disturbs neither") {
   UsbRig rig;
   rig.usb.plug(rig.gadget);
-  const auto port = open_usb_hid(plain_identity());
+  const auto port = haptics::open_usb_hid(plain_identity());
   RecordingStream stream;
   Streaming streaming(*port, stream.config(), stream);
-  for (int i = 0; i < 5; ++i) CHECK(usb_hid_devices().size() == 1);
+  for (int i = 0; i < 5; ++i) CHECK(haptics::usb_hid_devices().size() == 1);
   const std::size_t before = stream.input_count();
   CHECK(becomes_true([&] { return stream.input_count() > before + 10; }));
   streaming.end();
@@ -54,7 +54,7 @@ TEST_CASE("fifty unplugs at random moments: each is noticed, and no file and no 
   {
     UsbRig rig;
     for (int i = 0; i < 52; ++i) {
-      if (i == 2) {  // what umockdev and libusb keep is there by now
+      if (i == 2) {  // umockdev's and libusb's own files are open by now
         files = open_files();
         tasks = threads();
       }
@@ -71,7 +71,7 @@ TEST_CASE("fifty unplugs at random moments: each is noticed, and no file and no 
       }
       CHECK(becomes_true([&] {
         const UsbNodeCounts counts = rig.usb.counts(rig.gadget);
-        return counts.closed == counts.opened && counts.submitted == counts.given_back;
+        return counts.closed == counts.opened && counts.submitted == counts.returned;
       }));
       CHECK(rig.usb.counts(rig.gadget).misuses == 0);
     }
@@ -80,4 +80,4 @@ TEST_CASE("fifty unplugs at random moments: each is noticed, and no file and no 
   }
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

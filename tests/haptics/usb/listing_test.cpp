@@ -8,16 +8,16 @@
 
 #include "tests/haptics/usb/usb_rig.h"
 
-namespace gearshift {
+namespace gearshift::test {
 namespace {
 
-// Whoever this thread is for the file system: a user without any right, where the tests run as root.
-class Nobody {
+// Makes this thread an unprivileged user for the file system, even when the tests run as root.
+class UnprivilegedThread {
  public:
-  Nobody() : before_(setfsuid(65534)) {}
-  ~Nobody() { setfsuid(static_cast<uid_t>(before_)); }
-  Nobody(const Nobody&) = delete;
-  Nobody& operator=(const Nobody&) = delete;
+  UnprivilegedThread() : before_(setfsuid(65534)) {}
+  ~UnprivilegedThread() { setfsuid(static_cast<uid_t>(before_)); }
+  UnprivilegedThread(const UnprivilegedThread&) = delete;
+  UnprivilegedThread& operator=(const UnprivilegedThread&) = delete;
 
  private:
   int before_;
@@ -30,13 +30,13 @@ std::string text_of(const std::filesystem::path& path) {
 
 }  // namespace
 
-TEST_CASE("a device is listed as it calls itself, and stays the kernel's") {
+TEST_CASE("a device is listed under its own name, and stays with the kernel") {
   PlainGadget hub;
   UsbRig rig;
   hub.interface_class = 9;
   rig.usb.plug(hub, {.place = "1-1"});
   rig.usb.plug(rig.gadget, {.place = "1-1.2"});
-  const std::vector<UsbHidDevice> seen = usb_hid_devices();
+  const std::vector<haptics::UsbHidDevice> seen = haptics::usb_hid_devices();
   REQUIRE(seen.size() == 1);
   CHECK(seen[0].identity.vendor == 0x1209);
   CHECK(seen[0].identity.product == 0x0001);
@@ -52,10 +52,10 @@ TEST_CASE("a device is listed as it calls itself, and stays the kernel's") {
   CHECK(rig.usb.counts(rig.gadget).claims == 0);
 }
 
-TEST_CASE("a device that no driver has is asked itself, and offered to the kernel's drivers afterwards") {
+TEST_CASE("a device without a driver is queried, and offered to the kernel's drivers afterwards") {
   UsbRig rig;
   rig.usb.plug(rig.gadget, {.driver_bound = false});
-  const std::vector<UsbHidDevice> seen = usb_hid_devices();
+  const std::vector<haptics::UsbHidDevice> seen = haptics::usb_hid_devices();
   REQUIRE(seen.size() == 1);
   CHECK(seen[0].problem.empty());
   CHECK(seen[0].report_descriptor == rig.gadget.report_descriptor());
@@ -67,15 +67,15 @@ TEST_CASE("a device that no driver has is asked itself, and offered to the kerne
   CHECK(rig.usb.driver_bound(rig.gadget));
 }
 
-TEST_CASE("a missing permission is one sentence that names the udev rule; the device is known all the same") {
+TEST_CASE("a missing permission is one sentence that names the udev rule; the device is listed anyway") {
   UsbRig rig;
   rig.usb.plug(rig.gadget, {.permitted = false});
-  std::vector<UsbHidDevice> seen;
+  std::vector<haptics::UsbHidDevice> seen;
   std::string refused;
   {
-    const Nobody nobody;
-    seen = usb_hid_devices();
-    refused = sentence_of<HidError>([&] { static_cast<void>(open_usb_hid(plain_identity())); });
+    const UnprivilegedThread nobody;
+    seen = haptics::usb_hid_devices();
+    refused = sentence_of<haptics::HidError>([&] { static_cast<void>(haptics::open_usb_hid(plain_identity())); });
   }
   const std::string expected =
       "Plain joystick (1209:0001) may not be used by this user: install the udev rule assets/udev/70-gearshift.rules "
@@ -87,7 +87,7 @@ TEST_CASE("a missing permission is one sentence that names the udev rule; the de
   CHECK(seen[0].report_descriptor == rig.gadget.report_descriptor());
 }
 
-TEST_CASE("the udev rule ships, and lists the emulated sticks that people own") {
+TEST_CASE("the udev rule ships, and lists the emulated sticks that exist as hardware") {
   const std::string rule = text_of(std::filesystem::path(GEARSHIFT_ASSETS) / "udev" / "70-gearshift.rules");
   for (const char* stick : {R"(ATTR{idVendor}=="045e", ATTR{idProduct}=="001b")",     // SideWinder Force Feedback 2
                             R"(ATTR{idVendor}=="1209", ATTR{idProduct}=="ffb0")"}) {  // OpenFFBoard
@@ -96,23 +96,24 @@ TEST_CASE("the udev rule ships, and lists the emulated sticks that people own") 
   CHECK(rule.find(R"(TAG+="uaccess")") != std::string::npos);
 }
 
-TEST_CASE("a device that another program has is said to be so") {
+TEST_CASE("a device in use by another program is reported as such") {
   UsbRig rig;
   rig.usb.plug(rig.gadget, {.taken = true});
   const std::string expected = "Plain joystick (1209:0001) is used by another program";
-  const std::vector<UsbHidDevice> seen = usb_hid_devices();
+  const std::vector<haptics::UsbHidDevice> seen = haptics::usb_hid_devices();
   REQUIRE(seen.size() == 1);
   CHECK(seen[0].problem == expected);
   CHECK(seen[0].report_descriptor.empty());
-  CHECK(sentence_of<HidError>([&] { static_cast<void>(open_usb_hid(plain_identity())); }) == expected);
+  CHECK(sentence_of<haptics::HidError>([&] { static_cast<void>(haptics::open_usb_hid(plain_identity())); }) ==
+        expected);
 }
 
-TEST_CASE("what a device calls itself is made printable") {
+TEST_CASE("the name that a device reports is made printable") {
   UsbRig rig;
   rig.gadget.name = "Evil\x1b[2J stick";
   rig.gadget.serial = "";
   rig.usb.plug(rig.gadget);
-  const std::vector<UsbHidDevice> seen = usb_hid_devices();
+  const std::vector<haptics::UsbHidDevice> seen = haptics::usb_hid_devices();
   REQUIRE(seen.size() == 1);
   CHECK(seen[0].identity.name == "Evil?[2J stick");
   CHECK(seen[0].identity.serial.empty());
@@ -126,30 +127,30 @@ TEST_CASE("only HID interfaces are listed, in the order of their places") {
   rig.usb.plug(second, {.place = "1-3"});
   rig.usb.plug(disk, {.place = "1-2"});
   rig.usb.plug(rig.gadget, {.place = "1-1"});
-  const std::vector<UsbHidDevice> seen = usb_hid_devices();
+  const std::vector<haptics::UsbHidDevice> seen = haptics::usb_hid_devices();
   REQUIRE(seen.size() == 2);
   CHECK(seen[0].identity.serial == "A1");
   CHECK(seen[1].identity.serial == "B2");
 }
 
-TEST_CASE("of two alike, serial number or place say which one is opened") {
+TEST_CASE("of two identical devices, serial number or port path select the one to open") {
   PlainGadget second;
   UsbRig rig;
   second.serial = "B2";
   rig.usb.plug(rig.gadget, {.place = "1-1"});
   rig.usb.plug(second, {.place = "1-2"});
-  HidIdentity wanted = plain_identity();
+  haptics::HidIdentity wanted = plain_identity();
   wanted.serial = "B2";
-  CHECK(open_usb_hid(wanted)->identity().place == "1-2");
+  CHECK(haptics::open_usb_hid(wanted)->identity().place == "1-2");
   wanted.serial.clear();
   wanted.place = "1-1";
-  CHECK(open_usb_hid(wanted)->identity().serial == "A1");
+  CHECK(haptics::open_usb_hid(wanted)->identity().serial == "A1");
   wanted.place = "1-7";
-  CHECK(sentence_of<HidGone>([&] { static_cast<void>(open_usb_hid(wanted)); }) ==
+  CHECK(sentence_of<haptics::HidGone>([&] { static_cast<void>(haptics::open_usb_hid(wanted)); }) ==
         "the USB device 1209:0001 is not plugged in");
   wanted.place.clear();
-  CHECK(sentence_of<HidGone>([&] { static_cast<void>(open_usb_hid(wanted, 1)); }) ==
+  CHECK(sentence_of<haptics::HidGone>([&] { static_cast<void>(haptics::open_usb_hid(wanted, 1)); }) ==
         "the USB device 1209:0001 is not plugged in");
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

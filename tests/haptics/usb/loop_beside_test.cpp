@@ -1,6 +1,6 @@
-// A loop of 1 kHz beside no stick, one that is not there, and one whose answers take 50 ms: how late it wakes. The driver's
-// side of a cycle asks nobody and waits for nobody (realtime_proof_test.cpp), so the three should differ by the machine's
-// own noise alone; they are told, not judged.
+// Wake-up lateness of a 1 kHz loop with no stick, an absent stick, and a stick whose transfers take 50 ms. The driver's
+// side of a cycle never blocks (realtime_proof_test.cpp), so the three should differ only by the machine's noise; they
+// are printed, not checked.
 #include <chrono>
 #include <memory>
 #include <mutex>
@@ -9,11 +9,12 @@
 
 #include <doctest/doctest.h>
 
-#include "haptics/hardware/lever_keeper.h"
+#include "haptics/hardware/stick_connection.h"
 #include "haptics/rt/realtime_thread.h"
 #include "tests/haptics/usb/usb_rig.h"
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 
 namespace {
 
@@ -22,13 +23,13 @@ struct Lateness {
   std::uint64_t skipped, cycles;
 };
 
-// Of a second in which a cycle does what a lever's does: look, and wish something new.
+// One second of cycles that do what a lever's do: read the state and send a new command.
 Lateness loop_with(PidDriver& driver) {
   RealtimeThread thread;
   int count = 0;
   thread.start({}, [&](const CycleCall&) {
-    driver.see();
-    driver.wish({.enabled = true, .constant = {0.001 * (++count % 100), 0.0}});
+    driver.state();
+    driver.command({.enabled = true, .constant = {0.001 * (++count % 100), 0.0}});
   });
   std::this_thread::sleep_for(std::chrono::seconds(1));
   thread.stop();
@@ -45,7 +46,7 @@ void tell(const std::string& what, const Lateness& late) {
 }  // namespace
 
 TEST_CASE("the loop beside no stick, an absent one and a slow one") {
-  RestingHand hand;
+  IdleHand hand;
   EmulatedStick stick({}, hand);
   StickGadget gadget(stick);
   MockUsb usb;
@@ -54,12 +55,12 @@ TEST_CASE("the loop beside no stick, an absent one and a slow one") {
   HidIdentity identity;
   identity.vendor = 0x045e;
   identity.product = 0x001b;
-  LeverKeeper keeper(
+  StickConnection connection(
       driver, [&] { return open_usb_hid(identity); }, 1'000'000);
   tell("an absent one", loop_with(driver));
-  CHECK_FALSE(keeper.connected());
+  CHECK_FALSE(connection.connected());
   usb.plug(gadget);
-  CHECK(becomes_true([&] { return keeper.connected(); }));
+  CHECK(becomes_true([&] { return connection.connected(); }));
   {
     const std::lock_guard<std::mutex> lock(usb.mutex());
     stick.faults.slow = 0.05;

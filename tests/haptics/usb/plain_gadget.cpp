@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-namespace gearshift {
+namespace gearshift::test {
 namespace {
 
 using Bytes = UsbGadget::Bytes;
@@ -61,7 +61,7 @@ Bytes PlainGadget::configuration_descriptor() const {
   return bytes;
 }
 
-// X and Y of 16 bits in report 1; four bytes to be set in feature report 2; seven bytes to be told in output report 5.
+// X and Y of 16 bits in report 1; four bytes in feature report 2; seven bytes in output report 5.
 Bytes PlainGadget::report_descriptor() const {
   Bytes bytes{0x05, 0x01, 0x09, 0x04, 0xa1, 0x01};
   if (numbered) append(bytes, {0x85, 1});
@@ -116,4 +116,4 @@ std::optional<Bytes> PlainGadget::input() {
   return lever_report(++reports);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

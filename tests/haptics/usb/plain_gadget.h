@@ -1,5 +1,4 @@
-// A small joystick of our own at the plug, for what is asked of the wire alone: it counts, records what it is told, and
-// does as it is asked.
+// A small joystick for tests of the transport: it counts, records what it receives, and can be configured to misbehave.
 #pragma once
 
 #include <cstdint>
@@ -10,7 +9,7 @@
 
 #include "tests/support/usb/usb_gadget.h"
 
-namespace gearshift {
+namespace gearshift::test {
 
 class PlainGadget final : public UsbGadget {
  public:
@@ -19,20 +18,20 @@ class PlainGadget final : public UsbGadget {
     Bytes bytes;
   };
 
-  bool numbered = true;                // its reports begin with an ID
+  bool numbered = true;                // uses report IDs
   bool has_in = true, has_out = true;  // its interrupt endpoints
-  double report_every = 0.001;         // [s] 0: it never reports by itself
-  bool answers_get_report = true;      // else it stalls
+  double report_every = 0.001;         // [s] 0: never on its own
+  bool answers_get_report = true;      // false: stalls
   double delay = 0.0;                  // [s] of control transfers
   std::string serial = "A1", name = "Plain joystick";
   std::uint16_t product = 0x0001;
   std::uint8_t interface_class = 3;
-  int declared_length = -1;  // [bytes] of the report descriptor; -1: as it is
+  int declared_length = -1;  // [bytes] of the report descriptor; -1: the true length
 
   std::vector<Told> outputs;         // by the interrupt pipe, or SET_REPORT(output)
   std::vector<Told> features;        // SET_REPORT(feature)
-  Bytes feature{2, 10, 20, 30, 40};  // what GET_REPORT(feature) says, ID first
-  int reports = 0;                   // sent by itself
+  Bytes feature{2, 10, 20, 30, 40};  // answer to GET_REPORT(feature), ID first
+  int reports = 0;                   // sent on its own
   int asked = 0;                     // GET_REPORT(input)
   int idles = 0;                     // SET_IDLE
   int unplugs = 0;
@@ -55,4 +54,4 @@ class PlainGadget final : public UsbGadget {
   std::int64_t now_ns_ = 0, reported_ns_ = 0;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::test

@@ -2,18 +2,18 @@
 
 #include "tests/haptics/usb/usb_rig.h"
 
-namespace gearshift {
+namespace gearshift::test {
 namespace {
 
 using Bytes = UsbGadget::Bytes;
 
-Bytes bytes_of(const HidBytes& report) {
+Bytes bytes_of(const haptics::HidBytes& report) {
   return {report.view().begin(), report.view().end()};
 }
 
 }  // namespace
 
-TEST_CASE("the kernel's driver is detached while a port is open, and given back") {
+TEST_CASE("the kernel driver is detached while a port is open, and attached again") {
   UsbRig rig;
   rig.usb.plug(rig.gadget);
   {
@@ -21,18 +21,19 @@ TEST_CASE("the kernel's driver is detached while a port is open, and given back"
     CHECK_FALSE(rig.usb.driver_bound(rig.gadget));
     CHECK(port->identity().name == "Plain joystick");
     CHECK(port->report_descriptor() == rig.gadget.report_descriptor());
-    CHECK(sentence_of<HidError>([&] { rig.open(); }) == "Plain joystick (1209:0001) is used by another program");
+    CHECK(sentence_of<haptics::HidError>([&] { rig.open(); }) ==
+          "Plain joystick (1209:0001) is used by another program");
   }
   CHECK(rig.usb.driver_bound(rig.gadget));
   const UsbNodeCounts counts = rig.usb.counts(rig.gadget);
   CHECK(counts.claims == counts.releases);
   CHECK(counts.detached == counts.attached);
-  CHECK(counts.submitted == counts.given_back);
+  CHECK(counts.submitted == counts.returned);
   CHECK(counts.misuses == 0);
 }
 
-// HID 1.11 sections 7.2.1, 7.2.2 and 8: the ID goes first on the wire where the device numbers its reports, and only there.
-TEST_CASE("reports carry their ID first; where the device numbers none it is 0, and not sent") {
+// HID 1.11 sections 7.2.1, 7.2.2 and 8: the ID comes first on the wire, but only if the device uses report IDs.
+TEST_CASE("reports carry their ID first; without report IDs it is 0 and not sent") {
   for (const bool numbered : {true, false}) {
     CAPTURE(numbered);
     UsbRig rig;
@@ -52,7 +53,7 @@ TEST_CASE("reports carry their ID first; where the device numbers none it is 0, 
   }
 }
 
-TEST_CASE("an answer may be shorter than asked") {
+TEST_CASE("an answer may be shorter than requested") {
   UsbRig rig;
   rig.gadget.feature = {2, 10};
   rig.usb.plug(rig.gadget);
@@ -69,31 +70,31 @@ TEST_CASE("without an interrupt OUT endpoint, outputs go by SET_REPORT") {
   CHECK(rig.gadget.outputs[0].bytes == Bytes{5, 1, 2, 3, 4, 5, 6, 7});
 }
 
-TEST_CASE("a refusal is one sentence, and the next request is heard") {
+TEST_CASE("a refusal is one sentence, and the next request works") {
   UsbRig rig;
   rig.usb.plug(rig.gadget);
   const auto port = rig.open();
   rig.usb.set_faults(rig.gadget, {.output_stalls = 1});
-  CHECK(sentence_of<HidError>([&] {
+  CHECK(sentence_of<haptics::HidError>([&] {
           port->send(report_of({5, 1}));
-        }) == "Plain joystick (1209:0001) refuses: take output report 5");
-  CHECK(sentence_of<HidError>([&] { port->send(report_of({5, 1})); }).empty());
+        }) == "Plain joystick (1209:0001) refuses: send output report 5");
+  CHECK(sentence_of<haptics::HidError>([&] { port->send(report_of({5, 1})); }).empty());
 }
 
-TEST_CASE("who does not answer is waited for 250 ms, not longer") {
+TEST_CASE("a device that does not answer is waited for 250 ms, not longer") {
   UsbRig rig;
   rig.usb.plug(rig.gadget);
   const auto port = rig.open();
   rig.usb.set_faults(rig.gadget, {.output_stuck = true, .control_stuck = true});
   const auto start = std::chrono::steady_clock::now();
-  CHECK(sentence_of<HidError>([&] { static_cast<void>(port->get_feature(2, 5)); }) ==
+  CHECK(sentence_of<haptics::HidError>([&] { static_cast<void>(port->get_feature(2, 5)); }) ==
         "Plain joystick (1209:0001) did not answer within 250 ms: get feature report 2");
-  CHECK(sentence_of<HidError>([&] {
+  CHECK(sentence_of<haptics::HidError>([&] {
           port->set_feature(report_of({2, 1}));
         }) == "Plain joystick (1209:0001) did not answer within 250 ms: set feature report 2");
-  CHECK(sentence_of<HidError>([&] {
+  CHECK(sentence_of<haptics::HidError>([&] {
           port->send(report_of({5, 1}));
-        }) == "Plain joystick (1209:0001) did not answer within 250 ms: take output report 5");
+        }) == "Plain joystick (1209:0001) did not answer within 250 ms: send output report 5");
   const auto took = std::chrono::steady_clock::now() - start;
   CHECK(took >= std::chrono::milliseconds(3 * 250 - 5));
   CHECK(took < std::chrono::milliseconds(2 * 3 * 250));
@@ -114,29 +115,29 @@ TEST_CASE("a device that was unplugged is gone for every request") {
   const auto port = rig.open();
   rig.usb.unplug(rig.gadget);
   const std::string expected = "Plain joystick (1209:0001) was unplugged";
-  CHECK(sentence_of<HidGone>([&] { static_cast<void>(port->get_feature(2, 5)); }) == expected);
-  CHECK(sentence_of<HidGone>([&] { port->set_feature(report_of({2, 1})); }) == expected);
-  CHECK(sentence_of<HidGone>([&] { port->send(report_of({5, 1})); }) == expected);
+  CHECK(sentence_of<haptics::HidGone>([&] { static_cast<void>(port->get_feature(2, 5)); }) == expected);
+  CHECK(sentence_of<haptics::HidGone>([&] { port->set_feature(report_of({2, 1})); }) == expected);
+  CHECK(sentence_of<haptics::HidGone>([&] { port->send(report_of({5, 1})); }) == expected);
   RecordingStream stream;
-  CHECK(sentence_of<HidGone>([&] { port->stream(stream.config(), stream); }) == expected);
+  CHECK(sentence_of<haptics::HidGone>([&] { port->stream(stream.config(), stream); }) == expected);
 }
 
-TEST_CASE("a report descriptor that cannot be is refused, and the kernel's driver comes back") {
+TEST_CASE("an invalid report descriptor is refused, and the kernel driver is attached again") {
   UsbRig rig;
   SUBCASE("none is declared") {
     rig.gadget.declared_length = 0;
     rig.usb.plug(rig.gadget);
-    CHECK(sentence_of<HidError>([&] { rig.open(); }) ==
+    CHECK(sentence_of<haptics::HidError>([&] { rig.open(); }) ==
           "Plain joystick (1209:0001) declares a report descriptor of 0 bytes; 1 to 4096 are possible");
   }
   SUBCASE("it breaks off") {
     rig.gadget.declared_length = 20;
     rig.usb.plug(rig.gadget);
-    const std::string sentence = sentence_of<HidError>([&] { rig.open(); });
+    const std::string sentence = sentence_of<haptics::HidError>([&] { rig.open(); });
     CHECK(sentence.starts_with("Plain joystick (1209:0001): "));
   }
   CHECK(rig.usb.driver_bound(rig.gadget));
   CHECK(rig.usb.counts(rig.gadget).claims == rig.usb.counts(rig.gadget).releases);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

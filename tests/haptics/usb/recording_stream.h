@@ -1,4 +1,4 @@
-// A stream that records what comes, sends what it is given, and ends when it is told.
+// A stream that records its input, sends the given outputs, and ends on request.
 #pragma once
 
 #include <sys/eventfd.h>
@@ -13,9 +13,9 @@
 
 #include "haptics/hid/hid_port.h"
 
-namespace gearshift {
+namespace gearshift::test {
 
-class RecordingStream final : public HidStream {
+class RecordingStream final : public haptics::HidStream {
  public:
   struct Input {
     std::int64_t time_ns = 0;
@@ -27,15 +27,15 @@ class RecordingStream final : public HidStream {
   RecordingStream(const RecordingStream&) = delete;
   RecordingStream& operator=(const RecordingStream&) = delete;
 
-  StreamConfig config() const {
-    StreamConfig config;
+  haptics::StreamConfig config() const {
+    haptics::StreamConfig config;
     config.wake_fd = wake_fd_;
     config.lever_report = 1;
     return config;
   }
 
   // Any thread.
-  void give(const HidBytes& report) {
+  void give(const haptics::HidBytes& report) {
     {
       const std::lock_guard<std::mutex> lock(mutex_);
       waiting_.push_back(report);
@@ -51,7 +51,7 @@ class RecordingStream final : public HidStream {
     const std::lock_guard<std::mutex> lock(mutex_);
     return looks_;
   }
-  std::vector<std::int64_t> output_times() const {  // when next_output() gave one
+  std::vector<std::int64_t> output_times() const {  // of the non-empty outputs
     const std::lock_guard<std::mutex> lock(mutex_);
     return output_times_;
   }
@@ -63,11 +63,11 @@ class RecordingStream final : public HidStream {
     inputs_.push_back({time_ns, {report.begin(), report.end()}});
     ++input_count_;
   }
-  HidBytes next_output(std::int64_t now_ns) noexcept override {
+  haptics::HidBytes next_output(std::int64_t now_ns) noexcept override {
     const std::lock_guard<std::mutex> lock(mutex_);
     looks_.push_back(now_ns);
     if (waiting_.empty()) return {};
-    const HidBytes next = waiting_.front();
+    const haptics::HidBytes next = waiting_.front();
     waiting_.pop_front();
     output_times_.push_back(now_ns);
     return next;
@@ -78,7 +78,7 @@ class RecordingStream final : public HidStream {
  private:
   int wake_fd_;
   mutable std::mutex mutex_;
-  std::deque<HidBytes> waiting_;
+  std::deque<haptics::HidBytes> waiting_;
   std::vector<Input> inputs_;
   std::vector<std::int64_t> looks_, output_times_;
   std::atomic<std::size_t> input_count_{0};
@@ -86,4 +86,4 @@ class RecordingStream final : public HidStream {
   std::atomic<bool> end_{false};
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::test

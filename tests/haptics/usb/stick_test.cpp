@@ -11,7 +11,7 @@
 #include "tests/haptics/usb/usb_rig.h"
 #include "tests/support/stick/stick_port.h"
 
-namespace gearshift {
+namespace gearshift::test {
 namespace {
 
 constexpr StickFamily kFamilies[] = {StickFamily::sidewinder, StickFamily::openffboard, StickFamily::vjoy};
@@ -22,9 +22,9 @@ EmulatedStickConfig of_family(StickFamily family) {
   return config;
 }
 
-// All that the driver tells a stick from beginning to end, one message a line.
-std::string told_through(HidPort& port, const EmulatedStick& stick) {
-  PidDriver driver(port.report_descriptor());
+// All messages from the driver to a stick from beginning to end, one per line.
+std::string messages_through(haptics::HidPort& port, const EmulatedStick& stick) {
+  haptics::PidDriver driver(port.report_descriptor());
   driver.prepare(port);
   driver.finish(port);
   std::string lines;
@@ -34,10 +34,10 @@ std::string told_through(HidPort& port, const EmulatedStick& stick) {
 
 }  // namespace
 
-TEST_CASE("a stick hears the same over USB as it hears without: nothing is added, lost, or in another order") {
+TEST_CASE("a stick receives the same messages over USB as without: none added, lost or reordered") {
   for (const StickFamily family : kFamilies) {
     CAPTURE(stick_family_name(family));
-    RestingHand hand;
+    haptics::IdleHand hand;
     EmulatedStick direct(of_family(family), hand), plugged(of_family(family), hand);
     std::mutex mutex;
     const std::atomic<bool> there{true};
@@ -46,21 +46,21 @@ TEST_CASE("a stick hears the same over USB as it hears without: nothing is added
     StickGadget gadget(plugged);
     MockUsb usb;
     usb.plug(gadget);
-    const std::vector<UsbHidDevice> seen = usb_hid_devices();
+    const std::vector<haptics::UsbHidDevice> seen = haptics::usb_hid_devices();
     REQUIRE(seen.size() == 1);
     CHECK(seen[0].report_descriptor == direct.report_descriptor());
     CHECK(seen[0].identity.name == direct_port.identity().name);
-    const auto port = open_usb_hid(seen[0].identity);
-    const std::string expected = told_through(direct_port, direct);
-    CHECK(told_through(*port, plugged) == expected);
+    const auto port = haptics::open_usb_hid(seen[0].identity);
+    const std::string expected = messages_through(direct_port, direct);
+    CHECK(messages_through(*port, plugged) == expected);
     CHECK(expected.size() > 100);
   }
 }
 
-TEST_CASE("a wish becomes a force on the knob, and a release ends it") {
+TEST_CASE("a command becomes a force on the knob, and a release ends it") {
   for (const StickFamily family : kFamilies) {
     CAPTURE(stick_family_name(family));
-    RestingHand hand;
+    haptics::IdleHand hand;
     EmulatedStick stick(of_family(family), hand);
     StickGadget gadget(stick);
     MockUsb usb;
@@ -69,16 +69,17 @@ TEST_CASE("a wish becomes a force on the knob, and a release ends it") {
       const std::lock_guard<std::mutex> lock(usb.mutex());
       return glm::length(stick.force());
     };
-    const auto port = open_usb_hid(usb_hid_devices().at(0).identity);
-    PidDriver driver(port->report_descriptor());
+    const auto port = haptics::open_usb_hid(haptics::usb_hid_devices().at(0).identity);
+    haptics::PidDriver driver(port->report_descriptor());
     driver.prepare(*port);
     std::string error;
-    std::thread streaming(
-        [&] { error = sentence_of<HidError>([&] { port->stream(driver.stream_config(1'000'000), driver); }); });
-    CHECK(becomes_true([&] { return driver.see().sequence > 0; }));
+    std::thread streaming([&] {
+      error = sentence_of<haptics::HidError>([&] { port->stream(driver.stream_config(1'000'000), driver); });
+    });
+    CHECK(becomes_true([&] { return driver.state().sequence > 0; }));
     CHECK(becomes_true([&] {
-      driver.wish({.enabled = true, .constant = {0.5, 0.0}});
-      driver.see();
+      driver.command({.enabled = true, .constant = {0.5, 0.0}});
+      driver.state();
       return force() > 1.0;
     }));
     driver.release();
@@ -90,4 +91,4 @@ TEST_CASE("a wish becomes a force on the knob, and a release ends it") {
   }
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

@@ -5,18 +5,18 @@
 
 #include "tests/haptics/usb/usb_rig.h"
 
-namespace gearshift {
+namespace gearshift::test {
 namespace {
 
 using Bytes = UsbGadget::Bytes;
 
-HidBytes numbered_output(int number) {
+haptics::HidBytes numbered_output(int number) {
   return report_of({5, static_cast<std::uint8_t>(number), 0, 0, 0, 0, 0, 0});
 }
 
 bool nothing_left(UsbRig& rig) {
   const UsbNodeCounts counts = rig.usb.counts(rig.gadget);
-  return counts.submitted == counts.given_back && counts.misuses == 0;
+  return counts.submitted == counts.returned && counts.misuses == 0;
 }
 
 }  // namespace
@@ -29,9 +29,9 @@ TEST_CASE("every input report comes through, whole, in order and with its time")
     rig.usb.plug(rig.gadget);
     const auto port = rig.open();
     RecordingStream stream;
-    StreamConfig config = stream.config();
+    haptics::StreamConfig config = stream.config();
     config.lever_report = numbered ? 1 : 0;
-    config.silence_ns = 10'000'000'000;  // nothing is asked for
+    config.silence_ns = 10'000'000'000;  // requests nothing
     Streaming streaming(*port, config, stream);
     CHECK(becomes_true([&] { return stream.input_count() >= 100; }));
     streaming.end();
@@ -47,7 +47,7 @@ TEST_CASE("every input report comes through, whole, in order and with its time")
   }
 }
 
-TEST_CASE("outputs arrive once each, in order, and never two within a tick") {
+TEST_CASE("outputs arrive once each, in order, and never two within one tick") {
   for (const bool has_out : {true, false}) {
     CAPTURE(has_out);
     UsbRig rig;
@@ -71,12 +71,12 @@ TEST_CASE("outputs arrive once each, in order, and never two within a tick") {
   }
 }
 
-TEST_CASE("a wake-up is heard at once, not at the next tick") {
+TEST_CASE("a wake-up acts immediately, not at the next tick") {
   UsbRig rig;
   rig.usb.plug(rig.gadget);
   const auto port = rig.open();
   RecordingStream stream;
-  StreamConfig config = stream.config();
+  haptics::StreamConfig config = stream.config();
   config.tick_ns = 5'000'000'000;
   const auto start = std::chrono::steady_clock::now();
   Streaming streaming(*port, config, stream);
@@ -86,13 +86,13 @@ TEST_CASE("a wake-up is heard at once, not at the next tick") {
   CHECK(std::chrono::steady_clock::now() - start < std::chrono::nanoseconds(config.tick_ns));
 }
 
-TEST_CASE("without anybody who wakes it, the stream is asked at every tick") {
+TEST_CASE("without wake-ups, next_output() is called at every tick") {
   UsbRig rig;
   rig.gadget.report_every = 0.0;
   rig.usb.plug(rig.gadget);
   const auto port = rig.open();
   RecordingStream stream;
-  StreamConfig config = stream.config();
+  haptics::StreamConfig config = stream.config();
   config.wake_fd = -1;
   config.tick_ns = 5'000'000;
   Streaming streaming(*port, config, stream);
@@ -102,7 +102,7 @@ TEST_CASE("without anybody who wakes it, the stream is asked at every tick") {
   for (std::size_t i = 1; i < looks.size(); ++i) CHECK(looks[i] - looks[i - 1] >= config.tick_ns);
 }
 
-TEST_CASE("a silent lever is asked for, every silence_ns") {
+TEST_CASE("a silent lever is requested every silence_ns") {
   UsbRig rig;
   rig.gadget.report_every = 0.0;
   rig.usb.plug(rig.gadget);
@@ -113,18 +113,18 @@ TEST_CASE("a silent lever is asked for, every silence_ns") {
   streaming.end();
   const std::vector<RecordingStream::Input> inputs = stream.inputs();
   CHECK(inputs[0].bytes == Bytes{1, 0, 0, 0x34, 0x12});
-  // Answers are late by what the wire takes, questions are not earlier: over all of them the mean is at least that.
+  // Answers arrive later by the transfer time, but requests never come early: the mean interval is at least silence_ns.
   const std::int64_t mean =
       (inputs.back().time_ns - inputs.front().time_ns) / static_cast<std::int64_t>(inputs.size() - 1);
   CHECK(mean >= stream.config().silence_ns * 9 / 10);
 }
 
-TEST_CASE("a device that reports is not asked") {
+TEST_CASE("a device that reports is not requested") {
   UsbRig rig;
   rig.usb.plug(rig.gadget);
   const auto port = rig.open();
   RecordingStream stream;
-  StreamConfig config = stream.config();
+  haptics::StreamConfig config = stream.config();
   config.silence_ns = 2'000'000'000;
   Streaming streaming(*port, config, stream);
   CHECK(becomes_true([&] { return stream.input_count() >= 50; }));
@@ -132,7 +132,7 @@ TEST_CASE("a device that reports is not asked") {
   CHECK(rig.gadget.asked == 0);
 }
 
-TEST_CASE("a device that cannot be asked stalls twice, and has its peace") {
+TEST_CASE("a device that cannot be requested stalls twice and is not requested again") {
   UsbRig rig;
   rig.gadget.report_every = 0.0;
   rig.gadget.answers_get_report = false;
@@ -140,14 +140,14 @@ TEST_CASE("a device that cannot be asked stalls twice, and has its peace") {
   const auto port = rig.open();
   RecordingStream stream;
   Streaming streaming(*port, stream.config(), stream);
-  CHECK(becomes_true([&] { return rig.see([](PlainGadget& gadget) { return gadget.asked; }) == 2; }));
+  CHECK(becomes_true([&] { return rig.query([](PlainGadget& gadget) { return gadget.asked; }) == 2; }));
   rest(60);
   streaming.end();
   CHECK(streaming.error().empty());
   CHECK(rig.gadget.asked == 2);
 }
 
-TEST_CASE("a device that says nothing at all has failed") {
+TEST_CASE("a device that sends nothing at all has failed") {
   UsbRig rig;
   rig.gadget.report_every = 0.0;
   rig.usb.plug(rig.gadget);
@@ -156,7 +156,7 @@ TEST_CASE("a device that says nothing at all has failed") {
   RecordingStream stream;
   Streaming streaming(*port, stream.config(), stream);
   streaming.join();
-  CHECK(streaming.error() == "Plain joystick (1209:0001) does not answer any more");
+  CHECK(streaming.error() == "Plain joystick (1209:0001) no longer answers");
   CHECK_FALSE(streaming.gone());
   CHECK(nothing_left(rig));
 }
@@ -180,12 +180,12 @@ TEST_CASE("a stalled input pipe is cleared once") {
   SUBCASE("it stalls again") {
     rig.usb.set_faults(rig.gadget, {.input_stalls = 1000});
     streaming.join();
-    CHECK(streaming.error() == "Plain joystick (1209:0001) stalls: it reports no more");
+    CHECK(streaming.error() == "Plain joystick (1209:0001) stalled: it sends no more reports");
   }
   CHECK(nothing_left(rig));
 }
 
-TEST_CASE("an output that stalls is told once more") {
+TEST_CASE("an output that stalls is sent once more") {
   for (const bool has_out : {true, false}) {
     CAPTURE(has_out);
     UsbRig rig;
@@ -197,19 +197,19 @@ TEST_CASE("an output that stalls is told once more") {
     rig.usb.set_faults(rig.gadget, {.output_stalls = 1});
     stream.give(numbered_output(7));
     CHECK(becomes_true([&] { return stream.sent() == 1; }));
-    REQUIRE(rig.see([](PlainGadget& gadget) { return gadget.outputs.size(); }) == 1);
-    CHECK(rig.see([](PlainGadget& gadget) { return gadget.outputs[0].bytes[1]; }) == 7);
+    REQUIRE(rig.query([](PlainGadget& gadget) { return gadget.outputs.size(); }) == 1);
+    CHECK(rig.query([](PlainGadget& gadget) { return gadget.outputs[0].bytes[1]; }) == 7);
     rig.usb.set_faults(rig.gadget, {.output_stalls = 1000});
     stream.give(numbered_output(8));
     streaming.join();
-    CHECK(streaming.error() == "Plain joystick (1209:0001) stalls: it takes no reports any more");
+    CHECK(streaming.error() == "Plain joystick (1209:0001) stalled: it accepts no more reports");
     rig.usb.set_faults(rig.gadget, {});
-    CHECK_NOTHROW(port->send(numbered_output(9)));  // what must be told before it is given back
+    CHECK_NOTHROW(port->send(numbered_output(9)));  // what must be sent before the device is closed
     CHECK(nothing_left(rig));
   }
 }
 
-TEST_CASE("a device that takes nothing any more has failed, and reports until then") {
+TEST_CASE("a device that no longer accepts outputs has failed, and reports until then") {
   UsbRig rig;
   rig.usb.plug(rig.gadget);
   const auto port = rig.open();
@@ -218,18 +218,18 @@ TEST_CASE("a device that takes nothing any more has failed, and reports until th
   Streaming streaming(*port, stream.config(), stream);
   stream.give(numbered_output(1));
   streaming.join();
-  CHECK(streaming.error() == "Plain joystick (1209:0001) takes no reports any more");
+  CHECK(streaming.error() == "Plain joystick (1209:0001) accepts no more reports");
   CHECK(stream.input_count() > 0);
   CHECK(stream.sent() == 0);
   CHECK(nothing_left(rig));
 }
 
-TEST_CASE("a bad wire is borne for a moment") {
+TEST_CASE("bus errors are tolerated for a moment") {
   UsbRig rig;
   rig.usb.plug(rig.gadget);
   const auto port = rig.open();
   RecordingStream stream;
-  StreamConfig config = stream.config();
+  haptics::StreamConfig config = stream.config();
   config.silence_ns = 10'000'000'000;
   Streaming streaming(*port, config, stream);
   rig.usb.set_faults(rig.gadget, {.garbled = true});
@@ -239,17 +239,16 @@ TEST_CASE("a bad wire is borne for a moment") {
   CHECK(becomes_true([&] { return stream.input_count() >= before + 10; }));
   rig.usb.set_faults(rig.gadget, {.garbled = true});
   streaming.join();
-  CHECK(streaming.error() ==
-        "Plain joystick (1209:0001) cannot be understood any more: its reports break off or are too long");
+  CHECK(streaming.error() == "Plain joystick (1209:0001) sends reports that break off or are too long");
   CHECK(nothing_left(rig));
 }
 
-TEST_CASE("short reports are passed on as they are, too long ones are not") {
+TEST_CASE("short reports are passed on unchanged, too long ones are not") {
   UsbRig rig;
   rig.usb.plug(rig.gadget);
   const auto port = rig.open();
   RecordingStream stream;
-  StreamConfig config = stream.config();
+  haptics::StreamConfig config = stream.config();
   config.silence_ns = 10'000'000'000;
   SUBCASE("short") {
     rig.usb.set_faults(rig.gadget, {.extra_bytes = -2});
@@ -261,8 +260,8 @@ TEST_CASE("short reports are passed on as they are, too long ones are not") {
   SUBCASE("longer than any that it declares") {
     rig.usb.set_faults(rig.gadget, {.extra_bytes = 1});
     Streaming streaming(*port, config, stream);
-    const int before = rig.see([](PlainGadget& gadget) { return gadget.reports; });
-    CHECK(becomes_true([&] { return rig.see([](PlainGadget& gadget) { return gadget.reports; }) > before + 10; }));
+    const int before = rig.query([](PlainGadget& gadget) { return gadget.reports; });
+    CHECK(becomes_true([&] { return rig.query([](PlainGadget& gadget) { return gadget.reports; }) > before + 10; }));
     streaming.end();
     CHECK(streaming.error().empty());
     CHECK(stream.input_count() == 0);
@@ -272,20 +271,19 @@ TEST_CASE("short reports are passed on as they are, too long ones are not") {
     Streaming streaming(*port, config, stream);
     streaming.join();
     CHECK(stream.input_count() == 0);
-    CHECK(streaming.error() ==
-          "Plain joystick (1209:0001) cannot be understood any more: its reports break off or are too long");
+    CHECK(streaming.error() == "Plain joystick (1209:0001) sends reports that break off or are too long");
   }
 }
 
-// The loop's other half: what a slow control pipe does to the reports.
-TEST_CASE("a control pipe that takes its time holds up neither input nor output") {
+// The effect of a slow control pipe on the reports.
+TEST_CASE("a slow control pipe delays neither input nor output") {
   UsbRig rig;
   rig.usb.plug(rig.gadget);
   const auto port = rig.open();
-  rig.see([](PlainGadget& gadget) { return gadget.delay = 0.2; });
+  rig.query([](PlainGadget& gadget) { return gadget.delay = 0.2; });
   RecordingStream stream;
-  StreamConfig config = stream.config();
-  config.lever_report = 9;  // never comes: it is asked for all the time
+  haptics::StreamConfig config = stream.config();
+  config.lever_report = 9;  // never comes, so it is requested all the time
   Streaming streaming(*port, config, stream);
   CHECK(becomes_true([&] { return stream.input_count() >= 1; }));
   const std::size_t before = stream.input_count();
@@ -296,7 +294,7 @@ TEST_CASE("a control pipe that takes its time holds up neither input nor output"
   CHECK(nothing_left(rig));
 }
 
-TEST_CASE("an unplugged device is gone, and nothing of it stays in flight") {
+TEST_CASE("an unplugged device is gone, and no transfer stays pending") {
   UsbRig rig;
   rig.usb.plug(rig.gadget);
   const auto port = rig.open();
@@ -310,7 +308,7 @@ TEST_CASE("an unplugged device is gone, and nothing of it stays in flight") {
     rest(5);
   }
   SUBCASE("while it is asked") {
-    rig.see([](PlainGadget& gadget) {
+    rig.query([](PlainGadget& gadget) {
       gadget.report_every = 0.0;
       return gadget.delay = 0.2;
     });
@@ -329,8 +327,8 @@ TEST_CASE("a device without an interrupt IN endpoint cannot stream") {
   rig.usb.plug(rig.gadget);
   const auto port = rig.open();
   RecordingStream stream;
-  CHECK(sentence_of<HidError>([&] { port->stream(stream.config(), stream); }) ==
-        "Plain joystick (1209:0001) has no interrupt endpoint to report by");
+  CHECK(sentence_of<haptics::HidError>([&] { port->stream(stream.config(), stream); }) ==
+        "Plain joystick (1209:0001) has no interrupt endpoint for input reports");
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

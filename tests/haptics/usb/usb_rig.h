@@ -1,4 +1,4 @@
-// A plain joystick on an emulated bus, and how the tests wait for what happens on other threads.
+// A plain joystick on an emulated bus, and helpers to wait for events on other threads.
 #pragma once
 
 #include <chrono>
@@ -13,9 +13,9 @@
 #include "tests/haptics/usb/recording_stream.h"
 #include "tests/support/usb/mock_usb.h"
 
-namespace gearshift {
+namespace gearshift::test {
 
-// False: it has not come true in 10 s.
+// False if the condition has not become true within 10 s.
 template <class Condition>
 bool becomes_true(Condition condition) {
   const auto end = std::chrono::steady_clock::now() + std::chrono::seconds(10);
@@ -30,20 +30,20 @@ inline void rest(int milliseconds) {
   std::this_thread::sleep_for(std::chrono::milliseconds(milliseconds));
 }
 
-inline HidIdentity plain_identity() {
-  HidIdentity identity;
+inline haptics::HidIdentity plain_identity() {
+  haptics::HidIdentity identity;
   identity.vendor = 0x1209;
   identity.product = 0x0001;
   return identity;
 }
 
-inline HidBytes report_of(std::initializer_list<std::uint8_t> bytes) {
-  HidBytes report;
+inline haptics::HidBytes report_of(std::initializer_list<std::uint8_t> bytes) {
+  haptics::HidBytes report;
   for (const std::uint8_t byte : bytes) report.bytes[report.size++] = byte;
   return report;
 }
 
-// The sentence of what was thrown; empty: nothing was.
+// The message of the thrown exception; empty if nothing was thrown.
 template <class Error, class Action>
 std::string sentence_of(Action action) {
   try {
@@ -58,19 +58,19 @@ struct UsbRig {
   PlainGadget gadget;
   MockUsb usb;
 
-  // Of the gadget, while the bus does not call it.
+  // Evaluates `look` on the gadget while the bus does not call it.
   template <class Look>
-  auto see(Look look) {
+  auto query(Look look) {
     const std::lock_guard<std::mutex> lock(usb.mutex());
     return look(gadget);
   }
-  std::unique_ptr<HidPort> open() { return open_usb_hid(plain_identity()); }
+  std::unique_ptr<haptics::HidPort> open() { return haptics::open_usb_hid(plain_identity()); }
 };
 
-// A stream on a thread of its own.
+// A stream on its own thread.
 class Streaming {
  public:
-  Streaming(HidPort& port, const StreamConfig& config, RecordingStream& stream)
+  Streaming(haptics::HidPort& port, const haptics::StreamConfig& config, RecordingStream& stream)
       : stream_(stream), thread_([this, &port, config] { run(port, config); }) {}
   ~Streaming() { end(); }
   Streaming(const Streaming&) = delete;
@@ -80,24 +80,24 @@ class Streaming {
     stream_.end();
     if (thread_.joinable()) thread_.join();
   }
-  // It ends by itself, or is made to.
+  // Waits up to 10 s for the stream to end by itself, then ends it.
   void join() {
     becomes_true([this] { return has_ended(); });
     end();
   }
   bool has_ended() const { return ended_; }
-  // Once it has ended.
+  // After it has ended.
   bool gone() const { return gone_; }
   const std::string& error() const { return error_; }
 
  private:
-  void run(HidPort& port, const StreamConfig& config) {
+  void run(haptics::HidPort& port, const haptics::StreamConfig& config) {
     try {
       port.stream(config, stream_);
-    } catch (const HidGone& error) {
+    } catch (const haptics::HidGone& error) {
       gone_ = true;
       error_ = error.what();
-    } catch (const HidError& error) {
+    } catch (const haptics::HidError& error) {
       error_ = error.what();
     }
     ended_ = true;
@@ -110,4 +110,4 @@ class Streaming {
   std::thread thread_;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::test

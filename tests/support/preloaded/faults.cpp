@@ -1,7 +1,7 @@
-// Faults of what lies beneath a program, on demand: preloaded, it stands before clock, files, OpenAL and Vulkan. The files of
-// the folder $INJECTED_FAULTS say which: clock (seconds that the wall clock is wrong by), write (the errno of every write to
-// a file), sound (the card is gone while it is there), gpu (the device is lost; 1: once, more: at each submission). Each
-// loss is a byte of the file gpu_lost there.
+// Injects system faults into a program: a preloaded library that overrides functions of the clock, files, OpenAL and
+// Vulkan. Files in the folder $INJECTED_FAULTS select the faults: clock (error of the wall clock in seconds), write (errno
+// of every write to a file), sound (no sound card while the file exists), gpu (the device is lost; 1: once, more: at each
+// submission). Each loss appends a byte to the file gpu_lost in that folder.
 #include <AL/alc.h>
 #include <dlfcn.h>
 #include <fcntl.h>
@@ -29,12 +29,12 @@ std::string path_of(const char* fault) {
   return folder != nullptr ? std::string(folder) + "/" + fault : std::string();
 }
 
-bool is_there(const char* fault) {
+bool is_injected(const char* fault) {
   return access(path_of(fault).c_str(), F_OK) == 0;
 }
 
-// What the fault's file says; 0 where there is none.
-long number_in(const char* fault) {
+// The number in the fault's file; 0 if there is no such file.
+long read_fault(const char* fault) {
   const int file = open(path_of(fault).c_str(), O_RDONLY | O_CLOEXEC);
   if (file < 0) return 0;
   char text[32] = {};
@@ -50,10 +50,10 @@ void count_loss() {
   close(file);
 }
 
-bool is_refused(int file) {
+bool fails_write(int file) {
   struct stat what {};
   if (fstat(file, &what) != 0 || !S_ISREG(what.st_mode) || file <= STDERR_FILENO) return false;
-  const long error = number_in("write");
+  const long error = read_fault("write");
   if (error != 0) errno = static_cast<int>(error);
   return error != 0;
 }
@@ -65,7 +65,7 @@ extern "C" {
 int clock_gettime(clockid_t clock, timespec* now) noexcept {
   static const auto real = next<int (*)(clockid_t, timespec*)>("clock_gettime");
   const int result = real(clock, now);
-  if (clock == CLOCK_REALTIME) now->tv_sec += number_in("clock");
+  if (clock == CLOCK_REALTIME) now->tv_sec += read_fault("clock");
   return result;
 }
 
@@ -79,46 +79,46 @@ time_t time(time_t* seconds) noexcept {
 int gettimeofday(timeval* now, void* zone) noexcept {
   static const auto real = next<int (*)(timeval*, void*)>("gettimeofday");
   const int result = real(now, zone);
-  now->tv_sec += number_in("clock");
+  now->tv_sec += read_fault("clock");
   return result;
 }
 
 ssize_t write(int file, const void* bytes, size_t count) {
   static const auto real = next<ssize_t (*)(int, const void*, size_t)>("write");
-  return is_refused(file) ? -1 : real(file, bytes, count);
+  return fails_write(file) ? -1 : real(file, bytes, count);
 }
 
 ssize_t writev(int file, const iovec* parts, int count) {
   static const auto real = next<ssize_t (*)(int, const iovec*, int)>("writev");
-  return is_refused(file) ? -1 : real(file, parts, count);
+  return fails_write(file) ? -1 : real(file, parts, count);
 }
 
 ssize_t pwrite64(int file, const void* bytes, size_t count, off64_t offset) {
   static const auto real = next<ssize_t (*)(int, const void*, size_t, off64_t)>("pwrite64");
-  return is_refused(file) ? -1 : real(file, bytes, count, offset);
+  return fails_write(file) ? -1 : real(file, bytes, count, offset);
 }
 
-// The C library's own way to write() passes by the one above.
+// The C library's fwrite() does not call the write() above.
 size_t fwrite(const void* bytes, size_t size, size_t count, FILE* file) {
   static const auto real = next<size_t (*)(const void*, size_t, size_t, FILE*)>("fwrite");
-  return is_refused(fileno(file)) ? 0 : real(bytes, size, count, file);
+  return fails_write(fileno(file)) ? 0 : real(bytes, size, count, file);
 }
 
 ALCdevice* alcOpenDevice(const ALCchar* name) {
   static const auto real = next<ALCdevice* (*)(const ALCchar*)>("alcOpenDevice");
-  return is_there("sound") ? nullptr : real(name);
+  return is_injected("sound") ? nullptr : real(name);
 }
 
 void alcGetIntegerv(ALCdevice* device, ALCenum what, ALCsizei count, ALCint* values) {
   constexpr ALCenum kConnected = 0x313;  // ALC_EXT_disconnect
   static const auto real = next<void (*)(ALCdevice*, ALCenum, ALCsizei, ALCint*)>("alcGetIntegerv");
   real(device, what, count, values);
-  if (what == kConnected && is_there("sound")) *values = 0;
+  if (what == kConnected && is_injected("sound")) *values = 0;
 }
 
 VkResult vkQueueSubmit2(VkQueue queue, uint32_t count, const VkSubmitInfo2* submits, VkFence fence) {
   static const auto real = next<PFN_vkQueueSubmit2>("vkQueueSubmit2");
-  const long losses = number_in("gpu");
+  const long losses = read_fault("gpu");
   if (losses == 0) return real(queue, count, submits, fence);
   count_loss();
   if (losses == 1) unlink(path_of("gpu").c_str());

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-namespace gearshift {
+namespace gearshift::test {
 namespace {
 
 constexpr int kEndlessLoops = 255;
@@ -15,7 +15,7 @@ glm::dvec2 condition_forces(const DeviceEffect& effect, glm::dvec2 deflection, d
   glm::dvec2 force{0.0};
   for (int axis = 0; axis < 2; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
-    if (!effect.settings.axis[i] || !effect.condition[i].given) continue;
+    if (!effect.settings.axis[i] || !effect.condition[i].is_set) continue;
     force[axis] = effect.settings.gain * condition_force(effect.condition[i], deflection[axis], slope);
   }
   return force;
@@ -67,7 +67,7 @@ int DeviceEffects::free_blocks() const noexcept {
 
 void DeviceEffects::start(DeviceEffect& effect, int loops, std::int64_t now_ns) noexcept {
   const EffectSettings& settings = effect.settings;
-  if (!settings.given) return;
+  if (!settings.is_set) return;
   effect.playing = true;
   effect.start_ns = now_ns + settings.delay_ns;
   const bool ends = settings.duration_ns > 0 && loops < kEndlessLoops;
@@ -117,4 +117,4 @@ EffectForces DeviceEffects::forces(const DeviceMotion& motion, std::int64_t now_
   return forces;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

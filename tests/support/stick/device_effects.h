@@ -1,5 +1,5 @@
-// The effects in a stick's memory: its blocks, when they play, and what they push. In shares, as the device counts: 1 is
-// the full force, and the full deflection of an axis.
+// The effects in a stick's memory: their blocks, when they play, and the forces they make. In the device's fractions: 1
+// is the full force, and the full deflection of an axis.
 #pragma once
 
 #include <array>
@@ -9,25 +9,25 @@
 
 #include <glm/vec2.hpp>
 
-namespace gearshift {
+namespace gearshift::test {
 
-enum class EffectKind : std::uint8_t { silent, constant, spring, damper };  // silent: it is told, but pushes nothing
+enum class EffectKind : std::uint8_t { silent, constant, spring, damper };  // silent: accepted, but makes no force
 
 struct AxisCondition {
-  bool given = false;
+  bool is_set = false;
   double centre = 0.0, dead_band = 0.0;
-  double positive = 0.0, negative = 0.0;                        // coefficients, on either side
+  double positive = 0.0, negative = 0.0;                        // coefficients on either side
   double positive_saturation = 0.0, negative_saturation = 0.0;  // 0 to 1
 };
 
 struct EffectSettings {
-  bool given = false;
+  bool is_set = false;
   EffectKind kind = EffectKind::silent;
-  std::int64_t duration_ns = 0;  // 0: for ever
+  std::int64_t duration_ns = 0;  // 0: endless
   std::int64_t delay_ns = 0;     // from start to force
   double gain = 1.0;
-  glm::dvec2 direction{0.0};               // of a constant force, where a positive magnitude pushes
-  std::array<bool, 2> axis{false, false};  // on which a condition acts
+  glm::dvec2 direction{0.0};               // of a constant force: where a positive magnitude pushes
+  std::array<bool, 2> axis{false, false};  // axes on which a condition acts
 };
 
 struct DeviceEffect {
@@ -36,45 +36,45 @@ struct DeviceEffect {
   double magnitude = 0.0;
   std::array<AxisCondition, 2> condition{};
   bool playing = false;
-  std::int64_t start_ns = 0, end_ns = 0;  // of the force; end 0: for ever
+  std::int64_t start_ns = 0, end_ns = 0;  // of the force; end 0: endless
 };
 
 struct EffectForces {
   glm::dvec2 constant{0.0}, spring{0.0}, damper{0.0};
 };
 
-// What an axis says of itself, for conditions.
+// Motion of the lever, as input to conditions.
 struct DeviceMotion {
   glm::dvec2 deflection{0.0}, speed{0.0};
-  double spring_slope = 1.0;  // force of the greatest coefficient at full deflection
+  double spring_slope = 1.0;  // force of the maximum coefficient at full deflection
 };
 
 class DeviceEffects {
  public:
   explicit DeviceEffects(int blocks) : effects_(static_cast<std::size_t>(blocks)) {}  // numbered from 1
 
-  int create() noexcept;  // the lowest free block; 0: there is none
+  int create() noexcept;  // the lowest free block; 0: none
   void free(int block) noexcept;
   void free_all() noexcept;
-  DeviceEffect* find(int block) noexcept;  // nullptr: not taken
+  DeviceEffect* find(int block) noexcept;  // nullptr: not in use
   const DeviceEffect* find(int block) const noexcept;
   int free_blocks() const noexcept;
 
-  void start(DeviceEffect& effect, int loops, std::int64_t now_ns) noexcept;  // loops 255: for ever; anew if it plays
+  void start(DeviceEffect& effect, int loops, std::int64_t now_ns) noexcept;  // 255 loops: endless; restarts if playing
   void stop_all() noexcept;
-  // Ends those whose time is over; their blocks.
+  // Ends the effects whose time is over and returns their blocks.
   std::vector<int> expire(std::int64_t now_ns);
-  // Time passes that does not count: a pause.
+  // Shifts all effects by a time that does not count, as in a pause.
   void postpone(std::int64_t by_ns) noexcept;
   int playing() const noexcept;
 
   EffectForces forces(const DeviceMotion& motion, std::int64_t now_ns) const noexcept;
 
  private:
-  std::vector<DeviceEffect> effects_;  // by block
+  std::vector<DeviceEffect> effects_;  // indexed by block - 1
 };
 
-// Towards the centre, from the edge of the dead band on; slope: force of coefficient 1 at deflection 1.
+// Force towards the centre, from the edge of the dead band; slope: force of coefficient 1 at deflection 1.
 double condition_force(const AxisCondition& condition, double deflection, double slope) noexcept;
 
-}  // namespace gearshift
+}  // namespace gearshift::test

@@ -6,7 +6,7 @@
 #include "tests/support/stick/stick_plug.h"
 #include "tests/support/stick/stick_state.h"
 
-namespace gearshift {
+namespace gearshift::test {
 namespace {
 
 using Answer = std::optional<std::vector<std::uint8_t>>;
@@ -29,12 +29,12 @@ std::string message_line(const StickMessage& message) {
   return line;
 }
 
-EmulatedStick::EmulatedStick(const EmulatedStickConfig& config, HandDriver& hand)
+EmulatedStick::EmulatedStick(const EmulatedStickConfig& config, haptics::HandDriver& hand)
     : state_(std::make_unique<State>(config, hand, faults, held_buttons)) {}
 
 EmulatedStick::~EmulatedStick() = default;
 
-// --- The plug ---
+// --- USB requests ---
 
 std::vector<std::uint8_t> EmulatedStick::device_descriptor() const {
   return make_device_descriptor(state_->family);
@@ -53,7 +53,7 @@ std::vector<std::uint8_t> EmulatedStick::string_descriptor(int index) const {
 }
 
 Answer EmulatedStick::control(const UsbSetup& setup, std::span<const std::uint8_t> data) {
-  state_->meet_bus();
+  state_->on_bus_reset();
   const bool of_class = (setup.request_type & 0x60) == 0x20;
   Answer answer = of_class ? class_request(setup, data) : standard_request(setup);
   if (answer && answer->size() > setup.length) answer->resize(setup.length);
@@ -125,23 +125,23 @@ Answer EmulatedStick::class_request(const UsbSetup& setup, std::span<const std::
 Answer EmulatedStick::get_report(int kind, std::uint8_t id) {
   State& state = *state_;
   if (kind == kFeatureReport) {
-    state.settle();
+    state.apply_all_outputs();
     std::optional<StickReport> report = state.firmware.feature(id);
-    if (report) note(StickMessage::Kind::get_feature, *report);
+    if (report) log_message(StickMessage::Kind::get_feature, *report);
     return report;
   }
   if (kind != kInputReport || faults.silent) return std::nullopt;
   if (id == state.family.lever.id) {
-    state.told_ns = state.now_ns;
-    return state.spoiled(state.lever_report());
+    state.fetched_ns = state.now_ns;
+    return state.with_faults(state.lever_report());
   }
   if (state.family.state.size > 0 && id == state.family.state.id) return state.firmware.state();
   return std::nullopt;
 }
 
 bool EmulatedStick::set_feature(std::span<const std::uint8_t> report) {
-  note(StickMessage::Kind::set_feature, report);
-  state_->settle();
+  log_message(StickMessage::Kind::set_feature, report);
+  state_->apply_all_outputs();
   using Status = StickFirmware::BlockStatus;
   state_->firmware.refusal = faults.refuses_effects ? std::optional(Status::error)
                              : faults.pool_full     ? std::optional(Status::full)
@@ -150,28 +150,28 @@ bool EmulatedStick::set_feature(std::span<const std::uint8_t> report) {
 }
 
 bool EmulatedStick::output(std::span<const std::uint8_t> report) {
-  state_->meet_bus();
+  state_->on_bus_reset();
   return state_->family.endpoint_out != 0 && take(report);
 }
 
 bool EmulatedStick::take(std::span<const std::uint8_t> report) {
-  note(StickMessage::Kind::output, report);
+  log_message(StickMessage::Kind::output, report);
   return !faults.stalls_outputs && state_->take(report);
 }
 
 std::optional<std::vector<std::uint8_t>> EmulatedStick::input() {
   State& state = *state_;
-  state.meet_bus();
+  state.on_bus_reset();
   if (faults.silent) return std::nullopt;
   if (Answer report = state.firmware.take_state()) return report;
   if (!state.waiting) return std::nullopt;
-  state.told_ns = state.now_ns;
+  state.fetched_ns = state.now_ns;
   state.sent = std::move(*state.waiting);
   state.waiting.reset();
   return state.sent;
 }
 
-void EmulatedStick::note(StickMessage::Kind kind, std::span<const std::uint8_t> bytes) {
+void EmulatedStick::log_message(StickMessage::Kind kind, std::span<const std::uint8_t> bytes) {
   if (logs) log.push_back({kind, state_->now_ns, {bytes.begin(), bytes.end()}});
 }
 
@@ -184,7 +184,7 @@ void EmulatedStick::unplug() {
   if (!state_->config.own_power) state_->power_off();
 }
 
-// --- The truth ---
+// --- True state ---
 
 glm::dvec2 EmulatedStick::force() const {
   return state_->force;
@@ -214,8 +214,8 @@ int EmulatedStick::playing() const {
   return state_->firmware.playing();
 }
 
-std::int64_t EmulatedStick::told_ns() const {
-  return state_->told_ns;
+std::int64_t EmulatedStick::fetched_ns() const {
+  return state_->fetched_ns;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

@@ -1,5 +1,5 @@
-// The emulated sticks against closed forms, and against bytes that were worked by hand from tests/data/hid. PID 1.0 is the
-// Device Class Definition for Physical Interface Devices of 1999.
+// Emulated sticks against closed forms, and against bytes derived by hand from tests/data/hid. PID 1.0 is the Device
+// Class Definition for Physical Interface Devices of 1999.
 #include "tests/support/stick/emulated_stick.h"
 
 #include <cmath>
@@ -11,7 +11,8 @@
 #include <doctest/doctest.h>
 #include <glm/geometric.hpp>
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 
 namespace {
 
@@ -32,7 +33,7 @@ struct PushingHand final : HandDriver {
   HandTarget target;
 };
 
-// A bare handle without a spring of its own, on a long lever, where the plane is flat.
+// A bare handle without a spring, on a long lever, where the plane is flat.
 EmulatedStickConfig plain(StickFamily family) {
   EmulatedStickConfig config;
   config.family = family;
@@ -45,7 +46,7 @@ struct Rig {
   explicit Rig(const EmulatedStickConfig& config) : family(config.family), stick(config, hand) { stick.advance(0); }
   explicit Rig(StickFamily of) : Rig(plain(of)) {}
 
-  // Report IDs differ: SideWinder's, OpenFFBoard's, vJoy's.
+  // Report IDs of SideWinder, OpenFFBoard and vJoy.
   const char* pick(const char* sidewinder, const char* openffboard, const char* vjoy) const {
     return family == StickFamily::sidewinder ? sidewinder : family == StickFamily::openffboard ? openffboard : vjoy;
   }
@@ -65,7 +66,7 @@ struct Rig {
   std::optional<Bytes> get(int kind_and_id, std::uint16_t size = 64) {
     return stick.control({0xA1, 1, static_cast<std::uint16_t>(kind_and_id), 0, size}, {});
   }
-  // Block load after a create of that type, and its block.
+  // The block load report after creating that type, and the block.
   Bytes load(int type) {
     const char* types[] = {"00", "01", "08", "09", "0C", "0D"};
     for (const char* name : types) {
@@ -86,7 +87,8 @@ struct Rig {
   EmulatedStick stick;
 };
 
-// Block 2 of the SideWinder, 1 of the others, is a constant force to the right: direction 270 degrees, for 300 ms.
+// Block 2 of the SideWinder, block 1 of the others, is a constant force to the right: direction 270 degrees, for 300
+// ms.
 std::string constant_to_the_right(Rig& rig) {
   const int block = rig.load(1)[1];
   REQUIRE(block == (rig.family == StickFamily::sidewinder ? 2 : 1));
@@ -97,12 +99,13 @@ std::string constant_to_the_right(Rig& rig) {
   return rig.pick("02", "01", "01");
 }
 
-// Half of the full magnitude, 127.5 of 255 cannot be told: 51 of 255 is a fifth, as 6553.4 and 2000 are.
+// Half of the full magnitude cannot be encoded (127.5 of 255), so a fifth is used: 51 of 255, 6553.4, 2000.
 void fifth_of_full(Rig& rig) {
   rig.out(rig.pick("05 02 33 00", "05 01 99 19", "15 01 D0 07"));
 }
 
-// A spring on X and Y. Bytes: block, parameter block, centre, +, -, saturations, dead band, all but the last at their most.
+// A spring on X and Y. Bytes: block, parameter block, centre, +, -, saturations, dead band; all but the last are at
+// their maximum.
 std::string full_spring(Rig& rig, const char* type_and_load = "08") {
   const int type = std::stoi(type_and_load, nullptr, 16);
   rig.load(type);
@@ -121,7 +124,7 @@ std::string full_spring(Rig& rig, const char* type_and_load = "08") {
 
 }  // namespace
 
-TEST_CASE("a steady push stands where the spring holds it: x = F / K") {
+TEST_CASE("a steady push comes to rest where the spring holds it: x = F / K") {
   for (StickFamily family : kFamilies) {
     CAPTURE(stick_family_name(family));
     Rig rig(family);
@@ -137,7 +140,7 @@ TEST_CASE("a steady push stands where the spring holds it: x = F / K") {
 
 TEST_CASE("dead band, centre, coefficients on either side and saturation of a condition") {
   // On X: centre 0.25 of 70 mm, dead band 0.1, half stiffness to the right, a quarter to the left, at most 0.3 of 20 N.
-  // 10000 counts are 1: vJoy's own scale says these shares exactly. 09C4, 03E8, 1388, 0BB8.
+  // 10000 counts are 1, so vJoy's scale represents these fractions exactly: 09C4, 03E8, 1388, 0BB8.
   Rig rig(StickFamily::vjoy);
   rig.enable();
   const std::string block = full_spring(rig);
@@ -150,7 +153,7 @@ TEST_CASE("dead band, centre, coefficients on either side and saturation of a co
   rig.hand.target.push = {-2.0, 0.0};
   rig.run(6000);
   CHECK(rig.stick.position().x == doctest::Approx(centre - dead - 2.0 / 100.0).epsilon(1e-9));
-  rig.hand.target.push = {6.5, 0.0};  // more than the 6 N at which it saturates: on to the stop
+  rig.hand.target.push = {6.5, 0.0};  // more than the 6 N of saturation: moves on to the stop
   rig.run(4000);
   CHECK(rig.stick.position().x == doctest::Approx(0.070).epsilon(1e-6));
   CHECK(rig.stick.force().x == doctest::Approx(-6.0).epsilon(1e-9));
@@ -159,7 +162,7 @@ TEST_CASE("dead band, centre, coefficients on either side and saturation of a co
   CHECK(rig.stick.force().x == 0.0);
 }
 
-TEST_CASE("a damper lets a push go at F / (b + D), D being the full force at a metre per second") {
+TEST_CASE("under a damper a push moves at F / (b + D), with D the full force at 1 m/s") {
   for (StickFamily family : kFamilies) {
     CAPTURE(stick_family_name(family));
     Rig rig(family);
@@ -172,7 +175,7 @@ TEST_CASE("a damper lets a push go at F / (b + D), D being the full force at a m
 }
 
 TEST_CASE("a force comes from its direction, clockwise from the far side (PID 1.0 section 4.2)") {
-  // 0 pushes towards the user, 90 degrees left, 180 away, 270 right. 64 of 256, 9000, 8192 of 32767 are 90 degrees.
+  // 0 pushes towards the user, 90 degrees left, 180 away, 270 right. 90 degrees are 64 of 256, 9000, 8192 of 32767.
   const char* sidewinder[] = {"00", "40", "80", "C0"};
   const char* openffboard[] = {"00 00", "28 23", "50 46", "78 69"};
   const char* vjoy[] = {"00 00", "00 20", "00 40", "FF 5F"};
@@ -198,7 +201,7 @@ TEST_CASE("a force comes from its direction, clockwise from the far side (PID 1.
   }
 }
 
-TEST_CASE("signs turn constant forces and springs, each on its axis") {
+TEST_CASE("polarity inverts constant forces and springs, each on its axis") {
   EmulatedStickConfig config = plain(StickFamily::vjoy);
   config.constant_sign = {-1, 1};
   config.spring_sign = {1, -1};
@@ -218,7 +221,7 @@ TEST_CASE("signs turn constant forces and springs, each on its axis") {
 }
 
 TEST_CASE(
-    "an effect of 300 ms pushes for 300 periods of a millisecond, twice that with two loops; a start begins anew") {
+    "an effect of 300 ms pushes for 300 periods of a millisecond, twice that with two loops; a start restarts it") {
   for (StickFamily family : kFamilies) {
     CAPTURE(stick_family_name(family));
     Rig rig(family);
@@ -242,7 +245,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("no duration and the greatest one last for ever") {
+TEST_CASE("a duration of zero and the maximum one never end") {
   for (const char* duration : {"00 00", "FF 7F", "FF FF"}) {
     Rig rig(StickFamily::openffboard);
     rig.load(1);
@@ -268,7 +271,7 @@ TEST_CASE("the start delay of an effect, and the delay of the device") {
   }
 }
 
-TEST_CASE("gains of effect and device multiply; all forces together are at most the full one") {
+TEST_CASE("gains of effect and device multiply; all forces together are at most the full force") {
   Rig rig(StickFamily::sidewinder);
   rig.enable();
   const std::string block = constant_to_the_right(rig);
@@ -288,20 +291,20 @@ TEST_CASE("gains of effect and device multiply; all forces together are at most 
   CHECK(rig.stick.force().x == -20.0);
 }
 
-TEST_CASE("the pool: lowest block first, full, freed, taken again; types that there are not") {
+TEST_CASE("the pool: lowest block first, full, freed, used again; unknown types") {
   EmulatedStickConfig config = plain(StickFamily::sidewinder);
   config.blocks = 3;
-  Rig rig(config);  // block 1 is its centring spring: hid-pidff of Linux looks for a first block that is 2
+  Rig rig(config);  // block 1 is its centring spring: Linux' hid-pidff expects the first block to be 2
   CHECK(rig.load(1) == hex("02 02 01 40 00"));  // block 2, success, 64 bytes left
   CHECK(rig.load(8) == hex("02 03 01 20 00"));
   CHECK(rig.load(9) == hex("02 04 01 00 00"));
   CHECK(rig.load(1) == hex("02 00 02 00 00"));  // full
   rig.out("0B 03");
-  rig.out("0B 01");  // is not the host's to free
+  rig.out("0B 01");  // must not be freed by the host
   CHECK(rig.load(1) == hex("02 03 01 00 00"));
   rig.out("0B 02");
   CHECK(rig.load(13) == hex("02 00 03 20 00"));     // error
-  CHECK(*rig.get(0x303) == hex("03 60 00 03 01"));  // 96 bytes, 3 at once, managed by the device
+  CHECK(*rig.get(0x303) == hex("03 60 00 03 01"));  // 96 bytes, 3 simultaneous effects, managed by the device
 
   CHECK((*Rig(StickFamily::openffboard).get(0x313))[3] == 40);
   CHECK((*Rig(StickFamily::vjoy).get(0x313))[3] == 100);
@@ -345,7 +348,7 @@ TEST_CASE("device control (PID 1.0): enable, disable, stop all, reset, pause, co
     CHECK(rig.stick.force().x == 0.0);
     control("01");
     rig.run(100);
-    control("05");  // time stands still for it
+    control("05");  // time does not pass for the effect
     CHECK(rig.stick.force().x == 0.0);
     rig.run(500);
     control("06");
@@ -381,7 +384,7 @@ TEST_CASE("OpenFFBoard's one switch: pause, stop all and reset turn it off, sett
   rig.out("0C 08");
   CHECK_FALSE(rig.stick.actuators_on());
   CHECK(rig.stick.playing() == 0);
-  rig.out("0C 00");  // what hid-pidff of Linux 6.1 makes of a reset
+  rig.out("0C 00");  // what Linux 6.1's hid-pidff sends as a reset
   CHECK_FALSE(rig.stick.actuators_on());
 }
 
@@ -401,13 +404,13 @@ TEST_CASE("solo stops the others, stop stops one") {
   CHECK(rig.stick.playing() == 0);
 }
 
-TEST_CASE("the lever's report: rest, right, forward, buttons, in the bits that the descriptors give them") {
+TEST_CASE("the lever's report: rest, right, forward, buttons, in the bits that the descriptors define") {
   struct Case {
     StickFamily family;
     const char *rest, *right, *forward;  // up to and with Y
     std::size_t size, from;
   };
-  // SideWinder: 10 bits of two bytes, -512 to 511, the middle between -1 and 0. The others are worked likewise.
+  // SideWinder: 10 bits in two bytes, -512 to 511, with the middle between -1 and 0. The others were derived likewise.
   const Case cases[] = {
       {StickFamily::sidewinder, "00 00 00 00", "FF 01 00 00", "00 00 00 02", 13, 1},
       {StickFamily::openffboard, "00 00 00 00", "FF 7F 00 00", "00 00 01 80", 25, 9},
@@ -436,7 +439,7 @@ TEST_CASE("the lever's report: rest, right, forward, buttons, in the bits that t
   }
 }
 
-TEST_CASE("reports come every interval, or when something changes, each once") {
+TEST_CASE("reports come every interval, or on a change, each once") {
   EmulatedStickConfig config = plain(StickFamily::sidewinder);
   config.input_interval = 0.004;
   Rig rig(config);
@@ -450,32 +453,32 @@ TEST_CASE("reports come every interval, or when something changes, each once") {
   }
   CHECK(reports == 25);
 
-  config.reports_changes_alone = true;
+  config.reports_only_changes = true;
   Rig still(config);
   still.run(4);
   CHECK(still.stick.input());
   still.run(100);
   CHECK_FALSE(still.stick.input());
-  CHECK(still.stick.time_ns() - still.stick.told_ns() == 100 * kStickMs);
+  CHECK(still.stick.time_ns() - still.stick.fetched_ns() == 100 * kStickMs);
   CHECK(still.get(0x101));
-  CHECK(still.stick.told_ns() == still.stick.time_ns());
+  CHECK(still.stick.fetched_ns() == still.stick.time_ns());
   still.stick.place({0.01, 0.0});
   still.run(4);
   CHECK(still.stick.input());
 }
 
-TEST_CASE("state reports after changes: SideWinder's with the block, OpenFFBoard's without, none of vJoy's") {
+TEST_CASE("state reports after changes: SideWinder's with the block, OpenFFBoard's without, none on vJoy") {
   Rig rig(StickFamily::sidewinder);
   rig.enable();
   CHECK(*rig.stick.input() == hex("02 16 00"));  // actuators, safety switch and power; block 0
   const std::string block = constant_to_the_right(rig);
   CHECK(*rig.stick.input() == hex("02 16 04"));  // block 2 set
   rig.start(block);
-  CHECK(*rig.stick.input() == hex("02 16 05"));  // and plays
+  CHECK(*rig.stick.input() == hex("02 16 05"));  // and playing
   rig.run(299);
   while (const auto report = rig.stick.input()) CHECK((*report)[0] == 1);
   rig.run(1);
-  CHECK(*rig.stick.input() == hex("02 16 04"));  // over
+  CHECK(*rig.stick.input() == hex("02 16 04"));  // ended
   CHECK(*rig.get(0x102) == hex("02 16 04"));
 
   Rig board(StickFamily::openffboard);
@@ -491,7 +494,7 @@ TEST_CASE("state reports after changes: SideWinder's with the block, OpenFFBoard
   CHECK(*feeder.get(0x314) == hex("14 01"));
 }
 
-TEST_CASE("a stick that lies: jumps, short reports, the same for ever, silence, outputs stalled") {
+TEST_CASE("faults: jumps, short reports, the same report forever, silence, outputs stalled") {
   Rig rig(StickFamily::openffboard);
   rig.stick.faults.jump = true;
   int jumps = 0;
@@ -527,7 +530,7 @@ TEST_CASE("a stick that lies: jumps, short reports, the same for ever, silence, 
   CHECK_FALSE(rig.out("0C 01"));
 }
 
-TEST_CASE("reports that it does not know or that are too short stall; vJoy has no pipe for outputs") {
+TEST_CASE("unknown or short reports stall; vJoy has no pipe for outputs") {
   for (StickFamily family : kFamilies) {
     CAPTURE(stick_family_name(family));
     Rig rig(family);
@@ -570,7 +573,7 @@ TEST_CASE("descriptors: lengths that agree, endpoints, strings; idle and configu
     CHECK(*descriptor(3, 0, 0x80) == hex("04 03 09 04"));
     CHECK(descriptor(3, 2, 0x80));
     CHECK_FALSE(descriptor(3, 9, 0x80));
-    CHECK_FALSE(descriptor(6, 0, 0x80));  // no device qualifier: it is of full speed
+    CHECK_FALSE(descriptor(6, 0, 0x80));  // no device qualifier, because it is full speed
     CHECK(rig.stick.control({0x00, 9, 1, 0, 0}, {}));
     CHECK(*rig.stick.control({0x80, 8, 0, 0, 1}, {}) == hex("01"));
     CHECK(rig.stick.control({0x21, 10, 0x0800, 0, 0}, {}));
@@ -578,7 +581,7 @@ TEST_CASE("descriptors: lengths that agree, endpoints, strings; idle and configu
   }
 }
 
-TEST_CASE("what is told is kept for byte logs; unplugged, it forgets all") {
+TEST_CASE("messages are logged; an unplug resets everything") {
   Rig rig(StickFamily::sidewinder);
   rig.enable();
   rig.start(constant_to_the_right(rig));
@@ -595,7 +598,7 @@ TEST_CASE("what is told is kept for byte logs; unplugged, it forgets all") {
   CHECK(rig.load(1)[1] == 2);
 }
 
-TEST_CASE("the same calls give the same motion, bit for bit, and however time is cut") {
+TEST_CASE("the same calls give the same motion, bit for bit, in steps of any length") {
   const auto drive = [](std::int64_t step_ns) {
     Rig rig(StickFamily::openffboard);
     rig.hand.target.push = {3.0, 1.0};

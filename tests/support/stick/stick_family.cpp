@@ -1,6 +1,6 @@
 // This work is based on:
 // USB Implementers' Forum. Device Class Definition for Physical Interface Devices (PID), version 1.0. 1999
-// and on the three report descriptors of tests/data/hid, read by eye: README.md shows how.
+// and on the three report descriptors of tests/data/hid, read by hand: README.md shows how.
 #include "tests/support/stick/stick_family.h"
 
 #include <array>
@@ -9,7 +9,7 @@
 #include <stdexcept>
 #include <string>
 
-namespace gearshift {
+namespace gearshift::test {
 namespace {
 
 constexpr StickNumber u8(std::size_t at) {
@@ -22,13 +22,13 @@ constexpr StickNumber s16(std::size_t at) {
   return {at, 2, true};
 }
 
-// Bytes: 1 block, 2 type, 3 duration, 5 trigger repeat, 7 sample period, 9 gain, 10 trigger button, 11 axes,
-// 12 directions of a byte, 14 start delay.
+// Bytes: 1 block, 2 type, 3 duration, 5 trigger repeat, 7 sample period, 9 gain, 10 trigger button, 11 axes, 12
+// one-byte directions, 14 start delay.
 SetEffectBytes short_set_effect() {
   return {{0x01, 16}, u16(3), u16(14), 9, 11, u8(12), u8(13), 256.0};
 }
 
-// The start delay comes before the gain, directions are of two bytes, and two type specific offsets end it.
+// The start delay comes before the gain, directions have two bytes, and two type-specific offsets are at the end.
 SetEffectBytes long_set_effect(std::uint8_t id, double full_turn) {
   return {{id, 22}, u16(3), u16(9), 11, 13, u16(14), u16(16), full_turn};
 }
@@ -71,7 +71,7 @@ StickFamilyTable sidewinder() {
   table.block_load = {0x02, 5};
   table.pool = {0x03, 5};
   table.last_type = 12;
-  table.habits.first_block = 2;
+  table.quirks.first_block = 2;
   return table;
 }
 
@@ -101,8 +101,8 @@ StickFamilyTable openffboard() {
   table.block_load = {0x12, 5};
   table.pool = {0x13, 5};
   table.last_type = 11;
-  table.habits.control_bits = true;
-  table.habits.board_control = true;
+  table.quirks.control_bits = true;
+  table.quirks.board_control = true;
   return table;
 }
 
@@ -132,7 +132,7 @@ StickFamilyTable vjoy() {
   table.pool = {0x13, 5};
   table.block_state = {0x14, 2};
   table.last_type = 12;
-  table.habits.last_block = 100;
+  table.quirks.last_block = 100;
   return table;
 }
 
@@ -178,4 +178,4 @@ std::vector<std::uint8_t> stick_report_descriptor(StickFamily family) {
   return bytes;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

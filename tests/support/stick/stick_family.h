@@ -1,4 +1,4 @@
-// What differs between the families: their plugs, and which byte of which report means what. Worked by hand from the
+// Differences between the families: their USB descriptors, and the bytes of their reports. Derived by hand from the
 // devices' report descriptors (tests/data/hid), so that our parser and these tables check each other.
 #pragma once
 
@@ -9,20 +9,20 @@
 
 #include "tests/support/stick/emulated_stick.h"
 
-namespace gearshift {
+namespace gearshift::test {
 
 using StickReport = std::vector<std::uint8_t>;  // ID first
 
-// A number in a report, its low byte first.
+// A number in a report, little-endian.
 struct StickNumber {
-  std::size_t at = 0;  // [bytes] from the report's ID
-  int bytes = 0;       // 0: there is none
+  std::size_t at = 0;  // [bytes] offset from the report's ID
+  int bytes = 0;       // 0: no such number
   bool is_signed = false;
 };
 std::int64_t read_number(std::span<const std::uint8_t> report, StickNumber number) noexcept;
 void write_number(std::span<std::uint8_t> report, StickNumber number, std::int64_t value) noexcept;
 
-// The same as a share: of `most` above zero, of -`least` below.
+// A number in a report as a fraction: of `most` above zero, of -`least` below.
 struct StickShare {
   StickNumber number;
   double most = 1.0, least = 0.0;
@@ -31,21 +31,21 @@ double read_share(std::span<const std::uint8_t> report, const StickShare& share)
 
 struct ReportShape {
   std::uint8_t id = 0;
-  std::size_t size = 0;  // [bytes] ID included; 0: there is none
+  std::size_t size = 0;  // [bytes] ID included; 0: no such report
 };
 
 struct LeverBytes : ReportShape {
   StickNumber x, y;
   double low = 0.0, high = 0.0;  // [counts] of the axes
-  int bits = 16;                 // of an axis; the bits above are padding
-  std::size_t buttons_at = 0;    // button 1 is the lowest bit there
-  std::size_t hat_at = 0;        // where the hat's "not pressed" (8) stands; 0: there is no hat
+  int bits = 16;                 // per axis; the bits above are padding
+  std::size_t buttons_at = 0;    // button 1 is the lowest bit of this byte
+  std::size_t hat_at = 0;        // byte of the hat, which reports 8 (not pressed); 0: no hat
 };
 struct SetEffectBytes : ReportShape {
   StickNumber duration, start_delay;     // [ms]
   std::size_t gain_at = 0, axes_at = 0;  // gain 0 to 255; axes: bit 0 X, 1 Y, 2 direction
   StickNumber direction_x, direction_y;
-  double full_turn = 0.0;  // [counts] of a direction
+  double full_turn = 0.0;  // [counts] per full turn of a direction
 };
 struct ConditionBytes : ReportShape {
   StickShare centre, positive, negative, positive_saturation, negative_saturation, dead_band;
@@ -54,11 +54,11 @@ struct ConstantBytes : ReportShape {
   StickShare magnitude;
 };
 
-// How it does what PID 1.0 leaves open, or does otherwise.
-struct StickHabits {
-  int first_block = 1;  // what is below is its own: block 1 of the SideWinder is its centring spring
+// Choices that PID 1.0 leaves open, and deviations from it.
+struct StickQuirks {
+  int first_block = 1;  // lower blocks are built in: block 1 of the SideWinder is its centring spring
   int last_block = 40;
-  bool control_bits = false;   // device control: a bit each instead of a number from 1 to 6
+  bool control_bits = false;   // device control: one bit each instead of a number from 1 to 6
   bool board_control = false;  // OpenFFBoard: one switch for actuators, pause and stop all; a reset turns it off, and
                                // setting an effect turns it on
 };
@@ -67,23 +67,23 @@ struct StickFamilyTable {
   const char* name;
   std::uint16_t vendor, product, usb_version, device_version;
   const char *maker, *product_name, *serial;  // serial "": none
-  std::uint8_t endpoint_in, endpoint_out;     // endpoint_out 0: outputs go by the control pipe
+  std::uint8_t endpoint_in, endpoint_out;     // endpoint_out 0: outputs use the control pipe
   LeverBytes lever;
-  ReportShape state;  // of 3 bytes: with the effect's block; of 2 bytes: without; size 0: it sends none
+  ReportShape state;  // 3 bytes: with the effect's block; 2 bytes: without; size 0: not sent
   SetEffectBytes set_effect;
   ConditionBytes condition;
   ConstantBytes constant;
   ReportShape operation, block_free, control, gain;
-  std::vector<ReportShape> other_outputs;  // taken, and nothing comes of them
+  std::vector<ReportShape> other_outputs;  // accepted without effect
   ReportShape create, block_load, pool;    // features
-  ReportShape block_state;                 // feature, vJoy alone
+  ReportShape block_state;                 // feature, only on vJoy
   std::uint8_t last_type;                  // effects are numbered from 1: 1 constant, 8 spring, 9 damper
-  StickHabits habits;
+  StickQuirks quirks;
 };
 
 const StickFamilyTable& stick_family(StickFamily family) noexcept;
 
-// The family's report descriptor, from tests/data/hid. Throws std::runtime_error where the file cannot be read.
+// The family's report descriptor, from tests/data/hid. Throws std::runtime_error if the file cannot be read.
 std::vector<std::uint8_t> stick_report_descriptor(StickFamily family);
 
-}  // namespace gearshift
+}  // namespace gearshift::test

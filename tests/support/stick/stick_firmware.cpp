@@ -1,6 +1,6 @@
 // This work is based on:
 // USB Implementers' Forum. Device Class Definition for Physical Interface Devices (PID), version 1.0. 1999
-// OpenFFBoard's firmware, HidFFB.cpp, for what it does otherwise: StickHabits::board_control
+// OpenFFBoard's firmware, HidFFB.cpp, for its deviations: StickQuirks::board_control
 #include "tests/support/stick/stick_firmware.h"
 
 #include <algorithm>
@@ -8,20 +8,20 @@
 #include <cstddef>
 #include <numbers>
 
-namespace gearshift {
+namespace gearshift::test {
 namespace {
 
-constexpr std::size_t kMostStates = 16;            // reports that wait to be sent
-constexpr int kBytesPerBlock = 32;                 // of its memory
-constexpr std::int64_t kEndlessDuration = 0x7fff;  // [ms] the greatest logical value, and beyond
+constexpr std::size_t kMaxStates = 16;             // queued reports
+constexpr int kBytesPerBlock = 32;                 // of effect memory
+constexpr std::int64_t kEndlessDuration = 0x7fff;  // [ms] the maximum logical value and above
 constexpr std::int64_t kMillisecond = 1'000'000;   // [ns]
 constexpr int kConstantType = 1, kSpringType = 8, kDamperType = 9;
 enum Control { enable_actuators = 1, disable_actuators, stop_all, reset_all, pause_all, continue_all };
 enum Operation { start_effect = 1, start_solo, stop_effect };
 
-// Where a constant force pushes, on the device's axes. A direction is where the force comes from, clockwise from the far
-// side (PID 1.0 section 4.2): from the right (90 degrees) pushes left, from the far side (0) towards the user, which is
-// Y +. Without directions the two are components, 180 degrees being none.
+// Direction in which a constant force pushes, on the device's axes. The encoded direction is where the force comes
+// from, clockwise from the far side (PID 1.0 section 4.2): from the right (90 degrees) pushes left, from the far side
+// (0) towards the user, which is Y +. Without directions the two values are components, with 180 degrees as zero.
 glm::dvec2 push_direction(const SetEffectBytes& bytes, std::span<const std::uint8_t> report) noexcept {
   const std::uint8_t axes = report[bytes.axes_at];
   const auto x = static_cast<double>(read_number(report, bytes.direction_x));
@@ -38,9 +38,9 @@ glm::dvec2 push_direction(const SetEffectBytes& bytes, std::span<const std::uint
 
 StickFirmware::StickFirmware(const StickFamilyTable& family, int blocks, bool finite_refused)
     : family_(family),
-      blocks_(blocks > 0 ? blocks : family.habits.last_block - family.habits.first_block + 1),
+      blocks_(blocks > 0 ? blocks : family.quirks.last_block - family.quirks.first_block + 1),
       finite_refused_(finite_refused),
-      effects_(family.habits.first_block - 1 + blocks_) {
+      effects_(family.quirks.first_block - 1 + blocks_) {
   power_off();
 }
 
@@ -54,20 +54,20 @@ void StickFirmware::power_off() noexcept {
 void StickFirmware::reset() noexcept {
   effects_.free_all();
   paused_ = false;
-  actuators_ = !family_.habits.board_control;
+  actuators_ = !family_.quirks.board_control;
   load_block_ = 0;
   load_status_ = BlockStatus::error;
-  if (family_.habits.first_block > 1) take_spring();
+  if (family_.quirks.first_block > 1) create_centring_spring();
 }
 
-// The block that is not the host's to create: a spring towards the middle, which plays when it is told to.
-void StickFirmware::take_spring() noexcept {
+// A block that the host does not create: a centring spring, which plays when started.
+void StickFirmware::create_centring_spring() noexcept {
   DeviceEffect* spring = effects_.find(effects_.create());
   spring->settings = {true, EffectKind::spring, 0, 0, 1.0, {}, {true, true}};
   spring->condition.fill({true, 0.0, 0.0, 1.0, 1.0, 1.0, 1.0});
 }
 
-bool StickFirmware::knows_output(std::span<const std::uint8_t> report) const noexcept {
+bool StickFirmware::accepts_output(std::span<const std::uint8_t> report) const noexcept {
   const auto fits = [&](const ReportShape& shape) {
     return shape.size > 0 && report.size() == shape.size && report[0] == shape.id;
   };
@@ -77,7 +77,7 @@ bool StickFirmware::knows_output(std::span<const std::uint8_t> report) const noe
 }
 
 void StickFirmware::output(std::span<const std::uint8_t> report, std::int64_t now_ns) {
-  if (!knows_output(report)) return;
+  if (!accepts_output(report)) return;
   const std::uint8_t id = report[0];
   if (id == family_.set_effect.id) {
     set_effect(report);
@@ -88,7 +88,7 @@ void StickFirmware::output(std::span<const std::uint8_t> report, std::int64_t no
   } else if (id == family_.operation.id) {
     operate(report, now_ns);
   } else if (id == family_.block_free.id) {
-    if (report[1] >= family_.habits.first_block) effects_.free(report[1]);
+    if (report[1] >= family_.quirks.first_block) effects_.free(report[1]);
   } else if (id == family_.control.id) {
     control(report[1]);
   } else if (id == family_.gain.id) {
@@ -120,7 +120,7 @@ void StickFirmware::set_effect(std::span<const std::uint8_t> report) {
     return;
   }
   EffectSettings& settings = effect->settings;
-  settings.given = true;
+  settings.is_set = true;
   settings.kind = kind_of(report[2]);
   settings.duration_ns = finite ? duration * kMillisecond : 0;
   settings.delay_ns = read_number(report, bytes.start_delay) * kMillisecond;
@@ -128,8 +128,8 @@ void StickFirmware::set_effect(std::span<const std::uint8_t> report) {
   settings.direction = push_direction(bytes, report);
   const std::uint8_t axes = report[bytes.axes_at];
   settings.axis = {(axes & 5) != 0, (axes & 6) != 0};
-  if (family_.habits.board_control) actuators_ = true;
-  tell_state(report[1]);
+  if (family_.quirks.board_control) actuators_ = true;
+  queue_state(report[1]);
 }
 
 void StickFirmware::set_condition(std::span<const std::uint8_t> report) noexcept {
@@ -138,7 +138,7 @@ void StickFirmware::set_condition(std::span<const std::uint8_t> report) noexcept
   if (effect == nullptr || axis >= effect->condition.size()) return;
   const ConditionBytes& bytes = family_.condition;
   AxisCondition& condition = effect->condition[axis];
-  condition.given = true;
+  condition.is_set = true;
   condition.centre = read_share(report, bytes.centre);
   condition.dead_band = read_share(report, bytes.dead_band);
   condition.positive = read_share(report, bytes.positive);
@@ -157,18 +157,18 @@ void StickFirmware::operate(std::span<const std::uint8_t> report, std::int64_t n
   } else {
     effects_.start(*effect, report[3], now_ns);
   }
-  tell_state(report[1]);
+  queue_state(report[1]);
 }
 
-void StickFirmware::control(std::uint8_t told) {
-  if (!family_.habits.control_bits) {
-    control_by_number(told);
+void StickFirmware::control(std::uint8_t value) {
+  if (!family_.quirks.control_bits) {
+    control_by_number(value);
   } else {
     for (int number = enable_actuators; number <= continue_all; ++number) {
-      if ((told >> (number - 1) & 1) != 0) control_by_switch(number);
+      if ((value >> (number - 1) & 1) != 0) control_by_switch(number);
     }
   }
-  tell_state(state_block_);
+  queue_state(state_block_);
 }
 
 void StickFirmware::control_by_number(int number) {
@@ -228,7 +228,7 @@ std::optional<StickReport> StickFirmware::feature(std::uint8_t id) const {
   }
   if (id == family_.pool.id) {
     const int ram = blocks_ * kBytesPerBlock;
-    return StickReport{id, low(ram), high(ram), low(blocks_), 0x01};  // it manages its memory by itself
+    return StickReport{id, low(ram), high(ram), low(blocks_), 0x01};  // managed by the device
   }
   if (family_.block_state.size > 0 && id == family_.block_state.id) return StickReport{id, low(state_block_)};
   return std::nullopt;
@@ -250,10 +250,10 @@ StickReport StickFirmware::state() const {
   return {};
 }
 
-void StickFirmware::tell_state(int block) {
+void StickFirmware::queue_state(int block) {
   state_block_ = block;
   if (family_.state.size == 0) return;
-  if (states_.size() == kMostStates) states_.pop_front();
+  if (states_.size() == kMaxStates) states_.pop_front();
   states_.push_back(state());
 }
 
@@ -272,7 +272,7 @@ void StickFirmware::set_clock(std::int64_t now_ns) noexcept {
 void StickFirmware::advance(std::int64_t now_ns) {
   if (paused_) effects_.postpone(now_ns - now_ns_);
   now_ns_ = now_ns;
-  for (int block : effects_.expire(now_ns)) tell_state(block);
+  for (int block : effects_.expire(now_ns)) queue_state(block);
 }
 
 EffectForces StickFirmware::forces(const DeviceMotion& motion, std::int64_t now_ns) const noexcept {
@@ -284,4 +284,4 @@ EffectForces StickFirmware::forces(const DeviceMotion& motion, std::int64_t now_
   return forces;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

@@ -1,5 +1,5 @@
-// The program inside a stick: what reports it takes, what it answers, and what its effects push. Knows neither USB nor the
-// lever.
+// The firmware of a stick: accepts reports, answers requests, and computes the forces of its effects. Independent of
+// USB and of the lever.
 #pragma once
 
 #include <cstdint>
@@ -10,47 +10,47 @@
 #include "tests/support/stick/device_effects.h"
 #include "tests/support/stick/stick_family.h"
 
-namespace gearshift {
+namespace gearshift::test {
 
 class StickFirmware {
  public:
   enum class BlockStatus : std::uint8_t { success = 1, full = 2, error = 3 };
 
-  // blocks: of its pool, 0: as the family has it.
+  // blocks: size of the pool; 0: as usual for the family.
   StickFirmware(const StickFamilyTable& family, int blocks, bool finite_refused);
 
   void power_off() noexcept;
 
-  // Reports, ID first. false, nothing: it knows no such report, or its length is wrong.
-  bool knows_output(std::span<const std::uint8_t> report) const noexcept;
+  // Reports, with the ID first. False or empty: the report is unknown or has the wrong length.
+  bool accepts_output(std::span<const std::uint8_t> report) const noexcept;
   void output(std::span<const std::uint8_t> report, std::int64_t now_ns);
   bool set_feature(std::span<const std::uint8_t> report);
   std::optional<StickReport> feature(std::uint8_t id) const;
 
   StickReport state() const;                // as an input report; empty: the family has none
-  std::optional<StickReport> take_state();  // the next that is to be sent
+  std::optional<StickReport> take_state();  // the next one to send
 
-  void set_clock(std::int64_t now_ns) noexcept;  // no time passes by that
-  void advance(std::int64_t now_ns);             // ends what is over
+  void set_clock(std::int64_t now_ns) noexcept;  // without letting time pass
+  void advance(std::int64_t now_ns);             // ends effects whose time is over
   EffectForces forces(const DeviceMotion& motion, std::int64_t now_ns) const noexcept;
 
   bool actuators() const noexcept { return actuators_; }
   int playing() const noexcept { return effects_.playing(); }
 
-  std::optional<BlockStatus> refusal;  // what every create is answered with, whatever there is
+  std::optional<BlockStatus> refusal;  // answer to every create request, if set
 
  private:
-  void take_spring() noexcept;
+  void create_centring_spring() noexcept;
   void set_effect(std::span<const std::uint8_t> report);
   void set_constant(std::span<const std::uint8_t> report) noexcept;
   void set_condition(std::span<const std::uint8_t> report) noexcept;
   void operate(std::span<const std::uint8_t> report, std::int64_t now_ns);
-  void control(std::uint8_t told);
+  void control(std::uint8_t value);
   void control_by_number(int number);
   void control_by_switch(int number);
   void reset() noexcept;
   void create(int type) noexcept;
-  void tell_state(int block);
+  void queue_state(int block);
   EffectKind kind_of(int type) const noexcept;
 
   const StickFamilyTable& family_;
@@ -66,4 +66,4 @@ class StickFirmware {
   std::deque<StickReport> states_;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::test

@@ -7,10 +7,10 @@
 #include <cmath>
 #include <string_view>
 
-namespace gearshift {
+namespace gearshift::test {
 namespace {
 
-constexpr std::uint8_t kPacket = 64;  // [bytes] the most of a packet at full speed
+constexpr std::uint8_t kPacket = 64;  // [bytes] maximum packet size at full speed
 
 std::uint8_t low(std::size_t value) {
   return static_cast<std::uint8_t>(value);
@@ -55,7 +55,7 @@ std::vector<std::uint8_t> make_configuration_descriptor(const StickFamilyTable& 
                                                         double input_interval) {
   const auto interval = static_cast<std::uint8_t>(std::clamp(std::ceil(input_interval * 1e3 - 1e-6), 1.0, 255.0));
   const std::uint8_t endpoints = family.endpoint_out != 0 ? 2 : 1;
-  std::vector<std::uint8_t> bytes{9, 2, 0, 0, 1, 1, 0, 0x80, 50};  // one interface, from the bus, 100 mA
+  std::vector<std::uint8_t> bytes{9, 2, 0, 0, 1, 1, 0, 0x80, 50};  // one interface, bus-powered, 100 mA
   add(bytes, {9, 4, 0, 0, endpoints, 3, 0, 0, 0});
   add(bytes, {9, 0x21, 0x11, 0x01, 0, 1, 0x22, low(report_descriptor), high(report_descriptor)});
   add(bytes, interrupt_endpoint(family.endpoint_in, interval));
@@ -75,4 +75,4 @@ std::vector<std::uint8_t> make_string_descriptor(const StickFamilyTable& family,
   return bytes;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

@@ -1,4 +1,4 @@
-// What a stick says of itself when it is plugged in: USB 2.0 chapter 9, HID 1.11 section 6.2.1.
+// USB descriptors of the emulated sticks: USB 2.0 chapter 9, HID 1.11 section 6.2.1.
 #pragma once
 
 #include <cstddef>
@@ -7,12 +7,12 @@
 
 #include "tests/support/stick/stick_family.h"
 
-namespace gearshift {
+namespace gearshift::test {
 
 std::vector<std::uint8_t> make_device_descriptor(const StickFamilyTable& family);
-// input_interval [s], rounded up to whole milliseconds. With interface, HID and endpoint descriptors.
+// input_interval [s], rounded up to whole milliseconds. Includes interface, HID and endpoint descriptors.
 std::vector<std::uint8_t> make_configuration_descriptor(const StickFamilyTable& family, std::size_t report_descriptor,
                                                         double input_interval);
-std::vector<std::uint8_t> make_string_descriptor(const StickFamilyTable& family, int index);  // empty: it has none
+std::vector<std::uint8_t> make_string_descriptor(const StickFamilyTable& family, int index);  // empty: no such string
 
-}  // namespace gearshift
+}  // namespace gearshift::test

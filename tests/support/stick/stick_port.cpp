@@ -12,10 +12,10 @@
 
 #include "tests/support/stick/stick_family.h"
 
-namespace gearshift {
+namespace gearshift::test {
 namespace {
 
-constexpr std::int64_t kDeadNs = 250'000'000;  // [ns] without an answer
+constexpr std::int64_t kMaxSilenceNs = 250'000'000;  // [ns] without an answer
 constexpr std::uint16_t kInput = 0x0100, kOutput = 0x0200, kFeature = 0x0300;
 
 std::int64_t monotonic_ns() {
@@ -24,9 +24,9 @@ std::int64_t monotonic_ns() {
   return std::int64_t{now.tv_sec} * 1'000'000'000 + now.tv_nsec;
 }
 
-HidBytes hid_bytes(std::span<const std::uint8_t> report) {
-  HidBytes bytes;
-  bytes.size = std::min(report.size(), HidBytes::kMost);
+haptics::HidBytes hid_bytes(std::span<const std::uint8_t> report) {
+  haptics::HidBytes bytes;
+  bytes.size = std::min(report.size(), haptics::HidBytes::kMaxSize);
   std::copy_n(report.begin(), bytes.size, bytes.bytes.begin());
   return bytes;
 }
@@ -35,43 +35,44 @@ UsbSetup get_report(std::uint16_t kind, std::uint8_t id, std::size_t size) {
   return {0xA1, 1, static_cast<std::uint16_t>(kind | id), 0, static_cast<std::uint16_t>(size)};
 }
 
-bool set_report(EmulatedStick& stick, std::uint16_t kind, const HidBytes& report) {
+bool set_report(EmulatedStick& stick, std::uint16_t kind, const haptics::HidBytes& report) {
   const UsbSetup setup{0x21, 9, static_cast<std::uint16_t>(kind | report.id()), 0,
                        static_cast<std::uint16_t>(report.size)};
   return stick.control(setup, report.view()).has_value();
 }
 
 bool has_output_pipe(const EmulatedStick& stick) {
-  return stick.configuration_descriptor()[13] == 2;  // bNumEndpoints of the interface: the second is the output
+  return stick.configuration_descriptor()[13] == 2;  // bNumEndpoints of the interface: the second one is for output
 }
 
-void give(EmulatedStick& stick, const HidBytes& report) {
+void send_output(EmulatedStick& stick, const haptics::HidBytes& report) {
   const bool taken = has_output_pipe(stick) ? stick.output(report.view()) : set_report(stick, kOutput, report);
-  if (!taken) throw HidError("The stick does not take an output");
+  if (!taken) throw haptics::HidError("The stick does not accept an output");
 }
 
-void take_inputs(EmulatedStick& stick, const StreamConfig& config, HidStream& stream, std::int64_t now_ns) {
+void take_inputs(EmulatedStick& stick, const haptics::StreamConfig& config, haptics::HidStream& stream,
+                 std::int64_t now_ns) {
   stick.advance(now_ns);
   while (const auto report = stick.input()) stream.on_input(*report, now_ns);
-  const std::int64_t quiet_ns = now_ns - stick.told_ns();
+  const std::int64_t quiet_ns = now_ns - stick.fetched_ns();
   if (quiet_ns < config.silence_ns) return;
-  const auto asked = stick.control(get_report(kInput, config.lever_report, HidBytes::kMost), {});
+  const auto asked = stick.control(get_report(kInput, config.lever_report, haptics::HidBytes::kMaxSize), {});
   if (asked) {
     stream.on_input(*asked, now_ns);
-  } else if (quiet_ns >= kDeadNs) {
-    throw HidError("The stick does not answer any more");
+  } else if (quiet_ns >= kMaxSilenceNs) {
+    throw haptics::HidError("The stick no longer answers");
   }
 }
 
-bool give_output(EmulatedStick& stick, HidStream& stream, std::int64_t now_ns) {
-  const HidBytes output = stream.next_output(now_ns);
+bool send_next_output(EmulatedStick& stick, haptics::HidStream& stream, std::int64_t now_ns) {
+  const haptics::HidBytes output = stream.next_output(now_ns);
   if (output.size == 0) return false;
-  give(stick, output);
+  send_output(stick, output);
   stream.on_sent(now_ns);
   return true;
 }
 
-// Until that is written to, or so long.
+// Waits until the descriptor is written to, or for that time.
 void wait_for(int fd, std::int64_t ns) {
   pollfd wanted{fd, POLLIN, 0};
   const timespec time{0, static_cast<long>(std::clamp<std::int64_t>(ns, 0, 999'999'999))};
@@ -82,9 +83,10 @@ void wait_for(int fd, std::int64_t ns) {
 
 }  // namespace
 
-void tick_stick(EmulatedStick& stick, const StreamConfig& config, HidStream& stream, std::int64_t now_ns) {
+void tick_stick(EmulatedStick& stick, const haptics::StreamConfig& config, haptics::HidStream& stream,
+                std::int64_t now_ns) {
   take_inputs(stick, config, stream, now_ns);
-  give_output(stick, stream, now_ns);
+  send_next_output(stick, stream, now_ns);
 }
 
 StickPort::StickPort(EmulatedStick& stick, std::mutex& mutex, const std::atomic<bool>& plugged)
@@ -104,7 +106,7 @@ StickPort::StickPort(EmulatedStick& stick, std::mutex& mutex, const std::atomic<
   identity_.place = "emulated";
 }
 
-const HidIdentity& StickPort::identity() const noexcept {
+const haptics::HidIdentity& StickPort::identity() const noexcept {
   return identity_;
 }
 
@@ -112,52 +114,52 @@ const std::vector<std::uint8_t>& StickPort::report_descriptor() const noexcept {
   return stick_.report_descriptor();
 }
 
-// The stick, for one transfer over the control pipe.
+// Locks the stick for one control transfer, and simulates its duration.
 std::unique_lock<std::mutex> StickPort::begin_transfer() {
-  if (!plugged_) throw HidGone("The stick was unplugged");
+  if (!plugged_) throw haptics::HidGone("The stick was unplugged");
   std::unique_lock lock(mutex_);
   const auto slow = std::chrono::nanoseconds(static_cast<std::int64_t>(stick_.faults.slow * 1e9));
-  const std::chrono::nanoseconds longest(kDeadNs);
+  const std::chrono::nanoseconds longest(kMaxSilenceNs);
   if (slow.count() == 0) return lock;
   lock.unlock();
   std::this_thread::sleep_for(std::min(slow, longest));
-  if (!plugged_) throw HidGone("The stick was unplugged");
-  if (slow > longest) throw HidError("The stick does not answer within 250 ms");
+  if (!plugged_) throw haptics::HidGone("The stick was unplugged");
+  if (slow > longest) throw haptics::HidError("The stick does not answer within 250 ms");
   lock.lock();
   return lock;
 }
 
-HidBytes StickPort::get_feature(std::uint8_t id, std::size_t size) {
+haptics::HidBytes StickPort::get_feature(std::uint8_t id, std::size_t size) {
   const auto lock = begin_transfer();
   const auto answer = stick_.control(get_report(kFeature, id, size), {});
-  if (!answer) throw HidError("The stick does not answer to feature report " + std::to_string(id));
+  if (!answer) throw haptics::HidError("The stick does not answer to feature report " + std::to_string(id));
   return hid_bytes(*answer);
 }
 
-void StickPort::set_feature(const HidBytes& report) {
+void StickPort::set_feature(const haptics::HidBytes& report) {
   const auto lock = begin_transfer();
   if (!set_report(stick_, kFeature, report)) {
-    throw HidError("The stick does not take feature report " + std::to_string(report.id()));
+    throw haptics::HidError("The stick does not accept feature report " + std::to_string(report.id()));
   }
 }
 
-void StickPort::send(const HidBytes& report) {
+void StickPort::send(const haptics::HidBytes& report) {
   const auto lock = begin_transfer();
-  give(stick_, report);
+  send_output(stick_, report);
 }
 
-void StickPort::stream(const StreamConfig& config, HidStream& stream) {
+void StickPort::stream(const haptics::StreamConfig& config, haptics::HidStream& stream) {
   std::int64_t sent_ns = 0;
   while (!stream.should_end()) {
     std::int64_t now_ns = monotonic_ns();
     {
-      if (!plugged_) throw HidGone("The stick was unplugged");
+      if (!plugged_) throw haptics::HidGone("The stick was unplugged");
       const std::lock_guard lock(mutex_);
       take_inputs(stick_, config, stream, now_ns);
-      if (now_ns - sent_ns >= config.tick_ns && give_output(stick_, stream, now_ns)) sent_ns = now_ns;
+      if (now_ns - sent_ns >= config.tick_ns && send_next_output(stick_, stream, now_ns)) sent_ns = now_ns;
     }
-    const std::int64_t free_ns = sent_ns + config.tick_ns - now_ns;  // when the pipe is
-    // A wish that cannot be sent yet waits for the pipe; without one, for the wish.
+    const std::int64_t free_ns = sent_ns + config.tick_ns - now_ns;  // until the pipe is free
+    // If the pipe is busy, wait for it; otherwise wait for a new command.
     if (free_ns > 0) {
       wait_for(-1, free_ns);
     } else {
@@ -166,4 +168,4 @@ void StickPort::stream(const StreamConfig& config, HidStream& stream) {
   }
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

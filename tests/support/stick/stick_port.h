@@ -1,4 +1,4 @@
-// A port that leads straight to an emulated stick: no USB between. On the real clock by stream(), or tick by tick on any.
+// A port that connects directly to an emulated stick, without USB: in real time with stream(), or tick by tick.
 #pragma once
 
 #include <atomic>
@@ -7,24 +7,25 @@
 #include "haptics/hid/hid_port.h"
 #include "tests/support/stick/emulated_stick.h"
 
-namespace gearshift {
+namespace gearshift::test {
 
-// One tick: the stick moves on to now, what it reports goes to the stream, what the stream wants sent goes to it. Throws
-// HidError where it does not take it, or has not answered for 250 ms.
-void tick_stick(EmulatedStick& stick, const StreamConfig& config, HidStream& stream, std::int64_t now_ns);
+// One tick: advances the stick to now_ns, delivers its reports to the stream, and sends the stream's output. Throws
+// HidError if the output is not accepted, or the stick has not answered for 250 ms.
+void tick_stick(EmulatedStick& stick, const haptics::StreamConfig& config, haptics::HidStream& stream,
+                std::int64_t now_ns);
 
-class StickPort : public HidPort {
+class StickPort : public haptics::HidPort {
  public:
-  // plugged: false while it is not there: everything throws HidGone then. All of them must outlive the port; the mutex
-  // guards the stick while stream() runs on another thread.
+  // plugged: while false, every call throws HidGone. All arguments must outlive the port; the mutex guards the stick
+  // while stream() runs on another thread.
   StickPort(EmulatedStick& stick, std::mutex& mutex, const std::atomic<bool>& plugged);
 
-  const HidIdentity& identity() const noexcept override;
+  const haptics::HidIdentity& identity() const noexcept override;
   const std::vector<std::uint8_t>& report_descriptor() const noexcept override;
-  HidBytes get_feature(std::uint8_t id, std::size_t size) override;
-  void set_feature(const HidBytes& report) override;
-  void send(const HidBytes& report) override;
-  void stream(const StreamConfig& config, HidStream& stream) override;  // CLOCK_MONOTONIC
+  haptics::HidBytes get_feature(std::uint8_t id, std::size_t size) override;
+  void set_feature(const haptics::HidBytes& report) override;
+  void send(const haptics::HidBytes& report) override;
+  void stream(const haptics::StreamConfig& config, haptics::HidStream& stream) override;  // CLOCK_MONOTONIC
 
  private:
   std::unique_lock<std::mutex> begin_transfer();
@@ -32,7 +33,7 @@ class StickPort : public HidPort {
   EmulatedStick& stick_;
   std::mutex& mutex_;
   const std::atomic<bool>& plugged_;
-  HidIdentity identity_;
+  haptics::HidIdentity identity_;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::test

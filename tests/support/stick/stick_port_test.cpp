@@ -1,11 +1,12 @@
-// The port to an emulated stick keeps what haptics/hid/hid_port.h says of every port.
+// The port to an emulated stick keeps the contract of haptics/hid/hid_port.h.
 #include "tests/support/stick/stick_port.h"
 
 #include <vector>
 
 #include <doctest/doctest.h>
 
-using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
 
 namespace {
 
@@ -19,7 +20,7 @@ HidBytes report(std::initializer_list<std::uint8_t> bytes) {
 
 struct Listener final : HidStream {
   void on_input(std::span<const std::uint8_t> bytes, std::int64_t time_ns) noexcept override {
-    if (bytes[0] != 1) return;  // of its state
+    if (bytes[0] != 1) return;  // a state report
     ++inputs;
     last_input_ns = time_ns;
   }
@@ -39,7 +40,7 @@ struct Listener final : HidStream {
 struct PortRig {
   explicit PortRig(const EmulatedStickConfig& config) : stick(config, hand), port(stick, mutex, plugged) {}
 
-  RestingHand hand;
+  IdleHand hand;
   std::mutex mutex;
   std::atomic<bool> plugged{true};
   EmulatedStick stick;
@@ -73,7 +74,7 @@ TEST_CASE("identity, features and outputs, by a pipe or by SET_REPORT") {
   CHECK(feeder.stick.actuators_on());
 }
 
-TEST_CASE("what cannot be done is one sentence, what is gone is gone") {
+TEST_CASE("a failed request is one sentence, and an unplugged stick is HidGone") {
   PortRig rig(port_stick(StickFamily::sidewinder));
   CHECK_THROWS_AS(rig.port.get_feature(0x7E, 5), HidError);
   CHECK_THROWS_AS(rig.port.set_feature(report({0x7E, 1})), HidError);
@@ -89,9 +90,9 @@ TEST_CASE("what cannot be done is one sentence, what is gone is gone") {
   CHECK_THROWS_AS(rig.port.stream({}, listener), HidGone);
 }
 
-TEST_CASE("a tick brings a report and takes an output; a stick that is still is asked, a dead one is told of") {
+TEST_CASE("a tick delivers a report and sends an output; a silent stick is requested, a dead one is reported") {
   EmulatedStickConfig config = port_stick(StickFamily::sidewinder);
-  config.reports_changes_alone = true;
+  config.reports_only_changes = true;
   PortRig rig(config);
   Listener listener;
   StreamConfig stream;
@@ -100,7 +101,7 @@ TEST_CASE("a tick brings a report and takes an output; a stick that is still is 
   for (std::int64_t now = 0; now <= 100 * kPortMs; now += kPortMs) tick_stick(rig.stick, stream, listener, now);
   CHECK(listener.sent_ns.size() == 101);
   CHECK(rig.stick.actuators_on());
-  CHECK(listener.inputs == 1 + 12);  // its first, at 1 ms, then an answer every 8 ms
+  CHECK(listener.inputs == 1 + 12);  // its first one at 1 ms, then an answer every 8 ms
   CHECK(listener.last_input_ns == 97 * kPortMs);
   rig.stick.faults.silent = true;
   std::int64_t now = 101 * kPortMs;
@@ -111,7 +112,7 @@ TEST_CASE("a tick brings a report and takes an output; a stick that is still is 
   CHECK(now == (97 + 250) * kPortMs);
 }
 
-TEST_CASE("a stream keeps a tick between two outputs, and ends when it shall") {
+TEST_CASE("a stream keeps one tick between outputs, and ends on request") {
   PortRig rig(port_stick(StickFamily::openffboard));
   Listener listener;
   StreamConfig stream;

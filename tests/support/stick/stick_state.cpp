@@ -5,29 +5,30 @@
 
 #include <glm/common.hpp>
 
-#include "haptics/device/checked.h"
+#include "haptics/device/range_check.h"
 
-namespace gearshift {
+namespace gearshift::test {
 namespace {
 
-constexpr double kDamperSpeed = 1.0;        // [m/s] at which the greatest coefficient of a damper gives the full force
+constexpr double kDamperSpeed = 1.0;        // [m/s] speed at which the maximum damper coefficient makes the full force
 constexpr std::uint64_t kJumpEvery = 50;    // reports
 constexpr double kJump = 0.6;               // [1] of the full deflection
-constexpr std::uint8_t kHatCentred = 0x08;  // beyond its 0 to 7
+constexpr std::uint8_t kHatCentred = 0x08;  // outside its range of 0 to 7
 
 // Forward on the gate is away from the user, which a stick counts down.
-glm::dvec2 turned(glm::dvec2 v) {
+glm::dvec2 flip_y(glm::dvec2 v) {
   return {v.x, -v.y};
 }
 
 EmulatedStickConfig checked(const EmulatedStickConfig& config) {
-  require_between("EmulatedStick: half_travel", config.half_travel, 1e-3, 0.95 * config.lever.yoke.radius, "m");
-  require_between("EmulatedStick: full_force", config.full_force, 0.1, 1e4, "N");
-  require_between("EmulatedStick: spring_stiffness", config.spring_stiffness, 0.0, 1e6, "N/m");
-  require_between("EmulatedStick: plant_period", config.plant_period, 1e-6, 0.1, "s");
-  require_between("EmulatedStick: input_interval", config.input_interval, 1e-4, 0.255, "s");
-  require_between("EmulatedStick: delay", config.delay, 0.0, 1.0, "s");
-  require_between("EmulatedStick: blocks", config.blocks, 0, 100);
+  haptics::require_between("EmulatedStick: half_travel", config.half_travel, 1e-3, 0.95 * config.lever.yoke.radius,
+                           "m");
+  haptics::require_between("EmulatedStick: full_force", config.full_force, 0.1, 1e4, "N");
+  haptics::require_between("EmulatedStick: spring_stiffness", config.spring_stiffness, 0.0, 1e6, "N/m");
+  haptics::require_between("EmulatedStick: plant_period", config.plant_period, 1e-6, 0.1, "s");
+  haptics::require_between("EmulatedStick: input_interval", config.input_interval, 1e-4, 0.255, "s");
+  haptics::require_between("EmulatedStick: delay", config.delay, 0.0, 1.0, "s");
+  haptics::require_between("EmulatedStick: blocks", config.blocks, 0, 100);
   return config;
 }
 
@@ -35,8 +36,8 @@ std::int64_t nanoseconds(double seconds) {
   return std::llround(seconds * 1e9);
 }
 
-SimulatedLeverConfig mechanism(const EmulatedStickConfig& config) {
-  SimulatedLeverConfig lever = config.lever;
+haptics::SimulatedLeverConfig mechanism(const EmulatedStickConfig& config) {
+  haptics::SimulatedLeverConfig lever = config.lever;
   lever.delay = 0;
   lever.encoder_counts = 0.0;
   lever.yoke.theta_limit = lever.yoke.phi_limit = std::asin(config.half_travel / lever.yoke.radius);
@@ -44,14 +45,14 @@ SimulatedLeverConfig mechanism(const EmulatedStickConfig& config) {
   return lever;
 }
 
-// The low `bits` of it, as a report has them.
-std::int64_t cut(std::int64_t value, int bits) {
+// The low `bits` of the value, as in a report.
+std::int64_t masked(std::int64_t value, int bits) {
   return value & ((std::int64_t{1} << bits) - 1);
 }
 
 }  // namespace
 
-EmulatedStick::State::State(const EmulatedStickConfig& wanted, HandDriver& hand, const StickFaults& wrong,
+EmulatedStick::State::State(const EmulatedStickConfig& wanted, haptics::HandDriver& hand, const EmulatedFaults& wrong,
                             const std::uint64_t& held)
     : config(checked(wanted)),
       family(stick_family(config.family)),
@@ -65,21 +66,21 @@ EmulatedStick::State::State(const EmulatedStickConfig& wanted, HandDriver& hand,
       firmware(family, config.blocks, config.finite_refused) {}
 
 bool EmulatedStick::State::take(std::span<const std::uint8_t> report) {
-  if (!firmware.knows_output(report)) return false;
+  if (!firmware.accepts_output(report)) return false;
   outputs_.push_back({now_ns + delay_ns, {report.begin(), report.end()}});
-  take_due();
+  apply_due_outputs();
   push();
   return true;
 }
 
-void EmulatedStick::State::settle() {
+void EmulatedStick::State::apply_all_outputs() {
   for (Pending& output : outputs_) output.due_ns = plant_ns;
-  take_due();
+  apply_due_outputs();
   push();
 }
 
-// At the caller's time where nothing delays it, else when the plant has come there.
-void EmulatedStick::State::take_due() {
+// Acts at the caller's time without a delay, otherwise when the plant has reached the due time.
+void EmulatedStick::State::apply_due_outputs() {
   const std::int64_t at_ns = delay_ns == 0 ? now_ns : plant_ns;
   while (!outputs_.empty() && outputs_.front().due_ns <= at_ns) {
     firmware.output(outputs_.front().report, plant_ns);
@@ -96,7 +97,7 @@ void EmulatedStick::State::advance(std::int64_t to_ns) {
 void EmulatedStick::State::begin(std::int64_t at_ns) {
   started_ = true;
   for (Pending& output : outputs_) output.due_ns += at_ns;
-  now_ns = plant_ns = sample_ns_ = told_ns = at_ns;
+  now_ns = plant_ns = sample_ns_ = fetched_ns = at_ns;
   firmware.set_clock(at_ns);
   reading_ = lever.read(at_ns);
 }
@@ -105,7 +106,7 @@ void EmulatedStick::State::step() {
   push();
   reading_ = lever.read(plant_ns + period_ns);
   plant_ns += period_ns;
-  take_due();
+  apply_due_outputs();
   firmware.advance(plant_ns);
   push();
   if (plant_ns - sample_ns_ < interval_ns) return;
@@ -122,33 +123,33 @@ void EmulatedStick::State::power_off() {
   push();
 }
 
-void EmulatedStick::State::meet_bus() {
+void EmulatedStick::State::on_bus_reset() {
   if (unplugged) power_off();
   unplugged = false;
 }
 
 DeviceMotion EmulatedStick::State::motion() const {
-  return {turned(lever.true_position()) / config.half_travel, turned(lever.true_velocity()) / kDamperSpeed,
+  return {flip_y(lever.true_position()) / config.half_travel, flip_y(lever.true_velocity()) / kDamperSpeed,
           config.spring_stiffness * config.half_travel / config.full_force};
 }
 
-// What the effects ask of the motors, on the plant from now on.
+// Applies the force of the effects to the plant.
 void EmulatedStick::State::push() {
   const EffectForces shares = firmware.forces(motion(), plant_ns);
   const glm::dvec2 constant = glm::dvec2(config.constant_sign) * shares.constant;
   const glm::dvec2 spring = glm::dvec2(config.spring_sign) * shares.spring;
   const glm::dvec2 damper = glm::dvec2(config.damper_sign) * shares.damper;
-  force = config.full_force * turned(glm::clamp(constant + spring + damper, -1.0, 1.0));
+  force = config.full_force * flip_y(glm::clamp(constant + spring + damper, -1.0, 1.0));
   lever.write(force);
 }
 
 void EmulatedStick::State::sample() {
   ++samples_;
   if (faults.silent) return;
-  const bool lies = faults.jump && samples_ % kJumpEvery == 0;
+  const bool jumps = faults.jump && samples_ % kJumpEvery == 0;
   const double off = motion().deflection.x > 0.0 ? -kJump : kJump;
-  StickReport report = spoiled(lever_report(lies ? off : 0.0));
-  if (config.reports_changes_alone && report == sent && !waiting) return;
+  StickReport report = with_faults(lever_report(jumps ? off : 0.0));
+  if (config.reports_only_changes && report == sent && !waiting) return;
   waiting = std::move(report);
 }
 
@@ -157,7 +158,7 @@ StickReport EmulatedStick::State::lever_report(double off) const {
   const glm::dvec2 deflection = motion().deflection + glm::dvec2(off, 0.0);
   const auto counts = [&](double share) {
     const double value = bytes.low + 0.5 * (share + 1.0) * (bytes.high - bytes.low);
-    return cut(static_cast<std::int64_t>(std::floor(std::clamp(value, bytes.low, bytes.high) + 0.5)), bytes.bits);
+    return masked(static_cast<std::int64_t>(std::floor(std::clamp(value, bytes.low, bytes.high) + 0.5)), bytes.bits);
   };
   StickReport report(bytes.size, 0);
   report[0] = bytes.id;
@@ -165,11 +166,11 @@ StickReport EmulatedStick::State::lever_report(double off) const {
   write_number(report, bytes.y, counts(deflection.y));
   if (bytes.hat_at != 0) report[bytes.hat_at] = kHatCentred;
   const std::uint64_t hand = (reading_.pressed_down ? 1U : 0U) | (reading_.lifted ? 2U : 0U);
-  report[bytes.buttons_at] = static_cast<std::uint8_t>(hand | held_buttons);  // every family has eight at least
+  report[bytes.buttons_at] = static_cast<std::uint8_t>(hand | held_buttons);  // every family has at least eight
   return report;
 }
 
-StickReport EmulatedStick::State::spoiled(StickReport report) {
+StickReport EmulatedStick::State::with_faults(StickReport report) {
   if (!faults.stuck) {
     stuck_.clear();
   } else if (stuck_.empty()) {
@@ -180,4 +181,4 @@ StickReport EmulatedStick::State::spoiled(StickReport report) {
   return report;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

@@ -9,10 +9,10 @@
 #include <stdexcept>
 #include <utility>
 
-namespace gearshift {
+namespace gearshift::test {
 
 HeldTerminal::HeldTerminal() {
-  // The leader of a session without a terminal would get this one by opening it, and end with it.
+  // Without this flag, a session leader without a terminal would get this one as its controlling terminal.
   std::signal(SIGHUP, SIG_IGN);
   master_ = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
   if (master_ < 0 || grantpt(master_) != 0 || unlockpt(master_) != 0) throw std::runtime_error("no pseudo-terminal");
@@ -36,4 +36,4 @@ void HeldTerminal::hang_up() noexcept {
   close(std::exchange(master_, -1));
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

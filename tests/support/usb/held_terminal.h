@@ -1,10 +1,11 @@
-// A file with which poll() can be played: a pseudo-terminal whose output is held. usbfs says by POLLOUT that a transfer is
-// done, and by POLLERR that the device is gone; a plain file would always say POLLOUT, and libusb would never sleep.
+// A file whose poll() events can be controlled: a pseudo-terminal with its output stopped. usbfs uses POLLOUT for a
+// completed transfer and POLLERR for a disconnect; a plain file would always report POLLOUT, and libusb would never
+// sleep.
 #pragma once
 
 #include <string>
 
-namespace gearshift {
+namespace gearshift::test {
 
 class HeldTerminal {
  public:
@@ -15,7 +16,7 @@ class HeldTerminal {
 
   const std::string& path() const noexcept { return path_; }
   void set_writable(bool writable) noexcept;
-  void hang_up() noexcept;  // whoever has it open polls POLLERR from now on
+  void hang_up() noexcept;  // everyone who has it open then gets POLLERR
 
  private:
   std::string path_;
@@ -23,4 +24,4 @@ class HeldTerminal {
   bool writable_ = true;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::test

@@ -20,7 +20,7 @@
 
 #include "tests/support/usb/usbfs_node.h"
 
-namespace gearshift {
+namespace gearshift::test {
 namespace {
 
 namespace fs = std::filesystem;
@@ -42,15 +42,15 @@ std::string padded(const char* format, unsigned number) {
   return text.data();
 }
 
-// One that is plugged in, or was.
+// A device that is or was plugged in.
 struct Plugged {
   Plugged(UsbGadget& gadget, const UsbPlug& how, unsigned its_number, std::shared_ptr<std::mutex> lock)
       : mutex(std::move(lock)), node(gadget, *mutex, how.driver_bound, how.taken), plug(how), number(its_number) {}
 
-  std::shared_ptr<std::mutex> mutex;  // the bus'
+  std::shared_ptr<std::mutex> mutex;  // of the bus
   UsbfsNode node;
   UsbPlug plug;
-  unsigned number;  // on its bus
+  unsigned number;  // device number on its bus
   bool there = true;
 
   unsigned bus() const { return static_cast<unsigned>(std::stoul(plug.place)); }
@@ -60,9 +60,10 @@ struct Plugged {
   std::string driver_path() const { return interface_path() + "/0003:0000:0000." + padded("%04X", number); }
 };
 
-// --------------------------------------------------------------------------------------------- umockdev's handler class
+// --------------------------------------------------------------------------------------------- umockdev's handler
+// class
 
-using PluggedPtr = std::shared_ptr<Plugged>;  // a client may still close when the bus is gone
+using PluggedPtr = std::shared_ptr<Plugged>;  // shared, because a client may close its file after the bus is gone
 
 struct NodeHandler {
   UMockdevIoctlBase parent;
@@ -105,8 +106,8 @@ void node_handler_init(NodeHandler*) {}
 
 using GObjectPtr = std::unique_ptr<void, Unref>;
 
-// umockdev complains of a client that died while it was answered, which is nothing to be told of.
-void drop_complaint(const gchar* domain, GLogLevelFlags level, const gchar* message, gpointer data) {
+// umockdev logs a client that died during an answer, which is harmless.
+void filter_log(const gchar* domain, GLogLevelFlags level, const gchar* message, gpointer data) {
   if (std::string_view(message).find("IoctlClient with open stream") == std::string_view::npos) {
     g_log_default_handler(domain, level, message, data);
   }
@@ -125,7 +126,7 @@ struct MockUsb::State {
   GObjectPtr testbed;
   std::string root;
   std::shared_ptr<std::mutex> mutex = std::make_shared<std::mutex>();
-  std::vector<PluggedPtr> all;  // also those that are gone
+  std::vector<PluggedPtr> all;  // including unplugged ones
   unsigned next_number = 2;
   std::atomic<bool> end{false};
   std::thread frames;
@@ -147,7 +148,7 @@ struct MockUsb::State {
   std::string driver_text(Plugged& plugged) const;
 };
 
-// The controller's frames: what is due is carried.
+// Runs the controller's frames: processes the transfers that are due.
 void MockUsb::State::run() {
   prctl(PR_SET_TIMERSLACK, 1, 0, 0, 0);
   timespec next{};
@@ -164,7 +165,7 @@ void MockUsb::State::run() {
   }
 }
 
-// The node in /dev: a link to the terminal that plays it.
+// The node in /dev is a link to the terminal that emulates it.
 void MockUsb::State::make_node(const Plugged& plugged) {
   const fs::path link = root + plugged.device_node();
   fs::create_directories(link.parent_path());
@@ -180,7 +181,7 @@ void MockUsb::State::serve(const PluggedPtr& plugged) {
   umockdev_testbed_attach_ioctl(bed(), plugged->device_node().c_str(), static_cast<UMockdevIoctlBase*>(handler.get()),
                                 &error);
   check(error);
-  chmod((root + "/ioctl" + plugged->device_node()).c_str(), 0666);  // umockdev's way to it, for every user
+  chmod((root + "/ioctl" + plugged->device_node()).c_str(), 0666);  // umockdev's socket, opened for every user
 }
 
 std::string MockUsb::State::device_text(Plugged& plugged) const {
@@ -208,7 +209,7 @@ std::string MockUsb::State::device_text(Plugged& plugged) const {
   return text + "H: descriptors=" + hex(device) + hex(gadget.configuration_descriptor()) + "\n\n";
 }
 
-// As it looks when the kernel's HID driver has read the report descriptor.
+// The state after the kernel's HID driver has read the report descriptor.
 std::string MockUsb::State::driver_text(Plugged& plugged) const {
   UsbGadget& gadget = plugged.node.gadget();
   const std::string hid = plugged.driver_path().substr(4), interface = plugged.interface_path().substr(4);
@@ -224,17 +225,17 @@ void MockUsb::State::describe(Plugged& plugged) {
 }
 
 MockUsb::MockUsb() : state_(std::make_unique<State>()) {
-  g_log_set_handler(nullptr, G_LOG_LEVEL_CRITICAL, drop_complaint, nullptr);
+  g_log_set_handler(nullptr, G_LOG_LEVEL_CRITICAL, filter_log, nullptr);
   state_->testbed.reset(umockdev_testbed_new());
   if (umockdev_in_mock_environment() == 0) throw std::runtime_error("start this program with umockdev-wrapper");
   gchar* root = umockdev_testbed_get_root_dir(state_->bed());
   state_->root = root;
   g_free(root);
-  chmod(state_->root.c_str(), 0777);  // for a user who may not open a device, but sees it, and listens to udev
+  chmod(state_->root.c_str(), 0777);  // for a user who may see a device and listen to udev but not open it
   state_->frames = std::thread([this] { state_->run(); });
 }
 
-// NOLINTNEXTLINE(bugprone-exception-escape): what is not taken down ends the test
+// NOLINTNEXTLINE(bugprone-exception-escape): a failed teardown ends the test
 MockUsb::~MockUsb() {
   state_->end = true;
   state_->frames.join();
@@ -251,7 +252,7 @@ void MockUsb::plug(UsbGadget& gadget, const UsbPlug& plug) {
     const std::lock_guard<std::mutex> lock(*state_->mutex);
     state_->all.push_back(plugged);
   }
-  state_->describe(*plugged);  // and with that udev's "add"
+  state_->describe(*plugged);  // this also sends udev's "add"
 }
 
 void MockUsb::unplug(UsbGadget& gadget) {
@@ -291,4 +292,4 @@ std::mutex& MockUsb::mutex() const {
   return *state_->mutex;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

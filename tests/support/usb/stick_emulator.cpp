@@ -2,9 +2,9 @@
 //
 //   umockdev-wrapper stick_emulator --family sidewinder [options] -- PROGRAM ARGUMENTS
 //
-// Times are seconds from the program's start, with --tour from when the motors first came on; at 0 it happens before the
-// program looks. Its exit status is the program's; at the end it says on stderr how long after the start, each fault, unplug,
-// stop and continue, and the program's end the emulated motors still pushed.
+// Times are seconds since the program's start, or with --tour since the motors first came on; an event at 0 happens
+// before the program looks for devices. The exit status is the program's. At the end stderr lists for the start, each
+// fault, unplug, stop and continue, and the program's end how long the emulated motors still pushed after it.
 
 #include <fcntl.h>
 #include <signal.h>
@@ -37,17 +37,17 @@
 #include "haptics/gate/gate_compiler.h"
 #include "haptics/gate/gate_layout.h"
 #include "haptics/joystick/kinematics.h"
+#include "tests/support/usb/go_to_hand.h"
 #include "tests/support/usb/mock_usb.h"
-#include "tests/support/usb/ordered_hand.h"
 #include "tests/support/usb/touring_hand.h"
 
-namespace gearshift {
+namespace gearshift::test {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 constexpr double kFreeOfForce = 1e-9;  // [N]
-constexpr double kQuietAfter = 0.5;    // [s] without force, after the program's end
-constexpr double kLongest = 5.0;       // [s] that it is watched after its end
+constexpr double kQuietTime = 0.5;     // [s] without force, after the program's end
+constexpr double kMaxWatchTime = 5.0;  // [s] longest observation after the program's end
 
 struct Options {
   std::string family = "sidewinder", tour;
@@ -57,15 +57,15 @@ struct Options {
   bool own_power = false;
 };
 
-const std::map<std::string, void (*)(StickFaults&)> kFaults{
-    {"jump", [](StickFaults& faults) { faults.jump = true; }},
-    {"wrong-length", [](StickFaults& faults) { faults.wrong_length = true; }},
-    {"stuck", [](StickFaults& faults) { faults.stuck = true; }},
-    {"silent", [](StickFaults& faults) { faults.silent = true; }},
-    {"refuses-effects", [](StickFaults& faults) { faults.refuses_effects = true; }},
-    {"pool-full", [](StickFaults& faults) { faults.pool_full = true; }},
-    {"stalls-outputs", [](StickFaults& faults) { faults.stalls_outputs = true; }},
-    {"slow", [](StickFaults& faults) { faults.slow = 0.05; }},
+const std::map<std::string, void (*)(EmulatedFaults&)> kFaults{
+    {"jump", [](EmulatedFaults& faults) { faults.jump = true; }},
+    {"wrong-length", [](EmulatedFaults& faults) { faults.wrong_length = true; }},
+    {"stuck", [](EmulatedFaults& faults) { faults.stuck = true; }},
+    {"silent", [](EmulatedFaults& faults) { faults.silent = true; }},
+    {"refuses-effects", [](EmulatedFaults& faults) { faults.refuses_effects = true; }},
+    {"pool-full", [](EmulatedFaults& faults) { faults.pool_full = true; }},
+    {"stalls-outputs", [](EmulatedFaults& faults) { faults.stalls_outputs = true; }},
+    {"slow", [](EmulatedFaults& faults) { faults.slow = 0.05; }},
 };
 
 StickFamily family_of(const std::string& name) {
@@ -75,24 +75,25 @@ StickFamily family_of(const std::string& name) {
   throw std::runtime_error("--family " + name + ": sidewinder, openffboard or vjoy");
 }
 
-// A file, or the name of a gate that ships.
-Gate gate_of(const std::string& name, const SimulatedLeverConfig& lever) {
+// A file, or the name of a shipped gate.
+haptics::Gate gate_of(const std::string& name, const haptics::SimulatedLeverConfig& lever) {
   const std::filesystem::path shipped = std::filesystem::path(GEARSHIFT_ASSETS) / "gates" / (name + ".toml");
   const std::filesystem::path file = std::filesystem::exists(name) ? std::filesystem::path(name) : shipped;
-  return compile_gate(read_gate_layout(file), workspace_half_extent(lever.yoke), lever.yoke.radius);
+  return haptics::compile_gate(haptics::read_gate_layout(file), haptics::workspace_half_extent(lever.yoke),
+                               lever.yoke.radius);
 }
 
-// What happens to the stick, and when its motors pushed last after it.
+// An event of the test, and the last time at which the motors pushed after it.
 struct Event {
-  double at = 0.0;  // [s] of the event's time until it happens, then of now()
+  double at = 0.0;  // [s] planned event time, then the actual time on now()
   std::string name;
-  std::function<void()> happen;
+  std::function<void()> action;
   double last_force = -1.0;  // [s]
 };
 
-volatile std::sig_atomic_t asked_to_end = 0;
-void note_end(int) {
-  asked_to_end = 1;
+volatile std::sig_atomic_t end_requested = 0;
+void request_end(int) {
+  end_requested = 1;
 }
 
 class Emulation {
@@ -104,49 +105,49 @@ class Emulation {
   void plan();
   void plug(bool in);
   void plan_fault(const std::string& text);
-  void take_orders(double time);
-  void obey(const std::string& order, double time);
+  void read_orders(double time);
+  void run_order(const std::string& order, double time);
   void start();
-  void watch();      // one look
-  bool has_ended();  // the program
-  void settle();
-  void say() const;
+  void watch();      // one step
+  bool has_ended();  // true if the program has ended
+  void watch_after_end();
+  void print_summary() const;
   double now() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
   double event_time();  // [s]
 
   const Options& options_;
   EmulatedStickConfig config_;
-  RestingHand resting_;
+  haptics::IdleHand resting_;
   std::unique_ptr<TouringHand> touring_;
-  std::unique_ptr<OrderedHand> ordered_;
-  int orders_ = -1;    // file
-  std::string order_;  // as far as it has come
+  std::unique_ptr<GoToHand> ordered_;
+  int orders_file_ = -1;    // file descriptor
+  std::string order_text_;  // incomplete line
   std::unique_ptr<EmulatedStick> stick_;
   std::unique_ptr<StickGadget> gadget_;
   std::unique_ptr<MockUsb> usb_;
   std::ofstream log_;
-  std::vector<Event> events_;  // in time
-  std::size_t happened_ = 0;
+  std::vector<Event> events_;  // in order of time
+  std::size_t events_done_ = 0;
   Clock::time_point start_;
-  double motors_on_ = -1.0;  // [s] first
-  bool is_in_ = false;       // plugged
+  double motors_on_ = -1.0;  // [s] first time
+  bool is_in_ = false;       // plugged in
   pid_t child_ = -1;
   int status_ = 0;
 };
 
 Emulation::Emulation(const Options& options) : options_(options) {
   config_.family = family_of(options.family);
-  if (!options.tour.empty() || !options.orders.empty()) config_.lever.hand = kGripHand;  // else nobody holds it
+  if (!options.tour.empty() || !options.orders.empty()) config_.lever.hand = haptics::kGripHand;  // otherwise no hand
   config_.own_power = options.own_power;
   if (!options.tour.empty()) {
     touring_ = std::make_unique<TouringHand>(gate_of(options.tour, config_.lever), config_.plant_period);
   }
   if (!options.orders.empty()) {
-    orders_ = open(options.orders.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
-    if (orders_ < 0) throw std::runtime_error("cannot read " + options.orders.string());
-    ordered_ = std::make_unique<OrderedHand>(config_.plant_period);
+    orders_file_ = open(options.orders.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC);
+    if (orders_file_ < 0) throw std::runtime_error("cannot read " + options.orders.string());
+    ordered_ = std::make_unique<GoToHand>(config_.plant_period);
   }
-  HandDriver* hand = &resting_;
+  haptics::HandDriver* hand = &resting_;
   if (ordered_) hand = ordered_.get();
   if (touring_) hand = touring_.get();
   stick_ = std::make_unique<EmulatedStick>(config_, *hand);
@@ -164,7 +165,7 @@ Emulation::Emulation(const Options& options) : options_(options) {
 void Emulation::plug(bool in) {
   if (in) {
     const std::lock_guard<std::mutex> lock(usb_->mutex());
-    stick_->control({0x80, 0, 0, 0, 2}, {});  // the host enumerates it: it begins anew
+    stick_->control({0x80, 0, 0, 0, 2}, {});  // enumeration by the host resets it
   }
   in ? usb_->plug(*gadget_) : usb_->unplug(*gadget_);
   is_in_ = in;
@@ -195,24 +196,24 @@ void Emulation::plan_fault(const std::string& text) {
                      }});
 }
 
-// What has been written so far, a line each.
-void Emulation::take_orders(double time) {
+// Reads the complete lines written so far.
+void Emulation::read_orders(double time) {
   char text[256];
-  for (ssize_t count; orders_ >= 0 && (count = read(orders_, text, sizeof text)) > 0;) {
-    order_.append(text, static_cast<std::size_t>(count));
+  for (ssize_t count; orders_file_ >= 0 && (count = read(orders_file_, text, sizeof text)) > 0;) {
+    order_text_.append(text, static_cast<std::size_t>(count));
   }
-  for (std::size_t end; (end = order_.find('\n')) != std::string::npos; order_.erase(0, end + 1)) {
-    obey(order_.substr(0, end), time);
+  for (std::size_t end; (end = order_text_.find('\n')) != std::string::npos; order_text_.erase(0, end + 1)) {
+    run_order(order_text_.substr(0, end), time);
   }
 }
 
-void Emulation::obey(const std::string& order, double time) {
+void Emulation::run_order(const std::string& order, double time) {
   std::istringstream words(order);
   std::string what;
   glm::dvec2 to{0.0};
   int button = 0;
   words >> what;
-  const auto next = events_.begin() + static_cast<std::ptrdiff_t>(happened_);
+  const auto next = events_.begin() + static_cast<std::ptrdiff_t>(events_done_);
   if (what == "go" && words >> to.x >> to.y) {
     const std::lock_guard<std::mutex> lock(usb_->mutex());
     ordered_->go(1e-3 * to);
@@ -224,7 +225,7 @@ void Emulation::obey(const std::string& order, double time) {
   } else if (what == "plug") {
     events_.insert(next, {time, "", [this] { plug(true); }});
   } else {
-    std::cerr << "stick_emulator: an order that it does not know: " << order << '\n';
+    std::cerr << "stick_emulator: unknown order: " << order << '\n';
   }
 }
 
@@ -236,8 +237,8 @@ void Emulation::start() {
     throw std::runtime_error("cannot start " + options_.command[0]);
   }
   start_ = Clock::now();
-  std::signal(SIGTERM, note_end);
-  std::signal(SIGINT, SIG_IGN);  // a terminal tells the program itself
+  std::signal(SIGTERM, request_end);
+  std::signal(SIGINT, SIG_IGN);  // a terminal sends it to the program directly
 }
 
 double Emulation::event_time() {
@@ -249,15 +250,16 @@ double Emulation::event_time() {
 
 void Emulation::watch() {
   const double time = event_time();
-  take_orders(time);
-  for (; happened_ < events_.size() && events_[happened_].at <= time; ++happened_) {
-    events_[happened_].at = now();
-    if (events_[happened_].happen) events_[happened_].happen();
+  read_orders(time);
+  for (; events_done_ < events_.size() && events_[events_done_].at <= time; ++events_done_) {
+    events_[events_done_].at = now();
+    if (events_[events_done_].action) events_[events_done_].action();
   }
   const std::lock_guard<std::mutex> lock(usb_->mutex());
-  if (!is_in_) stick_->advance(std::chrono::nanoseconds(Clock::now().time_since_epoch()).count());  // it has no bus
-  if (touring_) touring_->work(is_in_ && stick_->actuators_on());  // as who sees on the screen that it is gone
-  if (happened_ > 0 && glm::length(stick_->force()) > kFreeOfForce) events_[happened_ - 1].last_force = now();
+  // Without the bus nothing else advances the stick.
+  if (!is_in_) stick_->advance(std::chrono::nanoseconds(Clock::now().time_since_epoch()).count());
+  if (touring_) touring_->work(is_in_ && stick_->actuators_on());  // as a person would
+  if (events_done_ > 0 && glm::length(stick_->force()) > kFreeOfForce) events_[events_done_ - 1].last_force = now();
   for (const StickMessage& message : stick_->log) {
     char time_text[32];
     std::snprintf(time_text, sizeof time_text, "%.6f ", 1e-9 * static_cast<double>(message.time_ns));
@@ -267,27 +269,27 @@ void Emulation::watch() {
 }
 
 bool Emulation::has_ended() {
-  if (asked_to_end != 0) {
+  if (end_requested != 0) {
     kill(child_, SIGTERM);
-    kill(child_, SIGCONT);  // one that stands still would not hear it
+    kill(child_, SIGCONT);  // a stopped process would not handle SIGTERM
   }
-  asked_to_end = 0;
+  end_requested = 0;
   return waitpid(child_, &status_, WNOHANG) == child_;
 }
 
-// The motors after the program's end: until they have been still for a while.
-void Emulation::settle() {
-  events_.resize(happened_);
+// Observes the motors after the program's end, until they have been quiet for a while.
+void Emulation::watch_after_end() {
+  events_.resize(events_done_);
   events_.push_back({now(), "the program's end", {}});
-  happened_ = events_.size();
+  events_done_ = events_.size();
   const double end = now();
-  while (now() < end + kLongest && now() < std::max(end, events_.back().last_force) + kQuietAfter) {
+  while (now() < end + kMaxWatchTime && now() < std::max(end, events_.back().last_force) + kQuietTime) {
     watch();
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
 }
 
-void Emulation::say() const {
+void Emulation::print_summary() const {
   for (const Event& event : events_) {
     if (event.name.empty()) continue;
     const double milliseconds = 1e3 * std::max(0.0, event.last_force - event.at);
@@ -302,8 +304,8 @@ int Emulation::run() {
     watch();
     std::this_thread::sleep_for(std::chrono::milliseconds(1));
   }
-  settle();
-  say();
+  watch_after_end();
+  print_summary();
   return WIFEXITED(status_) ? WEXITSTATUS(status_) : 128 + WTERMSIG(status_);
 }
 
@@ -311,31 +313,30 @@ int run(int count, char** arguments) {
   Options options;
   CLI::App cli("Runs a program with an emulated force-feedback stick beneath its libusb");
   cli.add_option("--family", options.family, "sidewinder, openffboard or vjoy");
-  cli.add_option("--tour", options.tour, "a hand shifts through every gear of this gate while the motors are on");
-  // One value each time: more would take the "--" for the list's end.
+  cli.add_option("--tour", options.tour, "gate whose gears a hand shifts through while the motors are on");
+  // One value per option: otherwise the "--" would not end the list.
   const auto each = [](CLI::Option* option) { option->allow_extra_args(false); };
-  each(cli.add_option("--unplug-at", options.unplug_at, "[s] may be given again"));
+  each(cli.add_option("--unplug-at", options.unplug_at, "[s] may be repeated"));
   each(cli.add_option("--replug-at", options.replug_at, "[s]"));
-  each(cli.add_option("--fault", options.faults, "NAME@S: from then on"));
+  each(cli.add_option("--fault", options.faults, "NAME@S: fault from that time on"));
   each(cli.add_option("--stop-at", options.stop_at, "[s] SIGSTOP to the program"));
   each(cli.add_option("--continue-at", options.continue_at, "[s] SIGCONT"));
   cli.add_flag("--own-power", options.own_power,
-               "its motors are fed from the wall: unplugged, its effects go on to their end");
-  cli.add_option("--log", options.log, "file for all that the stick is told, a message a line after its time [s]");
-  cli.add_option(
-      "--orders", options.orders,
-      "a pipe whose lines say what happens next: go X Y [mm], hold BUTTON, unplug, plug; a hand holds the lever");
-  cli.add_option("program", options.command, "and its arguments, after --")->required();
+               "the stick has its own power supply: after an unplug its effects run to their end");
+  cli.add_option("--log", options.log, "log file of all messages to the stick: time [s] and message per line");
+  cli.add_option("--orders", options.orders,
+                 "pipe with one order per line: go X Y [mm], hold BUTTON, unplug, plug; a hand holds the lever");
+  cli.add_option("program", options.command, "program and its arguments, after --")->required();
   CLI11_PARSE(cli, count, arguments);
   return Emulation(options).run();
 }
 
 }  // namespace
-}  // namespace gearshift
+}  // namespace gearshift::test
 
 int main(int count, char** arguments) {
   try {
-    return gearshift::run(count, arguments);
+    return gearshift::test::run(count, arguments);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "stick_emulator: %s\n", error.what());
     return 2;

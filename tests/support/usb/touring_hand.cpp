@@ -5,22 +5,22 @@
 
 #include "haptics/loop/shift_script.h"
 
-namespace gearshift {
+namespace gearshift::test {
 namespace {
 
-ScriptedHand tour_of(const Gate& gate, double period) {
-  const glm::dvec2 start = rest_position(gate, kNeutralGear);
-  const std::vector<int> gears = tour_order(gate);
-  return {touring_hand(start), shift_strokes(gate, start, gears), period};
+haptics::ScriptedHand tour_of(const haptics::Gate& gate, double period) {
+  const glm::dvec2 start = haptics::rest_position(gate, haptics::kNeutralGear);
+  const std::vector<int> gears = haptics::tour_order(gate);
+  return {haptics::touring_hand(start), haptics::shift_strokes(gate, start, gears), period};
 }
 
 }  // namespace
 
-TouringHand::TouringHand(const Gate& gate, double period) : script_(tour_of(gate, period)), period_(period) {
-  target_.position = rest_position(gate, kNeutralGear);
+TouringHand::TouringHand(const haptics::Gate& gate, double period) : script_(tour_of(gate, period)), period_(period) {
+  target_.position = haptics::rest_position(gate, haptics::kNeutralGear);
 }
 
-HandTarget TouringHand::next(double, glm::dvec2 lever) noexcept {
+haptics::HandTarget TouringHand::next(double, glm::dvec2 lever) noexcept {
   if (works_) {
     time_ += period_;
     target_ = script_.next(std::max(time_, 0.0), lever);
@@ -30,4 +30,4 @@ HandTarget TouringHand::next(double, glm::dvec2 lever) noexcept {
   return target_;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

@@ -2,7 +2,7 @@
 
 #include <cstddef>
 
-namespace gearshift {
+namespace gearshift::test {
 
 std::string StickGadget::string_descriptor(int index) const {
   const Bytes device = stick_.device_descriptor();
@@ -10,8 +10,8 @@ std::string StickGadget::string_descriptor(int index) const {
   if (at == 0) return {};
   const Bytes told = stick_.string_descriptor(at);
   std::string text;
-  for (std::size_t i = 2; i + 1 < told.size(); i += 2) text += static_cast<char>(told[i]);  // UTF-16, of which ASCII
+  for (std::size_t i = 2; i + 1 < told.size(); i += 2) text += static_cast<char>(told[i]);  // ASCII in UTF-16
   return text;
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

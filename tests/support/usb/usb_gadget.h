@@ -1,4 +1,4 @@
-// A USB device as it looks from its plug.
+// A USB device as seen from its port.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 #include "tests/support/stick/emulated_stick.h"
 
-namespace gearshift {
+namespace gearshift::test {
 
 class UsbGadget {
  public:
@@ -20,15 +20,15 @@ class UsbGadget {
   virtual Bytes report_descriptor() const = 0;
   virtual std::string string_descriptor(int index) const = 0;  // 1 maker, 2 product, 3 serial; empty: none
   virtual std::optional<Bytes> control(const UsbSetup& setup,
-                                       std::span<const std::uint8_t> data) = 0;  // nothing: stall
+                                       std::span<const std::uint8_t> data) = 0;  // empty: stall
   virtual bool output(std::span<const std::uint8_t> report) = 0;                 // interrupt OUT; false: stall
-  virtual std::optional<Bytes> input() = 0;                                      // interrupt IN; nothing: NAK
-  virtual double control_delay() const { return 0.0; }  // [s] that each control transfer takes longer
+  virtual std::optional<Bytes> input() = 0;                                      // interrupt IN; empty: NAK
+  virtual double control_delay() const { return 0.0; }  // [s] extra time of each control transfer
   virtual void advance(std::int64_t now_ns) = 0;        // CLOCK_MONOTONIC
   virtual void unplug() = 0;
 };
 
-// An emulated stick at the plug. The stick must outlive it.
+// Connects an emulated stick to the bus. The stick must outlive it.
 class StickGadget final : public UsbGadget {
  public:
   explicit StickGadget(EmulatedStick& stick) : stick_(stick) {}
@@ -50,4 +50,4 @@ class StickGadget final : public UsbGadget {
   EmulatedStick& stick_;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::test

@@ -14,11 +14,11 @@
 #include <span>
 #include <utility>
 
-namespace gearshift {
+namespace gearshift::test {
 namespace {
 
-constexpr std::size_t kSetup = 8;      // [bytes] before the data of a control transfer
-constexpr unsigned kHidInterface = 0;  // the one that the kernel's driver or another program has
+constexpr std::size_t kSetup = 8;      // [bytes] setup packet before the data of a control transfer
+constexpr unsigned kHidInterface = 0;  // the interface used by the kernel driver or another program
 
 std::int64_t clock_ns() noexcept {
   timespec now{};
@@ -26,7 +26,7 @@ std::int64_t clock_ns() noexcept {
   return now.tv_sec * 1'000'000'000 + now.tv_nsec;
 }
 
-// What the client's memory holds where the pointer at that offset leads.
+// The client's memory at the pointer stored at that offset.
 IoctlData resolve(UMockdevIoctlData* data, std::size_t offset, std::size_t size) {
   GError* error = nullptr;
   IoctlData resolved(umockdev_ioctl_data_resolve(data, offset, size, &error));
@@ -54,7 +54,7 @@ UsbSetup setup_of(std::span<const std::uint8_t> bytes) {
 UsbfsNode::UsbfsNode(UsbGadget& gadget, std::mutex& bus, bool driver_bound, bool taken)
     : gadget_(gadget), bus_(bus), driver_bound_(driver_bound && !taken), taken_(taken) {}
 
-// As close() of the file: its transfers are killed, its claims go; the kernel's driver does not come back by itself.
+// Like close() of the file: its transfers are killed and its claims released; the kernel driver does not come back.
 void UsbfsNode::closed(UMockdevIoctlClient* client) {
   ++counts_.closed;
   const auto is_its = [client](const Urb& urb) { return urb.client == client; };
@@ -67,11 +67,11 @@ void UsbfsNode::closed(UMockdevIoctlClient* client) {
 void UsbfsNode::ioctl(UMockdevIoctlClient* client) {
   const unsigned long request = umockdev_ioctl_client_get_request(client);
   UMockdevIoctlData* const argument = umockdev_ioctl_client_get_arg(client);
-  Told told = read(client, request, argument);
+  RequestData request_data = read(client, request, argument);
   Answer answered;
   {
     const std::lock_guard<std::mutex> lock(bus_);
-    answered = answer(client, request, argument, std::move(told));
+    answered = answer(client, request, argument, std::move(request_data));
   }
   umockdev_ioctl_client_complete(client, answered.result, answered.error);
 }
@@ -94,10 +94,11 @@ void UsbfsNode::disconnect() {
 
 // ----------------------------------------------------------------------------------------------------------- ioctls
 
-// Out of the client's memory, for which the client is asked. A process that was stopped does not answer: the bus goes on,
-// its lock is not held.
-UsbfsNode::Told UsbfsNode::read(UMockdevIoctlClient* client, unsigned long request, UMockdevIoctlData* argument) {
-  if (request == USBDEVFS_DISCARDURB) return {};  // an address is all
+// Reads the client's memory, which needs the client's help. A stopped process does not answer, so the bus lock is not
+// held and the bus continues.
+UsbfsNode::RequestData UsbfsNode::read(UMockdevIoctlClient* client, unsigned long request,
+                                       UMockdevIoctlData* argument) {
+  if (request == USBDEVFS_DISCARDURB) return {};  // the address is enough
   if (request == USBDEVFS_REAPURBNDELAY) {
     const std::lock_guard<std::mutex> lock(bus_);
     if (done_for(client) == done_.end()) return {};
@@ -105,21 +106,21 @@ UsbfsNode::Told UsbfsNode::read(UMockdevIoctlClient* client, unsigned long reque
   const std::size_t size = request == USBDEVFS_REAPURBNDELAY ? sizeof(void*)
                            : request == USBDEVFS_SUBMITURB   ? sizeof(usbdevfs_urb)
                                                              : _IOC_SIZE(request);
-  Told told;
-  if (size > 0) told.data = resolve(argument, 0, size);
-  if (request == USBDEVFS_SUBMITURB && told.data != nullptr) {
-    const auto length = static_cast<std::size_t>(as<usbdevfs_urb>(told.data)->buffer_length);
-    if (length > 0) told.buffer = resolve(told.data.get(), offsetof(usbdevfs_urb, buffer), length);
+  RequestData request_data;
+  if (size > 0) request_data.data = resolve(argument, 0, size);
+  if (request == USBDEVFS_SUBMITURB && request_data.data != nullptr) {
+    const auto length = static_cast<std::size_t>(as<usbdevfs_urb>(request_data.data)->buffer_length);
+    if (length > 0) request_data.buffer = resolve(request_data.data.get(), offsetof(usbdevfs_urb, buffer), length);
   }
-  return told;
+  return request_data;
 }
 
 UsbfsNode::Answer UsbfsNode::answer(UMockdevIoctlClient* client, unsigned long request, UMockdevIoctlData* argument,
-                                    Told told) {
-  const IoctlData& data = told.data;
+                                    RequestData request_data) {
+  const IoctlData& data = request_data.data;
   if (request == USBDEVFS_REAPURBNDELAY) return reap(client, data.get());
   if (gone_) return {-1, ENODEV};
-  if (request == USBDEVFS_SUBMITURB) return submit(client, std::move(told));
+  if (request == USBDEVFS_SUBMITURB) return submit(client, std::move(request_data));
   if (request == USBDEVFS_DISCARDURB) return discard(argument);
   switch (request) {
     case USBDEVFS_GET_CAPABILITIES:
@@ -160,7 +161,7 @@ UsbfsNode::Answer UsbfsNode::release(UMockdevIoctlClient* client, unsigned inter
   return {};
 }
 
-// Not while transfers wait in the endpoint.
+// Not allowed while transfers are pending in the endpoint.
 UsbfsNode::Answer UsbfsNode::clear_halt(unsigned endpoint) {
   const auto waits = [endpoint](const Urb& urb) { return urb.endpoint == endpoint; };
   if (std::any_of(pending_.begin(), pending_.end(), waits)) ++counts_.misuses;
@@ -168,7 +169,7 @@ UsbfsNode::Answer UsbfsNode::clear_halt(unsigned endpoint) {
   return {};
 }
 
-// Of all that a driver can be asked for: to come back.
+// Of all driver requests only "attach" is supported.
 UsbfsNode::Answer UsbfsNode::drive(unsigned code) {
   if (code != USBDEVFS_CONNECT) return {-1, ENOTTY};
   if (driver_bound_) return {-1, EBUSY};
@@ -177,12 +178,12 @@ UsbfsNode::Answer UsbfsNode::drive(unsigned code) {
   return {1, 0};
 }
 
-UsbfsNode::Answer UsbfsNode::submit(UMockdevIoctlClient* client, Told told) {
-  if (told.data == nullptr) return {-1, EFAULT};
+UsbfsNode::Answer UsbfsNode::submit(UMockdevIoctlClient* client, RequestData request_data) {
+  if (request_data.data == nullptr) return {-1, EFAULT};
   Urb urb;
   urb.client = client;
-  urb.urb = std::move(told.data);
-  urb.buffer = std::move(told.buffer);
+  urb.urb = std::move(request_data.data);
+  urb.buffer = std::move(request_data.buffer);
   urb.type = as<usbdevfs_urb>(urb.urb)->type;
   urb.endpoint = as<usbdevfs_urb>(urb.urb)->endpoint;
   if (!may_use(client, urb)) {
@@ -218,16 +219,16 @@ std::deque<UsbfsNode::Urb>::iterator UsbfsNode::done_for(UMockdevIoctlClient* cl
 UsbfsNode::Answer UsbfsNode::reap(UMockdevIoctlClient* client, UMockdevIoctlData* where) {
   const auto found = done_for(client);
   if (found == done_.end()) return {-1, gone_ ? ENODEV : EAGAIN};
-  if (where == nullptr) return {-1, EAGAIN};  // done since it was looked, or the client has died
+  if (where == nullptr) return {-1, EAGAIN};  // completed meanwhile, or the client has died
   umockdev_ioctl_data_set_ptr(where, 0, found->urb.get());
   done_.erase(found);
-  ++counts_.given_back;
+  ++counts_.returned;
   terminal_.set_writable(!done_.empty());
   return {};
 }
 
-// A request to an interface, or to one of its endpoints, wants it claimed. The kernel would claim it silently where it is
-// free, and warn.
+// A request to an interface or its endpoints needs a claim. The real kernel would claim a free interface implicitly,
+// with a warning.
 bool UsbfsNode::may_use(UMockdevIoctlClient* client, const Urb& urb) {
   if (urb.type == USBDEVFS_URB_TYPE_CONTROL) {
     const std::span<const std::uint8_t> bytes = bytes_of(urb.buffer);
@@ -239,7 +240,7 @@ bool UsbfsNode::may_use(UMockdevIoctlClient* client, const Urb& urb) {
 // --------------------------------------------------------------------------------------------------------- transfers
 
 void UsbfsNode::carry_all() {
-  // In each endpoint one after the other.
+  // One after the other in each endpoint.
   std::set<std::uint8_t> waiting;
   for (auto urb = pending_.begin(); urb != pending_.end();) {
     if (waiting.contains(urb->endpoint) || !carry(*urb)) {
@@ -304,7 +305,7 @@ bool UsbfsNode::carry_output(Urb& urb) {
   return true;
 }
 
-// The endpoint is halted until that is cleared: what else waits there goes on waiting, as on an EHCI controller.
+// Halts the endpoint until it is cleared; other transfers in it keep waiting, as on an EHCI controller.
 bool UsbfsNode::stall(Urb& urb) {
   halted_.insert(urb.endpoint);
   finish(urb, -EPIPE, 0);
@@ -316,9 +317,9 @@ bool UsbfsNode::stalls_output() {
 }
 
 void UsbfsNode::finish(Urb& urb, int status, std::size_t length) {
-  auto* told = as<usbdevfs_urb>(urb.urb);
-  told->status = status;
-  told->actual_length = static_cast<int>(length);
+  auto* request_data = as<usbdevfs_urb>(urb.urb);
+  request_data->status = status;
+  request_data->actual_length = static_cast<int>(length);
 }
 
-}  // namespace gearshift
+}  // namespace gearshift::test

@@ -1,5 +1,5 @@
-// What the Linux kernel's usbfs does behind /dev/bus/usb/001/002, as far as libusb asks for it: claims and the kernel's
-// driver, URBs submitted, discarded and reaped, a device that goes away.
+// Emulates the Linux kernel's usbfs behind /dev/bus/usb/001/002 as far as libusb uses it: claims and the kernel driver;
+// submitting, discarding and reaping URBs; disconnects.
 //
 // This work is based on:
 // Linux 6.1, drivers/usb/core/devio.c; include/uapi/linux/usbdevice_fs.h
@@ -18,17 +18,17 @@
 #include "tests/support/usb/usb_gadget.h"
 #include "tests/support/usb/usb_plug.h"
 
-namespace gearshift {
+namespace gearshift::test {
 
 struct Unref {
   void operator()(void* object) const noexcept { g_object_unref(object); }
 };
 using IoctlData = std::unique_ptr<UMockdevIoctlData, Unref>;
 
-// Not thread-safe: who calls it holds the bus' lock, but for ioctl(), which takes it.
+// Not thread-safe: callers must hold the bus lock, except for ioctl(), which takes it.
 class UsbfsNode {
  public:
-  // Gadget and lock must outlive it. driver_bound: the kernel's HID driver has the interface; taken: another program has it.
+  // Gadget and lock must outlive it. driver_bound: the kernel's HID driver is bound; taken: another program uses it.
   UsbfsNode(UsbGadget& gadget, std::mutex& bus, bool driver_bound, bool taken);
 
   const std::string& path() const noexcept { return terminal_.path(); }
@@ -38,8 +38,8 @@ class UsbfsNode {
 
   void opened() noexcept { ++counts_.opened; }
   void closed(UMockdevIoctlClient* client);
-  void ioctl(UMockdevIoctlClient* client);  // answers it
-  void advance(std::int64_t now_ns);        // the gadget, and all that is due by then
+  void ioctl(UMockdevIoctlClient* client);  // answers the request
+  void advance(std::int64_t now_ns);        // advances the gadget and processes everything that is due
   void disconnect();
 
   UsbWireFaults faults;
@@ -51,8 +51,8 @@ class UsbfsNode {
     std::uint8_t type = 0, endpoint = 0;
     std::int64_t due_ns = 0;
   };
-  // What a request brings along.
-  struct Told {
+  // The data of a request.
+  struct RequestData {
     IoctlData data, buffer;
   };
   struct Answer {
@@ -60,19 +60,20 @@ class UsbfsNode {
     int error = 0;
   };
 
-  Told read(UMockdevIoctlClient* client, unsigned long request, UMockdevIoctlData* argument);
-  Answer answer(UMockdevIoctlClient* client, unsigned long request, UMockdevIoctlData* argument, Told told);
+  RequestData read(UMockdevIoctlClient* client, unsigned long request, UMockdevIoctlData* argument);
+  Answer answer(UMockdevIoctlClient* client, unsigned long request, UMockdevIoctlData* argument,
+                RequestData request_data);
   Answer claim(UMockdevIoctlClient* client, unsigned interface, bool detach);
   Answer release(UMockdevIoctlClient* client, unsigned interface);
   Answer clear_halt(unsigned endpoint);
   Answer drive(unsigned code);
-  Answer submit(UMockdevIoctlClient* client, Told told);
+  Answer submit(UMockdevIoctlClient* client, RequestData request_data);
   Answer discard(UMockdevIoctlData* argument);
   std::deque<Urb>::iterator done_for(UMockdevIoctlClient* client);
   Answer reap(UMockdevIoctlClient* client, UMockdevIoctlData* where);
 
   bool may_use(UMockdevIoctlClient* client, const Urb& urb);
-  bool carry(Urb& urb);  // false: not yet
+  bool carry(Urb& urb);  // false: not finished yet
   bool carry_control(Urb& urb);
   bool carry_input(Urb& urb);
   bool carry_output(Urb& urb);
@@ -92,4 +93,4 @@ class UsbfsNode {
   std::deque<Urb> pending_, done_;
 };
 
-}  // namespace gearshift
+}  // namespace gearshift::test

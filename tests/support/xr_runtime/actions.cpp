@@ -1,4 +1,4 @@
-// Action sets and actions: made, bound, attached.
+// Action sets and actions: creation, binding, attachment.
 #include <algorithm>
 #include <string_view>
 
@@ -32,7 +32,7 @@ void check_binding(const InstanceObject& instance, const std::string& profile,
 
 void drop_action_set(State& s, XrActionSet handle) {
   for (const XrAction action : s.actions.of([&](const ActionObject& one) { return one.set == handle; })) {
-    s.actions.erase(action);  // no leak: an action goes with its set
+    s.actions.erase(action);  // no leak: an action is destroyed with its set
   }
   s.action_sets.erase(handle);
 }
@@ -97,7 +97,7 @@ XrResult XRAPI_CALL SuggestInteractionProfileBindings(XrInstance instance,
     InstanceObject& object = live(instance);
     structure(info, XR_TYPE_INTERACTION_PROFILE_SUGGESTED_BINDING);
     const std::string& profile = path_string(object, info->interactionProfile);
-    if (!knows_profile(profile)) return XR_ERROR_PATH_UNSUPPORTED;  // a runtime need not know every controller
+    if (!knows_profile(profile)) return XR_ERROR_PATH_UNSUPPORTED;  // a runtime need not support every controller
     std::vector<XrActionSuggestedBinding> bindings;
     for (std::uint32_t i = 0; i < info->countSuggestedBindings; ++i) {
       check_binding(object, profile, info->suggestedBindings[i]);

@@ -1,4 +1,4 @@
-// What every function does first: handles, structures, rules, planted failures, the log.
+// Common prologue of every function: handles, structures, rules, planted failures, the log.
 #include <algorithm>
 #include <cstring>
 
@@ -37,7 +37,7 @@ struct Header {
 
 State& state() {
   static State* const one = [] {
-    auto* const made = new State;  // outlives the loader's destructors
+    auto* const made = new State;  // must outlive the loader's destructors
     made->control.rules = rules();
     made->control.restart = restart;
     made->control.read_script = [](const char* file) { return read_script(file); };
@@ -48,7 +48,7 @@ State& state() {
 }
 
 void refuse(XrResult result) {
-  throw Refused{result};
+  throw CallRejected{result};
 }
 
 XrResult write_violation(const char* id, const std::string& detail) {
@@ -149,7 +149,7 @@ void structure(const void* given, XrStructureType type, std::initializer_list<Ex
   }
 }
 
-const void* chained(const void* given, XrStructureType type) {
+const void* find_chained(const void* given, XrStructureType type) {
   auto* next = static_cast<const Header*>(static_cast<const Header*>(given)->next);
   while (next != nullptr && next->type != type) next = static_cast<const Header*>(next->next);
   return next;

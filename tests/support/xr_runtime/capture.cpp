@@ -1,4 +1,4 @@
-// Pixels of what a frame submitted, read on the program's queue as xrEndFrame may.
+// Reads the pixels that a frame submitted, on the program's queue, as xrEndFrame may.
 #include <algorithm>
 #include <cstring>
 
@@ -12,7 +12,7 @@ bool wants(const Capture& capture, std::uint64_t frame) {
   return every || std::find(capture.only.begin(), capture.only.end(), frame) != capture.only.end();
 }
 
-// Nothing of a multisampled image: it cannot be copied.
+// Empty for a multisampled image, which cannot be copied.
 std::vector<std::uint8_t> submitted(const SessionObject& session, const XrSwapchainSubImage& sub) {
   const SwapchainObject& swapchain = live(sub.swapchain);
   if (swapchain.info.sampleCount != 1) return {};
@@ -30,10 +30,10 @@ bool is_rgba(std::int64_t format) {
   return format == VK_FORMAT_R8G8B8A8_SRGB || format == VK_FORMAT_R8G8B8A8_UNORM;
 }
 
-Image picture(const SessionObject& session, const XrSwapchainSubImage& sub) {
+engine::Image picture(const SessionObject& session, const XrSwapchainSubImage& sub) {
   const std::int64_t format = live(sub.swapchain).info.format;
   if (!is_rgba(format) && !is_bgra(format)) return {};
-  Image image{sub.imageRect.extent.width, sub.imageRect.extent.height, submitted(session, sub)};
+  engine::Image image{sub.imageRect.extent.width, sub.imageRect.extent.height, submitted(session, sub)};
   if (image.rgba.empty()) return {};
   if (is_bgra(format)) {
     for (std::size_t i = 0; i < image.rgba.size(); i += 4) std::swap(image.rgba[i], image.rgba[i + 2]);
@@ -63,7 +63,7 @@ void capture_frame(State& s, const XrFrameEndInfo& info, const SessionObject& se
     const auto& layer = reinterpret_cast<const XrCompositionLayerProjection&>(*info.layers[i]);
     for (std::uint32_t eye = 0; eye < layer.viewCount; ++eye) {
       views[eye].picture = picture(session, layer.views[eye].subImage);
-      const void* const depth = chained(&layer.views[eye], XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR);
+      const void* const depth = find_chained(&layer.views[eye], XR_TYPE_COMPOSITION_LAYER_DEPTH_INFO_KHR);
       if (depth == nullptr || !capture.depth) continue;
       views[eye].depth.values = depths(session, static_cast<const XrCompositionLayerDepthInfoKHR*>(depth)->subImage);
     }

@@ -1,4 +1,4 @@
-// Display time. XrTime is CLOCK_MONOTONIC; the script's clock is what of it has gone since the first xrBeginSession.
+// Display time. XrTime is CLOCK_MONOTONIC; the script's clock is the time since the first xrBeginSession.
 #include <algorithm>
 #include <cmath>
 #include <thread>
@@ -46,7 +46,7 @@ XrTime now(const State& s) {
 std::int64_t next_display_period(State& s, XrTime last) {
   if (s.control.script.pacing == Pacing::real) {
     const std::int64_t free = whole_periods(s, monotonic_now()) + 1;
-    // A frame is begun one period before it is shown.
+    // A frame begins one period before its display time.
     if (last != 0 && free > s.next_step) s.control.record.dropped += static_cast<std::uint64_t>(free - s.next_step);
     s.next_step = std::max(free, s.next_step);
     sleep_until(display_time(s, s.next_step - 1));

@@ -1,4 +1,4 @@
-// The test's way to the runtime's control object.
+// Gives the test access to the runtime's control object.
 #include "tests/support/xr_runtime/control.h"
 
 #include <dlfcn.h>
@@ -11,7 +11,8 @@ namespace gearshift::xr_test {
 Control& control() {
   static Control* const loaded = [] {
     setenv("XR_RUNTIME_JSON", GEARSHIFT_XR_TEST_MANIFEST, 1);
-    void* const library = dlopen(GEARSHIFT_XR_TEST_RUNTIME, RTLD_NOW | RTLD_LOCAL);  // the loader gets this one too
+    // the loader opens the same library
+    void* const library = dlopen(GEARSHIFT_XR_TEST_RUNTIME, RTLD_NOW | RTLD_LOCAL);
     if (library == nullptr) throw std::runtime_error(dlerror());
     using Get = Control* (*)();
     const auto get = reinterpret_cast<Get>(dlsym(library, "gearshift_xr_test_control"));

@@ -1,5 +1,5 @@
-// An OpenXR runtime for tests, seen from the test: what it shall play (Script), what it was given (Record).
-// It is found by the loader through XR_RUNTIME_JSON, needs no headset and no display. README.md.
+// An OpenXR runtime for tests, as seen by the test: what it should simulate (Script) and what it received (Record). The
+// loader finds it through XR_RUNTIME_JSON; it needs no headset and no display. README.md.
 #pragma once
 
 #include <openxr/openxr.h>
@@ -37,40 +37,40 @@ inline Pose inverse(const Pose& a) {
 
 inline constexpr double kDegree = std::numbers::pi / 180.0;  // [rad]
 
-struct Fov {  // [rad], signs as in XrFovf
+struct Fov {  // [rad], with the signs of XrFovf
   double left = 0.0, right = 0.0, up = 0.0, down = 0.0;
 };
 
 enum class Space { view, local, stage, action };
 enum class Pacing {
-  stepped,  // each xrWaitFrame is the next display period and nobody sleeps: the same on every machine
-  real,     // sleeps like a compositor; who is late gets the next free period, those between count as dropped
+  stepped,  // each xrWaitFrame is the next display period, without sleeping: the same on every machine
+  real,     // sleeps like a compositor; a late frame gets the next free period, and skipped periods count as dropped
 };
 
-// What happens at a time: one of the makers below.
+// Something that happens at a given time; see the factory functions below.
 struct Event {
   enum class What {
-    focused,       // shown, and the controllers are the program's
-    visible,       // a menu lies over it
-    synchronized,  // not shown: shouldRender is false
-    stopping,      // the headset was put down
-    ready,         // and picked up again
-    loss_pending,  // the session is lost: its calls give XR_ERROR_SESSION_LOST
+    focused,       // visible, and the program has the controllers
+    visible,       // covered by a menu
+    synchronized,  // not visible: shouldRender is false
+    stopping,      // the headset was taken off
+    ready,         // and put on again
+    loss_pending,  // the session is lost: its calls return XR_ERROR_SESSION_LOST
     instance_loss,
     exit,  // the user closed the program: STOPPING, IDLE, EXITING
     space_change,
-    profile,  // other controllers; none: empty
-    hidden,   // shouldRender is false for a while, whatever the state
-    stall,    // xrWaitFrame blocks for some display periods: the runtime drops frames
+    profile,  // other controllers; an empty profile: none
+    hidden,   // shouldRender is false for a while, in any state
+    stall,    // xrWaitFrame blocks for some display periods, so that frames are dropped
   };
   double at = 0.0;  // [s] of Script's clock; -1: before the first xrBeginSession
   What what = What::focused;
-  Space space = Space::local;  // of space_change: local or stage
-  Pose pose{};                 // of space_change: the new origin in the space as it was
-  int frames_ahead = 3;        // of space_change: display periods between the event and the change
+  Space space = Space::local;  // for space_change: local or stage
+  Pose pose{};                 // for space_change: the new origin in the previous space
+  int frames_ahead = 3;        // for space_change: display periods between the event and the change
   std::string profile{};
-  double span = 0.0;  // [s] of hidden
-  int periods = 0;    // of stall
+  double span = 0.0;  // [s] for hidden
+  int periods = 0;    // for stall
 };
 inline Event focused(double at) {
   return {.at = at, .what = Event::What::focused};
@@ -112,7 +112,7 @@ inline Event stall(double at, int periods) {
 struct Failure {
   std::string function{};  // "xrEndFrame"
   XrResult result = XR_ERROR_RUNTIME_FAILURE;
-  int nth = 1;  // call from now on
+  int nth = 1;  // which call from now on
 };
 
 struct Hand {
@@ -120,39 +120,39 @@ struct Hand {
   std::function<Pose(double)> grip = [](double) { return Pose{}; };
 };
 
-struct Gap {                       // in the head's tracking
+struct Gap {                       // An interruption of head tracking.
   double from = 0.0, until = 0.0;  // [s]
-  bool valid = false;              // a guess goes on; otherwise there is no pose
+  bool valid = false;              // true: estimated poses; false: no poses
 };
 
-struct Capture {                      // of pixels; the records of frames are always kept
+struct Capture {                      // Selects the pixels to record; frames themselves are always recorded.
   int every = 0;                      // every n-th frame; 0: none
-  std::vector<std::uint64_t> only{};  // and these
+  std::vector<std::uint64_t> only{};  // and these frames
   bool depth = true;
 };
 
-// All times are seconds of display time since the first xrBeginSession after start(); a later session goes on with it.
-// While no session runs, a stepped clock goes one display period with every xrPollEvent that has no event.
+// All times are seconds of display time since the first xrBeginSession after start(); the clock continues across
+// sessions.
 struct Script {
   bool headset = true;  // false: XR_ERROR_FORM_FACTOR_UNAVAILABLE
   bool vulkan_enable2 = true, composition_layer_depth = true, convert_timespec_time = true;  // offered extensions
   bool stage = true;
-  Pose stage_origin{.position = {0.0, -1.2, 0.0}};                  // in LOCAL as it is at first
-  std::uint32_t recommended_width = 320, recommended_height = 240;  // [px] of an eye
+  Pose stage_origin{.position = {0.0, -1.2, 0.0}};                  // in the initial LOCAL space
+  std::uint32_t recommended_width = 320, recommended_height = 240;  // [px] per eye
   std::uint32_t max_width = 4096, max_height = 4096;                // [px]
   std::uint32_t recommended_samples = 1, max_samples = 4;           // [1]
-  std::uint32_t images = 3;                                         // of a swapchain
+  std::uint32_t images = 3;                                         // per swapchain
   std::vector<std::int64_t> colour_formats{43, 50, 37, 44};         // VkFormat: R8G8B8A8 and B8G8R8A8, sRGB first
   std::vector<std::int64_t> depth_formats{126};                     // VkFormat: D32_SFLOAT
-  std::array<Fov, 2> fov{Fov{-50 * kDegree, 42 * kDegree, 44 * kDegree, -48 * kDegree},  // left eye
+  std::array<Fov, 2> fov{Fov{-50 * kDegree, 42 * kDegree, 44 * kDegree, -48 * kDegree},  // of the left eye
                          Fov{-42 * kDegree, 50 * kDegree, 44 * kDegree, -48 * kDegree}};
   double eye_distance = 0.063;  // [m]
-  double period = 1.0 / 90.0;   // [s] of the display
+  double period = 1.0 / 90.0;   // [s] display period
   Pacing pacing = Pacing::stepped;
-  int polls_before_ready = 0;  // xrPollEvent calls without an event between IDLE and READY
-  std::function<Pose(double)> head = [](double) { return Pose{}; };  // in LOCAL as it is at first
+  int polls_before_ready = 0;  // xrPollEvent calls that return no event between IDLE and READY
+  std::function<Pose(double)> head = [](double) { return Pose{}; };  // in the initial LOCAL space
   std::vector<Gap> tracking_gaps{};
-  double early_error = 0.0;     // [m] in x, of each frame's first xrLocateViews only
+  double early_error = 0.0;     // [m] error in x, only in the first xrLocateViews of each frame
   std::array<Hand, 2> hands{};  // left, right
   std::string profile = "/interaction_profiles/oculus/touch_controller";
   std::map<std::string, std::function<double(double)>> inputs{};  // ["/user/hand/right/input/trigger/value"]
@@ -166,39 +166,39 @@ struct Rect {
 };
 
 struct DepthRecord {
-  bool given = false;
+  bool is_present = false;
   float min_depth = 0.0f, max_depth = 0.0f, near_z = 0.0f, far_z = 0.0f;
   Rect rect{};
-  std::vector<float> values{};  // of the rectangle, rows from the top; empty when not captured
+  std::vector<float> values{};  // inside the rectangle, rows from the top; empty if not captured
 };
 
 struct ViewRecord {
   Pose pose{};  // as submitted, in the layer's space
   Fov fov{};
   Rect rect{};
-  std::uint32_t layer = 0;  // of the swapchain's array
+  std::uint32_t layer = 0;  // index in the swapchain's array
   DepthRecord depth{};
-  Image picture{};  // of the rectangle, bytes as stored; empty when not captured
+  engine::Image picture{};  // the rectangle's bytes as stored; empty if not captured
 };
 
 struct LayerRecord {
   XrStructureType type = XR_TYPE_UNKNOWN;
   XrCompositionLayerFlags flags = 0;
   Space space = Space::local;
-  std::vector<ViewRecord> views{};    // of a projection: left, right; of a quad: its pose and picture alone
-  float width = 0.0f, height = 0.0f;  // [m] of a quad
+  std::vector<ViewRecord> views{};    // projection: left, right; quad: one entry with only pose and picture
+  float width = 0.0f, height = 0.0f;  // [m] size of a quad
   XrEyeVisibility eyes = XR_EYE_VISIBILITY_BOTH;
 };
 
 struct FrameRecord {
-  std::uint64_t index = 0;  // of xrWaitFrame
-  double time = 0.0;        // [s] of Script's clock, as predicted
+  std::uint64_t index = 0;  // counts calls of xrWaitFrame
+  double time = 0.0;        // [s] predicted display time on Script's clock
   XrTime display_time = 0;
   bool should_render = false;
   bool discarded = false;  // by the next xrBeginFrame
   bool ended = false;
-  int locates = 0;                    // xrLocateViews calls between this xrWaitFrame and the next
-  std::vector<LayerRecord> layers{};  // from the farthest to the nearest
+  int locates = 0;                    // xrLocateViews calls until the next xrWaitFrame
+  std::vector<LayerRecord> layers{};  // back to front
 
   const LayerRecord* projection() const { return first(XR_TYPE_COMPOSITION_LAYER_PROJECTION); }
   const LayerRecord* quad() const { return first(XR_TYPE_COMPOSITION_LAYER_QUAD); }
@@ -214,8 +214,8 @@ struct FrameRecord {
 
 struct Rule {
   const char* id;
-  XrResult result;      // what the function returns; XR_SUCCESS: it goes on
-  const char* section;  // of the OpenXR 1.0 specification
+  XrResult result;      // result of the call; XR_SUCCESS: it continues
+  const char* section;  // in the OpenXR 1.0 specification
   const char* law;
 };
 
@@ -223,20 +223,21 @@ struct Violation {
   std::string rule{}, function{}, detail{};
 };
 
-struct Pulse {  // xrApplyHapticFeedback
+struct Pulse {  // A call of xrApplyHapticFeedback.
   int hand = 0;
-  double seconds = 0.0;  // 0: the shortest there is
+  double seconds = 0.0;  // 0: the minimum duration
   float frequency = 0.0f, amplitude = 0.0f;
 };
 
 struct Record {
   std::vector<FrameRecord> frames{};
   std::vector<Violation> violations{};
-  std::vector<std::string> leaks{};   // "space of session", handles that died with their parent
-  std::vector<std::string> log{};     // frames, events, states, violations, one line each
-  std::map<std::string, int> live{};  // handles by kind: instance, session, swapchain, space, action set, action
+  std::vector<std::string> leaks{};  // "space of session": handles destroyed only with their parent
+  std::vector<std::string> log{};    // one line each for frames, events, states and violations
+  // number of live handles by kind: instance, session, swapchain, space, action set, action
+  std::map<std::string, int> live{};
   std::map<std::string, int> calls{};
-  std::uint64_t dropped = 0;  // display periods without a frame
+  std::uint64_t dropped = 0;  // display periods without a new frame
   std::vector<Pulse> pulses{};
   XrSessionState state = XR_SESSION_STATE_UNKNOWN;
 
@@ -252,16 +253,17 @@ struct Control {
   Record record;
   std::span<const Rule> rules{};
   void (*restart)(Control&) = nullptr;
-  Script (*read_script)(const char* file) = nullptr;  // a flow's text; throws std::runtime_error
+  Script (*read_script)(const char* file) = nullptr;  // parses a flow's script; throws std::runtime_error
 
-  // Before xrCreateInstance: a new script and an empty record.
+  // Call before xrCreateInstance: sets a new script and clears the record.
   void start(Script next = Script()) {
     script = std::move(next);
     restart(*this);
   }
 };
 
-// Sets XR_RUNTIME_JSON and loads the runtime; the same object at each call. Throws std::runtime_error. (xr_test_control)
+// Sets XR_RUNTIME_JSON and loads the runtime; returns the same object at each call. Throws std::runtime_error.
+// (xr_test_control)
 Control& control();
 
 }  // namespace gearshift::xr_test

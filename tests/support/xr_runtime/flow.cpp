@@ -1,4 +1,4 @@
-// A whole program under test: the script comes from a file, the results go to a folder.
+// For testing a whole program: the script comes from a file, and the results are written to a folder.
 #include <array>
 #include <cstdio>
 #include <cstdlib>
@@ -15,11 +15,12 @@ const char* out_folder() {
   return std::getenv("GEARSHIFT_XR_OUT");
 }
 
-void write_picture(const FrameRecord& record, const std::string& what, const Image& image) {
+void write_picture(const FrameRecord& record, const std::string& what, const engine::Image& image) {
   if (image.rgba.empty()) return;
   std::array<char, 16> number{};
   std::snprintf(number.data(), number.size(), "%06llu", static_cast<unsigned long long>(record.index));
-  write_png(std::filesystem::path(out_folder()) / ("frame_" + std::string(number.data()) + "_" + what + ".png"), image);
+  engine::write_png(std::filesystem::path(out_folder()) / ("frame_" + std::string(number.data()) + "_" + what + ".png"),
+                    image);
 }
 
 }  // namespace
@@ -31,13 +32,13 @@ void read_flow_script(Control& control) {
     control.script = read_script(file);
   } catch (const std::exception& error) {
     std::fprintf(stderr, "%s: %s\n", file, error.what());
-    std::abort();  // a test with half a script proves nothing
+    std::abort();  // a test with a partial script would prove nothing
   }
 }
 
 void write_log(const std::string& line) {
   if (out_folder() == nullptr) return;
-  // Closed after each line: a program that crashes leaves all of it.
+  // Closed after each line, so that nothing is lost if the program crashes.
   std::ofstream(std::filesystem::path(out_folder()) / "log.txt", std::ios::app) << line << "\n";
 }
 

@@ -1,4 +1,4 @@
-// The frame loop: wait, begin, end.
+// The frame loop: xrWaitFrame, xrBeginFrame, xrEndFrame.
 #include <string>
 
 #include "tests/support/xr_runtime/functions.h"
@@ -19,7 +19,7 @@ std::string frame_line(const FrameRecord& record) {
                      (record.should_render ? " shown" : " hidden") + " layers=" + std::to_string(record.layers.size()) +
                      " locates=" + std::to_string(record.locates);
   if (record.projection() != nullptr)
-    line += record.projection()->views[0].depth.given ? " projection+depth" : " projection";
+    line += record.projection()->views[0].depth.is_present ? " projection+depth" : " projection";
   if (record.quad() != nullptr) line += " quad";
   return line;
 }
@@ -40,11 +40,11 @@ XrResult XRAPI_CALL WaitFrame(XrSession session, const XrFrameWaitInfo* info, Xr
     structure(state, XR_TYPE_FRAME_STATE);
     require(object.running, "session_running");
     require(!object.waited, "wait_twice");
-    // First what is due by the display time that comes, a stall among it; then that time.
+    // First handle the events due by the next display time, which may include a stall; then determine that time.
     const bool steps = s.control.script.pacing == Pacing::stepped;
     play_timeline(s, steps ? seconds(s, display_time(s, s.next_step)) : seconds(s, now(s)));
-    live(session);  // which the timeline may have lost
-    walk(s, session, object);
+    live(session);  // the timeline may have lost it
+    advance_state(s, session, object);
     const XrTime time = display_time(s, next_display_period(s, object.last_display));
     ++object.waits;
     object.last_display = time;

@@ -1,11 +1,11 @@
-// Every function of the runtime, by the name that xrGetInstanceProcAddr is asked for.
+// Every function of the runtime, by the name passed to xrGetInstanceProcAddr.
 #pragma once
 
 #include <type_traits>
 
 #include "tests/support/xr_runtime/vulkan.h"
 
-// By their names without "xr"; and those that an extension brings.
+// Names without "xr", and the functions of each extension.
 // clang-format off
 #define GEARSHIFT_XR_CORE(_)                                                                                           \
   _(EnumerateInstanceExtensionProperties) _(CreateInstance) _(DestroyInstance) _(GetInstanceProperties) _(PollEvent)   \
@@ -28,8 +28,8 @@
 
 namespace gearshift::xr_test::xr {
 
-// Each has the type that OpenXR gives it: XrResult WaitFrame(XrSession, const XrFrameWaitInfo*, XrFrameState*);
-// NOLINTBEGIN(bugprone-macro-parentheses): a name that is declared has none
+// Each has OpenXR's type: XrResult WaitFrame(XrSession, const XrFrameWaitInfo*, XrFrameState*);
+// NOLINTBEGIN(bugprone-macro-parentheses): a declared name cannot have parentheses
 #define GEARSHIFT_XR_DECLARE(name) std::remove_pointer_t<PFN_xr##name> name;
 GEARSHIFT_XR_CORE(GEARSHIFT_XR_DECLARE)
 GEARSHIFT_XR_VULKAN_ENABLE2(GEARSHIFT_XR_DECLARE)

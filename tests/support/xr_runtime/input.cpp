@@ -1,4 +1,4 @@
-// What actions say: synced, read, and felt.
+// Values of actions: synchronising, reading, vibration.
 #include <algorithm>
 #include <cmath>
 
@@ -9,7 +9,7 @@
 namespace gearshift::xr_test {
 namespace {
 
-// The paths that an action is bound to on the session's controllers; of one subaction path, or of all.
+// The paths that an action is bound to on the session's controllers, for one subaction path or for all.
 std::vector<std::string> sources(const SessionObject& session, XrAction action, XrPath subaction) {
   const InstanceObject& instance = live(session.instance);
   const auto suggested = instance.suggestions.find(session.profile);
@@ -36,7 +36,7 @@ ActionValue read_source(const Script& script, XrActionType type, const std::stri
   return value;
 }
 
-// Of several bound inputs the one that is farthest from rest.
+// If several inputs are bound, uses the one that is farthest from rest.
 void sync_value(State& s, const SessionObject& session, XrAction handle, ActionObject& action, XrPath subaction) {
   ActionValue next;
   for (const std::string& path : sources(session, handle, subaction)) {
@@ -55,7 +55,7 @@ void sync_action(State& s, const SessionObject& session, XrAction handle) {
   for (const XrPath subaction : action.subactions) sync_value(s, session, handle, action, subaction);
 }
 
-// Of the sets that are not active.
+// Clears the values of action sets that are not active.
 void forget_values(State& s, const SessionObject& session, const std::vector<XrActionSet>& active) {
   for (const XrActionSet set : session.attached) {
     if (std::find(active.begin(), active.end(), set) != active.end()) continue;
@@ -65,7 +65,7 @@ void forget_values(State& s, const SessionObject& session, const std::vector<XrA
   }
 }
 
-// It changes with xrSyncActions alone, and to one that the program has bindings for.
+// The current profile changes only in xrSyncActions, and only to one for which the program suggested bindings.
 void choose_profile(State& s, XrSession handle, SessionObject& session) {
   const auto& suggestions = live(session.instance).suggestions;
   const std::string& held = s.control.script.profile;
@@ -222,7 +222,7 @@ XrResult XRAPI_CALL GetInputSourceLocalizedName(XrSession session, const XrInput
     const SessionObject& object = live(session);
     structure(info, XR_TYPE_INPUT_SOURCE_LOCALIZED_NAME_GET_INFO);
     require(object.has_attached, "set_attached");
-    // A name for people, which nobody shall take apart: the path's parts.
+    // A localized name for display, made of the path's parts; programs must not parse it.
     std::string name = path_string(live(object.instance), info->sourcePath).substr(1);
     std::replace(name.begin(), name.end(), '/', ' ');
     return fill_text(capacity, count, buffer, name);

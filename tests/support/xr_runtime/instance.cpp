@@ -1,4 +1,4 @@
-// Instance, system, events, names of values.
+// Instance, system, events, names of enumeration values.
 #include <openxr/openxr_reflection.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ void copy_text(char (&to)[size], const std::string& from) {
   std::snprintf(to, size, "%s", from.c_str());
 }
 
-// While no frame goes, a stepped clock goes with the calls that wait for an event.
+// While no frame is running, the stepped clock advances with the calls that wait for an event.
 void tick(State& s) {
   const bool frames_go = !s.sessions.of([](const SessionObject& one) { return one.running; }).empty();
   if (s.begin != 0 && !frames_go && s.control.script.pacing == Pacing::stepped) ++s.next_step;
@@ -73,7 +73,7 @@ XrResult XRAPI_CALL EnumerateInstanceExtensionProperties(const char* layer, std:
 
 XrResult XRAPI_CALL CreateInstance(const XrInstanceCreateInfo* info, XrInstance* instance) {
   return call("xrCreateInstance", [&](State& s) {
-    // The loader puts its debug messenger behind it.
+    // The loader appends its debug messenger to the chain.
     structure(info, XR_TYPE_INSTANCE_CREATE_INFO, {{XR_TYPE_DEBUG_UTILS_MESSENGER_CREATE_INFO_EXT}});
     pointer(instance, "instance");
     if (s.instances.size() != 0) return XR_ERROR_LIMIT_REACHED;

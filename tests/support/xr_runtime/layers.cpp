@@ -22,9 +22,9 @@ Rect check_image(const XrSwapchainSubImage& image) {
 }
 
 Fov check_fov(const XrFovf& fov) {
-  constexpr float kMost = std::numbers::pi_v<float> / 2.0f;
+  constexpr float kMaxFovAngle = std::numbers::pi_v<float> / 2.0f;
   for (const float angle : {fov.angleLeft, fov.angleRight, fov.angleUp, fov.angleDown}) {
-    require(std::isfinite(angle) && std::abs(angle) < kMost, "fov");
+    require(std::isfinite(angle) && std::abs(angle) < kMaxFovAngle, "fov");
   }
   require(fov.angleLeft != fov.angleRight && fov.angleUp != fov.angleDown, "fov", "spans nothing");
   return {fov.angleLeft, fov.angleRight, fov.angleUp, fov.angleDown};
@@ -32,7 +32,7 @@ Fov check_fov(const XrFovf& fov) {
 
 DepthRecord check_depth(const XrCompositionLayerProjectionView& view) {
   DepthRecord record;
-  const auto* const depth = static_cast<const XrCompositionLayerDepthInfoKHR*>(chained(&view, kDepth.type));
+  const auto* const depth = static_cast<const XrCompositionLayerDepthInfoKHR*>(find_chained(&view, kDepth.type));
   if (depth == nullptr) return record;
   record = {true, depth->minDepth, depth->maxDepth, depth->nearZ, depth->farZ, check_image(depth->subImage), {}};
   require(record.min_depth >= 0.0f && record.min_depth < record.max_depth && record.max_depth <= 1.0f, "depth_info");

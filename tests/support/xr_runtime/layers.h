@@ -1,4 +1,4 @@
-// What a frame submits, checked and written down.
+// Checks and records what a frame submits.
 #pragma once
 
 #include "tests/support/xr_runtime/state.h"

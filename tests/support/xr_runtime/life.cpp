@@ -1,4 +1,4 @@
-// A session's states and what the timeline does to them: the order is always a legal one.
+// The states of a session and the effects of the timeline on them, always in a legal order.
 #include <algorithm>
 #include <string>
 
@@ -49,7 +49,7 @@ void step_down(State& s, XrSession handle, SessionObject& session, XrSessionStat
 void stop(State& s, XrSession handle, SessionObject& session) {
   if (!session.running) return;
   session.stop_wanted = true;
-  walk(s, handle, session);
+  advance_state(s, handle, session);
 }
 
 void leave(State& s, XrSession handle, SessionObject& session) {
@@ -117,9 +117,9 @@ void set_state(State& s, XrSession handle, SessionObject& session, XrSessionStat
 
 void play_timeline(State& s, double until) {
   if (s.begin == 0 && s.sessions.size() == 0) return;
-  if (s.begin == 0) until = -1.0;  // what shall come before the first xrBeginSession
+  if (s.begin == 0) until = -1.0;  // events due before the first xrBeginSession
   std::vector<Event>& timeline = s.control.script.timeline;
-  constexpr double kNanosecond = 1e-9;  // [s] that display times are rounded to
+  constexpr double kNanosecond = 1e-9;  // [s] display times are rounded to this
   while (true) {
     const auto next =
         std::min_element(timeline.begin(), timeline.end(), [](const Event& a, const Event& b) { return a.at < b.at; });
@@ -130,13 +130,13 @@ void play_timeline(State& s, double until) {
   }
 }
 
-void walk(State& s, XrSession handle, SessionObject& session) {
+void advance_state(State& s, XrSession handle, SessionObject& session) {
   if (session.stop_wanted) {
     step_down(s, handle, session, XR_SESSION_STATE_SYNCHRONIZED);
     if (session.state != XR_SESSION_STATE_STOPPING) set_state(s, handle, session, XR_SESSION_STATE_STOPPING);
     return;
   }
-  // The first frame is needed for SYNCHRONIZED; then one state a frame, as far as it is shown.
+  // The first frame is required for SYNCHRONIZED; then one state per frame, as far as it is visible.
   if (session.waits < 1 || session.state >= XR_SESSION_STATE_STOPPING) return;
   if (session.state < session.wanted) {
     set_state(s, handle, session, static_cast<XrSessionState>(session.state + 1));

@@ -1,5 +1,5 @@
-// How the loader finds the runtime's functions. Debian ships no header for these structures: they are those of the
-// loader's document "Loader/Runtime Interface Negotiation".
+// How the loader finds the runtime's functions. Debian has no header for these structures; they follow the loader's
+// document "Loader/Runtime Interface Negotiation".
 #include <string_view>
 
 #include "tests/support/xr_runtime/functions.h"
@@ -64,7 +64,7 @@ XrResult XRAPI_CALL get_function(XrInstance instance, const char* name, PFN_xrVo
 }  // namespace
 }  // namespace gearshift::xr_test
 
-// NOLINTNEXTLINE(readability-identifier-naming): the loader gives the name
+// NOLINTNEXTLINE(readability-identifier-naming): the loader requires this name
 extern "C" __attribute__((visibility("default"))) XrResult XRAPI_CALL xrNegotiateLoaderRuntimeInterface(
     const gearshift::xr_test::LoaderInfo* loader, gearshift::xr_test::RuntimeRequest* request) {
   constexpr std::uint32_t kInterface = 1;

@@ -1,4 +1,4 @@
-// Paths: strings of an instance by number.
+// Paths: an instance's strings by number.
 #include <algorithm>
 #include <cstring>
 #include <string_view>

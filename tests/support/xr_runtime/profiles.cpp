@@ -5,7 +5,7 @@ namespace {
 
 struct Component {
   const char* profile;
-  const char* hands;  // l, r
+  const char* hands;  // "l" and/or "r"
   const char* path;
 };
 constexpr const char* kSimple = "/interaction_profiles/khr/simple_controller";

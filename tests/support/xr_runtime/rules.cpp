@@ -1,4 +1,4 @@
-// What is checked. Each rule has a planted violation in tests/engine/xr/runtime_rules_test.cpp.
+// The rules. Each has a planted violation in tests/engine/xr/runtime_rules_test.cpp.
 #include "tests/support/xr_runtime/rules.h"
 
 #include <stdexcept>
@@ -7,7 +7,7 @@ namespace gearshift::xr_test {
 namespace {
 
 constexpr Rule kRules[] = {
-    // Any function.
+    // Rules for all functions.
     {"handle_live", XR_ERROR_HANDLE_INVALID, "Handles", "a handle must be a live one: created, and not destroyed"},
     {"pointer", XR_ERROR_VALIDATION_FAILURE, "Valid Usage",
      "a pointer must point to a valid value where it is not optional"},

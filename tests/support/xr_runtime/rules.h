@@ -1,4 +1,4 @@
-// The table of what is checked.
+// The table of rules.
 #pragma once
 
 #include <span>

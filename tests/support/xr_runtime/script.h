@@ -1,4 +1,4 @@
-// The text of a script. README.md has its words.
+// Reader of script files. README.md describes the format.
 #pragma once
 
 #include <filesystem>

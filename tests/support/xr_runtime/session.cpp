@@ -1,4 +1,4 @@
-// Sessions: made, begun, ended, asked to leave.
+// Sessions: creation, begin, end, exit requests.
 #include "tests/support/xr_runtime/functions.h"
 #include "tests/support/xr_runtime/state.h"
 
@@ -13,7 +13,7 @@ void drop_children(State& s, XrSession session, const Table& table, const char* 
   }
 }
 
-// No event of a session that is gone. All of these have it behind their header.
+// Does the event belong to the session? All session events store it right after their header.
 bool is_event_of(const XrEventDataBuffer& event, XrSession session) {
   return event.type != XR_TYPE_EVENT_DATA_INSTANCE_LOSS_PENDING &&
          reinterpret_cast<const XrEventDataSessionStateChanged&>(event).session == session;
@@ -21,7 +21,7 @@ bool is_event_of(const XrEventDataBuffer& event, XrSession session) {
 
 Graphics bind(State& s, const XrSessionCreateInfo& info) {
   const auto* const binding =
-      static_cast<const XrGraphicsBindingVulkanKHR*>(chained(&info, XR_TYPE_GRAPHICS_BINDING_VULKAN_KHR));
+      static_cast<const XrGraphicsBindingVulkanKHR*>(find_chained(&info, XR_TYPE_GRAPHICS_BINDING_VULKAN_KHR));
   require(binding != nullptr, "graphics_binding", "there is none");
   const auto made = s.vulkan_devices.find(binding->device);
   require(made != s.vulkan_devices.end(), "graphics_binding", "the device is not of xrCreateVulkanDeviceKHR");
@@ -116,7 +116,7 @@ XrResult XRAPI_CALL RequestExitSession(XrSession session) {
     require(object.running, "session_running");
     object.exit_requested = true;
     object.stop_wanted = true;
-    walk(s, session, object);
+    advance_state(s, session, object);
     return XR_SUCCESS;
   });
 }

@@ -1,4 +1,4 @@
-// Spaces and views: where things are at a time.
+// Spaces and views: poses at a given time.
 #include <algorithm>
 #include <cmath>
 
@@ -32,12 +32,13 @@ Pose relative(const State& s, const SpaceObject& space, const SpaceObject& base,
 }
 
 void velocity(const State& s, const SpaceObject& space, const SpaceObject& base, XrTime time, XrSpaceVelocity& out) {
-  constexpr XrDuration kApart = 1'000'000;  // [ns]
-  const Pose before = relative(s, space, base, time - kApart), after = relative(s, space, base, time + kApart);
-  const double apart = 2e-9 * static_cast<double>(kApart);
+  constexpr XrDuration kVelocityInterval = 1'000'000;  // [ns]
+  const Pose before = relative(s, space, base, time - kVelocityInterval),
+             after = relative(s, space, base, time + kVelocityInterval);
+  const double apart = 2e-9 * static_cast<double>(kVelocityInterval);
   const glm::dvec3 linear = (after.position - before.position) / apart;
   const glm::dquat turn = after.orientation * glm::conjugate(before.orientation);
-  const double half = turn.w < 0.0 ? -2.0 : 2.0;  // the shorter way; small angles
+  const double half = turn.w < 0.0 ? -2.0 : 2.0;  // the shorter rotation; small-angle approximation
   out.velocityFlags = before.position_valid && after.position_valid ? XR_SPACE_VELOCITY_LINEAR_VALID_BIT : 0;
   if (before.orientation_valid && after.orientation_valid) out.velocityFlags |= XR_SPACE_VELOCITY_ANGULAR_VALID_BIT;
   const auto xr_vector = [](const glm::dvec3& v) {
@@ -82,10 +83,10 @@ XrPosef to_xr(const Pose& pose) {
 void unit_pose(const XrPosef& pose, const char* what) {
   const Pose given = from_xr(pose);
   const double norm = glm::dot(given.orientation, given.orientation);
-  constexpr double kOff = 0.02;  // of the square: "within 1%" of one
+  constexpr double kMaxNormError = 0.02;  // tolerance of the squared norm, for "within 1%" of 1
   const bool finite =
       std::isfinite(given.position.x) && std::isfinite(given.position.y) && std::isfinite(given.position.z);
-  require(finite && std::abs(norm - 1.0) <= kOff, "pose_unit", what);
+  require(finite && std::abs(norm - 1.0) <= kMaxNormError, "pose_unit", what);
 }
 
 Pose head_at(const State& s, double t) {
@@ -161,7 +162,7 @@ XrResult XRAPI_CALL LocateSpace(XrSpace space, XrSpace base, XrTime time, XrSpac
     const Pose pose = relative(s, what, from, time);
     location->locationFlags = location_flags(pose);
     location->pose = to_xr(pose);
-    if (const void* const chain = chained(location, XR_TYPE_SPACE_VELOCITY)) {
+    if (const void* const chain = find_chained(location, XR_TYPE_SPACE_VELOCITY)) {
       velocity(s, what, from, time, *const_cast<XrSpaceVelocity*>(static_cast<const XrSpaceVelocity*>(chain)));
     }
     return XR_SUCCESS;

@@ -1,4 +1,4 @@
-// All that the runtime holds: one of it in the process, and it stays when the loader lets go of the library.
+// The whole state of the runtime. There is one per process, and it survives when the loader closes the library.
 #pragma once
 
 #include <bit>
@@ -28,7 +28,7 @@ struct InstanceObject {
 
 struct FrameState {
   XrTime time = 0;
-  std::size_t record = 0;  // in Record::frames
+  std::size_t record = 0;  // index in Record::frames
 };
 
 struct SessionObject {
@@ -36,25 +36,25 @@ struct SessionObject {
   XrInstance instance = XR_NULL_HANDLE;
   Graphics graphics{};
   XrSessionState state = XR_SESSION_STATE_UNKNOWN;
-  XrSessionState wanted = XR_SESSION_STATE_FOCUSED;  // where the runtime walks to while frames go on
+  XrSessionState wanted = XR_SESSION_STATE_FOCUSED;  // the state that the runtime is advancing to
   int polls_before_ready = 0;
   bool running = false, lost = false;
   bool exit_requested = false, stop_wanted = false, ready_wanted = false;
-  int waits = 0;                       // since xrBeginSession
-  std::optional<FrameState> waited{};  // and not yet begun
-  std::optional<FrameState> begun{};   // and not yet ended
+  int waits = 0;                       // frames since xrBeginSession
+  std::optional<FrameState> waited{};  // waited for, not yet begun
+  std::optional<FrameState> begun{};   // begun, not yet ended
   XrTime last_display = 0;
   std::vector<XrActionSet> attached{};
   bool has_attached = false;
-  std::string profile{};  // that its controllers have now
+  std::string profile{};  // interaction profile of its current controllers
 };
 
 struct SpaceObject {
   static constexpr const char* kKind = "space";
   XrSession session = XR_NULL_HANDLE;
   Space type = Space::local;
-  Pose pose{};                       // in the reference space, or in the action's
-  XrAction action = XR_NULL_HANDLE;  // of an action space
+  Pose pose{};                       // relative to the reference space or the action
+  XrAction action = XR_NULL_HANDLE;  // for action spaces
   XrPath subaction = XR_NULL_PATH;
 };
 
@@ -63,10 +63,10 @@ struct SwapchainObject {
   XrSession session = XR_NULL_HANDLE;
   XrSwapchainCreateInfo info{};
   std::vector<SwapchainImage> images{};
-  std::deque<std::uint32_t> acquired{};  // the first may have been waited for
+  std::deque<std::uint32_t> acquired{};  // the first one may have been waited for
   bool waited = false;
   std::uint32_t next = 0;
-  std::optional<std::uint32_t> released{};  // the last one
+  std::optional<std::uint32_t> released{};  // the last image
 };
 
 struct ActionSetObject {
@@ -91,13 +91,13 @@ struct ActionObject {
   std::map<XrPath, ActionValue> values{};  // by subaction path; XR_NULL_PATH: all of them
 };
 
-// Live objects of one kind. Handles are never used twice, so that a dead one is noticed.
+// Live objects of one kind. Handles are never reused, so that destroyed ones are detected.
 template <class Handle, class Object>
 class Table {
  public:
   Handle add(Object object) {
     static std::uint64_t count = 0;
-    // No neighbour of a live handle is one.
+    // Scrambled, so that neighbouring numbers are not valid handles.
     const auto id = (++count * 0x9e3779b97f4a7c15u) | 1u;
     const auto handle = std::bit_cast<Handle>(id);
     objects_.emplace(handle, std::make_unique<Object>(std::move(object)));
@@ -109,11 +109,11 @@ class Table {
   }
   void erase(Handle handle) { objects_.erase(handle); }
   int size() const { return static_cast<int>(objects_.size()); }
-  template <class Belongs>
-  std::vector<Handle> of(Belongs belongs) const {
+  template <class Predicate>
+  std::vector<Handle> of(Predicate predicate) const {
     std::vector<Handle> found;
     for (const auto& [handle, object] : objects_) {
-      if (belongs(*object)) found.push_back(handle);
+      if (predicate(*object)) found.push_back(handle);
     }
     return found;
   }
@@ -124,13 +124,13 @@ class Table {
 
 struct OriginChange {
   XrTime time = 0;
-  Pose origin{};  // in the head's world
+  Pose origin{};  // in head world space
 };
 
 struct State {
   Control control;
   std::recursive_mutex mutex;
-  const char* function = "";  // that the program is in
+  const char* function = "";  // the function that the program is in
   Table<XrInstance, InstanceObject> instances;
   Table<XrSession, SessionObject> sessions;
   Table<XrSpace, SpaceObject> spaces;
@@ -139,30 +139,30 @@ struct State {
   Table<XrAction, ActionObject> actions;
   std::deque<XrEventDataBuffer> events{};
   // The script's clock.
-  XrTime begin = 0;            // of the first xrBeginSession; 0: it has not begun
-  std::int64_t next_step = 0;  // the display period that comes next
+  XrTime begin = 0;            // time of the first xrBeginSession; 0: not yet begun
+  std::int64_t next_step = 0;  // the next display period
   double hidden_until = -1.0;  // [s]
   std::map<Space, std::vector<OriginChange>> origins{};
-  // Vulkan objects made through the runtime.
+  // Vulkan objects created through the runtime.
   std::map<VkInstance, PFN_vkGetInstanceProcAddr> vulkan_instances{};
   std::map<VkPhysicalDevice, VkInstance> vulkan_physicals{};
   std::map<VkDevice, VkPhysicalDevice> vulkan_devices{};
 };
 State& state();
 
-// ---- the frame of each call (call.cpp)
+// ---- prologue of each call (call.cpp)
 
-struct Refused {  // thrown: what the function returns
+struct CallRejected {  // thrown to return this result from the function
   XrResult result;
 };
 [[noreturn]] void refuse(XrResult result);
-XrResult write_violation(const char* rule, const std::string& detail);  // the rule's result
-// The rule holds, or it is written down and the function returns the rule's result.
+XrResult write_violation(const char* rule, const std::string& detail);  // returns the rule's result
+// If the rule does not hold, records the violation and returns the rule's result from the function.
 inline void require(bool holds, const char* rule, const std::string& detail = {}) {
   if (!holds) refuse(write_violation(rule, detail));
 }
 std::optional<XrResult> injected_failure(const char* function);
-void log_line(const std::string& line);  // to the record, and to the file of a flow
+void log_line(const std::string& line);  // to the record, and in a flow also to a file
 void count_live();
 
 template <class Body>
@@ -174,7 +174,7 @@ XrResult call(const char* function, Body&& body) {
   try {
     if (const auto failure = injected_failure(function)) return *failure;
     return body(s);
-  } catch (const Refused& refused) {
+  } catch (const CallRejected& refused) {
     return refused.result;
   } catch (const std::exception& error) {
     log_line(std::string("error ") + function + ": " + error.what());
@@ -182,7 +182,7 @@ XrResult call(const char* function, Body&& body) {
   }
 }
 
-// A live object, whose instance and session are not lost.
+// Returns the live object; rejects the call if its instance or session is lost.
 InstanceObject& live(XrInstance handle);
 SessionObject& live(XrSession handle);
 SpaceObject& live(XrSpace handle);
@@ -191,17 +191,17 @@ ActionSetObject& live(XrActionSet handle);
 ActionObject& live(XrAction handle);
 
 void pointer(const void* given, const char* name);
-bool enabled(const char* extension);  // by the one instance
+bool enabled(const char* extension);  // by the only instance
 
-// The chain of a structure: its type, and nothing unknown behind it. `allowed`: type and the extension that brings it.
+// Checks a structure's type and its next chain. `allowed`: structure types and the extensions that provide them.
 struct Extends {
   XrStructureType type;
   const char* extension = nullptr;
 };
 void structure(const void* given, XrStructureType type, std::initializer_list<Extends> allowed = {});
-const void* chained(const void* given, XrStructureType type);  // nullptr when it is not there
+const void* find_chained(const void* given, XrStructureType type);  // nullptr if it is not in the chain
 
-// The two calls of section "Buffer Size Parameters".
+// The two-call idiom of section "Buffer Size Parameters".
 template <class Out, class Items, class Write>
 XrResult fill(std::uint32_t capacity, std::uint32_t* count, Out* out, const Items& items, Write write) {
   pointer(count, "the count");
@@ -221,13 +221,13 @@ XrResult fill(std::uint32_t capacity, std::uint32_t* count, Out* out, const Item
 
 XrTime monotonic_now();
 XrDuration period(const State& s);
-double seconds(const State& s, XrTime time);  // of the script's clock
+double seconds(const State& s, XrTime time);  // on the script's clock
 XrTime display_time(const State& s, std::int64_t step);
-XrTime now(const State& s);                               // stepped: the display time last handed out
-std::int64_t next_display_period(State& s, XrTime last);  // sleeps with Pacing::real; counts what was dropped
+XrTime now(const State& s);                               // stepped: the last display time that was returned
+std::int64_t next_display_period(State& s, XrTime last);  // sleeps with Pacing::real; counts dropped periods
 void stall_periods(State& s, int periods);
 
-// ---- life (life.cpp)
+// ---- session life (life.cpp)
 
 template <class T>
 void push_event(State& s, const T& event) {
@@ -237,8 +237,9 @@ void push_event(State& s, const T& event) {
   s.events.push_back(buffer);
 }
 void set_state(State& s, XrSession handle, SessionObject& session, XrSessionState next);
-void play_timeline(State& s, double until);                     // what is due by then
-void walk(State& s, XrSession handle, SessionObject& session);  // one legal step towards what is wanted
+void play_timeline(State& s, double until);  // handles the events that are due
+// makes one legal step towards the wanted state
+void advance_state(State& s, XrSession handle, SessionObject& session);
 
 // ---- spaces (space.cpp)
 
@@ -246,14 +247,14 @@ Pose from_xr(const XrPosef& pose);
 XrPosef to_xr(const Pose& pose);
 void unit_pose(const XrPosef& pose, const char* what);
 Pose head_at(const State& s, double t);
-Pose place(const State& s, const SpaceObject& space, XrTime time);  // in the head's world
+Pose place(const State& s, const SpaceObject& space, XrTime time);  // in head world space
 
 // ---- paths, actions (paths.cpp, actions.cpp, input.cpp)
 
 const std::string& path_string(const InstanceObject& instance, XrPath path);
 XrPath path_number(InstanceObject& instance, const std::string& text);
 bool is_path_part(std::string_view part);
-int hand_of(XrPath path, const InstanceObject& instance);  // -1: no hand
+int hand_of(XrPath path, const InstanceObject& instance);  // -1: not a hand
 XrResult fill_text(std::uint32_t capacity, std::uint32_t* count, char* buffer, const std::string& text);
 void check_subaction(const ActionObject& action, XrPath subaction);
 Pose action_pose(const State& s, const SpaceObject& space, double t);
@@ -263,7 +264,7 @@ Pose action_pose(const State& s, const SpaceObject& space, double t);
 void require_system(XrSystemId system);
 void require_stereo(XrViewConfigurationType type);
 
-// ---- ends: parents take their children along
+// ---- destruction: parents destroy their children
 
 void drop_session(State& s, XrSession handle);
 void drop_swapchain(State& s, XrSwapchain handle);
@@ -273,8 +274,8 @@ void leak(State& s, const char* kind, const char* parent);
 // ---- capture (capture.cpp) and flows (flow.cpp)
 
 void capture_frame(State& s, const XrFrameEndInfo& info, const SessionObject& session, FrameRecord& record);
-void write_pictures(const FrameRecord& record);  // in a flow
+void write_pictures(const FrameRecord& record);  // only in a flow
 void write_log(const std::string& line);
-void read_flow_script(Control& control);  // GEARSHIFT_XR_SCRIPT
+void read_flow_script(Control& control);  // from GEARSHIFT_XR_SCRIPT
 
 }  // namespace gearshift::xr_test

@@ -1,4 +1,4 @@
-// Swapchains: their images go to the program one after the other.
+// Swapchains: the program gets their images in turn.
 #include <algorithm>
 
 #include "tests/support/xr_runtime/functions.h"
@@ -13,18 +13,18 @@ std::vector<std::int64_t> formats(const Script& script) {
   return all;
 }
 
-bool within(std::uint32_t value, std::uint32_t most) {
-  return value >= 1 && value <= most;
+bool within(std::uint32_t value, std::uint32_t limit) {
+  return value >= 1 && value <= limit;
 }
 
 void check_create_info(const Script& script, const XrSwapchainCreateInfo& info) {
   const std::vector<std::int64_t> known = formats(script);
   require(std::find(known.begin(), known.end(), info.format) != known.end(), "swapchain_format",
           std::to_string(info.format));
-  constexpr std::uint32_t kMostLayers = 2048, kMostLevels = 16;
+  constexpr std::uint32_t kMaxArrayLayers = 2048, kMaxMipLevels = 16;
   require(within(info.width, script.max_width) && within(info.height, script.max_height), "swapchain_size", "extent");
   require(within(info.sampleCount, script.max_samples), "swapchain_size", "sampleCount");
-  require(within(info.arraySize, kMostLayers) && within(info.mipCount, kMostLevels), "swapchain_size",
+  require(within(info.arraySize, kMaxArrayLayers) && within(info.mipCount, kMaxMipLevels), "swapchain_size",
           "layers, levels");
   require(info.faceCount == 1 || info.faceCount == 6, "swapchain_size", "faceCount");
   const XrSwapchainUsageFlags foreign =
@@ -32,7 +32,7 @@ void check_create_info(const Script& script, const XrSwapchainCreateInfo& info) 
   require((info.usageFlags & foreign) == 0, "swapchain_usage");
   constexpr XrSwapchainUsageFlags kKnown = 0x7f;
   require((info.usageFlags & ~kKnown) == 0, "swapchain_usage", "an unknown bit");
-  // What a runtime need not have.
+  // Features that a runtime need not support.
   if (info.faceCount != 1 || info.arraySize > 2 || (info.sampleCount & (info.sampleCount - 1)) != 0 ||
       info.createFlags != 0) {
     refuse(XR_ERROR_FEATURE_UNSUPPORTED);
@@ -76,7 +76,7 @@ XrResult XRAPI_CALL DestroySwapchain(XrSwapchain swapchain) {
   return call("xrDestroySwapchain", [&](State& s) {
     const SwapchainObject* const object = s.swapchains.find(swapchain);
     require(object != nullptr, "handle_live", "swapchain");
-    if (!object->acquired.empty()) write_violation("destroyed_in_use", {});  // it goes all the same
+    if (!object->acquired.empty()) write_violation("destroyed_in_use", {});  // it is destroyed anyway
     drop_swapchain(s, swapchain);
     count_live();
     return XR_SUCCESS;

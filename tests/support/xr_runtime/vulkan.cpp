@@ -28,7 +28,7 @@ VkDeviceMemory allocate(const Graphics& graphics, const VkMemoryRequirements& ne
 }
 
 VkImageUsageFlags usage(const XrSwapchainCreateInfo& info) {
-  // Always an attachment, whose layout the extension promises, and read back.
+  // Always an attachment, because the extension promises that layout, and readable.
   VkImageUsageFlags flags =
       VK_IMAGE_USAGE_TRANSFER_SRC_BIT |
       (is_depth(info.format) ? VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT : VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT);

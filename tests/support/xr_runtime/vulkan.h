@@ -1,4 +1,4 @@
-// The program's Vulkan device, as the runtime uses it: images, and reading them back.
+// The program's Vulkan device as used by the runtime: creating and reading back images.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 #include <openxr/openxr_platform.h>
 #include <time.h>
 
-// What a designated initializer leaves out is zero, as Vulkan wants its unused fields.
+// Fields left out of a designated initializer are zero, as Vulkan requires of unused fields.
 #pragma GCC diagnostic ignored "-Wmissing-field-initializers"
 
 // clang-format off
@@ -30,7 +30,7 @@ namespace gearshift::xr_test {
 struct SwapchainImage {
   VkImage image = VK_NULL_HANDLE;
   VkDeviceMemory memory = VK_NULL_HANDLE;
-  bool laid_out = false;  // in the layout that the extension promises
+  bool laid_out = false;  // already in the layout that the extension promises
 };
 
 struct Graphics {
@@ -45,7 +45,7 @@ struct Graphics {
 #undef GEARSHIFT_XR_FIELD
 };
 
-// All throw std::runtime_error where Vulkan refuses.
+// Throw std::runtime_error if Vulkan fails.
 Graphics open_graphics(const XrGraphicsBindingVulkanKHR& binding, PFN_vkGetInstanceProcAddr get);
 void close_graphics(Graphics& graphics);
 bool is_depth(std::int64_t format);
@@ -54,7 +54,7 @@ std::vector<SwapchainImage> make_images(const Graphics& graphics, const XrSwapch
 void free_images(const Graphics& graphics, std::vector<SwapchainImage>& images);
 void lay_out(const Graphics& graphics, SwapchainImage& image, const XrSwapchainCreateInfo& info);
 
-// Four bytes a pixel, rows from the top: of a colour or a 32 bit depth image in the promised layout.
+// Reads four bytes per pixel, rows from the top, of a colour or 32-bit depth image in the promised layout.
 struct ReadRegion {
   int x = 0, y = 0;
   std::uint32_t width = 0, height = 0, layer = 0;

@@ -1,4 +1,5 @@
-// XR_KHR_vulkan_enable2 and XR_KHR_convert_timespec_time: what the program makes through the runtime. It adds nothing.
+// XR_KHR_vulkan_enable2 and XR_KHR_convert_timespec_time: creates Vulkan objects for the program, without adding
+// anything.
 #include "tests/support/xr_runtime/functions.h"
 #include "tests/support/xr_runtime/state.h"
 

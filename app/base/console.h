@@ -1,0 +1,37 @@
+// Console output. Output errors (full disk, closed stream or pipe) never interrupt the work; main() reports them at the
+// end.
+#pragma once
+
+#include <cstdio>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include <fmt/core.h>
+
+namespace gearshift::base {
+
+// output: stdout or stderr.
+inline void print_to(std::FILE* output, std::string_view text) {
+  std::fwrite(text.data(), 1, text.size(), output);
+}
+
+// Prints to standard output, without adding a line feed.
+template <class... Values>
+void print_out(fmt::format_string<Values...> format, Values&&... values) {
+  print_to(stdout, fmt::format(format, std::forward<Values>(values)...));
+}
+
+// Prints a line to standard output and flushes, because a user or script is waiting for it.
+inline void print_line(std::string_view line) {
+  print_out("{}\n", line);
+  std::fflush(stdout);
+}
+
+// Prints a line to standard error: an error, or a message that is not part of the results.
+template <class... Values>
+void print_message(fmt::format_string<Values...> format, Values&&... values) {
+  print_to(stderr, "gearshift: " + fmt::format(format, std::forward<Values>(values)...) + '\n');
+}
+
+}  // namespace gearshift::base

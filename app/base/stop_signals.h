@@ -1,0 +1,25 @@
+// Lets a program that drives motors end cleanly on Ctrl-C, kill and a closed terminal: results are saved, motors are
+// off, the device is released. A second signal ends it at once. A signal that was ignored at the start (nohup) stays
+// ignored.
+#pragma once
+
+#include <array>
+#include <csignal>
+
+namespace gearshift::base {
+
+class StopSignals {  // one object at a time
+ public:
+  StopSignals();
+  ~StopSignals();  // restores the previous handlers
+  StopSignals(const StopSignals&) = delete;
+  StopSignals& operator=(const StopSignals&) = delete;
+
+  static bool requested() noexcept;
+
+ private:
+  static constexpr std::array kSignals{SIGINT, SIGTERM, SIGHUP};
+  std::array<struct sigaction, kSignals.size()> before_{};
+};
+
+}  // namespace gearshift::base

@@ -1,0 +1,54 @@
+// A small SVG writer with the shapes that this program's drawings need. Units are those of the view box.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+namespace gearshift::base {
+
+struct Rect {
+  double x = 0.0, y = 0.0, width = 0.0, height = 0.0;
+  double right() const { return x + width; }
+  double bottom() const { return y + height; }
+};
+
+struct Pen {
+  const char* colour = "#000000";
+  double width = 0.3;
+  const char* dash = "none";  // "on off" lengths
+};
+
+struct Type {  // text style
+  double size = 3.0;
+  const char* colour = "#000000";
+  const char* anchor = "start";  // start, middle, end
+  bool bold = false;
+};
+
+class Svg {
+ public:
+  // pixels: pixels per unit of the page.
+  Svg(const Rect& page, double pixels);
+
+  // Defines a fill of diagonal stripes; use it with fill = "url(#name)".
+  void stripes(std::string_view name, std::string_view ground, std::string_view stripe);
+
+  void text(glm::dvec2 at, const Type& type, std::string_view label);  // escaped here
+  void line(glm::dvec2 from, glm::dvec2 to, const Pen& pen);
+  void rect(const Rect& r, std::string_view fill, double corner = 0.0);
+  void frame(const Rect& r, std::string_view fill, const Pen& pen);
+  void dot(glm::dvec2 center, double radius, std::string_view fill, std::string_view tip = {});  // tip: tooltip
+  void ring(glm::dvec2 center, double radius, const Pen& pen);
+  void polygon(const std::vector<glm::dvec2>& points, std::string_view fill);
+  void polyline(const std::vector<glm::dvec2>& points, const Pen& pen);
+
+  std::string finish() &&;
+
+ private:
+  std::string body_;
+};
+
+}  // namespace gearshift::base

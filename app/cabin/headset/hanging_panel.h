@@ -1,0 +1,36 @@
+// The panel as an image hanging in the cabin, and pointing at it with a controller.
+#pragma once
+
+#include <optional>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "app/cabin/stage/drive_side.h"
+#include "engine/scene/view.h"
+
+namespace gearshift::cabin {
+
+struct HangingPanel {
+  engine::EyePose pose;            // of its centre, in cabin axes; the panel faces along its +Z
+  glm::dvec2 size{0.0};            // [m]
+  glm::dvec2 low{0.0}, high{1.0};  // [1] the part of the image that is shown
+};
+
+// Both hang 1.4 m from the driver's eyes and face them, with no part of the cabin in front. They are fixed in the
+// cabin, not locked to the head. picture: size of the panel's image [px].
+// The whole panel, 1.5 m wide, in front of the windscreen on the passenger's side.
+HangingPanel hang_panel(glm::dvec3 driver_eye, DriveSide side, glm::dvec2 picture);
+// The part of the image with the lesson card, 0.75 m wide: beside the view ahead, its lower edge just above the
+// dashboard.
+HangingPanel hang_card(glm::dvec3 driver_eye, DriveSide side, glm::dvec2 picture, glm::dvec2 low, glm::dvec2 high);
+
+struct PanelHit {
+  glm::dvec2 at{0.0};     // [1] in the whole image, from its upper left corner
+  double distance = 0.0;  // [m] from the controller
+};
+
+// Where the ray along the controller's -Z hits the front of the panel; empty if it misses or comes from behind.
+std::optional<PanelHit> point_at(const HangingPanel& panel, const engine::EyePose& hand);
+
+}  // namespace gearshift::cabin

@@ -1,0 +1,181 @@
+#include "app/cabin/headset/seat_calibration.h"
+
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "haptics/files/file_error.h"
+
+namespace gearshift::cabin {
+namespace {
+
+constexpr std::size_t kMinTouches = 3;
+constexpr double kMinErrorFraction = 0.15;  // [1] of a tip error that must show up: 45 degrees about two axes give 0.26
+constexpr double kMaxEyeOffset = 0.6;       // [m] a seated driver's head is closer than this to the driver's eyes
+
+}  // namespace
+
+SeatCalibration::SeatCalibration(const SeatSettings& settings, std::filesystem::path file, glm::dvec3 driver_eye)
+    : settings_(settings),
+      file_(std::move(file)),
+      places_{driver_eye, {}},
+      cabin_from_room_{driver_eye, {1, 0, 0, 0}} {}
+
+void SeatCalibration::save_settings() {
+  if (file_.empty()) return;
+  try {
+    write_seat(settings_, file_);
+  } catch (const haptics::FileError& error) {
+    message_ = error.what();
+  }
+}
+
+void SeatCalibration::seat_if_needed(const engine::EyePose& head, glm::dvec3 knob_at_rest, bool is_room_persistent) {
+  if (is_seated_) return;
+  is_seated_ = true;
+  places_.knob = knob_at_rest;
+  if (!touched_ && settings_.touched && is_room_persistent) restore_touch(head);
+  if (touched_)
+    cabin_from_room_ = *touched_;
+  else if (settings_.knob)
+    cabin_from_room_ = seat_at_lever(head, places_, *settings_.knob);
+  else
+    cabin_from_room_ = seat_at_eyes(head, places_, settings_.height);
+}
+
+// If the room was set up again while this program was not running, the saved touch is wrong. We only notice if the head
+// is then far from the driver's seat.
+void SeatCalibration::restore_touch(const engine::EyePose& head) {
+  if (glm::distance(*settings_.touched * head.position, places_.eye) > kMaxEyeOffset) {
+    message_ =
+        "your head is far from the wheel according to the saved touches: sit down and recentre, or touch the knob "
+        "again";
+    return;
+  }
+  touched_ = settings_.touched;
+  touch_error_ = settings_.touch_error;
+}
+
+void SeatCalibration::stop_touching() noexcept {
+  if (touching_) cabin_from_room_ = before_touching_;
+  touching_ = false;
+  touches_.forget();
+}
+
+void SeatCalibration::on_headset_removed() noexcept {
+  stop_touching();
+  is_seated_ = false;
+}
+
+void SeatCalibration::on_headset_lost() noexcept {
+  on_headset_removed();
+  touched_.reset();
+}
+
+// When the origin of the tracking space moves, the real lever stays where it is, so the calibration is transformed. If
+// the user recentred, the user is seated again, except with a touched lever, whose position counts.
+void SeatCalibration::follow(const engine::SpaceChange& change, bool is_room_persistent) {
+  if (!change.is_session_space) {
+    recentre();
+    return;
+  }
+  stop_touching();
+  if (!is_room_persistent && !touched_) recentre();
+  if (change.new_from_old) {
+    const engine::EyePose old_from_new = engine::inverse(*change.new_from_old);
+    cabin_from_room_ = cabin_from_room_ * old_from_new;
+    if (touched_) touched_ = cabin_from_room_;
+    if (settings_.touched && is_room_persistent) {
+      settings_.touched = *settings_.touched * old_from_new;
+      save_settings();
+    }
+    return;
+  }
+  if (touched_ || (settings_.touched && is_room_persistent))
+    message_ = "the room was set up again: touch the knob again";
+  touched_.reset();
+  recentre();
+  if (!settings_.touched || !is_room_persistent) return;
+  settings_.touched.reset();
+  save_settings();
+}
+
+void SeatCalibration::touch(const engine::EyePose& tip, glm::dvec3 knob_top) {
+  touches_.add(tip, knob_top);
+  fit_ = *touches_.fit(cabin_from_room_);
+  cabin_from_room_ = fit_.cabin_from_room;
+}
+
+void SeatCalibration::finish_touching(double bound, bool is_room_persistent) {
+  if (touches_.count() < kMinTouches || !fit_.turned) {
+    message_ = "touch the knob in three gears or more that are far apart";
+    return;
+  }
+  const double fraction = touches_.tip_error_fraction();
+  if (fraction < kMinErrorFraction) {
+    message_ = "turn the controller to the side for one touch and tilt it for another, by 45 degrees, then save again";
+    return;
+  }
+  const double error = fit_.worst / fraction;  // [m] possible error of the tip, of which only this fraction shows up
+  if (error > bound) {
+    message_ = fmt::format(
+        "the lever may be up to {:.0f} mm from where it is drawn, but only {:.0f} mm are allowed: touch it again",
+        1e3 * error, 1e3 * bound);
+    stop_touching();
+    return;
+  }
+  touching_ = false;
+  touched_ = cabin_from_room_;
+  touch_error_ = error;
+  touches_.forget();
+  if (!is_room_persistent) {
+    message_ =
+        "the lever is drawn where you touched it, but only for today: the runtime will not recognise the room tomorrow";
+    return;
+  }
+  settings_.touched = touched_;
+  settings_.touch_error = touch_error_;
+  save_settings();
+}
+
+void SeatCalibration::apply_requests(const HeadsetRequests& requests, double bound, bool is_room_persistent) {
+  if (requests.touch && !touching_) {
+    touching_ = true;
+    before_touching_ = cabin_from_room_;
+  }
+  if (requests.touched && touching_) finish_touching(bound, is_room_persistent);
+  if (requests.forget_touches && touching_) {
+    stop_touching();
+  } else if (requests.forget_touches) {
+    touched_.reset();
+    settings_.touched.reset();
+    recentre();
+    save_settings();
+  }
+  if (requests.height) {
+    if (is_seated_ && !touched_ && !settings_.knob) cabin_from_room_.position.y += *requests.height - settings_.height;
+    settings_.height = *requests.height;
+    save_settings();
+  }
+  if (requests.knob || requests.forget_knob) {
+    settings_.knob = requests.knob;
+    recentre();
+    save_settings();
+  }
+  if (requests.recentre) recentre();
+}
+
+void SeatCalibration::report(HeadsetReport& report) const {
+  report.seat = settings_;
+  report.is_touched = touched_.has_value();
+  report.touch_error = touch_error();
+  report.touching = touching_;
+  report.touches = touches_.count();
+  report.worst_touch = touches_.count() > 0 ? fit_.worst : 0.0;
+}
+
+std::string SeatCalibration::take_message() {
+  return std::exchange(message_, {});
+}
+
+}  // namespace gearshift::cabin

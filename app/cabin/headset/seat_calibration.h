@@ -1,0 +1,61 @@
+// Places the headset's user in the cabin: sitting down, changes of the tracking space, touching the lever. Holds the
+// calibration in use and saves it for later sessions.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "app/cabin/headset/headset_report.h"
+#include "app/cabin/headset/seat.h"
+#include "app/cabin/headset/seat_file.h"
+#include "engine/xr/headset_session.h"
+
+namespace gearshift::cabin {
+
+class SeatCalibration {
+ public:
+  // file: where the settings are saved; empty: nowhere. driver_eye: in cabin axes.
+  SeatCalibration(const SeatSettings& settings, std::filesystem::path file, glm::dvec3 driver_eye);
+
+  const engine::EyePose& cabin_from_room() const noexcept { return cabin_from_room_; }
+  const SeatSettings& settings() const noexcept { return settings_; }
+  void save_settings();
+
+  // Call for each frame shown. If the user is not seated yet, places the head at the driver's eyes, or at the known
+  // lever. is_room_persistent: the tracking space is the same in the next session.
+  void seat_if_needed(const engine::EyePose& head, glm::dvec3 knob_at_rest, bool is_room_persistent);
+  void recentre() noexcept { is_seated_ = false; }
+  void on_headset_removed() noexcept;  // taken off: the next user is seated again
+  void on_headset_lost() noexcept;     // connection lost: forgets its tracking space except for the saved settings
+  void follow(const engine::SpaceChange& change, bool is_room_persistent);
+
+  bool is_touching() const noexcept { return touching_; }
+  void touch(const engine::EyePose& tip, glm::dvec3 knob_top);  // tip in the room, knob_top in the cabin
+  // bound [m]: allowed distance of real and drawn lever.
+  void apply_requests(const HeadsetRequests& requests, double bound, bool is_room_persistent);
+
+  double touch_error() const noexcept { return touched_ ? touch_error_ : 0.0; }  // [m] distance of real and drawn lever
+  void report(HeadsetReport& report) const;
+  std::string take_message();  // returns a message once, one sentence; empty: none
+
+ private:
+  void restore_touch(const engine::EyePose& head);
+  void finish_touching(double bound, bool is_room_persistent);
+  void stop_touching() noexcept;
+
+  SeatSettings settings_;
+  std::filesystem::path file_;
+  SeatPlaces places_;
+  engine::EyePose cabin_from_room_;
+  bool is_seated_ = false;
+  std::optional<engine::EyePose> touched_;  // in use
+  double touch_error_ = 0.0;                // [m] of touched_
+  bool touching_ = false;
+  engine::EyePose before_touching_;
+  LeverTouches touches_;
+  LeverTouches::Fit fit_;
+  std::string message_;
+};
+
+}  // namespace gearshift::cabin

@@ -1,0 +1,26 @@
+// The seat calibration, saved between sessions.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "app/cabin/headset/seat.h"
+#include "app/cabin/stage/drive_side.h"
+#include "engine/scene/view.h"
+
+namespace gearshift::cabin {
+
+struct SeatSettings {
+  DriveSide drive = DriveSide::left;       // the driver's side
+  double height = 0.0;                     // [m] -0.3 to 0.3, raises the seat; unused if the lever's position is known
+  std::optional<KnobDistance> knob;        // measured from the eyes; [m] each -1.5 to 1.5
+  std::optional<engine::EyePose> touched;  // cabin from room, as determined by touching the lever
+  double touch_error = 0.0;                // [m] 0 to 0.1: error of the touches
+};
+
+// Returns default settings if the file does not exist. Throws FileError.
+SeatSettings read_seat(const std::filesystem::path& file);
+void write_seat(const SeatSettings& seat, const std::filesystem::path& file);  // and its folder. Throws FileError
+
+}  // namespace gearshift::cabin

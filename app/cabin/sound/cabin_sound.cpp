@@ -1,0 +1,98 @@
+#include "app/cabin/sound/cabin_sound.h"
+
+#include <algorithm>
+#include <numbers>
+
+#include "app/cabin/sound/car_synth.h"
+#include "app/cabin/sound/synth.h"
+
+namespace gearshift::cabin {
+
+namespace {
+
+// Ahead of the dashboard. The engine is in the car's middle, 0.37 m to the right, but the whole bulkhead radiates its
+// sound.
+constexpr glm::vec3 kEnginePlace{0.2f, 0.2f, -1.5f};  // [m]
+constexpr glm::vec3 kCluster{0.0f, 0.37f, -0.70f};    // [m]
+constexpr float kWarningGain = 0.55f, kOverRevGain = 0.45f;
+constexpr float kWarningRadius = 0.5f;  // [m] large enough that both ears hear it, wherever the driver looks
+
+}  // namespace
+
+CabinSound::CabinSound(engine::SoundWorld& world, const CabinSoundConfig& config)
+    : world_(world),
+      config_(config),
+      knock_(world.add_clip(wall_knock())),
+      gear_in_(world.add_clip(gear_in_click())),
+      gear_out_(world.add_clip(gear_out_click())),
+      car_(world),
+      over_push_{silent_loop(world, over_push_loop()), {kWarningLength, 0.0}},
+      saturation_{silent_loop(world, saturation_loop()), {kWarningLength, kSaturationHold}},
+      over_rev_{silent_loop(world, over_rev_loop()), {kWarningLength, kSaturationHold}} {
+  set_config(config);
+}
+
+void CabinSound::set_config(const CabinSoundConfig& config) {
+  for (const auto& [cylinders, engine] : engines_) engine.set(world_, 0.0, 0.0, 0.0, kEnginePlace);
+  config_ = config;
+  config_.cylinders = std::clamp(config.cylinders, 1, 12);
+  if (config_.engine) engine_voices();  // synthesised now, because it would delay a frame
+  world_.set_volume(config_.volume);
+}
+
+void CabinSound::on_event(const haptics::HapticEvent& event, glm::vec3 knob) {
+  switch (event.kind) {
+    case haptics::EventKind::wall_contact: {
+      // The peak force of an impact on a spring is proportional to its speed: v sqrt(k m).
+      const double gain = std::clamp(event.value / config_.loudest_impact, 0.0, 1.0);
+      return world_.play(knock_, {knob, static_cast<float>(gain)});
+    }
+    case haptics::EventKind::gear_engaged:
+      return world_.play(gear_in_, {knob});
+    case haptics::EventKind::gear_left:
+      return world_.play(gear_out_, {knob});
+    case haptics::EventKind::over_push_begin:
+      return over_push_.hold.begin();
+    case haptics::EventKind::saturation_begin:
+      return saturation_.hold.begin();
+    default:
+      return;  // the ends are in the snapshot's flags; other events have no sound
+  }
+}
+
+void CabinSound::update(const haptics::HapticSnapshot& lever, const vehicle::VehicleState& car,
+                        const engine::EyePose& ears, glm::vec3 knob, double time) {
+  update_listener(ears);
+  update_engine(car);
+  car_.set(world_, car, config_.engine, config_.dog_teeth, {kEnginePlace, knob, kCluster}, time);
+  update_warning(over_push_, (lever.flags & haptics::kFlagOverPush) != 0, {knob, kWarningGain}, time);
+  update_warning(saturation_, (lever.flags & haptics::kFlagSaturated) != 0, {knob, kWarningGain}, time);
+  update_warning(over_rev_, car.over_revved, {kCluster, kOverRevGain}, time);
+  world_.update(time);
+}
+
+const EngineVoices& CabinSound::engine_voices() {
+  return engines_.try_emplace(config_.cylinders, world_, config_.cylinders).first->second;
+}
+
+void CabinSound::update_listener(const engine::EyePose& ears) {
+  const glm::dvec3 forward = ears.orientation * glm::dvec3(0.0, 0.0, -1.0);
+  const glm::dvec3 up = ears.orientation * glm::dvec3(0.0, 1.0, 0.0);
+  world_.set_listener(glm::vec3(ears.position), glm::vec3(forward), glm::vec3(up));
+}
+
+void CabinSound::update_engine(const vehicle::VehicleState& car) {
+  if (!config_.engine) return;
+  const double speed = car.engine_speed * 30.0 / std::numbers::pi;  // [1/min]
+  engine_voices().set(world_, speed, car.engine_load, 1.0, kEnginePlace);
+}
+
+void CabinSound::update_warning(Warning& warning, bool lasts, engine::Voice as, double time) {
+  const WarningHold::Now now = warning.hold.update(lasts, time);
+  if (now.starts) world_.restart(warning.voice);
+  if (!now.is_audible) as.gain = 0.0f;
+  as.radius = kWarningRadius;
+  world_.set(warning.voice, as);
+}
+
+}  // namespace gearshift::cabin

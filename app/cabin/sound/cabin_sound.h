@@ -1,0 +1,65 @@
+// The sounds of the cabin: engine, starter, stall, grind, knocks, detents, warnings. All are synthesised, none is
+// recorded.
+#pragma once
+
+#include <map>
+
+#include <glm/vec3.hpp>
+
+#include "app/cabin/sound/car_voices.h"
+#include "app/cabin/sound/engine_voices.h"
+#include "app/cabin/sound/warning_hold.h"
+#include "app/vehicle/vehicle_state.h"
+#include "engine/scene/view.h"
+#include "engine/sound/sound_world.h"
+#include "haptics/loop/haptic_snapshot.h"
+
+namespace gearshift::cabin {
+
+struct CabinSoundConfig {
+  float volume = 0.7f;  // [1] 0 to 1
+  bool engine = true;
+  int cylinders = 4;            // 1 to 12, four-stroke: fires cylinders / 2 times per revolution
+  double dog_teeth = 36.0;      // [1] > 0; number of dog teeth, sets the pitch of the grind
+  double loudest_impact = 0.5;  // [m/s] impact speed for full gain of the knock; below, gain is proportional to speed
+};
+
+inline constexpr double kWarningLength = 0.3;  // [s] minimum length of a warning
+inline constexpr double kSaturationHold =
+    0.25;  // [s] saturation or over-rev that returns within this time continues the same warning
+
+class CabinSound {
+ public:
+  // The world must outlive it.
+  CabinSound(engine::SoundWorld& world, const CabinSoundConfig& config);
+
+  void on_event(const haptics::HapticEvent& event, glm::vec3 knob);  // call once for each event of the loop
+  // Call in each frame, after the events: updates the engine by speed and load, starter, judder, limiter and grind;
+  // plays a chime when the engine stalls; sounds warnings while over-push, saturation or over-rev last. Ends with the
+  // world's update(time). Coordinates are the cabin's: metres, +X right, +Y up, -Z ahead.
+  void update(const haptics::HapticSnapshot& lever, const vehicle::VehicleState& car, const engine::EyePose& ears,
+              glm::vec3 knob, double time);
+  void set_config(const CabinSoundConfig& config);
+  const CabinSoundConfig& config() const noexcept { return config_; }
+
+ private:
+  struct Warning {
+    engine::VoiceId voice;
+    WarningHold hold;
+  };
+
+  const EngineVoices& engine_voices();
+  void update_listener(const engine::EyePose& ears);
+  void update_engine(const vehicle::VehicleState& car);
+  void update_warning(Warning& warning, bool lasts, engine::Voice as, double time);
+
+  engine::SoundWorld& world_;
+  CabinSoundConfig config_;
+  engine::ClipId knock_, gear_in_, gear_out_;
+  CarVoices car_;
+  Warning over_push_, saturation_, over_rev_;
+  // By number of cylinders: a world keeps its clips, so each engine is synthesised only once
+  std::map<int, EngineVoices> engines_;
+};
+
+}  // namespace gearshift::cabin

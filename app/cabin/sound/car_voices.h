@@ -1,0 +1,44 @@
+// Plays the driveline's sounds: starter, stall, limiter, grinding dogs.
+#pragma once
+
+#include <vector>
+
+#include <glm/vec3.hpp>
+
+#include "app/cabin/sound/warning_hold.h"
+#include "app/vehicle/vehicle_state.h"
+#include "engine/sound/sound_world.h"
+
+namespace gearshift::cabin {
+
+// Rate at which teeth pass each other, |difference| [rad/s] * teeth / (2 pi). [Hz]
+double tooth_pass_rate(double difference, double teeth) noexcept;
+// Gain, 0 to 1, of dogs that rattle with this power [W]: grows with its square root from an audible minimum.
+double grind_gain(double power) noexcept;
+
+// Starts a loop at gain 0.
+engine::VoiceId silent_loop(engine::SoundWorld& world, const std::vector<float>& samples);
+
+class CarVoices {
+ public:
+  explicit CarVoices(engine::SoundWorld& world);
+
+  struct Place {
+    glm::vec3 engine{0.0f}, knob{0.0f}, cluster{0.0f};  // [m] world
+  };
+  // Call in each frame. engine: play starter, judder and limiter as well. teeth: of the dogs. time in [s].
+  void set(engine::SoundWorld& world, const vehicle::VehicleState& car, bool engine, double teeth, const Place& at,
+           double time);
+
+ private:
+  void update_engine(engine::SoundWorld& world, const vehicle::VehicleState& car, bool engine, glm::vec3 place,
+                     double time);
+  void play_stall_chime(engine::SoundWorld& world, const vehicle::VehicleState& car, glm::vec3 place);
+
+  engine::VoiceId grind_, starter_, judder_, limiter_;
+  engine::ClipId chime_;
+  WarningHold cut_;      // the limiter switches the fuel on and off: hold turns that into one stutter
+  bool stalled_ = true;  // in the previous frame; initially true, so that a car that starts stalled stays silent
+};
+
+}  // namespace gearshift::cabin

@@ -1,0 +1,142 @@
+#include "app/cabin/sound/engine_synth.h"
+
+#include <algorithm>
+#include <cmath>
+#include <complex>
+#include <numbers>
+
+#include "app/cabin/sound/noise.h"
+#include "engine/sound/sound_world.h"
+
+namespace gearshift::cabin {
+
+namespace {
+
+constexpr double kTau = 2.0 * std::numbers::pi;
+constexpr std::size_t kCycles = 40;  // 2 s: long enough that the noise does not seem to repeat
+constexpr std::size_t kCycleSamples = static_cast<std::size_t>(engine::kSoundRate * 120.0 / kEngineLoopSpeed);
+constexpr double kMaxFrequency = 4000.0;  // [Hz] as heard at the band's own speed
+constexpr std::array<double, kEngineBands.size()> kLevels = {0.10, 0.14, 0.18, 0.22};  // RMS of the tone, full load
+
+// Heard frequency at the band's own speed, for 1 Hz of the loop.
+double audible_per_loop_hertz(std::size_t band) {
+  return kEngineBands[band] / kEngineLoopSpeed;
+}
+
+// Highest frequency in the loop: higher ones would alias at the highest pitch of this band.
+double loop_limit(std::size_t band) {
+  const double fastest = band + 1 < kEngineBands.size() ? kEngineBands[band + 1] : 8000.0;
+  return std::min(kMaxFrequency / audible_per_loop_hertz(band), 0.45 * engine::kSoundRate * kEngineLoopSpeed / fastest);
+}
+
+// Amplitude of order k (of the engine cycle) of a pulse train with one pulse per cylinder: 1 if k is a multiple of the
+// number of cylinders. Other orders only have the differences between the cylinders' strengths, the half orders of a
+// real engine.
+double pulse_train(int order, int cylinders) {
+  constexpr float kSpread = 0.12f;
+  Noise strengths(7);
+  std::complex<double> sum = 0.0;
+  for (int n = 0; n < cylinders; ++n) {
+    const double strength = 1.0 + kSpread * strengths.next();
+    sum += std::polar(strength, -kTau * order * n / cylinders);
+  }
+  return std::abs(sum) / cylinders;
+}
+
+// Body resonances: amplifies frequencies where panels and exhaust ring, by less than a pulse loses from one firing
+// harmonic to the next, so that the firing frequency stays strongest.
+double resonances(double hertz) {
+  const auto bump = [hertz](double centre, double gain) {
+    const double octaves = std::log2(hertz / centre) / 0.35;
+    return gain * std::exp(-octaves * octaves);
+  };
+  return 1.0 + bump(125.0, 0.25) + bump(310.0, 0.3) + bump(640.0, 0.3) + bump(1500.0, 0.4);
+}
+
+// The bulkhead's low pass: muffled when coasting; more throttle raises corner frequency and level.
+double throttle_filter(double hertz, EngineLoad load) {
+  constexpr double kCoasting = 0.3;
+  if (load == EngineLoad::full) return std::pow(1.0 + std::pow(hertz / 450.0, 2.0), -0.9);
+  return kCoasting * std::pow(1.0 + std::pow(hertz / 220.0, 2.0), -1.1);
+}
+
+double partial(int order, int cylinders, std::size_t band, EngineLoad load) {
+  const double hertz = order * kEngineBands[band] / 120.0;
+  const double pulse = std::min(1.0, std::pow(static_cast<double>(cylinders) / order, 0.7));
+  return pulse_train(order, cylinders) * pulse * resonances(hertz) * throttle_filter(hertz, load);
+}
+
+// RMS of the tone at full load before levelling: partials of different orders add in power.
+double full_tone_rms(int cylinders, std::size_t band, int orders) {
+  double power = 0.0;
+  for (int order = 1; order <= orders; ++order) {
+    power += 0.5 * std::pow(partial(order, cylinders, band, EngineLoad::full), 2.0);
+  }
+  return std::sqrt(power);
+}
+
+// Sine table of one cycle; order k steps through it k entries at a time.
+std::array<double, kCycleSamples> sine_of_cycle() {
+  std::array<double, kCycleSamples> table{};
+  for (std::size_t n = 0; n < table.size(); ++n) table[n] = std::sin(kTau * static_cast<double>(n) / kCycleSamples);
+  return table;
+}
+
+// One cycle; phases are random but the same in every loop.
+std::vector<double> tone_cycle(int cylinders, std::size_t band, EngineLoad load) {
+  static const auto sine = sine_of_cycle();
+  const int orders = static_cast<int>(loop_limit(band) * 120.0 / kEngineLoopSpeed);
+  const double level = kLevels[band] / full_tone_rms(cylinders, band, orders);
+  std::vector<double> cycle(kCycleSamples);
+  Noise phases(3);
+  for (int order = 1; order <= orders; ++order) {
+    const double amplitude = level * partial(order, cylinders, band, load);
+    auto at = static_cast<std::size_t>((0.5 + 0.5 * phases.next()) * kCycleSamples) % kCycleSamples;
+    for (double& x : cycle) {
+      x += amplitude * sine[at];
+      at = (at + static_cast<std::size_t>(order)) % kCycleSamples;
+    }
+  }
+  return cycle;
+}
+
+// Intake and exhaust noise, gated by the firings; always from the same seed, so that the loops' noise also mixes in
+// phase.
+std::vector<float> rush(int cylinders, std::size_t band, EngineLoad load) {
+  const bool is_full = load == EngineLoad::full;
+  const double to_loop = 1.0 / audible_per_loop_hertz(band);
+  std::vector<float> out = looping_noise(kCycles * kCycleSamples, 11);
+  loop_high_pass(out, 150.0 * to_loop);
+  for (int n = 0; n < 2; ++n) loop_low_pass(out, 600.0 * to_loop);
+  const double gain = kLevels[band] * (is_full ? 0.9 : 0.25);
+  for (std::size_t n = 0; n < out.size(); ++n) {
+    const double turn = static_cast<double>(n % kCycleSamples) / kCycleSamples;
+    out[n] *= static_cast<float>(gain * (0.6 + 0.4 * std::cos(kTau * cylinders * turn)));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::vector<float> engine_loop(int cylinders, std::size_t band, EngineLoad load) {
+  const std::vector<double> cycle = tone_cycle(cylinders, band, load);
+  std::vector<float> out = rush(cylinders, band, load);
+  for (std::size_t n = 0; n < out.size(); ++n) out[n] += static_cast<float>(cycle[n % kCycleSamples]);
+  return out;
+}
+
+std::array<double, kEngineBands.size()> band_weights(double speed) {
+  std::array<double, kEngineBands.size()> shares{};
+  std::size_t upper = 0;
+  while (upper < kEngineBands.size() && kEngineBands[upper] <= speed) ++upper;
+  if (upper == 0 || upper == kEngineBands.size()) {
+    shares[upper == 0 ? 0 : upper - 1] = 1.0;
+    return shares;
+  }
+  const double low = kEngineBands[upper - 1], high = kEngineBands[upper];
+  shares[upper] = std::log(speed / low) / std::log(high / low);
+  shares[upper - 1] = 1.0 - shares[upper];
+  return shares;
+}
+
+}  // namespace gearshift::cabin

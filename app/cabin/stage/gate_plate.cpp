@@ -1,0 +1,111 @@
+#include "app/cabin/stage/gate_plate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace gearshift::cabin {
+namespace {
+
+constexpr glm::dvec2 kPlinthHalf{0.0640, 0.0680};          // [m] of the plinth's foot, like the boot's frame
+constexpr glm::dvec2 kMinHalf{0.034, 0.040};               // [m] minimum half size of the plate
+constexpr double kSideMargin = 0.009, kEndMargin = 0.006;  // [m] beyond openings and labels
+constexpr double kLampRoom = 0.010;                        // [m] ahead of the labels
+constexpr double kCorner = 0.010;                          // [m]
+constexpr int kCornerSteps = 6;
+constexpr double kBevel = 0.0004;     // [m] bevel of the outer edge
+constexpr double kLip = 0.0022;       // [m] metal above the plinth
+constexpr double kInkAbove = 0.0001;  // [m] the enamel is slightly raised
+constexpr double kSign = 0.0090;      // [m] maximum label height
+constexpr double kSignGap = 0.0025;   // [m] between opening and label
+constexpr double kSignWidth = 0.6;    // width of a label relative to its height
+constexpr glm::vec3 kInk{0.015f}, kReverseInk{0.42f, 0.012f, 0.010f}, kBright{1.0f}, kDeep{0.22f};
+
+Loop scaled(const Loop& loop, double factor) {
+  Loop copy = loop;
+  for (glm::dvec2& p : copy) p *= factor;
+  return copy;
+}
+
+// The face, its bevelled edges, the plinth, and the walls of the opening. The walls converge towards the pivot, so that
+// they are parallel to the leaning lever.
+void make_metal(GatePlate& plate) {
+  const Loop& path = plate.opening.loop;
+  const double edge = kPlateHeight - plate.opening.bevel, floor = kPlateHeight - kPlateThickness;
+  const Loop& hole = plate.opening.face;
+  const Loop face = rounded_rectangle(plate.half - kBevel, kCorner - kBevel, kCornerSteps);
+  const Loop rim = rounded_rectangle(plate.half, kCorner, kCornerSteps);
+  const Loop foot = rounded_rectangle(kPlinthHalf, kCorner, kCornerSteps);
+  const std::uint32_t bright = linear_rgba(kBright), deep = linear_rgba(kDeep);
+
+  const Loop clockwise(hole.rbegin(), hole.rend());
+  Loop points = face;
+  points.insert(points.end(), clockwise.begin(), clockwise.end());
+  std::vector<glm::dvec2> corners;
+  for (const std::uint32_t index : triangulate(face, clockwise)) corners.push_back(points[index]);
+  add_flat(plate.metal, corners, kPlateHeight, bright);
+
+  add_wall(plate.metal, {face, kPlateHeight, bright}, {rim, kPlateHeight - kBevel, bright}, WallFace::from_right);
+  add_wall(plate.metal, {rim, kPlateHeight - kBevel, bright}, {rim, kPlateHeight - kLip, bright}, WallFace::from_right);
+  add_wall(plate.plinth, {rim, kPlateHeight - kLip, bright}, {foot, kPlinthHeight, bright}, WallFace::from_right);
+  const Loop throat = scaled(path, edge / kPlateHeight), bottom = scaled(path, floor / kPlateHeight);
+  add_wall(plate.metal, {hole, kPlateHeight, bright}, {throat, edge, bright}, WallFace::from_left);
+  add_wall(plate.metal, {throat, edge, bright}, {bottom, floor, deep}, WallFace::from_left);
+}
+
+// Smallest distance of neighbouring columns, at the knob. [m]
+double sign_room(const haptics::Gate& gate) {
+  double room = 1.0;
+  for (int i = 0; i + 1 < gate.column_count; ++i) {
+    room = std::min(room, haptics::column_of(gate, i + 1).center - haptics::column_of(gate, i).center);
+  }
+  return room;
+}
+
+void add_label(GatePlate& plate, const haptics::Gate& gate, const haptics::YokeGeometry& yoke,
+               const haptics::Slot& slot) {
+  const double side = static_cast<int>(slot.side);
+  const double x = haptics::column_of(gate, slot.column).center;
+  const glm::dvec2 end = plate_point(yoke, {x, side * slot.end}, kPlateHeight);
+  const double height = std::min(kSign, sign_room(gate) * kPlateHeight / yoke.radius / kSignWidth * 0.8);
+  const glm::dvec2 centre = end + glm::dvec2(0.0, side * (plate.opening.widened + kSignGap + 0.5 * height));
+  plate.labels.push_back({slot.gear, centre, height});
+  const glm::vec3 colour = slot.gear == haptics::kReverseGear ? kReverseInk : kInk;
+  for (const Stroke& stroke : gear_label(slot.gear, centre, height, 0.16 * height, colour)) {
+    add_flat(plate.ink, stroke_triangles(stroke), kPlateHeight + kInkAbove, linear_rgba(colour));
+  }
+}
+
+// Sizes the plate: as small as openings and labels allow, symmetric about the pivot, with room for the lamp in front.
+void measure(GatePlate& plate) {
+  plate.half = kMinHalf;
+  double foremost = 0.0;
+  for (const glm::dvec2 p : plate.opening.face) {
+    plate.half = glm::max(plate.half, glm::abs(p) + glm::dvec2(kSideMargin, kEndMargin));
+    foremost = std::max(foremost, p.y);
+  }
+  for (const PlateLabel& label : plate.labels) {
+    const double end = std::abs(label.centre.y) + 0.5 * label.height;
+    plate.half.x = std::max(plate.half.x, std::abs(label.centre.x) + 0.5 * label.height + kEndMargin);
+    plate.half.y = std::max(plate.half.y, end + kEndMargin);
+    if (label.centre.y > 0.0) foremost = std::max(foremost, end);
+  }
+  plate.half.y = std::max(plate.half.y, foremost + kLampRoom);
+  plate.lamp = {0.0, 0.5 * (foremost + plate.half.y)};
+}
+
+}  // namespace
+
+GatePlate make_gate_plate(const haptics::Gate& gate, const haptics::YokeGeometry& yoke) {
+  GatePlate plate;
+  plate.opening = slot_opening(gate, yoke, kPlateHeight);
+  for (const haptics::Slot& slot : haptics::slots(gate)) add_label(plate, gate, yoke, slot);
+  measure(plate);
+  make_metal(plate);
+  return plate;
+}
+
+}  // namespace gearshift::cabin

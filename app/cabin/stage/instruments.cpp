@@ -1,0 +1,83 @@
+#include "app/cabin/stage/instruments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "haptics/gate/gate.h"
+
+namespace gearshift::cabin {
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr double kRpm = 60.0 / (2.0 * std::numbers::pi);
+constexpr double kPedalTravel = 20.0 * kDegree;
+constexpr double kHandBrakeTravel = 30.0 * kDegree;
+constexpr double kIdleLimit = 300.0;  // [1/min] below this there is no oil pressure and no charging
+
+bool blinks_now(double time) noexcept {
+  const double phase = time * kBlinkRate;
+  return phase - std::floor(phase) < 0.5;
+}
+
+bool is_lit(Lamp lamp, const vehicle::VehicleState& car, const haptics::HapticSnapshot& lever, double time) noexcept {
+  const double rpm = kRpm * car.engine_speed;
+  switch (lamp) {
+    case Lamp::oil:
+    case Lamp::battery:
+      return car.ignition && rpm < kIdleLimit;
+    case Lamp::hand_brake:
+      return car.ignition && car.hand_brake > 0.05;
+    case Lamp::engine:
+      return car.ignition && (car.over_revved || !car.running || rpm < kIdleLimit);
+    case Lamp::stall:
+      return car.ignition && (car.stalled || car.grinding);
+    case Lamp::turn_left:
+      return car.turn_left && blinks_now(time);
+    case Lamp::turn_right:
+      return car.turn_right && blinks_now(time);
+    case Lamp::lever:
+      return (lever.flags & (haptics::kFlagOverPush | haptics::kFlagSaturated)) != 0;
+  }
+  return false;
+}
+
+}  // namespace
+
+double needle_angle(double value, double top) noexcept {
+  return kDegree * (135.0 - 270.0 * std::clamp(value / top, 0.0, 1.0));
+}
+
+double tach_angle(const vehicle::VehicleState& car) noexcept {
+  return needle_angle(kRpm * car.engine_speed, kTachTop);
+}
+
+double speed_angle(const vehicle::VehicleState& car) noexcept {
+  return needle_angle(haptics::kKmhPerMps * std::abs(car.road_speed), kSpeedTop);
+}
+
+double vibration(const vehicle::VehicleState& car, double time) noexcept {
+  if (!(car.shudder > 0.0)) return 0.0;
+  const double turn = 2.0 * std::numbers::pi * time;
+  return std::min(car.shudder, 1.0) * (0.6 * std::sin(13.0 * turn) + 0.4 * std::sin(17.0 * turn));
+}
+
+glm::vec2 gear_field(int gear) noexcept {
+  constexpr float kField = 176.0f / 2048.0f;  // of the atlas' width (assets/models/README.md)
+  return {kField * static_cast<float>(std::clamp(gear, haptics::kReverseGear, haptics::kMaxGear)), 0.0f};
+}
+
+double pedal_angle(double pressed) noexcept {
+  return kPedalTravel * std::clamp(pressed, 0.0, 1.0);
+}
+
+double hand_brake_angle(double pulled) noexcept {
+  return kHandBrakeTravel * std::clamp(pulled, 0.0, 1.0);
+}
+
+float lamp_light(Lamp lamp, const vehicle::VehicleState& car, const haptics::HapticSnapshot& lever,
+                 double time) noexcept {
+  return is_lit(lamp, car, lever, time) ? 1.0f : 0.0f;
+}
+
+}  // namespace gearshift::cabin

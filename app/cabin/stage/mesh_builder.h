@@ -1,0 +1,49 @@
+// Procedurally made triangles, before they are added to a model.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "app/cabin/stage/polygon.h"
+#include "engine/model/model.h"
+
+namespace gearshift::cabin {
+
+struct MeshData {
+  std::vector<engine::Vertex> vertices;
+  std::vector<std::uint32_t> indices;  // three per triangle, counter-clockwise seen from outside
+};
+
+std::uint32_t linear_rgba(glm::vec3 colour) noexcept;  // for Vertex::colour, opaque
+
+// Converts plate coordinates (select, shift) and a height to cabin axes: x right, y up, z back.
+glm::vec3 above(glm::dvec2 plate, double height) noexcept;
+
+// Adds horizontal triangles visible from above. corners: three per triangle, counter-clockwise.
+void add_flat(MeshData& mesh_data, std::span<const glm::dvec2> corners, double height, std::uint32_t colour);
+
+// Adds a wall between two loops with equal numbers of points, visible from the left or right side of `top`'s direction.
+// Smooth shading where neighbouring faces turn by less than 40 deg.
+struct Rim {
+  const Loop& loop;
+  double height;  // [m]
+  std::uint32_t colour = 0xffffffffu;
+};
+enum class WallFace { from_left, from_right };
+void add_wall(MeshData& mesh_data, Rim top, Rim bottom, WallFace visible_side);
+
+// Adds a mesh with one part per material and returns its index. Parts without triangles are left out.
+struct MaterialPart {
+  const MeshData& mesh_data;
+  int material = engine::kNone;
+};
+int add_mesh(engine::Model& model, std::string name, std::span<const MaterialPart> parts);
+
+// Adds the mesh at a new node and returns the node's index.
+int add_mesh_node(engine::Model& model, std::string name, std::span<const MaterialPart> parts, glm::vec3 translation,
+                  int parent);
+
+}  // namespace gearshift::cabin

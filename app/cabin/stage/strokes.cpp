@@ -1,0 +1,209 @@
+#include "app/cabin/stage/strokes.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+namespace gearshift::cabin {
+namespace {
+
+constexpr double kSharp = 0.7;  // cosine: sharper corners are made of two rounded ends
+constexpr int kCapSteps = 6;
+
+// Adds an arc from one angle to another [deg], counter-clockwise if increasing.
+void arc(Line& line, glm::dvec2 centre, glm::dvec2 radii, double from, double to) {
+  const int steps = std::max(3, static_cast<int>(std::ceil(std::abs(to - from) / 15.0)));
+  for (int i = 0; i <= steps; ++i) {
+    const double angle = std::numbers::pi / 180.0 * (from + (to - from) * i / steps);
+    line.push_back(centre + radii * glm::dvec2(std::cos(angle), std::sin(angle)));
+  }
+}
+
+std::vector<Line> six() {
+  Line line;
+  arc(line, {0.56, 0.32}, {0.54, 0.68}, 96.0, 180.0);
+  arc(line, {0.30, 0.30}, {0.28, 0.30}, 180.0, 540.0);
+  return {line};
+}
+
+// A glyph in a box 0.6 wide and 1 high.
+std::vector<Line> glyph(int gear) {
+  Line a, b;
+  switch (gear) {
+    case haptics::kReverseGear:
+      a = {{0.06, 0.0}, {0.06, 1.0}, {0.30, 1.0}};
+      arc(a, {0.32, 0.74}, {0.24, 0.26}, 90.0, -90.0);
+      a.emplace_back(0.06, 0.48);
+      return {a, {{0.30, 0.48}, {0.58, 0.0}}};
+    case haptics::kNeutralGear:
+      return {{{0.04, 0.0}, {0.04, 1.0}, {0.56, 0.0}, {0.56, 1.0}}};
+    case 1:
+      return {{{0.14, 0.76}, {0.38, 1.0}, {0.38, 0.0}}};
+    case 2:
+      arc(a, {0.30, 0.71}, {0.27, 0.29}, 165.0, -32.0);
+      a.insert(a.end(), {{0.03, 0.0}, {0.58, 0.0}});
+      return {a};
+    case 3:
+      arc(a, {0.28, 0.755}, {0.25, 0.245}, 150.0, -90.0);
+      arc(b, {0.28, 0.255}, {0.29, 0.255}, 90.0, -150.0);
+      return {a, b};
+    case 4:
+      return {{{0.44, 0.0}, {0.44, 1.0}, {0.0, 0.28}, {0.60, 0.28}}};
+    case 5:
+      a = {{0.54, 1.0}, {0.11, 1.0}, {0.07, 0.54}};
+      arc(a, {0.28, 0.32}, {0.30, 0.32}, 135.0, -150.0);
+      return {a};
+    case 6:
+      return six();
+    case 7:
+      return {{{0.03, 1.0}, {0.57, 1.0}, {0.20, 0.0}}};
+    case 8:
+      arc(a, {0.30, 0.755}, {0.24, 0.245}, -90.0, 270.0);
+      arc(b, {0.30, 0.255}, {0.28, 0.255}, 90.0, 450.0);
+      return {a, b};
+    case 9: {
+      std::vector<Line> turned = six();
+      for (Line& line : turned) {
+        for (glm::dvec2& p : line) p = glm::dvec2(0.6, 1.0) - p;
+      }
+      return turned;
+    }
+    default:
+      return {{{0.0, 0.0}, {0.6, 0.0}, {0.6, 1.0}, {0.0, 1.0}, {0.0, 0.0}}};
+  }
+}
+
+glm::dvec2 left_of(glm::dvec2 direction) {
+  return {-direction.y, direction.x};
+}
+
+// Half disc behind the end of a line.
+void cap(std::vector<glm::dvec2>& corners, glm::dvec2 end, glm::dvec2 outward, double half) {
+  const auto rim = [&](int i) {
+    const double angle = std::numbers::pi * (static_cast<double>(i) / kCapSteps - 0.5);
+    return end + half * (std::cos(angle) * outward + std::sin(angle) * left_of(outward));
+  };
+  for (int i = 0; i < kCapSteps; ++i) corners.insert(corners.end(), {end, rim(i), rim(i + 1)});
+}
+
+// A line without sharp corners, with mitred joints.
+void ribbon(std::vector<glm::dvec2>& corners, const Line& line, double half) {
+  std::vector<glm::dvec2> side(line.size());  // from the line to its left edge
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const glm::dvec2 in = glm::normalize(i > 0 ? line[i] - line[i - 1] : line[1] - line[0]);
+    const glm::dvec2 out = glm::normalize(i + 1 < line.size() ? line[i + 1] - line[i] : line[i] - line[i - 1]);
+    side[i] = half / (1.0 + glm::dot(in, out)) * left_of(in + out);
+  }
+  for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+    const glm::dvec2 a = line[i] + side[i], b = line[i] - side[i];
+    const glm::dvec2 c = line[i + 1] - side[i + 1], d = line[i + 1] + side[i + 1];
+    corners.insert(corners.end(), {a, b, c, a, c, d});
+  }
+  cap(corners, line.front(), glm::normalize(line.front() - line[1]), half);
+  cap(corners, line.back(), glm::normalize(line.back() - line[line.size() - 2]), half);
+}
+
+double srgb(double linear) {
+  return linear <= 0.0031308 ? 12.92 * linear : 1.055 * std::pow(linear, 1.0 / 2.4) - 0.055;
+}
+
+// Coverage of the pixel around p by the stroke, from the distance of its centre line. [1]
+double coverage(const Stroke& stroke, glm::dvec2 p, double pixel) {
+  double nearest = 1e9;
+  for (std::size_t i = 0; i + 1 < stroke.line.size(); ++i) {
+    const glm::dvec2 along = stroke.line[i + 1] - stroke.line[i], off = p - stroke.line[i];
+    const double t = std::clamp(glm::dot(off, along) / std::max(1e-12, glm::dot(along, along)), 0.0, 1.0);
+    nearest = std::min(nearest, glm::length(off - t * along));
+  }
+  return std::clamp(0.5 + (0.5 * stroke.width - nearest) / pixel, 0.0, 1.0);
+}
+
+void draw(const Stroke& stroke, int side, std::vector<glm::vec3>& picture) {
+  glm::dvec2 low = stroke.line.front(), high = low;
+  for (const glm::dvec2 p : stroke.line) {
+    low = glm::min(low, p);
+    high = glm::max(high, p);
+  }
+  const double pixel = 1.0 / side, reach = 0.5 * stroke.width + pixel;
+  const auto clamped = [&](double value) { return std::clamp(static_cast<int>(value * side), 0, side - 1); };
+  for (int row = clamped(1.0 - high.y - reach); row <= clamped(1.0 - low.y + reach); ++row) {
+    for (int column = clamped(low.x - reach); column <= clamped(high.x + reach); ++column) {
+      const glm::dvec2 p{(column + 0.5) * pixel, 1.0 - (row + 0.5) * pixel};
+      glm::vec3& ground =
+          picture[static_cast<std::size_t>(row) * static_cast<std::size_t>(side) + static_cast<std::size_t>(column)];
+      ground = glm::mix(ground, stroke.colour, static_cast<float>(coverage(stroke, p, pixel)));
+    }
+  }
+}
+
+}  // namespace
+
+std::vector<Stroke> gear_label(int gear, glm::dvec2 centre, double height, double width, glm::vec3 colour) {
+  std::vector<Stroke> strokes;
+  for (Line& line : glyph(gear)) {
+    for (glm::dvec2& p : line) p = centre + height * (p - glm::dvec2(0.3, 0.5));
+    strokes.push_back({std::move(line), width, colour});
+  }
+  return strokes;
+}
+
+std::vector<Stroke> shift_pattern(const haptics::Gate& gate, glm::vec3 colour, glm::vec3 reverse_colour) {
+  constexpr double kSignHeight = 0.15, kLine = 0.030;
+  constexpr glm::dvec2 kHalf{0.25, 0.19};  // of the lines; the labels are beyond
+  const double left = haptics::column_of(gate, 0).center,
+               right = haptics::column_of(gate, gate.column_count - 1).center;
+  double deepest = gate.half_aisle;
+  for (const haptics::Slot& slot : haptics::slots(gate)) deepest = std::max(deepest, slot.end);
+  const double narrow = right > left ? 2.0 * kHalf.x / (right - left) : 1.0;
+  const glm::dvec2 scale{narrow, kHalf.y / deepest};
+  const auto at = [&](double x, double y) { return glm::dvec2(0.5) + scale * glm::dvec2(x - 0.5 * (left + right), y); };
+
+  std::vector<Stroke> strokes{{{at(left, 0.0), at(right, 0.0)}, kLine, colour}};
+  for (const haptics::Slot& slot : haptics::slots(gate)) {
+    const double x = haptics::column_of(gate, slot.column).center, side = static_cast<int>(slot.side);
+    const glm::vec3 ink = slot.gear == haptics::kReverseGear ? reverse_colour : colour;
+    const glm::dvec2 end = at(x, side * deepest);
+    strokes.push_back({{at(x, 0.0), end}, kLine, colour});
+    const glm::dvec2 sign = end + glm::dvec2(0.0, side * (0.5 * kSignHeight + 1.5 * kLine));
+    for (Stroke& stroke : gear_label(slot.gear, sign, kSignHeight, 0.8 * kLine, ink))
+      strokes.push_back(std::move(stroke));
+  }
+  return strokes;
+}
+
+std::vector<glm::dvec2> stroke_triangles(const Stroke& stroke) {
+  std::vector<glm::dvec2> corners;
+  Line smooth{stroke.line.front()};
+  for (std::size_t i = 1; i < stroke.line.size(); ++i) {
+    if (stroke.line[i] == smooth.back()) continue;
+    const std::size_t n = smooth.size();
+    if (n > 1 && glm::dot(glm::normalize(stroke.line[i] - smooth[n - 1]),
+                          glm::normalize(smooth[n - 1] - smooth[n - 2])) < kSharp) {
+      ribbon(corners, smooth, 0.5 * stroke.width);
+      smooth = {smooth.back()};
+    }
+    smooth.push_back(stroke.line[i]);
+  }
+  if (smooth.size() > 1) ribbon(corners, smooth, 0.5 * stroke.width);
+  return corners;
+}
+
+engine::Image draw_strokes(const std::vector<Stroke>& strokes, int side, glm::vec3 ground) {
+  std::vector<glm::vec3> picture(static_cast<std::size_t>(side) * static_cast<std::size_t>(side), ground);
+  for (const Stroke& stroke : strokes) draw(stroke, side, picture);
+  engine::Image image{side, side, {}};
+  image.rgba.reserve(4 * picture.size());
+  for (const glm::vec3& colour : picture) {
+    for (int i = 0; i < 3; ++i) {
+      const double value = srgb(std::clamp(static_cast<double>(colour[i]), 0.0, 1.0));
+      image.rgba.push_back(static_cast<std::uint8_t>(std::lround(255.0 * value)));
+    }
+    image.rgba.push_back(255);
+  }
+  return image;
+}
+
+}  // namespace gearshift::cabin

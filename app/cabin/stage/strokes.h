@@ -1,0 +1,34 @@
+// Lines with a width: the stroke font of gear labels, and the shift pattern on a knob.
+#pragma once
+
+#include <vector>
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+
+#include "engine/image/image.h"
+#include "haptics/gate/gate.h"
+
+namespace gearshift::cabin {
+
+using Line = std::vector<glm::dvec2>;  // a polyline; closed if its ends are equal
+
+struct Stroke {
+  Line line;
+  double width = 0.0;
+  glm::vec3 colour{1.0f};  // linear
+};
+
+// Strokes of "R", "N", "1" ... "9", centred at `centre`, with lines of that width; a box for any other gear.
+std::vector<Stroke> gear_label(int gear, glm::dvec2 centre, double height, double width, glm::vec3 colour);
+
+// The shift pattern of a gate as on a knob, in the unit square, y up: aisles to scale, gears at their ends.
+std::vector<Stroke> shift_pattern(const haptics::Gate& gate, glm::vec3 colour, glm::vec3 reverse_colour);
+
+// Triangles of a stroke with rounded ends and corners; three points each, counter-clockwise.
+std::vector<glm::dvec2> stroke_triangles(const Stroke& stroke);
+
+// Draws the unit square into an sRGB image, row 0 at y = 1, with edges antialiased over one pixel.
+engine::Image draw_strokes(const std::vector<Stroke>& strokes, int side, glm::vec3 ground);
+
+}  // namespace gearshift::cabin

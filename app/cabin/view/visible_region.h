@@ -1,0 +1,13 @@
+// The region of an image that nothing covers.
+#pragma once
+
+#include <glm/vec2.hpp>
+
+namespace gearshift::cabin {
+
+// In fractions of the image, from its upper left corner. [1]
+struct VisibleRegion {
+  glm::dvec2 low{0.0}, high{1.0};
+};
+
+}  // namespace gearshift::cabin

@@ -1,0 +1,54 @@
+// A run of the bench: measured rows, date, machine, and the comparison with the last full run on that machine.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/lab/bench/cpu_contention.h"
+#include "app/lab/bench/machine.h"
+#include "app/lab/bench/rows/bench.h"
+
+namespace gearshift::lab {
+
+// Comparison of a row with the last full run on this machine.
+struct SinceLast {
+  std::string date, program, contention;  // of that run; contention: text of format_contention(), or empty
+  double value = 0.0;                     // then
+  double ratio = 1.0;                     // [1] now over then; infinite if it was 0 then
+  // True if the quartile ranges then and now do not overlap; without a spread, if the first four digits differ.
+  bool changed = false;
+};
+
+struct MeasuredRow {
+  BenchRow row;
+  std::optional<SinceLast> since = {};
+  std::optional<SinceLast> cost_since = {};  // for the cost in the row's trade
+};
+
+// The cost of a row's method as a separate row, "NAME (cost)". Empty for a row without a trade.
+std::optional<BenchRow> cost_row(const BenchRow& row);
+
+struct BenchRun {
+  std::string program, date;
+  bool quick = false;
+  Machine machine;
+  std::optional<CpuContention> contention = {};  // during the run
+  std::vector<MeasuredRow> rows;
+};
+
+enum class Verdict { none, met, missed };  // none: no goal, or not measured
+Verdict verdict_of(const BenchRow& row) noexcept;
+bool is_open(const BenchRow& row) noexcept;  // the goal lies between the quartiles: the next verdict may differ
+
+std::string format_value(double value);                             // four digits
+std::string format_goal(const BenchRow& row);                       // "<= 0.1"; empty without a goal
+std::string format_verdict(const BenchRow& row);                    // "met", "NOT MET (open)"; empty without a goal
+std::string_view goal_direction(const BenchRow& row);               // "at most", "at least"; empty without a goal
+std::string_view design_row_name(const BenchRow& row);              // its row in the design table; empty if none
+std::string format_spread(const std::optional<Quartiles>& spread);  // "180 to 195"; empty without
+std::string format_change(const std::optional<SinceLast>& since);   // "1.03 x", " *" behind what changed
+std::string format_change(const MeasuredRow& measured);             // of the value, and of the cost where there is one
+
+}  // namespace gearshift::lab

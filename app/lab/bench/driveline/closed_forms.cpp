@@ -1,0 +1,97 @@
+#include "app/lab/bench/driveline/closed_forms.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "app/lab/bench/driveline/driveline_rig.h"
+#include "app/lab/bench/driveline/drives.h"
+
+namespace gearshift::lab {
+namespace {
+
+constexpr double kBalanceStep = 0.001;                          // [s]
+constexpr double kEngine = 0.15, kCar = 0.569;                  // [kg m^2] at the clutch
+constexpr double kReduced = kEngine * kCar / (kEngine + kCar);  // [kg m^2]
+constexpr double kCapacity = 200.0;                             // [N m]
+constexpr double kFast = 300.0, kSlow = 30.0;                   // [rad/s] engine and shaft at the start
+
+double off_by(double has, double should) {
+  return std::abs(has / should - 1.0);
+}
+
+BenchRow law_row(const std::string& what, double error, const std::string& note) {
+  return answers_design(Design::driveline, {"driveline", what, 100.0 * error, "%", 0.01, false, note});
+}
+
+BenchRow balance_row(const std::string& what, double error, const std::string& note) {
+  return answers_design(Design::driveline, {"driveline", what, error, "relative", 1e-12, false, note});
+}
+
+vehicle::DrivelineInput clutch_let_go() {
+  vehicle::DrivelineInput in = pedals(1, 0.0, 0.0);
+  in.ignition = false;
+  return in;
+}
+
+vehicle::Driveline slipping_pair() {
+  vehicle::Driveline line(bare_car(kEngine, kCar, kCapacity));
+  line.place(kFast, kSlow, kSlow / kPerRoad, false);
+  return line;
+}
+
+// Checks t = Jr dw / T and E = Jr dw^2 / 2 for a clutch that transmits T from the start.
+void add_constant_torque(std::vector<BenchRow>& rows) {
+  vehicle::Driveline line = slipping_pair();
+  const double slipped = kFast - kSlow;
+  const double time = time_until(line, clutch_let_go(), kBalanceStep,
+                                 [](const vehicle::Driveline& l) { return l.state().clutch_locked; });
+  const std::string note = "two inertias, constant torque, steps of 1 ms";
+  rows.push_back(law_row("lock-up time against Jr dw / T", off_by(time, kReduced * slipped / kCapacity), note));
+  rows.push_back(law_row("slip energy against Jr dw^2 / 2",
+                         off_by(line.energy().clutch, 0.5 * kReduced * slipped * slipped), note));
+}
+
+// Checks that J1 w1 + J2 w2 is constant without external torque: slipping, locking and locked.
+void add_momentum(std::vector<BenchRow>& rows) {
+  vehicle::Driveline line = slipping_pair();
+  const auto momentum = [&] { return kEngine * line.state().engine_speed + kCar * kPerRoad * line.state().road_speed; };
+  const double begin = momentum();
+  double worst = 0.0;
+  for (int i = 0; i < 1000; ++i) {
+    line.step(clutch_let_go(), kBalanceStep);
+    worst = std::max(worst, off_by(momentum(), begin));
+  }
+  rows.push_back(balance_row("momentum balance", worst, "two inertias, slipping, locking and locked, 1 s"));
+}
+
+double spent(const vehicle::EnergyLedger& e) {
+  return e.friction + e.clutch + e.cone + e.shaft_drag + e.rolling + e.brakes + e.teeth + e.mesh;
+}
+
+// Checks that the energy put in equals kinetic plus dissipated energy, relative to the energy converted.
+void add_energy(std::vector<BenchRow>& rows) {
+  double worst = 0.0;
+  for (const Drive& drive : all_drives()) {
+    vehicle::Driveline line(drive.car);
+    line.place(drive.engine, drive.shaft, drive.road, true);
+    const double begin = line.kinetic_energy();
+    for (int i = 0; i * kBalanceStep < drive.duration; ++i) line.step(drive.input(i * kBalanceStep), kBalanceStep);
+    const vehicle::EnergyLedger& e = line.energy();
+    const double left = begin + e.engine - spent(e) - e.slope - line.kinetic_energy();
+    worst = std::max(worst, std::abs(left) / (begin + std::abs(e.engine) + spent(e)));
+  }
+  rows.push_back(
+      balance_row("energy balance, worst drive", worst, "launch, dumps, money shift, hill, cones: the ledger"));
+}
+
+}  // namespace
+
+void add_closed_forms(std::vector<BenchRow>& rows) {
+  add_constant_torque(rows);
+  add_momentum(rows);
+  add_energy(rows);
+}
+
+}  // namespace gearshift::lab

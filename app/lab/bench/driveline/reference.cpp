@@ -1,0 +1,267 @@
+#include "app/lab/bench/driveline/reference.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gearshift::lab {
+namespace {
+
+constexpr double kReferenceStep = 1e-5, kLocate = 1e-13;  // [s]
+
+int side(double x) {
+  return x > 0.0 ? 1 : x < 0.0 ? -1 : 0;
+}
+
+// State: speeds, and the heat of clutch and cone.
+struct Y {
+  double engine = 0.0, shaft = 0.0, road = 0.0, clutch_heat = 0.0, cone_heat = 0.0;
+};
+Y sum(const Y& y, double h, const Y& d) {
+  return {y.engine + h * d.engine, y.shaft + h * d.shaft, y.road + h * d.road, y.clutch_heat + h * d.clutch_heat,
+          y.cone_heat + h * d.cone_heat};
+}
+
+class Reference {
+ public:
+  explicit Reference(const Drive& drive) : drive_(drive), car_(drive.car) {
+    y_ = {drive.engine, drive.shaft, drive.road};
+    const vehicle::DrivelineInput in = drive.input(0.0);
+    dogs_ = in.meshed != 0;
+    G_ = vehicle::shaft_per_road(car_, dogs_ ? in.meshed : in.cone_gear);
+    cone_ratio_ = std::abs(G_) * car_.body.wheel_radius / car_.gearbox.final_drive;
+    geared_ = dogs_;
+    clutch_ = side(y_.engine - y_.shaft), cone_ = side(y_.shaft - G_ * y_.road);
+    road_ = side(y_.road), shaft_ = side(y_.shaft);
+    locked_ = clutch_ == 0;
+    car_rests_ = road_ == 0;
+  }
+
+  DriveOutcome run() {
+    DriveOutcome out;
+    out.samples.push_back({y_.engine, y_.shaft, y_.road});
+    const int steps = static_cast<int>(std::lround(drive_.duration / kReferenceStep));
+    for (int i = 0; i < steps; ++i) {
+      advance(i * kReferenceStep, (i + 1) * kReferenceStep);
+      out.engine_peak = std::max(out.engine_peak, y_.engine);
+      if ((i + 1) % 100 == 0) out.samples.push_back({y_.engine, y_.shaft, y_.road});
+    }
+    out.slip_energy = y_.clutch_heat;
+    out.cone_energy = y_.cone_heat;
+    out.running = running_;
+    return out;
+  }
+
+ private:
+  struct Forces {
+    double spark, friction, capacity, cone, shaft, air, hold;  // hold: rolling and brakes
+  };
+
+  Forces forces(const Y& y, double t) const {
+    const vehicle::DrivelineInput in = drive_.input(t);
+    Forces f;
+    f.friction = vehicle::friction_torque(car_.engine, y.engine);
+    const vehicle::EngineSpec& e = car_.engine;
+    const double whole = vehicle::full_torque(e, std::max(y.engine, e.full_load[0].speed)) + f.friction;
+    const double th0 =
+        vehicle::friction_torque(e, e.idle) / (vehicle::full_torque(e, e.idle) + vehicle::friction_torque(e, e.idle));
+    const double opened = std::max(in.throttle, std::clamp(th0 + e.idle_gain * (e.idle - y.engine), 0.0, 1.0));
+    f.spark = running_ && !cut_ ? opened * whole : 0.0;
+    f.capacity = vehicle::clutch_capacity(car_.clutch, in.clutch);
+    f.cone = dogs_ || G_ == 0.0 ? 0.0 : in.cone_torque / cone_ratio_;
+    f.shaft = -car_.gearbox.drag_slope * y.shaft;
+    f.air = -car_.body.resistance_slope * y.road - car_.body.resistance_square * y.road * std::abs(y.road) -
+            car_.body.mass * kDriveGravity * std::sin(in.slope);
+    f.hold = car_.body.resistance + car_.body.brake_force * in.brake + car_.body.hand_brake_force * in.hand_brake;
+    return f;
+  }
+
+  // Acceleration of the car with a rotating `inertia` at the shaft driven by `torque`; the gear teeth dissipate a
+  // fraction of the transmitted power in either direction. [m/s^2]
+  double through_teeth(double force, double torque, double inertia) const {
+    const double m = car_.body.mass + car_.body.rotating;
+    const auto solved = [&](double passed) {
+      return (force + passed * G_ * torque) / (m + passed * G_ * G_ * inertia);
+    };
+    const double driven = solved(teeth());
+    const bool drives = (torque - inertia * G_ * driven) * G_ * road_ >= 0.0;
+    return drives ? driven : solved(1.0 / teeth());
+  }
+  double teeth() const { return dogs_ ? car_.gearbox.efficiency : 1.0; }
+
+  // Stores the torques of clutch and gear in carried_.
+  Y slope(const Y& y, double t) {
+    const Forces f = forces(y, t);
+    const double je = car_.engine.inertia, js = car_.clutch.disc_inertia, m = car_.body.mass + car_.body.rotating;
+    const double drag = car_.gearbox.drag;
+    const double te = f.spark - f.friction;
+    const double ts = f.shaft - drag * shaft_;
+    const double fr = f.air - f.hold * road_;
+    double tc = clutch_ * f.capacity, tk = cone_ * f.cone;
+    Y d;
+    if (car_rests_ && geared_) {
+      d.engine = engine_rests_ || locked_ ? 0.0 : (te - tc) / je;
+      tk = tc;
+    } else if (!locked_ && !geared_) {
+      d.engine = engine_rests_ ? 0.0 : (te - tc) / je;
+      d.shaft = shaft_rests_ ? 0.0 : (ts + tc - tk) / js;
+      d.road = car_rests_ ? 0.0 : (fr + G_ * tk) / m;
+    } else if (!locked_) {
+      d.engine = engine_rests_ ? 0.0 : (te - tc) / je;
+      d.road = through_teeth(fr, ts + tc, js);
+      d.shaft = G_ * d.road;
+      tk = ts + tc - js * d.shaft;
+    } else if (!geared_) {
+      d.engine = d.shaft = (te + ts - tk) / (je + js);
+      d.road = car_rests_ ? 0.0 : (fr + G_ * tk) / m;
+      tc = te - je * d.engine;
+    } else {
+      d.road = through_teeth(fr, ts + te, js + je);
+      d.engine = d.shaft = G_ * d.road;
+      tc = te - je * d.engine;
+      tk = ts + tc - js * d.shaft;
+    }
+    d.clutch_heat = locked_ ? 0.0 : tc * (y.engine - y.shaft);
+    d.cone_heat = dogs_ || geared_ ? 0.0 : tk * (y.shaft - G_ * y.road);
+    carried_clutch_ = tc, carried_gear_ = tk;
+    return d;
+  }
+
+  Y moved(double t, double h) {
+    const Y a = slope(y_, t), b = slope(sum(y_, 0.5 * h, a), t + 0.5 * h), c = slope(sum(y_, 0.5 * h, b), t + 0.5 * h);
+    const Y d = slope(sum(y_, h, c), t + h);
+    Y y = sum(sum(sum(sum(y_, h / 6.0, a), h / 3.0, b), h / 3.0, c), h / 6.0, d);
+    if (geared_) y.shaft = G_ * y.road;
+    if (locked_) y.engine = y.shaft;
+    return y;
+  }
+
+  enum class What {
+    nothing,
+    clutch_meets,
+    clutch_breaks,
+    cone_meets,
+    cone_breaks,
+    road,
+    road_breaks,
+    shaft,
+    shaft_breaks,
+    engine,
+    engine_breaks,
+    dies,
+    cuts,
+    fires
+  };
+
+  What happened(const Y& y, double t) {
+    const Forces f = forces(y, t);
+    slope(y, t);
+    const double tc = carried_clutch_, tk = carried_gear_;
+    if (running_ && y.engine < car_.engine.stall) return What::dies;
+    if (running_ && !cut_ && y.engine > car_.engine.limiter) return What::cuts;
+    if (cut_ && y.engine < car_.engine.limiter - car_.engine.limiter_band) return What::fires;
+    if (!engine_rests_ && !locked_ && y.engine < 0.0) return What::engine;
+    if (engine_rests_ && !locked_ && f.spark - tc > f.friction) return What::engine_breaks;
+    if (!locked_ && f.capacity > 0.0 && clutch_ * (y.engine - y.shaft) < 0.0) return What::clutch_meets;
+    if (locked_ && !car_rests_ && std::abs(tc) > f.capacity) return What::clutch_breaks;
+    if (!geared_ && f.cone > 0.0 && cone_ * (y.shaft - G_ * y.road) < 0.0) return What::cone_meets;
+    if (geared_ && !dogs_ && std::abs(tk) > f.cone) return What::cone_breaks;
+    if (!car_rests_ && road_ * y.road < 0.0) return What::road;
+    if (car_rests_ && !locked_ && std::abs(pull(f)) > grip(f)) return What::road_breaks;
+    if (!geared_ && !shaft_rests_ && !locked_ && shaft_ * y.shaft < 0.0) return What::shaft;
+    if (shaft_rests_ && std::abs(tc - tk) > car_.gearbox.drag) return What::shaft_breaks;
+    return What::nothing;
+  }
+
+  // Forces on the stationary car, and what holds it.
+  double pull(const Forces& f) const {
+    return f.air + G_ * (geared_ ? teeth() * clutch_ * f.capacity : cone_ * f.cone);
+  }
+  double grip(const Forces& f) const { return f.hold + (geared_ ? teeth() * std::abs(G_) * car_.gearbox.drag : 0.0); }
+
+  void apply(What what, double t) {
+    const double je = car_.engine.inertia, js = car_.clutch.disc_inertia, m = car_.body.mass + car_.body.rotating;
+    if (what == What::dies) running_ = false;
+    if (what == What::cuts) cut_ = true;
+    if (what == What::fires) cut_ = false;
+    if (what == What::engine) y_.engine = 0.0, engine_rests_ = true, clutch_ = side(-y_.shaft);
+    if (what == What::engine_breaks) engine_rests_ = false;
+    if (what == What::clutch_meets) {
+      const double jr = geared_ ? js + m / (G_ * G_) : js;
+      y_.engine = y_.shaft = (je * y_.engine + jr * y_.shaft) / (je + jr);
+      if (geared_) y_.road = y_.shaft / G_;
+      locked_ = true;
+      slope(y_, t);
+      if (std::abs(carried_clutch_) > forces(y_, t).capacity) locked_ = false, clutch_ = -clutch_;
+    }
+    if (what == What::clutch_breaks) clutch_ = side(carried_clutch_), locked_ = false;
+    if (what == What::cone_meets) {
+      const double jl = locked_ ? js + je : js;
+      y_.road = (jl * G_ * y_.shaft + m * y_.road) / (jl * G_ * G_ + m);
+      y_.shaft = G_ * y_.road;
+      if (locked_) y_.engine = y_.shaft;
+      geared_ = true;
+      slope(y_, t);
+      if (std::abs(carried_gear_) > forces(y_, t).cone) geared_ = false, cone_ = -cone_;
+    }
+    if (what == What::cone_breaks) cone_ = side(carried_gear_), geared_ = false;
+    if (what == What::road) {
+      y_.road = 0.0;
+      if (geared_) y_.shaft = 0.0;
+      if (locked_ && geared_) y_.engine = 0.0;
+      const Forces f = forces(y_, t);
+      car_rests_ = std::abs(locked_ ? f.air : pull(f)) <= grip(f);
+      road_ = car_rests_ ? 0 : side(pull(f));
+      if (geared_) shaft_ = side(G_) * road_;
+    }
+    if (what == What::road_breaks) {
+      car_rests_ = false;
+      road_ = side(pull(forces(y_, t)));
+      if (geared_) shaft_ = side(G_) * road_;
+    }
+    if (what == What::shaft) y_.shaft = 0.0, shaft_rests_ = true, shaft_ = 0;
+    if (what == What::shaft_breaks) shaft_rests_ = false, shaft_ = side(carried_clutch_ - carried_gear_);
+  }
+
+  void advance(double t, double end) {
+    while (t < end) {
+      double h = end - t;
+      Y next = moved(t, h);
+      What what = happened(next, end);
+      if (what != What::nothing) {
+        double low = 0.0;
+        while (h - low > kLocate) {
+          const double middle = 0.5 * (low + h);
+          const Y y = moved(t, middle);
+          const What w = happened(y, t + middle);
+          if (w == What::nothing) {
+            low = middle;
+          } else {
+            h = middle, next = y, what = w;
+          }
+        }
+      }
+      y_ = next;
+      t = what == What::nothing ? end : t + h;
+      apply(what, t);
+    }
+  }
+
+  const Drive& drive_;
+  const vehicle::CarSpec& car_;
+  Y y_;
+  double G_ = 0.0, cone_ratio_ = 1.0;
+  bool dogs_ = false;                     // the gear is engaged
+  bool locked_ = false, geared_ = false;  // the clutch does not slip; shaft and gear turn together
+  bool car_rests_ = false, shaft_rests_ = false, engine_rests_ = false;
+  int clutch_ = 0, cone_ = 0, road_ = 0, shaft_ = 0;  // directions
+  bool running_ = true, cut_ = false;
+  double carried_clutch_ = 0.0, carried_gear_ = 0.0;
+};
+
+}  // namespace
+
+DriveOutcome reference_of(const Drive& drive) {
+  return Reference(drive).run();
+}
+
+}  // namespace gearshift::lab

@@ -1,0 +1,25 @@
+// Reference solution for the driveline: fourth-order Runge-Kutta with steps of 10 us, a separate implementation of each
+// mode, and events located to 1e-13 s. Slow, and shares no code with the driveline except the car's curves.
+#pragma once
+
+#include <vector>
+
+#include "app/lab/bench/driveline/drives.h"
+
+namespace gearshift::lab {
+
+struct ReferenceSample {
+  double engine = 0.0, shaft = 0.0, road = 0.0;
+};
+
+struct DriveOutcome {
+  std::vector<ReferenceSample> samples;  // every millisecond, including the start
+  double slip_energy = 0.0;              // [J] of the clutch
+  double cone_energy = 0.0;              // [J]
+  double engine_peak = 0.0;              // [rad/s]
+  bool running = true;                   // at the end
+};
+
+DriveOutcome reference_of(const Drive& drive);
+
+}  // namespace gearshift::lab

@@ -1,0 +1,87 @@
+// Simulated time per real time on one core: only the lever, the lever with a car, and a whole lesson.
+#include <chrono>
+#include <ctime>
+#include <functional>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "app/lab/bench/learning/shipped_drive.h"
+#include "app/lab/bench/lever/touring.h"
+#include "app/lab/bench/rows/bench.h"
+#include "app/vehicle/car_load.h"
+
+namespace gearshift::lab {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kRate = 1000.0;      // [Hz]
+constexpr double kPaperForce = 31.7;  // [N] of the paper's lever
+constexpr const char* kLesson = "down_through_the_gears";
+
+struct Speed {
+  std::vector<double> real, processor;  // simulated seconds per second of real time, and of this process's CPU time
+};
+
+// drive: returns the simulated time [s].
+void add_run(Speed& speed, const std::function<double()>& drive) {
+  const auto start = std::chrono::steady_clock::now();
+  const std::clock_t worked = std::clock();
+  const double simulated = drive();
+  const double work = static_cast<double>(std::clock() - worked) / CLOCKS_PER_SEC;
+  speed.real.push_back(simulated / std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count());
+  if (work > 0.0) speed.processor.push_back(simulated / work);
+}
+
+double tour(const haptics::Gate& gate, haptics::LeverLoad* load) {
+  haptics::ScriptedHand hand = touring_driver(gate, 1.0 / kRate);
+  haptics::SimulatedRun run(touring_config(gate), hand, load);
+  haptics::DriverControls feet;
+  feet.clutch = 1.0;
+  feet.ignition = true;
+  run.channels().controls.write(feet);
+  while (run.time() < hand.duration()) run.step();
+  return run.time();
+}
+
+BenchRow row(const char* name, Speed& speed, double goal, const std::string& what) {
+  const Timed real = timed(speed.real);
+  BenchRow row{"headless",
+               name,
+               real.median,
+               "x real time",
+               goal,
+               true,
+               what + "; median of " + std::to_string(speed.real.size()),
+               true,
+               {{"p10", quantile(speed.real, 0.1), ""},
+                {"p90", quantile(speed.real, 0.9), ""},
+                {"by processor time", quantile(speed.processor, 0.5), ""}}};
+  return answers_design(Design::headless, with_spread(real.spread, std::move(row)));
+}
+
+}  // namespace
+
+// Takes turns, so that a busy machine slows all equally.
+std::vector<BenchRow> bench_headless(const BenchOptions& options) {
+  const lessons::LessonDriveConfig lesson = shipped_drive(fs::path(options.gate_folder).parent_path(), kLesson);
+  const haptics::Gate paper = bench_gate(options.gate_folder, "paper"),
+                      gate = bench_gate(options.gate_folder, lesson.car.gate);
+  const int runs = options.quick ? 5 : 41;
+  Speed unguided, with_car, whole;
+  for (int i = 0; i < runs; ++i) {
+    if (options.progress) options.progress("headless", static_cast<double>(i) / runs);
+    add_run(unguided, [&] { return tour(paper, nullptr); });
+    add_run(with_car, [&] {
+      vehicle::CarLoad car(lesson.car, gate, kPaperForce);
+      return tour(gate, &car);
+    });
+    add_run(whole, [&] { return lessons::drive_lesson(lesson).duration; });
+  }
+  return {row("simulation at 1 kHz", unguided, 1000.0, "a tour: lever, hand, gate, guard"),
+          row("the same with the driveline", with_car, 400.0, "a tour of the hatchback's gate, clutch down"),
+          row("a whole lesson", whole, 400.0, fmt::format("{}: and learner and teacher", kLesson))};
+}
+
+}  // namespace gearshift::lab

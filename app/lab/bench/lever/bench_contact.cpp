@@ -1,0 +1,93 @@
+// A wall of 5000 N/m under a push of 20 N with the shipped default, at several rates and delays.
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "app/lab/bench/lever/contact_campaign.h"
+#include "app/lab/bench/rows/bench.h"
+
+namespace gearshift::lab {
+namespace {
+
+struct Setting {
+  double rate;                 // [Hz]
+  int delay;                   // [samples]
+  double goal_p95, goal_most;  // [mm]
+  bool shows_5000 = false;     // must display the wanted stiffness
+};
+
+std::string place_label(const Setting& at) {
+  std::string text = std::to_string(static_cast<int>(at.rate)) + " Hz";
+  return at.delay == 0 ? text : text + ", delay " + std::to_string(at.delay);
+}
+
+Campaign push_of_20(const Setting& at, int runs) {
+  Campaign campaign;
+  campaign.contact.haptics.rate = at.rate;
+  campaign.contact.lever.delay = at.delay;
+  campaign.contact.duration = at.rate < 500.0 ? 2.0 : 1.2;
+  campaign.runs = runs;
+  return campaign;
+}
+
+void add(std::vector<BenchRow>& rows, const Setting& at, const std::string& how,
+         const std::vector<HandOutcome>& outcomes) {
+  const HandOutcome& worst = worst_ripple(outcomes);
+  double most = 0.0;
+  for (const HandOutcome& outcome : outcomes) most = std::max(most, outcome.ripple_most);
+  double softest = 1e9;
+  for (const HandOutcome& outcome : outcomes) softest = std::min(softest, outcome.softest);
+  const std::vector<RelatedFigure> related{{"stiffness in use, least", softest, "N/m"},
+                                           {"displayed", 100.0 * least_displayed(outcomes), "%"},
+                                           {"deepest", 1e3 * deepest(outcomes), "mm"},
+                                           {"force ripple", worst.force_ripple, "N"}};
+  const std::string what = how + place_label(at) + ": last peak-to-peak";
+  const std::size_t first = rows.size();
+  rows.push_back({"contact", what + ", p95", 1e3 * worst.ripple_p95, "mm", at.goal_p95, false,
+                  "worst hand: " + worst.hand, true, related});
+  if (at.shows_5000) {
+    const double displayed = least_displayed(outcomes) * softest;
+    rows.push_back({"contact", how + place_label(at) + ": displayed stiffness, least", displayed, "N/m", 0.97 * 5000.0,
+                    true, "all hands, at 20 N"});
+  }
+  rows.push_back({"contact", what + ", most", 1e3 * most, "mm", at.goal_most, false, "all hands"});
+  for (std::size_t i = first; i < rows.size(); ++i) rows[i].design = Design::wall;
+}
+
+}  // namespace
+
+std::vector<BenchRow> bench_contact(const BenchOptions& options) {
+  // The first four must display 5000 N/m. The others use the stiffness to which the wall is limited.
+  const Setting settings[] = {{2000, 0, .02, .04, true}, {1000, 0, .04, .08, true}, {500, 0, .10, .11, true},
+                              {1000, 1, .10, .11, true}, {4000, 0, .02, .04},       {1000, 2, .12, .3},
+                              {1000, 3, .12, .3},        {1000, 4, .12, .3},        {500, 1, .12, .3},
+                              {200, 0, .12, .3},         {100, 0, .12, .3}};
+  constexpr double kPlaces = 17.0;
+  const int runs = options.quick ? 6 : 400;
+  std::vector<BenchRow> rows;
+  double done = 0.0;
+  for (const Setting& at : settings) {
+    if (options.progress) options.progress("contact", done++ / kPlaces);
+    add(rows, at, "", run_campaign(push_of_20(at, runs)));
+  }
+  // A stick whose firmware renders part of the wall; {1000, 3} above is the same stick without device walls.
+  for (const double own : {400.0, 1000.0, 3000.0}) {
+    if (options.progress) options.progress("contact", done++ / kPlaces);
+    const Setting at{1000, 3, .12, .3};
+    Campaign campaign = push_of_20(at, runs);
+    campaign.contact.lever.device_wall_stiffness = own;
+    add(rows, at, "device's own walls of " + std::to_string(static_cast<int>(own)) + " N/m, ", run_campaign(campaign));
+  }
+  // The same wall forced on a device that is unstable with it: only the reversal limiter acts.
+  for (const Setting& at : {Setting{100, 0, .3, .3}, Setting{200, 0, .3, .3}, Setting{1000, 3, .3, .3}}) {
+    if (options.progress) options.progress("contact", done++ / kPlaces);
+    Campaign campaign = push_of_20(at, options.quick ? 2 : 100);
+    campaign.contact.haptics.contact.allow_unstable = true;
+    campaign.contact.haptics.contact.hold = haptics::ContactHold::half_sample;
+    campaign.contact.duration = 4.0;
+    add(rows, at, "5000 N/m forced, limiter alone, ", run_campaign(campaign));
+  }
+  return rows;
+}
+
+}  // namespace gearshift::lab

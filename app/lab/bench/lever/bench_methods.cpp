@@ -1,0 +1,246 @@
+// Compares methods of rendering a stiff wall of 5000 N/m: cost, ripple, displayed stiffness, generated energy and
+// largest stable stiffness.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <span>
+#include <string>
+
+#include "app/lab/bench/lever/contact_campaign.h"
+#include "app/lab/bench/rows/bench.h"
+#include "app/lab/bench/rows/ticks.h"
+#include "haptics/analysis/sampled_loop.h"
+#include "haptics/contact/lever_observer.h"
+#include "haptics/contact/virtual_coupling.h"
+#include "haptics/gate/plain_aisle.h"
+#include "haptics/safety/energy_control.h"
+
+namespace gearshift::lab {
+namespace {
+
+using glm::dvec2;
+
+constexpr double kWanted = 5000.0;     // [N/m]
+constexpr double kDisplayedOf = 0.97;  // [1] least displayed fraction to be compared, from the design table
+
+struct Method {
+  std::string name;
+  haptics::ContactHold hold;
+  double damping;  // [N s/m]; below 0: K T / 2, Minsky's 0.5 of (22)
+  haptics::EnergyControl control = haptics::EnergyControl::none;
+};
+
+struct Place {
+  double rate;  // [Hz]
+  int delay;    // [samples]
+};
+
+double damping_of(const Method& method, const Place& at) {
+  return method.damping >= 0.0 ? method.damping : std::min(100.0, kWanted / (2.0 * at.rate));
+}
+
+// Cost of a contact cycle for a lever that trembles in and out of a wall. [ns]
+double cost_once(const Method& method, const Place& at) {
+  constexpr int kCycles = 5000;
+  haptics::DeviceSpec spec;
+  spec.delay = at.delay;
+  const double period = 1.0 / at.rate;
+  const haptics::Gate gate = haptics::plain_aisle(0.06, 0.03);
+  const haptics::Passage passage = haptics::open_passage(gate);
+  const haptics::Coupling coupling{kWanted, damping_of(method, at), period, at.delay, method.hold};
+  haptics::LeverObserver observer(spec, period);
+  const haptics::EnergyBounder bounder(spec.axis_x, at.delay, period);
+  haptics::PassivityController controller(spec.axis_x, period);
+  haptics::Proxy proxy = haptics::place_proxy(gate, {0.0, 0.0});
+  haptics::LeverMotion motion;
+  motion.fresh = true;
+  dvec2 force{0.0};
+  double last = 0.0;
+  const std::uint64_t before = ticks();
+  for (int n = 0; n < kCycles; ++n) {
+    const double x = 0.06 + 1e-5 * static_cast<double>(n % 64 - 20);
+    motion.velocity = {(x - motion.position.x) * at.rate, 0.0};
+    const double travel = x - motion.position.x;
+    motion.position = {x, 0.0};
+    proxy = haptics::move_proxy(gate, passage, proxy, motion.position, 1e-3);
+    const bool observes = method.hold == haptics::ContactHold::observer;
+    const haptics::ContactForce contact =
+        observes ? haptics::contact_force(coupling, gate, passage, proxy, observer.update(motion, force))
+                 : haptics::contact_force(coupling, gate, passage, proxy, motion);
+    force = contact.force;
+    if (method.control == haptics::EnergyControl::energy_bounding) force.x = bounder.bound(force.x, last, travel);
+    if (method.control == haptics::EnergyControl::passivity_controller)
+      force.x = controller.control(force.x, last, travel, motion.position != proxy.position);
+    last = force.x;
+  }
+  const double ns = static_cast<double>(ticks() - before) / ticks_per_ns() / kCycles;
+  return std::isfinite(force.x) ? ns
+                                : std::numeric_limits<double>::quiet_NaN();  // keeps the loop from being optimised away
+}
+
+// Costs of the methods. They alternate, so that a busy machine slows them equally. [ns]
+std::vector<Timed> costs(std::span<const Method> methods, const Place& at) {
+  std::vector<std::vector<double>> taken(methods.size());
+  for (int round = 0; round < 21; ++round) {
+    for (std::size_t m = 0; m < methods.size(); ++m) taken[m].push_back(cost_once(methods[m], at));
+  }
+  std::vector<Timed> ns;
+  for (std::vector<double>& of_method : taken) ns.push_back(timed(of_method));
+  return ns;
+}
+
+// Exact stability limit for the worst hand and axis. [N/m]
+double stiffest(const Method& method, const Place& at) {
+  haptics::ContactLaw law;
+  law.hold = method.hold;
+  law.damping = damping_of(method, at);
+  law.delay = at.delay;
+  double most = 1e9;
+  for (const haptics::NamedHand& named : haptics::kNamedHands)
+    for (const haptics::AxisModel& axis : {haptics::kPaperAxisX, haptics::kPaperAxisY})
+      most = std::min(most, haptics::stiffness_limit(axis, named.hand, law, 1.0 / at.rate));
+  return most;
+}
+
+ContactCase contact_of(const Method& method, const Place& at) {
+  ContactCase contact;
+  contact.haptics.rate = at.rate;
+  contact.haptics.contact = {method.hold, method.control, false, true};
+  contact.haptics.tuning.wall_stiffness = kWanted;
+  contact.haptics.tuning.wall_damping = damping_of(method, at);
+  contact.haptics.tuning.aisle_damping = std::min(2.0, 0.03 * at.rate / (at.delay + 1.0));
+  contact.lever.delay = at.delay;
+  return contact;
+}
+
+// True if the shipped default uses this method there and its wall of 5000 N/m is admitted unchanged.
+bool is_default(const Method& method, const Place& at) {
+  haptics::HapticConfig config;
+  config.rate = at.rate;
+  haptics::DeviceSpec spec;
+  spec.delay = at.delay;
+  const haptics::AdmittedTuning admitted = haptics::admit_tuning(config, spec, haptics::plain_aisle(0.05, 0.05));
+  return admitted.hold == method.hold && admitted.tuning.wall_damping == damping_of(method, at) &&
+         admitted.tuning.wall_stiffness == kWanted && config.contact.energy_control == method.control;
+}
+
+std::string place_label(const Place& at) {
+  return std::to_string(static_cast<int>(at.rate)) + " Hz, delay " + std::to_string(at.delay);
+}
+
+BenchRow row_of(const Method& method, const Place& at, const Timed& ns, const BenchOptions& options) {
+  Campaign campaign;
+  campaign.contact = contact_of(method, at);
+  campaign.runs = options.quick ? 3 : 100;
+  const std::vector<HandOutcome> outcomes = run_campaign(campaign);
+  const HandOutcome& worst = worst_ripple(outcomes);
+  const ImpactEnergy energy = run_impacts(contact_of(method, at), options.quick ? 5 : 100);
+  const double displayed = least_displayed(outcomes);
+  const RelatedFigure cycle{"cost", ns.median, "ns", ns.spread};
+  BenchRow row{"methods",
+               place_label(at) + ": " + method.name,
+               1e3 * worst.ripple_p95,
+               "mm",
+               {},
+               false,
+               "last peak-to-peak p95, 20 N, worst hand: " + worst.hand,
+               true,
+               {{"displayed error", 100.0 * (1.0 - displayed), "%"},
+                {"energy per contact, mean", 100.0 * energy.mean_share, "% of the impact"},
+                {"worst", 100.0 * energy.worst_share, "%"},
+                cycle}};
+  if (displayed >= kDisplayedOf) {
+    row.trade = Trade{place_label(at) + ": walls that display 97 %",
+                      method.name,
+                      cycle,
+                      {"last peak-to-peak, p95", row.value, "mm"},
+                      is_default(method, at)};
+  }
+  if (method.control == haptics::EnergyControl::none) row.related.push_back({"K limit", stiffest(method, at), "N/m"});
+  return row;
+}
+
+// A longer window is smoother but later. Cost: the damping force caused by one encoder count. Error: the lost
+// stiffness.
+Trade window_trade(int window, double damping, double limit) {
+  const haptics::SimulatedLeverConfig lever;
+  const double count = lever.yoke.radius * std::numbers::pi / 180.0 / lever.encoder_counts;  // [m] at the tip
+  const double tremble = damping * count / (0.001 * window);
+  return {"velocity window at 1 kHz, B = " + std::to_string(static_cast<int>(damping)) + " N s/m",
+          "over " + std::to_string(window) + " ms",
+          {"force of one count by the damper", tremble, "N"},
+          {"least stable compliance", 1e6 / limit, "um/N"},
+          window == haptics::EstimatorConfig{}.window};
+}
+
+// The default velocity window of CHAI3D is 15 ms, that of Force Dimension's DHD 20 ms.
+void add_windows(std::vector<BenchRow>& rows, const BenchOptions& options) {
+  for (const int window : {1, 4, 8, 15, 20}) {
+    BenchRow row{"methods",
+                 "velocity over " + std::to_string(window) + " ms at 1 kHz: K limit with B = 0",
+                 0.0,
+                 "N/m",
+                 {},
+                 false,
+                 "X axis, bare; a textbook spring and damper",
+                 true,
+                 {}};
+    const double wanted = haptics::HapticTuning{}.wall_damping;
+    for (const double damping : {0.0, 3.0, 5.0, 10.0, 20.0}) {
+      haptics::ContactLaw law{haptics::ContactHold::zero_order, 0.0, damping, window};
+      const double limit = haptics::stiffness_limit(haptics::kPaperAxisX, haptics::kBareHand, law, 0.001);
+      if (damping == 0.0) row.value = limit;
+      if (damping > 0.0) row.related.push_back({"B = " + std::to_string(static_cast<int>(damping)), limit, "N/m"});
+      if (damping == wanted) row.trade = window_trade(window, damping, limit);
+    }
+    rows.push_back(row);
+  }
+  for (const auto& [window, damping] : {std::pair{15, 0.0}, {15, 10.0}, {1, 10.0}}) {
+    ContactCase contact = contact_of({"", haptics::ContactHold::zero_order, damping}, {1000.0, 0});
+    contact.haptics.estimator.window = window;
+    contact.haptics.tuning.aisle_damping = 0.0;
+    contact.lever.encoder_counts = 0.0;  // shows only the stability boundary, without encoder noise
+    contact.duration = options.quick ? 1.2 : 3.0;
+    const ContactResult one = run_contact(contact);
+    rows.push_back({"methods",
+                    "5000 N/m, velocity over " + std::to_string(window) +
+                        " ms, B = " + std::to_string(static_cast<int>(damping)) + ": last peak-to-peak",
+                    1e3 * one.ripple,
+                    "mm",
+                    {},
+                    false,
+                    "X axis, bare, 20 N, no quantisation",
+                    true,
+                    {}});
+  }
+}
+
+}  // namespace
+
+std::vector<BenchRow> bench_methods(const BenchOptions& options) {
+  const Method methods[] = {{"zero-order hold, B = 0 (textbook)", haptics::ContactHold::zero_order, 0.0},
+                            {"zero-order hold, B = K T / 2 (22)", haptics::ContactHold::zero_order, -1.0},
+                            {"half-sample hold, B = 0", haptics::ContactHold::half_sample, 0.0},
+                            {"half-sample hold, B = 10", haptics::ContactHold::half_sample, 10.0},
+                            {"observer", haptics::ContactHold::observer, haptics::kMinObserverDamping},
+                            {"zero-order hold with passivity control", haptics::ContactHold::zero_order, 0.0,
+                             haptics::EnergyControl::passivity_controller},
+                            {"zero-order hold with energy bounding", haptics::ContactHold::zero_order, 0.0,
+                             haptics::EnergyControl::energy_bounding},
+                            {"half-sample hold, B = 10, with energy bounding", haptics::ContactHold::half_sample, 10.0,
+                             haptics::EnergyControl::energy_bounding}};
+  const Place places[] = {{1000, 0}, {1000, 1}, {1000, 2}, {500, 0}, {200, 0}};
+  std::vector<BenchRow> rows;
+  for (const Place& at : places) {
+    const std::vector<Timed> ns = costs(methods, at);
+    for (std::size_t m = 0; m < std::size(methods); ++m) {
+      if (options.progress) options.progress("methods", static_cast<double>(rows.size()) / 40.0);
+      rows.push_back(row_of(methods[m], at, ns[m], options));
+    }
+  }
+  add_windows(rows, options);
+  return rows;
+}
+
+}  // namespace gearshift::lab

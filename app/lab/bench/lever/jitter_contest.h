@@ -1,0 +1,25 @@
+// Compares the wake-up lateness of the loop's thread with cyclictest's in alternating blocks: same policy, priority,
+// core and period, under a load given by the caller.
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/lab/bench/rows/bench.h"
+
+namespace gearshift::lab {
+
+// A load that runs beside both contestants from start() until the returned object is destroyed.
+struct JitterLoad {
+  std::string where;  // end of the rows' names: ", alone"
+  std::function<std::shared_ptr<void>()> start;
+};
+
+// Returns one row "not measurable" if cyclictest is missing or has no real-time rights. family: family of the rows.
+// Progress is reported from share_from to share_to.
+std::vector<BenchRow> jitter_rows(const BenchOptions& options, const std::string& family, const JitterLoad& load,
+                                  double share_from, double share_to);
+
+}  // namespace gearshift::lab

@@ -1,0 +1,56 @@
+// Wake-up lateness of the haptic thread beside the renderer at full load: the cabin is drawn without pauses.
+#include <atomic>
+#include <thread>
+
+#include "app/lab/bench/lever/jitter_contest.h"
+#include "app/lab/bench/picture/picture_rig.h"
+
+namespace gearshift::lab {
+namespace {
+
+class FlatOutRenderer {
+ public:
+  FlatOutRenderer(const BenchOptions& options, std::atomic<int>& frames)
+      : cabin_(paper_cabin(options)), stage_(cabin_, options.model_folder), renderer_(gpu_, {}), frames_(frames) {
+    renderer_.set_model(stage_.model());
+    stage_.place(in_first(cabin_.gate));
+    draw();  // the first frame is special, so it is not part of the load
+    thread_ = std::thread([this] {
+      while (!stop_) draw();
+    });
+  }
+  ~FlatOutRenderer() {
+    stop_ = true;
+    thread_.join();
+  }
+  FlatOutRenderer(const FlatOutRenderer&) = delete;
+  FlatOutRenderer& operator=(const FlatOutRenderer&) = delete;
+
+ private:
+  void draw() {
+    const engine::View view = seen_from(stage_.driver_eye(), renderer_.config());
+    gpu_.wait(renderer_.draw(stage_.scene(), {&view, 1}));
+    ++frames_;
+  }
+
+  cabin::StageConfig cabin_;
+  cabin::Stage stage_;
+  engine::Gpu gpu_{{}};
+  engine::Renderer renderer_;
+  std::atomic<int>& frames_;
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+}  // namespace
+
+std::vector<BenchRow> bench_beside(const BenchOptions& options) {
+  std::atomic<int> frames{0};
+  const JitterLoad drawing{", beside the cabin drawn flat out",
+                           [&] { return std::make_shared<FlatOutRenderer>(options, frames); }};
+  std::vector<BenchRow> rows = jitter_rows(options, "beside", drawing, 0.0, 1.0);
+  rows.back().related.push_back({"frames drawn meanwhile", static_cast<double>(frames), ""});
+  return rows;
+}
+
+}  // namespace gearshift::lab

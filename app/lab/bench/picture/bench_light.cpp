@@ -1,0 +1,257 @@
+// Lights baked at the start: time and error.
+#include <cmath>
+#include <random>
+
+#include <fmt/core.h>
+#include <glm/geometric.hpp>
+#include <glm/gtc/packing.hpp>
+#include <glm/vec4.hpp>
+
+#include "app/lab/bench/picture/hammersley_brdf.h"
+#include "app/lab/bench/picture/picture_rig.h"
+#include "app/lab/bench/rows/bench.h"
+#include "engine/light/environment.h"
+
+namespace gearshift::lab {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr int kReferenceSamples = 16384;
+constexpr int kTruthSamples = 1024;  // per prefiltered texel
+constexpr double kPi = 3.14159265358979323846;
+
+struct Error {
+  double square = 0.0, worst = 0.0;
+  int count = 0;
+  void add(double e) {
+    square += e * e;
+    worst = std::max(worst, std::abs(e));
+    ++count;
+  }
+  double rms() const { return std::sqrt(square / count); }
+};
+
+constexpr int kGrid = 20;  // the table is compared at the inner points of a grid with this many cells per axis
+
+const std::vector<glm::dvec2>& brdf_truth() {
+  static const std::vector<glm::dvec2> truth = [] {
+    std::vector<glm::dvec2> sums;
+    for (int i = 1; i < kGrid; ++i)
+      for (int j = 1; j < kGrid; ++j)
+        sums.push_back(hammersley_sum(i / double{kGrid}, j / double{kGrid}, kReferenceSamples));
+    return sums;
+  }();
+  return truth;
+}
+
+template <class Method>
+Error brdf_error(const Method& method) {
+  Error error;
+  auto truth = brdf_truth().begin();
+  for (int i = 1; i < kGrid; ++i) {
+    for (int j = 1; j < kGrid; ++j) {
+      const glm::dvec2 off = method(i / double{kGrid}, j / double{kGrid}) - *truth++;
+      error.add(off.x);
+      error.add(off.y);
+    }
+  }
+  return error;
+}
+
+// One of several methods, baked repeatedly: its times and the last result.
+template <class Settings, class Made>
+struct Baked {
+  Settings settings;
+  Made made = {};
+  std::vector<double> taken = {};  // [ms] of each time
+};
+
+// Takes turns, so that a busy machine slows all equally.
+template <class Settings, class Made, class Make>
+void bake_in_turn(const BenchOptions& options, std::vector<Baked<Settings, Made>>& ways, const Make& make) {
+  for (int round = 0; round < (options.quick ? 1 : 9); ++round) {
+    for (Baked<Settings, Made>& way : ways) {
+      const auto start = Clock::now();
+      way.made = make(way.settings);
+      way.taken.push_back(ms_since(start));
+    }
+  }
+}
+
+struct BrdfSettings {
+  int side, samples;
+  // The values of the function's default arguments.
+  bool is_default() const { return side == engine::kBrdfSide && samples == engine::kBrdfSamples; }
+};
+
+// The goal is the result of another program: RMS 0.0010, worst 0.0055 for a table from 1024 samples.
+BenchRow brdf_row(Baked<BrdfSettings, engine::BrdfTable>& baked) {
+  const auto [side, samples] = baked.settings;
+  const Timed ms = timed(baked.taken);
+  const engine::BrdfTable& table = baked.made;
+  const Error error = brdf_error([&](double n_dot_v, double roughness) {
+    return glm::dvec2(table.sample(static_cast<float>(n_dot_v), static_cast<float>(roughness)));
+  });
+  BenchRow row{"light",
+               fmt::format("environment BRDF, {0}x{0} table, {1} samples: RMS", side, samples),
+               error.rms(),
+               "",
+               baked.settings.is_default() ? std::optional<double>(0.0010) : std::nullopt,
+               false,
+               "",
+               true,
+               {{"worst", error.worst, ""}, {"bake", ms.median, "ms", ms.spread}}};
+  row.trade = Trade{"environment BRDF",
+                    fmt::format("{0}x{0} table, {1} samples", side, samples),
+                    {"bake", ms.median, "ms", ms.spread},
+                    {"RMS", error.rms(), ""},
+                    baked.settings.is_default()};
+  return row;
+}
+
+// Brian Karis. Physically Based Shading on Mobile. 2014. An analytic fit without a table.
+glm::dvec2 mobile_fit(double n_dot_v, double roughness) {
+  const glm::dvec4 r = roughness * glm::dvec4(-1.0, -0.0275, -0.572, 0.022) + glm::dvec4(1.0, 0.0425, 1.04, -0.04);
+  const double a = std::min(r.x * r.x, std::exp2(-9.28 * n_dot_v)) * r.x + r.y;
+  return {-1.04 * a + r.z, 1.04 * a + r.w};
+}
+
+// Not compared with the tables, because it needs no baking but costs instructions in each pixel.
+BenchRow brdf_fit_row() {
+  const Error error = brdf_error(mobile_fit);
+  return {"light",
+          "environment BRDF, analytic fit (Karis 2014): RMS",
+          error.rms(),
+          "",
+          {},
+          false,
+          "no table to bake or read, but paid for in each pixel: beside the tables, not among them",
+          true,
+          {{"worst", error.worst, ""}}};
+}
+
+// Irradiance / pi by midpoint quadrature over the hemisphere around n, independent of any basis functions.
+glm::dvec3 irradiance_by_quadrature(const engine::Radiance& radiance, glm::vec3 n, int rings) {
+  const glm::vec3 side = glm::normalize(glm::cross(n, std::abs(n.y) < 0.9f ? glm::vec3(0, 1, 0) : glm::vec3(1, 0, 0)));
+  const glm::vec3 other = glm::cross(n, side);
+  glm::dvec3 sum(0.0);
+  for (int i = 0; i < rings; ++i) {
+    const double sin2 = (i + 0.5) / rings;  // uniform in sin^2, which includes the cosine weight
+    for (int j = 0; j < 4 * rings; ++j) {
+      const double phi = 2.0 * kPi * (j + 0.5) / (4 * rings);
+      const auto r = static_cast<float>(std::sqrt(sin2)), up = static_cast<float>(std::sqrt(1.0 - sin2));
+      sum += glm::dvec3(radiance(r * static_cast<float>(std::cos(phi)) * side +
+                                 r * static_cast<float>(std::sin(phi)) * other + up * n));
+    }
+  }
+  return sum / (4.0 * rings * rings);
+}
+
+engine::Radiance bench_sky() {
+  return engine::day_sky(glm::normalize(glm::vec3(0.35f, 0.80f, -0.48f)));
+}
+
+BenchRow irradiance_row(Baked<int, engine::Irradiance>& baked) {
+  const engine::Radiance sky = bench_sky();
+  const int samples = baked.settings;
+  const Timed ms = timed(baked.taken);
+  const engine::Irradiance& fast = baked.made;
+  std::mt19937 chance(1);
+  std::normal_distribution<float> normal;
+  Error relative;
+  for (int i = 0; i < 60; ++i) {
+    const glm::vec3 n = glm::normalize(glm::vec3(normal(chance), normal(chance), normal(chance)));
+    const glm::dvec3 truth = irradiance_by_quadrature(sky, n, 48);
+    relative.add(glm::length(glm::dvec3(fast(n)) - truth) / glm::length(truth));
+  }
+  const RelatedFigure cost{"projection", ms.median, "ms", ms.spread};
+  BenchRow row{"light",
+               fmt::format("irradiance by harmonics of degree 2, {0}x{0} samples a face: RMS of the truth", samples),
+               100.0 * relative.rms(),
+               "%",
+               {},
+               false,
+               "degree 3 is the same: a cosine lobe has no third band",
+               true,
+               {{"worst", 100.0 * relative.worst, "%"}, cost}};
+  row.trade = Trade{"irradiance by harmonics",
+                    fmt::format("{0}x{0} samples a face", samples),
+                    cost,
+                    {"RMS of the truth", row.value, "%"},
+                    samples == engine::kIrradianceSamples};
+  return row;
+}
+
+// RMS error of all rough levels against many more samples. Level 0 is a mirror, for which one sample is exact.
+double prefilter_error(const engine::PrefilteredCube& cube, const engine::PrefilteredCube& truth) {
+  double off = 0.0, all = 0.0;
+  for (std::size_t level = 1; level < cube.levels.size(); ++level) {
+    for (std::size_t i = 0; i < cube.levels[level].size(); ++i) {
+      const double should = glm::unpackHalf1x16(truth.levels[level][i]);
+      const double has = glm::unpackHalf1x16(cube.levels[level][i]);
+      if (i % 4 == 3) continue;  // alpha
+      off += (has - should) * (has - should);
+      all += should * should;
+    }
+  }
+  return std::sqrt(off / all);
+}
+
+BenchRow prefilter_row(Baked<int, engine::PrefilteredCube>& baked, const engine::PrefilteredCube& truth) {
+  const int samples = baked.settings;
+  const Timed ms = timed(baked.taken);
+  const engine::PrefilteredCube& cube = baked.made;
+  const double error = 100.0 * prefilter_error(cube, truth);
+  BenchRow row{"light",
+               fmt::format("reflections prefiltered, 64^2 x 6 x {} levels, {} samples", cube.levels.size(), samples),
+               ms.median,
+               "ms",
+               {},
+               false,
+               "",
+               true,
+               {{"RMS of the truth", error, "%"}}};
+  row.trade = Trade{"reflections prefiltered",
+                    fmt::format("{} samples", samples),
+                    {"bake", ms.median, "ms", ms.spread},
+                    {fmt::format("RMS of {} samples", kTruthSamples), error, "%"},
+                    samples == engine::kPrefilterSamples};
+  return with_spread(ms.spread, std::move(row));
+}
+
+void add_brdf(std::vector<BenchRow>& rows, const BenchOptions& options) {
+  std::vector<Baked<BrdfSettings, engine::BrdfTable>> ways;
+  for (const int samples : {16, 64, 128, 256, 1024}) ways.push_back({{64, samples}});
+  for (const int samples : {64, 128, 256}) ways.push_back({{32, samples}});
+  bake_in_turn(options, ways, [](const BrdfSettings& way) { return engine::bake_brdf(way.side, way.samples); });
+  for (auto& way : ways) rows.push_back(brdf_row(way));
+}
+
+void add_irradiance(std::vector<BenchRow>& rows, const BenchOptions& options) {
+  std::vector<Baked<int, engine::Irradiance>> ways{{8}, {32}, {64}};
+  bake_in_turn(options, ways, [sky = bench_sky()](int samples) { return engine::project_irradiance(sky, samples); });
+  for (auto& way : ways) rows.push_back(irradiance_row(way));
+}
+
+void add_reflections(std::vector<BenchRow>& rows, const BenchOptions& options) {
+  constexpr int kSide = 64, kLevels = 6;
+  const engine::PrefilteredCube truth = engine::prefilter(bench_sky(), kSide, kLevels, kTruthSamples);
+  std::vector<Baked<int, engine::PrefilteredCube>> ways{{16}, {64}, {256}};
+  bake_in_turn(options, ways,
+               [sky = bench_sky()](int samples) { return engine::prefilter(sky, kSide, kLevels, samples); });
+  for (auto& way : ways) rows.push_back(prefilter_row(way, truth));
+}
+
+}  // namespace
+
+std::vector<BenchRow> bench_light(const BenchOptions& options) {
+  std::vector<BenchRow> rows;
+  add_brdf(rows, options);
+  rows.push_back(brdf_fit_row());
+  add_irradiance(rows, options);
+  add_reflections(rows, options);
+  return rows;
+}
+
+}  // namespace gearshift::lab

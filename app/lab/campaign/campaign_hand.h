@@ -1,0 +1,57 @@
+// The hand of a case: shifts, wrong aims, pushes, and two long holds in which it keeps still.
+#pragma once
+
+#include <vector>
+
+#include "app/lab/campaign/campaign_case.h"
+#include "haptics/device/scripted_hand.h"
+#include "haptics/gate/gate.h"
+
+namespace gearshift::lab {
+
+// A tried shift: the gear should be engaged at `end`.
+struct TriedShift {
+  int gear = haptics::kNeutralGear;
+  double end = 0.0;    // [s] after the hand's dwell
+  bool clean = false;  // aimed directly at the gear, without noise or detours
+};
+
+// A time in which the hand keeps still: target and push stay as they were kSettling after `begin`.
+struct Hold {
+  double begin = 0.0, end = 0.0;  // [s]
+};
+inline constexpr double kSettling = 0.5;  // [s]
+
+struct HandScript {
+  std::vector<haptics::HandStroke> strokes;
+  std::vector<TriedShift> shifts;
+  std::vector<Hold> holds;
+};
+
+HandScript make_script(const haptics::Gate& gate, const CampaignCase& drawn, glm::dvec2 start);
+
+// Follows the script, trembles, and keeps still in the holds.
+class CampaignHand final : public haptics::HandDriver {
+ public:
+  // The script must outlive the hand.
+  CampaignHand(const CampaignCase& drawn, const HandScript& script, glm::dvec2 start);
+
+  haptics::HandTarget next(double time, glm::dvec2 lever) noexcept override;
+
+  double duration() const noexcept { return script_hand_.duration(); }  // [s]
+  double time() const noexcept { return time_; }                        // [s] on the hand's clock, jitter included
+  const haptics::HandTarget& last() const noexcept { return last_; }    // target of the last period
+
+ private:
+  const Hold* hold_at(double time) noexcept;
+
+  const HandScript& script_;
+  CaseManner manner_;
+  haptics::ScriptedHand script_hand_;
+  std::size_t hold_ = 0;  // current or next hold
+  bool is_still_ = false;
+  double time_ = 0.0;
+  haptics::HandTarget last_;
+};
+
+}  // namespace gearshift::lab

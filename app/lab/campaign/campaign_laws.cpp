@@ -1,0 +1,274 @@
+// This work is based on:
+// J.-P. Kim, J. Ryu. Robustly Stable Haptic Interaction Control using an Energy-bounding Algorithm. 2010
+#include "app/lab/campaign/campaign_laws.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "haptics/contact/proxy.h"
+#include "haptics/gate/gate_feel.h"
+#include "haptics/joystick/finite.h"
+
+namespace gearshift::lab {
+namespace {
+
+using glm::dvec2;
+
+constexpr double kRounding = 1e-9;         // [m], [N], [J] far below what can be felt
+constexpr double kMaxCommandError = 1e-6;  // [N] commanded against delivered, from rounding in the yoke
+constexpr double kQuietRipple = 1e-3;  // [m] limit for a single case; the goal is a p95 of 0.3 mm, shown in the summary
+constexpr double kQuietCounts = 6.0;   // [counts] the limiter detects a reversal of four counts, plus one at each end
+
+constexpr double kSmallSwing = 0.8e-3;  // [m] width of a swing by a hand's tremor, see reversal_limiter.cpp
+
+constexpr std::array<LawText, kCampaignLaws> kLawTexts{{
+    {"finite", "every number that comes out is finite", "bad cycles"},
+    {"free space", "the drawn lever is in free space", "cycles outside"},
+    {"no wall", "the drawn lever crosses no wall, and goes no further than the lever and 0.5 m/s T", "of that way"},
+    {"lockout", "the drawn lever passes no closed lockout", "crossings"},
+    {"force", "the command is within the device's force", "N"},
+    {"slew", "the command changes by no more than the guard's slew", "N"},
+    {"energy", "bounded: no energy beyond what was stored and the device's own damping took", "J"},
+    {"guard", "the guard has nothing to stop", "as GuardFault"},
+    {"quiet", "held still, the lever is still", "m"},
+    {"fades", "held still, a swing dies away within seconds, whatever is promised", "m"},
+    {"gear holds", "held still, the gear changes once at most; one that comes again was really left", "changes"},
+    {"reached", "a gear that a gripping hand cleanly aims at is in", "missed"},
+    {"told", "no event is lost", "events"},
+}};
+
+// Shortest path from `in`, a point in that slot, to `b` outside it. It passes the mouth; if `b` is on the same side of
+// the mouth, it is reflected there like a ray. [m]
+double min_exit_path(const haptics::Gate& gate, int slot_number, dvec2 in, dvec2 b) noexcept {
+  const haptics::Slot& slot = haptics::slot_of(gate, slot_number);
+  const double side = static_cast<int>(slot.side), mouth = side * gate.half_aisle;
+  const double before = std::abs(in.y - mouth), behind = std::abs(b.y - mouth);
+  const haptics::Column& column = haptics::column_of(gate, slot.column);
+  const double half = column.half_width + gate.chamfer;
+  const double straight = in.x + (b.x - in.x) * before / std::max(before + behind, kRounding);
+  const dvec2 through{std::clamp(straight, column.center - half, column.center + half), mouth};
+  return glm::distance(in, through) + glm::distance(through, b);
+}
+
+// Lower bound of the length of a path through free space from a to b. [m]
+double min_free_path(const haptics::Gate& gate, dvec2 a, dvec2 b) noexcept {
+  // At the aisle's wall, rounding may put the point into a slot; that does not count.
+  const auto slot_of_point = [&](dvec2 p) {
+    return std::abs(p.y) <= gate.half_aisle + kRounding ? haptics::kNoSlot : haptics::slot_at(gate, p);
+  };
+  const int from = slot_of_point(a), to = slot_of_point(b);
+  double way = glm::distance(a, b);
+  if (from == to) return way;
+  if (from != haptics::kNoSlot) way = std::max(way, min_exit_path(gate, from, a, b));
+  if (to != haptics::kNoSlot) way = std::max(way, min_exit_path(gate, to, b, a));
+  if (from == haptics::kNoSlot || to == haptics::kNoSlot) return way;
+  return std::max(way, std::abs(a.y) + std::abs(b.y) - 2.0 * gate.half_aisle);
+}
+
+// True if p is beyond that lockout's wall.
+bool is_past(const haptics::Gate& gate, const haptics::Lockout& lockout, dvec2 p) noexcept {
+  if (lockout.lateral) return lockout.beyond * (p.x - lockout.barrier) > kRounding;
+  const haptics::Slot& slot = haptics::slot_of(gate, lockout.slot);
+  const haptics::Column& column = haptics::column_of(gate, slot.column);
+  const double mouth = gate.half_aisle + gate.chamfer;
+  // At the side wall of its slot, rounding may alternate between in and out; that is not a crossing.
+  const bool in_column = std::abs(p.x - column.center) <= column.half_width + gate.chamfer + kRounding;
+  return in_column && static_cast<int>(slot.side) * p.y > mouth + kRounding;
+}
+
+bool is_out_of_column(const haptics::Gate& gate, int gear, dvec2 p) noexcept {
+  const haptics::Column& column =
+      haptics::column_of(gate, haptics::slot_of(gate, haptics::slot_of_gear(gate, gear)).column);
+  return std::abs(p.x - column.center) > column.half_width + gate.chamfer;
+}
+
+bool is_up(haptics::GuardState state) noexcept {
+  return state == haptics::GuardState::armed || state == haptics::GuardState::ramping ||
+         state == haptics::GuardState::running;
+}
+
+// Decay rate of a swing by the damping of handle and hand. [1/s]
+double passive_decay(haptics::AxisModel handle, const haptics::HandImpedance& hand) noexcept {
+  return 0.5 * (handle.damping + hand.damping) / (handle.mass + hand.mass);
+}
+
+double bad(bool is_bad) noexcept {
+  return is_bad ? 1.0 : 0.0;
+}
+
+}  // namespace
+
+const LawText& law_text(CampaignLaw law) noexcept {
+  return kLawTexts[static_cast<std::size_t>(law)];
+}
+
+void LawRecord::note(CampaignLaw law, double value, double bound, double time) noexcept {
+  LawResult& seen = seen_[static_cast<std::size_t>(law)];
+  const bool is_first = seen.checks++ == 0;
+  const double worst = seen.value - seen.bound;
+  const bool is_worse = !std::isnan(worst) && !(value - bound <= worst);
+  if (is_first || is_worse) seen.value = value, seen.bound = bound, seen.time = time;
+}
+
+bool LawRecord::any_broken() const noexcept {
+  return std::any_of(seen_.begin(), seen_.end(), [](const LawResult& seen) { return seen.broken(); });
+}
+
+LawLimits law_limits(const haptics::HapticConfig& config, const haptics::SimulatedLeverConfig& lever,
+                     const haptics::DeviceSpec& spec) noexcept {
+  LawLimits limits;
+  limits.period = haptics::period_s(config);
+  limits.max_force = spec.max_force;
+  limits.slew = config.guard.slew;
+  limits.ramp = std::min(1.0, limits.period / config.guard.ramp_time);
+  limits.can_drop_at_once = config.contact.energy_control == haptics::EnergyControl::energy_bounding;
+  // Bounding may return half of the energy that the nominal damping dissipates in a nominal period.
+  const bool is_enough = 1.0 - lever.model_error >= 0.5 * (1.0 + lever.period_jitter);
+  limits.energy_bounded =
+      limits.can_drop_at_once && is_enough && spec.delay == 0 && spec.device_wall_stiffness == dvec2(0.0);
+  limits.damping = {spec.axis_x.damping, spec.axis_y.damping};
+  limits.min_damping = (1.0 - lever.model_error) * limits.damping;
+  limits.max_period = (1.0 + lever.period_jitter) * limits.period;
+  limits.count = lever.encoder_counts > 0.0 ? spec.position_step : 0.0;
+  limits.ripple = std::max(kQuietRipple, kQuietCounts * spec.position_step);
+  limits.small_swing = std::max(kSmallSwing, kQuietCounts * spec.position_step);
+  const double decay = std::min(passive_decay(spec.axis_x, lever.hand), passive_decay(spec.axis_y, lever.hand));
+  limits.remaining_swing = std::exp(-0.5 * decay * kFading);
+  return limits;
+}
+
+void finite_law(const CyclePair& cycle, LawRecord& book) noexcept {
+  const haptics::HapticSnapshot& now = cycle.now;
+  const bool all = haptics::is_finite(now.lever) && haptics::is_finite(now.velocity) && haptics::is_finite(now.proxy) &&
+                   haptics::is_finite(now.wall_force) && haptics::is_finite(now.feel_force) &&
+                   haptics::is_finite(now.commanded) && haptics::is_finite(now.f_h) && haptics::is_finite(now.f_a);
+  book.note(CampaignLaw::finite, bad(!all), 0.0, 1e-9 * static_cast<double>(now.time_ns));
+}
+
+void free_space_law(const CyclePair& cycle, const haptics::Gate& gate, LawRecord& book) noexcept {
+  const bool is_free = haptics::in_free_space(gate, cycle.now.proxy, kRounding);
+  book.note(CampaignLaw::free_space, bad(!is_free), 0.0, 1e-9 * static_cast<double>(cycle.now.time_ns));
+}
+
+void no_wall_law(const CyclePair& cycle, const haptics::Gate& gate, const LawLimits& limits, LawRecord& book) noexcept {
+  const double max_path = glm::distance(cycle.now.lever, cycle.before.lever) + haptics::kHandOverSpeed * limits.period;
+  const double path = min_free_path(gate, cycle.before.proxy, cycle.now.proxy) - kRounding;
+  book.note(CampaignLaw::no_wall, path / max_path, 1.0 + kRounding, 1e-9 * static_cast<double>(cycle.now.time_ns));
+}
+
+void LockoutLaw::update(const CyclePair& cycle, const haptics::Gate& gate, LawRecord& book) noexcept {
+  const double time = 1e-9 * static_cast<double>(cycle.now.time_ns);
+  std::uint32_t bit = 1u;
+  for (const haptics::Lockout& lockout : haptics::lockouts(gate)) {
+    bool closed = false;
+    if (lockout.kind == haptics::LockoutKind::speed) {
+      const double speed = std::abs(cycle.before.road_speed);
+      if (speed > lockout.close_above) closed_ |= bit;
+      if (speed < lockout.open_below) closed_ &= ~bit;
+      closed = (closed_ & bit) != 0;
+    }
+    if (lockout.kind == haptics::LockoutKind::push_down) closed = !cycle.pressed_down;
+    if (lockout.kind == haptics::LockoutKind::lift) closed = !cycle.lifted;
+    if (lockout.kind == haptics::LockoutKind::after_gear) {
+      if (is_out_of_column(gate, lockout.after_gear, cycle.before.proxy)) closed_ &= ~bit;
+      if (cycle.before.gear == lockout.after_gear) closed_ |= bit;
+      closed = (closed_ & bit) != 0;
+    }
+    const bool crossed = is_past(gate, lockout, cycle.now.proxy) && !is_past(gate, lockout, cycle.before.proxy);
+    if (crossed) book.note(CampaignLaw::lockout, bad(closed), 0.0, time);
+    bit <<= 1;
+  }
+}
+
+void force_law(const CyclePair& cycle, const LawLimits& limits, LawRecord& book) noexcept {
+  const dvec2 force = glm::abs(cycle.now.commanded);
+  const int axis = force.x - limits.max_force.x > force.y - limits.max_force.y ? 0 : 1;
+  book.note(CampaignLaw::force, force[axis], limits.max_force[axis], 1e-9 * static_cast<double>(cycle.now.time_ns));
+}
+
+// While the guard's ramp rises, it adds to the change. In state `armed` there is no force yet; the command shown then
+// is the end of a previous fall.
+void slew_law(const CyclePair& cycle, const LawLimits& limits, LawRecord& book) noexcept {
+  if (!is_up(cycle.now.guard) || !is_up(cycle.before.guard) || cycle.before.guard == haptics::GuardState::armed) return;
+  const dvec2 now = cycle.now.commanded, before = cycle.before.commanded;
+  // A force may drop to zero at once, but not beyond it.
+  const dvec2 kept = glm::max(dvec2(0.0), glm::sign(now) * before);
+  const dvec2 change = limits.can_drop_at_once ? glm::abs(now) - kept : glm::abs(now - before);
+  const bool is_ramping = cycle.before.guard != haptics::GuardState::running;
+  const double most = std::max(limits.max_force.x, limits.max_force.y);
+  const double bound = limits.slew + (is_ramping ? limits.ramp * most : 0.0) + kRounding;
+  book.note(CampaignLaw::slew, std::max(change.x, change.y), bound, 1e-9 * static_cast<double>(cycle.now.time_ns));
+}
+
+void guard_law(const CyclePair& cycle, LawRecord& book) noexcept {
+  const haptics::GuardState state = cycle.now.guard;
+  const double fault = static_cast<double>(cycle.now.fault);
+  book.note(CampaignLaw::guard, is_up(state) ? fault : std::max(1.0, fault), 0.0,
+            1e-9 * static_cast<double>(cycle.now.time_ns));
+}
+
+void EnergyLaw::update(const CyclePair& cycle, dvec2 true_travel, const LawLimits& limits, LawRecord& book) noexcept {
+  const dvec2 was = cycle.before.commanded, is = cycle.now.commanded, acted = -cycle.now.f_a;
+  const bool is_delivered = glm::length(acted - was) < kMaxCommandError;  // an overheated motor gives less
+  if (!limits.energy_bounded || !is_up(cycle.now.guard) || !is_delivered) return reset();
+  const dvec2 slope = limits.damping / limits.period;  // [N/m] c
+  const dvec2 taken = limits.min_damping / limits.max_period * true_travel * true_travel;
+  const dvec2 net = acted * true_travel + (is * is - was * was) / (2.0 * slope) - taken;
+  const dvec2 told = cycle.now.lever - cycle.before.lever;
+  const dvec2 mistaken =
+      glm::abs(is - was) + slope * (glm::abs(true_travel - last_travel_) + glm::abs(true_travel) + glm::abs(told));
+  if (surplus_ == 0.0) allowed_ = limits.count * (glm::abs(was.x) + glm::abs(was.y));
+  const double sum = surplus_ + net.x + net.y;
+  surplus_ = sum < 0.0 ? 0.0 : sum;  // also keeps NaN
+  allowed_ += 0.5 * limits.count * (mistaken.x + mistaken.y);
+  last_travel_ = true_travel;
+  book.note(CampaignLaw::energy, surplus_, allowed_ + kRounding, 1e-9 * static_cast<double>(cycle.now.time_ns));
+}
+
+void EnergyLaw::reset() noexcept {
+  surplus_ = allowed_ = 0.0;
+  last_travel_ = dvec2(0.0);
+}
+
+void GearLaw::update(const CyclePair& cycle, const haptics::Gate& gate, bool held_still, LawRecord& book) noexcept {
+  const double time = 1e-9 * static_cast<double>(cycle.now.time_ns);
+  const int gear = cycle.now.gear, before = cycle.before.gear;
+  changes_ = held_still ? changes_ + (gear != before) : 0;
+  if (held_still) book.note(CampaignLaw::gear_holds, bad(changes_ > 1), 0.0, time);
+  if (last_ != haptics::kNeutralGear) {
+    const haptics::Slot& slot = haptics::slot_of(gate, haptics::slot_of_gear(gate, last_));
+    const bool is_in = haptics::slot_at(gate, cycle.now.proxy) == haptics::slot_of_gear(gate, last_);
+    nearest_ = std::min(nearest_, is_in ? std::abs(cycle.now.proxy.y) : 0.0);
+    if (gear == last_ && before != gear)
+      book.note(CampaignLaw::gear_holds, bad(nearest_ > slot.release_depth), 0.0, time);
+  }
+  if (gear != haptics::kNeutralGear && gear != before) {
+    last_ = gear;
+    nearest_ = std::abs(cycle.now.proxy.y);
+  }
+}
+
+void HeldSwing::update(dvec2 lever) noexcept {
+  low_ = glm::min(low_, lever);
+  high_ = glm::max(high_, lever);
+  rise_ = glm::max(rise_, lever - low_);
+  fall_ = glm::max(fall_, high_ - lever);
+}
+
+double HeldSwing::span() const noexcept {
+  const dvec2 both = glm::min(rise_, fall_);
+  return std::max(both.x, both.y);
+}
+
+void quiet_law(double span, const LawLimits& limits, double time, LawRecord& book) noexcept {
+  book.note(CampaignLaw::quiet, span, limits.ripple, time);
+}
+
+void fades_law(double before, double after, const LawLimits& limits, double time, LawRecord& book) noexcept {
+  book.note(CampaignLaw::fades, after, std::max(limits.small_swing, limits.remaining_swing * before), time);
+}
+
+}  // namespace gearshift::lab

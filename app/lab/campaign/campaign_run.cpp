@@ -1,0 +1,272 @@
+#include "app/lab/campaign/campaign_run.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <stdexcept>
+
+#include <fmt/core.h>
+#include <glm/geometric.hpp>
+
+#include "app/lab/campaign/campaign_car.h"
+#include "app/lab/campaign/campaign_hand.h"
+#include "app/lab/random_gates/random_layout.h"
+#include "haptics/gate/gate_compiler.h"
+#include "haptics/joystick/kinematics.h"
+#include "haptics/loop/simulated_run.h"
+#include "haptics/loop/trace_recorder.h"
+
+namespace gearshift::lab {
+namespace {
+
+constexpr double kQuietWindow = 0.5;        // [s] at the end of a hold; long enough for a swing of 2 Hz
+constexpr double kGearSettleTime = 1.0;     // [s] into a hold, after which the gear must not change
+constexpr std::uint64_t kPumpEvery = 4096;  // [cycles]
+
+haptics::GateLayout layout_of(const CampaignCase& drawn, std::span<const haptics::GateLayout> shipped) {
+  if (drawn.shipped_gate >= 0) return shipped[static_cast<std::size_t>(drawn.shipped_gate)];
+  return drawn.is_wide ? random_wide_layout(drawn.seed) : random_layout(drawn.seed);
+}
+
+haptics::SimulatedRunConfig run_config(const CampaignCase& drawn, const haptics::GateLayout& layout) {
+  haptics::SimulatedRunConfig config;
+  config.haptics = drawn.haptics;
+  config.lever = drawn.lever;
+  config.gate =
+      haptics::compile_gate(layout, haptics::workspace_half_extent(drawn.lever.yoke), drawn.lever.yoke.radius);
+  config.start = haptics::rest_position(config.gate, haptics::kNeutralGear);
+  return config;
+}
+
+// Clean aims only count for a gripping hand without a car: it does not ring and is as strong as the gate, but not as
+// strong as a synchroniser.
+bool can_shift(const CampaignCase& drawn) {
+  return drawn.hand == CaseHand::grip && !drawn.has_car;
+}
+
+// The loop's checks promise quiet and no guard faults for the plant error and jitter they were established with and for
+// the listed hands (a trembling one keeps still in a hold). With energy bounding a wall is passive but not quiet.
+bool is_promised(const CampaignCase& drawn) {
+  const bool is_listed = drawn.hand != CaseHand::heavy && drawn.hand != CaseHand::stiff;
+  const bool is_bounded = drawn.haptics.contact.energy_control == haptics::EnergyControl::energy_bounding;
+  return drawn.lever.model_error <= 0.05 && drawn.lever.period_jitter <= 0.1 && is_listed && !is_bounded;
+}
+
+// The configurations that the loop's checks must reject, and no others: those that need allow_unstable, and too low a
+// slew.
+bool is_forbidden(const CampaignCase& drawn) {
+  const haptics::HapticConfig& config = drawn.haptics;
+  return config.estimator.window > 1 || config.contact.energy_control == haptics::EnergyControl::passivity_controller ||
+         config.guard.slew < 2.0;
+}
+
+// True if a lockout of this gear requires leaving another column first. A lagging hand may come back before the lever
+// has left it; then the lockout is rightly closed.
+bool has_detour(const haptics::Gate& gate, int gear) {
+  return std::any_of(
+      haptics::lockouts(gate).begin(), haptics::lockouts(gate).end(), [&](const haptics::Lockout& lockout) {
+        return lockout.kind == haptics::LockoutKind::after_gear && haptics::slot_of(gate, lockout.slot).gear == gear;
+      });
+}
+
+std::unique_ptr<haptics::LeverLoad> make_load(const CampaignCase& drawn, const haptics::Gate& gate) {
+  if (!drawn.has_car) return std::make_unique<haptics::NoLoad>();
+  return std::make_unique<vehicle::CarLoad>(random_car(drawn.seed), gate, drawn.lever.actuator.peak_force,
+                                            random_start(drawn.seed), drawn.seed);
+}
+
+// One case while it runs.
+class CaseRun {
+ public:
+  CaseRun(const CampaignCase& drawn, const haptics::GateLayout& layout)
+      : drawn_(drawn),
+        layout_(layout),
+        config_(run_config(drawn, layout)),
+        script_(make_script(config_.gate, drawn, config_.start)),
+        hand_(drawn, script_, config_.start),
+        feet_(drawn.seed),
+        load_(make_load(drawn, config_.gate)),
+        run_(config_, hand_, load_.get()),
+        limits_(law_limits(drawn.haptics, drawn.lever, run_.lever().spec())) {
+    out.number = drawn.number;
+    out.promised = is_promised(drawn);
+    out.stiffness = run_.loop().admitted().tuning.wall_stiffness;
+    out.limited = static_cast<int>(run_.loop().admitted().limits.size());
+  }
+
+  void plant(const PlantedLimits& planted) { planted(limits_); }
+
+  void drive(haptics::TraceRecorder* recorder) {
+    haptics::HapticSnapshot before = run_.step();
+    true_position_ = run_.lever().true_position();
+    const double most = 1.0 + 2.0 * hand_.duration() / run_.period();  // a period is at least half its nominal length
+    while (hand_.time() < hand_.duration()) {
+      if (drawn_.has_car) run_.channels().controls.write(feet_.at(run_.time()));
+      const haptics::HapticSnapshot& now = run_.step();
+      if (static_cast<double>(now.cycle) > most)
+        throw std::runtime_error(fmt::format("case {} does not terminate", out.number));
+      check_cycle({now, before, hand_.last().pressed_down, hand_.last().lifted});
+      if (recorder && now.cycle % kPumpEvery == 0) recorder->pump();
+      before = now;
+    }
+    count_events();
+    out.cycles = before.cycle;
+    out.seconds = run_.time();
+    out.laws.note(CampaignLaw::no_lost_events, static_cast<double>(run_.channels().events_lost), 0.0, out.seconds);
+  }
+
+  haptics::TraceHeader header() {
+    return {"gearshift campaign",
+            drawn_.haptics,
+            run_.lever().spec(),
+            layout_.file,
+            layout_.text,
+            load_->replay_parameters(),
+            true};
+  }
+  haptics::LoopChannels& channels() { return run_.channels(); }
+
+  CaseOutcome out;
+
+ private:
+  void check_cycle(const CyclePair& cycle) {
+    const haptics::Gate& gate = config_.gate;
+    finite_law(cycle, out.laws);
+    free_space_law(cycle, gate, out.laws);
+    is_plausible_ =
+        is_plausible_ && glm::length(run_.lever().true_velocity()) < 0.9 * drawn_.haptics.estimator.speed_limit;
+    const bool is_proxy_reset = !is_plausible_ || out.stopped > 0;  // after rearming, the proxy starts at the lever
+    if (!is_proxy_reset) no_wall_law(cycle, gate, limits_, out.laws);
+    if (!is_proxy_reset) lockouts_.update(cycle, gate, out.laws);
+    force_law(cycle, limits_, out.laws);
+    slew_law(cycle, limits_, out.laws);
+    check_guard(cycle);
+    // The estimator drops implausible readings, so the energy over that travel is not bounded.
+    if (is_plausible_) energy_.update(cycle, run_.lever().true_position() - true_position_, limits_, out.laws);
+    true_position_ = run_.lever().true_position();
+    const bool is_in_or_out = is_held_still() && !drawn_.has_car;  // a synchroniser may delay the gear
+    if (!is_proxy_reset) gears_.update(cycle, gate, is_in_or_out, out.laws);
+    check_hold(cycle.now);
+    check_shift(cycle.now);
+    if (cycle.now.cycle % events_every() == 0) count_events();
+    out.fastest = std::max(out.fastest, glm::length(run_.lever().true_velocity()));
+  }
+
+  std::uint64_t events_every() const { return static_cast<std::uint64_t>(std::lround(limits_.frame / limits_.period)); }
+
+  void check_guard(const CyclePair& cycle) {
+    const bool fell = cycle.now.fault != haptics::GuardFault::none && cycle.before.fault == haptics::GuardFault::none;
+    out.stopped += fell;
+    if (is_plausible_ && out.promised) guard_law(cycle, out.laws);
+  }
+
+  bool is_held_still() const {
+    return hold_ < script_.holds.size() && hand_.time() >= script_.holds[hold_].begin + kGearSettleTime;
+  }
+
+  void check_hold(const haptics::HapticSnapshot& now) {
+    if (hold_ >= script_.holds.size()) return;
+    const Hold& hold = script_.holds[hold_];
+    was_tired_ = was_tired_ || is_tired(now);
+    if (hand_.time() >= hold.end) {
+      out.ripple = std::max(out.ripple, was_tired_ ? 0.0 : quiet_.span());
+      const bool is_shaken = drawn_.has_car;  // a stalling engine shakes the lever on purpose
+      if (!was_tired_ && !is_shaken && is_plausible_ && out.promised)
+        quiet_law(quiet_.span(), limits_, run_.time(), out.laws);
+      if (!was_tired_ && !is_shaken && is_plausible_ && out.stopped == 0)
+        fades_law(before_.span(), quiet_.span(), limits_, run_.time(), out.laws);
+      quiet_ = before_ = {};
+      was_tired_ = false;
+      ++hold_;
+    } else if (hand_.time() >= hold.end - kQuietWindow) {
+      quiet_.update(run_.lever().true_position());
+    } else if (hand_.time() >= hold.end - 2.0 * kFading && hand_.time() < hold.end - kFading) {
+      before_.update(run_.lever().true_position());
+    }
+  }
+
+  // A motor that overheats gives way, so no wall can be quiet on it. This is reported as saturation.
+  bool is_tired(const haptics::HapticSnapshot& now) const {
+    return drawn_.lever.actuator.overload_time < 100.0 && (now.flags & haptics::kFlagSaturated) != 0;
+  }
+
+  // A shift is clean only if the previous gear was reached; otherwise it starts from another place than planned.
+  void check_shift(const haptics::HapticSnapshot& now) {
+    const std::size_t done = static_cast<std::size_t>(out.shifts);
+    if (done >= script_.shifts.size() || hand_.time() < script_.shifts[done].end) return;
+    const TriedShift& shift = script_.shifts[done];
+    const bool is_reached = now.gear == shift.gear;
+    const bool is_clean =
+        shift.clean && was_previous_reached_ && can_shift(drawn_) && !has_detour(config_.gate, shift.gear);
+    if (is_clean) out.laws.note(CampaignLaw::reached, is_reached ? 0.0 : 1.0, 0.0, run_.time());
+    ++out.shifts;
+    out.clean += is_clean;
+    out.reached += is_reached;
+    was_previous_reached_ = is_reached;
+  }
+
+  void count_events() {
+    for (haptics::HapticEvent event; run_.channels().events.pop(event);)
+      out.softened += event.kind == haptics::EventKind::stiffness_lowered;
+  }
+
+  const CampaignCase& drawn_;
+  const haptics::GateLayout& layout_;
+  haptics::SimulatedRunConfig config_;
+  HandScript script_;
+  CampaignHand hand_;
+  CampaignPedals feet_;
+  std::unique_ptr<haptics::LeverLoad> load_;
+  haptics::SimulatedRun run_;
+  LawLimits limits_;
+  LockoutLaw lockouts_;
+  EnergyLaw energy_;
+  GearLaw gears_;
+  HeldSwing quiet_, before_;  // at the end of a hold; from 2 kFading to kFading before its end
+  std::size_t hold_ = 0;
+  glm::dvec2 true_position_{0.0};
+  bool was_previous_reached_ = true;
+  bool was_tired_ = false;
+  bool is_plausible_ = true;  // all readings so far were below the speed above which the loop treats them as faults
+};
+
+}  // namespace
+
+CaseOutcome run_case(const CampaignCase& drawn, std::span<const haptics::GateLayout> shipped,
+                     const std::filesystem::path& trace, const PlantedLimits& planted) {
+  const haptics::GateLayout layout = layout_of(drawn, shipped);
+  std::optional<CaseRun> run;
+  try {
+    run.emplace(drawn, layout);
+  } catch (const std::invalid_argument& refusal) {
+    if (!is_forbidden(drawn)) throw std::runtime_error(std::string("rejected without a reason: ") + refusal.what());
+    CaseOutcome out;
+    out.number = drawn.number;
+    out.refused = refusal.what();
+    std::replace(out.refused.begin(), out.refused.end(), ',', ';');  // a field of cases.csv
+    return out;
+  }
+  if (is_forbidden(drawn)) throw std::runtime_error("admitted, although the checks should reject it");
+  if (planted) run->plant(planted);
+  if (trace.empty()) {
+    run->drive(nullptr);
+    return run->out;
+  }
+  haptics::TraceRecorder recorder(trace, run->header(), run->channels(), haptics::TracePump::by_caller);
+  run->drive(&recorder);
+  const haptics::RecordingResult recorded = recorder.finish();
+  if (!recorded.problem.empty()) throw std::runtime_error(trace.string() + ": " + recorded.problem);
+  return run->out;
+}
+
+std::vector<haptics::GateLayout> shipped_layouts(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".toml") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  std::vector<haptics::GateLayout> layouts;
+  for (const std::filesystem::path& file : files) layouts.push_back(haptics::read_gate_layout(file));
+  return layouts;
+}
+
+}  // namespace gearshift::lab

@@ -1,0 +1,61 @@
+// Identifies a preset's simulated lever as in sections 2.3 and 2.4 of the paper: frequency response, m, b and k, force
+// sensor.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "haptics/analysis/identification.h"
+#include "haptics/analysis/sensor_calibration.h"
+#include "haptics/loop/preset.h"
+
+namespace gearshift::lab {
+
+struct AxisIdentification {
+  haptics::FrequencyResponse response;
+  haptics::AxisFit fit;
+  haptics::AxisModel nominal;       // the axis as given by spec()
+  haptics::FrequencyPoint literal;  // measured at 1 Hz with the paper's amplitude, even if that exceeds the stroke
+};
+
+struct Identification {
+  haptics::DeviceSpec spec;
+  double rate = 0.0;  // [Hz]
+  std::vector<AxisIdentification> axes;
+  haptics::ForceSensorModel sensor;  // the preset's
+  haptics::SensorCalibration calibration;
+};
+
+const char* lever_axis_name(haptics::LeverAxis axis) noexcept;  // "x", "y"
+
+using IdentifyProgress = std::function<void(std::string_view what, double share)>;
+
+// Sweeps down to 0.2 Hz, starting at 65 Hz, where the paper stopped, or at a quarter of the rate if that is lower.
+haptics::SweepConfig preset_sweep(const haptics::Preset& preset);
+
+// Sweeps one axis of the preset's lever without a hand. Each call simulates its own lever, so sweeps are independent.
+haptics::FrequencyResponse sweep_lever(const haptics::Preset& preset, haptics::LeverAxis axis,
+                                       const haptics::SweepConfig& config, const haptics::SweepProgress& progress = {});
+
+// Sweeps one axis with preset_sweep() and fits m, b and k. Throws std::runtime_error with one sentence if the sweep
+// ended early or the fit failed.
+AxisIdentification identify_axis(const haptics::Preset& preset, haptics::LeverAxis axis,
+                                 const haptics::SweepProgress& progress = {});
+
+// Identifies the given axes and calibrates the force sensor. Throws like identify_axis().
+Identification identify_lever(const haptics::Preset& preset, const std::vector<haptics::LeverAxis>& axes,
+                              const IdentifyProgress& progress = {});
+
+// Writes bode_AXIS.csv with the test points and bode_AXIS.svg and .png as in Fig. 4 to an existing folder. nominal:
+// label of the pale curve for axis.nominal. waiting: called while gnuplot works. Throws std::runtime_error, FileError.
+void draw_bode(const std::filesystem::path& folder, const AxisIdentification& axis, std::string_view nominal,
+               const std::function<void()>& waiting);
+
+// Format the result for `gearshift identify`.
+std::string identification_table(const Identification& found);
+std::string identification_json(const Identification& found);
+
+}  // namespace gearshift::lab

@@ -1,0 +1,10 @@
+// Section 3: coupling between the axes. With springs on both, pushes along one axis and measures the other.
+#pragma once
+
+#include "app/lab/reproduce/section.h"
+
+namespace gearshift::lab {
+
+void add_coupling(const Study& study, Section& section);
+
+}  // namespace gearshift::lab

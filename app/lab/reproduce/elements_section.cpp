@@ -1,0 +1,300 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include <fmt/format.h>
+#include <glm/geometric.hpp>
+#include <glm/mat3x3.hpp>
+#include <glm/matrix.hpp>
+#include <glm/vec3.hpp>
+
+#include "app/base/colours.h"
+#include "app/lab/reproduce/coupling.h"
+#include "app/lab/reproduce/element_trial.h"
+#include "app/lab/reproduce/rough_damper.h"
+#include "app/lab/reproduce/study_files.h"
+#include "app/lab/reproduce/virtual_element.h"
+
+namespace gearshift::lab {
+namespace {
+
+using glm::dvec2;
+using glm::dvec3;
+
+constexpr const char* kRed = base::kLockoutColour;
+constexpr const char* kBlue = base::kGearColour;
+
+// ---- limits ----
+
+Finding limit_row(const char* paper, double ours_x, double ours_y, double paper_x, double paper_y, const char* unit,
+                  const std::string& why) {
+  return {paper, fmt::format("{:.4g} and {:.4g} {}", ours_x, ours_y, unit),
+          fmt::format("{} and {}{}", relative(ours_x, paper_x), relative(ours_y, paper_y), why)};
+}
+
+void add_limits(const Study& study, Section& section) {
+  const haptics::AxisModel &x = study.preset.lever.axis_x, &y = study.preset.lever.axis_y;
+  const ElementLimits lx = element_limits(x, 1.0 / kPaperRate), ly = element_limits(y, 1.0 / kPaperRate);
+  const std::string why = fmt::format(": 605 and 566 are those of b = {:.3f} and {:.2f}, the device's is {:g} and {:g}",
+                                      605.0 / (2.0 * kPaperRate), 566.0 / (2.0 * kPaperRate), x.damping, y.damping);
+  section.findings.push_back(
+      limit_row("(14): K < 605 and 566 N/m in X and Y at 100 Hz", lx.spring, ly.spring, 605.0, 566.0, "N/m", why));
+  section.findings.push_back(limit_row("(16): B < 3.0 and 2.9 N s/m", lx.damper, ly.damper, 3.0, 2.9, "N s/m", ""));
+  section.findings.push_back(limit_row("(18): M < 0.015 and 0.014 kg", lx.mass, ly.mass, 0.015, 0.014, "kg",
+                                       fmt::format(": 2.9 T/2 = {:g} is printed as 0.014", 2.9 / (2.0 * kPaperRate))));
+  section.findings.push_back({"(21): K + 200 B + 200^2 M < 605 and 566",
+                              fmt::format("K + {:.4g} B + {:.5g} M < {:.4g} and {:.4g}", lx.spring / lx.damper,
+                                          lx.spring / lx.mass, lx.spring, ly.spring),
+                              "the same as (14)"});
+}
+
+// ---- emulation ----
+
+struct Emulation {
+  const char* name;
+  double spring, damper, mass;  // [1] fractions of the element's limits
+};
+// The fractions of each emulation add up to kElementShare, as (20) requires.
+constexpr std::array<Emulation, 4> kEmulations{{{"spring", kElementShare, 0.0, 0.0},
+                                                {"damper", 0.0, kElementShare, 0.0},
+                                                {"mass", 0.0, 0.0, kElementShare},
+                                                {"impedance", 0.3, 0.3, 0.2}}};
+
+// Spring and damper have the values of 100 Hz at every rate, to be comparable; (18) allows a faster loop less mass.
+haptics::AxisModel element_of(const Emulation& emulation, const haptics::AxisModel& handle, double rate) {
+  const ElementLimits slow = element_limits(handle, 1.0 / kPaperRate), own = element_limits(handle, 1.0 / rate);
+  return {emulation.mass * std::min(slow.mass, own.mass), emulation.damper * slow.damper,
+          emulation.spring * slow.spring};
+}
+
+std::vector<haptics::HandStroke> strokes_through(std::span<const dvec2> points) {
+  std::vector<haptics::HandStroke> strokes;
+  for (const dvec2 point : points) {
+    haptics::HandStroke stroke;
+    stroke.to = 0.045 * point;
+    stroke.duration = strokes.size() % 2 == 0 ? 0.20 : 0.35;
+    stroke.dwell = 0.0;
+    strokes.push_back(stroke);
+  }
+  return strokes;
+}
+
+constexpr std::array<dvec2, 5> kAlongX{{{1, 0}, {-1, 0}, {1, 0}, {-1, 0}, {0, 0}}};
+constexpr std::array<dvec2, 5> kAlongY{{{0, 1}, {0, -1}, {0, 1}, {0, -1}, {0, 0}}};
+constexpr std::array<dvec2, 6> kBothAxes{{{0.6, 0.6}, {-0.6, 0.6}, {-0.6, -0.6}, {0.6, -0.6}, {0.6, 0.6}, {0, 0}}};
+
+// Fits F = K x + B v + M a to the true motion by least squares.
+dvec3 fit(const std::vector<ElementHold>& holds, dvec3 ElementHold::*motion) {
+  glm::dmat3 normal(0.0);
+  dvec3 projected(0.0);
+  for (const ElementHold& hold : holds) {
+    normal += glm::outerProduct(hold.*motion, hold.*motion);
+    projected += hold.force * (hold.*motion);
+  }
+  return glm::inverse(normal) * projected;
+}
+
+// The wanted and the fitted elements as (K, B, M).
+struct Emulated {
+  dvec3 x, y;                      // wanted
+  dvec3 alone_x, alone_y;          // fitted to the sampled motion, one axis at a time
+  dvec3 both_x, both_y;            // fitted to the sampled motion, both axes at once
+  dvec3 actual;                    // fitted to the actual motion, only X
+  std::vector<ElementHold> curve;  // only X
+};
+
+dvec3 vector_of(const haptics::AxisModel& model) {
+  return {model.stiffness, model.damping, model.mass};
+}
+
+Emulated emulate(const Study& study, const Emulation& emulation, double rate) {
+  const Trial trial = free_trial(study, rate);
+  const haptics::AxisModel x = element_of(emulation, trial.lever.axis_x, rate);
+  const haptics::AxisModel y = element_of(emulation, trial.lever.axis_y, rate);
+  VirtualElement only_x(x, {}, dvec2(0.0), {}), only_y({}, y, dvec2(0.0), {}), both(x, y, dvec2(0.0), {});
+  Emulated out;
+  out.x = vector_of(x);
+  out.y = vector_of(y);
+  out.curve = holds_of(run_with_hand(trial, strokes_through(kAlongX), &only_x), 0);
+  out.alone_x = fit(out.curve, &ElementHold::sampled);
+  out.actual = fit(out.curve, &ElementHold::actual);
+  out.alone_y = fit(holds_of(run_with_hand(trial, strokes_through(kAlongY), &only_y), 1), &ElementHold::sampled);
+  const TrialRun together = run_with_hand(trial, strokes_through(kBothAxes), &both);
+  out.both_x = fit(holds_of(together, 0), &ElementHold::sampled);
+  out.both_y = fit(holds_of(together, 1), &ElementHold::sampled);
+  return out;
+}
+
+using EmulatedPair = std::array<Emulated, 2>;  // at 100 Hz and at the preset's rate
+
+constexpr std::array<const char*, 3> kNumber{"K", "B", "M"};
+constexpr std::array<const char*, 3> kUnit{"N/m", "N s/m", "kg"};
+
+// "K 480 N/m, B 2.4 N s/m": only the elements that were wanted.
+std::string values(dvec3 kbm, dvec3 wanted) {
+  std::string text;
+  for (int i = 0; i < 3; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    if (wanted[i] == 0.0) continue;
+    text += fmt::format("{}{} {:.4g} {}", text.empty() ? "" : ", ", kNumber[k], kbm[i], kUnit[k]);
+  }
+  return text;
+}
+
+// Largest deviation of element i (K, B or M) over all fits. [%]
+double deviation(const Emulated& emulated, int i) {
+  const double x = emulated.x[i], y = emulated.y[i];
+  double most = 0.0;
+  for (const double ratio :
+       {emulated.alone_x[i] / x, emulated.both_x[i] / x, emulated.alone_y[i] / y, emulated.both_y[i] / y})
+    most = std::max(most, 100.0 * std::abs(ratio - 1.0));
+  return most;
+}
+
+// "K 0.03 %, B 0.4 %"
+std::string deviations(const Emulated& emulated) {
+  std::string text;
+  for (int i = 0; i < 3; ++i) {
+    if (emulated.x[i] == 0.0) continue;
+    text += fmt::format("{}{} {:.2g} %", text.empty() ? "" : ", ", kNumber[static_cast<std::size_t>(i)],
+                        deviation(emulated, i));
+  }
+  return text;
+}
+
+void write_fits(const Study& study, const std::array<EmulatedPair, 4>& all) {
+  CsvFile csv(study, "element_fits",
+              "element,rate_hz,axes,k_wanted_n_per_m,k_n_per_m,b_wanted_n_s_per_m,b_n_s_per_m,m_wanted_kg,m_kg");
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t rate = 0; rate < 2; ++rate) {
+      const Emulated& emulated = all[i][rate];
+      const auto row = [&](const char* axes, dvec3 wanted, dvec3 found) {
+        csv.line(fmt::format("{},{:g},{},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g},{:.6g}", kEmulations[i].name,
+                             rate == 0 ? kPaperRate : study.preset.haptics.rate, axes, wanted.x, found.x, wanted.y,
+                             found.y, wanted.z, found.z));
+      };
+      row("x alone", emulated.x, emulated.alone_x);
+      row("y alone", emulated.y, emulated.alone_y);
+      row("x of both", emulated.x, emulated.both_x);
+      row("y of both", emulated.y, emulated.both_y);
+    }
+  }
+  csv.finish();
+}
+
+void write_elements(const Study& study, const std::array<EmulatedPair, 4>& all) {
+  TrialTable table;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    for (std::size_t rate = 0; rate < 2; ++rate) {
+      const Emulated& emulated = all[i][rate];
+      const std::string tag = fmt::format("{}_{}", kEmulations[i].name, rate == 0 ? "100hz" : "preset");
+      const auto column = [&](const char* what, auto value) {
+        std::vector<double> cells;
+        for (const ElementHold& hold : emulated.curve) cells.push_back(value(hold));
+        table.add(fmt::format("{}_{}", tag, what), std::move(cells));
+      };
+      column("time_s", [](const ElementHold& hold) { return hold.time; });
+      column("x_mm", [](const ElementHold& hold) { return 1e3 * hold.actual.x; });
+      column("v_m_per_s", [](const ElementHold& hold) { return hold.actual.y; });
+      column("a_m_per_s2", [](const ElementHold& hold) { return hold.actual.z; });
+      column("force_n", [](const ElementHold& hold) { return hold.force; });
+      column("ideal_n", [&](const ElementHold& hold) { return glm::dot(emulated.x, hold.actual); });
+    }
+  }
+  table.write(study, "elements");
+}
+
+std::string element_panel(const Emulation& emulation, const char* abscissa, const char* label, double rate) {
+  return fmt::format(R"gp(set xlabel "{label}"
+set title "{name}"
+plot "elements.csv" using "{name}_preset_{x}":"{name}_preset_force_n" \
+    with points pointtype 7 pointsize 0.18 linecolor "{blue}" title "{rate:g} Hz", \
+  "" using "{name}_100hz_{x}":"{name}_100hz_force_n" \
+    with points pointtype 6 pointsize 0.6 linecolor "{red}" title "100 Hz", \
+  "" using "{name}_100hz_{x}":"{name}_100hz_ideal_n" \
+    with lines linewidth 1.2 linecolor "{ink}" title "ideal element of 100 Hz"
+)gp",
+                     fmt::arg("label", label), fmt::arg("name", emulation.name), fmt::arg("x", abscissa),
+                     fmt::arg("blue", kBlue), fmt::arg("red", kRed), fmt::arg("rate", rate),
+                     fmt::arg("ink", base::kInk));
+}
+
+void draw_elements(const Study& study, const std::array<EmulatedPair, 4>& all) {
+  write_elements(study, all);
+  const double rate = study.preset.haptics.rate;
+  draw(study,
+       {"elements", 1100, 820,
+        fmt::format("set multiplot layout 2,2 margins 0.08, 0.98, 0.08, 0.95 spacing 0.1, 0.14\n"
+                    "set key top left\nset ylabel \"force against the hand [N]\"\n{}{}{}{}unset multiplot\n",
+                    element_panel(kEmulations[0], "x_mm", "position [mm]", rate),
+                    element_panel(kEmulations[1], "v_m_per_s", "velocity [m/s]", rate),
+                    element_panel(kEmulations[2], "a_m_per_s2", "acceleration [m/s^2]", rate),
+                    "set offsets 0, 0, graph 0.3, 0\n" + element_panel(kEmulations[3], "time_s", "time [s]", rate))});
+}
+
+// Explains why an encoder's resolution prevents the emulation of a mass.
+std::string mass_noise(const Study& study, const Emulated& fast, double rate) {
+  const double count = study.device.position_step, mass = fast.x.z;
+  return fmt::format(
+      "there one encoder count makes {:.2g} N of inertial force, M q/T^2, and the condition allows {:.2g} g",
+      mass * count * rate * rate, 1e3 * mass);
+}
+
+// The hand feels a spring force that is half a period old and a damper force that is a whole one old; (14) and (16)
+// compensate this lag with b.
+Finding lag_row(const Emulated& spring, const Emulated& damper) {
+  const double lost = -0.5 * spring.x.x / kPaperRate, mass = -damper.x.y / kPaperRate;
+  return {"(14): b must exceed K T/2",
+          fmt::format("fitted to the middle of its holds, the 100 Hz spring has {:.4g} N/m and {:.3g} N s/m, the "
+                      "damper {:.3g} N s/m "
+                      "and {:.2g} g",
+                      spring.actual.x, spring.actual.y, damper.actual.y, 1e3 * damper.actual.z),
+          fmt::format("effect of the hold: -K T/2 = {:.3g} N s/m of damping ({}), -B T = {:.2g} g of mass", lost,
+                      relative(spring.actual.y, lost), 1e3 * mass)};
+}
+
+void add_emulation(const Study& study, Section& section) {
+  std::array<EmulatedPair, 4> all;
+  for (std::size_t i = 0; i < all.size(); ++i) {
+    report_progress(study, fmt::format("elements: {}", kEmulations[i].name));
+    const double rate = study.preset.haptics.rate;
+    all[i] = {emulate(study, kEmulations[i], kPaperRate), emulate(study, kEmulations[i], rate)};
+    const Emulated &slow = all[i][0], &fast = all[i][1];
+    section.findings.push_back(
+        {fmt::format("Section 3: \"the joystick well emulated these objects\": {}", kEmulations[i].name),
+         fmt::format("X at 100 Hz, {}: {} on its own, {} with Y. At {:g} Hz, {}: {} on its own, {} with Y",
+                     values(slow.x, slow.x), values(slow.alone_x, slow.x), values(slow.both_x, slow.x), rate,
+                     values(fast.x, fast.x), values(fast.alone_x, fast.x), values(fast.both_x, fast.x)),
+         fmt::format("both axes, separately and together, at most {} off at 100 Hz and {} at {:g} Hz{}",
+                     deviations(slow), deviations(fast), rate,
+                     kEmulations[i].mass > 0.0 ? ": " + mass_noise(study, fast, rate) : "")});
+  }
+  write_fits(study, all);
+  section.findings.push_back(lag_row(all[0][0], all[1][0]));
+  draw_elements(study, all);
+  section.pictures.push_back(
+      {"elements",
+       "Force of emulated elements on X over the true motion in the middle of each hold; a gripping hand "
+       "moves the lever. The width of the 100 Hz curves is the lag of the hold."});
+}
+
+}  // namespace
+
+Section elements_section(const Study& study) {
+  Section section{"elements", "Emulated spring, damper, mass and impedance: (13) to (21)", "", {}, {}};
+  section.text = fmt::format(
+      "A virtual element (19) loads the lever in a wide aisle without walls, feel or damping by the loop, at "
+      "{:g} % of what the conditions allow at 100 Hz. A gripping hand moves the lever; the encoder is the preset's. "
+      "Stiffness, damping and mass are fitted by least squares to the motors' force over the true motion at the "
+      "samples.",
+      100.0 * kElementShare);
+  add_limits(study, section);
+  add_emulation(study, section);
+  add_coupling(study, section);
+  add_rough_damper(study, section);
+  return section;
+}
+
+}  // namespace gearshift::lab

@@ -1,0 +1,13 @@
+// Writes the reproduction as one page: index.html beside the pictures that it shows.
+#pragma once
+
+#include <vector>
+
+#include "app/lab/reproduce/section.h"
+
+namespace gearshift::lab {
+
+// Writes index.html to the study's folder. The page has no script and loads nothing from outside. Throws FileError.
+void write_page(const Study& study, const std::vector<Section>& sections);
+
+}  // namespace gearshift::lab

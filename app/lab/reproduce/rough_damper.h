@@ -1,0 +1,10 @@
+// Section 3: roughness of an emulated damper compared with a spring, slow and fast, at 100 Hz and at the preset's rate.
+#pragma once
+
+#include "app/lab/reproduce/section.h"
+
+namespace gearshift::lab {
+
+void add_rough_damper(const Study& study, Section& section);
+
+}  // namespace gearshift::lab

@@ -1,0 +1,35 @@
+// The elements that the paper's joystick emulates: spring, damper, mass or all three, eq (19), independently per axis.
+#pragma once
+
+#include <array>
+#include <optional>
+
+#include "haptics/joystick/kinematics.h"
+#include "haptics/joystick/plant.h"
+#include "haptics/loop/lever_load.h"
+
+namespace gearshift::lab {
+
+// E(z) = K + B (z - 1)/(T z) + M ((z - 1)/(T z))^2: backward differences of the samples, without filter.
+class VirtualElement final : public haptics::LeverLoad {
+ public:
+  // rest: position in the gate plane at which the springs are relaxed [m]. A model of all zeros means no element. The
+  // elements act in the gate plane or, if a yoke is given, on each joint separately, as in the paper with (3) and (6).
+  VirtualElement(const haptics::AxisModel& x, const haptics::AxisModel& y, glm::dvec2 rest,
+                 std::optional<haptics::YokeGeometry> joints) noexcept;
+
+  haptics::LeverOutput step(const haptics::LeverInput& in, double period) noexcept override;
+  const char* replay_parameters() const noexcept override { return "virtual element"; }
+
+ private:
+  glm::dvec2 coordinates(glm::dvec2 plane) const noexcept;
+  glm::dvec2 plane_force_of(glm::dvec2 force, glm::dvec2 plane) const noexcept;
+
+  std::array<haptics::AxisModel, 2> element_;
+  std::optional<haptics::YokeGeometry> joints_;
+  glm::dvec2 rest_;           // [m] in the element's coordinates, like the following members
+  glm::dvec2 position_{0.0};  // [m] of the last sample
+  glm::dvec2 step_{0.0};      // [m] from the sample before it
+};
+
+}  // namespace gearshift::lab

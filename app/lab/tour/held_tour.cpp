@@ -1,0 +1,212 @@
+#include "app/lab/tour/held_tour.h"
+
+#include <stdexcept>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "app/base/program_name.h"
+#include "app/base/stop_signals.h"
+#include "app/runtime/runtime.h"
+#include "haptics/files/file_error.h"
+#include "haptics/loop/haptic_snapshot.h"
+#include "haptics/loop/shift_script.h"
+
+namespace gearshift::lab {
+namespace {
+
+constexpr double kPollPeriod = 0.02;               // [s]
+constexpr double kOpenTimeout = 2.0;               // [s] longest time to open a stick that is plugged in
+constexpr std::int64_t kArmTimeout = 100'000'000;  // [ns] longest time until the loop has processed the arm command
+
+runtime::RuntimeConfig runtime_config(const TourSetup& setup, runtime::StickLever& stick) {
+  runtime::RuntimeConfig config;
+  config.layout = setup.layout;
+  config.preset.haptics = setup.haptics;
+  config.lever = [&stick](double period) { return stick.lever(period); };
+  config.program = base::program_name();
+  return config;
+}
+
+bool is_off(haptics::GuardState state) {
+  return state == haptics::GuardState::idle || state == haptics::GuardState::damped ||
+         state == haptics::GuardState::released;
+}
+
+// The fault in words for the person at the stick.
+const char* describe_fault(haptics::GuardFault fault) {
+  if (fault == haptics::GuardFault::stale_reading) return "the stick sends no readings";
+  return fault == haptics::GuardFault::overruns ? "the computer was too late" : haptics::guard_fault_name(fault);
+}
+
+// Start time of the running loop's first cycle. [ns]
+std::int64_t first_cycle_of(runtime::Runtime& runtime) {
+  const haptics::HapticSnapshot now = runtime.snapshot();
+  const std::int64_t period = haptics::period_ns(runtime.config().preset.haptics);
+  return now.time_ns - static_cast<std::int64_t>(now.cycle) * period;
+}
+
+// A tour by a person: poll() is called until the tour is over.
+class HeldDrive {
+ public:
+  HeldDrive(runtime::Runtime& runtime, runtime::StickLever& stick, base::LineReader& answers, const TourOutput& output,
+            TourResult& result)
+      : runtime_(runtime),
+        stick_(stick),
+        answers_(answers),
+        output_(output),
+        result_(result),
+        begin_ns_(first_cycle_of(runtime)) {}
+
+  void begin() {
+    std::string order;
+    for (const int gear : result_.wanted)
+      order += fmt::format("{}{}", order.empty() ? "" : ", ", haptics::gear_name(gear));
+    output_(fmt::format("The tour: {}.", order));
+  }
+
+  void poll() {
+    read_answer();
+    follow_stick();
+    const haptics::HapticSnapshot now = runtime_.snapshot();  // read before the events, which may switch is_armed_ off
+    follow_lever();
+    watch_arming(now);
+    if (const std::optional<std::string> problem = runtime_.poll_recording_problem()) {
+      (void)runtime_.stop_recording();
+      throw std::runtime_error(*problem);
+    }
+  }
+
+  // True if the forces are off and standard input is closed, so that nobody can arm the stick.
+  bool cannot_continue() const { return answers_.at_end() && is_off(runtime_.snapshot().guard) && !is_armed_; }
+
+ private:
+  void ask_to_arm() {
+    if (!is_connected_ || is_awaiting_enter_) return;
+    while (answers_.read_line(0.0)) continue;  // discard input from before the prompt
+    is_awaiting_enter_ = true;
+    output_("The motors are off. Hold the stick, then press Enter to ramp up the forces.");
+  }
+  void ask_for_gear() {
+    if (next_ < result_.wanted.size())
+      output_(fmt::format("Shift into {}.", haptics::gear_name(result_.wanted[next_])));
+  }
+
+  void read_answer() {
+    const std::optional<std::string> answer = answers_.read_line(kPollPeriod);
+    if (!answer) return;
+    if (!stick_.connected()) return ask_to_plug_in();
+    if (!std::exchange(is_awaiting_enter_, false)) return;
+    runtime_.arm();
+    is_armed_ = true;
+    armed_at_ns_ = runtime_.snapshot().time_ns;
+    ask_for_gear();
+  }
+
+  // A stick that is unplugged loses its forces; when it returns, they stay off until the user arms it again.
+  void follow_stick() {
+    while (const std::optional<std::string> news = stick_.take_message()) {
+      output_(*news);
+      has_reported_absence_ = true;  // the message says why
+    }
+    const bool was_connected = std::exchange(is_connected_, stick_.connected());
+    if (was_connected && !is_connected_) {
+      runtime_.stop();
+      is_awaiting_enter_ = false;
+    }
+    if (!was_connected && is_connected_) ask_to_arm();
+    if (!is_connected_ && !has_reported_absence_ && runtime_.time() > kOpenTimeout) ask_to_plug_in();
+    has_reported_absence_ = has_reported_absence_ || is_connected_ || runtime_.time() > kOpenTimeout;
+  }
+
+  void ask_to_plug_in() { output_(fmt::format("{} is not ready: plug it in.", stick_.name())); }
+
+  void follow_lever() {
+    for (const vehicle::DriveSample& cycle : runtime_.drain_cycles()) {
+      if (cycle.lever.time_ns < begin_ns_) continue;
+      measure(cycle.lever, result_);
+      result_.duration = seconds_at(cycle.lever.time_ns);
+    }
+    for (const haptics::HapticEvent& event : runtime_.drain_events())
+      if (event.time_ns >= begin_ns_) handle_event(event);
+  }
+
+  // Time since the first recorded cycle, as in the table.
+  double seconds_at(std::int64_t time_ns) const { return 1e-9 * static_cast<double>(time_ns - begin_ns_); }
+
+  void handle_event(const haptics::HapticEvent& event) {
+    if (event.kind == haptics::EventKind::over_push_begin) output_(haptics::describe(event, true));
+    if (event.kind == haptics::EventKind::gear_engaged) on_gear_engaged(event);
+    if (event.kind == haptics::EventKind::guard_changed)
+      on_guard_changed(static_cast<haptics::GuardState>(static_cast<int>(event.value)));
+  }
+
+  void on_gear_engaged(const haptics::HapticEvent& event) {
+    const int gear = static_cast<int>(event.value);
+    result_.engaged.push_back({gear, seconds_at(event.time_ns)});
+    output_(fmt::format("{} engaged", haptics::gear_name(gear)));
+    if (next_ == result_.wanted.size() || gear != result_.wanted[next_]) return;
+    ++next_;
+    if (is_armed_) ask_for_gear();
+  }
+
+  void on_guard_changed(haptics::GuardState state) {
+    if (!is_off(state) || !std::exchange(is_armed_, false)) return;
+    output_(fmt::format("forces off: {}", describe_fault(runtime_.snapshot().fault)));
+    ask_to_arm();
+  }
+
+  // No event reports that arming was rejected: the stop button is held, or the lever is too far outside.
+  void watch_arming(const haptics::HapticSnapshot& now) {
+    if (!is_armed_ || !is_off(now.guard) || now.time_ns < armed_at_ns_ + kArmTimeout) return;
+    is_armed_ = false;
+    const bool is_held = now.fault == haptics::GuardFault::stopped;
+    output_(fmt::format("no forces: {}", is_held ? "the stick's stop button is held" : describe_fault(now.fault)));
+    ask_to_arm();
+  }
+
+  runtime::Runtime& runtime_;
+  runtime::StickLever& stick_;
+  base::LineReader& answers_;
+  const TourOutput& output_;
+  TourResult& result_;
+  std::int64_t begin_ns_;
+  std::size_t next_ = 0;   // index of the next wanted gear
+  bool is_armed_ = false;  // armed by the person, and the forces have not gone off since
+  std::int64_t armed_at_ns_ = 0;
+  bool is_connected_ = false;
+  bool has_reported_absence_ = false;  // or the stick has been connected
+  bool is_awaiting_enter_ = false;
+};
+
+void drive(runtime::Runtime& runtime, runtime::StickLever& stick, double seconds, base::LineReader& answers,
+           const TourOutput& output, TourResult& result) {
+  HeldDrive held(runtime, stick, answers, output, result);
+  held.begin();
+  while (!result.visited_in_order() && runtime.time() < seconds && !base::StopSignals::requested()) {
+    held.poll();
+    if (held.cannot_continue()) throw std::runtime_error("nobody can arm the stick: standard input is closed");
+  }
+  runtime.disarm();
+}
+
+}  // namespace
+
+TourResult drive_held_tour(TourSetup& setup, runtime::StickLever& stick, double seconds, base::LineReader& answers,
+                           const TourOutput& output, const TourProgress& progress) {
+  runtime::Runtime runtime(runtime_config(setup, stick));
+  setup.gate = runtime.gate();
+  TourResult result;
+  result.wanted = haptics::tour_order(setup.gate);
+  result.limits = runtime.admitted().limits;
+  result.admitted = result.softest = runtime.admitted().tuning.wall_stiffness;
+  const std::filesystem::path trace = setup.folder / "tour.trace";
+  runtime.start_recording(trace);
+  drive(runtime, stick, seconds, answers, output, result);
+  if (const std::optional<std::string> problem = runtime.stop_recording())
+    throw haptics::FileError(trace.string(), 0, *problem);
+  result.hash = write_tour_table(setup.folder, progress);
+  return result;
+}
+
+}  // namespace gearshift::lab

@@ -1,0 +1,81 @@
+// The tour: a simulated hand shifts through every gear of a gate, and the drive is recorded.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "haptics/device/simulated_lever.h"
+#include "haptics/gate/gate.h"
+#include "haptics/gate/gate_layout.h"
+#include "haptics/loop/haptic_config.h"
+#include "haptics/loop/haptic_snapshot.h"
+#include "haptics/loop/shift_script.h"
+
+namespace gearshift::lab {
+
+struct TourSetup {
+  haptics::GateLayout layout;
+  haptics::Gate gate;
+  haptics::SimulatedLeverConfig lever;  // its hand must be stiff enough to move the lever
+  haptics::HapticConfig haptics;
+  std::uint64_t seed = 1;  // for the hand's aims
+  haptics::ShiftStyle style;
+  std::filesystem::path folder;  // exists; receives tour.trace and tour.csv
+};
+
+// When a gear engaged.
+struct GearTime {
+  int gear = haptics::kNeutralGear;
+  double time = 0.0;  // [s]
+};
+
+// How often the guard switched the forces off, and why and when it first did. A simulated lever rearms automatically.
+struct LostForces {
+  int times = 0;
+  haptics::GuardFault fault = haptics::GuardFault::none;
+  double time = 0.0;  // [s]
+};
+
+struct TourResult {
+  std::vector<int> wanted;                   // gears in the order of the tour
+  std::vector<GearTime> engaged;             // in order of time
+  std::vector<haptics::TuningLimit> limits;  // parameters that the device did not admit as wanted
+  double admitted = 0.0;                     // [N/m] wall stiffness at the start
+  double softest = 0.0;                      // [N/m] lowest wall stiffness in use; lowered if the lever chattered
+  double duration = 0.0;                     // [s] simulated
+  double deepest = 0.0;                      // [m] largest distance of the lever from the drawn lever
+  double strongest = 0.0;                    // [N] largest push of the hand
+  std::uint64_t cycles = 0;                  // driven
+  std::uint64_t contacts = 0;                // cycles in contact with a wall
+  std::uint64_t hash = 0;                    // hash of the recording
+  LostForces lost;                           // only filled for a simulated hand
+
+  bool complete() const;            // exactly the wanted gears were engaged, in order
+  bool visited_in_order() const;    // the same, with others between: as a person drives
+  double contact_fraction() const;  // [1] of the cycles
+};
+
+// Called often with the current part of the work and the fraction of it that is done (0 to 1).
+using TourProgress = std::function<void(std::string_view what, double fraction)>;
+
+// Called every 1/60 s of the drive with the newest cycle and the events since the previous call.
+inline constexpr double kWatchPeriod = 1.0 / 60.0;  // [s]
+using TourWatch = std::function<void(const haptics::HapticSnapshot& now, std::span<const haptics::HapticEvent> events)>;
+
+// Adds a cycle to the statistics of the result.
+void measure(const haptics::HapticSnapshot& now, TourResult& result);
+
+// Drives and records the tour. Throws FileError if a file cannot be written.
+TourResult drive_tour(const TourSetup& setup, const TourProgress& progress, const TourWatch& watch = {});
+
+// Writes tour.csv from tour.trace in that folder. Returns the recording's hash. Throws FileError.
+std::uint64_t write_tour_table(const std::filesystem::path& folder, const TourProgress& progress);
+
+// Draws Fig. 9 (a) and (b) of the paper for this run from tour.csv: trajectory.{svg,png}, force.{svg,png}.
+void draw_tour(const TourSetup& setup, const TourResult& result, const TourProgress& progress);
+
+}  // namespace gearshift::lab

@@ -1,0 +1,50 @@
+#include "app/lessons/assessment/drive_condition.h"
+
+namespace gearshift::lessons {
+namespace {
+
+// [1] positions that hold the car [engineering value]s
+constexpr double kMinHoldingBrake = 0.05, kMinHoldingHandBrake = 0.5;
+
+bool same(const std::optional<bool>& wanted, bool is) noexcept {
+  return !wanted || *wanted == is;
+}
+
+bool between(const std::optional<double>& above, const std::optional<double>& below, double value) noexcept {
+  return !(above && value <= *above) && !(below && value >= *below);
+}
+
+}  // namespace
+
+bool holds(const DriveCondition& c, const vehicle::DriveSample& sample, const DriveProgress& progress) noexcept {
+  const vehicle::VehicleState& car = sample.car;
+  return (!c.gear || *c.gear == car.gear) && same(c.ignition, car.ignition) && same(c.running, car.running) &&
+         same(c.clutch_locked, car.clutch_locked) && same(c.shift_light, car.shift_advice > 0) &&
+         same(c.braked, car.brake > kMinHoldingBrake || car.hand_brake > kMinHoldingHandBrake) &&
+         between(c.clutch_above, c.clutch_below, car.clutch) && between(c.clutch_torque_above, {}, car.clutch_torque) &&
+         between(c.throttle_above, c.throttle_below, car.throttle) &&
+         between(c.brake_above, c.brake_below, car.brake) &&
+         between(c.hand_brake_above, c.hand_brake_below, car.hand_brake) &&
+         between(c.engine_above, c.engine_below, car.engine_speed) &&
+         between(c.speed_above, c.speed_below, car.road_speed) && between(c.distance_above, {}, progress.distance) &&
+         between(c.rolled_back_above, {}, progress.rolled_back);
+}
+
+bool is_empty(const DriveCondition& c) noexcept {
+  return !c.gear && !c.ignition && !c.running && !c.clutch_locked && !c.shift_light && !c.braked && !c.clutch_above &&
+         !c.clutch_below && !c.clutch_torque_above && !c.throttle_above && !c.throttle_below && !c.brake_above &&
+         !c.brake_below && !c.hand_brake_above && !c.hand_brake_below && !c.engine_above && !c.engine_below &&
+         !c.speed_above && !c.speed_below && !c.distance_above && !c.rolled_back_above;
+}
+
+bool HeldCondition::update(const DriveCondition& condition, const vehicle::DriveSample& sample,
+                           const DriveProgress& progress) noexcept {
+  const bool on = holds(condition, sample, progress);
+  if (on && !on_) since_ = sample.time();
+  on_ = on;
+  if (first_) began_false_ = !on;
+  first_ = false;
+  return on && sample.time() - since_ >= condition.held;
+}
+
+}  // namespace gearshift::lessons

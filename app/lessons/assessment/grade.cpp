@@ -1,0 +1,88 @@
+#include "app/lessons/assessment/grade.h"
+
+#include <algorithm>
+#include <string>
+
+#include <fmt/core.h>
+
+namespace gearshift::lessons {
+namespace {
+
+// [engineering value]s: with a pass grade of 6, eight minor errors or two severe ones still pass, one more does not.
+constexpr std::array<double, 4> kPoints{0.0, 0.5, 2.0, 4.0};
+
+double points_of_all(std::span<const DrivingError> errors) noexcept {
+  double points = 0.0;
+  for (const DrivingError& error : errors) points += points_of(error.severity);
+  return points;
+}
+
+// Slower than within_s, but not slow enough to fail the step.
+bool is_within_tolerance(const Lesson& lesson, const DrivingError& error) {
+  return std::any_of(lesson.steps.begin(), lesson.steps.end(), [&](const LessonStep& step) {
+    return step.fails_after && step.prompt == error.step && error.value < *step.fails_after;
+  });
+}
+
+// Even a minor error fails: the tolerance is in its threshold.
+const DrivingError* failing_error(const Lesson& lesson, const LessonResult& result) {
+  const auto fails = [&](const DrivingError& error) {
+    return fails_on(lesson, error.kind) && !is_within_tolerance(lesson, error);
+  };
+  const auto found = std::find_if(result.errors.begin(), result.errors.end(), fails);
+  return found == result.errors.end() ? nullptr : &*found;
+}
+
+// Why the lesson was not passed; empty if it was. The message of an abort condition is kept.
+std::string reason(const Lesson& lesson, const LessonResult& result) {
+  if (result.guided) return "Not graded: the lever was guiding you.";
+  if (!result.had_forces) return "Not graded: the lever had no forces.";
+  if (!result.is_complete) return "Not graded: part of the drive was lost.";
+  if (result.end == LessonEnd::aborted && !result.why.empty()) return result.why;
+  if (result.end == LessonEnd::left) return "You left the lesson.";  // whatever errors came before
+  if (const DrivingError* error = failing_error(lesson, result)) return error_sentence(*error);
+  if (result.end == LessonEnd::aborted) return "The lesson was aborted.";
+  if (result.end == LessonEnd::out_of_time) return fmt::format("Not finished within {:.0f} s.", lesson.time_limit);
+  if (result.end == LessonEnd::running) return "The lesson is not over yet.";
+  if (result.grade >= lesson.pass_grade) return {};
+  return fmt::format("Grade {:.1f} is below {:.1f}.", result.grade, lesson.pass_grade);
+}
+
+}  // namespace
+
+double points_of(Severity severity) noexcept {
+  return kPoints[static_cast<std::size_t>(severity)];
+}
+
+std::array<std::size_t, 4> count_by_severity(std::span<const DrivingError> errors) noexcept {
+  std::array<std::size_t, 4> counts{};
+  for (const DrivingError& error : errors) ++counts[static_cast<std::size_t>(error.severity)];
+  return counts;
+}
+
+void grade_result(const Lesson& lesson, LessonResult& result) {
+  result.deductions.clear();
+  result.grade = 0.0;
+  if (!result.guided && result.is_complete) {
+    for (std::size_t i = 0; i < result.errors.size(); ++i) {
+      const double points = points_of(result.errors[i].severity);
+      if (points > 0.0) result.deductions.push_back({i, points});
+    }
+    const bool was_not_completed = result.end == LessonEnd::aborted || result.end == LessonEnd::out_of_time;
+    result.grade = was_not_completed ? 0.0 : std::max(0.0, kBestGrade - points_of_all(result.errors));
+  }
+  result.why = reason(lesson, result);
+  result.passed = result.why.empty();
+}
+
+bool is_graded(const LessonResult& result) noexcept {
+  const bool judged = result.end != LessonEnd::running && result.end != LessonEnd::left;
+  return !result.guided && result.is_complete && judged;
+}
+
+double run_error(const LessonResult& result) noexcept {
+  if (result.end != LessonEnd::done) return 1.0;
+  return std::min(1.0, points_of_all(result.errors) / kBestGrade);
+}
+
+}  // namespace gearshift::lessons

@@ -1,0 +1,338 @@
+#include "app/lessons/assessment/lesson.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "app/lessons/assessment/drive_condition.h"
+#include "haptics/files/text_file.h"
+#include "haptics/files/toml_reader.h"
+
+namespace gearshift::lessons {
+namespace {
+
+constexpr double kRadPerSecond = 6.283185307179586 / 60.0;  // per rpm
+
+// Ranges of the file's values, in the file's units.
+constexpr haptics::Range kPedal{0.0, 1.0};
+constexpr haptics::Range kEngineRpm{0.0, 10000.0};
+constexpr haptics::Range kSpeedKmPerH{-60.0, 250.0};
+constexpr haptics::Range kStartKmPerH{0.0, 150.0};
+constexpr haptics::Range kAtKmPerH{5.0, 150.0};
+constexpr haptics::Range kDistanceM{0.0, 5000.0};
+constexpr haptics::Range kRolledBackM{0.0, 50.0};
+constexpr haptics::Range kHeldS{0.0, 60.0};
+constexpr haptics::Range kPatienceS{1.0, 60.0};
+constexpr haptics::Range kWithinS{0.1, 120.0};
+constexpr haptics::Range kTorqueNm{0.0, 2000.0};
+constexpr haptics::Range kSlopePercent{-30.0, 30.0};
+constexpr haptics::Range kPassGrade{1.0, 10.0};
+constexpr haptics::Range kTimeLimitS{10.0, 1800.0};
+constexpr std::size_t kMaxSteps = 64;
+
+// Conditions of a shift_to step. [engineering value]s
+constexpr double kClutchDown = 0.8;        // [1] beyond the bite point of every car
+constexpr double kClutchUp = 0.2;          // [1]
+constexpr double kFootOffThrottle = 0.05;  // [1]
+constexpr double kPedalPatience = 6.0;     // [s]
+
+// Tolerance of the car's band: the shift light comes on at its upper end, and seeing it and lifting the foot takes 1.05
+// s (Green 2000). At a third of the throttle in first gear the engine gains up to 580 rpm in that time. [engineering
+// value]s
+constexpr double kBandFrom = 0.9, kBandTo = 1.3;  // [1] of the band's ends
+
+// "R", "N", "1", "2", ...
+const std::vector<std::string>& gear_labels() {
+  static const std::vector<std::string> words = [] {
+    std::vector<std::string> list;
+    for (int gear = haptics::kReverseGear; gear <= haptics::kMaxGear; ++gear)
+      list.emplace_back(haptics::gear_name(gear));
+    return list;
+  }();
+  return words;
+}
+
+int read_gear(const haptics::TomlTable& table, std::string_view key) {
+  const std::string word = table.choice(key, gear_labels());
+  return haptics::kReverseGear +
+         static_cast<int>(std::find(gear_labels().begin(), gear_labels().end(), word) - gear_labels().begin());
+}
+
+std::string text_or_none(const haptics::TomlTable& table, std::string_view key) {
+  return table.has(key) ? table.text(key) : std::string();
+}
+
+void read_limit(const haptics::TomlTable& table, const std::string& key, haptics::Range range, double unit,
+                std::optional<double>& value) {
+  if (table.has(key)) value = table.number(key, range) * unit;
+}
+
+// Reads NAME_above and NAME_below, followed by the unit.
+void read_limits(const haptics::TomlTable& table, const std::string& name, const std::string& unit_name,
+                 haptics::Range range, double unit, std::optional<double>& above, std::optional<double>& below) {
+  read_limit(table, name + "_above" + unit_name, range, unit, above);
+  read_limit(table, name + "_below" + unit_name, range, unit, below);
+  if (above && below && *above >= *below) {
+    table.fail(name + "_above" + unit_name, "can never hold: it must be smaller than " + name + "_below" + unit_name);
+  }
+}
+
+void read_flag(const haptics::TomlTable& table, std::string_view key, std::optional<bool>& value) {
+  if (table.has(key)) value = table.flag_or(key, false);
+}
+
+DriveCondition read_condition(const haptics::TomlTable& table) {
+  DriveCondition c;
+  if (table.has("gear")) c.gear = read_gear(table, "gear");
+  read_flag(table, "ignition", c.ignition);
+  read_flag(table, "running", c.running);
+  read_flag(table, "clutch_locked", c.clutch_locked);
+  read_flag(table, "shift_light", c.shift_light);
+  read_flag(table, "braked", c.braked);
+  read_limits(table, "clutch", "", kPedal, 1.0, c.clutch_above, c.clutch_below);
+  read_limit(table, "clutch_torque_above_nm", kTorqueNm, 1.0, c.clutch_torque_above);
+  read_limits(table, "throttle", "", kPedal, 1.0, c.throttle_above, c.throttle_below);
+  read_limits(table, "brake", "", kPedal, 1.0, c.brake_above, c.brake_below);
+  read_limits(table, "hand_brake", "", kPedal, 1.0, c.hand_brake_above, c.hand_brake_below);
+  read_limits(table, "engine", "_rpm", kEngineRpm, kRadPerSecond, c.engine_above, c.engine_below);
+  read_limits(table, "speed", "_km_per_h", kSpeedKmPerH, 1.0 / haptics::kKmhPerMps, c.speed_above, c.speed_below);
+  read_limit(table, "distance_above_m", kDistanceM, 1.0, c.distance_above);
+  read_limit(table, "rolled_back_above_m", kRolledBackM, 1.0, c.rolled_back_above);
+  c.held = table.number_or("held_s", c.held, kHeldS);
+  table.reject_unknown_keys();
+  if (is_empty(c)) table.fail({}, "names no condition: it would hold at once");
+  return c;
+}
+
+LessonStart read_start(const haptics::TomlTable& table) {
+  LessonStart start;
+  if (table.has("gear")) start.gear = read_gear(table, "gear");
+  start.speed = table.number_or("speed_km_per_h", 0.0, kStartKmPerH) / haptics::kKmhPerMps;
+  start.slope = std::atan(table.number_or("slope_percent", 0.0, kSlopePercent) / 100.0);
+  start.hand_brake = table.number_or("hand_brake", 0.0, kPedal);
+  start.running = table.flag_or("running", start.running);
+  table.reject_unknown_keys();
+  if (start.gear == haptics::kReverseGear && start.speed > 0.0) table.fail("speed_km_per_h", "must be 0 in gear R");
+  if (!start.running && start.speed > 0.0) table.fail("speed_km_per_h", "must be 0 if the engine is off");
+  return start;
+}
+
+// Reads the road speed at which the gear of this step should be engaged.
+void read_at(const haptics::TomlTable& table, LessonStep& step) {
+  read_limit(table, "at_km_per_h", kAtKmPerH, 1.0 / haptics::kKmhPerMps, step.at);
+  if (step.at && step.until.gear.value_or(haptics::kNeutralGear) < 1)
+    table.fail("at_km_per_h", "needs a step that waits for a forward gear");
+}
+
+// A step that waits for a gear guides to it unless the file names another; it cannot guide to a different gear.
+LessonStep read_step(const haptics::TomlTable& table) {
+  LessonStep step;
+  step.prompt = table.text("prompt");
+  step.hint = text_or_none(table, "hint");
+  step.patience = table.number_or("patience_s", step.patience, kPatienceS);
+  step.call = table.flag_or("call", false);
+  step.may_be_skipped = table.flag_or("may_be_skipped", false);
+  read_limit(table, "within_s", kWithinS, 1.0, step.within);
+  read_limit(table, "fails_after_s", kWithinS, 1.0, step.fails_after);
+  step.until = read_condition(table.table("until"));
+  if (step.within && *step.within <= step.until.held) {
+    table.fail("within_s", "can never be met: it must be longer than the step's held_s");
+  }
+  if (step.fails_after && (!step.within || *step.fails_after < *step.within)) {
+    table.fail("fails_after_s", "must be at least within_s, which this step must also set");
+  }
+  step.gear = step.until.gear.value_or(haptics::kNeutralGear);
+  if (table.has("guide_to")) step.gear = read_gear(table, "guide_to");
+  if (step.until.gear && *step.until.gear != haptics::kNeutralGear && step.gear != *step.until.gear) {
+    table.fail("guide_to", std::string("leads away from gear ") + haptics::gear_name(*step.until.gear) +
+                               ", for which this step waits");
+  }
+  read_at(table, step);
+  table.reject_unknown_keys();
+  return step;
+}
+
+// shift_to = "3": clutch down, lever, clutch up. The first step prepares the second and may be skipped; the shift
+// itself may not.
+void add_shift(const haptics::TomlTable& table, std::vector<LessonStep>& steps) {
+  const int gear = read_gear(table, "shift_to");
+  if (gear == haptics::kNeutralGear) table.fail("shift_to", "must be a gear; for N write a step that waits for it");
+  LessonStep down, lever, up;
+  down.prompt = "Off the throttle, clutch down.";
+  down.hint = "Press the clutch pedal all the way down, past the bite point.";
+  down.patience = kPedalPatience;
+  down.until.throttle_below = kFootOffThrottle;
+  down.until.clutch_above = kClutchDown;
+  down.may_be_skipped = true;
+  lever.prompt = std::string("Shift into ") + haptics::gear_name(gear) + ".";
+  lever.hint = text_or_none(table, "hint");
+  lever.until.gear = gear;
+  up.prompt = "Clutch up, then throttle.";
+  up.hint = "Let the clutch up smoothly through the bite point, then press the throttle.";
+  up.until.gear = gear;
+  up.until.clutch_below = kClutchUp;
+  up.until.clutch_locked = true;
+  lever.gear = up.gear = gear;
+  read_at(table, lever);
+  table.reject_unknown_keys();
+  steps.insert(steps.end(), {down, lever, up});
+}
+
+LessonAbort read_abort(const haptics::TomlTable& table) {
+  LessonAbort abort;
+  abort.message = table.text("says");
+  abort.when = read_condition(table.table("when"));
+  table.reject_unknown_keys();
+  return abort;
+}
+
+bool has(const std::vector<ErrorKind>& kinds, ErrorKind kind) noexcept {
+  return std::find(kinds.begin(), kinds.end(), kind) != kinds.end();
+}
+
+// [faults]: for each kind of error that this lesson checks, "counts" or "fails".
+void read_faults(const haptics::TomlTable& table, Lesson& lesson) {
+  for (int i = 0; i < kErrorKindCount; ++i) {
+    const auto kind = static_cast<ErrorKind>(i);
+    if (!table.has(error_key(kind))) continue;
+    const bool fails = table.choice(error_key(kind), {"counts", "fails"}) == "fails";
+    (fails ? lesson.fails_on : lesson.counted).push_back(kind);
+  }
+  table.reject_unknown_keys();
+  if (lesson.fails_on.empty() && lesson.counted.empty())
+    table.fail({}, "names no error: without one the grade of this lesson would mean nothing");
+}
+
+// A shift can be early or late only if the lesson has a band or a step has a speed.
+bool has_speeds(const Lesson& lesson) {
+  return std::any_of(lesson.steps.begin(), lesson.steps.end(),
+                     [](const LessonStep& step) { return step.at.has_value(); });
+}
+
+void read_shift_band(const haptics::TomlTable& root, Lesson& lesson) {
+  if (root.has("shift_band")) {
+    lesson.band_of_car = root.choice("shift_band", {"car"}) == "car";
+    for (const std::string_view key : {"shift_from_rpm", "shift_to_rpm"}) {
+      if (root.has(key)) root.fail(key, "contradicts shift_band: the car has its own");
+    }
+    return;
+  }
+  lesson.shift_from = root.number_or("shift_from_rpm", 0.0, kEngineRpm) * kRadPerSecond;
+  if (root.has("shift_to_rpm")) lesson.shift_to = root.number("shift_to_rpm", kEngineRpm) * kRadPerSecond;
+  if (lesson.shift_from >= lesson.shift_to) root.fail("shift_from_rpm", "must be smaller than shift_to_rpm");
+  if (has_speeds(lesson)) return;
+  if (assesses(lesson, ErrorKind::early_shift) && !root.has("shift_from_rpm")) {
+    root.fail("shift_from_rpm", "is missing: this lesson checks early_shift");
+  }
+  if (assesses(lesson, ErrorKind::late_shift) && !root.has("shift_to_rpm")) {
+    root.fail("shift_to_rpm", "is missing: this lesson checks late_shift");
+  }
+}
+
+void read_steps(const haptics::TomlTable& root, Lesson& lesson) {
+  for (const haptics::TomlTable& table : root.tables("step")) {
+    if (table.has("shift_to")) {
+      add_shift(table, lesson.steps);
+    } else {
+      lesson.steps.push_back(read_step(table));
+    }
+  }
+  if (lesson.steps.empty()) root.fail("step", "is missing: write one [[step]] for each thing to do");
+  if (lesson.steps.size() > kMaxSteps)
+    root.fail("step", "has more than 64 steps, three for each shift_to: split the lesson in two");
+  for (const haptics::TomlTable& table : root.tables("abort")) lesson.aborts.push_back(read_abort(table));
+}
+
+// A gear can be wrong only if a step asks for one.
+void check_wrong_gear(const haptics::TomlTable& errors, const Lesson& lesson) {
+  const auto asks = [](const LessonStep& step) { return step.gear != haptics::kNeutralGear; };
+  const std::string_view key = error_key(ErrorKind::wrong_gear);
+  if (!errors.has(key) || std::any_of(lesson.steps.begin(), lesson.steps.end(), asks)) return;
+  errors.fail(key, "no step asks for a gear, so none could be wrong");
+}
+
+// A step can be slow only if a step has a time limit; and a time limit must be judged.
+void check_slow_step(const haptics::TomlTable& root, const Lesson& lesson) {
+  const auto timed = [](const LessonStep& step) { return step.within.has_value(); };
+  const bool has = std::any_of(lesson.steps.begin(), lesson.steps.end(), timed);
+  const std::string_view key = error_key(ErrorKind::slow_step);
+  const haptics::TomlTable errors = root.table("faults");
+  if (errors.has(key) && !has) errors.fail(key, "no step sets within_s, so none could be slow");
+  if (has && !errors.has(key)) errors.fail(key, "is missing: a step sets within_s");
+  const auto fails = [](const LessonStep& step) { return step.fails_after.has_value(); };
+  const bool may_fail = std::any_of(lesson.steps.begin(), lesson.steps.end(), fails);
+  if (may_fail && !fails_on(lesson, ErrorKind::slow_step))
+    errors.fail(key, "must be \"fails\": a step sets fails_after_s");
+}
+
+// The steps' hold times must fit into the lesson's time limit.
+void check_times(const haptics::TomlTable& root, const Lesson& lesson) {
+  double held = 0.0;
+  for (const LessonStep& step : lesson.steps) held += step.until.held;
+  if (held >= lesson.time_limit) root.fail("time_limit_s", "must be longer than all held_s of the steps together");
+}
+
+}  // namespace
+
+bool fails_on(const Lesson& lesson, ErrorKind kind) noexcept {
+  return has(lesson.fails_on, kind);
+}
+
+bool assesses(const Lesson& lesson, ErrorKind kind) noexcept {
+  return has(lesson.fails_on, kind) || has(lesson.counted, kind);
+}
+
+std::string failing_errors_sentence(const Lesson& lesson) {
+  std::string names;
+  for (const ErrorKind kind : lesson.fails_on) {
+    if (!names.empty()) names += ", ";
+    names += error_action(kind);
+  }
+  return names.empty() ? names : "You fail if you " + names + ".";
+}
+
+Lesson lesson_in_car(const Lesson& lesson, const vehicle::CarSpec& car) {
+  Lesson driven = lesson;
+  if (!lesson.band_of_car) return driven;
+  driven.shift_from = kBandFrom * car.engine.shift_low;
+  driven.shift_to = kBandTo * car.engine.shift_high;
+  return driven;
+}
+
+Lesson read_lesson(const std::filesystem::path& file) {
+  return parse_lesson(haptics::read_text_file(file), file.string());
+}
+
+Lesson parse_lesson(std::string_view text, const std::string& file_name) {
+  Lesson lesson;
+  lesson.file = file_name;
+  lesson.text = text;
+  lesson.key = std::filesystem::path(file_name).stem().string();
+  const haptics::TomlTable root = haptics::TomlTable::parse(text, file_name);
+  lesson.title = root.text("title");
+  lesson.goal = root.text("goal");
+  lesson.task = root.text("task");
+  lesson.car = text_or_none(root, "car");
+  lesson.gate = text_or_none(root, "gate");
+  lesson.pass_grade = root.number_or("pass_grade", lesson.pass_grade, kPassGrade);
+  lesson.time_limit = root.number_or("time_limit_s", lesson.time_limit, kTimeLimitS);
+  if (root.has("start")) lesson.start = read_start(root.table("start"));
+  read_steps(root, lesson);
+  read_faults(root.table("faults"), lesson);
+  check_wrong_gear(root.table("faults"), lesson);
+  check_slow_step(root, lesson);
+  read_shift_band(root, lesson);
+  root.reject_unknown_keys();
+  check_times(root, lesson);
+  return lesson;
+}
+
+vehicle::CarStart car_start(const LessonStart& start) noexcept {
+  vehicle::CarStart from;
+  from.road_speed = start.speed;
+  from.gear = start.gear;
+  from.running = start.running;
+  return from;
+}
+
+}  // namespace gearshift::lessons

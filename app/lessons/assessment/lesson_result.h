@@ -1,0 +1,42 @@
+// Result of a lesson run: grade, driving errors and shifts.
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "app/lessons/assessment/driving_error.h"
+#include "app/lessons/assessment/shift_record.h"
+
+namespace gearshift::lessons {
+
+enum class LessonMode { follow_me, by_yourself };  // every step prompted; only the goal shown
+enum class LessonEnd { running, done, aborted, out_of_time, left };
+
+// Points deducted, and the error they were deducted for.
+struct Deduction {
+  std::size_t error = 0;  // index into LessonResult::errors
+  double points = 0.0;    // [1] of 10
+};
+
+struct LessonResult {
+  std::string lesson;  // key
+  std::string task;
+  LessonMode mode = LessonMode::follow_me;
+  LessonEnd end = LessonEnd::running;
+  bool guided = false;      // guidance was active: no grade
+  bool is_complete = true;  // no sample and no force was lost; otherwise there is no grade
+  bool had_forces = true;   // false if the run is incomplete because the lever had no forces
+  double begin = 0.0;       // [s] on the loop's clock
+  double duration = 0.0;    // [s]
+  double grade = 0.0;       // [1] 0 to 10: 10 minus the deductions; 0 if not finished
+  bool passed = false;
+  std::string why;  // why it was not passed: one sentence
+  std::vector<DrivingError> errors;
+  std::vector<ShiftRecord> shifts;
+  std::vector<Deduction> deductions;
+  double slip_energy = 0.0;  // [J] of the whole lesson
+  double fuel = 0.0;         // [J] work done by the engine, minus engine braking
+};
+
+}  // namespace gearshift::lessons

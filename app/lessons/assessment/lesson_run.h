@@ -1,0 +1,60 @@
+// A lesson run: follows the samples, prompts, judges, and ends the lesson.
+//
+// It depends only on the samples: the same drive gives the same result, live or replayed.
+#pragma once
+
+#include <cstddef>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "app/lessons/assessment/hint_style.h"
+#include "app/lessons/assessment/lesson.h"
+#include "app/lessons/assessment/lesson_result.h"
+#include "app/vehicle/car_spec.h"
+#include "app/vehicle/drive_sample.h"
+#include "haptics/gate/gate.h"
+
+namespace gearshift::lessons {
+
+struct LessonRunConfig {
+  LessonMode mode = LessonMode::follow_me;
+  double guidance = 0.0;  // [1] gain of the guidance force; 0: unguided
+  HintStyle hints = HintStyle::prescriptive;
+};
+
+// What the coach shows now.
+struct LessonView {
+  std::string prompt;  // of the current step, or the goal
+  std::string hint;    // may be empty
+  std::size_t step = 0, steps = 0;
+  int guided_gear = haptics::kNeutralGear;
+  std::vector<std::string> feedback;  // so far, newest last: "The clutch came up 0.12 s before the gear was in."
+};
+
+class LessonRun {
+ public:
+  // Gate and car are copied. Throws std::invalid_argument if the lesson needs a gear that the gate lacks.
+  LessonRun(const Lesson& lesson, const vehicle::CarSpec& car, const haptics::Gate& gate,
+            const LessonRunConfig& config);
+  ~LessonRun();
+
+  void add(const vehicle::DriveSample& sample);  // every cycle, in order
+  void mark_incomplete();                        // samples were lost: no grade
+  void mark_forceless();                         // the lever had no forces: no grade
+  void leave();                                  // the learner leaves the lesson
+
+  const LessonView& view() const noexcept;
+  bool is_over() const noexcept;
+  bool is_in_shift() const noexcept;
+  // Up to now; final once is_over().
+  const LessonResult& result() const noexcept;
+  // Shifts that ended since the last call, for the history.
+  std::vector<ShiftRecord> drain_shifts();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace gearshift::lessons

@@ -1,0 +1,14 @@
+// Describes the lever's path from gear to gear in words, for any gate.
+#pragma once
+
+#include <string>
+
+#include "haptics/gate/gate.h"
+
+namespace gearshift::lessons {
+
+// "Straight back.", "Into the aisle, right against the spring, then forward.", "Lift the ring: left, then forward."
+// from: kNeutralGear for the lever at rest in the aisle. Both gears must be in the gate.
+std::string describe_lever_path(const haptics::Gate& gate, int from, int to);
+
+}  // namespace gearshift::lessons

@@ -1,0 +1,43 @@
+// Detects on which side of its bite point a clutch pedal is, with hysteresis.
+#pragma once
+
+namespace gearshift::lessons {
+
+// Down from the bite point on; up once it is kBand above it. The time of going up is that of passing the bite point.
+class PedalEdge {
+ public:
+  // [1] of the pedal's travel: more than the noise of a potentiometer [engineering value]
+  static constexpr double kBand = 0.02;
+
+  explicit PedalEdge(double bite) noexcept : bite_(bite) {}
+
+  // pedal [1]: 0 up, 1 down; time [s].
+  void update(double pedal, double time) noexcept {
+    const bool was = down_;
+    if (pedal >= bite_) {
+      if (!down_) down_at_ = time;
+      down_ = true;
+      below_ = false;
+    } else if (down_) {
+      if (!below_) up_at_ = time;
+      below_ = true;
+      if (pedal < bite_ - kBand) down_ = false;
+    }
+    went_down_ = down_ && !was;
+    went_up_ = was && !down_;
+  }
+
+  bool is_down() const noexcept { return down_; }
+  bool is_past() const noexcept { return down_ && !below_; }  // now, without hysteresis
+  bool went_down() const noexcept { return went_down_; }      // in the last update
+  bool went_up() const noexcept { return went_up_; }
+  double down_at() const noexcept { return down_at_; }  // [s] when it last passed the bite point downwards
+  double up_at() const noexcept { return up_at_; }      // [s] when it last passed the bite point upwards
+
+ private:
+  double bite_;
+  bool down_ = false, below_ = false, went_down_ = false, went_up_ = false;
+  double down_at_ = 0.0, up_at_ = 0.0;
+};
+
+}  // namespace gearshift::lessons

@@ -1,0 +1,347 @@
+#include "app/lessons/assessment/shift_meter.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include <glm/geometric.hpp>
+
+#include "app/lessons/assessment/gate_path.h"
+#include "app/lessons/assessment/step_order.h"
+#include "app/vehicle/guided_load.h"
+#include "haptics/gate/gate_feel.h"
+
+namespace gearshift::lessons {
+namespace {
+
+// All [engineering value]s, except the 5 % and the 2 s, which are defined in shift_record.h.
+constexpr double kTorqueWindow = 0.5;  // [s] before a shift: long enough to include lifting the throttle
+constexpr double kTorqueGapFraction = 0.05;
+constexpr double kMinTorque = 5.0;         // [N m] at the wheels; below it there was no drive that could be interrupted
+constexpr double kFirstTorque = 1.0;       // [N m] in the clutch: more than the drag of an open one
+constexpr double kGiveUpTime = 2.0;        // [s] with the clutch up and no further attempt
+constexpr double kMinPush = 3.0;           // [N] on ring or dogs: still trying
+constexpr double kMinLeverMotion = 0.002;  // [m] that an abandoned lever must move to count as used again
+constexpr double kMaxSlipTime = 5.0;       // [s] gear and clutch in, but not locked: the shift is then over anyway
+constexpr double kThrottleOn = 0.08;       // [1]
+constexpr double kThrottleOff = 0.04;      // [1]
+constexpr double kPedalOverlap = 0.2;      // [s] both pedals at once, in either order: time of a full pedal stroke
+constexpr double kMinChord = 5e-4;         // [m] of lever motion: seven counts of the paper's encoder
+constexpr double kMinPath = 0.005;         // [m] efficiency is not computed for shorter paths
+
+double area(double before, double now, double dt) noexcept {
+  return 0.5 * (before + now) * dt;
+}
+
+double fourth(double a) noexcept {
+  return a * a * a * a;
+}
+
+double penetration(const vehicle::DriveSample& sample) noexcept {
+  return glm::distance(sample.lever.lever, sample.lever.proxy);
+}
+
+}  // namespace
+
+ShiftMeter::ShiftMeter(const vehicle::CarSpec& car, const haptics::Gate& gate)
+    : car_(car), gate_(gate), pedal_(car.clutch.bite), torque_(kTorqueWindow) {}
+
+std::optional<ShiftRecord> ShiftMeter::add(const vehicle::DriveSample& sample) {
+  std::optional<ShiftRecord> ended;
+  const double time = sample.time();
+  const double dt = first_ ? 0.0 : std::clamp(time - last_.time(), 0.0, vehicle::kMaxSampleInterval);
+  if (first_) {
+    gear_ = sample.car.gear;
+    last_ = sample;
+  }
+  first_ = false;
+  const bool throttle_was_on = throttle_on_;
+  throttle_on_ = sample.car.throttle > (throttle_on_ ? kThrottleOff : kThrottleOn);
+  pedal_.update(sample.car.clutch, time);
+  filter_.update(sample.car.acceleration, dt);
+
+  if (stage_ == Stage::settling) {
+    integrate_comfort(sample, dt);
+    if (time >= open_.record.end + kJerkSettlingTime || begins_next(sample)) ended = close();
+  } else if (stage_ == Stage::open && begins_next(sample)) {
+    end(last_);
+    ended = close();
+  }
+  if (sample.controls.guidance > 0.0) guided_at_ = time;
+  if (!stays_where_left(sample)) left_slot_ = haptics::kNoSlot;
+  if (stage_ == Stage::idle && begins(sample)) {
+    begin(sample, throttle_was_on);
+    follow(sample, 0.0, throttle_was_on);
+  } else if (stage_ == Stage::open) {
+    follow(sample, dt, throttle_was_on);
+  }
+  torque_.add(sample.car.drive_torque, dt);
+  last_ = sample;
+  return ended;
+}
+
+// True if the lever rests in the slot of that engaged gear.
+bool ShiftMeter::rests_in(const vehicle::DriveSample& now, int gear) const noexcept {
+  const int index = haptics::slot_at(gate_, now.lever.proxy);
+  if (now.car.gear != gear || index == haptics::kNoSlot) return false;
+  const haptics::Slot& slot = haptics::slot_of(gate_, index);
+  return slot.gear == gear && std::abs(now.lever.proxy.y) >= slot.engage_depth;
+}
+
+// Slot that the lever is in, past its mouth.
+int ShiftMeter::slot_proper(const vehicle::DriveSample& now) const noexcept {
+  const bool behind = std::abs(now.lever.proxy.y) > gate_.half_aisle + gate_.chamfer;
+  return behind ? haptics::slot_at(gate_, now.lever.proxy) : haptics::kNoSlot;
+}
+
+// True if the lever touches ring or dogs of a gear other than the one it came from.
+bool ShiftMeter::is_trying_another(const vehicle::DriveSample& now) const noexcept {
+  const int slot = slot_proper(now);
+  return vehicle::touches_dogs(now) && slot != haptics::kNoSlot &&
+         haptics::slot_of(gate_, slot).gear != open_.record.from;
+}
+
+// True if the lever is pressed against ring or dogs.
+bool ShiftMeter::is_pushing(const vehicle::DriveSample& now) const noexcept {
+  return vehicle::touches_dogs(now) && glm::length(now.lever.f_h) > kMinPush;
+}
+
+// True if the lever is still where it was when the last shift was abandoned.
+bool ShiftMeter::stays_where_left(const vehicle::DriveSample& now) const noexcept {
+  return left_slot_ != haptics::kNoSlot && haptics::slot_at(gate_, now.lever.proxy) == left_slot_ &&
+         std::abs(std::abs(now.lever.proxy.y) - left_depth_) < kMinLeverMotion;
+}
+
+bool ShiftMeter::begins(const vehicle::DriveSample& now) const noexcept {
+  if (pedal_.went_down()) return true;
+  if (stays_where_left(now)) return now.car.gear != gear_ || is_pushing(now);
+  if (gear_ != haptics::kNeutralGear) return !rests_in(now, gear_);
+  return slot_proper(now) != haptics::kNoSlot || now.car.gear != haptics::kNeutralGear;
+}
+
+// True if another shift begins while the last one is pending or its clutch still slips.
+bool ShiftMeter::begins_next(const vehicle::DriveSample& now) const noexcept {
+  return (open_.coupled || stage_ == Stage::settling) && (pedal_.went_down() || now.car.gear != open_.record.to);
+}
+
+void ShiftMeter::begin(const vehicle::DriveSample& now, bool throttle_was_on) {
+  open_ = Open{};
+  open_.record.number = number_;
+  open_.record.begin = open_.rest_since = now.time();
+  open_.record.from = open_.record.to = gear_;
+  open_.record.engine_speed = now.car.engine_speed;
+  open_.torque_before = torque_.value();
+  open_.slip_before = last_.car.slip_energy;
+  open_.lever_path = {now.lever.proxy, now.lever.lever, 0.0};
+  // After the request ends the force still fades for a while.
+  open_.record.guided = now.time() - guided_at_ <= vehicle::kGuidanceFadeTime;
+  if (!throttle_was_on) open_.record.steps.push_back(ShiftStep::throttle_off);
+  stage_ = Stage::open;
+}
+
+void ShiftMeter::follow(const vehicle::DriveSample& now, double dt, bool throttle_was_on) {
+  follow_clutch(now);
+  follow_lever(now);
+  follow_steps(now, throttle_was_on);
+  follow_gear(now);
+  measure_rev_error(now);
+  integrate(now, dt);
+  integrate_comfort(now, dt);
+  integrate_path(now);
+  update_rest(now);
+  if (is_taken_back()) stage_ = Stage::idle;
+  if (stage_ == Stage::idle || !has_ended(now)) return;
+  if (open_.rest == Rest::given_up) {
+    left_slot_ = haptics::slot_at(gate_, now.lever.proxy);
+    left_depth_ = std::abs(now.lever.proxy.y);
+  }
+  if (is_shift()) end(now);
+  stage_ = is_shift() ? Stage::settling : Stage::idle;
+}
+
+void ShiftMeter::follow_clutch(const vehicle::DriveSample& now) {
+  if (pedal_.went_down()) {
+    if (!open_.clutch_used) open_.clutch_down_at = pedal_.down_at();
+    open_.clutch_used = true;
+    open_.flare_base = now.car.engine_speed;
+  }
+  if (pedal_.is_down()) {
+    open_.record.flare = std::max(open_.record.flare, now.car.engine_speed - open_.flare_base);
+  }
+  if (pedal_.went_up() && open_.early_up_at == 0.0 && is_trying_another(now)) open_.early_up_at = pedal_.up_at();
+  open_.record.guided = open_.record.guided || now.controls.guidance > 0.0;
+}
+
+// A gear is left when the lever leaves its rest position; neutral is left when the lever enters a slot.
+void ShiftMeter::follow_lever(const vehicle::DriveSample& now) {
+  const int slot = slot_proper(now);
+  const bool is_out =
+      open_.record.from == haptics::kNeutralGear ? slot != haptics::kNoSlot : !rests_in(now, open_.record.from);
+  if (is_out && !open_.left) open_.left_at = now.time();
+  if (is_out || !(open_.dogs_out || open_.tried)) open_.left = is_out;
+  if (slot != haptics::kNoSlot) {
+    const haptics::Slot& entered = haptics::slot_of(gate_, slot);
+    if (slot != open_.last_slot) ++open_.entered[static_cast<std::size_t>(slot)];
+    const bool is_try = std::abs(now.lever.proxy.y) >= entered.release_depth || vehicle::touches_dogs(now);
+    if (is_try && entered.gear != open_.record.from) {
+      open_.tried = true;
+      open_.tried_gear = entered.gear;
+    }
+  }
+  open_.last_slot = slot;
+}
+
+// Steps within one sample, and two pedals moved together, count in the order that is taught.
+void ShiftMeter::follow_steps(const vehicle::DriveSample& now, bool throttle_was_on) {
+  auto& steps = open_.record.steps;
+  const int gear = now.car.gear, before = last_.car.gear;
+  const auto ends_with = [&](ShiftStep step) { return !steps.empty() && steps.back() == step; };
+  if (throttle_was_on && !throttle_on_) {
+    const bool together = ends_with(ShiftStep::clutch_down) && now.time() - pedal_.down_at() <= kPedalOverlap;
+    steps.insert(together ? steps.end() - 1 : steps.end(), ShiftStep::throttle_off);
+  }
+  if (pedal_.went_down()) steps.push_back(ShiftStep::clutch_down);
+  if (gear != before && before != haptics::kNeutralGear) steps.push_back(ShiftStep::neutral);
+  if (gear != before && gear != haptics::kNeutralGear) steps.push_back(ShiftStep::gear);
+  if (pedal_.went_up()) {
+    const bool together = ends_with(ShiftStep::throttle_on) && pedal_.up_at() - open_.throttle_on_at <= kPedalOverlap;
+    steps.insert(together ? steps.end() - 1 : steps.end(), ShiftStep::clutch_up);
+  }
+  if (!throttle_was_on && throttle_on_) {
+    steps.push_back(ShiftStep::throttle_on);
+    open_.throttle_on_at = now.time();
+  }
+}
+
+void ShiftMeter::follow_gear(const vehicle::DriveSample& now) {
+  const int gear = now.car.gear;
+  if (gear != open_.record.from) open_.dogs_out = true;
+  if (gear != open_.record.to) {
+    open_.record.to = gear;
+    open_.gear_in = gear != haptics::kNeutralGear;
+    open_.has_rev_error = false;
+    if (open_.gear_in) {
+      open_.gear_in_at = now.time();
+      const int slot = haptics::slot_of_gear(gate_, gear);
+      if (slot != haptics::kNoSlot) open_.engaged[static_cast<std::size_t>(slot)] = true;
+      end_path(now);
+    }
+  }
+  open_.coupled = open_.gear_in && !pedal_.is_down();
+}
+
+// Compares engine and new gear just before the clutch transmits torque.
+void ShiftMeter::measure_rev_error(const vehicle::DriveSample& now) {
+  if (!open_.gear_in || open_.has_rev_error) return;
+  const bool locks = now.car.clutch_locked && !pedal_.is_down();
+  if (!locks && std::abs(now.car.clutch_torque) <= kFirstTorque) return;
+  open_.has_rev_error = true;
+  open_.record.rev_error =
+      last_.car.engine_speed - vehicle::shaft_per_road(car_, open_.record.to) * last_.car.road_speed;
+}
+
+void ShiftMeter::integrate(const vehicle::DriveSample& now, double dt) {
+  ShiftRecord& record = open_.record;
+  const double force = glm::length(now.lever.f_h), before = glm::length(last_.lever.f_h);
+  record.force_peak = std::max(record.force_peak, force);
+  record.impulse += area(before, force, dt);
+  record.overshoot = std::max(record.overshoot, penetration(now));
+  const double deeper = penetration(now) - penetration(last_);
+  if (deeper > 0.0 && dt > 0.0) {
+    record.wall_work += area(glm::length(last_.lever.wall_force), glm::length(now.lever.wall_force), deeper);
+  }
+  record.slip_power_peak = std::max(record.slip_power_peak, now.car.slip_power);
+  record.slip_energy = now.car.slip_energy - open_.slip_before;
+  record.grind_energy += area(last_.car.grind_power, now.car.grind_power, dt);
+  if (now.car.grinding) record.grind_time += dt;
+  if (now.car.sync == vehicle::SyncPhase::synchronising) record.block_time += dt;
+  if (open_.clutch_is_down) record.clutch_time += dt;
+  open_.clutch_is_down = pedal_.is_past();
+  const double drive = std::copysign(1.0, open_.torque_before) * now.car.drive_torque;
+  const double size = std::abs(open_.torque_before);
+  if (size > kMinTorque && drive < kTorqueGapFraction * size) record.torque_gap += dt;
+}
+
+// Also integrates after the end of the shift, while the filter still responds to it.
+void ShiftMeter::integrate_comfort(const vehicle::DriveSample& now, double dt) {
+  open_.record.jerk_peak = std::max(open_.record.jerk_peak, std::abs(filter_.jerk()));
+  open_.fourth_power += area(fourth(last_.car.acceleration), fourth(now.car.acceleration), dt);
+}
+
+void ShiftMeter::integrate_path(const vehicle::DriveSample& now) {
+  if (open_.gear_in) return;
+  const double chord = glm::distance(now.lever.lever, open_.lever_path.anchor);
+  if (chord < kMinChord) return;
+  open_.lever_path.length += chord;
+  open_.lever_path.anchor = now.lever.lever;
+}
+
+void ShiftMeter::end_path(const vehicle::DriveSample& now) {
+  open_.record.path_length = open_.lever_path.length + glm::distance(now.lever.lever, open_.lever_path.anchor);
+  const double shortest = shortest_path_length(gate_, open_.lever_path.begin, now.lever.proxy);
+  open_.record.path_efficiency = shortest > kMinPath ? std::max(1.0, open_.record.path_length / shortest) : 1.0;
+}
+
+bool ShiftMeter::is_taken_back() const noexcept {
+  return !pedal_.is_down() && !open_.left && !open_.dogs_out && !open_.tried;
+}
+
+bool ShiftMeter::is_shift() const noexcept {
+  return open_.dogs_out || open_.tried;
+}
+
+// Independent of the lever's position: it may be in a mouth, or off the rest position of an engaged gear.
+void ShiftMeter::update_rest(const vehicle::DriveSample& now) {
+  Rest rest = pedal_.is_down() || is_pushing(now) ? Rest::busy : Rest::given_up;
+  if (open_.coupled) rest = Rest::coupled;
+  if (rest != open_.rest) open_.rest_since = now.time();
+  open_.rest = rest;
+}
+
+bool ShiftMeter::has_ended(const vehicle::DriveSample& now) const noexcept {
+  const double rested = now.time() - open_.rest_since;
+  if (open_.rest == Rest::coupled) return now.car.clutch_locked || rested > kMaxSlipTime;
+  return open_.rest == Rest::given_up && rested > kGiveUpTime;
+}
+
+// is_complete: false if the drive ends before the shift does.
+void ShiftMeter::end(const vehicle::DriveSample& at, bool is_complete) {
+  ShiftRecord& record = open_.record;
+  record.end = at.time();
+  const auto was_in = [this](int gear) {
+    const int slot = haptics::slot_of_gear(gate_, gear);
+    return slot != haptics::kNoSlot && open_.engaged[static_cast<std::size_t>(slot)];
+  };
+  record.missed =
+      record.to == haptics::kNeutralGear ? open_.tried && !was_in(open_.tried_gear) : record.to == record.from;
+  if (open_.gear_in) record.lever_time = open_.gear_in_at - open_.left_at;
+  if (open_.clutch_used && open_.left) record.clutch_lead = open_.left_at - open_.clutch_down_at;
+  // A clutch released too early counts even if it was pressed again because the gear would not go in.
+  const double last_up = !is_complete && pedal_.is_down() ? at.time() : pedal_.up_at();
+  const double up_at = open_.early_up_at > 0.0 ? open_.early_up_at : last_up;
+  if (open_.clutch_used && open_.gear_in) record.clutch_lag = up_at - open_.gear_in_at;
+  if (!open_.gear_in) end_path(at);
+  record.steps_out_of_place = steps_out_of_place(record.steps, record.from, record.to, is_complete);
+  const int goal = record.to == haptics::kNeutralGear || record.missed ? open_.tried_gear : record.to;
+  for (std::size_t i = 0; i < open_.entered.size(); ++i) {
+    const int gear = gate_.slot[i].gear;
+    if (gear != record.from && gear != goal && !open_.engaged[i]) record.wrong_columns += open_.entered[i];
+  }
+}
+
+std::optional<ShiftRecord> ShiftMeter::finish() {
+  const bool in_progress = stage_ == Stage::open && is_shift();
+  if (in_progress) end(last_, false);
+  if (in_progress || stage_ == Stage::settling) return close();
+  stage_ = Stage::idle;
+  return std::nullopt;
+}
+
+ShiftRecord ShiftMeter::close() {
+  open_.record.vibration_dose = std::pow(open_.fourth_power, 0.25);
+  gear_ = open_.record.to;
+  ++number_;
+  stage_ = Stage::idle;
+  return open_.record;
+}
+
+}  // namespace gearshift::lessons

@@ -1,0 +1,121 @@
+// Computes shift records from samples during a drive.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
+#include <glm/vec2.hpp>
+
+#include "app/lessons/assessment/jerk_filter.h"
+#include "app/lessons/assessment/pedal_edge.h"
+#include "app/lessons/assessment/recent_peak.h"
+#include "app/lessons/assessment/shift_record.h"
+#include "app/vehicle/car_spec.h"
+#include "app/vehicle/drive_sample.h"
+#include "haptics/gate/gate.h"
+
+namespace gearshift::lessons {
+
+// Integrals use the trapezoidal rule; times are accurate to one period. README.md in this folder defines what
+// shift_record.h leaves open. Not for the haptic thread: a record allocates.
+class ShiftMeter {
+ public:
+  ShiftMeter(const vehicle::CarSpec& car, const haptics::Gate& gate);
+
+  // Call every cycle, in order. Returns the record of a shift that has ended, kJerkSettlingTime after its end or when
+  // the next one begins. A shift that is abandoned before the gear was left leaves no record.
+  std::optional<ShiftRecord> add(const vehicle::DriveSample& sample);
+
+  // End of the drive: returns the shift in progress or pending, if it counts as one (a gear was lost or another one
+  // tried). Steps that were still to come do not count against it.
+  std::optional<ShiftRecord> finish();
+
+  bool is_open() const noexcept { return stage_ == Stage::open; }  // a shift has begun and not ended
+  // a shift has ended; its record is not returned yet
+  bool is_pending() const noexcept { return stage_ == Stage::settling; }
+
+ private:
+  enum class Stage { idle, open, settling };
+  // coupled: gear in, clutch up; given_up: clutch up without a new gear, and no further attempt
+  enum class Rest { busy, coupled, given_up };
+
+  struct LeverPath {         // of the lever, as a sum of chords
+    glm::dvec2 begin{0.0};   // [m] of the drawn lever
+    glm::dvec2 anchor{0.0};  // [m]
+    double length = 0.0;     // [m] up to the anchor
+  };
+
+  struct Open {  // state of the current shift
+    ShiftRecord record;
+    double torque_before = 0.0;   // [N m]
+    double slip_before = 0.0;     // [J]
+    double flare_base = 0.0;      // [rad/s]
+    double clutch_down_at = 0.0;  // [s]
+    double throttle_on_at = 0.0;  // [s] last time
+    double early_up_at = 0.0;     // [s] first time the clutch came up while the lever pressed on ring or dogs; 0: never
+    double left_at = 0.0;         // [s]
+    double gear_in_at = 0.0;      // [s]
+    double rest_since = 0.0;      // [s]
+    double fourth_power = 0.0;    // [m^4/s^7] of the acceleration
+    Rest rest = Rest::busy;
+    bool left = false;      // the lever has left the gear's rest position, or neutral
+    bool dogs_out = false;  // the old gear was disengaged
+    bool tried = false;     // another gear was tried
+    bool gear_in = false;   // a gear has been engaged since the old one was left
+    bool coupled = false;   // and the clutch is up
+    bool clutch_used = false;
+    bool clutch_is_down = false;
+    bool has_rev_error = false;
+    int tried_gear = haptics::kNeutralGear;
+    std::array<bool, haptics::kMaxSlots> engaged{};  // gears engaged during the shift
+    int last_slot = haptics::kNoSlot;                // last slot that the lever was in past the mouth
+    std::array<int, haptics::kMaxSlots> entered{};
+    LeverPath lever_path;
+  };
+
+  bool begins(const vehicle::DriveSample& now) const noexcept;
+  void begin(const vehicle::DriveSample& now, bool throttle_was_on);
+  void follow(const vehicle::DriveSample& now, double dt, bool throttle_was_on);
+  void follow_steps(const vehicle::DriveSample& now, bool throttle_was_on);
+  void follow_clutch(const vehicle::DriveSample& now);
+  void follow_lever(const vehicle::DriveSample& now);
+  void follow_gear(const vehicle::DriveSample& now);
+  void measure_rev_error(const vehicle::DriveSample& now);
+  void integrate(const vehicle::DriveSample& now, double dt);
+  void integrate_comfort(const vehicle::DriveSample& now, double dt);
+  void integrate_path(const vehicle::DriveSample& now);
+  void end_path(const vehicle::DriveSample& now);
+  bool is_taken_back() const noexcept;
+  void update_rest(const vehicle::DriveSample& now);
+  bool has_ended(const vehicle::DriveSample& now) const noexcept;
+  bool is_shift() const noexcept;
+  bool begins_next(const vehicle::DriveSample& now) const noexcept;
+  void end(const vehicle::DriveSample& at, bool is_complete = true);
+  ShiftRecord close();
+
+  bool rests_in(const vehicle::DriveSample& now, int gear) const noexcept;
+  int slot_proper(const vehicle::DriveSample& now) const noexcept;
+  bool is_trying_another(const vehicle::DriveSample& now) const noexcept;
+  bool is_pushing(const vehicle::DriveSample& now) const noexcept;
+  bool stays_where_left(const vehicle::DriveSample& now) const noexcept;
+
+  vehicle::CarSpec car_;
+  haptics::Gate gate_;
+  PedalEdge pedal_;
+  RecentPeak torque_;
+  JerkFilter filter_;
+  Stage stage_ = Stage::idle;
+  Open open_;
+  vehicle::DriveSample last_;
+  bool first_ = true;
+  bool throttle_on_ = false;
+  int gear_ = haptics::kNeutralGear;  // last gear at rest
+  int left_slot_ = haptics::kNoSlot;  // slot where the lever stayed when the last shift was abandoned
+  double left_depth_ = 0.0;           // [m]
+  double guided_at_ = -1e9;           // [s] last time guidance was requested
+  std::int64_t number_ = 0;
+};
+
+}  // namespace gearshift::lessons

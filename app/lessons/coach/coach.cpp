@@ -1,0 +1,401 @@
+#include "app/lessons/coach/coach.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <utility>
+
+#include "app/lessons/assessment/grade.h"
+#include "app/lessons/assessment/suggest.h"
+#include "app/lessons/coach/force_gap.h"
+#include "app/lessons/coach/learner_memory.h"
+#include "app/lessons/coach/planned_trial.h"
+
+namespace gearshift::lessons {
+namespace {
+
+std::vector<PastResult> past_results(const std::vector<RunRow>& runs) {
+  std::vector<PastResult> past;
+  for (const RunRow& run : runs) {
+    if (std::optional<PastResult> result = past_result(run.result)) past.push_back(std::move(*result));
+  }
+  return past;
+}
+
+LessonStanding standing_in(const Lesson& lesson, const std::vector<PastResult>& past) {
+  LessonStanding standing;
+  standing.key = lesson.key;
+  standing.title = lesson.title;
+  standing.task = lesson.task;
+  for (const PastResult& result : past) {
+    if (result.lesson != lesson.key) continue;
+    ++standing.trials;
+    standing.grade = result.grade;
+    standing.best = std::max(standing.best.value_or(0.0), result.grade);
+    standing.passed = standing.passed || result.passed;
+  }
+  return standing;
+}
+
+}  // namespace
+
+struct Coach::State {
+  explicit State(const CoachConfig& a_config)
+      : config(a_config), memory(config.history, config.program, config.now, config.lock_timeout) {
+    if (!config.no_history.empty()) startup_problem = config.no_history;
+  }
+
+  void refresh_view();
+  void update_standings();
+  void suggest();
+  void show_runs();
+  void offer();
+  void plan();
+  LessonMode usual_mode() const;
+  void show_mode();
+  void begin(const vehicle::CarSpec& car, const haptics::Gate& gate);
+  bool process_samples(std::span<const vehicle::DriveSample> samples);
+  void check_cycle(const vehicle::DriveSample& sample);
+  void check_forces(const vehicle::DriveSample& sample);
+  void record_progress();
+  void leave();
+  void finish_trial();
+  void check_run(std::int64_t number) const;
+  void check_comment(std::int64_t number, std::int64_t comment);
+  bool is_driving() const noexcept { return view.phase == LessonPhase::driving; }
+
+  CoachConfig config;
+  LearnerMemory memory;
+  std::optional<std::string> startup_problem;  // reason why there is no history
+  CoachView view;
+  std::optional<Lesson> lesson;
+  std::optional<LessonMode> chosen_mode;  // by the user, for this lesson
+  std::unique_ptr<LessonRun> run;         // the current or last trial
+  std::optional<std::uint64_t> cycle;     // number of the trial's last cycle
+  ForceGap forces;                        // forces missing in the trial
+  bool has_saved_run = false;             // the displayed trial has a saved or pending run
+  bool is_view_stale = false;             // cycles were judged since the view was updated
+  std::string settings, recording;
+};
+
+Coach::Coach(const CoachConfig& config) : state_(std::make_unique<State>(config)) {
+  if (!config.learner.empty()) check_learner_name(config.learner);
+  state_->memory.set_learner(config.learner);
+  state_->refresh_view();
+}
+
+Coach::~Coach() {
+  state_->leave();
+}
+
+const CoachView& Coach::view() const noexcept {
+  return state_->view;
+}
+
+const Lesson* Coach::lesson() const noexcept {
+  return state_->lesson ? &*state_->lesson : nullptr;
+}
+
+std::optional<std::string> Coach::take_problem() {
+  if (state_->startup_problem) return std::exchange(state_->startup_problem, std::nullopt);
+  return state_->memory.take_problem();
+}
+
+void Coach::set_learner(const std::string& name) {
+  if (!name.empty()) check_learner_name(name);
+  if (name == state_->memory.learner() && !state_->memory.is_learner_deleted()) return;
+  state_->leave();
+  state_->memory.set_learner(name);
+  state_->chosen_mode.reset();
+  state_->refresh_view();
+  if (state_->lesson) state_->offer();
+}
+
+void Coach::set_mode(LessonMode mode) {
+  state_->chosen_mode = mode;
+  state_->show_mode();
+}
+
+void Coach::set_help(bool on) {
+  state_->view.help_wanted = on;
+  if (state_->view.phase == LessonPhase::offered) state_->plan();
+}
+
+void Coach::offer(const Lesson& lesson) {
+  state_->leave();
+  if (!state_->lesson || state_->lesson->key != lesson.key) state_->chosen_mode.reset();
+  state_->lesson = lesson;  // may be the same object
+  state_->memory.reload();
+  state_->refresh_view();
+  state_->offer();
+}
+
+void Coach::dismiss_lesson() {
+  State& state = *state_;
+  state.leave();
+  state.run.reset();
+  state.lesson.reset();
+  state.chosen_mode.reset();
+  CoachView& view = state.view;
+  view.phase = LessonPhase::none;
+  view.lesson = view.title = view.goal = "";
+  view.time_limit = 0.0;
+  view.now = {};
+  view.result = {};
+  view.run = 0;
+  state.has_saved_run = false;
+  view.guidance = 0.0;
+  view.retention = false;
+}
+
+void Coach::begin(const vehicle::CarSpec& car, const haptics::Gate& gate, const std::string& settings,
+                  const std::filesystem::path& recording) {
+  State& state = *state_;
+  if (!state.lesson) throw std::logic_error("no lesson is offered");
+  state.leave();
+  state.memory.reload();
+  state.refresh_view();
+  state.begin(car, gate);
+  state.settings = settings;
+  state.recording = recording.string();
+}
+
+void Coach::add(std::span<const vehicle::DriveSample> samples) {
+  State& state = *state_;
+  if (state.memory.retry_pending()) state.refresh_view();
+  const bool is_view_stale = std::exchange(state.is_view_stale, false);
+  if (!state.is_driving() || (samples.empty() && !is_view_stale)) return;
+  const bool over = state.process_samples(samples);
+  state.record_progress();
+  if (over) state.finish_trial();
+}
+
+const LessonRun& Coach::judge(const vehicle::DriveSample& sample) {
+  if (!state_->is_driving()) throw std::logic_error("no lesson is driven");
+  state_->is_view_stale = true;
+  (void)state_->process_samples({&sample, 1});
+  return *state_->run;
+}
+
+void Coach::leave() {
+  state_->leave();
+}
+
+void Coach::clear_recording() {
+  state_->recording.clear();
+  if (!state_->has_saved_run) return;
+  state_->memory.clear_recording();
+  state_->refresh_view();
+}
+
+bool Coach::needs_room() const noexcept {
+  return state_->memory.needs_room();
+}
+
+std::string Coach::flush() {
+  state_->leave();
+  state_->memory.flush();
+  state_->refresh_view();
+  return state_->memory.problem();
+}
+
+std::vector<std::string> Coach::take_unreferenced_recordings() {
+  return state_->memory.take_unreferenced_recordings();
+}
+
+double Coach::guidance() const noexcept {
+  return state_->is_driving() ? state_->view.guidance : 0.0;
+}
+
+int Coach::guided_gear() const noexcept {
+  return state_->is_driving() ? state_->view.now.guided_gear : haptics::kNeutralGear;
+}
+
+void Coach::set_next(std::string_view lesson) {
+  const std::vector<Lesson>& lessons = state_->config.lessons;
+  const bool known = std::any_of(lessons.begin(), lessons.end(), [&](const Lesson& l) { return l.key == lesson; });
+  if (!lesson.empty() && !known) throw std::invalid_argument("\"" + std::string(lesson) + "\" is not a known lesson");
+  state_->memory.set_next_lesson(std::string(lesson));
+  state_->refresh_view();
+}
+
+void Coach::comment(std::int64_t run, const std::string& author, const std::string& text) {
+  state_->check_run(run);
+  check_user_text(UserText::name, "an instructor's name", author);
+  check_user_text(UserText::comment, "a comment", text);
+  state_->memory.add_comment(run, author, text);
+  state_->refresh_view();
+}
+
+void Coach::edit_comment(std::int64_t run, std::int64_t comment, const std::string& text) {
+  state_->check_comment(run, comment);
+  check_user_text(UserText::comment, "a comment", text);
+  state_->memory.edit_comment(run, comment, text);
+  state_->refresh_view();
+}
+
+void Coach::delete_comment(std::int64_t run, std::int64_t comment) {
+  state_->check_comment(run, comment);
+  state_->memory.delete_comment(run, comment);
+  state_->refresh_view();
+}
+
+void Coach::State::check_run(std::int64_t number) const {
+  const std::vector<RunRow>& runs = memory.runs();
+  const bool known = std::any_of(runs.begin(), runs.end(), [&](const RunRow& row) { return row.id == number; });
+  if (!known) throw std::invalid_argument("run " + std::to_string(number) + " is not one of this learner's");
+}
+
+void Coach::State::check_comment(std::int64_t number, std::int64_t comment) {
+  check_run(number);
+  const std::vector<CommentRow> all = memory.comments(number);
+  const bool known = std::any_of(all.begin(), all.end(), [&](const CommentRow& row) { return row.id == comment; });
+  if (!known)
+    throw std::invalid_argument("comment " + std::to_string(comment) + " is not one of run " + std::to_string(number));
+}
+
+void Coach::State::refresh_view() {
+  view.learner = memory.learner();
+  view.learners = memory.learners();
+  update_standings();
+  suggest();
+  show_runs();
+  if (has_saved_run) view.run = memory.run_number();
+  view.is_saving = memory.is_usable();
+  view.learner_deleted = memory.is_learner_deleted();
+}
+
+void Coach::State::update_standings() {
+  const std::vector<PastResult> past = past_results(memory.runs());
+  view.lessons.clear();
+  for (const Lesson& each : config.lessons) view.lessons.push_back(standing_in(each, past));
+}
+
+// A lesson chosen by the instructor has priority over the suggestion, if it is in the config.
+void Coach::State::suggest() {
+  const std::string& wanted = memory.next_lesson();
+  const auto is_wanted = [&](const Lesson& each) { return each.key == wanted; };
+  view.next_by_instructor = std::any_of(config.lessons.begin(), config.lessons.end(), is_wanted);
+  if (view.next_by_instructor) {
+    view.next = wanted;
+    view.next_why = "Chosen by the instructor.";
+    return;
+  }
+  const Suggestion next = suggest_lesson(config.lessons, past_results(memory.runs())).value_or(Suggestion{});
+  view.next = next.lesson;
+  view.next_why = next.why;
+}
+
+void Coach::State::show_runs() {
+  const std::vector<RunRow>& runs = memory.runs();
+  const auto count = static_cast<std::ptrdiff_t>(std::min(runs.size(), kMaxRunsShown));
+  view.runs.assign(runs.rbegin(), runs.rbegin() + count);
+  view.comments.clear();
+  for (const RunRow& row : view.runs) view.comments.push_back(memory.comments(row.id));
+}
+
+void Coach::State::offer() {
+  run.reset();
+  view.phase = LessonPhase::offered;
+  view.lesson = lesson->key;
+  view.title = lesson->title;
+  view.goal = lesson->goal;
+  view.time_limit = lesson->time_limit;
+  view.now = {};
+  view.result = {};
+  view.run = 0;
+  has_saved_run = false;
+  show_mode();
+  plan();
+}
+
+void Coach::State::plan() {
+  const PlannedTrial planned = plan_trial(memory.learner(), lesson->key, memory.runs(), config.now());
+  view.guidance = view.help_wanted ? planned.plan.guidance : 0.0;
+  view.hints = planned.plan.hints;
+  view.retention = planned.retention;
+}
+
+// Without prompts once the learner has passed it.
+LessonMode Coach::State::usual_mode() const {
+  const std::vector<RunRow>& runs = memory.runs();
+  const bool passed = std::any_of(runs.begin(), runs.end(), [&](const RunRow& row) {
+    return row.result.lesson == lesson->key && is_graded(row.result) && row.result.passed;
+  });
+  return passed ? LessonMode::by_yourself : LessonMode::follow_me;
+}
+
+void Coach::State::show_mode() {
+  if (chosen_mode) view.mode = *chosen_mode;
+  if (!chosen_mode && lesson) view.mode = usual_mode();
+}
+
+void Coach::State::begin(const vehicle::CarSpec& car, const haptics::Gate& gate) {
+  show_mode();
+  plan();
+  run = std::make_unique<LessonRun>(*lesson, car, gate, LessonRunConfig{view.mode, view.guidance, view.hints});
+  cycle.reset();
+  forces = {};
+  view.phase = LessonPhase::driving;
+  view.now = run->view();
+  view.result = run->result();
+  view.run = 0;
+  has_saved_run = false;
+}
+
+// Returns true when the trial is over; later samples do not belong to it.
+bool Coach::State::process_samples(std::span<const vehicle::DriveSample> samples) {
+  for (const vehicle::DriveSample& sample : samples) {
+    if (run->is_over()) break;
+    check_cycle(sample);
+    run->add(sample);
+    check_forces(sample);
+  }
+  return run->is_over();
+}
+
+// Detects a lost cycle, or one of another loop whose numbers start again.
+void Coach::State::check_cycle(const vehicle::DriveSample& sample) {
+  if (cycle && sample.lever.cycle != *cycle + 1) run->mark_incomplete();
+  cycle = sample.lever.cycle;
+}
+
+// Without forces a trial shows nothing of what was learnt: walls, gates and synchronisers are not felt.
+void Coach::State::check_forces(const vehicle::DriveSample& sample) {
+  const bool was_long = forces.is_long();
+  forces.add(sample, run->is_in_shift());
+  if (forces.is_long() && !was_long) run->mark_forceless();
+}
+
+void Coach::State::record_progress() {
+  if (!memory.in_run()) memory.begin_run(run->result(), settings, recording);
+  has_saved_run = true;
+  for (const ShiftRecord& shift : run->drain_shifts()) memory.add_shift(shift);
+  view.now = run->view();
+  view.result = run->result();
+  view.run = memory.run_number();
+  view.is_saving = memory.is_usable();
+  if (memory.is_learner_deleted() && !view.learner_deleted) refresh_view();
+}
+
+void Coach::State::leave() {
+  if (!is_driving()) return;
+  run->leave();
+  finish_trial();
+}
+
+// A trial without samples is not saved.
+void Coach::State::finish_trial() {
+  view.phase = LessonPhase::over;
+  view.now = run->view();
+  view.result = run->result();
+  has_saved_run = memory.in_run();
+  if (has_saved_run) memory.end_run(run->result());
+  memory.reload();  // the instructor may have chosen another lesson
+  const LessonResult& result = run->result();
+  const bool finished = is_graded(result) && result.end != LessonEnd::left;
+  if (finished && memory.next_lesson() == result.lesson) memory.set_next_lesson("");
+  refresh_view();
+  show_mode();
+}
+
+}  // namespace gearshift::lessons

@@ -1,0 +1,64 @@
+// State of a learner's lessons as plain values, for the panel.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/lessons/assessment/hint_style.h"
+#include "app/lessons/assessment/lesson_result.h"
+#include "app/lessons/assessment/lesson_run.h"
+#include "app/lessons/history/history.h"
+
+namespace gearshift::lessons {
+
+enum class LessonPhase {
+  none,
+  offered,  // the goal is shown; the car waits
+  driving,
+  over  // the result is shown
+};
+
+// A lesson of the list with the learner's results in it.
+struct LessonStanding {
+  std::string key, title, task;
+  int trials = 0;                // graded
+  std::optional<double> grade;   // [1] of 10, of the last graded trial
+  bool passed = false;           // a graded trial was passed
+  std::optional<double> best{};  // [1] of 10, of all graded trials
+};
+
+struct CoachView {
+  // Learner
+  std::string learner;                // empty: no learner; nothing is saved
+  std::vector<std::string> learners;  // known learners, sorted by name
+  bool is_saving = false;             // the history is open and the learner was not deleted
+  bool learner_deleted = false;  // another program deleted the learner; nothing is saved until the user chooses one
+
+  // Choice of the lesson
+  std::vector<LessonStanding> lessons;  // in the order of teaching
+  std::string next, next_why;           // lesson key and reason in one sentence; empty: none
+  bool next_by_instructor = false;
+
+  // Current trial
+  LessonPhase phase = LessonPhase::none;
+  std::string lesson, title, goal;  // key, then text; empty in phase none
+  LessonMode mode = LessonMode::follow_me;
+  bool help_wanted = true;  // by the user; false: no trial is guided
+  double guidance = 0.0;    // [1] gain of this trial; 0: the trial is graded
+  HintStyle hints = HintStyle::prescriptive;
+  bool retention = false;   // first trial after a day: unguided, without hints
+  LessonView now;           // driving and over
+  LessonResult result;      // so far, or final
+  double time_limit = 0.0;  // [s] of the lesson; 0: unknown
+  std::int64_t run = 0;     // number in the history; 0: not saved
+
+  // Past runs
+  std::vector<RunRow> runs;                       // the learner's runs, newest first, at most kMaxRunsShown
+  std::vector<std::vector<CommentRow>> comments;  // one list per run
+};
+
+inline constexpr std::size_t kMaxRunsShown = 50;
+
+}  // namespace gearshift::lessons

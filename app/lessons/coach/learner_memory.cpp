@@ -1,0 +1,318 @@
+#include "app/lessons/coach/learner_memory.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "haptics/files/printable.h"
+
+namespace gearshift::lessons {
+namespace {
+
+using std::chrono::milliseconds;
+
+// A known learner is looked up by number: another one with the same name is a different person. Returns number 0 if
+// there is none.
+template <class Person>
+LearnerRow row_of(std::vector<LearnerRow> rows, const Person& person) {
+  for (LearnerRow& row : rows) {
+    const bool same = person.id != 0 ? row.id == person.id : !person.name.empty() && row.name == person.name;
+    if (same) return std::move(row);
+  }
+  return {};
+}
+
+// Replaces a run that the history has only in part; inserts others by date.
+void merge_pending(std::vector<RunRow>& runs, const RunRow& kept) {
+  const auto same = std::find_if(runs.begin(), runs.end(), [&](const RunRow& run) { return run.id == kept.id; });
+  if (same != runs.end()) {
+    *same = kept;
+    return;
+  }
+  const auto later =
+      std::find_if(runs.begin(), runs.end(), [&](const RunRow& run) { return run.begun_at > kept.begun_at; });
+  runs.insert(later, kept);
+}
+
+}  // namespace
+
+LearnerMemory::LearnerMemory(const std::filesystem::path& history, std::string program, Clock now,
+                             milliseconds lock_timeout)
+    : file_(history), program_(std::move(program)), now_(std::move(now)), patience_(lock_timeout) {
+  open(kHistoryLockTimeout);
+}
+
+LearnerMemory::~LearnerMemory() {
+  if (!flush_failed_) flush();
+}
+
+void LearnerMemory::open(milliseconds lock_timeout) {
+  if (history_ || file_.empty()) return;
+  const auto date = [this] { return write_time_.value_or(now_()); };
+  try {
+    history_ = std::make_unique<History>(file_, date, lock_timeout);
+    is_usable_ = true;
+    is_disk_full_ = false;
+    reported_.clear();
+  } catch (const HistoryFull& problem) {
+    is_disk_full_ = true;
+    reason_ = problem.what();
+    report(waiting_message_ = reason_ + kWaitsForRoom);
+  } catch (const HistoryError& problem) {
+    reason_ = problem.what();
+    report(reason_);
+  }
+}
+
+// Repeats a sentence only after the history has saved something in between.
+void LearnerMemory::report(const std::string& problem) {
+  if (problem != reported_) problem_ = reported_ = problem;
+}
+
+template <class Work>
+bool LearnerMemory::read(const Work& work) {
+  if (!history_) return false;
+  history_->set_lock_timeout(std::exchange(is_read_blocked_, true) ? kNoWait : patience_);
+  try {
+    work();
+    is_read_blocked_ = false;
+    return true;
+  } catch (const HistoryBusy&) {  // rare: keeps what was read before, until the next attempt
+  } catch (const HistoryError& problem) {
+    is_usable_ = false;
+    report(problem.what());
+  }
+  return false;
+}
+
+std::optional<std::string> LearnerMemory::take_problem() {
+  return std::exchange(problem_, std::nullopt);
+}
+
+std::vector<std::string> LearnerMemory::learners() {
+  std::vector<std::string> names;
+  if (!person_->deleted) names.push_back(person_->name);
+  read([&] {
+    for (const LearnerRow& row : history_->learners()) names.push_back(row.name);
+  });
+  for (const PendingRun& run : pending_runs_) {
+    if (!run.owner->deleted) names.push_back(run.owner->name);
+  }
+  std::sort(names.begin(), names.end());
+  names.erase(std::unique(names.begin(), names.end()), names.end());
+  std::erase(names, "");
+  return names;
+}
+
+// The learner selected before under that name, or a new one.
+LearnerMemory::PersonPtr LearnerMemory::find_or_add_person(const std::string& name) {
+  const auto known = std::find_if(people_.begin(), people_.end(),
+                                  [&](const PersonPtr& person) { return person->name == name && !person->deleted; });
+  if (known != people_.end()) return *known;
+  people_.push_back(std::make_shared<Person>(Person{name}));
+  return people_.back();
+}
+
+void LearnerMemory::set_learner(const std::string& name) {
+  person_ = find_or_add_person(name);
+  runs_.clear();
+  next_.clear();
+  load();
+  if (person_->deleted) {  // deleted since the last selection: this is a different learner
+    person_ = find_or_add_person(name);
+    load();
+  }
+  drop_deleted();
+}
+
+void LearnerMemory::reload() {
+  if (!history_) {
+    open(patience_);
+    if (history_) load();
+  }
+  bool changed = false;
+  read([&] { changed = history_->changes() != changes_; });
+  if (changed) load();
+  drop_deleted();
+}
+
+// Data that cannot be read keeps its last state until the next attempt.
+void LearnerMemory::load() {
+  changes_.reset();
+  if (person_->deleted) runs_.clear(), next_.clear();
+  read([&] {
+    const std::int64_t changes = history_->changes();
+    const LearnerRow row = row_of(history_->learners(), *person_);
+    if (row.id == 0 && person_->id != 0) person_->deleted = true;
+    std::vector<RunRow> runs;
+    if (row.id != 0) runs = history_->runs(row.id);
+    for (RunRow& run : runs) run.recording = history_->recording_file(run.recording).string();
+    if (row.id != 0) person_->id = row.id;
+    runs_ = std::move(runs);
+    next_ = row.next_lesson;
+    changes_ = changes;
+  });
+  for (const PendingRun& run : pending_runs_) {
+    if (run.over && run.owner == person_) merge_pending(runs_, run.row);
+  }
+  for (const PendingChoice& next : pending_choices_) {
+    if (next.owner == person_) next_ = next.lesson;
+  }
+}
+
+// Returns true if a learner was deleted.
+bool LearnerMemory::drop_deleted() {
+  const auto is_deleted = [](const PersonPtr& person) { return person->deleted; };
+  const bool any = std::any_of(people_.begin(), people_.end(), is_deleted);
+  for (const PersonPtr& gone : std::exchange(people_, {})) {
+    if (!gone->deleted) {
+      people_.push_back(gone);
+      continue;
+    }
+    const bool waited = drop_pending_of(gone);
+    if (gone == person_) load();
+    if (waited && gone != person_)
+      report(haptics::printable(gone->name) + " was deleted by another program: unsaved results are dropped.");
+  }
+  if (any && person_->deleted)
+    report(haptics::printable(person_->name) +
+           " was deleted by another program: this session is no longer saved; choose or enter a learner to "
+           "continue.");
+  return any;
+}
+
+// Drops a deleted learner's pending writes. The current or last run stays visible but has no learner. Returns true if
+// anything was pending.
+bool LearnerMemory::drop_pending_of(const PersonPtr& gone) {
+  const std::size_t before = pending_runs_.size() + pending_comments_.size() + pending_choices_.size();
+  for (PendingRun& run : pending_runs_) {
+    if (run.owner != gone) continue;
+    if (!run.row.recording.empty()) unreferenced_recordings_.push_back(std::exchange(run.row.recording, ""));
+    renumber(run, --last_local_id_);
+  }
+  const auto is_missing_parent = [&](const auto& kept) { return kept.owner == gone; };
+  std::erase_if(pending_runs_,
+                [&](const PendingRun& run) { return is_missing_parent(run) && run.row.id != last_run_; });
+  std::erase_if(pending_comments_, is_missing_parent);
+  std::erase_if(pending_choices_, is_missing_parent);
+  std::erase_if(pending_removals_, is_missing_parent);
+  return pending_runs_.size() + pending_comments_.size() + pending_choices_.size() < before;
+}
+
+std::vector<CommentRow> LearnerMemory::comments(std::int64_t run) {
+  std::vector<CommentRow> all;
+  if (run > 0) read([&] { all = history_->comments(run); });
+  for (const PendingComment& kept : pending_comments_) {
+    if (kept.run != run) continue;
+    const auto same =
+        std::find_if(all.begin(), all.end(), [&](const CommentRow& row) { return row.id == kept.row.id; });
+    if (kept.row.id < 0)
+      all.push_back(kept.row);
+    else if (same != all.end() && kept.deleted)
+      all.erase(same);
+    else if (same != all.end())
+      same->text = kept.row.text, same->edited_at = kept.row.edited_at;
+  }
+  return all;
+}
+
+void LearnerMemory::add_comment(std::int64_t run, const std::string& author, const std::string& text) {
+  const std::int64_t now = now_();
+  pending_comments_.push_back({person_, run, now, {format_utc(now), author, text, --last_local_id_}});
+  write_now();
+}
+
+// A comment that is not saved yet is changed in place.
+void LearnerMemory::edit_comment(std::int64_t run, std::int64_t comment, const std::string& text) {
+  const std::int64_t now = now_();
+  PendingComment* kept = find_pending_comment(comment);
+  if (!kept) kept = &pending_comments_.emplace_back(PendingComment{person_, run, now, {{}, {}, {}, comment}});
+  kept->row.text = text;
+  if (comment > 0) kept->at = now, kept->row.edited_at = format_utc(now);
+  write_now();
+}
+
+void LearnerMemory::delete_comment(std::int64_t run, std::int64_t comment) {
+  PendingComment* kept = find_pending_comment(comment);
+  if (comment < 0) {
+    std::erase_if(pending_comments_, [&](const PendingComment& each) { return each.row.id == comment; });
+    return;
+  }
+  if (!kept) kept = &pending_comments_.emplace_back(PendingComment{person_, run, now_(), {{}, {}, {}, comment}});
+  kept->deleted = true;
+  write_now();
+}
+
+LearnerMemory::PendingComment* LearnerMemory::find_pending_comment(std::int64_t comment) noexcept {
+  const auto kept = std::find_if(pending_comments_.begin(), pending_comments_.end(),
+                                 [&](const PendingComment& each) { return each.row.id == comment; });
+  return kept == pending_comments_.end() ? nullptr : &*kept;
+}
+
+void LearnerMemory::set_next_lesson(const std::string& lesson) {
+  next_ = lesson;
+  std::erase_if(pending_choices_, [&](const PendingChoice& next) { return next.owner == person_; });
+  pending_choices_.push_back({person_, now_(), lesson});
+  write_now();
+}
+
+void LearnerMemory::begin_run(const LessonResult& result, const std::string& settings, const std::string& recording) {
+  PendingRun run;
+  run.owner = person_;
+  run.settings = settings;
+  run.at = now_();
+  run.row = {--last_local_id_, 0, format_utc(run.at), recording, result};
+  run.row.result.shifts.clear();
+  last_run_ = run.row.id;
+  pending_runs_.push_back(std::move(run));
+  in_run_ = true;
+  write_now();
+}
+
+void LearnerMemory::add_shift(const ShiftRecord& shift) {
+  pending_runs_.back().row.result.shifts.push_back(shift);
+  write_now();
+}
+
+void LearnerMemory::end_run(const LessonResult& result) {
+  PendingRun& run = pending_runs_.back();
+  run.row.result = result;
+  run.over = true;
+  in_run_ = false;
+  if (run.owner == person_) merge_pending(runs_, run.row);
+  write_now();
+}
+
+// A recording that the history does not reference yet is simply not written.
+void LearnerMemory::clear_recording() {
+  for (RunRow& row : runs_) {
+    if (row.id == last_run_) row.recording.clear();
+  }
+  PersonPtr owner = person_;
+  for (PendingRun& run : pending_runs_) {
+    if (run.row.id != last_run_) continue;
+    run.row.recording.clear();
+    owner = run.owner;
+  }
+  if (last_run_ > 0) pending_removals_.push_back({owner, now_(), last_run_});
+  write_now();
+}
+
+std::int64_t LearnerMemory::run_number() const noexcept {
+  const auto kept = std::find_if(pending_runs_.begin(), pending_runs_.end(),
+                                 [&](const PendingRun& run) { return run.row.id == last_run_; });
+  if (kept == pending_runs_.end()) return std::max<std::int64_t>(last_run_, 0);
+  const bool has_all = !kept->over && kept->shifts == kept->row.result.shifts.size();
+  return has_all && last_run_ > 0 ? last_run_ : 0;
+}
+
+std::vector<std::string> LearnerMemory::take_unreferenced_recordings() {
+  std::vector<std::string> files = std::exchange(unreferenced_recordings_, {});
+  for (PendingRun& run : pending_runs_) {
+    if (run.row.id < 0 && !run.row.recording.empty()) files.push_back(std::exchange(run.row.recording, ""));
+  }
+  return files;
+}
+
+}  // namespace gearshift::lessons

@@ -1,0 +1,191 @@
+// Saves a learner's runs, comments and choices in the history, and keeps them in memory until the history has taken
+// them.
+//
+// Runs in the frame that also polls STOP. It waits for a file locked by another program only once, up to the lock
+// timeout; while the file stays locked, further attempts do not wait.
+#pragma once
+
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/lessons/history/history.h"
+
+namespace gearshift::lessons {
+
+// Problems of the history do not throw; each is reported once, in one sentence. Data that the history could not save is
+// kept in order and retried at each write and by retry_pending(). Learners are identified by their number in the
+// history, not by name: a learner who was deleted there is reported, dropped and never created again by later writes.
+class LearnerMemory {
+ public:
+  LearnerMemory(const std::filesystem::path& history, std::string program, Clock now,
+                std::chrono::milliseconds lock_timeout);
+  ~LearnerMemory();  // flushes, unless a flush has failed already
+  LearnerMemory(const LearnerMemory&) = delete;
+  LearnerMemory& operator=(const LearnerMemory&) = delete;
+
+  // Also true while the history is locked for a moment
+  bool is_usable() const noexcept { return history_ && is_usable_ && !is_learner_deleted(); }
+  std::optional<std::string> take_problem();
+  std::string problem() const { return problem_.value_or(""); }  // not yet taken, or empty
+  std::vector<std::string> learners();                           // sorted by name
+
+  // Selects the learner of that name, or a new one. Empty: no learner. Writes nothing yet.
+  void set_learner(const std::string& name);
+  const std::string& learner() const noexcept { return person_->name; }
+  // True if another program deleted the learner: nothing is written until the next set_learner(), even with the same
+  // name.
+  bool is_learner_deleted() const noexcept { return person_->deleted; }
+  // Reads again if another program has written; opens a history that could not be opened before.
+  void reload();
+
+  // Runs of this learner, oldest first, including those not saved yet; these have negative numbers until they are
+  // saved.
+  const std::vector<RunRow>& runs() const noexcept { return runs_; }
+  std::vector<CommentRow> comments(std::int64_t run);  // numbers are negative until saved
+  void add_comment(std::int64_t run, const std::string& author, const std::string& text);
+  void edit_comment(std::int64_t run, std::int64_t comment, const std::string& text);
+  void delete_comment(std::int64_t run, std::int64_t comment);
+  const std::string& next_lesson() const noexcept { return next_; }  // key, or empty
+  void set_next_lesson(const std::string& lesson);
+
+  // A run, starting with its first sample.
+  void begin_run(const LessonResult& result, const std::string& settings, const std::string& recording);
+  bool in_run() const noexcept { return in_run_; }
+  void add_shift(const ShiftRecord& shift);
+  void end_run(const LessonResult& result);
+  void clear_recording();  // removes it from the current or last run
+  // Number of the current or last run; 0: not completely saved so far.
+  std::int64_t run_number() const noexcept;
+
+  // Retries pending writes, a few times per second however often it is called. True: something was written, or a
+  // learner was dropped.
+  bool retry_pending();
+  // Writes all that is pending before the program ends, waiting up to 3 s in all. Reports what is still pending
+  // afterwards as a problem.
+  void flush();
+  // True if writes are pending because the disk is full.
+  bool needs_room() const noexcept { return is_disk_full_; }
+  // Returns recordings that the history will never reference, and forgets them.
+  std::vector<std::string> take_unreferenced_recordings();
+
+ private:
+  using Moment = std::chrono::steady_clock::time_point;
+
+  enum class WriteResult { done, retry, dropped };  // dropped: can never be written because the learner was deleted
+
+  struct Person {
+    std::string name;     // empty: no learner
+    std::int64_t id = 0;  // in the history; 0: not in it yet
+    bool deleted = false;
+  };
+  using PersonPtr = std::shared_ptr<Person>;  // shared by all pending writes of one learner
+
+  struct PendingRun {
+    PersonPtr owner;
+    std::string settings;
+    std::int64_t at = 0;  // [s] since 1970
+    RunRow row;
+    std::size_t shifts = 0;  // number of shifts already written
+    bool over = false, written = false;
+  };
+  struct PendingComment {
+    PersonPtr owner;
+    std::int64_t run = 0;
+    std::int64_t at = 0;  // [s] since 1970
+    CommentRow row;       // id < 0: a new comment; else the new content of an existing one
+    bool deleted = false, written = false;
+  };
+  struct PendingChoice {
+    PersonPtr owner;
+    std::int64_t at = 0;  // [s] since 1970
+    std::string lesson;
+    bool written = false;
+  };
+  struct PendingRemoval {  // removes the recording from a saved run
+    PersonPtr owner;
+    std::int64_t at = 0;  // [s] since 1970
+    std::int64_t run = 0;
+    bool written = false;
+  };
+  struct DrivingSession {
+    PersonPtr owner;
+    std::int64_t id = 0;
+    std::optional<std::string> settings;  // last settings written
+  };
+
+  static constexpr const char* kWaitsForRoom = "; results are kept in memory until there is space";
+
+  void open(std::chrono::milliseconds lock_timeout);
+  void report(const std::string& problem);
+  std::chrono::milliseconds current_lock_timeout() const;
+  template <class Work>
+  bool read(const Work& work);  // false: failed, or no history
+  template <class Work>
+  WriteResult try_write(Person& owner, std::int64_t at, const Work& work);
+  PersonPtr find_or_add_person(const std::string& name);
+  void load();
+  bool drop_deleted();
+  bool drop_pending_of(const PersonPtr& gone);
+  bool waits_for_history(const Person& owner) const noexcept;
+  bool is_waiting(const PendingRun& run) const noexcept;
+  bool is_waiting(const PendingComment& comment) const noexcept;
+  bool is_waiting(const PendingChoice& next) const noexcept;
+  bool is_waiting(const PendingRemoval& loss) const noexcept;
+  bool has_pending() const noexcept;
+  std::string describe_pending() const;
+  void write_now();
+  bool write_pending(Moment until);
+  WriteResult write(PendingRun& run);
+  WriteResult write(PendingComment& comment);
+  WriteResult write(PendingChoice& next);
+  WriteResult write(PendingRemoval& loss);
+  PendingComment* find_pending_comment(std::int64_t comment) noexcept;
+  void begin(PendingRun& run);
+  void renumber(PendingRun& run, std::int64_t number);
+  std::int64_t session_for(const PendingRun& run);
+  std::int64_t id_for(Person& person);
+
+  static constexpr std::chrono::milliseconds kNoWait{0};  // when the file is known to be locked
+
+  std::filesystem::path file_;
+  std::string program_;
+  Clock now_;
+  std::chrono::milliseconds patience_;
+  std::optional<Moment> flush_deadline_;
+  std::optional<std::int64_t> write_time_;  // [s] since 1970: date of the current write; empty: now
+  std::unique_ptr<History> history_;
+  bool is_usable_ = true;                             // the last write succeeded
+  bool is_locked_ = false, is_read_blocked_ = false;  // by another program, at the last attempt
+  bool is_disk_full_ = false;                         // at the last attempt
+  bool flush_failed_ = false;                         // the last flush failed and nothing was added since
+  std::string reported_, reason_;                     // last reported problem; last reason why a write is pending
+  std::string loss_message_;                          // last message about unsaved data
+  std::string waiting_message_;                       // last message about pending writes
+  std::optional<std::string> problem_;
+
+  PersonPtr person_ = std::make_shared<Person>();  // the current learner
+  std::vector<PersonPtr> people_;                  // all learners selected so far, without deleted ones
+  std::string next_;
+  std::vector<RunRow> runs_;
+  std::optional<std::int64_t> changes_;  // History::changes() at the last read; empty: not read
+  std::optional<DrivingSession> session_;
+
+  // Not yet saved in the history.
+  std::vector<PendingRun> pending_runs_;  // in driving order; the last one may still be running
+  std::vector<PendingComment> pending_comments_;
+  std::vector<PendingChoice> pending_choices_;  // at most one per learner
+  std::vector<PendingRemoval> pending_removals_;
+  std::vector<std::string> unreferenced_recordings_;
+  bool in_run_ = false;
+  std::int64_t last_run_ = 0;       // number of the last run
+  std::int64_t last_local_id_ = 0;  // last temporary (negative) number
+  Moment next_try_{};
+};
+
+}  // namespace gearshift::lessons

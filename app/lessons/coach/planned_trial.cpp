@@ -1,0 +1,38 @@
+#include "app/lessons/coach/planned_trial.h"
+
+#include <optional>
+#include <string>
+
+#include "app/lessons/assessment/grade.h"
+#include "haptics/files/fnv_1a.h"
+
+namespace gearshift::lessons {
+namespace {
+
+// Learners are told apart by name, so it also works without a history; names contain no zero byte.
+std::uint64_t seed_of(std::string_view learner, std::string_view lesson) {
+  return haptics::fnv_1a(std::string(learner) + '\0' + std::string(lesson));
+}
+
+bool is_after_pause(const std::optional<std::int64_t>& last, std::int64_t now) {
+  return last && now - *last >= kRetentionPause;
+}
+
+}  // namespace
+
+PlannedTrial plan_trial(std::string_view learner, std::string_view lesson, std::span<const RunRow> runs,
+                        std::int64_t now) {
+  GuidancePolicy policy(seed_of(learner, lesson));
+  std::optional<std::int64_t> last;
+  for (const RunRow& run : runs) {
+    // A run that ended early is planned again unchanged
+    if (run.result.lesson != lesson || !was_completed(run)) continue;
+    (void)policy.next();
+    policy.learn(run_error(run.result));
+    last = parse_utc(run.begun_at);
+  }
+  if (is_after_pause(last, now)) return {policy.retention(), true};
+  return {policy.next(), false};
+}
+
+}  // namespace gearshift::lessons

@@ -1,0 +1,63 @@
+#include "app/lessons/history/history.h"
+
+#include <sqlite3.h>
+
+#include <filesystem>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "app/lessons/history/history_state.h"
+
+namespace gearshift::lessons {
+
+History::History(const std::filesystem::path& file, Clock now, std::chrono::milliseconds lock_timeout, HistoryUse use)
+    : state_(std::make_unique<State>(file, std::move(now), lock_timeout)) {
+  try {
+    use == HistoryUse::write ? state_->open() : state_->open_copy();
+  } catch (const HistoryFull&) {
+    std::error_code none;
+    const bool is_new = std::filesystem::file_size(file, none) == 0 || none;
+    throw HistoryFull(fmt::format("{}: the disk is full: the history cannot be {}", file.string(),
+                                  is_new ? "made" : "opened; its content is unchanged"));
+  }
+}
+
+History::~History() = default;
+
+void History::set_lock_timeout(std::chrono::milliseconds lock_timeout) {
+  sqlite3_busy_timeout(state_->database->getHandle(), static_cast<int>(lock_timeout.count()));
+}
+
+const std::filesystem::path& History::file() const noexcept {
+  return state_->file;
+}
+
+std::int64_t History::changes() {
+  return state_->translating_errors([&] { return state_->database->execAndGet("PRAGMA data_version").getInt64(); });
+}
+
+void History::State::fail(const SQLite::Exception& problem) const {
+  sqlite3* const handle = database ? database->getHandle() : nullptr;
+  if (is_missing_parent(problem)) fail_as_deleted();
+  if (is_full(problem, handle))
+    throw HistoryFull(fmt::format("{}: the disk is full: not saved; earlier results are kept", file.string()));
+  const std::string sentence = unusable(reason_of(problem, handle));
+  if (is_busy(problem)) throw HistoryBusy(sentence);
+  throw HistoryError(sentence);
+}
+
+void History::State::refuse(const std::string& why) const {
+  throw HistoryError(unusable(why));
+}
+
+void History::State::fail_as_deleted() const {
+  throw HistoryDeleted(unusable(kDeleted));
+}
+
+std::string History::State::unusable(const std::string& why) const {
+  return fmt::format("{}: the history cannot be used: {}", file.string(), why);
+}
+
+}  // namespace gearshift::lessons

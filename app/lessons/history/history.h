@@ -1,0 +1,143 @@
+// The history of learners in one SQLite file, by default history.db in the user's data folder.
+//
+// Every writing call is one transaction: a killed process loses only the shift in progress. Two programs may use one
+// file at once. A file that cannot be used is left unchanged and the caller continues without a history. Use from one
+// thread.
+#pragma once
+
+#include <chrono>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <stdexcept>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/lessons/assessment/lesson_result.h"
+#include "app/lessons/history/user_text.h"
+#include "app/lessons/history/utc_time.h"
+
+namespace gearshift::lessons {
+
+// One sentence that names the file and the reason: damaged, from a newer program, read-only, disk full, ...
+struct HistoryError : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+struct HistoryBusy : HistoryError {  // another program has locked the file, perhaps only for a moment
+  using HistoryError::HistoryError;
+};
+struct HistoryDeleted : HistoryError {  // the learner was erased, so the call can never succeed
+  using HistoryError::HistoryError;
+};
+struct HistoryFull : HistoryError {  // disk full: nothing of this call was written, earlier data is kept
+  using HistoryError::HistoryError;
+};
+
+struct LearnerRow {
+  std::int64_t id = 0;
+  std::string name;
+  std::string made_at;      // ISO 8601, UTC
+  std::string next_lesson;  // chosen by the instructor; empty: as suggested
+};
+
+struct RunRow {
+  std::int64_t id = 0;
+  std::int64_t session = 0;
+  std::string begun_at;   // ISO 8601, UTC
+  std::string recording;  // trace file: relative to the history's folder if below it, else absolute; or empty
+  LessonResult result;    // with faults, deductions and shifts; all figures are finite even in a damaged file
+};
+
+// True if the run was driven to its end, whatever the result: runs ended early or never ended count neither as practice
+// nor as a test.
+inline bool was_completed(const RunRow& run) noexcept {
+  return run.result.end != LessonEnd::running && run.result.end != LessonEnd::left;
+}
+
+struct CommentRow {
+  std::string at;  // ISO 8601, UTC
+  std::string author, text;
+  std::int64_t id = 0;
+  std::string edited_at{};  // ISO 8601, UTC; empty: never edited
+};
+
+using RecordingRemover = std::function<void(const std::vector<std::string>&)>;  // must not throw
+
+// How long to wait for another program that is writing
+inline constexpr std::chrono::milliseconds kHistoryLockTimeout{3000};
+
+enum class HistoryUse {
+  write,  // creates a missing file and migrates an older one
+  // Works on a copy in memory of the current state: neither file nor folder needs write permission; writing calls throw
+  // HistoryError
+  read
+};
+
+class History {
+ public:
+  // Opens the file, or creates it and its folder; `now` dates what is written. Like every other call, throws
+  // HistoryError, or HistoryBusy if the file stayed locked for longer than lock_timeout.
+  explicit History(const std::filesystem::path& file, Clock now = system_seconds,
+                   std::chrono::milliseconds lock_timeout = kHistoryLockTimeout, HistoryUse use = HistoryUse::write);
+  ~History();
+  History(const History&) = delete;
+  History& operator=(const History&) = delete;
+
+  void set_lock_timeout(std::chrono::milliseconds lock_timeout);  // for each call; 0: do not wait
+
+  // Finds or adds the learner and returns the number. Throws std::invalid_argument for an invalid name.
+  std::int64_t find_or_add_learner(std::string_view name);
+  std::optional<LearnerRow> find_learner(std::string_view name);
+  std::vector<LearnerRow> learners();
+  void set_next_lesson(std::int64_t learner, std::string_view lesson);  // empty: as suggested
+
+  std::int64_t begin_session(std::int64_t learner, std::string_view program);
+  // Adds the settings used from now on: gate, car and preset as text.
+  void add_settings(std::int64_t session, std::string_view text);
+
+  // Stores what is known so far: lesson, task, mode, guided. A recording below the history's folder is stored with its
+  // relative path, so that both can be moved or copied together.
+  std::int64_t begin_run(std::int64_t session, const LessonResult& result, std::string_view recording);
+  void add_shift(std::int64_t run, const ShiftRecord& shift);
+  // Stores the final result; adds shifts that add_shift() has not seen.
+  void end_run(std::int64_t run, const LessonResult& result);
+  void clear_recording(std::int64_t run);  // the run has no recording any more
+
+  // For the instructor. Throw std::invalid_argument for an invalid name or comment (user_text.h). Return false if the
+  // comment does not exist (any more).
+  std::int64_t add_comment(std::int64_t run, std::string_view author, std::string_view text);  // returns its number
+  bool edit_comment(std::int64_t comment, std::string_view text);  // only the newest text is kept
+  bool delete_comment(std::int64_t comment);
+
+  std::vector<RunRow> runs(std::int64_t learner);  // oldest first
+  std::vector<CommentRow> comments(std::int64_t run);
+  std::vector<std::string> settings(std::int64_t session);
+
+  // Absolute path of RunRow::recording; empty stays empty.
+  std::filesystem::path recording_file(std::string_view recording) const;
+  // Recordings of this learner's runs that no other learner's run references, as stored.
+  std::vector<std::string> recordings(std::int64_t learner);
+
+  // A different number than before means that another program, or another History, has written since.
+  std::int64_t changes();
+
+  // Deletes the learner's rows and, through `remove`, the recordings that no one else references, in one transaction:
+  // if killed within it, the learner can be erased again. Returns empty once all of it is erased from the file and its
+  // log. Otherwise returns in one sentence what prevents that; the erasure is then pending until finish_erasure()
+  // succeeds, which returns the same.
+  [[nodiscard]] std::string erase_learner(std::int64_t learner, const RecordingRemover& remove);
+  bool erasure_is_pending();
+  [[nodiscard]] std::string finish_erasure();
+
+  const std::filesystem::path& file() const noexcept;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace gearshift::lessons

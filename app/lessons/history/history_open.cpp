@@ -1,0 +1,212 @@
+#include <SQLiteCpp/Backup.h>
+#include <sqlite3.h>
+#include <unistd.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "app/lessons/history/history_state.h"
+#include "app/lessons/history/schema.h"
+
+namespace gearshift::lessons {
+namespace {
+
+namespace fs = std::filesystem;
+using std::chrono::milliseconds;
+
+constexpr milliseconds kRetryInterval{10};
+
+// Keeps a killed program's log at close, so that a rejected file stays unchanged to the byte.
+void keep_log_at_close(SQLite::Database& database, bool on) {
+  sqlite3_db_config(database.getHandle(), SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, on ? 1 : 0, nullptr);
+}
+
+bool has_content(const fs::path& file) {
+  std::error_code ignored;
+  const std::uintmax_t size = fs::file_size(file, ignored);
+  return !ignored && size > 0;
+}
+
+// True if the log's index cannot be created: no permission or no space. If the disk itself does not respond, the second
+// attempt fails with the same error.
+bool lacks_index(const SQLite::Exception& problem) {
+  const int code = primary_code(problem);
+  return code == SQLITE_CANTOPEN || code == SQLITE_READONLY || code == SQLITE_IOERR;
+}
+
+// Checks write permission of the current user. Without it SQLite would open the file for reading and leave a log that
+// no one may write.
+bool may_be_written(const fs::path& file) {
+  return euidaccess(file.c_str(), W_OK) == 0;
+}
+
+bool is_there(const fs::path& file) {
+  std::error_code ignored;
+  return fs::exists(file, ignored);
+}
+
+using FileStamp = std::pair<fs::file_time_type, std::uintmax_t>;  // modification time and size
+
+FileStamp stamp_of(const fs::path& file) {
+  std::error_code ignored;
+  return {fs::last_write_time(file, ignored), fs::file_size(file, ignored)};
+}
+
+// sqlite.org/uri.html, section 3.1
+std::string immutable_uri(const std::string& absolute) {
+  std::string uri = "file:";
+  for (const char c : absolute) {
+    const bool has_meaning = c == '?' || c == '#' || c == '%';
+    uri += has_meaning ? fmt::format("%{:02X}", static_cast<unsigned char>(c)) : std::string(1, c);
+  }
+  return uri + "?immutable=1";
+}
+
+}  // namespace
+
+void History::State::open() {
+  std::error_code problem;
+  if (file.has_parent_path()) fs::create_directories(file.parent_path(), problem);
+  if (problem == std::errc::no_space_on_device) throw HistoryFull(problem.message());
+  if (problem) refuse(fmt::format("its folder cannot be created: {}", problem.message()));
+  const std::string from = absolute_path();
+  check_may_be_written(from);
+  const bool has_log = is_there(from + "-wal");
+  translating_errors([&] {
+    database = std::make_unique<SQLite::Database>(from, SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE,
+                                                  static_cast<int>(lock_timeout.count()));
+    if (has_log) keep_log_at_close(*database, true);
+    const int version = checked_version();
+    if (version != kSchemaVersion) migrate();
+    enable_write_ahead_log();
+    keep_log_at_close(*database, false);
+    database->exec("PRAGMA foreign_keys = ON");
+    database->exec("PRAGMA secure_delete = ON");
+  });
+}
+
+// A log left by a program without write permission blocks all writers, so it is named in the error, to be removed.
+void History::State::check_may_be_written(const std::string& from) const {
+  if (is_there(from) && !may_be_written(from)) refuse("no permission to write it");
+  for (const char* beside : {"-wal", "-shm"}) {
+    if (is_there(from + beside) && !may_be_written(from + beside))
+      refuse(fmt::format("no permission to write {}{} beside it", file.filename().string(), beside));
+  }
+}
+
+// Writes nothing and blocks no writer; an older version is migrated only in memory.
+void History::State::open_copy() {
+  const std::string from = absolute_path();
+  translating_errors([&] {
+    database = std::make_unique<SQLite::Database>(":memory:", SQLite::OPEN_READWRITE | SQLite::OPEN_CREATE);
+    try {
+      copy_locked(from);
+    } catch (const SQLite::Exception& problem) {
+      if (!lacks_index(problem)) throw;
+      copy_immutable(from);
+    }
+    if (checked_version() != kSchemaVersion) migrate();
+    database->exec("PRAGMA query_only = ON");
+  });
+}
+
+// Copies the file with its log, if there is one. For a file without write permission no log is created: a log made by
+// such a reader could not be written by anyone else either.
+void History::State::copy_locked(const std::string& from) {
+  const bool has_log = is_there(from + "-wal");
+  if (is_there(from) && !may_be_written(from) && !(has_log && is_there(from + "-shm"))) return copy_immutable(from);
+  SQLite::Database source(from, SQLite::OPEN_READWRITE, static_cast<int>(lock_timeout.count()));
+  if (has_log) keep_log_at_close(source, true);
+  copy_from(source);
+}
+
+// Even a reader writes to the log's index. If the index cannot be created, the file is opened as immutable
+// (sqlite.org/wal.html, "Read-Only Databases"). So it must have no log and be unchanged afterwards.
+void History::State::copy_immutable(const std::string& from) {
+  if (has_content(from + "-wal"))
+    refuse("it has a write-ahead log, which only a program with write permission in that folder can read");
+  const FileStamp before = stamp_of(from);
+  SQLite::Database source(immutable_uri(from), SQLite::OPEN_READONLY | SQLite::OPEN_URI);
+  copy_from(source);
+  if (stamp_of(from) != before || has_content(from + "-wal"))
+    throw HistoryBusy(unusable("another program is writing it"));
+}
+
+void History::State::copy_from(SQLite::Database& source) {
+  SQLite::Backup backup(*database, source);
+  const int result = backup.executeStep();
+  if (result != SQLITE_DONE) throw SQLite::Exception("another program has locked it", result);
+}
+
+// Returns an absolute path, because "file:x" and ":memory:" are valid file names, too.
+std::string History::State::absolute_path() const {
+  std::error_code problem;
+  std::string absolute = fs::absolute(file, problem).string();
+  if (problem) refuse(fmt::format("it cannot be found: {}", problem.message()));
+  if (fs::is_directory(absolute, problem)) refuse("it cannot be read: it is a folder");
+  if (is_there(absolute) && !fs::is_regular_file(absolute, problem)) refuse("it is not a regular file");
+  return absolute;
+}
+
+// Checks in one transaction, because another program may be creating the file at this moment.
+int History::State::checked_version() {
+  SQLite::Transaction look(*database);
+  const int version = version_in_file();
+  if (database->execAndGet("PRAGMA quick_check(1)").getString() != "ok") refuse("it is damaged; left unchanged");
+  return version;
+}
+
+// Returns 0 for an empty file without an owner. Rejects files of other programs.
+int History::State::version_in_file() {
+  const int application = database->execAndGet("PRAGMA application_id").getInt();
+  const int version = database->execAndGet("PRAGMA user_version").getInt();
+  const bool is_empty = database->execAndGet("SELECT count(*) FROM sqlite_master").getInt() == 0;
+  const bool is_ours = application == kApplicationId;
+  if (is_ours && version > kSchemaVersion) refuse("it was made by a newer program; left unchanged");
+  const bool is_new = is_empty && version == 0 && (is_ours || application == 0);
+  if (!is_new && (is_empty || !is_ours || version < 1)) refuse("it is not a history of this program; left unchanged");
+  return version;
+}
+
+void History::State::migrate() {
+  SQLite::Transaction transaction(*database, SQLite::TransactionBehavior::IMMEDIATE);
+  // Another program may have migrated it in the meantime.
+  for (int from = version_in_file(); from < kSchemaVersion; ++from) {
+    database->exec(kMigrations[static_cast<std::size_t>(from)]);
+    if (from + 1 == kRelativeRecordingsVersion) make_recordings_relative();
+    database->exec(fmt::format("PRAGMA user_version = {}", from + 1));
+  }
+  database->exec(fmt::format("PRAGMA application_id = {}", kApplicationId));
+  transaction.commit();
+}
+
+// A deleted file accepts all writes, but no one could ever read them.
+void History::State::check_still_current() {
+  int has_moved = 0;
+  sqlite3_file_control(database->getHandle(), "main", SQLITE_FCNTL_HAS_MOVED, &has_moved);
+  if (has_moved != 0) refuse("it was removed or replaced");
+  const int version = database->execAndGet("PRAGMA user_version").getInt();
+  if (version > kSchemaVersion) refuse("a newer program has upgraded it; left unchanged");
+  if (version != kSchemaVersion) refuse("another program has changed its version; left unchanged");
+}
+
+// Switching to a write-ahead log needs exclusive access for a moment, and SQLite does not wait for that by itself.
+void History::State::enable_write_ahead_log() {
+  for (milliseconds waited{0};; waited += kRetryInterval) {
+    try {
+      database->exec("PRAGMA journal_mode = WAL");
+      break;
+    } catch (const SQLite::Exception& problem) {
+      if (!is_busy(problem) || waited >= lock_timeout) throw;
+      sqlite3_sleep(static_cast<int>(kRetryInterval.count()));
+    }
+  }
+  // A killed process loses nothing; a power failure loses the last seconds
+  database->exec("PRAGMA synchronous = NORMAL");
+}
+
+}  // namespace gearshift::lessons

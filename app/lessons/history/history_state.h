@@ -1,0 +1,84 @@
+// Private to this folder: state shared by the parts of History. SQLite is not visible outside.
+#pragma once
+
+#include <SQLiteCpp/SQLiteCpp.h>
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <type_traits>
+#include <utility>
+
+#include "app/lessons/history/history.h"
+#include "app/lessons/history/sqlite_errors.h"
+
+namespace gearshift::lessons {
+
+struct History::State {
+  State(const std::filesystem::path& path, Clock clock, std::chrono::milliseconds a_patience)
+      : file(path), now(std::move(clock)), lock_timeout(a_patience) {}
+
+  // history_open.cpp
+  void open();       // for writing; creates a missing file
+  void open_copy();  // for reading: copies whatever is readable into memory
+
+  // history_write.cpp
+  void insert_shift(std::int64_t run, const ShiftRecord& shift);
+  void replace_faults(std::int64_t run, const LessonResult& result);
+
+  // recording_path.cpp
+  std::string relative_recording(const std::string& recording) const;  // as stored in a row
+
+  std::string date() const { return format_utc(now()); }
+  SQLite::Statement query(const std::string& text) { return {*database, text}; }
+
+  // Runs `work` in one transaction and translates errors to one sentence. Fails if the file is no longer the one that
+  // was opened.
+  template <class Work>
+  auto write(const Work& work) {
+    return translating_errors([&] {
+      SQLite::Transaction transaction(*database, SQLite::TransactionBehavior::IMMEDIATE);
+      check_still_current();
+      if constexpr (std::is_void_v<decltype(work())>) {
+        work();
+        transaction.commit();
+      } else {
+        auto result = work();
+        transaction.commit();
+        return result;
+      }
+    });
+  }
+  template <class Work>
+  auto translating_errors(const Work& work) -> decltype(work()) {
+    try {
+      return work();
+    } catch (const SQLite::Exception& problem) {
+      fail(problem);
+    }
+  }
+  std::string unusable(const std::string& why) const;
+  [[noreturn]] void fail(const SQLite::Exception& problem) const;
+  [[noreturn]] void refuse(const std::string& why) const;
+  [[noreturn]] void fail_as_deleted() const;  // the learner, run or comment it belongs to was deleted
+
+  std::filesystem::path file;
+  Clock now;
+  std::chrono::milliseconds lock_timeout;
+  std::unique_ptr<SQLite::Database> database;
+
+ private:
+  std::string absolute_path() const;
+  void check_still_current();
+  void check_may_be_written(const std::string& from) const;
+  void make_recordings_relative();
+  int checked_version();
+  int version_in_file();
+  void migrate();
+  void enable_write_ahead_log();
+  void copy_locked(const std::string& from);
+  void copy_immutable(const std::string& from);
+  void copy_from(SQLite::Database& source);
+};
+
+}  // namespace gearshift::lessons

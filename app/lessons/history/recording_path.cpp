@@ -1,0 +1,68 @@
+// Recordings are stored relative to the history's folder, so that both can be moved or copied together.
+#include <algorithm>
+#include <filesystem>
+#include <iterator>
+#include <system_error>
+
+#include "app/lessons/history/history_state.h"
+#include "haptics/files/resolve_path.h"
+
+namespace gearshift::lessons {
+namespace {
+
+namespace fs = std::filesystem;
+
+// Relative path of the file, or empty if it is not below the folder. Both must be absolute; only their components are
+// compared.
+fs::path path_below(const fs::path& folder, const fs::path& file) {
+  const auto [in_folder, in_file] = std::mismatch(folder.begin(), folder.end(), file.begin(), file.end());
+  const bool ends_with_slash = in_folder != folder.end() && in_folder->empty() && std::next(in_folder) == folder.end();
+  if (in_folder != folder.end() && !ends_with_slash) return {};
+  fs::path relative;
+  for (auto part = in_file; part != file.end(); ++part) {
+    if (*part == "..") return {};
+    relative /= *part;
+  }
+  return relative;
+}
+
+fs::path without_links(const fs::path& path) {
+  std::error_code problem;
+  const fs::path real = fs::weakly_canonical(path, problem);
+  return problem ? path : real;
+}
+
+fs::path folder_of(const fs::path& history) {
+  return haptics::make_absolute(history).parent_path();
+}
+
+}  // namespace
+
+// Compares the paths as given first, so that a link within the folder moves with it; then with links resolved.
+std::string History::State::relative_recording(const std::string& recording) const {
+  const fs::path trace(recording), folder = folder_of(file);
+  if (!trace.is_absolute()) return recording;
+  fs::path relative = path_below(folder, trace);
+  if (relative.empty()) relative = path_below(without_links(folder), without_links(trace));
+  return relative.empty() ? recording : relative.string();
+}
+
+// Runs within the transaction of the migration.
+void History::State::make_recordings_relative() {
+  SQLite::Statement rows = query("SELECT DISTINCT recording FROM lesson_run WHERE recording LIKE '/%'");
+  std::vector<std::string> recordings;
+  while (rows.executeStep()) recordings.push_back(rows.getColumn(0).getString());
+  SQLite::Statement update = query("UPDATE lesson_run SET recording = ? WHERE recording = ?");
+  for (const std::string& recording : recordings) {
+    update.bind(1, relative_recording(recording));
+    update.bind(2, recording);
+    update.exec();
+    update.reset();
+  }
+}
+
+fs::path History::recording_file(std::string_view recording) const {
+  return recording.empty() ? fs::path() : folder_of(file()) / recording;  // an absolute path replaces the folder
+}
+
+}  // namespace gearshift::lessons

@@ -1,0 +1,61 @@
+#include "app/lessons/history/sqlite_errors.h"
+
+#include <sqlite3.h>
+
+#include <cerrno>
+
+namespace gearshift::lessons {
+namespace {
+
+// Errors of a backup carry their code as the primary one.
+int extended_code(const SQLite::Exception& problem) noexcept {
+  return problem.getExtendedErrorCode() >= 0 ? problem.getExtendedErrorCode() : problem.getErrorCode();
+}
+
+}  // namespace
+
+int primary_code(const SQLite::Exception& problem) noexcept {
+  return problem.getErrorCode() & 0xff;
+}
+
+bool is_missing_parent(const SQLite::Exception& problem) noexcept {
+  return extended_code(problem) == SQLITE_CONSTRAINT_FOREIGNKEY;
+}
+
+bool is_busy(const SQLite::Exception& problem) noexcept {
+  return primary_code(problem) == SQLITE_BUSY || primary_code(problem) == SQLITE_LOCKED;
+}
+
+// SQLite reports a full disk only for the file: growing the log's index fails with another code, and an exceeded quota
+// with another errno.
+bool is_full(const SQLite::Exception& problem, sqlite3* database) noexcept {
+  if (primary_code(problem) == SQLITE_FULL || extended_code(problem) == SQLITE_IOERR_SHMSIZE) return true;
+  if (primary_code(problem) != SQLITE_IOERR || database == nullptr) return false;
+  const int reason = sqlite3_system_errno(database);
+  return reason == ENOSPC || reason == EDQUOT;
+}
+
+std::string reason_of(const SQLite::Exception& problem, sqlite3* database) {
+  if (is_missing_parent(problem)) return kDeleted;
+  if (is_full(problem, database)) return "the disk is full";
+  switch (primary_code(problem)) {
+    case SQLITE_NOTADB:
+      return "it is not a history of this program; left unchanged";
+    case SQLITE_CORRUPT:
+      return "it is damaged; left unchanged";
+    case SQLITE_READONLY:
+    case SQLITE_PERM:
+      return "it is read-only";
+    case SQLITE_BUSY:
+    case SQLITE_LOCKED:
+      return "another program has locked it";
+    case SQLITE_CANTOPEN:
+      return "it cannot be opened";
+    case SQLITE_IOERR:
+      return "the disk does not respond";
+    default:
+      return problem.what();
+  }
+}
+
+}  // namespace gearshift::lessons

@@ -1,0 +1,30 @@
+// Loads a recorded drive on its own thread: an hour of driving takes many seconds to read.
+#pragma once
+
+#include <filesystem>
+#include <future>
+#include <thread>
+
+#include "app/lessons/replay/player.h"
+
+namespace gearshift::lessons {
+
+class DriveLoader {
+ public:
+  explicit DriveLoader(const std::filesystem::path& file);
+  ~DriveLoader() = default;  // stops reading within milliseconds
+  DriveLoader(const DriveLoader&) = delete;
+  DriveLoader& operator=(const DriveLoader&) = delete;
+
+  const std::filesystem::path& file() const noexcept { return file_; }
+  bool is_over() const;  // loaded or failed
+  Player take();         // call once; waits until it is over. Throws FileError like Player
+
+ private:
+  std::filesystem::path file_;
+  std::promise<Player> promise_;
+  std::future<Player> player_;
+  std::jthread thread_;  // declared last, so that it ends before the members it uses
+};
+
+}  // namespace gearshift::lessons

@@ -1,0 +1,88 @@
+#include "app/lessons/replay/drive_reader.h"
+
+#include <cmath>
+#include <utility>
+
+#include "app/vehicle/lesson_load.h"
+#include "haptics/files/file_error.h"
+#include "haptics/loop/trace_fields.h"
+
+namespace gearshift::lessons {
+namespace {
+
+const vehicle::CarLoad* car_in(const haptics::LeverLoad* load) noexcept {
+  if (const auto* lesson = dynamic_cast<const vehicle::LessonLoad*>(load)) return &lesson->car();
+  return dynamic_cast<const vehicle::CarLoad*>(load);
+}
+
+constexpr double kMaxMagnitude = 1e9;  // in any unit: its square must fit the floats of a picture [engineering value]
+
+// A device may read anything, but the loop's outputs and the driver's controls must be plausible numbers.
+template <class T>
+bool is_plausible(const T& value) noexcept {
+  if constexpr (std::is_same_v<T, double>) {
+    return std::abs(value) <= kMaxMagnitude;  // false for NaN
+  } else {
+    bool all = true;
+    if constexpr (!haptics::LeafField<T>)
+      haptics::each_field(value, [&](const char*, const auto& member) { all = all && is_plausible(member); });
+    return all;
+  }
+}
+
+// Copies what the recording itself contains about the car.
+void apply_recorded(const haptics::TraceSample& sample, vehicle::VehicleState& car) noexcept {
+  car.throttle = sample.controls.throttle;
+  car.brake = sample.controls.brake;
+  car.clutch = sample.controls.clutch;
+  car.hand_brake = sample.controls.hand_brake;
+  car.ignition = sample.controls.ignition;
+  car.slope = sample.controls.slope;
+  car.gear = sample.out.gear;
+  car.road_speed = sample.out.road_speed;
+}
+
+}  // namespace
+
+DriveReader::DriveReader(const std::filesystem::path& file, std::uint64_t max_cycles)
+    : name_(file.string()),
+      reader_(file, haptics::TornTrace::salvage),
+      max_cycles_(max_cycles),
+      replayer_(reader_.header(), file.string(),
+                [this](const std::string& name, const haptics::Gate& gate) { return make_load(name, gate); }) {}
+
+// The replayer owns the load, and its address does not change.
+std::unique_ptr<haptics::LeverLoad> DriveReader::make_load(const std::string& name, const haptics::Gate& gate) {
+  gate_ = gate;
+  if (std::unique_ptr<haptics::LeverLoad> nothing = haptics::make_no_load(name, gate)) return nothing;
+  std::unique_ptr<haptics::LeverLoad> load = vehicle::make_lesson_load(name, gate);
+  car_ = car_in(load.get());
+  return load;
+}
+
+void DriveReader::check(const haptics::TraceSample& sample) const {
+  if (is_plausible(sample.out) && is_plausible(sample.controls)) return;
+  throw haptics::FileError(name_, 0,
+                           "is damaged: cycle " + std::to_string(sample.out.cycle) + " holds an impossible number");
+}
+
+bool DriveReader::next(vehicle::DriveSample& sample) {
+  haptics::TraceSample recorded;
+  do {
+    if (cycles_read_ == max_cycles_ || !reader_.next(recorded)) return false;
+    ++cycles_read_;
+    check(recorded);
+    if (!has_diverged_) has_diverged_ = !replayer_.step(recorded);
+  } while (last_ns_ && recorded.out.time_ns <= *last_ns_);
+  last_ns_ = recorded.out.time_ns;
+  if (car_ && !has_diverged_)
+    state_ = car_->state();
+  else
+    apply_recorded(recorded, state_);
+  sample.lever = recorded.out;
+  sample.car = state_;
+  sample.controls = recorded.controls;
+  return true;
+}
+
+}  // namespace gearshift::lessons

@@ -1,0 +1,43 @@
+// Collects the path of the displayed lever in a shift and computes the shortest possible one.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "app/lessons/assessment/shift_record.h"
+#include "haptics/gate/gate.h"
+
+namespace gearshift::lessons {
+
+struct ShiftPaths {
+  // [m] from the old gear (from neutral: from its first movement) to the new one, or to the shift's end if none engaged
+  std::vector<glm::dvec2> driven;
+  std::vector<glm::dvec2> ideal;  // [m] shortest path between the ends of `driven`, see shortest_path()
+};
+
+// Takes every cycle of a shift and stores chords, so the ends of a path are accurate to one chord length.
+class LeverPath {
+ public:
+  void clear();                             // starts the next shift
+  void add(double time, glm::dvec2 place);  // [s] on the loop's clock, increasing; [m] of the displayed lever
+  // Empty paths if nothing was added. gate: the one that the shift was driven in.
+  ShiftPaths paths(const ShiftRecord& shift, const haptics::Gate& gate) const;
+
+  static constexpr double kChord = 5e-4;  // [m]; doubles when a path would exceed kMaxPoints
+  static constexpr std::size_t kMaxPoints = 4096;
+
+ private:
+  struct Point {
+    double time;
+    glm::dvec2 place;
+  };
+
+  void coarsen();
+
+  double chord_ = kChord;
+  std::vector<Point> points_;
+};
+
+}  // namespace gearshift::lessons

@@ -1,0 +1,61 @@
+// A complete recorded drive: the trace, and from a second simulation what no trace contains, the car and its shifts.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <stop_token>
+#include <vector>
+
+#include <glm/vec2.hpp>
+
+#include "app/lessons/assessment/shift_record.h"
+#include "app/vehicle/drive_sample.h"
+#include "haptics/gate/gate.h"
+#include "haptics/loop/trace_reader.h"
+
+namespace gearshift::lessons {
+
+struct RecordedShift {
+  ShiftRecord record;
+  std::vector<glm::dvec2> driven;  // [m] path of the displayed lever, from the old gear to the new one
+  std::vector<glm::dvec2> ideal;   // [m] shortest path between its ends, see shortest_path(); one point per corner
+};
+
+class RecordedDrive {
+ public:
+  // Reads the intact part of a torn trace. Keeps samples 4 ms apart, or further if kMaxSamples requires; always keeps
+  // the last cycle. Throws FileError: missing or damaged file, rejected car or gate, or stopped. If the second
+  // simulation diverges from the recording, has_diverged() is true, the recorded values are used and no shifts are
+  // found from there on.
+  explicit RecordedDrive(const std::filesystem::path& file, const std::stop_token& stop = {});
+
+  const haptics::TraceHeader& header() const noexcept { return header_; }
+  const haptics::Gate& gate() const noexcept { return gate_; }
+  bool has_car() const noexcept { return has_car_; }
+  const std::string& car_name() const noexcept { return car_name_; }  // CarSpec::name; empty: no car
+  bool has_diverged() const noexcept { return has_diverged_; }
+  double begin() const noexcept { return samples_.front().time(); }                    // [s] on the loop's clock
+  double end() const noexcept { return samples_.back().time(); }                       // [s]
+  std::span<const vehicle::DriveSample> samples() const noexcept { return samples_; }  // at least one; times increase
+  const vehicle::DriveSample& at(
+      double time) const noexcept;  // the last sample not after `time`, else the first sample
+  std::span<const vehicle::DriveSample> between(double from, double to) const noexcept;  // from < time <= to
+  const std::vector<RecordedShift>& shifts() const noexcept { return shifts_; }  // in order; empty without a car
+
+  static constexpr std::size_t kMaxSamples = 150'000;
+  // Keeps one cycle in so many, for a drive of that many cycles at that rate [Hz].
+  static std::uint64_t stride(double rate, std::uint64_t cycles) noexcept;
+
+ private:
+  haptics::TraceHeader header_;
+  haptics::Gate gate_;
+  std::vector<vehicle::DriveSample> samples_;
+  std::vector<RecordedShift> shifts_;
+  std::string car_name_;
+  bool has_car_ = false;
+  bool has_diverged_ = false;
+};
+
+}  // namespace gearshift::lessons

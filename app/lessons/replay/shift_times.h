@@ -1,0 +1,20 @@
+// Times of the events in a shift, derived from its record, for timelines.
+#pragma once
+
+#include <optional>
+
+#include "app/lessons/assessment/shift_record.h"
+
+namespace gearshift::lessons {
+
+// Times in [s] since the shift began; empty if it did not happen. With more than one clutch press the record does not
+// tell when the pedal came up or went down again.
+struct ShiftTimes {
+  int presses = 0;                               // number of times the pedal went down past its bite point
+  std::optional<double> clutch_down, clutch_up;  // first press; no time up if there was more than one
+  std::optional<double> lever_left, gear_in;
+  double end = 0.0;
+};
+ShiftTimes shift_times(const ShiftRecord& shift);
+
+}  // namespace gearshift::lessons

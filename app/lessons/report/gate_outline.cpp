@@ -1,0 +1,97 @@
+#include "app/lessons/report/gate_outline.h"
+
+#include <algorithm>
+
+#include "app/base/colours.h"
+
+namespace gearshift::lessons {
+namespace {
+
+constexpr double kPlateRim = 9.0;  // [mm] plate beyond the outermost wall
+
+// Page coordinates of a point in a slot: x across it, depth along it. [m]
+glm::dvec2 in_slot(const haptics::Slot& slot, double x, double depth) {
+  return on_page({x, static_cast<int>(slot.side) * depth});
+}
+
+// Bounding box of the gate's walls on the page.
+base::Rect gate_box(const haptics::Gate& gate) {
+  double forward = gate.half_aisle;
+  double back = gate.half_aisle;
+  for (const haptics::Slot& slot : haptics::slots(gate)) {
+    double& reach = slot.side == haptics::Side::forward ? forward : back;
+    reach = std::max(reach, slot.end);
+  }
+  return {mm(gate.select_min), -mm(forward), mm(gate.select_max - gate.select_min), mm(forward + back)};
+}
+
+void draw_free_space(base::Svg& svg, const haptics::GateDescription& list) {
+  for (const haptics::AisleInfo& a : list.aisles) {
+    svg.rect({mm(a.min.x), -mm(a.max.y), mm(a.max.x - a.min.x), mm(a.max.y - a.min.y)}, base::kFreeColour);
+  }
+  for (const haptics::WallInfo& wall : list.walls) {
+    if (wall.role != haptics::WallRole::chamfer) continue;  // a chamfer adds a triangle of free space at the corner
+    svg.polygon({on_page(wall.from), on_page(wall.to), on_page({wall.to.x, wall.from.y})}, base::kFreeColour);
+  }
+}
+
+base::Pen wall_pen(haptics::WallRole role) {
+  switch (role) {
+    case haptics::WallRole::end_stop:
+      return {base::kInk, kStopWidth};
+    case haptics::WallRole::closed_side:
+      return {base::kClosedColour, kStopWidth};
+    case haptics::WallRole::aisle:
+    case haptics::WallRole::chamfer:
+      return {base::kInk, kWallWidth};
+  }
+  return {};
+}
+
+}  // namespace
+
+glm::dvec2 on_page(glm::dvec2 metres) {
+  return {mm(metres.x), -mm(metres.y)};
+}
+
+void across_slot(base::Svg& svg, const haptics::Gate& gate, const haptics::Slot& slot, double depth,
+                 const base::Pen& pen) {
+  const haptics::Column& column = haptics::column_of(gate, slot.column);
+  const double left = column.center - column.half_width;
+  const double right = column.center + column.half_width;
+  svg.line(in_slot(slot, left, depth), in_slot(slot, right, depth), pen);
+}
+
+base::Rect gate_plate(const haptics::Gate& gate) {
+  const base::Rect walls = gate_box(gate);
+  return {walls.x - kPlateRim, walls.y - kPlateRim, walls.width + 2.0 * kPlateRim, walls.height + 2.0 * kPlateRim};
+}
+
+void draw_gate_ground(base::Svg& svg, const haptics::Gate& gate, const haptics::GateDescription& description) {
+  svg.rect(gate_plate(gate), base::kPlateColour, 4.0);
+  draw_free_space(svg, description);
+}
+
+// Draws closed sides last, so that they stay visible where they overlap a slot's wall.
+void draw_gate_walls(base::Svg& svg, const haptics::GateDescription& description) {
+  for (const bool closed : {false, true}) {
+    for (const haptics::WallInfo& wall : description.walls) {
+      if ((wall.role == haptics::WallRole::closed_side) != closed) continue;
+      svg.line(on_page(wall.from), on_page(wall.to), wall_pen(wall.role));
+    }
+  }
+}
+
+void draw_gears(base::Svg& svg, const haptics::Gate& gate) {
+  for (const haptics::Slot& slot : haptics::slots(gate)) {
+    const double x = haptics::column_of(gate, slot.column).center;
+    across_slot(svg, gate, slot, slot.engage_depth, {base::kGearColour, 0.25});
+    across_slot(svg, gate, slot, slot.release_depth, {base::kGearColour, 0.25, base::kShortDash});
+    svg.dot(in_slot(slot, x, slot.rest), 0.7, base::kGearColour);
+    // Digits are about 0.73 of the font size high; half of that centres them on the rim.
+    const glm::dvec2 label = in_slot(slot, x, slot.end + 0.5e-3 * kPlateRim) + glm::dvec2(0.0, 1.95);
+    svg.text(label, {5.4, base::kGearColour, "middle", true}, haptics::gear_name(slot.gear));
+  }
+}
+
+}  // namespace gearshift::lessons

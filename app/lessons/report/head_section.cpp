@@ -1,0 +1,52 @@
+#include <fmt/format.h>
+
+#include "app/base/html.h"
+#include "app/lessons/report/progress.h"
+#include "app/lessons/report/report_text.h"
+#include "app/lessons/report/sections.h"
+
+namespace gearshift::lessons {
+namespace {
+
+std::string total(std::string_view id, std::string_view name, const std::string& value) {
+  return fmt::format("<div><dt>{}</dt><dd id=\"{}\">{}</dd></div>\n", name, id, value);
+}
+
+std::string format_days(const Totals& sum) {
+  if (sum.days == 0) return "No lessons driven yet.";
+  if (sum.days == 1) return sum.first_day;
+  return sum.first_day + " to " + sum.last_day;
+}
+
+std::string next_lesson(const LearnerHistory& history, std::span<const Lesson> lessons) {
+  const std::optional<Suggestion> suggestion = suggest_lesson(lessons, past_results(history));
+  const bool is_chosen = is_lesson(lessons, history.learner.next_lesson);
+  const std::string wanted = is_chosen ? history.learner.next_lesson : std::string();
+  if (wanted.empty() && !suggestion) return {};
+  const std::string suggested =
+      suggestion ? fmt::format("{}: {}", lesson_title(lessons, suggestion->lesson), suggestion->why) : std::string();
+  if (wanted.empty()) {
+    return fmt::format("<p class=\"next\" id=\"next\">Next lesson: <strong>{}</strong>. {}</p>\n",
+                       base::html_text(lesson_title(lessons, suggestion->lesson)), base::html_text(suggestion->why));
+  }
+  return fmt::format(
+      "<p class=\"next\" id=\"next\">Next lesson: <strong>{}</strong>, chosen by the instructor.{}</p>\n",
+      base::html_text(lesson_title(lessons, wanted)),
+      suggestion ? " The grades suggest " + base::html_text(suggested) : "");
+}
+
+}  // namespace
+
+std::string head_section(const LearnerHistory& history, std::span<const Lesson> lessons) {
+  const Totals sum = totals(history);
+  std::string head = fmt::format("<header>\n<h1>{}</h1>\n<p class=\"soft\">{}</p>\n",
+                                 base::html_text(history.learner.name), base::html_text(format_days(sum)));
+  head += "<dl class=\"totals\">\n" + total("days", "days", std::to_string(sum.days)) +
+          total("sessions", "sessions", std::to_string(sum.sessions)) +
+          total("lesson-runs", "lesson runs", std::to_string(sum.runs)) +
+          total("shift-count", "shifts", std::to_string(sum.shifts)) +
+          total("minutes", "minutes driven", fmt::format("{:.1f}", sum.driven / 60.0)) + "</dl>\n";
+  return head + next_lesson(history, lessons) + "</header>\n";
+}
+
+}  // namespace gearshift::lessons

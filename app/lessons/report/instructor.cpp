@@ -1,0 +1,57 @@
+#include "app/lessons/report/instructor.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "haptics/files/printable.h"
+
+namespace gearshift::lessons {
+namespace {
+
+[[noreturn]] void refuse(const char* what, std::int64_t number, const LearnerRow& learner,
+                         const std::vector<std::int64_t>& known) {
+  throw std::runtime_error(fmt::format("{} {} does not belong to {}; known: {}", what, number,
+                                       haptics::printable(learner.name),
+                                       known.empty() ? "none yet" : fmt::format("{}", fmt::join(known, ", "))));
+}
+
+void require(const char* what, std::int64_t number, const LearnerRow& learner, const std::vector<std::int64_t>& known) {
+  if (std::find(known.begin(), known.end(), number) == known.end()) refuse(what, number, learner, known);
+}
+
+std::vector<std::int64_t> runs_of(History& history, const LearnerRow& learner) {
+  std::vector<std::int64_t> numbers;
+  for (const RunRow& run : history.runs(learner.id)) numbers.push_back(run.id);
+  return numbers;
+}
+
+std::vector<std::int64_t> comments_of(History& history, const LearnerRow& learner) {
+  std::vector<std::int64_t> numbers;
+  for (const std::int64_t run : runs_of(history, learner)) {
+    for (const CommentRow& comment : history.comments(run)) numbers.push_back(comment.id);
+  }
+  return numbers;
+}
+
+}  // namespace
+
+std::int64_t comment_on_run(History& history, const LearnerRow& learner, std::int64_t run, const std::string& author,
+                            const std::string& text) {
+  require("run", run, learner, runs_of(history, learner));
+  return history.add_comment(run, author, text);
+}
+
+void edit_comment(History& history, const LearnerRow& learner, std::int64_t comment, const std::string& text) {
+  require("comment", comment, learner, comments_of(history, learner));
+  if (!history.edit_comment(comment, text)) refuse("comment", comment, learner, comments_of(history, learner));
+}
+
+void delete_comment(History& history, const LearnerRow& learner, std::int64_t comment) {
+  require("comment", comment, learner, comments_of(history, learner));
+  history.delete_comment(comment);
+}
+
+}  // namespace gearshift::lessons

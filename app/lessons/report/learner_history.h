@@ -1,0 +1,22 @@
+// Everything in the history about one learner, as plain rows: the input of page and tables.
+#pragma once
+
+#include <vector>
+
+#include "app/lessons/history/history.h"
+
+namespace gearshift::lessons {
+
+struct ReportedRun {
+  RunRow row;
+  std::vector<CommentRow> comments;
+};
+
+struct LearnerHistory {
+  LearnerRow learner;
+  std::vector<ReportedRun> runs;  // oldest first
+};
+
+LearnerHistory read_learner(History& history, const LearnerRow& learner);  // throws HistoryError
+
+}  // namespace gearshift::lessons

@@ -1,0 +1,63 @@
+#include "app/lessons/report/learner_table.h"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "app/lessons/report/progress.h"
+#include "app/lessons/report/report_text.h"
+#include "haptics/files/printable.h"
+
+namespace gearshift::lessons {
+namespace {
+
+std::string format_next_lesson(const LearnerHistory& history, std::span<const Lesson> lessons) {
+  const std::string& wanted = history.learner.next_lesson;
+  if (is_lesson(lessons, wanted)) return haptics::printable(wanted) + " (chosen by instructor)";
+  const std::optional<Suggestion> suggestion = suggest_lesson(lessons, past_results(history));
+  return suggestion ? haptics::printable(suggestion->lesson) : "-";
+}
+
+// Lists the comments with the numbers needed to edit them; line breaks become blanks.
+std::string comment_lines(const LearnerHistory& history) {
+  std::string lines;
+  for (auto run = history.runs.rbegin(); run != history.runs.rend(); ++run) {
+    for (const CommentRow& comment : run->comments)
+      lines += fmt::format("{:>5}  comment {}, {}, {}{}: {}\n", run->row.id, comment.id,
+                           haptics::printable(comment.author), haptics::printable(day_of(comment.at)),
+                           comment.edited_at.empty() ? "" : ", edited", haptics::printable(comment.text));
+  }
+  return lines.empty() ? lines : "\n" + lines;
+}
+
+}  // namespace
+
+std::string learner_table(std::span<const LearnerHistory> learners, std::span<const Lesson> lessons) {
+  std::size_t width = 7;
+  for (const LearnerHistory& history : learners) width = std::max(width, history.learner.name.size());
+  std::string table = fmt::format("{:<{}}  sessions  runs  last day    next lesson\n", "learner", width);
+  for (const LearnerHistory& history : learners) {
+    const Totals sum = totals(history);
+    table += fmt::format("{:<{}}  {:>8}  {:>4}  {:<10}  {}\n", haptics::printable(history.learner.name), width,
+                         sum.sessions, sum.runs, sum.last_day.empty() ? "-" : haptics::printable(sum.last_day),
+                         format_next_lesson(history, lessons));
+  }
+  return table;
+}
+
+std::string run_table(const LearnerHistory& history) {
+  std::string table =
+      fmt::format("{:>5}  {:<10}  {:<24}  {:<11}  {:>5}  result\n", "run", "day", "lesson", "mode", "grade");
+  for (auto run = history.runs.rbegin(); run != history.runs.rend(); ++run) {
+    const LessonResult& result = run->row.result;
+    table += fmt::format("{:>5}  {:<10}  {:<24}  {:<11}  {:>5}  {}\n", run->row.id,
+                         haptics::printable(day_of(run->row.begun_at)), haptics::printable(result.lesson),
+                         lesson_mode_key(result.mode), is_graded(result) ? fmt::format("{:.1f}", result.grade) : "-",
+                         result.passed       ? "passed"
+                         : is_graded(result) ? "not passed"
+                                             : "not graded");
+  }
+  return table + comment_lines(history);
+}
+
+}  // namespace gearshift::lessons

@@ -1,0 +1,180 @@
+#include <algorithm>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "app/base/html.h"
+#include "app/lessons/report/learning_svg.h"
+#include "app/lessons/report/progress.h"
+#include "app/lessons/report/report_text.h"
+#include "app/lessons/report/retention.h"
+#include "app/lessons/report/sections.h"
+
+namespace gearshift::lessons {
+namespace {
+
+constexpr std::size_t kMinRunsForCurve = 5;  // same as in fit_learning_curve()
+constexpr std::size_t kMinRunsForChart = 3;
+
+std::string estimate(const Estimate& e) {
+  return format_number(e.value, 2) + " ± " + format_number(e.deviation, 2);
+}
+
+std::string format_level(const LearningCurve& curve) {
+  return curve.at_bound ? format_number(curve.level.value, 0) + " (fixed at its limit)" : estimate(curve.level);
+}
+
+std::string describe_fit(const TaskProgress& task) {
+  if (task.curve) {
+    return fmt::format("A = {}, B = {}, τ = {} runs; runs scatter about the curve by {:.2f}.",
+                       format_level(*task.curve), estimate(task.curve->gain), estimate(task.curve->trials),
+                       task.curve->noise);
+  }
+  if (task.trials.size() < kMinRunsForCurve)
+    return fmt::format("No curve yet: {} graded runs needed, {} so far.", kMinRunsForCurve, task.trials.size());
+  const auto [lowest, highest] = std::minmax_element(task.trials.begin(), task.trials.end(),
+                                                     [](const auto& a, const auto& b) { return a.grade < b.grade; });
+  if (lowest->grade == highest->grade)
+    return fmt::format("No curve: all {} grades are {:.1f}.", task.trials.size(), highest->grade);
+  return fmt::format("No curve: these {} grades scatter too much to show learning.", task.trials.size());
+}
+
+std::string task_row(const TaskProgress& task, std::span<const PastResult> past, std::span<const Lesson> lessons) {
+  const auto best = std::max_element(task.trials.begin(), task.trials.end(),
+                                     [](const GradedTrial& a, const GradedTrial& b) { return a.grade < b.grade; });
+  const auto passed =
+      std::count_if(task.trials.begin(), task.trials.end(), [](const GradedTrial& t) { return t.passed; });
+  std::string row = fmt::format("<tr><td>{}</td>", base::html_text(task_title(lessons, task.task)));
+  const auto number = [&](const std::string& text) { row += "<td class=\"number\">" + text + "</td>"; };
+  number(std::to_string(task.trials.size()));
+  number(std::to_string(passed));
+  number(fmt::format("{:.1f}", task.trials.front().grade));
+  number(fmt::format("{:.1f}", best->grade));
+  number(fmt::format("{:.1f}", task.trials.back().grade));
+  number(fmt::format("{:.1f}", task_grade(past, task.task).value_or(0.0)));
+  return row + "</tr>\n";
+}
+
+std::string task_table(const std::vector<TaskProgress>& tasks, std::span<const PastResult> past,
+                       std::span<const Lesson> lessons) {
+  std::string table =
+      "<table class=\"tasks\">\n<thead><tr><th>Task</th><th class=\"number\">Graded runs</th><th "
+      "class=\"number\">Passed</th>"
+      "<th class=\"number\">First</th><th class=\"number\">Best</th><th class=\"number\">Last</th>"
+      "<th class=\"number\">Mean of the last three</th></tr></thead>\n<tbody>\n";
+  for (const TaskProgress& task : tasks) table += task_row(task, past, lessons);
+  return table + "</tbody></table>\n";
+}
+
+std::string curve_figure(const TaskProgress& task, std::span<const Lesson> lessons) {
+  return fmt::format("<figure class=\"curve\">\n<h3>{}</h3>\n{}<figcaption>{}</figcaption></figure>\n",
+                     base::html_text(task_title(lessons, task.task)), learning_svg(task),
+                     base::html_text(describe_fit(task)));
+}
+
+bool has_chart(const TaskProgress& task) {
+  return task.trials.size() >= kMinRunsForChart;
+}
+
+std::string charts(const std::vector<TaskProgress>& tasks, std::span<const Lesson> lessons) {
+  std::string figures;
+  for (const TaskProgress& task : tasks) {
+    if (has_chart(task)) figures += curve_figure(task, lessons);
+  }
+  return figures.empty() ? figures : "<div class=\"curves\">\n" + figures + "</div>\n";
+}
+
+// "Reverse: 8.0 (Run 3), 8.5 (Run 7)"
+std::string grades_item(const TaskProgress& task, std::span<const Lesson> lessons) {
+  std::string grades;
+  for (const GradedTrial& trial : task.trials) {
+    const std::string grade = fmt::format("{:.1f} ({})", trial.grade, run_link(trial.run));
+    grades += (grades.empty() ? "" : ", ") + grade;
+  }
+  return fmt::format("<li>{}: {}</li>", base::html_text(task_title(lessons, task.task)), grades);
+}
+
+// The tasks that a chart would be empty for, all in one row.
+std::string few_runs(const std::vector<TaskProgress>& tasks, std::span<const Lesson> lessons) {
+  std::string items;
+  for (const TaskProgress& task : tasks) {
+    if (!has_chart(task)) items += grades_item(task, lessons);
+  }
+  if (items.empty()) return {};
+  return fmt::format(
+      "<table class=\"few\">\n<tbody><tr><th>Fewer than {} graded runs</th><td><ul>{}</ul></td></tr></tbody></table>\n",
+      kMinRunsForChart, items);
+}
+
+constexpr const char* kHowToRead =
+    "Each dot is a graded run, hollow if not passed; guided runs are left out. A ring marks the first run of its "
+    "lesson "
+    "after a break of a day or more. The line is the fitted curve grade(n) = A + B exp(−n/τ), with n = 0 for the first "
+    "run: A is the level that practice leads to, B the distance of the first run from it (negative if below), and τ "
+    "the "
+    "number of runs until 37 % of that distance is left. The pale band contains the curve with about 95 % confidence; "
+    "± is one standard deviation. Grades lie between 0 and 10, and so does A: if the grades alone would lead beyond, A "
+    "is "
+    "fixed at its limit, and B and τ are fitted with that A.";
+
+// The newest retention trials of a lesson, after a day and after a week.
+struct RetentionRow {
+  std::string lesson;  // key
+  std::optional<RetentionTrial> day, week;
+};
+
+std::vector<RetentionRow> retention_rows(const LearnerHistory& history) {
+  std::vector<RetentionRow> rows;
+  for (const RetentionTrial& trial : retention_trials(history)) {
+    auto found =
+        std::find_if(rows.begin(), rows.end(), [&](const RetentionRow& k) { return k.lesson == trial.lesson; });
+    if (found == rows.end()) found = rows.insert(rows.end(), RetentionRow{trial.lesson, {}, {}});
+    (trial.pause < kWeekAfter ? found->day : found->week) = trial;
+  }
+  return rows;
+}
+
+std::string retention_cells(const std::optional<RetentionTrial>& trial) {
+  if (!trial) return "<td class=\"number\">–</td><td class=\"number\"></td><td></td>";
+  return fmt::format("<td class=\"number\">{}</td><td class=\"number\"><strong>{}</strong></td><td>{}, {}</td>",
+                     trial->before ? format_number(trial->before->grade, 1) : "–", format_number(trial->grade, 1),
+                     run_link(trial->run), format_pause(trial->pause));
+}
+
+constexpr const char* kRetentionCaption =
+    "How much is left of a lesson after a break: the grade of the last graded run before it and of the first run after "
+    "it. A day means a break of at least 20 hours, a week at least six days; the newest of each is shown.";
+
+std::string retention_part(const LearnerHistory& history, std::span<const Lesson> lessons) {
+  const std::vector<RetentionRow> rows = retention_rows(history);
+  const std::string head = "<h3>Retention</h3>\n";
+  if (rows.empty()) return head + paragraph("No lesson repeated after a day's break yet.");
+  std::string table = fmt::format(
+      "<table class=\"kept\">\n<caption>{}</caption>\n<thead><tr><th>Lesson</th><th class=\"number\">Before</th>"
+      "<th class=\"number\">After a day</th><th></th><th class=\"number\">Before</th>"
+      "<th class=\"number\">After a week</th><th></th></tr></thead>\n<tbody>\n",
+      kRetentionCaption);
+  for (const RetentionRow& k : rows) {
+    table += fmt::format("<tr><td>{}</td>{}{}</tr>\n", base::html_text(lesson_title(lessons, k.lesson)),
+                         retention_cells(k.day), retention_cells(k.week));
+  }
+  return head + table + "</tbody></table>\n";
+}
+
+}  // namespace
+
+std::string progress_section(const LearnerHistory& history, std::span<const Lesson> lessons) {
+  const std::vector<TaskProgress> tasks = task_progress(history);
+  if (tasks.empty()) return section("learning", "Learning", paragraph("No graded runs yet."));
+  std::string html = task_table(tasks, past_results(history), lessons);
+  if (const std::string figures = charts(tasks, lessons); !figures.empty())
+    html += figures + few_runs(tasks, lessons) + "<p class=\"soft\">" + kHowToRead + "</p>\n";
+  else
+    html += few_runs(tasks, lessons);
+  return section("learning", "Learning", html + retention_part(history, lessons));
+}
+
+}  // namespace gearshift::lessons

@@ -1,0 +1,61 @@
+#include "app/lessons/report/report_text.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+
+#include <fmt/format.h>
+
+#include "haptics/files/ascii.h"
+
+namespace gearshift::lessons {
+namespace {
+
+constexpr std::array<std::string_view, 5> kEnds{"running", "done", "aborted", "out_of_time", "left"};
+constexpr std::array<std::string_view, 2> kModes{"follow_me", "by_yourself"};
+
+}  // namespace
+
+std::string title_from_key(std::string_view key) {
+  std::string words(key);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  if (!words.empty()) words[0] = haptics::ascii_upper(words[0]);
+  return words;
+}
+
+std::string_view lesson_end_key(LessonEnd end) noexcept {
+  return kEnds[static_cast<std::size_t>(end)];
+}
+
+std::string_view lesson_mode_key(LessonMode mode) noexcept {
+  return kModes[static_cast<std::size_t>(mode)];
+}
+
+std::string lesson_title(std::span<const Lesson> lessons, std::string_view key) {
+  const auto found =
+      std::find_if(lessons.begin(), lessons.end(), [&](const Lesson& lesson) { return lesson.key == key; });
+  return found != lessons.end() ? found->title : title_from_key(key);
+}
+
+std::string task_title(std::span<const Lesson> lessons, std::string_view task) {
+  const auto found =
+      std::find_if(lessons.begin(), lessons.end(), [&](const Lesson& lesson) { return lesson.task == task; });
+  return found != lessons.end() ? found->title : title_from_key(task);
+}
+
+bool is_lesson(std::span<const Lesson> lessons, std::string_view key) {
+  return std::any_of(lessons.begin(), lessons.end(), [&](const Lesson& lesson) { return lesson.key == key; });
+}
+
+std::string format_number(double value, int digits) {
+  std::string text = fmt::format("{:.{}f}", std::abs(value), digits);
+  const bool is_nought = text.find_first_not_of("0.") == std::string::npos;
+  return (value < 0.0 && !is_nought ? "−" : "") + text;
+}
+
+std::string gear_change(const ShiftRecord& shift) {
+  return std::string(haptics::gear_name(shift.from)) + " → " + haptics::gear_name(shift.to);
+}
+
+}  // namespace gearshift::lessons

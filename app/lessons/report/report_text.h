@@ -1,0 +1,31 @@
+// Converts keys of files and enumerations, and values, to text for people.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "app/lessons/assessment/lesson.h"
+#include "app/lessons/assessment/lesson_result.h"
+
+namespace gearshift::lessons {
+
+std::string title_from_key(std::string_view key);            // "Moving off" for "moving_off"
+std::string_view lesson_end_key(LessonEnd end) noexcept;     // "out_of_time"
+std::string_view lesson_mode_key(LessonMode mode) noexcept;  // "follow_me"
+
+// The lesson's title, or its key as text if the lesson is unknown.
+std::string lesson_title(std::span<const Lesson> lessons, std::string_view key);
+
+// The title of the first lesson that teaches the task, else the key as text.
+std::string task_title(std::span<const Lesson> lessons, std::string_view task);
+
+// True if `key` is one of the lessons: used for the instructor's choice.
+bool is_lesson(std::span<const Lesson> lessons, std::string_view key);
+
+// Formats with so many decimals and a typographic minus sign; zero has no sign.
+std::string format_number(double value, int digits);
+
+std::string gear_change(const ShiftRecord& shift);  // "2 → 3"
+
+}  // namespace gearshift::lessons

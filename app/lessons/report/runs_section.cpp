@@ -1,0 +1,121 @@
+#include <cstdint>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "app/base/html.h"
+#include "app/lessons/report/progress.h"
+#include "app/lessons/report/report_text.h"
+#include "app/lessons/report/retention.h"
+#include "app/lessons/report/sections.h"
+
+namespace gearshift::lessons {
+namespace {
+
+double points_of_fault(const LessonResult& result, std::size_t error) {
+  double points = 0.0;
+  for (const Deduction& deduction : result.deductions) {
+    if (deduction.error == error) points += deduction.points;
+  }
+  return points;
+}
+
+// The points that a fault cost or, if none, its severity: guided runs are not graded.
+std::string format_cost(const DrivingError& error, double points) {
+  if (points > 0.0) return fmt::format("<strong>−{:.1f}</strong>", points);
+  return title_from_key(severity_key(error.severity)) + ":";
+}
+
+// For example "−2.0 The engine stalled, from 350 rpm. (12.4 s into the run, shift 3)", with advice if wanted.
+std::string fault_item(const LessonResult& result, std::size_t i, bool advised) {
+  const DrivingError& error = result.errors[i];
+  const std::string cost = format_cost(error, points_of_fault(result, i));
+  const std::string shift = error.shift >= 0 ? fmt::format(", shift {}", error.shift + 1) : std::string();
+  const std::string advice =
+      advised ? fmt::format("<br><span class=\"soft\">{}</span>", base::html_text(error_advice(error.kind)))
+              : std::string();
+  return fmt::format("<li>{} {} <span class=\"soft\">({:.1f} s into the run{})</span>{}</li>", cost,
+                     base::html_text(error_sentence(error)), error.time - result.begin, shift, advice);
+}
+
+// The advice is given once per kind of fault that cost points.
+std::string faults_list(const LessonResult& result) {
+  if (result.errors.empty()) return {};
+  std::string list = "<ul>";
+  std::set<ErrorKind> advised;
+  for (std::size_t i = 0; i < result.errors.size(); ++i) {
+    const bool costs = points_of_fault(result, i) > 0.0;
+    list += fault_item(result, i, costs && advised.insert(result.errors[i].kind).second);
+  }
+  return list + "</ul>";
+}
+
+// If deductions exceed the grade, their sum is shown, because the listed points do not add up to the grade.
+std::string format_lost_points(const LessonResult& result) {
+  double points = 0.0;
+  for (const Deduction& deduction : result.deductions) points += deduction.points;
+  if (!is_graded(result) || points <= kBestGrade) return {};
+  return fmt::format("<br><span class=\"soft\">{:.1f} points lost; no grade is below 0</span>", points);
+}
+
+std::string outcome(const LessonResult& result) {
+  if (result.passed) return "<span class=\"passed\">passed</span>";
+  if (result.end == LessonEnd::running) return "never finished";
+  const std::string why = result.why.empty() ? std::string() : "<br>" + base::html_text(result.why);
+  return (is_graded(result) ? "<span class=\"failed\">not passed</span>" : "not graded") + why +
+         format_lost_points(result);
+}
+
+// Comments are placed below the findings: few runs have any, and a separate column would waste space.
+std::string comments_list(const std::vector<CommentRow>& comments) {
+  std::string list;
+  for (const CommentRow& comment : comments) {
+    const std::string edited =
+        comment.edited_at.empty() ? std::string() : ", edited " + base::html_text(day_of(comment.edited_at));
+    list +=
+        fmt::format("<blockquote>{} <span class=\"soft\">{}, {}{}</span></blockquote>", base::html_text(comment.text),
+                    base::html_text(comment.author), base::html_text(day_of(comment.at)), edited);
+  }
+  return list;
+}
+
+std::string format_begin(const std::string& begun_at) {  // "2026-01-02<br>10:00"
+  return fmt::format("{}<br><span class=\"soft\">{}</span>", base::html_text(day_of(begun_at)),
+                     base::html_text(begun_at.size() >= 16 ? begun_at.substr(11, 5) : std::string()));
+}
+
+// pause: [s] break before a retention trial; else 0.
+std::string format_mode(const LessonResult& result, double pause) {
+  std::string words = result.mode == LessonMode::follow_me ? "follow me" : "by yourself";
+  if (result.guided) words += ", guided";
+  return pause > 0.0 ? words + fmt::format("<br>after a break of {}", format_pause(pause)) : words;
+}
+
+std::string run_row(const ReportedRun& run, std::span<const Lesson> lessons, double pause) {
+  const LessonResult& result = run.row.result;
+  return fmt::format(
+      "<tr id=\"run-{0}\"><td class=\"number\">{0}</td><td class=\"day\">{1}</td><td>{2}<br><span "
+      "class=\"soft\">{3}</span></td><td class=\"number\">{4}</td><td class=\"number\"><strong>{5}</strong></td>"
+      "<td>{6}</td><td>{7}{8}</td></tr>\n",
+      run.row.id, format_begin(run.row.begun_at), base::html_text(lesson_title(lessons, result.lesson)),
+      format_mode(result, pause), result.shifts.size(),
+      is_graded(result) ? fmt::format("{:.1f}", result.grade) : std::string("–"), outcome(result), faults_list(result),
+      comments_list(run.comments));
+}
+
+}  // namespace
+
+std::string runs_section(const LearnerHistory& history, std::span<const Lesson> lessons) {
+  if (history.runs.empty()) return section("runs", "Runs", paragraph("No runs yet."));
+  std::string table =
+      "<table class=\"runs\">\n<thead><tr><th class=\"number\">Run</th><th>Day</th><th>Lesson</th>"
+      "<th class=\"number\">Shifts</th><th class=\"number\">Grade</th><th>Result</th>"
+      "<th>Findings and comments</th></tr></thead>\n<tbody>\n";
+  std::map<std::int64_t, double> pauses = retention_pauses(history);
+  for (auto run = history.runs.rbegin(); run != history.runs.rend(); ++run)
+    table += run_row(*run, lessons, pauses[run->row.id]);
+  return section("runs", "Runs, newest first", table + "</tbody></table>\n");
+}
+
+}  // namespace gearshift::lessons

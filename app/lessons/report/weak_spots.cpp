@@ -1,0 +1,149 @@
+#include "app/lessons/report/weak_spots.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <span>
+#include <string>
+
+#include "app/lessons/report/progress.h"
+
+namespace gearshift::lessons {
+namespace {
+
+constexpr double kRare = 0.05 - 1e-9;  // [1] one-sided probability; exactly one in twenty is not below the limit
+
+double log_ways(std::size_t k, std::size_t n) noexcept {
+  const auto of = static_cast<double>(n), in = static_cast<double>(k);
+  return std::lgamma(of + 1.0) - std::lgamma(in + 1.0) - std::lgamma(of - in + 1.0);
+}
+
+// Hypergeometric probabilities [1] of 0, 1, ... runs with the fault in the later half.
+std::vector<double> draws(const LessonHalves& lesson) {
+  const std::size_t with = lesson.earlier + lesson.recent, all = 2 * lesson.runs;
+  std::vector<double> chances(std::min(with, lesson.runs) + 1, 0.0);
+  for (std::size_t k = with > lesson.runs ? with - lesson.runs : 0; k < chances.size(); ++k)
+    chances[k] = std::exp(log_ways(k, with) + log_ways(lesson.runs - k, all - with) - log_ways(lesson.runs, all));
+  return chances;
+}
+
+std::vector<double> sums(const std::vector<double>& a, const std::vector<double>& b) {
+  std::vector<double> chances(a.size() + b.size() - 1, 0.0);
+  for (std::size_t i = 0; i < a.size(); ++i) {
+    for (std::size_t j = 0; j < b.size(); ++j) chances[i + j] += a[i] * b[j];
+  }
+  return chances;
+}
+
+double per_ten(std::size_t count, std::size_t all) noexcept {
+  return all == 0 ? 0.0 : 10.0 * static_cast<double>(count) / static_cast<double>(all);
+}
+
+std::vector<const LessonResult*> graded_results(const LearnerHistory& history) {
+  std::vector<const LessonResult*> results;
+  for (const ReportedRun& run : history.runs) {
+    if (is_graded(run.row.result)) results.push_back(&run.row.result);
+  }
+  return results;
+}
+
+std::size_t shifts_of(std::span<const LessonResult* const> results) {
+  std::size_t shifts = 0;
+  for (const LessonResult* result : results) shifts += result->shifts.size();
+  return shifts;
+}
+
+bool has(const LessonResult& result, ErrorKind kind) {
+  return std::any_of(result.errors.begin(), result.errors.end(), [kind](const DrivingError& error) {
+    return error.kind == kind && error.severity != Severity::note;
+  });
+}
+
+using ByLesson = std::map<std::string, std::vector<const LessonResult*>>;
+
+ByLesson by_lesson(std::span<const LessonResult* const> results) {
+  ByLesson lessons;
+  for (const LessonResult* result : results) lessons[result->lesson].push_back(result);
+  return lessons;
+}
+
+std::vector<LessonHalves> halves_of(ErrorKind kind, const ByLesson& lessons) {
+  std::vector<LessonHalves> all;
+  for (const auto& [lesson, results] : lessons) {
+    LessonHalves halves{results.size() / 2, 0, 0};
+    for (std::size_t i = 0; i < halves.runs; ++i) {
+      halves.earlier += has(*results[i], kind) ? 1 : 0;
+      halves.recent += has(*results[results.size() - 1 - i], kind) ? 1 : 0;
+    }
+    if (halves.runs > 0) all.push_back(halves);
+  }
+  return all;
+}
+
+WeakSpot spot_of(ErrorKind kind, std::span<const LessonResult* const> results) {
+  WeakSpot spot;
+  spot.kind = kind;
+  for (const LessonResult* result : results) {
+    for (const DrivingError& error : result->errors) {
+      if (error.kind != kind) continue;
+      ++spot.by_severity[static_cast<std::size_t>(error.severity)], ++spot.count;
+      if (!error.step.empty()) spot.newest_step = error;
+    }
+    for (const Deduction& deduction : result->deductions) {
+      if (deduction.error < result->errors.size() && result->errors[deduction.error].kind == kind)
+        spot.points += deduction.points;
+    }
+  }
+  return spot;
+}
+
+// A fault with notes only, or only in runs outside both halves, has no trend.
+void compare(WeakSpot& spot, const std::vector<LessonHalves>& lessons) {
+  LessonHalves sum;
+  for (const LessonHalves& lesson : lessons) {
+    sum.runs += lesson.runs;
+    sum.earlier += lesson.earlier;
+    sum.recent += lesson.recent;
+  }
+  spot.earlier = per_ten(sum.earlier, sum.runs);
+  spot.recent = per_ten(sum.recent, sum.runs);
+  if (sum.earlier + sum.recent > 0) spot.trend = trend_of(lessons);
+}
+
+}  // namespace
+
+Trend trend_of(std::span<const LessonHalves> lessons) {
+  if (lessons.empty()) return Trend::unknown;
+  std::vector<double> chances{1.0};
+  std::size_t recent = 0;
+  for (const LessonHalves& lesson : lessons) {
+    chances = sums(chances, draws(lesson));
+    recent += lesson.recent;
+  }
+  double as_few = 0.0, as_many = 0.0;
+  for (std::size_t k = 0; k < chances.size(); ++k) {
+    if (k <= recent) as_few += chances[k];
+    if (k >= recent) as_many += chances[k];
+  }
+  if (as_few < kRare) return Trend::falling;
+  return as_many < kRare ? Trend::rising : Trend::unclear;
+}
+
+Weaknesses weaknesses(const LearnerHistory& history) {
+  const std::vector<const LessonResult*> results = graded_results(history);
+  const ByLesson lessons = by_lesson(results);
+  Weaknesses found{shifts_of(results), {}};
+  for (std::size_t i = 0; i < kErrorKindCount; ++i) {
+    WeakSpot spot = spot_of(static_cast<ErrorKind>(i), results);
+    if (spot.count == 0) continue;
+    spot.per_ten = per_ten(spot.count - spot.by_severity[0], found.shifts);
+    compare(spot, halves_of(spot.kind, lessons));
+    found.spots.push_back(spot);
+  }
+  std::stable_sort(found.spots.begin(), found.spots.end(), [](const WeakSpot& a, const WeakSpot& b) {
+    return a.points != b.points ? a.points > b.points : a.count > b.count;
+  });
+  return found;
+}
+
+}  // namespace gearshift::lessons

@@ -1,0 +1,51 @@
+// Finds the most frequent driving errors and their trends.
+//
+// This work is based on:
+// Ronald Fisher. The Logic of Inductive Inference. 1935
+// Cyrus Mehta, Nitin Patel, Robert Gray. Computing an Exact Confidence Interval for the Common Odds Ratio in Several
+// 2x2 Contingency Tables. 1985
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "app/lessons/report/learner_history.h"
+
+namespace gearshift::lessons {
+
+enum class Trend { unknown, falling, unclear, rising };  // unknown: not in the compared runs
+
+struct WeakSpot {
+  ErrorKind kind = ErrorKind::stall;
+  std::array<std::size_t, 4> by_severity{};  // note, minor, severe, very severe
+  std::size_t count = 0;
+  double points = 0.0;                 // [1] total deduction
+  double earlier = 0.0, recent = 0.0;  // how many of 10 runs had it, in the first and second half of each lesson's runs
+  double per_ten = 0.0;                // per 10 shifts, without notes; 0 if there were no shifts
+  Trend trend = Trend::unknown;
+  std::optional<DrivingError> newest_step;  // the newest one that names a step of the lesson
+};
+
+struct Weaknesses {
+  std::size_t shifts = 0;       // number of shifts considered
+  std::vector<WeakSpot> spots;  // most points first
+};
+
+// Considers graded runs only. Each lesson's runs are split into halves, without the middle one of an odd number, so
+// that a different mix of lessons does not count as a change. A run counts once per kind of fault; notes do not count.
+Weaknesses weaknesses(const LearnerHistory& history);
+
+// One lesson: `runs` runs in each half, and how many of them had the fault.
+struct LessonHalves {
+  std::size_t runs = 0, earlier = 0, recent = 0;  // earlier, recent <= runs
+};
+
+// Rising or falling if the observed number of later runs with the fault, or a more extreme one, has a probability below
+// 5 % under the hypothesis of no change: within each lesson every run is equally likely to have the fault. So each
+// lesson's later half is a draw without replacement, and the draws of all lessons add up.
+Trend trend_of(std::span<const LessonHalves> lessons);
+
+}  // namespace gearshift::lessons

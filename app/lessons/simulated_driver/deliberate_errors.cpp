@@ -1,0 +1,148 @@
+// Deliberate errors, except those within a shift.
+#include <algorithm>
+#include <cmath>
+
+#include "app/lessons/simulated_driver/driver_constants.h"
+#include "app/lessons/simulated_driver/simulated_driver.h"
+
+namespace gearshift::lessons {
+
+// A deliberate error of the launch is still to be made.
+bool SimulatedDriver::has_pending_error(const vehicle::DriveSample& now) const noexcept {
+  if (now.car.gear == haptics::kNeutralGear) return false;
+  const bool hill = std::abs(lesson_.start.slope) > kMinHillSlope;
+  return (hill && is_due(ErrorKind::rollback)) || is_due(ErrorKind::stall) || is_due(ErrorKind::clutch_dump) ||
+         is_due(ErrorKind::jerk);
+}
+
+// Makes the deliberate errors of a launch. Returns true while one is in progress.
+bool SimulatedDriver::spoil_launch(const vehicle::DriveSample& now) {
+  if (!has_pending_error(now)) return false;
+  const bool dumps = is_due(ErrorKind::clutch_dump);
+  const double revs = dumps ? kDumpSpeed : kJerkSpeed;
+  if (feet_.hand_brake.value() > 0.05 && !is_due(ErrorKind::rollback) && !is_due(ErrorKind::stall)) {
+    // On a hill the engine speed comes first, or the car would roll back
+    feet_.throttle.move_to(kHurryThrottle, 4.0);
+    if (now.car.engine_speed >= revs) feet_.hand_brake.move_to(0.0, kHandBrakeRate);
+    return true;
+  }
+  if (feet_.hand_brake.value() > 0.05) {
+    if (intent().motion == Motion::bite) feet_.hand_brake.move_to(0.0, kHandBrakeRate);  // without waiting for it
+    hold_revs(launch_speed_);
+    feet_.clutch.move_to(0.5 * (car_.clutch.bite + kClutchDown), kClutchRateToBite);
+    rolls_since_ = now.time();
+    return true;
+  }
+  if (is_due(ErrorKind::rollback)) {
+    hold_revs(launch_speed_);
+    const bool rolls = now.time() - rolls_since_ < 0.8 * faults_.of(ErrorKind::rollback);
+    if (!rolls) mark_done(ErrorKind::rollback);
+    return rolls;
+  }
+  if (is_due(ErrorKind::stall)) {
+    feet_.throttle.move_to(0.0, kLiftRate);
+    feet_.clutch.move_to(0.0, 3.0);
+    return true;
+  }
+  feet_.throttle.move_to(kHurryThrottle, 4.0);
+  const bool releases_early = feet_.clutch.goal() == 0.0 && feet_.clutch.value() < car_.clutch.bite;
+  if (now.car.engine_speed >= revs || releases_early) feet_.clutch.move_to(0.0, dumps ? kDumpRate : kAbruptRate);
+  if (feet_.clutch.value() == 0.0) mark_done(dumps ? ErrorKind::clutch_dump : ErrorKind::jerk);
+  return true;
+}
+
+bool SimulatedDriver::make_over_rev(const vehicle::DriveSample& now) {
+  if (!is_due(ErrorKind::over_rev) || !now.car.running) return false;
+  const bool coupled = feet_.clutch.value() == 0.0 && now.car.clutch_locked;
+  const bool late = over_rev_late_ && coupled && now.car.gear >= 1 && now.car.gear <= 2;
+  const bool stands = std::abs(now.car.road_speed) < kMaxStandingSpeed;
+  const bool howls = !over_rev_late_ && clutch_is_down_ && (stands || feet_.brake.goal() < 0.5);
+  if (!late && !howls) return false;
+  feet_.throttle.move_to(1.0, 8.0);
+  if (now.car.engine_speed > 1.01 * car_.engine.red_line && mark_done(ErrorKind::over_rev) && howls)
+    release_at_ = now.time() + kSettleAfterOverRev;
+  return true;
+}
+
+// The highest gear in which the engine would labour at this speed; neutral if there is none from the current gear up.
+int SimulatedDriver::lugging_gear(const vehicle::DriveSample& now) const noexcept {
+  for (int gear = haptics::kMaxGear; gear >= std::max(1, now.car.gear); --gear) {
+    if (haptics::slot_of_gear(gate_, gear) == haptics::kNoSlot) continue;
+    const double speed = shaft_speed_in(now, gear);
+    if (speed < 0.95 * car_.engine.lug_below && speed > 1.25 * car_.engine.stall) return gear;
+  }
+  return haptics::kNeutralGear;
+}
+
+// Rolls on with the clutch down for no reason.
+bool SimulatedDriver::make_coasting(const vehicle::DriveSample& now) {
+  if (!is_due(ErrorKind::coasting)) return false;
+  // If a shift came next, this would only make it slow.
+  const bool coupled = feet_.clutch.value() == 0.0 && now.car.clutch_locked && now.car.gear >= 2 && !intent().next_gear;
+  if (coasts_until_ == 0.0 && coupled && now.car.road_speed > kMinCoastingSpeed)
+    coasts_until_ = pause_until_ = now.time() + kCoastTime * faults_.of(ErrorKind::coasting);
+  if (coasts_until_ == 0.0 || (now.time() >= coasts_until_ && mark_done(ErrorKind::coasting))) return false;
+  feet_.throttle.move_to(0.0, kLiftRate);
+  feet_.brake.move_to(0.0, kBrakeRate);
+  // Open, but not as far as lessons call down, or a shift step would begin
+  feet_.clutch.move_to(car_.clutch.bite + kOpenMargin, kPressRate);
+  return true;
+}
+
+// Reverse while the car still rolls forward.
+std::optional<int> SimulatedDriver::early_reverse_gear(const vehicle::DriveSample& now) const {
+  const bool rolls = now.car.road_speed > kMinRollingSpeed && now.car.road_speed < kMinCoastingSpeed;
+  const bool is_next = current_step_ + 1 < intents_.size() && intents_[current_step_ + 1].gear == haptics::kReverseGear;
+  if (!is_due(ErrorKind::wrong_direction) || !rolls || !is_next) return std::nullopt;
+  return clutch_is_down_ ? intents_[current_step_ + 1].gear : std::nullopt;
+}
+
+// The lower gear at once instead of slowing down first.
+std::optional<int> SimulatedDriver::early_downshift_gear(const vehicle::DriveSample& now) const {
+  const bool coupled = feet_.clutch.value() == 0.0 && now.car.clutch_locked && now.car.gear > 1;
+  if (!is_due(ErrorKind::early_downshift) || intent().motion != Motion::slow || !coupled) return std::nullopt;
+  const auto is_lower = [&](const LessonIntent& later) { return later.gear && *later.gear < now.car.gear; };
+  const auto next =
+      std::find_if(intents_.begin() + static_cast<std::ptrdiff_t>(current_step_), intents_.end(), is_lower);
+  return next != intents_.end() && *next->gear >= 1 ? next->gear : std::nullopt;
+}
+
+bool SimulatedDriver::make_lugging(const vehicle::DriveSample& now) {
+  if (!is_due(ErrorKind::lugging)) return false;
+  const bool coupled = feet_.clutch.value() == 0.0 && now.car.clutch_locked && now.car.gear >= 1;
+  if (lug_gear_ == haptics::kNeutralGear) {
+    if (coupled && now.car.road_speed > 2.0) lug_gear_ = lugging_gear(now);
+    lug_since_ = now.time();
+    return false;
+  }
+  feet_.brake.move_to(0.0, kBrakeRate);
+  if (!coupled) {
+    launching_ = false;
+    release(now);
+    return true;
+  }
+  feet_.throttle.move_to(1.0, 4.0);
+  if (now.car.engine_speed < car_.engine.lug_below && now.car.engine_load > 0.7) lug_time_ += period_;
+  if (lug_time_ > 1.4 || now.time() - lug_since_ > 8.0) {
+    mark_done(ErrorKind::lugging);
+    lug_gear_ = haptics::kNeutralGear;
+  }
+  return true;
+}
+
+// If the lesson ends with a stop, stalls there, else at once.
+bool SimulatedDriver::should_stall_by_brake(const vehicle::DriveSample& now) const noexcept {
+  if (!is_due(ErrorKind::stall) || lesson_.start.speed <= 0.0 || now.car.gear == haptics::kNeutralGear) return false;
+  const auto stands = [](const LessonIntent& wants) { return wants.motion == Motion::stop; };
+  return intent().motion == Motion::stop || std::none_of(intents_.begin(), intents_.end(), stands);
+}
+
+bool SimulatedDriver::make_brake_stall(const vehicle::DriveSample& now) {
+  if (!should_stall_by_brake(now)) return false;
+  feet_.throttle.move_to(0.0, kLiftRate);
+  feet_.clutch.move_to(0.0, kClutchRateToBite);
+  feet_.brake.move_to(0.6, kBrakeRate);
+  return true;
+}
+
+}  // namespace gearshift::lessons

@@ -1,0 +1,282 @@
+// A shift: clutch and throttle, and the hand through the gate.
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "app/lessons/simulated_driver/driver_constants.h"
+#include "app/lessons/simulated_driver/simulated_driver.h"
+#include "haptics/loop/shift_script.h"
+
+namespace gearshift::lessons {
+namespace {
+
+double side_of(const haptics::Gate& gate, int gear) noexcept {
+  return static_cast<double>(static_cast<int>(haptics::slot_of(gate, haptics::slot_of_gear(gate, gear)).side));
+}
+
+bool closes_after(const haptics::Gate& gate, int gear, int from) noexcept {
+  return std::any_of(haptics::lockouts(gate).begin(), haptics::lockouts(gate).end(),
+                     [&](const haptics::Lockout& lockout) {
+                       return lockout.kind == haptics::LockoutKind::after_gear &&
+                              lockout.slot == haptics::slot_of_gear(gate, gear) && lockout.after_gear == from;
+                     });
+}
+
+}  // namespace
+
+std::optional<int> SimulatedDriver::wanted_gear(const vehicle::DriveSample& now) const {
+  const LessonIntent& wants = intent();
+  const auto other = [&](std::optional<int> gear) { return gear && *gear != now.car.gear ? gear : std::nullopt; };
+  if (lug_gear_ != haptics::kNeutralGear) return other(lug_gear_);
+  if (should_stall_by_brake(now)) return std::nullopt;
+  if (other(wants.gear)) return wants.gear;
+  const bool rolls_back = now.car.road_speed < -kMinRollingSpeed && wants.motion == Motion::stop;
+  if (rolls_back && is_due(ErrorKind::wrong_direction) && current_step_ + 1 < intents_.size())
+    return other(intents_[current_step_ + 1].gear);
+  const bool up_next =
+      wants.accelerates && current_step_ + 1 < intents_.size() && intents_[current_step_ + 1].next_gear;
+  const bool coupled = feet_.clutch.value() == 0.0 && now.car.clutch_locked;
+  if (up_next && coupled && should_shift_early(now)) return other(intents_[current_step_ + 1].next_gear);
+  if (!wants.next_gear) return std::nullopt;
+  if (should_shift_late(now)) return std::nullopt;
+  if (over_rev_late_ && is_due(ErrorKind::over_rev) && coupled && now.car.gear <= 2) return std::nullopt;
+  return other(wants.next_gear);
+}
+
+// For a deliberate grind: releases the clutch in neutral, so that the gearbox shaft turns.
+bool SimulatedDriver::should_spin_shaft(const vehicle::DriveSample& now) const noexcept {
+  const bool stands_in_neutral =
+      now.car.gear == haptics::kNeutralGear && std::abs(now.car.road_speed) < kMaxStandingSpeed;
+  return is_due(ErrorKind::grind) && stands_in_neutral && now.car.running &&
+         now.car.shaft_speed < 0.8 * car_.engine.idle;
+}
+
+// Target speed of the step, or of the one it prepares. [m/s]
+std::optional<double> SimulatedDriver::speed_to_shift(std::size_t step) const noexcept {
+  for (std::size_t i = step; i < lesson_.steps.size() && i <= step + 1; ++i) {
+    if (lesson_.steps[i].at) return lesson_.steps[i].at;
+  }
+  return std::nullopt;
+}
+
+// Deliberate upshift below the lesson's band or the step's speed.
+bool SimulatedDriver::should_shift_early(const vehicle::DriveSample& now) const noexcept {
+  if (!is_due(ErrorKind::early_shift) || now.car.engine_speed < 1.25 * car_.engine.idle) return false;
+  const std::optional<double> at = speed_to_shift(current_step_ + 1);
+  return at ? now.car.road_speed < kEarlyShiftFactor * *at : now.car.engine_speed < lesson_.shift_from;
+}
+
+// Deliberate shift above the lesson's band, or far beyond the step's speed.
+bool SimulatedDriver::should_shift_late(const vehicle::DriveSample& now) const noexcept {
+  const bool coupled = feet_.clutch.value() == 0.0 && now.car.clutch_locked;
+  if (!is_due(ErrorKind::late_shift) || !coupled || !intent().next_gear) return false;
+  const bool up = *intent().next_gear > now.car.gear;
+  if (const std::optional<double> at = speed_to_shift(current_step_))
+    return up ? now.car.road_speed < *at + kLateShiftMargin : now.car.road_speed > *at - kLateShiftMargin;
+  return up && lesson_.shift_to <= car_.engine.red_line && now.car.engine_speed < 1.1 * lesson_.shift_to;
+}
+
+SimulatedDriver::Detour SimulatedDriver::detour_for(const vehicle::DriveSample& now, int gear) noexcept {
+  if (gear == haptics::kNeutralGear || lug_gear_ == gear) return Detour::none;
+  if (is_due(ErrorKind::wrong_gear) && wrong_gear_for(gear, now.car.gear) != haptics::kNeutralGear &&
+      mark_done(ErrorKind::wrong_gear))
+    return Detour::wrong_gear;
+  if (std::abs(now.car.road_speed) > kMinDrivingSpeed && now.car.gear >= 2 && mark_done(ErrorKind::blocked))
+    return Detour::blocked;
+  if (mark_done(ErrorKind::missed_shift)) return Detour::missed;
+  return Detour::none;
+}
+
+// A gear too high, or else too low; never one that would take the engine over its red line.
+int SimulatedDriver::wrong_gear_for(int gear, int from) const noexcept {
+  for (const int wrong : {gear + 1, gear + 2, gear - 2, gear - 1}) {
+    if (wrong >= 1 && wrong != from && haptics::slot_of_gear(gate_, wrong) != haptics::kNoSlot) return wrong;
+  }
+  return haptics::kNeutralGear;
+}
+
+void SimulatedDriver::begin_shift(const vehicle::DriveSample& now, int gear) {
+  shifting_ = true;
+  shift_ = Shift{};
+  shift_.detour = detour_for(now, gear);
+  shift_.gear = gear;
+  if (shift_.detour == Detour::wrong_gear) shift_.gear = wrong_gear_for(gear, now.car.gear);
+  if (shift_.detour == Detour::blocked) shift_.gear = 1;
+  shift_.between_gears = now.car.gear != haptics::kNeutralGear && gear != haptics::kNeutralGear;
+  mark_done(ErrorKind::grind);
+  if (intent().accelerates) mark_done(ErrorKind::early_shift);
+  if (is_lingering_) mark_done(ErrorKind::late_shift);
+  shift_.uses_clutch = !is_due(ErrorKind::no_clutch);
+  shift_.lift_at = now.time() + std::max(0.0, noise(skill_.timing_spread));
+  shift_.flares_until = now.time() + 0.6 * faults_.of(ErrorKind::throttle_in_shift);
+  shift_.press_at = now.time() + std::max(0.0, noise(skill_.timing_spread));
+  shift_.hand_lead = kHandLead + noise(skill_.timing_spread);
+  const double late = faults_.of(ErrorKind::clutch_late);
+  if (late > 0.0) shift_.press_at = now.time() + 0.35 * late, shift_.hand_lead = -10.0;
+  const double lag = kClutchLag + noise(skill_.timing_spread);
+  const bool dawdles = faults_.of(ErrorKind::too_slow) > 0.0;
+  // If the foot is only slightly too early, the hand feels the ring still blocking, and the foot waits.
+  shift_.clutch_early = (lag < -kMaxClutchLead && !dawdles) || faults_.of(ErrorKind::clutch_early) > 0.0;
+  release_at_ = std::max(0.0, lag);  // relative to the engagement of the gear
+  if (is_due(ErrorKind::wrong_direction) && now.car.road_speed < -kMinRollingSpeed)
+    mark_done(ErrorKind::wrong_direction);
+}
+
+void SimulatedDriver::follow_shift(const vehicle::DriveSample& now) {
+  shift_feet(now);
+  shift_hand(now);
+  if (has_arrived(now)) end_shift(now);
+}
+
+void SimulatedDriver::shift_feet(const vehicle::DriveSample& now) {
+  const double time = now.time();
+  set_brakes(now);
+  if (shift_.between_gears && time < shift_.flares_until) {
+    feet_.throttle.move_to(0.8, 10.0);
+  } else if (!make_over_rev(now) && time >= shift_.lift_at) {
+    feet_.throttle.move_to(0.0, kLiftRate);
+  }
+  if (!shift_.uses_clutch) {
+    feet_.clutch.move_to(0.0, kClutchRateToBite);
+    if (shift_.between_gears && hand_.time_waiting(time) > 0.3) hold_revs(std::abs(shaft_speed_in(now, shift_.gear)));
+    return;
+  }
+  const vehicle::SyncPhase phase = now.car.sync;
+  const bool in_ring = phase == vehicle::SyncPhase::synchronising || phase == vehicle::SyncPhase::passing;
+  const bool early = shift_.clutch_early && shift_.between_gears && hand_.in_last_stroke();
+  shift_.releases_early = early && hand_.time_waiting(time) < kStuckTime && (shift_.releases_early || in_ring);
+  if (shift_.releases_early) {
+    // Quickly past the bite point, then slowly: further up the ring would never let the gear in
+    const double bite = car_.clutch.bite;
+    feet_.clutch.move_to(bite - 0.08, feet_.clutch.value() > bite - 0.03 ? 8.0 : 0.15);
+  } else if (time >= shift_.press_at) {
+    press_clutch();
+  }
+}
+
+void SimulatedDriver::press_clutch() {
+  feet_.clutch.move_to(1.0, kPressRate);
+}
+
+// Reverse has no synchroniser: wait until the gearbox shaft has stopped.
+bool SimulatedDriver::waits_for_shaft(const vehicle::DriveSample& now) const noexcept {
+  if (shift_.gear != haptics::kReverseGear || faults_.of(ErrorKind::grind) > 0.0) return false;
+  return now.time() - clutch_down_at_ < kShaftRestTime;
+}
+
+void SimulatedDriver::shift_hand(const vehicle::DriveSample& now) {
+  const double time = now.time();
+  if (!shift_.in_hand) {
+    const bool is_down = clutch_is_down_ && time - clutch_down_at_ >= shift_.hand_lead;
+    const double to_bite = shift_.press_at + car_.clutch.bite / kPressRate;
+    const bool ahead = shift_.hand_lead < 0.0 && time >= to_bite + shift_.hand_lead;
+    const bool ready = shift_.uses_clutch ? (is_down || ahead) : feet_.clutch.value() == 0.0;
+    if (ready && !waits_for_shaft(now)) reach(now, shift_.gear);
+    return;
+  }
+  const bool pushes = now.car.sync == vehicle::SyncPhase::synchronising;
+  const bool in_slot = hand_.in_last_stroke() && now.car.sync != vehicle::SyncPhase::free;
+  if (shift_.detour == Detour::blocked) hand_.set_push_limit(pushes ? 4.0 : 0.0);
+  if (faults_.of(ErrorKind::over_push) > 0.0 && in_slot)
+    hand_.set_extra(
+        {0.0, (kBaseOverPush + kOverPushGain * faults_.of(ErrorKind::over_push)) * side_of(gate_, shift_.gear)});
+  const double time_waiting = hand_.time_waiting(time);
+  const bool at_ring = shift_.detour == Detour::missed && hand_.is_at_end(time) && is_behind_detent(now);
+  const bool tired = shift_.detour == Detour::blocked && hand_.is_at_end(time) && time_waiting > 2.0;
+  const bool no_use = !shift_.uses_clutch && !shift_.between_gears && time_waiting > 0.5;
+  if (at_ring || tired || no_use) return draw_back(now);
+  const bool beside = now.lever.slot == haptics::kNoSlot;  // hit a wall beside the slot
+  const double patience = pushes ? kSyncPatience : beside ? kBesideSlotTime + skill_.reaction : kStuckTime;
+  if (time_waiting > patience) {
+    if (!shift_.uses_clutch) return draw_back(now);
+    reach(now, shift_.gear);
+  }
+}
+
+bool SimulatedDriver::is_behind_detent(const vehicle::DriveSample& now) const noexcept {
+  if (now.lever.slot == haptics::kNoSlot) return false;
+  return std::abs(now.lever.proxy.y) >= haptics::slot_of(gate_, now.lever.slot).release_depth;
+}
+
+// Starts the hand towards the gear, from the lever's position.
+void SimulatedDriver::reach(const vehicle::DriveSample& now, int gear) {
+  const glm::dvec2 from = now.lever.lever;
+  std::vector<haptics::HandStroke> strokes;
+  if (gear != haptics::kNeutralGear && shift_.detour == Detour::none && mark_done(ErrorKind::wrong_column)) {
+    strokes = strokes_into_mouth(from, now.car.gear, wrong_gear_for(gear, now.car.gear));
+  }
+  const glm::dvec2 begin = strokes.empty() ? from : strokes.back().to;
+  const std::vector<haptics::HandStroke> way = strokes_to(begin, now.car.gear, gear);
+  strokes.insert(strokes.end(), way.begin(), way.end());
+  if (shift_.detour == Detour::missed && gear != haptics::kNeutralGear) {
+    const haptics::Slot& slot = haptics::slot_of(gate_, haptics::slot_of_gear(gate_, gear));
+    const double depth = slot.release_depth + kRingFraction * (slot.engage_depth - slot.release_depth);
+    strokes.back().to.y = side_of(gate_, gear) * depth;
+  }
+  for (haptics::HandStroke& stroke : strokes) stroke.to += glm::dvec2{noise(skill_.aim_noise), noise(skill_.aim_noise)};
+  hand_.start(std::move(strokes), from, now.time());
+  shift_.in_hand = true;
+}
+
+std::vector<haptics::HandStroke> SimulatedDriver::strokes_to(glm::dvec2 from, int old_gear, int gear) const {
+  haptics::ShiftStyle style;
+  style.pace = skill_.pace;
+  style.reaction = kStrokeDelay;
+  std::vector<int> gears{gear};
+  if (closes_after(gate_, gear, old_gear)) gears.insert(gears.begin(), haptics::kNeutralGear);
+  return haptics::shift_strokes(gate_, from, gears, style);
+}
+
+// Strokes to just behind the mouth of that gear's slot.
+std::vector<haptics::HandStroke> SimulatedDriver::strokes_into_mouth(glm::dvec2 from, int old_gear, int gear) const {
+  if (gear == haptics::kNeutralGear) return {};
+  std::vector<haptics::HandStroke> strokes = strokes_to(from, old_gear, gear);
+  strokes.back().to.y = side_of(gate_, gear) * (gate_.half_aisle + gate_.chamfer + kMouthDepth);
+  strokes.back().duration = kMouthStrokeTime;
+  return strokes;
+}
+
+// Abandons the shift: back to neutral, clutch up, and a pause before the next attempt.
+void SimulatedDriver::draw_back(const vehicle::DriveSample& now) {
+  done_errors_[static_cast<std::size_t>(ErrorKind::no_clutch)] |= !shift_.uses_clutch;
+  const bool rests = shift_.detour == Detour::missed || !shift_.uses_clutch;
+  hand_.set_push_limit(0.0);
+  shift_.detour = Detour::back;
+  shift_.gear = haptics::kNeutralGear;
+  reach(now, haptics::kNeutralGear);
+  if (rests) pause_until_ = now.time() + kPauseAfterMiss;
+}
+
+bool SimulatedDriver::has_arrived(const vehicle::DriveSample& now) const noexcept {
+  if (!shift_.in_hand || now.car.gear != shift_.gear) return false;
+  return shift_.gear != haptics::kNeutralGear || hand_.is_at_end(now.time());
+}
+
+void SimulatedDriver::end_shift(const vehicle::DriveSample& now) {
+  shifting_ = false;
+  hand_.set_push_limit(0.0);
+  gear_in_at_ = now.time();
+  release_at_ += now.time();
+  if (shift_.between_gears && faults_.of(ErrorKind::step_order) > 0.0)
+    release_at_ = now.time() + kThrottleLead * faults_.of(ErrorKind::step_order);
+  if (shift_.between_gears && std::abs(now.car.road_speed) > kMinCoastingSpeed && mark_done(ErrorKind::too_slow))
+    release_at_ = now.time() + kDawdleTime * faults_.of(ErrorKind::too_slow);
+  release_rate_ = kClutchRateThroughBite * skill_.release_haste * std::exp(noise(skill_.release_spread));
+  rev_bias_ = std::exp(noise(skill_.rev_spread));
+  launch_speed_ = skill_.launch_speed_factor * kLaunchSpeed * rev_bias_;
+  blip_since_ = -1.0;
+  are_revs_matched_ = false;
+}
+
+void SimulatedDriver::rest_hand(const vehicle::DriveSample& now) {
+  if (shifting_) return;
+  if (now.time() - gear_in_at_ > kKnobReleaseTime) {
+    hand_.release_lever();
+    hand_.set_extra({0.0, 0.0});
+  }
+  const bool leans = now.car.gear != haptics::kNeutralGear && faults_.of(ErrorKind::riding_lever) > 0.0;
+  const double push = leans ? 6.0 * faults_.of(ErrorKind::riding_lever) * side_of(gate_, now.car.gear) : 0.0;
+  hand_.set_lean({0.0, push});
+}
+
+}  // namespace gearshift::lessons

@@ -1,0 +1,37 @@
+#include "app/lessons/simulated_driver/driver_skill.h"
+
+#include <algorithm>
+
+namespace gearshift::lessons {
+namespace {
+
+// [engineering value]s: roughly the difference between the first hour and routine.
+//
+// Brake: in the same emergency novices decelerated half as much as experienced drivers (Loeb, Kandadai, McDonald,
+// Winston. Emergency Braking in Adults Versus Novice Teen Drivers. 2015). Launch: beginners rush the pedal through the
+// bite point and use too little throttle, which instructors name as the causes of stalls; there are no measurements of
+// how much.
+constexpr DriverSkill kBeginner{0.45, 0.18, 0.007, 0.05, 0.30, 0.50, 0.18, 2.0, 0.25, 0.50, 0.5, 0.75, 0.0, 0.45};
+
+}  // namespace
+
+DriverSkill skill_of(double error) noexcept {
+  const double e = std::clamp(error, 0.0, 1.0);
+  const DriverSkill best;
+  const auto between = [&](double DriverSkill::*value) { return best.*value + e * (kBeginner.*value - best.*value); };
+  return {between(&DriverSkill::reaction),      between(&DriverSkill::timing_spread),
+          between(&DriverSkill::aim_noise),     between(&DriverSkill::pedal_noise),
+          between(&DriverSkill::rev_spread),    between(&DriverSkill::release_spread),
+          between(&DriverSkill::pace),          between(&DriverSkill::release_haste),
+          between(&DriverSkill::hearing_delay), between(&DriverSkill::foot_change),
+          between(&DriverSkill::brake_effort),  between(&DriverSkill::launch_speed_factor),
+          between(&DriverSkill::reading_time),  between(&DriverSkill::max_bite_drop)};
+}
+
+DeliberateErrors deliberate_error(ErrorKind kind, double amount) noexcept {
+  DeliberateErrors errors;
+  errors.amount[static_cast<std::size_t>(kind)] = amount;
+  return errors;
+}
+
+}  // namespace gearshift::lessons

@@ -1,0 +1,31 @@
+// A foot on a pedal, or a hand on the handbrake: it moves to its goal at a given rate, with tremor on the way.
+#pragma once
+
+#include <cstdint>
+
+#include "haptics/device/gaussian_noise.h"
+
+namespace gearshift::lessons {
+
+class Foot {
+ public:
+  // noise: standard deviation of a pedal held between its ends [1]; at either end there is none.
+  Foot(double noise, std::uint64_t seed) : noise_(noise), random_(seed) {}
+
+  void place(double value) noexcept { value_ = goal_ = value; }
+  // goal [1] 0 to 1; rate [1/s] > 0.
+  void move_to(double goal, double rate) noexcept;
+  void hold() noexcept { goal_ = value_; }
+  double step(double dt) noexcept;  // [1] 0 to 1: pedal position
+
+  double value() const noexcept { return value_; }  // without tremor
+  double goal() const noexcept { return goal_; }
+
+ private:
+  double noise_;
+  haptics::GaussianNoise random_;
+  double value_ = 0.0, goal_ = 0.0, rate_ = 1.0;
+  double tremor_ = 0.0;
+};
+
+}  // namespace gearshift::lessons

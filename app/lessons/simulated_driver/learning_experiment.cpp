@@ -1,0 +1,152 @@
+#include "app/lessons/simulated_driver/learning_experiment.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+#include <random>
+
+#include "app/lessons/assessment/grade.h"
+#include "app/lessons/assessment/guidance.h"
+#include "haptics/device/gaussian_noise.h"
+
+namespace gearshift::lessons {
+namespace {
+
+constexpr int kRetentionTrials = 2;
+
+// The C++ standard defines the numbers of this engine, but not those of std::uniform_real_distribution.
+class RandomSource {
+ public:
+  explicit RandomSource(std::uint64_t seed) : engine_(seed), noise_(seed + 1) {}
+  double between(double low, double high) noexcept {
+    return low + (high - low) * static_cast<double>(engine_() >> 11) * 0x1.0p-53;
+  }
+  double normal() noexcept { return noise_.next(); }
+  std::uint64_t seed() noexcept { return engine_(); }
+
+ private:
+  std::mt19937_64 engine_;
+  haptics::GaussianNoise noise_;
+};
+
+LessonResult drive_as(LessonDriveConfig drive, double error, double guidance, std::uint64_t seed) {
+  drive.skill = skill_of(error);
+  drive.guidance = guidance;
+  drive.seed = seed;
+  return drive_lesson(drive);
+}
+
+bool is_reported(const LessonResult& result, ErrorKind kind) {
+  return std::any_of(result.errors.begin(), result.errors.end(),
+                     [&](const DrivingError& error) { return error.kind == kind && error.severity != Severity::note; });
+}
+
+// An abandoned lesson counts as not driven, however clean its first part was.
+double score(const LessonResult& result) noexcept {
+  return result.end == LessonEnd::done ? result.grade : 0.0;
+}
+
+double mean(std::span<const double> values) noexcept {
+  if (values.empty()) return 0.0;
+  return std::accumulate(values.begin(), values.end(), 0.0) / static_cast<double>(values.size());
+}
+
+// One simulated driver on the way through the trials.
+struct Trainee {
+  double error, rate;
+  GuidancePolicy policy;
+  int guided = 0;
+
+  double guidance(Practice practice) {
+    const TrialPlan plan = policy.next();
+    if (practice == Practice::unguided) return 0.0;
+    return practice == Practice::guided_always ? 1.0 : plan.guidance;
+  }
+
+  void learn(const LearningModel& model, const LessonResult& result, double gain) {
+    const double failed = run_error(result);
+    error *= 1.0 - rate * (1.0 - model.guided_loss * gain) * (1.0 - model.failed_loss * failed);
+    policy.learn(failed);
+    if (gain > 0.0) ++guided;
+  }
+};
+
+}  // namespace
+
+double roc_auc(std::span<const double> skilled, std::span<const double> unskilled) noexcept {
+  if (skilled.empty() || unskilled.empty()) return 0.5;
+  double wins = 0.0;
+  for (const double good : skilled) {
+    for (const double bad : unskilled) wins += good > bad ? 1.0 : good == bad ? 0.5 : 0.0;
+  }
+  return wins / static_cast<double>(skilled.size() * unskilled.size());
+}
+
+Separation separate(const LessonDriveConfig& drive, int each, std::uint64_t seed, const SkillClasses& classes) {
+  RandomSource random(seed);
+  Separation result;
+  for (int i = 0; i < each; ++i) {
+    const double good = random.between(0.0, classes.max_skilled_error),
+                 bad = random.between(classes.min_unskilled_error, 1.0);
+    const LessonResult one = drive_as(drive, good, 0.0, random.seed());
+    const LessonResult other = drive_as(drive, bad, 0.0, random.seed());
+    result.skilled.push_back(score(one));
+    result.unskilled.push_back(score(other));
+    result.skilled_passed += one.passed ? 1 : 0;
+    result.unskilled_passed += other.passed ? 1 : 0;
+  }
+  result.auc = roc_auc(result.skilled, result.unskilled);
+  return result;
+}
+
+ErrorSeparation separate_error(const LessonDriveConfig& drive, ErrorKind kind, int each, std::uint64_t seed,
+                               const SkillClasses& classes) {
+  RandomSource random(seed);
+  ErrorSeparation result;
+  std::vector<double> without, with;
+  LessonDriveConfig faulty = drive;
+  for (int i = 0; i < each; ++i) {
+    const double error = random.between(0.0, classes.max_skilled_error);
+    faulty.errors = deliberate_error(kind, random.between(0.6, 1.4));
+    const LessonResult good = drive_as(drive, error, 0.0, random.seed());
+    const LessonResult bad = drive_as(faulty, error, 0.0, random.seed());
+    without.push_back(score(good));
+    with.push_back(score(bad));
+    result.detected += is_reported(bad, kind) ? 1 : 0;
+    result.false_alarms += is_reported(good, kind) ? 1 : 0;
+  }
+  result.driven = each;
+  result.auc = roc_auc(without, with);
+  return result;
+}
+
+PracticeOutcome practise(const LessonDriveConfig& drive, Practice practice, const LearningModel& model, int learners,
+                         int trials, std::uint64_t seed) {
+  PracticeOutcome outcome;
+  outcome.error.assign(static_cast<std::size_t>(trials) + 1, 0.0);
+  std::vector<double> retained;
+  int guided = 0, early = 0;
+  for (int i = 0; i < learners; ++i) {
+    RandomSource random(seed + static_cast<std::uint64_t>(i));  // the same drivers for every kind of practice
+    const double start = random.between(model.min_start_error, 1.0);
+    const double rate = std::min(1.0, model.rate * std::exp(model.rate_spread * random.normal()));
+    Trainee trainee{start, rate, GuidancePolicy(random.seed())};
+    outcome.error[0] += trainee.error / learners;
+    for (int trial = 1; trial <= trials; ++trial) {
+      const double gain = trainee.guidance(practice);
+      trainee.learn(model, drive_as(drive, trainee.error, gain, random.seed()), gain);
+      if (2 * trial <= trials && gain > 0.0) ++early;
+      outcome.error[static_cast<std::size_t>(trial)] += trainee.error / learners;
+    }
+    for (int test = 0; test < kRetentionTrials; ++test)
+      retained.push_back(score(drive_as(drive, trainee.error, 0.0, random.seed())));
+    guided += trainee.guided;
+  }
+  outcome.retention_grade = mean(retained);
+  outcome.guided_share = static_cast<double>(guided) / (static_cast<double>(learners) * trials);
+  const int first_half = trials / 2;
+  outcome.guided_early = static_cast<double>(early) / (static_cast<double>(learners) * first_half);
+  return outcome;
+}
+
+}  // namespace gearshift::lessons

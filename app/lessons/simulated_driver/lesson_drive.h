@@ -1,0 +1,58 @@
+// Drives a lesson with a simulated driver: hand, lever, loop, car and assessment on a virtual clock, as fast as
+// possible.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+
+#include "app/lessons/assessment/hint_style.h"
+#include "app/lessons/assessment/lesson.h"
+#include "app/lessons/assessment/lesson_result.h"
+#include "app/lessons/simulated_driver/driver_skill.h"
+#include "app/vehicle/car_spec.h"
+#include "app/vehicle/drive_sample.h"
+#include "haptics/gate/gate.h"
+#include "haptics/gate/gate_layout.h"
+
+namespace gearshift::lessons {
+
+struct LessonDriveConfig {
+  Lesson lesson;
+  vehicle::CarSpec car;
+  haptics::GateLayout gate;
+  DriverSkill skill;
+  DeliberateErrors errors;
+  LessonMode mode = LessonMode::by_yourself;
+  HintStyle hints = HintStyle::prescriptive;
+  double guidance = 0.0;                                      // [1] 0 to 1
+  std::uint64_t seed = 1;                                     // for the driver and the tooth positions
+  double rate = 1000.0;                                       // [Hz] 100 to 4000
+  std::filesystem::path trace;                                // empty: none
+  std::function<void(const vehicle::DriveSample&)> on_cycle;  // every cycle; may be empty
+  std::function<void(const haptics::HapticEvent&)>
+      on_event;  // for each event of a cycle, before on_cycle; may be empty
+};
+
+// The gate compiled for the lever used here. Throws like compile_gate().
+haptics::Gate driven_gate(const haptics::GateLayout& layout);
+
+// State of the lesson after a cycle, for the driver's next action.
+struct LessonProgress {
+  std::size_t step = 0;
+  int guided_gear = haptics::kNeutralGear;
+  bool is_over = false;
+};
+using LessonJudge = std::function<LessonProgress(const vehicle::DriveSample&)>;
+
+// Drives until the judge reports the end or the driver gives up; the judge decides on mode and hints. Throws like the
+// overload below.
+void drive_lesson(const LessonDriveConfig& config, const LessonJudge& judge);
+
+// Drives with a LessonRun as judge. Exactly reproducible. Throws std::invalid_argument if lesson, car and gate do not
+// fit together, and FileError if the trace cannot be written: before the first cycle, or after the last one if the disk
+// is full.
+LessonResult drive_lesson(const LessonDriveConfig& config);
+
+}  // namespace gearshift::lessons

@@ -1,0 +1,76 @@
+#include "app/lessons/simulated_driver/stroke_hand.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <glm/geometric.hpp>
+
+namespace gearshift::lessons {
+namespace {
+
+// [engineering value]s. Relaxes twice as fast as the touring hand: the effort that broke a lever out of its gear must
+// not carry it into the slot across the aisle.
+constexpr double kEffortGain = 4000.0;       // [N/(m s)]
+constexpr double kMaxEffort = 28.0;          // [N]
+constexpr double kArrivalTolerance = 0.001;  // [m]
+constexpr double kRelaxationTime = 0.025;    // [s]
+constexpr double kMaxCornerCut = 0.005;      // [m] a turn may be cut by this much: half a slot's width
+
+}  // namespace
+
+StrokeHand::StrokeHand(double period) noexcept : period_(period), effort_decay_(std::exp(-period / kRelaxationTime)) {}
+
+void StrokeHand::start(std::vector<haptics::HandStroke> strokes, glm::dvec2 from, double time) {
+  strokes_ = std::move(strokes);
+  current_ = 0;
+  from_ = from;
+  begin_ = time;
+  effort_ = {0.0, 0.0};
+}
+
+haptics::HandTarget StrokeHand::next(double time, glm::dvec2 lever) noexcept {
+  haptics::HandTarget target;
+  target.position = lever;
+  target.push = lean_;
+  if (strokes_.empty()) return target;
+  const haptics::HandStroke& stroke = strokes_[current_];
+  const double t = time - begin_;
+  const bool arrived = t >= stroke.duration + stroke.dwell && glm::distance(lever, stroke.to) < kMaxCornerCut;
+  if (arrived && !in_last_stroke()) {
+    from_ = stroke.to;
+    begin_ = time;
+    ++current_;
+    return next(time, lever);
+  }
+  target = haptics::minimum_jerk(from_, stroke.to, t, stroke.duration);
+  target.pressed_down = stroke.pressed_down;
+  target.lifted = stroke.lifted;
+  target.push = stroke.push + effort(target.position - lever) + extra_;
+  if (push_limit_ > 0.0) {
+    target.position = lever;
+    target.push = {0.0, std::copysign(push_limit_, stroke.to.y)};
+  }
+  return target;
+}
+
+bool StrokeHand::is_at_end(double time) const noexcept {
+  return in_last_stroke() && time - begin_ >= strokes_.back().duration;
+}
+
+double StrokeHand::time_waiting(double time) const noexcept {
+  if (strokes_.empty()) return 0.0;
+  return std::max(0.0, time - begin_ - strokes_[current_].duration);
+}
+
+glm::dvec2 StrokeHand::effort(glm::dvec2 lag) noexcept {
+  for (int axis = 0; axis < 2; ++axis) {
+    const bool behind = std::abs(lag[axis]) > kArrivalTolerance;
+    if (!behind || lag[axis] * effort_[axis] < 0.0) effort_[axis] *= effort_decay_;
+    if (behind) effort_[axis] += kEffortGain * lag[axis] * period_;
+    effort_[axis] = std::clamp(effort_[axis], -kMaxEffort, kMaxEffort);
+  }
+  return effort_;
+}
+
+}  // namespace gearshift::lessons

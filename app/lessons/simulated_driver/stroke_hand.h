@@ -1,0 +1,42 @@
+// A hand that follows a list of strokes and sees where the lever is: each stroke begins when the last one has arrived.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "haptics/device/scripted_hand.h"
+
+namespace gearshift::lessons {
+
+// Minimum-jerk strokes and effort like ScriptedHand, but the strokes wait while something blocks the lever. Without
+// strokes the hand has let go: it follows the lever and only leans on it with `lean`.
+class StrokeHand {
+ public:
+  explicit StrokeHand(double period) noexcept;  // [s] between calls of next()
+
+  void start(std::vector<haptics::HandStroke> strokes, glm::dvec2 from, double time);
+  void release_lever() noexcept { strokes_.clear(); }
+  void set_lean(glm::dvec2 push) noexcept { lean_ = push; }          // [N] while it has let go
+  void set_extra(glm::dvec2 push) noexcept { extra_ = push; }        // [N] added to a stroke
+  void set_push_limit(double push) noexcept { push_limit_ = push; }  // [N] fixed weak push; 0: as much as needed
+  haptics::HandTarget next(double time, glm::dvec2 lever) noexcept;
+
+  bool has_released_lever() const noexcept { return strokes_.empty(); }
+  bool in_last_stroke() const noexcept { return !strokes_.empty() && current_ + 1 == strokes_.size(); }
+  bool is_at_end(double time) const noexcept;       // the last stroke is over, whether or not the lever followed
+  double time_waiting(double time) const noexcept;  // [s] since the stroke ended, if the lever has not arrived
+
+ private:
+  glm::dvec2 effort(glm::dvec2 lag) noexcept;
+
+  double period_;
+  double effort_decay_;
+  std::vector<haptics::HandStroke> strokes_;
+  std::size_t current_ = 0;
+  glm::dvec2 from_{0.0};
+  double begin_ = 0.0;  // [s]
+  glm::dvec2 effort_{0.0}, lean_{0.0}, extra_{0.0};
+  double push_limit_ = 0.0;
+};
+
+}  // namespace gearshift::lessons

@@ -1,0 +1,74 @@
+// The haptic thread's part of a trainer: runs the loop cycle by cycle and publishes a record of each cycle.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+
+#include "app/runtime/runtime_loop.h"
+#include "app/vehicle/drive_sample.h"
+#include "app/vehicle/vehicle_state.h"
+#include "haptics/rt/latest_value.h"
+#include "haptics/rt/realtime_thread.h"
+#include "haptics/rt/spsc_queue.h"
+
+namespace gearshift::runtime {
+
+struct CycleRecord {
+  vehicle::DriveSample sample;  // without a car, its car is the default state
+  std::int64_t late_ns = 0;     // [ns] wake-up after the deadline
+};
+
+struct LoopFigures {
+  std::uint64_t overruns = 0;        // see CycleStatistics
+  std::uint64_t skipped = 0;         // see CycleStatistics
+  std::array<double, 8> stage_ns{};  // [ns] read .. write, mean of the latest stamps
+  double cycle_ns = 0.0;             // [ns] whole cycle, from the same stamps
+};
+
+class CycleRunner {
+ public:
+  static constexpr std::size_t kMaxRecords = 8192;    // 8 s at 1 kHz, 2 s at 4 kHz
+  static constexpr std::size_t kMaxForDriver = 4096;  // if the driver falls further behind, cycles are skipped
+
+  explicit CycleRunner(std::int64_t period_ns) noexcept : period_ns_(period_ns) {}  // [ns] of the thread
+
+  // Runs one cycle; real-time safe. statistics: of the calling thread; null on a virtual clock, which is never late.
+  void cycle(const haptics::CycleCall& call, const haptics::CycleStatistics* statistics) noexcept;
+
+  // The last cycle. Only on the thread that runs the cycles.
+  const vehicle::DriveSample& newest() const noexcept { return record_.sample; }
+
+  // Frame side. From the next cycle on, `next` runs; once has_run(next) is true, the previous run may be destroyed.
+  void switch_to(LoopRun& next) noexcept { next_.store(&next, std::memory_order_release); }
+  bool has_run(const LoopRun& run) const noexcept { return ran_.load(std::memory_order_acquire) == &run; }
+  std::int64_t now_ns() const noexcept { return now_ns_.load(std::memory_order_relaxed); }  // newest deadline
+
+  haptics::SpscQueue<CycleRecord> records{kMaxRecords};  // if full, the newest are dropped
+  // set before the first cycle; null: no driver. If full, the newest are dropped
+  std::unique_ptr<haptics::SpscQueue<vehicle::DriveSample>> for_driver;
+  haptics::LatestValue<LoopFigures> figures;
+  haptics::LatestValue<vehicle::VehicleState> car;
+
+ private:
+  static constexpr std::size_t kStamps = 16;  // number of stamps averaged
+
+  std::int64_t lateness(const haptics::CycleCall& call, const haptics::CycleStatistics& statistics) noexcept;
+  void publish(std::int64_t late_ns) noexcept;
+  void add_stamps(const haptics::StageStamps& stamps) noexcept;
+
+  std::int64_t period_ns_;
+  std::atomic<LoopRun*> next_{nullptr};
+  std::atomic<LoopRun*> ran_{nullptr};
+  std::atomic<std::int64_t> now_ns_{0};
+  LoopRun* run_ = nullptr;
+  CycleRecord record_;
+  LoopFigures latest_figures_;   // written at each stamp, and at once when a deadline was missed
+  bool has_new_misses_ = false;  // a deadline was missed in this cycle
+  std::array<std::array<std::int64_t, 8>, kStamps> stage_ns_{};  // latest ones, as a ring buffer
+  std::size_t stamps_ = 0;                                       // number so far
+};
+
+}  // namespace gearshift::runtime

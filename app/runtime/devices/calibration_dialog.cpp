@@ -1,0 +1,153 @@
+#include "app/runtime/devices/calibration_dialog.h"
+
+#include <charconv>
+#include <cmath>
+#include <optional>
+#include <string_view>
+
+#include <fmt/format.h>
+
+#include "haptics/files/printable.h"
+
+namespace gearshift::runtime {
+namespace {
+
+// Parses "140" or "140 mm": a number with an optional unit.
+std::optional<double> number_of(std::string_view text, std::string_view unit) {
+  const auto trim = [&text] {
+    while (!text.empty() && text.front() == ' ') text.remove_prefix(1);
+    while (!text.empty() && text.back() == ' ') text.remove_suffix(1);
+  };
+  trim();
+  if (text.ends_with(unit)) text.remove_suffix(unit.size());
+  trim();
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc{} || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+class DialogRunner {
+ public:
+  DialogRunner(haptics::Calibrator& calibrator, const CalibrationDialog& dialog, const CalibrationTimes& times)
+      : calibrator_(calibrator), dialog_(dialog), times_(times) {}
+
+  void run_step(haptics::CalibrationStep step) {
+    switch (step) {
+      case haptics::CalibrationStep::range:
+        return run_range();
+      case haptics::CalibrationStep::numbers:
+        return run_numbers();
+      case haptics::CalibrationStep::polarity:
+        return measure_hands_off(
+            "Measures which way its forces push: it moves a little, with at most a tenth of its force.", Needed::yes,
+            [&] { return calibrator_.measure_polarity(); });
+      case haptics::CalibrationStep::timing:
+        return measure_hands_off("Measures how fast it responds: it shakes a little for some seconds.", Needed::yes,
+                                 [&] { return calibrator_.measure_timing(); });
+      case haptics::CalibrationStep::handle:
+        return measure_hands_off(
+            "Measures how heavy its handle is: it is pushed back and forth with up to 40 % of its force.", Needed::no,
+            [&] { return calibrator_.measure_handle(); });
+      case haptics::CalibrationStep::springs:
+        return measure_hands_off(
+            "Measures its own springs and dampers: it is pulled to one side and held, then pushed back and forth.",
+            Needed::no, [&] { return calibrator_.measure_springs(); });
+    }
+  }
+
+ private:
+  enum class Needed { yes, no };
+
+  // Repeats a measurement until it succeeds or is skipped. Returns whether it succeeded.
+  template <class Measure>
+  bool repeat_until_measured(const std::string& instruction, Needed needed, const Measure& measure) {
+    const char* answers = needed == Needed::yes ? "[Enter: start]" : "[Enter: start, -: skip]";
+    for (;;) {
+      const std::string answer = dialog_.ask(instruction + " " + answers);
+      if (needed == Needed::no && answer == "-") return false;
+      if (!answer.empty()) {
+        dialog_.print(fmt::format("\"{}\" is not a valid answer.", haptics::printable(answer)));
+        continue;
+      }
+      try {
+        dialog_.print("  Found: " + measure() + ".");
+        return true;
+      } catch (const haptics::CalibrationRefused& refused) {
+        dialog_.print(fmt::format("  Rejected: {}. Try again.", refused.what()));
+      }
+    }
+  }
+
+  void save() const { dialog_.save(calibrator_.calibration()); }
+
+  template <class Measure>
+  void measure_hands_off(const std::string& what, Needed needed, const Measure& measure) {
+    repeat_until_measured("HANDS OFF the stick: its motors will move it. " + what, needed, measure);
+    save();  // also after a skip: the springs may be measured without the dampers
+  }
+
+  // Buttons come before the range: until the range is known, this whole step is repeated.
+  void run_range() {
+    dialog_.print("The motors stay off during this step.");
+    repeat_until_measured(
+        fmt::format(
+            "Leave the stick at rest and press Enter. Then, within {:g} s, push it all the way to the RIGHT and "
+            "hold it there.",
+            times_.axis),
+        Needed::yes, [&] { return calibrator_.find_axis(true, times_.axis); });
+    repeat_until_measured(
+        fmt::format("Press Enter, then push it all the way FORWARD, away from you, within {:g} s and hold it.",
+                    times_.axis),
+        Needed::yes, [&] { return calibrator_.find_axis(false, times_.axis); });
+    run_button(haptics::LeverButton::press, "for pushing the knob down, as for reverse in many cars");
+    run_button(haptics::LeverButton::lift, "for lifting the ring");
+    run_button(haptics::LeverButton::stop, "for an emergency stop of the motors");
+    repeat_until_measured(
+        fmt::format("Move the stick around along all its stops for {:g} s, and LET GO of it for the last two.",
+                    times_.range),
+        Needed::yes, [&] { return calibrator_.measure_range(times_.range); });
+    save();
+  }
+
+  void run_button(haptics::LeverButton button, const char* does) {
+    repeat_until_measured(fmt::format("Press the stick's button {}, within {:g} s.", does, times_.button), Needed::no,
+                          [&] { return calibrator_.find_button(button, times_.button); });
+  }
+
+  double ask_number(const std::string& question, double min, double max, std::string_view unit) {
+    for (;;) {
+      const std::string answer = dialog_.ask(fmt::format("{} [{:g} to {:g} {}]", question, min, max, unit));
+      const std::optional<double> number = number_of(answer, unit);
+      if (number && *number >= min && *number <= max) return *number;
+      dialog_.print(fmt::format("  Rejected: \"{}\" is not a number from {:g} to {:g} {}. Try again.",
+                                haptics::printable(answer), min, max, unit));
+    }
+  }
+
+  void run_numbers() {
+    const double select =
+        ask_number("How far does the knob travel from the left stop to the right stop?", 20, 500, "mm");
+    const double shift = ask_number("And from the back stop to the forward stop?", 20, 500, "mm");
+    const double force =
+        ask_number("What is its maximum force at the knob, from the data sheet (torque / length) or a spring scale?",
+                   0.5, 100, "N");
+    dialog_.print("  Stored: " + calibrator_.set_numbers(1e-3 * select, 1e-3 * shift, force) + ".");
+    save();
+  }
+
+  haptics::Calibrator& calibrator_;
+  const CalibrationDialog& dialog_;
+  const CalibrationTimes& times_;
+};
+
+}  // namespace
+
+void calibrate(haptics::Calibrator& calibrator, bool springs, const CalibrationDialog& dialog,
+               const CalibrationTimes& times) {
+  DialogRunner runner(calibrator, dialog, times);
+  for (const haptics::CalibrationStep step : haptics::missing_steps(calibrator.calibration(), springs))
+    runner.run_step(step);
+}
+
+}  // namespace gearshift::runtime

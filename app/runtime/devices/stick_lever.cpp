@@ -1,0 +1,48 @@
+#include "app/runtime/devices/stick_lever.h"
+
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "haptics/hardware/pid_lever.h"
+
+namespace gearshift::runtime {
+namespace {
+
+// Another firmware may have different reports, and a calibration of the old ones could push the wrong way.
+haptics::PortOpener as_calibrated(haptics::PortOpener open, const KnownStick& stick) {
+  return [open = std::move(open), stick] {
+    std::unique_ptr<haptics::HidPort> port = open();
+    if (port->report_descriptor() == stick.report_descriptor) return port;
+    const haptics::HidIdentity identity = identity_of(stick.calibration);
+    throw haptics::HidError(
+        fmt::format("the reports of {} have changed since it was calibrated; run: gearshift devices --calibrate {}",
+                    stick_name(identity), stick_id(identity)));
+  };
+}
+
+}  // namespace
+
+StickLever::StickLever(const KnownStick& stick, haptics::PortOpener open)
+    : stick_(stick),
+      idle_(stick.report_descriptor),
+      driver_(stick.report_descriptor),
+      keeper_(driver_, as_calibrated(std::move(open), stick), kTickNs) {}
+
+StickLever::~StickLever() = default;
+
+std::unique_ptr<haptics::HapticDevice> StickLever::lever(double period) {
+  return std::make_unique<haptics::PidLever>(stick_.calibration, driver_, period);
+}
+
+std::unique_ptr<haptics::HapticDevice> StickLever::detached_lever(double period) {
+  return std::make_unique<haptics::PidLever>(stick_.calibration, idle_, period);
+}
+
+std::optional<std::string> StickLever::take_message() {
+  const std::optional<haptics::PidAbility> ability = keeper_.ability();
+  if (ability && notes_reported_ < ability->notes.size()) return ability->notes[notes_reported_++];
+  return keeper_.take_message();
+}
+
+}  // namespace gearshift::runtime

@@ -1,0 +1,40 @@
+// The desktop camera: a named place in the cabin, turned by the mouse.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include <glm/vec2.hpp>
+
+#include "app/cabin/stage/drive_side.h"
+#include "engine/scene/view.h"
+
+namespace gearshift::session {
+
+class CabinCamera {
+ public:
+  // Throws std::invalid_argument for an unknown camera.
+  explicit CabinCamera(std::string_view first, cabin::DriveSide side = cabin::DriveSide::left);
+  void next();
+  void go_to(std::string_view place);  // throws like the constructor
+  // While a single shift is replayed, moves the camera from "driver" to "lever", because its paths are too small to see
+  // from the driver's seat, and back afterwards. Other cameras stay. Call once per frame; true when the place has
+  // changed.
+  bool follow_shift(bool is_replaying_shift);
+  void turn(glm::dvec2 moved_px);  // right +, down +; 0.2 deg per pixel, at most 80 deg sideways and 60 deg up or down
+  void recentre();
+  std::string_view place() const { return kPlaces[place_]; }
+  engine::EyePose pose() const;
+  double field() const;  // [deg] field of view, see camera_field()
+
+ private:
+  static constexpr std::array<std::string_view, 6> kPlaces{"driver", "ahead", "lever", "gate", "cluster", "gearbox"};
+  cabin::DriveSide side_;
+  std::size_t place_ = 0;
+  bool was_replaying_shift_ = false;  // in the previous frame
+  bool left_driver_ = false;          // moved from "driver" to show the shift
+  double yaw_ = 0.0, pitch_ = 0.0;    // [rad] left +, up +
+};
+
+}  // namespace gearshift::session

@@ -1,0 +1,36 @@
+// Prints one line on stdout for each engaged gear, each over-push and each change of the guard, and one with the loop's
+// health: for people and scripts that watch.
+#pragma once
+
+#include <cstdio>
+#include <optional>
+#include <span>
+
+#include "app/base/console.h"
+#include "app/runtime/runtime.h"
+#include "haptics/loop/haptic_snapshot.h"
+
+namespace gearshift::session {
+
+// Event times are since the start of the session. push_estimated: the device has no force sensor.
+inline void print_events(std::span<const haptics::HapticEvent> events, bool push_estimated) {
+  for (const haptics::HapticEvent& event : events) {
+    const bool is_printed = event.kind == haptics::EventKind::gear_engaged ||
+                            event.kind == haptics::EventKind::over_push_begin ||
+                            event.kind == haptics::EventKind::guard_changed;
+    if (is_printed)
+      base::print_out("{:8.3f} s  {}\n", 1e-9 * static_cast<double>(event.time_ns),
+                      haptics::describe(event, push_estimated));
+  }
+  if (!events.empty()) std::fflush(stdout);
+}
+
+// Prints how well the loop met its deadlines, from its first cycle to its last.
+inline void print_health(const std::optional<runtime::LoopHealth>& health) {
+  if (!health) return;
+  base::print_out("loop: {} deadlines missed, {} cycles too long, {} events lost, {}\n", health->skipped,
+                  health->overruns, health->events_lost, health->realtime ? "real-time" : "not real-time");
+  std::fflush(stdout);
+}
+
+}  // namespace gearshift::session

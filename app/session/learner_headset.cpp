@@ -1,0 +1,217 @@
+#include "app/session/learner_headset.h"
+
+#include <algorithm>
+#include <utility>
+
+#include <fmt/core.h>
+
+namespace gearshift::session {
+namespace {
+
+// Shortest and longest pause between two searches for a headset
+constexpr std::chrono::seconds kMinPause(2), kMaxPause(60);
+constexpr std::chrono::seconds kTakenOffDelay(
+    1);                        // delay of the report; a user who quits takes the headset off as well
+constexpr double kTip = 0.10;  // [m] length of the beam while the hand touches the knob: it marks the ray's origin
+
+engine::HeadsetPanel in_room(const engine::EyePose& cabin_from_room, const cabin::HangingPanel& panel) {
+  return {engine::inverse(cabin_from_room) * panel.pose, panel.size, panel.low, panel.high};
+}
+
+engine::EyePose between(const engine::HeadsetEyes& eyes) {
+  return {0.5 * (eyes.pose[0].position + eyes.pose[1].position),
+          glm::slerp(eyes.pose[0].orientation, eyes.pose[1].orientation, 0.5)};
+}
+
+}  // namespace
+
+LearnerHeadset::LearnerHeadset(const HeadsetSetup& setup, engine::Window& window, engine::UiContext& ui)
+    : setup_(setup),
+      window_(window),
+      ui_(ui),
+      seating_(setup.seat, setup.seat_file, cabin::camera("driver", setup.seat.drive).position) {
+  if (setup.is_new) seating_.save_settings();
+}
+
+bool LearnerHeadset::is_found() {
+  const auto now = std::chrono::steady_clock::now();
+  if (view_ || now < next_try_ || is_leaving()) return false;
+  next_try_ = now + pause_;
+  try {
+    found_ = std::make_unique<engine::HeadsetRuntime>();
+    return true;
+  } catch (const engine::HeadsetAbsent& absent) {
+    pause_ = kMinPause;
+    report_once(fmt::format("{}; the desktop shows the cabin until then", absent.what()));
+  } catch (const engine::HeadsetError& error) {
+    report_once(fmt::format("{}; the desktop shows the cabin", error.what()));
+  }
+  return false;
+}
+
+// The search repeats every 2 s: reports a result only when it changes.
+void LearnerHeadset::report_once(const std::string& message) {
+  if (message == reported_) return;
+  reported_ = message_ = message;
+}
+
+bool LearnerHeadset::open() {
+  try {
+    view_ = std::make_unique<cabin::HeadsetView>(setup_.view, std::move(found_), window_, ui_);
+  } catch (const std::exception& error) {  // an error of the runtime or of the GPU
+    lose(error.what());
+    return false;
+  }
+  message_ = fmt::format("{} at {}", view_->headset().headset, view_->headset().runtime);
+  return true;
+}
+
+// Errors of the headset or of its GPU must not end the trainer.
+template <class Work>
+void LearnerHeadset::guarded(const Work& work) {
+  try {
+    work();
+  } catch (const engine::HeadsetError& error) {
+    lose(error.what());
+  } catch (const engine::GpuError& error) {
+    lose(error.what());
+  }
+}
+
+void LearnerHeadset::set_model(const engine::Model& model) {
+  guarded([&] { view_->set_model(model); });
+}
+
+bool LearnerHeadset::is_leaving() const {
+  return leaving_.valid() && leaving_.wait_for(std::chrono::seconds(0)) != std::future_status::ready;
+}
+
+// STOP must not wait for the headset's runtime: if it still withholds a frame, the view is destroyed on another thread.
+void LearnerHeadset::lose(const std::string& why) {
+  if (view_ && view_->is_waiting()) {
+    view_->release_window();
+    leaving_ = std::async(std::launch::async, [view = std::move(view_)]() mutable { view.reset(); });
+  }
+  view_.reset();
+  found_.reset();
+  pointer_.reset();
+  beam_.reset();
+  was_worn_ = false;
+  taken_off_at_.reset();
+  seating_.on_headset_lost();
+  next_try_ = std::chrono::steady_clock::now() + pause_;
+  pause_ = std::min(2 * pause_, kMaxPause);  // each attempt interrupts the desktop's picture
+  report_once(fmt::format("{}; the desktop shows the cabin, the lever keeps running", why));
+}
+
+bool LearnerHeadset::begin(const cabin::Stage& stage) {
+  bool worn = false;
+  guarded([&] {
+    worn = view_->begin();
+    wants_exit_ = wants_exit_ || view_->state() == engine::HeadsetState::exiting;
+    if (std::string message = view_->take_message(); !message.empty())
+      message_ = "the window does not mirror the headset: " + message;
+    if (std::exchange(was_worn_, worn) && !worn) on_taken_off();
+    report_taken_off();
+    pointer_.reset();
+    beam_.reset();
+    if (!view_->has_begun()) return;
+    while (const std::optional<engine::SpaceChange> change = view_->take_due_space_change())
+      seating_.follow(*change, view_->is_room_persistent());
+    if (view_->is_shown()) {
+      pause_ = kMinPause;
+      reported_.clear();
+      update_seat(stage);
+    }
+    follow_hands(stage);
+  });
+  return worn && view_ != nullptr;
+}
+
+void LearnerHeadset::on_taken_off() {
+  seating_.on_headset_removed();
+  taken_off_at_ = std::chrono::steady_clock::now();
+}
+
+void LearnerHeadset::report_taken_off() {
+  if (was_worn_ || wants_exit_) taken_off_at_.reset();
+  if (!taken_off_at_ || std::chrono::steady_clock::now() - *taken_off_at_ < kTakenOffDelay) return;
+  taken_off_at_.reset();
+  message_ = "the headset was taken off; the desktop shows the cabin";
+}
+
+// Some headsets never report a position, some only after a while. Until then the head is placed at the driver's eye
+// point; the seat is recentred as soon as a position is known. A touch calibration needs a head with a known position.
+void LearnerHeadset::update_seat(const cabin::Stage& stage) {
+  const engine::HeadsetEyes& eyes = view_->eyes();
+  if (std::exchange(placed_, eyes.is_known) != eyes.is_known) seating_.recentre();
+  const bool seen = eyes.is_known ? eyes.is_tracked : eyes.is_oriented;
+  if (seen) seating_.seat_if_needed(between(eyes), stage.knob_at_rest(), eyes.is_known && view_->is_room_persistent());
+}
+
+void LearnerHeadset::draw(const engine::FrameScene& scene, const cabin::VisibleRegion& seen,
+                          const cabin::VisibleRegion& card, const engine::EyePose& desk) {
+  const cabin::DriveSide side = setup_.seat.drive;
+  const engine::EyePose driver = cabin::camera("driver", side);
+  const glm::dvec2 size = setup_.view.panel;
+  panel_ = panel_open_ ? cabin::hang_panel(driver.position, side, size)
+                       : cabin::hang_card(driver.position, side, size, card.low, card.high);
+  const engine::HeadsetPanel panel = in_room(seating_.cabin_from_room(), panel_);
+  const engine::EyePose& seat = view_->is_shown() ? seating_.cabin_from_room() : desk;
+  guarded([&] { view_->draw(scene, seat, &panel, seen); });
+}
+
+// The first hand that points at the panel controls it.
+void LearnerHeadset::follow_hands(const cabin::Stage& stage) {
+  const std::array<engine::HeadsetHand, 2> hands = view_->hands();
+  for (std::size_t i = 0; i < hands.size(); ++i) {
+    const engine::HeadsetHand& hand = hands[i];
+    const bool selected = std::exchange(selected_[i], hand.selects), had_menu = std::exchange(menu_[i], hand.menu);
+    const bool pressed = hand.selects && !selected;
+    if (hand.menu && !had_menu) opened_ = panel_open_ = !panel_open_;
+    if (!hand.is_tracked) continue;
+    const engine::EyePose aim = seating_.cabin_from_room() * hand.aim;
+    const glm::dvec3 along = aim.orientation * glm::dvec3(0.0, 0.0, -1.0);
+    if (pointer_) continue;
+    if (const std::optional<cabin::PanelHit> hit = cabin::point_at(panel_, aim)) {
+      pointer_ = Pointer{*hit, hand.selects, hand.scroll};
+      beam_ = cabin::Beam{aim.position, aim.position + hit->distance * along};
+    } else if (seating_.is_touching()) {
+      beam_ = cabin::Beam{aim.position, aim.position + kTip * along};
+      if (pressed && hand.is_position_tracked) seating_.touch(hand.aim, stage.knob_top());
+    }
+  }
+}
+
+void LearnerHeadset::apply(const cabin::HeadsetRequests& requests, double bound) {
+  if (requests.touch) panel_open_ = true;  // the panel shows the instructions
+  seating_.apply_requests(requests, bound, view_->is_room_persistent());
+}
+
+engine::EyePose LearnerHeadset::head() const {
+  return seating_.cabin_from_room() * between(view_->eyes());
+}
+
+double LearnerHeadset::touch_error() const noexcept {
+  return view_ ? seating_.touch_error() : 0.0;
+}
+
+std::string LearnerHeadset::take_message() {
+  if (message_.empty()) return seating_.take_message();
+  return std::exchange(message_, {});
+}
+
+cabin::HeadsetReport LearnerHeadset::report() const {
+  cabin::HeadsetReport report;
+  report.headset = view_->headset().headset;
+  report.runtime = view_->headset().runtime;
+  report.state = engine::name_of(view_->state());
+  report.eye = view_->eye_size();
+  report.timing = view_->timing();
+  report.is_tracked = view_->eyes().is_tracked;
+  report.orientation_only = view_->eyes().is_oriented && !view_->eyes().is_known;
+  seating_.report(report);
+  return report;
+}
+
+}  // namespace gearshift::session

@@ -1,0 +1,111 @@
+// The headset in a running session: its pictures, its seat in the cabin, and the hand that points at the panel. The
+// headset may be lost and found again; without it the caller shows the cabin on the desktop.
+#pragma once
+
+#include <chrono>
+#include <filesystem>
+#include <future>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+
+#include "app/cabin/headset/hanging_panel.h"
+#include "app/cabin/headset/headset_report.h"
+#include "app/cabin/headset/seat_calibration.h"
+#include "app/cabin/headset/seat_file.h"
+#include "app/cabin/stage/stage.h"
+#include "app/cabin/view/headset_view.h"
+
+namespace gearshift::session {
+
+struct HeadsetSetup {
+  cabin::HeadsetViewConfig view;
+  std::filesystem::path seat_file;  // empty: the seat is not saved
+  cabin::SeatSettings seat;
+  bool is_new = false;  // differs from the file's, so it is saved once the trainer runs
+};
+
+class LearnerHeadset {
+ public:
+  // Does not open a headset yet. Window and panel must outlive this object.
+  LearnerHeadset(const HeadsetSetup& setup, engine::Window& window, engine::UiContext& ui);
+
+  // Checks at most every 2 s whether a runtime with a headset is present. If so, the window must be free for open().
+  bool is_found();
+  // Creates the view on the runtime that is_found() has found. False if that fails; take_message() has the reason.
+  bool open();
+  bool is_open() const noexcept { return view_ != nullptr; }
+  bool is_held() const noexcept { return view_ && view_->is_waiting(); }  // the runtime withholds the next frame
+  bool is_worn() const noexcept { return view_ && view_->is_shown(); }    // the user sees its pictures
+
+  void set_model(const engine::Model& model);  // model of the stage; does nothing while no headset is open
+
+  // One frame, in this order. begin() waits for the headset's next frame and updates the seat; false if nobody wears
+  // the headset now, and then the caller sets the pace. If the headset is lost, the view is destroyed: see is_open()
+  // and take_message().
+  bool begin(const cabin::Stage& stage);
+  // seen: the part of the picture that the panel leaves free; card: the same with the learner's card; desk: where the
+  // window views the cabin from while the user does not see through the headset.
+  void draw(const engine::FrameScene& scene, const cabin::VisibleRegion& seen, const cabin::VisibleRegion& card,
+            const engine::EyePose& desk);
+
+  // Valid for the frame that has begun.
+  engine::EyePose head() const;  // in the cabin, midway between the eyes
+  struct Pointer {
+    cabin::PanelHit hit;
+    bool selects = false;
+    glm::dvec2 scroll{0.0};
+  };
+  const std::optional<Pointer>& pointer() const noexcept { return pointer_; }  // the hand's pointer on the panel
+  const std::optional<cabin::Beam>& beam() const noexcept {
+    return beam_;
+  }  // beam from that hand, in cabin coordinates
+  bool wants_exit() const noexcept { return wants_exit_; }
+  bool take_opened() noexcept { return std::exchange(opened_, false); }  // a menu button opened the whole panel
+
+  void recentre() noexcept { seating_.recentre(); }
+  // bound [m]: allowed distance between felt and displayed lever
+  void apply(const cabin::HeadsetRequests& requests, double bound);
+  cabin::HeadsetReport report() const;
+  double touch_error() const noexcept;  // [m] between felt and displayed lever, the part caused by the seat calibration
+  std::string take_message();           // one sentence, returned once; empty: none
+
+ private:
+  void report_once(const std::string& message);
+  bool is_leaving() const;
+  void lose(const std::string& why);
+  template <class Work>
+  void guarded(const Work& work);
+  void on_taken_off();
+  void report_taken_off();
+  void update_seat(const cabin::Stage& stage);
+  void follow_hands(const cabin::Stage& stage);
+
+  HeadsetSetup setup_;
+  engine::Window& window_;
+  engine::UiContext& ui_;
+  std::unique_ptr<engine::HeadsetRuntime> found_;
+  std::unique_ptr<cabin::HeadsetView> view_;
+  std::future<void> leaving_;  // destroys a lost view whose frame the runtime still withholds
+  std::chrono::steady_clock::time_point next_try_{};
+  std::chrono::seconds pause_{2};
+  std::string reported_;  // the last reported reason why no headset is open
+
+  cabin::SeatCalibration seating_;
+  bool was_worn_ = false;  // in the previous frame
+  std::optional<std::chrono::steady_clock::time_point>
+      taken_off_at_;     // time when it was taken off, if not reported yet
+  bool placed_ = false;  // the head's position is known; until then the head is placed at the driver's eye point
+
+  cabin::HangingPanel panel_;
+  std::optional<Pointer> pointer_;
+  std::optional<cabin::Beam> beam_;
+  std::array<bool, 2> selected_{}, menu_{};  // in the previous frame
+  bool panel_open_ = false;  // the whole panel, not only the learner's card; toggled by the hand's menu button
+  bool opened_ = false;      // in this frame
+  bool wants_exit_ = false;
+  std::string message_;
+};
+
+}  // namespace gearshift::session

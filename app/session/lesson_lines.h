@@ -1,0 +1,35 @@
+// Turns the coach's progress into lines on stdout, for people and scripts that watch.
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/lessons/coach/coach_view.h"
+
+namespace gearshift::session {
+
+class LessonLines {
+ public:
+  // Call once per frame. Returns the lines that are new.
+  std::vector<std::string> new_lines(const lessons::CoachView& coach);
+
+ private:
+  bool is_new_trial(const lessons::LessonResult& result) const;
+  void begin(const lessons::CoachView& coach);
+  void add_step_line(const lessons::CoachView& coach);
+  void add_hint_lines(const lessons::CoachView& coach);
+
+  std::vector<std::string> lines_;
+  lessons::LessonPhase phase_ = lessons::LessonPhase::none;
+  std::string lesson_;                // key of the lesson being reported
+  std::optional<double> begin_;       // [s] begin of its trial
+  double duration_ = 0.0;             // [s] length of the trial so far
+  bool is_running_ = false;           // the trial is still running
+  std::size_t step_ = 0, hints_ = 0;  // step and number of hints reported so far
+};
+
+void print_lines(const std::vector<std::string>& lines, double time);  // [s] since the start of the session
+
+}  // namespace gearshift::session

@@ -1,0 +1,16 @@
+// Names for recordings.
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+namespace gearshift::session {
+
+// The first of NAME.trace, NAME-2.trace, NAME-3.trace ... that does not exist in the folder yet.
+std::filesystem::path unused_trace_path(const std::filesystem::path& folder, const std::string& name);
+
+// "drive-20260131-174205-4711": `what`, the local time and the process id, so that no other process makes the same
+// name.
+std::string recording_name(const std::string& what);
+
+}  // namespace gearshift::session

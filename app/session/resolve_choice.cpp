@@ -1,0 +1,98 @@
+#include "app/session/resolve_choice.h"
+
+#include <algorithm>
+#include <stdexcept>
+#include <vector>
+
+#include <fmt/core.h>
+
+#include "app/base/assets_path.h"
+#include "app/session/preset_store.h"
+#include "haptics/device/hand.h"
+
+namespace gearshift::session {
+namespace {
+
+std::vector<int> gears_of(const haptics::GateLayout& layout) {
+  std::vector<int> gears{haptics::kNeutralGear};
+  for (const haptics::ColumnLayout& column : layout.columns) {
+    gears.push_back(column.forward.gear);
+    gears.push_back(column.back.gear);
+  }
+  return gears;
+}
+
+bool has_gears_of(const vehicle::CarSpec& car, const haptics::GateLayout& layout) {
+  const std::vector<int> gears = gears_of(layout);
+  return std::all_of(gears.begin(), gears.end(), [&car](int gear) {
+    return gear == haptics::kNeutralGear || vehicle::shaft_per_road(car, gear) != 0.0;
+  });
+}
+
+bool has_gears_of(const haptics::GateLayout& layout, const lessons::Lesson& lesson) {
+  const std::vector<int> gears = gears_of(layout);
+  const auto has = [&gears](int gear) { return std::find(gears.begin(), gears.end(), gear) != gears.end(); };
+  return has(lesson.start.gear) &&
+         std::all_of(lesson.steps.begin(), lesson.steps.end(), [&has](const lessons::LessonStep& step) {
+           return has(step.gear) && has(step.until.gear.value_or(haptics::kNeutralGear));
+         });
+}
+
+haptics::GateLayout read_gate(const std::string& name) {
+  return haptics::read_gate_layout(base::find_asset("gates", name));
+}
+
+vehicle::CarSpec read_shipped_car(const std::string& name) {
+  return vehicle::read_car(base::find_asset("cars", name));
+}
+
+}  // namespace
+
+haptics::Preset resolve_preset(const SessionChoice& choice) {
+  haptics::Preset preset = haptics::read_preset(preset_file(choice.preset).string());
+  if (choice.haptics) preset.haptics = *choice.haptics;
+  if (choice.hand.empty() || choice.hand == kAutomaticHand) return preset;
+  const std::optional<haptics::HandImpedance> hand = haptics::parse_hand(choice.hand);
+  if (!hand || hand->stiffness < haptics::kMinLeadingStiffness)
+    throw std::invalid_argument(
+        fmt::format("hand {}: must be light, grip, arm, \"{}\" or M,B,K in kg, N s/m and N/m, with at least {:g} N/m",
+                    choice.hand, kAutomaticHand, haptics::kMinLeadingStiffness));
+  preset.lever.hand = *hand;
+  return preset;
+}
+
+ResolvedCar resolve_car(const SessionChoice& choice) {
+  ResolvedCar chosen;
+  chosen.car = choice.car.empty() ? std::string(kDefaultCar) : choice.car;
+  if (chosen.car != kNoCar) chosen.spec = read_shipped_car(chosen.car);
+  chosen.gate = choice.gate;
+  if (chosen.gate.empty()) chosen.gate = chosen.spec ? chosen.spec->gate : "paper";
+  chosen.layout = read_gate(chosen.gate);
+  return chosen;
+}
+
+SessionChoice with_gate(SessionChoice choice, const std::string& gate) {
+  const haptics::GateLayout layout = read_gate(gate);
+  choice.gate = gate;
+  if (choice.car == kNoCar) return choice;
+  if (has_gears_of(*resolve_car(choice).spec, layout)) return choice;
+  const std::vector<std::string> cars = base::shipped_names("cars");
+  const auto fits = [&layout](const std::string& car) { return has_gears_of(read_shipped_car(car), layout); };
+  const auto other = std::find_if(cars.begin(), cars.end(), fits);
+  choice.car = other == cars.end() ? std::string(kNoCar) : *other;
+  return choice;
+}
+
+SessionChoice with_lesson(SessionChoice choice, const lessons::Lesson& lesson) {
+  if (!lesson.car.empty()) choice.car = lesson.car;
+  if (choice.car == kNoCar) choice.car = kDefaultCar;
+  const vehicle::CarSpec car = *resolve_car(choice).spec;
+  if (!lesson.gate.empty()) choice.gate = lesson.gate;
+  if (choice.gate.empty()) choice.gate = car.gate;
+  const haptics::GateLayout layout = read_gate(choice.gate);
+  const bool fits = has_gears_of(layout, lesson) && has_gears_of(car, layout);
+  if (!fits && lesson.gate.empty()) choice.gate = car.gate;
+  return choice;
+}
+
+}  // namespace gearshift::session

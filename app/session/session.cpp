@@ -1,0 +1,381 @@
+#include "app/session/session.h"
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "app/base/assets_path.h"
+#include "app/base/program_name.h"
+#include "app/lessons/coach/shipped_lessons.h"
+#include "app/session/make_runtime_config.h"
+#include "app/session/plot_samples.h"
+#include "app/session/preset_store.h"
+#include "haptics/loop/haptic_config.h"
+#include "haptics/loop/preset_writer.h"
+#include "haptics/rt/monotonic_clock.h"
+
+namespace gearshift::session {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string first_limit(const haptics::AdmittedTuning& admitted) {
+  return admitted.limits.empty() ? std::string{} : haptics::describe(admitted.limits.front());
+}
+
+lessons::CoachConfig coach_config(const SessionChoice& choice) {
+  lessons::CoachConfig config;
+  config.lessons = lessons::shipped_lessons();
+  config.history = choice.history;
+  config.no_history = choice.no_history;
+  config.learner = learner_of(choice);
+  config.program = base::program_name();
+  return config;
+}
+
+bool same_turn(const haptics::YokeGeometry& a, const haptics::YokeGeometry& b) {
+  return a.radius == b.radius && a.theta_limit == b.theta_limit && a.phi_limit == b.phi_limit;
+}
+
+// State of the car when there is none: pedals and gear only.
+vehicle::VehicleState standing_car(const haptics::DriverControls& controls, int gear) {
+  vehicle::VehicleState car;
+  car.running = false;
+  car.gear = gear;
+  car.throttle = controls.throttle;
+  car.brake = controls.brake;
+  car.clutch = controls.clutch;
+  car.hand_brake = controls.hand_brake;
+  car.ignition = controls.ignition;
+  return car;
+}
+
+// The first change, if there are several.
+std::string_view changed_by(const ui::PanelRequests& requests) {
+  if (requests.car) return "the car changed";
+  if (requests.gate) return "the gate changed";
+  if (requests.hand) return "the hand changed";
+  return requests.preset ? "the preset changed" : "the settings changed";
+}
+
+}  // namespace
+
+// Stops the motors first: the other members may take time to end, for example OpenAL without a card.
+Session::~Session() {
+  runtime_.reset();
+}
+
+Session::Session(const SessionChoice& choice)
+    : choice_(choice),
+      cabin_(cabin::cabin_for_camera(choice.camera)),
+      coach_(coach_config(choice)),
+      sound_(choice.sound),
+      cabin_sound_(sound_, cabin::CabinSoundConfig{}) {
+  controls_.ignition = true;
+  if (choice.clock == runtime::RuntimeClock::real_time) start_ns_ = haptics::monotonic_ns();
+  offer_initial(choice);
+  if (choice.hand == kAutomaticHand && coach_.lesson())
+    begin_lesson();
+  else
+    switch_to(coach_.lesson() ? with_lesson(choice, *coach_.lesson()) : choice);
+  if (const std::optional<std::string> problem = coach_.take_problem()) message_ = *problem;
+  why_silent_ = sound_.silence_reason();
+  const bool missed = choice.sound == engine::SoundOutput::card && !why_silent_.empty();
+  if (missed && message_.empty()) message_ = why_silent_;
+  panel_.gates = base::shipped_names("gates");
+  panel_.presets = preset_names();
+  panel_.cars = base::shipped_names("cars");
+  panel_.cars.emplace_back(kNoCar);
+  panel_.hands = {"light", "grip", "arm", std::string(kAutomaticHand)};
+  if (choice.stick) panel_.hands.clear();
+  panel_.device_name = choice.stick ? choice.stick->name() : std::string(kSimulatedDevice);
+}
+
+// Forces that the user or a fault has switched off are switched on again only by the user; with a real stick, only in
+// this very frame.
+bool Session::should_arm() {
+  if (choice_.stick) return armed_this_frame_;
+  if (!runtime_) return true;
+  const haptics::GuardState guard = runtime_->snapshot().guard;
+  return wants_forces_ &&
+         (armed_this_frame_ || (guard != haptics::GuardState::released && guard != haptics::GuardState::damped));
+}
+
+// Either succeeds completely or leaves the running setup unchanged. The gate is compiled for the new device's range.
+void Session::switch_to(const SessionChoice& choice, const lessons::Lesson* lesson, std::string_view what) {
+  const ResolvedCar chosen = resolve_car(choice);
+  runtime::RuntimeConfig config = make_runtime_config(choice, chosen, lesson);
+  config.feet = pedal_source(pedal_owner_ + 1);
+  std::unique_ptr<runtime::Runtime> runtime;
+  if (!choice.stick) runtime = std::make_unique<runtime::Runtime>(config);
+  const haptics::Gate gate = runtime ? runtime->gate() : check_stick(config);
+  if (lesson && choice.stick) check_lever_gear(*lesson, gate);
+  if (!stage_ || stage_gate_ != chosen.layout.text || !same_turn(stage_yoke_, config.preset.lever.yoke))
+    rebuild_stage(gate, chosen.layout.text, config.preset.lever.yoke, cabin_);
+  message_.clear();
+  const bool armed = should_arm();
+  close_current(what);
+  adopt(runtime ? std::move(runtime) : replace_runtime(config), lesson);
+  wants_forces_ = armed;  // so a fault in this change does not re-arm at the next one
+  if (armed) runtime_->arm();
+  running_ = choice;
+  running_.car = chosen.car;
+  running_.gate = chosen.gate;
+  const std::string limit = describe_limit();
+  if (!limit.empty()) message_ += (message_.empty() ? "" : "; ") + limit;
+}
+
+// The first limited parameter; for a real stick preferably the wall stiffness, because the user feels that.
+std::string Session::describe_limit() const {
+  const haptics::AdmittedTuning admitted = runtime_->admitted();
+  const auto wall =
+      std::find_if(admitted.limits.begin(), admitted.limits.end(), [](const haptics::TuningLimit& limited) {
+        return limited.parameter == haptics::TuningParameter::wall_stiffness && limited.used < limited.wanted;
+      });
+  if (!running_.stick || admitted.limits.empty()) return first_limit(admitted);
+  const std::string limit =
+      wall == admitted.limits.end()
+          ? first_limit(admitted)
+          : fmt::format("walls are softer, {:.0f} N/m instead of {:.0f}", wall->used, wall->wanted);
+  return fmt::format("{} responds after {:.1f} ms: {}", running_.stick->name(), 1e3 * running_.stick->answer_time(),
+                     limit);
+}
+
+// Ends a running lesson early, closes recordings and ends a replay.
+void Session::close_current(std::string_view what) {
+  const bool drives = coach_.view().phase == lessons::LessonPhase::driving;
+  if (drives) coach_.leave();
+  end_lesson_recording();
+  if (recording()) end_recording();
+  if (drives) report_left(what);
+  opening_.reset();
+  player_.reset();
+}
+
+void Session::adopt(std::unique_ptr<runtime::Runtime> runtime, const lessons::Lesson* lesson) {
+  pedals_->set_active_lever(++pedal_owner_);
+  runtime_ = std::move(runtime);
+  new_runtime_ = true;
+  ++run_;
+  if (runtime_->config().car) configure_sound(*runtime_->config().car);
+  if (runtime_->config().clock == runtime::RuntimeClock::virtual_time) start_ns_ = -std::llround(1e9 * time_);
+  slope_ = lesson ? lesson->start.slope : 0.0;
+  is_car_held_ = false;
+  if (lesson) switches_ = CarSwitches{lesson->start.running, lesson->start.hand_brake};
+  if (switches_) {
+    controls_.ignition = switches_->ignition;
+    controls_.hand_brake = switches_->hand_brake;
+  }
+  runtime_->set_controls(effective_controls());
+}
+
+// The keyboard pedals carry over from one runtime to the next, which moves them from adopt() on.
+runtime::PedalSource Session::pedal_source(int lever) const {
+  return [keyboard = pedals_, lever](const vehicle::DriveSample& cycle, double seconds) {
+    const bool coupled = cycle.car.gear != haptics::kNeutralGear && cycle.car.clutch_capacity > 0.0;
+    const ui::Pedals pedals = keyboard->move(seconds, cycle.car.engine_speed, coupled, lever);
+    haptics::DriverControls controls;
+    controls.throttle = pedals.throttle;
+    controls.brake = pedals.brake;
+    controls.clutch = pedals.clutch;
+    return controls;
+  };
+}
+
+void Session::rebuild_stage(const haptics::Gate& gate, const std::string& text, const haptics::YokeGeometry& yoke,
+                            cabin::Cabin cabin) {
+  cabin::StageConfig config = cabin::stage_config(gate, yoke, cabin);
+  config.drive = choice_.drive;
+  stage_ = std::make_unique<cabin::Stage>(config, base::assets_folder() / "models");
+  stage_gate_ = text;
+  stage_yoke_ = yoke;
+  cabin_ = cabin;
+  new_model_ = true;
+}
+
+void Session::configure_sound(const vehicle::CarSpec& car) {
+  cabin::CabinSoundConfig config = cabin_sound_.config();
+  config.dog_teeth = car.synchro.teeth;
+  cabin_sound_.set_config(config);
+}
+
+void Session::set_camera(std::string_view camera) {
+  const cabin::Cabin cabin = cabin::cabin_for_camera(camera);
+  if (cabin == cabin_) return;
+  try {
+    rebuild_stage(displayed_gate(), stage_gate_, stage_yoke_, cabin);
+  } catch (const std::exception& refused) {
+    message_ = refused.what();
+  }
+}
+
+const haptics::Gate& Session::displayed_gate() const {
+  return player_ ? player_->drive().gate() : runtime_->gate();
+}
+
+void Session::set_driver(const haptics::HandTarget& hand, const haptics::DriverControls& controls,
+                         const ui::PedalKeys& keys) {
+  runtime_->set_hand(hand);
+  controls_ = controls;
+  pedals_->set_keys(is_car_held_ ? ui::PedalKeys{} : keys);
+}
+
+void Session::apply(const ui::PanelRequests& requests) {
+  try {
+    if (requests.stop) runtime_->stop();
+    if (requests.disarm) runtime_->disarm();
+    const bool arms = requests.arm && arm();
+    if (requests.stop || requests.disarm || requests.arm) wants_forces_ = armed_this_frame_ = arms;
+    if (requests.tuning) message_ = first_limit(runtime_->change_tuning(*requests.tuning));
+    if (requests.record) toggle_recording();
+    if (requests.replay) open_last_recording();
+    if (requests.save_preset) save_preset(*requests.save_preset);
+    apply_replay_requests(requests.playback);
+    apply_choice(requests);
+    apply_lesson_requests(requests.lesson);
+    if (requests.compare) {
+      panel_.compared.reset();
+      panel_.compared = haptics::read_preset(preset_file(*requests.compare).string());
+    }
+  } catch (const std::exception& refused) {
+    message_ = refused.what();
+  }
+}
+
+// Tuned parameters stay, unless another preset is requested.
+void Session::apply_choice(const ui::PanelRequests& requests) {
+  if (!requests.gate && !requests.car && !requests.preset && !requests.hand && !requests.restart) return;
+  SessionChoice wanted = choice_;
+  if (wanted.car.empty()) wanted.car = kDefaultCar;
+  wanted.haptics = runtime_->config().preset.haptics;
+  if (requests.gate) wanted = with_gate(wanted, *requests.gate);
+  if (requests.car) {
+    wanted.car = *requests.car;
+    wanted.gate = wanted.car == kNoCar ? running_.gate : std::string{};
+  }
+  if (requests.hand) wanted.hand = *requests.hand;
+  if (requests.restart) wanted.haptics = *requests.restart;
+  if (requests.preset) {
+    wanted.preset = *requests.preset;
+    wanted.haptics.reset();
+  }
+  switch_to(wanted, nullptr, changed_by(requests));
+  choice_ = wanted;
+  if (coach_.view().learner != learner_of(choice_)) coach_.set_learner(learner_of(choice_));
+}
+
+void Session::advance(double seconds) {
+  time_ += seconds;
+  armed_this_frame_ = false;
+  poll_stick();
+  runtime_->set_controls(effective_controls());
+  if (running_.clock == runtime::RuntimeClock::virtual_time) runtime_->advance(seconds);
+  report_recording_problem();
+  drain_events();
+  drain_cycles();
+  update_shown();
+  finish_opening();
+  if (player_) show_replay(seconds);
+}
+
+void Session::drain_events() {
+  events_ = runtime_->drain_events();
+  for (haptics::HapticEvent& event : events_) event.time_ns -= start_ns_;
+}
+
+void Session::drain_cycles() {
+  const std::vector<vehicle::DriveSample> cycles = runtime_->drain_cycles();
+  if (!cycles.empty()) newest_controls_ = cycles.back().controls;
+  update_lesson(cycles);
+  history_ = plot_samples(cycles);
+}
+
+// After drain_cycles(), so that the displayed state is not older than the history.
+void Session::update_shown() {
+  shown_ = runtime_->snapshot();
+  const double apart = glm::distance(shown_.lever, shown_.proxy) + visual_offset_;
+  if (visual_offset_ > 0.0 && apart > runtime_->config().preset.haptics.ghost_offset)
+    shown_.flags |= haptics::kFlagGhost;
+  newest_ns_ = shown_.time_ns;
+  car_ = runtime_->config().car ? runtime_->car() : standing_car(newest_controls_, shown_.gear);
+}
+
+void Session::update_cabin() {
+  cabin::StageInput input{shown_, car_, time_};
+  input.pointer = pointer_;
+  if (player_ && player_->shift()) {
+    const lessons::RecordedShift& shift = player_->drive().shifts()[*player_->shift()];
+    input.driven_path = shift.driven;
+    input.ideal_path = shift.ideal;
+  }
+  stage_->place(input);
+  if (stage_->take_dial_change()) new_model_ = true;
+  const glm::vec3 knob = stage_->knob();
+  if (!player_)
+    for (const haptics::HapticEvent& event : events_) cabin_sound_.on_event(event, knob);
+  cabin_sound_.update(shown_, car_, ears_, knob, time_);
+  report_sound();
+}
+
+// Reports once when sound is lost, and once when it is back.
+void Session::report_sound() {
+  if (sound_.silence_reason() == why_silent_) return;
+  why_silent_ = sound_.silence_reason();
+  message_ = why_silent_.empty() ? "sound is back" : why_silent_;
+}
+
+bool Session::take_new_runtime() {
+  return std::exchange(new_runtime_, false);
+}
+
+bool Session::take_new_model() {
+  return std::exchange(new_model_, false);
+}
+
+std::optional<CarSwitches> Session::take_switches() {
+  return std::exchange(switches_, std::nullopt);
+}
+
+void Session::save_preset(const std::string& name) {
+  const fs::path file = user_preset_file(name);
+  haptics::Preset preset = runtime_->config().preset;
+  preset.name = name;
+  haptics::write_preset(preset, file);
+  choice_.preset = running_.preset = name;
+  panel_.presets = preset_names();
+  message_ = fmt::format("saved as {}", file.string());
+}
+
+const ui::PanelInput& Session::panel_input() {
+  panel_.gate = &displayed_gate();
+  panel_.device = &runtime_->device();
+  panel_.haptics = runtime_->config().preset.haptics;
+  panel_.admitted = runtime_->admitted();
+  panel_.now = shown_;
+  panel_.run = run_;
+  panel_.history = history_;
+  panel_.events = player_ ? std::vector<haptics::HapticEvent>{} : events_;
+  panel_.health = runtime_->health();
+  panel_.car = car_;
+  panel_.coach = coach_.view();
+  panel_.replay = player_ ? &*player_ : nullptr;
+  panel_.opening = opening_ ? opening_->file().filename().string() : std::string();
+  panel_.gate_name = running_.gate;
+  panel_.car_name = running_.car;
+  panel_.preset_name = running_.preset;
+  panel_.hand_name = running_.stick ? "your own" : running_.hand.empty() ? "preset's" : running_.hand;
+  if (running_.stick) panel_.stick = ui::StickView{is_stick_connected_, running_.stick->answer_time()};
+  panel_.recording = runtime_->is_recording();
+  panel_.is_automatic_hand = running_.hand == kAutomaticHand;
+  panel_.fail_conditions = coach_.lesson() ? lessons::failing_errors_sentence(*coach_.lesson()) : std::string();
+  panel_.instructor_holds_pedals = is_car_held_ && !panel_.is_automatic_hand;
+  panel_.is_unpassable = is_unpassable_ && coach_.view().phase == lessons::LessonPhase::driving;
+  panel_.message = message_;
+  panel_.frame_ms = frame_ms_;
+  return panel_;
+}
+
+}  // namespace gearshift::session

@@ -1,0 +1,211 @@
+// A session: the running haptic loop with its car, the lessons, the cabin and its sound. Executes the panel's requests.
+#pragma once
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <set>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "app/cabin/sound/cabin_sound.h"
+#include "app/cabin/stage/stage.h"
+#include "app/cabin/view/cabin_kind.h"
+#include "app/lessons/coach/coach.h"
+#include "app/lessons/replay/drive_loader.h"
+#include "app/runtime/runtime.h"
+#include "app/session/resolve_choice.h"
+#include "app/session/session_choice.h"
+#include "app/ui/input/keyboard_pedals.h"
+#include "app/ui/panel/panel.h"
+
+namespace gearshift::session {
+
+// Ignition and hand brake at the start of a lesson; the user's own switches are set to them.
+struct CarSwitches {
+  bool ignition = true;
+  double hand_brake = 0.0;  // [1]
+};
+
+class Session {
+ public:
+  // Throws FileError, GltfError, std::invalid_argument or std::runtime_error with one sentence.
+  explicit Session(const SessionChoice& choice);
+  ~Session();  // stops the haptic loop first
+
+  // One frame, in this order. These functions do not throw: a refused request becomes message(). From here to the next
+  // set_driver(), keys move the pedals on the car's clock; each pedal is as deep as the deeper of keys and controls.
+  void set_driver(const haptics::HandTarget& hand, const haptics::DriverControls& controls,
+                  const ui::PedalKeys& keys = {});
+  void apply(const ui::PanelRequests& requests);
+  void advance(double seconds);  // haptic loop (on the virtual clock), events, lesson, replay
+  void update_cabin();           // places the cabin's parts and updates the sound
+
+  void set_foot_pace(const ui::PedalTiming& pace) { pedals_->set_timing(pace); }
+
+  // Replays a recorded drive: one of its shifts, or all of it from a time on [s]. Throws FileError,
+  // std::invalid_argument or std::runtime_error with one sentence.
+  void open_replay(const std::filesystem::path& recording, std::optional<std::size_t> shift = std::nullopt,
+                   double from = 0.0);
+
+  const cabin::Stage& stage() const { return *stage_; }
+  void set_camera(std::string_view camera);    // see cabin_for_camera()
+  bool take_new_model();                       // true once after the stage was rebuilt
+  bool take_new_runtime();                     // true once after gate, car, hand or device have changed
+  std::optional<CarSwitches> take_switches();  // returned once after a lesson has begun
+  const ui::PanelInput& panel_input();
+  runtime::Runtime& runtime() { return *runtime_; }
+  const lessons::Coach& coach() const { return coach_; }
+  const haptics::HapticSnapshot& shown() const { return shown_; }  // state that the cabin shows: live or replayed
+  const vehicle::VehicleState& car() const { return car_; }        // live or replayed
+  const std::optional<vehicle::CarSpec>& car_spec() const { return runtime_->config().car; }
+  const std::vector<haptics::HapticEvent>& events() const {
+    return events_;
+  }  // from the running loop in this frame; times in [ns] since the start
+  engine::SoundWorld& sound() { return sound_; }
+  double time() const { return time_; }  // [s] of frames since the start
+  double lever_time() const {
+    return 1e-9 * static_cast<double>(newest_ns_ - start_ns_);
+  }                                                        // [s] time of the running loop
+  const std::string& message() const { return message_; }  // last refusal or other message, one sentence
+  bool recording() const { return runtime_ && runtime_->is_recording(); }
+  // Call before the session ends. Ends a running lesson early, saves pending results and deletes recordings that the
+  // history will not reference. Returns in one sentence what could not be saved; empty: everything is saved.
+  std::string save_and_stop();
+  bool end_recording();  // false if it failed; message() has the result
+  void set_ears(const engine::EyePose& ears) { ears_ = ears; }
+  void set_frame_ms(double ms) { frame_ms_ = ms; }
+  void set_message(const std::string& news) { message_ = news; }
+  // State of the headset; empty: not worn.
+  void set_headset(std::optional<cabin::HeadsetReport> report) { panel_.headset = std::move(report); }
+  // Distance [m] between the displayed and the felt lever before the displayed lever is clamped to the gate; leaves
+  // less room for the clamp.
+  void set_visual_offset(double offset) { visual_offset_ = offset; }
+  void set_pointer(const std::optional<cabin::Beam>& beam) {
+    pointer_ = beam;
+  }  // beam of the pointing hand, in cabin coordinates
+  void set_keys(std::vector<ui::KeyHint> keys) { panel_.keys = std::move(keys); }
+  void set_mouse_leads(bool leads) { panel_.mouse_moves_lever = leads; }
+  bool is_replaying() const { return player_.has_value(); }
+  bool is_replay_over() const { return player_ && !player_->is_playing(); }
+  bool is_replaying_shift() const { return player_ && player_->shift(); }
+
+ private:
+  // session_stick.cpp: the real stick
+  bool arm();
+  void poll_stick();
+  haptics::Gate check_stick(runtime::RuntimeConfig config) const;
+  std::unique_ptr<runtime::Runtime> replace_runtime(const runtime::RuntimeConfig& config);
+  void check_lever_gear(const lessons::Lesson& lesson, const haptics::Gate& gate) const;
+
+  // session.cpp: the running loop, its cabin, one frame
+  void switch_to(const SessionChoice& choice, const lessons::Lesson* lesson = nullptr,
+                 std::string_view what = "restarted");  // what: reason reported if this ends a lesson
+  void apply_choice(const ui::PanelRequests& requests);
+  std::string describe_limit() const;
+  void close_current(std::string_view what);
+  void adopt(std::unique_ptr<runtime::Runtime> runtime, const lessons::Lesson* lesson);
+  runtime::PedalSource pedal_source(int lever) const;
+  bool should_arm();
+  void rebuild_stage(const haptics::Gate& gate, const std::string& text, const haptics::YokeGeometry& yoke,
+                     cabin::Cabin cabin);
+  const haptics::Gate& displayed_gate() const;
+  void configure_sound(const vehicle::CarSpec& car);
+  void drain_events();
+  void drain_cycles();
+  void update_shown();
+  void report_sound();
+  void save_preset(const std::string& name);
+
+  // session_lessons.cpp
+  void apply_lesson_requests(const ui::LessonRequests& requests);
+  void offer_initial(const SessionChoice& choice);
+  void offer(const lessons::Lesson& lesson);
+  void change_comment(const ui::LessonRequests::CommentChange& change);
+  void change_learner(const std::string& name);
+  void leave_lesson();
+  void report_left(std::string_view what);
+  void begin_lesson();
+  std::filesystem::path record_lesson(const lessons::Lesson& lesson);  // empty if it cannot be recorded
+  void update_lesson(std::span<const vehicle::DriveSample> cycles);
+  void hold_car();
+  void check_still_passable();
+  haptics::DriverControls effective_controls() const;
+  bool delete_unreferenced_recordings();
+
+  // session_replay.cpp
+  void apply_replay_requests(const ui::ReplayRequests& requests);
+  void open_last_recording();
+  // [s] near: begin of the shift to show
+  void open_recording(const std::filesystem::path& recording, std::optional<double> near);
+  void finish_opening();
+  void show_opened();
+  void cancel_opening();
+  void start_replay(lessons::Player player);
+  void show_replay(double seconds);
+  void end_replay();
+  void check_can_replay() const;
+
+  // session_recordings.cpp
+  std::filesystem::path recordings_folder() const;
+  void toggle_recording();
+  void start_recording(const std::string& name);
+  void end_lesson_recording();
+  void report_recording_problem();
+
+  SessionChoice choice_;   // the user's
+  SessionChoice running_;  // choice_ with the lesson's car and gate; car and gate are never empty
+  cabin::Cabin cabin_;
+  lessons::Coach coach_;
+  std::unique_ptr<runtime::Runtime> runtime_;
+  std::unique_ptr<cabin::Stage> stage_;
+  std::string stage_gate_;            // text of the gate layout that the stage was built for
+  haptics::YokeGeometry stage_yoke_;  // yoke that the stage was built for
+  engine::SoundWorld sound_;
+  cabin::CabinSound cabin_sound_;
+  std::unique_ptr<lessons::DriveLoader> opening_;  // while a recording is being read
+  std::optional<double> opening_near_;             // [s] begin of the shift to show
+  std::optional<lessons::Player> player_;          // while replaying
+  std::shared_ptr<ui::KeyboardPedals> pedals_ =
+      std::make_shared<ui::KeyboardPedals>();  // the user's; moved by the loop's thread
+  int pedal_owner_ = 0;                        // number of the runtime that moves the pedals
+  haptics::DriverControls controls_;           // the user's, without the keyboard pedals
+  haptics::DriverControls newest_controls_;    // in the newest cycle
+  double slope_ = 0.0;                         // [rad] slope of the lesson's road
+  // After a lesson the instructor holds clutch and brake, until the next lesson, no lesson, or another car, gate or
+  // hand.
+  bool is_car_held_ = false;
+  std::size_t fault_count_ = 0;  // in the current trial
+  bool is_unpassable_ = false;   // the current trial can no longer be passed
+  std::optional<CarSwitches> switches_;
+  engine::EyePose ears_;
+  double visual_offset_ = 0.0;  // [m]
+  std::optional<cabin::Beam> pointer_;
+  haptics::HapticSnapshot shown_;
+  vehicle::VehicleState car_;                     // displayed state of the car
+  std::vector<haptics::HapticSnapshot> history_;  // displayed lever samples of this frame
+  std::vector<haptics::HapticEvent> events_;
+  ui::PanelInput panel_;
+  std::filesystem::path last_recording_;
+  std::set<std::string> lesson_recordings_;  // recordings made automatically for lessons
+  std::string message_;
+  std::string why_silent_;                // in the previous frame
+  bool wants_forces_ = true;              // result of the last arm, release or stop
+  bool armed_this_frame_ = false;         // by the user
+  bool is_stick_connected_ = false;       // in the previous frame
+  bool is_lesson_recording_ = false;      // the running recording is a lesson's
+  bool is_recording_incomplete_ = false;  // the last recording is a lesson's and failed
+  std::int64_t start_ns_ = 0;             // [ns] start of this session, on the loop's clock
+  std::int64_t newest_ns_ = 0;            // [ns] newest snapshot, on the same clock
+  double time_ = 0.0;                     // [s]
+  double frame_ms_ = 0.0;                 // [ms]
+  std::uint64_t run_ = 0;                 // PanelInput::run
+  bool new_model_ = true;
+  bool new_runtime_ = true;
+};
+
+}  // namespace gearshift::session

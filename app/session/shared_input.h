@@ -1,0 +1,41 @@
+// Shares a window's mouse and keys between the panel and the driver: in each frame only one of them gets each.
+#pragma once
+
+#include <optional>
+
+#include "app/session/panel_pointer.h"
+#include "app/ui/input/driver_input.h"
+#include "app/ui/panel/panel.h"
+#include "engine/ui/ui.h"
+#include "engine/window/window.h"
+
+namespace gearshift::session {
+
+class SharedInput {
+ public:
+  explicit SharedInput(const ui::Bindings& bindings) : driver_({bindings}) {}
+
+  // Call once per frame, before the panel is drawn. seconds: since the last call. mouse [px]: position of the window's
+  // mouse in the picture that the panel was drawn into. hand: replaces the window's mouse on the panel; the driver
+  // never gets it.
+  void update(const engine::WindowInput& window, double seconds, glm::dvec2 mouse, const ui::Panel& panel,
+              engine::UiContext& ui, const std::optional<PanelPointer>& hand = std::nullopt);
+
+  ui::DriverInput& driver() noexcept { return driver_; }
+  glm::dvec2 turned() const noexcept {
+    return turned_;
+  }  // [px] how far the view turns in this frame: the right button held beside the panel
+
+ private:
+  engine::UiEvents for_panel(const engine::WindowInput& window, glm::dvec2 mouse,
+                             const std::optional<PanelPointer>& hand);
+  void look(const engine::WindowInput& window, bool panel_has_mouse);
+
+  ui::DriverInput driver_;
+  bool shift_ = false, control_ = false, alt_ = false;  // currently held
+  bool is_turning_ = false;  // the right button was pressed beside the panel and is still held
+  bool right_was_down_ = false;
+  glm::dvec2 turned_{0.0};
+};
+
+}  // namespace gearshift::session

@@ -1,0 +1,444 @@
+#include "app/session/train.h"
+
+#include <algorithm>
+#include <chrono>
+#include <thread>
+#include <utility>
+
+#include <fmt/core.h>
+
+#include "app/base/console.h"
+#include "app/base/output_folder.h"
+#include "app/base/stop_signals.h"
+#include "app/cabin/view/desktop_mirror.h"
+#include "app/session/cabin_camera.h"
+#include "app/session/event_lines.h"
+#include "app/session/lesson_lines.h"
+#include "app/session/panel_hand_pointer.h"
+#include "app/session/shared_input.h"
+#include "app/session/ui_scale.h"
+#include "engine/gpu/instance.h"
+#include "engine/ui/ui.h"
+#include "haptics/files/printable.h"
+
+namespace gearshift::session {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kOffscreenRate = 30.0;         // [1/s] frames per simulated second
+constexpr int kSettling = 3;                    // frames until every part of the panel has its final height
+constexpr double kMinFrameTime = 1.0 / 144;     // [s] shortest frame if the display does not limit the rate
+constexpr double kMaxFrameTime = 0.25;          // [s] longer frames advance car and pedals by only this much
+constexpr std::chrono::seconds kViewRetry{1};   // between attempts to recreate the picture
+constexpr std::chrono::seconds kViewHolds{10};  // the loss of a picture is reported if it had lasted this long
+
+// The part of a picture of that size that the panel leaves free.
+cabin::VisibleRegion seen_beside(const ui::Panel& panel, glm::dvec2 size) {
+  const ui::ControlRect middle = panel.cabin_area();
+  return {middle.min / size, middle.max / size};
+}
+
+// The same, including the learner's card that lies over the cabin.
+cabin::VisibleRegion card_in(const ui::Panel& panel, glm::dvec2 size) {
+  const ui::ControlRect between = panel.central_area();
+  return {between.min / size, between.max / size};
+}
+
+std::vector<ui::KeyHint> key_hints(const ui::Bindings& bindings) {
+  std::vector<ui::KeyHint> hints;
+  for (const ui::DrivingKey& key : ui::driving_keys(bindings)) hints.push_back({std::string(key.action), key.key});
+  return hints;
+}
+
+void print_unsaved(const std::string& problem) {
+  if (!problem.empty()) base::print_message("{}", haptics::printable(problem));
+}
+
+// Runs the trainer in a window, frame by frame: poll, lead, read, panel, update, show.
+class WindowTrainer {
+ public:
+  explicit WindowTrainer(const TrainSetup& setup)
+      : setup_(setup),
+        window_(setup.view.width, setup.view.height, "gearshift"),
+        headset_(setup.headset ? std::make_unique<LearnerHeadset>(*setup.headset, window_, ui_) : nullptr),
+        view_(first_view()),  // created before the haptic loop starts
+        session_(setup.choice),
+        shared_(setup.bindings),
+        input_(shared_.driver()),
+        look_(setup.choice.camera, setup.choice.drive),
+        last_frame_(Clock::now()) {
+    panel_.set_visible(setup.panel);
+    session_.set_keys(key_hints(setup.bindings));
+    if (!setup.replay.empty()) session_.open_replay(setup.replay, setup.shift, setup.from);
+  }
+
+  bool done() const {
+    const bool left = headset_ && headset_->wants_exit();
+    return quit_ || left || window_.wants_close() || base::StopSignals::requested();
+  }
+
+  // Ends the lesson early, closes the recording and reports both. Returns the exit code.
+  int finish() {
+    print_unsaved(session_.save_and_stop());
+    print_lines(lines_.new_lines(session_.coach().view()), session_.lever_time());
+    if (!session_.take_new_runtime()) health_ = session_.runtime().health();  // includes cycles since the newest frame
+    print_health(health_);
+    if (!session_.recording()) return 0;
+    const bool whole = session_.end_recording();
+    if (whole) base::print_out("{}\n", session_.message());
+    if (!whole) base::print_message("{}", session_.message());
+    return whole ? 0 : 1;
+  }
+
+  void frame() {
+    pace();
+    poll();
+    act();
+    set_driver();
+    session_.advance(seconds_);
+    print_events(session_.events(), !session_.runtime().device().measures_hand_force);
+    print_lines(lines_.new_lines(session_.coach().view()), session_.lever_time());
+    tell_message();
+    draw_panel();
+    look();
+    session_.update_cabin();
+    show();
+  }
+
+ private:
+  // Size of the picture that the panel is drawn into. [px]
+  glm::ivec2 panel_size() const {
+    return wears() ? setup_.headset->view.panel : cabin::eye_size(setup_.view, window_.framebuffer());
+  }
+
+  glm::dvec2 mouse_at_panel(glm::dvec2 mouse) const {
+    const glm::ivec2 window = window_.framebuffer();
+    return wears() ? cabin::in_mirrored_panel(mouse, panel_size(), window)
+                   : cabin::mouse_in_eye(setup_.view, mouse, window);
+  }
+
+  bool wears() const { return headset_ && headset_->is_open(); }
+  bool is_worn() const { return headset_ && headset_->is_worn(); }  // right now
+
+  std::unique_ptr<cabin::CabinView> desktop_view() {
+    return std::make_unique<cabin::CabinView>(setup_.view, &window_, &ui_);
+  }
+
+  std::unique_ptr<cabin::CabinView> first_view() {
+    if (headset_ && headset_->is_found() && headset_->open()) return nullptr;
+    return desktop_view();
+  }
+
+  // Switches to a headset if one is found, else shows the window. The window shows only one of the two.
+  void find_view() {
+    if (headset_ && headset_->is_found()) {
+      view_.reset();
+      (void)headset_->open();
+      fresh_view_ = true;
+    }
+    if (headset_) report_message(headset_->take_message());
+    if (!wears() && !view_) make_desktop_view();
+  }
+
+  // Retries at most once per kViewRetry, in case the device is lost repeatedly.
+  void make_desktop_view() {
+    const Clock::time_point now = Clock::now();
+    if (now < next_view_) return;
+    next_view_ = now + kViewRetry;
+    try {
+      view_ = desktop_view();
+      fresh_view_ = true;
+    } catch (const engine::GpuLost& lost) {
+      lose_view(lost);
+    }
+  }
+
+  void lose_view(const engine::GpuLost& lost) {
+    view_.reset();
+    const Clock::time_point now = Clock::now();
+    if (now > view_quiet_until_)
+      base::print_message("{}; restarting the picture, the lever keeps running", lost.what());
+    view_quiet_until_ = now + kViewHolds;
+  }
+
+  // Repeats the panel's message on stdout, for users who do not see the panel.
+  void tell_message() {
+    if (session_.message() == printed_message_) return;
+    printed_message_ = session_.message();
+    if (!printed_message_.empty()) print_lines({haptics::printable(printed_message_)}, session_.lever_time());
+  }
+
+  void report_message(const std::string& news) {
+    if (news.empty()) return;
+    base::print_message("{}", haptics::printable(news));
+    session_.set_message(news);
+  }
+
+  // The headset's display sets the pace while it is worn. Otherwise sleeps before input is read, not after, to keep the
+  // latency from input to picture short.
+  void pace() {
+    find_view();
+    const auto next =
+        last_frame_ + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(kMinFrameTime));
+    if (!wears() || !headset_->begin(session_.stage())) std::this_thread::sleep_until(next);
+    const Clock::time_point now = Clock::now();
+    const double passed = std::chrono::duration<double>(now - last_frame_).count();
+    session_.set_frame_ms(1e3 * passed);
+    seconds_ = std::min(passed, kMaxFrameTime);
+    last_frame_ = now;
+  }
+
+  void poll() {
+    input_.feel(session_.runtime().snapshot().lever);
+    session_.set_mouse_leads(input_.mouse_moves_lever());
+    const engine::WindowInput& polled = window_.poll();
+    if (wears() && headset_->take_opened()) panel_.set_visible(true);
+    pointer_ = pointer_at_panel();
+    pointing_.follow(polled, input_.mouse_moves_lever(), pointer_, panel_size(), seconds_);
+    shared_.update(polled, seconds_, mouse_at_panel(polled.mouse), panel_, ui_, pointing_.pointer());
+    if (setup_.choice.stick) input_.release_mouse();
+    look_.turn(shared_.turned());
+  }
+
+  // The hand's pointer, unless it points at an empty part of the panel.
+  std::optional<LearnerHeadset::Pointer> pointer_at_panel() const {
+    if (!wears() || !headset_->pointer()) return std::nullopt;
+    const std::optional<LearnerHeadset::Pointer>& pointer = headset_->pointer();
+    const bool is_there = panel_.covers(pointer->hit.at * glm::dvec2(panel_size()));
+    return is_there ? pointer : std::nullopt;
+  }
+
+  // In a headset only the head moves the view, so the camera is left alone.
+  void look() {
+    const bool points = is_worn() && (pointer_ || !headset_->pointer());
+    session_.set_pointer(points ? headset_->beam() : std::nullopt);
+    if (is_worn()) {
+      session_.set_ears(headset_->head());
+      session_.set_visual_offset(headset_->touch_error());
+      return;
+    }
+    session_.set_visual_offset(0.0);
+    if (look_.follow_shift(session_.is_replaying_shift())) session_.set_camera(look_.place());
+    session_.set_ears(look_.pose());
+  }
+
+  // After a change of gate, hand or device, the user's hand starts where the lever is.
+  void set_driver() {
+    if (session_.take_new_runtime()) {
+      print_health(std::exchange(health_, std::nullopt));
+      runtime::Runtime& runtime = session_.runtime();
+      input_.set_reach(ui::hand_reach(runtime.gate(), runtime.device()));
+      input_.recentre(runtime.snapshot().lever);
+      session_.set_foot_pace(foot_pace());
+    }
+    if (const std::optional<CarSwitches> car = session_.take_switches()) input_.set_car(car->ignition, car->hand_brake);
+    session_.set_driver(input_.hand(), input_.controls(), input_.pedal_keys());
+  }
+
+  ui::PedalTiming foot_pace() const {
+    ui::PedalTiming pace;
+    pace.pedal_time = setup_.bindings.pedal_time;
+    pace.slip_time = setup_.bindings.clutch_slip_time;
+    const std::optional<vehicle::CarSpec>& car = session_.car_spec();
+    if (!car) return pace;
+    pace.clutch_closed = car->clutch.closed;
+    pace.clutch_bite = car->clutch.bite;
+    return pace;
+  }
+
+  void act() {
+    for (const ui::Action action : input_.pressed()) act(action);
+    window_.capture_mouse(input_.mouse_moves_lever());
+  }
+
+  void act(ui::Action action) {
+    ui::PanelRequests requests;
+    switch (action) {
+      case ui::Action::stop:
+        requests.stop = true;
+        break;
+      case ui::Action::arm:
+        requests.arm = true;
+        go_on(requests.lesson);
+        break;
+      case ui::Action::record:
+        requests.record = true;
+        break;
+      case ui::Action::recentre:
+        look_.recentre();
+        if (headset_) headset_->recentre();
+        input_.recentre(session_.runtime().snapshot().lever);
+        break;
+      case ui::Action::full_screen:
+        window_.set_full_screen(!window_.full_screen());
+        break;
+      case ui::Action::help:
+        help_ = !help_;
+        panel_.show_help(help_, ui::help_text(setup_.bindings));
+        break;
+      case ui::Action::panel:
+        panel_.set_visible(!panel_.visible());
+        break;
+      case ui::Action::next_camera:
+        if (wears()) break;
+        look_.next();
+        session_.set_camera(look_.place());
+        break;
+      case ui::Action::undo:
+        panel_.undo();
+        break;
+      case ui::Action::redo:
+        panel_.redo();
+        break;
+      case ui::Action::grab_mouse:
+        if (!session_.is_replaying()) break;
+        requests.playback.close = true;
+        input_.release_mouse();
+        break;
+      case ui::Action::quit:
+        quit_ = true;
+        break;
+      default:
+        break;  // driving actions, handled by DriverInput
+    }
+    session_.apply(requests);
+  }
+
+  // Starts the offered lesson. After a passed lesson offers the next one, else starts the same one again.
+  void go_on(ui::LessonRequests& lesson) const {
+    const lessons::CoachView& coach = session_.coach().view();
+    if (session_.is_replaying()) return;
+    const bool goes_further = coach.result.passed && !coach.next.empty() && coach.next != coach.lesson;
+    if (coach.phase == lessons::LessonPhase::offered) lesson.begin = true;
+    if (coach.phase != lessons::LessonPhase::over) return;
+    if (goes_further)
+      lesson.offer = coach.next;
+    else
+      lesson.begin = true;
+  }
+
+  void draw_panel() {
+    const glm::ivec2 size = panel_size();
+    const float scale = wears() ? UiScale::in_headset(size.x, panel_.visible())
+                                : ui_scale_.follow(window_.framebuffer().y, window_.content_scale());
+    ui_.begin(
+        {static_cast<float>(size.x), static_cast<float>(size.y), static_cast<float>(std::max(seconds_, 1e-4)), scale});
+    session_.set_headset(wears() ? std::optional(headset_->report()) : std::nullopt);
+    const ui::PanelInput& input = session_.panel_input();
+    health_ = input.health;
+    const ui::PanelRequests requests = panel_.draw(input);
+    ui_.end();
+    help_ = panel_.shows_help();
+    if (requests.reset_view) look_.recentre();
+    if (wears()) headset_->apply(requests.headset, session_.runtime().config().preset.haptics.ghost_offset);
+    session_.apply(requests);
+  }
+
+  void show() {
+    if (wears()) {
+      if (session_.take_new_model() || fresh_view_) headset_->set_model(session_.stage().model());
+      fresh_view_ = false;
+      if (!wears()) return;  // the headset was lost in set_model()
+      headset_->draw(session_.stage().scene(), seen_beside(panel_, panel_size()), card_in(panel_, panel_size()),
+                     look_.pose());
+      return;
+    }
+    if (!view_) return;  // the headset or the device was lost
+    try {
+      if (session_.take_new_model() || fresh_view_) view_->set_model(session_.stage().model());
+      fresh_view_ = false;
+      if (view_->begin())
+        view_->draw(session_.stage().scene(), look_.pose(), look_.field(), seen_beside(panel_, panel_size()));
+    } catch (const engine::GpuLost& lost) {
+      lose_view(lost);
+    }
+  }
+
+  TrainSetup setup_;
+  engine::Window window_;
+  const engine::Instance driver_{engine::GpuConfig{}};  // keeps the Vulkan driver loaded while views come and go
+  engine::UiContext ui_;
+  UiScale ui_scale_;
+  ui::Panel panel_;
+  std::unique_ptr<LearnerHeadset> headset_;  // null: not requested
+  std::unique_ptr<cabin::CabinView> view_;   // null while the headset is open
+  Session session_;
+  std::optional<LearnerHeadset::Pointer> pointer_;  // where the hand points at the panel
+  PointingHand pointing_;
+  SharedInput shared_;
+  ui::DriverInput& input_;
+  CabinCamera look_;
+  LessonLines lines_;
+  Clock::time_point last_frame_;
+  double seconds_ = 1.0 / 60.0;  // [s] length of this frame
+  bool help_ = false;
+  bool quit_ = false;
+  bool fresh_view_ = true;
+  Clock::time_point next_view_{}, view_quiet_until_{};
+  std::optional<runtime::LoopHealth> health_;  // health of the running loop in the newest frame
+  std::string printed_message_;
+};
+
+// A lesson by the automatic hand, or a replay, has come to its end.
+bool is_done(const Session& session) {
+  return session.coach().view().phase == lessons::LessonPhase::over || session.is_replay_over();
+}
+
+}  // namespace
+
+int train_in_window(const TrainSetup& setup) {
+  const base::StopSignals signals;
+  WindowTrainer runtime(setup);
+  try {
+    while (!runtime.done()) runtime.frame();
+  } catch (...) {
+    (void)runtime.finish();
+    throw;
+  }
+  return runtime.finish();
+}
+
+int train_offscreen(const TrainSetup& setup, const OffscreenSetup& offscreen) {
+  const base::StopSignals signals;
+  Session session(setup.choice);
+  if (!session.message().empty()) base::print_message("{}", session.message());
+  const CabinCamera look(setup.choice.camera, setup.choice.drive);
+  engine::UiContext ui;
+  ui::Panel panel;
+  panel.set_visible(setup.panel);
+  if (!setup.replay.empty()) session.open_replay(setup.replay, setup.shift, setup.from);
+  cabin::CabinView view(setup.view, nullptr, &ui);
+  base::make_folder(offscreen.folder);
+  const double seconds = 1.0 / kOffscreenRate;
+  const glm::ivec2 eye = cabin::eye_size(setup.view, {setup.view.width, setup.view.height});
+  LessonLines lines;
+  const auto draw = [&] {
+    ui.begin({static_cast<float>(eye.x), static_cast<float>(eye.y), static_cast<float>(seconds),
+              UiScale().follow(eye.y, 1.0f)});
+    session.apply(panel.draw(session.panel_input()));
+    ui.end();
+  };
+  const auto wants_more = [&] { return session.time() < offscreen.seconds && !is_done(session); };
+  while (wants_more() && !base::StopSignals::requested()) {
+    session.advance(seconds);
+    print_events(session.events(), !session.runtime().device().measures_hand_force);
+    print_lines(lines.new_lines(session.coach().view()), session.lever_time());
+    draw();
+    session.update_cabin();
+  }
+  const bool is_cut = wants_more();
+  for (int i = 0; i < kSettling; ++i) draw();
+  print_unsaved(session.save_and_stop());
+  print_lines(lines.new_lines(session.coach().view()), session.lever_time());
+  view.set_model(session.stage().model());  // only the last frame is written
+  view.begin();
+  view.draw(session.stage().scene(), look.pose(), look.field(), seen_beside(panel, eye));
+  const std::filesystem::path picture = offscreen.folder / "train.png";
+  engine::write_png(picture, view.picture());
+  base::print_out("{}\n", picture.string());
+  if (is_cut) base::print_message("stopped after {:.1f} of {:g} s", session.time(), offscreen.seconds);
+  return is_cut ? 1 : 0;
+}
+
+}  // namespace gearshift::session

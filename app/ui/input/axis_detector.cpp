@@ -1,0 +1,160 @@
+#include "app/ui/input/axis_detector.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/core.h>
+
+#include "haptics/files/printable.h"
+
+namespace gearshift::ui {
+namespace {
+
+constexpr double kMinMove = 0.2;        // [raw, range 2] less counts as no movement
+constexpr double kMaxSecondAxis = 0.5;  // [1] of the most moved axis: a second axis may move this far
+constexpr double kMinPedalSide = 0.75;  // [1] of a pedal's range must be on one side of its rest position
+constexpr double kMinLeverSide = 0.15;  // [1] of a lever's range must be on each side of its rest position
+constexpr int kMinRestFrames = 20;      // frames
+constexpr double kMaxDeadZone = 0.25;   // [1] of the range: a larger dead zone is rejected
+constexpr double kMinZone = 0.02;       // [1]
+constexpr double kNoiseMargin = 1.5;    // the noise of one second is not the maximum
+
+// Rounds up to hundredths: the user may read and edit the number.
+double rounded_up(double fraction) {
+  return std::ceil(100.0 * fraction - 1e-9) / 100.0;
+}
+
+double dead_zone(double wander, double range, const std::string& axis_name) {
+  const double zone = std::max(kMinZone, rounded_up(kNoiseMargin * wander / range));
+  if (zone > kMaxDeadZone)
+    throw std::invalid_argument(
+        fmt::format("{} does not rest: untouched, it moved {:.2f} of its range; keep your hands off it and try again",
+                    axis_name, wander / range));
+  return zone;
+}
+
+bool is_valid_in_file(const std::string& name) {
+  return !name.empty() && haptics::printable(name) == name;
+}
+
+}  // namespace
+
+// True while the same sticks as in the first frame are plugged in.
+bool AxisDetector::check_sticks(const std::vector<engine::PadState>& sticks) {
+  const bool is_new = sticks_.empty();
+  if (is_new)
+    for (const engine::PadState& stick : sticks)
+      sticks_.push_back({stick.name, stick.guid, std::vector<AxisRange>(stick.axes.size())});
+  const auto same = [](const Stick& a, const engine::PadState& b) {
+    return a.name == b.name && a.guid == b.guid && a.axes.size() == b.axes.size();
+  };
+  changed_ = changed_ || !std::equal(sticks_.begin(), sticks_.end(), sticks.begin(), sticks.end(), same);
+  for (std::size_t s = 0; is_new && s < sticks.size(); ++s)
+    for (std::size_t a = 0; a < sticks[s].axes.size(); ++a)
+      sticks_[s].axes[a].first = sticks_[s].axes[a].low = sticks_[s].axes[a].high = sticks[s].axes[a];
+  return !changed_;
+}
+
+void AxisDetector::record_move(const std::vector<engine::PadState>& sticks) {
+  ++frames_;
+  if (!check_sticks(sticks)) return;
+  for (std::size_t s = 0; s < sticks.size(); ++s) {
+    for (std::size_t a = 0; a < sticks[s].axes.size(); ++a) {
+      AxisRange& range = sticks_[s].axes[a];
+      const double raw = sticks[s].axes[a];
+      if (raw < range.low) range.low_at = frames_, range.low = raw;
+      if (raw > range.high) range.high_at = frames_, range.high = raw;
+    }
+  }
+}
+
+void AxisDetector::record_rest(const std::vector<engine::PadState>& sticks) {
+  if (!check_sticks(sticks)) return;
+  for (std::size_t s = 0; s < sticks.size(); ++s) {
+    for (std::size_t a = 0; a < sticks[s].axes.size(); ++a) {
+      AxisRange& range = sticks_[s].axes[a];
+      const double raw = sticks[s].axes[a];
+      if (!std::isfinite(raw)) continue;
+      range.rest_low = range.rests == 0 ? raw : std::min(range.rest_low, raw);
+      range.rest_high = range.rests == 0 ? raw : std::max(range.rest_high, raw);
+      range.rest_sum += raw;
+      ++range.rests;
+    }
+  }
+}
+
+std::string AxisDetector::describe_axis(const Place& at) const {
+  return fmt::format("axis {} of {}", at.axis, haptics::printable(sticks_[at.stick].name));
+}
+
+AxisDetector::Place AxisDetector::most_moved_axis() const {
+  std::vector<Place> places;
+  for (std::size_t s = 0; s < sticks_.size(); ++s)
+    for (std::size_t a = 0; a < sticks_[s].axes.size(); ++a) places.push_back({s, a});
+  if (places.empty()) throw std::invalid_argument("no stick with an axis is plugged in");
+  const auto further = [this](const Place& a, const Place& b) { return range_of(a).span() > range_of(b).span(); };
+  std::stable_sort(places.begin(), places.end(), further);
+  const double most = range_of(places[0]).span();
+  if (most < kMinMove) throw std::invalid_argument("nothing moved: move one control all the way and release it");
+  if (places.size() > 1 && range_of(places[1]).span() > kMaxSecondAxis * most)
+    throw std::invalid_argument(fmt::format("two axes moved together, {} and {}: move only one control",
+                                            describe_axis(places[0]), describe_axis(places[1])));
+  return places[0];
+}
+
+// A binding that finds the same stick and axis again.
+AxisBinding AxisDetector::binding_of(const Place& at) const {
+  const Stick& stick = sticks_[at.stick];
+  AxisBinding axis;
+  axis.stick = is_valid_in_file(stick.name) ? stick.name : stick.guid;
+  axis.axis = static_cast<int>(at.axis);
+  for (std::size_t s = 0; s < at.stick; ++s)
+    axis.pad += matches_stick({sticks_[s].name, {}, {}, sticks_[s].guid}, axis.stick) ? 1 : 0;
+  return axis;
+}
+
+AxisBinding AxisDetector::pedal(const Place& at) const {
+  const AxisRange& range = range_of(at);
+  AxisBinding axis = binding_of(at);
+  axis.from = range.rest();
+  axis.to = range.high - axis.from > axis.from - range.low ? range.high : range.low;
+  const double travel = std::abs(axis.to - axis.from);
+  if (travel < kMinMove || travel < kMinPedalSide * range.span())
+    throw std::invalid_argument(describe_axis(at) +
+                                " rests in the middle of its range: press the pedal down and release it");
+  axis.dead_zone = dead_zone(0.5 * (range.rest_high - range.rest_low), travel, describe_axis(at));
+  axis.end_zone = kMinZone;
+  return axis;
+}
+
+// The end that was reached first is left or back.
+AxisBinding AxisDetector::lever(const Place& at) const {
+  const AxisRange& range = range_of(at);
+  AxisBinding axis = binding_of(at);
+  const bool low_first = range.low_at <= range.high_at;
+  axis.from = low_first ? range.low : range.high;
+  axis.to = low_first ? range.high : range.low;
+  axis.centre = range.rest();
+  const double side = std::min(range.high - range.rest(), range.rest() - range.low);
+  if (side < kMinLeverSide * range.span())
+    throw std::invalid_argument(
+        describe_axis(at) +
+        " moved to only one side of its rest position: move the lever to one end, then to the other");
+  const double before = std::abs(range.first - range.rest());  // where it was left before the motion
+  const double slack = before < 0.5 * side ? before : 0.0;
+  axis.dead_zone = dead_zone(slack + 0.5 * (range.rest_high - range.rest_low), side, describe_axis(at));
+  axis.end_zone = kMinZone;
+  return axis;
+}
+
+AxisBinding AxisDetector::result() const {
+  if (changed_) throw std::invalid_argument("a stick was plugged in or unplugged meanwhile: try again");
+  const Place at = most_moved_axis();
+  if (range_of(at).rests < kMinRestFrames)
+    throw std::invalid_argument(describe_axis(at) +
+                                " was not recorded at rest: release it and don't touch it for a second");
+  return control_ == Control::pedal ? pedal(at) : lever(at);
+}
+
+}  // namespace gearshift::ui

@@ -1,0 +1,64 @@
+// Detects an axis while the user moves one control: which axis it is, its end values, its rest position and the noise
+// there. It reads no clock and opens no device: the caller passes the sticks frame by frame.
+//
+//   AxisDetector detector(AxisDetector::Control::pedal);
+//   detector.record_move(list)   each frame, while the pedal is pressed all the way and released; a lever is moved to
+//                               the left (or back), then to the right (or forward), and released
+//   detector.record_rest(list)   each frame of a second in which the control is not touched
+//   bindings.clutch = detector.result();
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <vector>
+
+#include "app/ui/input/axis.h"
+
+namespace gearshift::ui {
+
+class AxisDetector {
+ public:
+  enum class Control { lever, pedal };
+  explicit AxisDetector(Control control) : control_(control) {}
+
+  void record_move(const std::vector<engine::PadState>& sticks);
+  void record_rest(const std::vector<engine::PadState>& sticks);
+
+  // Identifies the stick by name, or by GUID if the name cannot be written to a file. Throws std::invalid_argument with
+  // one sentence on what was wrong and what to do: no motion, two axes moved, too little motion, only to one side, no
+  // rest.
+  AxisBinding result() const;
+
+ private:
+  struct AxisRange {                            // what one axis did
+    double first = 0.0, low = 0.0, high = 0.0;  // raw
+    int low_at = 0, high_at = 0;                // frames
+    double rest_low = 0.0, rest_high = 0.0, rest_sum = 0.0;
+    int rests = 0;
+    double span() const { return high - low; }
+    double rest() const { return rest_sum / rests; }
+  };
+  struct Stick {
+    std::string name, guid;
+    std::vector<AxisRange> axes;
+  };
+
+  struct Place {  // which axis
+    std::size_t stick = 0, axis = 0;
+  };
+
+  bool check_sticks(const std::vector<engine::PadState>& sticks);
+  const AxisRange& range_of(const Place& at) const { return sticks_[at.stick].axes[at.axis]; }
+  std::string describe_axis(const Place& at) const;
+  Place most_moved_axis() const;
+  AxisBinding binding_of(const Place& at) const;
+  AxisBinding pedal(const Place& at) const;
+  AxisBinding lever(const Place& at) const;
+
+  Control control_;
+  std::vector<Stick> sticks_;
+  int frames_ = 0;
+  bool changed_ = false;  // a stick was plugged in or unplugged
+};
+
+}  // namespace gearshift::ui

@@ -1,0 +1,96 @@
+// Bindings of keys, buttons and axes, read from a TOML file; the shipped one is assets/bindings/default.toml.
+// Actions missing from the file are not bound; only `stop` must have a key.
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/ui/input/axis.h"
+
+namespace gearshift::ui {
+
+// All input actions. Held actions act while the key is held, the others once when it is pressed.
+enum class Action {
+  // held: the hand
+  lever_left,
+  lever_right,
+  lever_forward,
+  lever_back,
+  push_down,
+  lift,
+  // held: the car
+  throttle,
+  throttle_light,
+  brake,
+  clutch,
+  clutch_hold,
+  starter,
+  // once
+  hand_brake,
+  ignition,
+  arm,
+  stop,
+  recentre,
+  full_screen,
+  help,
+  panel,
+  next_camera,
+  record,
+  undo,
+  redo,
+  grab_mouse,
+  quit
+};
+struct ActionInfo {
+  Action action;
+  std::string_view key;   // in the file: "lever_left"
+  std::string_view help;  // in the help window: "lever to the left"
+  bool held;
+};
+const std::vector<ActionInfo>& all_actions();
+
+// How a stick moves the hand.
+enum class LeverMode {
+  moves,  // deflection sets the hand's speed; released, the hand stays. For sticks with a centring spring
+  places  // deflection sets the hand's position. For levers that stay where they are put
+};
+
+struct Bindings {
+  std::map<Action, std::vector<int>> keys;  // GLFW_KEY_...
+  std::map<Action, std::vector<int>> pad_buttons;
+  std::string button_stick;  // part of the name, or the GUID, of the sticks with these buttons; empty: all sticks
+  std::optional<AxisBinding> lever_select, lever_shift, throttle, brake, clutch;
+  LeverMode lever_mode = LeverMode::moves;
+  double stick_speed = 0.3;       // [m/s] hand speed at full deflection, with LeverMode::moves
+  double mouse_mm_per_px = 0.12;  // [mm] hand motion in the lever plane per mouse pixel
+  double key_speed = 0.25;        // [m/s] hand speed while a lever key is held
+  double pedal_time = 0.25;       // [s] full pedal travel by key
+  double clutch_slip_time = 1.2;  // [s] clutch by key, on its way up through the bite zone
+};
+
+// Throws FileError with file, line, key, value and allowed range. A key, button or axis may have only one action.
+Bindings read_bindings(const std::filesystem::path& file);
+
+// Writes a file that read_bindings() reads back unchanged. Throws FileError and then leaves an existing file as it was.
+void write_bindings(const Bindings& bindings, const std::filesystem::path& file);
+std::string bindings_text(const Bindings& bindings);
+
+// Path of the user's bindings of that name, below the user's configuration folder; creates nothing. Throws
+// std::invalid_argument with one sentence for a name that cannot be a file name.
+std::filesystem::path user_bindings_file(const std::filesystem::path& config_folder, const std::string& name);
+
+// The text of the help window (F1): one line per bound action, then mouse and pad; input and action separated by a tab.
+std::string help_text(const Bindings& bindings);
+
+// The first key of each driving action, in the order of use: "clutch", "A". Actions without a key are left out.
+struct DrivingKey {
+  std::string_view action;
+  std::string key;
+};
+std::vector<DrivingKey> driving_keys(const Bindings& bindings);
+
+}  // namespace gearshift::ui

@@ -1,0 +1,76 @@
+#include <algorithm>
+#include <stdexcept>
+
+#include <fmt/core.h>
+
+#include "app/ui/input/bindings.h"
+#include "app/ui/input/key_names.h"
+#include "haptics/files/printable.h"
+#include "haptics/files/toml_text.h"
+#include "haptics/files/verified_file.h"
+
+namespace gearshift::ui {
+namespace {
+
+namespace fs = std::filesystem;
+
+std::string line(std::string_view key, const std::string& value) {
+  return fmt::format("{} = {}\n", key, value);
+}
+
+template <class Name>
+std::string actions_text(const std::map<Action, std::vector<int>>& bound, const Name& name) {
+  std::string text;
+  for (const ActionInfo& action : all_actions()) {
+    const auto found = bound.find(action.action);
+    if (found == bound.end()) continue;
+    std::string list;
+    for (const int code : found->second) list += (list.empty() ? "" : ", ") + name(code);
+    text += line(action.key, haptics::toml_string(list));
+  }
+  return text;
+}
+
+std::string axis_text(std::string_view key, const std::optional<AxisBinding>& axis) {
+  if (!axis) return {};
+  std::string text = fmt::format("\n[pad_axes.{}]\n", key);
+  if (!axis->stick.empty()) text += line("stick", haptics::toml_string(axis->stick));
+  text += line("pad", std::to_string(axis->pad)) + line("axis", std::to_string(axis->axis));
+  text += line("from", haptics::toml_number(axis->from)) + line("to", haptics::toml_number(axis->to));
+  if (axis->centre) text += line("centre", haptics::toml_number(*axis->centre));
+  return text + line("dead_zone", haptics::toml_number(axis->dead_zone)) +
+         line("end_zone", haptics::toml_number(axis->end_zone));
+}
+
+}  // namespace
+
+std::string bindings_text(const Bindings& bindings) {
+  std::string text = "[keys]\n" + actions_text(bindings.keys, key_name) + "\n[pad_buttons]\n";
+  if (!bindings.button_stick.empty()) text += line("stick", haptics::toml_string(bindings.button_stick));
+  text += actions_text(bindings.pad_buttons, [](int button) { return std::to_string(button); });
+  text += axis_text("lever_select", bindings.lever_select) + axis_text("lever_shift", bindings.lever_shift) +
+          axis_text("throttle", bindings.throttle) + axis_text("brake", bindings.brake) +
+          axis_text("clutch", bindings.clutch);
+  text += "\n[lever]\n" + line("mode", bindings.lever_mode == LeverMode::moves ? "\"moves\"" : "\"places\"") +
+          line("full_speed_m_per_s", haptics::toml_number(bindings.stick_speed));
+  return text + "\n[pace]\n" + line("mouse_mm_per_px", haptics::toml_number(bindings.mouse_mm_per_px)) +
+         line("lever_key_m_per_s", haptics::toml_number(bindings.key_speed)) +
+         line("pedal_key_s", haptics::toml_number(bindings.pedal_time)) +
+         line("clutch_key_slip_s", haptics::toml_number(bindings.clutch_slip_time));
+}
+
+void write_bindings(const Bindings& bindings, const fs::path& file) {
+  haptics::write_verified_file(file, bindings_text(bindings),
+                               [](const auto& written) { (void)read_bindings(written); });
+}
+
+fs::path user_bindings_file(const fs::path& config_folder, const std::string& name) {
+  const bool is_file = !name.empty() && name.front() != '.' && name.find('/') == std::string::npos;
+  if (!is_file)
+    throw std::invalid_argument(
+        fmt::format("\"{}\" cannot be the name of bindings: it is empty, begins with a dot or has a slash",
+                    haptics::printable(name)));
+  return config_folder / "bindings" / (name + ".toml");
+}
+
+}  // namespace gearshift::ui

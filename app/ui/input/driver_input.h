@@ -1,0 +1,118 @@
+// Converts window input to the driver's hand and pedals. Needs no window; the result depends only on the input.
+//
+//   hand    Moved by the mouse while captured, by lever keys at a fixed speed, or by a stick at a speed proportional to
+//           the square of its deflection; with LeverMode::places, the stick's deflection sets the position, from when
+//           it leaves its rest position until it is back. The hand stays within reach; a mouse that moves on beyond it
+//           pushes instead, against whatever holds the lever. With keys or a stick, the hand leads the lever by at most
+//           5 cm, and by at most 5 mm some time after they are released, so that it does not lean on the lever forever.
+//   pedals  The held pedal keys, for KeyboardPedals, which moves the pedals on the car's clock; and the pedal axes,
+//           each once it has moved, since a pad does not report an axis's true position before.
+//   mouse   Captured for the lever by a click on the cabin or by grab_mouse, until grab_mouse or the focus is lost.
+//   panel   Keys and clicks that the panel uses are ignored, with two exceptions: `stop` with a key that types no text,
+//           and grab_mouse while the mouse is captured.
+//   chords  A key pressed with Ctrl or Alt held is ignored, except for `stop`, and grab_mouse while the mouse is
+//           captured. If Ctrl or Alt is itself bound, it is a key like any other.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <optional>
+#include <set>
+#include <tuple>
+#include <vector>
+
+#include "app/ui/input/bindings.h"
+#include "app/ui/input/keyboard_pedals.h"
+#include "engine/window/window.h"
+#include "haptics/device/hand.h"
+#include "haptics/device/haptic_device.h"
+#include "haptics/gate/gate.h"
+#include "haptics/loop/lever_load.h"
+
+namespace gearshift::ui {
+
+struct InputConfig {
+  Bindings bindings;
+  glm::dvec2 reach{0.06, 0.06};  // [m] limit of the hand on each side of the origin, see hand_reach()
+  double max_push = 75.0;        // [N] per axis, with the mouse 50 mm beyond reach: above the over-push warning
+};
+
+// 20 mm beyond the gate's end stops and end walls, but within the device's workspace: what a hand of 500 N/m stiffness
+// needs to pull the lever over any detent. [m]
+glm::dvec2 hand_reach(const haptics::Gate& gate, const haptics::DeviceSpec& device) noexcept;
+
+class DriverInput {
+ public:
+  explicit DriverInput(const InputConfig& config);
+
+  // Call once per frame. seconds: since the last call. ui_has_mouse, ui_has_keys: the panel uses mouse or keyboard.
+  void update(const engine::WindowInput& input, double seconds, bool ui_has_mouse, bool ui_has_keys);
+
+  const haptics::HandTarget& hand() const noexcept { return hand_; }
+  const haptics::DriverControls& controls() const noexcept { return controls_; }  // pedals: axes only
+  // Pedal keys held until the next update(). A key pressed and released between two frames is held for one frame.
+  PedalKeys pedal_keys() const;
+  const std::vector<Action>& pressed() const noexcept { return pressed_; }  // one-shot actions of this frame, in order
+  bool mouse_moves_lever() const noexcept { return mouse_moves_lever_; }    // the mouse is captured
+
+  void recentre(glm::dvec2 lever);                          // puts the hand at the lever, without a push
+  void set_reach(glm::dvec2 reach);                         // [m] for another gate or device
+  void feel(glm::dvec2 lever) noexcept { lever_ = lever; }  // [m] lever point; call once per frame, before update()
+  void release_mouse() noexcept { mouse_moves_lever_ = mouse_moved_lever_ = false; }
+  void set_car(bool ignition, double hand_brake);  // at the start of a lesson; hand_brake 0 to 1
+
+ private:
+  // An axis is used only after its first movement.
+  struct AxisWatch {
+    std::optional<double> first;
+    bool moved = false;
+  };
+  struct Source {  // a key or button
+    bool pad = false;
+    int code = 0;
+    bool operator<(const Source& other) const { return std::tie(pad, code) < std::tie(other.pad, other.code); }
+  };
+
+  void update_keys(const engine::WindowInput& input, bool ui_has_keys);
+  bool is_chord(const engine::KeyEvent& key) const;
+  void update_buttons(const engine::WindowInput& input);
+  void update_mouse(const engine::WindowInput& input, bool ui_has_mouse);
+  void press(Source source, bool ui_has_keys, bool chord);
+  void release(Source source) { released_.insert(source); }
+  void release_all() { released_ = down_; }
+  void trigger(Action action);
+  bool is_held(Action action) const;
+  bool is_held_at_end(Action action) const;
+  template <class Holds>
+  bool any_bound_source(Action action, const Holds& holds) const;
+  void move_hand(const engine::WindowInput& input, double seconds);
+  void aim_by_stick(glm::dvec2 stick);
+  void read_pedals(const engine::WindowInput& input);
+  void aim_by_mouse(glm::dvec2 moved_px);
+  void aim_by_speed(glm::dvec2 speed, double seconds);
+  glm::dvec2 key_speed() const;
+  void set_hand();
+  std::optional<double> raw_axis(const engine::WindowInput& input, const std::optional<AxisBinding>& axis,
+                                 std::size_t watch);
+  double stick(const engine::WindowInput& input, const std::optional<AxisBinding>& axis, std::size_t watch);
+  double pedal_axis(const engine::WindowInput& input, const std::optional<AxisBinding>& axis, std::size_t watch);
+
+  InputConfig config_;
+  glm::dvec2 aim_{0.0};            // [m] target of the hand; beyond reach it becomes a push
+  glm::dvec2 lever_{0.0};          // [m] lever point
+  double since_key_motion_ = 1.0;  // [s] since keys or a stick moved the hand; 1: something else moved it last
+  haptics::HandTarget hand_;
+  haptics::DriverControls controls_;
+  std::vector<Action> pressed_;
+  bool mouse_moves_lever_ = false;
+  bool mouse_moved_lever_ = false;        // in the last frame: the motion before the capture does not move the hand
+  bool was_clicked_ = false;              // the left button was down in the last frame
+  bool was_focused_ = false;              // in the last frame
+  std::set<Source> down_;                 // during this frame, even if only for part of it
+  std::set<Source> newly_down_;           // those of down_ pressed in this frame
+  std::set<Source> released_;             // those of down_ released in this frame
+  std::array<AxisWatch, 5> watch_;        // lever_select, lever_shift, throttle, brake, clutch
+  std::array<bool, 2> stick_controls_{};  // select, shift
+};
+
+}  // namespace gearshift::ui

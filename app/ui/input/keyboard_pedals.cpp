@@ -1,0 +1,70 @@
+#include "app/ui/input/keyboard_pedals.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gearshift::ui {
+namespace {
+
+constexpr double kLightThrottle = 0.2;  // [1] enough to move off
+constexpr double kFreeSpeed = 180.0;    // [rad/s] 1700 rpm: light throttle holds a free engine below this ...
+constexpr double kFreeBand = 50.0;      // [rad/s] ... and has its full value this much lower
+
+// Limits the revs of an uncoupled engine, as a foot would: a fifth of the throttle would over-rev it.
+double light_throttle(double engine_speed, bool coupled) {
+  if (coupled) return kLightThrottle;
+  return kLightThrottle * std::clamp((kFreeSpeed - engine_speed) / kFreeBand, 0.0, 1.0);
+}
+
+// Moves towards `to` at a speed that takes `time` for the full travel.
+double ramped(double pedal, double to, double seconds, double time) {
+  const double step = seconds / time;
+  return std::clamp(to, pedal - step, pedal + step);
+}
+
+// A clutch released for `seconds`: it moves quickly, but slowly from bite to closed.
+double release_clutch(double pedal, double seconds, const PedalTiming& pace) {
+  const double edges[] = {pace.clutch_bite, pace.clutch_closed, 0.0};
+  const double quick = 1.0 / pace.pedal_time, slow = (pace.clutch_bite - pace.clutch_closed) / pace.slip_time;
+  const double speeds[] = {quick, slow, quick};
+  for (int part = 0; part < 3; ++part) {
+    const double step = std::min(std::max(pedal - edges[part], 0.0), speeds[part] * seconds);
+    pedal -= step;
+    seconds -= step / speeds[part];
+  }
+  return pedal;
+}
+
+}  // namespace
+
+void KeyboardPedals::set_keys(const PedalKeys& keys) {
+  const std::lock_guard lock(mutex_);
+  keys_ = keys;
+}
+
+void KeyboardPedals::set_timing(const PedalTiming& pace) {
+  const std::lock_guard lock(mutex_);
+  timing_ = pace;
+}
+
+void KeyboardPedals::set_active_lever(int lever) {
+  const std::lock_guard lock(mutex_);
+  active_lever_ = lever;
+}
+
+Pedals KeyboardPedals::move(double seconds, double engine_speed, bool coupled, int lever) {
+  const std::lock_guard lock(mutex_);
+  if (lever != active_lever_) return pedals_;
+  seconds = std::isfinite(seconds) ? std::max(seconds, 0.0) : 0.0;
+  const double time = timing_.pedal_time;
+  const double light = keys_.throttle_light ? light_throttle(engine_speed, coupled) : 0.0;
+  pedals_.throttle = ramped(pedals_.throttle, keys_.throttle ? 1.0 : light, seconds, time);
+  pedals_.brake = ramped(pedals_.brake, keys_.brake ? 1.0 : 0.0, seconds, time);
+  if (keys_.clutch)
+    pedals_.clutch = ramped(pedals_.clutch, 1.0, seconds, time);
+  else if (!keys_.clutch_hold)
+    pedals_.clutch = release_clutch(pedals_.clutch, seconds, timing_);
+  return pedals_;
+}
+
+}  // namespace gearshift::ui

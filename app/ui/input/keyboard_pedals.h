@@ -1,0 +1,49 @@
+// Pedals driven by keys, which keep moving between frames.
+//
+// Each frame sets the held keys; the thread with the car's clock moves the pedals cycle by cycle. A low frame rate
+// therefore makes no pedal jump: a key takes effect up to one frame late, and the pedal then moves at its normal speed.
+#pragma once
+
+#include <mutex>
+
+namespace gearshift::ui {
+
+struct PedalKeys {  // held now
+  bool throttle = false, throttle_light = false, brake = false, clutch = false, clutch_hold = false;
+};
+
+struct PedalTiming {
+  double pedal_time = 0.25;                         // [s] full pedal travel
+  double slip_time = 1.2;                           // [s] the clutch on its way up, through the bite zone ...
+  double clutch_closed = 0.15, clutch_bite = 0.75;  // [1] ... between these pedal positions: 0 <= closed < bite
+  bool operator==(const PedalTiming&) const = default;
+};
+
+struct Pedals {
+  double throttle = 0.0, brake = 0.0, clutch = 0.0;  // [1] 0: released, 1: fully pressed
+};
+
+// throttle_light presses a fifth of the travel, or less while the engine turns fast and is not coupled to the wheels.
+// The released clutch comes up quickly, but slowly through the bite zone, and stops while clutch_hold is held. Any
+// thread.
+class KeyboardPedals {
+ public:
+  void set_keys(const PedalKeys& keys);
+  void set_timing(const PedalTiming& pace);  // for another car
+
+  // When one lever replaces another, both run for a while: only calls with this number move the pedals.
+  void set_active_lever(int lever);
+
+  // Moves the pedals by `seconds` of the car's time (negative counts as 0). engine_speed [rad/s]; coupled: the engine
+  // drives the wheels. lever: the caller's number; unless it is the active one (0 initially), the pedals are only read.
+  Pedals move(double seconds, double engine_speed, bool coupled, int lever = 0);
+
+ private:
+  std::mutex mutex_;  // guards the members below
+  PedalKeys keys_;
+  PedalTiming timing_;
+  Pedals pedals_;
+  int active_lever_ = 0;  // the lever whose calls move the pedals
+};
+
+}  // namespace gearshift::ui

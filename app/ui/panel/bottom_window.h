@@ -1,0 +1,19 @@
+// A window centred at the bottom of the cabin view: the lesson card or the replay bar.
+#pragma once
+
+#include <imgui.h>
+
+#include "app/ui/panel/controls.h"
+
+namespace gearshift::ui {
+
+inline constexpr float kBottomMargin = 0.8f;  // [em] at the sides; half of it below
+
+// [px] Width available in `room`, at most `max` [em]. Below kMinBottomWidth no text fits.
+float bottom_width(const ControlRect& room, float max);
+inline constexpr float kMinBottomWidth = 10.0f;  // [em]
+
+// Set the window's size before. As with ImGui::Begin(), always call ImGui::End().
+bool begin_at_bottom(const char* name, const ControlRect& room, ImGuiWindowFlags more);
+
+}  // namespace gearshift::ui

@@ -1,0 +1,68 @@
+#include "app/ui/panel/car_strip.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "app/ui/panel/format_value.h"
+#include "app/ui/panel/lesson_text.h"
+#include "app/ui/panel/palette.h"
+#include "app/ui/panel/text_lines.h"
+#include "haptics/gate/gate.h"
+
+namespace gearshift::ui {
+namespace {
+
+constexpr float kBar = 3.2f;         // [em]
+constexpr double kBiteTorque = 5.0;  // [N m]
+
+struct Zone {  // [1] bite zone in fractions of the pedal travel; not drawn where empty
+  double from = 0.0, to = 0.0;
+};
+
+void pedal(const char* name, double pressed, ImU32 colour, bool first = false, Zone zone = {}) {
+  const float em = engine::ui_em(), text = width_of(name, engine::UiFont::small), gap = 0.35f * em;
+  const float height = engine::ui_font(engine::UiFont::small)->FontSize;
+  if (!first) beside(text + gap + kBar * em);
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  ImGui::Dummy({text + gap + kBar * em, height});
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddText(engine::ui_font(engine::UiFont::small), height, low, ink::kSoft, name);
+  const ImVec2 from(low.x + text + gap, low.y + 0.2f * height), to(from.x + kBar * em, low.y + 0.85f * height);
+  list.AddRectFilled(from, to, ink::kWell, 2.0f);
+  const auto fraction = static_cast<float>(std::clamp(pressed, 0.0, 1.0));
+  if (fraction > 0.0f) list.AddRectFilled(from, {from.x + fraction * (to.x - from.x), to.y}, colour, 2.0f);
+  const auto at = [&](double part) { return from.x + static_cast<float>(part) * (to.x - from.x); };
+  if (zone.to > zone.from) list.AddRectFilled({at(zone.from), from.y}, {at(zone.to), to.y}, ink::kBiteZone);
+}
+
+void word(const std::string& text, ImU32 colour) {
+  beside(width_of(text, engine::UiFont::small));
+  put(text, colour, engine::UiFont::small);
+}
+
+}  // namespace
+
+double slope_percent(const vehicle::VehicleState& car) {
+  return round_as_printed(100.0 * std::tan(car.slope), 0);
+}
+
+void draw_car_strip(const vehicle::VehicleState& car, int gear) {
+  const bool bites = !car.clutch_locked && std::abs(car.clutch_torque) > kBiteTorque;
+  pedal(bites ? "clutch biting" : "clutch", car.clutch, bites ? ink::kWarn : ink::kAccent, true,
+        {car.clutch_closed, car.clutch_bite});
+  pedal("brake", car.brake, ink::kBad);
+  pedal("throttle", car.throttle, ink::kGood);
+  if (car.stalled) {
+    word("stalled", ink::kBad);
+  } else {
+    word(format_rpm(car.engine_speed), car.over_revved ? ink::kBad : ink::kText);
+  }
+  word(format_value(haptics::kKmhPerMps * car.road_speed, "km/h", 0), ink::kText);
+  word(std::string("gear ") + haptics::gear_name(gear), car.grinding ? ink::kBad : ink::kText);
+  if (car.hand_brake > kHandBrakeOn) word("handbrake", ink::kBad);
+  if (!car.ignition) word("ignition off", ink::kWarn);
+  if (const double slope = slope_percent(car); slope != 0.0)
+    word(fmt::format("{:.0f} % {}", std::abs(slope), slope > 0.0 ? "uphill" : "downhill"), ink::kText);
+}
+
+}  // namespace gearshift::ui

@@ -1,0 +1,19 @@
+// One line about the car on the lesson card, shown while the panel's bar is hidden.
+#pragma once
+
+#include <string>
+
+#include "app/vehicle/vehicle_state.h"
+#include "haptics/loop/haptic_snapshot.h"
+
+namespace gearshift::ui {
+
+inline constexpr double kHandBrakeOn = 0.05;  // [1] the lamp is lit above this
+
+double slope_percent(const vehicle::VehicleState& car);  // rounded as printed; positive uphill
+
+// Draws pedals, speeds and active warnings from the left edge, wrapping as needed. The clutch bar changes colour while
+// the clutch slips, i.e. at the bite point.
+void draw_car_strip(const vehicle::VehicleState& car, int gear);
+
+}  // namespace gearshift::ui

@@ -1,0 +1,345 @@
+#include "app/ui/panel/control_bar.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "app/ui/panel/car_strip.h"
+#include "app/ui/panel/format_value.h"
+#include "app/ui/panel/lesson_text.h"
+#include "app/ui/panel/palette.h"
+#include "app/ui/panel/text_lines.h"
+
+namespace gearshift::ui {
+namespace {
+
+// [em] wide
+constexpr float kCar = 14.6f, kLamps = 6.2f, kState = 7.0f, kArm = 5.5f, kRecording = 7.4f, kStop = 9.0f;
+constexpr float kEstimatedLamps = 8.2f, kMinMessageWidth = 9.0f;
+constexpr int kLampColumns = 3;
+
+// Lays out the bar from left to right; each part advances the cursor by its width.
+class BarCursor {
+ public:
+  BarCursor() : low_(ImGui::GetCursorScreenPos()), height_(ImGui::GetContentRegionAvail().y) {}
+
+  ImVec2 low() const { return low_; }
+  float height() const { return height_; }
+  void next(float width) { go_to(low_.x + width + engine::ui_em()); }
+  void go_to(float x) {
+    low_.x = x;
+    ImGui::SetCursorScreenPos(low_);
+  }
+
+ private:
+  ImVec2 low_;
+  float height_;
+};
+
+// zone_from, zone_to [1]: the bite zone in fractions of the pedal travel; not drawn where empty.
+void pedal(const char* name, double pressed, ImVec2 low, ImVec2 size, ImU32 colour, double zone_from = 0.0,
+           double zone_to = 0.0) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  ImFont* font = engine::ui_font(engine::UiFont::small);
+  const float foot = low.y + size.y - font->FontSize;
+  const float top = foot - (foot - low.y) * static_cast<float>(std::clamp(pressed, 0.0, 1.0));
+  list.AddRectFilled(low, {low.x + size.x, foot}, ink::kWell, 2.0f);
+  list.AddRectFilled({low.x, top}, {low.x + size.x, foot}, colour, 2.0f);
+  const auto height_of = [&](double at) { return foot - (foot - low.y) * static_cast<float>(at); };
+  if (zone_to > zone_from)
+    list.AddRectFilled({low.x, height_of(zone_to)}, {low.x + size.x, height_of(zone_from)}, ink::kBiteZone);
+  const float width = font->CalcTextSizeA(font->FontSize, 1e9f, 0.0f, name).x;
+  list.AddText(font, font->FontSize, {low.x + 0.5f * (size.x - width), foot}, ink::kSoft, name);
+}
+
+// An arrow beside the gear: up where the next higher gear would save fuel, down where the engine labours.
+void draw_shift_arrow(ImVec2 at, int advice) {
+  if (advice == 0) return;
+  const float em = engine::ui_em(), up = advice > 0 ? -1.0f : 1.0f;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImU32 colour = advice > 0 ? ink::kGood : ink::kWarn;
+  const ImVec2 tip(at.x, at.y + up * 0.75f * em), neck(at.x, at.y + up * 0.1f * em);
+  list.AddTriangleFilled(tip, {neck.x - 0.5f * em, neck.y}, {neck.x + 0.5f * em, neck.y}, colour);
+  list.AddRectFilled({at.x - 0.18f * em, std::min(neck.y, at.y - up * 0.6f * em)},
+                     {at.x + 0.18f * em, std::max(neck.y, at.y - up * 0.6f * em)}, colour);
+}
+
+void draw_car(const BarCursor& parts, const PanelInput& input) {
+  const float em = engine::ui_em(), gear_width = 2.9f * em, text_width = 6.4f * em, pedal_width = 1.4f * em;
+  const vehicle::VehicleState& car = input.car;
+  ImFont* digits = engine::ui_font(engine::UiFont::digits);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 low = parts.low();
+  const char* gear = haptics::gear_name(input.now.gear);
+  const float width = digits->CalcTextSizeA(digits->FontSize, 1e9f, 0.0f, gear).x;
+  list.AddText(digits, digits->FontSize,
+               {low.x + 0.5f * (gear_width - width), low.y + 0.5f * (parts.height() - digits->FontSize)},
+               car.grinding ? ink::kBad : ink::kText, gear);
+  draw_shift_arrow({low.x + gear_width + 0.5f * em, low.y + 0.5f * parts.height()}, car.shift_advice);
+  const float line = ImGui::GetTextLineHeightWithSpacing(), at = low.x + gear_width + 1.3f * em;
+  const float top = low.y + 0.5f * (parts.height() - 2.0f * line) + 0.1f * em;
+  list.AddText({at, top}, car.stalled || car.over_revved ? ink::kBad : ink::kText,
+               (car.stalled ? std::string("stalled") : format_rpm(car.engine_speed)).c_str());
+  if (car.stalled)
+    list.AddRectFilled({at - 0.3f * em, top}, {at + 4.6f * em, top + ImGui::GetTextLineHeight()},
+                       engine::with_alpha(ink::kBad, 0.25f), 3.0f);
+  list.AddText({at, top + line}, ink::kText, format_value(haptics::kKmhPerMps * car.road_speed, "km/h", 0).c_str());
+  float x = low.x + gear_width + text_width;
+  const ImVec2 size(pedal_width, parts.height());
+  pedal("C", car.clutch, {x, low.y}, size, ink::kAccent, car.clutch_closed, car.clutch_bite);
+  pedal("B", car.brake, {x += pedal_width + 0.4f * em, low.y}, size, ink::kBad);
+  pedal("T", car.throttle, {x + pedal_width + 0.4f * em, low.y}, size, ink::kGood);
+}
+
+void lamp(ImVec2 at, const char* text, bool on, ImU32 colour) {
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  ImFont* font = engine::ui_font(engine::UiFont::small);
+  const float em = engine::ui_em();
+  const ImVec2 middle(at.x + 0.5f * em, at.y + 0.5f * font->FontSize);
+  if (on) list.AddCircleFilled(middle, 0.55f * em, engine::with_alpha(colour, 0.3f));
+  list.AddCircleFilled(middle, 0.32f * em, on ? colour : ink::kRaised);
+  list.AddText(font, font->FontSize, {at.x + 1.2f * em, at.y}, on ? colour : engine::with_alpha(ink::kSoft, 0.75f),
+               text);
+}
+
+struct Lamp {
+  std::string name;
+  bool on;
+  ImU32 colour;
+  const char* tooltip;
+};
+
+// The slope lamp; empty name on a level road.
+Lamp slope_lamp(const vehicle::VehicleState& car) {
+  const double slope = slope_percent(car);
+  if (slope == 0.0) return {{}, false, 0, ""};
+  return {fmt::format("Slope {:+.0f} %", slope), true, ink::kText, "Road slope; positive is uphill."};
+}
+
+// Without a force sensor the push is only estimated, and the warning says so.
+Lamp over_push_lamp(const haptics::HapticSnapshot& now) {
+  const bool on = (now.flags & haptics::kFlagOverPush) != 0, estimated = (now.flags & haptics::kFlagPushEstimated) != 0;
+  return {estimated && on ? "Push (estimated)" : "Over-push", on, ink::kBad,
+          estimated ? "You are pushing harder than the device can hold (estimated: it has no force sensor)."
+                    : "You are pushing harder than the device can hold."};
+}
+
+// [em] Width of the first column: "Push (estimated)" is the longest name.
+float first_lamps(const PanelInput& input) {
+  return (input.now.flags & haptics::kFlagPushEstimated) != 0 ? kEstimatedLamps : kLamps;
+}
+
+// Draws the warning lamps in columns of three, most important first.
+void draw_lamps(const BarCursor& parts, int columns, const PanelInput& input) {
+  const haptics::HapticSnapshot& now = input.now;
+  const bool softened = now.wall_stiffness > 0.0 && now.wall_stiffness < 0.999 * input.admitted.tuning.wall_stiffness;
+  const vehicle::VehicleState& car = input.car;
+  const Lamp lamps[kLampColumns][3] = {
+      {over_push_lamp(now),
+       {"Saturated", (now.flags & haptics::kFlagSaturated) != 0, ink::kWarn,
+        "More force was requested than the device can deliver."},
+       {"Past wall", (now.flags & haptics::kFlagGhost) != 0, ink::kWarn,
+        "Your hand has pushed the real lever through a wall; the drawn lever stays in the gate."}},
+      {{"Grinding", car.grinding, ink::kBad, "The gears are grinding: press the clutch."},
+       {"Over-rev", car.over_revved, ink::kBad, "The engine is above its redline: ease off the throttle."},
+       {"Softened", softened, ink::kWarn, "The walls were softened because the lever chattered against one."}},
+      {{"Handbrake", car.hand_brake > kHandBrakeOn, ink::kBad, "The handbrake is on."},
+       {"Ignition", car.ignition, ink::kGood, "The ignition is on."},
+       slope_lamp(car)}};
+  const float em = engine::ui_em(), line = parts.height() / 3.0f;
+  const float above = 0.5f * (line - engine::ui_font(engine::UiFont::small)->FontSize);
+  float x = parts.low().x;
+  for (int column = 0; column < columns; ++column) {
+    const float width = (column == 0 ? first_lamps(input) : kLamps) * em;
+    for (int row = 0; row < 3; ++row) {
+      const Lamp& l = lamps[column][row];
+      if (l.name.empty()) continue;
+      const float y = parts.low().y + static_cast<float>(row) * line;
+      lamp({x, y + above}, l.name.c_str(), l.on, l.colour);
+      if (ImGui::IsWindowHovered() && ImGui::IsMouseHoveringRect({x, y}, {x + width, y + line}))
+        ImGui::SetTooltip("%s", l.tooltip);
+    }
+    x += width;
+  }
+}
+
+// Loop figures in one line, shortened to fit `width` [px].
+std::string loop_line(const PanelInput& input, float width) {
+  const runtime::LoopHealth& health = input.health;
+  std::string rate = fmt::format("{:.0f} Hz", health.rate);
+  const std::string late = fmt::format("lateness p99 {:.0f} µs", 1e6 * health.late_p99),
+                    missed = fmt::format("{} missed", health.skipped),
+                    frame = input.frame_ms > 0.0 ? fmt::format(" · {:.0f} ms/frame", input.frame_ms) : std::string();
+  const std::string lines[] = {fmt::format("{} · {} · {}{}", rate, late, missed, frame),
+                               fmt::format("{} · {}{}", rate, missed, frame), fmt::format("{} · {}", rate, missed)};
+  for (const std::string& line : lines)
+    if (width_of(line) <= width) return line;
+  return rate;
+}
+
+// The message uses the remaining width. If it is longer than two lines, a tooltip shows it all. Returns true if nothing
+// is cut off.
+bool draw_message(Controls& controls, const BarCursor& parts, float width, const PanelInput& input) {
+  const engine::WithFont small(engine::UiFont::small);
+  const ImVec2 low = parts.low();
+  const float line = ImGui::GetTextLineHeight();
+  const ImVec2 room(width, parts.height() - line - 2.0f);
+  const std::string message = with_short_paths(input.message, width);
+  ImGui::PushClipRect(low, {low.x + room.x, low.y + room.y}, true);
+  ImGui::PushTextWrapPos(ImGui::GetCursorPosX() + width);
+  ImGui::TextUnformatted(message.c_str());
+  ImGui::PopTextWrapPos();
+  ImGui::PopClipRect();
+  const bool is_cut = ImGui::GetItemRectSize().y > room.y;
+  if ((is_cut || message != input.message) && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", input.message.c_str());
+  ImGui::SetCursorScreenPos({low.x, low.y + parts.height() - line});
+  controls.line(loop_line(input, width), width, ink::kSoft);
+  return !is_cut;
+}
+
+ImU32 state_colour(haptics::GuardState state) {
+  switch (state) {
+    case haptics::GuardState::running:
+      return ink::kGood;
+    case haptics::GuardState::armed:
+    case haptics::GuardState::ramping:
+      return ink::kAccent;
+    case haptics::GuardState::damped:
+      return ink::kWarn;
+    case haptics::GuardState::released:
+      return ink::kBad;
+    case haptics::GuardState::idle:
+      return ink::kSoft;
+  }
+  return ink::kSoft;
+}
+
+const char* state_label(haptics::GuardState state) {
+  static constexpr const char* kLabels[] = {"off", "starting", "starting", "on", "damped", "stopped"};
+  return kLabels[static_cast<int>(state)];
+}
+
+void draw_state(const BarCursor& parts, float width, const haptics::HapticSnapshot& now) {
+  const ImU32 colour = state_colour(now.guard);
+  const bool has_fault = (now.guard == haptics::GuardState::damped || now.guard == haptics::GuardState::released) &&
+                         now.fault != haptics::GuardFault::none;
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const ImVec2 low = parts.low(), high(low.x + width, low.y + parts.height());
+  list.AddRectFilled(low, high, engine::with_alpha(colour, 0.16f), 4.0f);
+  list.AddRect(low, high, engine::with_alpha(colour, 0.7f), 4.0f);
+  const auto centred = [&](engine::UiFont which, const char* text, float y, ImU32 shade) {
+    ImFont* font = engine::ui_font(which);
+    const float text_width = font->CalcTextSizeA(font->FontSize, 1e9f, 0.0f, text).x;
+    list.AddText(font, font->FontSize, {low.x + 0.5f * (width - text_width), y}, shade, text);
+  };
+  const float title = engine::ui_font(engine::UiFont::title)->FontSize,
+              small = engine::ui_font(engine::UiFont::small)->FontSize;
+  const float top = low.y + 0.5f * (parts.height() - title - (has_fault ? small : 0.0f));
+  centred(engine::UiFont::title, state_label(now.guard), top, colour);
+  if (has_fault) centred(engine::UiFont::small, haptics::guard_fault_name(now.fault), top + title, ink::kText);
+}
+
+void draw_force_switch(Controls& controls, const BarCursor& parts, float width, const PanelInput& input,
+                       PanelRequests& out) {
+  const haptics::GuardState state = input.now.guard;
+  const bool off = state == haptics::GuardState::idle || state == haptics::GuardState::damped ||
+                   state == haptics::GuardState::released;
+  const ImVec2 size(width, parts.height());
+  if (off) {
+    ImGui::BeginDisabled(input.stick && !input.stick->plugged_in);
+    out.arm = controls.button("arm", "Forces on", size, ink::kAccentDeep);
+    ImGui::EndDisabled();
+  } else {
+    out.disarm = controls.button("disarm", "Forces off", size);
+  }
+}
+
+// A lesson's own recording cannot be ended here: it ends with the lesson.
+void draw_recording(Controls& controls, const BarCursor& parts, float width, const PanelInput& input,
+                    PanelRequests& out) {
+  const float gap = 0.25f * engine::ui_em();
+  const ImVec2 size(width, 0.5f * (parts.height() - gap));
+  const bool of_lesson = input.recording && input.coach.phase == lessons::LessonPhase::driving;
+  if (of_lesson) {
+    const engine::WithFont small(engine::UiFont::small);
+    ImGui::BeginDisabled();
+    controls.button("record", "Recording lesson", size);
+    ImGui::EndDisabled();
+  } else {
+    out.record = input.recording ? controls.button("record", "End recording", size, ink::kBadDeep)
+                                 : controls.button("record", "Record", size);
+  }
+  ImGui::SetCursorScreenPos({parts.low().x, parts.low().y + size.y + gap});
+  out.replay = controls.button("replay", "Replay", size);
+}
+
+// Stops as soon as the button goes down, not on release: the mouse may then move off the button.
+void draw_stop(Controls& controls, const BarCursor& parts, float width, PanelRequests& out) {
+  const engine::WithFont large(engine::UiFont::digits);
+  controls.button("stop", "STOP", {width, parts.height()}, ink::kBadDeep);
+  out.stop = ImGui::IsItemActivated();
+}
+
+// The parts that fit in the bar; the less important ones are left out first.
+struct BarLayout {
+  bool state, arm, car, recording;
+  int lamps;      // columns
+  float message;  // [em] width; 0: no message
+};
+
+BarLayout fit_layout(float room, float first_lamps) {
+  const auto fits = [&room](float width) {
+    const bool has_room = room >= width + 1.0f;
+    if (has_room) room -= width + 1.0f;
+    return has_room;
+  };
+  BarLayout shown{};
+  room -= kStop;
+  shown.arm = fits(kArm);
+  shown.state = fits(kState);
+  shown.car = fits(kCar);
+  shown.recording = fits(kRecording);
+  if (fits(first_lamps)) shown.lamps = 1;
+  while (shown.lamps > 0 && shown.lamps < kLampColumns && fits(kLamps - 1.0f)) ++shown.lamps;
+  if (room >= kMinMessageWidth + 1.0f) shown.message = room - 1.0f;
+  return shown;
+}
+
+}  // namespace
+
+bool draw_control_bar(Controls& controls, const PanelInput& input, PanelRequests& out) {
+  const float em = engine::ui_em(), all = ImGui::GetContentRegionAvail().x;
+  const float stop = std::min(kStop * em, all), right_group = ImGui::GetCursorScreenPos().x + all;
+  const BarLayout shown = fit_layout(all / em, first_lamps(input));
+  BarCursor parts;
+  if (shown.car) {
+    draw_car(parts, input);
+    parts.next(kCar * em);
+  }
+  if (shown.lamps > 0) {
+    draw_lamps(parts, shown.lamps, input);
+    parts.next((first_lamps(input) + static_cast<float>(shown.lamps - 1) * kLamps) * em);
+  }
+  const bool message_fits = shown.message > 0.0f && draw_message(controls, parts, shown.message * em, input);
+  const float group = (shown.state ? kState + 1.0f : 0.0f) + (shown.arm ? kArm + 1.0f : 0.0f) +
+                      (shown.recording ? kRecording + 1.0f : 0.0f);
+  parts.go_to(right_group - stop - group * em);
+  if (shown.state) {
+    draw_state(parts, kState * em, input.now);
+    parts.next(kState * em);
+  }
+  if (shown.arm) {
+    draw_force_switch(controls, parts, kArm * em, input, out);
+    parts.next(kArm * em);
+  }
+  if (shown.recording) {
+    draw_recording(controls, parts, kRecording * em, input, out);
+    parts.next(kRecording * em);
+  }
+  draw_stop(controls, parts, stop, out);
+  return message_fits;
+}
+
+}  // namespace gearshift::ui

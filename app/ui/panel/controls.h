@@ -1,0 +1,52 @@
+// Records where each named control was drawn, so that a test or script can click it, and whether its text fitted.
+#pragma once
+
+#include <imgui.h>
+
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include <glm/vec2.hpp>
+
+namespace gearshift::ui {
+
+struct ControlRect {
+  glm::dvec2 min{0.0}, max{0.0};  // [px]
+};
+
+class Controls {
+ public:
+  void begin_frame() noexcept;
+
+  // Empty if the control was not drawn in this frame or is scrolled out of view.
+  std::optional<ControlRect> rect(std::string_view name) const;
+  int shortened() const noexcept { return shortened_; }  // number of texts in this frame that did not fit
+
+  void mark(std::string_view name);  // records the last ImGui item under this name
+
+  bool button(const char* name, const char* label, ImVec2 size = {0.0f, 0.0f});
+  bool button(const char* name, const char* label, ImVec2 size, ImU32 colour);
+  // A drop-down list; returns the option that was chosen, if it is not the current one. width [px]. label converts an
+  // option to its displayed text; null: displayed unchanged.
+  std::optional<std::string> choice(const char* name, const std::string& current, std::span<const std::string> options,
+                                    float width, std::string (*label)(const std::string&) = nullptr);
+  // Text in the small font after a dash in the curve's colour, e.g. "f_h 12.3 N".
+  void legend(ImU32 colour, std::string_view text);
+  // One line at most `width` [px] wide: in the small font if necessary, and with an ellipsis as a last resort.
+  void line(std::string_view text, float width, ImU32 colour);
+
+ private:
+  struct Place {
+    ControlRect rect;
+    std::uint64_t frame = 0;
+  };
+  std::map<std::string, Place, std::less<>> places_;
+  std::uint64_t frame_ = 0;
+  int shortened_ = 0;
+};
+
+}  // namespace gearshift::ui

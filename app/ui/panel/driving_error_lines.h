@@ -1,0 +1,17 @@
+// Advice shown below a driving error.
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "app/lessons/assessment/lesson_result.h"
+#include "engine/ui/ui_style.h"
+
+namespace gearshift::ui {
+
+// True where the advice for an error is shown: only once per kind (`listed` holds the errors above it), and never for a
+// note.
+bool needs_advice(const lessons::LessonResult& result, std::size_t error, const std::vector<std::size_t>& listed);
+void put_advice(lessons::ErrorKind kind);
+
+}  // namespace gearshift::ui

@@ -1,0 +1,24 @@
+// The gate from above: walls, gears, lever point, proxy, trajectory, forces.
+#pragma once
+
+#include <imgui.h>
+
+#include <span>
+
+#include <glm/vec2.hpp>
+
+#include "app/ui/panel/trail.h"
+#include "haptics/gate/gate.h"
+
+namespace gearshift::ui {
+
+// The path driven in a replayed shift and the shortest path. [m] in the gate plane; may be empty
+struct ShownPaths {
+  std::span<const glm::dvec2> driven{}, ideal{};
+};
+
+// Draws at the cursor, `size` [px]. max_force [N]: the device's limit, which scales the arrows.
+void draw_gate_view(ImVec2 size, const haptics::Gate& gate, const haptics::HapticSnapshot& now, const Trail& trail,
+                    double max_force, const ShownPaths& paths = {});
+
+}  // namespace gearshift::ui

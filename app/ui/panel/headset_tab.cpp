@@ -1,0 +1,130 @@
+#include "app/ui/panel/headset_tab.h"
+
+#include <array>
+
+#include <fmt/format.h>
+
+#include "app/ui/panel/table_rows.h"
+#include "app/ui/panel/text_lines.h"
+
+namespace gearshift::ui {
+namespace {
+
+constexpr double kMaxHeight = 0.3, kMaxDistance = 1.5;  // [m] limits of the seat file
+
+const char* tracking_note(const cabin::HeadsetReport& headset) {
+  if (headset.is_tracked) return "";
+  return headset.orientation_only ? ", position unknown" : ", not tracked";
+}
+
+void draw_frames(const cabin::HeadsetReport& headset) {
+  const engine::HeadsetTiming& t = headset.timing;
+  const double rate = t.period_ms > 0.0 ? 1e3 / t.period_ms : 0.0;
+  if (!ImGui::BeginTable("headset", 2, ImGuiTableFlags_SizingStretchProp)) return;
+  table_row("Headset", headset.headset);
+  table_row("Runtime", headset.runtime);
+  table_row("State", headset.state + tracking_note(headset), headset.is_tracked ? ink::kText : ink::kWarn);
+  table_row("Image", fmt::format("2 x {} x {}", headset.eye.x, headset.eye.y));
+  table_row("Display", fmt::format("{:.0f} Hz, period {:.1f} ms", rate, t.period_ms));
+  table_row("Frame, CPU", fmt::format("{:.1f} ms", t.cpu_ms), t.cpu_ms > t.period_ms ? ink::kWarn : ink::kText);
+  table_row("Frame, GPU", fmt::format("{:.1f} ms", t.gpu_ms), t.gpu_ms > t.period_ms ? ink::kWarn : ink::kText);
+  table_row("Ready",
+            t.spare_ms < 0.0 ? fmt::format("{:.1f} ms too late", -t.spare_ms)
+                             : fmt::format("{:.1f} ms before display", t.spare_ms),
+            t.spare_ms < 0.0 ? ink::kWarn : ink::kText);
+  table_row("Displayed", t.late_ms > 0.0 ? fmt::format("{:.1f} ms later than predicted", t.late_ms) : "as predicted",
+            t.late_ms > 0.0 ? ink::kWarn : ink::kText);
+  table_row("Dropped", fmt::format("{} of {}", t.dropped, t.dropped + t.frames),
+            t.dropped > 0 ? ink::kWarn : ink::kText);
+  table_row("Late", fmt::format("{} of {}", t.late, t.frames), t.late > 0 ? ink::kWarn : ink::kText);
+  ImGui::EndTable();
+}
+
+// A field in millimetres for a value in metres; returns the new value [m] if it was changed.
+std::optional<double> length_field(Controls& controls, const char* name, const char* label, double value, double max) {
+  double shown = 1e3 * value;
+  const double min_mm = -1e3 * max, max_mm = 1e3 * max;
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(label);
+  ImGui::SameLine(7.0f * engine::ui_em());
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
+  ImGui::PushID(name);
+  const bool changed = ImGui::DragScalar("##length", ImGuiDataType_Double, &shown, 1.0f, &min_mm, &max_mm, "%.0f mm",
+                                         ImGuiSliderFlags_AlwaysClamp);
+  ImGui::PopID();
+  controls.mark(name);
+  return changed ? std::optional(1e-3 * shown) : std::nullopt;
+}
+
+// is_real: the lever is a physical stick, so its position matters.
+void draw_touched(Controls& controls, const cabin::HeadsetReport& headset, bool is_real, cabin::HeadsetRequests& out) {
+  out.touch = controls.button("headset_touch", "Touch the knob");
+  if (headset.is_touched) {
+    ImGui::SameLine();
+    out.forget_touches = controls.button("headset_forget", "Forget touches");
+    put_wrapped(fmt::format("Located by touch: the lever is drawn within {:.0f} mm of the real one.",
+                            1e3 * headset.touch_error),
+                ink::kSoft);
+  } else if (headset.seat.touched) {
+    ImGui::SameLine();
+    out.forget_touches = controls.button("headset_forget", "Forget touches");
+    put_wrapped("The saved touches don't match this room: kept, but not used.", ink::kWarn);
+  } else if (is_real) {
+    put_wrapped("You haven't touched the lever yet: it may be drawn centimetres from the real one.", ink::kWarn);
+  }
+}
+
+void draw_touching(Controls& controls, const cabin::HeadsetReport& headset, cabin::HeadsetRequests& out) {
+  put_wrapped(
+      "Hold the controller's tip, where its ray begins, on the centre of the knob's top and pull the trigger: in "
+      "neutral, "
+      "then in two other gears: turned sideways in one, tilted in the other.",
+      ink::kText);
+  out.touched = controls.button("headset_touched", "Save touches");
+  ImGui::SameLine();
+  out.forget_touches = controls.button("headset_forget", "Cancel");
+  put(headset.touches == 0
+          ? std::string("Not touched yet.")
+          : fmt::format("Touched {} times, at most {:.0f} mm apart.", headset.touches, 1e3 * headset.worst_touch),
+      ink::kSoft, engine::UiFont::small);
+}
+
+void draw_seat(Controls& controls, const cabin::HeadsetReport& headset, bool is_real, cabin::HeadsetRequests& out) {
+  const cabin::SeatSettings& seat = headset.seat;
+  put("Seat", ink::kText, engine::UiFont::title);
+  out.recentre = controls.button("headset_recentre", "I'm seated: recentre");
+  if (headset.touching)
+    draw_touching(controls, headset, out);
+  else
+    draw_touched(controls, headset, is_real, out);
+  if (headset.is_touched || headset.touching) return;  // the touches define the position
+  if (!seat.knob) {
+    out.height = length_field(controls, "headset_height", "Seat raised by", seat.height, kMaxHeight);
+    // Initial values as in the drawn cabin.
+    const double right = seat.drive == cabin::DriveSide::left ? 0.33 : -0.33;
+    if (controls.button("headset_knob", "Enter knob position")) out.knob = cabin::KnobDistance{right, 0.51, 0.32};
+    return;
+  }
+  put_wrapped("Knob position relative to your eyes:", ink::kSoft);
+  cabin::KnobDistance knob = *seat.knob;
+  const auto field = [&](const char* name, const char* label, double& value) {
+    const std::optional<double> changed = length_field(controls, name, label, value, kMaxDistance);
+    if (!changed) return;
+    value = *changed;
+    out.knob = knob;
+  };
+  field("headset_knob_right", "right", knob.right);
+  field("headset_knob_down", "down", knob.down);
+  field("headset_knob_ahead", "ahead", knob.ahead);
+  out.forget_knob = controls.button("headset_knob", "Forget knob");
+}
+
+}  // namespace
+
+void draw_headset_tab(Controls& controls, const PanelInput& input, cabin::HeadsetRequests& out) {
+  draw_frames(*input.headset);
+  ImGui::Spacing();
+  draw_seat(controls, *input.headset, input.stick.has_value(), out);
+}
+
+}  // namespace gearshift::ui

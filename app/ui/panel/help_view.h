@@ -1,0 +1,11 @@
+// The help window: the bindings, and the panel's own keys.
+#pragma once
+
+#include <string>
+
+namespace gearshift::ui {
+
+// Sets `open` to false when the user closes the window. bindings: one per line, key and action separated by a tab.
+void draw_help(bool& open, const std::string& bindings);
+
+}  // namespace gearshift::ui

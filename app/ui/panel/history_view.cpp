@@ -1,0 +1,137 @@
+#include "app/ui/panel/history_view.h"
+
+#include <algorithm>
+#include <cmath>
+#include <ctime>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "app/ui/panel/driving_error_lines.h"
+#include "app/ui/panel/lesson_text.h"
+#include "app/ui/panel/palette.h"
+#include "app/ui/panel/text_lines.h"
+
+namespace gearshift::ui {
+namespace {
+
+constexpr double kMinShownTime = 0.005;  // [s] shorter times are not shown
+
+// Clutch timing and rev match, which grading checks first.
+std::string describe_clutch_timing(const lessons::ShiftRecord& shift) {
+  if (shift.to == haptics::kNeutralGear) return "no gear engaged";
+  const char* when = shift.clutch_lag < 0.0 ? "before" : "after";
+  return fmt::format("clutch released {:.2f} s {} the gear, revs off by {}", std::abs(shift.clutch_lag), when,
+                     format_rpm(std::abs(shift.rev_error)));
+}
+
+std::string describe_resistance(const lessons::ShiftRecord& shift) {
+  std::string words;
+  if (shift.block_time > kMinShownTime) words = fmt::format("blocked for {:.2f} s", shift.block_time);
+  if (shift.grind_time > kMinShownTime)
+    words +=
+        fmt::format("{}ground for {:.2f} s, {:.1f} J", words.empty() ? "" : ", ", shift.grind_time, shift.grind_energy);
+  return words;
+}
+
+void draw_driving_error(const lessons::LessonResult& result, std::size_t index) {
+  const lessons::DrivingError& error = result.errors[index];
+  const double points = points_lost(result, index);
+  const std::string cost = points > 0.0 && is_grade_shown(result) ? fmt::format(" (-{:.1f})", points) : std::string();
+  put_wrapped(lessons::error_sentence(error) + cost, severity_colour(error.severity));
+}
+
+void draw_driving_errors(const lessons::LessonResult& result, std::int64_t shift) {
+  std::vector<std::size_t> listed;
+  for (std::size_t i = 0; i < result.errors.size(); ++i) {
+    if (result.errors[i].shift != shift) continue;
+    draw_driving_error(result, i);
+    if (needs_advice(result, i, listed)) put_advice(result.errors[i].kind);
+    listed.push_back(i);
+  }
+}
+
+void draw_shift(Controls& controls, const lessons::RunRow& run, const lessons::ShiftRecord& shift,
+                ReplayRequests& out) {
+  const std::string name = fmt::format("look: {} {}", run.id, shift.number);
+  put(format_gears(shift), shift.missed ? ink::kBad : ink::kText, engine::UiFont::title);
+  ImGui::SameLine();
+  put(fmt::format("{:.2f} s{}", shift.end - shift.begin, shift.missed ? ", missed" : ""), ink::kSoft,
+      engine::UiFont::small);
+  {
+    const engine::WithFont small(engine::UiFont::small);
+    align_right(button_width("Watch"));
+    ImGui::BeginDisabled(run.recording.empty());
+    if (controls.button(name.c_str(), "Watch")) out.open = {run.recording, shift.begin};
+    ImGui::EndDisabled();
+  }
+  put_wrapped(describe_clutch_timing(shift), ink::kSoft);
+  const std::string resistance = describe_resistance(shift);
+  if (!resistance.empty()) put_wrapped(resistance, ink::kSoft);
+  draw_driving_errors(run.result, shift.number);
+  ImGui::Spacing();
+}
+
+}  // namespace
+
+void HistoryView::draw(Controls& controls, const lessons::CoachView& coach, PanelRequests& out) {
+  if (coach.runs.empty()) {
+    put_wrapped(coach.learner.empty() ? "Choose a learner to see their history." : "You haven't driven a lesson yet.",
+                ink::kSoft);
+    return;
+  }
+  ImGui::Spacing();
+  put(fmt::format("Times are local ({}).", format_time_zone(std::time(nullptr))), ink::kSoft, engine::UiFont::small);
+  for (std::size_t i = 0; i < coach.runs.size(); ++i) {
+    const lessons::RunRow& run = coach.runs[i];
+    draw_run(controls, coach, run);
+    if (run.id != opened_) continue;
+    static const std::vector<lessons::CommentRow> none;
+    draw_opened(controls, run, i < coach.comments.size() ? coach.comments[i] : none, out);
+  }
+}
+
+// One line per run: lesson, time and outcome. Clicking opens or closes it.
+void HistoryView::draw_run(Controls& controls, const lessons::CoachView& coach, const lessons::RunRow& run) {
+  const float em = engine::ui_em(), begin = ImGui::GetCursorPosX(), top = ImGui::GetCursorPosY();
+  const float width = ImGui::GetContentRegionAvail().x, height = 2.35f * em;
+  ImGui::PushID(static_cast<int>(run.id));
+  if (ImGui::Selectable("##run", run.id == opened_, 0, {0.0f, height})) opened_ = run.id == opened_ ? 0 : run.id;
+  controls.mark(fmt::format("run: {}", run.id));
+  ImGui::PopID();
+  const float bottom = ImGui::GetCursorPosY();
+  const std::string verdict = format_verdict(run.result);
+  const engine::UiFont font = is_grade_shown(run.result) ? engine::UiFont::title : engine::UiFont::small;
+  ImGui::SetCursorPos({begin + 0.2f * em, top});
+  controls.line(lesson_title(coach, run.result.lesson), width - 4.4f * em, ink::kText);
+  ImGui::SetCursorPos({begin + 0.2f * em, top + 1.15f * em});
+  put(format_local_time(run.begun_at), ink::kSoft, engine::UiFont::small);
+  ImGui::SetCursorPos({begin + width - width_of(verdict, font) - 0.2f * em, top + 0.1f * em});
+  put(verdict, verdict_colour(run.result), font);
+  if (is_grade_shown(run.result)) {
+    const char* outcome = run.result.passed ? "passed" : "not passed";
+    ImGui::SetCursorPos({begin + width - width_of(outcome, engine::UiFont::small) - 0.2f * em, top + 1.15f * em});
+    put(outcome, verdict_colour(run.result), engine::UiFont::small);
+  }
+  ImGui::SetCursorPos({begin, bottom});
+}
+
+void HistoryView::draw_opened(Controls& controls, const lessons::RunRow& run,
+                              const std::vector<lessons::CommentRow>& comments, PanelRequests& out) {
+  ImGui::Indent(0.7f * engine::ui_em());
+  const char* mode = run.result.mode == lessons::LessonMode::follow_me ? "follow me" : "do it yourself";
+  put_wrapped(fmt::format("{}, {:.0f} s", mode, run.result.duration), ink::kSoft);
+  if (!run.result.why.empty()) put_wrapped(run.result.why, ink::kText);
+  draw_driving_errors(run.result, -1);
+  ImGui::Spacing();
+  if (run.recording.empty() && !run.result.shifts.empty())
+    put_wrapped("No replay: this run was not recorded.", ink::kSoft);
+  for (const lessons::ShiftRecord& shift : run.result.shifts) draw_shift(controls, run, shift, out.playback);
+  comments_.draw(controls, run.id, comments, out.lesson);
+  ImGui::Unindent(0.7f * engine::ui_em());
+  ImGui::Spacing();
+  ImGui::Separator();
+}
+
+}  // namespace gearshift::ui

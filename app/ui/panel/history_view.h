@@ -1,0 +1,24 @@
+// A learner's history: every run with its shifts, driving errors and the instructor's comments.
+#pragma once
+
+#include <cstdint>
+
+#include "app/ui/panel/comment_list.h"
+#include "app/ui/panel/panel.h"
+
+namespace gearshift::ui {
+
+class HistoryView {
+ public:
+  void draw(Controls& controls, const lessons::CoachView& coach, PanelRequests& out);
+
+ private:
+  void draw_run(Controls& controls, const lessons::CoachView& coach, const lessons::RunRow& run);
+  void draw_opened(Controls& controls, const lessons::RunRow& run, const std::vector<lessons::CommentRow>& comments,
+                   PanelRequests& out);
+
+  std::int64_t opened_ = 0;  // RunRow::id; 0: none
+  CommentList comments_;     // of that run
+};
+
+}  // namespace gearshift::ui

@@ -1,0 +1,330 @@
+#include "app/ui/panel/lesson_card.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "app/ui/panel/bottom_window.h"
+#include "app/ui/panel/car_strip.h"
+#include "app/ui/panel/key_legend.h"
+#include "app/ui/panel/lesson_end.h"
+#include "app/ui/panel/lesson_text.h"
+#include "app/ui/panel/palette.h"
+#include "app/ui/panel/text_lines.h"
+
+namespace gearshift::ui {
+namespace {
+
+constexpr float kMaxCardWidth = 52.0f;                                                    // [em]
+constexpr float kHeightFraction = 0.25f, kMaxHeightFraction = 0.62f, kMinHeight = 10.8f;  // [1] of the room; [em]
+constexpr double kFreshTime = 5.0;        // [s] how long a new sentence is drawn large
+constexpr std::size_t kOlderShown = 2;    // older sentences still shown
+constexpr double kLittleTimeLeft = 20.0;  // [s] left
+constexpr float kDefaultFoot = 5.0f;      // [em] assumed until it has been drawn once
+
+bool begin_card(const ControlRect& room, ImVec2 size) {
+  const float em = engine::ui_em();
+  ImGui::SetNextWindowSize(size);
+  ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0.9f * em, 0.5f * em});
+  const bool open = begin_at_bottom("Lesson", room, ImGuiWindowFlags_NoScrollWithMouse);
+  ImGui::PopStyleVar();
+  return open;
+}
+
+bool primary(Controls& controls, const char* name, const char* label, bool is_primary = true) {
+  return controls.button(name, label, {0.0f, 0.0f}, is_primary ? ink::kPrimary : ink::kRaised);
+}
+
+// A small button at the right end of the line, or on the next line if there is no room.
+bool small_button(Controls& controls, const char* name, const char* label) {
+  const engine::WithFont small(engine::UiFont::small);
+  align_right(button_width(label));
+  return controls.button(name, label);
+}
+
+// A two-way switch: a click anywhere on it selects the other option.
+bool draw_switch(Controls& controls, const char* name, const char* first, const char* second, bool is_second) {
+  const ImVec2 padding = ImGui::GetStyle().FramePadding, low = ImGui::GetCursorScreenPos();
+  const float left = button_width(first), right = button_width(second), height = ImGui::GetFrameHeight();
+  const bool pressed = controls.button(name, "", {left + right, height}, ink::kWell);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const auto part = [&](float x, float width, const char* label, bool on) {
+    if (on)
+      list.AddRectFilled({x, low.y}, {x + width, low.y + height}, ink::kAccentDeep, ImGui::GetStyle().FrameRounding);
+    list.AddText({x + padding.x, low.y + padding.y}, on ? ink::kText : ink::kSoft, label);
+  };
+  part(low.x, left, first, !is_second);
+  part(low.x + left, right, second, is_second);
+  return pressed;
+}
+
+constexpr const char* kFollowMe = "Follow me";
+constexpr const char* kByYourself = "Do it yourself";
+
+const char* describe_attempt(const lessons::CoachView& coach) {
+  const bool prompted = coach.mode == lessons::LessonMode::follow_me;
+  if (!coach.help_wanted)
+    return prompted ? "Step-by-step prompts; the lever never guides your hand."
+                    : "Only the goal is shown; the lever never guides your hand.";
+  return prompted ? "Step-by-step prompts; on some attempts the lever guides your hand."
+                  : "Only the goal is shown; on some attempts the lever guides your hand.";
+}
+
+// A word on a background of its colour, in a line of buttons.
+void draw_badge(const char* text, ImU32 colour) {
+  const engine::WithFont small(engine::UiFont::small);
+  const float em = engine::ui_em(), width = width_of(text) + 0.8f * em;
+  beside(width);
+  const ImVec2 at = ImGui::GetCursorScreenPos(), low(at.x, at.y + ImGui::GetStyle().FramePadding.y);
+  ImGui::Dummy({width, ImGui::GetFontSize()});
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddRectFilled({low.x, low.y - 0.1f * em}, {low.x + width, low.y + ImGui::GetFontSize() + 0.1f * em},
+                     engine::with_alpha(colour, 0.2f), 0.3f * em);
+  list.AddText({low.x + 0.4f * em, low.y}, colour, text);
+}
+
+// A bar with one segment per step: done, current, to come.
+void draw_progress(std::size_t step, std::size_t steps) {
+  if (steps == 0) return;
+  const float em = engine::ui_em(), all = ImGui::GetContentRegionAvail().x, gap = 0.25f * em;
+  const float part = (all + gap) / static_cast<float>(steps), height = 0.3f * em;
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  for (std::size_t i = 0; i < steps; ++i) {
+    const float x = low.x + part * static_cast<float>(i);
+    const ImU32 colour = i < step ? ink::kGood : i == step ? ink::kAccent : ink::kRaised;
+    list.AddRectFilled({x, low.y}, {x + std::max(1.0f, part - gap), low.y + height}, colour, 0.5f * height);
+  }
+  ImGui::Dummy({all, height});
+}
+
+std::string format_step(const lessons::LessonView& view) {
+  if (view.step >= view.steps) return "all steps done";
+  return fmt::format("step {} of {}", view.step + 1, view.steps);
+}
+
+// "1:05 left"
+std::string format_time_left(double seconds) {
+  const int left = std::max(0, static_cast<int>(std::ceil(seconds)));
+  return fmt::format("{}:{:02} left", left / 60, left % 60);
+}
+
+void draw_time_left(const lessons::CoachView& coach) {
+  if (coach.time_limit <= 0.0) return;
+  const double left = coach.time_limit - coach.result.duration;
+  const std::string words = format_time_left(left);
+  beside(width_of(words, engine::UiFont::small));
+  put(words, left <= kLittleTimeLeft ? ink::kWarn : ink::kSoft, engine::UiFont::small);
+}
+
+// A replay says nothing about the current forces.
+bool are_forces_off(const PanelInput& input) {
+  const haptics::GuardState guard = input.now.guard;
+  return input.replay == nullptr && guard != haptics::GuardState::running && guard != haptics::GuardState::ramping;
+}
+
+const char* motors_off_text(const PanelInput& input) {
+  const bool unplugged = input.stick && !input.stick->plugged_in;
+  return unplugged ? "Motors off. Plug the stick in, then press Enter to turn them on."
+                   : "Motors off. Press Enter to turn them on.";
+}
+
+void draw_title(const lessons::CoachView& coach) {
+  ImGui::AlignTextToFramePadding();
+  put(coach.title, ink::kAccent, engine::UiFont::title);
+}
+
+void draw_next(const lessons::CoachView& coach, bool has_next) {
+  if (coach.next.empty()) return;
+  put(has_next ? "Next" : "Repeat", ink::kSoft, engine::UiFont::small);
+  const std::string title = lesson_title(coach, coach.next);
+  beside(width_of(title, engine::UiFont::small));
+  put(title, ink::kAccent, engine::UiFont::small);
+  beside(width_of(coach.next_why, engine::UiFont::small));
+  put_wrapped(coach.next_why, ink::kSoft);
+}
+
+}  // namespace
+
+double LessonCard::draw(Controls& controls, const PanelInput& input, bool panel_shown, const ControlRect& room,
+                        PanelRequests& out) {
+  const lessons::CoachView& coach = input.coach;
+  note_new_feedback(coach);
+  const float em = engine::ui_em(), width = bottom_width(room, kMaxCardWidth);
+  const auto height = static_cast<float>(room.max.y - room.min.y);
+  const ImVec2 min_size(width,
+                        std::min(std::max(kHeightFraction * height, kMinHeight * em), kMaxHeightFraction * height));
+  follow(coach, min_size);
+  if (coach.phase == lessons::LessonPhase::none || width < kMinBottomWidth * em) return room.max.y;
+  const ImVec2 size(width, std::floor(std::max(min_size.y, std::min(needed_, kMaxHeightFraction * height))));
+  FrameContext now{controls, input, coach, panel_shown, are_forces_off(input), out};
+  if (begin_card(room, size)) {
+    if (coach.phase == lessons::LessonPhase::offered) draw_offered(now);
+    if (coach.phase == lessons::LessonPhase::driving) draw_driving(now);
+    if (coach.phase == lessons::LessonPhase::over) draw_over(now);
+  }
+  ImGui::End();
+  return room.max.y - static_cast<double>(size.y + kBottomMargin * em);
+}
+
+// Another lesson or screen size: the needed height is determined again.
+void LessonCard::follow(const lessons::CoachView& coach, ImVec2 size) {
+  if (coach.lesson == lesson_ && size.x == size_.x && size.y == size_.y) return;
+  lesson_ = coach.lesson;
+  size_ = size;
+  needed_ = 0.0f;
+}
+
+// Runs even while the card is hidden: how long a sentence counts as new depends on the clock only.
+void LessonCard::note_new_feedback(const lessons::CoachView& coach) {
+  const std::size_t feedback = coach.phase == lessons::LessonPhase::driving ? coach.now.feedback.size() : 0;
+  if (feedback > feedback_count_) feedback_time_ = ImGui::GetTime();
+  feedback_count_ = feedback;
+}
+
+// Draws the texts, which scroll if necessary, and the controls below them. body() returns how much of the texts must be
+// visible [px].
+template <class Body, class Foot>
+void LessonCard::draw_parts(lessons::LessonPhase phase, const Body& body, const Foot& foot) {
+  float& foot_height = foot_[static_cast<std::size_t>(phase)];
+  const bool is_known = foot_height > 0.0f;
+  const float top = ImGui::GetCursorPosY(), reserved = is_known ? foot_height : kDefaultFoot * engine::ui_em();
+  const float height = std::max(engine::ui_em(), ImGui::GetContentRegionAvail().y - reserved);
+  // No scroll bar beside a prompt, or before the height of the controls is known: it would flicker and rewrap the
+  // lines.
+  const int bar = phase == lessons::LessonPhase::driving || !is_known ? ImGuiWindowFlags_NoScrollbar : 0;
+  ImGui::BeginChild("texts", {0.0f, height}, false, ImGuiWindowFlags_NavFlattened | bar);
+  const float visible_height = body();
+  ImGui::EndChild();
+  const float begin = ImGui::GetCursorPosY();
+  foot();
+  foot_height = ImGui::GetCursorPosY() - begin;
+  needed_ = std::max(needed_, top + visible_height + foot_height + 0.5f * engine::ui_em());
+}
+
+// Keys, what moves the lever, and the car's state where the panel's bar is hidden.
+void LessonCard::draw_controls_and_car(const FrameContext& now) {
+  if (!now.input.keys.empty() && !now.input.is_automatic_hand) {
+    draw_keys(now.input.keys);
+    const char* mouse =
+        now.input.stick ? "Move the lever with the stick" : mouse_prompt(now.input.mouse_moves_lever, now.panel_shown);
+    ImGui::SameLine(0.0f, 0.8f * engine::ui_em());
+    if (ImGui::GetContentRegionAvail().x < width_of(mouse, engine::UiFont::small)) ImGui::NewLine();
+    put(mouse, now.input.mouse_moves_lever ? ink::kAccent : ink::kSoft, engine::UiFont::small);
+  }
+  if (!now.panel_shown) draw_car_strip(now.input.car, now.input.now.gear);
+}
+
+void LessonCard::draw_offered(FrameContext& now) {
+  const lessons::CoachView& coach = now.coach;
+  LessonRequests& out = now.out.lesson;
+  draw_title(coach);
+  if (small_button(now.controls, "lesson_put_away", "Not now")) out.dismiss_lesson = true;
+  const auto body = [&] {
+    put_wrapped(coach.goal, ink::kText, engine::UiFont::prompt);
+    if (!now.input.fail_conditions.empty()) put_wrapped(now.input.fail_conditions, ink::kSoft);
+    put_wrapped(describe_attempt(coach), ink::kSoft);
+    if (now.input.instructor_holds_pedals)
+      put_wrapped("The instructor is holding clutch and brake until you start. Not now to take over.", ink::kWarn);
+    return ImGui::GetCursorPosY();
+  };
+  const auto foot = [&] {
+    if (primary(now.controls, "lesson_begin", now.forces_off ? "Motors on and start (Enter)" : "Start (Enter)")) {
+      out.begin = true;
+      now.out.arm = now.out.arm || now.forces_off;
+    }
+    const bool alone = coach.mode == lessons::LessonMode::by_yourself;
+    beside(button_width(kFollowMe) + button_width(kByYourself));
+    if (draw_switch(now.controls, "mode", kFollowMe, kByYourself, alone))
+      out.mode = alone ? lessons::LessonMode::follow_me : lessons::LessonMode::by_yourself;
+    beside(ImGui::GetFrameHeight() + button_width("Help"));
+    bool help = coach.help_wanted;
+    if (ImGui::Checkbox("Help", &help)) out.help = help;
+    now.controls.mark("help");
+    draw_controls_and_car(now);
+  };
+  draw_parts(lessons::LessonPhase::offered, body, foot);
+}
+
+void LessonCard::draw_driving(FrameContext& now) {
+  const lessons::CoachView& coach = now.coach;
+  ImGui::AlignTextToFramePadding();
+  put(coach.title, ink::kSoft, engine::UiFont::small);
+  if (coach.now.steps > 0) {
+    const std::string words = format_step(coach.now);
+    beside(width_of(words, engine::UiFont::small));
+    put(words, ink::kAccent, engine::UiFont::small);
+  }
+  draw_time_left(coach);
+  if (coach.guidance > 0.0) draw_badge("guided, not graded", ink::kAccent);
+  if (coach.retention) draw_badge("test: no help", ink::kText);
+  if (small_button(now.controls, "lesson_leave", "Leave")) now.out.lesson.leave = true;
+  draw_progress(coach.now.step, coach.now.steps);
+  draw_parts(
+      lessons::LessonPhase::driving, [&] { return draw_prompts(now); }, [&] { draw_controls_and_car(now); });
+}
+
+// Returns the height that must be visible [px]: everything except the older sentences.
+float LessonCard::draw_prompts(FrameContext& now) {
+  const lessons::CoachView& coach = now.coach;
+  put_wrapped(coach.now.prompt, ink::kText, engine::UiFont::prompt);
+  if (now.forces_off) put_wrapped(motors_off_text(now.input), ink::kBad, engine::UiFont::title);
+  if (now.input.car.stalled) draw_restart_prompt(now.input.keys);
+  if (!coach.now.hint.empty()) put_wrapped(coach.now.hint, ink::kAccent, engine::UiFont::body);
+  if (now.input.is_unpassable)
+    put_wrapped("You can no longer pass this attempt. Keep practising or restart.", ink::kWarn);
+  float visible_height = ImGui::GetCursorPosY();
+  draw_feedback(coach.now.feedback, visible_height);
+  return visible_height;
+}
+
+// Draws the newest sentence large while it is new, then small like the older ones.
+void LessonCard::draw_feedback(const std::vector<std::string>& feedback, float& visible_height) {
+  const float line = engine::ui_font(engine::UiFont::title)->FontSize + ImGui::GetStyle().ItemSpacing.y;
+  const float begin = ImGui::GetCursorPosY();
+  visible_height = begin + line;  // reserves one line
+  if (feedback.empty()) return;
+  const bool fresh = ImGui::GetTime() - feedback_time_ < kFreshTime;
+  std::size_t left = kOlderShown + (fresh ? 1 : 0);
+  for (std::size_t i = feedback.size(); i-- > 0 && left > 0; --left) {
+    const bool newest = i + 1 == feedback.size();
+    if (fresh && newest) {
+      put_wrapped(feedback[i], ink::kWarn, engine::UiFont::title);
+    } else {
+      put_wrapped(feedback[i], engine::with_alpha(ink::kWarn, 0.7f), engine::UiFont::small);
+    }
+    if (newest) visible_height = std::max(visible_height, ImGui::GetCursorPosY());
+  }
+}
+
+// Enter does the same as the coloured button, whose label says so.
+void LessonCard::draw_over(FrameContext& now) {
+  const lessons::CoachView& coach = now.coach;
+  LessonRequests& out = now.out.lesson;
+  const bool has_next = !coach.next.empty() && coach.next != coach.lesson,
+             can_continue = coach.result.passed && has_next;
+  const auto foot = [&] {
+    if (now.input.instructor_holds_pedals)
+      put_wrapped("The instructor is holding clutch and brake. Close to take over.", ink::kWarn);
+    draw_next(coach, has_next);
+    const char* again = can_continue     ? "Try again"
+                        : now.forces_off ? "Motors on and try again (Enter)"
+                                         : "Try again (Enter)";
+    if (primary(now.controls, "lesson_again", again, !can_continue)) {
+      out.begin = true;
+      now.out.arm = now.out.arm || now.forces_off;
+    }
+    const char* next = can_continue ? "Next lesson (Enter)" : "Next lesson";
+    if (has_next) {
+      beside(button_width(next));
+      if (primary(now.controls, "lesson_next", next, can_continue)) out.offer = coach.next;
+    }
+    if (small_button(now.controls, "lesson_put_away", "Close")) out.dismiss_lesson = true;
+  };
+  draw_parts(
+      lessons::LessonPhase::over, [&] { return draw_lesson_end(coach); }, foot);
+}
+
+}  // namespace gearshift::ui

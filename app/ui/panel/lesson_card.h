@@ -1,0 +1,48 @@
+// The lesson card at the bottom of the cabin: first the goal, then prompts and driving errors, then the result and the
+// next lesson.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string>
+
+#include "app/ui/panel/panel.h"
+
+namespace gearshift::ui {
+
+class LessonCard {
+ public:
+  // Draws along the lower edge of `room` [px] and returns the card's upper edge, or the room's lower edge if no lesson
+  // is selected or no text fits. The height stays the same in all phases of a lesson unless a text needs more. While
+  // the panel is hidden, the card also shows the car's state.
+  double draw(Controls& controls, const PanelInput& input, bool panel_shown, const ControlRect& room,
+              PanelRequests& out);
+
+ private:
+  struct FrameContext {  // everything that one frame's drawing needs
+    Controls& controls;
+    const PanelInput& input;
+    const lessons::CoachView& coach;
+    bool panel_shown, forces_off;
+    PanelRequests& out;
+  };
+  void follow(const lessons::CoachView& coach, ImVec2 size);
+  void note_new_feedback(const lessons::CoachView& coach);
+  template <class Body, class Foot>
+  void draw_parts(lessons::LessonPhase phase, const Body& body, const Foot& foot);
+  void draw_offered(FrameContext& now);
+  void draw_driving(FrameContext& now);
+  float draw_prompts(FrameContext& now);
+  void draw_feedback(const std::vector<std::string>& feedback, float& visible_height);
+  void draw_over(FrameContext& now);
+  static void draw_controls_and_car(const FrameContext& now);
+
+  std::size_t feedback_count_ = 0;  // number of feedback sentences in the last frame
+  double feedback_time_ = -1e9;     // [s] on ImGui's clock, when the newest one came
+  std::string lesson_;              // the lesson that size_ and needed_ belong to
+  ImVec2 size_{0.0f, 0.0f};         // [px] minimum size of the card
+  float needed_ = 0.0f;             // [px] largest height that this lesson's texts have needed
+  std::array<float, 4> foot_{};     // [px] height below the texts, per phase
+};
+
+}  // namespace gearshift::ui

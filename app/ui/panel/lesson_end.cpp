@@ -1,0 +1,140 @@
+#include "app/ui/panel/lesson_end.h"
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "app/ui/panel/driving_error_lines.h"
+#include "app/ui/panel/lesson_text.h"
+#include "app/ui/panel/palette.h"
+#include "app/ui/panel/text_lines.h"
+
+namespace gearshift::ui {
+namespace {
+
+constexpr float kTwoColumns = 32.0f, kLeftFraction = 0.48f;  // [em] min width; [1] of the width
+constexpr float kVisibleErrors = 3.0f;                       // lines that must be visible
+
+const char* format_outcome(const lessons::LessonResult& result) {
+  if (is_grade_shown(result)) return result.passed ? "Passed" : "Not passed";
+  if (result.end == lessons::LessonEnd::left) return "Not finished";
+  return result.end == lessons::LessonEnd::done ? "Done" : "Not done";
+}
+
+// Draws the grade, or "not graded" in the same width.
+void draw_grade(const lessons::LessonResult& result) {
+  const float em = engine::ui_em(), begin = ImGui::GetCursorPosX();
+  ImGui::BeginGroup();
+  if (is_grade_shown(result)) {
+    put(format_verdict(result), verdict_colour(result), engine::UiFont::digits);
+    ImGui::SameLine(0.0f, 0.3f * em);
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() + engine::ui_font(engine::UiFont::digits)->FontSize - 1.5f * em);
+    put("of 10", ink::kSoft, engine::UiFont::small);
+  } else {
+    ImGui::Dummy({0.0f, 0.3f * em});
+    put("not", ink::kSoft, engine::UiFont::prompt);
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() - 0.35f * em);
+    put("graded", ink::kSoft, engine::UiFont::prompt);
+  }
+  ImGui::EndGroup();
+  const float wanted = begin + std::max(9.2f * em, ImGui::GetItemRectSize().x + em);
+  ImGui::SameLine(wanted);
+  if (ImGui::GetContentRegionAvail().x < 7.5f * em) ImGui::NewLine();
+}
+
+void draw_outcome(const lessons::CoachView& coach) {
+  const lessons::LessonResult& result = coach.result;
+  ImGui::BeginGroup();
+  put_wrapped(coach.title, ink::kSoft, engine::UiFont::small);
+  put(format_outcome(result), is_grade_shown(result) ? verdict_colour(result) : ink::kText, engine::UiFont::prompt);
+  if (!result.why.empty()) put_wrapped(result.why, ink::kText, engine::UiFont::body);
+  ImGui::EndGroup();
+}
+
+// True for errors that cost points, or would have in a graded run.
+bool is_listed(const lessons::LessonResult& result, std::size_t error) {
+  return points_lost(result, error) > 0.0 ||
+         (!is_grade_shown(result) && result.errors[error].severity != lessons::Severity::note);
+}
+
+void draw_driving_error(const lessons::LessonResult& result, std::size_t index, bool with_advice) {
+  const lessons::DrivingError& error = result.errors[index];
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  put(fmt::format("{:.1f} s", error.time - result.begin), ink::kSoft, engine::UiFont::small);
+  ImGui::TableNextColumn();
+  put_wrapped(lessons::error_sentence(error), ink::kText, engine::UiFont::small);
+  if (with_advice) put_advice(error.kind);
+  ImGui::TableNextColumn();
+  const double points = points_lost(result, index);
+  if (points > 0.0 && is_grade_shown(result))
+    put(fmt::format("-{:.1f}", points), severity_colour(error.severity), engine::UiFont::small);
+}
+
+// Why the run ended early, which costs all points; empty if it was completed.
+std::string format_end(const lessons::LessonResult& result) {
+  std::string words;
+  if (result.end == lessons::LessonEnd::out_of_time) words = "Time's up";
+  if (result.end == lessons::LessonEnd::aborted)
+    words = is_grade_shown(result) && !result.why.empty() ? result.why : "Stopped early";
+  if (words.empty()) return words;
+  if (words.back() == '.') words.pop_back();
+  return words + (is_grade_shown(result) ? ": 0 points" : ".");
+}
+
+void draw_end(const lessons::LessonResult& result) {
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  put(fmt::format("{:.1f} s", result.duration), ink::kSoft, engine::UiFont::small);
+  ImGui::TableNextColumn();
+  put_wrapped(format_end(result), ink::kBad, engine::UiFont::small);
+}
+
+// In driving order, except that the reason for an early end comes first: the list may be too long to see its end.
+void draw_driving_errors(const lessons::LessonResult& result) {
+  std::vector<std::size_t> listed;
+  for (std::size_t i = 0; i < result.errors.size(); ++i)
+    if (is_listed(result, i)) listed.push_back(i);
+  const bool ended = !format_end(result).empty();
+  if ((listed.empty() && !ended) || !ImGui::BeginTable("fault", 3, ImGuiTableFlags_SizingFixedFit)) return;
+  ImGui::TableSetupColumn("time", ImGuiTableColumnFlags_WidthFixed, 3.4f * engine::ui_em());
+  ImGui::TableSetupColumn("says", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("points", ImGuiTableColumnFlags_WidthFixed, 2.2f * engine::ui_em());
+  if (ended) draw_end(result);
+  std::vector<std::size_t> above;
+  for (const std::size_t error : listed) {
+    draw_driving_error(result, error, needs_advice(result, error, above));
+    above.push_back(error);
+  }
+  ImGui::EndTable();
+}
+
+float draw_judgement(const lessons::CoachView& coach) {
+  draw_grade(coach.result);
+  draw_outcome(coach);
+  return ImGui::GetCursorPosY();
+}
+
+}  // namespace
+
+float draw_lesson_end(const lessons::CoachView& coach) {
+  const float em = engine::ui_em(), all = ImGui::GetContentRegionAvail().x;
+  if (all < kTwoColumns * em) {
+    const float judged = draw_judgement(coach);
+    draw_driving_errors(coach.result);
+    const float line = engine::ui_font(engine::UiFont::small)->FontSize + 2.0f * ImGui::GetStyle().CellPadding.y;
+    return std::min(ImGui::GetCursorPosY(), judged + kVisibleErrors * line);
+  }
+  ImGui::BeginChild("judgement", {kLeftFraction * all, 0.0f}, false, ImGuiWindowFlags_NavFlattened);
+  const float judged = draw_judgement(coach);
+  ImGui::EndChild();
+  ImGui::SameLine();
+  ImGui::BeginChild("faults", {0.0f, 0.0f}, false, ImGuiWindowFlags_NavFlattened);
+  draw_driving_errors(coach.result);
+  ImGui::EndChild();
+  return judged;
+}
+
+}  // namespace gearshift::ui

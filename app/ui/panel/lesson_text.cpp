@@ -1,0 +1,99 @@
+#include "app/ui/panel/lesson_text.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <ctime>
+#include <numbers>
+
+#include <fmt/format.h>
+
+#include "app/lessons/assessment/grade.h"
+#include "app/ui/panel/format_value.h"
+#include "app/ui/panel/palette.h"
+#include "haptics/files/ascii.h"
+
+namespace gearshift::ui {
+
+std::string lesson_title(const lessons::CoachView& coach, const std::string& key) {
+  const auto found = std::find_if(coach.lessons.begin(), coach.lessons.end(),
+                                  [&](const lessons::LessonStanding& lesson) { return lesson.key == key; });
+  return found == coach.lessons.end() ? key : found->title;
+}
+
+bool is_grade_shown(const lessons::LessonResult& result) {
+  return lessons::is_graded(result) && result.end != lessons::LessonEnd::left;
+}
+
+std::string format_verdict(const lessons::LessonResult& result) {
+  if (result.end == lessons::LessonEnd::left) return "left";
+  if (result.end == lessons::LessonEnd::running) return "cut off";  // the program ended during the run
+  if (result.guided) return "guided";
+  if (!result.is_complete) return "data lost";
+  return fmt::format("{:.1f}", result.grade);
+}
+
+ImU32 verdict_colour(const lessons::LessonResult& result) {
+  if (!is_grade_shown(result)) return ink::kSoft;
+  return result.passed ? ink::kGood : ink::kBad;
+}
+
+ImU32 severity_colour(lessons::Severity severity) {
+  switch (severity) {
+    case lessons::Severity::note:
+      return ink::kSoft;
+    case lessons::Severity::minor:
+      return ink::kWarn;
+    case lessons::Severity::severe:
+    case lessons::Severity::very_severe:
+      return ink::kBad;
+  }
+  return ink::kSoft;
+}
+
+double points_lost(const lessons::LessonResult& result, std::size_t error) {
+  double points = 0.0;
+  for (const lessons::Deduction& deduction : result.deductions)
+    points += deduction.error == error ? deduction.points : 0.0;
+  return points;
+}
+
+std::string format_gears(const lessons::ShiftRecord& shift) {
+  return fmt::format("{} \u2192 {}", haptics::gear_name(shift.from), haptics::gear_name(shift.to));
+}
+
+std::string format_rpm(double speed) {
+  return format_value(speed * 60.0 / (2.0 * std::numbers::pi), "rpm", 0);
+}
+
+std::string format_local_time(const std::string& utc) {
+  std::tm parts{};
+  if (std::sscanf(utc.c_str(), "%4d-%2d-%2dT%2d:%2d:%2d", &parts.tm_year, &parts.tm_mon, &parts.tm_mday, &parts.tm_hour,
+                  &parts.tm_min, &parts.tm_sec) != 6)
+    return utc;
+  parts.tm_year -= 1900;
+  parts.tm_mon -= 1;
+  const std::time_t time = timegm(&parts);
+  std::tm here{};
+  if (localtime_r(&time, &here) == nullptr) return utc;
+  return fmt::format("{:04}-{:02}-{:02} {:02}:{:02}", here.tm_year + 1900, here.tm_mon + 1, here.tm_mday, here.tm_hour,
+                     here.tm_min);
+}
+
+std::string format_time_zone(std::time_t now) {
+  std::tm here{};
+  std::array<char, 64> text{};
+  if (localtime_r(&now, &here) == nullptr || std::strftime(text.data(), text.size(), "%z", &here) != 5) return "UTC";
+  const std::string offset(text.data());
+  return fmt::format("UTC{}:{}", offset.substr(0, 3), offset.substr(3));
+}
+
+std::string readable_name(const std::string& key) {
+  std::string words = key;
+  std::replace(words.begin(), words.end(), '_', ' ');
+  if (!words.empty()) words[0] = haptics::ascii_upper(words[0]);
+  return words;
+}
+
+}  // namespace gearshift::ui

@@ -1,0 +1,32 @@
+// Texts and colours for lessons, shared by card, list and history.
+#pragma once
+
+#include <imgui.h>
+
+#include <ctime>
+#include <string>
+
+#include "app/lessons/coach/coach_view.h"
+
+namespace gearshift::ui {
+
+std::string lesson_title(const lessons::CoachView& coach, const std::string& key);  // the key itself if unknown
+
+bool is_grade_shown(const lessons::LessonResult& result);         // graded and not left early
+std::string format_verdict(const lessons::LessonResult& result);  // "7.5", or why not graded: "guided", "data lost"
+ImU32 verdict_colour(const lessons::LessonResult& result);
+ImU32 severity_colour(lessons::Severity severity);
+
+double points_lost(const lessons::LessonResult& result, std::size_t error);  // [1] points out of 10
+
+std::string format_gears(const lessons::ShiftRecord& shift);  // "1 → 2"
+std::string format_rpm(double speed);                         // [rad/s]
+
+// "2026-01-02T10:00:00Z" in local time, "2026-01-02 11:00"; text that is no such time is returned unchanged.
+std::string format_local_time(const std::string& utc);
+std::string format_time_zone(std::time_t now);  // the zone of those times: "UTC+01:00"
+
+// A file name as display text: "dog_leg_five" becomes "Dog leg five".
+std::string readable_name(const std::string& key);
+
+}  // namespace gearshift::ui

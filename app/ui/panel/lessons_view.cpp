@@ -1,0 +1,245 @@
+#include "app/ui/panel/lessons_view.h"
+
+#include <imgui_internal.h>  // ImTextCharFromUtf8
+
+#include <algorithm>
+#include <cstdio>
+
+#include <fmt/format.h>
+
+#include "app/lessons/history/user_text.h"
+#include "app/ui/panel/lesson_text.h"
+#include "app/ui/panel/palette.h"
+#include "app/ui/panel/text_lines.h"
+
+namespace gearshift::ui {
+namespace {
+
+constexpr const char* kNoLearner = "no learner";
+
+template <std::size_t n>
+void fill(std::array<char, n>& field, const std::string& text) {
+  std::snprintf(field.data(), n, "%s", text.c_str());
+}
+
+std::string trimmed(std::string text) {
+  const auto is_blank = [](char c) { return c == ' ' || c == '\t'; };
+  while (!text.empty() && is_blank(text.back())) text.pop_back();
+  text.erase(text.begin(), std::find_if_not(text.begin(), text.end(), is_blank));
+  return text;
+}
+
+bool is_known(const lessons::CoachView& coach, const std::string& name) {
+  return std::find(coach.learners.begin(), coach.learners.end(), name) != coach.learners.end();
+}
+
+bool is_pressed(ImGuiKey_ key) {
+  return ImGui::IsKeyPressed(ImGui::GetKeyIndex(key), false);
+}
+
+// The known learners in a drop-down list, `width` [px] wide like the field before it.
+void draw_known(Controls& controls, const lessons::CoachView& coach, float width, LessonRequests& out) {
+  ImGui::SetNextWindowSizeConstraints({width, 0.0f}, {width, 24.0f * engine::ui_em()});
+  const bool open = ImGui::BeginCombo("##known", "", ImGuiComboFlags_NoPreview | ImGuiComboFlags_PopupAlignLeft);
+  controls.mark("learner_known");
+  if (!open) return;
+  const auto entry = [&](const std::string& name, const char* label) {
+    if (ImGui::Selectable(label, name == coach.learner) && name != coach.learner) out.learner = name;
+    controls.mark("learner: " + name);
+  };
+  for (const std::string& name : coach.learners) entry(name, name.c_str());
+  entry({}, kNoLearner);
+  ImGui::EndCombo();
+}
+
+// No installed font has all characters of all scripts.
+bool has_all_glyphs(const std::string& name) {
+  const ImFont* font = ImGui::GetFont();
+  const char *at = name.data(), *end = at + name.size();
+  while (at < end) {
+    unsigned code = 0;
+    at += std::max(1, ImTextCharFromUtf8(&code, at, end));
+    if (code > IM_UNICODE_CODEPOINT_MAX || font->FindGlyphNoFallback(static_cast<ImWchar>(code)) == nullptr)
+      return false;
+  }
+  return true;
+}
+
+// One line below the name; a blank one if there is nothing to report, so that the layout does not move.
+void draw_note(const lessons::CoachView& coach, const std::string& name, const std::string& problem, bool is_typing,
+               bool is_automatic_hand) {
+  if (!problem.empty()) return put_wrapped(problem, ink::kWarn);
+  if (!has_all_glyphs(name))
+    put_wrapped("The name is saved as typed; characters missing from the fonts are shown as ?", ink::kWarn);
+  if (is_typing && name != coach.learner)
+    return put_wrapped(
+        name.empty() || is_known(coach, name) ? "Press Enter to switch learner." : "Press Enter to add this learner.",
+        ink::kAccent);
+  if (coach.learner_deleted)
+    return put_wrapped(
+        "Another program deleted this learner: nothing is saved. To start again with this name, press Enter in this "
+        "field.",
+        ink::kWarn);
+  if (is_automatic_hand) return put_wrapped("The hand drives by itself, so nothing is saved.", ink::kSoft);
+  if (!coach.is_saving) return put_wrapped("The history is not open: nothing is saved.", ink::kWarn);
+  put_wrapped(coach.learner.empty() ? "Enter a name to save your progress." : " ", ink::kSoft);
+}
+
+// Draws the next lesson, marked by a bar at its left.
+void draw_suggested(Controls& controls, const lessons::CoachView& coach, bool can_offer, LessonRequests& out) {
+  if (coach.next.empty()) return;
+  const float em = engine::ui_em();
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  ImGui::Indent(0.7f * em);
+  ImGui::BeginGroup();
+  put(coach.next_by_instructor ? "Next (instructor's choice)" : "Suggested next", ink::kSoft, engine::UiFont::small);
+  put_wrapped(lesson_title(coach, coach.next), ink::kAccent, engine::UiFont::title);
+  if (!coach.next_why.empty()) put_wrapped(coach.next_why, ink::kText);
+  ImGui::BeginDisabled(!can_offer);
+  if (controls.button("lesson_suggested", "Start", {0.0f, 0.0f}, ink::kPrimary)) out.offer = coach.next;
+  ImGui::EndDisabled();
+  if (coach.next_by_instructor) {
+    beside(button_width("Use suggestion"));
+    if (controls.button("next_as_suggested", "Use suggestion")) out.next = std::string();
+  }
+  ImGui::EndGroup();
+  ImGui::Unindent(0.7f * em);
+  ImGui::GetWindowDrawList()->AddRectFilled(low, {low.x + 0.22f * em, ImGui::GetItemRectMax().y}, ink::kAccent, 1.0f);
+}
+
+// Passed: a tick on a disc. Tried: a ring. Otherwise nothing.
+void draw_standing(const lessons::LessonStanding& lesson) {
+  const float em = engine::ui_em(), radius = 0.42f * em;
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  ImGui::Dummy({2.0f * radius, ImGui::GetTextLineHeight()});
+  const ImVec2 c(low.x + radius, low.y + 0.5f * ImGui::GetTextLineHeight());
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  if (lesson.passed) {
+    list.AddCircleFilled(c, radius, ink::kGood);
+    const ImVec2 tick[] = {{c.x - 0.45f * radius, c.y},
+                           {c.x - 0.1f * radius, c.y + 0.4f * radius},
+                           {c.x + 0.5f * radius, c.y - 0.4f * radius}};
+    list.AddPolyline(tick, 3, ink::kWell, 0, 0.12f * em);
+  } else if (lesson.trials > 0) {
+    list.AddCircle(c, radius, ink::kWarn, 0, 0.1f * em);
+  }
+}
+
+// A dot, filled for the next lesson; clicking it sets the lesson as the next one.
+void draw_next_choice(Controls& controls, const lessons::CoachView& coach, const std::string& key,
+                      LessonRequests& out) {
+  const float height = ImGui::GetTextLineHeight(), width = ImGui::GetContentRegionAvail().x;
+  const ImVec2 low = ImGui::GetCursorScreenPos();
+  const std::string name = "next: " + key;
+  ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0.0f, 0.0f});
+  if (controls.button(name.c_str(), "", {width, height}, engine::with_alpha(ink::kRaised, 0.0f))) out.next = key;
+  ImGui::PopStyleVar();
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("Set as next lesson");
+  const bool on = coach.next == key, hovered = ImGui::IsItemHovered();
+  const ImVec2 c(low.x + 0.5f * width, low.y + 0.5f * height);
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  list.AddCircle(c, 0.34f * engine::ui_em(), on || hovered ? ink::kAccent : ink::kLine, 0, 0.08f * engine::ui_em());
+  if (on) list.AddCircleFilled(c, 0.2f * engine::ui_em(), ink::kAccent);
+}
+
+std::string format_grade(double grade) {
+  return fmt::format("{:>4.1f}", grade);
+}
+
+// "7 attempts, best 8.5; last 5.5, passed"
+std::string format_standing(const lessons::LessonStanding& lesson) {
+  std::string words = fmt::format("{} attempt{}", lesson.trials, lesson.trials == 1 ? "" : "s");
+  if (lesson.best) words += fmt::format(", best {:.1f}", *lesson.best);
+  if (lesson.grade) words += fmt::format("; last {:.1f}", *lesson.grade);
+  return words + (lesson.passed ? ", passed" : ", not passed yet");
+}
+
+void draw_lesson(Controls& controls, const lessons::CoachView& coach, const lessons::LessonStanding& lesson,
+                 bool can_offer, LessonRequests& out) {
+  ImGui::PushID(lesson.key.c_str());
+  ImGui::TableNextRow();
+  ImGui::TableNextColumn();
+  draw_standing(lesson);
+  ImGui::TableNextColumn();
+  const bool is_here = coach.phase != lessons::LessonPhase::none && coach.lesson == lesson.key;
+  const ImVec2 begin = ImGui::GetCursorPos();
+  const float room = ImGui::GetContentRegionAvail().x;
+  ImGui::BeginDisabled(!can_offer);
+  if (ImGui::Selectable("##lesson", is_here)) out.offer = lesson.key;
+  controls.mark("lesson: " + lesson.key);
+  if (lesson.trials > 0 && ImGui::IsItemHovered(ImGuiHoveredFlags_AllowWhenDisabled))
+    ImGui::SetTooltip("%s", format_standing(lesson).c_str());
+  ImGui::SetCursorPos(begin);
+  controls.line(lesson.title, room, coach.next == lesson.key ? ink::kAccent : ink::kText);
+  ImGui::EndDisabled();
+  ImGui::TableNextColumn();
+  if (lesson.passed && lesson.best) put(format_grade(*lesson.best), ink::kText);
+  ImGui::TableNextColumn();
+  if (lesson.grade) put(format_grade(*lesson.grade), ink::kSoft);
+  ImGui::TableNextColumn();
+  draw_next_choice(controls, coach, lesson.key, out);
+  ImGui::PopID();
+}
+
+void draw_list(Controls& controls, const lessons::CoachView& coach, bool can_offer, LessonRequests& out) {
+  const ImVec2 padding = ImGui::GetStyle().CellPadding;
+  ImGui::PushStyleVar(ImGuiStyleVar_CellPadding, {0.6f * padding.x, padding.y});
+  const bool open = ImGui::BeginTable("lessons", 5, ImGuiTableFlags_SizingFixedFit);
+  ImGui::PopStyleVar();
+  if (!open) return;
+  const float em = engine::ui_em();
+  ImGui::TableSetupColumn("", ImGuiTableColumnFlags_WidthFixed, 0.9f * em);
+  ImGui::TableSetupColumn("lesson", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn("best", ImGuiTableColumnFlags_WidthFixed, width_of("10.0", engine::UiFont::body));
+  ImGui::TableSetupColumn("last", ImGuiTableColumnFlags_WidthFixed, width_of("10.0", engine::UiFont::body));
+  ImGui::TableSetupColumn("next", ImGuiTableColumnFlags_WidthFixed, width_of("next", engine::UiFont::small));
+  ImGui::TableNextRow();
+  for (const char* head : {"", "Lesson", "Best", "Last", "Next"}) {
+    ImGui::TableNextColumn();
+    put(head, ink::kSoft, engine::UiFont::small);
+  }
+  for (const lessons::LessonStanding& lesson : coach.lessons) draw_lesson(controls, coach, lesson, can_offer, out);
+  ImGui::EndTable();
+}
+
+}  // namespace
+
+void LessonsView::draw(Controls& controls, const lessons::CoachView& coach, bool is_automatic_hand,
+                       LessonRequests& out) {
+  draw_learner(controls, coach, is_automatic_hand, out);
+  ImGui::Spacing();
+  // Clicking another lesson must not discard the one being driven.
+  const bool can_offer = coach.phase != lessons::LessonPhase::driving;
+  draw_suggested(controls, coach, can_offer, out);
+  ImGui::Spacing();
+  draw_list(controls, coach, can_offer, out);
+}
+
+// A typed name is applied by Enter or by leaving the field; Escape discards it.
+void LessonsView::draw_learner(Controls& controls, const lessons::CoachView& coach, bool is_automatic_hand,
+                               LessonRequests& out) {
+  if (coach.learner != shown_) fill(name_, shown_ = coach.learner);
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextDisabled("Learner");
+  ImGui::SameLine(4.6f * engine::ui_em() - ImGui::GetStyle().WindowPadding.x);  // aligned with the choices above
+  const float width = ImGui::GetContentRegionAvail().x;
+  ImGui::SetNextItemWidth(width - ImGui::GetFrameHeight());
+  const bool entered =
+      ImGui::InputTextWithHint("##learner", kNoLearner, name_.data(), name_.size(),
+                               ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+  controls.mark("learner");
+  const bool is_typing = ImGui::IsItemActive(), left = ImGui::IsItemDeactivated();
+  const bool is_cancelled = left && is_pressed(ImGuiKey_Escape),
+             leaves = left || (is_typing && is_pressed(ImGuiKey_Tab));
+  const std::string name = trimmed(name_.data());
+  const std::string problem =
+      name.empty() ? std::string() : lessons::user_text_problem(lessons::UserText::name, "a learner's name", name);
+  const bool is_another = name != coach.learner || (entered && coach.learner_deleted);
+  if ((entered || leaves) && !is_cancelled && problem.empty() && is_another) out.learner = name;
+  if (left) fill(name_, is_cancelled ? coach.learner : name);
+  ImGui::SameLine(0.0f, 0.0f);
+  draw_known(controls, coach, width, out);
+  draw_note(coach, name, is_cancelled ? std::string() : problem, is_typing, is_automatic_hand);
+}
+
+}  // namespace gearshift::ui

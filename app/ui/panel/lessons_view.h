@@ -1,0 +1,24 @@
+// The learner, all lessons with the learner's progress, and the next lesson.
+#pragma once
+
+#include <array>
+#include <string>
+
+#include "app/lessons/history/user_text.h"
+#include "app/ui/panel/panel.h"
+
+namespace gearshift::ui {
+
+class LessonsView {
+ public:
+  // is_automatic_hand: the simulated hand drives, so nothing is saved for the selected learner.
+  void draw(Controls& controls, const lessons::CoachView& coach, bool is_automatic_hand, LessonRequests& out);
+
+ private:
+  void draw_learner(Controls& controls, const lessons::CoachView& coach, bool is_automatic_hand, LessonRequests& out);
+
+  std::array<char, lessons::kMaxNameBytes + 1> name_{};  // the text field
+  std::string shown_;                                    // the learner whose name the field was last filled with
+};
+
+}  // namespace gearshift::ui

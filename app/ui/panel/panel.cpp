@@ -1,0 +1,351 @@
+#include "app/ui/panel/panel.h"
+
+#include <algorithm>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "app/ui/panel/clip_meter.h"
+#include "app/ui/panel/control_bar.h"
+#include "app/ui/panel/event_list.h"
+#include "app/ui/panel/force_plots.h"
+#include "app/ui/panel/gate_view.h"
+#include "app/ui/panel/headset_tab.h"
+#include "app/ui/panel/help_view.h"
+#include "app/ui/panel/history_view.h"
+#include "app/ui/panel/lesson_card.h"
+#include "app/ui/panel/lesson_text.h"
+#include "app/ui/panel/lessons_view.h"
+#include "app/ui/panel/loop_view.h"
+#include "app/ui/panel/message_note.h"
+#include "app/ui/panel/palette.h"
+#include "app/ui/panel/panel_keys.h"
+#include "app/ui/panel/panel_mouse.h"
+#include "app/ui/panel/preset_view.h"
+#include "app/ui/panel/replay_bar.h"
+#include "app/ui/panel/setup_view.h"
+#include "app/ui/panel/stick_text.h"
+#include "app/ui/panel/text_lines.h"
+#include "app/ui/panel/tuning_view.h"
+
+namespace gearshift::ui {
+namespace {
+
+// Two columns and a bar, with the cabin in the middle. If that would be too narrow, the left column is left out.
+struct Layout {
+  float bar, left, right;  // [px] 0: left out
+  ImVec2 screen;
+};
+
+constexpr float kMinMiddle = 14.0f;  // [em]
+
+Layout make_layout() {
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  const float em = engine::ui_em();
+  const float side = std::clamp(0.25f * screen.x, 20.5f * em, 30.0f * em);
+  const bool both = screen.x >= 2.0f * side + kMinMiddle * em;
+  return {4.6f * em, both ? side : 0.0f, std::min(side, screen.x), screen};
+}
+
+constexpr const char* kBarName = "Drive";
+
+bool begin_part(const char* name, ImVec2 at, ImVec2 size) {
+  constexpr ImGuiWindowFlags kFlags = ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove |
+                                      ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
+  ImGui::SetNextWindowPos(at);
+  ImGui::SetNextWindowSize(size);
+  return ImGui::Begin(name, nullptr, kFlags);
+}
+
+void title(const char* text) {
+  const engine::WithFont bold(engine::UiFont::title);
+  ImGui::AlignTextToFramePadding();
+  ImGui::TextUnformatted(text);
+}
+
+// At the right end of the line.
+void draw_view_reset(Controls& controls, PanelRequests& out) {
+  const engine::WithFont small(engine::UiFont::small);
+  constexpr const char* kLabel = "Reset view";
+  const float width = ImGui::CalcTextSize(kLabel).x + 2.0f * ImGui::GetStyle().FramePadding.x;
+  ImGui::SameLine(ImGui::GetWindowContentRegionMax().x - width);
+  out.reset_view = controls.button("reset_view", kLabel);
+}
+
+struct Tab {
+  const char* name;
+  const char* label;
+};
+// The learner's tabs first, then the engineer's.
+constexpr Tab kTabs[] = {{"tab_lesson", "Lessons"}, {"tab_history", "History"}, {"tab_tuning", "Tuning"},
+                         {"tab_setup", "Setup"},    {"tab_loop", "Loop"},       {"tab_presets", "Presets"},
+                         {"tab_headset", "XR"}};  // the last one only while a headset is in use
+
+std::span<const Tab> tabs_of(const PanelInput& input) {
+  return std::span(kTabs).first(std::size(kTabs) - (input.headset ? 0 : 1));
+}
+
+bool tabs_fit(std::span<const Tab> tabs) {
+  float room = ImGui::GetContentRegionAvail().x;
+  for (const Tab& tab : tabs) room -= button_width(tab.label) + ImGui::GetStyle().ItemInnerSpacing.x + 1.0f;
+  return room > 0.0f;
+}
+
+// In a narrow column, makes the tabs small and close together.
+class TabStyle {
+ public:
+  explicit TabStyle(bool dense) : dense_(dense) {
+    if (!dense_) return;
+    const ImGuiStyle& style = ImGui::GetStyle();
+    ImGui::PushFont(engine::ui_font(engine::UiFont::small));
+    ImGui::PushStyleVar(ImGuiStyleVar_FramePadding, {0.3f * style.FramePadding.x, 1.3f * style.FramePadding.y});
+    ImGui::PushStyleVar(ImGuiStyleVar_ItemInnerSpacing, {2.0f, style.ItemInnerSpacing.y});
+  }
+  ~TabStyle() {
+    if (!dense_) return;
+    ImGui::PopStyleVar(2);
+    ImGui::PopFont();
+  }
+  TabStyle(const TabStyle&) = delete;
+  TabStyle& operator=(const TabStyle&) = delete;
+
+ private:
+  bool dense_;
+};
+
+// The replayed drive's gate during a replay, otherwise the live one.
+const haptics::Gate& viewed_gate(const PanelInput& input) {
+  return input.replay == nullptr ? *input.gate : input.replay->drive().gate();
+}
+
+ShownPaths shown_paths(const PanelInput& input) {
+  if (input.replay == nullptr || !input.replay->shift()) return {};
+  const lessons::RecordedShift& shift = input.replay->drive().shifts()[*input.replay->shift()];
+  return {shift.driven, shift.ideal};
+}
+
+}  // namespace
+
+struct Panel::State {
+  bool visible = true;
+  bool help = false;
+  std::string bindings;
+  std::vector<TuningView::Step> steps;  // requested between two frames
+  Controls controls;
+  Trail trail;
+  ForcePlots plots;
+  ClipMeter clip;
+  TuningView tuning;
+  SetupView setup;
+  PresetView presets;
+  LessonsView lessons;
+  HistoryView runs;
+  LessonCard card;
+  ReplayBar replay;
+  EventList events;
+  MessageNote note;
+  bool message_fits = false;  // in this frame, the bar shows the whole message
+  std::int64_t last_ns = -1;  // [ns] of the newest snapshot of this run
+  std::uint64_t run = 0;
+  ControlRect cabin_area, central_area;
+
+  void take(const PanelInput& input);
+  void take(const haptics::HapticSnapshot& snapshot);
+  void draw_left(const Layout& layout, const PanelInput& input, PanelRequests& out);
+  void draw_right(const Layout& layout, const PanelInput& input, PanelRequests& out);
+  void draw_choices(const PanelInput& input, PanelRequests& out);
+  void draw_tabs(const PanelInput& input, PanelRequests& out);
+  void draw_over_cabin(const PanelInput& input, PanelRequests& out);
+  void draw_bar(const Layout& layout, const PanelInput& input, PanelRequests& out);
+};
+
+void Panel::State::take(const haptics::HapticSnapshot& snapshot) {
+  if (snapshot.time_ns <= last_ns) return;
+  trail.push(snapshot);
+  plots.push(snapshot);
+  clip.push(snapshot);
+  last_ns = snapshot.time_ns;
+}
+
+// Runs even while the panel is hidden, so that the plots are complete when it is shown again.
+void Panel::State::take(const PanelInput& input) {
+  if (std::exchange(run, input.run) != input.run) {
+    trail = Trail();
+    plots.clear();
+    clip = ClipMeter();
+    last_ns = -1;
+  }
+  // `now` may be newer than the history: the snapshots between come with the next frame.
+  for (const haptics::HapticSnapshot& snapshot : input.history) take(snapshot);
+  if (input.history.empty()) take(input.now);
+  events.add(input.events);
+}
+
+void Panel::State::draw_left(const Layout& layout, const PanelInput& input, PanelRequests& out) {
+  if (begin_part("Lever", {0.0f, 0.0f}, {layout.left, layout.screen.y - layout.bar})) {
+    title("Lever");
+    plots.draw_axis_choice(controls);
+    draw_view_reset(controls, out);
+    const float spacing = ImGui::GetStyle().ItemSpacing.y;
+    const float height = ImGui::GetContentRegionAvail().y - ClipMeter::height() - spacing;
+    const float gate_height = 0.38f * height;
+    const double max = std::max(input.device->max_force.x, input.device->max_force.y);
+    const haptics::Gate& gate = viewed_gate(input);
+    draw_gate_view({ImGui::GetContentRegionAvail().x, gate_height}, gate, input.now, trail, max, shown_paths(input));
+    plots.draw(controls, height - gate_height - spacing, gate, input.now, trail);
+    clip.draw(controls, input.now, *input.device);
+  }
+  ImGui::End();
+}
+
+void Panel::State::draw_choices(const PanelInput& input, PanelRequests& out) {
+  const float label = 4.6f * engine::ui_em();
+  if (input.replay != nullptr) put("Live settings, not the recording's:", ink::kWarn, engine::UiFont::small);
+  const auto row = [&](const char* name, const char* caption, const std::string& current,
+                       const std::vector<std::string>& options, std::optional<std::string>& asked,
+                       std::string (*text_of)(const std::string&) = nullptr) {
+    ImGui::AlignTextToFramePadding();
+    ImGui::TextDisabled("%s", caption);
+    ImGui::SameLine(label);
+    asked = controls.choice(name, current, options, ImGui::GetContentRegionAvail().x, text_of);
+  };
+  if (!input.cars.empty()) row("car", "Car", input.car_name, input.cars, out.car, readable_name);
+  row("gate", "Gate", input.gate_name, input.gates, out.gate, readable_name);
+  row("preset", "Preset", input.preset_name, input.presets, out.preset);
+  const auto fixed_row = [&](const char* caption, const std::string& value, ImU32 colour) {
+    ImGui::TextDisabled("%s", caption);
+    ImGui::SameLine(label);
+    controls.line(value, ImGui::GetContentRegionAvail().x, colour);
+  };
+  if (input.hands.empty())
+    fixed_row("Hand", input.hand_name, ink::kText);
+  else
+    row("hand", "Hand", input.hand_name, input.hands, out.hand);
+  fixed_row("Device", input.device_name, ink::kText);
+  if (input.stick) fixed_row("", format_stick_state(*input.stick), input.stick->plugged_in ? ink::kSoft : ink::kBad);
+}
+
+void Panel::State::draw_tabs(const PanelInput& input, PanelRequests& out) {
+  const bool dense = !tabs_fit(tabs_of(input));
+  const auto bar = [&] {
+    const TabStyle style(dense);
+    return ImGui::BeginTabBar("parts");
+  };
+  const auto item = [&](const char* label) {
+    const TabStyle style(dense);
+    return ImGui::BeginTabItem(label);
+  };
+  const auto tab = [&](const Tab& which, const auto& draw_it) {
+    const bool open = item(which.label);
+    controls.mark(which.name);
+    if (!open) return;
+    ImGui::BeginChild(which.name, {0.0f, 0.0f}, false, ImGuiWindowFlags_NavFlattened);
+    draw_it();
+    ImGui::EndChild();
+    ImGui::EndTabItem();
+  };
+  if (!bar()) return;
+  tab(kTabs[0], [&] { lessons.draw(controls, input.coach, input.is_automatic_hand, out.lesson); });
+  tab(kTabs[1], [&] { runs.draw(controls, input.coach, out); });
+  tab(kTabs[2], [&] {
+    tuning.draw(controls, input, out);
+    events.draw(!input.device->measures_hand_force);
+  });
+  tab(kTabs[3], [&] { setup.draw(controls, input, out); });
+  tab(kTabs[4], [&] { draw_loop_view(input); });
+  tab(kTabs[5], [&] { presets.draw(controls, input, out); });
+  if (input.headset) tab(kTabs[6], [&] { draw_headset_tab(controls, input, out.headset); });
+  ImGui::EndTabBar();
+}
+
+void Panel::State::draw_right(const Layout& layout, const PanelInput& input, PanelRequests& out) {
+  if (begin_part("Haptics", {layout.screen.x - layout.right, 0.0f}, {layout.right, layout.screen.y - layout.bar})) {
+    draw_choices(input, out);
+    ImGui::Spacing();
+    draw_tabs(input, out);
+  }
+  ImGui::End();
+}
+
+// The parts shown even while the panel is hidden. During a replay the card is hidden unless a lesson is being driven;
+// both reduce the cabin's area.
+void Panel::State::draw_over_cabin(const PanelInput& input, PanelRequests& out) {
+  const ControlRect room = central_area = cabin_area;
+  note.draw(input.message, message_fits, stick_request(input), room);
+  cabin_area.max.y = replay.draw(controls, input, room, out.playback);
+  if (input.replay == nullptr || input.coach.phase == lessons::LessonPhase::driving)
+    cabin_area.max.y = card.draw(controls, input, visible, cabin_area, out);
+}
+
+void Panel::State::draw_bar(const Layout& layout, const PanelInput& input, PanelRequests& out) {
+  if (begin_part(kBarName, {0.0f, layout.screen.y - layout.bar}, {layout.screen.x, layout.bar}))
+    message_fits = draw_control_bar(controls, input, out);
+  ImGui::End();
+}
+
+Panel::Panel() : state_(std::make_unique<State>()) {}
+Panel::~Panel() = default;
+
+PanelRequests Panel::draw(const PanelInput& input) {
+  State& s = *state_;
+  PanelRequests out;
+  s.controls.begin_frame();
+  update_keyboard_focus(kBarName, s.visible);
+  s.take(input);
+  s.tuning.follow(input);
+  for (const TuningView::Step step : s.steps) s.tuning.take(step, input, out);
+  s.steps.clear();
+  const ImVec2 screen = ImGui::GetIO().DisplaySize;
+  s.message_fits = false;
+  s.cabin_area = {{0.0, 0.0}, {screen.x, screen.y}};
+  if (s.visible) {
+    const Layout layout = make_layout();
+    s.cabin_area = {{layout.left, 0.0}, {screen.x - layout.right, screen.y - layout.bar}};
+    if (layout.left > 0.0f) s.draw_left(layout, input, out);
+    s.draw_right(layout, input, out);
+    s.draw_bar(layout, input, out);
+  }
+  s.draw_over_cabin(input, out);
+  draw_help(s.help, s.bindings);
+  return out;
+}
+
+void Panel::undo() {
+  state_->steps.push_back(TuningView::Step::undo);
+}
+void Panel::redo() {
+  state_->steps.push_back(TuningView::Step::redo);
+}
+ControlRect Panel::cabin_area() const noexcept {
+  return state_->cabin_area;
+}
+ControlRect Panel::central_area() const noexcept {
+  return state_->central_area;
+}
+bool Panel::covers(glm::dvec2 mouse) const {
+  return panel_covers(mouse);
+}
+bool Panel::has_keyboard() const {
+  return panel_has_keyboard();
+}
+bool Panel::visible() const noexcept {
+  return state_->visible;
+}
+void Panel::set_visible(bool on) noexcept {
+  state_->visible = on;
+}
+bool Panel::shows_help() const noexcept {
+  return state_->help;
+}
+void Panel::show_help(bool on, const std::string& bindings_text) {
+  state_->help = on;
+  state_->bindings = bindings_text;
+}
+std::optional<ControlRect> Panel::control_rect(std::string_view name) const {
+  return state_->controls.rect(name);
+}
+int Panel::shortened_texts() const noexcept {
+  return state_->controls.shortened();
+}
+
+}  // namespace gearshift::ui

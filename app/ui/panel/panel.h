@@ -1,0 +1,160 @@
+// The engineer's and the instructor's panel, in Dear ImGui. It draws its input and returns the user's requests; it
+// starts, stops and changes nothing itself.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "app/cabin/headset/headset_report.h"
+#include "app/lessons/coach/coach_view.h"
+#include "app/lessons/replay/player.h"
+#include "app/runtime/runtime.h"
+#include "app/ui/panel/controls.h"
+#include "app/vehicle/vehicle_state.h"
+
+namespace gearshift::ui {
+
+struct KeyHint {
+  std::string action, key;  // "clutch", "A"
+};
+
+// A physical stick in place of the simulated lever.
+struct StickView {
+  bool plugged_in = true;
+  double delay = 0.0;  // [s] measured from a reading to the effect of the resulting force
+};
+
+struct PanelInput {
+  const haptics::Gate* gate = nullptr;          // never null in draw()
+  const haptics::DeviceSpec* device = nullptr;  // never null in draw()
+  haptics::HapticConfig haptics;                // in use, except that the tuning is the requested one
+  haptics::AdmittedTuning admitted;             // in use
+  haptics::HapticSnapshot now;
+  std::uint64_t run =
+      0;  // changes with another lever, a replay or a jump in it; trajectory, plots and clipping then start again
+  std::vector<haptics::HapticSnapshot> history;  // new since the last frame
+  std::vector<haptics::HapticEvent> events;      // new since the last frame; [ns] since the program's start
+  runtime::LoopHealth health;
+  vehicle::VehicleState car;
+  std::string gate_name, preset_name, hand_name, device_name;
+  std::optional<StickView> stick;                  // none: a simulated lever
+  std::vector<std::string> gates, presets, hands;  // to choose from; no hands: a real hand
+  std::optional<haptics::Preset> compared;         // the preset of PanelRequests::compare; none if it could not be read
+  bool recording = false;
+  std::string message;  // the last message, one sentence
+  double frame_ms = 0.0;
+  std::string car_name;
+  std::vector<std::string> cars;  // to choose from
+  lessons::CoachView coach;
+  const lessons::Player* replay = nullptr;      // not null during a replay; `now` and `car` then come from it
+  std::string opening;                          // file name of a recorded drive that is still loading; empty: none
+  std::vector<KeyHint> keys;                    // keys that drive the car, in the order of use; may be empty
+  bool mouse_moves_lever = false;               // the cursor is captured
+  bool is_automatic_hand = false;               // a simulated hand drives: keys and mouse do nothing, nothing is saved
+  bool instructor_holds_pedals = false;         // after a lesson, until the next one or Close
+  bool is_unpassable = false;                   // the current run can no longer be passed
+  std::optional<cabin::HeadsetReport> headset;  // none: no headset in use
+  std::string fail_conditions;                  // what fails the lesson, one sentence; may be empty
+};
+
+struct LessonRequests {
+  std::optional<std::string> offer;  // a lesson's key
+  bool begin = false;                // start the offered lesson, or repeat the finished one
+  bool leave = false, dismiss_lesson = false;
+  std::optional<lessons::LessonMode> mode;
+  std::optional<bool> help;
+  std::optional<std::string> learner;  // a known or new learner; empty string: none
+  std::optional<std::string> next;     // the instructor's choice of the next lesson; empty string: as suggested
+  struct Comment {
+    std::int64_t run = 0;
+    std::string author, text;
+  };
+  std::optional<Comment> comment;
+  struct CommentChange {
+    std::int64_t run = 0, comment = 0;  // CommentRow::id
+    std::optional<std::string> text;    // none: delete the comment
+  };
+  std::optional<CommentChange> comment_change;
+};
+
+struct ReplayRequests {
+  struct Shift {
+    std::string recording;
+    double begin = 0.0;  // [s] on the loop's clock
+  };
+  std::optional<Shift> open;         // replay a shift of the history
+  std::optional<std::size_t> shift;  // show only this shift of the replayed drive
+  bool whole = false;                // show the whole drive
+  std::optional<double> seek;        // [s]
+  std::optional<bool> play;
+  std::optional<double> pace;
+  bool close = false;  // back to the live lever
+};
+
+// The user's requests of this frame. The caller carries them out and shows problems in PanelInput::message.
+struct PanelRequests {
+  bool arm = false, disarm = false, stop = false, record = false, replay = false, reset_view = false;
+  std::optional<haptics::HapticTuning> tuning;    // to be applied; already found admissible unchanged
+  std::optional<haptics::HapticConfig> restart;   // restart the loop with this; values are within their ranges
+  std::optional<std::string> gate, preset, hand;  // change to this one
+  std::optional<std::string> save_preset;         // preset name
+  std::optional<std::string> compare;             // preset to be read into PanelInput::compared
+  std::optional<std::string> car;                 // change to this car and its gate
+  LessonRequests lesson;
+  ReplayRequests playback;
+  cabin::HeadsetRequests headset;
+};
+
+class Panel {
+ public:
+  Panel();
+  ~Panel();
+  Panel(const Panel&) = delete;
+  Panel& operator=(const Panel&) = delete;
+
+  // Call once per frame, between UiContext::begin and end.
+  PanelRequests draw(const PanelInput& input);
+
+  // Between end() and the next begin(): does the panel use a mouse press at this place [px], or a key press? Based on
+  // the panel as last drawn. A drag that began on the panel belongs to it until the button is released.
+  bool covers(glm::dvec2 mouse) const;
+  bool has_keyboard() const;
+
+  // [px] after the last draw(): the area left to the cabin by columns, bar, replay bar and lesson card.
+  ControlRect cabin_area() const noexcept;
+  // [px] after the last draw(): the area left by columns and bar, for cabin, replay bar and card.
+  ControlRect central_area() const noexcept;
+
+  void undo();  // takes effect in the next draw()
+  void redo();
+  bool visible() const noexcept;
+  void set_visible(bool on) noexcept;
+  bool shows_help() const noexcept;
+  // bindings_text: one binding per line, key and action separated by a tab.
+  void show_help(bool on, const std::string& bindings_text);
+
+  // After the last draw(): where a control is, for a test or script, and how many texts did not fit.
+  // Bar: "stop", "arm", "disarm", "record", "replay". Left column: "reset_view", "axis_shift", "axis_select".
+  // Right column: "car", "gate", "preset", "hand", each with "gate: NAME" while open; "tab_lesson", "tab_history",
+  // "tab_tuning", "tab_setup", "tab_loop", "tab_presets", and "tab_headset" while a headset is in use.
+  // Lessons: "learner" (Enter applies the name), "learner_known" with "learner: NAME" (empty name: no learner),
+  // "lesson_suggested", "lesson: KEY", "next: KEY", "next_as_suggested". History: "run: ID" opens it; then
+  // "look: ID SHIFT", "comment_author", "comment", "comment_add"; per comment "comment_edit: ID" ("comment_text",
+  // "comment_save", "comment_cancel"), "comment_delete: ID" (then "comment_delete_sure").
+  // Card: "lesson_begin", "mode", "help", "lesson_put_away"; "lesson_leave"; "lesson_again", "lesson_next".
+  // Replay: "replay_shift: INDEX", "replay_time", "replay_play", "replay_pace: 0.1" (0.25, 0.5, 1, 2),
+  // "replay_whole", "replay_close".
+  // Tuning, setup: "wall_stiffness_n_per_m" and the other keys, "slot_a", "slot_b", "undo", "redo", "reset",
+  // "use_stable", "keep_running", "restart", ...
+  std::optional<ControlRect> control_rect(std::string_view name) const;
+  int shortened_texts() const noexcept;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace gearshift::ui

@@ -1,0 +1,11 @@
+// The mouse belongs to the panel while it is over the panel.
+#pragma once
+
+#include <glm/vec2.hpp>
+
+namespace gearshift::ui {
+
+// See Panel::covers().
+bool panel_covers(glm::dvec2 mouse);
+
+}  // namespace gearshift::ui

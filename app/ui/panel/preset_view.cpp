@@ -1,0 +1,103 @@
+#include "app/ui/panel/preset_view.h"
+
+#include <fmt/format.h>
+
+#include "app/ui/panel/format_value.h"
+#include "app/ui/panel/palette.h"
+#include "app/ui/panel/setup_fields.h"
+#include "app/ui/panel/tuning_fields.h"
+#include "haptics/contact/virtual_coupling.h"
+#include "haptics/safety/energy_control.h"
+
+namespace gearshift::ui {
+namespace {
+
+// Draws the lines that differ; equal ones are only counted.
+class Difference {
+ public:
+  void row(const char* label, const std::string& here, const std::string& there) {
+    if (here == there) {
+      ++same_;
+      return;
+    }
+    ++different_;
+    ImGui::TableNextRow();
+    for (const char* text : {label, here.c_str(), there.c_str()}) {
+      ImGui::TableNextColumn();
+      ImGui::TextUnformatted(text);
+    }
+  }
+  int same() const { return same_; }
+  int different() const { return different_; }
+
+ private:
+  int same_ = 0, different_ = 0;
+};
+
+const char* yes_or_no(bool yes) {
+  return yes ? "yes" : "no";
+}
+
+void draw_rows(Difference& rows, const haptics::HapticConfig& here, const haptics::HapticConfig& there) {
+  for (const TuningField& f : kTuningFields)
+    rows.row(f.label, format_value(here.tuning.*f.member, f), format_value(there.tuning.*f.member, f));
+  for (const SetupField& f : kSetupFields) {
+    rows.row(f.label, format_value(f.factor * f.get(here), f.unit, f.decimals),
+             format_value(f.factor * f.get(there), f.unit, f.decimals));
+  }
+  rows.row("Hold", haptics::to_string(here.contact.hold), haptics::to_string(there.contact.hold));
+  rows.row("Energy control", haptics::to_string(here.contact.energy_control),
+           haptics::to_string(there.contact.energy_control));
+  rows.row("Reversal limiter", yes_or_no(here.contact.reversal_limiter), yes_or_no(there.contact.reversal_limiter));
+  rows.row("Allow unstable", yes_or_no(here.contact.allow_unstable), yes_or_no(there.contact.allow_unstable));
+}
+
+void draw_difference(const PanelInput& input) {
+  haptics::HapticConfig here = input.haptics;
+  here.tuning = input.admitted.tuning;
+  Difference rows;
+  const engine::WithFont small(engine::UiFont::small);
+  if (ImGui::BeginTable("difference", 3, ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_BordersInnerH)) {
+    ImGui::TableSetupColumn("");
+    ImGui::TableSetupColumn("current");
+    ImGui::TableSetupColumn("preset");
+    ImGui::TableHeadersRow();
+    draw_rows(rows, here, input.compared->haptics);
+    ImGui::EndTable();
+  }
+  ImGui::TextDisabled("%d differ, %d are the same", rows.different(), rows.same());
+}
+
+}  // namespace
+
+void PresetView::draw(Controls& controls, const PanelInput& input, PanelRequests& out) {
+  draw_save(controls, out);
+  ImGui::Spacing();
+  ImGui::Separator();
+  draw_compare(controls, input, out);
+}
+
+void PresetView::draw_save(Controls& controls, PanelRequests& out) {
+  ImGui::TextUnformatted("Save current settings as");
+  const float button = 4.5f * engine::ui_em();
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x - button - ImGui::GetStyle().ItemSpacing.x);
+  const bool entered = ImGui::InputTextWithHint("##save_name", "preset name", name_.data(), name_.size(),
+                                                ImGuiInputTextFlags_EnterReturnsTrue);
+  controls.mark("save_name");
+  ImGui::SameLine();
+  const bool empty = name_.front() == '\0';
+  ImGui::BeginDisabled(empty);
+  const bool pressed = controls.button("save", "Save", {button, 0.0f});
+  ImGui::EndDisabled();
+  if ((entered || pressed) && !empty) out.save_preset = name_.data();
+}
+
+void PresetView::draw_compare(Controls& controls, const PanelInput& input, PanelRequests& out) {
+  ImGui::TextUnformatted("Compare with");
+  const auto chosen = controls.choice("compare", compared_.empty() ? "a preset" : compared_, input.presets,
+                                      ImGui::GetContentRegionAvail().x);
+  if (chosen) out.compare = compared_ = *chosen;
+  if (!compared_.empty() && input.compared) draw_difference(input);
+}
+
+}  // namespace gearshift::ui

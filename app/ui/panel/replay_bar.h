@@ -1,0 +1,37 @@
+// The replay bar of a recorded drive: shifts, curves, position and speed of the replay.
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "app/ui/panel/panel.h"
+#include "app/ui/panel/strip.h"
+
+namespace gearshift::ui {
+
+class ReplayBar {
+ public:
+  // Draws along the lower edge of `room` [px]; returns the bar's upper edge, or the room's lower edge without a replay.
+  double draw(Controls& controls, const PanelInput& input, const ControlRect& room, ReplayRequests& out);
+
+ private:
+  // Curves of the replayed part; rebuilt when another part is selected.
+  struct Curves {
+    explicit Curves(double span);
+    void push(const vehicle::DriveSample& sample);
+    Strip clutch, throttle;  // [1]
+    Strip engine, shaft;     // [rad/s] absolute values
+    Strip force;             // [N] hand force
+  };
+  void follow(const lessons::Player& replay);
+  void draw_legend(Controls& controls, const lessons::Player& replay);
+  void draw_curves(const lessons::Player& replay);
+
+  std::optional<Curves> curves_;
+  const vehicle::DriveSample* samples_ = nullptr;  // the samples the curves were made from
+  double from_ = 0.0, to_ = 0.0;                   // [s]
+};
+
+}  // namespace gearshift::ui

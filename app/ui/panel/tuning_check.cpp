@@ -1,0 +1,158 @@
+#include "app/ui/panel/tuning_check.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "app/ui/panel/format_value.h"
+#include "haptics/gate/gate_feel.h"
+
+namespace gearshift::ui {
+namespace {
+
+// A running loop cannot change its hold.
+haptics::HapticConfig with_running_hold(const TuningQuestion& question) {
+  haptics::HapticConfig config = question.config;
+  config.contact.hold = question.hold;
+  return config;
+}
+
+TuningQuestion with_value(TuningQuestion question, const TuningField& field, double value) {
+  question.config.tuning.*field.member = value;
+  return question;
+}
+
+// The last admissible value between an admissible and an inadmissible one, to a thousandth of the interval.
+double last_admissible(const TuningQuestion& question, const TuningField& field, double good, double bad) {
+  constexpr int kHalvings = 10;
+  for (int i = 0; i < kHalvings; ++i) {
+    const double middle = 0.5 * (good + bad);
+    (answer(with_value(question, field, middle)).admissible ? good : bad) = middle;
+  }
+  return good;
+}
+
+// The value to which the loop limits a field's extreme. If that would also limit another field, the last value that
+// does not.
+double reach(const TuningQuestion& question, const TuningField& field, double extreme, bool is_admissible) {
+  const TuningAnswer answered = answer(with_value(question, field, extreme));
+  const double reached = answered.refused.empty() ? answered.admitted.tuning.*field.member : extreme;
+  if (answered.admissible || !is_admissible) return reached;
+  if (answer(with_value(question, field, reached)).admissible) return reached;
+  return last_admissible(question, field, question.config.tuning.*field.member, reached);
+}
+
+}  // namespace
+
+std::size_t tuning_field(std::string_view key) noexcept {
+  const auto found =
+      std::find_if(kTuningFields.begin(), kTuningFields.end(), [&](const TuningField& f) { return f.key == key; });
+  return static_cast<std::size_t>(found - kTuningFields.begin());
+}
+
+TuningAnswer answer(const TuningQuestion& question) {
+  TuningAnswer out;
+  out.admitted.tuning = question.config.tuning;
+  out.admitted.hold = question.hold;
+  try {
+    haptics::check_tuning(question.config.tuning);
+    out.admitted = haptics::admit_tuning(with_running_hold(question), question.device, *question.gate);
+    if (out.admitted.hold != question.hold) out.refused = "this needs a different hold from the running one";
+  } catch (const std::invalid_argument& refused) {
+    out.refused = refused.what();
+  }
+  out.admissible = out.refused.empty() && out.admitted.tuning == question.config.tuning;
+  return out;
+}
+
+StableRanges stable_ranges(const TuningQuestion& question) {
+  TuningQuestion safe = question;
+  safe.config.contact.allow_unstable = false;
+  const bool is_admissible = answer(safe).admissible;
+  StableRanges ranges;
+  for (std::size_t i = 0; i < kTuningFields.size(); ++i) {
+    const TuningField& field = kTuningFields[i];
+    ranges[i] = {reach(safe, field, field.min, is_admissible), reach(safe, field, field.max, is_admissible)};
+  }
+  // The lower bound of the wall is the stiffness of the feel: a softer wall would limit the feel.
+  const std::size_t wall = tuning_field("wall_stiffness_n_per_m");
+  const double feel = question.config.tuning.feel_scale * haptics::max_feel_stiffness(*question.gate);
+  if (feel > 0.99 * ranges[wall].min && answer(with_value(safe, kTuningFields[wall], feel)).admissible)
+    ranges[wall].min = feel;
+  return ranges;
+}
+
+std::optional<haptics::HapticTuning> nearest_stable(const TuningQuestion& question) {
+  // Limiting one field may allow or forbid another, so repeat until nothing is limited.
+  constexpr int kMaxRounds = 8;
+  TuningQuestion next = question;
+  for (int round = 0; round < kMaxRounds; ++round) {
+    const TuningAnswer answered = answer(next);
+    if (answered.admissible) return next.config.tuning;
+    if (!answered.refused.empty()) return std::nullopt;
+    next.config.tuning = answered.admitted.tuning;
+  }
+  return std::nullopt;
+}
+
+std::string format_limit(const haptics::TuningLimit& limit) {
+  const std::size_t index = tuning_field(haptics::to_string(limit.parameter));
+  if (index == kTuningFields.size()) return fmt::format("{}: {}", haptics::to_string(limit.parameter), limit.law);
+  const TuningField& field = kTuningFields[index];
+  return fmt::format("{}: {} is {} the stable limit {}. Rule: {}{}{}.", field.label, format_value(limit.wanted, field),
+                     limit.wanted > limit.bound ? "above" : "below", format_value(limit.bound, field), limit.law,
+                     limit.hand.empty() ? "" : "; deciding hand: ", limit.hand);
+}
+
+TuningJudge::Basis TuningJudge::basis_of(const TuningQuestion& q) {
+  const haptics::HapticConfig& c = q.config;
+  const haptics::HapticTuning& t = c.tuning;
+  const haptics::AxisModel &x = q.device.axis_x, &y = q.device.axis_y;
+  return {t.wall_stiffness,
+          t.wall_damping,
+          t.feel_scale,
+          t.aisle_damping,
+          t.speed_limit,
+          t.limit_damping,
+          c.rate,
+          static_cast<double>(c.contact.energy_control),
+          c.contact.reversal_limiter ? 1.0 : 0.0,
+          c.contact.allow_unstable ? 1.0 : 0.0,
+          c.estimator.smoothing,
+          static_cast<double>(c.estimator.window),
+          static_cast<double>(q.hold),
+          static_cast<double>(q.device.delay),
+          q.device.simulated ? 1.0 : 0.0,
+          x.mass,
+          x.damping,
+          x.stiffness,
+          y.mass,
+          y.damping,
+          y.stiffness,
+          haptics::max_feel_stiffness(*q.gate)};
+}
+
+const TuningAnswer& TuningJudge::judge(const TuningQuestion& question) {
+  const Basis basis = basis_of(question);
+  if (!answer_ || basis != answer_basis_) {
+    answer_ = answer(question);
+    answer_basis_ = basis;
+    ++evaluations_;
+  }
+  return *answer_;
+}
+
+const StableRanges& TuningJudge::ranges(const TuningQuestion& question, bool frozen) {
+  if (ranges_ && frozen) return *ranges_;
+  const Basis basis = basis_of(question);
+  if (!ranges_ || basis != ranges_basis_) {
+    ranges_ = stable_ranges(question);
+    ranges_basis_ = basis;
+    ++evaluations_;
+  }
+  return *ranges_;
+}
+
+}  // namespace gearshift::ui

@@ -1,0 +1,40 @@
+// Parameters that can be tuned while the loop runs: name, unit and range, for sliders, checks and comparisons.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <string_view>
+
+#include "haptics/loop/haptic_config.h"
+
+namespace gearshift::ui {
+
+struct TuningField {
+  const char* label;
+  std::string_view key;  // its name in files and in admit_tuning()
+  const char* unit;
+  double haptics::HapticTuning::*member;
+  double min, max;  // the range check_tuning() accepts
+  int decimals;
+  const char* description;
+};
+
+inline constexpr std::array<TuningField, 6> kTuningFields{{
+    {"Wall stiffness", "wall_stiffness_n_per_m", "N/m", &haptics::HapticTuning::wall_stiffness, 0.0, 20000.0, 0,
+     "Force per metre of penetration into a wall."},
+    {"Wall damping", "wall_damping_n_s_per_m", "N s/m", &haptics::HapticTuning::wall_damping, 0.0, 100.0, 1,
+     "Force per speed into a wall, only while in contact."},
+    {"Feel", "feel_scale", "\u00d7", &haptics::HapticTuning::feel_scale, 0.0, 4.0, 2,
+     "Scales the gate's own forces: centring, mouth bump, detent, lock, buffer."},
+    {"Aisle damping", "aisle_damping_n_s_per_m", "N s/m", &haptics::HapticTuning::aisle_damping, 0.0, 50.0, 1,
+     "Force per speed, everywhere."},
+    {"Speed limit", "speed_limit_m_per_s", "m/s", &haptics::HapticTuning::speed_limit, 0.05, 5.0, 2,
+     "Above this speed the aisles resist."},
+    {"Limit damping", "limit_damping_n_s_per_m", "N s/m", &haptics::HapticTuning::limit_damping, 0.0, 50.0, 1,
+     "Force per speed above the speed limit."},
+}};
+
+// Index into kTuningFields; its size if the key is unknown.
+std::size_t tuning_field(std::string_view key) noexcept;
+
+}  // namespace gearshift::ui

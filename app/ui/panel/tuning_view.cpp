@@ -1,0 +1,191 @@
+#include "app/ui/panel/tuning_view.h"
+
+#include <algorithm>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "app/ui/panel/format_value.h"
+#include "app/ui/panel/palette.h"
+#include "app/ui/panel/text_lines.h"
+#include "haptics/contact/virtual_coupling.h"
+
+namespace gearshift::ui {
+namespace {
+
+std::string format_stable_range(const TuningField& field, const StableRange& stable) {
+  const bool from_min = stable.min <= field.min, to_max = stable.max >= field.max;
+  if (from_min && to_max) return "all stable";
+  if (from_min) return "stable up to " + format_value(stable.max, field);
+  if (to_max) return "stable from " + format_value(stable.min, field);
+  return fmt::format("stable {:.{}f} to {}", stable.min, field.decimals, format_value(stable.max, field));
+}
+
+// Under the slider: the stable range and the running value.
+void draw_stable_bar(const TuningField& field, const StableRange& stable, double running) {
+  const ImVec2 low = ImGui::GetItemRectMin(), high = ImGui::GetItemRectMax();
+  ImDrawList& list = *ImGui::GetWindowDrawList();
+  const float em = engine::ui_em(), top = high.y + 0.08f * em, bottom = top + 0.2f * em;
+  const float half_grab = 0.5f * ImGui::GetStyle().GrabMinSize + 2.0f;
+  const auto x = [&](double value) {
+    const auto fraction = static_cast<float>((value - field.min) / (field.max - field.min));
+    return low.x + half_grab + std::clamp(fraction, 0.0f, 1.0f) * (high.x - low.x - 2.0f * half_grab);
+  };
+  list.AddRectFilled({x(field.min), top}, {x(field.max), bottom}, engine::with_alpha(ink::kBad, 0.55f), 1.0f);
+  list.AddRectFilled({x(stable.min), top}, {x(stable.max), bottom}, engine::with_alpha(ink::kGood, 0.8f), 1.0f);
+  const float at = x(running);
+  list.AddTriangleFilled({at, high.y - 0.05f * em}, {at + 0.28f * em, bottom + 0.12f * em},
+                         {at - 0.28f * em, bottom + 0.12f * em}, ink::kText);
+}
+
+}  // namespace
+
+bool TuningView::was_requested(const haptics::HapticTuning& tuning) const {
+  const std::size_t known = std::min(request_count_, requested_.size());
+  return std::find(requested_.begin(), requested_.begin() + static_cast<std::ptrdiff_t>(known), tuning) !=
+         requested_.begin() + static_cast<std::ptrdiff_t>(known);
+}
+
+void TuningView::follow(const PanelInput& input) {
+  const haptics::HapticTuning& runs = input.admitted.tuning;
+  if (started_ && runs == running_) return;
+  running_ = runs;
+  if (started_ && was_requested(runs)) return;
+  history_.restart(runs);
+  edited_ = runs;
+  started_ = true;
+}
+
+TuningQuestion TuningView::question(const PanelInput& input, const haptics::HapticTuning& tuning) const {
+  TuningQuestion question{input.haptics, *input.device, input.gate, input.admitted.hold};
+  question.config.tuning = tuning;
+  return question;
+}
+
+void TuningView::request(const haptics::HapticTuning& tuning, PanelRequests& out) {
+  out.tuning = tuning;
+  requested_[request_count_++ % requested_.size()] = tuning;
+}
+
+void TuningView::show(const haptics::HapticTuning& tuning, const PanelInput& input, PanelRequests& out) {
+  edited_ = tuning;
+  same_drag_ = false;
+  if (judged(input).admissible) request(tuning, out);
+}
+
+void TuningView::edit(const haptics::HapticTuning& tuning, const PanelInput& input, PanelRequests& out) {
+  edited_ = tuning;
+  if (!judged(input).admissible) return;
+  history_.change(tuning, same_drag_);
+  same_drag_ = true;
+  request(tuning, out);
+}
+
+void TuningView::take(Step step, const PanelInput& input, PanelRequests& out) {
+  switch (step) {
+    case Step::undo:
+      if (!is_refused(input)) history_.undo();  // a rejected edit is discarded first
+      break;
+    case Step::redo:
+      history_.redo();
+      break;
+    case Step::reset:
+      history_.reset();
+      break;
+    case Step::switch_slot:
+      history_.switch_slot();
+      break;
+  }
+  show(history_.current(), input, out);
+}
+
+void TuningView::draw(Controls& controls, const PanelInput& input, PanelRequests& out) {
+  draw_steps(controls, input, out);
+  // While a slider is dragged, its own range does not change, and the others can wait until it is released.
+  ranges_ = judge_.ranges(question(input, edited_), ImGui::IsAnyItemActive());
+  for (std::size_t i = 0; i < kTuningFields.size(); ++i) draw_field(i, controls, input, out);
+  draw_verdict(controls, input, out);
+}
+
+void TuningView::draw_steps(Controls& controls, const PanelInput& input, PanelRequests& out) {
+  const float gap = ImGui::GetStyle().ItemSpacing.x;
+  const float width = (ImGui::GetContentRegionAvail().x - 4.0f * gap) / 5.0f;
+  const auto slot_button = [&](TuningSlot slot, const char* name, const char* label) {
+    const bool on = history_.slot() == slot;
+    if (controls.button(name, label, {width, 0.0f}, on ? ink::kAccentDeep : ink::kRaised) && !on)
+      take(Step::switch_slot, input, out);
+    ImGui::SameLine();
+  };
+  const auto step_button = [&](Step step, const char* name, const char* label, bool possible) {
+    ImGui::BeginDisabled(!possible);
+    if (controls.button(name, label, {width, 0.0f})) take(step, input, out);
+    ImGui::EndDisabled();
+  };
+  slot_button(TuningSlot::a, "slot_a", "A");
+  slot_button(TuningSlot::b, "slot_b", "B");
+  step_button(Step::undo, "undo", "Undo", history_.can_undo() || is_refused(input));
+  ImGui::SameLine();
+  step_button(Step::redo, "redo", "Redo", history_.can_redo());
+  ImGui::SameLine();
+  step_button(Step::reset, "reset", "Reset", true);
+}
+
+void TuningView::draw_field(std::size_t index, Controls& controls, const PanelInput& input, PanelRequests& out) {
+  const TuningField& field = kTuningFields[index];
+  const StableRange stable = ranges_[index];
+  const double running = running_.*field.member;
+  haptics::HapticTuning wanted = edited_;
+  double& value = wanted.*field.member;
+  const bool bad = is_refused(input) && (value < stable.min || value > stable.max);
+
+  ImGui::TextUnformatted(field.label);
+  if (ImGui::IsItemHovered()) ImGui::SetTooltip("%s", field.description);
+  put_right(format_stable_range(field, stable), bad ? ink::kBad : ink::kSoft);
+  ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
+  if (bad) ImGui::PushStyleColor(ImGuiCol_Text, ink::kBad);
+  if (bad) ImGui::PushStyleColor(ImGuiCol_SliderGrab, ink::kBad);
+  const std::string format = fmt::format("%.{}f {}", field.decimals, field.unit);
+  const std::string id = "##" + std::string(field.key);
+  const bool changed = ImGui::SliderScalar(id.c_str(), ImGuiDataType_Double, &value, &field.min, &field.max,
+                                           format.c_str(), ImGuiSliderFlags_AlwaysClamp);
+  if (bad) ImGui::PopStyleColor(2);
+  controls.mark(field.key);
+  if (ImGui::IsItemActivated()) same_drag_ = false;
+  draw_stable_bar(field, stable, running);
+  ImGui::Dummy({0.0f, 0.1f * engine::ui_em()});
+  if (changed) edit(wanted, input, out);
+}
+
+// The verdict on the edited values, in one or two sentences.
+void TuningView::draw_verdict(Controls& controls, const PanelInput& input, PanelRequests& out) {
+  ImGui::Separator();
+  if (is_refused(input)) {
+    draw_refusal(controls, input, out);
+  } else if (input.haptics.contact.allow_unstable) {
+    put_wrapped("Unstable values are allowed: nothing is limited. Nobody may touch this lever.", ink::kBad);
+    for (const haptics::TuningLimit& limit : judged(input).admitted.limits)
+      put_wrapped(format_limit(limit), ink::kWarn);
+  } else {
+    put_wrapped(fmt::format("Stable with every listed hand ({}).", haptics::to_string(input.admitted.hold)),
+                ink::kGood);
+    for (const haptics::TuningLimit& limit : input.admitted.limits)
+      put_wrapped("Limited at the start: " + format_limit(limit), ink::kWarn);
+  }
+}
+
+void TuningView::draw_refusal(Controls& controls, const PanelInput& input, PanelRequests& out) {
+  const TuningAnswer answered = judged(input);
+  put_wrapped("Not applied; previous values still active.", ink::kBad);
+  if (!answered.refused.empty()) put_wrapped(answered.refused, ink::kWarn);
+  for (const haptics::TuningLimit& limit : answered.admitted.limits) put_wrapped(format_limit(limit), ink::kWarn);
+  if (controls.button("use_stable", "Use stable values")) {
+    if (const auto stable = nearest_stable(question(input, edited_))) {
+      same_drag_ = false;
+      edit(*stable, input, out);
+    }
+  }
+  ImGui::SameLine();
+  if (controls.button("keep_running", "Keep previous values")) edited_ = running_;
+}
+
+}  // namespace gearshift::ui

@@ -1,0 +1,47 @@
+// Sliders for parameters that may change while the loop runs, each with its stable range.
+//
+// An admissible edit is applied at once. Otherwise the running value stays active and the reason is shown.
+#pragma once
+
+#include <array>
+#include <cstddef>
+
+#include "app/ui/panel/panel.h"
+#include "app/ui/panel/tuning_check.h"
+#include "app/ui/panel/tuning_history.h"
+
+namespace gearshift::ui {
+
+class TuningView {
+ public:
+  enum class Step { undo, redo, reset, switch_slot };
+
+  void follow(const PanelInput& input);  // call first in each frame: the running values may have changed elsewhere
+  void take(Step step, const PanelInput& input, PanelRequests& out);
+  void draw(Controls& controls, const PanelInput& input, PanelRequests& out);
+
+ private:
+  TuningQuestion question(const PanelInput& input, const haptics::HapticTuning& tuning) const;
+  const TuningAnswer& judged(const PanelInput& input) { return judge_.judge(question(input, edited_)); }
+  bool is_refused(const PanelInput& input) { return edited_ != running_ && !judged(input).admissible; }
+  void request(const haptics::HapticTuning& tuning, PanelRequests& out);
+  void show(const haptics::HapticTuning& tuning, const PanelInput& input, PanelRequests& out);
+  void edit(const haptics::HapticTuning& tuning, const PanelInput& input, PanelRequests& out);
+  bool was_requested(const haptics::HapticTuning& tuning) const;
+
+  void draw_steps(Controls& controls, const PanelInput& input, PanelRequests& out);
+  void draw_field(std::size_t index, Controls& controls, const PanelInput& input, PanelRequests& out);
+  void draw_verdict(Controls& controls, const PanelInput& input, PanelRequests& out);
+  void draw_refusal(Controls& controls, const PanelInput& input, PanelRequests& out);
+
+  TuningHistory history_;
+  TuningJudge judge_;
+  StableRanges ranges_{};  // as last drawn
+  haptics::HapticTuning edited_, running_;
+  std::array<haptics::HapticTuning, 8> requested_{};  // ring buffer: the caller may apply a request some frames later
+  std::size_t request_count_ = 0;
+  bool same_drag_ = false;  // a change was already made in the current drag
+  bool started_ = false;
+};
+
+}  // namespace gearshift::ui

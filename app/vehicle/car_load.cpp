@@ -1,0 +1,186 @@
+#include "app/vehicle/car_load.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <locale>
+#include <sstream>
+#include <stdexcept>
+
+#include <fmt/format.h>
+
+#include "haptics/gate/feel_curve.h"
+
+namespace gearshift::vehicle {
+namespace {
+
+constexpr const char* kName = "car";
+constexpr int kStands = 0, kEngineRunning = 1, kStalled = 2;  // state of the engine, in the text of replay_parameters()
+
+double force_scale(double force_limit) {
+  if (!(force_limit > 0.0)) throw std::invalid_argument("CarLoad: the device's largest force must be more than 0 N");
+  return std::min(1.0, force_limit / kMaxHandForce);
+}
+
+int engine_code(const CarStart& start) noexcept {
+  if (start.running) return kEngineRunning;
+  return start.stalled ? kStalled : kStands;
+}
+
+double finite_or_zero(double value) noexcept {
+  return std::isfinite(value) ? value : 0.0;
+}
+
+// Fills in the speeds that were left empty.
+CarStart complete_start(const CarSpec& car, CarStart start) {
+  const double shaft = shaft_per_road(car, start.gear) * start.road_speed;
+  if (!start.engine_speed) start.engine_speed = start.running ? std::max(car.engine.idle, shaft) : 0.0;
+  if (!start.shaft_speed) start.shaft_speed = start.gear == haptics::kNeutralGear ? *start.engine_speed : shaft;
+  return start;
+}
+
+// Two lines of values, then the car file. Doubles are written so that they read back exactly.
+std::string make_name(const CarSpec& car, double force_limit, const CarStart& start, std::uint64_t seed) {
+  return fmt::format("{} {} {} {} {} {} {} {} {} {}\n{}\n{}", kName, force_limit, seed, start.road_speed, start.gear,
+                     engine_code(start), *start.engine_speed, *start.shaft_speed, start.distance, start.slip_energy,
+                     car.name + ".toml", car.text);
+}
+
+}  // namespace
+
+CarStart start_from(const VehicleState& state) noexcept {
+  CarStart start;
+  start.road_speed = state.road_speed;
+  start.gear = state.gear;
+  start.running = state.running;
+  start.stalled = state.stalled;
+  start.engine_speed = state.engine_speed;
+  start.shaft_speed = state.shaft_speed;
+  start.distance = state.distance;
+  start.slip_energy = state.slip_energy;
+  return start;
+}
+
+void check_car_fits(const CarSpec& car, const haptics::Gate& gate) {
+  for (const haptics::Slot& slot : haptics::slots(gate)) {
+    if (shaft_per_road(car, slot.gear) != 0.0) continue;
+    throw std::invalid_argument(
+        fmt::format("this gate has a gear {}, but the car \"{}\" does not", haptics::gear_name(slot.gear), car.name));
+  }
+}
+
+CarLoad::CarLoad(const CarSpec& car, const haptics::Gate& gate, double force_limit, const CarStart& start,
+                 std::uint64_t seed)
+    : car_(car),
+      gate_(gate),
+      start_(complete_start(car, start)),
+      name_(make_name(car, force_limit, start_, seed)),
+      driveline_(car),
+      synchroniser_(car.synchro, gate, force_scale(force_limit), start.gear, seed),
+      vibration_(car.engine.shudder * force_scale(force_limit)) {
+  check_car_fits(car, gate);
+  for (std::size_t i = 0; i < haptics::slots(gate).size(); ++i) {
+    const haptics::Slot& slot = gate.slot[i];
+    const double per_road = shaft_per_road(car, slot.gear);
+    const double ratio = std::abs(per_road) * car.body.wheel_radius / car.gearbox.final_drive;
+    gear_of_slot_[i] = {slot.gear, static_cast<double>(static_cast<int>(slot.side)), per_road, ratio};
+  }
+  driveline_.place(*start_.engine_speed, *start_.shaft_speed, start_.road_speed, start_.running, start_.stalled);
+  state_ = driveline_.state();
+  state_.distance = start_.distance;
+  state_.slip_energy = start_.slip_energy;
+  state_.gear = start_.gear;
+  state_.force_scale = force_scale(force_limit);
+}
+
+haptics::LeverOutput CarLoad::step(const haptics::LeverInput& in, double period) noexcept {
+  const SleeveInput lever = sleeve_input(in);
+  const SleeveOutput sleeve = synchroniser_.step(lever, period);
+  const haptics::DriverControls& driver = in.controls;
+  DrivelineInput drive;
+  drive.throttle = driver.throttle;
+  drive.brake = driver.brake;
+  drive.clutch = driver.clutch;
+  drive.hand_brake = driver.hand_brake;
+  drive.ignition = driver.ignition;
+  drive.starter = driver.starter;
+  drive.slope = driver.slope;
+  drive.meshed = sleeve.meshed;
+  drive.cone_gear = sleeve.cone_gear;
+  drive.cone_torque = sleeve.cone_torque;
+  driveline_.step(drive, period);
+  update_state(driver, lever, sleeve);
+
+  haptics::LeverOutput out;
+  out.road_speed = state_.road_speed;
+  if (lever.slot != haptics::kNoSlot) {
+    const double side = gear_of_slot_[static_cast<std::size_t>(lever.slot)].side;
+    out.force.y = side * sleeve.force;
+    out.vibration.y = side * sleeve.rattle;
+    out.limited_slot = lever.slot;
+    out.depth_min = sleeve.depth_min;
+    out.depth_max = sleeve.depth_max;
+  }
+  const double vibration = vibration_.step(state_.shudder, state_.engine_speed, period);
+  out.force.y += vibration;
+  out.vibration.y += vibration;
+  return out;
+}
+
+SleeveInput CarLoad::sleeve_input(const haptics::LeverInput& in) const noexcept {
+  SleeveInput lever;
+  lever.slot = in.slot;
+  lever.clutch_open = clutch_capacity(car_.clutch, in.controls.clutch) <= 0.0;
+  if (in.slot == haptics::kNoSlot) return lever;
+  const SlotGear& gear = gear_of_slot_[static_cast<std::size_t>(in.slot)];
+  lever.depth = in.depth;
+  lever.push = gear.side * finite_or_zero(in.push.y);
+  lever.feel = haptics::feel_force(haptics::slot_of(gate_, in.slot).feel, in.depth);
+  lever.difference = difference(gear);
+  lever.load = driveline_.state().drive_torque / car_.gearbox.final_drive;
+  return lever;
+}
+
+double CarLoad::difference(const SlotGear& gear) const noexcept {
+  const VehicleState& now = driveline_.state();
+  return (now.shaft_speed - gear.per_road * now.road_speed) / gear.ratio;
+}
+
+void CarLoad::update_state(const haptics::DriverControls& controls, const SleeveInput& lever,
+                           const SleeveOutput& sleeve) noexcept {
+  const double scale = state_.force_scale;
+  state_ = driveline_.state();
+  state_.distance += start_.distance;
+  state_.slip_energy += start_.slip_energy;
+  state_.force_scale = scale;
+  state_.gear = sleeve.meshed;
+  state_.sync = sleeve.phase;
+  if (lever.slot != haptics::kNoSlot && sleeve.meshed == haptics::kNeutralGear)
+    state_.dog_difference = difference(gear_of_slot_[static_cast<std::size_t>(lever.slot)]);
+  state_.grind_power = sleeve.grind_power;
+  state_.grinding = sleeve.grind_power > 0.0;
+  state_.torque_locked = sleeve.torque_locked;
+  state_.slope = controls.slope;
+}
+
+std::unique_ptr<CarLoad> make_car_load(const std::string& name, const haptics::Gate& gate) {
+  std::istringstream stream(name);
+  stream.imbue(std::locale::classic());
+  std::string kind, file;
+  double force_limit = 0.0, engine_speed = 0.0, shaft_speed = 0.0;
+  std::uint64_t seed = 0;
+  int engine = kStands;
+  CarStart start;
+  stream >> kind >> force_limit >> seed >> start.road_speed >> start.gear >> engine >> engine_speed >> shaft_speed >>
+      start.distance >> start.slip_energy;
+  if (!stream || kind != kName || stream.get() != '\n' || !std::getline(stream, file)) return nullptr;
+  if (engine < kStands || engine > kStalled) return nullptr;
+  start.running = engine == kEngineRunning;
+  start.stalled = engine == kStalled;
+  start.engine_speed = engine_speed;
+  start.shaft_speed = shaft_speed;
+  const std::string text(std::istreambuf_iterator<char>(stream), {});
+  return std::make_unique<CarLoad>(parse_car(text, file), gate, force_limit, start, seed);
+}
+
+}  // namespace gearshift::vehicle

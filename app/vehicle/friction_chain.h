@@ -1,0 +1,83 @@
+// Engine, gearbox shaft and car in a row, coupled by Coulomb friction: which elements stick, which slip, and the motion
+// that results.
+//
+//     engine --clutch-- shaft --cone or dogs-- car          each of the three also has friction against the ground:
+//        |                |                     |           the engine's friction (it cannot turn backwards at all),
+//      ground           ground                ground        the shaft's drag, rolling resistance with brakes
+//
+// Bodies that stick together move as one. For given loads the motion is unique: it minimises Gauss' constraint plus the
+// dissipation of the friction elements, a strictly convex function. So the first consistent choice of modes is the
+// solution.
+#pragma once
+
+#include <array>
+
+namespace gearshift::vehicle {
+
+enum Body : int { engine_body, shaft_body, car_body };
+using PerBody = std::array<double, 3>;  // indexed by Body; speeds: rad/s, rad/s, m/s
+
+inline int sign(double x) noexcept {
+  return (x > 0.0) - (x < 0.0);
+}
+
+enum class GearLink { open, cone, dogs };
+
+struct FrictionChain {
+  PerBody inertia{};  // [kg m^2], [kg m^2], [kg]
+  GearLink link = GearLink::open;
+  double per_road = 0.0;    // [rad/m] shaft speed per road speed; not 0 unless the link is open
+  double efficiency = 1.0;  // [1] of the gear's teeth under load, dogs engaged; > 0
+};
+
+struct ChainLoads {
+  PerBody push{};       // [N m], [N m], [N] sum of all forces except friction
+  PerBody ground{};     // friction limit against the ground, >= 0
+  double clutch = 0.0;  // [N m] capacity, >= 0
+  double cone = 0.0;    // [N m] capacity at the shaft
+};
+
+// 0: sticks; +1 or -1: slips or turns in that direction.
+struct FrictionMode {
+  int clutch = 0;  // +1: engine faster than shaft
+  int cone = 0;    // +1: shaft faster than the gear
+  std::array<int, 3> turn{};
+};
+
+struct ChainMotion {
+  PerBody rate{};          // [rad/s^2], [rad/s^2], [m/s^2]
+  double clutch = 0.0;     // [N m] from engine to shaft
+  double gear = 0.0;       // [N m] from shaft to gear, at the shaft
+  double drive = 0.0;      // [N] the part of it that reaches the car
+  PerBody ground{};        // [N m], [N m], [N] friction of the ground on each body
+  double violation = 0.0;  // total excess over friction limits, plus slip in the wrong direction; 0: consistent
+};
+
+// Motion in the given mode.
+ChainMotion move(const FrictionChain& chain, const ChainLoads& loads, const FrictionMode& mode) noexcept;
+
+struct Solution {
+  FrictionMode mode;
+  ChainMotion motion;
+};
+// The consistent mode and its motion. In `known`, +1 and -1 mark elements known to slip; elements at 0 are solved for.
+// `guess` is tried first. If rounding leaves no consistent mode, returns the one with the smallest violation.
+Solution solve_modes(const FrictionChain& chain, const ChainLoads& loads, const FrictionMode& known,
+                     const FrictionMode& guess) noexcept;
+
+// Speeds after an impact that brings bodies that stick in `mode` to one speed, or to rest on the ground, conserving
+// momentum.
+PerBody collide(const FrictionChain& chain, const PerBody& speed, const FrictionMode& mode) noexcept;
+
+double kinetic_energy(const FrictionChain& chain, const PerBody& speed) noexcept;  // [J]
+
+// True if the two bodies of the gear link move as one.
+inline bool gear_holds(const FrictionChain& chain, const FrictionMode& mode) noexcept {
+  return chain.link == GearLink::dogs || (chain.link == GearLink::cone && mode.cone == 0);
+}
+// [rad/s] speed of the shaft relative to the gear, at the shaft.
+inline double cone_slip(const FrictionChain& chain, const PerBody& speed) noexcept {
+  return chain.link == GearLink::cone ? speed[shaft_body] - chain.per_road * speed[car_body] : 0.0;
+}
+
+}  // namespace gearshift::vehicle

@@ -1,0 +1,13 @@
+# Writes the facts of this build to a header; does not touch the file if nothing changed.
+# cmake -D source=FOLDER -D header=FILE -D type=... -D compiler=... -D libraries=... -P build_facts.cmake
+set(commit "unknown")  # without git, or for sources without their history
+find_program(git git)
+if(git)
+  # Name the source folder's own .git: an unpacked release may lie inside another repository.
+  execute_process(COMMAND ${git} --git-dir=${source}/.git --work-tree=${source} describe --always --dirty --abbrev=12
+                  OUTPUT_VARIABLE described OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET RESULT_VARIABLE code)
+  if(code EQUAL 0)
+    set(commit "${described}")
+  endif()
+endif()
+configure_file(${CMAKE_CURRENT_LIST_DIR}/build_facts.h.in ${header} @ONLY)

@@ -1,0 +1,167 @@
+#include "app/verbs/campaign_report.h"
+
+#include <cstddef>
+
+#include <fmt/core.h>
+#include <nlohmann/json.hpp>
+
+#include "haptics/contact/virtual_coupling.h"
+#include "haptics/safety/energy_control.h"
+
+namespace gearshift::verbs {
+namespace {
+
+constexpr std::size_t kMaxListedFailures = 20;  // printed failures; the JSON has all of them
+
+std::string law_row(lab::CampaignLaw law, const lab::LawSummary& seen) {
+  const lab::LawText& law_info = lab::law_text(law);
+  const std::string name(law_info.name), requirement(law_info.requirement);
+  if (seen.cases == 0) return fmt::format("| {} | {} | 0 | - | - | - | - |\n", name, requirement);
+  return fmt::format("| {} | {} | {} | {:.4g} {} | {:.4g} | {} | {} |\n", name, requirement, seen.cases,
+                     seen.worst.value, std::string(law_info.unit), seen.worst.bound, seen.worst_case, seen.broken);
+}
+
+std::string laws_text(const lab::CampaignSummary& summary) {
+  std::string text =
+      "| law | requirement | cases | worst | bound | in case | broken in |\n|---|---|---|---|---|---|---|\n";
+  for (std::size_t i = 0; i < lab::kCampaignLaws; ++i)
+    text += law_row(static_cast<lab::CampaignLaw>(i), summary.laws[i]);
+  return text;
+}
+
+std::string groups_text(const lab::CampaignSummary& summary) {
+  std::string text =
+      "| drawn | | cases | shifts | intended gear reached | wall softened in | stopped by the guard in | tuning "
+      "limited "
+      "in | a law broken in |\n"
+      "|---|---|---|---|---|---|---|---|---|\n";
+  for (const lab::CaseGroup& group : summary.groups) {
+    const double reached =
+        group.shifts > 0 ? 100.0 * static_cast<double>(group.reached) / static_cast<double>(group.shifts) : 0.0;
+    text += fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {} |\n", group.of, group.name, group.cases,
+                        group.shifts, group.shifts > 0 ? fmt::format("{:.2f} %", reached) : "-", group.softened,
+                        group.stopped, group.limited, group.failed);
+  }
+  return text;
+}
+
+std::string ripple_text(const lab::CampaignSummary& summary, bool promised) {
+  std::string text = "| rate | delay | cases | median mm | p95 mm | worst mm |\n|---|---|---|---|---|---|\n";
+  for (const lab::RippleCell& cell : summary.ripple)
+    if (cell.promised == promised)
+      text += fmt::format("| {:g} to {:g} Hz | {}{} | {} | {:.3f} | {:.3f} | {:.3f} |\n", cell.slowest, cell.fastest,
+                          cell.delay, cell.delay == 4 ? " to 8" : "", cell.cases, 1e3 * cell.median, 1e3 * cell.p95,
+                          1e3 * cell.most);
+  return text;
+}
+
+std::string failures_text(const lab::CampaignSummary& summary) {
+  if (summary.broken.empty()) return "No law was broken.\n";
+  std::string text = "| case | seed | law | value | bound | at s |\n|---|---|---|---|---|---|\n";
+  for (std::size_t i = 0; i < summary.broken.size() && i < kMaxListedFailures; ++i) {
+    const lab::LawBroken& one = summary.broken[i];
+    text += fmt::format("| {} | {:016x} | {} | {:.4g} | {:.4g} | {:.3f} |\n", one.number, one.seed,
+                        std::string(lab::law_text(one.law).name), one.seen.value, one.seen.bound, one.seen.time);
+  }
+  if (summary.broken.size() > kMaxListedFailures)
+    text += fmt::format("\nand {} more in summary.json\n", summary.broken.size() - kMaxListedFailures);
+  return text;
+}
+
+std::string refusals_text(const lab::CampaignSummary& summary) {
+  std::string text;
+  for (const auto& [why, times] : summary.refusals) text += fmt::format("- rejected {} times: {}\n", times, why);
+  return text;
+}
+
+nlohmann::ordered_json seen_json(const lab::LawResult& seen) {
+  return {{"value", seen.value}, {"bound", seen.bound}, {"at_s", seen.time}};
+}
+
+}  // namespace
+
+std::string campaign_text(const lab::CampaignSummary& summary) {
+  return fmt::format(
+             "{} shifts in {} cases of seed {}: {} cycles, {:.1f} hours simulated; {} clean aims of a gripping hand; "
+             "{} "
+             "cases rejected by the loop's checks\n\n",
+             summary.shifts, summary.cases, summary.seed, summary.cycles, summary.seconds / 3600.0, summary.clean,
+             summary.refused) +
+         laws_text(summary) + "\n" + failures_text(summary) + "\n" + groups_text(summary) +
+         "\nPeak-to-peak motion of a lever held still, in the last 0.5 s of 3 s, where quiet is promised:\n\n" +
+         ripple_text(summary, true) + "\nWhere quiet is not promised:\n\n" + ripple_text(summary, false) + "\n" +
+         refusals_text(summary);
+}
+
+std::string campaign_json(const lab::CampaignSummary& summary, const std::string& program) {
+  nlohmann::ordered_json json{{"program", program},         {"seed", summary.seed},      {"cases", summary.cases},
+                              {"refused", summary.refused}, {"shifts", summary.shifts},  {"clean", summary.clean},
+                              {"cycles", summary.cycles},   {"seconds", summary.seconds}};
+  for (std::size_t i = 0; i < lab::kCampaignLaws; ++i) {
+    const lab::LawSummary& law = summary.laws[i];
+    const lab::LawText& law_info = lab::law_text(static_cast<lab::CampaignLaw>(i));
+    json["laws"].push_back({{"name", law_info.name},
+                            {"says", law_info.requirement},
+                            {"unit", law_info.unit},
+                            {"cases", law.cases},
+                            {"looks", law.checks},
+                            {"broken", law.broken},
+                            {"worst", seen_json(law.worst)},
+                            {"worst_case", law.worst_case}});
+  }
+  json["failures"] = nlohmann::ordered_json::array();
+  for (const lab::LawBroken& one : summary.broken)
+    json["failures"].push_back({{"case", one.number},
+                                {"seed", fmt::format("{:016x}", one.seed)},
+                                {"law", lab::law_text(one.law).name},
+                                {"seen", seen_json(one.seen)}});
+  for (const lab::CaseGroup& group : summary.groups)
+    json["drawn"].push_back({{"of", group.of},
+                             {"name", group.name},
+                             {"cases", group.cases},
+                             {"shifts", group.shifts},
+                             {"reached", group.reached},
+                             {"softened", group.softened},
+                             {"stopped", group.stopped},
+                             {"limited", group.limited},
+                             {"failed", group.failed}});
+  for (const lab::RippleCell& cell : summary.ripple)
+    json["ripple"].push_back({{"from_hz", cell.slowest},
+                              {"to_hz", cell.fastest},
+                              {"delay", cell.delay},
+                              {"promised", cell.promised},
+                              {"cases", cell.cases},
+                              {"median_m", cell.median},
+                              {"p95_m", cell.p95},
+                              {"most_m", cell.most}});
+  for (const auto& [why, times] : summary.refusals) json["refusals"].push_back({{"why", why}, {"times", times}});
+  return json.dump(2) + "\n";
+}
+
+std::string case_text(const lab::CampaignCase& drawn, const lab::CaseOutcome& outcome) {
+  const haptics::HapticConfig& haptics = drawn.haptics;
+  std::string text = fmt::format(
+      "case {}, seed {:016x}: {} hand ({:.3g} kg, {:.3g} N s/m, {:.4g} N/m), {} gate, {}{:.1f} Hz, delay {}, jitter "
+      "{:.1f} "
+      "%, plant error {:.1f} %, count {:.1f} um, {}, {}, K {:.0f} N/m wanted, {:.0f} used, last push {:.0f} "
+      "N\n",
+      drawn.number, drawn.seed, std::string(lab::kCaseHandNames[static_cast<std::size_t>(drawn.hand)]),
+      drawn.lever.hand.mass, drawn.lever.hand.damping, drawn.lever.hand.stiffness,
+      drawn.shipped_gate >= 0 ? "shipped" : "random", drawn.has_car ? "a car behind it, " : "", haptics.rate,
+      drawn.lever.delay, 100.0 * drawn.lever.period_jitter, 100.0 * drawn.lever.model_error, 1e6 * lab::count_of(drawn),
+      haptics::to_string(haptics.contact.hold), haptics::to_string(haptics.contact.energy_control),
+      haptics.tuning.wall_stiffness, outcome.stiffness, drawn.manner.last_push);
+  if (!outcome.refused.empty()) return text + "rejected: " + outcome.refused + "\n";
+  text += fmt::format("{} of {} shifts reached, wall softened {} times, {:.1f} s\n", outcome.reached, outcome.shifts,
+                      outcome.softened, outcome.seconds);
+  for (std::size_t i = 0; i < lab::kCampaignLaws; ++i) {
+    const lab::LawResult& seen = outcome.laws.seen(static_cast<lab::CampaignLaw>(i));
+    const lab::LawText& law_info = lab::law_text(static_cast<lab::CampaignLaw>(i));
+    if (seen.checks == 0) continue;
+    text += fmt::format("{:<10} {:>10.4g} {:<14} bound {:<10.4g} at {:>8.3f} s  {}\n", std::string(law_info.name),
+                        seen.value, std::string(law_info.unit), seen.bound, seen.time, seen.broken() ? "BROKEN" : "");
+  }
+  return text;
+}
+
+}  // namespace gearshift::verbs

@@ -1,0 +1,10 @@
+#pragma once
+
+#include "app/lab/tour/tour.h"
+
+namespace gearshift::verbs {
+
+// Prints the results of a tour to stdout, and limited parameters and problems to stderr.
+void print_tour(const lab::TourSetup& setup, const lab::TourResult& result);
+
+}  // namespace gearshift::verbs

@@ -1,0 +1,13 @@
+#pragma once
+
+#include <string>
+
+namespace gearshift::verbs {
+
+// The output of `--version` without the final line feed: program_name(); commit; build type and compiler; libraries.
+std::string version_text();
+
+// Commit of the source: "0123456789ab", with "-dirty" if files were changed; "unknown" without git.
+std::string commit_text();
+
+}  // namespace gearshift::verbs

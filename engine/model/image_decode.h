@@ -1,0 +1,23 @@
+// Decodes the images of a model in parallel.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "engine/image/image.h"
+
+namespace gearshift::engine {
+
+struct EncodedImage {
+  std::string place;  // for error messages: "images[3]"
+  std::span<const std::uint8_t> bytes;
+  int uses = 1;  // copies of its pixels in the model
+};
+
+// Returns the images in order. Throws GltfError with only the reason: not PNG or JPEG, corrupt, or beyond the limits of
+// gltf.h, which are checked from all headers before any image is decoded.
+std::vector<Image> decode_images(const std::vector<EncodedImage>& encoded);
+
+}  // namespace gearshift::engine

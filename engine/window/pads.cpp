@@ -1,0 +1,29 @@
+#include "engine/window/pads.h"
+
+#include <GLFW/glfw3.h>
+
+#include "engine/window/glfw_use.h"
+
+namespace gearshift::engine {
+
+std::vector<PadState> read_pads() {
+  std::vector<PadState> pads;
+  for (int id = GLFW_JOYSTICK_1; id <= GLFW_JOYSTICK_LAST; ++id) {
+    if (glfwJoystickPresent(id) == GLFW_FALSE) continue;
+    int axes = 0, buttons = 0;
+    const float* axis = glfwGetJoystickAxes(id, &axes);
+    const unsigned char* button = glfwGetJoystickButtons(id, &buttons);
+    const char* name = glfwGetJoystickName(id);
+    const char* guid = glfwGetJoystickGUID(id);
+    if (name == nullptr || guid == nullptr) continue;  // just unplugged: all four are null then
+    pads.push_back({name, {axis, axis + axes}, {button, button + buttons}, guid});
+  }
+  return pads;
+}
+
+std::vector<PadState> glfw_sticks() {
+  const GlfwUse use;
+  return read_pads();
+}
+
+}  // namespace gearshift::engine

@@ -1,0 +1,24 @@
+// Sticks, pads, pedals and wheels as seen by GLFW: axes and buttons, no force.
+#pragma once
+
+#include <string>
+#include <vector>
+
+namespace gearshift::engine {
+
+struct PadState {
+  std::string name;
+  std::vector<float> axes;             // [-1, 1]
+  std::vector<unsigned char> buttons;  // 0 or 1; the four directions of each hat follow the buttons
+  std::string guid;                    // of the model, not of the unit: two devices of one model have the same
+};
+
+// Devices that are plugged in now, in the order of their connection. GLFW must be initialised, and this must be its
+// thread.
+std::vector<PadState> read_pads();
+
+// Like read_pads(), for a program without a window. Throws std::runtime_error with one sentence if there is no display,
+// because GLFW needs one even for sticks.
+std::vector<PadState> glfw_sticks();
+
+}  // namespace gearshift::engine

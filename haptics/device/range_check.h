@@ -1,0 +1,13 @@
+// Range checks with an error sentence: name, value and allowed range.
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace gearshift::haptics {
+
+// Returns the value if low <= value <= high. Otherwise throws std::invalid_argument, worded like the file readers:
+//     <name> = <value>: must be between <low> and <high> <unit>
+double require_between(std::string_view name, double value, double low, double high, std::string_view unit = {});
+
+}  // namespace gearshift::haptics

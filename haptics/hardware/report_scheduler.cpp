@@ -1,0 +1,256 @@
+#include "haptics/hardware/report_scheduler.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace gearshift::haptics {
+namespace {
+
+constexpr std::int64_t kDuration = static_cast<std::int64_t>(1e9 * kEffectDuration);  // [ns]
+constexpr std::int64_t kRenew = static_cast<std::int64_t>(1e9 * kRenewAfter);         // [ns]
+constexpr std::int64_t kReportLag = 50'000'000;  // [ns] after a command, state reports may still be older than it
+constexpr int kOnce = 1;                         // loop count
+
+double difference(const PidCondition& a, const PidCondition& b) noexcept {
+  return std::max({std::abs(a.centre - b.centre), std::abs(a.dead_band - b.dead_band),
+                   std::abs(a.coefficient - b.coefficient), std::abs(a.saturation - b.saturation)});
+}
+
+constexpr PidCondition kZero{};
+
+}  // namespace
+
+void ReportScheduler::begin(const StickBlocks& blocks, bool finite) noexcept {
+  command_ = {};
+  released_ = false;
+  finite_ = finite;
+  on_ = !has_switch();
+  sent_ = {};
+  for (std::size_t i = 0; i < kStickEffects; ++i) {
+    effect_[i] = {};
+    effect_[i].block = blocks[i];
+  }
+  for (std::size_t i = 0; i < kValues; ++i) value_[i] = {kZero, encode(i, kZero), 0};
+}
+
+bool ReportScheduler::plays() const noexcept {
+  return std::any_of(effect_.begin(), effect_.end(), [](const Effect& effect) { return effect.playing; });
+}
+
+bool ReportScheduler::drives() const noexcept {
+  return on_ && plays();
+}
+
+std::array<double, 2> ReportScheduler::force() const noexcept {
+  std::array<double, 2> force{};
+  for (std::size_t i = 0; i < 2; ++i) {
+    if (on_ && effect_[i].playing) force[i] = value_[i].current.coefficient;
+  }
+  return force;
+}
+
+std::array<PidSpring, 2> ReportScheduler::spring() const noexcept {
+  std::array<PidSpring, 2> spring{};
+  if (!on_ || !effect_[static_cast<std::size_t>(StickEffect::spring)].playing) return spring;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const PidCondition& current = value_[2 + i].current;
+    spring[i] = {current.centre, current.dead_band, current.coefficient, current.saturation};
+  }
+  return spring;
+}
+
+// Constant forces always play, so that the first newton needs only one report.
+bool ReportScheduler::is_wanted(std::size_t effect) const noexcept {
+  if (effect_[effect].block == kNoBlock) return false;
+  switch (static_cast<StickEffect>(effect)) {
+    case StickEffect::spring:
+      return command_.spring[0].coefficient != 0.0 || command_.spring[1].coefficient != 0.0;
+    case StickEffect::
+        damper:  // keeps playing with coefficient 0: starting it takes three reports, at the moment of contact
+      return command_.damper[0] != 0.0 || command_.damper[1] != 0.0 || effect_[effect].playing;
+    default:
+      return true;
+  }
+}
+
+PidCondition ReportScheduler::target_value(std::size_t value) const noexcept {
+  PidCondition setting;
+  const PidSpring& spring = command_.spring[value % 2];
+  switch (static_cast<StickEffect>(effect_of(value))) {
+    case StickEffect::spring:
+      return {spring.centre, spring.dead_band, spring.coefficient, spring.saturation};
+    case StickEffect::damper:
+      setting.coefficient = command_.damper[value % 2];
+      return setting;
+    default:
+      setting.coefficient = command_.constant[value];
+      return setting;
+  }
+}
+
+HidBytes ReportScheduler::encode(std::size_t value, const PidCondition& setting) const noexcept {
+  const int block = effect_[effect_of(value)].block;
+  if (value < 2) return encode_constant(pid_, block, setting.coefficient);
+  return encode_condition(pid_, block, static_cast<int>(value % 2), setting);
+}
+
+HidBytes ReportScheduler::next(std::int64_t now_ns) noexcept {
+  sent_ = {};
+  expire(now_ns);
+  if (released_ || !command_.enabled) {
+    next_off();
+    if (sent_.report.size > 0) return sent_.report;
+    released_ = false;
+  }
+  if (command_.enabled) next_on(now_ns);
+  return sent_.report;
+}
+
+// Marks the effects whose duration has ended.
+void ReportScheduler::expire(std::int64_t now_ns) noexcept {
+  for (Effect& effect : effect_) {
+    if (finite_ && now_ns - effect.started_ns > kDuration) effect.playing = false;
+  }
+}
+
+// On a device without an actuator switch the values go to zero first, then the effects stop.
+void ReportScheduler::next_off() noexcept {
+  if (on_ && has_switch() && control(PidControl::disable_actuators, Sent::Kind::off)) return;
+  if (plays() && control(PidControl::stop_all, Sent::Kind::all_stopped)) return;
+  for (std::size_t i = 0; i < kValues; ++i) {
+    if (send_value(i, kZero)) return;
+  }
+  for (std::size_t i = 0; i < kStickEffects; ++i) {
+    if (effect_[i].playing && operate(i, PidOperation::stop)) return;
+  }
+}
+
+void ReportScheduler::next_on(std::int64_t now_ns) noexcept {
+  if (!on_ && control(PidControl::enable_actuators, Sent::Kind::on)) return;
+  if (start_if_wanted() || renew_if_due(now_ns)) return;
+  send_worst(now_ns);
+}
+
+// Values are sent before the start, so that an effect never starts with an old force.
+bool ReportScheduler::start_if_wanted() noexcept {
+  for (std::size_t i = 0; i < kStickEffects; ++i) {
+    if (effect_[i].playing || !is_wanted(i)) continue;
+    for (std::size_t value = 0; value < kValues; ++value) {
+      if (effect_of(value) == i && send_value(value, target_value(value))) return true;
+    }
+    if (operate(i, PidOperation::start)) return true;
+  }
+  return false;
+}
+
+bool ReportScheduler::renew_if_due(std::int64_t now_ns) noexcept {
+  if (!finite_) return false;
+  for (std::size_t i = 0; i < kStickEffects; ++i) {
+    const bool due = effect_[i].playing && is_wanted(i) && now_ns >= effect_[i].renew_ns;
+    if (due && operate(i, PidOperation::start)) return true;
+  }
+  return false;
+}
+
+void ReportScheduler::send_worst(std::int64_t now_ns) noexcept {
+  double worst = 0.0;
+  std::size_t index = kValues;
+  for (std::size_t i = 0; i < kValues; ++i) {
+    if (!effect_[effect_of(i)].playing) continue;
+    const double waited = static_cast<double>(std::max<std::int64_t>(1, now_ns - value_[i].since_ns));
+    const double need = difference(value_[i].current, target_value(i)) * waited;
+    if (need <= worst || is_current(i, target_value(i))) continue;
+    worst = need;
+    index = i;
+  }
+  if (index < kValues) send_value(index, target_value(index));
+}
+
+// Compares the encoded bytes: a difference below the device's resolution does not count.
+bool ReportScheduler::is_current(std::size_t value, const PidCondition& setting) noexcept {
+  if (encode(value, setting) != value_[value].sent) return false;
+  value_[value].current = setting;
+  return true;
+}
+
+// False if the device already has this value or does not support it.
+bool ReportScheduler::send_value(std::size_t value, const PidCondition& setting) noexcept {
+  const HidBytes report = encode(value, setting);
+  if (report.size == 0 || is_current(value, setting)) return false;
+  sent_ = {Sent::Kind::value, value, setting, report};
+  return true;
+}
+
+bool ReportScheduler::operate(std::size_t effect, PidOperation operation) noexcept {
+  const HidBytes report = encode_operation(pid_, effect_[effect].block, operation, kOnce);
+  const auto kind = operation == PidOperation::stop ? Sent::Kind::stop : Sent::Kind::start;
+  if (report.size == 0) return false;
+  sent_ = {kind, effect, {}, report};
+  return true;
+}
+
+bool ReportScheduler::control(PidControl control, Sent::Kind kind) noexcept {
+  const HidBytes report = encode_control(pid_, control);
+  if (report.size == 0) return false;
+  sent_ = {kind, 0, {}, report};
+  return true;
+}
+
+void ReportScheduler::arrived(std::int64_t now_ns) noexcept {
+  switch (sent_.kind) {
+    case Sent::Kind::nothing:
+      break;
+    case Sent::Kind::on:
+      on_ = true;
+      switched_on_ns_ = now_ns;
+      break;
+    case Sent::Kind::off:
+      on_ = false;
+      break;
+    case Sent::Kind::all_stopped:
+      for (Effect& effect : effect_) effect.playing = false;
+      break;
+    case Sent::Kind::start:
+      started(effect_[sent_.index], sent_.index, now_ns);
+      break;
+    case Sent::Kind::stop:
+      effect_[sent_.index].playing = false;
+      break;
+    case Sent::Kind::value:
+      value_[sent_.index] = {sent_.setting, sent_.report, now_ns};
+      break;
+  }
+  sent_ = {};
+}
+
+void ReportScheduler::started(Effect& effect, std::size_t index, std::int64_t now_ns) noexcept {
+  const std::int64_t stagger = effect.playing ? 0 : static_cast<std::int64_t>(index) * kRenew / 4;
+  effect.playing = true;
+  effect.started_ns = now_ns;
+  effect.renew_ns = now_ns + kRenew - stagger;
+}
+
+// A state report may be older than the last command, so disagreement within kReportLag is ignored.
+StickFault ReportScheduler::on_report(const PidStatus& status, std::int64_t now_ns) noexcept {
+  const PidState& layout = pid_.state;
+  if (!command_.enabled) return StickFault::none;
+  if (!status.actuator_power) return StickFault::no_power;
+  if (!status.safety_switch) return StickFault::safety_switch;
+  const bool is_off = layout.actuators_enabled.exists() && !status.actuators_enabled;
+  if (is_off && has_switch() && on_ && now_ns - switched_on_ns_ > kReportLag) {
+    on_ = false;
+    return StickFault::switched_off;
+  }
+  if (!layout.playing.exists() || !layout.block.exists() || status.playing) return StickFault::none;
+  expire(now_ns);
+  for (std::size_t i = 0; i < kStickEffects; ++i) {
+    Effect& effect = effect_[i];
+    if (effect.block != status.block || !effect.playing || !is_wanted(i)) continue;
+    if (now_ns - effect.started_ns <= kReportLag) continue;
+    effect.playing = false;
+    return StickFault::effect_stopped;
+  }
+  return StickFault::none;
+}
+
+}  // namespace gearshift::haptics

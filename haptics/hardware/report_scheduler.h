@@ -1,0 +1,111 @@
+// Chooses the next output report that brings a stick closer to the current command: one report at a time, most
+// important first. Pure logic without a clock or a device.
+//
+//   1  off        after release() or while disabled: actuators off, stop all, values to zero
+//   2  on         actuators on; for each effect needed but not playing: first its values, then its start
+//   3  renew      an effect that has played for kRenewAfter is started again, long before it ends
+//   4  values     the value with the largest error times waiting time, so that none starves
+//   5  nothing    if nothing has changed
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "haptics/hardware/stick_command.h"
+#include "haptics/hid/pid_report.h"
+
+namespace gearshift::haptics {
+
+inline constexpr double kEffectDuration = 0.3;  // [s] an effect ends after this time unless it is renewed
+inline constexpr double kRenewAfter = 0.1;      // [s] after an effect's start
+
+// The effects created on a stick.
+enum class StickEffect : std::uint8_t { constant_x, constant_y, spring, damper };
+inline constexpr std::size_t kStickEffects = 4;
+using StickBlocks = std::array<int, kStickEffects>;  // effect block index per effect; kNoBlock: not created
+
+// A fault found in a device's state report.
+enum class StickFault : std::uint8_t { none, switched_off, effect_stopped, no_power, safety_switch };
+
+class ReportScheduler {
+ public:
+  explicit ReportScheduler(const PidLayout& pid) noexcept : pid_(pid) {}  // pid must outlive it
+
+  // Starts from the state in which prepare_stick() leaves the device: actuators off, nothing playing, every value zero.
+  // finite: effects end by themselves after kEffectDuration.
+  void begin(const StickBlocks& blocks, bool finite) noexcept;
+
+  void set_command(const StickCommand& command) noexcept { command_ = command; }
+  void release() noexcept { released_ = true; }  // switches off first, whatever the command says
+
+  // The next report; size 0: none. Call it after the last one has arrived; if called earlier, the last one counts as
+  // lost and is scheduled again.
+  HidBytes next(std::int64_t now_ns) noexcept;
+  void arrived(std::int64_t now_ns) noexcept;
+  StickFault on_report(const PidStatus& status, std::int64_t now_ns) noexcept;
+
+  // What the device renders now.
+  std::array<double, 2> force() const noexcept;      // [1] constant forces
+  std::array<PidSpring, 2> spring() const noexcept;  // coefficient 0: none
+  bool drives() const noexcept;                      // actuators on and an effect playing, as far as is known
+
+ private:
+  // Values: constant X, Y, spring X, Y, damper X, Y. The magnitude of a constant force is stored as its coefficient.
+  static constexpr std::size_t kValues = 6;
+  static constexpr std::size_t effect_of(std::size_t value) noexcept { return value < 2 ? value : value / 2 + 1; }
+
+  struct Effect {
+    int block = kNoBlock;
+    bool playing = false;
+    std::int64_t started_ns = 0;
+    std::int64_t renew_ns = 0;  // staggered, so that the effects are not all renewed at once
+  };
+  struct Value {
+    PidCondition current;
+    HidBytes sent;
+    std::int64_t since_ns = 0;
+  };
+  struct Sent {  // the report in transit
+    enum class Kind : std::uint8_t { nothing, on, off, all_stopped, start, stop, value };
+    Kind kind = Kind::nothing;
+    std::size_t index = 0;
+    PidCondition setting;
+    HidBytes report;
+  };
+
+  bool supports(PidControl control) const noexcept {
+    return pid_.device_control.control.supports(static_cast<std::size_t>(control));
+  }
+  bool has_switch() const noexcept {
+    return supports(PidControl::enable_actuators) && supports(PidControl::disable_actuators);
+  }
+  bool plays() const noexcept;
+  bool is_wanted(std::size_t effect) const noexcept;
+  PidCondition target_value(std::size_t value) const noexcept;
+  HidBytes encode(std::size_t value, const PidCondition& setting) const noexcept;
+
+  void expire(std::int64_t now_ns) noexcept;
+  void next_off() noexcept;
+  void next_on(std::int64_t now_ns) noexcept;
+  bool start_if_wanted() noexcept;
+  bool renew_if_due(std::int64_t now_ns) noexcept;
+  void send_worst(std::int64_t now_ns) noexcept;
+  bool is_current(std::size_t value, const PidCondition& setting) noexcept;
+  bool send_value(std::size_t value, const PidCondition& setting) noexcept;
+  bool operate(std::size_t effect, PidOperation operation) noexcept;
+  bool control(PidControl control, Sent::Kind kind) noexcept;
+  void started(Effect& effect, std::size_t index, std::int64_t now_ns) noexcept;
+
+  const PidLayout& pid_;
+  StickCommand command_;
+  bool released_ = false;
+  bool finite_ = true;
+  bool on_ = false;  // actuators
+  std::int64_t switched_on_ns_ = 0;
+  std::array<Effect, kStickEffects> effect_{};
+  std::array<Value, kValues> value_{};
+  Sent sent_;
+};
+
+}  // namespace gearshift::haptics

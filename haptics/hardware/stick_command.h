@@ -1,0 +1,22 @@
+// Command to a stick, as fractions of its full force and of its axes' full deflection.
+#pragma once
+
+#include <array>
+
+namespace gearshift::haptics {
+
+struct PidSpring {  // fractions as in PidCondition
+  double centre = 0.0, dead_band = 0.0, coefficient = 0.0, saturation = 1.0;
+  bool operator==(const PidSpring&) const = default;
+};
+
+// In effect until the next command. Arrays are in the device's axis order: X, Y.
+struct StickCommand {
+  bool enabled = false;               // false: actuators off
+  std::array<double, 2> constant{};   // [1] -1 to 1 of the full force
+  std::array<PidSpring, 2> spring{};  // coefficient 0: none
+  std::array<double, 2> damper{};     // [1] -1 to 1 of the maximum coefficient; 0: none
+  bool operator==(const StickCommand&) const = default;
+};
+
+}  // namespace gearshift::haptics

@@ -1,0 +1,74 @@
+// Interface between the haptic cycle and the mechanical load on the lever, such as the driveline of a car.
+//
+// The loop calls step() once per cycle on the haptic thread, after the coupling and the gate's feel and before the
+// guard. The first call has period 0.
+//
+// step() must not allocate, lock, wait or make a system call. Its result may depend only on its own state, the input
+// and the period, so that a recording replays bit for bit.
+//
+// step() may return any finite force; the guard makes it safe. Depth limits take effect in the next cycle and never
+// move the lever: if the lever is outside a limit, the limit is applied at the lever's depth.
+//
+// `vibration` is the part of the force that shakes the lever intentionally, so that the loop does not mistake it for
+// chatter on a wall. It must only contain forces with a frequency of their own, none that react to the lever's motion.
+//
+//   LeverOutput NoLoad::step(const LeverInput&, double) noexcept { return {}; }
+#pragma once
+
+#include <limits>
+
+#include <glm/vec2.hpp>
+
+#include "haptics/gate/gate.h"
+
+namespace gearshift::haptics {
+
+// The driver's other controls and the settings of a lesson. The frame thread writes them as one value.
+struct DriverControls {
+  double throttle = 0.0;    // [1] 0 to 1
+  double brake = 0.0;       // [1] 0 to 1
+  double clutch = 0.0;      // [1] 0 = pedal up (closed), 1 = fully pressed (open)
+  double hand_brake = 0.0;  // [1] 0 to 1
+  bool ignition = false;
+  bool starter = false;
+  double slope = 0.0;              // [rad] of the road, uphill +
+  int guided_gear = kNeutralGear;  // gear to which the guidance leads the hand
+  double guidance = 0.0;           // [1] 0 to 1, strength of the guidance; 0: none
+};
+
+struct LeverInput {
+  glm::dvec2 position{0.0};  // [m] lever point
+  glm::dvec2 velocity{0.0};  // [m/s] smoothed
+  glm::dvec2 proxy{0.0};     // [m] proxy
+  glm::dvec2 push{0.0};      // [N] force of the hand on the knob, measured or estimated
+  int slot = kNoSlot;        // slot of the proxy
+  double depth = 0.0;        // [m] depth of the proxy in that slot, from the aisle's centre line; 0 outside
+  int gear = kNeutralGear;   // engaged gear
+  DriverControls controls;
+};
+
+struct LeverOutput {
+  glm::dvec2 force{0.0};  // [N] on the lever
+  glm::dvec2 vibration{
+      0.0};  // [N] part of `force` that vibrates by itself, independent of the lever's motion: a stalling engine
+  int limited_slot = kNoSlot;  // slot with a depth limit: a blocking synchroniser, a torque lock
+  double depth_min = 0.0;      // [m]
+  double depth_max = std::numeric_limits<double>::max();  // [m]
+  double road_speed = 0.0;                                // [m/s] forward +; drives the speed lockout
+};
+
+class LeverLoad {
+ public:
+  virtual ~LeverLoad() = default;
+  virtual LeverOutput step(const LeverInput& in, double period) noexcept = 0;  // period [s]
+  // Identifies the model and its parameters in a trace; a replay rejects a different one.
+  virtual const char* replay_parameters() const noexcept = 0;
+};
+
+class NoLoad final : public LeverLoad {
+ public:
+  LeverOutput step(const LeverInput&, double) noexcept override { return {}; }
+  const char* replay_parameters() const noexcept override { return "none"; }
+};
+
+}  // namespace gearshift::haptics

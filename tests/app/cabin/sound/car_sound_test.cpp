@@ -1,0 +1,197 @@
+// The driveline's sounds: starter, stall, limiter, over-rev, grind.
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <span>
+
+#include <doctest/doctest.h>
+
+#include "app/cabin/sound/car_synth.h"
+#include "tests/app/cabin/sound/cabin.h"
+
+using namespace gearshift::cabin;
+using namespace gearshift::engine;
+using namespace gearshift::test;
+using namespace gearshift::vehicle;
+
+namespace {
+
+constexpr double kRadPerRpm = std::numbers::pi / 30.0;
+
+VehicleState dead(double rpm) {
+  VehicleState car;
+  car.engine_speed = rpm * kRadPerRpm;
+  car.running = false;
+  return car;
+}
+
+VehicleState cranked(double rpm) {
+  VehicleState car = dead(rpm);
+  car.cranking = true;
+  return car;
+}
+
+VehicleState grinding(double difference, double power) {
+  VehicleState car;
+  car.grinding = true;
+  car.dog_difference = difference;
+  car.grind_power = power;
+  return car;
+}
+
+std::vector<double> heard(Cabin& cabin, const VehicleState& car, double seconds = 2.0) {
+  cabin.car = car;
+  cabin.run(0.1);
+  return left(cabin.run(seconds));
+}
+
+// The power spectrum's line at `frequency`, relative to its neighbours. [Hz]
+double line_prominence(std::vector<double> x, double frequency) {
+  for (double& v : x) v = v * v;
+  return amplitude_at(x, frequency) / std::max(amplitude_at(x, 0.77 * frequency), amplitude_at(x, 1.27 * frequency));
+}
+
+bool silent(Cabin& cabin, const VehicleState& car) {
+  cabin.car = car;
+  cabin.run(0.5);  // the held sound has ended
+  return peak(doubles(cabin.run(0.3))) == 0.0;
+}
+
+}  // namespace
+
+TEST_CASE("the starter whines at 130 / 60 of the engine's speed and pulses with its compressions, n / 30") {
+  Cabin cabin;
+  for (const double rpm : {120.0, 200.0, 280.0}) {
+    CAPTURE(rpm);
+    const std::vector<double> x = heard(cabin, cranked(rpm));
+    CHECK(strongest_line(x) == doctest::Approx(rpm * 130.0 / 60.0).epsilon(0.005));
+    CHECK(line_prominence(x, rpm / 30.0) > 3.0);
+  }
+  CHECK(silent(cabin, dead(0.0)));
+  Cabin without({.engine = false});
+  CHECK(silent(without, cranked(200.0)));
+}
+
+TEST_CASE("a stall judders with the firings at 60 Hz per 400 rpm, falls with the engine's speed, and ends in silence") {
+  Cabin cabin;
+  double last_level = 1e9, last_tone = 1e9;
+  for (const double rpm : {500.0, 400.0, 300.0, 200.0}) {
+    VehicleState car = dead(rpm);
+    car.stalled = true;
+    car.shudder = std::min(1.0, rpm / 500.0);
+    const std::vector<double> x = heard(cabin, car);
+    CAPTURE(rpm);
+    CHECK(strongest_line(x) == doctest::Approx(60.0 * rpm / 400.0).epsilon(0.01));
+    CHECK(line_prominence(x, rpm / 30.0) > 3.0);
+    CHECK(strongest_line(x) < last_tone);
+    CHECK(rms(x) < last_level);
+    last_tone = strongest_line(x);
+    last_level = rms(x);
+  }
+  CHECK(silent(cabin, dead(0.0)));
+}
+
+TEST_CASE("an engine at idle or under load does not judder") {
+  Cabin one, other;
+  VehicleState car = running(800.0, 0.2);
+  const std::vector<double> idle = heard(one, car);
+  car.shudder = 0.5;
+  const std::vector<double> shaken = heard(other, car);
+  CHECK(amplitude_at(shaken, 120.0) > 3.0 * amplitude_at(idle, 120.0));  // 60 Hz * 800 / 400
+}
+
+TEST_CASE(
+    "the limiter stutters 12 times a second while fuel is cut, continuously within its band, and not afterwards") {
+  Cabin cabin;
+  VehicleState car = running(6450.0, 0.0);
+  const std::vector<double> calm = heard(cabin, car);
+  CHECK(line_prominence(calm, kLimiterRate) < 3.0);
+  cabin.run(0.1);
+  std::vector<float> stereo;
+  for (int frame = 0; frame < 180; ++frame) {  // 30 ms on, 60 ms off, as the hatchback's limiter does
+    cabin.car.fuel_cut = frame % 6 < 2;
+    const std::vector<float> some = cabin.run(kFrame);
+    stereo.insert(stereo.end(), some.begin(), some.end());
+  }
+  CHECK(line_prominence(left(stereo), kLimiterRate) > 4.0);
+  CHECK(level(stereo) > 1.2 * rms(calm));
+  CHECK(line_prominence(heard(cabin, car), kLimiterRate) < 3.0);
+}
+
+TEST_CASE("fuel that is cut in one frame of six is one continuous stutter") {
+  Cabin cabin;
+  std::vector<float> stereo;
+  for (int frame = 0; frame < 120; ++frame) {
+    cabin.car = VehicleState{};  // a stopped engine makes no other sound
+    cabin.car.fuel_cut = frame % 6 == 0;
+    const std::vector<float> some = cabin.run(kFrame);
+    stereo.insert(stereo.end(), some.begin(), some.end());
+  }
+  const std::vector<double> x = left(stereo);
+  const auto window = static_cast<std::size_t>(kSoundRate / kLimiterRate);
+  double softest = 1e9;
+  for (std::size_t n = window; n + window <= x.size(); n += window)
+    softest = std::min(softest, peak(std::span(x).subspan(n, window)));
+  CHECK(peak(x) > 0.005);
+  CHECK(softest > 0.3 * peak(x));
+}
+
+TEST_CASE("over-rev: 900 Hz, four times a second, from the first frame until one hold after it ends") {
+  Cabin cabin({.engine = false});
+  cabin.run(0.13);
+  cabin.car.over_revved = true;
+  CHECK(strongest_line(left(cabin.run(0.1))) == doctest::Approx(kOverRevTone).epsilon(0.01));
+  cabin.run(0.15);
+  std::vector<double> x = left(cabin.run(2.0));
+  CHECK(line_prominence(x, kOverRevRate) > 3.0);
+  cabin.car.over_revved = false;
+  CHECK(silent(cabin, VehicleState{}));
+}
+
+TEST_CASE("a stall is announced by one chime, with the ignition on; a start or turning the key is not") {
+  Cabin cabin({.engine = false});
+  const auto chimes = [&](const VehicleState& car) {
+    cabin.car = car;
+    return strongest_line(left(cabin.run(0.2))) == doctest::Approx(kStallTones[0]).epsilon(0.02);
+  };
+  VehicleState stalled = dead(0.0);
+  stalled.stalled = true;
+  VehicleState off = dead(0.0);
+  off.ignition = false;
+  CHECK_FALSE(chimes(off));
+  CHECK(silent(cabin, dead(0.0)));  // the ignition is on, the engine stands: it was never running
+  CHECK_FALSE(chimes(cranked(200.0)));
+  CHECK_FALSE(chimes(running(800.0, 0.1)));
+  CHECK(chimes(stalled));
+  cabin.run(1.2);
+  CHECK(silent(cabin, stalled));  // only once
+  VehicleState cranks_again = cranked(200.0);
+  cranks_again.stalled = true;
+  CHECK_FALSE(chimes(cranks_again));
+  CHECK(silent(cabin, stalled));
+  CHECK_FALSE(chimes(running(800.0, 0.1)));
+  CHECK_FALSE(chimes(off));
+  CHECK(silent(cabin, dead(0.0)));
+  Cabin late({.engine = false});
+  late.car = stalled;
+  CHECK(peak(doubles(late.run(0.3))) == 0.0);  // it had stalled before the sound began
+}
+
+TEST_CASE("dogs rattle |difference| * teeth / (2 pi) times a second, louder with the power, from 37.5 to 600 Hz") {
+  Cabin cabin({.engine = false});
+  for (const double difference : {10.0, 26.18, -59.0, 100.0}) {
+    CAPTURE(difference);
+    const double rate = std::abs(difference) * 36.0 / (2.0 * std::numbers::pi);
+    CHECK(line_prominence(heard(cabin, grinding(difference, 50.0)), rate) > 3.0);
+  }
+  Cabin coarse({.engine = false, .dog_teeth = 24.0});
+  const std::vector<double> x = heard(coarse, grinding(30.0, 50.0));
+  CHECK(line_prominence(x, 30.0 * 24.0 / (2.0 * std::numbers::pi)) > 3.0);
+  CHECK(line_prominence(x, 30.0 * 36.0 / (2.0 * std::numbers::pi)) < 2.0);
+  const double soft = rms(heard(cabin, grinding(30.0, 0.0))), loud = rms(heard(cabin, grinding(30.0, 100.0)));
+  CHECK(soft > 0.005);
+  CHECK(loud / soft == doctest::Approx(0.5 / 0.32).epsilon(0.02));
+  VehicleState apart = grinding(30.0, 100.0);
+  apart.grinding = false;
+  CHECK(silent(cabin, apart));
+}

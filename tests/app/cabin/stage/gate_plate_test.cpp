@@ -1,0 +1,228 @@
+#include "app/cabin/stage/gate_plate.h"
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "app/lab/random_gates/random_layout.h"
+#include "haptics/gate/gate_description.h"
+#include "tests/support/gates.h"
+#include "tests/support/whole_campaign.h"
+
+namespace gearshift::test {
+namespace {
+
+constexpr haptics::YokeGeometry kYoke;
+constexpr int kRandomLayouts = 50;
+
+struct NamedGate {
+  std::string name;
+  haptics::Gate gate;
+};
+
+std::vector<NamedGate> all_gates() {
+  std::vector<NamedGate> gates;
+  for (const std::string& name : shipped_names()) gates.push_back({name, shipped_gate(name)});
+  for (std::uint64_t seed = 1; seed <= kRandomLayouts; ++seed) {
+    gates.push_back(
+        {"random " + std::to_string(seed), haptics::compile_gate(lab::random_layout(seed), kPaperWorkspace)});
+  }
+  return gates;
+}
+
+struct Flat {
+  glm::dvec2 a, b, c;
+};
+
+// The metal as a rod through the pivot meets it: all triangles of the plate, projected centrally onto its face.
+std::vector<Flat> metal_seen_from_pivot(const cabin::MeshData& metal) {
+  std::vector<Flat> flats;
+  const auto seen = [&](std::uint32_t index) {
+    const glm::dvec3 p(metal.vertices[index].position);
+    return glm::dvec2(p.x, -p.z) * (cabin::kPlateHeight / p.y);
+  };
+  for (std::size_t i = 0; i < metal.indices.size(); i += 3) {
+    flats.push_back({seen(metal.indices[i]), seen(metal.indices[i + 1]), seen(metal.indices[i + 2])});
+  }
+  return flats;
+}
+
+double distance_to_edge(glm::dvec2 p, glm::dvec2 a, glm::dvec2 b) {
+  const glm::dvec2 along = b - a;
+  const double length_2 = glm::dot(along, along);
+  const double t = length_2 > 0.0 ? std::clamp(glm::dot(p - a, along) / length_2, 0.0, 1.0) : 0.0;
+  return glm::distance(p, a + t * along);
+}
+
+bool is_inside(glm::dvec2 p, const Flat& f) {
+  const auto side = [&](glm::dvec2 a, glm::dvec2 b) { return (b.x - a.x) * (p.y - a.y) - (b.y - a.y) * (p.x - a.x); };
+  const double s = side(f.a, f.b), t = side(f.b, f.c), u = side(f.c, f.a);
+  return (s > 0.0 && t > 0.0 && u > 0.0) || (s < 0.0 && t < 0.0 && u < 0.0);
+}
+
+double distance_to_metal(const std::vector<Flat>& metal, glm::dvec2 p) {
+  double nearest = 1.0;
+  for (const Flat& f : metal) {
+    if (is_inside(p, f)) return 0.0;
+    nearest = std::min(
+        {nearest, distance_to_edge(p, f.a, f.b), distance_to_edge(p, f.b, f.c), distance_to_edge(p, f.c, f.a)});
+  }
+  return nearest;
+}
+
+// Where the straight line from the yoke's centre to the knob above a gate point crosses the plate, in terms of angles:
+// tan(theta) = px / pz, pz = rho times the cosine of the lever's lean.
+glm::dvec2 crossing(glm::dvec2 p) {
+  const double lean = std::asin(glm::length(p) / kYoke.radius);
+  const double azimuth = std::atan2(p.y, p.x);
+  return cabin::kPlateHeight * std::tan(lean) * glm::dvec2(std::cos(azimuth), std::sin(azimuth));
+}
+
+// A round rod cuts a convex corner of the metal: its centre passes a right angle within (sqrt 2 - 1) times its radius
+// behind the corner. True if the rod can pass a wall point for that reason.
+bool is_behind_a_corner(const haptics::Gate& gate, const cabin::SlotOpening& opening, glm::dvec2 p) {
+  const double deepest = (std::sqrt(2.0) - 1.0) * opening.widened * kYoke.radius / cabin::kPlateHeight;
+  if (!haptics::in_free_space(gate, p, deepest + 0.0002)) return false;
+  for (const haptics::WallInfo& wall : haptics::describe_gate(gate).walls) {
+    for (const glm::dvec2 corner : {wall.from, wall.to}) {
+      if (glm::distance(crossing(corner), crossing(p)) < opening.widened + 0.0002) return true;
+    }
+  }
+  return false;
+}
+
+glm::dvec2 random_point(const haptics::Gate& gate, std::mt19937_64& dice) {
+  double deepest = 0.0;
+  for (const haptics::Slot& slot : haptics::slots(gate)) deepest = std::max(deepest, slot.end);
+  const double margin = 0.004;
+  std::uniform_real_distribution<double> x(gate.select_min - margin, gate.select_max + margin);
+  std::uniform_real_distribution<double> y(-deepest - margin, deepest + margin);
+  return {x(dice), y(dice)};
+}
+
+}  // namespace
+
+TEST_CASE("the lever's rod meets the plate's metal exactly where the gate has a wall, except for rounded corners") {
+  // 0.2 mm at the knob is at least 0.1 mm on the plate: more than one grid cell cuts off a corner.
+  constexpr double kMargin = 0.0002;
+  const int share = is_whole_campaign() ? 1 : 4;
+  int checked = 0, free = 0, rounded = 0;
+  for (const NamedGate& named : all_gates()) {
+    const bool shipped = named.name.rfind("random", 0) != 0;
+    const cabin::GatePlate plate = cabin::make_gate_plate(named.gate, kYoke);
+    const std::vector<Flat> metal = metal_seen_from_pivot(plate.metal);
+    std::mt19937_64 dice(7);
+    for (int i = 0; i < (shipped ? 2000 : 200) / share; ++i) {
+      const glm::dvec2 p = random_point(named.gate, dice);
+      const bool surely_free = haptics::in_free_space(named.gate, p, -kMargin);
+      const bool surely_wall = !haptics::in_free_space(named.gate, p, kMargin);
+      if (!surely_free && !surely_wall) continue;
+      const bool meets = distance_to_metal(metal, crossing(p)) < plate.opening.widened;
+      CAPTURE(named.name);
+      CAPTURE(p.x);
+      CAPTURE(p.y);
+      if (surely_wall && !meets && is_behind_a_corner(named.gate, plate.opening, p)) {
+        ++rounded;
+        continue;
+      }
+      if (surely_free == meets) CHECK(surely_free != meets);
+      ++checked;
+      free += surely_free ? 1 : 0;
+    }
+  }
+  CHECK(checked > 15000 / share);
+  CHECK(free > 4000 / share);
+  CHECK(checked - free > 4000 / share);
+  CHECK(rounded < checked / 50);
+}
+
+TEST_CASE("a leaning round rod fits everywhere: its section with the plate is an ellipse, not a circle") {
+  double most = 0.0;
+  for (const NamedGate& named : all_gates()) {
+    const cabin::GatePlate plate = cabin::make_gate_plate(named.gate, kYoke);
+    for (const haptics::Slot& slot : haptics::slots(named.gate)) {
+      const glm::dvec2 p(haptics::column_of(named.gate, slot.column).center, static_cast<int>(slot.side) * slot.end);
+      const double lean = std::asin(glm::length(p) / kYoke.radius);
+      CHECK(plate.opening.rod_radius / std::cos(lean) <= plate.opening.widened);
+      most = std::max(most, plate.opening.rod_radius / std::cos(lean) / plate.opening.widened);
+    }
+  }
+  CHECK(most > 0.9);  // and the opening is no wider than necessary
+}
+
+TEST_CASE("every layout gives a plate without holes or slivers: closed except for its foot and its throat") {
+  for (const NamedGate& named : all_gates()) {
+    const cabin::GatePlate plate = cabin::make_gate_plate(named.gate, kYoke);
+    CAPTURE(named.name);
+    double area = 0.0;
+    int bad = 0, turned = 0;
+    for (std::size_t i = 0; i < plate.metal.indices.size(); i += 3) {
+      const engine::Vertex& a = plate.metal.vertices[plate.metal.indices[i]];
+      const engine::Vertex& b = plate.metal.vertices[plate.metal.indices[i + 1]];
+      const engine::Vertex& c = plate.metal.vertices[plate.metal.indices[i + 2]];
+      const glm::dvec3 cross = glm::cross(glm::dvec3(b.position - a.position), glm::dvec3(c.position - a.position));
+      const double twice = glm::length(cross);
+      if (!std::isfinite(twice)) ++bad;
+      for (const engine::Vertex* v : {&a, &b, &c}) {
+        if (std::abs(glm::length(v->normal) - 1.0f) > 1e-4f) ++bad;
+        if (twice > 1e-10 && glm::dot(cross / twice, glm::dvec3(v->normal)) < 0.5) ++turned;
+      }
+      if (a.position.y == b.position.y && b.position.y == c.position.y) area += 0.5 * twice;
+    }
+    CHECK(bad == 0);
+    CHECK(turned == 0);
+    // The face's area is its outline minus its hole: no triangle is missing or overlaps another.
+    const double outline = cabin::signed_area(cabin::rounded_rectangle(plate.half - 0.0004, 0.0096, 6));
+    const double hole = cabin::signed_area(plate.opening.loop);
+    CHECK(hole > 0.0);
+    CHECK(area < outline - hole);
+    CHECK(area > outline - hole - 0.0005 * 0.8);  // minus the bevel: 0.4 mm along at most 0.8 m of edge
+    CHECK(plate.opening.rod_radius > 0.0002);
+  }
+}
+
+TEST_CASE("every gear's sign is on the plate at the end of its slot, on metal") {
+  for (const NamedGate& named : all_gates()) {
+    const cabin::GatePlate plate = cabin::make_gate_plate(named.gate, kYoke);
+    const std::vector<Flat> metal = metal_seen_from_pivot(plate.metal);
+    CAPTURE(named.name);
+    REQUIRE(plate.labels.size() == static_cast<std::size_t>(named.gate.slot_count));
+    for (const cabin::PlateLabel& label : plate.labels) {
+      CAPTURE(label.gear);
+      const haptics::Slot& slot = haptics::slot_of(named.gate, haptics::slot_of_gear(named.gate, label.gear));
+      const glm::dvec2 end =
+          crossing({haptics::column_of(named.gate, slot.column).center, static_cast<int>(slot.side) * slot.end});
+      CHECK(std::abs(label.centre.x - end.x) < 1e-9);
+      CHECK((label.centre.y - end.y) * static_cast<int>(slot.side) > 0.5 * label.height + plate.opening.widened);
+      CHECK(glm::distance(label.centre, end) < 0.0155);
+    }
+    CHECK(plate.half.x < 0.064);  // the plate fits on its plinth
+    CHECK(plate.half.y < 0.068);
+    CHECK(distance_to_metal(metal, plate.lamp) == 0.0);
+    std::size_t counted = 0;
+    for (const engine::Vertex& v : plate.ink.vertices) {
+      if (counted++ % 4 != 0 && !is_whole_campaign()) continue;
+      if (distance_to_metal(metal, {v.position.x, -v.position.z}) > 0.0) {
+        CHECK(distance_to_metal(metal, {v.position.x, -v.position.z}) == 0.0);
+      }
+    }
+  }
+}
+
+TEST_CASE("the two mappings between knob and plate are inverse") {
+  std::mt19937_64 dice(3);
+  std::uniform_real_distribution<double> x(-0.077, 0.077), y(-0.068, 0.068);
+  for (int i = 0; i < 1000; ++i) {
+    const glm::dvec2 p(x(dice), y(dice));
+    CHECK(glm::distance(cabin::plate_point(kYoke, p, 0.05), 0.05 / cabin::kPlateHeight * crossing(p)) < 1e-12);
+    CHECK(glm::distance(cabin::gate_point(kYoke, cabin::plate_point(kYoke, p, 0.05), 0.05), p) < 1e-12);
+  }
+}
+
+}  // namespace gearshift::test

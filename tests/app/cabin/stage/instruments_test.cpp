@@ -1,0 +1,127 @@
+#include "app/cabin/stage/instruments.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <doctest/doctest.h>
+
+namespace gearshift::test {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+
+vehicle::VehicleState running(double rpm) {
+  vehicle::VehicleState car;
+  car.engine_speed = rpm * kPi / 30.0;
+  return car;
+}
+
+float light(cabin::Lamp lamp, const vehicle::VehicleState& car, double time = 0.0) {
+  return cabin::lamp_light(lamp, car, haptics::HapticSnapshot{}, time);
+}
+
+}  // namespace
+
+TEST_CASE("half of the scale is at twelve o'clock, its ends 135 deg to the left and right") {
+  CHECK(cabin::tach_angle(running(4000.0)) == doctest::Approx(0.0));
+  CHECK(cabin::tach_angle(running(0.0)) == doctest::Approx(0.75 * kPi));
+  CHECK(cabin::tach_angle(running(8000.0)) == doctest::Approx(-0.75 * kPi));
+  CHECK(cabin::tach_angle(running(1000.0)) - cabin::tach_angle(running(3000.0)) == doctest::Approx(67.5 * kPi / 180.0));
+  vehicle::VehicleState car;
+  car.road_speed = 110.0 / 3.6;
+  CHECK(cabin::speed_angle(car) == doctest::Approx(0.0));
+  car.road_speed = -110.0 / 3.6;
+  CHECK(cabin::speed_angle(car) == doctest::Approx(0.0));
+}
+
+TEST_CASE("a needle stays on its scale") {
+  CHECK(cabin::tach_angle(running(12000.0)) == cabin::tach_angle(running(8000.0)));
+  CHECK(cabin::needle_angle(-5.0, 220.0) == cabin::needle_angle(0.0, 220.0));
+}
+
+TEST_CASE("engine lamps are on while it is stopped with ignition, and go out when it runs") {
+  for (const cabin::Lamp lamp : {cabin::Lamp::oil, cabin::Lamp::battery, cabin::Lamp::engine}) {
+    CHECK(light(lamp, running(0.0)) == 1.0f);
+    CHECK(light(lamp, running(800.0)) == 0.0f);
+    vehicle::VehicleState off = running(0.0);
+    off.ignition = false;
+    CHECK(light(lamp, off) == 0.0f);
+  }
+  vehicle::VehicleState dying = running(600.0);
+  dying.running = false;
+  CHECK(light(cabin::Lamp::engine, dying) == 1.0f);
+  vehicle::VehicleState car = running(0.0);
+  CHECK(light(cabin::Lamp::stall, car) == 0.0f);
+  car.stalled = true;
+  CHECK(light(cabin::Lamp::stall, car) == 1.0f);
+  CHECK(light(cabin::Lamp::hand_brake, car) == 0.0f);
+  car.hand_brake = 1.0;
+  CHECK(light(cabin::Lamp::hand_brake, car) == 1.0f);
+}
+
+TEST_CASE("the engine lamp warns beyond the car's own red line") {
+  for (const double rpm : {4800.0, 7200.0}) {  // a diesel engine's, a petrol engine's
+    vehicle::VehicleState car = running(rpm);
+    CHECK(light(cabin::Lamp::engine, car) == 0.0f);
+    car.over_revved = true;
+    CHECK(light(cabin::Lamp::engine, car) == 1.0f);
+    car.ignition = false;
+    CHECK(light(cabin::Lamp::engine, car) == 0.0f);
+  }
+}
+
+TEST_CASE("nothing trembles without a shudder; with one it swings about zero, in proportion") {
+  vehicle::VehicleState car = running(400.0);
+  for (int i = 0; i < 100; ++i) CHECK(cabin::vibration(car, 0.013 * i) == 0.0);
+  for (const double shudder : {0.2, 1.0, 7.0}) {
+    car.shudder = shudder;
+    double most = 0.0, mean = 0.0;
+    for (int i = 0; i < 10000; ++i) {
+      most = std::max(most, std::abs(cabin::vibration(car, 1e-3 * i)));
+      mean += 1e-4 * cabin::vibration(car, 1e-3 * i);
+    }
+    CHECK(most <= std::min(shudder, 1.0));
+    CHECK(most > 0.9 * std::min(shudder, 1.0));
+    CHECK(std::abs(mean) < 1e-3);
+    CHECK(cabin::vibration(car, 12.34) == cabin::vibration(car, 12.34));
+  }
+}
+
+TEST_CASE("indicators blink at 1.5 Hz, on half of the time, each side independently") {
+  vehicle::VehicleState car = running(900.0);
+  car.turn_left = true;
+  int lit = 0, edges = 0;
+  bool was = light(cabin::Lamp::turn_left, car, 0.0) > 0.0f;
+  constexpr int kSamples = 20000;  // 20 s
+  for (int i = 0; i < kSamples; ++i) {
+    const bool now = light(cabin::Lamp::turn_left, car, 0.001 * i) > 0.0f;
+    lit += now ? 1 : 0;
+    edges += now != was ? 1 : 0;
+    was = now;
+    CHECK(light(cabin::Lamp::turn_right, car, 0.001 * i) == 0.0f);
+  }
+  CHECK(lit == doctest::Approx(0.5 * kSamples).epsilon(0.01));
+  CHECK(edges >= 59);
+  CHECK(edges <= 60);
+}
+
+TEST_CASE("the lamp at the lever warns of over-push and of saturation, and of nothing else") {
+  haptics::HapticSnapshot lever;
+  for (std::uint32_t bit = 0; bit < 6; ++bit) {
+    lever.flags = 1u << bit;
+    const bool warns = lever.flags == haptics::kFlagOverPush || lever.flags == haptics::kFlagSaturated;
+    CHECK(cabin::lamp_light(cabin::Lamp::lever, vehicle::VehicleState{}, lever, 0.0) == (warns ? 1.0f : 0.0f));
+  }
+}
+
+TEST_CASE("controls move with the foot and the hand and stop at their ends") {
+  CHECK(cabin::pedal_angle(0.0) == 0.0);
+  CHECK(cabin::pedal_angle(0.5) == doctest::Approx(0.5 * cabin::pedal_angle(1.0)));
+  CHECK(cabin::pedal_angle(3.0) == cabin::pedal_angle(1.0));
+  CHECK(cabin::pedal_angle(1.0) > 0.2);
+  CHECK(cabin::hand_brake_angle(-1.0) == 0.0);
+  CHECK(cabin::hand_brake_angle(2.0) == cabin::hand_brake_angle(1.0));
+}
+
+}  // namespace gearshift::test

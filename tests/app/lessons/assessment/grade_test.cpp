@@ -1,0 +1,162 @@
+// The arithmetic of grades: every deducted point names its driving error.
+#include "app/lessons/assessment/grade.h"
+
+#include <utility>
+
+#include <doctest/doctest.h>
+
+using namespace gearshift::lessons;
+
+namespace {
+
+Lesson lesson_that_catches(std::vector<ErrorKind> kinds) {
+  Lesson lesson;
+  lesson.pass_grade = 6.0;
+  lesson.time_limit = 90.0;
+  lesson.fails_on = std::move(kinds);
+  return lesson;
+}
+
+LessonResult done_with(const std::vector<Severity>& severities) {
+  LessonResult result;
+  result.end = LessonEnd::done;
+  for (const Severity severity : severities) result.errors.push_back({ErrorKind::jerk, severity, 1.0, 60.0, 0});
+  return result;
+}
+
+LessonResult graded(LessonResult result, const Lesson& lesson = lesson_that_catches({})) {
+  grade_result(lesson, result);
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("ten points, less half for a minor fault, two for a severe, four for a very severe, none for a note") {
+  CHECK(graded(done_with({})).grade == 10.0);
+  CHECK(graded(done_with({Severity::note})).grade == 10.0);
+  CHECK(graded(done_with({Severity::minor})).grade == 9.5);
+  CHECK(graded(done_with({Severity::severe, Severity::minor})).grade == 7.5);
+  CHECK(graded(done_with({Severity::very_severe, Severity::severe, Severity::minor, Severity::note})).grade == 3.5);
+}
+
+TEST_CASE("every deduction names its error, and together they are the missing points") {
+  const LessonResult result =
+      graded(done_with({Severity::note, Severity::minor, Severity::severe, Severity::note, Severity::very_severe}));
+  REQUIRE(result.deductions.size() == 3);
+  double sum = 0.0;
+  for (const Deduction& deduction : result.deductions) {
+    REQUIRE(deduction.error < result.errors.size());
+    CHECK(deduction.points == points_of(result.errors[deduction.error].severity));
+    sum += deduction.points;
+  }
+  CHECK(result.grade == 10.0 - sum);
+}
+
+TEST_CASE("an unfinished lesson has grade 0 without an error, and one that was left has none") {
+  for (const LessonEnd end : {LessonEnd::aborted, LessonEnd::out_of_time}) {
+    LessonResult lost = done_with({});
+    lost.end = end;
+    lost = graded(lost);
+    CHECK(lost.grade == 0.0);
+    CHECK_FALSE(lost.passed);
+    CHECK(is_graded(lost));
+  }
+  LessonResult left = done_with({});
+  left.end = LessonEnd::left;
+  CHECK_FALSE(is_graded(graded(left)));
+  CHECK_FALSE(graded(left).passed);
+  CHECK(is_graded(graded(done_with({}))));
+}
+
+TEST_CASE("no grade is below zero") {
+  CHECK(graded(done_with(std::vector<Severity>(5, Severity::very_severe))).grade == 0.0);
+}
+
+TEST_CASE("passed at the pass grade and above, otherwise the reason in one sentence") {
+  const LessonResult at = graded(done_with({Severity::very_severe}));
+  CHECK(at.passed);
+  CHECK(at.why.empty());
+  const LessonResult below = graded(done_with({Severity::very_severe, Severity::minor}));
+  CHECK_FALSE(below.passed);
+  CHECK(below.why == "Grade 5.5 is below 6.0.");
+}
+
+TEST_CASE("one error that fails the lesson fails it at any grade, with its own sentence") {
+  LessonResult stalled = done_with({});
+  stalled.errors.push_back({ErrorKind::stall, Severity::severe, 3.0, 90.0, -1});
+  const LessonResult result = graded(stalled, lesson_that_catches({ErrorKind::stall}));
+  CHECK(result.grade == 8.0);
+  CHECK_FALSE(result.passed);
+  CHECK(result.why == "The engine stalled, from 859 rpm.");
+  CHECK(graded(stalled).passed);
+}
+
+TEST_CASE("an error that the lesson catches fails it, minor or severe; one that it only counts costs points") {
+  for (const Severity severity : {Severity::minor, Severity::severe}) {
+    Lesson lesson = lesson_that_catches({ErrorKind::jerk});
+    CHECK_FALSE(graded(done_with({severity}), lesson).passed);
+    lesson.counted = std::exchange(lesson.fails_on, {});
+    const LessonResult result = graded(done_with({severity}), lesson);
+    CHECK(result.passed);
+    CHECK(result.grade == 10.0 - points_of(severity));
+  }
+}
+
+TEST_CASE("a slow step fails from its own limit on, or without one from within_s on") {
+  Lesson lesson = lesson_that_catches({ErrorKind::slow_step});
+  LessonStep step;
+  step.prompt = "Stop!";
+  step.within = 4.0;
+  lesson.steps = {step};
+  LessonResult slow = done_with({});
+  slow.errors.push_back({ErrorKind::slow_step, Severity::minor, 9.0, 4.5, -1, "Stop!", 4.0});
+  CHECK_FALSE(graded(slow, lesson).passed);
+  lesson.steps[0].fails_after = 4.6;
+  CHECK(graded(slow, lesson).passed);
+  CHECK(graded(slow, lesson).grade == 9.5);
+  slow.errors[0].value = 4.6;
+  CHECK_FALSE(graded(slow, lesson).passed);
+  CHECK(graded(slow, lesson).why == "\"Stop!\" took 4.6 s; the limit is 4.0 s.");
+}
+
+TEST_CASE("only a finished lesson can be passed") {
+  LessonResult result = done_with({});
+  result.end = LessonEnd::out_of_time;
+  CHECK(graded(result).why == "Not finished within 90 s.");
+  result.end = LessonEnd::left;
+  CHECK(graded(result).why == "You left the lesson.");
+  LessonResult stalled = result;  // a learner who leaves gets that message, whatever went wrong before
+  stalled.errors.push_back({ErrorKind::stall, Severity::very_severe, 3.0, 62.0, -1});
+  CHECK(graded(stalled, lesson_that_catches({ErrorKind::stall})).why == "You left the lesson.");
+  result.end = LessonEnd::running;
+  CHECK_FALSE(graded(result).passed);
+  result.end = LessonEnd::aborted;
+  result.why = "The car rolled back more than a metre.";
+  CHECK(graded(result).why == "The car rolled back more than a metre.");
+  CHECK_FALSE(graded(result).passed);
+}
+
+TEST_CASE("a guided trial and an incomplete record have no grade, however good") {
+  LessonResult guided = done_with({Severity::minor});
+  guided.guided = true;
+  guided = graded(guided);
+  CHECK(guided.grade == 0.0);
+  CHECK(guided.deductions.empty());
+  CHECK_FALSE(guided.passed);
+  CHECK(guided.why == "Not graded: the lever was guiding you.");
+  LessonResult torn = done_with({});
+  torn.is_complete = false;
+  CHECK_FALSE(graded(torn).passed);
+  CHECK(graded(torn).grade == 0.0);
+}
+
+TEST_CASE("errors are counted by severity, and the trial's error is their points, guided or not") {
+  LessonResult result = done_with({Severity::minor, Severity::minor, Severity::severe, Severity::note});
+  CHECK(count_by_severity(result.errors) == std::array<std::size_t, 4>{1, 2, 1, 0});
+  CHECK(run_error(result) == doctest::Approx(0.3));
+  result.guided = true;
+  CHECK(run_error(result) == doctest::Approx(0.3));
+  result.end = LessonEnd::aborted;
+  CHECK(run_error(result) == 1.0);
+  CHECK(run_error(done_with(std::vector<Severity>(9, Severity::very_severe))) == 1.0);
+}

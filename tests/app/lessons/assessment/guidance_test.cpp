@@ -1,0 +1,152 @@
+// The guidance policy compared with its own recursion, and its invariants.
+#include "app/lessons/assessment/guidance.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+using namespace gearshift::lessons;
+
+TEST_CASE("the gain follows g <- clamp(f g + k error), with f falling as skill grows") {
+  const GuidanceConfig config;
+  GuidancePolicy policy(1);
+  double g = config.start, skill = 0.0;
+  for (int n = 0; n < 60; ++n) {
+    const double error = std::exp(-n / 12.0);
+    const double e = std::min(1.0, error / 0.4);
+    const double f = config.forgetting * (1.0 - skill) + config.forgetting_skilled * skill;
+    g = std::clamp(f * g + config.per_error * e, 0.0, 1.0);
+    skill = config.skill_memory * skill + (1.0 - config.skill_memory) * (1.0 - e);
+    policy.learn(error);
+    CHECK(policy.gain() == doctest::Approx(g).epsilon(1e-12));
+    CHECK(policy.skill() == doctest::Approx(skill).epsilon(1e-12));
+  }
+}
+
+TEST_CASE("without errors guidance fades: the gain times the product of f") {
+  GuidanceConfig config;
+  config.skill_memory = 1.0;  // stays unskilled, so f does not change
+  GuidancePolicy policy(1, config);
+  for (int n = 0; n < 20; ++n) policy.learn(0.0);
+  CHECK(policy.gain() == doctest::Approx(std::pow(config.forgetting, 20)).epsilon(1e-12));
+}
+
+TEST_CASE("constant error keeps the gain at k e / (1 - f), and an error beyond any pass grade at its maximum") {
+  GuidanceConfig config;
+  config.skill_memory = 1.0;
+  GuidancePolicy policy(1, config);
+  for (int n = 0; n < 400; ++n) policy.learn(0.1);
+  CHECK(policy.gain() == doctest::Approx(config.per_error * 0.25 / (1.0 - config.forgetting)).epsilon(1e-9));
+  for (int n = 0; n < 400; ++n) policy.learn(0.4);
+  CHECK(policy.gain() == 1.0);
+}
+
+TEST_CASE("guidance fades faster for the skilled") {
+  GuidancePolicy skilled(1), novice(1);
+  for (int n = 0; n < 10; ++n) skilled.learn(0.02), novice.learn(0.35);
+  CHECK(skilled.skill() > 0.8);
+  CHECK(novice.skill() < 0.2);
+  CHECK(skilled.gain() < 0.1);
+  CHECK(novice.gain() > 0.9);
+}
+
+TEST_CASE("half of the trials are unguided, of every four, in an order drawn with the seed") {
+  for (std::uint64_t seed = 0; seed < 50; ++seed) {
+    GuidancePolicy policy(seed);
+    int guided = 0;
+    for (int n = 1; n <= 400; ++n) {
+      policy.learn(1.0);
+      guided += policy.next().guidance > 0.0 ? 1 : 0;
+      if (n % 4 == 0) CHECK(guided == n / 2);
+    }
+  }
+  std::vector<int> first(4, 0);
+  for (std::uint64_t seed = 0; seed < 4000; ++seed) {
+    GuidancePolicy policy(seed);
+    for (int& count : first) count += policy.next().guidance > 0.0 ? 1 : 0;
+  }
+  for (const int count : first) CHECK(count == doctest::Approx(2000).epsilon(0.06));  // 4 standard deviations
+}
+
+TEST_CASE("with a lost point in every trial half of them stay guided for long; without lost points guidance ends") {
+  for (std::uint64_t seed = 0; seed < 20; ++seed) {
+    GuidancePolicy policy(seed);
+    int guided = 0;
+    const auto drive = [&](int trials, double error) {
+      guided = 0;
+      for (int n = 0; n < trials; ++n) {
+        guided += policy.next().guidance > 0.0 ? 1 : 0;
+        policy.learn(error);
+      }
+    };
+    drive(24, 0.1);
+    CHECK(guided == 12);
+    drive(8, 0.0);
+    drive(8, 0.0);
+    CHECK(guided == 0);
+  }
+}
+
+TEST_CASE("the same seed and errors give the same plans, another seed different ones") {
+  const auto plans = [](std::uint64_t seed) {
+    GuidancePolicy policy(seed);
+    std::vector<double> list;
+    for (int n = 0; n < 40; ++n) {
+      list.push_back(policy.next().guidance);
+      policy.learn(0.5);
+    }
+    return list;
+  };
+  CHECK(plans(5) == plans(5));
+  CHECK(plans(5) != plans(6));
+}
+
+TEST_CASE("a guided trial has the gain, an unguided one none, and a tiny gain counts as none") {
+  GuidancePolicy policy(3);
+  for (int n = 0; n < 40; ++n) {
+    const double gain = policy.gain();
+    const TrialPlan plan = policy.next();
+    if (plan.guidance != 0.0) CHECK(plan.guidance == gain);
+    if (plan.guidance != 0.0) CHECK(gain >= GuidanceConfig().min_gain);
+    policy.learn(0.0);
+  }
+  CHECK(policy.gain() < GuidanceConfig().min_gain);
+  for (int n = 0; n < 8; ++n) CHECK(policy.next().guidance == 0.0);
+}
+
+TEST_CASE("a retention test is unguided and silent") {
+  GuidancePolicy policy(3);
+  CHECK(policy.retention().guidance == 0.0);
+  CHECK(policy.retention().hints == HintStyle::summary);
+}
+
+TEST_CASE("hints change from prescriptive to bandwidth to summary as skill grows, and back when it is lost") {
+  GuidancePolicy policy(3);
+  std::vector<HintStyle> styles{policy.next().hints};
+  const auto go_on = [&](double error) {
+    for (int n = 0; n < 12; ++n) {
+      policy.learn(error);
+      const HintStyle style = policy.next().hints;
+      if (style != styles.back()) styles.push_back(style);
+    }
+  };
+  go_on(0.0);
+  CHECK(styles == std::vector<HintStyle>{HintStyle::prescriptive, HintStyle::bandwidth, HintStyle::summary});
+  go_on(1.0);
+  CHECK(styles.back() == HintStyle::prescriptive);
+}
+
+TEST_CASE("invalid errors teach nothing, and errors are clamped to 1") {
+  GuidancePolicy policy(3);
+  policy.learn(std::numeric_limits<double>::quiet_NaN());
+  policy.learn(-1.0);
+  CHECK(policy.gain() == GuidanceConfig().start);
+  GuidancePolicy one(3), many(3);
+  one.learn(1.0);
+  many.learn(50.0);
+  CHECK(one.gain() == many.gain());
+  CHECK(one.skill() == many.skill());
+}

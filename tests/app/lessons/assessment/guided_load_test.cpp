@@ -1,0 +1,230 @@
+// The guidance force: a bounded potential that leads to the gear in every gate, and zero when it is off.
+#include "app/vehicle/guided_load.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include "haptics/contact/proxy.h"
+#include "haptics/gate/gate_feel.h"
+#include "tests/support/gates.h"
+
+using namespace gearshift::haptics;
+using namespace gearshift::test;
+using namespace gearshift::vehicle;
+using glm::dvec2;
+
+namespace {
+
+// Calls `check` for every gear of every shipped gate.
+void for_each_goal(auto&& check) {
+  for (const std::string& name : shipped_names()) {
+    const Gate gate = shipped_gate(name);
+    for (const Slot& slot : slots(gate)) {
+      CAPTURE(name);
+      CAPTURE(std::string(gear_name(slot.gear)));
+      check(gate, slot.gear);
+    }
+  }
+}
+
+std::vector<dvec2> free_points(const Gate& gate, int count, unsigned seed) {
+  std::mt19937 random(seed);
+  std::uniform_real_distribution<double> x(gate.select_min, gate.select_max), y(-0.05, 0.05);
+  std::vector<dvec2> points;
+  while (static_cast<int>(points.size()) < count) {
+    const dvec2 p{x(random), y(random)};
+    if (in_free_space(gate, p)) points.push_back(p);
+  }
+  return points;
+}
+
+// A load whose output uses all mantissa bits, so that any change shows.
+class OddLoad final : public LeverLoad {
+ public:
+  LeverOutput step(const LeverInput& in, double) noexcept override {
+    LeverOutput out;
+    out.force = {-0.0, 0.1 * in.position.x};
+    out.limited_slot = 3;
+    out.depth_max = 0.02;
+    out.road_speed = -0.0;
+    return out;
+  }
+  const char* replay_parameters() const noexcept override { return "odd"; }
+};
+
+bool same_bits(double a, double b) {
+  return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b);
+}
+
+LeverInput at(dvec2 p, int gear, double guidance) {
+  LeverInput in;
+  in.position = in.proxy = p;
+  in.controls.guided_gear = gear;
+  in.controls.guidance = guidance;
+  return in;
+}
+
+}  // namespace
+
+TEST_CASE("the force is the potential's slope") {
+  for_each_goal([](const Gate& gate, int gear) {
+    constexpr double kStep = 1e-7;
+    for (const dvec2 p : free_points(gate, 300, 1)) {
+      const auto energy = [&](double dx, double dy) { return guidance_energy(gate, gear, p + dvec2{dx, dy}); };
+      const dvec2 slope{(energy(kStep, 0) - energy(-kStep, 0)) / (2 * kStep),
+                        (energy(0, kStep) - energy(0, -kStep)) / (2 * kStep)};
+      CHECK(glm::length(guidance_force(gate, gear, p) + slope) < 1e-4);
+    }
+  });
+}
+
+TEST_CASE("no closed path through the gate yields energy, around corners and along walls") {
+  for_each_goal([](const Gate& gate, int gear) {
+    // The lever moves at random; the proxy slides along the walls after it.
+    std::mt19937 random(static_cast<unsigned>(gear + 5));
+    std::uniform_real_distribution<double> x(-0.08, 0.08), y(-0.06, 0.06);
+    const dvec2 start = rest_position(gate, kNeutralGear);
+    Proxy proxy{start, start};
+    double work = 0.0, most = 0.0;
+    const auto go = [&](dvec2 to) {
+      const dvec2 from = proxy.lever;
+      for (int i = 1; i <= 400; ++i) {
+        const dvec2 before = proxy.position;
+        proxy = move_proxy(gate, open_passage(gate), proxy, from + (to - from) * (i / 400.0), 1e-3);
+        const dvec2 way = proxy.position - before;
+        // Simpson's rule over each 50 um of a straight leg.
+        const int parts = 1 + static_cast<int>(glm::length(way) / 5e-5);
+        for (int k = 0; k < parts; ++k) {
+          const auto force = [&](double u) { return guidance_force(gate, gear, before + way * ((k + u) / parts)); };
+          work += glm::dot(force(0.0) + 4.0 * force(0.5) + force(1.0), way) / (6.0 * parts);
+        }
+        most = std::max(most, std::abs(work));
+      }
+    };
+    for (int n = 0; n < 30; ++n) go({x(random), y(random)});
+    for (int n = 0; n < 4; ++n) go(start);
+    CHECK(glm::distance(proxy.position, start) < 1e-9);
+    CHECK(most > 0.01);  // the force did work along the path
+    CHECK(std::abs(work) < 2e-5);
+  });
+}
+
+TEST_CASE("the force is bounded, and less than half as steep as the gate's own feel may be") {
+  for_each_goal([](const Gate& gate, int gear) {
+    constexpr double kStep = 1e-6;
+    for (const dvec2 p : free_points(gate, 2000, 2)) {
+      const dvec2 force = guidance_force(gate, gear, p);
+      CHECK(glm::length(force) <= 2.2 * kGuidancePull);
+      for (const dvec2 d : {dvec2{kStep, 0.0}, dvec2{0.0, kStep}}) {
+        CHECK(glm::length(guidance_force(gate, gear, p + d) - force) / kStep < 2000.0);
+      }
+    }
+  });
+}
+
+TEST_CASE("deep in a slot there is no force on its walls, and from a wrong slot it leads out") {
+  for_each_goal([](const Gate& gate, int gear) {
+    for (const Slot& slot : slots(gate)) {
+      const Column& column = column_of(gate, slot.column);
+      for (double depth = gate.half_aisle + 2.0 * column.half_width; depth < slot.end; depth += 5e-4) {
+        for (const double off : {-1.0, -0.5, 0.0, 0.5, 1.0}) {
+          const dvec2 p{column.center + off * column.half_width, static_cast<int>(slot.side) * depth};
+          const dvec2 force = guidance_force(gate, gear, p);
+          CHECK(std::abs(force.x) < 1e-12);
+          if (slot.gear != gear) CHECK(static_cast<int>(slot.side) * force.y < -0.2 * kGuidancePull);
+        }
+      }
+    }
+  });
+}
+
+TEST_CASE("at the gear's rest the force is zero and the potential has its minimum") {
+  for_each_goal([](const Gate& gate, int gear) {
+    const dvec2 rest = rest_position(gate, gear);
+    CHECK(glm::length(guidance_force(gate, gear, rest)) < 1e-12);
+    const double lowest = guidance_energy(gate, gear, rest);
+    for (const dvec2 p : free_points(gate, 1000, 3)) CHECK(guidance_energy(gate, gear, p) > lowest);
+  });
+}
+
+TEST_CASE("a lever moved only by it arrives at the gear from everywhere") {
+  for_each_goal([](const Gate& gate, int gear) {
+    const dvec2 rest = rest_position(gate, gear);
+    const double half_width = column_of(gate, nearest_column(gate, rest.x)).half_width;
+    const auto has_arrived = [&](dvec2 p) {
+      return std::abs(p.y - rest.y) < 1e-3 && std::abs(p.x - rest.x) <= half_width + 1e-9;
+    };
+    for (const dvec2 p : free_points(gate, 40, 4)) {
+      Proxy proxy{p, p};
+      for (int i = 0; i < 3000 && !has_arrived(proxy.position); ++i) {
+        const dvec2 force = guidance_force(gate, gear, proxy.position);
+        proxy.lever = proxy.position;
+        proxy = move_proxy(gate, open_passage(gate), proxy, proxy.position + 1e-4 * force, 0.0);
+      }
+      CHECK(has_arrived(proxy.position));
+    }
+  });
+}
+
+TEST_CASE("without guidance the inner load's output is unchanged, with it only the force differs") {
+  const Gate gate = paper_gate();
+  OddLoad inner;
+  GuidedLoad load(inner, gate);
+  for (const dvec2 p : free_points(gate, 200, 5)) {
+    const LeverOutput out = load.step(at(p, 3, 0.0), 1e-3), plain = inner.step(at(p, 3, 0.0), 1e-3);
+    CHECK(same_bits(out.force.x, plain.force.x));
+    CHECK(same_bits(out.force.y, plain.force.y));
+    CHECK(same_bits(out.road_speed, plain.road_speed));
+    CHECK(out.limited_slot == plain.limited_slot);
+    CHECK(out.depth_max == plain.depth_max);
+  }
+  CHECK(std::string(load.replay_parameters()) == "guided odd");
+  LeverOutput out;
+  for (int i = 0; i < 1000; ++i) out = load.step(at({0.01, 0.0}, 1, 0.5), 1e-3);
+  const dvec2 added = 0.5 * guidance_force(gate, 1, {0.01, 0.0});
+  CHECK(out.force.x == doctest::Approx(added.x).epsilon(1e-9));
+  CHECK(out.force.y == doctest::Approx(0.001 + added.y).epsilon(1e-9));
+  CHECK(out.limited_slot == 3);
+}
+
+TEST_CASE("the force rises and fades smoothly for any request") {
+  const Gate gate = paper_gate();
+  NoLoad inner;
+  GuidedLoad load(inner, gate);
+  std::mt19937 random(6);
+  std::uniform_int_distribution<int> gear(-1, 9);
+  std::uniform_real_distribution<double> strength(-0.5, 2.0);
+  const dvec2 p{0.012, 0.001};
+  dvec2 before{0.0};
+  LeverInput in = at(p, 3, 0.0);
+  load.step(in, 0.0);
+  for (int i = 0; i < 20000; ++i) {
+    if (i % 37 == 0) in = at(p, gear(random), strength(random));
+    const dvec2 force = load.step(in, 1e-3).force;
+    CHECK(glm::length(force - before) <= kGuidanceRate * 1e-3 * 3.0 * kGuidancePull + 1e-12);
+    before = force;
+  }
+  for (int i = 0; i < 600; ++i) load.step(at(p, 3, 0.0), 1e-3);
+  CHECK(load.step(at(p, 3, 0.0), 1e-3).force == dvec2{0.0, 0.0});
+}
+
+TEST_CASE("a gear that the gate lacks, neutral, and non-finite input give no force") {
+  const Gate gate = paper_gate();
+  CHECK(guidance_force(gate, 6, {0.0, 0.0}) == dvec2{0.0, 0.0});
+  CHECK(guidance_force(gate, kNeutralGear, {0.01, 0.0}) == dvec2{0.0, 0.0});
+  NoLoad inner;
+  GuidedLoad load(inner, gate);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  for (int i = 0; i < 100; ++i) CHECK(load.step(at({0.01, 0.0}, 1, nan), 1e-3).force == dvec2{0.0, 0.0});
+  for (int i = 0; i < 100; ++i) load.step(at({0.01, 0.0}, 1, 1.0), 1e-3);
+  CHECK(load.step(at({nan, 0.0}, 1, 1.0), 1e-3).force == dvec2{0.0, 0.0});
+}

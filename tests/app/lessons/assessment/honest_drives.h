@@ -1,0 +1,401 @@
+// The shipped lessons as driven by somebody who can drive: exactly what the goal asks for.
+//
+// The scripts know only the goal, and of the prompts only the one that is a signal to react to.
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "tests/app/lessons/assessment/scripted_drive.h"
+
+namespace gearshift::test::honest {
+
+inline void into_first(ScriptedDrive& d) {
+  d.clutch_down();
+  d.lever(1);
+  d.press(d.feet.hand_brake, 0.0, 0.3);
+}
+
+inline void start_and_stop(ScriptedDrive& d) {
+  Able a{d};
+  d.clutch_down();
+  a.start_engine();
+  into_first(d);
+  const double from = d.now().distance;
+  a.launch(1200.0);
+  a.lift();
+  d.until([&] { return d.now().distance - from > 6.0; });
+  a.stop();
+  d.lever(haptics::kNeutralGear);
+  d.press(d.feet.hand_brake, 1.0, 0.3);
+  d.feet.ignition = false;
+}
+
+// Never faster than idle speed, to a stop in neutral, and the handbrake last.
+inline void start_and_stop_gently(ScriptedDrive& d) {
+  d.clutch_down();
+  Able{d}.start_engine();
+  into_first(d);
+  d.press(d.feet.clutch, d.car.clutch.bite, 0.3);
+  d.press(d.feet.clutch, 0.55, 2.0);
+  d.wait(2.0);
+  d.press(d.feet.clutch, 0.0, 2.5);
+  d.wait(4.0);
+  d.clutch_down();
+  d.lever(haptics::kNeutralGear);
+  d.press(d.feet.clutch, 0.0, 0.4);
+  d.press(d.feet.brake, 0.3, 0.3);
+  d.until([&] { return d.is_standing(); });
+  d.wait(0.3);
+  d.feet.ignition = false;
+  d.wait(0.3);
+  d.press(d.feet.hand_brake, 1.0, 0.3);
+}
+
+inline void bite_point(ScriptedDrive& d) {
+  into_first(d);
+  for (int i = 0; i < 3; ++i) {
+    d.feet.brake = 0.0;
+    const double bite = d.car.clutch.bite;
+    d.press(d.feet.clutch, bite, 0.4);
+    d.press(d.feet.clutch, bite - 0.10, 1.5);
+    d.until([&] { return d.km_per_h() > 3.2; }, 8.0);
+    d.press(d.feet.clutch, bite - 0.07, 0.3);
+    d.wait(2.5);
+    Able{d}.stop();
+  }
+}
+
+inline void moving_off(ScriptedDrive& d) {
+  Able a{d};
+  into_first(d);
+  for (int i = 0; i < 2; ++i) {
+    a.launch();
+    a.accelerate_to(13.0);
+    a.stop();
+  }
+}
+
+inline void up_through_the_gears(ScriptedDrive& d) {
+  Able a{d};
+  for (int gear = 2; gear <= 5; ++gear) {
+    a.accelerate_to_rpm(2200.0);
+    a.shift(gear);
+  }
+}
+
+inline void down_through_the_gears(ScriptedDrive& d) {
+  Able a{d};
+  for (const auto& [gear, speed] : std::vector<std::pair<int, double>>{{4, 54.0}, {3, 39.0}, {2, 24.0}}) {
+    a.slow_to(speed);
+    a.shift_with_blip(gear);
+    d.wait(0.5);
+  }
+  a.stop();
+}
+
+// The clutch comes up slowly, and each gear a little before the stated speed.
+inline void down_without_a_blip(ScriptedDrive& d) {
+  Able a{d};
+  for (const auto& [gear, speed] : std::vector<std::pair<int, double>>{{4, 57.0}, {3, 41.5}, {2, 26.0}}) {
+    a.slow_to(speed);
+    a.shift(gear, 1.0);
+    d.wait(0.5);
+  }
+  a.stop();
+}
+
+inline void back_up(ScriptedDrive& d, double metres) {
+  d.wait(2.0);
+  d.lever(haptics::kReverseGear);
+  d.press(d.feet.hand_brake, 0.0, 0.3);
+  const double from = d.now().distance;
+  d.feet.brake = 0.0;
+  const double bite = d.car.clutch.bite;
+  d.press(d.feet.clutch, bite, 0.4);
+  d.press(d.feet.clutch, bite - 0.12, 1.5);
+  d.until([&] { return from - d.now().distance > metres; });
+  d.clutch_down();
+  d.press(d.feet.brake, 0.3, 0.3);
+  d.until([&] { return d.is_standing(); });
+  d.wait(0.3);
+}
+
+inline void reverse(ScriptedDrive& d) {
+  Able a{d};
+  d.clutch_down();
+  back_up(d, 5.2);
+  d.lever(1);
+  a.launch();
+  a.accelerate_to(11.0);
+}
+
+// Goes by the car: lifts the clutch until the engine speed drops, and releases the handbrake as soon as prompted.
+inline void hill_start(ScriptedDrive& d) {
+  Able a{d};
+  d.clutch_down();
+  d.lever(1);
+  d.press(d.feet.throttle, 0.1, 0.3);
+  d.press(d.feet.clutch, d.car.clutch.bite, 0.4);
+  d.until(
+      [&] {
+        a.hold_revs(1600.0);
+        d.feet.clutch -= 0.1e-3;
+        return d.now().clutch_torque > 45.5;
+      },
+      5.0);
+  const double begun = d.time();
+  d.until([&] {
+    a.hold_revs(1600.0);
+    d.feet.hand_brake = std::max(0.0, 1.0 - (d.time() - begun) / 0.3);
+    return d.feet.hand_brake == 0.0;
+  });
+  a.launch_from_bite();
+  a.accelerate_to(11.0, 0.6);
+}
+
+// The clutch torque needed in first gear to keep the car from rolling back. [N m]
+inline double hill_torque(const ScriptedDrive& d) {
+  const double weight = 9.81 * d.car.body.mass * std::sin(d.lesson.start.slope);
+  return weight / vehicle::shaft_per_road(d.car, 1);
+}
+
+// With the foot brake instead, which needs a quick foot.
+inline void hill_start_with_the_foot_brake(ScriptedDrive& d) {
+  Able a{d};
+  d.clutch_down();
+  d.lever(1);
+  d.press(d.feet.brake, 0.4, 0.2);
+  d.press(d.feet.hand_brake, 0.0, 0.3);
+  d.press(d.feet.clutch, d.car.clutch.bite, 0.4);
+  d.until(
+      [&] {
+        d.feet.clutch -= 0.1e-3;
+        return d.now().clutch_torque > 1.05 * hill_torque(d);
+      },
+      5.0);
+  d.feet.brake = 0.0;
+  a.launch_from_bite();
+  a.accelerate_to(11.0, 0.6);
+}
+
+// Brakes one second after the signal, the usual rule of thumb, with 0.2 s for the pedal.
+inline void emergency_stop(ScriptedDrive& d) {
+  Able{d}.accelerate_to(50.05);
+  d.wait(0.9 + d.pause);
+  d.feet.throttle = 0.0;
+  d.wait(0.1);
+  d.press(d.feet.brake, 1.0, 0.2);
+  d.until([&] { return d.km_per_h() < 18.0; });
+  d.clutch_down();
+  d.until([&] { return d.is_standing(); });
+  d.wait(0.5);
+  d.lever(haptics::kNeutralGear);
+  d.press(d.feet.hand_brake, 1.0, 0.3);
+}
+
+inline void skip_shifts(ScriptedDrive& d) {
+  Able a{d};
+  a.accelerate_to(45.5);
+  a.shift(4);
+  d.wait(0.5);
+  a.slow_to(31.5);
+  a.shift_with_blip(2);
+}
+
+// Shifts by the light, with human reaction time.
+inline void eco_driving(ScriptedDrive& d) {
+  Able a{d};
+  for (int gear = 2; gear <= 5; ++gear) {
+    a.accelerate([&] { return d.now().shift_advice > 0; }, 0.5);
+    d.wait(0.4);
+    a.shift(gear);
+  }
+  a.accelerate_to(70.5, 0.5);
+}
+
+inline void rev_matching(ScriptedDrive& d) {
+  Able a{d};
+  a.shift_with_blip(3);
+  d.wait(0.3);
+  a.slow_to(35.0);
+  a.shift_with_blip(2);
+}
+
+inline void another_gate(ScriptedDrive& d) {
+  Able a{d};
+  for (int gear = 2; gear <= 4; ++gear) {
+    a.accelerate_to_rpm(2200.0);
+    a.shift(gear);
+  }
+  d.wait(0.5);
+  a.slow_to(39.0);
+  a.shift_with_blip(3);
+  d.wait(0.5);
+  a.slow_to(24.0);
+  a.shift_with_blip(2);
+}
+
+inline void six_speed(ScriptedDrive& d) {
+  Able a{d};
+  for (int gear = 3; gear <= 6; ++gear) {
+    a.accelerate_to_rpm(2000.0);
+    a.shift(gear);
+  }
+  d.wait(0.5);
+  a.slow_to(69.0);
+  a.shift_with_blip(4);
+  d.wait(0.5);
+  a.slow_to(49.0);
+  a.shift_with_blip(3);
+  d.wait(0.5);
+  a.stop();
+  back_up(d, 2.2);
+}
+
+// Correct drives that differ from the prompts: they must pass, too.
+
+// Each gear earlier than stated, and the clutch pedal not fully down.
+inline void up_in_another_way(ScriptedDrive& d) {
+  Able a{d};
+  for (int gear = 2; gear <= 5; ++gear) {
+    a.accelerate_to_rpm(1950.0);
+    a.lift();
+    d.press(d.feet.clutch, 0.79, 0.2);
+    d.lever(gear);
+    d.press(d.feet.clutch, 0.0, 0.8);
+  }
+}
+
+// The handbrake first; and at the first bite the foot draws back.
+inline void moving_off_at_the_second_try(ScriptedDrive& d) {
+  d.press(d.feet.hand_brake, 0.0, 0.3);
+  d.press(d.feet.clutch, 0.79, 0.2);
+  d.lever(1);
+  d.press(d.feet.clutch, d.car.clutch.bite - 0.05, 0.5);
+  d.wait(0.3);
+  d.clutch_down();
+  d.feet.brake = 0.3;
+  d.wait(1.0);
+  Able a{d};
+  for (int i = 0; i < 2; ++i) {
+    a.launch();
+    a.accelerate_to(13.0);
+    a.stop();
+  }
+}
+
+// Rolls to a stop in neutral with the clutch up.
+inline void bite_point_and_neutral(ScriptedDrive& d) {
+  into_first(d);
+  for (int i = 0; i < 3; ++i) {
+    const double bite = d.car.clutch.bite;
+    d.clutch_down();
+    d.lever(1);
+    d.feet.brake = 0.0;
+    d.press(d.feet.clutch, bite - 0.10, 1.5);
+    d.until([&] { return d.km_per_h() > 3.2; }, 8.0);
+    d.press(d.feet.clutch, bite - 0.07, 0.3);
+    d.wait(2.5);
+    d.clutch_down();
+    d.lever(haptics::kNeutralGear);
+    d.press(d.feet.clutch, 0.0, 0.3);
+    d.press(d.feet.brake, 0.3, 0.3);
+    d.until([&] { return d.is_standing(); });
+    d.wait(0.3);
+  }
+}
+
+// Throttle off and clutch down in one movement of both feet; and up again with the throttle.
+inline void both_feet(ScriptedDrive& d, double throttle, double clutch, double seconds) {
+  const double from = d.time(), old_throttle = d.feet.throttle, old_clutch = d.feet.clutch;
+  d.until([&] {
+    const double share = std::min(1.0, (d.time() - from) / seconds);
+    d.feet.throttle = old_throttle + share * (throttle - old_throttle);
+    d.feet.clutch = old_clutch + share * (clutch - old_clutch);
+    return share == 1.0;
+  });
+}
+
+inline void shift_with_both_feet(ScriptedDrive& d, int gear) {
+  both_feet(d, 0.0, 1.0, 0.2);
+  d.lever(gear);
+  both_feet(d, 0.25, 0.0, 0.6);
+}
+
+inline void up_with_both_feet(ScriptedDrive& d) {
+  for (int gear = 2; gear <= 5; ++gear) {
+    Able{d}.accelerate_to_rpm(2200.0);
+    shift_with_both_feet(d, gear);
+  }
+}
+
+inline void eco_with_both_feet(ScriptedDrive& d) {
+  for (int gear = 2; gear <= 5; ++gear) {
+    Able{d}.accelerate([&] { return d.now().shift_advice > 0; });
+    d.wait(0.4);
+    shift_with_both_feet(d, gear);
+  }
+  Able{d}.accelerate_to(70.5, 0.5);
+}
+
+// Shifts by the light, at a third of the throttle as the hint says, with human reaction time (Green 2000).
+inline void eco_with_a_persons_reaction(ScriptedDrive& d) {
+  for (int gear = 2; gear <= 5; ++gear) {
+    Able{d}.accelerate([&] { return d.now().shift_advice > 0; }, 1.0 / 3.0);
+    d.wait(1.05);
+    Able{d}.shift(gear);
+  }
+  Able{d}.accelerate_to(70.5, 0.5);
+}
+
+// The handbrake while the foot still holds the car, then the foot off, then neutral.
+inline void emergency_stop_by_the_hand_brake(ScriptedDrive& d) {
+  Able{d}.accelerate_to(50.05);
+  d.wait(1.0);
+  d.feet.throttle = 0.0;
+  d.press(d.feet.brake, 1.0, 0.2);
+  d.until([&] { return d.km_per_h() < 18.0; });
+  d.clutch_down();
+  d.until([&] { return d.is_standing(); });
+  d.wait(0.3);
+  d.press(d.feet.hand_brake, 1.0, 0.3);
+  d.press(d.feet.brake, 0.0, 0.2);
+  d.lever(haptics::kNeutralGear);
+}
+
+struct Honest {
+  const char* lesson;
+  void (*drive)(ScriptedDrive&);
+};
+
+inline constexpr Honest kHonest[] = {
+    {"start_and_stop", start_and_stop},
+    {"start_and_stop", start_and_stop_gently},
+    {"bite_point", bite_point},
+    {"moving_off", moving_off},
+    {"up_through_the_gears", up_through_the_gears},
+    {"down_through_the_gears", down_through_the_gears},
+    {"down_through_the_gears", down_without_a_blip},
+    {"reverse", reverse},
+    {"hill_start", hill_start},
+    {"hill_start", hill_start_with_the_foot_brake},
+    {"emergency_stop", emergency_stop},
+    {"skip_shifts", skip_shifts},
+    {"eco_driving", eco_driving},
+    {"rev_matching", rev_matching},
+    {"another_gate", another_gate},
+    {"six_speed", six_speed},
+};
+
+inline constexpr Honest kAlternativeDrives[] = {
+    {"up_through_the_gears", up_in_another_way},
+    {"moving_off", moving_off_at_the_second_try},
+    {"bite_point", bite_point_and_neutral},
+    {"up_through_the_gears", up_with_both_feet},
+    {"eco_driving", eco_with_both_feet},
+    {"eco_driving", eco_with_a_persons_reaction},
+    {"emergency_stop", emergency_stop_by_the_hand_brake},
+};
+
+}  // namespace gearshift::test::honest

@@ -1,0 +1,327 @@
+// A history locked by another program, or slow to open: no frame waits for it, and nothing is lost.
+#include <sqlite3.h>
+
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <optional>
+#include <thread>
+
+#include <doctest/doctest.h>
+
+#include "tests/app/lessons/coach/coach_bench.h"
+#include "tests/support/temp_folder.h"
+
+using namespace gearshift::lessons;
+using namespace gearshift::test;
+using namespace gearshift::vehicle;
+
+namespace {
+
+using std::chrono::milliseconds;
+using std::chrono::steady_clock;
+
+// Limit for one frame: the timeout of 50 ms, and the rest for a busy machine.
+constexpr milliseconds kFrame{400};
+
+// Another program in the middle of a write transaction.
+class LockHolder {
+ public:
+  explicit LockHolder(const std::filesystem::path& file) {
+    REQUIRE(sqlite3_open(file.c_str(), &database_) == SQLITE_OK);
+    REQUIRE(sqlite3_exec(database_, "BEGIN IMMEDIATE", nullptr, nullptr, nullptr) == SQLITE_OK);
+  }
+  ~LockHolder() { sqlite3_close(database_); }
+  LockHolder(const LockHolder&) = delete;
+  LockHolder& operator=(const LockHolder&) = delete;
+
+ private:
+  sqlite3* database_ = nullptr;
+};
+
+void by_hand(const std::filesystem::path& file, const char* text) {
+  sqlite3* database = nullptr;
+  REQUIRE(sqlite3_open(file.c_str(), &database) == SQLITE_OK);
+  REQUIRE(sqlite3_exec(database, text, nullptr, nullptr, nullptr) == SQLITE_OK);
+  sqlite3_close(database);
+}
+
+template <class Work>
+void in_a_frame(const Work& work) {
+  const auto begin = steady_clock::now();
+  work();
+  CHECK(steady_clock::now() - begin < kFrame);
+}
+
+// Frames without a cycle, long enough for the coach to retry.
+void frames(Coach& coach, milliseconds time = milliseconds(1000)) {
+  for (const auto end = steady_clock::now() + time; steady_clock::now() < end;) {
+    in_a_frame([&] { coach.add({}); });
+    std::this_thread::sleep_for(milliseconds(16));
+  }
+}
+
+std::vector<RunRow> runs_of_ada(const std::filesystem::path& file) {
+  History history(file);
+  const auto row = history.find_learner("Ada");
+  return row ? history.runs(row->id) : std::vector<RunRow>{};
+}
+
+}  // namespace
+
+TEST_CASE("while another program locks the history no frame waits, and afterwards everything is saved, in order") {
+  const TempFolder folder;
+  CoachBench bench(folder / "history.db");
+  {
+    Coach coach(bench.config);
+    coach.set_help(false);
+    coach.offer(bench.config.lessons[0]);
+    bench.begin(coach, "gate = paper", "/a/first.trace");
+    const std::vector<DriveSample> drive = bench_drive(Drive::good);
+    coach.add(std::span(drive).first(500));
+    const std::int64_t first = coach.view().run;
+    CHECK(first > 0);
+    {
+      const LockHolder holder(bench.config.history);
+      bench.now += 100;
+      for (std::size_t at = 500; at < drive.size(); at += 50) {
+        const std::size_t lot = std::min<std::size_t>(50, drive.size() - at);
+        in_a_frame([&] { coach.add(std::span(drive).subspan(at, lot)); });
+      }
+      CHECK(coach.view().phase == LessonPhase::over);
+      CHECK(coach.view().run == 0);
+      const std::optional<std::string> told = coach.take_problem();
+      REQUIRE(told.has_value());
+      CHECK(told->find("another program has locked it") != std::string::npos);
+      CHECK(told->find('\n') == std::string::npos);
+
+      bench.now += 100;
+      in_a_frame([&] { coach.offer(bench.config.lessons[1]); });
+      in_a_frame([&] { bench.begin(coach, "gate = dog_leg", "/a/second.trace"); });
+      in_a_frame([&] { coach.add(bench_drive(Drive::pushed)); });
+      CHECK(coach.view().runs.size() == 2);
+      const std::int64_t second = coach.view().runs[0].id;
+      CHECK(second < 0);
+      bench.now += 100;
+      in_a_frame([&] { coach.comment(first, "Bo", "Calmer."); });
+      in_a_frame([&] { coach.comment(second, "Bo", "Too much."); });
+      in_a_frame([&] { coach.set_next("one"); });
+      CHECK(coach.view().next == "one");
+      frames(coach);
+      CHECK_FALSE(coach.take_problem().has_value());  // reported only once
+      CHECK(coach.view().is_saving);                  // true: what it has is pending
+    }
+    frames(coach);
+    CHECK(coach.view().run > first);
+    CHECK(coach.view().runs[0].id == coach.view().run);
+    REQUIRE(coach.view().comments[0].size() == 1);
+    CHECK(coach.view().comments[0][0].text == "Too much.");
+    CHECK_FALSE(coach.take_problem().has_value());
+  }
+  const std::vector<RunRow> runs = runs_of_ada(bench.config.history);
+  REQUIRE(runs.size() == 2);
+  CHECK(runs[0].result.end == LessonEnd::done);
+  CHECK(runs[0].result.lesson == "one");
+  CHECK(runs[0].result.passed);
+  CHECK(runs[0].recording == "/a/first.trace");
+  CHECK(runs[1].result.lesson == "two");
+  CHECK(runs[1].result.shifts.size() == 1);
+  CHECK(runs[1].result.errors.size() == 1);
+  CHECK(runs[1].recording == "/a/second.trace");
+  CHECK(runs[1].session == runs[0].session);
+  CHECK(runs[0].begun_at == format_utc(kSomeDay));
+  CHECK(runs[1].begun_at == format_utc(kSomeDay + 200));  // dated when it was driven
+  History history(bench.config.history);
+  CHECK(history.settings(runs[0].session) == std::vector<std::string>{"gate = paper", "gate = dog_leg"});
+  for (const RunRow& run : runs) {
+    REQUIRE(history.comments(run.id).size() == 1);
+    CHECK(history.comments(run.id)[0].at == format_utc(kSomeDay + 300));
+  }
+  CHECK(history.find_learner("Ada")->next_lesson == "one");
+}
+
+TEST_CASE("a run driven entirely while the history was locked is saved afterwards, for its own learner") {
+  const TempFolder folder;
+  const CoachBench bench(folder / "history.db");
+  {
+    Coach coach(bench.config);
+    coach.set_help(false);
+    bench.trial(coach, "one");
+    {
+      const LockHolder holder(bench.config.history);
+      bench.trial(coach, "one");
+      coach.set_learner("Bob");
+      bench.trial(coach, "one");
+    }
+    CHECK(coach.take_unreferenced_recordings().empty());  // these runs have no recordings
+    coach.set_learner("Ada");
+    frames(coach);
+    CHECK(coach.view().runs.size() == 2);
+    for (const RunRow& row : coach.view().runs) CHECK(row.id > 0);
+  }
+  CHECK(runs_of_ada(bench.config.history).size() == 2);
+  History history(bench.config.history);
+  CHECK(history.runs(history.find_learner("Bob")->id).size() == 1);
+}
+
+TEST_CASE("on exit the coach waits a few seconds for a locked history") {
+  const TempFolder folder;
+  const CoachBench bench(folder / "history.db");
+  auto holder = std::make_optional<LockHolder>(folder / "before.db");
+  std::thread other;
+  {
+    Coach coach(bench.config);
+    coach.set_help(false);
+    bench.trial(coach, "one");
+    holder.emplace(bench.config.history);
+    coach.offer(bench.config.lessons[0]);
+    bench.begin(coach);
+    const std::vector<DriveSample> drive = bench_drive(Drive::good);
+    coach.add(std::span(drive).first(500));
+    other = std::thread([&] {
+      std::this_thread::sleep_for(milliseconds(700));
+      holder.reset();
+    });
+  }
+  other.join();
+  const std::vector<RunRow> runs = runs_of_ada(bench.config.history);
+  REQUIRE(runs.size() == 2);
+  CHECK(runs[1].result.end == LessonEnd::left);
+}
+
+TEST_CASE("comments edited or deleted while the history was locked are saved that way") {
+  const TempFolder folder;
+  const CoachBench bench(folder / "history.db");
+  std::int64_t run = 0;
+  {
+    Coach coach(bench.config);
+    bench.trial(coach, "one");
+    run = coach.view().run;
+    for (const char* text : {"one", "two", "three"}) coach.comment(run, "Bo", text);
+    const auto number = [&](std::size_t i) { return coach.view().comments[0].at(i).id; };
+    const LockHolder holder(bench.config.history);
+    in_a_frame([&] { coach.edit_comment(run, number(0), "One."); });
+    in_a_frame([&] { coach.delete_comment(run, number(1)); });
+    in_a_frame([&] { coach.comment(run, "Di", "four"); });
+    in_a_frame([&] { coach.comment(run, "Di", "five"); });
+    in_a_frame([&] { coach.edit_comment(run, number(2), "Four."); });
+    in_a_frame([&] { coach.delete_comment(run, number(3)); });
+    in_a_frame([&] { coach.edit_comment(run, number(0), "One!"); });
+    REQUIRE(coach.view().comments[0].size() == 3);
+    CHECK(coach.view().comments[0][0].text == "One!");
+    CHECK(coach.view().comments[0][2].text == "Four.");
+  }
+  const std::vector<CommentRow> comments = History(bench.config.history).comments(run);
+  REQUIRE(comments.size() == 3);
+  CHECK(comments[0].text == "One!");
+  CHECK(comments[0].edited_at == format_utc(kSomeDay));
+  CHECK(comments[1].text == "three");
+  CHECK(comments[2].text == "Four.");
+}
+
+// Invariant: 3 s in total, however much is pending.
+TEST_CASE("a flush that fails reports the losses once, after a bounded time; the destructor does not wait again") {
+  const TempFolder folder;
+  const CoachBench bench(folder / "history.db");
+  std::optional<Coach> coach(std::in_place, bench.config);
+  coach->set_help(false);
+  bench.trial(*coach, "one");
+  CHECK(coach->flush().empty());
+  const LockHolder holder(bench.config.history);
+  bench.trial(*coach, "one");
+  coach->comment(coach->view().runs[1].id, "Bo", "Calmer.");
+  coach->offer(bench.config.lessons[0]);
+  bench.begin(*coach);
+  const std::vector<DriveSample> drive = bench_drive(Drive::good);
+  coach->add(std::span(drive).first(500));
+  (void)coach->take_problem();
+  const auto begin = steady_clock::now();
+  const std::string message = coach->flush();
+  const auto waited = steady_clock::now() - begin;
+  CHECK(coach->view().phase == LessonPhase::over);  // the lesson was left
+  CHECK(waited > milliseconds(2000));
+  CHECK(waited < milliseconds(4000));
+  CHECK(message == bench.config.history.string() +
+                       ": the history cannot be used: another program has locked it; not saved: 2 runs, 1 comment");
+  CHECK(coach->take_problem() == message);
+  const auto again = steady_clock::now();
+  coach.reset();
+  CHECK(steady_clock::now() - again < milliseconds(1000));
+  CHECK(runs_of_ada(bench.config.history).size() == 1);
+}
+
+TEST_CASE("a flush saves pending data and reports what cannot be saved") {
+  const TempFolder folder;
+  std::ofstream(folder / "place") << "no folder";
+  const CoachBench bench(folder / "place/history.db");
+  Coach coach(bench.config);
+  bench.trial(coach, "one");
+  coach.set_next("two");
+  const std::string message = coach.flush();
+  CHECK(message.find(bench.config.history.string()) == 0);
+  CHECK(message.find("; not saved: 1 run, 1 choice of the next lesson") != std::string::npos);
+  std::filesystem::remove(folder / "place");
+  (void)coach.take_problem();
+  CHECK(coach.flush().empty());
+  CHECK(runs_of_ada(bench.config.history).size() == 1);
+}
+
+TEST_CASE("recordings of runs missing from the history are listed once") {
+  const TempFolder folder;
+  const CoachBench bench(folder / "history.db");
+  {
+    Coach coach(bench.config);
+    coach.offer(bench.config.lessons[0]);
+    bench.begin(coach, "", "/a/known.trace");
+    const std::vector<DriveSample> drive = bench_drive(Drive::good);
+    coach.add(std::span(drive).first(500));
+    const LockHolder holder(bench.config.history);
+    bench.begin(coach, "", "/a/unknown.trace");
+    coach.add(drive);
+    CHECK(coach.take_unreferenced_recordings() == std::vector<std::string>{"/a/unknown.trace"});
+    CHECK(coach.take_unreferenced_recordings().empty());
+  }
+  const std::vector<RunRow> runs = runs_of_ada(bench.config.history);
+  REQUIRE(runs.size() == 2);  // the lock was released first
+  CHECK(runs[0].recording == "/a/known.trace");
+  CHECK(runs[1].recording.empty());
+}
+
+TEST_CASE(
+    "a history that could not be opened is retried with the next lesson, and then gets the runs driven meanwhile") {
+  const TempFolder folder;
+  std::ofstream(folder / "place") << "no folder";
+  const CoachBench bench(folder / "place/history.db");
+  Coach coach(bench.config);
+  coach.set_help(false);
+  CHECK(coach.take_problem().has_value());
+  bench.trial(coach, "one");
+  CHECK_FALSE(coach.take_problem().has_value());
+  CHECK_FALSE(coach.view().is_saving);
+  std::filesystem::remove(folder / "place");
+  bench.trial(coach, "one");
+  CHECK(coach.view().is_saving);
+  CHECK(coach.view().runs.size() == 2);
+  CHECK(coach.view().run > 0);
+  CHECK(runs_of_ada(bench.config.history).size() == 2);
+}
+
+TEST_CASE("data that cannot be reloaded keeps its last state until it can") {
+  const TempFolder folder;
+  const CoachBench bench(folder / "history.db");
+  Coach coach(bench.config);
+  coach.set_help(false);
+  bench.trial(coach, "one");
+  bench.trial(coach, "one");
+  by_hand(bench.config.history, "ALTER TABLE fault RENAME TO faults");
+  coach.offer(bench.config.lessons[0]);
+  CHECK(coach.take_problem().has_value());
+  CHECK(coach.view().runs.size() == 2);
+  CHECK(coach.view().lessons[0].passed);
+  by_hand(bench.config.history, "ALTER TABLE faults RENAME TO fault");
+  coach.offer(bench.config.lessons[0]);
+  CHECK(coach.view().runs.size() == 2);
+  bench.trial(coach, "one");
+  CHECK(coach.view().is_saving);
+  CHECK(runs_of_ada(bench.config.history).size() == 3);
+}

@@ -1,0 +1,139 @@
+// Erasing a learner leaves no byte behind. Where that fails (readers, full disk, killed program), it is reported and
+// can be repeated later.
+#include <sqlite3.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "app/lessons/history/history.h"
+#include "tests/app/lessons/history/sample_result.h"
+#include "tests/support/full_disk.h"
+#include "tests/support/temp_folder.h"
+
+using namespace gearshift::lessons;
+using namespace gearshift::test;
+
+namespace {
+
+const std::string kSecret = "Zymurgic quincunx";
+
+struct Erasing {
+  TempFolder folder;
+  std::filesystem::path file = folder / "history.db";
+  std::int64_t zeb = 0;
+
+  Erasing() {
+    History history(file);
+    zeb = history.find_or_add_learner("Zebediah");
+    const std::int64_t run = history.begin_run(history.begin_session(zeb, "1.0"), some_result(0), "a.trace");
+    history.add_comment(run, "Bo", kSecret);
+    history.find_or_add_learner("Bob");
+  }
+
+  bool holds_secret() const {
+    bool anywhere = false;
+    for (const auto& entry : std::filesystem::directory_iterator(folder.path())) {
+      std::ifstream in(entry.path(), std::ios::binary);
+      const std::string bytes{std::istreambuf_iterator<char>(in), {}};
+      anywhere |= bytes.find(kSecret) != std::string::npos || bytes.find("Zebediah") != std::string::npos;
+    }
+    return anywhere;
+  }
+};
+
+bool is_one_sentence(const std::string& text) {
+  return !text.empty() && text.find('\n') == std::string::npos;
+}
+
+}  // namespace
+
+TEST_CASE("while another program reads, erased data stays in the log: this is reported, and completed later") {
+  const Erasing erasing;
+  sqlite3* reader = nullptr;
+  sqlite3_stmt* statement = nullptr;
+  REQUIRE(sqlite3_open(erasing.file.c_str(), &reader) == SQLITE_OK);
+  {
+    History history(erasing.file);
+    history.set_lock_timeout(std::chrono::milliseconds(20));
+    history.find_or_add_learner("Cy");  // a row that is still in the write-ahead log
+    REQUIRE(sqlite3_exec(reader, "BEGIN", nullptr, nullptr, nullptr) == SQLITE_OK);
+    REQUIRE(sqlite3_prepare_v2(reader, "SELECT name FROM learner", -1, &statement, nullptr) == SQLITE_OK);
+    REQUIRE(sqlite3_step(statement) == SQLITE_ROW);
+    std::vector<std::string> removed;
+    const std::string left = history.erase_learner(erasing.zeb, [&](const auto& recordings) { removed = recordings; });
+    CHECK(is_one_sentence(left));
+    CHECK(left.find("another program") != std::string::npos);
+    CHECK(removed == std::vector<std::string>{"a.trace"});
+    CHECK(erasing.holds_secret());  // otherwise there would be nothing to report
+    CHECK_FALSE(history.find_learner("Zebediah").has_value());
+    CHECK(history.erasure_is_pending());
+    CHECK(is_one_sentence(history.finish_erasure()));
+  }
+  sqlite3_finalize(statement);
+  REQUIRE(sqlite3_exec(reader, "COMMIT", nullptr, nullptr, nullptr) == SQLITE_OK);
+  History again(erasing.file);
+  CHECK(again.erasure_is_pending());
+  CHECK(again.finish_erasure().empty());
+  CHECK_FALSE(again.erasure_is_pending());
+  CHECK_FALSE(erasing.holds_secret());
+  sqlite3_close(reader);
+}
+
+TEST_CASE("on a full disk either the learner stays, or only the file's size does; this is reported") {
+  const Erasing erasing;
+  {
+    History history(erasing.file);
+    disk_is_full = true;
+    CHECK_THROWS_WITH_AS((void)history.erase_learner(erasing.zeb, [](const auto&) {}),
+                         doctest::Contains("the disk is full: the recordings were deleted, nothing else"), HistoryFull);
+    disk_is_full = false;
+    REQUIRE(history.find_learner("Zebediah").has_value());  // so that she can be erased again
+    // 4 MB of another learner's data.
+    const std::int64_t session = history.begin_session(history.find_or_add_learner("Bob"), "1.0");
+    for (int i = 0; i < 4; ++i) history.add_settings(session, std::string(1'000'000, 'x'));
+  }
+  // Room for the transaction, but not for VACUUM's new copy of the file: the file size limit is 2 MB.
+  const pid_t child = fork();
+  if (child == 0) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    History other(erasing.file);
+    const rlimit small{2'000'000, 2'000'000};
+    setrlimit(RLIMIT_FSIZE, &small);
+    bool has_removed = false;
+    const std::string left = other.erase_learner(erasing.zeb, [&](const auto& names) { has_removed = !names.empty(); });
+    const bool is_missing_parent = !other.find_learner("Zebediah").has_value();
+    _exit(has_removed && is_missing_parent && is_one_sentence(left) && other.erasure_is_pending() ? 0 : 1);
+  }
+  int status = -1;
+  waitpid(child, &status, 0);
+  CHECK(status == 0);
+  History history(erasing.file);
+  CHECK(history.erasure_is_pending());
+  CHECK(history.finish_erasure().empty());
+  CHECK_FALSE(erasing.holds_secret());
+}
+
+TEST_CASE("killed between deleting recordings and rows, the learner is still there to be erased") {
+  const Erasing erasing;
+  const pid_t child = fork();
+  if (child == 0) {
+    History history(erasing.file);
+    (void)history.erase_learner(erasing.zeb, [](const auto&) { _exit(0); });
+    _exit(1);
+  }
+  int status = -1;
+  waitpid(child, &status, 0);
+  REQUIRE(status == 0);
+  History history(erasing.file);
+  CHECK(history.find_learner("Zebediah").has_value());
+  CHECK(history.erase_learner(erasing.zeb, [](const auto& recordings) { CHECK(recordings.size() == 1); }).empty());
+  CHECK_FALSE(erasing.holds_secret());
+}

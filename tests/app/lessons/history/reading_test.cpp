@@ -1,0 +1,259 @@
+// Reading a history needs no write access: read-only files and folders, other programs' logs, older versions.
+#include <sqlite3.h>
+#include <sys/resource.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <csignal>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <map>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "app/lessons/history/history.h"
+#include "app/lessons/history/schema.h"
+#include "haptics/files/printable.h"
+#include "tests/app/lessons/history/sample_result.h"
+#include "tests/support/temp_folder.h"
+
+using namespace gearshift::haptics;
+using namespace gearshift::lessons;
+using namespace gearshift::test;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+History read_only(const fs::path& file) {
+  return History(file, system_seconds, kHistoryLockTimeout, HistoryUse::read);
+}
+
+// A folder with a history in it, made read-only. It can still be removed afterwards.
+struct ReadOnlyFolder {
+  TempFolder folder;
+  fs::path place = folder / "sealed", file = place / "history.db";
+
+  explicit ReadOnlyFolder(const std::function<void(const fs::path&)>& make) {
+    fs::permissions(folder.path(), fs::perms(0755));
+    fs::create_directory(place);
+    make(file);
+    for (const auto& entry : fs::directory_iterator(place)) fs::permissions(entry.path(), fs::perms(0444));
+    fs::permissions(place, fs::perms(0555));
+  }
+  ~ReadOnlyFolder() { fs::permissions(place, fs::perms(0755)); }
+  ReadOnlyFolder(const ReadOnlyFolder&) = delete;
+  ReadOnlyFolder& operator=(const ReadOnlyFolder&) = delete;
+
+  std::map<std::string, std::string> bytes() const {
+    std::map<std::string, std::string> all;
+    for (const auto& entry : fs::directory_iterator(place)) {
+      std::ifstream in(entry.path(), std::ios::binary);
+      all[entry.path().filename()] = {std::istreambuf_iterator<char>(in), {}};
+    }
+    return all;
+  }
+};
+
+void write_one(const fs::path& file) {
+  History history(file);
+  const std::int64_t session = history.begin_session(history.find_or_add_learner("Ada"), "1.0");
+  const std::int64_t run = history.begin_run(session, some_result(0), "");
+  history.end_run(run, some_result(3));
+  history.add_comment(run, "Bo", "Calmer.");
+}
+
+// Runs `work` in a child process without write permission (root always has it). Returns an empty text on success.
+std::string without_permission(const std::function<std::string()>& work) {
+  int message_pipe[2];
+  REQUIRE(pipe(message_pipe) == 0);
+  const pid_t child = fork();
+  if (child == 0) {
+    std::string message = "cannot become nobody";
+    if (geteuid() != 0 || setuid(65534) == 0) {
+      try {
+        message = work();
+      } catch (const HistoryError& problem) {
+        message = problem.what();
+      }
+    }
+    (void)!write(message_pipe[1], message.data(), message.size());
+    _exit(0);
+  }
+  close(message_pipe[1]);
+  std::string message;
+  for (char c = 0; read(message_pipe[0], &c, 1) == 1;) message += c;
+  close(message_pipe[0]);
+  waitpid(child, nullptr, 0);
+  return message;
+}
+
+std::string check_readable(History&& history) {
+  const auto ada = history.find_learner("Ada");
+  if (!ada) return "nobody";
+  const std::vector<RunRow> runs = history.runs(ada->id);
+  if (runs.size() != 1 || runs[0].result.shifts.size() != 3) return "other runs";
+  const std::vector<CommentRow> comments = history.comments(runs[0].id);
+  return comments.size() == 1 && comments[0].text == "Calmer." ? "" : "other comments";
+}
+
+}  // namespace
+
+TEST_CASE("a read-only history in a read-only folder is read completely and stays unchanged") {
+  const ReadOnlyFolder sealed(write_one);
+  const auto before = sealed.bytes();
+  REQUIRE(before.size() == 1);
+  CHECK(without_permission([&] { return check_readable(read_only(sealed.file)); }) == "");
+  // opened for reading, it is not written even with permission
+  CHECK(check_readable(read_only(sealed.file)) == "");
+  CHECK(sealed.bytes() == before);
+}
+
+// Invariant: opening a read-only history creates no log beside it; such a log would be read-only for other programs,
+// too.
+TEST_CASE("a read-only history in a writable folder: read or rejected, it can be written again later") {
+  const TempFolder folder;
+  const fs::path place = folder / "open", file = place / "history.db";
+  fs::permissions(folder.path(), fs::perms(0755));
+  fs::create_directory(place);
+  write_one(file);
+  fs::permissions(place, fs::perms(0777));
+  fs::permissions(file, fs::perms(0444));
+  const auto write = [&] {
+    History(file).find_or_add_learner("Bob");
+    return std::string();
+  };
+  const std::string message = without_permission(write);
+  CHECK(message == file.string() + ": the history cannot be used: no permission to write it");
+  CHECK(without_permission([&] { return check_readable(read_only(file)); }) == "");
+  CHECK(std::distance(fs::directory_iterator(place), {}) == 1);
+  fs::permissions(file, fs::perms(0666));
+  CHECK(without_permission(write) == "");
+
+  // An older program left this file there; the error message names it.
+  std::ofstream(place / "history.db-shm") << "";
+  fs::permissions(place / "history.db-shm", fs::perms(0444));
+  CHECK(without_permission(write) ==
+        file.string() + ": the history cannot be used: no permission to write history.db-shm beside it");
+}
+
+TEST_CASE("names with a special meaning in a URI are plain names") {
+  const TempFolder folder;
+  fs::permissions(folder.path(), fs::perms(0755));
+  for (const char* name : {"a?b#c", "100%41", "mode=memory", "sp ace"}) {
+    CAPTURE(name);
+    const fs::path place = folder / name;
+    fs::create_directory(place);
+    write_one(place / "history.db");
+    fs::permissions(place / "history.db", fs::perms(0444));
+    fs::permissions(place, fs::perms(0555));
+    CHECK(without_permission([&] { return check_readable(read_only(place / "history.db")); }) == "");
+    fs::permissions(place, fs::perms(0755));
+  }
+}
+
+// Data that a killed program had written but not checkpointed is only in the log.
+TEST_CASE("with a log and its index both are read; a log without its index is reported") {
+  const auto killed = [](const fs::path& file) {
+    const pid_t child = fork();
+    if (child == 0) {
+      static History history(file);
+      const std::int64_t session = history.begin_session(history.find_or_add_learner("Ada"), "1.0");
+      const std::int64_t run = history.begin_run(session, some_result(0), "");
+      history.end_run(run, some_result(3));
+      history.add_comment(run, "Bo", "Calmer.");
+      _exit(0);
+    }
+    waitpid(child, nullptr, 0);
+  };
+  const ReadOnlyFolder with_index(killed);
+  const auto before = with_index.bytes();
+  REQUIRE(before.size() == 3);
+  CHECK(without_permission([&] { return check_readable(read_only(with_index.file)); }) == "");
+  CHECK(with_index.bytes() == before);
+
+  const ReadOnlyFolder without([&](const fs::path& file) {
+    killed(file);
+    fs::remove(file.string() + "-shm");
+  });
+  const std::string message = without_permission([&] { return check_readable(read_only(without.file)); });
+  CHECK(message.find(without.file.string() + ": the history cannot be used: it has a write-ahead log") == 0);
+  CHECK(is_printable(message));
+}
+
+TEST_CASE("an older history is read as if upgraded, but is not changed") {
+  const TempFolder folder;
+  const auto file = folder / "history.db";
+  sqlite3* old = nullptr;
+  REQUIRE(sqlite3_open(file.c_str(), &old) == SQLITE_OK);
+  const std::string text = kMigrations[0] +
+                           "PRAGMA user_version = 1; PRAGMA application_id = " + std::to_string(kApplicationId) +
+                           ";INSERT INTO learner VALUES (3, 'Ada', '2026-01-02T03:04:05Z', 'reverse');";
+  REQUIRE(sqlite3_exec(old, text.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK);
+  sqlite3_close(old);
+  const auto bytes = [&] {
+    std::ifstream in(file, std::ios::binary);
+    return std::string{std::istreambuf_iterator<char>(in), {}};
+  };
+  const std::string before = bytes();
+  History history = read_only(file);
+  REQUIRE(history.find_learner("Ada").has_value());
+  CHECK(history.runs(3).empty());
+  CHECK(bytes() == before);
+}
+
+TEST_CASE("a history opened for reading rejects writes and locks nobody out") {
+  const TempFolder folder;
+  const auto file = folder / "history.db";
+  write_one(file);
+  History copy = read_only(file), writer(file);
+  CHECK_THROWS_WITH_AS(copy.find_or_add_learner("Bob"), doctest::Contains("it is read-only"), HistoryError);
+  CHECK(writer.erase_learner(writer.find_learner("Ada")->id, [](const auto&) {}).empty());
+  CHECK(check_readable(std::move(copy)) == "");  // unchanged
+  CHECK(read_only(file).learners().empty());
+}
+
+TEST_CASE("it can be read on a full disk") {
+  const TempFolder folder;
+  write_one(folder / "history.db");
+  const pid_t child = fork();
+  if (child == 0) {
+    std::signal(SIGXFSZ, SIG_IGN);
+    const rlimit none{0, 0};  // no file can grow
+    setrlimit(RLIMIT_FSIZE, &none);
+    std::string message;
+    try {
+      message = check_readable(read_only(folder / "history.db"));
+    } catch (const HistoryError& problem) {
+      message = problem.what();
+    }
+    _exit(message.empty() ? 0 : 1);
+  }
+  int status = -1;
+  waitpid(child, &status, 0);
+  CHECK(status == 0);
+}
+
+TEST_CASE("an unreadable file is rejected in one sentence, and no file is created") {
+  const TempFolder folder;
+  fs::permissions(folder.path(), fs::perms(0755));
+  const auto refused = [](const fs::path& file) {
+    const std::string message = without_permission([&] { return check_readable(read_only(file)); });
+    CAPTURE(message);
+    return message.find(file.string() + ": the history cannot be used: ") == 0 && is_printable(message);
+  };
+  CHECK(refused(folder / "none.db"));
+  CHECK(refused(folder.path()));
+  CHECK_THROWS_WITH_AS((void)read_only(folder.path()), doctest::Contains("it is a folder"), HistoryError);
+  std::ofstream(folder / "letter.db") << "Dear Ada" << std::string(4096, ' ');
+  CHECK(refused(folder / "letter.db"));
+  write_one(folder / "secret.db");
+  fs::permissions(folder / "secret.db", fs::perms(0));
+  CHECK(refused(folder / "secret.db"));
+  CHECK_FALSE(fs::exists(folder / "none.db"));
+}

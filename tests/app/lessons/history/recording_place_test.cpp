@@ -1,0 +1,115 @@
+// A recording's path is relative to the history's folder, so that both can be moved or copied together.
+#include <sqlite3.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "app/lessons/history/history.h"
+#include "app/lessons/history/schema.h"
+#include "tests/app/lessons/history/sample_result.h"
+#include "tests/support/temp_folder.h"
+
+using namespace gearshift::lessons;
+using namespace gearshift::test;
+
+namespace {
+
+namespace fs = std::filesystem;
+
+void drive(const fs::path& file, const std::vector<std::string>& recordings) {
+  History history(file);
+  const std::int64_t session = history.begin_session(history.find_or_add_learner("Ada"), "1.0");
+  for (const std::string& recording : recordings) history.begin_run(session, some_result(0), recording);
+}
+
+std::vector<std::string> places_in(const fs::path& file) {
+  History history(file);
+  std::vector<std::string> places;
+  for (const RunRow& run : history.runs(history.find_learner("Ada")->id))
+    places.push_back(history.recording_file(run.recording));
+  return places;
+}
+
+}  // namespace
+
+TEST_CASE("after a move, and in a copy, a history refers to its own recordings; paths elsewhere stay") {
+  const TempFolder folder;
+  const std::string away = (folder / "away.trace").string();
+  drive(folder / "one/history.db", {(folder / "one/recordings/a.trace").string(), away, ""});
+  fs::copy(folder / "one", folder / "copy", fs::copy_options::recursive);
+  fs::rename(folder / "one", folder / "moved");
+  for (const char* place : {"copy", "moved"}) {
+    const std::string near = (folder / place / "recordings/a.trace").string();
+    CHECK(places_in(folder / place / "history.db") == std::vector<std::string>{near, away, ""});
+  }
+}
+
+TEST_CASE(
+    "only true subfolders count: not a similar name beside it, not a path through its parent; links are resolved") {
+  const TempFolder folder;
+  fs::create_directories(folder / "real");
+  fs::create_directory_symlink(folder / "real", folder / "link");
+  const auto name_of = [&](const fs::path& history, const fs::path& recording) {
+    fs::remove(history);
+    drive(history, {recording.string()});
+    History opened(history);
+    return opened.runs(opened.find_learner("Ada")->id).at(0).recording;
+  };
+  const fs::path real = folder / "real/history.db", link = folder / "link/history.db";
+  CHECK(name_of(real, folder / "real/deep/a.trace") == "deep/a.trace");
+  CHECK(name_of(real, folder / "really/a.trace") == (folder / "really/a.trace").string());
+  CHECK(name_of(real, folder / "real/../a.trace") == (folder / "real/../a.trace").string());
+  CHECK(name_of(link, folder / "link/a.trace") == "a.trace");
+  CHECK(name_of(link, folder / "real/a.trace") == "a.trace");
+  CHECK(name_of(real, folder / "link/a.trace") == "a.trace");
+  CHECK(name_of(real, "near.trace") == "near.trace");
+}
+
+TEST_CASE("upgrading version 5 makes recording paths relative, only below its folder") {
+  const TempFolder folder;
+  const fs::path file = folder / "history.db";
+  sqlite3* old = nullptr;
+  REQUIRE(sqlite3_open(file.c_str(), &old) == SQLITE_OK);
+  std::string fill;
+  for (std::size_t i = 0; i < 5; ++i) fill += kMigrations[i];
+  fill += "PRAGMA user_version = 5; PRAGMA application_id = " + std::to_string(kApplicationId) +
+          ";INSERT INTO learner VALUES (1, 'Ada', '2026-01-02T03:04:05Z', '');"
+          "INSERT INTO session VALUES (1, 1, '2026-01-02T03:04:06Z', 'gearshift 0.1');";
+  const std::string below = (folder / "recordings/it's.trace").string();
+  for (const std::string& recording : {below, below, std::string("/away/b.trace"), std::string("near.trace")}) {
+    char* row = sqlite3_mprintf(
+        "INSERT INTO lesson_run (session, begun_at, recording, lesson, task, mode, ended, guided, whole, begin_s, "
+        "duration_s, grade, passed, why, slip_energy_j, engine_work_j) VALUES (1, '', %Q, 'a', 'a', 0, 1, 0, 1, 0, 0, "
+        "0, 0, '', 0, 0);",
+        recording.c_str());
+    fill += row;
+    sqlite3_free(row);
+  }
+  REQUIRE(sqlite3_exec(old, fill.c_str(), nullptr, nullptr, nullptr) == SQLITE_OK);
+  sqlite3_close(old);
+  const std::vector<std::string> names{"recordings/it's.trace", "recordings/it's.trace", "/away/b.trace", "near.trace"};
+  for (const HistoryUse use : {HistoryUse::read, HistoryUse::write}) {
+    History history(file, system_seconds, kHistoryLockTimeout, use);
+    std::vector<std::string> found;
+    for (const RunRow& run : history.runs(1)) found.push_back(run.recording);
+    CHECK(found == names);
+  }
+}
+
+TEST_CASE("a forgotten recording is referred to by no row; those that no other row refers to are listed") {
+  const TempFolder folder;
+  History history(folder / "history.db");
+  const std::int64_t ada = history.find_or_add_learner("Ada"), bob = history.find_or_add_learner("Bob");
+  const std::int64_t session = history.begin_session(ada, "1.0");
+  const std::int64_t run = history.begin_run(session, some_result(0), "gone.trace");
+  history.begin_run(session, some_result(0), "own.trace");
+  history.begin_run(session, some_result(0), "shared.trace");
+  history.begin_run(history.begin_session(bob, "1.0"), some_result(0), "shared.trace");
+  history.clear_recording(run);
+  CHECK(history.runs(ada)[0].recording.empty());
+  CHECK(history.recordings(ada) == std::vector<std::string>{"own.trace"});
+  CHECK_THROWS_AS(history.clear_recording(99), HistoryDeleted);
+}

@@ -1,0 +1,48 @@
+// Lesson results in which every number is different.
+#pragma once
+
+#include "app/lessons/assessment/shift_fields.h"
+#include "app/lessons/history/history.h"
+
+namespace gearshift::test {
+
+inline lessons::ShiftRecord some_shift(std::int64_t number) {
+  lessons::ShiftRecord shift;
+  shift.number = number;
+  shift.from = static_cast<int>(number % 5);
+  shift.to = shift.from + 1;
+  shift.guided = number % 2 == 1;
+  shift.missed = number % 3 == 1;
+  shift.steps = {lessons::ShiftStep::clutch_down, lessons::ShiftStep::throttle_off, lessons::ShiftStep::gear,
+                 lessons::ShiftStep::clutch_up};
+  int n = 0;
+  lessons::each_figure(shift, [&](const char*, auto& value) {
+    value = static_cast<std::remove_reference_t<decltype(value)>>(static_cast<double>(number) + 1.0 / ++n);
+  });
+  return shift;
+}
+
+inline lessons::LessonResult some_result(int shifts) {
+  lessons::LessonResult result;
+  result.lesson = "hill_start";
+  result.task = "moving_off";
+  result.mode = lessons::LessonMode::by_yourself;
+  result.end = lessons::LessonEnd::done;
+  result.begin = 12.5;
+  result.duration = 34.25;
+  result.grade = 7.5;
+  result.passed = true;
+  result.why = "It's \"why\"; DROP TABLE shift; --";
+  result.slip_energy = 2020.5;
+  result.fuel = 4321.0;
+  result.errors = {
+      {lessons::ErrorKind::stall, lessons::Severity::severe, 13.5, 36.6, -1},
+      {lessons::ErrorKind::rollback, lessons::Severity::minor, 14.5, 0.3, 0},
+      {lessons::ErrorKind::jerk, lessons::Severity::note, 15.5, 9.0, 0},
+      {lessons::ErrorKind::slow_step, lessons::Severity::note, 16.5, 4.0, 0, "Let the \"hand\" brake off.", 2.5}};
+  result.deductions = {{0, 2.0}, {1, 0.5}};
+  for (int i = 0; i < shifts; ++i) result.shifts.push_back(some_shift(i));
+  return result;
+}
+
+}  // namespace gearshift::test

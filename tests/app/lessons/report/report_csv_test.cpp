@@ -1,0 +1,226 @@
+// The tables, parsed by an independent reader, contain the data that was written.
+#include "app/lessons/report/report_csv.h"
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <stdexcept>
+
+#include <doctest/doctest.h>
+
+#include "app/lessons/assessment/shift_fields.h"
+#include "app/lessons/report/progress.h"
+#include "tests/app/lessons/history/sample_result.h"
+#include "tests/app/lessons/report/constructed_history.h"
+
+using namespace gearshift::haptics;
+using namespace gearshift::lessons;
+using namespace gearshift::test;
+
+namespace {
+
+// RFC 4180 section 2, strictly: records end with CRLF, all have the same number of fields, a quote occurs only in a
+// quoted field.
+std::vector<std::vector<std::string>> parse(const std::string& text) {
+  std::vector<std::vector<std::string>> records(1);
+  std::size_t at = 0;
+  while (at < text.size()) {
+    std::string field;
+    if (text[at] == '"') {
+      for (++at;; ++at) {
+        if (at >= text.size()) throw std::runtime_error("a quote is open");
+        if (text[at] != '"')
+          field += text[at];
+        else if (at + 1 < text.size() && text[at + 1] == '"')
+          field += text[++at];
+        else
+          break;
+      }
+      ++at;
+    } else {
+      for (; at < text.size() && text[at] != ',' && text[at] != '\r'; ++at) {
+        if (text[at] == '"' || text[at] == '\n') throw std::runtime_error("not quoted");
+        field += text[at];
+      }
+    }
+    records.back().push_back(field);
+    if (text[at] == ',') {
+      ++at;
+    } else {
+      if (text.substr(at, 2) != "\r\n") throw std::runtime_error("no CRLF");
+      at += 2;
+      if (at < text.size()) records.emplace_back();
+    }
+  }
+  for (const auto& record : records)
+    if (record.size() != records.front().size()) throw std::runtime_error("another number of fields");
+  return records;
+}
+
+// Record i as a map from the header's names.
+std::map<std::string, std::string> row(const std::vector<std::vector<std::string>>& records, std::size_t i) {
+  std::map<std::string, std::string> fields;
+  for (std::size_t c = 0; c < records[0].size(); ++c) fields[records[0][c]] = records[i + 1][c];
+  REQUIRE(fields.size() == records[0].size());
+  return fields;
+}
+
+const std::string kNasty = "a,\"b\"\r\n'c';\t=1+1\n\"";
+
+LearnerHistory history_with_everything() {
+  LearnerHistory history;
+  history.learner.name = kNasty;
+  ReportedRun run;
+  run.row = {12, 3, "2026-01-02T03:04:05Z", "a \"trace\".trace", some_result(5)};
+  run.comments = {{"2026-01-03T00:00:00Z", "Bo", kNasty}, {"2026-01-04T00:00:00Z", "Di", "Fine."}};
+  history.runs.push_back(run);
+  history.runs.push_back(run_with(13, 0, 5.5));
+  history.runs[1].row.result.guided = true;
+  return history;
+}
+
+// Tolerance: half of the twelfth digit.
+bool is_read_back(const std::string& field, double value) {
+  return std::abs(std::stod(field) - value) <= 5e-12 * std::abs(value);
+}
+
+}  // namespace
+
+TEST_CASE("a field is quoted only where necessary") {
+  CHECK(csv_field("plain words") == "plain words");
+  CHECK(csv_field("") == "");
+  CHECK(csv_field("a,b") == "\"a,b\"");
+  CHECK(csv_field("say \"no\"") == "\"say \"\"no\"\"\"");
+  CHECK(csv_field("a\nb") == "\"a\nb\"");
+  CHECK(csv_field("a\rb") == "\"a\rb\"");
+  CHECK(csv_field("\"") == "\"\"\"\"");
+}
+
+TEST_CASE("runs are read back from the table") {
+  const auto records = parse(runs_csv(history_with_everything()));
+  REQUIRE(records.size() == 3);
+  auto fields = row(records, 0);
+  CHECK(fields["run"] == "12");
+  CHECK(fields["session"] == "3");
+  CHECK(fields["learner"] == kNasty);
+  CHECK(fields["begun_at_utc"] == "2026-01-02T03:04:05Z");
+  CHECK(fields["lesson"] == "hill_start");
+  CHECK(fields["task"] == "moving_off");
+  CHECK(fields["mode"] == "by_yourself");
+  CHECK(fields["ended"] == "done");
+  CHECK(fields["guided"] == "0");
+  CHECK(fields["whole"] == "1");
+  CHECK(fields["begin_s"] == "12.5");
+  CHECK(fields["duration_s"] == "34.25");
+  CHECK(fields["grade"] == "7.5");
+  CHECK(fields["points_off"] == "2.5");
+  CHECK(fields["passed"] == "1");
+  CHECK(fields["why"] == some_result(0).why);
+  CHECK(fields["slip_energy_j"] == "2020.5");
+  CHECK(fields["shifts"] == "5");
+  CHECK(fields["faults"] == "4");
+  CHECK(fields["recording"] == "a \"trace\".trace");
+  CHECK(fields["comments"] == "Bo, 2026-01-03T00:00:00Z: " + kNasty + "\nDi, 2026-01-04T00:00:00Z: Fine.");
+  CHECK(row(records, 1)["grade"].empty());  // guided: an empty grade, not a zero
+}
+
+TEST_CASE("a rounding error in a time's last bit is not printed; a small time keeps its digits") {
+  LearnerHistory history = history_with_everything();
+  LessonResult& result = history.runs[0].row.result;
+  result.begin = std::nextafter(13.379, 14.0);  // 13.379000000000001
+  result.duration = 1.0 / 3.0;
+  result.slip_energy = -0.0;
+  result.fuel = 123456789.125;
+  result.shifts[0].overshoot = 1.25e-7;
+  const auto runs = parse(runs_csv(history));
+  auto fields = row(runs, 0);
+  CHECK(fields["begin_s"] == "13.379");
+  CHECK(fields["duration_s"] == "0.333333333333");
+  CHECK(fields["slip_energy_j"] == "0");
+  CHECK(fields["engine_work_j"] == "123456789.125");
+  const auto shifts = parse(shifts_csv(history));
+  CHECK(std::stod(row(shifts, 0)["overshoot_m"]) == 1.25e-7);
+}
+
+TEST_CASE("shifts are read back from the table, every number to twelve digits") {
+  LearnerHistory history = history_with_everything();
+  history.runs[0].row.result.shifts[2].jerk_peak = std::nextafter(0.1, 1.0);
+  const auto records = parse(shifts_csv(history));
+  REQUIRE(records.size() == 6);
+  for (std::size_t i = 0; i < 5; ++i) {
+    auto fields = row(records, i);
+    const ShiftRecord& shift = history.runs[0].row.result.shifts[i];
+    CHECK(fields["run"] == "12");
+    CHECK(fields["shift"] == std::to_string(i + 1));  // counted from 1
+    CHECK(fields["from_gear"] == gear_name(shift.from));
+    CHECK(fields["to_gear"] == gear_name(shift.to));
+    CHECK(fields["guided"] == (shift.guided ? "1" : "0"));
+    CHECK(fields["missed"] == (shift.missed ? "1" : "0"));
+    CHECK(fields["steps"] == "clutch_down throttle_off gear clutch_up");
+    each_figure(shift, [&](const char* name, const auto& value) {
+      CAPTURE(name);
+      CHECK(is_read_back(fields.at(name), static_cast<double>(value)));
+    });
+  }
+}
+
+TEST_CASE("errors are read back from the table, with unit and points") {
+  const auto records = parse(faults_csv(history_with_everything()));
+  REQUIRE(records.size() == 5);
+  auto stall = row(records, 0), rollback = row(records, 1), jerk = row(records, 2), slow = row(records, 3);
+  CHECK(stall["kind"] == "stall");
+  CHECK(stall["severity"] == "severe");
+  CHECK(stall["time_s"] == "13.5");
+  CHECK(stall["value"] == "36.6");
+  CHECK(stall["unit"] == "rad/s");
+  CHECK(stall["shift"].empty());
+  CHECK(stall["points"] == "2");
+  CHECK(rollback["unit"] == "m");
+  CHECK(rollback["shift"] == "1");
+  CHECK(rollback["fault"] == "2");
+  CHECK(rollback["points"] == "0.5");
+  CHECK(jerk["unit"] == "m/s^3");
+  CHECK(jerk["points"] == "0");
+  CHECK(jerk["step"].empty());
+  CHECK(jerk["wanted_s"].empty());
+  CHECK(slow["unit"] == "s");
+  CHECK(slow["value"] == "4");
+  CHECK(slow["step"] == "Let the \"hand\" brake off.");
+  CHECK(slow["wanted_s"] == "2.5");
+}
+
+TEST_CASE("every kind of error has a unit, under its own name") {
+  LearnerHistory history;
+  history.runs.push_back(run_with(1, 1, 5.0));
+  for (int i = 0; i < kErrorKindCount; ++i)
+    history.runs[0].row.result.errors.push_back({static_cast<ErrorKind>(i), Severity::minor, 1.0, 1.0, -1});
+  const auto records = parse(faults_csv(history));
+  REQUIRE(records.size() == kErrorKindCount + 1);
+  std::map<std::string, std::string> units;
+  for (std::size_t i = 0; i < kErrorKindCount; ++i) {
+    auto fields = row(records, i);
+    CAPTURE(fields["kind"]);
+    CHECK_FALSE(fields["unit"].empty());
+    units[fields["kind"]] = fields["unit"];
+  }
+  CHECK(units["clutch_dump"] == "W");
+  CHECK(units["throttle_in_shift"] == "rad/s");
+  CHECK(units["grind"] == "J");
+  CHECK(units["missed_shift"] == "gear");
+  CHECK(units["over_push"] == "N");
+  CHECK(units["rollback"] == "m");
+  CHECK(units["wrong_direction"] == "m/s");
+  CHECK(units["coasting"] == "s");
+  CHECK(units["early_downshift"] == "rad/s");
+}
+
+TEST_CASE("no runs: only the header") {
+  for (const std::string& text : {runs_csv({}), shifts_csv({}), faults_csv({})}) CHECK(parse(text).size() == 1);
+}
+
+TEST_CASE("500 runs: 500 records") {
+  LearnerHistory history;
+  for (int i = 0; i < 500; ++i) history.runs.push_back(run_with(i + 1, 8, 7.0));
+  CHECK(parse(runs_csv(history)).size() == 501);
+  CHECK(parse(shifts_csv(history)).size() == 4001);
+}

@@ -1,0 +1,21 @@
+#include <doctest/doctest.h>
+
+#include "app/lessons/report/report_text.h"
+
+using namespace gearshift::lessons;
+
+TEST_CASE("numbers: a true minus sign, none before a zero") {
+  CHECK(format_number(-0.125, 2) == "−0.12");
+  CHECK(format_number(-0.004, 2) == "0.00");
+  CHECK(format_number(-0.0, 1) == "0.0");
+  CHECK(format_number(12.0, 0) == "12");
+}
+
+TEST_CASE("an unknown lesson is shown by its key") {
+  std::vector<Lesson> lessons(1);
+  lessons[0].key = "hill_start";
+  lessons[0].title = "Hill start";
+  CHECK(lesson_title(lessons, "hill_start") == "Hill start");
+  CHECK(lesson_title(lessons, "my_own_lesson") == "My own lesson");
+  CHECK(lesson_title({}, "") == "");
+}

@@ -1,0 +1,110 @@
+// Populations of simulated drivers: how well grades separate them, and the learning model.
+#include "app/lessons/simulated_driver/learning_experiment.h"
+
+#include <cmath>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "tests/app/lessons/simulated_driver/lessons.h"
+
+using namespace gearshift::lessons;
+using namespace gearshift::test;
+
+namespace {
+
+// The area under the ROC curve, by moving the threshold down and adding trapezoids.
+double area_by_threshold(const std::vector<double>& good, const std::vector<double>& bad) {
+  std::vector<double> thresholds(good);
+  thresholds.insert(thresholds.end(), bad.begin(), bad.end());
+  std::sort(thresholds.rbegin(), thresholds.rend());
+  const auto share = [](const std::vector<double>& values, double threshold) {
+    return static_cast<double>(std::count_if(values.begin(), values.end(), [&](double v) { return v >= threshold; })) /
+           static_cast<double>(values.size());
+  };
+  double area = 0.0, x = 0.0, y = 0.0;
+  for (const double t : thresholds) {
+    area += 0.5 * (share(good, t) + y) * (share(bad, t) - x);
+    x = share(bad, t), y = share(good, t);
+  }
+  return area;
+}
+
+// A lesson that ends at once and requires nothing, so that all learning is the model's.
+LessonDriveConfig nothing_to_do() {
+  LessonDriveConfig drive = shipped_drive("moving_off");
+  drive.lesson.steps.resize(1);
+  return drive;
+}
+
+}  // namespace
+
+TEST_CASE("the AUC is the area under the ROC curve, ties included") {
+  const std::vector<double> good{10, 9.5, 9.5, 8, 10}, bad{9.5, 6, 8, 10};
+  CHECK(roc_auc(good, bad) == doctest::Approx(area_by_threshold(good, bad)));
+  CHECK(roc_auc(bad, good) == doctest::Approx(1.0 - roc_auc(good, bad)));
+  CHECK(roc_auc(std::vector{2.0, 3.0}, std::vector{0.0, 1.0}) == 1.0);
+  CHECK(roc_auc(good, good) == doctest::Approx(0.5));
+  CHECK(roc_auc({}, bad) == 0.5);
+}
+
+TEST_CASE("the grade separates skilled from unskilled drivers, and not equal ones") {
+  const LessonDriveConfig drive = shipped_drive("skip_shifts");
+  const Separation apart = separate(drive, 12, 7);
+  CAPTURE(apart.auc);
+  CHECK(apart.auc > 0.8);
+  const Separation same = separate(drive, 12, 7, {1.0, 0.0});
+  CAPTURE(same.auc);
+  CHECK(std::abs(same.auc - 0.5) < 0.3);
+}
+
+TEST_CASE("a lesson that was given up counts as zero, however good the driven part was") {
+  LessonDriveConfig drive = shipped_drive("moving_off");
+  drive.lesson.steps[3].until.speed_above = 60.0;  // 216 km/h in first
+  drive.lesson.time_limit = 600.0;
+  const Separation none = separate(drive, 1, 5);
+  CHECK(none.skilled == std::vector<double>{0.0});
+  CHECK(none.unskilled == std::vector<double>{0.0});
+  CHECK(none.skilled_passed + none.unskilled_passed == 0);
+}
+
+TEST_CASE("a deliberate error is named and lowers the grade, and is not named otherwise") {
+  for (const ErrorKind kind : {ErrorKind::clutch_late, ErrorKind::wrong_column, ErrorKind::over_rev}) {
+    const ErrorSeparation s = separate_error(shipped_drive("skip_shifts"), kind, 5, 3);
+    CAPTURE(error_key(kind));
+    CHECK(s.detected == s.driven);
+    CHECK(s.false_alarms <= 1);
+    CHECK(s.auc > 0.7);
+  }
+}
+
+TEST_CASE("practice without failures follows e (1 - rate)^n, guidance slows it by its loss") {
+  LearningModel model;
+  model.rate_spread = 0.0;
+  model.min_start_error = 1.0;
+  const LessonDriveConfig drive = nothing_to_do();
+  const PracticeOutcome unguided = practise(drive, Practice::unguided, model, 2, 10, 1);
+  const PracticeOutcome guided_always = practise(drive, Practice::guided_always, model, 2, 10, 1);
+  const PracticeOutcome faded = practise(drive, Practice::faded, model, 2, 10, 1);
+  CHECK(unguided.error[0] == 1.0);
+  CHECK(unguided.error[10] == doctest::Approx(std::pow(1.0 - model.rate, 10)));
+  CHECK(guided_always.error[10] == doctest::Approx(std::pow(1.0 - model.rate * (1.0 - model.guided_loss), 10)));
+  CHECK(unguided.guided_share == 0.0);
+  CHECK(guided_always.guided_share == 1.0);
+  CHECK(faded.guided_share > 0.2);
+  CHECK(faded.guided_share <= 0.6);
+  CHECK(faded.error[10] > unguided.error[10]);
+  CHECK(faded.error[10] < guided_always.error[10]);
+}
+
+TEST_CASE("a trial with errors throughout teaches less, by the model's loss") {
+  LearningModel model;
+  model.rate_spread = 0.0;
+  model.min_start_error = 1.0;
+  LessonDriveConfig drive = nothing_to_do();
+  drive.lesson.steps[0].until.speed_above = 100.0;
+  drive.lesson.steps[0].until.clutch_above.reset();
+  drive.lesson.time_limit = 1.0;
+  const PracticeOutcome outcome = practise(drive, Practice::unguided, model, 1, 5, 1);
+  CHECK(outcome.error[5] == doctest::Approx(std::pow(1.0 - model.rate * (1.0 - model.failed_loss), 5)));
+}

@@ -1,0 +1,218 @@
+// A complete calibration with an emulated stick and a simulated user on a virtual clock: measurements and answers are
+// saved, invalid answers are asked again, and an interrupted calibration continues where it stopped.
+#include "app/runtime/devices/calibration_dialog.h"
+
+#include <atomic>
+#include <cmath>
+#include <deque>
+#include <functional>
+#include <mutex>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "tests/support/stick/stick_port.h"
+
+using namespace gearshift::haptics;
+using namespace gearshift::runtime;
+using namespace gearshift::test;
+
+namespace {
+
+constexpr std::int64_t kMillisecond = 1'000'000;
+
+// A hand that only pushes.
+class Pusher final : public HandDriver {
+ public:
+  HandTarget next(double, glm::dvec2 lever) noexcept override {
+    HandTarget target;
+    target.position = lever;
+    target.push = push;
+    return target;
+  }
+  glm::dvec2 push{0.0};  // [N]
+};
+
+EmulatedStickConfig bare_stick() {
+  EmulatedStickConfig config;
+  config.lever.hand = kBareHand;
+  return config;
+}
+
+// The stick, its user, and the dialog between user and program.
+struct Rig {
+  Pusher hand;
+  EmulatedStick stick{bare_stick(), hand};
+  std::mutex mutex;
+  std::atomic<bool> plugged{true};
+  StickPort port{stick, mutex, plugged};
+  PidDriver driver{stick.report_descriptor()};
+  PidAbility ability{driver.prepare(port)};
+  std::int64_t now_ns = 1'000'000'000, asked_ns = now_ns;
+  std::string question;
+  std::vector<std::string> asked, said;
+  std::vector<DeviceCalibration> kept;
+  std::deque<std::string> lines;  // used instead of the user's own answers
+  std::function<void(double)> does;
+
+  std::int64_t tick() {
+    now_ns += kMillisecond;
+    if (does) does(1e-9 * static_cast<double>(now_ns - asked_ns));
+    tick_stick(stick, driver.stream_config(kMillisecond), driver, now_ns);
+    return now_ns;
+  }
+
+  bool is_about(const char* words) const { return question.find(words) != std::string::npos; }
+
+  // Performs the user's next action and returns what the user types.
+  std::string answer(const std::string& next) {
+    asked.push_back(question = next);
+    asked_ns = now_ns;
+    stick.held_buttons = 0;
+    hand.push = {};
+    does = {};
+    if (is_about("RIGHT")) does = [this](double time) { hand.push = {time > 0.7 ? 8.0 : 0.0, 0.0}; };
+    if (is_about("FORWARD")) does = [this](double time) { hand.push = {0.0, time > 1.2 ? 8.0 : 0.0}; };
+    if (is_about("the knob down")) does = [this](double time) { stick.held_buttons = time > 0.5 ? 4 : 0; };
+    if (is_about("around along")) {
+      does = [this](double time) {
+        const double turn = 2.0 * time;
+        hand.push = time < 8.0 ? 9.0 * glm::dvec2(std::cos(turn), std::sin(turn)) : glm::dvec2(0.0);
+      };
+    }
+    if (!lines.empty()) {
+      std::string line = lines.front();
+      lines.pop_front();
+      return line;
+    }
+    if (is_about("lifting the ring") || is_about("emergency stop")) return "-";
+    if (is_about("left stop") || is_about("back stop")) return "140 mm";
+    if (is_about("maximum force")) return "20";
+    return "";
+  }
+
+  DeviceCalibration run(const DeviceCalibration& known = {}) {
+    CalibrationDialog dialog;
+    dialog.ask = [this](const std::string& next) { return answer(next); };
+    dialog.print = [this](const std::string& line) { said.push_back(line); };
+    dialog.save = [this](const DeviceCalibration& calibration) { kept.push_back(calibration); };
+    Calibrator calibrator(
+        driver, [this] { return tick(); }, known);
+    calibrate(calibrator, ability.spring, dialog);
+    return calibrator.calibration();
+  }
+
+  bool has_printed(const char* words) const {
+    for (const std::string& line : said)
+      if (line.find(words) != std::string::npos) return true;
+    return false;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the calibration matches the user's actions and answers; every step is saved when done") {
+  Rig rig;
+  const DeviceCalibration found = rig.run();
+  CHECK(missing_steps(found, true).empty());
+  CHECK(found.select.usage == 0x30);
+  CHECK(found.shift.usage == 0x31);
+  CHECK(found.select.travel == doctest::Approx(0.14));  // as the user answered
+  CHECK(found.shift.full_force == 20.0);
+  CHECK(found.press_button == 3);  // the user held bit 2
+  CHECK(found.lift_button == 0);
+  CHECK(found.stop_button == 0);
+  CHECK(rig.kept.size() == 6);  // range, numbers, polarity, timing, handle, springs
+  CHECK(rig.kept.front().has_stops());
+  CHECK_FALSE(rig.kept.front().has_travel());
+}
+
+TEST_CASE("no motor moves before the user was told to take the hands off") {
+  Rig rig;
+  bool moved = false, warned = false;
+  CalibrationDialog dialog;
+  dialog.print = [](const std::string&) {};
+  dialog.save = [](const DeviceCalibration&) {};
+  dialog.ask = [&](const std::string& next) {
+    if (next.starts_with("HANDS OFF")) warned = true;
+    if (!warned) CHECK_FALSE(moved);
+    return rig.answer(next);
+  };
+  Calibrator calibrator(rig.driver,
+                        [&] {
+                          moved = moved || rig.stick.actuators_on() || rig.stick.playing() > 0;
+                          return rig.tick();
+                        },
+                        {});
+  calibrate(calibrator, rig.ability.spring, dialog);
+  CHECK(moved);
+}
+
+TEST_CASE("invalid input is reported and asked again: a stick that was not pushed, numbers out of range, words") {
+  Rig rig;
+  rig.lines = {"yes", ""};  // answers the first question and then nothing more
+  bool slept = false;
+  CalibrationDialog dialog;
+  dialog.print = [&](const std::string& line) { rig.said.push_back(line); };
+  dialog.save = [&](const DeviceCalibration& calibration) { rig.kept.push_back(calibration); };
+  dialog.ask = [&](const std::string& next) {
+    std::string line = rig.answer(next);
+    if (rig.asked.size() == 2) {
+      rig.does = {};
+      slept = true;
+    }
+    if (next.find("left stop") != std::string::npos && rig.asked.back() != rig.asked[rig.asked.size() - 2]) {
+      rig.lines = {"1000", "a lot", "nan", " 140mm "};
+      return std::string("-140");
+    }
+    return line;
+  };
+  Calibrator calibrator(rig.driver, [&] { return rig.tick(); }, {});
+  calibrate(calibrator, rig.ability.spring, dialog);
+  CHECK(slept);
+  CHECK(rig.has_printed("\"yes\" is not a valid answer"));
+  CHECK(rig.has_printed("no axis moved"));
+  for (const char* nonsense : {"\"-140\"", "\"1000\"", "\"a lot\"", "\"nan\""}) CHECK(rig.has_printed(nonsense));
+  CHECK(calibrator.calibration().select.travel == doctest::Approx(0.14));
+}
+
+TEST_CASE("an interrupted calibration continues with the first missing step and asks for no known value") {
+  Rig first;
+  std::size_t questions = 0;
+  CalibrationDialog dialog;
+  dialog.print = [](const std::string&) {};
+  dialog.save = [&](const DeviceCalibration& calibration) { first.kept.push_back(calibration); };
+  dialog.ask = [&](const std::string& next) {
+    if (next.starts_with("HANDS OFF") && ++questions == 2) throw CalibrationEnded("enough");
+    return first.answer(next);
+  };
+  Calibrator calibrator(first.driver, [&] { return first.tick(); }, {});
+  CHECK_THROWS_AS(calibrate(calibrator, true, dialog), CalibrationEnded);
+  REQUIRE(first.kept.size() == 3);
+
+  Rig second;
+  const DeviceCalibration found = second.run(first.kept.back());
+  CHECK(missing_steps(found, true).empty());
+  CHECK(second.asked.size() == 3);  // timing, handle, springs
+  CHECK(second.asked.front().find("how fast it responds") != std::string::npos);
+  CHECK(found.press_button == 3);
+}
+
+TEST_CASE("a measurement may be skipped if the stick can be driven without it, and only then") {
+  Rig rig;
+  CalibrationDialog dialog;
+  dialog.print = [&](const std::string& line) { rig.said.push_back(line); };
+  dialog.save = [](const DeviceCalibration&) {};
+  dialog.ask = [&](const std::string& next) {
+    const std::string line = rig.answer(next);
+    const bool first_time = rig.asked.size() < 2 || rig.asked[rig.asked.size() - 2] != next;
+    return next.starts_with("HANDS OFF") && first_time ? "-" : line;
+  };
+  Calibrator calibrator(rig.driver, [&] { return rig.tick(); }, {});
+  calibrate(calibrator, rig.ability.spring, dialog);
+  CHECK(calibrator.calibration().has_polarity());
+  CHECK(calibrator.calibration().has_timing());
+  CHECK_FALSE(calibrator.calibration().has_handle());
+  CHECK(rig.has_printed("\"-\" is not a valid answer"));
+}

@@ -1,0 +1,118 @@
+// The list of connected devices, from the descriptors of real ones (tests/data/hid).
+#include "app/runtime/devices/stick_list.h"
+
+#include <fstream>
+
+#include <doctest/doctest.h>
+
+#include "app/runtime/devices/known_stick.h"
+#include "tests/app/runtime/devices/described_sticks.h"
+#include "tests/support/temp_folder.h"
+
+using namespace gearshift::haptics;
+using namespace gearshift::runtime;
+using namespace gearshift::test;
+
+namespace {
+
+// A keyboard: usage page 1, usage 6, one array of six keys.
+const std::vector<std::uint8_t> kKeyboard{0x05, 0x01, 0x09, 0x06, 0xA1, 0x01, 0x05, 0x07, 0x19, 0x00, 0x29, 0x65,
+                                          0x15, 0x00, 0x25, 0x65, 0x75, 0x08, 0x95, 0x06, 0x81, 0x00, 0xC0};
+
+}  // namespace
+
+TEST_CASE(
+    "sticks with force feedback, pads and wheels are listed; a handbrake without X and Y and a keyboard are not") {
+  const TempFolder folder;
+  UsbHidDevice keyboard = usb_device("", 0x046d, 0xc31c, "Keyboard", "1-5");
+  keyboard.report_descriptor = kKeyboard;
+  const std::vector<UsbHidDevice> plugged{
+      sidewinder(), openffboard(), usb_device("sony-dualshock4-v2-usb", 0x054c, 0x09cc, "Pad", "1-3"),
+      usb_device("fanatec-clubsport-handbrake", 0x0eb7, 0x1a93, "Brake", "1-4"), keyboard};
+  const std::vector<ListedStick> sticks = list_sticks(plugged, folder.path());
+  REQUIRE(sticks.size() == 3);
+  CHECK(describe_forces(sticks[0]) ==
+        "constant force, spring, damper, 8 others");  // its Create report names all eleven
+  CHECK(sticks[0].buttons == 8);
+  CHECK(describe_calibration(sticks[0]) == "no");
+  CHECK(sticks[1].force == StickForce::force_feedback);
+  CHECK(sticks[1].missing == "range, travel and force, delay, polarity");  // also for one that was never calibrated
+  CHECK(describe_forces(sticks[2]) == "no force feedback");
+  CHECK(sticks[2].buttons == 14);  // the DualShock 4's
+  CHECK(describe_calibration(sticks[2]) == "-");
+}
+
+TEST_CASE("a device that uses the force page only for rumble is distinguished from one with force feedback") {
+  // A pad with X and Y, and one output of page 15, usage 70 (magnitude), in a collection of usage 21 without an effect
+  // block: like an Xbox pad's.
+  UsbHidDevice pad = usb_device("", 0x045e, 0x0b13, "Pad", "1-1");
+  pad.report_descriptor = {0x05, 0x01, 0x09, 0x05, 0xA1, 0x01, 0x09, 0x30, 0x09, 0x31, 0x15, 0x00, 0x26, 0xFF,
+                           0x00, 0x75, 0x08, 0x95, 0x02, 0x81, 0x02, 0x05, 0x0F, 0x09, 0x21, 0xA1, 0x02, 0x09,
+                           0x70, 0x15, 0x00, 0x25, 0x64, 0x75, 0x08, 0x95, 0x01, 0x91, 0x02, 0xC0, 0xC0};
+  const std::vector<ListedStick> sticks = list_sticks({&pad, 1}, {});
+  REQUIRE(sticks.size() == 1);
+  CHECK(describe_forces(sticks[0]) == "rumble only");
+}
+
+TEST_CASE("a device without access rights is listed with the reason, whether its descriptor is known or not") {
+  UsbHidDevice hidden = usb_device("", 0x1234, 0x5678, "Something", "1-1");
+  hidden.problem = "Something may not be used";
+  UsbHidDevice seen = sidewinder("1-2");
+  seen.problem = "SideWinder may not be used";
+  const std::vector<UsbHidDevice> plugged{hidden, seen};
+  const std::vector<ListedStick> sticks = list_sticks(plugged, {});
+  REQUIRE(sticks.size() == 2);
+  CHECK(describe_forces(sticks[0]) == "unknown");
+  CHECK(sticks[0].problem == "Something may not be used");
+  CHECK(sticks[1].axes > 2);
+  CHECK(sticks[1].problem == "SideWinder may not be used");
+}
+
+TEST_CASE("a descriptor that cannot be parsed is a problem only of its own device") {
+  UsbHidDevice damaged = sidewinder("1-1");
+  damaged.report_descriptor.resize(100);
+  const std::vector<UsbHidDevice> plugged{damaged, openffboard()};
+  const std::vector<ListedStick> sticks = list_sticks(plugged, {});
+  REQUIRE(sticks.size() == 2);
+  CHECK(sticks[0].problem.starts_with("SideWinder Force Feedback 2 Joystick: "));
+  CHECK(sticks[1].problem.empty());
+}
+
+TEST_CASE("an unfinished calibration, a complete one, and a damaged one") {
+  const TempFolder folder;
+  const UsbHidDevice device = sidewinder();
+  const auto listed = [&] { return list_sticks({&device, 1}, folder.path()).at(0); };
+  KnownStick known;
+  known.calibration.vendor = 0x045e;
+  known.calibration.product = 0x001b;
+  known.calibration.name = device.identity.name;
+  known.report_descriptor = device.report_descriptor;
+  for (LeverAxisCalibration* axis : {&known.calibration.select, &known.calibration.shift}) {
+    axis->low = -512;
+    axis->high = 511;
+    axis->travel = 0.14;
+    axis->full_force = 15.0;
+  }
+  known.calibration.shift.usage = 0x31;
+  const std::filesystem::path file = save_known_stick(known, folder.path());
+  CHECK(describe_calibration(listed()) == "incomplete: delay, polarity missing");
+  known.calibration.timing = {0.001, 0.001, 0.003, 0.0005};
+  known.calibration.select.constant_sign = known.calibration.shift.constant_sign = 1;
+  save_known_stick(known, folder.path());
+  CHECK(describe_calibration(listed()) == "yes");
+  std::ofstream(file) << "nonsense = 1\n";
+  CHECK(describe_calibration(listed()) == "no");
+  CHECK(listed().problem.find(file.string()) != std::string::npos);
+  CHECK(listed().missing == "range, travel and force, delay, polarity");
+  const std::vector<ListedStick> plugged{listed()}, none;
+  CHECK(absent_problems(plugged, folder.path()).empty());  // it is connected, so it reports its problem itself
+  CHECK(absent_problems(none, folder.path()) == std::vector{listed().problem});
+  known.calibration.product = 0x001c;  // the file name says that it is this stick's
+  std::filesystem::copy_file(save_known_stick(known, folder.path()), file,
+                             std::filesystem::copy_options::overwrite_existing);
+  CHECK(describe_calibration(listed()) == "no");
+  CHECK(listed().problem == file.string() + ": is the calibration of 045e:001c, not of 045e:001b");
+  UsbHidDevice forbidden = device;  // the message names the first thing to do
+  forbidden.problem = "it may not be used";
+  CHECK(list_sticks({&forbidden, 1}, folder.path()).at(0).problem == "it may not be used");
+}

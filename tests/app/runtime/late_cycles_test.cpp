@@ -1,0 +1,41 @@
+// A late thread also reports the deadlines that it missed while sleeping.
+#include <doctest/doctest.h>
+
+#include "app/runtime/cycle_runner.h"
+#include "haptics/device/simulated_lever.h"
+#include "haptics/device/smoothed_hand.h"
+#include "tests/support/gates.h"
+
+using namespace gearshift::haptics;
+using namespace gearshift::runtime;
+using namespace gearshift::test;
+
+TEST_CASE("every skipped deadline is reported, and separately the cycles that took too long") {
+  const HapticConfig config;
+  const Gate gate = paper_gate();
+  LatestValue<HandTarget> person{HandTarget{}};
+  SmoothedHand hand(person, period_s(config));
+  SimulatedLever lever(SimulatedLeverConfig{}, period_ns(config), hand);
+  LoopRun run(config, gate, lever);
+  CycleRunner runner(period_ns(config));
+  runner.switch_to(run);
+  CycleStatistics statistics;
+  std::int64_t deadline = 0;
+  std::uint64_t skipped = 0, overruns = 0;
+  for (int i = 0; i < 2000; ++i) {
+    const std::int64_t missed = i % 500 == 37 ? 3 : 0;
+    const bool too_long = i % 1000 == 41;
+    skipped += static_cast<std::uint64_t>(missed);
+    overruns += too_long ? 1u : 0u;
+    statistics.skipped = skipped;
+    statistics.overruns = overruns;
+    deadline += (1 + missed) * period_ns(config);
+    runner.cycle({deadline, missed}, &statistics);
+    runner.figures.update();
+    CHECK(runner.figures.value().skipped == skipped);  // immediately: the program may end before the next update
+    CHECK(runner.figures.value().overruns == overruns);
+  }
+  runner.figures.update();
+  CHECK(runner.figures.value().skipped == 12);
+  CHECK(runner.figures.value().overruns == 2);
+}

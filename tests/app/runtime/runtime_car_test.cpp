@@ -1,0 +1,159 @@
+// A trainer with a car behind its lever: driven, recorded in the middle, replayed.
+#include <algorithm>
+#include <chrono>
+#include <stdexcept>
+#include <string>
+#include <thread>
+
+#include <doctest/doctest.h>
+
+#include "app/vehicle/lesson_load.h"
+#include "haptics/files/file_error.h"
+#include "haptics/loop/replay.h"
+#include "haptics/loop/trace_reader.h"
+#include "tests/app/runtime/runtime_rig.h"
+#include "tests/support/temp_folder.h"
+
+using namespace gearshift::haptics;
+using namespace gearshift::runtime;
+using namespace gearshift::test;
+using namespace gearshift::vehicle;
+
+namespace {
+
+void feet(Runtime& runtime, double throttle, double clutch) {
+  DriverControls controls;
+  controls.ignition = true;
+  controls.throttle = throttle;
+  controls.clutch = clutch;
+  runtime.set_controls(controls);
+}
+
+// From rest into second gear, as people drive.
+void move_off(Runtime& runtime, LeadingPerson& person) {
+  feet(runtime, 0.0, 1.0);
+  person.shift_to(1);
+  for (int i = 0; i < 120; ++i) {
+    feet(runtime, 0.3, std::max(0.0, 0.75 - 0.006 * i));
+    person.wait(1);
+  }
+  feet(runtime, 0.4, 0.0);
+  person.wait(150);
+  feet(runtime, 0.0, 1.0);
+  person.shift_to(2);
+  feet(runtime, 0.3, 0.0);
+  person.wait(30);
+}
+
+}  // namespace
+
+TEST_CASE("moving off, shifting up and driving") {
+  Runtime runtime(hatchback(RuntimeClock::virtual_time));
+  runtime.arm();
+  LeadingPerson person(runtime, [&] { runtime.advance(LeadingPerson::kFrame); });
+  runtime.advance(1.0);
+  CHECK(runtime.car().running);  // before anybody has touched the pedals
+  CHECK(runtime.car().force_scale == doctest::Approx(31.7 / 60.0));
+  move_off(runtime, person);
+  CHECK(runtime.car().gear == 2);
+  CHECK(runtime.snapshot().gear == 2);
+  CHECK(runtime.car().running);
+  CHECK(runtime.car().road_speed > 3.0);
+  CHECK(runtime.car().road_speed == runtime.snapshot().road_speed);
+  CHECK(runtime.car().distance > 5.0);
+}
+
+TEST_CASE("a recording begun while driving: the car continues, and the trace replays bit for bit") {
+  const TempFolder folder;
+  Runtime runtime(hatchback(RuntimeClock::virtual_time));
+  runtime.arm();
+  LeadingPerson person(runtime, [&] { runtime.advance(LeadingPerson::kFrame); });
+  move_off(runtime, person);
+  const VehicleState before = runtime.car();
+  runtime.start_recording(folder / "drive.trace");
+  const VehicleState after = runtime.car();
+  CHECK(after.gear == 2);
+  CHECK(after.running);
+  CHECK(after.road_speed == doctest::Approx(before.road_speed).epsilon(0.001));
+  CHECK(after.engine_speed == doctest::Approx(before.engine_speed).epsilon(0.001));
+  CHECK(after.distance == before.distance);  // a loop's first cycle has no duration
+  CHECK(after.slip_energy >= before.slip_energy);
+  feet(runtime, 0.0, 1.0);
+  person.shift_to(3);
+  feet(runtime, 0.5, 0.0);
+  person.wait(60);
+  CHECK_FALSE(runtime.stop_recording());
+  CHECK(runtime.car().gear == 3);
+  const Trace trace = read_trace(folder / "drive.trace");
+  const ReplayResult result = replay(trace, make_lesson_load);
+  CHECK(result.bit_for_bit());
+  CHECK(result.cycles > 1500);
+  // Without guidance the drive equals the bare car's, bit for bit.
+  const auto bare = [](const std::string& name, const Gate& gate) {
+    return make_car_load(name.substr(std::string("guided ").size()), gate);
+  };
+  CHECK(replay(trace, bare).bit_for_bit());
+}
+
+TEST_CASE("guidance on and off, to one gear and another: it has an effect, and its recording replays bit for bit") {
+  const TempFolder folder;
+  Runtime runtime(hatchback(RuntimeClock::virtual_time));
+  runtime.arm();
+  LeadingPerson person(runtime, [&] { runtime.advance(LeadingPerson::kFrame); });
+  move_off(runtime, person);
+  const auto guide = [&](double strength, int gear) {
+    DriverControls controls;
+    controls.ignition = true;
+    controls.clutch = 1.0;
+    controls.guidance = strength;
+    controls.guided_gear = gear;
+    runtime.set_controls(controls);
+  };
+  guide(0.8, 3);
+  person.wait(30);
+  runtime.start_recording(folder / "drive.trace");
+  person.shift_to(3);
+  guide(0.0, 3);
+  person.wait(60);
+  guide(1.0, 4);
+  person.shift_to(4);
+  guide(0.3, 5);
+  person.shift_to(5);
+  guide(0.0, kNeutralGear);
+  person.wait(30);
+  CHECK_FALSE(runtime.stop_recording());
+  const Trace trace = read_trace(folder / "drive.trace");
+  CHECK(trace.samples[0].controls.guidance == 0.8);  // the recording begins in the middle of a lesson
+  const ReplayResult result = replay(trace, make_lesson_load);
+  CHECK(result.bit_for_bit());
+  CHECK(result.cycles == trace.samples.size());
+  CHECK_THROWS_AS(replay(trace, make_car_load), FileError);
+  const auto unguided = [](const std::string& name, const Gate& gate) {
+    return make_car_load(name.substr(std::string("guided ").size()), gate);
+  };
+  CHECK_FALSE(replay(trace, unguided).bit_for_bit());
+}
+
+TEST_CASE("it starts in gear at speed, also on the real clock") {
+  RuntimeConfig config = hatchback(RuntimeClock::real_time);
+  config.start.gear = 4;
+  config.start.road_speed = 20.0;
+  Runtime runtime(config);
+  runtime.arm();
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  CHECK(runtime.car().gear == 4);
+  CHECK(runtime.snapshot().gear == 4);
+  CHECK(runtime.car().running);
+  CHECK(runtime.car().road_speed > 19.0);
+  CHECK(runtime.car().distance > 3.0);
+}
+
+TEST_CASE("a car that does not fit the gate is rejected; without a car there is none") {
+  RuntimeConfig config = hatchback(RuntimeClock::virtual_time);
+  config.layout = read_gate_layout(GEARSHIFT_ASSETS "/gates/six_speed_r_left_up.toml");
+  CHECK_THROWS_AS(Runtime{config}, std::invalid_argument);
+  config.car.reset();
+  Runtime runtime(config);
+  runtime.advance(0.5);
+  CHECK(runtime.car().engine_speed == 0.0);
+}

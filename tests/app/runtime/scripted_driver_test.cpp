@@ -1,0 +1,250 @@
+// A scripted driver sees every cycle and its hand target is used unchanged; road and guidance are set by the
+// instructor.
+#include <atomic>
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <mutex>
+#include <thread>
+
+#include <doctest/doctest.h>
+
+#include "app/vehicle/lesson_load.h"
+#include "haptics/loop/replay.h"
+#include "haptics/loop/simulated_run.h"
+#include "haptics/loop/trace_reader.h"
+#include "tests/app/runtime/runtime_rig.h"
+#include "tests/support/temp_folder.h"
+
+using namespace gearshift::haptics;
+using namespace gearshift::runtime;
+using namespace gearshift::test;
+using namespace gearshift::vehicle;
+
+namespace {
+
+// Jumps and reverses, so that a filter would show. Depends on its input, so that an error grows.
+DriverAction restless(const DriveSample& now) {
+  const double t = now.time();
+  DriverAction action;
+  action.hand.position = {0.012 * std::sin(9.0 * t) - 0.1 * now.lever.lever.x, std::fmod(t, 0.4) < 0.2 ? 0.03 : -0.02};
+  action.hand.velocity = {0.3 * std::cos(9.0 * t), 0.0};
+  action.hand.push = {0.0, 2.0 * std::sin(40.0 * t)};
+  action.controls.ignition = true;
+  action.controls.throttle = 0.3 + 0.2 * std::sin(t) - 0.001 * now.car.engine_speed;
+  action.controls.clutch = std::fmod(t, 1.0);
+  action.controls.guidance = 1.0;  // a driver cannot set that
+  action.controls.guided_gear = 5;
+  action.controls.slope = 0.5;
+  return action;
+}
+
+bool same(const DriveSample& a, const DriveSample& b) {
+  return a.lever.time_ns == b.lever.time_ns && a.lever.lever == b.lever.lever && a.lever.f_h == b.lever.f_h &&
+         a.lever.commanded == b.lever.commanded && a.lever.gear == b.lever.gear &&
+         a.controls.throttle == b.controls.throttle && a.controls.hand_brake == b.controls.hand_brake &&
+         a.controls.slope == b.controls.slope && a.car.engine_speed == b.car.engine_speed &&
+         a.car.road_speed == b.car.road_speed;
+}
+
+class DriverHand final : public HandDriver {
+ public:
+  HandTarget next(double, glm::dvec2) noexcept override { return target; }
+  HandTarget target;
+};
+
+// Independent of the trainer: lever, loop and bare car on a virtual clock, the action used in the next cycle.
+std::vector<DriveSample> driven_without_runtime(const RuntimeConfig& config, const Gate& gate, int cycles) {
+  SimulatedRunConfig setup;
+  setup.haptics = config.preset.haptics;
+  setup.lever = config.preset.lever;
+  setup.lever.hand = leading_hand(setup.lever.hand);
+  setup.gate = gate;
+  setup.start = rest_position(gate, kNeutralGear);
+  DriverHand hand;
+  hand.target.position = setup.start;
+  IdleHand idle_hand;
+  const double force = SimulatedLever(setup.lever, 1'000'000, idle_hand).spec().max_force.y;
+  CarLoad car(*config.car, gate, force, config.start, config.seed);
+  SimulatedRun run(setup, hand, &car);
+  std::vector<DriveSample> samples;
+  DriveSample now;
+  now.controls.ignition = true;
+  now.controls.slope = 0.05;
+  now.controls.hand_brake = config.hand_brake;
+  for (int i = 0; i < cycles; ++i) {
+    run.channels().controls.write(now.controls);
+    now.lever = run.step();
+    now.lever.cycle = static_cast<std::uint64_t>(i);
+    now.car = car.state();
+    samples.push_back(now);
+    const DriverAction action = restless(now);
+    hand.target = action.hand;
+    now.controls = action.controls;
+    now.controls.slope = 0.05;
+    now.controls.guidance = 0.0;
+  }
+  return samples;
+}
+
+}  // namespace
+
+TEST_CASE("on the virtual clock the driver sees every cycle once, and its action is used exactly in the next") {
+  RuntimeConfig config = hatchback(RuntimeClock::virtual_time);
+  config.hand_brake = 0.8;
+  const auto seen = std::make_shared<std::vector<DriveSample>>();
+  config.driver = [seen](const DriveSample& now) {
+    seen->push_back(now);
+    return restless(now);
+  };
+  Runtime runtime(config);
+  DriverControls teacher;
+  teacher.slope = 0.05;
+  runtime.set_controls(teacher);
+  runtime.arm();
+  for (int i = 0; i < 300; ++i) runtime.advance(1.0 / 60.0);
+  const std::vector<DriveSample> expected = driven_without_runtime(config, runtime.gate(), 5000);
+  const std::vector<DriveSample> cycles = runtime.drain_cycles();
+  REQUIRE(seen->size() == 5000);
+  REQUIRE(cycles.size() == 5000);
+  for (std::size_t i = 0; i < expected.size(); ++i) {
+    REQUIRE(same((*seen)[i], expected[i]));
+    REQUIRE(same(cycles[i], expected[i]));
+    REQUIRE(cycles[i].lever.cycle == i);
+  }
+  CHECK(cycles.back().car.engine_speed > 10.0);  // the car was really driven
+}
+
+TEST_CASE("the driver controls hand and pedals, the instructor road and guidance; neither affects the other's") {
+  RuntimeConfig config = hatchback(RuntimeClock::virtual_time);
+  config.driver = restless;
+  Runtime runtime(config);
+  DriverControls teacher;
+  teacher.slope = 0.02;
+  teacher.guidance = 0.4;
+  teacher.guided_gear = 3;
+  teacher.throttle = 0.9;
+  teacher.clutch = 0.9;
+  runtime.set_controls(teacher);
+  HandTarget idle_hand;
+  idle_hand.position = {0.03, 0.03};
+  runtime.set_hand(idle_hand);
+  runtime.advance(0.005);
+  CHECK(runtime.drain_cycles().back().lever.lever.x < 0.01);
+  runtime.set_controls(teacher);
+  runtime.advance(0.002);
+  for (const DriveSample& now : runtime.drain_cycles()) {
+    CHECK(now.controls.slope == 0.02);
+    CHECK(now.controls.guidance == 0.4);
+    CHECK(now.controls.guided_gear == 3);
+    CHECK(now.controls.throttle < 0.5);
+    CHECK(now.controls.clutch < 0.01);
+    CHECK(now.controls.ignition);
+  }
+}
+
+TEST_CASE("a driver shifts through the gears on either clock") {
+  for (const RuntimeClock clock : {RuntimeClock::virtual_time, RuntimeClock::real_time}) {
+    RuntimeConfig config = runtime_config(clock);
+    config.driver = touring_driver(paper_gate());
+    Runtime runtime(config);
+    runtime.arm();
+    std::vector<int> gears;
+    const std::vector<int> first_three{1, 2, 3};
+    CHECK(comes_true([&] {
+      if (clock == RuntimeClock::virtual_time) runtime.advance(0.02);
+      add_gears(runtime.drain_events(), gears);
+      return gears == first_three;
+    }));
+  }
+}
+
+TEST_CASE("recorded on the virtual clock, a scripted drive replays bit for bit and misses no cycle") {
+  const TempFolder folder;
+  RuntimeConfig config = hatchback(RuntimeClock::virtual_time);
+  const auto seen = std::make_shared<std::vector<std::uint64_t>>();
+  config.driver = [seen](const DriveSample& now) {
+    seen->push_back(now.lever.cycle);
+    return restless(now);
+  };
+  Runtime runtime(config);
+  runtime.arm();
+  runtime.advance(0.7);
+  runtime.start_recording(folder / "a.trace");
+  runtime.advance(0.8);
+  CHECK_FALSE(runtime.stop_recording());
+  REQUIRE(seen->size() == 1500);
+  for (std::size_t i = 0; i < seen->size(); ++i) CHECK((*seen)[i] == (i < 700 ? i : i - 700));
+  const Trace trace = read_trace(folder / "a.trace");
+  CHECK(trace.samples.size() == 800);
+  CHECK(trace.samples[0].controls.throttle != 0.0);  // the foot stays where it was
+  CHECK(replay(trace, make_lesson_load).bit_for_bit());
+}
+
+TEST_CASE("on the real clock: in order, none twice, while the frame sets road and guidance and records") {
+  const TempFolder folder;
+  RuntimeConfig config = hatchback(RuntimeClock::real_time);
+  struct Seen {
+    std::mutex mutex;
+    std::vector<DriveSample> cycles;
+  };
+  const auto seen = std::make_shared<Seen>();
+  config.driver = [seen](const DriveSample& now) {
+    const std::lock_guard lock(seen->mutex);
+    seen->cycles.push_back(now);
+    return restless(now);
+  };
+  {
+    Runtime runtime(config);
+    runtime.arm();
+    for (const char* name : {"a.trace", "b.trace", "c.trace"}) {
+      runtime.start_recording(folder / name);
+      DriverControls teacher;
+      for (int i = 0; i < 60; ++i) {
+        teacher.slope = 0.001 * i;
+        teacher.guidance = i % 20 < 10 ? 0.0 : 0.8;
+        teacher.guided_gear = 2;
+        runtime.set_controls(teacher);
+        runtime.set_hand({});
+        sleep_ms(3);
+        (void)runtime.drain_cycles();
+      }
+      CHECK_FALSE(runtime.stop_recording());
+    }
+  }
+  const std::size_t at_end = seen->cycles.size();
+  sleep_ms(20);
+  CHECK(seen->cycles.size() == at_end);  // nobody is driving any more
+  REQUIRE(at_end > 100);
+  bool guided = false;
+  for (std::size_t i = 1; i < at_end; ++i) {
+    CHECK(seen->cycles[i].lever.time_ns > seen->cycles[i - 1].lever.time_ns);
+    guided = guided || seen->cycles[i].controls.guidance == 0.8;
+    CHECK(seen->cycles[i].controls.slope < 0.06);
+  }
+  CHECK(guided);
+  for (const char* name : {"a.trace", "b.trace", "c.trace"})
+    CHECK(replay(read_trace(folder / name), make_lesson_load).bit_for_bit());
+}
+
+TEST_CASE("a sleeping driver blocks neither lever nor instructor, and the trainer ends when the driver returns") {
+  RuntimeConfig config = hatchback(RuntimeClock::real_time);
+  const auto calls = std::make_shared<std::atomic<int>>(0);
+  config.driver = [calls](const DriveSample& now) {
+    if (++*calls > 1) sleep_ms(700);
+    return restless(now);
+  };
+  Runtime runtime(config);
+  REQUIRE(comes_true([&] { return *calls > 1; }));
+  const std::uint64_t before = runtime.snapshot().cycle;
+  DriverControls teacher;
+  teacher.guidance = 0.6;
+  runtime.set_controls(teacher);
+  bool is_combined = false;
+  CHECK(comes_true([&] {
+    for (const DriveSample& now : runtime.drain_cycles())
+      is_combined = is_combined || (now.controls.guidance == 0.6 && now.controls.throttle != 0.0);
+    return is_combined;
+  }));
+  CHECK(comes_true([&] { return runtime.snapshot().cycle > before + 50; }));
+}

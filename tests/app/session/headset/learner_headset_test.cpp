@@ -1,0 +1,514 @@
+// A worn headset at the lever: where its user sits in the cabin, what the controllers do there, and its loss and
+// return.
+#include "app/session/learner_headset.h"
+
+#include <chrono>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <thread>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include "tests/engine/window/injected_faults.h"
+#include "tests/support/gates.h"
+#include "tests/support/gpu_fixture.h"
+#include "tests/support/temp_folder.h"
+#include "tests/support/xr_runtime/control.h"
+
+using namespace gearshift;
+using namespace gearshift::cabin;
+using namespace gearshift::engine;
+using namespace gearshift::session;
+using namespace gearshift::test;
+using glm::dvec3;
+
+namespace {
+
+constexpr double kBound = 0.020;  // [m] the clamp's bound
+constexpr dvec3 kUp{0.0, 1.0, 0.0};
+constexpr auto kPause = std::chrono::milliseconds(2050);  // after which the program searches for a headset again
+
+// The true pose of the room in the cabin: the one at which a real lever would be in the right place.
+const EyePose kTruth{{-0.7, -0.6, 0.9}, glm::angleAxis(0.8, kUp)};
+
+xr_test::Pose pose_of(const EyePose& pose) {
+  return {pose.position, pose.orientation};
+}
+
+// Loaded only once: nothing of it is drawn.
+Stage& cabin() {
+  static const auto stage = [] {
+    StageConfig config;
+    config.gate = shipped_gate("paper");
+    return std::make_unique<Stage>(config, GEARSHIFT_ASSETS "/models");
+  }();
+  return *stage;
+}
+
+struct Worn {
+  explicit Worn(HeadsetSetup wanted = {}, bool stage_space = true, bool tells_place = true)
+      : window(320, 200, "worn"), setup(std::move(wanted)), placed(tells_place) {
+    choose_software_driver();
+    xr_test::Control& xr = xr_test::control();
+    xr.start();
+    xr.script.stage = stage_space;
+    xr.script.stage_origin = {};  // LOCAL and STAGE are the same space
+    xr.script.recommended_width = 32;
+    xr.script.recommended_height = 32;
+    xr.script.head = [this](double) {
+      xr_test::Pose pose = pose_of(head);
+      pose.position_valid = placed;
+      return pose;
+    };
+    xr.script.hands[1].aim = [this](double) {
+      xr_test::Pose pose = pose_of(hand);
+      pose.tracked = seen;
+      return pose;
+    };
+    xr.script.inputs["/user/hand/right/input/trigger/value"] = [this](double) { return trigger ? 1.0 : 0.0; };
+    xr.script.inputs["/user/hand/right/input/b/click"] = [this](double) { return menu ? 1.0 : 0.0; };
+    setup.view.samples = 1;
+    setup.view.panel = {320, 200};
+    wear();
+  }
+
+  void wear() {
+    headset = std::make_unique<LearnerHeadset>(setup, window, ui);
+    REQUIRE(headset->is_found());
+    REQUIRE(headset->open());
+    (void)headset->take_message();        // the message that names the headset
+    for (int i = 0; i < 6; ++i) frame();  // until it is focused
+  }
+
+  void frame() {
+    // A busy machine may miss a headset frame; it takes the next one.
+    const xr_test::Record& record = xr_test::control().record;
+    const std::size_t frames = record.frames.size();
+    do turn();
+    while (headset->is_open() && record.frames.size() == frames && record.state >= XR_SESSION_STATE_SYNCHRONIZED &&
+           record.state <= XR_SESSION_STATE_FOCUSED);
+  }
+
+  void turn() {
+    window.poll();
+    ui.begin({320.0f, 200.0f, 0.01f, 1.0f});
+    ui.end();
+    (void)headset->begin(*stage);
+    if (headset->is_open()) headset->draw({}, {}, {{0.25, 0.0}, {0.75, 0.8}}, camera("driver"));
+  }
+
+  void hold_lever(glm::dvec2 plane) {
+    StageInput input;
+    input.lever.lever = input.lever.proxy = plane;
+    stage->place(input);
+  }
+
+  // The controller's tip touches the top of the knob at its true place in the room, and the trigger is pulled once.
+  void touch(glm::dvec2 plane, dvec3 error = dvec3(0.0)) {
+    hold_lever(plane);
+    hand = EyePose{inverse(kTruth) * stage->knob_top() + error, held()};
+    frame();
+    trigger = true;
+    frame();
+    trigger = false;
+    frame();
+  }
+
+  // Touches the knob in three gears and saves the result.
+  void touch_all() {
+    ask(&HeadsetRequests::touch);
+    for (const glm::dvec2 gear : {glm::dvec2(0, 0), glm::dvec2(-0.036, 0.04), glm::dvec2(0.036, -0.04)}) touch(gear);
+    ask(&HeadsetRequests::touched);
+    frame();
+  }
+
+  void ask(bool HeadsetRequests::*what) {
+    HeadsetRequests requests;
+    requests.*what = true;
+    headset->apply(requests, kBound);
+  }
+
+  gearshift::engine::Window window;
+  UiContext ui;
+  HeadsetSetup setup;
+  Stage* stage = &cabin();
+  // About 13 cm from the driver's eyes, as people sit.
+  EyePose head{inverse(kTruth) * (camera("driver").position + dvec3(0.1, 0.05, -0.06)),
+               glm::angleAxis(-1.1, kUp) * glm::angleAxis(-0.3, dvec3(1, 0, 0))};
+  EyePose hand;
+  double turns = 0.785;  // [rad] the controller is turned and tilted between touches
+  int made = 0;
+  glm::dquat held() {
+    const dvec3 axes[] = {kUp, kUp, dvec3(1, 0, 0)};
+    const int i = made++ % 3;
+    return glm::angleAxis(i == 0 ? 0.0 : turns, axes[i]);
+  }
+  bool trigger = false, menu = false;
+  bool placed = true;  // the headset tracks the head
+  bool seen = true;    // the controller is tracked; otherwise its position is a guess
+  std::unique_ptr<LearnerHeadset> headset;
+};
+
+dvec3 driver_eye(DriveSide side = DriveSide::left) {
+  return camera("driver", side).position;
+}
+
+// The cabin has turned with the head, and the head is where it should be in it.
+void check_sits(const Worn& worn, dvec3 eye) {
+  CHECK(glm::distance(worn.headset->head().position, eye) < 1e-6);
+  const dvec3 look = worn.headset->head().orientation * dvec3(0, 0, -1);
+  CHECK(std::abs(look.x) < 1e-6);
+  CHECK(look.z < 0.0);
+}
+
+}  // namespace
+
+TEST_CASE(
+    "after putting it on the user is at the wheel, at the chosen height, on either side; and again after a recentre") {
+  for (const DriveSide side : {DriveSide::left, DriveSide::right}) {
+    HeadsetSetup setup;
+    setup.seat.drive = side;
+    setup.seat.height = 0.03;
+    Worn worn(setup);
+    check_sits(worn, driver_eye(side) + 0.03 * kUp);
+    worn.head.position += dvec3(0.1, 0.02, 0.0);  // leans, while the cabin stays
+    worn.frame();
+    CHECK(glm::distance(worn.headset->head().position, driver_eye(side) + 0.03 * kUp) > 0.09);
+    worn.headset->recentre();
+    worn.frame();
+    check_sits(worn, driver_eye(side) + 0.03 * kUp);
+  }
+}
+
+TEST_CASE("with measured distances the knob is drawn at its true distance from the eyes") {
+  HeadsetSetup setup;
+  setup.seat.knob = KnobDistance{0.25, 0.40, 0.35};
+  Worn worn(setup);
+  const dvec3 eye = worn.stage->knob_at_rest() - dvec3(0.25, -0.40, -0.35);
+  check_sits(worn, eye);
+}
+
+TEST_CASE("a knob touched in its gears is drawn where it is, today and tomorrow") {
+  const TempFolder folder;
+  HeadsetSetup setup;
+  setup.seat_file = folder.path() / "headset.toml";
+  auto today = std::make_unique<Worn>(setup);
+  Worn& worn = *today;
+  worn.ask(&HeadsetRequests::touch);
+  CHECK(worn.headset->report().touching);
+  for (const glm::dvec2 gear : {glm::dvec2(0, 0), glm::dvec2(-0.036, 0.04), glm::dvec2(0.036, -0.04)}) worn.touch(gear);
+  CHECK(worn.headset->report().touches == 3);
+  CHECK(read_seat(setup.seat_file).touched.has_value() == false);  // nothing is written before it is saved
+  CHECK(worn.headset->report().worst_touch < 1e-4);
+  worn.ask(&HeadsetRequests::touched);
+  worn.frame();
+  CHECK(glm::distance(worn.headset->head().position, kTruth * worn.head.position) < 1e-3);
+  worn.headset->recentre();  // the lever keeps its place
+  worn.frame();
+  CHECK(glm::distance(worn.headset->head().position, kTruth * worn.head.position) < 1e-3);
+
+  today.reset();
+
+  setup.seat = read_seat(setup.seat_file);
+  REQUIRE(setup.seat.touched);
+  Worn tomorrow(setup);
+  CHECK(glm::distance(tomorrow.headset->head().position, kTruth * tomorrow.head.position) < 1e-3);
+  CHECK(tomorrow.headset->touch_error() == setup.seat.touch_error);
+  tomorrow.ask(&HeadsetRequests::forget_touches);
+  tomorrow.frame();
+  check_sits(tomorrow, driver_eye());
+  CHECK_FALSE(read_seat(setup.seat_file).touched);
+}
+
+TEST_CASE("touches that do not fit the lever are rejected with error and limit, and nothing is saved") {
+  const TempFolder folder;
+  HeadsetSetup setup;
+  setup.seat_file = folder.path() / "headset.toml";
+  Worn worn(setup);
+  worn.ask(&HeadsetRequests::touch);
+  worn.touch({0.0, 0.0});
+  worn.ask(&HeadsetRequests::touched);  // one touch gives neither a direction nor its own error
+  CHECK(worn.headset->take_message().find("three gears or more") != std::string::npos);
+  worn.touch({-0.036, 0.04}, {0.0, 0.06, 0.0});  // 6 cm above
+  worn.touch({0.036, -0.04});
+  worn.ask(&HeadsetRequests::touched);
+  const std::string news = worn.headset->take_message();
+  int error = 0;
+  REQUIRE(std::sscanf(news.c_str(), "the lever may be up to %d mm from where it is drawn, but only 20 mm are allowed",
+                      &error) == 1);
+  CHECK(error >= 40);  // two thirds of it remain, so at least that much was the tip's error
+  worn.frame();
+  check_sits(worn, driver_eye());
+  CHECK_FALSE(read_seat(setup.seat_file).touched);
+}
+
+TEST_CASE("a controller always held the same way hides its tip error, and an untracked one only guesses") {
+  Worn worn;
+  worn.turns = 0.1;
+  worn.touch_all();
+  CHECK(worn.headset->take_message().find("turn the controller to the side") != std::string::npos);
+  CHECK_FALSE(worn.headset->report().is_touched);
+  worn.ask(&HeadsetRequests::forget_touches);
+  worn.ask(&HeadsetRequests::touch);
+  worn.seen = false;
+  worn.touch({0.0, 0.0});
+  CHECK(worn.headset->report().touches == 0);
+  worn.seen = true;
+  worn.touch({0.0, 0.0});
+  CHECK(worn.headset->report().touches == 1);
+}
+
+TEST_CASE("a lever touched in another room is reported and not used; the user sits at the wheel, and that seat stays") {
+  HeadsetSetup setup;
+  setup.seat.touched = kTruth;
+  setup.seat.touched->position += dvec3(9.0, 0.0, 3.0);
+  Worn worn(setup);
+  check_sits(worn, driver_eye());
+  CHECK_FALSE(worn.headset->report().is_touched);
+  worn.head.position -= glm::conjugate(kTruth.orientation) * dvec3(9.0, 0.0, 3.0);  // the user had stood beside it
+  worn.headset->recentre();
+  worn.frame();
+  CHECK(worn.headset->report().is_touched);
+  CHECK(glm::distance(worn.headset->head().position, kTruth * worn.head.position + dvec3(9.0, 0.0, 3.0)) < 1e-6);
+}
+
+TEST_CASE("if the first opening fails it is retried after a while") {
+  HeadsetSetup setup;
+  Worn worn(setup);
+  worn.headset.reset();
+  xr_test::control().start();
+  xr_test::control().script.failures = {{"xrCreateSession", XR_ERROR_RUNTIME_FAILURE, 1},
+                                        {"xrCreateSession", XR_ERROR_RUNTIME_FAILURE, 1}};
+  worn.headset = std::make_unique<LearnerHeadset>(setup, worn.window, worn.ui);
+  REQUIRE(worn.headset->is_found());
+  CHECK_FALSE(worn.headset->open());
+  CHECK(worn.headset->take_message().find("xrCreateSession failed") != std::string::npos);
+  std::this_thread::sleep_for(kPause);
+  REQUIRE(worn.headset->is_found());
+  CHECK_FALSE(worn.headset->open());
+  CHECK(worn.headset->take_message().empty());  // the same message is reported only once
+  std::this_thread::sleep_for(kPause);
+  CHECK_FALSE(worn.headset->is_found());  // each try interrupts the desktop's picture, so the pause doubles
+  std::this_thread::sleep_for(kPause);
+  REQUIRE(worn.headset->is_found());
+  CHECK(worn.headset->open());
+}
+
+TEST_CASE("a headset taken off is reported once, a second later; one taken off to leave is not") {
+  for (const bool leaves : {false, true}) {
+    CAPTURE(leaves);
+    Worn worn;
+    const double now = xr_test::control().record.frames.back().time;
+    xr_test::control().script.polls_before_ready = 1000000;
+    xr_test::control().script.timeline = {leaves ? xr_test::exit(now + 0.05) : xr_test::stopping(now + 0.05)};
+    CHECK(worn.headset->is_worn());
+    for (int i = 0; i < 12; ++i) worn.frame();
+    CHECK_FALSE(worn.headset->is_worn());
+    CHECK(worn.headset->take_message().empty());
+    std::this_thread::sleep_for(std::chrono::milliseconds(1050));
+    worn.frame();
+    const bool is_reported = worn.headset->take_message() == "the headset was taken off; the desktop shows the cabin";
+    CHECK(is_reported == !leaves);
+    worn.frame();
+    CHECK(worn.headset->take_message().empty());
+  }
+}
+
+TEST_CASE("without a persistent space a touched knob counts only today, and the seat saved in another room stays") {
+  const TempFolder folder;
+  HeadsetSetup setup;
+  setup.seat_file = folder.path() / "headset.toml";
+  setup.seat.touched = EyePose{{1.0, 0.0, 0.0}, glm::dquat(1, 0, 0, 0)};
+  setup.is_new = true;
+  Worn worn(setup, false);
+  check_sits(worn, driver_eye());  // not at the place touched in another room
+  CHECK_FALSE(worn.headset->report().is_touched);
+  worn.touch_all();
+  CHECK(worn.headset->report().is_touched);
+  CHECK(worn.headset->take_message().find("for today") != std::string::npos);
+  worn.ask(&HeadsetRequests::recentre);
+  HeadsetRequests raise;
+  raise.height = 0.02;
+  worn.headset->apply(raise, kBound);
+  REQUIRE(read_seat(setup.seat_file).touched);
+  CHECK(read_seat(setup.seat_file).touched->position == glm::dvec3(1.0, 0.0, 0.0));
+}
+
+TEST_CASE("discarded touches leave the saved ones") {
+  const TempFolder folder;
+  HeadsetSetup setup;
+  setup.seat_file = folder.path() / "headset.toml";
+  Worn worn(setup);
+  worn.touch_all();
+  const dvec3 before = worn.headset->head().position;
+  worn.ask(&HeadsetRequests::touch);
+  worn.touch({0.0, 0.0}, {0.3, 0.0, 0.0});
+  CHECK(glm::distance(worn.headset->head().position, before) > 0.2);
+  worn.ask(&HeadsetRequests::forget_touches);
+  worn.frame();
+  CHECK(glm::distance(worn.headset->head().position, before) < 1e-9);
+  CHECK(read_seat(setup.seat_file).touched.has_value());
+}
+
+TEST_CASE("the seat is set only when frames are shown: a headset on a table is calibrated when it is put on") {
+  Worn worn;
+  xr_test::Control& xr = xr_test::control();
+  const double now = xr.record.frames.back().time;
+  check_sits(worn, driver_eye());
+  xr.script.timeline = {xr_test::stopping(now + 0.05), xr_test::ready(now + 0.4)};
+  for (int i = 0; i < 12; ++i) worn.frame();
+  const EyePose worn_head = worn.head;
+  worn.head = {{2.0, 0.1, 1.0}, glm::angleAxis(1.5, dvec3(0, 0, 1))};  // on the table
+  xr.script.polls_before_ready = 0;
+  for (int i = 0; i < 400 && xr.record.state != XR_SESSION_STATE_SYNCHRONIZED; ++i) worn.frame();
+  worn.head = worn_head;  // put on
+  worn.head.position += dvec3(0.3, 0.0, 0.2);
+  for (int i = 0; i < 10; ++i) worn.frame();
+  REQUIRE(xr.record.state == XR_SESSION_STATE_FOCUSED);
+  check_sits(worn, driver_eye());
+}
+
+TEST_CASE("without head tracking the user is at the wheel; with tracking the user sits there, or at the lever") {
+  HeadsetSetup setup;
+  setup.seat.height = 0.03;
+  const dvec3 eye = driver_eye() + 0.03 * kUp;
+  for (const bool touched : {false, true}) {
+    CAPTURE(touched);
+    if (touched) setup.seat.touched = kTruth;
+    Worn worn(setup, true, false);
+    check_sits(worn, eye);
+    CHECK(worn.headset->report().orientation_only);
+    const dvec3 ahead = worn.headset->head().orientation * dvec3(0, 0, -1);
+    worn.head.orientation = glm::angleAxis(0.5, kUp) * worn.head.orientation;
+    worn.frame();
+    CHECK(glm::distance(worn.headset->head().position, eye) < 1e-6);
+    const dvec3 turned = worn.headset->head().orientation * dvec3(0, 0, -1);
+    CHECK(glm::distance(turned, glm::angleAxis(0.5, kUp) * ahead) < 1e-6);
+    worn.placed = true;
+    worn.frame();
+    CHECK_FALSE(worn.headset->report().orientation_only);
+    if (touched)
+      CHECK(glm::distance(worn.headset->head().position, kTruth * worn.head.position) < 1e-6);
+    else
+      check_sits(worn, eye);
+    worn.placed = false;  // tracking is lost only for the moment, so the view does not jump
+    const dvec3 before = worn.headset->head().position;
+    worn.frame();
+    CHECK(glm::distance(worn.headset->head().position, before) < 1e-6);
+  }
+}
+
+TEST_CASE("when the room's origin moves a touched lever stays where it is") {
+  Worn worn;
+  worn.ask(&HeadsetRequests::touch);
+  for (const glm::dvec2 gear : {glm::dvec2(0, 0), glm::dvec2(-0.036, 0.04), glm::dvec2(0.036, -0.04)}) worn.touch(gear);
+  worn.ask(&HeadsetRequests::touched);
+  worn.frame();
+  const dvec3 before = worn.headset->head().position;
+  xr_test::Control& xr = xr_test::control();
+  const xr_test::Pose moved{dvec3(0.4, 0.0, -0.3), glm::angleAxis(1.2, kUp)};
+  xr.script.timeline = {xr_test::change_space(xr.record.frames.back().time + 0.05, xr_test::Space::stage, moved)};
+  for (int i = 0; i < 20; ++i) {
+    worn.frame();
+    CHECK(glm::distance(worn.headset->head().position, before) < 1e-5);
+  }
+}
+
+TEST_CASE("a hand points at the learner's card, and its menu button opens the complete panel") {
+  Worn worn;
+  worn.frame();
+  const DriveSide side = DriveSide::left;
+  const HangingPanel card = hang_card(driver_eye(), side, {320.0, 200.0}, {0.25, 0.0}, {0.75, 0.8});
+  // The seat from the head's first pose: the head is at the driver's eyes and looks ahead.
+  const EyePose cabin_from_room = seat_at_eyes(worn.head, {driver_eye(), {}}, 0.0);
+  const dvec3 from{0.3, 0.2, -0.1};
+  const dvec3 target = card.pose * dvec3(0.05, -0.1, 0.0);
+  worn.hand = inverse(cabin_from_room) * look_at(from, target);
+  worn.frame();
+  REQUIRE(worn.headset->pointer());
+  CHECK(worn.headset->pointer()->hit.at.x == doctest::Approx(0.5 + 0.05 / card.size.x * 0.5).epsilon(1e-4));
+  CHECK_FALSE(worn.headset->pointer()->selects);
+  REQUIRE(worn.headset->beam());
+  CHECK(glm::distance(worn.headset->beam()->from, from) < 1e-5);
+  CHECK(glm::distance(worn.headset->beam()->to, target) < 1e-5);
+  worn.trigger = true;
+  worn.frame();
+  REQUIRE(worn.headset->pointer());
+  CHECK(worn.headset->pointer()->selects);
+  worn.trigger = false;
+  worn.menu = true;
+  worn.frame();
+  worn.frame();
+  const HangingPanel panel = hang_panel(driver_eye(), side, {320.0, 200.0});
+  worn.hand = inverse(cabin_from_room) * look_at(from, panel.pose.position);
+  worn.frame();
+  worn.frame();
+  REQUIRE(worn.headset->pointer());
+  CHECK(worn.headset->pointer()->hit.at.x == doctest::Approx(0.5).epsilon(1e-4));
+  const auto& quad = *xr_test::control().record.frames.back().quad();
+  CHECK(quad.width == doctest::Approx(1.5));
+  worn.hand.orientation = glm::angleAxis(3.0, kUp) * worn.hand.orientation;  // elsewhere
+  worn.frame();
+  CHECK_FALSE(worn.headset->pointer());
+}
+
+// STOP and the keys are handled on the thread that would wait.
+TEST_CASE(
+    "a GPU lost while the runtime holds a frame back blocks nobody, and everything is recovered when it arrives") {
+  Worn worn;
+  xr_test::Control& xr = xr_test::control();
+  xr.script.pacing = xr_test::Pacing::real;
+  worn.frame();
+  const int frames = xr.record.calls["xrBeginFrame"];
+  using Clock = std::chrono::steady_clock;
+  xr.script.timeline = {xr_test::stall(xr.record.frames.back().time + 0.05, 450)};  // 5 s
+  while (xr.record.calls["xrWaitFrame"] <= frames + 30 && !worn.headset->is_held()) worn.turn();
+  REQUIRE(worn.headset->is_held());
+  injected_faults.next_present = VK_ERROR_DEVICE_LOST;
+  double longest = 0.0;
+  for (int i = 0; i < 40 && worn.headset->is_open(); ++i) {
+    const Clock::time_point begun = Clock::now();
+    worn.turn();
+    longest = std::max(longest, std::chrono::duration<double>(Clock::now() - begun).count());
+  }
+  CHECK_FALSE(worn.headset->is_open());
+  CHECK(longest < 1.0);  // waiting would take about 5 s
+  std::this_thread::sleep_for(kPause);
+  CHECK_FALSE(worn.headset->is_found());  // OpenXR allows one instance at a time, and the old one is not closed yet
+  for (int i = 0; i < 100 && !worn.headset->is_found(); ++i)
+    std::this_thread::sleep_for(std::chrono::milliseconds(100));
+  CHECK(worn.headset->open());
+}
+
+TEST_CASE("a lost headset is reported once, searched for, and found when it is back") {
+  for (const bool instance : {false, true}) {
+    CAPTURE(instance);
+    Worn worn;
+    (void)worn.headset->take_message();
+    xr_test::Control& xr = xr_test::control();
+    const double now = xr.record.frames.back().time;
+    xr.script.timeline = {instance ? xr_test::lose_instance(now) : xr_test::lose_session(now)};
+    for (int i = 0; i < 5 && worn.headset->is_open(); ++i) worn.frame();
+    REQUIRE_FALSE(worn.headset->is_open());
+    CHECK(worn.headset->take_message().find("the desktop shows the cabin, the lever keeps running") !=
+          std::string::npos);
+    CHECK_FALSE(worn.headset->is_found());  // not immediately after it was lost
+    if (instance) {
+      xr.script.headset = false;
+      for (const bool first : {true, false}) {
+        std::this_thread::sleep_for(kPause);
+        CHECK_FALSE(worn.headset->is_found());
+        // reported only once
+        CHECK((worn.headset->take_message().find("no headset is connected") != std::string::npos) == first);
+      }
+    }
+    xr.start();
+    std::this_thread::sleep_for(kPause);
+    REQUIRE(worn.headset->is_found());
+    CHECK(worn.headset->open());
+    worn.frame();
+    CHECK(worn.headset->is_open());
+  }
+}

@@ -1,0 +1,96 @@
+// The lines that a script can read about a lesson.
+#include "app/session/lesson_lines.h"
+
+#include <doctest/doctest.h>
+
+using namespace gearshift::haptics;
+using namespace gearshift::lessons;
+using namespace gearshift::session;
+
+namespace {
+
+using Lines = std::vector<std::string>;
+
+// The trial so far; its first cycle is at `begin` [s].
+CoachView trial(double begin, std::size_t step, Lines said = {}, double duration = 1.0) {
+  CoachView coach;
+  coach.phase = LessonPhase::driving;
+  coach.lesson = "moving_off";
+  coach.result.begin = begin;
+  coach.result.duration = duration;
+  coach.now = {"Go.", "", step, 3, kNeutralGear, std::move(said)};
+  return coach;
+}
+
+CoachView not_begun() {
+  return trial(0.0, 0, {}, 0.0);
+}
+
+CoachView over(double begin, LessonEnd end, Lines said = {}) {
+  CoachView coach = trial(begin, 3, std::move(said), 20.0);
+  coach.phase = LessonPhase::over;
+  coach.result.end = end;
+  coach.result.grade = 9.5;
+  coach.result.passed = end == LessonEnd::done;
+  coach.result.why = coach.result.passed ? "" : "You left the lesson.";
+  return coach;
+}
+
+}  // namespace
+
+TEST_CASE("a trial is reported from its first cycle on; each step, each message and its end once") {
+  LessonLines lines;
+  CHECK(lines.new_lines(not_begun()) == Lines{});  // no cycle yet
+  CHECK(lines.new_lines(trial(2.0, 0)) == Lines{"lesson moving_off begins", "step 1 of 3: Go."});
+  CHECK(lines.new_lines(trial(2.0, 0)) == Lines{});
+  CHECK(lines.new_lines(trial(2.0, 1, {"a"})) == Lines{"step 2 of 3: Go.", "a"});
+  CHECK(lines.new_lines(over(2.0, LessonEnd::done, {"a", "b"})) ==
+        Lines{"b", "lesson moving_off is over: grade 9.5 of 10, passed"});
+  CHECK(lines.new_lines(over(2.0, LessonEnd::done, {"a", "b"})) == Lines{});
+}
+
+TEST_CASE("a trial that follows within a frame is a new one, in the same step, too, with its own messages") {
+  LessonLines lines;
+  (void)lines.new_lines(trial(2.0, 0, {"a"}));
+  CHECK(lines.new_lines(trial(5.0, 0, {"c"})) ==
+        Lines{"previous attempt ended early", "lesson moving_off begins", "step 1 of 3: Go.", "c"});
+  CHECK(lines.new_lines(over(5.0, LessonEnd::done, {"c"})).size() == 1);
+  CHECK(lines.new_lines(not_begun()) == Lines{});  // the next trial
+  CHECK(lines.new_lines(trial(9.0, 0)) == Lines{"lesson moving_off begins", "step 1 of 3: Go."});
+}
+
+TEST_CASE("without a grade none is reported") {
+  LessonLines lines;
+  (void)lines.new_lines(trial(2.0, 0));
+  CHECK(lines.new_lines(over(2.0, LessonEnd::left)) ==
+        Lines{"lesson moving_off is over: not graded, not passed: You left the lesson."});
+}
+
+TEST_CASE(
+    "a trial whose first cycle is at 0 s, as on a virtual clock, is reported like any other, and so is the next") {
+  LessonLines lines;
+  for (int i = 0; i < 2; ++i) {
+    CHECK(lines.new_lines(trial(0.0, 0)) == Lines{"lesson moving_off begins", "step 1 of 3: Go."});
+    CHECK(lines.new_lines(trial(0.0, 1, {"a"}, 2.0)) == Lines{"step 2 of 3: Go.", "a"});
+    CHECK(lines.new_lines(over(0.0, LessonEnd::done, {"a"})) ==
+          Lines{"lesson moving_off is over: grade 9.5 of 10, passed"});
+  }
+  CHECK(lines.new_lines(trial(0.0, 0, {}, 5.0)).size() == 2);
+  CHECK(lines.new_lines(trial(0.0, 0, {}, 0.1)) ==
+        Lines{"previous attempt ended early", "lesson moving_off begins", "step 1 of 3: Go."});
+}
+
+TEST_CASE("a trial replaced by another offer, or by none, was left, which is reported once") {
+  for (const LessonPhase next : {LessonPhase::offered, LessonPhase::none}) {
+    LessonLines lines;
+    (void)lines.new_lines(trial(2.0, 0));
+    CoachView coach;
+    coach.phase = next;
+    coach.lesson = next == LessonPhase::none ? "" : "hill_start";
+    coach.goal = "Go up.";
+    Lines told{"lesson moving_off ended early"};
+    if (next == LessonPhase::offered) told.emplace_back("lesson hill_start offered: Go up.");
+    CHECK(lines.new_lines(coach) == told);
+    CHECK(lines.new_lines(coach) == Lines{});
+  }
+}

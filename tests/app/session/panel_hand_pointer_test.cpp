@@ -1,0 +1,54 @@
+// The panel's pointer: the controller that points at the panel, or the mouse on the desk.
+#include "app/session/panel_hand_pointer.h"
+
+#include <doctest/doctest.h>
+
+using namespace gearshift::engine;
+using namespace gearshift::session;
+
+namespace {
+
+constexpr glm::ivec2 kPanel{1000, 500};  // [px]
+
+std::optional<LearnerHeadset::Pointer> at(double x, double y, bool selects = false) {
+  return LearnerHeadset::Pointer{{{x, y}, 1.0}, selects, {0.0, 0.5}};
+}
+
+}  // namespace
+
+TEST_CASE("a hand that points at the panel has the pointer until the mouse moves; its trigger takes it back") {
+  PointingHand pointing;
+  WindowInput desk;
+  const auto follow = [&](const std::optional<LearnerHeadset::Pointer>& hand, bool desk_leads_lever = false) {
+    pointing.follow(desk, desk_leads_lever, hand, kPanel, 0.1);
+    return pointing.pointer();
+  };
+  CHECK_FALSE(follow(std::nullopt));
+  const auto came = follow(at(0.5, 0.2));
+  REQUIRE(came);
+  CHECK(came->at == glm::dvec2(500.0, 100.0));
+  CHECK_FALSE(came->down);
+  CHECK(came->scroll.y == doctest::Approx(0.6));  // half of 12 lines/s for 0.1 s
+  desk.mouse_moved = {3.0, 0.0};
+  CHECK(follow(at(0.5, 0.2), true));  // it moves the lever
+  CHECK_FALSE(follow(at(0.5, 0.2)));
+  desk.mouse_moved = {0.0, 0.0};
+  CHECK_FALSE(follow(at(0.5, 0.2)));  // it did not leave and return
+  const auto clicks = follow(at(0.5, 0.2, true));
+  REQUIRE(clicks);
+  CHECK(clicks->down);
+  CHECK_FALSE(follow(std::nullopt));
+}
+
+TEST_CASE("a trigger pulled elsewhere clicks nothing when the ray reaches the panel") {
+  PointingHand pointing;
+  const WindowInput desk;
+  for (int i = 0; i < 3; ++i) {
+    pointing.follow(desk, false, at(0.1 * i, 0.2, true), kPanel, 0.1);
+    REQUIRE(pointing.pointer());
+    CHECK_FALSE(pointing.pointer()->down);
+  }
+  pointing.follow(desk, false, at(0.4, 0.2), kPanel, 0.1);
+  pointing.follow(desk, false, at(0.4, 0.2, true), kPanel, 0.1);
+  CHECK(pointing.pointer()->down);
+}

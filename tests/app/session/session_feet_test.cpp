@@ -1,0 +1,141 @@
+// Keyboard pedals follow the car's clock: their path does not depend on the frame rate.
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <set>
+#include <thread>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "app/session/session.h"
+#include "tests/support/temp_folder.h"
+#include "tests/support/variable.h"
+
+using namespace gearshift::engine;
+using namespace gearshift::haptics;
+using namespace gearshift::runtime;
+using namespace gearshift::session;
+using namespace gearshift::test;
+using namespace gearshift::ui;
+using namespace gearshift::vehicle;
+
+namespace {
+
+constexpr double kCycle = 1e-3;               // [s]
+constexpr double kClosed = 0.2, kBite = 0.7;  // [1] of the pedal
+constexpr double kSlip = 1.0, kPedal = 0.25;  // [s]
+
+struct FeetRig {
+  TempFolder folder;
+  Variable config{"XDG_CONFIG_HOME", folder.path().c_str()};
+  Variable data{"XDG_DATA_HOME", folder.path().c_str()};
+
+  SessionChoice choice(RuntimeClock clock, const std::string& lesson) const {
+    SessionChoice choice;
+    choice.lesson = lesson;
+    choice.hand = "grip";
+    choice.clock = clock;
+    choice.sound = SoundOutput::none;
+    return choice;
+  }
+};
+
+// The clutch, pressed from 0 s on and released at 0.5 s: by hand, from the pace.
+double clutch_at(double time) {
+  if (time <= 0.5) return std::min(1.0, time / kPedal);
+  const double quick = (1.0 - kBite) * kPedal, left = time - 0.5 - quick;
+  if (left < 0.0) return 1.0 - (time - 0.5) / kPedal;
+  if (left < kSlip) return kBite - (kBite - kClosed) * left / kSlip;
+  return std::max(0.0, kClosed - (left - kSlip) / kPedal);
+}
+
+// The clutch in each cycle as the car received it, at a frame rate at which each frame reads the keys.
+std::vector<double> clutch_driven(Session& session, double frames_per_second) {
+  std::vector<double> path;
+  session.set_foot_pace({kPedal, kSlip, kClosed, kBite});
+  const double frame = 1.0 / frames_per_second;
+  (void)session.runtime().drain_cycles();
+  for (int i = 0; i * frame < 2.0; ++i) {
+    session.set_driver({}, {}, {.clutch = i * frame < 0.5 - 1e-9});
+    session.runtime().advance(frame);
+    for (const DriveSample& cycle : session.runtime().drain_cycles()) path.push_back(cycle.controls.clutch);
+  }
+  return path;
+}
+
+}  // namespace
+
+TEST_CASE("at 10, 30 and 144 frames a second a keyboard pedal follows the same path, to three cycles") {
+  for (const double rate : {10.0, 30.0, 144.0}) {
+    CAPTURE(rate);
+    const FeetRig rig;
+    Session session(rig.choice(RuntimeClock::virtual_time, "none"));
+    const std::vector<double> path = clutch_driven(session, rate);
+    CHECK(path.size() >= 2000);
+    for (std::size_t i = 0; i < path.size(); ++i)
+      REQUIRE(std::abs(path[i] - clutch_at(static_cast<double>(i) * kCycle)) <= 3.0 * kCycle / kPedal);
+  }
+}
+
+TEST_CASE("a pedal continues from one lever to the next, and a pad's pedal counts if it is deeper") {
+  const FeetRig rig;
+  Session session(rig.choice(RuntimeClock::virtual_time, "none"));
+  session.set_driver({}, {}, {.clutch = true});
+  session.advance(0.5);
+  CHECK(session.car().clutch == 1.0);
+  PanelRequests other;
+  other.car = "diesel";
+  session.apply(other);
+  session.advance(2.0 * kCycle);
+  CHECK(session.car().clutch == 1.0);
+  DriverControls pad;
+  pad.brake = 0.7;
+  session.set_driver({}, pad, {.brake = true});
+  session.advance(0.1);
+  CHECK(session.car().brake == 0.7);
+  session.advance(0.4);
+  CHECK(session.car().brake == 1.0);
+}
+
+TEST_CASE("in real time a pedal moves while the picture hangs") {
+  const FeetRig rig;
+  SessionChoice choice = rig.choice(RuntimeClock::real_time, "none");
+  Session session(choice);
+  session.set_driver({}, {}, {.brake = true});
+  session.advance(0.0);
+  std::set<double> seen;
+  std::this_thread::sleep_for(std::chrono::milliseconds(400));  // no frame
+  for (const DriveSample& cycle : session.runtime().drain_cycles()) seen.insert(cycle.controls.brake);
+  CHECK(seen.size() > 20);  // one or two if it moved only with the frames
+  CHECK(*seen.rbegin() == 1.0);
+}
+
+TEST_CASE("in real time a keyboard clutch keeps its pace through a change of gate, while both levers run") {
+  constexpr double kAllTheWay = 8.0;  // [s]
+  const FeetRig rig;
+  Session session(rig.choice(RuntimeClock::real_time, "none"));
+  session.set_foot_pace({.pedal_time = kPedal, .slip_time = kAllTheWay, .clutch_closed = 0.0, .clutch_bite = 1.0});
+  session.set_driver({}, {}, {.clutch = true});
+  session.advance(0.0);
+  while (session.car().clutch < 1.0) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(10));
+    session.advance(0.0);
+  }
+  session.set_driver({}, {}, {});
+  using Steady = std::chrono::steady_clock;
+  double passed = 0.0, went = 0.0;  // [s], [1]
+  for (const char* gate : {"dog_leg_five", "five_speed_r_right_down", "dog_leg_five"}) {
+    const Steady::time_point begin = Steady::now();
+    session.advance(0.0);
+    const double before = session.car().clutch;
+    PanelRequests other;
+    other.gate = gate;
+    session.apply(other);
+    session.advance(0.0);
+    went += before - session.car().clutch;
+    passed += std::chrono::duration<double>(Steady::now() - begin).count();
+  }
+  CHECK(went > 0.0);
+  CHECK(went <= (passed + 0.03) / kAllTheWay);  // a snapshot may be several cycles old
+}

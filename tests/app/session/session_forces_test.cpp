@@ -1,0 +1,156 @@
+// Who may switch the forces on: after a person has switched them off, no change of gate, preset or hand restores them.
+#include <chrono>
+#include <string>
+#include <thread>
+
+#include <doctest/doctest.h>
+
+#include "app/session/session.h"
+#include "tests/support/temp_folder.h"
+#include "tests/support/variable.h"
+
+using namespace gearshift::engine;
+using namespace gearshift::haptics;
+using namespace gearshift::lessons;
+using namespace gearshift::runtime;
+using namespace gearshift::session;
+using namespace gearshift::test;
+using namespace gearshift::ui;
+
+namespace {
+
+struct ForcesRig {
+  TempFolder folder;
+  Variable config{"XDG_CONFIG_HOME", folder.path().c_str()};
+  Session session;
+
+  explicit ForcesRig(RuntimeClock clock = RuntimeClock::virtual_time) : session(choice(clock)) { go(2.0); }
+
+  static SessionChoice choice(RuntimeClock clock) {
+    SessionChoice choice;
+    choice.hand = "grip";
+    choice.clock = clock;
+    choice.sound = SoundOutput::none;
+    return choice;
+  }
+  void go(double seconds) {
+    for (double time = 0.0; time < seconds; time += 1.0 / 60.0) session.advance(1.0 / 60.0);
+  }
+  void ask(bool PanelRequests::*what) {
+    PanelRequests requests;
+    requests.*what = true;
+    session.apply(requests);
+  }
+  // A change that creates a new trainer.
+  void change(int which) {
+    PanelRequests requests;
+    if (which == 0) requests.gate = "four_speed";
+    if (which == 1) requests.preset = "measured";
+    if (which == 2) requests.hand = "arm";
+    if (which == 3) requests.restart = session.runtime().config().preset.haptics;
+    session.apply(requests);
+  }
+  bool has_forces() {
+    const GuardState guard = session.runtime().snapshot().guard;
+    return guard == GuardState::armed || guard == GuardState::ramping || guard == GuardState::running;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("after STOP or Forces off, no gate, preset, hand or restart restores the forces; only arming does") {
+  for (const auto taken : {&PanelRequests::stop, &PanelRequests::disarm}) {
+    for (int which = 0; which < 4; ++which) {
+      CAPTURE(which);
+      ForcesRig rig;
+      REQUIRE(rig.has_forces());
+      rig.ask(taken);
+      if (which % 2 == 0) rig.go(0.5);  // otherwise within the same frame
+      rig.change(which);
+      rig.go(2.0);
+      CHECK_FALSE(rig.has_forces());
+      rig.change((which + 1) % 4);
+      rig.go(2.0);
+      CHECK_FALSE(rig.has_forces());
+      rig.ask(&PanelRequests::arm);
+      rig.go(2.0);
+      CHECK(rig.has_forces());
+    }
+  }
+}
+
+TEST_CASE("a lever with forces keeps them after a change, and after two changes within a frame") {
+  for (int which = 0; which < 4; ++which) {
+    CAPTURE(which);
+    ForcesRig rig;
+    rig.change(which);
+    rig.change((which + 2) % 4);
+    rig.go(2.0);
+    CHECK(rig.has_forces());
+  }
+}
+
+TEST_CASE("events have the time since the session's start, across every change of gate") {
+  for (const RuntimeClock clock : {RuntimeClock::virtual_time, RuntimeClock::real_time}) {
+    const auto start = std::chrono::steady_clock::now();
+    ForcesRig rig(clock);
+    std::size_t events = 0;
+    double last = 0.0;
+    for (int i = 0; i < 60; ++i) {
+      if (i % 20 == 10) rig.change(i == 30 ? 1 : 0);
+      if (i % 20 == 15) rig.ask(i % 40 == 15 ? &PanelRequests::stop : &PanelRequests::arm);
+      if (clock == RuntimeClock::real_time) std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      const double before = rig.session.time();
+      rig.session.advance(1.0 / 60.0);
+      const double now = clock == RuntimeClock::virtual_time
+                             ? rig.session.time()
+                             : std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+      for (const HapticEvent& event : rig.session.events()) {
+        const double time = 1e-9 * static_cast<double>(event.time_ns);
+        CHECK(time >= last);
+        CHECK(time <= now + 1e-6);
+        if (clock == RuntimeClock::virtual_time) CHECK(time > before - 1.1e-3);
+        last = time;
+        ++events;
+      }
+    }
+    CHECK(events > 3);
+  }
+}
+
+TEST_CASE("forces removed by a fault are not restored by two changes or the start of a lesson; only arming does") {
+  for (const bool lesson : {false, true}) {
+    ForcesRig rig;
+    // With a position margin of zero, a hand at the device's end causes a fault.
+    PanelRequests restart;
+    restart.restart = rig.session.runtime().config().preset.haptics;
+    restart.restart->guard.position_margin = 0.0;
+    rig.session.apply(restart);
+    rig.go(2.0);
+    HandTarget hand;
+    for (int i = 0; i < 3000 && rig.session.runtime().snapshot().guard != GuardState::released; ++i) {
+      hand.position = {i % 2 ? 0.09 : -0.09, i % 2 ? 0.09 : -0.09};
+      hand.push = {0.0, i % 2 ? 75.0 : -75.0};
+      rig.session.set_driver(hand, {});
+      rig.session.advance(0.1);
+    }
+    REQUIRE(rig.session.runtime().snapshot().guard == GuardState::released);
+    rig.session.set_driver({}, {});
+    rig.change(2);
+    rig.go(1.0);
+    CHECK_FALSE(rig.has_forces());
+    if (lesson) {
+      PanelRequests begin;
+      begin.lesson.begin = true;
+      rig.session.apply(begin);
+      CHECK(rig.session.coach().view().phase == LessonPhase::driving);
+    } else {
+      rig.change(1);
+    }
+    rig.go(1.0);
+    CHECK_FALSE(rig.has_forces());
+    rig.ask(&PanelRequests::arm);
+    rig.go(2.0);
+    CHECK(rig.has_forces());
+  }
+}

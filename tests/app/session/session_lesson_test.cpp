@@ -1,0 +1,411 @@
+// A lesson in the running trainer with an automatic hand, on the virtual clock: driven, saved, replayed.
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "app/lessons/simulated_driver/auto_driver.h"
+#include "app/session/session.h"
+#include "app/vehicle/lesson_load.h"
+#include "haptics/loop/replay.h"
+#include "tests/support/small_files.h"
+#include "tests/support/temp_folder.h"
+#include "tests/support/variable.h"
+
+using namespace gearshift::engine;
+using namespace gearshift::haptics;
+using namespace gearshift::lessons;
+using namespace gearshift::runtime;
+using namespace gearshift::session;
+using namespace gearshift::test;
+using namespace gearshift::ui;
+using namespace gearshift::vehicle;
+namespace fs = std::filesystem;
+
+namespace {
+
+constexpr double kLessonFrame = 1.0 / 60.0;
+
+struct LessonRig {
+  TempFolder folder;
+  Variable config{"XDG_CONFIG_HOME", folder.path().c_str()};
+  Variable data{"XDG_DATA_HOME", folder.path().c_str()};
+  fs::path history = folder / "history.db";
+
+  SessionChoice choice(const std::string& lesson, std::string hand = std::string(kAutomaticHand)) const {
+    SessionChoice choice;
+    choice.lesson = lesson;
+    choice.learner = "Ada";
+    choice.history = history;
+    choice.help = false;
+    choice.hand = std::move(hand);
+    choice.clock = RuntimeClock::virtual_time;
+    choice.sound = SoundOutput::none;
+    return choice;
+  }
+  std::string bytes_of_history() const {
+    std::ifstream file(history, std::ios::binary);
+    return {std::istreambuf_iterator<char>(file), {}};
+  }
+};
+
+void ask(Session& session, const std::function<void(LessonRequests&)>& what) {
+  PanelRequests requests;
+  what(requests.lesson);
+  session.apply(requests);
+}
+
+void go(Session& session, double seconds) {
+  for (double time = 0.0; time < seconds; time += kLessonFrame) {
+    session.advance(kLessonFrame);
+    session.update_cabin();
+  }
+}
+
+// A competent driver with mouse and pedals, one frame per millisecond.
+const CoachView& drive_as_person(Session& session) {
+  if (session.coach().view().phase == LessonPhase::offered)
+    ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+  AutoDriverConfig config;
+  config.lesson = *session.coach().lesson();
+  config.car = *session.car_spec();
+  config.gate = session.runtime().gate();
+  AutoDriver driver(config);
+  DriveSample sample;
+  sample.controls.ignition = config.lesson.start.running;
+  sample.controls.hand_brake = config.lesson.start.hand_brake;
+  for (int i = 0; i < 120'000 && session.coach().view().phase == LessonPhase::driving; ++i) {
+    session.advance(1e-3);
+    sample.lever = session.shown();
+    sample.car = session.car();
+    const DriverAction action = driver.act(sample);
+    sample.controls = action.controls;
+    session.set_driver(action.hand, action.controls);
+  }
+  REQUIRE(session.coach().view().phase == LessonPhase::over);
+  return session.coach().view();
+}
+
+const CoachView& drive_to_the_end(Session& session) {
+  for (int i = 0; i < 120 * 60 && session.coach().view().phase == LessonPhase::driving; ++i) go(session, kLessonFrame);
+  REQUIRE(session.coach().view().phase == LessonPhase::over);
+  return session.coach().view();
+}
+
+}  // namespace
+
+TEST_CASE("a competent driver passes a lesson in the running trainer; run, shifts and recording are saved") {
+  LessonRig rig;
+  Session session(rig.choice("hill_start", "grip"));
+  const CoachView& coach = drive_as_person(session);
+  CHECK(coach.result.passed);
+  CHECK(coach.result.grade >= 9.0);
+  CHECK(session.car().slope == doctest::Approx(std::atan(0.1)));  // the lesson's road: 10 %
+  History history(rig.history);
+  const auto runs = history.runs(history.find_learner("Ada").value().id);
+  REQUIRE(runs.size() == 1);
+  CHECK(runs[0].result.passed);
+  CHECK(runs[0].result.shifts.size() == coach.result.shifts.size());
+  CHECK_FALSE(session.recording());
+  const Trace trace = read_trace(history.recording_file(runs[0].recording).string());
+  CHECK(replay(trace, make_lesson_load).bit_for_bit());
+  // The recording covers the lesson: it contains every shift.
+  for (const ShiftRecord& shift : runs[0].result.shifts) {
+    CHECK(shift.begin > 1e-9 * static_cast<double>(trace.samples.front().out.time_ns));
+    CHECK(shift.end < 1e-9 * static_cast<double>(trace.samples.back().out.time_ns) + 0.5);
+  }
+}
+
+TEST_CASE("a lesson begins as its file says: gear, speed, engine, handbrake, with the user's switches to match") {
+  LessonRig rig;
+  Session session(rig.choice("emergency_stop", "grip"));
+  CHECK(session.coach().view().phase == LessonPhase::offered);
+  CHECK(session.car().road_speed == 0.0);
+  ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+  go(session, 0.1);
+  CHECK(session.coach().view().phase == LessonPhase::driving);
+  CHECK(session.shown().gear == 3);
+  CHECK(session.car().road_speed == doctest::Approx(40.0 / 3.6).epsilon(0.02));
+  ask(session, [](LessonRequests& lesson) { lesson.leave = true; });
+  CHECK(session.coach().view().result.end == LessonEnd::left);
+  ask(session, [](LessonRequests& lesson) { lesson.offer = "start_and_stop"; });
+  (void)session.take_switches();
+  ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+  const std::optional<CarSwitches> switches = session.take_switches();
+  REQUIRE(switches);
+  CHECK_FALSE(switches->ignition);
+  CHECK(switches->hand_brake == 1.0);
+  go(session, 0.1);
+  CHECK_FALSE(session.car().running);
+  CHECK(session.car().hand_brake == 1.0);
+}
+
+TEST_CASE("another gate or a replay does not continue under a lesson: a gate ends it, a replay is refused") {
+  LessonRig rig;
+  Session session(rig.choice("moving_off", "grip"));
+  ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+  go(session, 1.0);
+  PanelRequests look;
+  look.playback.open = ReplayRequests::Shift{"nowhere.trace", 0.0};
+  session.apply(look);
+  CHECK(session.message().find("leave it before") != std::string::npos);
+  CHECK(session.coach().view().phase == LessonPhase::driving);
+  PanelRequests gate;
+  gate.gate = "four_speed";
+  session.apply(gate);
+  CHECK(session.coach().view().phase == LessonPhase::over);
+  CHECK(session.coach().view().result.end == LessonEnd::left);
+  CHECK_FALSE(session.recording());
+}
+
+TEST_CASE("any shift in the history can be replayed in the cabin as it was recorded") {
+  LessonRig rig;
+  Session session(rig.choice("up_through_the_gears", "grip"));
+  const CoachView& coach = drive_as_person(session);
+  REQUIRE(coach.result.shifts.size() >= 3);
+  const RunRow run = coach.runs.front();
+  const ShiftRecord& wanted = coach.result.shifts[1];
+  PanelRequests look;
+  look.playback.open = ReplayRequests::Shift{run.recording, wanted.begin};
+  look.playback.play = false;
+  session.apply(look);
+  const Player* player = session.panel_input().replay;
+  REQUIRE(player);
+  REQUIRE(player->shift());
+  const RecordedShift& shift = player->drive().shifts()[*player->shift()];
+  CHECK(shift.record.begin == doctest::Approx(wanted.begin).epsilon(1e-6));
+  CHECK(shift.record.from == wanted.from);
+  CHECK(shift.record.to == wanted.to);
+  const Trace trace = read_trace(run.recording);
+  for (const double part : {0.1, 0.5, 0.9}) {
+    const double time = wanted.begin + part * (wanted.end - wanted.begin);
+    PanelRequests seek;
+    seek.playback.seek = time;
+    session.apply(seek);
+    go(session, kLessonFrame);
+    const auto then = std::find_if(trace.samples.begin(), trace.samples.end(), [time](const TraceSample& sample) {
+      return 1e-9 * static_cast<double>(sample.out.time_ns) > time - 4.1e-3;
+    });
+    // a movement of at most 0.5 m/s, sampled every 4 ms
+    CHECK(glm::length(session.shown().proxy - then->out.proxy) < 2e-3);
+    CHECK(session.car().clutch == doctest::Approx(then->controls.clutch).epsilon(0.05));
+    CHECK(session.car().engine_speed > 50.0);
+  }
+}
+
+TEST_CASE("a car brings its gate, a gate without the car's gears another car, and no car has a stopped engine") {
+  LessonRig rig;
+  Session session(rig.choice(std::string(kNoLesson), "grip"));
+  CHECK(session.panel_input().gate_name == "five_speed_r_right_down");
+  const auto ask_for = [&session](std::optional<std::string> PanelRequests::*what, const std::string& name) {
+    PanelRequests requests;
+    requests.*what = name;
+    session.apply(requests);
+    go(session, 0.05);
+    return session.panel_input();
+  };
+  CHECK(ask_for(&PanelRequests::gate, "six_speed_r_left_up").car_name == "diesel");
+  CHECK(ask_for(&PanelRequests::car, "hatchback").gate_name == "five_speed_r_right_down");
+  CHECK(session.car().engine_speed > 60.0);
+  CHECK(ask_for(&PanelRequests::car, "none").gate_name == "five_speed_r_right_down");
+  CHECK(session.car().engine_speed == 0.0);
+}
+
+TEST_CASE("a lesson's own gate ends with it: the next lesson uses the user's gate") {
+  LessonRig rig;
+  Session session(rig.choice("another_gate", "grip"));
+  ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+  CHECK(session.panel_input().gate_name == "dog_leg_five");
+  ask(session, [](LessonRequests& lesson) { lesson.leave = true; });
+  PanelRequests tune;
+  tune.tuning = HapticTuning{.wall_stiffness = 4321.0};
+  session.apply(tune);
+  ask(session, [](LessonRequests& lesson) { lesson.offer = "moving_off"; });
+  ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+  CHECK(session.runtime().config().preset.haptics.tuning.wall_stiffness == 4321.0);  // the tuning does not change
+  CHECK(session.panel_input().gate_name == "five_speed_r_right_down");
+}
+
+TEST_CASE("the user cannot stop a lesson's recording, or start one during it") {
+  LessonRig rig;
+  SessionChoice choice = rig.choice("moving_off", "grip");
+  for (const char* learner : {"Ada", ""}) {
+    choice.learner = learner;
+    Session session(choice);
+    ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+    go(session, 0.2);
+    const bool recording = session.recording();
+    CHECK(recording == (choice.learner == "Ada"));
+    PanelRequests record;
+    record.record = true;
+    session.apply(record);
+    go(session, 0.2);
+    CHECK(session.recording() == recording);
+    CHECK(session.message().find("recorded automatically") != std::string::npos);
+    CHECK(session.coach().view().result.is_complete);
+  }
+}
+
+TEST_CASE("automatic driving is not saved for the learner; when a person takes over, runs are saved again") {
+  LessonRig rig;
+  Session session(rig.choice("moving_off"));
+  CHECK(drive_to_the_end(session).result.passed);
+  PanelRequests person;
+  person.hand = "grip";
+  session.apply(person);
+  CHECK(session.coach().view().learner == "Ada");
+  CHECK(History(rig.history).learners().empty());
+  ask(session, [](LessonRequests& lesson) { lesson.offer = "moving_off"; });
+  (void)drive_as_person(session);
+  CHECK(History(rig.history).runs(History(rig.history).find_learner("Ada").value().id).size() == 1);
+}
+
+TEST_CASE("without a learner nothing is saved, and lessons work anyway") {
+  LessonRig rig;
+  SessionChoice choice = rig.choice("moving_off");
+  choice.learner.clear();
+  Session session(choice);
+  CHECK(drive_to_the_end(session).result.passed);
+  CHECK_FALSE(fs::exists(rig.folder / "gearshift/recordings"));
+  if (fs::exists(rig.history)) CHECK(History(rig.history).learners().empty());
+}
+
+TEST_CASE("a damaged history is reported in one sentence and left unchanged; the lesson continues") {
+  LessonRig rig;
+  std::ofstream(rig.history) << "this is no database, and long enough to be taken for none";
+  const std::string before = rig.bytes_of_history();
+  Session session(rig.choice("moving_off"));
+  CHECK(session.message().find("history.db") != std::string::npos);
+  CHECK(drive_to_the_end(session).result.passed);
+  CHECK(rig.bytes_of_history() == before);
+}
+
+TEST_CASE("a lesson whose recording fails is still assessed and saved") {
+  LessonRig rig;
+  {
+    History history(rig.history);  // created before file sizes are limited
+    (void)history.find_or_add_learner("Ada");
+  }
+  const SmallFiles small(200'000);  // [bytes]
+  Session session(rig.choice("moving_off"));
+  CHECK(drive_to_the_end(session).result.passed);
+}
+
+TEST_CASE("a guided trial has the instructor's hand on the lever and no grade; without help none is guided") {
+  LessonRig rig;
+  SessionChoice alone = rig.choice("up_through_the_gears", "grip");
+  for (int trial = 0; trial < 6; ++trial) {
+    Session session(alone);
+    ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+    CHECK(session.coach().guidance() == 0.0);
+    alone.learner += "a";
+  }
+  // The lever starts in 1; the first step that names a gear names 2, so the guidance leads there. Two of four trials
+  // are guided.
+  SessionChoice person = rig.choice("up_through_the_gears", "grip");
+  person.help = true;
+  person.learner = "Bo";  // so that Ada's trials do not count for the guidance
+  for (int trial = 0; trial < 4; ++trial) {
+    Session driven(person);
+    const CoachView& coach = drive_as_person(driven);
+    if (coach.guidance == 0.0) continue;
+    CHECK(coach.result.guided);
+    CHECK_FALSE(coach.result.passed);
+    const Trace trace = read_trace(coach.runs.front().recording);
+    CHECK(std::any_of(trace.samples.begin(), trace.samples.end(), [](const TraceSample& sample) {
+      return sample.controls.guidance > 0.0 && sample.controls.guided_gear == 2;
+    }));
+    CHECK(replay(trace, make_lesson_load).bit_for_bit());
+    return;
+  }
+  FAIL("none of four trials was guided");
+}
+
+TEST_CASE("a replay requested during a lesson neither ends its recording nor shows anything") {
+  LessonRig rig;
+  Session session(rig.choice("moving_off", "grip"));
+  ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+  go(session, 0.3);
+  PanelRequests replay;
+  replay.replay = true;
+  session.apply(replay);
+  CHECK(session.message().find("leave it before") != std::string::npos);
+  CHECK(session.recording());
+  CHECK(session.panel_input().replay == nullptr);
+}
+
+TEST_CASE("dismissing a lesson removes its hill, and recordings are stored beside their history") {
+  LessonRig rig;
+  rig.history = rig.folder / "elsewhere" / "history.db";
+  fs::create_directories(rig.history.parent_path());
+  Session session(rig.choice("hill_start", "grip"));
+  ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+  go(session, 0.3);
+  CHECK(session.car().slope > 0.09);
+  ask(session, [](LessonRequests& lesson) { lesson.leave = true; });
+  ask(session, [](LessonRequests& lesson) { lesson.dismiss_lesson = true; });
+  go(session, 0.3);
+  CHECK(session.car().slope == 0.0);
+  CHECK(fs::exists(rig.folder / "elsewhere/recordings"));
+  CHECK_FALSE(fs::exists(rig.folder / "gearshift/recordings"));
+}
+
+TEST_CASE("after a lesson the instructor holds the car, also on a hill, until the next one begins or is dismissed") {
+  LessonRig rig;
+  Session session(rig.choice("hill_start", "grip"));
+  ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+  DriverControls rolls;
+  rolls.ignition = true;
+  rolls.clutch = 1.0;
+  session.set_driver({}, rolls);
+  for (int i = 0; i < 20 * 60 && session.coach().view().phase == LessonPhase::driving; ++i) go(session, kLessonFrame);
+  REQUIRE(session.coach().view().phase == LessonPhase::over);  // rolls back one metre
+  CHECK(session.car().road_speed < -0.5);
+  go(session, 2.0);
+  CHECK(session.car().road_speed == 0.0);
+  CHECK(session.car().running);
+  ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+  session.set_driver({}, rolls);
+  go(session, 1.0);
+  CHECK(session.car().road_speed < -0.1);
+}
+
+TEST_CASE(
+    "if another program deletes the learner during her lesson, a message appears and her recordings are deleted") {
+  LessonRig rig;
+  Session session(rig.choice("moving_off", "grip"));
+  ask(session, [](LessonRequests& lesson) { lesson.begin = true; });
+  go(session, 0.5);
+  REQUIRE(std::distance(fs::directory_iterator(rig.folder / "recordings"), fs::directory_iterator()) == 1);
+  {
+    History other(rig.history);
+    CHECK(other.erase_learner(other.find_learner("Ada").value().id, [](const auto&) {}).empty());
+  }
+  ask(session, [](LessonRequests& lesson) { lesson.leave = true; });
+  go(session, 0.5);
+  CHECK(session.panel_input().message.find("Ada was deleted by another program") != std::string::npos);
+  CHECK(session.panel_input().coach.learner_deleted);
+  CHECK(session.save_and_stop().empty());
+  CHECK(fs::is_empty(rig.folder / "recordings"));
+  CHECK(History(rig.history).learners().empty());
+}
+
+TEST_CASE("an instructor's comment is edited and deleted through the panel's requests") {
+  LessonRig rig;
+  Session session(rig.choice("moving_off", "grip"));
+  (void)drive_as_person(session);
+  const std::int64_t run = session.coach().view().run;
+  ask(session, [run](LessonRequests& lesson) { lesson.comment = {run, "Ms Torque", "Slower."}; });
+  const auto comments = [&] { return History(rig.history).comments(run); };
+  REQUIRE(comments().size() == 1);
+  const std::int64_t comment = comments()[0].id;
+  ask(session, [=](LessonRequests& lesson) { lesson.comment_change = {run, comment, "Slower at the bite point."}; });
+  CHECK(comments().at(0).text == "Slower at the bite point.");
+  ask(session, [=](LessonRequests& lesson) { lesson.comment_change = {run, comment, std::nullopt}; });
+  CHECK(comments().empty());
+}

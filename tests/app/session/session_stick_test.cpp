@@ -1,0 +1,215 @@
+// A session with a stick in a person's hand: who may arm it, the effect of changes, and a stick that is unplugged.
+#include <chrono>
+#include <filesystem>
+#include <fstream>
+#include <functional>
+#include <iterator>
+#include <string>
+#include <thread>
+
+#include <doctest/doctest.h>
+
+#include "app/lessons/history/history.h"
+#include "app/session/session.h"
+#include "haptics/gate/gate_layout.h"
+#include "haptics/loop/trace_reader.h"
+#include "tests/app/runtime/devices/open_stick_rig.h"
+#include "tests/support/temp_folder.h"
+#include "tests/support/variable.h"
+
+using namespace gearshift::engine;
+using namespace gearshift::haptics;
+using namespace gearshift::lessons;
+using namespace gearshift::runtime;
+using namespace gearshift::session;
+using namespace gearshift::test;
+using namespace gearshift::ui;
+namespace fs = std::filesystem;
+
+namespace {
+
+KnownStick late_by(double delay) {  // [s]
+  IdleHand idle_hand;
+  KnownStick known{sidewinder_calibration(), EmulatedStick({}, idle_hand).report_descriptor()};
+  known.calibration.timing.delay = delay;
+  return known;
+}
+
+struct HeldRig {
+  TempFolder folder;
+  Variable config{"XDG_CONFIG_HOME", folder.path().c_str()};
+  Variable data{"XDG_DATA_HOME", folder.path().c_str()};
+  HeldStick held;
+  std::unique_ptr<Session> session;
+
+  explicit HeldRig(const std::string& lesson = std::string(kNoLesson), double delay = 0.0) : held(late_by(delay)) {
+    SessionChoice choice;
+    choice.stick = held.lever;
+    choice.lesson = lesson;
+    choice.learner = "Ada";
+    choice.history = folder / "history.db";
+    choice.help = false;
+    choice.sound = SoundOutput::none;
+    session = std::make_unique<Session>(choice);
+    REQUIRE(comes_true([&] { return held.lever->connected() && session->panel_input().stick->plugged_in; }));
+  }
+
+  void frame() {
+    std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    session->advance(0.005);
+  }
+  // Runs frames until the condition holds, for at most ten seconds.
+  bool comes_true(const std::function<bool()>& condition) {
+    for (int i = 0; i < 2000 && !condition(); ++i) frame();
+    return condition();
+  }
+  void ask(const std::function<void(PanelRequests&)>& what) {
+    PanelRequests requests;
+    what(requests);
+    session->apply(requests);
+  }
+  void arm() {
+    ask([](PanelRequests& requests) { requests.arm = true; });
+  }
+  GuardState guard() { return session->runtime().snapshot().guard; }
+  // A busy machine sometimes trips the guard; then the person arms again.
+  bool runs() {
+    return comes_true([&] {
+      const GuardState now = guard();
+      if (now == GuardState::damped || now == GuardState::released) arm();
+      return now == GuardState::running;
+    });
+  }
+  bool stays_off(int frames = 100) {
+    for (int i = 0; i < frames; ++i) {
+      frame();
+      if (guard() != GuardState::idle && guard() != GuardState::released) return false;
+    }
+    return held.force() == 0.0;
+  }
+  // The paper's gate, enlarged to 900 mm; the stick's travel is 140 mm.
+  fs::path wide_gate() const {
+    std::ifstream paper(GEARSHIFT_ASSETS "/gates/paper.toml");
+    std::string text{std::istreambuf_iterator<char>(paper), {}};
+    for (std::size_t at = 0; (at = text.find("_mm = ", at)) != std::string::npos; at += 6) text.insert(at + 6, "9");
+    std::ofstream(folder / "wide.toml") << text;
+    return folder / "wide.toml";
+  }
+  bool says(const std::string& words) const { return session->message().find(words) != std::string::npos; }
+};
+
+}  // namespace
+
+TEST_CASE("only Enter arms it: not the start, nor another gate, car, preset or setup") {
+  HeldRig rig;
+  CHECK(rig.stays_off());
+  CHECK(rig.session->panel_input().device_name == "SideWinder");
+  rig.arm();
+  CHECK(rig.runs());
+  const std::function<void(PanelRequests&)> changes[] = {
+      [](PanelRequests& requests) { requests.gate = "four_speed"; },
+      [](PanelRequests& requests) { requests.car = "diesel"; },
+      [](PanelRequests& requests) { requests.preset = "measured"; },
+      [](PanelRequests& requests) { requests.restart = HapticConfig(); }};
+  for (const auto& change : changes) {
+    rig.ask(change);
+    CHECK(rig.stays_off(30));
+    rig.arm();
+    CHECK(rig.runs());
+  }
+}
+
+TEST_CASE("the cost of its delay to the walls is reported until it is armed") {
+  HeldRig rig(std::string(kNoLesson), 0.004);
+  CHECK(rig.says("SideWinder responds after 7.0 ms: walls are softer, "));
+  CHECK(rig.says(" N/m instead of 5000"));
+  rig.arm();
+  CHECK(rig.session->message().empty());
+}
+
+TEST_CASE("the lever follows the stick, and the mouse's hand has no effect") {
+  HeldRig rig;
+  rig.held.hand.go({0.020, 0.0});
+  HandTarget mouse;
+  mouse.position = {-0.05, 0.0};
+  rig.session->set_driver(mouse, {});
+  CHECK(rig.comes_true([&] { return std::abs(rig.session->shown().lever.x - 0.020) < 0.002; }));
+}
+
+TEST_CASE("a rejected change leaves lever, forces and gate unchanged") {
+  HeldRig rig;
+  rig.arm();
+  REQUIRE(rig.runs());
+  const Runtime* before = &rig.session->runtime();
+  HapticConfig study = before->config().preset.haptics;
+  study.contact.allow_unstable = true;
+  rig.ask([&](PanelRequests& requests) { requests.restart = study; });
+  CHECK(rig.says("simulated"));
+  rig.ask([](PanelRequests& requests) { requests.hand = std::string(kAutomaticHand); });
+  CHECK(rig.says("a real stick is held by a person"));
+  const fs::path gate = rig.wide_gate();
+  rig.ask([&](PanelRequests& requests) { requests.gate = gate.string(); });
+  CHECK_FALSE(rig.session->message().empty());
+  CHECK(&rig.session->runtime() == before);
+  CHECK(rig.guard() == GuardState::running);
+}
+
+TEST_CASE("unplugged in a recorded lesson: forces off, the lesson continues, and a person arms it when it is back") {
+  HeldRig rig("moving_off");
+  rig.ask([](PanelRequests& requests) { requests.arm = requests.lesson.begin = true; });  // as the card's button does
+  REQUIRE(rig.session->coach().view().phase == LessonPhase::driving);
+  CHECK(rig.session->recording());
+  CHECK(rig.runs());
+  rig.held.unplug();
+  CHECK(rig.comes_true([&] { return !rig.session->panel_input().stick->plugged_in; }));
+  CHECK(rig.says("was unplugged"));
+  rig.arm();
+  CHECK(rig.says("not plugged in"));
+  CHECK(rig.session->coach().view().phase == LessonPhase::driving);
+  rig.held.plug_in();
+  CHECK(rig.comes_true([&] { return rig.session->panel_input().stick->plugged_in; }));
+  CHECK(rig.stays_off());
+  rig.arm();
+  CHECK(rig.runs());
+  rig.ask([](PanelRequests& requests) { requests.lesson.leave = true; });
+  CHECK(rig.session->save_and_stop().empty());
+  rig.session.reset();
+  History history(rig.folder / "history.db");
+  const std::vector<RunRow> runs = history.runs(history.find_or_add_learner("Ada"));
+  REQUIRE(runs.size() == 1);
+  TraceReader trace(history.recording_file(runs.front().recording));
+  CHECK(trace.cycles() > 1000);
+  CHECK_FALSE(trace.header().device.simulated);
+}
+
+TEST_CASE("a session that ends while the stick is unplugged still saves its lesson") {
+  HeldRig rig("moving_off");
+  rig.ask([](PanelRequests& requests) { requests.arm = requests.lesson.begin = true; });
+  REQUIRE(rig.runs());
+  rig.held.unplug();
+  rig.frame();
+  CHECK(rig.session->save_and_stop().empty());
+  rig.session.reset();
+  History history(rig.folder / "history.db");
+  const std::vector<RunRow> runs = history.runs(history.find_or_add_learner("Ada"));
+  REQUIRE(runs.size() == 1);
+  CHECK(TraceReader(history.recording_file(runs.front().recording)).cycles() > 100);
+}
+
+TEST_CASE("a lesson that begins in a gear begins when the stick is in it") {
+  HeldRig rig("eco_driving");  // in first gear
+  rig.ask([](PanelRequests& requests) { requests.lesson.begin = true; });
+  CHECK(rig.says("starts in 1, but the stick is in N"));
+  CHECK(rig.session->coach().view().phase == LessonPhase::offered);
+  DriverControls feet;
+  feet.ignition = true;
+  feet.clutch = 1.0;  // otherwise the synchroniser keeps the gear out
+  rig.session->set_driver({}, feet);
+  const glm::dvec2 first = rest_position(rig.session->runtime().gate(), 1);
+  rig.held.hand.go({first.x, 0.0});
+  CHECK(rig.comes_true([&] { return std::abs(rig.session->shown().lever.x - first.x) < 0.003; }));
+  rig.held.hand.go(first);
+  CHECK(rig.comes_true([&] { return rig.session->shown().gear == 1; }));
+  rig.ask([](PanelRequests& requests) { requests.lesson.begin = true; });
+  CHECK(rig.session->coach().view().phase == LessonPhase::driving);
+}

@@ -1,0 +1,312 @@
+// What a user can request at the panel, on the virtual clock and without window, GPU and sound card.
+#include "app/session/session.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <set>
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "app/base/program_name.h"
+#include "app/vehicle/lesson_load.h"
+#include "haptics/loop/replay.h"
+#include "haptics/loop/trace_reader.h"
+#include "tests/support/memory_in_use.h"
+#include "tests/support/small_files.h"
+#include "tests/support/temp_folder.h"
+#include "tests/support/variable.h"
+
+using namespace gearshift::base;
+using namespace gearshift::engine;
+using namespace gearshift::haptics;
+using namespace gearshift::runtime;
+using namespace gearshift::session;
+using namespace gearshift::test;
+using namespace gearshift::ui;
+using namespace gearshift::vehicle;
+namespace fs = std::filesystem;
+
+namespace {
+
+// A user folder of its own, and a session that drives itself through the paper's gate.
+struct Rig {
+  TempFolder folder;
+  Variable config{"XDG_CONFIG_HOME", folder.path().c_str()};
+  Variable data{"XDG_DATA_HOME", folder.path().c_str()};
+  Session session;
+
+  explicit Rig(const SessionChoice& choice = choice_by_itself()) : session(choice) {}
+
+  static SessionChoice choice_by_itself() {
+    SessionChoice choice;
+    choice.hand = kAutomaticHand;
+    choice.clock = RuntimeClock::virtual_time;
+    choice.sound = SoundOutput::none;
+    choice.gate = "paper";
+    return choice;
+  }
+
+  void go(double seconds) {
+    for (double time = 0.0; time < seconds; time += 1.0 / 60.0) session.advance(1.0 / 60.0);
+  }
+  void ask(std::optional<std::string> PanelRequests::*what, const std::string& name) {
+    PanelRequests requests;
+    requests.*what = name;
+    session.apply(requests);
+  }
+  void ask(bool PanelRequests::*what) {
+    PanelRequests requests;
+    requests.*what = true;
+    session.apply(requests);
+  }
+  bool says(const std::string& words) const { return session.message().find(words) != std::string::npos; }
+  HapticTuning tuning() { return session.runtime().config().preset.haptics.tuning; }
+
+  std::set<fs::path> traces() const {
+    std::set<fs::path> files;
+    std::error_code error;
+    for (fs::directory_iterator entry(folder / "gearshift/recordings", error), end; entry != end; ++entry)
+      files.insert(entry->path());
+    return files;
+  }
+  fs::path own_preset(const std::string& name) const { return folder / ("gearshift/presets/" + name + ".toml"); }
+};
+
+HapticTuning softer(HapticTuning tuning) {
+  tuning.wall_stiffness = 4321.0;
+  return tuning;
+}
+
+bool has_node(const Session& session, const std::string& name) {
+  return session.stage().model().node(name) != kNone;
+}
+
+}  // namespace
+
+TEST_CASE("the tuning stays when gate or hand change; a chosen preset brings its own") {
+  Rig rig;
+  PanelRequests requests;
+  requests.tuning = softer(rig.tuning());
+  rig.session.apply(requests);
+  rig.ask(&PanelRequests::gate, "four_speed");
+  CHECK(rig.tuning().wall_stiffness == 4321.0);
+  rig.ask(&PanelRequests::hand, "grip");
+  CHECK(rig.tuning().wall_stiffness == 4321.0);
+  rig.ask(&PanelRequests::preset, "measured");
+  CHECK(rig.tuning() == read_preset(GEARSHIFT_ASSETS "/presets/measured.toml").haptics.tuning);
+}
+
+TEST_CASE("a restart's configuration stays, too, and later tuning on top of it") {
+  Rig rig;
+  PanelRequests restart;
+  restart.restart = rig.session.runtime().config().preset.haptics;
+  restart.restart->guard.ramp_time = 0.25;
+  rig.session.apply(restart);
+  PanelRequests tune;
+  tune.tuning = softer(rig.tuning());
+  rig.session.apply(tune);
+  rig.ask(&PanelRequests::hand, "arm");
+  CHECK(rig.session.runtime().config().preset.haptics.guard.ramp_time == 0.25);
+  CHECK(rig.tuning().wall_stiffness == 4321.0);
+}
+
+TEST_CASE("a failed recording is reported in the same frame, and is over") {
+  Rig rig;
+  {
+    const SmallFiles small(60'000);  // [bytes] a few tenths of a second
+    rig.ask(&PanelRequests::record);
+    CHECK(rig.says("recording to"));
+    rig.go(3.0);
+  }
+  CHECK(rig.says("the recording failed after"));
+  CHECK_FALSE(rig.session.recording());
+  CHECK_FALSE(rig.session.panel_input().recording);
+}
+
+TEST_CASE("another gate ends the recording and reports where it is, or how it failed") {
+  Rig rig;
+  rig.ask(&PanelRequests::record);
+  rig.go(0.5);
+  rig.ask(&PanelRequests::gate, "four_speed");
+  CHECK_FALSE(rig.session.recording());
+  CHECK(rig.says("recorded: "));
+  REQUIRE(rig.traces().size() == 1);
+  const Trace trace = read_trace(*rig.traces().begin());
+  CHECK(replay(trace, make_lesson_load).bit_for_bit());
+  CHECK(trace.header.program == program_name());
+  {
+    // [bytes] more than the header, less than a block: the error shows only when the file is closed
+    const SmallFiles small(10'000);
+    rig.ask(&PanelRequests::record);
+    rig.go(0.1);
+    rig.ask(&PanelRequests::gate, "paper");
+  }
+  CHECK(rig.says("the recording failed after"));
+}
+
+TEST_CASE("two recordings within a second are two complete files") {
+  Rig rig;
+  for (int i = 0; i < 4; ++i) {
+    rig.ask(&PanelRequests::record);
+    rig.go(0.1);
+  }
+  REQUIRE(rig.traces().size() == 2);
+  for (const fs::path& file : rig.traces()) CHECK(replay(read_trace(file), make_lesson_load).bit_for_bit());
+}
+
+TEST_CASE("a replay shows only the trace: its events in order, each once; the running lever's guard stays visible") {
+  Rig rig;
+  rig.go(1.0);
+  rig.ask(&PanelRequests::record);
+  rig.go(2.0);
+  rig.ask(&PanelRequests::record);
+  const Trace trace = read_trace(*rig.traces().begin());
+  rig.go(1.0);
+  rig.ask(&PanelRequests::replay);
+  REQUIRE(rig.says("replaying"));
+  rig.ask(&PanelRequests::stop);
+  std::vector<std::uint64_t> cycles;
+  std::size_t events = 0;
+  for (int i = 0; i < 60; ++i) {
+    rig.session.advance(1.0 / 60.0);
+    const PanelInput& input = rig.session.panel_input();
+    for (const HapticSnapshot& snapshot : input.history) {
+      cycles.push_back(snapshot.cycle);
+      REQUIRE(snapshot.time_ns <= trace.samples.back().out.time_ns);
+    }
+    REQUIRE_FALSE(input.history.empty());
+    CHECK(input.now.time_ns == input.history.back().time_ns);
+    CHECK(input.now.guard == GuardState::released);
+    events += input.events.size();
+  }
+  REQUIRE(cycles.size() > 235);
+  for (std::size_t i = 1; i < cycles.size(); ++i) REQUIRE(cycles[i] == cycles[i - 1] + 4);  // 4 ms apart
+  CHECK(events == 0);
+  rig.go(1.5);
+  CHECK(rig.session.panel_input().now.time_ns == trace.samples.back().out.time_ns);  // the replay is at its end
+  PanelRequests close;
+  close.playback.close = true;
+  rig.session.apply(close);
+  rig.go(0.1);
+  CHECK(rig.session.panel_input().now.time_ns > trace.samples.back().out.time_ns);
+  for (const HapticSnapshot& snapshot : rig.session.panel_input().history)
+    CHECK(snapshot.time_ns > trace.samples.back().out.time_ns);
+}
+
+TEST_CASE("a trace of another gate is shown in its own gate, and another gate ends a replay") {
+  Rig rig;
+  rig.ask(&PanelRequests::record);
+  rig.go(1.0);
+  rig.ask(&PanelRequests::record);
+  rig.ask(&PanelRequests::replay);
+  rig.go(0.1);
+  const glm::dvec2 shown = rig.session.shown().lever;
+  rig.ask(&PanelRequests::gate, "four_speed");
+  rig.session.advance(1.0 / 60.0);
+  CHECK_FALSE(rig.session.panel_input().events.empty());  // the running lever's events, e.g. that it was armed
+  CHECK(rig.session.panel_input().gate->slot_count == 5);
+  (void)rig.session.take_new_model();
+  rig.ask(&PanelRequests::replay);
+  CHECK(rig.session.take_new_model());
+  CHECK(rig.session.panel_input().gate->slot_count == 6);
+  rig.go(0.1);
+  CHECK(rig.session.shown().lever == shown);
+  PanelRequests close;
+  close.playback.close = true;
+  rig.session.apply(close);
+  CHECK(rig.session.take_new_model());
+  CHECK(rig.session.panel_input().gate->slot_count == 5);
+}
+
+TEST_CASE("an unreadable preset is not shown as the active one") {
+  Rig rig;
+  rig.ask(&PanelRequests::compare, "measured");
+  CHECK(rig.session.panel_input().compared.has_value());
+  rig.ask(&PanelRequests::compare, "no_such_preset");
+  CHECK_FALSE(rig.session.panel_input().compared.has_value());
+  CHECK(rig.says("no_such_preset"));
+}
+
+TEST_CASE("a preset is saved under the user's name, and is in the list at once, only once") {
+  Rig rig;
+  for (const char* name : {"", ".", "..", ".hidden", "a/b", "../x", "default", "paper"}) {
+    CAPTURE(name);
+    rig.ask(&PanelRequests::save_preset, name);
+    CHECK(rig.says("cannot be the name of a preset"));
+  }
+  CHECK_FALSE(fs::exists(rig.folder / "gearshift/presets"));
+  rig.ask(&PanelRequests::save_preset, (rig.folder / "x").string());
+  CHECK_FALSE(fs::exists(rig.folder / "x.toml"));
+  rig.ask(&PanelRequests::save_preset, "heavy");
+  rig.ask(&PanelRequests::save_preset, "heavy");
+  CHECK(fs::exists(rig.own_preset("heavy")));
+  const std::vector<std::string> presets = rig.session.panel_input().presets;
+  CHECK(presets == std::vector<std::string>{"default", "measured", "paper", "heavy"});
+}
+
+TEST_CASE("a file named like a shipped preset neither replaces it nor is listed twice") {
+  Rig rig;
+  PanelRequests requests;
+  requests.tuning = softer(rig.tuning());
+  rig.session.apply(requests);
+  rig.ask(&PanelRequests::save_preset, "heavy");
+  fs::rename(rig.own_preset("heavy"), rig.own_preset("measured"));
+  Session other(Rig::choice_by_itself());
+  const std::vector<std::string> presets = other.panel_input().presets;
+  CHECK(std::count(presets.begin(), presets.end(), "measured") == 1);
+  rig.ask(&PanelRequests::preset, "measured");
+  CHECK(rig.tuning().wall_stiffness != 4321.0);
+}
+
+TEST_CASE("the stage is created again for another gate or another yoke only") {
+  Rig rig;
+  CHECK(rig.session.take_new_model());
+  rig.ask(&PanelRequests::hand, "grip");
+  rig.ask(&PanelRequests::preset, "measured");
+  CHECK_FALSE(rig.session.take_new_model());
+  rig.ask(&PanelRequests::gate, "four_speed");
+  CHECK(rig.session.take_new_model());
+  const fs::path wide = rig.folder / "wide.toml";
+  std::ofstream(wide) << "name = \"wide\"\n[lever.yoke]\nradius_m = 0.15\n[lever]\nhand = \"grip\"\n";
+  rig.ask(&PanelRequests::preset, wide.string());
+  CHECK(rig.session.runtime().device().yoke_radius == 0.15);
+  CHECK(rig.session.take_new_model());
+}
+
+TEST_CASE("the cabin is opened for the cameras that look into it") {
+  SessionChoice choice = Rig::choice_by_itself();
+  choice.camera = "gearbox";
+  Rig rig(choice);
+  CHECK(has_node(rig.session, "GearboxSigns"));
+  rig.session.take_new_model();
+  rig.session.set_camera("driver");
+  CHECK(rig.session.take_new_model());
+  CHECK_FALSE(has_node(rig.session, "GearboxSigns"));
+  rig.session.set_camera("lever");
+  CHECK_FALSE(rig.session.take_new_model());
+  const std::uint64_t closed = rig.session.stage().model().triangle_count();
+  rig.session.set_camera("gate");
+  CHECK(rig.session.take_new_model());
+  CHECK(rig.session.stage().model().triangle_count() != closed);
+  rig.ask(&PanelRequests::gate, "four_speed");  // still open
+  rig.session.set_camera("gate");
+  CHECK(rig.session.take_new_model());
+  CHECK_FALSE(rig.session.take_new_model());
+}
+
+TEST_CASE("from gate to gate and back: a session's memory does not grow") {
+  Rig rig;
+  const auto there_and_back = [&](int times) {
+    for (int i = 0; i < times; ++i) {
+      for (const char* gate : {"six_speed_r_left_up", "four_speed"}) {
+        rig.ask(&PanelRequests::gate, gate);
+        rig.go(0.1);
+      }
+    }
+    return memory_in_use();
+  };
+  const std::size_t once = there_and_back(2), often = there_and_back(6);
+  CHECK(often < once + 65'536);
+}

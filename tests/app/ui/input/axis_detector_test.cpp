@@ -1,0 +1,186 @@
+// A person moves one control of several: what is learnt from it, and what is rejected.
+#include "app/ui/input/axis_detector.h"
+
+#include <cmath>
+#include <random>
+#include <stdexcept>
+#include <string>
+
+#include <doctest/doctest.h>
+
+using namespace gearshift::engine;
+using namespace gearshift::ui;
+
+namespace {
+
+using Control = AxisDetector::Control;
+
+// Two sticks with three axes each; every axis trembles a little.
+struct Desk {
+  std::vector<PadState> sticks{{"Stick", {0.1f, 0.0f, 0.0f}, {}, "0a"}, {"Pedals", {0.0f, 0.9f, 0.0f}, {}, "0b"}};
+  double noise = 0.004;
+  std::mt19937 random{3};
+
+  std::vector<PadState> shown() {
+    std::vector<PadState> now = sticks;
+    for (PadState& stick : now)
+      for (float& axis : stick.axes)
+        axis += static_cast<float>(noise * (static_cast<double>(random() % 2001) / 1000.0 - 1.0));
+    return now;
+  }
+  // Straight to a raw value, within 30 frames.
+  void move(AxisDetector& detector, std::size_t stick, std::size_t axis, double to) {
+    const float from = sticks[stick].axes[axis];
+    for (int i = 1; i <= 30; ++i) {
+      sticks[stick].axes[axis] = from + static_cast<float>(i) / 30.0f * (static_cast<float>(to) - from);
+      detector.record_move(shown());
+    }
+  }
+  void rest(AxisDetector& detector, int frames = 60) {
+    for (int i = 0; i < frames; ++i) detector.record_rest(shown());
+  }
+};
+
+std::string refusal(const AxisDetector& detector) {
+  try {
+    (void)detector.result();
+  } catch (const std::invalid_argument& refused) {
+    return refused.what();
+  }
+  return "learnt";
+}
+
+}  // namespace
+
+TEST_CASE("a pedal that is pressed and released: its axis, both ends, reversed too, and a dead zone for its noise") {
+  Desk desk;
+  AxisDetector detector(Control::pedal);
+  desk.move(detector, 1, 1, -0.7);
+  desk.move(detector, 1, 1, 0.9);
+  desk.rest(detector);
+  const AxisBinding pedal = detector.result();
+  CHECK(pedal.stick == "Pedals");
+  CHECK(pedal.pad == 0);
+  CHECK(pedal.axis == 1);
+  CHECK(pedal.from == doctest::Approx(0.9).epsilon(0.005));
+  CHECK(pedal.to == doctest::Approx(-0.7).epsilon(0.01));
+  CHECK(pedal.dead_zone == 0.02);  // 1.5 x 0.004 of a travel of 1.6 is less
+  CHECK(pedal_value(pedal, 0.9 - 0.004) == 0.0);
+  CHECK(pedal_value(pedal, -0.7 + 0.004) == 1.0);
+}
+
+TEST_CASE("an axis that the pad does not report before it moves: its rest is where it returns to") {
+  Desk desk;
+  desk.sticks[1].axes[2] = 0.0f;  // after the error message; it rests at -1
+  AxisDetector detector(Control::pedal);
+  detector.record_move(desk.shown());
+  desk.sticks[1].axes[2] = -0.98f;
+  desk.move(detector, 1, 2, 1.0);
+  desk.move(detector, 1, 2, -1.0);
+  desk.rest(detector);
+  CHECK(detector.result().from == doctest::Approx(-1.0).epsilon(0.005));
+  CHECK(detector.result().to == doctest::Approx(1.0).epsilon(0.005));
+}
+
+TEST_CASE("a lever: the first end reached is left or back; it rests where it was released") {
+  for (const double first : {-0.9, 0.8}) {
+    Desk desk;
+    AxisDetector detector(Control::lever);
+    detector.record_move(desk.shown());
+    desk.move(detector, 0, 0, first);
+    desk.move(detector, 0, 0, first < 0.0 ? 0.8 : -0.9);
+    desk.move(detector, 0, 0, 0.06);  // near where it rested
+    desk.rest(detector);
+    const AxisBinding lever = detector.result();
+    CHECK(lever.stick == "Stick");
+    CHECK(lever.axis == 0);
+    CHECK(lever.from == doctest::Approx(first).epsilon(0.01));
+    CHECK(lever.to == doctest::Approx(first < 0.0 ? 0.8 : -0.9).epsilon(0.01));
+    REQUIRE(lever.centre);
+    CHECK(*lever.centre == doctest::Approx(0.06).epsilon(0.02));
+    CHECK(lever_value(lever, 0.1) == 0.0);   // the old rest position counts as rest, too
+    CHECK(lever_value(lever, 0.02) == 0.0);  // and so on the other side
+    CHECK(std::abs(lever_value(lever, 0.3)) > 0.1);
+  }
+}
+
+TEST_CASE("the second of two sticks with one name; a name that no file can hold is replaced by its GUID") {
+  Desk desk;
+  desk.sticks[0].name = desk.sticks[1].name = "Twin";
+  AxisDetector detector(Control::pedal);
+  desk.move(detector, 1, 1, -0.7);
+  desk.move(detector, 1, 1, 0.9);
+  desk.rest(detector);
+  CHECK(detector.result().stick == "Twin");
+  CHECK(detector.result().pad == 1);
+  CHECK(find_stick(desk.sticks, detector.result()) == &desk.sticks[1]);
+
+  desk.sticks[1].name = "Bad\nname";
+  AxisDetector again(Control::pedal);
+  desk.move(again, 1, 1, -0.7);
+  desk.move(again, 1, 1, 0.9);
+  desk.rest(again);
+  CHECK(again.result().stick == "0b");
+  CHECK(find_stick(desk.sticks, again.result()) == &desk.sticks[1]);
+}
+
+TEST_CASE("invalid movements are rejected in one sentence with the remedy") {
+  const auto learn = [](Control control, const auto& person) {
+    Desk desk;
+    AxisDetector detector(control);
+    detector.record_move(desk.shown());
+    person(desk, detector);
+    return refusal(detector);
+  };
+  CHECK(learn(Control::pedal, [](Desk& desk, AxisDetector& detector) { desk.rest(detector); }) ==
+        "nothing moved: move one control all the way and release it");
+  CHECK(learn(Control::pedal, [](Desk& desk, AxisDetector& detector) {
+          desk.move(detector, 1, 1, -0.7);
+          desk.move(detector, 1, 2, -1.0);
+          desk.rest(detector);
+        }) == "two axes moved together, axis 1 of Pedals and axis 2 of Pedals: move only one control");
+  CHECK(learn(Control::pedal, [](Desk& desk, AxisDetector& detector) {
+          desk.move(detector, 1, 1, -0.7);
+          desk.move(detector, 1, 1, 0.1);  // held half down
+          desk.rest(detector);
+        }) == "axis 1 of Pedals rests in the middle of its range: press the pedal down and release it");
+  CHECK(learn(Control::pedal, [](Desk& desk, AxisDetector& detector) {
+          desk.move(detector, 1, 1, -0.7);
+          desk.move(detector, 1, 1, 0.9);
+          desk.rest(detector, 5);
+        }) == "axis 1 of Pedals was not recorded at rest: release it and don't touch it for a second");
+  CHECK(learn(Control::pedal, [](Desk& desk, AxisDetector& detector) {
+          desk.move(detector, 1, 1, -0.7);
+          desk.move(detector, 1, 1, 0.9);
+          desk.noise = 0.4;
+          desk.rest(detector);
+        }).find("axis 1 of Pedals does not rest: untouched, it moved 0.2") == 0);
+  CHECK(learn(Control::lever,
+              [](Desk& desk, AxisDetector& detector) {
+                desk.move(detector, 0, 0, 0.9);
+                desk.move(detector, 0, 0, 0.1);
+                desk.rest(detector);
+              }) ==
+        "axis 0 of Stick moved to only one side of its rest position: move the lever to one end, then to the other");
+  CHECK(learn(Control::lever, [](Desk& desk, AxisDetector& detector) {
+          desk.move(detector, 0, 0, 0.9);
+          desk.sticks.pop_back();
+          desk.move(detector, 0, 0, -0.9);
+        }) == "a stick was plugged in or unplugged meanwhile: try again");
+  AxisDetector alone(Control::pedal);
+  alone.record_move({});
+  CHECK(refusal(alone) == "no stick with an axis is plugged in");
+}
+
+TEST_CASE("non-finite values are ignored") {
+  Desk desk;
+  AxisDetector detector(Control::pedal);
+  desk.move(detector, 1, 1, -0.7);
+  std::vector<PadState> broken = desk.sticks;
+  broken[1].axes[1] = broken[0].axes[0] = std::nanf("");
+  detector.record_move(broken);
+  detector.record_rest(broken);
+  desk.move(detector, 1, 1, 0.9);
+  desk.rest(detector);
+  CHECK(detector.result().from == doctest::Approx(0.9).epsilon(0.005));
+}

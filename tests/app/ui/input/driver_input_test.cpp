@@ -1,0 +1,596 @@
+// The driver's hand and feet, frame by frame, without a window.
+#include "app/ui/input/driver_input.h"
+
+#include <cmath>
+#include <limits>
+#include <random>
+
+#define GLFW_INCLUDE_NONE
+#include <GLFW/glfw3.h>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include "tests/support/gates.h"
+
+using namespace gearshift::engine;
+using namespace gearshift::haptics;
+using namespace gearshift::test;
+using namespace gearshift::ui;
+
+namespace {
+
+constexpr double kFrame = 0.01;  // [s]
+
+Bindings bindings() {
+  Bindings b;
+  b.keys = {{Action::lever_left, {GLFW_KEY_LEFT}},  {Action::lever_right, {GLFW_KEY_RIGHT}},
+            {Action::lever_forward, {GLFW_KEY_UP}}, {Action::lever_back, {GLFW_KEY_DOWN}},
+            {Action::push_down, {GLFW_KEY_X}},      {Action::lift, {GLFW_KEY_Y}},
+            {Action::throttle, {GLFW_KEY_D}},       {Action::clutch, {GLFW_KEY_A}},
+            {Action::throttle_light, {GLFW_KEY_F}}, {Action::clutch_hold, {GLFW_KEY_Q}},
+            {Action::starter, {GLFW_KEY_E}},        {Action::hand_brake, {GLFW_KEY_H}},
+            {Action::ignition, {GLFW_KEY_I}},       {Action::stop, {GLFW_KEY_SPACE, GLFW_KEY_F12}},
+            {Action::recentre, {GLFW_KEY_R}},       {Action::grab_mouse, {GLFW_KEY_ESCAPE}},
+            {Action::full_screen, {GLFW_KEY_F11}}};
+  b.pad_buttons = {{Action::lift, {2}}, {Action::arm, {5}}};
+  b.lever_select = AxisBinding{0, 0, -1.0, 1.0, 0.2};
+  b.lever_shift = AxisBinding{0, 1, 1.0, -1.0, 0.2};
+  b.throttle = AxisBinding{0, 2, -1.0, 1.0, 0.0};
+  b.lever_mode = LeverMode::places;
+  return b;
+}
+
+struct Driver {
+  DriverInput driver{{bindings(), {0.06, 0.05}}};
+  KeyboardPedals feet;
+  Pedals pedals;
+  WindowInput input;
+
+  void key(int code, bool down) { input.keys.push_back({code, down, false, false, false}); }
+  void frame(double seconds = kFrame, bool ui_has_mouse = false, bool ui_has_keys = false) {
+    driver.update(input, seconds, ui_has_mouse, ui_has_keys);
+    feet.set_keys(driver.pedal_keys());
+    pedals = feet.move(seconds, 0.0, false);
+    input.keys.clear();
+    input.mouse_moved = glm::dvec2(0.0);
+  }
+  void click() {
+    input.mouse_down[0] = true;
+    frame();
+    input.mouse_down[0] = false;
+    frame();
+  }
+  glm::dvec2 at() const { return driver.hand().position; }
+};
+
+bool near(glm::dvec2 a, glm::dvec2 b) {
+  return std::abs(a.x - b.x) < 1e-12 && std::abs(a.y - b.y) < 1e-12;
+}
+
+}  // namespace
+
+TEST_CASE("after a click the mouse moves the hand: right is right, up is forward, 0.12 mm per pixel") {
+  Driver d;
+  d.input.mouse_moved = {100.0, 50.0};
+  d.frame();
+  CHECK(near(d.at(), {0.0, 0.0}));  // nobody has clicked yet
+  d.click();
+  CHECK(d.driver.mouse_moves_lever());
+  d.input.mouse_moved = {100.0, -50.0};
+  d.frame();
+  CHECK(near(d.at(), {0.012, 0.006}));
+  d.frame();
+  CHECK(near(d.at(), {0.012, 0.006}));  // the hand stays where it is
+}
+
+TEST_CASE(
+    "a click on the panel belongs to the panel; the grab key grabs and releases the mouse, from the panel as well") {
+  Driver d;
+  d.input.mouse_down[0] = true;
+  d.frame(kFrame, true);
+  d.frame();  // still pressed, but now outside the panel: this is not a click
+  CHECK_FALSE(d.driver.mouse_moves_lever());
+  d.key(GLFW_KEY_ESCAPE, true);
+  d.frame(kFrame, false, true);
+  CHECK_FALSE(d.driver.mouse_moves_lever());  // a key for the panel
+  d.key(GLFW_KEY_ESCAPE, false);
+  d.key(GLFW_KEY_ESCAPE, true);
+  d.frame();
+  CHECK(d.driver.mouse_moves_lever());
+  d.key(GLFW_KEY_ESCAPE, false);
+  d.key(GLFW_KEY_ESCAPE, true);
+  d.frame(kFrame, true, true);
+  CHECK_FALSE(d.driver.mouse_moves_lever());
+}
+
+TEST_CASE("the mouse movement up to the click does not move the hand") {
+  Driver d;
+  d.input.mouse_moved = {-300.0, -100.0};
+  d.input.mouse_down[0] = true;
+  d.frame();
+  CHECK(d.driver.mouse_moves_lever());
+  CHECK(near(d.at(), {0.0, 0.0}));
+  d.input.mouse_moved = {100.0, 0.0};
+  d.frame();
+  CHECK(near(d.at(), {0.012, 0.0}));
+}
+
+TEST_CASE("lever keys move the hand at their speed, independent of the frame rate") {
+  Driver slow, fast;
+  for (Driver* d : {&slow, &fast}) {
+    d->key(GLFW_KEY_RIGHT, true);
+    d->key(GLFW_KEY_UP, true);
+  }
+  for (int i = 0; i < 10; ++i) slow.frame(0.01);
+  for (int i = 0; i < 100; ++i) fast.frame(0.001);
+  CHECK(near(slow.at(), {0.025, 0.025}));
+  CHECK(near(fast.at(), {0.025, 0.025}));
+  slow.key(GLFW_KEY_RIGHT, false);
+  slow.key(GLFW_KEY_DOWN, true);  // up and down together cancel out
+  slow.frame(0.001);              // the frame in which it is released still counts
+  const glm::dvec2 stays = slow.at();
+  slow.driver.feel(stays);
+  slow.frame(0.5);
+  CHECK(near(slow.at(), stays));
+}
+
+TEST_CASE("the hand stays within reach, whatever moves it") {
+  Driver d;
+  d.click();
+  std::mt19937 chance(4);
+  std::uniform_real_distribution<double> any(-1000.0, 1000.0);
+  for (int i = 0; i < 1000; ++i) {
+    d.input.mouse_moved = {any(chance), any(chance)};
+    if (i % 100 == 0) d.input.mouse_moved.x = std::numeric_limits<double>::quiet_NaN();
+    d.frame();
+    CHECK(std::abs(d.at().x) <= 0.06);
+    CHECK(std::abs(d.at().y) <= 0.05);
+  }
+  d.driver.recentre({1.0, -0.01});
+  CHECK(near(d.at(), {0.06, -0.01}));
+  d.driver.recentre({0.01, 0.02});
+  CHECK(near(d.at(), {0.01, 0.02}));
+  d.driver.set_reach({0.005, 0.03});
+  CHECK(near(d.at(), {0.005, 0.02}));
+}
+
+TEST_CASE("a mouse beyond the reach pushes, up to 75 N at 50 mm, and stops pushing when it returns") {
+  Driver d;
+  d.click();
+  d.input.mouse_moved = {0.0, -(0.05 + 0.025) / 0.12e-3};  // half of the way to the maximum
+  d.frame();
+  CHECK(near(d.at(), {0.0, 0.05}));
+  CHECK(d.driver.hand().push.y == doctest::Approx(37.5));
+  CHECK(d.driver.hand().push.x == 0.0);
+  d.input.mouse_moved = {0.0, -100'000.0};
+  d.frame();
+  CHECK(d.driver.hand().push.y == doctest::Approx(75.0));
+  d.input.mouse_moved = {0.0, 0.05 / 0.12e-3};
+  d.frame();
+  CHECK(d.driver.hand().push.y == doctest::Approx(0.0).scale(1.0));
+  CHECK(d.at().y == doctest::Approx(0.05));
+  // Keys never push: even held for long, they stop at the reach.
+  d.key(GLFW_KEY_UP, true);
+  d.frame(10.0);
+  CHECK(d.driver.hand().push.y == doctest::Approx(0.0).scale(1.0));
+  d.input.mouse_moved = {0.0, -100'000.0};
+  d.driver.recentre({0.0, 0.0});
+  CHECK(d.driver.hand().push == glm::dvec2(0.0));
+}
+
+TEST_CASE("the reach of every shipped gate goes beyond its gears and not beyond the device") {
+  DeviceSpec device;
+  device.workspace = kPaperWorkspace;
+  for (const std::string& name : shipped_names()) {
+    CAPTURE(name);
+    const Gate gate = shipped_gate(name);
+    const glm::dvec2 reach = hand_reach(gate, device);
+    CHECK(reach.x <= kPaperWorkspace.x);
+    CHECK(reach.y <= kPaperWorkspace.y);
+    for (const Slot& slot : slots(gate)) {
+      const glm::dvec2 rest = rest_position(gate, slot.gear);
+      CHECK(std::abs(rest.x) + 0.01 < reach.x);
+      CHECK(std::abs(rest.y) + 0.015 < reach.y);
+    }
+  }
+  CHECK(near(hand_reach(paper_gate(), device), {0.055, 0.060}));
+}
+
+TEST_CASE("knob and ring are held as long as their key or button") {
+  Driver d;
+  d.key(GLFW_KEY_X, true);
+  d.input.pads = {{"pad", {}, {0, 0, 1}, ""}};
+  d.frame();
+  CHECK(d.driver.hand().pressed_down);
+  CHECK(d.driver.hand().lifted);
+  d.key(GLFW_KEY_X, false);
+  d.input.pads = {{"pad", {}, {0, 0, 0}, ""}};
+  d.frame();
+  d.frame();
+  CHECK_FALSE(d.driver.hand().pressed_down);
+  CHECK_FALSE(d.driver.hand().lifted);
+}
+
+TEST_CASE("a key pressed and released between two frames counts for one frame, and acts once") {
+  Driver d;
+  d.key(GLFW_KEY_RIGHT, true);
+  d.key(GLFW_KEY_RIGHT, false);
+  d.key(GLFW_KEY_R, true);
+  d.key(GLFW_KEY_R, false);
+  d.frame();
+  CHECK(near(d.at(), {0.0025, 0.0}));
+  CHECK(d.driver.pressed() == std::vector{Action::recentre});
+  d.frame();
+  CHECK(near(d.at(), {0.0025, 0.0}));
+  CHECK(d.driver.pressed().empty());
+}
+
+TEST_CASE("one-shot actions come in order, once per press; held ones are never in the list") {
+  Driver d;
+  d.key(GLFW_KEY_F11, true);
+  d.key(GLFW_KEY_D, true);
+  d.key(GLFW_KEY_SPACE, true);
+  d.input.pads = {{"pad", {}, {0, 0, 0, 0, 0, 1}, ""}};
+  d.frame();
+  CHECK(d.driver.pressed() == std::vector{Action::full_screen, Action::stop, Action::arm});
+  d.key(GLFW_KEY_F11, true);  // key repeat of the system
+  d.frame();
+  CHECK(d.driver.pressed().empty());
+}
+
+TEST_CASE("pedals ramp down and up by key in the pedal's time") {
+  Driver d;
+  d.key(GLFW_KEY_D, true);
+  for (int i = 0; i < 10; ++i) d.frame();
+  CHECK(d.pedals.throttle == doctest::Approx(0.1 / 0.25));
+  for (int i = 0; i < 20; ++i) d.frame();
+  CHECK(d.pedals.throttle == 1.0);
+  d.key(GLFW_KEY_D, false);
+  for (int i = 0; i < 10; ++i) d.frame();
+  CHECK(d.pedals.throttle == doctest::Approx(1.0 - 0.1 / 0.25));
+  for (int i = 0; i < 20; ++i) d.frame();
+  CHECK(d.pedals.throttle == 0.0);
+}
+
+TEST_CASE("the keyboard clutch rises slowly around the bite point, in the configured time, at any frame rate") {
+  for (const int parts : {1, 7}) {  // parts of one 10 ms frame
+    Driver d;
+    d.feet.set_timing({.clutch_closed = 0.2, .clutch_bite = 0.8});
+    const auto hold = [&d, parts](int key, double seconds) {
+      d.key(key, true);
+      for (int i = 0; i < std::lround(100.0 * parts * seconds); ++i) d.frame(0.01 / parts);
+    };
+    hold(GLFW_KEY_A, 0.3);
+    CHECK(d.pedals.clutch == 1.0);
+    d.key(GLFW_KEY_A, false);
+    double slips = 0.0;
+    for (int i = 0; i < 300 * parts; ++i) {
+      d.frame(0.01 / parts);
+      const double pedal = d.pedals.clutch;
+      if (pedal < 0.8 - 1e-9 && pedal > 0.2 + 1e-9) slips += 0.01 / parts;
+    }
+    CHECK(slips == doctest::Approx(PedalTiming{}.slip_time).epsilon(0.02));
+    CHECK(d.pedals.clutch == 0.0);
+  }
+}
+
+TEST_CASE("the clutch stays at the bite point while its key is held, and continues when released") {
+  Driver d;
+  d.key(GLFW_KEY_A, true);
+  for (int i = 0; i < 30; ++i) d.frame();
+  d.key(GLFW_KEY_A, false);
+  for (int i = 0; i < 20; ++i) d.frame();
+  d.key(GLFW_KEY_Q, true);
+  d.frame();
+  const double bite = d.pedals.clutch;
+  CHECK((bite > 0.5 && bite < 0.75));
+  for (int i = 0; i < 300; ++i) d.frame();
+  CHECK(d.pedals.clutch == bite);
+  d.key(GLFW_KEY_Q, false);
+  for (int i = 0; i < 300; ++i) d.frame();
+  CHECK(d.pedals.clutch == 0.0);
+}
+
+TEST_CASE("light throttle is a fifth, and full throttle takes precedence") {
+  Driver d;
+  d.key(GLFW_KEY_F, true);
+  for (int i = 0; i < 30; ++i) d.frame();
+  CHECK(d.pedals.throttle == 0.2);
+  d.key(GLFW_KEY_D, true);
+  for (int i = 0; i < 30; ++i) d.frame();
+  CHECK(d.pedals.throttle == 1.0);
+  d.key(GLFW_KEY_D, false);
+  for (int i = 0; i < 30; ++i) d.frame();
+  CHECK(d.pedals.throttle == 0.2);
+}
+
+TEST_CASE("the ignition is on at first; ignition and handbrake toggle with each press, the starter is held") {
+  Driver d;
+  d.frame();
+  CHECK(d.driver.controls().ignition);
+  CHECK(d.driver.controls().hand_brake == 0.0);
+  for (const int key : {GLFW_KEY_I, GLFW_KEY_H, GLFW_KEY_E}) d.key(key, true);
+  d.frame();
+  CHECK_FALSE(d.driver.controls().ignition);
+  CHECK(d.driver.controls().hand_brake == 1.0);
+  CHECK(d.driver.controls().starter);
+  for (const int key : {GLFW_KEY_I, GLFW_KEY_H, GLFW_KEY_E}) d.key(key, false);
+  for (const int key : {GLFW_KEY_I, GLFW_KEY_H}) d.key(key, true);
+  d.frame();
+  d.frame();
+  CHECK(d.driver.controls().ignition);
+  CHECK(d.driver.controls().hand_brake == 0.0);
+  CHECK_FALSE(d.driver.controls().starter);
+}
+
+TEST_CASE("a pedal's axis counts from its first movement: a pad reports 0 for an untouched trigger") {
+  Driver d;
+  d.input.pads = {{"pad", {0.0f, 0.0f, 0.0f}, {}, ""}};  // 0 would mean half throttle
+  d.frame();
+  CHECK(d.driver.controls().throttle == 0.0);
+  d.input.pads[0].axes[2] = -1.0f;
+  d.frame();
+  CHECK(d.driver.controls().throttle == 0.0);
+  d.input.pads[0].axes[2] = 0.0f;
+  d.frame();
+  CHECK(d.driver.controls().throttle == doctest::Approx(0.5));
+  d.input.pads.clear();  // unplugged
+  d.frame();
+  CHECK(d.driver.controls().throttle == 0.0);
+}
+
+TEST_CASE("each pedal follows its own axis and no other") {
+  Bindings own = bindings();
+  own.throttle = AxisBinding{0, 0, -1.0, 1.0, 0.0};
+  own.brake = AxisBinding{0, 1, -1.0, 1.0, 0.0};
+  own.clutch = AxisBinding{0, 2, -1.0, 1.0, 0.0};
+  own.lever_select.reset();
+  own.lever_shift.reset();
+  for (const std::size_t axis : {0u, 1u, 2u}) {
+    CAPTURE(axis);
+    DriverInput driver({own, {0.06, 0.05}});
+    WindowInput input;
+    input.pads = {{"pad", {-1.0f, -1.0f, -1.0f}, {}, ""}};
+    driver.update(input, kFrame, false, false);
+    input.pads[0].axes[axis] = 0.5f;  // three quarters of the way down
+    driver.update(input, kFrame, false, false);
+    const double pedals[] = {driver.controls().throttle, driver.controls().brake, driver.controls().clutch};
+    for (const std::size_t pedal : {0u, 1u, 2u}) CHECK(pedals[pedal] == (pedal == axis ? 0.75 : 0.0));
+  }
+}
+
+TEST_CASE("the brake key presses the brake and not the throttle") {
+  Bindings own = bindings();
+  own.keys[Action::brake] = {GLFW_KEY_S};
+  DriverInput driver({own, {0.06, 0.05}});
+  WindowInput input;
+  input.keys = {{GLFW_KEY_S, true, false, false, false}};
+  driver.update(input, 0.1, false, false);
+  CHECK(driver.pedal_keys().brake);
+  CHECK_FALSE(driver.pedal_keys().throttle);
+}
+
+TEST_CASE("a hand placed at a lever beyond its reach stops at the reach and does not push") {
+  for (const glm::dvec2 lever : {glm::dvec2(0.08, 0.0), {-0.08, 0.0}, {0.0, 0.07}, {0.0, -0.07}}) {
+    CAPTURE(lever.x);
+    Driver d;
+    d.click();
+    d.driver.recentre(lever);
+    CHECK(d.driver.hand().push == glm::dvec2(0.0));
+    d.frame();
+    CHECK(d.driver.hand().push == glm::dvec2(0.0));
+    const glm::dvec2 before = d.at();
+    const glm::dvec2 back = -0.01 * lever / glm::length(lever);  // [m] one centimetre towards the middle
+    d.input.mouse_moved = glm::dvec2{back.x, -back.y} / 0.12e-3;
+    d.frame();
+    CHECK(near(d.at(), before + back));  // moves the hand at once
+  }
+}
+
+TEST_CASE("a stick places the hand outside its dead zone, and releases it at rest") {
+  Driver d;
+  d.input.pads = {{"pad", {0.0f, 0.0f, 0.0f}, {}, ""}};
+  d.frame();
+  d.input.pads[0].axes = {1.0f, -1.0f, 0.0f};  // right and forward
+  d.frame();
+  CHECK(near(d.at(), {0.06, 0.05}));
+  d.input.pads[0].axes = {-0.6f, 0.1f, 0.0f};
+  d.frame();
+  CHECK(d.at().x == doctest::Approx(-0.5 * 0.06));  // (0.6 - 0.2) / 0.8
+  CHECK(d.at().y == 0.0);                           // inside the dead zone
+  d.input.pads[0].axes = {0.0f, 0.0f, 0.0f};
+  d.frame();
+  CHECK(near(d.at(), {0.0, 0.0}));
+  // At rest the stick moves nothing, so keys do.
+  d.key(GLFW_KEY_RIGHT, true);
+  d.frame(0.1);
+  CHECK(near(d.at(), {0.025, 0.0}));
+}
+
+TEST_CASE("a stick that moves the hand: quadratic beyond its dead zone, independent of the frame rate") {
+  Bindings own = bindings();
+  own.lever_mode = LeverMode::moves;
+  own.stick_speed = 0.3;
+  for (const int parts : {1, 10}) {
+    DriverInput driver({own, {0.06, 0.05}});
+    WindowInput input;
+    input.pads = {{"pad", {0.0f, 0.0f, 0.0f}, {}, ""}};
+    const auto frames = [&](double seconds) {
+      for (int i = 0; i < parts; ++i) driver.update(input, seconds / parts, false, false);
+    };
+    frames(0.1);
+    input.pads[0].axes = {1.0f, -0.6f, 0.0f};  // right, and half of the range beyond the dead zone forward
+    frames(0.1);
+    CHECK(driver.hand().position.x == doctest::Approx(0.3 * 0.1));
+    CHECK(driver.hand().position.y == doctest::Approx(0.3 * 0.1 / 4.0));
+    input.pads[0].axes = {0.1f, 0.15f, 0.0f};  // released: it trembles inside the dead zone
+    driver.feel({0.03, 0.0075});               // and the lever has followed
+    const glm::dvec2 stays = driver.hand().position;
+    for (int i = 0; i < 50; ++i) frames(0.1);
+    CHECK(near(driver.hand().position, stays));
+    input.pads[0].axes = {-1.0f, 0.0f, 0.0f};
+    frames(100.0);
+    CHECK(driver.hand().position.x == doctest::Approx(0.03 - 0.05));  // the hand stays within 50 mm of a blocked lever
+    CHECK(driver.hand().push == glm::dvec2(0.0));
+  }
+}
+
+TEST_CASE("a pad's stop button always works, even without the focus") {
+  Bindings own = bindings();
+  own.pad_buttons = {{Action::stop, {1}}};
+  DriverInput driver({own, {0.06, 0.05}});
+  WindowInput input;
+  input.pads = {{"pad", {}, {0, 1}, ""}};
+  driver.update(input, kFrame, true, true);
+  CHECK(driver.pressed() == std::vector{Action::stop});
+  input.pads[0].buttons = {0, 0};
+  driver.update(input, kFrame, false, false);
+  input.focused = false;
+  driver.update(input, kFrame, false, false);
+  input.pads[0].buttons = {0, 1};
+  driver.update(input, kFrame, true, true);
+  CHECK(driver.pressed() == std::vector{Action::stop});
+}
+
+TEST_CASE("axes and buttons bound by a stick's name follow it to any port, and no other stick") {
+  Bindings own = bindings();
+  own.throttle = AxisBinding{0, 0, 0.0, 1.0, 0.0};
+  own.throttle->stick = "pedals";
+  own.clutch = AxisBinding{1, 0, 0.0, 1.0, 0.0};  // an axis of the second device with that name
+  own.clutch->stick = "pedals";
+  own.lever_select.reset();
+  own.lever_shift.reset();
+  own.pad_buttons = {{Action::starter, {0}}};
+  own.button_stick = "Wheel";
+  const auto drive = [&](const std::vector<std::size_t>& order) {
+    const std::vector<PadState> all{
+        {"Acme Pedals", {0.25f}, {1}, "01"}, {"Some Wheel", {0.5f}, {0}, "02"}, {"PEDALS two", {0.75f}, {1}, "03"}};
+    WindowInput input;
+    for (const std::size_t i : order) input.pads.push_back(all[i]);
+    DriverInput driver({own, {0.06, 0.05}});
+    for (const bool moved : {false, true}) {
+      for (PadState& pad : input.pads) pad.axes[0] += moved ? 0.125f : 0.0f;
+      driver.update(input, kFrame, false, false);
+    }
+    return driver.controls();
+  };
+  CHECK(drive({0, 1, 2}).throttle == doctest::Approx(0.375));
+  CHECK(drive({0, 1, 2}).clutch == doctest::Approx(0.875));
+  CHECK(drive({1, 0, 2}).throttle == doctest::Approx(0.375));  // the wheel comes first, so nothing changes
+  CHECK(drive({1, 2}).throttle == doctest::Approx(0.875));
+  CHECK(drive({1, 2}).clutch == 0.0);  // there is no second device
+  CHECK(drive({1}).throttle == 0.0);
+  CHECK_FALSE(drive({0, 1, 2}).starter);  // the pedals' button is not the wheel's
+}
+
+TEST_CASE("panel input does not reach the driver, except keys that type nothing; held keys are released") {
+  Driver d;
+  d.key(GLFW_KEY_D, true);
+  d.frame();
+  d.key(GLFW_KEY_RIGHT, true);
+  d.key(GLFW_KEY_SPACE, true);
+  d.key(GLFW_KEY_F11, true);
+  d.frame(kFrame, true, true);
+  CHECK(d.driver.pressed().empty());
+  CHECK(near(d.at(), {0.0, 0.0}));
+  d.key(GLFW_KEY_F12, true);
+  d.key(GLFW_KEY_D, false);
+  d.frame(kFrame, true, true);
+  CHECK(d.driver.pressed() == std::vector{Action::stop});
+  for (int i = 0; i < 10; ++i) d.frame(kFrame, true, true);
+  CHECK(d.pedals.throttle == 0.0);
+}
+
+TEST_CASE("when the window loses the focus all keys are released") {
+  Driver d;
+  d.click();
+  d.key(GLFW_KEY_RIGHT, true);
+  d.key(GLFW_KEY_D, true);
+  d.frame();
+  d.input.focused = false;
+  d.frame();
+  const glm::dvec2 stays = d.at();
+  CHECK_FALSE(d.driver.mouse_moves_lever());
+  d.input.mouse_moved = {100.0, 100.0};
+  for (int i = 0; i < 30; ++i) d.frame();
+  CHECK(near(d.at(), stays));
+  CHECK(d.pedals.throttle == 0.0);
+}
+
+// An X server without a window manager never reports that a window has the focus.
+TEST_CASE("a window that never had the focus still receives its keys") {
+  Driver d;
+  d.input.focused = false;
+  d.key(GLFW_KEY_RIGHT, true);
+  for (int i = 0; i < 10; ++i) d.frame();
+  CHECK(near(d.at(), {0.025, 0.0}));
+}
+
+TEST_CASE("the same input gives exactly the same output") {
+  Driver a, b;
+  for (Driver* d : {&a, &b}) {
+    std::mt19937 chance(9);
+    d->click();
+    for (int i = 0; i < 2000; ++i) {
+      d->input.mouse_moved = {static_cast<double>(chance() % 21) - 10.0, static_cast<double>(chance() % 21) - 10.0};
+      d->key(GLFW_KEY_SPACE + static_cast<int>(chance() % 300), chance() % 2 == 0);
+      d->input.pads = {{"pad", {static_cast<float>(chance() % 100) / 50.0f - 1.0f, 0.0f, 0.3f}, {1, 0, 1}, ""}};
+      d->frame(0.001 * static_cast<double>(chance() % 40));
+    }
+  }
+  CHECK(a.at() == b.at());
+  CHECK(a.driver.controls().throttle == b.driver.controls().throttle);
+  CHECK(a.pedals.clutch == b.pedals.clutch);
+  CHECK(a.driver.pressed() == b.driver.pressed());
+}
+
+TEST_CASE("keys move the hand at most 5 cm past a blocked lever; when released it leans on it with at most 2.5 N") {
+  Driver d;
+  const glm::dvec2 held{-0.01, 0.005};
+  d.key(GLFW_KEY_LEFT, true);
+  for (int i = 0; i < 100; ++i) {
+    d.driver.feel(held);
+    d.frame();
+  }
+  CHECK(d.at().x == doctest::Approx(held.x - 0.05));
+  d.key(GLFW_KEY_LEFT, false);
+  for (int i = 0; i < 20; ++i) d.frame();
+  CHECK(d.at().x == doctest::Approx(held.x - 0.05));  // the lever may still arrive
+  for (int i = 0; i < 40; ++i) d.frame();
+  CHECK(d.at().x == doctest::Approx(held.x - 0.005));
+  d.driver.feel({0.0, 0.0});  // a lever that springs back does not pull the hand along
+  for (int i = 0; i < 40; ++i) d.frame();
+  CHECK(d.at().x == doctest::Approx(held.x - 0.005));
+}
+
+TEST_CASE("a mouse used after keys is not pulled back to the lever") {
+  Driver d;
+  d.click();
+  d.key(GLFW_KEY_RIGHT, true);
+  d.frame();
+  d.key(GLFW_KEY_RIGHT, false);
+  d.frame();
+  d.input.mouse_moved = {200.0, 0.0};
+  d.frame();
+  const glm::dvec2 there = d.at();
+  CHECK(there.x > 0.02);
+  for (int i = 0; i < 100; ++i) d.frame();
+  CHECK(near(d.at(), there));
+}
+
+TEST_CASE("a pedal key pressed and released within a frame is held until the next one, other keys until released") {
+  Driver d;
+  d.key(GLFW_KEY_A, true);
+  d.key(GLFW_KEY_A, false);
+  d.frame(0.1);
+  CHECK(d.pedals.clutch == doctest::Approx(0.1 / 0.25));
+  CHECK(d.driver.pedal_keys().clutch);
+  d.frame(0.0);
+  CHECK_FALSE(d.driver.pedal_keys().clutch);
+  d.key(GLFW_KEY_A, true);
+  d.frame();
+  d.key(GLFW_KEY_A, false);
+  d.frame();
+  CHECK_FALSE(d.driver.pedal_keys().clutch);  // otherwise each press would last one frame too long
+}

@@ -1,0 +1,106 @@
+// Keyboard pedals compared with their closed form, for any time step, and with a low frame rate.
+#include "app/ui/input/keyboard_pedals.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+using namespace gearshift::ui;
+
+namespace {
+
+constexpr PedalTiming kPace{.pedal_time = 0.25, .slip_time = 1.2, .clutch_closed = 0.2, .clutch_bite = 0.8};
+
+// A clutch that was released from the floor `time` [s] ago: up to 0.8 at 4 per second, then 0.6 in 1.2 s, then 4 per
+// second again.
+double let_up_for(double time) {
+  if (time < 0.05) return 1.0 - 4.0 * time;
+  if (time < 1.25) return 0.8 - 0.5 * (time - 0.05);
+  return std::max(0.0, 0.2 - 4.0 * (time - 1.25));
+}
+
+// The pedal in every cycle when the key is held from 0 s to 0.51 s and polled once per frame.
+std::vector<double> clutch_seen(double frames_per_second, double cycle) {
+  KeyboardPedals feet;
+  feet.set_timing(kPace);
+  std::vector<double> path;
+  double next_frame = 0.0;
+  for (int i = 0; i < 2000; ++i) {
+    const double time = i * cycle;
+    if (time >= next_frame) {
+      feet.set_keys({.clutch = time < 0.51});
+      next_frame += 1.0 / frames_per_second;
+    }
+    path.push_back(feet.move(cycle, 0.0, false).clutch);
+  }
+  return path;
+}
+
+}  // namespace
+
+TEST_CASE("a released clutch follows its closed form, for any time steps") {
+  for (const double part : {0.001, 0.0137, 0.1, 0.9}) {
+    CAPTURE(part);
+    KeyboardPedals feet;
+    feet.set_timing(kPace);
+    feet.set_keys({.clutch = true});
+    CHECK(feet.move(10.0, 0.0, false).clutch == 1.0);
+    feet.set_keys({});
+    for (double time = part; time < 2.0; time += part)
+      REQUIRE(feet.move(part, 0.0, false).clutch == doctest::Approx(let_up_for(time)).epsilon(1e-9));
+  }
+}
+
+TEST_CASE("at 10, 30 and 144 frames a second the pedal follows the same path, up to a frame late, without jumps") {
+  constexpr double kCycle = 0.001;  // [s]
+  for (const double rate : {10.0, 30.0, 144.0}) {
+    CAPTURE(rate);
+    const std::vector<double> path = clutch_seen(rate, kCycle);
+    const double release = std::ceil(0.51 * rate - 1e-9) / rate;  // [s] of the first frame that sees the release
+    for (std::size_t i = 0; i < path.size(); ++i) {
+      const double time = static_cast<double>(i + 1) * kCycle;
+      const double at = time <= release ? std::min(1.0, 4.0 * time) : let_up_for(time - release);
+      REQUIRE(std::abs(path[i] - at) <= 4.0 * kCycle * 2.0);  // one or two cycles of rounding
+      if (i > 0) REQUIRE(std::abs(path[i] - path[i - 1]) <= 4.0 * kCycle + 1e-12);
+    }
+  }
+}
+
+TEST_CASE("light throttle turns a free engine to at most 1700 rpm; under load it is a fifth") {
+  const auto throttle = [](double speed, bool coupled) {
+    KeyboardPedals feet;
+    feet.set_keys({.throttle_light = true});
+    return feet.move(1.0, speed, coupled).throttle;
+  };
+  CHECK(throttle(84.0, false) == doctest::Approx(0.2));
+  CHECK(throttle(155.0, false) == doctest::Approx(0.1));
+  CHECK(throttle(200.0, false) == 0.0);
+  CHECK(throttle(200.0, true) == doctest::Approx(0.2));
+}
+
+TEST_CASE("invalid time steps move nothing") {
+  KeyboardPedals feet;
+  feet.set_keys({.throttle = true, .brake = true, .clutch = true});
+  for (const double seconds : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN(), -HUGE_VAL, HUGE_VAL}) {
+    const Pedals pedals = feet.move(seconds, 0.0, false);
+    CHECK(pedals.throttle + pedals.brake + pedals.clutch == 0.0);
+  }
+}
+
+TEST_CASE("when two levers request pedals, only one moves them, and the other continues from there") {
+  KeyboardPedals feet;
+  feet.set_keys({.brake = true});  // 4 per second
+  double now = 0.0;
+  for (int cycle = 1; cycle <= 100; ++cycle) {
+    now = feet.move(0.001, 0.0, false, 0).brake;
+    REQUIRE(feet.move(0.001, 0.0, false, 1).brake == now);
+  }
+  CHECK(now == doctest::Approx(0.4));
+  feet.set_active_lever(1);
+  CHECK(feet.move(0.001, 0.0, false, 0).brake == now);
+  CHECK(feet.move(0.050, 0.0, false, 1).brake == doctest::Approx(0.6));
+}

@@ -1,0 +1,143 @@
+// Hand-made coach views for each stage of a lesson: the shipped lessons, and a learner half way through.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "app/lessons/assessment/grade.h"
+#include "app/lessons/assessment/lesson.h"
+#include "app/lessons/assessment/suggest.h"
+#include "app/lessons/coach/coach_view.h"
+
+namespace gearshift::test {
+
+inline lessons::Lesson shipped_lesson(std::string_view key) {
+  return lessons::read_lesson(GEARSHIFT_ASSETS "/lessons/" + std::string(key) + ".toml");
+}
+
+// A named learner with four lessons passed and a fifth one tried; hill_start is next. Nothing is offered.
+inline lessons::CoachView half_way() {
+  lessons::CoachView coach;
+  coach.learner = "Ada Example";
+  coach.learners = {"Ada Example", "Bert", "Charlotte van der Hoek"};
+  coach.is_saving = true;
+  constexpr double kGrades[] = {9.5, 8.0, 10.0, 6.5, 3.5};
+  for (const std::string_view key : lessons::kTeachingOrder) {
+    const lessons::Lesson lesson = shipped_lesson(key);
+    lessons::LessonStanding standing{lesson.key, lesson.title, lesson.task, 0, std::nullopt, false};
+    if (const std::size_t i = coach.lessons.size(); i < std::size(kGrades)) {
+      standing.trials = 2 * static_cast<int>(i) + 1;
+      standing.grade = kGrades[i];
+      standing.passed = kGrades[i] >= 6.0;
+      standing.best = std::max(kGrades[i], i == 3 ? 9.0 : 0.0);
+    }
+    coach.lessons.push_back(standing);
+  }
+  coach.next = "hill_start";
+  coach.next_why = "It is the first lesson that has not been passed yet.";
+  return coach;
+}
+
+inline lessons::CoachView offered(std::string_view key = "hill_start") {
+  lessons::CoachView coach = half_way();
+  const lessons::Lesson lesson = shipped_lesson(key);
+  coach.phase = lessons::LessonPhase::offered;
+  coach.lesson = lesson.key;
+  coach.title = lesson.title;
+  coach.goal = lesson.goal;
+  return coach;
+}
+
+// In its third step, with two errors reported.
+inline lessons::CoachView driven(std::string_view key = "hill_start") {
+  lessons::CoachView coach = offered(key);
+  const lessons::Lesson lesson = shipped_lesson(key);
+  coach.phase = lessons::LessonPhase::driving;
+  coach.now.step = 2;
+  coach.now.steps = lesson.steps.size();
+  coach.now.prompt = lesson.steps[2].prompt;
+  coach.now.hint = lesson.steps[2].hint;
+  coach.now.feedback = {"The lever moved 0.12 s before the clutch was down.", "The engine stalled, from 640 rpm."};
+  return coach;
+}
+
+inline lessons::ShiftRecord shift_of(std::int64_t number, int from, int to, double begin) {
+  lessons::ShiftRecord shift;
+  shift.number = number;
+  shift.from = from;
+  shift.to = to;
+  shift.begin = begin;
+  shift.end = begin + 0.84;
+  shift.clutch_lag = 0.12;
+  shift.rev_error = 25.0;
+  return shift;
+}
+
+// Assessed as a lesson run does it.
+inline lessons::LessonResult result_of(std::string_view key, std::vector<lessons::DrivingError> errors,
+                                       bool guided = false) {
+  lessons::LessonResult result;
+  const lessons::Lesson lesson = shipped_lesson(key);
+  result.lesson = lesson.key;
+  result.task = lesson.task;
+  result.end = lessons::LessonEnd::done;
+  result.guided = guided;
+  result.begin = 12.0;
+  result.duration = 34.0;
+  result.errors = std::move(errors);
+  result.shifts = {shift_of(0, haptics::kNeutralGear, 1, 13.0), shift_of(1, 1, 2, 19.5)};
+  result.shifts[1].block_time = 0.31;
+  result.shifts[1].clutch_lag = -0.08;
+  lessons::grade_result(lesson, result);
+  return result;
+}
+
+inline std::vector<lessons::DrivingError> some_faults() {
+  return {{lessons::ErrorKind::jerk, lessons::Severity::minor, 14.2, 9.7, 0},
+          {lessons::ErrorKind::grind, lessons::Severity::severe, 19.9, 12.4, 1},
+          {lessons::ErrorKind::wrong_column, lessons::Severity::note, 20.1, 2.0, 1}};
+}
+inline std::vector<lessons::DrivingError> failing_faults() {
+  std::vector<lessons::DrivingError> errors = some_faults();
+  errors.push_back({lessons::ErrorKind::stall, lessons::Severity::very_severe, 31.0, 62.0, -1});
+  errors.push_back({lessons::ErrorKind::throttle_in_shift, lessons::Severity::minor, 33.0, 80.0, 1});
+  errors.push_back({lessons::ErrorKind::rollback, lessons::Severity::severe, 36.5, 0.42, -1});
+  errors.push_back({lessons::ErrorKind::over_push, lessons::Severity::minor, 37.0, 48.0, -1});
+  errors.push_back({lessons::ErrorKind::clutch_dump, lessons::Severity::severe, 38.0, 32000.0, -1});
+  return errors;
+}
+
+inline lessons::CoachView over(const lessons::LessonResult& result) {
+  lessons::CoachView coach = driven(result.lesson);
+  coach.phase = lessons::LessonPhase::over;
+  coach.result = result;
+  coach.guidance = result.guided ? 0.8 : 0.0;
+  coach.next = result.passed ? "emergency_stop" : "hill_start";
+  return coach;
+}
+
+// Six runs, newest first: passed and recorded, failed, guided, left, interrupted, partly lost. With a comment.
+inline lessons::CoachView with_history() {
+  lessons::CoachView coach = half_way();
+  const auto add = [&](std::int64_t id, const char* at, lessons::LessonResult result, const char* recording) {
+    coach.runs.push_back({id, 1, at, recording, std::move(result)});
+    coach.comments.emplace_back();
+  };
+  lessons::LessonResult left = result_of("reverse", {}), cut = left, lost = left;
+  left.end = lessons::LessonEnd::left;
+  left.passed = false;
+  left.why = "You left the lesson.";
+  cut.end = lessons::LessonEnd::running;
+  lost.is_complete = false;
+  add(16, "2026-01-02T10:31:00Z", result_of("hill_start", some_faults()), "/tmp/hill.trace");
+  add(15, "2026-01-02T10:20:00Z", result_of("hill_start", failing_faults()), "");
+  add(14, "2026-01-02T10:11:00Z", result_of("down_through_the_gears", some_faults(), true), "/tmp/down.trace");
+  add(13, "2026-01-01T09:11:00Z", left, "");
+  add(12, "2026-01-01T09:05:00Z", cut, "");
+  add(11, "2026-01-01T09:00:00Z", lost, "");
+  coach.comments[0] = {{"2026-01-02T11:00:00Z", "Ms Torque", "Wait for the synchroniser: push, do not hit."}};
+  return coach;
+}
+
+}  // namespace gearshift::test

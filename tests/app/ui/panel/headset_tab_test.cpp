@@ -1,0 +1,103 @@
+// The panel's headset tab: its texts and its requests.
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "tests/app/ui/panel/drawn.h"
+#include "tests/app/ui/panel/panel_rig.h"
+
+using namespace gearshift::cabin;
+using namespace gearshift::test;
+using namespace gearshift::ui;
+
+namespace {
+
+struct HeadsetTabRig : PanelRig {
+  HeadsetTabRig() {
+    input.headset.emplace();
+    HeadsetReport& headset = *input.headset;
+    headset.headset = "Simulated HMD";
+    headset.runtime = "Monado 24.0.0";
+    headset.state = "focused";
+    headset.is_tracked = true;
+    headset.eye = {1440, 1600};
+    headset.timing = {11.1, 4.2, 7.5, 3.0, 0.0, 5400, 12, 3};
+    frame();
+    frame();
+    (void)click("tab_headset");
+    show();
+  }
+  void show() {
+    frame();
+    frame();
+  }
+  // Drags a length's slider to the right.
+  HeadsetRequests drag_length(const std::string& name) {
+    HeadsetRequests seen;
+    for (int step = 0; step <= 10; ++step) {
+      point(name, 0.2 + 0.06 * step);
+      frame();
+      if (asked.headset.height) seen.height = asked.headset.height;
+      if (asked.headset.knob) seen.knob = asked.headset.knob;
+      events.mouse_down[0] = true;
+    }
+    events.mouse_down[0] = false;
+    frame();
+    return seen;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("without a headset there is no headset tab; with one it shows its frames") {
+  PanelRig bare;
+  CHECK_FALSE(bare.panel.control_rect("tab_headset").has_value());
+  HeadsetTabRig rig;
+  for (const char* words : {"Simulated HMD", "Monado 24.0.0", "focused", "2 x 1440 x 1600", "90 Hz, period 11.1 ms",
+                            "4.2 ms", "7.5 ms", "3.0 ms before display", "as predicted", "12 of 5412", "3 of 5400"})
+    CHECK_MESSAGE(is_drawn(words), words);
+  rig.input.headset->timing.spare_ms = -2.0;
+  rig.input.headset->timing.late_ms = 11.1;
+  rig.input.headset->is_tracked = false;
+  rig.show();
+  for (const char* words : {"2.0 ms too late", "11.1 ms later than predicted", "focused, not tracked"})
+    CHECK_MESSAGE(is_drawn(words), words);
+  CHECK(rig.panel.shortened_texts() == 0);
+  rig.input.headset->orientation_only = true;
+  rig.show();
+  CHECK(is_drawn("focused, position unknown"));
+  CHECK(rig.panel.shortened_texts() == 0);
+}
+
+TEST_CASE("the seat is set by sitting down, by height, by distances, or by touching the knob") {
+  HeadsetTabRig rig;
+  CHECK(rig.click("headset_recentre").headset.recentre);
+  const HeadsetRequests raised = rig.drag_length("headset_height");
+  REQUIRE(raised.height);
+  CHECK(*raised.height > 0.0);
+  CHECK(*raised.height <= 0.3);
+  const auto asked_knob = rig.click("headset_knob").headset.knob;
+  REQUIRE(asked_knob);
+  rig.input.headset->seat.knob = asked_knob;
+  rig.show();
+  CHECK_FALSE(rig.panel.control_rect("headset_height").has_value());  // the lever's position determines the seat height
+  const HeadsetRequests moved = rig.drag_length("headset_knob_down");
+  REQUIRE(moved.knob);
+  CHECK(moved.knob->down > asked_knob->down);
+  CHECK(moved.knob->right == asked_knob->right);
+  CHECK(rig.click("headset_knob").headset.forget_knob);
+  CHECK(rig.click("headset_touch").headset.touch);
+  rig.input.headset->touching = true;
+  rig.input.headset->touches = 3;
+  rig.input.headset->worst_touch = 0.0042;
+  rig.show();
+  CHECK(is_drawn("Touched 3 times, at most 4 mm apart."));
+  CHECK(rig.click("headset_touched").headset.touched);
+  rig.input.headset->touching = false;
+  rig.input.stick = StickView{};
+  rig.show();
+  CHECK(rig.panel.control_rect("headset_touch").has_value());
+  rig.input.headset->is_touched = true;
+  rig.show();
+  CHECK(rig.click("headset_forget").headset.forget_touches);
+}

@@ -1,0 +1,444 @@
+// The lesson card over the cabin: its texts, and what a click on it requests.
+#include <algorithm>
+#include <cmath>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "app/ui/panel/palette.h"
+#include "tests/app/ui/panel/coach_views.h"
+#include "tests/app/ui/panel/drawn.h"
+#include "tests/app/ui/panel/panel_rig.h"
+
+using namespace gearshift;
+using namespace gearshift::haptics;
+using namespace gearshift::lessons;
+using namespace gearshift::test;
+using namespace gearshift::ui;
+
+namespace {
+
+std::vector<KeyHint> some_keys() {
+  return {{"clutch", "A"},  {"brake", "S"},      {"throttle", "D"}, {"a little throttle", "F"},
+          {"starter", "E"}, {"hand brake", "H"}, {"ignition", "I"}};
+}
+
+struct CardRig : PanelRig {
+  explicit CardRig(const CoachView& coach, bool panel_shown = false) {
+    panel.set_visible(panel_shown);
+    show(coach);
+  }
+  void show(const CoachView& coach) {
+    input.coach = coach;
+    for (int i = 0; i < 6; ++i) frame();
+  }
+};
+
+double height_of(const std::string& sentence) {
+  const PixelBox box = the_text(drawn_texts(), sentence).box;
+  return box.max.y - box.min.y;
+}
+
+bool has_no_request(const LessonRequests& asked) {
+  return !asked.begin && !asked.leave && !asked.dismiss_lesson && !asked.offer && !asked.mode && !asked.help &&
+         !asked.next && !asked.learner && !asked.comment;
+}
+
+// True if the words, or a line with them, are drawn on the card.
+bool says(const std::string& words) {
+  const std::vector<DrawnText> texts = drawn_texts();
+  return std::any_of(texts.begin(), texts.end(),
+                     [&](const DrawnText& text) { return text.text.find(without_blanks(words)) != std::string::npos; });
+}
+
+}  // namespace
+
+TEST_CASE(
+    "an offered lesson is started, configured and dismissed by one click each; without one there are no requests") {
+  CardRig rig(offered());
+  CHECK(says("Hill start"));
+  CHECK(says("without rolling back"));
+  CHECK_FALSE(says("You fail if you"));
+  rig.input.fail_conditions = "You fail if you stall.";
+  rig.show(offered());
+  CHECK(says("You fail if you stall."));
+  CHECK(has_no_request(rig.frame().lesson));
+  CHECK(rig.click("lesson_begin").lesson.begin);
+  CHECK_FALSE(rig.frame().lesson.begin);
+  CHECK(rig.click("lesson_put_away").lesson.dismiss_lesson);
+  CHECK(rig.click("mode").lesson.mode == LessonMode::by_yourself);
+  CHECK(rig.click("help").lesson.help == false);
+  CoachView other = offered();
+  other.mode = LessonMode::by_yourself;
+  other.help_wanted = false;
+  rig.show(other);
+  CHECK(rig.click("mode").lesson.mode == LessonMode::follow_me);
+  CHECK(rig.click("help").lesson.help == true);
+}
+
+TEST_CASE("the card is shown while the panel is hidden, too, and covers only what is behind it") {
+  for (const bool panel_shown : {true, false}) {
+    CAPTURE(panel_shown);
+    CardRig rig(driven(), panel_shown);
+    const ControlRect leave = rig.rect("lesson_leave"), middle = rig.panel.cabin_area();
+    CHECK(rig.panel.covers(0.5 * (leave.min + leave.max)));
+    CHECK_FALSE(rig.panel.covers({640.0, 400.0}));
+    CHECK(leave.min.x > middle.min.x);
+    CHECK(leave.max.x < middle.max.x);
+    CHECK(rig.click("lesson_leave").lesson.leave);
+    rig.show(half_way());
+    CHECK_FALSE(rig.panel.covers(0.5 * (leave.min + leave.max)));
+    CHECK_FALSE(rig.panel.control_rect("lesson_leave").has_value());
+  }
+}
+
+TEST_CASE("clicking the card never takes the keyboard from the car") {
+  CardRig rig(offered());
+  rig.click("mode");
+  rig.click("help");
+  rig.frame();
+  CHECK_FALSE(rig.panel.has_keyboard());
+}
+
+TEST_CASE("the card is at the bottom centre and keeps its size in every phase") {
+  for (const bool panel_shown : {true, false}) {
+    CAPTURE(panel_shown);
+    CardRig rig(half_way(), panel_shown);
+    rig.input.keys = some_keys();
+    const ControlRect whole = rig.panel.cabin_area();
+    rig.show(offered());
+    const ControlRect middle = rig.panel.cabin_area();
+    CHECK(middle.max.y < 0.78 * whole.max.y);
+    CHECK(middle.max.y > 0.60 * whole.max.y);
+    CHECK(rig.rect("lesson_begin").min.y > middle.max.y);
+    CHECK(rig.panel.covers({0.5 * (whole.min.x + whole.max.x), whole.max.y - 20.0}));
+    CHECK_FALSE(rig.panel.covers({0.5 * (whole.min.x + whole.max.x), middle.max.y - 2.0}));
+    for (const CoachView& coach : {driven(), over(result_of("hill_start", some_faults())), offered()}) {
+      rig.input.coach = coach;
+      rig.frame();  // already in its first frame
+      CHECK(rig.panel.cabin_area().max.y <= middle.max.y);
+      rig.show(coach);
+    }
+    const double settled = rig.panel.cabin_area().max.y;  // the width of its longest text
+    CHECK(settled > 0.55 * whole.max.y);
+    for (const CoachView& coach : {driven(), over(result_of("hill_start", some_faults())), offered()}) {
+      rig.input.coach = coach;
+      rig.frame();
+      CHECK(rig.panel.cabin_area().max.y == settled);
+    }
+    rig.show(half_way());
+    CHECK(rig.panel.cabin_area().max.y == whole.max.y);
+  }
+}
+
+TEST_CASE("no prompt of the shipped lessons, with its hint and messages, covers more than 40 % of a 1280 x 720 cabin") {
+  CardRig rig(driven(), true);
+  rig.input.keys = some_keys();
+  for (const std::string_view key : kTeachingOrder) {
+    const Lesson lesson = shipped_lesson(key);
+    for (std::size_t step = 0; step < lesson.steps.size(); ++step) {
+      CAPTURE(lesson.key);
+      CAPTURE(step);
+      CoachView coach = driven(key);
+      coach.now.prompt = lesson.steps[step].prompt;
+      coach.now.hint = lesson.steps[step].hint;
+      rig.show(coach);
+      CHECK(rig.panel.cabin_area().max.y > 0.6 * 651.0);
+      CHECK(says(coach.now.feedback.back()));
+    }
+  }
+}
+
+TEST_CASE("the button for Enter says so: try again after failing, next lesson after passing") {
+  CardRig rig(over(result_of("hill_start", some_faults())));
+  rig.input.now.guard = GuardState::running;
+  rig.frame();
+  rig.frame();
+  CHECK(says("Next lesson (Enter)"));
+  CHECK_FALSE(says("Try again (Enter)"));
+  CoachView failed = over(result_of("hill_start", failing_faults()));
+  failed.next = "bite_point";
+  rig.show(failed);
+  CHECK(says("Try again (Enter)"));
+  CHECK_FALSE(says("Next lesson (Enter)"));
+  CHECK(rig.click("lesson_next").lesson.offer == "bite_point");
+  rig.show(offered());
+  CHECK(says("Start (Enter)"));
+  CHECK_FALSE(says("motors"));
+}
+
+TEST_CASE("with forces off, starting a lesson switches them on, and a running one shows that they are off") {
+  CardRig rig(offered());
+  for (const GuardState guard : {GuardState::idle, GuardState::damped, GuardState::released}) {
+    rig.input.now.guard = guard;
+    rig.show(offered());
+    CHECK(says("Motors on and start (Enter)"));
+    const PanelRequests asked = rig.click("lesson_begin");
+    CHECK(asked.lesson.begin);
+    CHECK(asked.arm);
+    rig.show(driven());
+    CHECK(the_text(drawn_texts(), "Motors off. Press Enter to turn them on.").colour == ui::ink::kBad);
+    CHECK_FALSE(rig.frame().arm);
+  }
+  for (const GuardState guard : {GuardState::running, GuardState::ramping}) {
+    rig.input.now.guard = guard;
+    rig.show(offered());
+    const PanelRequests asked = rig.click("lesson_begin");
+    CHECK(asked.lesson.begin);
+    CHECK_FALSE(asked.arm);
+    rig.show(driven());
+    CHECK_FALSE(says("Motors off"));
+  }
+}
+
+TEST_CASE("the remaining time is shown, in the warning colour for its last twenty seconds") {
+  CoachView coach = driven();
+  coach.result.duration = 30.4;
+  CardRig rig(coach);
+  CHECK_FALSE(says("left"));  // the time is unknown
+  coach.time_limit = 90.0;
+  rig.show(coach);
+  CHECK(the_text(drawn_texts(), "1:00 left").colour == ui::ink::kSoft);
+  coach.result.duration = 70.5;
+  rig.show(coach);
+  CHECK(the_text(drawn_texts(), "0:20 left").colour == ui::ink::kWarn);
+}
+
+TEST_CASE("a lesson that ended early shows that this gives 0, whatever else cost points") {
+  LessonResult result = result_of("hill_start", some_faults());
+  result.end = LessonEnd::out_of_time;
+  grade_result(shipped_lesson("hill_start"), result);
+  CardRig rig(over(result));
+  CHECK(says("Time's up: 0 points"));
+  CHECK(says("Not passed"));
+  CHECK(says("-2.0"));
+  result.end = LessonEnd::aborted;
+  result.why = "The car rolled back more than a metre.";
+  grade_result(shipped_lesson("hill_start"), result);
+  rig.show(over(result));
+  CHECK(says("The car rolled back more than a metre: 0 points"));
+  CHECK_FALSE(says("Time's up"));
+  rig.show(over(result_of("hill_start", some_faults())));
+  CHECK_FALSE(says("Time's up"));
+  CHECK_FALSE(says(": 0"));
+  result.end = LessonEnd::left;
+  grade_result(shipped_lesson("hill_start"), result);
+  rig.show(over(result));
+  CHECK(says("Not finished"));
+}
+
+TEST_CASE("the keys are listed under goal and prompt, with the starter's key after a stall") {
+  for (const CoachView& coach : {offered(), driven()}) {
+    CardRig rig(coach);
+    CHECK_FALSE(is_drawn("a little throttle"));
+    CHECK_FALSE(says("mouse"));
+    rig.input.keys = some_keys();
+    rig.show(coach);
+    const std::vector<DrawnText> texts = drawn_texts();
+    double before = 0.0;
+    for (const KeyHint& hint : {some_keys()[0], some_keys()[1]}) {
+      const PixelBox cap = the_text(texts, hint.key).box, words = the_text(texts, hint.action).box;
+      CHECK(cap.min.x > before);
+      CHECK(words.min.x > cap.max.x);
+      CHECK(words.min.x - cap.max.x < 20.0);
+      before = words.max.x;
+    }
+    CHECK(says("Click to move the lever with the mouse"));
+    rig.panel.set_visible(true);
+    rig.show(coach);
+    CHECK(says("Click the cabin to move the lever with the mouse"));
+    rig.panel.set_visible(false);
+    rig.input.mouse_moves_lever = true;
+    rig.show(coach);
+    CHECK(says("The mouse is moving the lever (Esc to free it)"));
+    CHECK_FALSE(says("Click"));
+    rig.input.mouse_moves_lever = false;
+    rig.input.is_automatic_hand = true;  // neither keys nor mouse have an effect
+    rig.show(coach);
+    CHECK_FALSE(says("Click"));
+    CHECK_FALSE(is_drawn("a little throttle"));
+  }
+  CardRig rig(driven());
+  rig.input.keys = some_keys();
+  rig.show(driven());
+  CHECK_FALSE(says("Press the clutch"));
+  rig.input.car.stalled = true;
+  rig.show(driven());
+  CHECK(says("Press the clutch, then the starter [E]"));
+  rig.input.keys.clear();
+  rig.show(driven());
+  CHECK(says("Press the clutch, then the starter."));
+}
+
+TEST_CASE("a hidden panel's card shows pedals, engine, handbrake and slope; otherwise the bar does") {
+  CardRig rig(driven());
+  rig.input.car.engine_speed = 240.0;
+  rig.input.car.hand_brake = 1.0;
+  rig.input.car.slope = std::atan(0.1);
+  rig.show(driven());
+  for (const char* words : {"clutch", "brake", "throttle", "2292 rpm", "handbrake", "10 % uphill"}) CHECK(says(words));
+  const auto blue = [] { return drawn_in(ui::ink::kAccent).size(); };
+  const std::size_t up = blue();
+  rig.input.car.clutch = 0.5;
+  rig.show(driven());
+  CHECK(blue() > up);
+  rig.input.car.stalled = true;
+  rig.show(driven());
+  CHECK(says("stalled"));
+  rig.panel.set_visible(true);
+  rig.show(driven());
+  CHECK_FALSE(says("10 % uphill"));
+  CHECK(says("Slope +10 %"));
+}
+
+TEST_CASE("whether a trial is guided is shown while it is driven, not before; a test is marked as one") {
+  CoachView coach = offered();
+  coach.guidance = 0.8;
+  CardRig rig(coach);
+  CHECK_FALSE(says("guided"));
+  coach = driven();
+  rig.show(coach);
+  CHECK_FALSE(says("guided"));
+  CHECK_FALSE(says("test: no help"));
+  coach.guidance = 0.8;
+  rig.show(coach);
+  CHECK(says("guided, not graded"));
+  coach.guidance = 0.0;
+  coach.retention = true;
+  rig.show(coach);
+  CHECK(says("test: no help"));
+  CHECK_FALSE(says("guided"));
+}
+
+TEST_CASE("prompt, hint and step are the coach's, with one part done for each completed step") {
+  CoachView coach = driven("reverse");
+  coach.now.feedback.clear();
+  CardRig rig(coach);
+  CHECK(says(coach.now.prompt));
+  CHECK(says("step 3 of 7"));
+  const auto parts = [](ImU32 colour) {  // by their left edges
+    std::vector<double> edges;
+    for (const glm::dvec2 at : drawn_in(colour)) edges.push_back(at.x);
+    return edges.empty() ? 0.0 : *std::max_element(edges.begin(), edges.end());
+  };
+  const double two_done = parts(ui::ink::kGood);
+  coach.now.step = 5;
+  rig.show(coach);
+  CHECK(parts(ui::ink::kGood) > two_done + 50.0);
+  CHECK(says("step 6 of 7"));
+}
+
+TEST_CASE("the newest message is large for some seconds, then as small as the earlier ones") {
+  const std::string first = "The lever moved 0.12 s before the clutch was down.", second = "The engine stalled.";
+  CoachView coach = driven();
+  coach.now.hint.clear();
+  coach.now.feedback = {first};
+  CardRig rig(coach);
+  const double large = height_of(first);
+  rig.screen.seconds = 1.0f;
+  for (int i = 0; i < 8; ++i) rig.frame();
+  const double small = height_of(first);
+  CHECK(large > 1.15 * small);
+  coach.now.feedback = {first, second};
+  rig.input.coach = coach;
+  rig.frame();
+  rig.frame();
+  CHECK(height_of(first) == doctest::Approx(small));
+  CHECK(the_text(drawn_texts(), second).box.max.y < the_text(drawn_texts(), first).box.min.y);
+  const double large_second = height_of(second);
+  for (int i = 0; i < 8; ++i) rig.frame();
+  CHECK(large_second > 1.15 * height_of(second));
+}
+
+TEST_CASE("from a phase's first frame the card's footer has all its buttons and keys") {
+  for (const bool panel_shown : {true, false}) {
+    CAPTURE(panel_shown);
+    for (const CoachView& coach : {offered(), over(result_of("hill_start", failing_faults()))}) {
+      CardRig rig(half_way(), panel_shown);
+      rig.input.keys = some_keys();
+      rig.input.coach = coach;
+      rig.frame();
+      rig.frame();  // a new window is not drawn in its first frame
+      const bool is_over = coach.phase == LessonPhase::over;
+      const ControlRect button = rig.rect(is_over ? "lesson_again" : "lesson_begin");
+      const double foot = panel_shown ? rig.rect("stop").min.y : 720.0;
+      CHECK(button.max.y < foot);
+      CHECK(says(is_over ? "Try again" : "Start"));
+    }
+    CardRig rig(driven(), panel_shown);  // the card is already open
+    rig.input.coach = over(result_of("hill_start", failing_faults()));
+    rig.frame();
+    CHECK(rig.panel.control_rect("lesson_again").has_value());
+    CHECK(rig.panel.control_rect("lesson_put_away").has_value());
+    CHECK(says("again"));
+    CHECK(says("Close"));
+    CHECK(says("Repeat"));
+    CHECK(says("Not passed"));
+  }
+}
+
+TEST_CASE("while the instructor holds the car the card says so, and how to take over") {
+  const LessonResult passed = result_of("hill_start", some_faults());
+  for (const bool is_over : {true, false}) {
+    CardRig rig(is_over ? over(passed) : offered());
+    CHECK_FALSE(says("teacher"));
+    rig.input.instructor_holds_pedals = true;
+    rig.frame();
+    rig.frame();
+    CHECK(says("The instructor is holding clutch and brake"));
+    CHECK(says(is_over ? "Close to take over" : "Not now to take over"));
+  }
+}
+
+TEST_CASE("a trial that can no longer be passed says so once while it is driven, and what to do") {
+  CardRig rig(driven());
+  CHECK_FALSE(says("no longer pass this attempt"));
+  rig.input.is_unpassable = true;
+  rig.show(driven());
+  const std::vector<DrawnText> texts = drawn_texts();
+  CHECK(std::count_if(texts.begin(), texts.end(), [](const DrawnText& text) {
+          return text.text.find(without_blanks("no longer pass this attempt")) != std::string::npos;
+        }) == 1);
+  CHECK(says("Keep practising"));
+  rig.show(over(result_of("hill_start", failing_faults())));
+  CHECK_FALSE(says("no longer pass this attempt"));
+}
+
+TEST_CASE("deductions and grade add up to ten, and each deduction names its error and time") {
+  CardRig rig(over(result_of("hill_start", some_faults())));
+  double taken = 0.0;
+  int lines = 0;
+  for (const DrawnText& text : drawn_texts()) {
+    if (text.text.front() != '-' || text.text.size() != 4) continue;
+    taken -= std::atof(text.text.c_str());
+    ++lines;
+  }
+  CHECK(lines == 2);
+  CHECK(10.0 - taken == doctest::Approx(7.5));
+  const DrawnText grade = the_text(drawn_texts(), "7.5");
+  for (const DrawnText& text : drawn_texts())
+    CHECK(text.box.max.y - text.box.min.y <= grade.box.max.y - grade.box.min.y);
+  CHECK(right_of("7.9 s") == std::vector<std::string>{without_blanks("The gear ground (12.4 J)."), "-2.0"});
+  CHECK(says("Passed"));
+  CHECK_FALSE(says("wrong slot"));  // a note
+}
+
+TEST_CASE("after a lesson one click restarts it or offers the next; a guided one has no grade") {
+  CardRig rig(over(result_of("hill_start", some_faults())));
+  CHECK(rig.click("lesson_again").lesson.begin);
+  CHECK(rig.click("lesson_next").lesson.offer == "emergency_stop");
+  CHECK(rig.click("lesson_put_away").lesson.dismiss_lesson);
+  CHECK(says("Emergency stop"));
+  rig.show(over(result_of("hill_start", failing_faults())));
+  CHECK(says("Not passed"));
+  CHECK(says("The engine stalled, from 592 rpm."));
+  CHECK_FALSE(rig.panel.control_rect("lesson_next").has_value());  // it is the same lesson
+  rig.show(over(result_of("hill_start", some_faults(), true)));
+  CHECK(says("graded"));
+  CHECK_FALSE(says("Passed"));
+  CHECK_FALSE(says("0.0"));
+  CHECK_FALSE(says("10.0"));
+  CHECK_FALSE(says("-2.0"));
+}

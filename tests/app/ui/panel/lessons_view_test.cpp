@@ -1,0 +1,325 @@
+// The tabs for lessons and past runs, operated by mouse and keyboard.
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "app/ui/panel/palette.h"
+#include "tests/app/ui/panel/coach_views.h"
+#include "tests/app/ui/panel/drawn.h"
+#include "tests/app/ui/panel/panel_rig.h"
+
+using namespace gearshift;
+using namespace gearshift::lessons;
+using namespace gearshift::test;
+using namespace gearshift::ui;
+
+namespace {
+
+constexpr int kEnter = 257;
+
+struct LessonsRig : PanelRig {
+  explicit LessonsRig(const CoachView& coach, const char* tab = "tab_lesson") {
+    input.coach = coach;
+    frame();
+    click(tab);
+    for (int i = 0; i < 3; ++i) frame();
+  }
+  PanelRequests write(const std::u32string& text) {
+    events.text = text;
+    PanelRequests all = frame();
+    merge(all, frame());
+    return all;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("the lessons tab is open first, in teaching order, with a disc for each passed lesson") {
+  PanelRig rig;
+  rig.input.coach = half_way();
+  for (int i = 0; i < 3; ++i) rig.frame();
+  const std::vector<DrawnText> texts = drawn_texts();
+  double before = 0.0;
+  for (const std::string_view key : kTeachingOrder) {
+    const ControlRect at = rig.rect("lesson: " + std::string(key));
+    CHECK(at.min.y > before);
+    before = at.min.y;
+  }
+  const std::vector<std::string> best_and_last{"9.0", "6.5"};
+  CHECK(right_of("Up through the gears") == best_and_last);
+  CHECK(right_of("Reverse").empty());  // never tried
+  std::vector<glm::dvec2> discs = drawn_in(ui::ink::kGood);
+  std::erase_if(discs, [&](glm::dvec2 at) { return at.x < rig.panel.cabin_area().max.x; });  // plots, pedals
+  const PixelBox green = box_of(discs);
+  CHECK(green.min.y >= rig.rect("lesson: start_and_stop").min.y - 2.0);
+  CHECK(green.max.y <= rig.rect("lesson: up_through_the_gears").max.y + 2.0);  // the fourth is the last one passed
+}
+
+TEST_CASE("a click offers a lesson, a button the suggested one; neither works during a lesson") {
+  LessonsRig rig(half_way());
+  CHECK(rig.click("lesson: reverse").lesson.offer == "reverse");
+  CHECK(rig.click("lesson_suggested").lesson.offer == "hill_start");
+  CHECK(is_drawn(rig.input.coach.next_why));
+  CHECK_FALSE(rig.frame().lesson.offer.has_value());
+  rig.input.coach = driven();
+  rig.frame();
+  CHECK_FALSE(rig.click("lesson: reverse").lesson.offer.has_value());
+  CHECK_FALSE(rig.click("lesson_suggested").lesson.offer.has_value());
+}
+
+TEST_CASE("the instructor sets the next lesson, and restores the suggestion") {
+  LessonsRig rig(half_way());
+  CHECK(rig.click("next: reverse").lesson.next == "reverse");
+  CHECK_FALSE(rig.panel.control_rect("next_as_suggested").has_value());
+  rig.input.coach.next_by_instructor = true;
+  rig.frame();
+  rig.frame();
+  CHECK(rig.click("next_as_suggested").lesson.next == std::string());
+}
+
+TEST_CASE("a learner's name is typed and confirmed with Enter, chosen from the list, or empty") {
+  LessonsRig rig(half_way());
+  rig.click("learner");
+  CHECK(rig.panel.has_keyboard());
+  CHECK_FALSE(rig.write(U"Dora").lesson.learner.has_value());  // not yet
+  CHECK(rig.press(kEnter).lesson.learner == "Dora");
+  rig.input.coach.learner = "Dora";
+  rig.frame();
+  rig.frame();
+  CHECK_FALSE(rig.panel.has_keyboard());
+  rig.click("learner");
+  CHECK_FALSE(rig.press(kEnter).lesson.learner.has_value());  // the name is unchanged
+  rig.click("learner_known");
+  CHECK(rig.click("learner: Bert").lesson.learner == "Bert");
+  rig.click("learner_known");
+  CHECK(rig.click("learner: ").lesson.learner == std::string());
+}
+
+TEST_CASE("a field has the keyboard from the frame in which it was clicked") {
+  LessonsRig rig(half_way());
+  rig.point("learner");
+  rig.frame();
+  CHECK_FALSE(rig.panel.has_keyboard());
+  rig.events.mouse_down[0] = true;
+  rig.frame();
+  CHECK(rig.panel.has_keyboard());
+}
+
+TEST_CASE("a name is applied when its field is left by a click or Tab; Escape restores it; nothing moves") {
+  LessonsRig rig(half_way());
+  const double row = rig.rect("lesson: reverse").min.y;
+  rig.click("learner");
+  rig.write(U"Dora");
+  CHECK(is_drawn("Press Enter to add this learner."));
+  CHECK(rig.rect("lesson: reverse").min.y == row);
+  PanelRequests asked = rig.click("lesson: reverse");
+  CHECK(asked.lesson.learner == "Dora");
+  CHECK(asked.lesson.offer == "reverse");
+  CHECK_FALSE(rig.panel.has_keyboard());
+  CHECK(rig.rect("lesson: reverse").min.y == row);
+  rig.input.coach.learner = "Dora";
+  rig.frame();
+  rig.click("learner");
+  rig.write(U"Eve");
+  constexpr int kTab = 258;
+  CHECK(rig.press(kTab).lesson.learner == "Eve");
+  rig.input.coach.learner = "Eve";
+  rig.press(kEscape);
+  rig.press(kEscape);
+  rig.click("learner");
+  rig.write(U"Fay");
+  CHECK_FALSE(rig.press(kEscape).lesson.learner.has_value());
+  CHECK(is_drawn("Eve"));
+  CHECK_FALSE(is_drawn("Fay"));
+}
+
+TEST_CASE("the list of learners is as wide as the field") {
+  LessonsRig rig(half_way());
+  const ControlRect field = rig.rect("learner"), arrow = rig.rect("learner_known");
+  rig.click("learner_known");
+  const ControlRect entry = rig.rect("learner: Bert");
+  CHECK(entry.min.x < field.min.x + 20.0);
+  CHECK(entry.max.x > arrow.max.x - 20.0);
+  CHECK(entry.max.x <= arrow.max.x + 1.0);
+}
+
+TEST_CASE("a note says when nothing is saved") {
+  CoachView coach = half_way();
+  coach.is_saving = false;
+  LessonsRig rig(coach);
+  CHECK(is_drawn("The history is not open: nothing is saved."));
+  rig.input.coach.is_saving = true;
+  rig.input.coach.learner.clear();
+  rig.frame();
+  CHECK(is_drawn("Enter a name to save your progress."));
+  rig.input.is_automatic_hand = true;  // shown for every learner: it explains why nothing is saved
+  rig.frame();
+  CHECK_FALSE(is_drawn("Enter a name to save your progress."));
+  const std::vector<DrawnText> texts = drawn_texts();
+  CHECK(std::any_of(texts.begin(), texts.end(), [](const DrawnText& text) {
+    return text.text.starts_with(without_blanks("The hand drives by itself"));
+  }));
+}
+
+TEST_CASE("a name with characters missing in the font is accepted, with a note on how they are shown") {
+  LessonsRig rig(half_way());
+  const auto is_explained = [] {
+    const std::vector<DrawnText> texts = drawn_texts();
+    return std::any_of(texts.begin(), texts.end(), [](const DrawnText& text) {
+      return text.text.find(without_blanks("shown as ?")) != std::string::npos;
+    });
+  };
+  rig.click("learner");
+  rig.write(U"Zoë Ångström");
+  CHECK_FALSE(is_explained());
+  rig.press(kEscape);
+  rig.click("learner");
+  rig.write(U"李娜");
+  CHECK(is_explained());
+  CHECK(rig.press(kEnter).lesson.learner == "李娜");
+  rig.input.coach.learner = "李娜";
+  rig.frame();
+  rig.frame();
+  CHECK(is_explained());  // as long as it is her grade
+}
+
+TEST_CASE("a click opens a past run; its shifts can be replayed if they were recorded") {
+  LessonsRig rig(with_history(), "tab_history");
+  CHECK_FALSE(rig.panel.control_rect("look: 16 0").has_value());
+  rig.click("run: 16");
+  const PanelRequests asked = rig.click("look: 16 1");
+  REQUIRE(asked.playback.open.has_value());
+  CHECK(asked.playback.open->recording == "/tmp/hill.trace");
+  CHECK(asked.playback.open->begin == 19.5);
+  CHECK(is_drawn("clutch released 0.08 s before the gear, revs off by 239 rpm"));
+  CHECK(is_drawn("blocked for 0.31 s"));
+  CHECK(is_drawn("The gear ground (12.4 J). (-2.0)"));
+  CHECK(is_drawn("Wait for the synchroniser: push, do not hit."));
+  rig.click("run: 16");
+  CHECK_FALSE(rig.panel.control_rect("look: 16 0").has_value());
+  rig.click("run: 15");  // it was not recorded
+  CHECK_FALSE(rig.click("look: 15 0").playback.open.has_value());
+  CHECK(is_drawn("No replay: this run was not recorded."));
+}
+
+TEST_CASE("each run shows its grade, or why it has none") {
+  LessonsRig rig(with_history(), "tab_history");
+  const std::vector<DrawnText> texts = drawn_texts();
+  for (const char* words : {"7.5", "0.0", "guided", "left", "cut off", "data lost"}) CHECK(is_drawn(words));
+  CHECK(the_text(texts, "7.5").box.min.y < the_text(texts, "0.0").box.min.y);  // unsorted: newest first
+  CHECK(the_text(texts, "guided").box.min.y < the_text(texts, "left").box.min.y);
+}
+
+TEST_CASE("an error costs points if the run has a grade, and none in a run that was left") {
+  CoachView coach = with_history();
+  LessonResult left = result_of("hill_start", some_faults());
+  left.end = LessonEnd::left;
+  grade_result(shipped_lesson("hill_start"), left);
+  coach.runs[3].result = left;  // run 13
+  LessonsRig rig(coach, "tab_history");
+  rig.click("run: 13");
+  rig.frame();
+  CHECK(is_drawn("The gear ground (12.4 J)."));
+  for (const DrawnText& text : drawn_texts()) CHECK_FALSE(text.text.ends_with("(-2.0)"));
+  rig.click("run: 13");
+  rig.click("run: 16");
+  rig.frame();
+  CHECK(is_drawn("The gear ground (12.4 J). (-2.0)"));
+}
+
+TEST_CASE("a comment has an author and a text, and is requested once") {
+  LessonsRig rig(with_history(), "tab_history");
+  rig.click("run: 16");
+  rig.click("comment");
+  rig.write(U"Well done");
+  CHECK_FALSE(rig.press(kEnter).lesson.comment.has_value());  // without an author
+  rig.click("comment_author");
+  CHECK(rig.panel.has_keyboard());
+  rig.write(U"Ms Torque");
+  rig.press(kEscape + 1);  // Enter leaves the field
+  const PanelRequests asked = rig.click("comment_add");
+  REQUIRE(asked.lesson.comment.has_value());
+  CHECK(asked.lesson.comment->run == 16);
+  CHECK(asked.lesson.comment->author == "Ms Torque");
+  CHECK(asked.lesson.comment->text == "Well done");
+  CHECK_FALSE(rig.click("comment_add").lesson.comment.has_value());
+}
+
+TEST_CASE("a comment is edited, or deleted after a second click") {
+  CoachView coach = with_history();
+  coach.comments[0][0].id = 7;
+  LessonsRig rig(coach, "tab_history");
+  rig.click("run: 16");
+  rig.click("comment_edit: 7");
+  rig.click("comment_text");
+  rig.write(U" Well.");
+  const PanelRequests edited = rig.click("comment_save");
+  REQUIRE(edited.lesson.comment_change.has_value());
+  CHECK(edited.lesson.comment_change->run == 16);
+  CHECK(edited.lesson.comment_change->comment == 7);
+  REQUIRE(edited.lesson.comment_change->text.has_value());
+  CHECK(edited.lesson.comment_change->text->find("Wait for the synchroniser: push, do not hit.") != std::string::npos);
+  CHECK(edited.lesson.comment_change->text->find("Well.") != std::string::npos);
+  CHECK_FALSE(rig.click("comment_delete: 7").lesson.comment_change.has_value());
+  CHECK_FALSE(rig.click("comment_cancel").lesson.comment_change.has_value());
+  rig.click("comment_delete: 7");
+  const PanelRequests deleted = rig.click("comment_delete_sure");
+  REQUIRE(deleted.lesson.comment_change.has_value());
+  CHECK(deleted.lesson.comment_change->comment == 7);
+  CHECK_FALSE(deleted.lesson.comment_change->text.has_value());
+}
+
+TEST_CASE("an invalid name is not requested; the reason is below the field until the name changes") {
+  LessonsRig rig(half_way());
+  rig.click("learner");
+  rig.write(U"Eve\u200b");
+  CHECK_FALSE(rig.press(kEnter).lesson.learner.has_value());
+  const std::string why = user_text_problem(UserText::name, "a learner's name", "Eve\u200b");
+  const std::vector<DrawnText> texts = drawn_texts();
+  CHECK(std::any_of(texts.begin(), texts.end(), [&](const DrawnText& text) {
+    return text.text.starts_with(without_blanks(why).substr(0, 16)) && text.box.min.y > rig.rect("learner").min.y;
+  }));
+  rig.click("learner");
+  rig.write(U"Eve");
+  CHECK(rig.press(kEnter).lesson.learner == "Eve");
+}
+
+TEST_CASE("a learner deleted by another program is marked, and can be selected again by name") {
+  CoachView coach = half_way();
+  coach.learner_deleted = true;
+  coach.is_saving = false;
+  LessonsRig rig(coach);
+  std::string note;
+  for (const DrawnText& text : drawn_texts())
+    if (text.colour == ui::ink::kWarn) note += text.text;
+  CHECK(note.find(without_blanks("Enter in this field")) != std::string::npos);  // not the Enter that starts a lesson
+  rig.click("learner");
+  CHECK(rig.press(kEnter).lesson.learner == "Ada Example");
+  rig.input.coach.learner_deleted = false;
+  rig.frame();
+  rig.click("learner");
+  CHECK_FALSE(rig.press(kEnter).lesson.learner.has_value());
+}
+
+TEST_CASE("each kind of error shows its advice once") {
+  CoachView coach = with_history();
+  coach.runs[0].result.errors.push_back({ErrorKind::jerk, Severity::minor, 15.0, 8.8, 0});
+  LessonsRig rig(coach, "tab_history");
+  rig.click("run: 16");
+  const std::string advice = without_blanks(std::string(error_advice(ErrorKind::jerk))).substr(0, 16);
+  const std::vector<DrawnText> texts = drawn_texts();
+  const auto count_texts = [&](const std::string& begin) {
+    return std::count_if(texts.begin(), texts.end(),
+                         [&](const DrawnText& text) { return text.text.starts_with(begin); });
+  };
+  CHECK(count_texts("Thecarjerked") == 2);
+  CHECK(count_texts(advice) == 1);
+}
+
+TEST_CASE("another car is chosen from its list") {
+  PanelRig rig;
+  rig.click("car");
+  CHECK(rig.click("car: diesel").car == "diesel");
+}

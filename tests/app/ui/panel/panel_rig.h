@@ -1,0 +1,203 @@
+// A panel in front of a real run: a simulated hand drives the paper's gate, a scripted mouse and keyboard operate the
+// panel.
+#pragma once
+
+#include <algorithm>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "app/ui/panel/panel.h"
+#include "engine/ui/ui.h"
+#include "haptics/device/scripted_hand.h"
+#include "haptics/loop/shift_script.h"
+#include "haptics/loop/simulated_run.h"
+#include "tests/support/gates.h"
+
+namespace gearshift::test {
+
+inline constexpr int kEscape = 256;  // GLFW's code
+
+// Snapshots of a tour through the gears of that length, every `step`-th cycle.
+inline std::vector<haptics::HapticSnapshot> toured(const haptics::Gate& gate, double seconds, int step = 4) {
+  haptics::SimulatedRunConfig config;
+  config.gate = gate;
+  config.lever.hand = haptics::kGripHand;
+  config.start = haptics::rest_position(gate, haptics::kNeutralGear);
+  haptics::ScriptedHand hand(haptics::touring_hand(config.start),
+                             haptics::shift_strokes(gate, config.start, haptics::tour_order(gate)),
+                             haptics::period_s(config.haptics));
+  haptics::SimulatedRun run(config, hand);
+  std::vector<haptics::HapticSnapshot> snapshots;
+  for (int i = 0; run.time() < seconds; ++i) {
+    const haptics::HapticSnapshot& now = run.step();
+    if (i % step == 0) snapshots.push_back(now);
+  }
+  return snapshots;
+}
+
+struct PanelRig {
+  haptics::Gate gate = paper_gate();
+  haptics::DeviceSpec device;
+  engine::UiContext ui;
+  engine::UiInput screen;
+  engine::UiEvents events;
+  ui::Panel panel;
+  ui::PanelInput input;
+  ui::PanelRequests asked;  // of the last frame
+
+  explicit PanelRig(int delay = 0) {
+    device.simulated = true;
+    device.delay = delay;
+    device.workspace = kPaperWorkspace;
+    input.gate = &gate;
+    input.device = &device;
+    input.admitted = haptics::admit_tuning(input.haptics, device, gate);
+    input.gate_name = "paper";
+    input.gates = {"paper", "four_speed", "dog_leg_five"};
+    input.preset_name = "default";
+    input.presets = {"default", "measured", "paper"};
+    input.hand_name = "mouse and keys";
+    input.hands = {"mouse and keys", "touring"};
+    input.device_name = "simulated lever";
+    input.car_name = "hatchback";
+    input.cars = {"hatchback", "diesel"};
+    input.health.rate = 1000.0;
+    input.message = "Ready.";
+    frame();
+    frame();  // positions are known from the second frame on
+  }
+
+  // One frame of panel and program: a requested tuning is applied as the trainer does it.
+  const ui::PanelRequests& frame() {
+    ui.feed(events);
+    events.keys.clear();
+    events.text.clear();
+    events.scroll = {};
+    ui.begin(screen);
+    asked = panel.draw(input);
+    ui.end();
+    input.history.clear();
+    input.events.clear();
+    if (asked.tuning) {
+      haptics::HapticConfig wanted = input.haptics;
+      wanted.tuning = *asked.tuning;
+      wanted.contact.hold = input.admitted.hold;
+      input.admitted = haptics::admit_tuning(wanted, device, gate);
+      input.haptics.tuning = *asked.tuning;
+    }
+    return asked;
+  }
+
+  void wait(double seconds) {
+    const float usual = std::exchange(screen.seconds, static_cast<float>(seconds));
+    frame();
+    screen.seconds = usual;
+    frame();
+  }
+
+  ui::ControlRect rect(const std::string& name) const {
+    const auto found = panel.control_rect(name);
+    REQUIRE_MESSAGE(found.has_value(), name << " is not on the screen");
+    return *found;
+  }
+  void point(const std::string& name, double share = 0.5) {
+    const ui::ControlRect r = rect(name);
+    events.mouse = {r.min.x + share * (r.max.x - r.min.x), 0.5 * (r.min.y + r.max.y)};
+  }
+
+  // Everything that was requested on the way.
+  ui::PanelRequests click(const std::string& name) {
+    point(name);
+    frame();
+    events.mouse_down[0] = true;
+    ui::PanelRequests all = frame();
+    events.mouse_down[0] = false;
+    merge(all, frame());
+    merge(all, frame());
+    return all;
+  }
+  // Every tuning requested while the slider was dragged from one fraction of its width to another.
+  std::vector<haptics::HapticTuning> drag(const std::string& name, double from, double to, int steps = 10) {
+    std::vector<haptics::HapticTuning> tunings;
+    const auto look = [&] {
+      frame();
+      if (asked.tuning) tunings.push_back(*asked.tuning);
+    };
+    point(name, from);
+    look();
+    events.mouse_down[0] = true;
+    for (int i = 0; i <= steps; ++i) {
+      point(name, from + (to - from) * i / steps);
+      look();
+    }
+    events.mouse_down[0] = false;
+    look();
+    look();
+    return tunings;
+  }
+  ui::PanelRequests press(int key, bool control = false) {
+    events.control = control;
+    events.keys = {{key, true}};
+    ui::PanelRequests all = frame();
+    merge(all, frame());
+    events.keys = {{key, false}};
+    merge(all, frame());
+    events.control = false;
+    merge(all, frame());
+    return all;
+  }
+
+  static void merge(ui::PanelRequests& all, const ui::PanelRequests& next) {
+    all.arm |= next.arm;
+    all.disarm |= next.disarm;
+    all.stop |= next.stop;
+    all.record |= next.record;
+    all.replay |= next.replay;
+    all.reset_view |= next.reset_view;
+    const auto take = [](auto& to, const auto& from) {
+      if (from) to = from;
+    };
+    take(all.tuning, next.tuning);
+    take(all.restart, next.restart);
+    take(all.gate, next.gate);
+    take(all.preset, next.preset);
+    take(all.hand, next.hand);
+    take(all.save_preset, next.save_preset);
+    take(all.compare, next.compare);
+    take(all.car, next.car);
+    all.lesson.begin |= next.lesson.begin;
+    all.lesson.leave |= next.lesson.leave;
+    all.lesson.dismiss_lesson |= next.lesson.dismiss_lesson;
+    take(all.lesson.offer, next.lesson.offer);
+    take(all.lesson.mode, next.lesson.mode);
+    take(all.lesson.help, next.lesson.help);
+    take(all.lesson.learner, next.lesson.learner);
+    take(all.lesson.next, next.lesson.next);
+    take(all.lesson.comment, next.lesson.comment);
+    take(all.lesson.comment_change, next.lesson.comment_change);
+    all.playback.whole |= next.playback.whole;
+    all.playback.close |= next.playback.close;
+    take(all.playback.open, next.playback.open);
+    take(all.playback.shift, next.playback.shift);
+    take(all.playback.seek, next.playback.seek);
+    take(all.playback.play, next.playback.play);
+    take(all.playback.pace, next.playback.pace);
+    all.headset.recentre |= next.headset.recentre;
+    all.headset.touch |= next.headset.touch;
+    all.headset.touched |= next.headset.touched;
+    all.headset.forget_touches |= next.headset.forget_touches;
+    all.headset.forget_knob |= next.headset.forget_knob;
+    take(all.headset.height, next.headset.height);
+    take(all.headset.knob, next.headset.knob);
+  }
+};
+
+// A rig with the tuning tab open.
+struct TuningRig : PanelRig {
+  explicit TuningRig(int delay = 0) : PanelRig(delay) { click("tab_tuning"); }
+};
+
+}  // namespace gearshift::test

@@ -1,0 +1,294 @@
+// The panel operated by a scripted mouse and keyboard, without a GPU.
+#include <string>
+
+#include <doctest/doctest.h>
+
+#include "app/ui/panel/tuning_fields.h"
+#include "tests/app/ui/panel/panel_rig.h"
+
+using namespace gearshift::haptics;
+using namespace gearshift::test;
+using namespace gearshift::ui;
+
+namespace {
+
+constexpr int kTab = 258, kSpace = 32, kRight = 262, kLeft = 263, kDown = 264;
+
+constexpr const char* kStiffness = "wall_stiffness_n_per_m";
+
+}  // namespace
+
+TEST_CASE("stop, arm, release, record and replay are requested once by a click on their button, and by no other") {
+  PanelRig rig;
+  const PanelRequests stop = rig.click("stop");
+  CHECK(stop.stop);
+  CHECK_FALSE(stop.arm);
+  CHECK_FALSE(rig.frame().stop);
+  CHECK(rig.click("arm").arm);
+  rig.input.now.guard = GuardState::running;
+  rig.frame();
+  CHECK_FALSE(rig.panel.control_rect("arm").has_value());
+  CHECK(rig.click("disarm").disarm);
+  CHECK(rig.click("stop").stop);
+  CHECK(rig.click("record").record);
+  CHECK(rig.click("replay").replay);
+  CHECK(rig.click("reset_view").reset_view);
+  CHECK_FALSE(rig.frame().reset_view);
+  rig.events.mouse = {640, 300};  // the cabin
+  rig.events.mouse_down[0] = true;
+  CHECK_FALSE(rig.frame().stop);
+  CHECK_FALSE(rig.ui.wants_mouse());
+}
+
+TEST_CASE("a dragged slider requests tunings within its range, and the running loop accepts each unchanged") {
+  TuningRig rig;
+  for (const TuningField& field : kTuningFields) {
+    CAPTURE(field.key);
+    const std::vector<HapticTuning> tunings = rig.drag(std::string(field.key), 0.1, 0.6);
+    for (const HapticTuning& tuning : tunings) {
+      CHECK_NOTHROW(check_tuning(tuning));
+      HapticConfig config = rig.input.haptics;
+      config.tuning = tuning;
+      CHECK(admit_tuning(config, rig.device, rig.gate).tuning == tuning);
+    }
+  }
+  TuningRig other;
+  const std::vector<HapticTuning> tunings = other.drag(kStiffness, 0.3, 0.8);
+  REQUIRE(tunings.size() > 5);
+  CHECK(tunings.back().wall_stiffness == doctest::Approx(16000.0).epsilon(0.02));
+}
+
+TEST_CASE("a slider dragged over its full width never requests a wall beyond the stability limit") {
+  TuningRig rig(1);  // one sample of delay: 7525 N/m
+  const std::vector<HapticTuning> tunings = rig.drag(kStiffness, 0.25, 1.0, 60);
+  REQUIRE_FALSE(tunings.empty());
+  double max = 0.0;
+  for (const HapticTuning& tuning : tunings) max = std::max(max, tuning.wall_stiffness);
+  CHECK(max <= 0.35 * kPaperAxisY.mass / (0.002 * 0.002));
+  CHECK(max > 6800.0);
+  CHECK(rig.input.admitted.tuning.wall_stiffness == max);  // the previous value stays active
+  REQUIRE(rig.panel.control_rect("use_stable").has_value());
+}
+
+TEST_CASE("a rejected value can be reduced to the stable limit, or dropped") {
+  TuningRig rig(1);
+  rig.drag(kStiffness, 0.25, 1.0, 3);
+  const double before = rig.input.admitted.tuning.wall_stiffness;
+  CHECK_FALSE(rig.click("keep_running").tuning.has_value());
+  CHECK_FALSE(rig.panel.control_rect("use_stable").has_value());
+  CHECK(rig.input.admitted.tuning.wall_stiffness == before);
+  rig.drag(kStiffness, 0.25, 1.0, 3);
+  const PanelRequests asked = rig.click("use_stable");
+  REQUIRE(asked.tuning.has_value());
+  CHECK(asked.tuning->wall_stiffness == doctest::Approx(0.35 * kPaperAxisY.mass / 4e-6));
+  CHECK_FALSE(rig.panel.control_rect("use_stable").has_value());
+}
+
+TEST_CASE("with allow_unstable an unstable value is accepted") {
+  TuningRig rig(1);
+  rig.input.haptics.contact.allow_unstable = true;
+  rig.input.admitted = admit_tuning(rig.input.haptics, rig.device, rig.gate);
+  rig.frame();
+  const std::vector<HapticTuning> tunings = rig.drag(kStiffness, 0.25, 1.0, 10);
+  REQUIRE_FALSE(tunings.empty());
+  CHECK(tunings.back().wall_stiffness == 20000.0);
+}
+
+TEST_CASE("undo restores the state before the drag, redo the one after it, reset the start") {
+  TuningRig rig;
+  const HapticTuning start = rig.input.admitted.tuning;
+  rig.drag(kStiffness, 0.25, 0.5);
+  const HapticTuning dragged = rig.input.admitted.tuning;
+  REQUIRE_FALSE(dragged == start);
+  rig.click("undo");
+  CHECK(rig.input.admitted.tuning == start);
+  rig.click("redo");
+  CHECK(rig.input.admitted.tuning == dragged);
+  rig.panel.undo();  // called by the program's key
+  rig.frame();
+  CHECK(rig.input.admitted.tuning == start);
+  rig.panel.redo();
+  rig.frame();
+  CHECK(rig.input.admitted.tuning == dragged);
+  rig.click("reset");
+  CHECK(rig.input.admitted.tuning == start);
+}
+
+TEST_CASE("undo first reverts what was not applied") {
+  TuningRig rig(1);
+  rig.drag(kStiffness, 0.25, 0.30);
+  const HapticTuning applied = rig.input.admitted.tuning;
+  rig.point(kStiffness, 0.9);
+  rig.drag(kStiffness, 0.9, 0.95);
+  REQUIRE(rig.panel.control_rect("use_stable").has_value());
+  rig.click("undo");
+  CHECK(rig.input.admitted.tuning == applied);
+  CHECK_FALSE(rig.panel.control_rect("use_stable").has_value());
+}
+
+TEST_CASE("A and B: a press switches between two tunings, each as it was left") {
+  TuningRig rig;
+  const HapticTuning start = rig.input.admitted.tuning;
+  rig.drag(kStiffness, 0.25, 0.5);
+  const HapticTuning a = rig.input.admitted.tuning;
+  rig.click("slot_b");
+  CHECK(rig.input.admitted.tuning == start);
+  rig.drag(kStiffness, 0.25, 0.8);
+  const HapticTuning b = rig.input.admitted.tuning;
+  rig.click("slot_a");
+  CHECK(rig.input.admitted.tuning == a);
+  rig.click("slot_b");
+  CHECK(rig.input.admitted.tuning == b);
+}
+
+TEST_CASE("a tuning changed elsewhere is the new start") {
+  TuningRig rig;
+  rig.drag(kStiffness, 0.25, 0.5);
+  HapticTuning loaded;
+  loaded.wall_stiffness = 3333.0;
+  rig.input.haptics.tuning = rig.input.admitted.tuning = loaded;
+  rig.frame();
+  rig.panel.undo();  // there is nothing to undo
+  rig.frame();
+  CHECK(rig.input.admitted.tuning == loaded);
+}
+
+TEST_CASE("the panel waits for a program that applies a tuning some frames late") {
+  TuningRig rig;
+  rig.point(kStiffness, 0.25);
+  rig.frame();
+  rig.events.mouse_down[0] = true;
+  std::vector<HapticTuning> late;
+  for (int i = 0; i < 12; ++i) {
+    rig.point(kStiffness, 0.25 + 0.03 * i);
+    rig.ui.feed(rig.events);
+    rig.ui.begin(rig.screen);
+    const PanelRequests asked = rig.panel.draw(rig.input);
+    rig.ui.end();
+    if (asked.tuning) late.push_back(*asked.tuning);
+    if (late.size() > 3) rig.input.admitted.tuning = late[late.size() - 4];
+  }
+  rig.events.mouse_down[0] = false;
+  rig.input.admitted.tuning = late.back();
+  rig.frame();
+  const PanelRequests undone = rig.click("undo");
+  REQUIRE(undone.tuning.has_value());
+  CHECK(*undone.tuning == HapticTuning());  // the whole drag is one step
+}
+
+TEST_CASE("gate, preset and hand are chosen from their lists") {
+  PanelRig rig;
+  rig.click("gate");
+  CHECK(rig.click("gate: dog_leg_five").gate == "dog_leg_five");
+  rig.click("preset");
+  CHECK(rig.click("preset: paper").preset == "paper");
+  rig.click("hand");
+  CHECK(rig.click("hand: touring").hand == "touring");
+  rig.click("gate");
+  CHECK_FALSE(rig.click("gate: paper").gate.has_value());  // it is already selected
+}
+
+TEST_CASE("a preset is saved under the typed name, and not without a name") {
+  PanelRig rig;
+  rig.click("tab_presets");
+  CHECK_FALSE(rig.click("save").save_preset.has_value());
+  rig.click("save_name");
+  rig.events.text = U"heavy";
+  rig.frame();
+  rig.frame();
+  CHECK(rig.click("save").save_preset == "heavy");
+  rig.click("compare");
+  CHECK(rig.click("compare: paper").compare == "paper");
+}
+
+TEST_CASE("settings fixed while the loop runs are staged, checked, and applied by a restart") {
+  PanelRig rig;
+  rig.click("tab_setup");
+  CHECK_FALSE(rig.click("restart").restart.has_value());  // nothing has changed
+  rig.drag("slew_n_per_cycle", 0.25, 0.75);
+  const PanelRequests asked = rig.click("restart");
+  REQUIRE(asked.restart.has_value());
+  CHECK(asked.restart->guard.slew == doctest::Approx(75.0).epsilon(0.05));
+  CHECK_NOTHROW(check_config(*asked.restart));
+  rig.drag("clear_below_n", 0.1, 0.9);  // above warn_above: rejected
+  CHECK_FALSE(rig.click("restart").restart.has_value());
+  rig.click("setup_back");
+  CHECK_FALSE(rig.click("restart").restart.has_value());
+}
+
+TEST_CASE("by keys only: into the panel with Tab, to STOP with the arrows, press with Space, out with Escape") {
+  PanelRig rig;
+  CHECK_FALSE(rig.ui.wants_keys());
+  rig.press(kRight);  // a key for the car: no effect here
+  CHECK_FALSE(rig.ui.wants_keys());
+  rig.press(kTab);
+  CHECK(rig.ui.wants_keys());
+  bool stopped = false;
+  for (int i = 0; i < 6 && !stopped; ++i) {
+    rig.press(kRight);
+    stopped = rig.press(kSpace).stop;
+  }
+  CHECK(stopped);
+  rig.press(kEscape);
+  rig.press(kEscape);
+  CHECK_FALSE(rig.ui.wants_keys());
+  rig.press(kLeft);
+  CHECK_FALSE(rig.ui.wants_keys());
+}
+
+TEST_CASE("Ctrl+Tab leads to the choices; below them the arrows open the tuning, and change it") {
+  PanelRig rig;
+  rig.press(kTab);
+  rig.press(kTab, true);
+  for (int i = 0; i < 4; ++i) rig.press(kDown);                     // car, gate, preset, hand
+  for (int i = 0; i < 5 && !rig.panel.control_rect("undo"); ++i) {  // among the tabs
+    rig.press(kSpace);
+    if (!rig.panel.control_rect("undo")) rig.press(kRight);
+  }
+  REQUIRE(rig.panel.control_rect("undo").has_value());
+  double stiffness = 0.0;
+  for (int i = 0; i < 4 && stiffness == 0.0; ++i) {  // the row of steps, the first slider
+    rig.press(kDown);
+    rig.press(kSpace);
+    const PanelRequests asked = rig.press(kRight);
+    if (asked.tuning) stiffness = asked.tuning->wall_stiffness;
+    rig.press(kSpace);
+  }
+  CHECK(stiffness > 5000.0);
+}
+
+TEST_CASE("a click in the panel does not take the keyboard from the car") {
+  PanelRig rig;
+  rig.click("record");
+  CHECK_FALSE(rig.ui.wants_keys());
+  rig.press(kDown);
+  CHECK_FALSE(rig.ui.wants_keys());
+}
+
+TEST_CASE("a hidden panel draws nothing, ignores the mouse and keeps collecting data") {
+  PanelRig rig;
+  const ControlRect stop = rig.rect("stop");
+  rig.panel.set_visible(false);
+  rig.wait(10.0);  // messages are shown over the cabin for that long
+  CHECK_FALSE(rig.panel.control_rect("stop").has_value());
+  CHECK(ImGui::GetDrawData()->TotalVtxCount == 0);
+  rig.events.mouse = 0.5 * (stop.min + stop.max);
+  rig.events.mouse_down[0] = true;
+  CHECK_FALSE(rig.frame().stop);
+  rig.events.mouse_down[0] = false;
+  rig.panel.set_visible(true);
+  rig.frame();
+  CHECK(rig.click("stop").stop);
+}
+
+TEST_CASE("the help lists its input, and its cross closes it") {
+  PanelRig rig;
+  const int before = ImGui::GetDrawData()->TotalVtxCount;
+  rig.panel.show_help(true, "F1\thelp\n\nno tab here\n");
+  for (int i = 0; i < 4; ++i) rig.frame();
+  CHECK(ImGui::GetDrawData()->TotalVtxCount > before + 200);
+  CHECK(rig.panel.shows_help());
+  rig.panel.show_help(false, {});
+  rig.frame();
+  CHECK_FALSE(rig.panel.shows_help());
+}

@@ -1,0 +1,283 @@
+// A recorded drive in the panel: what a click on the replay bar requests, and that the paths are drawn in the right
+// place.
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+#include <glm/geometric.hpp>
+
+#include "app/ui/panel/gate_view.h"
+#include "app/ui/panel/palette.h"
+#include "tests/app/lessons/replay/lesson_trace.h"
+#include "tests/app/ui/panel/coach_views.h"
+#include "tests/app/ui/panel/drawn.h"
+#include "tests/app/ui/panel/panel_rig.h"
+
+using namespace gearshift;
+using namespace gearshift::engine;
+using namespace gearshift::haptics;
+using namespace gearshift::lessons;
+using namespace gearshift::test;
+using namespace gearshift::ui;
+using namespace gearshift::vehicle;
+
+namespace {
+
+struct ReplayRig : PanelRig {
+  Player player{upshifts().file};
+
+  explicit ReplayRig(bool panel_shown = false) {
+    panel.set_visible(panel_shown);
+    input.replay = &player;
+    settle();
+  }
+  void settle() {
+    for (int i = 0; i < 5; ++i) frame();
+  }
+};
+
+}  // namespace
+
+TEST_CASE("a recorded drive is played, paused, slowed, shown in part and whole, and closed, by one click each") {
+  for (const bool panel_shown : {true, false}) {
+    CAPTURE(panel_shown);
+    ReplayRig rig(panel_shown);
+    CHECK(rig.click("replay_play").playback.play == false);  // it is playing
+    rig.player.play(false);
+    rig.frame();
+    CHECK(rig.click("replay_play").playback.play == true);
+    CHECK(rig.click("replay_pace: 0.1").playback.pace == 0.1);
+    CHECK(rig.click("replay_pace: 2").playback.pace == 2.0);
+    CHECK(rig.click("replay_shift: 1").playback.shift == 1);
+    CHECK(rig.click("replay_whole").playback.whole);
+    CHECK(rig.click("replay_close").playback.close);
+    const PanelRequests idle = rig.frame();
+    CHECK_FALSE(idle.playback.close);
+    CHECK_FALSE(idle.playback.seek.has_value());
+    CHECK_FALSE(idle.playback.play.has_value());
+  }
+}
+
+TEST_CASE("the scrub bar seeks over its full width, within the part shown") {
+  ReplayRig rig;
+  for (const bool whole : {true, false}) {
+    CAPTURE(whole);
+    rig.player.select_shift(whole ? std::nullopt : std::optional<std::size_t>(1));
+    rig.settle();
+    const double from = rig.player.from(), to = rig.player.to();
+    for (const double share : {0.25, 0.5, 0.75}) {
+      rig.point("replay_time", share);
+      rig.frame();
+      rig.events.mouse_down[0] = true;
+      PanelRequests asked = rig.frame();
+      rig.events.mouse_down[0] = false;
+      PanelRig::merge(asked, rig.frame());
+      REQUIRE(asked.playback.seek.has_value());
+      CHECK(std::abs(*asked.playback.seek - (from + share * (to - from))) < 0.02 * (to - from));
+    }
+  }
+}
+
+TEST_CASE("the slider's handle is below the line in the curves; units and both paths of a shift have a legend") {
+  ReplayRig rig;
+  rig.player.select_shift(std::nullopt);
+  for (const double share : {0.0, 0.3, 1.0}) {
+    rig.player.seek(rig.player.from() + share * (rig.player.to() - rig.player.from()));
+    rig.settle();
+    const ControlRect bar = rig.rect("replay_time");
+    std::vector<glm::dvec2> handle = drawn_in(ui::ink::kAccent);
+    std::erase_if(handle, [&](glm::dvec2 at) { return at.y < bar.min.y || at.y > bar.max.y; });
+    CHECK(std::abs(box_of(handle).middle().x - (bar.min.x + share * (bar.max.x - bar.min.x))) < 1.0);
+  }
+  for (const char* unit : {"%", "rpm", "N"}) CHECK(is_drawn(unit));
+  CHECK_FALSE(is_drawn("shortest"));
+  rig.player.select_shift(1);
+  rig.settle();
+  CHECK(is_drawn("shortest"));
+  CHECK(is_drawn("driven path"));
+}
+
+TEST_CASE("a replay names its recording's car and gate, and for a known run its learner, lesson and date") {
+  ReplayRig rig(true);
+  rig.input.car_name = "diesel";
+  rig.input.gate_name = "four_speed";
+  rig.settle();
+  const auto says = [](const std::string& words) {
+    const std::vector<DrawnText> texts = drawn_texts();
+    return std::any_of(texts.begin(), texts.end(), [&](const DrawnText& text) {
+      return text.text.find(without_blanks(words)) != std::string::npos;
+    });
+  };
+  CHECK(says("lesson.trace"));
+  CHECK(says("Hatchback"));
+  CHECK(says("Five speed r right down"));
+  CHECK(says("not the recording's"));  // beside the choices
+  rig.input.coach = half_way();
+  rig.input.coach.runs.push_back({4, 1, "no date", rig.player.file().string(), result_of("hill_start", {})});
+  rig.settle();
+  CHECK(says("Hill start"));
+  CHECK(says("Ada Example"));
+  CHECK(says("no date"));
+  CHECK_FALSE(says("lesson.trace"));
+  rig.input.replay = nullptr;
+  rig.settle();
+  CHECK_FALSE(says("not the recording's"));
+}
+
+TEST_CASE("no number beside the curves touches another one or the unit, and the curves begin beside them") {
+  ReplayRig rig;
+  for (const bool whole : {true, false}) {
+    rig.player.select_shift(whole ? std::nullopt : std::optional<std::size_t>(1));
+    rig.settle();
+    const ControlRect bar = rig.rect("replay_time");
+    std::vector<DrawnText> numbers = drawn_texts();
+    std::erase_if(numbers, [&](const DrawnText& text) {
+      const bool is_number = text.text.find_first_not_of("0123456789") == std::string::npos;
+      return !is_number || text.box.min.x > bar.min.x + 60.0 || text.box.max.y > bar.min.y;
+    });
+    CHECK(numbers.size() >= 6);  // two per lane
+    for (std::size_t i = 0; i < numbers.size(); ++i)
+      for (std::size_t j = 0; j < i; ++j) {
+        CAPTURE(numbers[i].text);
+        CAPTURE(numbers[j].text);
+        CHECK(std::abs(numbers[i].box.min.y - numbers[j].box.min.y) > ui_font(UiFont::small)->FontSize);  // one line
+      }
+    double right = 0.0;
+    for (const DrawnText& number : numbers) right = std::max(right, number.box.max.x);
+    std::vector<glm::dvec2> engine = drawn_in(ui::ink::kEngine);
+    std::erase_if(engine, [&](glm::dvec2 at) { return at.y < numbers.front().box.min.y; });  // the legend's
+    REQUIRE(engine.size() > 50);
+    for (const DrawnText& number : numbers)
+      for (const glm::dvec2 at : engine)
+        CHECK_FALSE((at.x < number.box.max.x && at.y > number.box.min.y && at.y < number.box.max.y));
+  }
+}
+
+TEST_CASE("every shift has a mark where it begins, whichever part is shown") {
+  ReplayRig rig;
+  const RecordedDrive& drive = rig.player.drive();
+  REQUIRE(drive.shifts().size() > 2);
+  const ControlRect bar = rig.rect("replay_time");
+  for (const bool whole : {true, false}) {
+    rig.player.select_shift(whole ? std::nullopt : std::optional<std::size_t>(0));
+    rig.settle();
+    for (std::size_t i = 0; i + 1 < drive.shifts().size(); ++i) {
+      const double share = (drive.shifts()[i].record.begin - drive.begin()) / (drive.end() - drive.begin());
+      const ControlRect mark = rig.rect("replay_shift: " + std::to_string(i));
+      CHECK(std::abs(mark.min.x - (bar.min.x + share * (bar.max.x - bar.min.x))) < 2.0);
+      CHECK(mark.max.x < rig.rect("replay_shift: " + std::to_string(i + 1)).min.x);
+    }
+  }
+}
+
+TEST_CASE("the bar covers what is behind it, leaves the cabin above it free, and hides the lesson's card") {
+  ReplayRig rig;
+  rig.input.coach = over(result_of("hill_start", some_faults()));
+  rig.settle();
+  const ControlRect close = rig.rect("replay_close"), middle = rig.panel.cabin_area();
+  CHECK(rig.panel.covers(0.5 * (close.min + close.max)));
+  CHECK(middle.max.y < rig.rect("replay_shift: 0").min.y);
+  CHECK(middle.max.y > 360.0);
+  CHECK_FALSE(rig.panel.covers({640.0, middle.max.y - 2.0}));
+  CHECK_FALSE(rig.panel.control_rect("lesson_again").has_value());
+  rig.input.replay = nullptr;
+  rig.settle();
+  CHECK(rig.rect("lesson_again").min.y > rig.panel.cabin_area().max.y);
+  rig.input.coach = half_way();
+  rig.settle();
+  CHECK(rig.panel.cabin_area().max == glm::dvec2(1280.0, 720.0));
+}
+
+TEST_CASE("a clutch pressed in a shift is a curve that rises at that time") {
+  ReplayRig rig;
+  rig.player.select_shift(1);
+  rig.settle();
+  // The clutch's curve is in the accent colour: it is highest where the samples have the pedal down.
+  double down_from = 1e9, down_to = 0.0;
+  for (const DriveSample& sample : rig.player.drive().between(rig.player.from(), rig.player.to())) {
+    if (sample.car.clutch < 0.93) continue;
+    down_from = std::min(down_from, sample.time());
+    down_to = std::max(down_to, sample.time());
+  }
+  REQUIRE(down_to > down_from);
+  const ControlRect bar = rig.rect("replay_time");
+  double below_legend = 0.0;
+  for (const DrawnText& text : drawn_texts())
+    if (text.text.starts_with("clutch")) below_legend = text.box.max.y;
+  REQUIRE(below_legend > 0.0);
+  std::vector<glm::dvec2> curve;
+  for (const glm::dvec2 at : drawn_in(ui::ink::kAccent))
+    if (at.y < bar.min.y && at.y > below_legend && at.x >= bar.min.x) curve.push_back(at);
+  REQUIRE(curve.size() > 50);
+  const double top = box_of(curve).min.y;
+  double first = 1e9, last = 0.0;
+  for (const glm::dvec2 at : curve) {
+    if (at.y > top + 2.0) continue;  // 7 % of the lane's height
+    first = std::min(first, at.x);
+    last = std::max(last, at.x);
+  }
+  const auto time_at = [&](double x) {
+    return rig.player.from() + (x - bar.min.x) / (bar.max.x - bar.min.x) * (rig.player.to() - rig.player.from());
+  };
+  const double pixel = (rig.player.to() - rig.player.from()) / (bar.max.x - bar.min.x);
+  CHECK(std::abs(time_at(first) - down_from) < 6.0 * pixel);
+  CHECK(std::abs(time_at(last) - down_to) < 6.0 * pixel);
+}
+
+TEST_CASE("in the gate the driven path is a solid line, and the ideal one is dashed") {
+  const std::vector<glm::dvec2> driven{{-0.03, 0.03}, {-0.03, 0.0}, {0.0, 0.0}, {0.0, -0.03}};
+  const std::vector<glm::dvec2> ideal{{-0.03, 0.03}, {-0.02, 0.0}, {0.0, -0.03}};
+  UiContext ui;
+  const Gate gate = paper_gate();
+  HapticSnapshot now;
+  const auto draw = [&](const ShownPaths& ways) {
+    draw_alone(ui, {640.0f, 480.0f},
+               [&] { draw_gate_view(ImGui::GetContentRegionAvail(), gate, now, Trail(), 75.0, ways); });
+  };
+  draw({});
+  CHECK(drawn_in(ui::ink::kDriven).empty());
+  CHECK(drawn_in(ui::ink::kIdeal).empty());
+  const auto disc_at = [&](glm::dvec2 place) {
+    now.lever = now.proxy = place;
+    draw({driven, ideal});
+    return box_of(drawn_in(ui::ink::kProxy)).middle();
+  };
+  const glm::dvec2 zero = disc_at({0.0, 0.0});
+  const double scale = disc_at({0.01, 0.0}).x - zero.x;  // [px] of 10 mm
+  const auto pixel = [&](glm::dvec2 p) { return zero + 100.0 * scale * glm::dvec2(p.x, -p.y); };
+  const auto distance_to = [&](const std::vector<glm::dvec2>& way, glm::dvec2 at) {
+    double min = 1e9;
+    for (std::size_t i = 1; i < way.size(); ++i) {
+      const glm::dvec2 a = pixel(way[i - 1]), b = pixel(way[i]);
+      const double share = std::clamp(glm::dot(at - a, b - a) / glm::dot(b - a, b - a), 0.0, 1.0);
+      min = std::min(min, glm::distance(at, a + share * (b - a)));
+    }
+    return min;
+  };
+  for (const glm::dvec2 at : drawn_in(ui::ink::kDriven)) CHECK(distance_to(driven, at) < 3.0);
+  for (const glm::dvec2 at : drawn_in(ui::ink::kIdeal)) CHECK(distance_to(ideal, at) < 3.0);
+  for (const glm::dvec2 corner : driven) {
+    const std::vector<glm::dvec2> line = drawn_in(ui::ink::kDriven);
+    CHECK(std::any_of(line.begin(), line.end(), [&](glm::dvec2 at) { return glm::distance(at, pixel(corner)) < 3.0; }));
+  }
+  // A dash has four corners: its length is the distance of the farthest two, except for its thickness.
+  const std::vector<glm::dvec2> dashes = drawn_in(ui::ink::kIdeal);
+  REQUIRE(dashes.size() % 4 == 0);
+  double drawn = 0.0, way = 0.0;
+  for (std::size_t i = 0; i < dashes.size(); i += 4)
+    drawn += std::max(glm::distance(dashes[i], dashes[i + 1]), glm::distance(dashes[i], dashes[i + 2]));
+  for (std::size_t i = 1; i < ideal.size(); ++i) way += glm::distance(pixel(ideal[i - 1]), pixel(ideal[i]));
+  CHECK(drawn / way > 0.45);
+  CHECK(drawn / way < 0.75);
+}
+
+TEST_CASE("while a drive is loaded the bar names it, and Close cancels it") {
+  PanelRig rig;
+  rig.input.opening = "moving_off-20261122-000929-29480.trace";
+  for (int i = 0; i < 3; ++i) rig.frame();
+  CHECK(is_drawn("Opening moving_off-20261122-000929-29480.trace \u2026"));
+  CHECK(rig.click("replay_close").playback.close);
+  CHECK_FALSE(rig.panel.control_rect("replay_play").has_value());
+  CHECK(rig.panel.cabin_area().max.y < rig.rect("replay_close").min.y);
+}

@@ -1,0 +1,517 @@
+// Whole shifts: a hand on the simulated lever, feet on the pedals, the car behind the gate.
+#include "app/vehicle/car_load.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+#include <vector>
+
+#include <doctest/doctest.h>
+
+#include "haptics/device/simulated_lever.h"
+#include "tests/app/vehicle/car_run.h"
+
+using namespace gearshift::haptics;
+using namespace gearshift::test;
+using namespace gearshift::vehicle;
+using glm::dvec2;
+
+namespace {
+
+// Statistics of a drive, and invariants checked in every cycle.
+struct CarDrive {
+  double blocked = 0.0, ground = 0.0;  // [s]
+  double deepest = 0.0;                // [m] largest depth of the proxy in a slot
+  double push = 0.0;                   // [N] maximum
+  bool stalled = false;
+  std::vector<int> gears;  // in the order of engagement
+
+  void drive(CarRun& run, double seconds) {
+    const double end = run.time() + seconds;
+    int before = run.run.loop().snapshot().gear;
+    while (run.time() < end) {
+      const HapticSnapshot& lever = run.step();
+      const VehicleState& car = run.state();
+      if (lever.gear != before && lever.gear != kNeutralGear) {
+        REQUIRE(car.gear == lever.gear);  // a gear counts only with its dogs engaged
+        gears.push_back(lever.gear);
+      }
+      before = lever.gear;
+      REQUIRE(lever.load_force.x == 0.0);
+      REQUIRE(std::abs(lever.load_force.y) <= kPaperForce / 3.0);
+      blocked += car.sync == SyncPhase::synchronising ? 0.001 : 0.0;
+      ground += car.grinding ? 0.001 : 0.0;
+      stalled = stalled || car.stalled;
+      if (lever.slot != kNoSlot) deepest = std::max(deepest, std::abs(lever.proxy.y));
+      push = std::max(push, std::abs(lever.f_h.y));
+    }
+  }
+};
+
+SleeveStations stations_of(const Gate& gate, int gear) {
+  return sleeve_stations(slot_of(gate, slot_of_gear(gate, gear)));
+}
+
+double way_of(const Gate& gate, int gear) {
+  return static_cast<double>(static_cast<int>(slot_of(gate, slot_of_gear(gate, gear)).side));
+}
+
+// Stays in front of that gear's slot, and pushes into it with that force after 0.2 s.
+PushingHand leaning_hand(const Gate& gate, int gear, double push) {
+  const double way = way_of(gate, gear), across = rest_position(gate, gear).x;
+  return PushingHand([=](double time, dvec2 lever) {
+    return dvec2{2000.0 * (across - lever.x), time < 0.2 ? 0.0 : way * push};
+  });
+}
+
+SimulatedRunConfig before_slot(const Gate& gate, int gear) {
+  SimulatedRunConfig config = gripped(gate, kNeutralGear);
+  config.lever.hand = kBareHand;
+  config.start = {rest_position(gate, gear).x, 0.0};
+  return config;
+}
+
+// A lever whose force sensor can be switched off.
+class Lever final : public HapticDevice {
+ public:
+  Lever(const SimulatedLeverConfig& config, const HapticConfig& haptics, HandDriver& hand, bool measures)
+      : lever_(config, period_ns(haptics), hand), spec_(lever_.spec()) {
+    spec_.measures_hand_force = measures;
+  }
+  void place(dvec2 at) { lever_.place(at); }
+  const DeviceSpec& spec() const noexcept override { return spec_; }
+  LeverReading read(std::int64_t now_ns) noexcept override {
+    LeverReading reading = lever_.read(now_ns);
+    if (!spec_.measures_hand_force) reading.hand_force = {0.0, 0.0};
+    return reading;
+  }
+  void write(dvec2 force) noexcept override { lever_.write(force); }
+  void release() noexcept override { lever_.release(); }
+
+ private:
+  SimulatedLever lever_;
+  DeviceSpec spec_;
+};
+
+// [s] for which a hand is blocked on its way 2-3-2-1, or 100 s if it missed a gear.
+double blocked_time(const CarSpec& car, double rate, int delay, bool measures) {
+  const Gate gate = gate_of(car);
+  HapticConfig haptics;
+  haptics.rate = rate;
+  haptics.guard.ramp_time = 0.01;
+  SimulatedLeverConfig config = gripped(gate, 2).lever;
+  config.delay = delay;
+  const dvec2 start = rest_position(gate, 2);
+  ShiftStyle style;
+  style.dwell_gear = 1.2;
+  const int gears[] = {3, 2, 1};
+  ScriptedHand hand(touring_hand(start), shift_strokes(gate, start, gears, style), period_s(haptics));
+  Lever lever(config, haptics, hand, measures);
+  lever.place(start);
+  CarLoad load(car, gate, kPaperForce, rolling_in(car, 2, 250.0));
+  LoopChannels channels;
+  HapticLoop loop(haptics, gate, lever, load, channels);
+  loop.arm();
+  channels.controls.write(clutch_down());
+  double held = 0.0;
+  for (std::int64_t now = 0; 1e-9 * static_cast<double>(now) < hand.duration(); now += period_ns(haptics)) {
+    loop.cycle(now, 0);
+    REQUIRE_FALSE(load.state().grinding);
+    held += load.state().sync == SyncPhase::synchronising ? period_s(haptics) : 0.0;
+  }
+  return loop.snapshot().gear == 1 ? held : 100.0;
+}
+
+}  // namespace
+
+TEST_CASE("every shift with the clutch down, up, down and skipping, in both cars: synchronised, in, and never ground") {
+  for (const char* name : {"hatchback", "diesel"}) {
+    const CarSpec car = shipped_car(name);
+    const Gate gate = gate_of(car);
+    const int top = car.gearbox.ratio[5] > 0.0 ? 6 : 5;
+    const double shaft = 0.4 * car.engine.limiter;
+    int shifts = 0;
+    for (int from = 1; from <= top; ++from) {
+      for (int to = 1; to <= top; ++to) {
+        if (to == from || ratio_of(car, to) / ratio_of(car, from) * shaft > car.engine.limiter) continue;
+        CAPTURE(name);
+        CAPTURE(from);
+        CAPTURE(to);
+        ++shifts;
+        ScriptedHand hand = shifting_hand(gate, from, {to}, 0.2, 1.0);
+        CarRun run(car, rolling_in(car, from, shaft), hand,
+                   [](double time) { return time > 0.1 ? clutch_down() : clutch_up(0.2); });
+        CarDrive drive;
+        drive.drive(run, hand.duration());
+        CHECK(drive.gears == std::vector{from, to});
+        CHECK(run.state().gear == to);
+        CHECK(run.state().sync == SyncPhase::meshed);
+        CHECK(drive.ground == 0.0);
+        CHECK(drive.blocked > 0.005);
+        CHECK(drive.blocked < 0.9);
+        CHECK(run.state().shaft_speed ==
+              doctest::Approx(shaft_per_road(car, to) * run.state().road_speed).epsilon(1e-9));
+        CHECK(run.load.driveline().fallbacks() == 0);
+        CHECK(run.load.driveline().energy().mesh < 0.1);
+      }
+    }
+    CHECK(shifts >= 15);
+  }
+}
+
+TEST_CASE("half a clutch press is enough if it transmits nothing: pedal just past the bite point") {
+  const CarSpec car = shipped_car("hatchback");
+  ScriptedHand hand = shifting_hand(gate_of(car), 2, {3});
+  CarRun run(car, rolling_in(car, 2, 250.0), hand, [&](double time) {
+    DriverControls feet = clutch_down();
+    feet.clutch = time > 0.1 ? car.clutch.bite + 0.01 : 0.0;
+    return feet;
+  });
+  CarDrive drive;
+  drive.drive(run, hand.duration());
+  CHECK(drive.gears == std::vector{2, 3});
+  CHECK(drive.ground == 0.0);
+}
+
+TEST_CASE("without the clutch a gear is behind a hard wall, however long and hard the hand leans on it") {
+  for (const char* name : {"hatchback", "diesel"}) {
+    const CarSpec car = shipped_car(name);
+    const Gate gate = gate_of(car);
+    for (const int gear : {1, 2, 3, 4}) {
+      for (const double push : {10.0, 20.0, 31.0}) {
+        CAPTURE(name);
+        CAPTURE(gear);
+        CAPTURE(push);
+        PushingHand hand = leaning_hand(gate, gear, push);
+        CarStart start = rolling_in(car, gear, 300.0);
+        start.gear = kNeutralGear;
+        CarLoad load(car, gate, kPaperForce, start);
+        SimulatedRun run(before_slot(gate, gear), hand, &load);
+        run.channels().controls.write(clutch_up());
+        const double block = stations_of(gate, gear).block;
+        while (run.time() < 2.0) {
+          const HapticSnapshot& lever = run.step();
+          REQUIRE(lever.gear == kNeutralGear);
+          REQUIRE(std::abs(lever.proxy.y) <= block + 1e-9);
+          REQUIRE(lever.load_force == dvec2(0.0));  // a plain wall: no rattle, no vibration
+        }
+        CHECK(std::abs(run.loop().snapshot().proxy.y) == doctest::Approx(block));
+        CHECK(load.state().sync == SyncPhase::synchronising);
+      }
+    }
+  }
+}
+
+TEST_CASE("without the clutch a gear engages when the revs match, as in a real gearbox: the engine falls to them") {
+  for (const char* name : {"hatchback", "diesel"}) {
+    const CarSpec car = shipped_car(name);
+    const Gate gate = gate_of(car);
+    for (const int gear : {2, 3, 4, 5}) {
+      CAPTURE(name);
+      CAPTURE(gear);
+      PushingHand hand = leaning_hand(gate, gear, 12.0);
+      CarStart start = rolling_in(car, gear, 200.0);
+      start.gear = kNeutralGear;
+      start.engine_speed = start.shaft_speed = 240.0;
+      CarLoad load(car, gate, kPaperForce, start);
+      SimulatedRun run(before_slot(gate, gear), hand, &load);
+      run.channels().controls.write(clutch_up());
+      while (run.time() < 3.0 && run.loop().snapshot().gear == kNeutralGear) {
+        run.step();
+        REQUIRE_FALSE(load.state().grinding);
+      }
+      CHECK(run.loop().snapshot().gear == gear);
+      CHECK(load.state().clutch_locked);
+      CHECK(load.driveline().energy().mesh < 5.0);
+    }
+  }
+}
+
+// Behaviours that users of other simulators complain about.
+TEST_CASE(
+    "a worn synchroniser grinds behind a hard wall, louder with more push, and no gear is accepted before it fits") {
+  CarSpec car = shipped_car("hatchback");
+  car.synchro.friction = 0.5 * critical_friction(car.synchro);
+  const Gate gate = gate_of(car);
+  double quieter = 0.0;
+  for (const double push : {8.0, 16.0, 31.0}) {
+    CAPTURE(push);
+    PushingHand hand = leaning_hand(gate, 2, push);
+    CarStart start = rolling_in(car, 1, 400.0);
+    start.gear = kNeutralGear;
+    start.shaft_speed = 400.0;
+    CarLoad load(car, gate, kPaperForce, start);
+    SimulatedRun run(before_slot(gate, 2), hand, &load);
+    run.channels().controls.write(clutch_down());
+    const double dogs = stations_of(gate, 2).dogs;
+    double power = 0.0, most_step = 0.0, ground = 0.0;
+    dvec2 before{0.0};
+    while (run.time() < 4.0 && run.loop().snapshot().gear == kNeutralGear) {
+      const HapticSnapshot& lever = run.step();
+      if (load.state().gear == kNeutralGear) REQUIRE(std::abs(lever.proxy.y) <= dogs + 1e-9);
+      if (load.state().grinding) REQUIRE(std::abs(load.state().dog_difference) > 0.0);
+      power = std::max(power, load.state().grind_power);
+      ground += load.state().grinding ? 0.001 : 0.0;
+      most_step = std::max(most_step, std::abs(lever.load_force.y - before.y));
+      before = lever.load_force;
+      REQUIRE(lever.load_force.y * way_of(gate, 2) <= 0.0);  // it never pulls the lever in
+    }
+    CHECK(run.loop().snapshot().gear == 2);
+    CHECK(ground > 0.05);
+    CHECK(power > 1.4 * quieter);
+    CHECK(most_step < 3.0);  // [N] from one cycle to the next
+    quieter = power;
+  }
+}
+
+TEST_CASE("torque lock: under load the gear is clamped, coasting it is held lightly, with the clutch down it is free") {
+  const CarSpec car = shipped_car("hatchback");
+  const Gate gate = gate_of(car);
+  const auto pulled_out = [&](int gear, double pull, const DriverControls& feet) {
+    const double way = way_of(gate, gear);
+    PushingHand hand([=](double time, dvec2) { return dvec2{0.0, time < 0.5 ? 0.0 : -way * pull}; });
+    CarLoad load(car, gate, kPaperForce, rolling_in(car, gear, 250.0));
+    SimulatedRunConfig config = gripped(gate, gear);
+    config.lever.hand = kBareHand;
+    SimulatedRun run(config, hand, &load);
+    run.channels().controls.write(feet);
+    while (run.time() < 1.5) {
+      if (load.state().torque_locked && run.loop().snapshot().gear == gear)
+        REQUIRE(std::abs(run.loop().snapshot().proxy.y) > stations_of(gate, gear).home);
+      if (run.step().gear != gear && run.time() > 0.1) return true;
+    }
+    return false;
+  };
+  const double lock_feel = 12.0;  // [N] the gate's own
+  for (const int gear : {1, 2, 3}) {
+    CAPTURE(gear);
+    CHECK_FALSE(pulled_out(gear, 31.0, clutch_up(1.0)));
+    CHECK_FALSE(pulled_out(gear, 60.0, clutch_up(1.0)));  // even beyond the device's force
+    CHECK(pulled_out(gear, lock_feel + 2.0, clutch_down()));
+    DriverControls full_throttle = clutch_down();
+    full_throttle.throttle = 1.0;
+    CHECK(pulled_out(gear, lock_feel + 2.0, full_throttle));
+  }
+  CHECK_FALSE(pulled_out(3, lock_feel + 1.0, clutch_up()));
+  CHECK(pulled_out(3, lock_feel + 12.0, clutch_up()));
+}
+
+TEST_CASE(
+    "neutral is always within reach with the clutch down: every gear, both cars, from full throttle and braking") {
+  for (const char* name : {"hatchback", "diesel"}) {
+    const CarSpec car = shipped_car(name);
+    const Gate gate = gate_of(car);
+    for (const Slot& slot : slots(gate)) {
+      for (const bool brakes : {false, true}) {
+        CAPTURE(name);
+        CAPTURE(slot.gear);
+        CAPTURE(brakes);
+        ScriptedHand hand = shifting_hand(gate, slot.gear, {kNeutralGear}, 0.6, 0.0);
+        CarStart start = rolling_in(car, slot.gear, slot.gear == kReverseGear ? 150.0 : 250.0);
+        CarRun run(car, start, hand, [&](double time) {
+          DriverControls feet = time < 0.5 ? clutch_up(1.0) : clutch_down();
+          feet.brake = brakes && time >= 0.5 ? 1.0 : 0.0;
+          return feet;
+        });
+        CarDrive drive;
+        drive.drive(run, hand.duration() + 0.05);
+        CHECK(run.run.loop().snapshot().gear == kNeutralGear);
+        CHECK(run.state().gear == kNeutralGear);
+        CHECK(run.run.loop().snapshot().slot == kNoSlot);
+      }
+    }
+  }
+}
+
+TEST_CASE("no gear sticks in neutral, and no force remains: an hour in town, shortened") {
+  const CarSpec car = shipped_car("hatchback");
+  const Gate gate = gate_of(car);
+  ScriptedHand hand =
+      shifting_hand(gate, kNeutralGear, {1, 2, kNeutralGear, 3, 2, kNeutralGear, 1, kNeutralGear, 4, 3});
+  CarStart start;
+  start.road_speed = 5.0;
+  CarRun run(car, start, hand, [](double) { return clutch_down(); });
+  double in_neutral = 0.0;
+  int times = 0;
+  while (run.time() < hand.duration()) {
+    const HapticSnapshot& lever = run.step();
+    in_neutral = lever.slot == kNoSlot ? in_neutral + 0.001 : 0.0;
+    if (lever.slot == kNoSlot) REQUIRE(run.state().gear == kNeutralGear);
+    if (lever.slot == kNoSlot) REQUIRE(lever.load_force == dvec2(0.0));  // no rumble in the aisle
+    if (in_neutral > 0.012) REQUIRE(lever.gear == kNeutralGear);
+    times += in_neutral > 0.012 && in_neutral < 0.0135 ? 1 : 0;
+  }
+  CHECK(times >= 6);
+  CHECK(run.state().gear == 3);
+}
+
+TEST_CASE("a stall is reported: the clutch dumped at idle") {
+  const CarSpec car = shipped_car("hatchback");
+  ScriptedHand nobody = shifting_hand(gate_of(car), 1, {});
+  CarStart start;
+  start.gear = 1;
+  CarRun run(car, start, nobody, [](double time) {
+    DriverControls feet = time < 0.3 ? clutch_down() : clutch_up();
+    feet.brake = 1.0;
+    return feet;
+  });
+  CarDrive drive;
+  drive.drive(run, 0.25);
+  CHECK_FALSE(drive.stalled);
+  drive.drive(run, 1.0);
+  CHECK(run.state().stalled);
+  CHECK_FALSE(run.state().running);
+  CHECK(run.state().engine_speed == 0.0);
+}
+
+TEST_CASE("reverse: locked out by the gate at 30 km/h, blocked by its dogs at walking pace, engaged at rest") {
+  const CarSpec car = shipped_car("hatchback");
+  const Gate gate = gate_of(car);
+  const auto drive_at = [&](double speed, double wait, CarDrive& drive) {
+    ScriptedHand hand = shifting_hand(gate, kNeutralGear, {kReverseGear}, wait, 0.3);
+    CarStart start;
+    start.road_speed = speed;
+    CarRun run(car, start, hand, [](double) { return clutch_down(); });
+    drive.drive(run, hand.duration());
+    return run.state().gear;
+  };
+  const double dogs = stations_of(gate, kReverseGear).dogs;
+  CarDrive fast, walking, resting, hasty;
+  CHECK(drive_at(30.0 / 3.6, 2.0, fast) == kNeutralGear);
+  CHECK(fast.deepest < stations_of(gate, kReverseGear).crest);
+  CHECK(drive_at(2.0, 2.0, walking) == kNeutralGear);
+  CHECK(walking.deepest == doctest::Approx(dogs));
+  CHECK(walking.ground > 0.2);
+  CHECK(drive_at(0.0, 2.0, resting) == kReverseGear);  // the shaft has slowed down meanwhile
+  CHECK(resting.ground == 0.0);
+  CHECK(drive_at(0.0, 0.1, hasty) == kReverseGear);  // the shaft still turns, until the dogs have ground it to a stop
+  CHECK(hasty.ground > 0.1);
+}
+
+TEST_CASE("energy: the ledger balances over a whole drive, and the cone's heat follows from the hand's push") {
+  const CarSpec car = shipped_car("hatchback");
+  const Gate gate = gate_of(car);
+  ScriptedHand hand = shifting_hand(gate, 1, {2, 3, 2}, 1.0, 1.0);
+  CarRun run(car, rolling_in(car, 1, 250.0), hand, [&](double time) {
+    const double phase = std::fmod(time, 2.0);
+    return phase < 0.8 ? clutch_up(0.4) : clutch_down();
+  });
+  const double before = run.load.driveline().kinetic_energy();
+  const double gain = car.synchro.lever_ratio * car.synchro.efficiency * cone_gain(car.synchro);
+  double heat = 0.0, work = 0.0, push = 0.0, way = run.run.lever().true_position().y;
+  while (run.time() < hand.duration()) {
+    const HapticSnapshot& lever = run.step();
+    const VehicleState& now = run.state();
+    if (now.sync == SyncPhase::synchronising)
+      heat += 0.001 * gain * std::max(0.0, push) / now.force_scale * std::abs(now.dog_difference);
+    push = lever.slot == kNoSlot ? 0.0 : std::copysign(1.0, lever.proxy.y) * lever.f_h.y;
+    const double here = run.run.lever().true_position().y;
+    work += lever.load_force.y * (here - way);
+    way = here;
+  }
+  const EnergyLedger& went = run.load.driveline().energy();
+  const double out = went.friction + went.clutch + went.cone + went.shaft_drag + went.rolling + went.brakes +
+                     went.slope + went.teeth + went.mesh;
+  CHECK(before + went.engine == doctest::Approx(out + run.load.driveline().kinetic_energy()).epsilon(1e-9));
+  CHECK(went.cone > 20.0);
+  CHECK(heat == doctest::Approx(went.cone).epsilon(0.05));
+  CHECK(work < 0.001);  // [J] the car does no work on the hand
+}
+
+TEST_CASE("the scale: a device of 31.7 N shows 0.53 of the real forces, a strong one all of them") {
+  const CarSpec car = shipped_car("hatchback");
+  const Gate gate = gate_of(car);
+  CHECK(CarLoad(car, gate, 31.7).state().force_scale == doctest::Approx(31.7 / 60.0));
+  CHECK(CarLoad(car, gate, 90.0).state().force_scale == 1.0);
+}
+
+TEST_CASE("the start: engine, shaft and car at one speed, in neutral at idle; it can start in any state") {
+  const CarSpec car = shipped_car("hatchback");
+  const Gate gate = gate_of(car);
+  CHECK(CarLoad(car, gate, 31.7).state().engine_speed == doctest::Approx(car.engine.idle));
+  CHECK(CarLoad(car, gate, 31.7).state().shaft_speed == doctest::Approx(car.engine.idle));
+  const CarLoad rolling(car, gate, 31.7, rolling_in(car, 3, 200.0));
+  CHECK(rolling.state().engine_speed == doctest::Approx(200.0));
+  CHECK(rolling.state().shaft_speed == doctest::Approx(200.0));
+  CHECK(rolling.state().gear == 3);
+
+  ScriptedHand hand = shifting_hand(gate, 2, {3});
+  CarRun run(car, rolling_in(car, 2, 250.0), hand, [](double) { return clutch_down(); });
+  CarDrive drive;
+  drive.drive(run, 0.5);
+  const CarLoad next(car, gate, 31.7, start_from(run.state()));
+  CHECK(next.state().engine_speed == run.state().engine_speed);
+  CHECK(next.state().shaft_speed == run.state().shaft_speed);
+  CHECK(next.state().road_speed == run.state().road_speed);
+  CHECK(next.state().distance == run.state().distance);
+  CHECK(next.state().slip_energy == run.state().slip_energy);
+
+  CarStart before = rolling_in(car, 3, 200.0);
+  before.distance = 1000.0;
+  before.slip_energy = 500.0;
+  CarLoad later(car, gate, 31.7, before);
+  LeverInput in;
+  in.controls = clutch_down();
+  for (int i = 0; i < 100; ++i) later.step(in, 0.001);
+  CHECK(later.state().distance == doctest::Approx(1000.0 + 0.1 * before.road_speed).epsilon(1e-4));
+  CHECK(later.state().slip_energy == 500.0);
+}
+
+TEST_CASE("on a slope a car in neutral rolls back, m a = m g sin s - a, and the loop receives its speed") {
+  const CarSpec car = shipped_car("hatchback");
+  CarLoad load(car, gate_of(car), 31.7);
+  LeverInput in;
+  in.controls = clutch_down();
+  in.controls.slope = 0.1;
+  LeverOutput out;
+  for (int i = 0; i < 1000; ++i) out = load.step(in, 0.001);
+  const double pull =
+      (car.body.mass * 9.81 * std::sin(0.1) - car.body.resistance) / (car.body.mass + car.body.rotating);
+  CHECK(out.road_speed == doctest::Approx(-pull).epsilon(0.01));
+  CHECK(load.state().slope == 0.1);
+}
+
+TEST_CASE("whatever the input, the output is finite and bounded") {
+  const CarSpec car = shipped_car("hatchback");
+  const Gate gate = gate_of(car);
+  CarLoad load(car, gate, 31.7);
+  const double nan = std::nan(""), inf = HUGE_VAL;
+  std::uint64_t row = 1;
+  const auto chance = [&] {
+    return static_cast<double>((row = row * 6364136223846793005u + 1442695040888963407u) >> 33) / 2147483648.0;
+  };
+  for (int i = 0; i < 20000; ++i) {
+    LeverInput in;
+    in.slot = static_cast<int>(chance() * (gate.slot_count + 1)) - 1;
+    in.depth = in.slot == kNoSlot ? 0.0 : 0.05 * chance();
+    in.push = {0.0, chance() < 0.05 ? nan : chance() < 0.05 ? inf : 400.0 * (chance() - 0.5)};
+    in.controls = {chance(),
+                   chance(),
+                   chance() < 0.1 ? nan : chance(),
+                   0.0,
+                   chance() < 0.9,
+                   chance() < 0.1,
+                   0.2 * (chance() - 0.5),
+                   0,
+                   0.0};
+    const LeverOutput out = load.step(in, i % 100 == 0 ? 0.011 : 0.001);
+    REQUIRE(std::isfinite(out.force.x));
+    REQUIRE(std::abs(out.force.y) <= 10.0);
+    REQUIRE(std::isfinite(out.road_speed));
+    REQUIRE(out.depth_min <= out.depth_max);
+    REQUIRE(out.depth_min >= 0.0);
+  }
+}
+
+TEST_CASE(
+    "the same from 1 to 4 kHz, with and without a sample of delay, and without a force sensor: the wall gives the "
+    "push") {
+  const CarSpec car = shipped_car("hatchback");
+  const double usual = blocked_time(car, 1000.0, 0, true);
+  CHECK(usual > 0.5);
+  CHECK(usual < 1.2);
+  for (const double rate : {1000.0, 4000.0})
+    for (const int delay : {0, 1})
+      for (const bool measures : {false, true})
+        CHECK(blocked_time(car, rate, delay, measures) == doctest::Approx(usual).epsilon(0.03));
+}

@@ -1,0 +1,54 @@
+// Checks for all harnesses: a violated invariant ends the program and prints its name, which libFuzzer counts as a
+// finding.
+#pragma once
+
+#include <cstdint>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <string_view>
+
+#include "haptics/files/printable.h"
+#include "tests/support/temp_folder.h"
+
+namespace gearshift::test {
+
+inline int read_whole = 0;  // accepted inputs: a corpus without any would test only rejections
+
+inline void hold(bool law, std::string_view name) {
+  if (law) return;
+  std::fprintf(stderr, "broken: %.*s\n", static_cast<int>(name.size()), name.data());
+  std::abort();
+}
+
+// An error message must be one line of printable text, and name its subject.
+inline void hold_sentence(const std::exception& refusal, std::string_view begins) {
+  const std::string_view words = refusal.what();
+  const bool is_sentence = words.starts_with(begins) && words.size() > begins.size() && words.size() < 4000;
+  hold(is_sentence && haptics::is_printable(words), "one sentence, not \"" + std::string(words) + '"');
+}
+
+// A file with the fuzzed bytes, for readers that need a file.
+class FuzzedFile {
+ public:
+  explicit FuzzedFile(const std::string& name) : path_(folder_ / name) {}
+  const std::filesystem::path& put(std::string_view bytes) {
+    std::filesystem::remove(path_);  // some file systems wait for the disk when a file is overwritten
+    std::ofstream(path_, std::ios::binary).write(bytes.data(), static_cast<std::streamsize>(bytes.size()));
+    return path_;
+  }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  TempFolder folder_;
+  std::filesystem::path path_;
+};
+
+inline std::string_view text_of(const std::uint8_t* data, std::size_t size) {
+  return {reinterpret_cast<const char*>(data), size};
+}
+
+}  // namespace gearshift::test
