@@ -39,7 +39,7 @@ void ClipMeter::draw(Controls& controls, const haptics::HapticSnapshot& now, con
   const double max = std::max(1.0, larger_component(device.max_force)), range = 1.5 * max;
   const double wanted = larger_component(wanted_force(now)), given = larger_component(now.f_a);
   const bool clipped = (now.flags & haptics::kFlagSaturated) != 0;
-  controls.legend(ink::kActuator, fmt::format("actual {:.1f} N", given));
+  controls.legend(ink::kActuator, fmt::format("sent {:.1f} N", given));
   ImGui::SameLine(0.0f, 0.8f * engine::ui_em());
   controls.legend(ink::kText, fmt::format("wanted {:.1f} N", wanted));
   ImGui::SameLine(0.0f, 0.8f * engine::ui_em());

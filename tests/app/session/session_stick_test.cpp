@@ -146,7 +146,7 @@ TEST_CASE("a rejected change leaves lever, forces and gate unchanged") {
   rig.ask([&](PanelRequests& requests) { requests.restart = study; });
   CHECK(rig.says("simulated"));
   rig.ask([](PanelRequests& requests) { requests.hand = std::string(kAutomaticHand); });
-  CHECK(rig.says("a real stick is held by a person"));
+  CHECK(rig.says("works only with the simulated lever"));
   const fs::path gate = rig.wide_gate();
   rig.ask([&](PanelRequests& requests) { requests.gate = gate.string(); });
   CHECK_FALSE(rig.session->message().empty());

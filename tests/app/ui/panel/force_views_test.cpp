@@ -165,7 +165,7 @@ TEST_CASE("the peak mark is where a bar of that force would end") {
   HapticSnapshot now;
   now.f_a = {0.0, -31.0};
   rig.draw(now);
-  CHECK(is_drawn("actual 31.0 N"));
+  CHECK(is_drawn("sent 31.0 N"));
   const PixelBox peak = box_of(drawn_in(ui::ink::kWarn));
   CHECK(std::abs(box_of(drawn_in(ui::ink::kActuator)).max.x - peak.middle().x) < 1.5);
   CHECK(peak.max.x - peak.min.x < 5.0);

@@ -136,7 +136,7 @@ TEST_CASE("actuator and wanted forces are shown correctly, and no zero has a min
   rig.input.now.f_j = {0.0, -0.01};
   rig.input.car.road_speed = -0.01;
   run_and_draw(rig);
-  CHECK(is_drawn("actual 12.0 N"));
+  CHECK(is_drawn("sent 12.0 N"));
   CHECK(is_drawn("wanted 31.7 N"));
   CHECK(is_drawn("0 km/h"));
   for (const DrawnText& text : drawn_texts()) {

@@ -95,7 +95,7 @@ TEST_CASE("the slider's handle is below the line in the curves; units and both p
   rig.player.select_shift(1);
   rig.settle();
   CHECK(is_drawn("shortest"));
-  CHECK(is_drawn("driven path"));
+  CHECK(is_drawn("path"));
 }
 
 TEST_CASE("a replay names its recording's car and gate, and for a known run its learner, lesson and date") {
