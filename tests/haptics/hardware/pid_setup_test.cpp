@@ -14,9 +14,10 @@
 
 using namespace gearshift::haptics;
 using namespace gearshift::test;
-using Lines = std::vector<std::string>;
 
 namespace {
+
+using Lines = std::vector<std::string>;
 
 struct SetupResult {
   PidAbility ability;

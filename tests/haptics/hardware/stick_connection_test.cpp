@@ -27,9 +27,10 @@
 using namespace gearshift::haptics;
 using namespace gearshift::test;
 using glm::dvec2;
-using Lines = std::vector<std::string>;
 
 namespace {
+
+using Lines = std::vector<std::string>;
 
 constexpr const char* kName = "SideWinder Force Feedback 2 Joystick";
 
