@@ -11,6 +11,7 @@ import urllib.parse
 SKIPPED_FOLDERS = ("build", "out", ".git")
 WALKED = ("app", "engine", "haptics", "shaders", "tests/flow", "tests/support")
 SOURCES = (".cpp", ".h", ".sh", ".py", ".vert", ".frag", ".glsl")
+MAX_WORDS = 35000  # of all .md files together
 GUIDES = ("TUNING.md", "BUILDING.md", "GUIDE.md")
 ROOMS = "app|assets|engine|haptics|shaders|tests"
 FUNCTION = re.compile(r"((?:`[\w:]+`(?:, )?)+) in `([^`]+)`")
@@ -127,6 +128,8 @@ def anchors(text):
 
 def main():
     documents = Documents(pathlib.Path(sys.argv[1]).resolve())
+    words = sum(len(text.split()) for _, _, text in documents.pages())
+    documents.check("all pages", words <= MAX_WORDS, f"have {words} words together, at most {MAX_WORDS} are wanted")
     for path, name, text in documents.pages():
         documents.links(path, name, text)
         documents.paths(name, text)
