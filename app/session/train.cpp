@@ -99,7 +99,7 @@ class WindowTrainer {
     session_.advance(seconds_);
     print_events(session_.events(), !session_.runtime().device().measures_hand_force);
     print_lines(lines_.new_lines(session_.coach().view()), session_.lever_time());
-    tell_message();
+    print_session_message();
     draw_panel();
     look();
     session_.update_cabin();
@@ -163,7 +163,7 @@ class WindowTrainer {
   }
 
   // Repeats the panel's message on stdout, for users who do not see the panel.
-  void tell_message() {
+  void print_session_message() {
     if (session_.message() == printed_message_) return;
     printed_message_ = session_.message();
     if (!printed_message_.empty()) print_lines({haptics::printable(printed_message_)}, session_.lever_time());
